@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// Affine maps x -> linear * x + translation, and the ways a user spells them.
+#pragma once
+
+#include <Eigen/LU>
+
+#include "core/math/vec.h"
+
+namespace minkray {
+
+template <class T>
+struct Affine {
+  Mat3<T> linear = Mat3<T>::Identity();
+  Vec3<T> translation = Vec3<T>::Zero();
+
+  Vec3<T> operator()(const Vec3<T>& point) const { return linear * point + translation; }
+
+  /// First `inner`, then this.
+  Affine operator*(const Affine& inner) const {
+    return {linear * inner.linear, (*this)(inner.translation)};
+  }
+
+  Affine inverse() const {
+    const Mat3<T> inverted = linear.inverse();
+    return {inverted, -(inverted * translation)};
+  }
+
+  template <class U>
+  Affine<U> cast() const {
+    return {linear.template cast<U>(), translation.template cast<U>()};
+  }
+
+  bool operator==(const Affine& other) const {
+    return linear == other.linear && translation == other.translation;
+  }
+};
+
+/// The rotation of a unit quaternion (x, y, z, w); others are normalised first.
+template <class T>
+Mat3<T> rotation_matrix(T x, T y, T z, T w) {
+  const T s = T(2) / (x * x + y * y + z * z + w * w);
+  Mat3<T> m;
+  m << T(1) - s * (y * y + z * z), s * (x * y - z * w), s * (x * z + y * w),  //
+      s * (x * y + z * w), T(1) - s * (x * x + z * z), s * (y * z - x * w),   //
+      s * (x * z - y * w), s * (y * z + x * w), T(1) - s * (x * x + y * y);
+  return m;
+}
+
+/// x -> translate + rotate(scale * x).
+template <class T>
+Affine<T> from_translate_rotate_scale(const Vec3<T>& translate, const Mat3<T>& rotate,
+                                      const Vec3<T>& scale) {
+  return {rotate * scale.asDiagonal(), translate};
+}
+
+}  // namespace minkray

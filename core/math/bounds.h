@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// Axis-aligned boxes and balls around things.
+#pragma once
+
+#include "core/math/vec.h"
+
+namespace minkray {
+
+/// An axis-aligned box; empty (lower > upper) when made by default.
+template <class T>
+struct Bounds {
+  Vec3<T> lower = Vec3<T>::Constant(std::numeric_limits<T>::infinity());
+  Vec3<T> upper = Vec3<T>::Constant(-std::numeric_limits<T>::infinity());
+
+  bool empty() const { return !(lower.array() <= upper.array()).all(); }
+  Vec3<T> centre() const { return lower * T(0.5) + upper * T(0.5); }
+  Vec3<T> half_extents() const { return upper * T(0.5) - lower * T(0.5); }
+
+  void extend(const Vec3<T>& point) {
+    lower = lower.cwiseMin(point);
+    upper = upper.cwiseMax(point);
+  }
+  void extend(const Bounds& other) {
+    lower = lower.cwiseMin(other.lower);
+    upper = upper.cwiseMax(other.upper);
+  }
+};
+
+/// A ball that holds a shape: where a cast moves its origin to, and the size tolerances refer to.
+template <class T>
+struct Ball {
+  Vec3<T> centre = Vec3<T>::Zero();
+  T radius = T(0);
+};
+
+}  // namespace minkray

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// A ray: the points origin + t * direction for 0 <= t <= t_max.
+#pragma once
+
+#include "core/math/vec.h"
+
+namespace minkray {
+
+/// Lengths are in the scene's unit. The direction need not be of unit length (t counts in its
+/// lengths) and may be zero: such a ray is the single point `origin`.
+template <class T>
+struct Ray {
+  Vec3<T> origin;
+  Vec3<T> direction;
+  T t_max = std::numeric_limits<T>::infinity();
+
+  Vec3<T> at(T t) const { return origin + t * direction; }
+};
+
+}  // namespace minkray

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// The vector vocabulary: Eigen's fixed-size columns and matrices over a scalar W, which is float,
+// double or (for packets of rays) a vector of lanes. Everything that a packet must also be able to
+// do goes through the few free functions here instead of through `if`.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+#include <limits>
+
+namespace minkray {
+
+template <class W>
+using Vec3 = Eigen::Matrix<W, 3, 1>;
+
+template <class W>
+using Mat3 = Eigen::Matrix<W, 3, 3>;
+
+/// The type that one lane of W holds: W itself unless W is a packet.
+template <class W>
+struct LaneOf {
+  using type = W;
+};
+template <class W>
+using Lane = typename LaneOf<W>::type;
+
+/// `condition ? a : b`, lane by lane for packets.
+template <std::floating_point W>
+W select(bool condition, W a, W b) {
+  return condition ? a : b;
+}
+
+/// Whether the condition holds in any lane.
+inline bool any(bool condition) { return condition; }
+
+/// Whether the condition holds in all lanes.
+inline bool all(bool condition) { return condition; }
+
+template <std::floating_point W>
+W power(W base, W exponent) {
+  return std::pow(base, exponent);
+}
+
+/// The vector of the lanes where the condition holds from a, elsewhere from b.
+template <class W, class Mask>
+Vec3<W> select(const Mask& condition, const Vec3<W>& a, const Vec3<W>& b) {
+  return {select(condition, a.x(), b.x()), select(condition, a.y(), b.y()),
+          select(condition, a.z(), b.z())};
+}
+
+/// v divided by its length; the zero vector stays zero. Vectors whose squared length would under-
+/// or overflow are rescaled first, so that the direction keeps its digits over the whole range of W.
+template <class W>
+Vec3<W> unit(const Vec3<W>& v) {
+  using std::abs;
+  using std::max;
+  using std::sqrt;
+  using T = Lane<W>;
+  // Squares of components down to 1/16 of an ulp of the result must be normal numbers.
+  constexpr T smallest = std::numeric_limits<T>::min() / std::numeric_limits<T>::epsilon() * T(16);
+  constexpr T largest = T(1) / smallest;
+  const W squared = v.squaredNorm();
+  if (all((squared > W(smallest)) & (squared < W(largest)))) return v * (W(1) / sqrt(squared));
+  const W size = max(abs(v.x()), max(abs(v.y()), abs(v.z())));
+  const auto usable = size > W(0);
+  const W safe = select(usable, size, W(1));
+  const Vec3<W> scaled(v.x() / safe, v.y() / safe, v.z() / safe);
+  return scaled * select(usable, W(1) / sqrt(scaled.squaredNorm()), W(0));
+}
+
+/// The lanes of T as W: a shape's own numbers meet a packet of directions.
+template <class W, class T>
+Vec3<W> widen(const Vec3<T>& v) {
+  return {W(v.x()), W(v.y()), W(v.z())};
+}
+
+}  // namespace minkray

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// An affine map as supports need it: s_{MC+t}(n) = M s_C(M^T n) + t.
+#pragma once
+
+#include "core/math/affine.h"
+
+namespace minkray {
+
+/// Spelled as `translate`, `rotate` and `scale`, or as `matrix`; must be invertible.
+template <class T>
+class AffineMap {
+ public:
+  AffineMap() = default;
+  /// M^T is kept divided by M's largest entry (a support ignores a direction's length), so that
+  /// directions stay near unit size however small or large the map makes things.
+  AffineMap(const Affine<T>& affine)
+      : affine_(affine),
+        to_inner_(affine.linear.transpose() / affine.linear.cwiseAbs().maxCoeff()) {}
+
+  const Affine<T>& affine() const { return affine_; }
+
+  template <class U>
+  AffineMap<U> cast() const {
+    return AffineMap<U>(affine_.template cast<U>());
+  }
+
+  /// The direction to ask the inner shape's support for.
+  template <class W>
+  Vec3<W> inner_direction(const Vec3<W>& n) const {
+    return times(to_inner_, n);
+  }
+
+  template <class W>
+  Vec3<W> operator()(const Vec3<W>& point) const {
+    return times(affine_.linear, point) + widen<W>(affine_.translation);
+  }
+
+ private:
+  template <class W>
+  static Vec3<W> times(const Mat3<T>& m, const Vec3<W>& v) {
+    const auto row = [&](int i) {
+      return W(m(i, 0)) * v.x() + W(m(i, 1)) * v.y() + W(m(i, 2)) * v.z();
+    };
+    return {row(0), row(1), row(2)};
+  }
+
+  Affine<T> affine_;
+  Mat3<T> to_inner_ = Mat3<T>::Identity();
+};
+
+}  // namespace minkray

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// A box around the origin with its faces along the coordinate planes; an extent of zero makes it
+// flat.
+#pragma once
+
+#include "core/math/vec.h"
+#include "core/shape/field.h"
+
+namespace minkray {
+
+template <class T>
+struct Box {
+  Vec3<T> half_extents = Vec3<T>::Ones();
+
+  static constexpr std::string_view name = "box";
+  static constexpr std::string_view doc = "A box around the origin.";
+  static constexpr auto fields() {
+    return std::tuple{Field{"half_extents", &Box::half_extents, Unit::length, Range::not_negative,
+                            "half its size along x, y and z"}};
+  }
+
+  template <class W>
+  Vec3<W> support(const Vec3<W>& n) const {
+    const Vec3<W> h = widen<W>(half_extents);
+    return {select(n.x() < W(0), W(-h.x()), h.x()), select(n.y() < W(0), W(-h.y()), h.y()),
+            select(n.z() < W(0), W(-h.z()), h.z())};
+  }
+};
+
+}  // namespace minkray

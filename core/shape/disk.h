@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// A round disk without thickness, in the plane z = 0.
+#pragma once
+
+#include "core/math/vec.h"
+#include "core/shape/field.h"
+
+namespace minkray {
+
+/// The support point of the unit disk in the plane z = 0: the rim's, or the centre where the
+/// direction is along the axis and the whole disk is extreme.
+template <class W>
+Vec3<W> unit_disk_support(const Vec3<W>& n) {
+  return unit<W>({n.x(), n.y(), W(0)});
+}
+
+template <class T>
+struct Disk {
+  T radius = T(1);
+
+  static constexpr std::string_view name = "disk";
+  static constexpr std::string_view doc = "A flat round disk around the origin, its normal along z.";
+  static constexpr auto fields() {
+    return std::tuple{Field{"radius", &Disk::radius, Unit::length, Range::positive, "its radius"}};
+  }
+
+  template <class W>
+  Vec3<W> support(const Vec3<W>& n) const {
+    return unit_disk_support(n) * W(radius);
+  }
+};
+
+}  // namespace minkray

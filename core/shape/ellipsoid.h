@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// An ellipsoid with its axes along the coordinate axes.
+#pragma once
+
+#include "core/math/vec.h"
+#include "core/shape/field.h"
+
+namespace minkray {
+
+template <class T>
+struct Ellipsoid {
+  Vec3<T> radii = Vec3<T>::Ones();
+
+  static constexpr std::string_view name = "ellipsoid";
+  static constexpr std::string_view doc = "An ellipsoid around the origin.";
+  static constexpr auto fields() {
+    return std::tuple{Field{"radii", &Ellipsoid::radii, Unit::length, Range::positive,
+                            "its radii along x, y and z"}};
+  }
+
+  template <class W>
+  Vec3<W> support(const Vec3<W>& n) const {
+    const Vec3<W> r = widen<W>(radii);
+    return unit<W>(n.cwiseProduct(r)).cwiseProduct(r);
+  }
+};
+
+}  // namespace minkray

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// How a shape describes its parameters. From these descriptions come JSON in and out, error
+// messages that name the parameter, `minkray info --shapes`, the JSON Schema, the conversion
+// between float and double, and the typed tests.
+#pragma once
+
+#include <string_view>
+#include <tuple>
+
+namespace minkray {
+
+enum class Unit { none, length };
+
+/// What values a number may take. Numbers must be finite whatever their range.
+enum class Range { any, positive, not_negative, at_least_one };
+
+/// One parameter: the member of shape S that holds it. The member's type says how it is spelled:
+/// T a number, std::array<T, 2> and Vec3<T> lists of two and three, std::array<Vec3<T>, N> a list
+/// of N points, Nested<T> a shape, ShapeList<T> a list of shapes, PointCloud<T> points or a mesh
+/// file, AffineMap<T> the keys of a pose. An optional parameter keeps its initial value if left out.
+template <class S, class M>
+struct Field {
+  using Member = M;
+
+  std::string_view name;
+  M S::*member;
+  Unit unit;
+  Range range;
+  std::string_view doc;
+  bool optional = false;
+};
+
+template <class S, class M>
+Field(std::string_view, M S::*, Unit, Range, std::string_view) -> Field<S, M>;
+template <class S, class M>
+Field(std::string_view, M S::*, Unit, Range, std::string_view, bool) -> Field<S, M>;
+
+/// Calls visit(field) for every parameter of shape S, in order.
+template <class S, class Visit>
+constexpr void for_each_field(Visit&& visit) {
+  std::apply([&](const auto&... field) { (visit(field), ...); }, S::fields());
+}
+
+}  // namespace minkray

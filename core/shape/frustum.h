@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// A frustum (truncated cone) around the z axis.
+#pragma once
+
+#include <array>
+
+#include "core/shape/disk.h"
+
+namespace minkray {
+
+template <class T>
+struct Frustum {
+  std::array<T, 2> radii = {T(1), T(1)};
+  T half_height = T(1);
+
+  static constexpr std::string_view name = "frustum";
+  static constexpr std::string_view doc = "A cone around the z axis, cut off by two disks.";
+  static constexpr auto fields() {
+    return std::tuple{
+        Field{"radii", &Frustum::radii, Unit::length, Range::not_negative,
+              "the disks' radii: at z = -half_height, at z = +half_height"},
+        Field{"half_height", &Frustum::half_height, Unit::length, Range::not_negative,
+              "half its height"}};
+  }
+
+  template <class W>
+  Vec3<W> support(const Vec3<W>& n) const {
+    const Vec3<W> rim = unit_disk_support(n);
+    const auto upper = n.z() * W(T(2) * half_height) + n.dot(rim) * W(radii[1] - radii[0]) > W(0);
+    Vec3<W> s = rim * select(upper, W(radii[1]), W(radii[0]));
+    s.z() = select(upper, W(half_height), W(-half_height));
+    return s;
+  }
+};
+
+}  // namespace minkray

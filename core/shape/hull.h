@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// The convex hull of points, given inline or as a mesh file's vertices.
+#pragma once
+
+#include "core/shape/field.h"
+#include "core/shape/point_cloud.h"
+
+namespace minkray {
+
+template <class T>
+struct Hull {
+  PointCloud<T> points;
+
+  static constexpr std::string_view name = "hull";
+  static constexpr std::string_view doc =
+      "The convex hull of points; coplanar, collinear and single points make flat shapes.";
+  static constexpr auto fields() {
+    return std::tuple{Field{"points", &Hull::points, Unit::length, Range::any,
+                            "at least one point, or instead \"file\": an .obj or .stl mesh"}};
+  }
+
+  template <class W>
+  Vec3<W> support(const Vec3<W>& n) const {
+    return points.support(n);
+  }
+};
+
+}  // namespace minkray

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// The convex hull of shapes.
+#pragma once
+
+#include "core/math/vec.h"
+#include "core/shape/field.h"
+#include "core/shape/nested.h"
+
+namespace minkray {
+
+template <class T>
+struct HullOf {
+  ShapeList<T> shapes;
+
+  static constexpr std::string_view name = "hull_of";
+  static constexpr std::string_view doc = "The convex hull of shapes.";
+  static constexpr auto fields() {
+    return std::tuple{
+        Field{"shapes", &HullOf::shapes, Unit::none, Range::any, "one shape or more"}};
+  }
+
+  template <class W>
+  Vec3<W> support(const Vec3<W>& n) const {
+    Vec3<W> best = shapes.front()->support(n);
+    for (std::size_t i = 1; i < shapes.size(); ++i) {
+      const Vec3<W> candidate = shapes[i]->support(n);
+      best = select<W>(n.dot(candidate - best) > W(0), candidate, best);
+    }
+    return best;
+  }
+};
+
+}  // namespace minkray

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// The configuration space obstacle A - B: all differences of a point of A and a point of B. A ray
+// from the origin meets it where B, moving along the ray, first touches A.
+#pragma once
+
+#include "core/math/vec.h"
+#include "core/shape/field.h"
+#include "core/shape/nested.h"
+
+namespace minkray {
+
+template <class T>
+struct MinkowskiDifference {
+  Nested<T> a;
+  Nested<T> b;
+
+  static constexpr std::string_view name = "minkowski_difference";
+  static constexpr std::string_view doc =
+      "The configuration space obstacle A - B: all differences of a point of A and one of B.";
+  static constexpr auto fields() {
+    return std::tuple{Field{"a", &MinkowskiDifference::a, Unit::none, Range::any, "A"},
+                      Field{"b", &MinkowskiDifference::b, Unit::none, Range::any, "B"}};
+  }
+
+  template <class W>
+  Vec3<W> support(const Vec3<W>& n) const {
+    return a->support(n) - b->support(Vec3<W>(-n));
+  }
+};
+
+}  // namespace minkray

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// The Minkowski sum of shapes: all sums of one point of each.
+#pragma once
+
+#include "core/math/vec.h"
+#include "core/shape/field.h"
+#include "core/shape/nested.h"
+
+namespace minkray {
+
+template <class T>
+struct MinkowskiSum {
+  ShapeList<T> shapes;
+
+  static constexpr std::string_view name = "minkowski_sum";
+  static constexpr std::string_view doc = "All sums of one point of each of the shapes.";
+  static constexpr auto fields() {
+    return std::tuple{
+        Field{"shapes", &MinkowskiSum::shapes, Unit::none, Range::any, "one shape or more"}};
+  }
+
+  template <class W>
+  Vec3<W> support(const Vec3<W>& n) const {
+    Vec3<W> s = shapes.front()->support(n);
+    for (std::size_t i = 1; i < shapes.size(); ++i) s += shapes[i]->support(n);
+    return s;
+  }
+};
+
+}  // namespace minkray

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// A single point.
+#pragma once
+
+#include "core/math/vec.h"
+#include "core/shape/field.h"
+
+namespace minkray {
+
+template <class T>
+struct Point {
+  Vec3<T> position = Vec3<T>::Zero();
+
+  static constexpr std::string_view name = "point";
+  static constexpr std::string_view doc = "A single point; with a radius around it, a ball.";
+  static constexpr auto fields() {
+    return std::tuple{
+        Field{"position", &Point::position, Unit::length, Range::any, "where it is", true}};
+  }
+
+  template <class W>
+  Vec3<W> support(const Vec3<W>&) const {
+    return widen<W>(position);
+  }
+};
+
+}  // namespace minkray

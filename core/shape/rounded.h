@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// The Minkowski sum of a shape with a ball: the shape, its edges and corners rounded outwards.
+#pragma once
+
+#include "core/math/vec.h"
+#include "core/shape/field.h"
+#include "core/shape/nested.h"
+
+namespace minkray {
+
+template <class T>
+struct Rounded {
+  T radius = T(0);
+  Nested<T> shape;
+
+  static constexpr std::string_view name = "rounded";
+  static constexpr std::string_view doc = "A shape grown by a radius: its Minkowski sum with a ball.";
+  static constexpr auto fields() {
+    return std::tuple{Field{"radius", &Rounded::radius, Unit::length, Range::not_negative,
+                            "how far the shape grows"},
+                      Field{"shape", &Rounded::shape, Unit::none, Range::any, "what is rounded"}};
+  }
+
+  template <class W>
+  Vec3<W> support(const Vec3<W>& n) const {
+    return shape->support(n) + unit(n) * W(radius);
+  }
+};
+
+}  // namespace minkray

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// A straight segment between two points, which may coincide.
+#pragma once
+
+#include <array>
+
+#include "core/math/vec.h"
+#include "core/shape/field.h"
+
+namespace minkray {
+
+template <class T>
+struct Segment {
+  std::array<Vec3<T>, 2> points = {Vec3<T>::Zero(), Vec3<T>::Zero()};
+
+  static constexpr std::string_view name = "segment";
+  static constexpr std::string_view doc = "The straight segment between two points.";
+  static constexpr auto fields() {
+    return std::tuple{
+        Field{"points", &Segment::points, Unit::length, Range::any, "its two end points"}};
+  }
+
+  template <class W>
+  Vec3<W> support(const Vec3<W>& n) const {
+    const Vec3<W> a = widen<W>(points[0]), b = widen<W>(points[1]);
+    return select<W>(n.dot(b - a) > W(0), b, a);
+  }
+};
+
+}  // namespace minkray

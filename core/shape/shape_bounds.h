@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// Bounds of a shape, from its support mapping alone: two supports an axis.
+#pragma once
+
+#include "core/math/bounds.h"
+#include "core/shape/support_mapped.h"
+
+namespace minkray {
+
+/// The tightest axis-aligned box, exact up to the rounding of the supports.
+template <class T, class S>
+  requires SupportMapped<S, T>
+Bounds<T> bounds_of(const S& shape) {
+  Bounds<T> bounds;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vec3<T> direction = Vec3<T>::Unit(axis);
+    bounds.upper[axis] = shape.support(direction)[axis];
+    bounds.lower[axis] = shape.support(Vec3<T>(-direction))[axis];
+  }
+  return bounds;
+}
+
+/// The ball around the box of `bounds_of`. Padded by a few ulps, so that rounding never leaves a
+/// part of the shape outside.
+template <class T>
+Ball<T> ball_around(const Bounds<T>& bounds) {
+  constexpr T padding = T(1) + T(8) * std::numeric_limits<T>::epsilon();
+  return {bounds.centre(), bounds.half_extents().norm() * padding};
+}
+
+}  // namespace minkray

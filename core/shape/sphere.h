@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// A ball around the origin.
+#pragma once
+
+#include "core/math/vec.h"
+#include "core/shape/field.h"
+
+namespace minkray {
+
+template <class T>
+struct Sphere {
+  T radius = T(1);
+
+  static constexpr std::string_view name = "sphere";
+  static constexpr std::string_view doc = "A ball around the origin.";
+  static constexpr auto fields() {
+    return std::tuple{Field{"radius", &Sphere::radius, Unit::length, Range::positive, "its radius"}};
+  }
+
+  template <class W>
+  Vec3<W> support(const Vec3<W>& n) const {
+    return unit(n) * W(radius);
+  }
+};
+
+}  // namespace minkray

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// What a convex shape must offer: its support mapping, and nothing else.
+#pragma once
+
+#include <concepts>
+
+#include "core/math/vec.h"
+
+namespace minkray {
+
+/// `shape.support(n)` is a point s of the shape with n.s >= n.x for all its points x. n may have any
+/// length; for n = 0 any point of the shape will do.
+template <class S, class T>
+concept SupportMapped = requires(const S& shape, const Vec3<T>& n) {
+  { shape.support(n) } -> std::convertible_to<Vec3<T>>;
+};
+
+}  // namespace minkray

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// A tapered capsule along the z axis: the convex hull of two balls of different radii.
+#pragma once
+
+#include <array>
+
+#include "core/math/vec.h"
+#include "core/shape/field.h"
+
+namespace minkray {
+
+template <class T>
+struct TaperedCapsule {
+  std::array<T, 2> radii = {T(1), T(1)};
+  T half_height = T(1);
+
+  static constexpr std::string_view name = "tapered_capsule";
+  static constexpr std::string_view doc =
+      "The convex hull of two balls on the z axis; where one holds the other, that ball.";
+  static constexpr auto fields() {
+    return std::tuple{
+        Field{"radii", &TaperedCapsule::radii, Unit::length, Range::not_negative,
+              "the balls' radii: at z = -half_height, at z = +half_height"},
+        Field{"half_height", &TaperedCapsule::half_height, Unit::length, Range::not_negative,
+              "half the distance of the balls' centres"}};
+  }
+
+  template <class W>
+  Vec3<W> support(const Vec3<W>& n) const {
+    const Vec3<W> u = unit(n);
+    const auto upper =
+        u.z() * W(T(2) * half_height) + (W(radii[1]) - W(radii[0])) * u.squaredNorm() > W(0);
+    Vec3<W> s = u * select(upper, W(radii[1]), W(radii[0]));
+    s.z() += select(upper, W(half_height), W(-half_height));
+    return s;
+  }
+};
+
+}  // namespace minkray

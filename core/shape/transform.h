@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// A shape under an invertible affine map: moved, turned, scaled, sheared, mirrored.
+#pragma once
+
+#include "core/shape/affine_map.h"
+#include "core/shape/field.h"
+#include "core/shape/nested.h"
+
+namespace minkray {
+
+template <class T>
+struct Transform {
+  Nested<T> shape;
+  AffineMap<T> map;
+
+  static constexpr std::string_view name = "transform";
+  static constexpr std::string_view doc =
+      "A shape moved, turned, scaled, sheared or mirrored by an invertible affine map.";
+  static constexpr auto fields() {
+    return std::tuple{
+        Field{"shape", &Transform::shape, Unit::none, Range::any, "what is transformed"},
+        Field{"map", &Transform::map, Unit::length, Range::any,
+              "\"translate\" [x,y,z], \"rotate\" [x,y,z,w] (quaternion) and \"scale\" (a number or "
+              "three, applied first), each optional; or \"matrix\": three rows of three or four"}};
+  }
+
+  template <class W>
+  Vec3<W> support(const Vec3<W>& n) const {
+    return map(shape->support(map.inner_direction(n)));
+  }
+};
+
+}  // namespace minkray

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// A triangle, solid and without thickness; its corners may be collinear or coincide.
+#pragma once
+
+#include <array>
+
+#include "core/math/vec.h"
+#include "core/shape/field.h"
+
+namespace minkray {
+
+template <class T>
+struct Triangle {
+  std::array<Vec3<T>, 3> points = {Vec3<T>::Zero(), Vec3<T>::Zero(), Vec3<T>::Zero()};
+
+  static constexpr std::string_view name = "triangle";
+  static constexpr std::string_view doc = "A flat triangle.";
+  static constexpr auto fields() {
+    return std::tuple{
+        Field{"points", &Triangle::points, Unit::length, Range::any, "its three corners"}};
+  }
+
+  template <class W>
+  Vec3<W> support(const Vec3<W>& n) const {
+    const Vec3<W> a = widen<W>(points[0]), b = widen<W>(points[1]), c = widen<W>(points[2]);
+    const Vec3<W> ab = select<W>(n.dot(b - a) > W(0), b, a);
+    return select<W>(n.dot(c - ab) > W(0), c, ab);
+  }
+};
+
+}  // namespace minkray

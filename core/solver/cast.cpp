@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// The one place where solvers meet shapes: every solver is compiled here, for every shape.
+#include "core/solver/cast.h"
+
+#include "core/solver/gjk_ray_cast.h"
+
+namespace minkray {
+namespace {
+
+template <class T, class Observer>
+CastResult<T> cast_near(const PreparedShape<T>& shape, const RayNearBall<T>& near,
+                        const CastOptions<T>& options, Observer&& observer) {
+  CastResult<T> result = std::visit(
+      [&](const auto& kind) {
+        const GjkCastOptions<T> gjk{options.eps_tol, options.max_iterations};
+        return gjk_ray_cast(kind, near, shape.inner_ball(), gjk, observer);
+      },
+      shape.inner_shape().kind);
+  result.normal = shape.normal_to_outer(result.normal);
+  return result;
+}
+
+}  // namespace
+
+template <class T>
+CastResult<T> cast_ray(const PreparedShape<T>& shape, const Ray<T>& ray,
+                       const CastOptions<T>& options, const CastObserver<T>& observer) {
+  const RayNearBall<T> near = shape.to_inner(ray);
+  CastResult<T> result = observer ? cast_near(shape, near, options, observer)
+                                  : cast_near(shape, near, options, NoObserver());
+  if (result.status == Status::inside)
+    result.t_base = result.t_offset = result.offset_lo = result.offset_hi = T(0);
+  return result;
+}
+
+template <class T>
+CastResult<T> cast_exit(const PreparedShape<T>& shape, const Ray<T>& ray,
+                        const CastOptions<T>& options) {
+  CastResult<T> result =
+      cast_near(shape, shape.to_inner(ray).reversed(), options, NoObserver());
+  std::swap(result.offset_lo, result.offset_hi);
+  if (result.status == Status::hit) result.offset_lo = -std::numeric_limits<T>::infinity();
+  return result;
+}
+
+template CastResult<float> cast_ray(const PreparedShape<float>&, const Ray<float>&,
+                                    const CastOptions<float>&, const CastObserver<float>&);
+template CastResult<double> cast_ray(const PreparedShape<double>&, const Ray<double>&,
+                                     const CastOptions<double>&, const CastObserver<double>&);
+template CastResult<float> cast_exit(const PreparedShape<float>&, const Ray<float>&,
+                                     const CastOptions<float>&);
+template CastResult<double> cast_exit(const PreparedShape<double>&, const Ray<double>&,
+                                      const CastOptions<double>&);
+
+}  // namespace minkray

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+// The GJK ray cast: Algorithm 3 of Gino van den Bergen, "Ray Casting against General Convex
+// Objects with Application to Continuous Collision Detection" (2004), section 4.
+//
+// The paper's letters: the ray is x = s + lambda r; p is a support point, w = x - p; P the support
+// points of the current simplex, Y = x - P; v is the simplex' point closest to the origin and the
+// direction of the next support; n is the last v that moved lambda. Everything is relative to the
+// centre of the shape's bounding ball, and lambda is a length counted from s, the ray's closest
+// approach to that centre.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "core/math/bounds.h"
+#include "core/shape/support_mapped.h"
+#include "core/solver/closest_point.h"
+#include "core/solver/observer.h"
+#include "core/solver/ray_near_ball.h"
+#include "core/solver/result.h"
+#include "core/solver/tolerances.h"
+
+namespace minkray {
+
+template <class T>
+struct GjkCastOptions {
+  /// Relative to max|x - p|^2; see tolerance::gjk_squared. At least the square of the machine
+  /// epsilon: below that the loop can only end by stalling.
+  T eps_tol = tolerance::gjk_squared<T>;
+  int max_iterations = tolerance::gjk_max_iterations;
+  /// A direction to begin with, such as the separating axis of the previous frame; zero for none.
+  Vec3<T> v0 = Vec3<T>::Zero();
+};
+
+/// The least parameter at which the ray lies in the shape. `ball` must hold the shape, and the ray
+/// be given relative to the ball's centre. Inside: the parameter is that of the ray's beginning.
+template <class T, class S, class Observer = NoObserver>
+  requires SupportMapped<S, T>
+CastResult<T> gjk_ray_cast(const S& shape, const RayNearBall<T>& near, const Ball<T>& ball,
+                           const GjkCastOptions<T>& options = {}, Observer&& observer = {}) {
+  CastResult<T> result;
+  const Vec3<T>&s = near.s, &r = near.r;
+  result.t_base = near.t_base;
+  const auto miss = [&](const Vec3<T>& axis) {
+    result.status = Status::miss;
+    result.normal = unit(axis);
+    return result;
+  };
+
+  // The bounding ball: its nearest point of the ray may separate; else the cast may begin at the
+  // ball's surface.
+  const T nearest = std::clamp(T(0), near.lambda_min, near.lambda_max);
+  const Vec3<T> to_ray = s + nearest * r;
+  if (to_ray.norm() > ball.radius * (T(1) + tolerance::ball_padding<T>)) return miss(to_ray);
+  const T depth = std::sqrt(std::max(ball.radius * ball.radius - s.squaredNorm(), T(0)));
+  const bool from_origin = near.lambda_min >= -depth;
+  T lambda = std::max(near.lambda_min, -depth);
+
+  Vec3<T> x = s + lambda * r;
+  Vec3<T> n = Vec3<T>::Zero();
+  Vec3<T> v = options.v0;
+  if (!(v.squaredNorm() > T(0))) v = x;
+  if (!(v.squaredNorm() > T(0))) v = -r;
+  if (!(v.squaredNorm() > T(0))) v = Vec3<T>::UnitX();
+  std::array<Vec3<T>, 4> P;
+  std::size_t P_size = 0;
+  bool has_advanced = false;
+  T v_squared = std::numeric_limits<T>::infinity();
+
+  const auto finish = [&] {
+    if (from_origin && !has_advanced) {
+      result.status = Status::inside;
+      result.t_offset = result.offset_lo = result.offset_hi = near.t_offset(near.lambda_min);
+      return result;
+    }
+    result.status = Status::hit;
+    result.t_offset = result.offset_lo = near.t_offset(lambda);
+    result.normal = unit(has_advanced ? n : x);
+    return result;
+  };
+
+  while (result.iterations < options.max_iterations) {
+    ++result.iterations;
+    ++result.supports;
+    const Vec3<T> p = shape.support(v) - ball.centre;
+    const Vec3<T> w = x - p;
+    const Vec3<T> v_asked = v;
+
+    // v is a normal at p, so the plane through p may clip the ray.
+    bool advanced = false;
+    if (const T v_w = v.dot(w); v_w > T(0)) {
+      const T v_r = v.dot(r);
+      if (!(v_r < T(0))) return miss(v);
+      const T clipped = lambda - v_w / v_r;
+      if (clipped > near.lambda_max) return miss(v);
+      advanced = clipped > lambda;
+      if (advanced) {
+        lambda = clipped;
+        x = s + lambda * r;
+        n = v;
+        has_advanced = true;
+      }
+    }
+
+    // The simplex with p, which the paper allows to come back after a clip.
+    bool repeated = false;
+    for (std::size_t i = 0; i < P_size; ++i) repeated = repeated || P[i] == p;
+    if (!repeated) P[P_size++] = p;
+    SimplexPoints<T> Y;
+    T furthest = T(0);
+    for (std::size_t i = 0; i < P_size; ++i) {
+      Y.y[i] = x - P[i];
+      furthest = std::max(furthest, Y.y[i].squaredNorm());
+    }
+    Y.size = static_cast<int>(P_size);
+
+    // The closest point of the simplex, and the vertices that carry it.
+    const ClosestPoint<T> closest = closest_point(Y);
+    P_size = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+      if (closest.kept & (1u << i)) P[P_size++] = P[i];
+    v = closest.v;
+    observer(CastIteration<T>{lambda, x, v_asked, p, w, std::span(P.data(), P_size)});
+
+    const bool unchanged = repeated || !(closest.kept & (1u << (Y.size - 1)));
+
+    // Close enough, or as close as rounding lets it come.
+    const T previous = v_squared;
+    v_squared = v.squaredNorm();
+    const T v_size = std::sqrt(v_squared) / ball.radius;
+    if (v_squared <= options.eps_tol * furthest || v_size <= tolerance::gjk_rounding<T> ||
+        P_size == 4)
+      return finish();
+    if (!advanced && (unchanged || !(v_squared < previous))) {
+      if (v_size <= tolerance::gjk_stalled<T>) return finish();
+      if (unchanged) break;
+    }
+  }
+  result.t_offset = result.offset_lo = near.t_offset(lambda);
+  result.normal = unit(n);
+  return result;
+}
+
+}  // namespace minkray

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// What a solver shows of its work, one call an iteration: for traces, pictures and heatmaps.
+#pragma once
+
+#include <span>
+
+#include "core/math/vec.h"
+
+namespace minkray {
+
+/// One iteration, in the paper's letters. Positions are relative to the centre of the shape's ball.
+template <class T>
+struct CastIteration {
+  T lambda;                          ///< lower bound of the hit, a length from the closest approach
+  Vec3<T> x;                         ///< the ray's point at lambda
+  Vec3<T> v;                         ///< the direction whose support point was asked for
+  Vec3<T> p;                         ///< that support point
+  Vec3<T> w;                         ///< x - p
+  std::span<const Vec3<T>> simplex;  ///< the support points kept after the iteration
+};
+
+/// Sees nothing and costs nothing.
+struct NoObserver {
+  template <class T>
+  void operator()(const CastIteration<T>&) const {}
+};
+
+}  // namespace minkray

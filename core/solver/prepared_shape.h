@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// A shape made ready to be cast at many times: affine maps around it are pulled out, so that the
+// solver works in the innermost frame with as few and as exact operations as possible, and the
+// bounding ball is computed once.
+#pragma once
+
+#include "core/math/affine.h"
+#include "core/math/bounds.h"
+#include "core/shape/shape.h"
+#include "core/shape/shape_bounds.h"
+#include "core/solver/ray_near_ball.h"
+
+namespace minkray {
+
+/// "Inner" is the frame of `shape` after all outer transforms are taken off, "outer" the frame the
+/// rays come in.
+template <class T>
+class PreparedShape {
+ public:
+  /// `pose` maps the frame of `shape` to the outer one; it must be invertible.
+  explicit PreparedShape(Shape<T> shape, const Affine<T>& pose = {})
+      : shape_(std::move(shape)), bounds_(bounds_of<T>(Transform<T>{Nested<T>(shape_), pose})) {
+    Affine<T> to_outer = pose;
+    while (const auto* transform = std::get_if<Transform<T>>(&shape_.kind)) {
+      to_outer = to_outer * transform->map.affine();
+      Shape<T> inner = *transform->shape;
+      shape_ = std::move(inner);
+    }
+    ball_ = ball_around(bounds_of<T>(shape_));
+    centre_ = to_outer(ball_.centre);
+    is_rigid_identity_ = to_outer.linear == Mat3<T>::Identity();
+    to_inner_ = to_outer.linear.inverse();
+  }
+
+  const Shape<T>& inner_shape() const { return shape_; }
+  const Ball<T>& inner_ball() const { return ball_; }
+  const Bounds<T>& outer_bounds() const { return bounds_; }
+
+  /// The ray in the inner frame, relative to the ball's centre.
+  RayNearBall<T> to_inner(const Ray<T>& ray) const {
+    const RayNearBall<T> near = ray_near(centre_, ray);
+    return is_rigid_identity_ ? near : near.mapped(to_inner_);
+  }
+
+  /// An inner normal in the outer frame, of unit length.
+  Vec3<T> normal_to_outer(const Vec3<T>& normal) const {
+    return is_rigid_identity_ ? normal : unit<T>(to_inner_.transpose() * normal);
+  }
+
+ private:
+  Shape<T> shape_;
+  Ball<T> ball_;
+  Bounds<T> bounds_;
+  Vec3<T> centre_;
+  Mat3<T> to_inner_;
+  bool is_rigid_identity_;
+};
+
+}  // namespace minkray

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// What a cast answers: an honest status, the hit parameter, the normal, and what it cost.
+#pragma once
+
+#include <string_view>
+
+#include "core/math/vec.h"
+
+namespace minkray {
+
+enum class Status : unsigned char {
+  hit,        ///< the ray enters the shape at t > 0
+  miss,       ///< no point of the ray with 0 <= t <= t_max lies in the shape; proven by a plane
+  inside,     ///< the ray's origin lies in the shape: t = 0
+  exhausted,  ///< the solver gave up: neither a hit nor a miss is claimed
+};
+
+constexpr std::string_view name_of(Status status) {
+  switch (status) {
+    case Status::hit: return "hit";
+    case Status::miss: return "miss";
+    case Status::inside: return "inside";
+    case Status::exhausted: return "exhausted";
+  }
+  return "unknown";
+}
+
+/// The answer of every ray cast. All vectors are in the frame of the ray that was cast.
+template <class T>
+struct CastResult {
+  Status status = Status::exhausted;
+
+  /// The hit parameter is t_base + t_offset. The two are kept apart because their sum, for a far
+  /// origin, loses the digits that tell where on the shape the ray arrived: t_base is the ray's
+  /// closest approach to the shape's centre, t_offset is counted from there.
+  T t_base = T(0);
+  T t_offset = T(0);
+
+  /// The hit parameter lies in t_base + [offset_lo, offset_hi]. The lower end comes from a
+  /// supporting plane, the upper end from support points that the ray passes between; infinite
+  /// where the solver did not find such points.
+  T offset_lo = T(0);
+  T offset_hi = std::numeric_limits<T>::infinity();
+
+  /// Hit: the outward unit normal at the hit spot (where edges leave it free, one of the normals).
+  /// Miss: the normal of a plane between ray and shape. Inside: zero.
+  Vec3<T> normal = Vec3<T>::Zero();
+
+  int iterations = 0;
+  int supports = 0;  ///< how often the support mapping was evaluated
+
+  T t() const { return t_base + t_offset; }
+  bool found() const { return status == Status::hit || status == Status::inside; }
+};
+
+}  // namespace minkray

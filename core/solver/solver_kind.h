@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// The list of ray cast solvers: what `--solver` takes.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+namespace minkray {
+
+enum class SolverKind : unsigned char { automatic, paper };
+
+struct SolverDescription {
+  SolverKind kind;
+  std::string_view name;
+  std::string_view doc;
+};
+
+inline constexpr std::array solver_descriptions = {
+    SolverDescription{SolverKind::automatic, "auto", "the best solver for each shape"},
+    SolverDescription{SolverKind::paper, "paper",
+                      "the GJK ray cast, Algorithm 3 of van den Bergen (2004)"},
+};
+
+}  // namespace minkray
