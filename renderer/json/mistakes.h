@@ -2,12 +2,12 @@
 // The user's mistakes in one file, collected so that all of them can be told at once.
 #pragma once
 
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <unordered_set>
 #include <vector>
 
+#include "renderer/errors.h"
 #include "renderer/json/path.h"
 
 namespace minkray {
@@ -35,12 +35,6 @@ class Mistakes {
   std::string file_;
   std::vector<std::string> messages_;
   std::unordered_set<std::string> paths_;
-};
-
-/// Input that cannot be used: a scene, a query, a mesh. what() is one message a line.
-class BadInput : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
 };
 
 /// Throws BadInput with all of the messages, if there are any.

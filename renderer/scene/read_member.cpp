@@ -7,9 +7,6 @@
 namespace minkray {
 namespace {
 
-/// The largest width and height of a picture, so that its number of pixels fits an int.
-constexpr int most_pixels_a_side = 32768;
-
 /// "radius, its radius, > 0": what a missing key should have held.
 std::string expectation(const Parameter& parameter) {
   std::string text(parameter.doc);

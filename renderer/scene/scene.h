@@ -19,6 +19,9 @@ namespace minkray {
 
 using Colour = Vec3<double>;
 
+/// The largest width and height of a picture, so that its number of pixels fits an int.
+inline constexpr int most_pixels_a_side = 32768;
+
 struct Resolution {
   int width = 960;
   int height = 540;

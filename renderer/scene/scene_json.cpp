@@ -28,6 +28,9 @@ class SceneReader {
     if (const Json* version = file.require("version", std::to_string(scene_version))) {
       read_integer(*version, file.path("version"), mistakes_, scene_version, scene_version);
     }
+    if (const Json* schema = file.find("$schema")) {  // for editors
+      read_string(*schema, file.path("$schema"), mistakes_);
+    }
     if (const Json* description = file.find("description")) {
       if (auto text = read_string(*description, file.path("description"), mistakes_)) {
         scene_.description = *text;

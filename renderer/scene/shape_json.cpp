@@ -8,16 +8,6 @@
 namespace minkray {
 namespace {
 
-/// How many operands of its own name a shape has, such as a and b.
-template <class S>
-constexpr std::size_t operand_count() {
-  std::size_t count = 0;
-  for_each_field<S>([&](const auto& field) {
-    count += std::is_same_v<typename std::remove_cvref_t<decltype(field)>::Member, Nested<double>>;
-  });
-  return count;
-}
-
 /// Reads the operands of a shape that has nothing else from a list "shapes", in their order.
 template <class S>
 bool read_operands_from_list(ObjectReader& object, const Json& json, S& shape, MeshFiles& meshes) {
@@ -41,8 +31,7 @@ std::optional<Shape<double>> read_shape(const Json& json, const JsonPath& path, 
                                         MeshFiles& meshes) {
   ObjectReader object(json, path, mistakes);
   auto kind = read_tagged<ShapeVariant<double>>(object, "a shape", [&]<class S>(S& shape) {
-    if constexpr (operand_count<S>() > 1 &&
-                  operand_count<S>() == std::tuple_size_v<decltype(S::fields())>) {
+    if constexpr (takes_list_of_operands<S>()) {
       if (const Json* list = object.find("shapes")) {
         return read_operands_from_list(object, *list, shape, meshes);
       }

@@ -27,6 +27,23 @@ std::vector<std::string> type_names() {
   return names;
 }
 
+/// How many operands of its own name a shape has, such as a and b.
+template <class S>
+constexpr std::size_t operand_count() {
+  std::size_t count = 0;
+  for_each_field<S>([&](const auto& field) {
+    count += std::is_same_v<typename std::remove_cvref_t<decltype(field)>::Member, Nested<double>>;
+  });
+  return count;
+}
+
+/// Whether a shape is nothing but several operands with names of their own, so that a list "shapes"
+/// may give them in their order.
+template <class S>
+constexpr bool takes_list_of_operands() {
+  return operand_count<S>() > 1 && operand_count<S>() == std::tuple_size_v<decltype(S::fields())>;
+}
+
 /// Makes an S and lets `read(S&)` fill it; nothing if that says false. `read` knows all parameters
 /// of S that an object of this "type" may have. `what` names what is read: "a shape". An unknown
 /// type is the only mistake told about the object: its keys cannot be judged.
