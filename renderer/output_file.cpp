@@ -10,13 +10,15 @@
 #include <filesystem>
 #include <utility>
 
+#include "renderer/errors.h"
+
 namespace minkray {
 namespace {
 
 namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const std::string& path, int error) {
-  throw OutputError("cannot write " + path + ": " + std::strerror(error));
+  throw CannotWrite("cannot write " + path + ": " + std::strerror(error));
 }
 
 /// A file descriptor that is closed, and a file that is removed unless it was renamed.
@@ -78,7 +80,7 @@ struct Target {
 
 Target find_target(const std::string& path) {
   if (path.empty() || path.back() == '/')
-    throw OutputError("cannot write " + path + ": no file name");
+    throw CannotWrite("cannot write " + path + ": no file name");
   std::error_code error;
   Target target;
   target.path = fs::weakly_canonical(path, error);

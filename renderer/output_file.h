@@ -4,22 +4,16 @@
 #pragma once
 
 #include <span>
-#include <stdexcept>
 #include <string>
 
 namespace minkray {
 
-/// A file could not be written; the message names it and the reason.
-struct OutputError : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
-
-/// Throws OutputError where `write_file` would fail for want of a folder, a right or a file name,
+/// Throws CannotWrite where `write_file` would fail for want of a folder, a right or a file name,
 /// so that nobody waits for an image that cannot be kept. Leaves nothing behind.
 void check_writable(const std::string& path);
 
 /// Writes the bytes; an existing file is replaced in one step and keeps its rights. Devices and
-/// pipes are written to as they are. Throws OutputError; the existing file, if any, is then as it
+/// pipes are written to as they are. Throws CannotWrite; the existing file, if any, is then as it
 /// was and nothing is left beside it.
 void write_file(const std::string& path, std::span<const unsigned char> bytes);
 
