@@ -28,46 +28,6 @@ std::pair<std::size_t, double> furthest(std::span<const Vec3<double>> points, Me
   return best;
 }
 
-/// Gram-Schmidt along the point furthest from the origin, from the line, from the plane.
-RoundFrame round_frame(std::span<const Vec3<double>> points) {
-  RoundFrame frame;
-  const std::size_t lowest = furthest(points, [&](const Vec3<double>& p) {
-                               return (p - points[0]).cwiseAbs().maxCoeff();
-                             }).first;
-  frame.origin = points[lowest];
-  // Lengths over `size`, so that no square under- or overflows at any scale.
-  const double size = furthest(points, [&](const Vec3<double>& p) {
-                        return (p - frame.origin).cwiseAbs().maxCoeff();
-                      }).second;
-  const double largest =
-      furthest(points, [](const Vec3<double>& p) { return p.cwiseAbs().maxCoeff(); }).second;
-  if (!(size > flat_rounding * largest)) return frame;
-  const double thinnest = flat_rounding * (largest / size);
-
-  for (int axis = 0; axis < 3; ++axis) {
-    // What of a point's position is across the axes so far; twice, for the digits the first loses.
-    const auto across = [&](const Vec3<double>& p) {
-      Vec3<double> rest = (p - frame.origin) / size;
-      for (int pass = 0; pass < 2; ++pass)
-        for (int i = 0; i < axis; ++i) rest -= frame.axes.col(i).dot(rest) * frame.axes.col(i);
-      return rest;
-    };
-    const auto [index, width] =
-        furthest(points, [&](const Vec3<double>& p) { return across(p).squaredNorm(); });
-    const double extent = std::sqrt(width);
-    if (!(extent > thinnest)) break;
-    frame.axes.col(axis) = across(points[index]) / extent;
-    frame.extents[axis] = extent * size;
-    frame.rank = axis + 1;
-  }
-  // The axes beyond the rank complete the frame.
-  if (frame.rank == 1) frame.axes.col(1) = frame.axes.col(0).unitOrthogonal();
-  if (frame.rank < 3 && frame.rank > 0)
-    frame.axes.col(2) = frame.axes.col(0).cross(frame.axes.col(1));
-  for (int axis = frame.rank; axis < 3; ++axis) frame.extents[axis] = size;
-  return frame;
-}
-
 double twice_area(const Vec3<double>& a, const Vec3<double>& b, const Vec3<double>& c) {
   return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
 }
@@ -174,6 +134,46 @@ Vec3<double> newell_normal(std::size_t size, Corner&& corner) {
 }
 
 }  // namespace
+
+RoundFrame round_frame(std::span<const Vec3<double>> points, double flatness) {
+  RoundFrame frame;
+  const std::size_t lowest = furthest(points, [&](const Vec3<double>& p) {
+                               return (p - points[0]).cwiseAbs().maxCoeff();
+                             }).first;
+  frame.origin = points[lowest];
+  // Lengths over `size`, so that no square under- or overflows at any scale.
+  const double size = furthest(points, [&](const Vec3<double>& p) {
+                        return (p - frame.origin).cwiseAbs().maxCoeff();
+                      }).second;
+  const double largest =
+      furthest(points, [](const Vec3<double>& p) { return p.cwiseAbs().maxCoeff(); }).second;
+  if (!(size > flat_rounding * largest)) return frame;
+  const double thinnest = std::max(flatness, flat_rounding * (largest / size));
+
+  // Gram-Schmidt along the point furthest from the first one, from the line, from the plane.
+  for (int axis = 0; axis < 3; ++axis) {
+    // What of a point's position is across the axes so far; twice, for the digits the first loses.
+    const auto across = [&](const Vec3<double>& p) {
+      Vec3<double> rest = (p - frame.origin) / size;
+      for (int pass = 0; pass < 2; ++pass)
+        for (int i = 0; i < axis; ++i) rest -= frame.axes.col(i).dot(rest) * frame.axes.col(i);
+      return rest;
+    };
+    const auto [index, width] =
+        furthest(points, [&](const Vec3<double>& p) { return across(p).squaredNorm(); });
+    const double extent = std::sqrt(width);
+    if (axis > 0 && !(extent > thinnest)) break;
+    frame.axes.col(axis) = across(points[index]) / extent;
+    frame.extents[axis] = extent * size;
+    frame.rank = axis + 1;
+  }
+  // The axes beyond the rank complete the frame.
+  if (frame.rank == 1) frame.axes.col(1) = frame.axes.col(0).unitOrthogonal();
+  if (frame.rank < 3 && frame.rank > 0)
+    frame.axes.col(2) = frame.axes.col(0).cross(frame.axes.col(1));
+  for (int axis = frame.rank; axis < 3; ++axis) frame.extents[axis] = size;
+  return frame;
+}
 
 ConvexHull convex_hull(std::span<const Vec3<double>> points) {
   ConvexHull hull;

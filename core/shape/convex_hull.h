@@ -45,6 +45,10 @@ struct RoundFrame {
   }
 };
 
+/// The frame of at least one finite point. Extents up to `flatness` times the largest, or within
+/// the rounding of the coordinates, count as none.
+RoundFrame round_frame(std::span<const Vec3<double>> points, double flatness = 0);
+
 struct ConvexHull {
   RoundFrame frame;
   /// The extreme points, as ascending indices into the input. Of equal points, one is kept.
