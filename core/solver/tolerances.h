@@ -37,4 +37,14 @@ inline constexpr int gjk_max_iterations = 1000;
 template <class T>
 inline constexpr T ball_padding = T(8) * epsilon<T>;
 
+/// The GJK distance ends when |v|^2 - v.w <= this * |v| (|v| + R): v.w is a difference of numbers
+/// of size |v| (|v| + R), each rounded to an epsilon of that. The distance is then known to a few
+/// epsilon of itself and of the objects' size.
+template <class T>
+inline constexpr T distance_gap = T(4) * epsilon<T>;
+
+/// Polytopes end by themselves, and of smooth shapes the worst seen (ellipsoids of 1:1000) needed
+/// fewer than 200.
+inline constexpr int distance_max_iterations = 1000;
+
 }  // namespace minkray::tolerance
