@@ -3,15 +3,25 @@
 #include "core/solver/cast.h"
 
 #include "core/solver/gjk_ray_cast.h"
+#include "core/solver/jet_cast.h"
 
 namespace minkray {
 namespace {
 
+/// By measurement, see docs/decisions/0002-automatic-solver.md.
+SolverKind best_solver(Surface surface) {
+  return surface == Surface::ellipsoids ? SolverKind::jet : SolverKind::paper;
+}
+
 template <class T, class Observer>
 CastResult<T> cast_near(const PreparedShape<T>& shape, const RayNearBall<T>& near,
                         const CastOptions<T>& options, Observer&& observer) {
+  const SolverKind solver =
+      options.solver == SolverKind::automatic ? best_solver(shape.surface()) : options.solver;
   CastResult<T> result = std::visit(
       [&](const auto& kind) {
+        if (solver == SolverKind::jet)
+          return jet_cast(kind, near, shape.inner_ball(), shape.inner_half_extents(), {}, observer);
         const GjkCastOptions<T> gjk{options.eps_tol, options.max_iterations};
         return gjk_ray_cast(kind, near, shape.inner_ball(), gjk, observer);
       },
@@ -36,8 +46,7 @@ CastResult<T> cast_ray(const PreparedShape<T>& shape, const Ray<T>& ray,
 template <class T>
 CastResult<T> cast_exit(const PreparedShape<T>& shape, const Ray<T>& ray,
                         const CastOptions<T>& options) {
-  CastResult<T> result =
-      cast_near(shape, shape.to_inner(ray).reversed(), options, NoObserver());
+  CastResult<T> result = cast_near(shape, shape.to_inner(ray).reversed(), options, NoObserver());
   std::swap(result.offset_lo, result.offset_hi);
   if (result.status == Status::hit) result.offset_lo = -std::numeric_limits<T>::infinity();
   return result;

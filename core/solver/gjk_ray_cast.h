@@ -35,9 +35,10 @@ struct GjkCastOptions {
 /// The least parameter at which the ray lies in the shape. `ball` must hold the shape, and the ray
 /// be given relative to the ball's centre. Inside: the parameter is that of the ray's beginning.
 template <class T, class S, class Observer = NoObserver>
-  requires SupportMapped<S, T>
-CastResult<T> gjk_ray_cast(const S& shape, const RayNearBall<T>& near, const Ball<T>& ball,
-                           const GjkCastOptions<T>& options = {}, Observer&& observer = {}) {
+requires SupportMapped<S, T> CastResult<T> gjk_ray_cast(const S& shape, const RayNearBall<T>& near,
+                                                        const Ball<T>& ball,
+                                                        const GjkCastOptions<T>& options = {},
+                                                        Observer&& observer = {}) {
   CastResult<T> result;
   const Vec3<T>&s = near.s, &r = near.r;
   result.t_base = near.t_base;

@@ -7,7 +7,7 @@
 
 namespace minkray {
 
-enum class SolverKind : unsigned char { automatic, paper };
+enum class SolverKind : unsigned char { automatic, paper, jet };
 
 struct SolverDescription {
   SolverKind kind;
@@ -19,6 +19,8 @@ inline constexpr std::array solver_descriptions = {
     SolverDescription{SolverKind::automatic, "auto", "the best solver for each shape"},
     SolverDescription{SolverKind::paper, "paper",
                       "the GJK ray cast, Algorithm 3 of van den Bergen (2004)"},
+    SolverDescription{SolverKind::jet, "jet",
+                      "casts on the hull of a few osculating ellipsoids, to rounding accuracy"},
 };
 
 }  // namespace minkray
