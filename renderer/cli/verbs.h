@@ -18,10 +18,14 @@ namespace minkray {
 /// renderer/errors.h.
 using AddVerb = void (*)(CLI::App& app, ExitCode& exit_code);
 
+void add_heatmap(CLI::App& app, ExitCode& exit_code);
 void add_info(CLI::App& app, ExitCode& exit_code);
+void add_render(CLI::App& app, ExitCode& exit_code);
 
 /// In the order in which --help shows them.
-inline constexpr std::array<AddVerb, 1> verbs = {
+inline constexpr std::array<AddVerb, 3> verbs = {
+    add_render,
+    add_heatmap,
     add_info,
 };
 
