@@ -18,10 +18,12 @@ namespace minkray {
 /// renderer/errors.h.
 using AddVerb = void (*)(CLI::App& app, ExitCode& exit_code);
 
+void add_cast(CLI::App& app, ExitCode& exit_code);
 void add_info(CLI::App& app, ExitCode& exit_code);
 
 /// In the order in which --help shows them.
-inline constexpr std::array<AddVerb, 1> verbs = {
+inline constexpr std::array<AddVerb, 2> verbs = {
+    add_cast,
     add_info,
 };
 
