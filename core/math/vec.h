@@ -16,6 +16,10 @@ namespace minkray {
 template <class W>
 using Vec3 = Eigen::Matrix<W, 3, 1>;
 
+/// Columns of another dimension, for algorithms that exist in 2D and 3D.
+template <class W, int Dim>
+using Vec = Eigen::Matrix<W, Dim, 1>;
+
 template <class W>
 using Mat3 = Eigen::Matrix<W, 3, 3>;
 

@@ -19,6 +19,9 @@ struct CastOptions {
   /// The paper's eps_tol, for the solvers that have one: relative, of a squared length.
   T eps_tol = tolerance::gjk_squared<T>;
   int max_iterations = tolerance::gjk_max_iterations;
+  /// A normal to begin with, in the ray's frame, for the solvers that take one: the separating
+  /// plane's of the previous frame. Zero for none.
+  Vec3<T> v0 = Vec3<T>::Zero();
 };
 
 template <class T>

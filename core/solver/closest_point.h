@@ -61,6 +61,9 @@ ClosestPoint<T> closest_on_edge(const SimplexPoints<T>& simplex, int i, int j) {
   // From the nearer end, so that the product that is rounded is the smaller one.
   result.v = towards_b < towards_a ? Vec3<T>(a + result.weights[ib] * edge)
                                    : Vec3<T>(b - result.weights[ia] * edge);
+  // Square to the edge once more: where v is short its direction is rounding's, and a support
+  // mapping asked along it would answer with a vertex that is already here.
+  result.v -= (result.v.dot(edge) / squared) * edge;
   result.kept = (1u << i) | (1u << j);
   return result;
 }
@@ -107,10 +110,13 @@ ClosestPoint<T> closest_on_face(const SimplexPoints<T>& simplex, int i, int j, i
     const T weight_S = -from_origin.dot(across) / across_squared;
     const T weight_Q = origin_along_e - weight_S * f_along_e;
     const T weight_P = T(1) - weight_Q - weight_S;
-    if (weight_P > T(0) && weight_Q > T(0) && weight_S > T(0)) {
+    // Of vertices in a line, what is across is rounding's: the edges will do.
+    const Vec3<T> zero = Vec3<T>::Zero(), normal = face_normal(y(P), y(Q), y(S));
+    const bool is_flat = !(normal.squaredNorm() > tolerance::collinear<T> * tolerance::collinear<T> *
+                                                      e_squared * f.squaredNorm());
+    if (!is_flat && weight_P > T(0) && weight_Q > T(0) && weight_S > T(0)) {
       ClosestPoint<T> result;
       // Along the plane's normal, so that v keeps its direction however short it is.
-      const Vec3<T> zero = Vec3<T>::Zero(), normal = face_normal(y(P), y(Q), y(S));
       const T height = normal.dot(nearest_of(y(P), y(Q), y(S), zero));
       result.v = normal * (height / normal.squaredNorm());
       result.weights[static_cast<std::size_t>(P)] = weight_P;

@@ -47,6 +47,11 @@ class PreparedShape {
     return is_rigid_identity_ ? normal : unit<T>(to_inner_.transpose() * normal);
   }
 
+  /// The other way, of any length; for hints, not for hot code.
+  Vec3<T> normal_to_inner(const Vec3<T>& normal) const {
+    return is_rigid_identity_ ? normal : Vec3<T>(to_inner_.transpose().inverse() * normal);
+  }
+
  private:
   Shape<T> shape_;
   Ball<T> ball_;

@@ -42,4 +42,28 @@ inline constexpr int gjk_max_iterations = 1000;
 template <class T>
 inline constexpr T ball_padding = T(8) * epsilon<T>;
 
+/// The GJK distance ends when |v|^2 - v.w <= this * |v| (|v| + R): v.w is a difference of numbers
+/// of size |v| (|v| + R), each rounded to an epsilon of that. The distance is then known to a few
+/// epsilon of itself and of the objects' size.
+template <class T>
+inline constexpr T distance_gap = T(4) * epsilon<T>;
+
+/// Polytopes end by themselves, and of smooth shapes the worst seen (ellipsoids of 1:1000) needed
+/// fewer than 200.
+inline constexpr int distance_max_iterations = 1000;
+
+/// Algorithm 1 was seen to need some 1500 support points in its nested queries for grazing rays.
+inline constexpr int first_solution_max_supports = 20000;
+
+/// How far the shapes are parted to find where they touched, relative to their sizes' sum: hits are
+/// precise to a few epsilon, those that stalled to gjk_stalled.
+template <class T>
+inline constexpr T contact_back_off[] = {T(8) * epsilon<T>, T(64) * epsilon<T>,
+                                         T(512) * epsilon<T>};
+
+/// The sine below which two edges of a face are taken for parallel: support points that are differences
+/// of two shapes' are each rounded, in a line or not.
+template <class T>
+inline constexpr T collinear = T(4) * epsilon<T>;
+
 }  // namespace minkray::tolerance
