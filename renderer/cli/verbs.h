@@ -17,6 +17,7 @@ namespace minkray {
 using AddVerb = void (*)(CLI::App& app, ExitCode& exit_code);
 
 void add_cast(CLI::App& app, ExitCode& exit_code);
+void add_compare(CLI::App& app, ExitCode& exit_code);
 void add_heatmap(CLI::App& app, ExitCode& exit_code);
 void add_info(CLI::App& app, ExitCode& exit_code);
 void add_render(CLI::App& app, ExitCode& exit_code);
@@ -25,6 +26,7 @@ void add_render(CLI::App& app, ExitCode& exit_code);
 inline constexpr AddVerb verbs[] = {
     add_render,
     add_heatmap,
+    add_compare,
     add_cast,
     add_info,
 };
