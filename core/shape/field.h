@@ -9,10 +9,11 @@
 
 namespace minkray {
 
-enum class Unit { none, length };
+enum class Unit { none, length, degrees };
 
-/// What values a number may take. Numbers must be finite whatever their range.
-enum class Range { any, positive, not_negative, at_least_one };
+/// What values a number may take. Numbers must be finite whatever their range. zero_to_180 leaves
+/// out both ends.
+enum class Range { any, positive, not_negative, at_least_one, zero_to_one, zero_to_180 };
 
 /// One parameter: the member of shape S that holds it. The member's type says how it is spelled:
 /// T a number, std::array<T, 2> and Vec3<T> lists of two and three, std::array<Vec3<T>, N> a list

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A scene as plain data: what a scene file says, with defaults filled in and names resolved.
 // Lengths are in the scene's unit, directions need not be of unit length, colours are linear RGB.
+// What a file may say is described by the `fields()`, as for shapes (core/shape/field.h).
 #pragma once
 
 #include <cstdint>
@@ -11,11 +12,15 @@
 
 #include "core/math/affine.h"
 #include "core/math/vec.h"
+#include "core/shape/field.h"
 #include "core/shape/shape.h"
 
 namespace minkray {
 
 using Colour = Vec3<double>;
+
+/// The largest width and height of a picture, so that its number of pixels fits an int.
+inline constexpr int most_pixels_a_side = 32768;
 
 struct Resolution {
   int width = 960;
@@ -28,6 +33,20 @@ struct CameraDescription {
   Vec3<double> up = {0, 0, 1};
   double fov_y_degrees = 40;
   Resolution resolution;
+
+  static constexpr std::string_view doc = "Where the picture is taken from.";
+  static constexpr auto fields() {
+    using C = CameraDescription;
+    return std::tuple{
+        Field{"position", &C::position, Unit::length, Range::any, "where the camera is"},
+        Field{"look_at", &C::look_at, Unit::length, Range::any, "what it points at"},
+        Field{"up", &C::up, Unit::none, Range::any, "the direction that is up in the picture",
+              true},
+        Field{"fov_y_degrees", &C::fov_y_degrees, Unit::degrees, Range::zero_to_180,
+              "the angle of view from the picture's lower to its upper edge", true},
+        Field{"resolution", &C::resolution, Unit::none, Range::any,
+              "the picture's width and height in pixels", true}};
+  }
 };
 
 /// Light that travels along `direction`, as from the sun; `colour` is the irradiance on a surface
@@ -35,6 +54,18 @@ struct CameraDescription {
 struct DirectionalLight {
   Vec3<double> direction = {0, 0, -1};
   Colour colour = Colour::Ones();
+
+  void scale(double intensity) { colour *= intensity; }
+
+  static constexpr std::string_view name = "directional";
+  static constexpr std::string_view doc = "Parallel light, as from the sun.";
+  static constexpr auto fields() {
+    using L = DirectionalLight;
+    return std::tuple{
+        Field{"direction", &L::direction, Unit::none, Range::any, "where the light travels to"},
+        Field{"color", &L::colour, Unit::none, Range::not_negative,
+              "the irradiance (linear RGB) on a surface that faces it", true}};
+  }
 };
 
 /// Light from a point; `colour` is its radiant intensity, so that the irradiance falls off as
@@ -42,12 +73,39 @@ struct DirectionalLight {
 struct PointLight {
   Vec3<double> position = Vec3<double>::Zero();
   Colour colour = Colour::Ones();
+
+  void scale(double intensity) { colour *= intensity; }
+
+  static constexpr std::string_view name = "point";
+  static constexpr std::string_view doc = "Light from a point.";
+  static constexpr auto fields() {
+    using L = PointLight;
+    return std::tuple{
+        Field{"position", &L::position, Unit::length, Range::any, "where the light is"},
+        Field{"color", &L::colour, Unit::none, Range::not_negative,
+              "its radiant intensity (linear RGB): the irradiance at distance 1", true}};
+  }
 };
 
 /// Light from all around: the radiance from straight up and from straight down, blended by height.
 struct EnvironmentLight {
   Colour zenith = Colour::Ones();
   Colour nadir = Colour::Ones();
+
+  void scale(double intensity) {
+    zenith *= intensity;
+    nadir *= intensity;
+  }
+
+  static constexpr std::string_view name = "environment";
+  static constexpr std::string_view doc = "Light from all around, as from the sky.";
+  static constexpr auto fields() {
+    using L = EnvironmentLight;
+    return std::tuple{Field{"zenith", &L::zenith, Unit::none, Range::not_negative,
+                            "the radiance (linear RGB) from straight up"},
+                      Field{"nadir", &L::nadir, Unit::none, Range::not_negative,
+                            "the radiance from straight down"}};
+  }
 };
 
 using Light = std::variant<DirectionalLight, PointLight, EnvironmentLight>;
@@ -55,6 +113,13 @@ using Light = std::variant<DirectionalLight, PointLight, EnvironmentLight>;
 /// Diffuse reflection.
 struct LambertMaterial {
   Colour colour = Colour::Constant(0.7);
+
+  static constexpr std::string_view name = "lambert";
+  static constexpr std::string_view doc = "Matt: diffuse reflection.";
+  static constexpr auto fields() {
+    return std::tuple{Field{"color", &LambertMaterial::colour, Unit::none, Range::zero_to_one,
+                            "the part of the light it reflects (linear RGB)"}};
+  }
 };
 
 /// A diffuse base under a dielectric coat that mirrors by Fresnel's law; `roughness` 0 is a mirror.
@@ -62,6 +127,19 @@ struct GlossyMaterial {
   Colour colour = Colour::Constant(0.7);
   double roughness = 0.1;
   double index_of_refraction = 1.5;
+
+  static constexpr std::string_view name = "glossy";
+  static constexpr std::string_view doc = "A diffuse base under a coat that mirrors.";
+  static constexpr auto fields() {
+    using M = GlossyMaterial;
+    return std::tuple{
+        Field{"color", &M::colour, Unit::none, Range::zero_to_one,
+              "the part of the light that the base reflects (linear RGB)"},
+        Field{"roughness", &M::roughness, Unit::none, Range::zero_to_one, "0 for a perfect mirror",
+              true},
+        Field{"index_of_refraction", &M::index_of_refraction, Unit::none, Range::at_least_one,
+              "the coat's: the larger, the more it mirrors", true}};
+  }
 };
 
 struct Material {
@@ -72,14 +150,23 @@ struct Material {
 struct Object {
   std::string name;
   Shape<double> shape;
-  Affine<double> pose;           ///< from the shape's frame to the world
-  std::uint32_t material = 0;    ///< index into Scene::materials
+  Affine<double> pose;         ///< from the shape's frame to the world
+  std::uint32_t material = 0;  ///< index into Scene::materials
 };
 
 /// What a ray sees that meets nothing: a vertical gradient.
 struct Background {
   Colour zenith = Colour::Constant(1);
   Colour nadir = Colour::Constant(1);
+
+  static constexpr std::string_view doc = "What a ray sees that meets nothing.";
+  static constexpr auto fields() {
+    using B = Background;
+    return std::tuple{
+        Field{"zenith", &B::zenith, Unit::none, Range::not_negative,
+              "the radiance (linear RGB) straight up"},
+        Field{"nadir", &B::nadir, Unit::none, Range::not_negative, "the radiance straight down"}};
+  }
 };
 
 struct Scene {
@@ -89,6 +176,7 @@ struct Scene {
   std::vector<Material> materials;
   std::vector<Object> objects;
   Background background;
+  bool labels = false;  ///< whether the objects' names are drawn into the picture
 };
 
 }  // namespace minkray

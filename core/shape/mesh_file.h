@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// The vertices of mesh files: Wavefront OBJ, and STL as text or binary. Only positions matter, for
+// their convex hull is all that is wanted. Read here rather than by tinyobjloader, which takes a
+// malformed coordinate for 0, 1e999 for infinity, and rounds 0.3 to another double than C++ does.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "core/math/vec.h"
+
+namespace minkray {
+
+/// All vertices, in the file's order and unit; at least one, each finite. Throws std::runtime_error
+/// that says what is wrong with the file, without its name: "line 12: ...".
+std::vector<Vec3<double>> read_mesh_vertices(const std::filesystem::path& path);
+
+}  // namespace minkray

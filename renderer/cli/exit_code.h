@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// The exit codes of the command line.
+#pragma once
+
+namespace minkray {
+
+enum class ExitCode : int {
+  done = 0,
+  comparison_failed = 1,
+  wrong_usage = 2,
+  bad_input = 3,
+  cannot_write = 4,
+};
+
+}  // namespace minkray

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// The command line: minkray VERB ARGS...
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <iostream>
+
+#include "renderer/cli/verbs.h"
+#include "renderer/errors.h"
+
+namespace {
+
+using minkray::ExitCode;
+
+ExitCode run(int argc, char** argv) {
+  CLI::App app("Minkray casts rays at exact convex shapes.", "minkray");
+  app.set_version_flag("--version", "minkray " MINKRAY_VERSION);
+  app.require_subcommand(1);
+  app.footer(
+      "Exit codes: 0 done, 1 a comparison failed, 2 wrong usage, 3 bad scene or input,\n"
+      "4 could not write. Results are on stdout, everything else on stderr.");
+  ExitCode exit_code = ExitCode::done;
+  for (const minkray::AddVerb add : minkray::verbs) add(app, exit_code);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? ExitCode::done : ExitCode::wrong_usage;
+  }
+  std::cout.flush();
+  if (!std::cout) throw minkray::CannotWrite("stdout: cannot be written");
+  return exit_code;
+}
+
+ExitCode run_and_report(int argc, char** argv) {
+  const auto report = [](const std::exception& error, ExitCode exit_code) {
+    std::cerr << error.what() << '\n';
+    return exit_code;
+  };
+  try {
+    return run(argc, argv);
+  } catch (const minkray::WrongUsage& error) {
+    return report(error, ExitCode::wrong_usage);
+  } catch (const minkray::CannotWrite& error) {
+    return report(error, ExitCode::cannot_write);
+  } catch (const std::exception& error) {
+    return report(error, ExitCode::bad_input);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return static_cast<int>(run_and_report(argc, argv));
+}

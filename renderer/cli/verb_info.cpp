@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// minkray info: what is in a scene, and what scenes may hold.
+#include <CLI/CLI.hpp>
+#include <iomanip>
+#include <iostream>
+#include <memory>
+
+#include "renderer/cli/verbs.h"
+#include "renderer/errors.h"
+#include "renderer/scene/scene_info.h"
+#include "renderer/scene/scene_json.h"
+
+namespace minkray {
+namespace {
+
+struct Options {
+  std::string scene;
+  bool shapes = false;
+  bool schema = false;
+  bool json = false;
+  bool markdown = false;
+};
+
+void info(const Options& options) {
+  const int asked = !options.scene.empty() + options.shapes + options.schema;
+  if (asked != 1) throw WrongUsage("info: give either a scene, --shapes or --schema");
+  if (options.markdown && !options.shapes) throw WrongUsage("info: --markdown needs --shapes");
+  if (options.schema) {
+    std::cout << schema_text();
+  } else if (options.shapes) {
+    std::cout << (options.json       ? shapes_as_json()
+                  : options.markdown ? shapes_as_markdown()
+                                     : shapes_as_text());
+  } else {
+    const Scene scene = load_scene(options.scene);
+    std::cout << (options.json ? info_as_json(scene) : info_as_text(scene));
+  }
+}
+
+}  // namespace
+
+void add_info(CLI::App& app, ExitCode&) {
+  CLI::App* verb = app.add_subcommand("info", "Tell what is in a scene, or what scenes may hold");
+  const auto options = std::make_shared<Options>();
+  verb->add_option("scene", options->scene, "A scene file (JSON)");
+  verb->add_flag("--shapes", options->shapes, "List all shapes and their parameters");
+  verb->add_flag("--schema", options->schema, "Print the JSON Schema of scene files");
+  verb->add_flag("--json", options->json, "Print JSON");
+  verb->add_flag("--markdown", options->markdown, "With --shapes: print a Markdown table");
+  verb->callback([options] { info(*options); });
+}
+
+}  // namespace minkray

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// The subcommands of the command line, each in its own verb_*.cpp. The list of all of them is here
+// and nowhere else.
+#pragma once
+
+#include <array>
+
+#include "renderer/cli/exit_code.h"
+
+namespace CLI {
+class App;
+}
+
+namespace minkray {
+
+/// Adds a subcommand to the app. When the user calls it, it runs within App::parse, writes results
+/// to stdout and all else to stderr, and may set the exit code (done by default) or throw one of
+/// renderer/errors.h.
+using AddVerb = void (*)(CLI::App& app, ExitCode& exit_code);
+
+void add_render(CLI::App& app, ExitCode& exit_code);
+void add_heatmap(CLI::App& app, ExitCode& exit_code);
+void add_info(CLI::App& app, ExitCode& exit_code);
+
+/// In the order in which --help shows them.
+inline constexpr std::array verbs = {
+    AddVerb(add_render),
+    AddVerb(add_heatmap),
+    AddVerb(add_info),
+};
+
+}  // namespace minkray

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// The user's mistakes in one file, collected so that all of them can be told at once.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <unordered_set>
+#include <vector>
+
+#include "renderer/errors.h"
+#include "renderer/json/path.h"
+
+namespace minkray {
+
+class Mistakes {
+ public:
+  /// `file` is the name that the messages begin with: "scenes/x.json", "cases.jsonl:12".
+  explicit Mistakes(std::string file) : file_(std::move(file)) {}
+
+  /// One mistake at a place in the document: what was expected and what was found. Only the first
+  /// one at each place is kept: what follows from it would be noise.
+  void add(const JsonPath& path, std::string_view message);
+
+  /// One mistake of the file as a whole.
+  void add(std::string_view message);
+
+  bool none() const { return messages_.empty(); }
+  const std::vector<std::string>& messages() const { return messages_; }
+  const std::string& file() const { return file_; }
+
+  /// All messages, one a line, without a newline at the end.
+  std::string text() const;
+
+ private:
+  std::string file_;
+  std::vector<std::string> messages_;
+  std::unordered_set<std::string> paths_;
+};
+
+/// Throws BadInput with all of the messages, if there are any.
+void throw_if_any(const Mistakes& mistakes);
+
+/// The text as it may be shown on a terminal: control characters and broken UTF-8 become '?',
+/// and the middle of a text of more than `limit` bytes becomes "...".
+std::string printable(std::string_view text, std::size_t limit);
+
+}  // namespace minkray

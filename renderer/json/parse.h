@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// Strict JSON: text to value. Duplicate keys, numbers that no double can hold, NaN and Infinity,
+// and nesting without end are mistakes that name their place.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string_view>
+
+#include "renderer/json/json.h"
+#include "renderer/json/mistakes.h"
+
+namespace minkray {
+
+/// How deep lists and objects may be nested: far beyond what scenes need, far below what the stack
+/// can hold.
+inline constexpr std::size_t deepest_json_nesting = 256;
+
+/// The value, with null in the place of numbers that are not finite. Nothing if the text cannot be
+/// read to its end; whatever is wrong with it is added to the mistakes.
+std::optional<Json> parse_json(std::string_view text, Mistakes& mistakes);
+
+/// The contents of a file; nothing, and a mistake, if it cannot be read.
+std::optional<std::string> read_text_file(const std::filesystem::path& path, Mistakes& mistakes);
+
+}  // namespace minkray

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// The mesh files that a scene or a query names, each read once.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "core/shape/point_cloud.h"
+#include "renderer/json/mistakes.h"
+
+namespace minkray {
+
+class MeshFiles {
+ public:
+  /// File names are relative to `folder`: that of the scene or query file.
+  explicit MeshFiles(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  /// The vertices of a mesh file; nothing, and a mistake at `path`, if it cannot be used.
+  std::optional<PointCloud<double>> read(const std::string& name, const JsonPath& path,
+                                         Mistakes& mistakes);
+
+ private:
+  std::filesystem::path folder_;
+  std::map<std::string, PointCloud<double>> read_;
+};
+
+}  // namespace minkray

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// Reading one described parameter from JSON. The member's type chooses the reader: these overloads
+// are the list of all spellings (see core/shape/field.h).
+#pragma once
+
+#include <array>
+
+#include "core/shape/affine_map.h"
+#include "core/shape/field.h"
+#include "core/shape/nested.h"
+#include "core/shape/point_cloud.h"
+#include "renderer/json/object_reader.h"
+#include "renderer/scene/mesh_files.h"
+#include "renderer/scene/scene.h"
+
+namespace minkray {
+
+/// A field without the types of its shape and member.
+struct Parameter {
+  std::string_view name;
+  Unit unit;
+  Range range;
+  std::string_view doc;
+  bool optional;
+};
+
+template <class S, class M>
+constexpr Parameter parameter_of(const Field<S, M>& field) {
+  return {field.name, field.unit, field.range, field.doc, field.optional};
+}
+
+/// Each reads the key (or keys) of one parameter into `member`. False, and mistakes, if it is
+/// missing and not optional, or cannot be used.
+bool read_member(ObjectReader&, const Parameter&, double& member, MeshFiles&);
+bool read_member(ObjectReader&, const Parameter&, std::array<double, 2>& member, MeshFiles&);
+bool read_member(ObjectReader&, const Parameter&, Vec3<double>& member, MeshFiles&);
+bool read_member(ObjectReader&, const Parameter&, std::array<Vec3<double>, 2>& member, MeshFiles&);
+bool read_member(ObjectReader&, const Parameter&, std::array<Vec3<double>, 3>& member, MeshFiles&);
+bool read_member(ObjectReader&, const Parameter&, PointCloud<double>& member, MeshFiles&);
+bool read_member(ObjectReader&, const Parameter&, Nested<double>& member, MeshFiles&);
+bool read_member(ObjectReader&, const Parameter&, ShapeList<double>& member, MeshFiles&);
+bool read_member(ObjectReader&, const Parameter&, AffineMap<double>& member, MeshFiles&);
+bool read_member(ObjectReader&, const Parameter&, Resolution& member, MeshFiles&);
+
+/// The keys "translate", "rotate" and "scale", each optional, or "matrix".
+std::optional<Affine<double>> read_affine(ObjectReader& object);
+
+/// All parameters of a described struct: a shape, a light, a material, the camera.
+template <class S>
+bool read_members(ObjectReader& object, S& described, MeshFiles& meshes) {
+  bool all_read = true;
+  for_each_field<S>([&](const auto& field) {
+    all_read &= read_member(object, parameter_of(field), described.*(field.member), meshes);
+  });
+  return all_read;
+}
+
+}  // namespace minkray

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// The texts that `minkray info` prints. Each ends with a newline.
+#pragma once
+
+#include <string>
+
+#include "renderer/scene/scene.h"
+
+namespace minkray {
+
+/// What is in a scene: counts of shapes, bounds, memory, lights, camera.
+std::string info_as_text(const Scene& scene);
+std::string info_as_json(const Scene& scene);
+
+/// All kinds of shapes with their parameters, units, constraints and docs.
+std::string shapes_as_text();
+std::string shapes_as_json();
+std::string shapes_as_markdown();
+
+/// The JSON Schema of scene files.
+std::string schema_text();
+
+}  // namespace minkray

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/scene/scene_json.h"
+
+#include <algorithm>
+#include <map>
+
+#include "renderer/json/parse.h"
+#include "renderer/json/values.h"
+#include "renderer/scene/shape_json.h"
+#include "renderer/scene/tagged_json.h"
+
+namespace minkray {
+namespace {
+
+/// A view direction and "up" are taken for parallel if the sine of their angle is below this: the
+/// picture would turn by noise.
+constexpr double parallel_sine = 1e-9;
+
+/// Reads the parts of one scene file into `scene`.
+class SceneReader {
+ public:
+  SceneReader(Scene& scene, const std::filesystem::path& folder, Mistakes& mistakes)
+      : scene_(scene), meshes_(folder), mistakes_(mistakes) {}
+
+  void read(const Json& json) {
+    ObjectReader file(json, JsonPath(), mistakes_);
+    if (!file.is_object()) return;
+    if (const Json* version = file.require("version", std::to_string(scene_version))) {
+      read_integer(*version, file.path("version"), mistakes_, scene_version, scene_version);
+    }
+    if (const Json* schema = file.find("$schema")) {  // for editors
+      read_string(*schema, file.path("$schema"), mistakes_);
+    }
+    if (const Json* description = file.find("description")) {
+      if (auto text = read_string(*description, file.path("description"), mistakes_)) {
+        scene_.description = *text;
+      }
+    }
+    if (const Json* labels = file.find("labels")) {
+      scene_.labels = read_bool(*labels, file.path("labels"), mistakes_).value_or(false);
+    }
+    if (const Json* camera = file.require("camera", "an object")) {
+      read_camera(*camera, file.path("camera"));
+    }
+    for_each_item(file, "lights",
+                  [&](const Json& light, const JsonPath& path) { read_light(light, path); });
+    for_each_item(file, "materials", [&](const Json& material, const JsonPath& path) {
+      read_material(material, path);
+    });
+    for_each_item(file, "objects",
+                  [&](const Json& object, const JsonPath& path) { read_object(object, path); });
+    if (const Json* background = file.find("background")) {
+      read_background(*background, file.path("background"));
+    }
+    file.finish();
+  }
+
+ private:
+  template <class Read>
+  void for_each_item(ObjectReader& file, std::string_view key, Read&& read) {
+    const Json* list = file.require(key, "a list");
+    if (!list) return;
+    if (!list->is_array()) {
+      mistakes_.add(file.path(key), "must be a list (" + found(*list) + ")");
+      return;
+    }
+    const JsonPath path = file.path(key);
+    for (std::size_t i = 0; i < list->size(); ++i) read((*list)[i], path / i);
+  }
+
+  void read_camera(const Json& json, const JsonPath& path) {
+    ObjectReader object(json, path, mistakes_);
+    if (!object.is_object()) return;
+    CameraDescription& camera = scene_.camera;
+    const bool all_read = read_members(object, camera, meshes_);
+    object.finish();
+    if (!all_read) return;
+    const Vec3<double> view = unit<double>(camera.look_at - camera.position);
+    const Vec3<double> up = unit(camera.up);
+    if (view.isZero()) {
+      mistakes_.add(path / "look_at", "must not be the camera's position");
+    } else if (up.isZero()) {
+      mistakes_.add(path / "up", "must not be zero");
+    } else if (!(view.cross(up).norm() > parallel_sine)) {
+      mistakes_.add(path / "up", "must not be parallel to the direction of view");
+    }
+  }
+
+  void read_light(const Json& json, const JsonPath& path) {
+    ObjectReader object(json, path, mistakes_);
+    double intensity = 1;
+    if (const Json* factor = object.find("intensity")) {
+      intensity = read_number(*factor, object.path("intensity"), mistakes_, Range::not_negative)
+                      .value_or(1);
+    }
+    auto light = read_tagged<Light>(
+        object, "a light", [&](auto& kind) { return read_members(object, kind, meshes_); });
+    if (!light) return;
+    std::visit([&](auto& kind) { kind.scale(intensity); }, *light);
+    const auto* directional = std::get_if<DirectionalLight>(&*light);
+    if (directional && directional->direction.isZero(0)) {
+      mistakes_.add(path / "direction", "must not be zero");
+    }
+    scene_.lights.push_back(std::move(*light));
+  }
+
+  void read_material(const Json& json, const JsonPath& path) {
+    ObjectReader object(json, path, mistakes_);
+    std::string name;
+    if (const Json* written = object.require("name", "the material's name")) {
+      name = read_name(*written, object.path("name"));
+    }
+    auto kind = read_tagged<decltype(Material::kind)>(
+        object, "a material", [&](auto& made) { return read_members(object, made, meshes_); });
+    if (name.empty()) return;
+    // A material with mistakes still takes its name and place, so that objects of it are no
+    // mistakes, too.
+    const auto index = static_cast<std::uint32_t>(scene_.materials.size());
+    if (!material_index_.emplace(name, index).second) {
+      mistakes_.add(path / "name", "must not be the name of two materials (got \"" +
+                                       printable(name, 60) + "\" again)");
+      return;
+    }
+    scene_.materials.push_back({name, kind.value_or(LambertMaterial())});
+  }
+
+  void read_object(const Json& json, const JsonPath& path) {
+    ObjectReader object(json, path, mistakes_);
+    if (!object.is_object()) return;
+    std::string name;
+    if (const Json* written = object.require("name", "the object's name")) {
+      name = read_name(*written, object.path("name"));
+    }
+    std::optional<Shape<double>> shape;
+    if (const Json* written = object.require("shape", "a shape")) {
+      shape = read_shape(*written, object.path("shape"), mistakes_, meshes_);
+    }
+    std::uint32_t material = 0;
+    if (const Json* written = object.require("material", "the name of a material")) {
+      material = read_material_name(*written, object.path("material"));
+    }
+    Affine<double> pose;
+    if (const Json* written = object.find("transform")) {
+      ObjectReader transform(*written, object.path("transform"), mistakes_);
+      pose = read_affine(transform).value_or(Affine<double>());
+      transform.finish();
+    }
+    object.finish();
+    if (shape) scene_.objects.push_back({name, std::move(*shape), pose, material});
+  }
+
+  std::uint32_t read_material_name(const Json& json, const JsonPath& path) {
+    const auto name = read_string(json, path, mistakes_);
+    if (!name) return 0;
+    const auto material = material_index_.find(*name);
+    if (material != material_index_.end()) return material->second;
+    std::vector<std::string> names;
+    for (const Material& known : scene_.materials) names.push_back(printable(known.name, 60));
+    mistakes_.add(path, "must be the name of a material (" + found(json) + "; " +
+                            suggestion(*name, names) + ")");
+    return 0;
+  }
+
+  std::string read_name(const Json& json, const JsonPath& path) {
+    const auto name = read_string(json, path, mistakes_);
+    if (name && name->empty()) mistakes_.add(path, "must not be empty");
+    return name.value_or("");
+  }
+
+  /// One colour, or two.
+  void read_background(const Json& json, const JsonPath& path) {
+    if (json.is_object()) {
+      ObjectReader object(json, path, mistakes_);
+      read_members(object, scene_.background, meshes_);
+      object.finish();
+    } else if (!json.is_array()) {
+      mistakes_.add(path,
+                    "must be a colour (a list of 3 numbers) or an object with \"zenith\" "
+                    "and \"nadir\" (" +
+                        found(json) + ")");
+    } else if (const auto colour = read_vector(json, path, mistakes_, Range::not_negative)) {
+      scene_.background = {*colour, *colour};
+    }
+  }
+
+  Scene& scene_;
+  MeshFiles meshes_;
+  Mistakes& mistakes_;
+  std::map<std::string, std::uint32_t> material_index_;
+};
+
+}  // namespace
+
+std::optional<Scene> parse_scene(std::string_view text, const std::filesystem::path& folder,
+                                 Mistakes& mistakes) {
+  const auto json = parse_json(text, mistakes);
+  if (!json) return std::nullopt;
+  Scene scene;
+  SceneReader(scene, folder, mistakes).read(*json);
+  if (!mistakes.none()) return std::nullopt;
+  return scene;
+}
+
+Scene load_scene(const std::filesystem::path& file) {
+  Mistakes mistakes(file.string());
+  std::optional<Scene> scene;
+  if (const auto text = read_text_file(file, mistakes)) {
+    scene = parse_scene(*text, file.parent_path(), mistakes);
+  }
+  throw_if_any(mistakes);
+  return std::move(*scene);
+}
+
+}  // namespace minkray

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// Scene files: docs/scene-format.md says what they may hold.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string_view>
+
+#include "renderer/json/mistakes.h"
+#include "renderer/scene/scene.h"
+
+namespace minkray {
+
+/// The one version of the format there is.
+inline constexpr int scene_version = 1;
+
+/// The scene that the text describes. Nothing if there is any mistake in it; all of them are
+/// added to the mistakes. Mesh files are looked for in `folder`.
+std::optional<Scene> parse_scene(std::string_view text, const std::filesystem::path& folder,
+                                 Mistakes& mistakes);
+
+/// The scene in a file. Throws BadInput with all mistakes, one a line.
+Scene load_scene(const std::filesystem::path& file);
+
+}  // namespace minkray

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/scene/schema.h"
+
+#include "renderer/scene/describe_member.h"
+#include "renderer/scene/scene_json.h"
+#include "renderer/scene/shape_json.h"
+#include "renderer/scene/tagged_json.h"
+
+namespace minkray {
+namespace {
+
+/// An object that has no keys but the given ones.
+Json object_schema(std::string_view doc) {
+  return {{"type", "object"},
+          {"description", std::string(doc)},
+          {"properties", Json::object()},
+          {"required", Json::array()},
+          {"additionalProperties", false}};
+}
+
+/// Adds the parameters of a described struct to the schema of its object.
+template <class S>
+void add_members(Json& object) {
+  for_each_description<S>([&](const Parameter&, const MemberDescription& member) {
+    for (const auto& property : member.properties.items()) {
+      object["properties"][property.key()] = property.value();
+    }
+    for (const Json& condition : member.allowed) {
+      if (condition.contains("required")) {
+        object["required"].push_back(condition["required"][0]);
+      } else {
+        object["allOf"].push_back(condition);
+      }
+    }
+  });
+}
+
+/// The schema of one of several described structs; `amend(schema of S's object)` adds what they
+/// have beside their own parameters.
+template <class Variant, class Amend>
+Json tagged_schema(std::string_view doc, Amend&& amend) {
+  Json any_of = Json::array();
+  for_each_alternative(std::type_identity<Variant>(), [&]<class S>() {
+    Json object = object_schema(S::doc);
+    object["properties"]["type"] = {{"const", std::string(S::name)}};
+    object["required"].push_back("type");
+    add_members<S>(object);
+    amend.template operator()<S>(object);
+    any_of.push_back(std::move(object));
+  });
+  return {{"description", std::string(doc)}, {"oneOf", std::move(any_of)}};
+}
+
+/// A shape with several operands of their own names takes them as a list, too.
+template <class S>
+void allow_list_of_operands(Json& object) {
+  constexpr std::size_t count = operand_count<S>();
+  if constexpr (takes_list_of_operands<S>()) {
+    Json names = Json::array();
+    for_each_field<S>([&](const auto& field) { names.push_back(std::string(field.name)); });
+    object["properties"]["shapes"] = schema_of_list({{"$ref", "#/$defs/shape"}}, count);
+    object["required"] = {"type"};
+    object["allOf"].push_back(
+        {{"oneOf", Json::array({{{"required", names}}, {{"required", {"shapes"}}}})}});
+  }
+}
+
+Json list_of(const char* definition) {
+  return {{"type", "array"}, {"items", {{"$ref", std::string("#/$defs/") + definition}}}};
+}
+
+Json described_object(Json schema, auto add) {
+  add(schema);
+  return schema;
+}
+
+}  // namespace
+
+Json scene_schema() {
+  const Json text = {{"type", "string"}};
+  const Json name = {{"type", "string"}, {"minLength", 1}};
+  const Json colour = schema_of_list(schema_of_number(Range::not_negative), 3);
+  const Json background =
+      described_object(object_schema(Background::doc), [](Json& o) { add_members<Background>(o); });
+
+  Json object = object_schema("A thing in the scene.");
+  object["properties"] = {{"name", name},
+                          {"shape", {{"$ref", "#/$defs/shape"}}},
+                          {"material", name},
+                          {"transform", {{"$ref", "#/$defs/transform"}}}};
+  object["required"] = {"name", "shape", "material"};
+
+  Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"},
+                 {"title", "Minkray scene"}};
+  schema.update(object_schema("Shapes, their materials, lights, and a camera."));
+  schema["properties"] = {
+      {"$schema", text},
+      {"version", {{"const", scene_version}}},
+      {"description", text},
+      {"labels", {{"type", "boolean"}, {"description", "draw the objects' names"}}},
+      {"camera", {{"$ref", "#/$defs/camera"}}},
+      {"lights", list_of("light")},
+      {"materials", list_of("material")},
+      {"objects", list_of("object")},
+      {"background", {{"oneOf", {colour, background}}}}};
+  schema["required"] = {"version", "camera", "lights", "materials", "objects"};
+
+  Json& definitions = schema["$defs"];
+  definitions["camera"] = described_object(object_schema(CameraDescription::doc),
+                                           [](Json& o) { add_members<CameraDescription>(o); });
+  definitions["light"] = tagged_schema<Light>("A light.", []<class S>(Json& light) {
+    light["properties"]["intensity"] = schema_of_number(Range::not_negative);
+    light["properties"]["intensity"]["description"] = "multiplies its colours";
+  });
+  definitions["material"] =
+      tagged_schema<decltype(Material::kind)>("A material.", [&]<class S>(Json& material) {
+        material["properties"]["name"] = name;
+        material["required"].push_back("name");
+      });
+  definitions["object"] = std::move(object);
+  definitions["transform"] =
+      described_object(object_schema("Where an object stands."), [](Json& transform) {
+        const auto pose = describe(Parameter(), Member<AffineMap<double>>());
+        transform["properties"] = pose.properties;
+        transform["allOf"] = pose.allowed;
+      });
+  definitions["shape"] = tagged_schema<ShapeVariant<double>>(
+      "A convex shape.", []<class S>(Json& shape) { allow_list_of_operands<S>(shape); });
+  return schema;
+}
+
+}  // namespace minkray

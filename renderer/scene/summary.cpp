@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/scene/summary.h"
+
+#include <type_traits>
+
+#include "core/shape/shape_bounds.h"
+
+namespace minkray {
+namespace {
+
+/// Walks shapes and counts.
+class Counter {
+ public:
+  Counter() {
+    for_each_shape_kind<double>([&]<class S>() { kinds_.push_back({S::name}); });
+  }
+
+  void add(const Shape<double>& shape, bool is_operand) {
+    KindCount& count = kinds_[shape.kind.index()];
+    ++(is_operand ? count.operands : count.objects);
+    if (is_operand) bytes += sizeof(shape);
+    std::visit(
+        [&]<class S>(const S& kind) {
+          for_each_field<S>([&](const auto& field) { add_member(kind.*(field.member)); });
+        },
+        shape.kind);
+  }
+
+  std::vector<KindCount> occurring() const {
+    std::vector<KindCount> counts;
+    for (const KindCount& count : kinds_) {
+      if (count.objects + count.operands > 0) counts.push_back(count);
+    }
+    return counts;
+  }
+
+  std::size_t hull_points = 0;
+  std::size_t bytes = 0;
+
+ private:
+  void add_member(const Nested<double>& operand) { add(*operand, true); }
+  void add_member(const ShapeList<double>& operands) {
+    bytes += operands.size() * sizeof(Nested<double>);
+    for (const Nested<double>& operand : operands) add(*operand, true);
+  }
+  void add_member(const PointCloud<double>& cloud) {
+    hull_points += cloud.points().size();
+    bytes += cloud.points().size() * sizeof(Vec3<double>);
+  }
+  /// All other members are part of their shape's own size.
+  template <class M>
+  void add_member(const M&) {}
+
+  std::vector<KindCount> kinds_;
+};
+
+}  // namespace
+
+Bounds<double> bounds_of(const Object& object) {
+  return bounds_of<double>(Transform<double>{Nested<double>(object.shape), object.pose});
+}
+
+SceneSummary summarise(const Scene& scene) {
+  Counter counter;
+  SceneSummary summary;
+  for (const Object& object : scene.objects) {
+    counter.add(object.shape, false);
+    counter.bytes += sizeof(Object) + object.name.capacity();
+    summary.bounds.extend(bounds_of(object));
+  }
+  summary.kinds = counter.occurring();
+  summary.hull_points = counter.hull_points;
+  summary.bytes = counter.bytes;
+  return summary;
+}
+
+}  // namespace minkray

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// What is in a scene: how many shapes of each kind, how large it is, what it takes in memory.
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+#include "core/math/bounds.h"
+#include "renderer/scene/scene.h"
+
+namespace minkray {
+
+/// How often a kind of shape occurs.
+struct KindCount {
+  std::string_view name;
+  std::size_t objects = 0;   ///< as an object's own shape
+  std::size_t operands = 0;  ///< inside others
+};
+
+struct SceneSummary {
+  std::vector<KindCount> kinds;  ///< those that occur
+  std::size_t hull_points = 0;   ///< extreme points kept by hulls
+  std::size_t bytes = 0;         ///< of all objects with their shapes and points
+  Bounds<double> bounds;         ///< in the world; empty if there are no objects
+};
+
+SceneSummary summarise(const Scene& scene);
+
+/// The bounds of an object in the world.
+Bounds<double> bounds_of(const Object& object);
+
+}  // namespace minkray
