@@ -16,6 +16,10 @@ namespace minkray {
 template <class W>
 using Vec3 = Eigen::Matrix<W, 3, 1>;
 
+/// Columns of another dimension, for algorithms that exist in 2D and 3D.
+template <class W, int Dim>
+using Vec = Eigen::Matrix<W, Dim, 1>;
+
 template <class W>
 using Mat3 = Eigen::Matrix<W, 3, 3>;
 
@@ -34,10 +38,14 @@ W select(bool condition, W a, W b) {
 }
 
 /// Whether the condition holds in any lane.
-inline bool any(bool condition) { return condition; }
+inline bool any(bool condition) {
+  return condition;
+}
 
 /// Whether the condition holds in all lanes.
-inline bool all(bool condition) { return condition; }
+inline bool all(bool condition) {
+  return condition;
+}
 
 template <std::floating_point W>
 W power(W base, W exponent) {
@@ -52,7 +60,8 @@ Vec3<W> select(const Mask& condition, const Vec3<W>& a, const Vec3<W>& b) {
 }
 
 /// v divided by its length; the zero vector stays zero. Vectors whose squared length would under-
-/// or overflow are rescaled first, so that the direction keeps its digits over the whole range of W.
+/// or overflow are rescaled first, so that the direction keeps its digits over the whole range of
+/// W.
 template <class W>
 Vec3<W> unit(const Vec3<W>& v) {
   using std::abs;

@@ -2,18 +2,65 @@
 // The one place where solvers meet shapes: every solver is compiled here, for every shape.
 #include "core/solver/cast.h"
 
+#include "core/solver/first_solution.h"
 #include "core/solver/gjk_ray_cast.h"
+#include "core/solver/jet_cast.h"
+#include "core/solver/subalgorithm.h"
 
 namespace minkray {
 namespace {
 
+template <class T>
+GjkCastOptions<T> gjk_options(const PreparedShape<T>& shape, const CastOptions<T>& options) {
+  GjkCastOptions<T> gjk{options.eps_tol, options.max_iterations, options.v0};
+  if (!gjk.v0.isZero(T(0))) gjk.v0 = shape.normal_to_inner(gjk.v0);
+  return gjk;
+}
+
+/// The reference solvers, which are not worth compiling for every shape: they see Shape<T>.
+template <class T, class Observer>
+CastResult<T> cast_reference(const PreparedShape<T>& shape, const RayNearBall<T>& near,
+                             const CastOptions<T>& options, Observer&& observer) {
+  const Shape<T>& any = shape.inner_shape();
+  const GjkCastOptions<T> gjk = gjk_options(shape, options);
+  switch (options.solver) {
+    case SolverKind::first_solution:
+      return first_solution(any, near, shape.inner_ball(), tolerance::first_solution_max_supports,
+                            observer);
+    case SolverKind::paper_johnson:
+      return gjk_ray_cast(any, near, shape.inner_ball(), gjk, observer,
+                          JohnsonSubalgorithm<T, 3>());
+    default:
+      return gjk_ray_cast(any, near, shape.inner_ball(), gjk, observer,
+                          SignedVolumesSubalgorithm<T, 3>());
+  }
+}
+
+constexpr bool is_reference(SolverKind kind) {
+  return kind == SolverKind::first_solution || kind == SolverKind::paper_johnson ||
+         kind == SolverKind::paper_signed_volumes;
+}
+
+/// By measurement, see docs/decisions/0002-automatic-solver.md.
+SolverKind best_solver(SurfaceKind surface) {
+  return surface == SurfaceKind::ellipsoids ? SolverKind::jet : SolverKind::paper;
+}
+
 template <class T, class Observer>
 CastResult<T> cast_near(const PreparedShape<T>& shape, const RayNearBall<T>& near,
                         const CastOptions<T>& options, Observer&& observer) {
+  const SolverKind solver =
+      options.solver == SolverKind::automatic ? best_solver(shape.surface()) : options.solver;
+  if (is_reference(solver)) {
+    CastResult<T> result = cast_reference(shape, near, options, observer);
+    result.normal = shape.normal_to_outer(result.normal);
+    return result;
+  }
   CastResult<T> result = std::visit(
       [&](const auto& kind) {
-        const GjkCastOptions<T> gjk{options.eps_tol, options.max_iterations};
-        return gjk_ray_cast(kind, near, shape.inner_ball(), gjk, observer);
+        if (solver == SolverKind::jet)
+          return jet_cast(kind, near, shape.inner_ball(), shape.inner_half_extents(), {}, observer);
+        return gjk_ray_cast(kind, near, shape.inner_ball(), gjk_options(shape, options), observer);
       },
       shape.inner_shape().kind);
   result.normal = shape.normal_to_outer(result.normal);
@@ -36,8 +83,7 @@ CastResult<T> cast_ray(const PreparedShape<T>& shape, const Ray<T>& ray,
 template <class T>
 CastResult<T> cast_exit(const PreparedShape<T>& shape, const Ray<T>& ray,
                         const CastOptions<T>& options) {
-  CastResult<T> result =
-      cast_near(shape, shape.to_inner(ray).reversed(), options, NoObserver());
+  CastResult<T> result = cast_near(shape, shape.to_inner(ray).reversed(), options, NoObserver());
   std::swap(result.offset_lo, result.offset_hi);
   if (result.status == Status::hit) result.offset_lo = -std::numeric_limits<T>::infinity();
   return result;

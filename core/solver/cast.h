@@ -19,13 +19,16 @@ struct CastOptions {
   /// The paper's eps_tol, for the solvers that have one: relative, of a squared length.
   T eps_tol = tolerance::gjk_squared<T>;
   int max_iterations = tolerance::gjk_max_iterations;
+  /// A normal to begin with, in the ray's frame, for the solvers that take one: the separating
+  /// plane's of the previous frame. Zero for none.
+  Vec3<T> v0 = Vec3<T>::Zero();
 };
 
 template <class T>
 using CastObserver = std::function<void(const CastIteration<T>&)>;
 
-/// Where the ray enters the shape: the least t in [0, t_max] at which origin + t * direction lies in
-/// it. Origin in the shape: status inside, t = 0. Numbers must be finite, t_max may be infinite.
+/// Where the ray enters the shape: the least t in [0, t_max] at which origin + t * direction lies
+/// in it. Origin in the shape: status inside, t = 0. Numbers must be finite, t_max may be infinite.
 /// The observer, if any, sees every iteration, in the shape's inner frame.
 template <class T>
 CastResult<T> cast_ray(const PreparedShape<T>& shape, const Ray<T>& ray,

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/math/vec.h"
+#include "core/solver/tolerances.h"
 
 namespace minkray {
 
@@ -20,9 +21,9 @@ struct SimplexPoints {
 
 template <class T>
 struct ClosestPoint {
-  Vec3<T> v = Vec3<T>::Zero();        ///< the simplex' point closest to the origin
-  std::array<T, 4> weights = {};      ///< barycentric: v = sum of weights[i] * y[i]
-  unsigned kept = 0;                  ///< bit i: vertex i is needed to carry v
+  Vec3<T> v = Vec3<T>::Zero();    ///< the simplex' point closest to the origin
+  std::array<T, 4> weights = {};  ///< barycentric: v = sum of weights[i] * y[i]
+  unsigned kept = 0;              ///< bit i: vertex i is needed to carry v
 };
 
 namespace detail {
@@ -60,6 +61,9 @@ ClosestPoint<T> closest_on_edge(const SimplexPoints<T>& simplex, int i, int j) {
   // From the nearer end, so that the product that is rounded is the smaller one.
   result.v = towards_b < towards_a ? Vec3<T>(a + result.weights[ib] * edge)
                                    : Vec3<T>(b - result.weights[ia] * edge);
+  // Square to the edge once more: where v is short its direction is rounding's, and a support
+  // mapping asked along it would answer with a vertex that is already here.
+  result.v -= (result.v.dot(edge) / squared) * edge;
   result.kept = (1u << i) | (1u << j);
   return result;
 }
@@ -83,8 +87,8 @@ const Vec3<T>& nearest_of(const Vec3<T>& a, const Vec3<T>& b, const Vec3<T>& c,
   return to_a <= to_b && to_a <= to_c ? a : (to_b <= to_c ? b : c);
 }
 
-/// The weights by Gram-Schmidt along the longest edge first: the triangles at the end of a cast on a
-/// cone or a cylinder are slivers, whose determinants have lost the digits that this order keeps.
+/// The weights by Gram-Schmidt along the longest edge first: the triangles at the end of a cast on
+/// a cone or a cylinder are slivers, whose determinants have lost the digits that this order keeps.
 template <class T>
 ClosestPoint<T> closest_on_face(const SimplexPoints<T>& simplex, int i, int j, int k) {
   // P and Q end the longest edge, P on the side of the shortest; S is the third vertex.
@@ -106,10 +110,13 @@ ClosestPoint<T> closest_on_face(const SimplexPoints<T>& simplex, int i, int j, i
     const T weight_S = -from_origin.dot(across) / across_squared;
     const T weight_Q = origin_along_e - weight_S * f_along_e;
     const T weight_P = T(1) - weight_Q - weight_S;
-    if (weight_P > T(0) && weight_Q > T(0) && weight_S > T(0)) {
+    // Of vertices in a line, what is across is rounding's: the edges will do.
+    const Vec3<T> zero = Vec3<T>::Zero(), normal = face_normal(y(P), y(Q), y(S));
+    const bool is_flat = !(normal.squaredNorm() > tolerance::collinear<T> * tolerance::collinear<T> *
+                                                      e_squared * f.squaredNorm());
+    if (!is_flat && weight_P > T(0) && weight_Q > T(0) && weight_S > T(0)) {
       ClosestPoint<T> result;
       // Along the plane's normal, so that v keeps its direction however short it is.
-      const Vec3<T> zero = Vec3<T>::Zero(), normal = face_normal(y(P), y(Q), y(S));
       const T height = normal.dot(nearest_of(y(P), y(Q), y(S), zero));
       result.v = normal * (height / normal.squaredNorm());
       result.weights[static_cast<std::size_t>(P)] = weight_P;
@@ -173,10 +180,14 @@ ClosestPoint<T> closest_on_tetrahedron(const SimplexPoints<T>& simplex) {
 template <class T>
 ClosestPoint<T> closest_point(const SimplexPoints<T>& simplex) {
   switch (simplex.size) {
-    case 1: return detail::closest_on_vertex(simplex, 0);
-    case 2: return detail::closest_on_edge(simplex, 0, 1);
-    case 3: return detail::closest_on_face(simplex, 0, 1, 2);
-    default: return detail::closest_on_tetrahedron(simplex);
+    case 1:
+      return detail::closest_on_vertex(simplex, 0);
+    case 2:
+      return detail::closest_on_edge(simplex, 0, 1);
+    case 3:
+      return detail::closest_on_face(simplex, 0, 1, 2);
+    default:
+      return detail::closest_on_tetrahedron(simplex);
   }
 }
 

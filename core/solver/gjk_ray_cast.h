@@ -11,11 +11,12 @@
 
 #include <array>
 #include <span>
+#include <type_traits>
 
 #include "core/math/bounds.h"
 #include "core/shape/support_mapped.h"
-#include "core/solver/closest_point.h"
 #include "core/solver/observer.h"
+#include "core/solver/projection.h"
 #include "core/solver/ray_near_ball.h"
 #include "core/solver/result.h"
 #include "core/solver/tolerances.h"
@@ -32,12 +33,32 @@ struct GjkCastOptions {
   Vec3<T> v0 = Vec3<T>::Zero();
 };
 
+namespace detail {
+
+/// Shows an iteration, with the support points that the simplex kept.
+template <class T, class Observer, class G>
+void observe(Observer& observer, const G& Y, CastIteration<T> iteration) {
+  if constexpr (!std::is_same_v<Observer, NoObserver> &&
+                !std::is_same_v<Observer, const NoObserver>) {
+    std::array<Vec3<T>, G::slots> P;
+    std::size_t size = 0;
+    for (int i = 0; i < G::slots; ++i)
+      if (Y.uses(i)) P[size++] = Y.p(i);
+    iteration.simplex = std::span<const Vec3<T>>(P.data(), size);
+    observer(iteration);
+  }
+}
+
+}  // namespace detail
+
 /// The least parameter at which the ray lies in the shape. `ball` must hold the shape, and the ray
 /// be given relative to the ball's centre. Inside: the parameter is that of the ray's beginning.
-template <class T, class S, class Observer = NoObserver>
-  requires SupportMapped<S, T>
-CastResult<T> gjk_ray_cast(const S& shape, const RayNearBall<T>& near, const Ball<T>& ball,
-                           const GjkCastOptions<T>& options = {}, Observer&& observer = {}) {
+/// `Y` is the distance subalgorithm (subalgorithm.h), which also keeps the simplex.
+template <class T, class S, class Observer = NoObserver, class G = ProjectionSubalgorithm<T, 3>>
+requires SupportMapped<S, T> CastResult<T> gjk_ray_cast(const S& shape, const RayNearBall<T>& near,
+                                                        const Ball<T>& ball,
+                                                        const GjkCastOptions<T>& options = {},
+                                                        Observer&& observer = {}, G Y = {}) {
   CastResult<T> result;
   const Vec3<T>&s = near.s, &r = near.r;
   result.t_base = near.t_base;
@@ -62,8 +83,7 @@ CastResult<T> gjk_ray_cast(const S& shape, const RayNearBall<T>& near, const Bal
   if (!(v.squaredNorm() > T(0))) v = x;
   if (!(v.squaredNorm() > T(0))) v = -r;
   if (!(v.squaredNorm() > T(0))) v = Vec3<T>::UnitX();
-  std::array<Vec3<T>, 4> P;
-  std::size_t P_size = 0;
+  Y.begin(x);
   bool has_advanced = false;
   T v_squared = std::numeric_limits<T>::infinity();
 
@@ -85,51 +105,47 @@ CastResult<T> gjk_ray_cast(const S& shape, const RayNearBall<T>& near, const Bal
     const Vec3<T> p = shape.support(v) - ball.centre;
     const Vec3<T> w = x - p;
     const Vec3<T> v_asked = v;
+    const auto show = [&] {
+      detail::observe(observer, Y, CastIteration<T>{lambda, x, v_asked, p, w, {}});
+    };
 
     // v is a normal at p, so the plane through p may clip the ray.
     bool advanced = false;
     if (const T v_w = v.dot(w); v_w > T(0)) {
       const T v_r = v.dot(r);
-      if (!(v_r < T(0))) return miss(v);
       const T clipped = lambda - v_w / v_r;
-      if (clipped > near.lambda_max) return miss(v);
+      if (!(v_r < T(0)) || clipped > near.lambda_max) {
+        show();
+        return miss(v);
+      }
       advanced = clipped > lambda;
       if (advanced) {
         lambda = clipped;
         x = s + lambda * r;
+        Y.move(x);
         n = v;
         has_advanced = true;
       }
     }
 
     // The simplex with p, which the paper allows to come back after a clip.
-    bool repeated = false;
-    for (std::size_t i = 0; i < P_size; ++i) repeated = repeated || P[i] == p;
-    if (!repeated) P[P_size++] = p;
-    SimplexPoints<T> Y;
-    T furthest = T(0);
-    for (std::size_t i = 0; i < P_size; ++i) {
-      Y.y[i] = x - P[i];
-      furthest = std::max(furthest, Y.y[i].squaredNorm());
-    }
-    Y.size = static_cast<int>(P_size);
+    const bool repeated = Y.holds(p);
+    const int slot = repeated ? -1 : Y.add(p);
+    const T furthest = Y.furthest_squared();
 
     // The closest point of the simplex, and the vertices that carry it.
-    const ClosestPoint<T> closest = closest_point(Y);
-    P_size = 0;
-    for (std::size_t i = 0; i < 4; ++i)
-      if (closest.kept & (1u << i)) P[P_size++] = P[i];
+    const SubalgorithmAnswer<T, 3> closest = Y.closest();
+    Y.keep(closest.kept);
     v = closest.v;
-    observer(CastIteration<T>{lambda, x, v_asked, p, w, std::span(P.data(), P_size)});
+    show();
 
-    const bool unchanged = repeated || !(closest.kept & (1u << (Y.size - 1)));
+    const bool unchanged = repeated || !Y.uses(slot);
 
     // Close enough, or as close as rounding lets it come.
     const T previous = v_squared;
     v_squared = v.squaredNorm();
     const T v_size = std::sqrt(v_squared) / ball.radius;
-    if (v_squared <= options.eps_tol * furthest || v_size <= tolerance::gjk_rounding<T> ||
-        P_size == 4)
+    if (v_squared <= options.eps_tol * furthest || v_size <= tolerance::gjk_rounding<T> || Y.full())
       return finish();
     if (!advanced && (unchanged || !(v_squared < previous))) {
       if (v_size <= tolerance::gjk_stalled<T>) return finish();

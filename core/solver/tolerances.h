@@ -16,7 +16,7 @@ inline constexpr T epsilon = std::numeric_limits<T>::epsilon();
 /// proportion to max|x-p|^2, as Johnson's determinants have them. Our closest point is rounded
 /// to a few epsilon of |x - p| itself, so its square may be asked for.
 template <class T>
-inline constexpr T gjk_squared = T(16) * epsilon<T> * T(16) * epsilon<T>;
+inline constexpr T gjk_squared = T(16) * epsilon<T>* T(16) * epsilon<T>;
 
 /// Support points are themselves rounded to the shape's size R, however close to x they lie: the
 /// loop also ends when |v| <= this * R.
@@ -33,8 +33,41 @@ inline constexpr T gjk_stalled = T(256) * epsilon<T>;
 /// the tolerance above, and up to twice that for extents of 1:1000.
 inline constexpr int gjk_max_iterations = 1000;
 
+/// The jet cast ends when the model's hit lies no further than this beyond the best lower bound, as
+/// a distance between planes in units of the bounding radius: what rounding leaves of a support
+/// plane's offset (a few roundings each of the support point, its move to the ray, and the plane).
+template <class T>
+inline constexpr T jet_gap = T(4) * epsilon<T>;
+
+/// Support calls of the jet cast before the GJK ray cast takes over.
+inline constexpr int jet_max_iterations = 48;
+
 /// How far beyond its radius a bounding ball is still taken for hit, relative to the radius.
 template <class T>
 inline constexpr T ball_padding = T(8) * epsilon<T>;
+
+/// The GJK distance ends when |v|^2 - v.w <= this * |v| (|v| + R): v.w is a difference of numbers
+/// of size |v| (|v| + R), each rounded to an epsilon of that. The distance is then known to a few
+/// epsilon of itself and of the objects' size.
+template <class T>
+inline constexpr T distance_gap = T(4) * epsilon<T>;
+
+/// Polytopes end by themselves, and of smooth shapes the worst seen (ellipsoids of 1:1000) needed
+/// fewer than 200.
+inline constexpr int distance_max_iterations = 1000;
+
+/// Algorithm 1 was seen to need some 1500 support points in its nested queries for grazing rays.
+inline constexpr int first_solution_max_supports = 20000;
+
+/// How far the shapes are parted to find where they touched, relative to their sizes' sum: hits are
+/// precise to a few epsilon, those that stalled to gjk_stalled.
+template <class T>
+inline constexpr T contact_back_off[] = {T(8) * epsilon<T>, T(64) * epsilon<T>,
+                                         T(512) * epsilon<T>};
+
+/// The sine below which two edges of a face are taken for parallel: support points that are differences
+/// of two shapes' are each rounded, in a line or not.
+template <class T>
+inline constexpr T collinear = T(4) * epsilon<T>;
 
 }  // namespace minkray::tolerance

@@ -18,15 +18,15 @@ namespace minkray {
 /// renderer/errors.h.
 using AddVerb = void (*)(CLI::App& app, ExitCode& exit_code);
 
-void add_render(CLI::App& app, ExitCode& exit_code);
 void add_heatmap(CLI::App& app, ExitCode& exit_code);
 void add_info(CLI::App& app, ExitCode& exit_code);
+void add_render(CLI::App& app, ExitCode& exit_code);
 
 /// In the order in which --help shows them.
-inline constexpr std::array verbs = {
-    AddVerb(add_render),
-    AddVerb(add_heatmap),
-    AddVerb(add_info),
+inline constexpr std::array<AddVerb, 3> verbs = {
+    add_render,
+    add_heatmap,
+    add_info,
 };
 
 }  // namespace minkray

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// The distance between two shapes, by the GJK distance algorithm with any of the subalgorithms.
+#pragma once
+
+#include <functional>
+
+#include "core/solver/centred_shape.h"
+#include "core/solver/gjk_distance.h"
+#include "core/solver/subalgorithm.h"
+
+namespace minkray {
+
+template <class T>
+using DistanceObserver = std::function<void(const DistanceIteration<T, 3>&)>;
+
+/// Points and axis are in the world. The distance is exact to a few machine epsilon of itself and
+/// of the shapes' sizes, wherever in the world they stand; touching counts as overlapping. The
+/// observer, if any, sees every iteration.
+template <class T>
+DistanceResult<T, 3> distance_between(const CentredShape<T>& a, const CentredShape<T>& b,
+                                      const DistanceOptions<T, 3>& options = {},
+                                      SubalgorithmKind subalgorithm = SubalgorithmKind::projection,
+                                      const DistanceObserver<T>& observer = {});
+
+/// The same in the plane: of the shapes' shadows on z = 0.
+template <class T>
+DistanceResult<T, 2> distance_in_plane(
+    const CentredShape<T>& a, const CentredShape<T>& b, const DistanceOptions<T, 2>& options = {},
+    SubalgorithmKind subalgorithm = SubalgorithmKind::projection,
+    const std::function<void(const DistanceIteration<T, 2>&)>& observer = {});
+
+}  // namespace minkray

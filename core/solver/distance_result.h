@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// What a distance query answers: the distance between its bounds, the points that have it, the
+// plane that proves it, and what it cost.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "core/math/vec.h"
+
+namespace minkray {
+
+enum class DistanceStatus : unsigned char {
+  separated,    ///< a plane lies between the two; distance > 0
+  overlapping,  ///< a common point was found, to within rounding; distance 0
+  exhausted,    ///< the solver gave up: the distance lies in [lower, distance], no more is claimed
+};
+
+constexpr std::string_view name_of(DistanceStatus status) {
+  switch (status) {
+    case DistanceStatus::separated:
+      return "separated";
+    case DistanceStatus::overlapping:
+      return "overlapping";
+    case DistanceStatus::exhausted:
+      return "exhausted";
+  }
+  return "unknown";
+}
+
+/// Of objects A and B. Points and the axis are in the frame of the query.
+template <class T, int Dim>
+struct DistanceResult {
+  DistanceStatus status = DistanceStatus::exhausted;
+  T distance = T(0);  ///< |v|, from the two points: never less than the truth, but for rounding
+  T lower = T(0);     ///< max v.w/|v|, the gap between two parallel planes: never more
+  /// The paper's |v|^2 - v.w, an upper bound of |v - v(A - B)|^2: the certificate. 0 if
+  /// overlapping.
+  T certificate = T(0);
+  Vec<T, Dim> point_a = Vec<T, Dim>::Zero();  ///< of A, closest to B; overlapping: common to both
+  Vec<T, Dim> point_b = Vec<T, Dim>::Zero();  ///< of B, closest to A; overlapping: common to both
+  /// Unit normal of the separating planes, from A to B; zero if there are none.
+  Vec<T, Dim> axis = Vec<T, Dim>::Zero();
+  int iterations = 0;
+  int supports = 0;  ///< of A - B, each one support of A and one of B
+  int backups = 0;   ///< how often the distance subalgorithm fell back on its backup procedure
+};
+
+/// One iteration of the distance algorithm, in the paper's letters with C = {x} - (A - B).
+template <class T, int Dim>
+struct DistanceIteration {
+  Vec<T, Dim> v;                        ///< the direction whose support point was asked for
+  Vec<T, Dim> w;                        ///< that support point, in C
+  Vec<T, Dim> v_next;                   ///< the new simplex' point closest to the origin
+  T lower;                              ///< lower bound of the distance so far
+  T upper;                              ///< |v_next|, or |v| where the loop ends at w
+  std::span<const Vec<T, Dim>> before;  ///< the simplex before w came
+  std::span<const Vec<T, Dim>> after;   ///< the vertices that carry v_next
+};
+
+}  // namespace minkray

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// The vertices of a simplex as the distance subalgorithms keep them, and what those answer. A
+// vertex stays in its slot for as long as it lives, so that whatever is cached for it stays valid.
+//
+// In the paper's letters: x is a point, p a support point of the object C, y = x - p a vertex of
+// the simplex in {x} - C, and v the simplex' point closest to the origin. For distances x is fixed,
+// in a ray cast it moves, which translates all y by the same vector.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <string_view>
+
+#include "core/math/vec.h"
+
+namespace minkray {
+
+/// What every distance subalgorithm answers.
+template <class T, int Dim>
+struct SubalgorithmAnswer {
+  Vec<T, Dim> v = Vec<T, Dim>::Zero();  ///< the simplex' point closest to the origin
+  std::array<T, Dim + 1> weights = {};  ///< by slot: v = sum of weights[i] * y[i]
+  unsigned kept = 0;                    ///< bit i: the vertex in slot i is needed to carry v
+  bool proper = true;                   ///< false: rounding left no subset, this is the backup's
+};
+
+/// The slots; base of the subalgorithms. All of Dim + 1 slots in use: the simplex has an interior.
+template <class T, int Dim>
+class SimplexVertices {
+ public:
+  using Scalar = T;
+  static constexpr int dimension = Dim;
+  static constexpr int slots = Dim + 1;
+  static constexpr unsigned all_slots = (1u << slots) - 1;
+
+  unsigned used() const { return used_; }
+  bool uses(int slot) const { return (used_ >> slot) & 1u; }
+  bool full() const { return used_ == all_slots; }
+  const Vec<T, Dim>& p(int slot) const { return p_[static_cast<std::size_t>(slot)]; }
+  const Vec<T, Dim>& y(int slot) const { return y_[static_cast<std::size_t>(slot)]; }
+
+  /// Whether p is a vertex already, to the last digit.
+  bool holds(const Vec<T, Dim>& p) const {
+    for (int i = 0; i < slots; ++i)
+      if (uses(i) && this->p(i) == p) return true;
+    return false;
+  }
+
+  /// max |y|^2 over the vertices: what the paper's termination test is relative to.
+  T furthest_squared() const {
+    T furthest = T(0);
+    for (int i = 0; i < slots; ++i)
+      if (uses(i)) furthest = std::max(furthest, y(i).squaredNorm());
+    return furthest;
+  }
+
+  /// Forgets the vertices that do not carry v.
+  void keep(unsigned kept) { used_ &= kept; }
+
+ protected:
+  void clear(const Vec<T, Dim>& x) {
+    used_ = 0;
+    x_ = x;
+  }
+
+  void translate(const Vec<T, Dim>& x) {
+    x_ = x;
+    for (std::size_t i = 0; i < slots; ++i)
+      if (uses(static_cast<int>(i))) y_[i] = x - p_[i];
+  }
+
+  /// At least one slot must be free.
+  int insert(const Vec<T, Dim>& p) {
+    int slot = 0;
+    while (uses(slot)) ++slot;
+    p_[static_cast<std::size_t>(slot)] = p;
+    y_[static_cast<std::size_t>(slot)] = x_ - p;
+    used_ |= 1u << slot;
+    return slot;
+  }
+
+ private:
+  std::array<Vec<T, Dim>, slots> p_;
+  std::array<Vec<T, Dim>, slots> y_;
+  Vec<T, Dim> x_ = Vec<T, Dim>::Zero();
+  unsigned used_ = 0;
+};
+
+}  // namespace minkray
