@@ -150,11 +150,7 @@ bool beyond_face(const SimplexPoints<T>& simplex, int i, int j, int k, int l) {
   const T rounding = tolerance::flat_simplex<T> * normal.norm() * to_vertex.norm();
   if (!(std::abs(height_of_vertex) > rounding)) return true;
   const T height_of_origin = -normal.dot(nearest_of(y(i), y(j), y(k), zero));
-  // A height within the rounding of its vertex has no sign: the four points are in one plane.
-  const T size = std::max({y(i).cwiseAbs().maxCoeff(), y(j).cwiseAbs().maxCoeff(),
-                           y(k).cwiseAbs().maxCoeff(), y(l).cwiseAbs().maxCoeff()});
-  const T rounding = T(8) * std::numeric_limits<T>::epsilon() * size * normal.norm();
-  return !(std::abs(height_of_vertex) > rounding) || !(height_of_vertex * height_of_origin > T(0));
+  return !(height_of_vertex * height_of_origin > T(0));
 }
 
 template <class T>

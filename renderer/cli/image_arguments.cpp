@@ -81,7 +81,9 @@ void ImageArguments::add_to(CLI::App& verb) {
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
   verb.add_option("--crop", crop, "x0,y0,x1,y1 in pixels: just that part of the picture");
-  verb.add_option("--seed", seed, "Of the random numbers")->capture_default_str();
+  verb.add_option("--seed", seed, "Of the random numbers")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   auto* quiet_flag = verb.add_flag("-q,--quiet", quiet, "No progress, no report");
   verb.add_flag("-v,--verbose", verbose, "Tell what is done and how long it takes")
       ->excludes(quiet_flag);

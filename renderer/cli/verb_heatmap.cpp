@@ -49,11 +49,10 @@ void run(const Options& options) {
     for (const std::string& solver : solvers) {
       const RenderWorld world = make_world(scene, cast_options(solver));
       ProgressLine line(!options.image.quiet);
-      fields.push_back(measure_heat(scene, world, channel, render_options,
-                                    [&](double fraction, std::uint64_t rays) {
-                                      line.show(fraction, rays);
-                                      return !InterruptGuard::interrupted();
-                                    }));
+      fields.push_back(
+          measure_heat(scene, world, channel, render_options,
+                       {[&](double fraction, std::uint64_t rays) { line.show(fraction, rays); },
+                        InterruptGuard::interrupted}));
       InterruptGuard::end_if_interrupted();
       exhausted += fields.back().work.exhausted;
       casts += fields.back().work.casts;
