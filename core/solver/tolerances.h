@@ -70,8 +70,8 @@ template <class T>
 inline constexpr T contact_back_off[] = {T(8) * epsilon<T>, T(64) * epsilon<T>,
                                          T(512) * epsilon<T>};
 
-/// The sine below which two edges of a face are taken for parallel: support points that are differences
-/// of two shapes' are each rounded, in a line or not.
+/// The sine below which two edges of a face are taken for parallel: support points that are
+/// differences of two shapes' are each rounded, in a line or not.
 template <class T>
 inline constexpr T collinear = T(4) * epsilon<T>;
 
