@@ -3,8 +3,6 @@
 // and nowhere else.
 #pragma once
 
-#include <array>
-
 #include "renderer/cli/exit_code.h"
 
 namespace CLI {
@@ -18,14 +16,18 @@ namespace minkray {
 /// renderer/errors.h.
 using AddVerb = void (*)(CLI::App& app, ExitCode& exit_code);
 
+void add_cast(CLI::App& app, ExitCode& exit_code);
+void add_compare(CLI::App& app, ExitCode& exit_code);
 void add_heatmap(CLI::App& app, ExitCode& exit_code);
 void add_info(CLI::App& app, ExitCode& exit_code);
 void add_render(CLI::App& app, ExitCode& exit_code);
 
 /// In the order in which --help shows them.
-inline constexpr std::array<AddVerb, 3> verbs = {
+inline constexpr AddVerb verbs[] = {
     add_render,
     add_heatmap,
+    add_compare,
+    add_cast,
     add_info,
 };
 

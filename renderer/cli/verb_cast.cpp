@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+// minkray cast: answers queries, one JSON object a line in and out, as they stream by.
+#include <oneapi/tbb/enumerable_thread_specific.h>
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/parallel_pipeline.h>
+
+#include <CLI/CLI.hpp>
+#include <fstream>
+#include <iostream>
+#include <memory>
+
+#include "renderer/cli/choices.h"
+#include "renderer/cli/verbs.h"
+#include "renderer/errors.h"
+#include "renderer/query/answer.h"
+#include "renderer/query/query_json.h"
+
+namespace minkray {
+namespace {
+
+/// Lines that travel together: enough to hide the pipeline's own cost, few enough that answers come
+/// soon and memory is small.
+constexpr std::size_t lines_a_batch = 64;
+/// Batches on their way for each thread.
+constexpr std::size_t batches_a_thread = 4;
+
+struct Options {
+  std::string file;
+  std::string precision = "double";
+  std::string solver = "auto";
+  std::string subalgorithm = "projection";
+  int threads = 0;
+  bool trace = false;
+  bool check = false;
+};
+
+struct Batch {
+  std::size_t first_line = 0;
+  std::vector<std::string> lines;
+  std::string out;
+  std::string err;
+  bool has_malformed = false;
+  bool has_wrong = false;
+};
+
+bool is_blank(std::string_view line) {
+  return line.find_first_not_of(" \t\r") == std::string_view::npos;
+}
+
+void answer_line(const std::string& line, const std::string& place, MeshFiles& meshes,
+                 const AnswerOptions& options, bool check, Batch& batch) {
+  Mistakes mistakes(place);
+  const std::optional<Query> query = parse_query(line, meshes, mistakes);
+  if (!query) {
+    batch.has_malformed = true;
+    batch.err += mistakes.text() + "\n";
+    return;
+  }
+  const Answer result = answer(*query, options);
+  batch.out += result.json.dump() + "\n";
+  if (!check) return;
+  for (const std::string& complaint : complaints(*query, result.facts, options.precision)) {
+    batch.has_wrong = true;
+    batch.err += place + ": " + printable(query->name, 80) + ": " + complaint + "\n";
+  }
+}
+
+ExitCode cast(const Options& options) {
+  const AnswerOptions answer_options{
+      options.precision == "float" ? Precision::in_float : Precision::in_double,
+      solver_named(options.solver), subalgorithm_named(options.subalgorithm), options.trace};
+
+  std::ifstream file;
+  if (options.file != "-") {
+    file.open(options.file, std::ios::binary);
+    if (!file) throw BadInput(options.file + ": cannot be read");
+  }
+  std::istream& in = options.file == "-" ? std::cin : file;
+  const std::string name = options.file == "-" ? "stdin" : options.file;
+  const std::filesystem::path folder =
+      options.file == "-" ? std::filesystem::path() : std::filesystem::path(name).parent_path();
+
+  std::unique_ptr<oneapi::tbb::global_control> limit;
+  if (options.threads > 0)
+    limit = std::make_unique<oneapi::tbb::global_control>(
+        oneapi::tbb::global_control::max_allowed_parallelism,
+        static_cast<std::size_t>(options.threads));
+  const std::size_t threads = oneapi::tbb::global_control::active_value(
+      oneapi::tbb::global_control::max_allowed_parallelism);
+  oneapi::tbb::enumerable_thread_specific<MeshFiles> meshes([&] { return MeshFiles(folder); });
+
+  using BatchPointer = std::shared_ptr<Batch>;
+  std::size_t next_line = 1;
+  bool has_malformed = false, has_wrong = false;
+
+  const auto read = [&](oneapi::tbb::flow_control& flow) -> BatchPointer {
+    auto batch = std::make_shared<Batch>();
+    batch->first_line = next_line;
+    std::string line;
+    while (batch->lines.size() < lines_a_batch && std::getline(in, line)) {
+      batch->lines.push_back(std::move(line));
+      // Answers to a slow writer come line by line.
+      if (in.rdbuf()->in_avail() == 0 && options.file == "-") break;
+    }
+    next_line += batch->lines.size();
+    if (batch->lines.empty()) flow.stop();
+    return batch;
+  };
+  const auto solve = [&](BatchPointer batch) {
+    for (std::size_t i = 0; i < batch->lines.size(); ++i) {
+      if (is_blank(batch->lines[i])) continue;
+      const std::string place = name + ":" + std::to_string(batch->first_line + i);
+      answer_line(batch->lines[i], place, meshes.local(), answer_options, options.check, *batch);
+    }
+    return batch;
+  };
+  const auto write = [&](const BatchPointer& batch) {
+    std::cout << batch->out;
+    if (options.file == "-") std::cout.flush();
+    if (!std::cout) throw CannotWrite("stdout: cannot be written");
+    std::cerr << batch->err;
+    has_malformed |= batch->has_malformed;
+    has_wrong |= batch->has_wrong;
+  };
+  using oneapi::tbb::filter_mode;
+  oneapi::tbb::parallel_pipeline(
+      threads * batches_a_thread,
+      oneapi::tbb::make_filter<void, BatchPointer>(filter_mode::serial_in_order, read) &
+          oneapi::tbb::make_filter<BatchPointer, BatchPointer>(filter_mode::parallel, solve) &
+          oneapi::tbb::make_filter<BatchPointer, void>(filter_mode::serial_in_order, write));
+  if (in.bad()) throw BadInput(name + ": cannot be read");
+  return has_malformed ? ExitCode::bad_input
+                       : (has_wrong ? ExitCode::comparison_failed : ExitCode::done);
+}
+
+}  // namespace
+
+void add_cast(CLI::App& app, ExitCode& exit_code) {
+  CLI::App* verb = app.add_subcommand(
+      "cast", "Answer ray, shape and distance queries, one JSON object a line (docs/cast.md)");
+  const auto options = std::make_shared<Options>();
+  verb->add_option("file", options->file, "A file of queries, - for stdin")->required();
+  verb->add_option("--precision", options->precision, "float or double")
+      ->check(CLI::IsMember({"float", "double"}))
+      ->capture_default_str();
+  verb->add_option("--solver", options->solver, "How rays are cast")
+      ->check(CLI::IsMember(solver_names()))
+      ->capture_default_str();
+  verb->add_option("--subalgorithm", options->subalgorithm, "How distances' simplices are reduced")
+      ->check(CLI::IsMember(subalgorithm_names()))
+      ->capture_default_str();
+  verb->add_option("--threads", options->threads, "How many threads; 0 for all")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  verb->add_flag("--trace", options->trace, "Add every iteration");
+  verb->add_flag("--check", options->check,
+                 "Compare with what each query expects; exit 1 if anything differs");
+  verb->callback([options, &exit_code] { exit_code = cast(*options); });
+}
+
+}  // namespace minkray

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/query/answer.h"
+
+#include "core/shape/convert.h"
+#include "core/solver/distance.h"
+#include "core/solver/rotating_cast.h"
+#include "core/solver/shape_cast.h"
+#include "renderer/query/number_json.h"
+#include "renderer/query/trace.h"
+
+namespace minkray {
+namespace {
+
+template <class T>
+double sum(T base, T offset) {
+  return double(base) + double(offset);
+}
+
+template <class T>
+Ray<T> convert_ray(const Ray<double>& ray) {
+  return {ray.origin.cast<T>(), ray.direction.cast<T>(), static_cast<T>(ray.t_max)};
+}
+
+/// The keys that every cast's answer has.
+template <class T>
+void add_cast(Answer& answer, const CastResult<T>& result) {
+  answer.facts.status = name_of(result.status);
+  answer.facts.hit = result.found();
+  answer.facts.t = sum(result.t_base, result.t_offset);
+  answer.json["status"] = answer.facts.status;
+  if (result.status != Status::miss) {
+    answer.json["t"] = number_json(answer.facts.t);
+    answer.json["t_lo"] = number_json(sum(result.t_base, result.offset_lo));
+    answer.json["t_hi"] = number_json(sum(result.t_base, result.offset_hi));
+  }
+  if (!result.normal.isZero(T(0))) {
+    answer.facts.normal = result.normal.template cast<double>();
+    answer.json["normal"] = point_json(result.normal);
+  }
+}
+
+template <class T>
+void add_costs(Answer& answer, int iterations, int supports) {
+  answer.json["iterations"] = iterations;
+  answer.json["supports"] = supports;
+}
+
+template <class T>
+CastOptions<T> cast_options(const AnswerOptions& options) {
+  CastOptions<T> cast;
+  cast.solver = options.solver;
+  return cast;
+}
+
+template <class T>
+void solve(const RayQuery& query, const AnswerOptions& options, Answer& answer) {
+  const PreparedShape<T> shape(convert<T>(query.shape));
+  const Ray<T> ray = convert_ray<T>(query.ray);
+  CastTrace<T> trace;
+  if (options.trace)
+    trace = trace_ray(shape, ray, cast_options<T>(options));
+  else
+    trace.result = cast_ray(shape, ray, cast_options<T>(options));
+  const CastResult<T>& result = trace.result;
+  add_cast(answer, result);
+  if (result.found()) {
+    const Vec3<T> near = ray.origin + result.t_base * ray.direction;
+    answer.json["point"] = point_json(Vec3<T>(near + result.t_offset * ray.direction));
+  }
+  add_costs<T>(answer, result.iterations, result.supports);
+  if (options.trace) answer.json["trace"] = trace_json(trace);
+}
+
+template <class T>
+void solve_turning(const ShapeQuery& query, const AnswerOptions& options, Answer& answer) {
+  const auto body = [](const Shape<double>& shape, const Vec3<double>& velocity,
+                       const Vec3<double>& turn) {
+    const CentredShape<T> centred_shape = centred(convert<T>(shape));
+    return MovingBody<T>{centred_shape.about_centre,
+                         {Mat3<T>::Identity(), centred_shape.centre},
+                         velocity.template cast<T>(),
+                         turn.template cast<T>()};
+  };
+  const RotatingCastResult<T> result =
+      cast_rotating(body(query.obstacle, query.obstacle_direction, query.obstacle_turn),
+                    body(query.moving, query.direction, query.turn), static_cast<T>(query.t_max),
+                    query.steps, cast_options<T>(options));
+  const bool found = result.status == Status::hit || result.status == Status::inside;
+  answer.facts.status = name_of(result.status);
+  answer.facts.hit = found;
+  answer.facts.t = double(result.t);
+  answer.json["status"] = answer.facts.status;
+  if (found) answer.json["t"] = number_json(result.t);
+  answer.json["t_lo"] = number_json(result.t_lo);
+  if (result.status == Status::miss) answer.json["proven"] = result.proven;
+  answer.json["position_error"] = number_json(result.position_error);
+  if (!result.normal.isZero(T(0))) {
+    answer.facts.normal = result.normal.template cast<double>();
+    answer.json["normal"] = point_json(result.normal);
+  }
+  if (found) {
+    answer.json["point_a"] = point_json(result.point_a);
+    answer.json["point_b"] = point_json(result.point_b);
+  }
+  answer.json["steps"] = result.steps;
+  add_costs<T>(answer, result.iterations, result.supports);
+}
+
+template <class T>
+void solve(const ShapeQuery& query, const AnswerOptions& options, Answer& answer) {
+  if (query.turns()) return solve_turning<T>(query, options, answer);
+  const PreparedPair<T> pair(centred(convert<T>(query.obstacle)),
+                             centred(convert<T>(query.moving)));
+  const Vec3<T> of_moving = query.direction.cast<T>(),
+                of_obstacle = query.obstacle_direction.cast<T>();
+  const ShapeCastResult<T> result = cast_shapes<T>(
+      pair, of_obstacle, of_moving, static_cast<T>(query.t_max), cast_options<T>(options));
+  add_cast(answer, result.cast);
+  if (result.cast.found()) {
+    answer.json["point_a"] = point_json(result.point_a);
+    answer.json["point_b"] = point_json(result.point_b);
+  }
+  add_costs<T>(answer, result.cast.iterations, result.cast.supports);
+  if (!options.trace) return;
+  const Ray<T> ray{pair.b().centre - pair.a().centre, of_moving - of_obstacle,
+                   static_cast<T>(query.t_max)};
+  answer.json["trace"] = trace_json(trace_ray(pair.obstacle(), ray, cast_options<T>(options)));
+}
+
+template <class T>
+void solve(const DistanceQuery& query, const AnswerOptions& options, Answer& answer) {
+  Json trace = Json::array();
+  DistanceObserver<T> observer;
+  if (options.trace)
+    observer = [&](const DistanceIteration<T, 3>& step) {
+      Json simplex = Json::array();
+      for (const Vec3<T>& y : step.after) simplex.push_back(point_json(y));
+      trace.push_back({{"v", point_json(step.v)},
+                       {"w", point_json(step.w)},
+                       {"simplex", std::move(simplex)},
+                       {"lower", number_json(step.lower)},
+                       {"upper", number_json(step.upper)}});
+    };
+  const DistanceResult<T, 3> result =
+      distance_between(centred(convert<T>(query.a)), centred(convert<T>(query.b)), {},
+                       options.subalgorithm, observer);
+  answer.facts.status = name_of(result.status);
+  answer.facts.distance = double(result.distance);
+  answer.json["status"] = answer.facts.status;
+  answer.json["distance"] = number_json(result.distance);
+  answer.json["lower"] = number_json(result.lower);
+  answer.json["certificate"] = number_json(result.certificate);
+  if (!result.axis.isZero(T(0))) answer.json["normal"] = point_json(result.axis);
+  answer.json["point_a"] = point_json(result.point_a);
+  answer.json["point_b"] = point_json(result.point_b);
+  add_costs<T>(answer, result.iterations, result.supports);
+  if (options.trace) answer.json["trace"] = std::move(trace);
+}
+
+}  // namespace
+
+Answer answer(const Query& query, const AnswerOptions& options) {
+  Answer result;
+  if (!query.name.empty()) result.json["name"] = query.name;
+  std::visit(
+      [&](const auto& kind) {
+        if (options.precision == Precision::in_float)
+          solve<float>(kind, options, result);
+        else
+          solve<double>(kind, options, result);
+      },
+      query.kind);
+  return result;
+}
+
+}  // namespace minkray

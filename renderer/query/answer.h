@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// Answers to queries, as JSON and for comparison with what a case expects.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/solver/cast.h"
+#include "core/solver/subalgorithm.h"
+#include "renderer/json/json.h"
+#include "renderer/query/query.h"
+
+namespace minkray {
+
+enum class Precision : unsigned char { in_float, in_double };
+
+struct AnswerOptions {
+  Precision precision = Precision::in_double;
+  SolverKind solver = SolverKind::automatic;
+  SubalgorithmKind subalgorithm = SubalgorithmKind::projection;  ///< for distances
+  bool trace = false;
+};
+
+/// What --check compares.
+struct AnswerFacts {
+  std::string status;
+  bool hit = false;  ///< hit or inside
+  double t = 0;
+  std::optional<Vec3<double>> normal;
+  double distance = 0;
+};
+
+struct Answer {
+  Json json;
+  AnswerFacts facts;
+};
+
+Answer answer(const Query& query, const AnswerOptions& options);
+
+/// What is wrong with the answer: empty if it is as expected. In float, `float_allowance` is added
+/// to the tolerances of a case, which are meant for double.
+std::vector<std::string> complaints(const Query& query, const AnswerFacts& facts,
+                                    Precision precision);
+
+/// How far from the exact answer one in float may be, by the rounding of the query's own numbers:
+/// in lengths, float_roundings machine epsilons of the largest coordinate; in t that, divided by
+/// the speed against the surface; in the normal, as an angle, its square root.
+inline constexpr double float_roundings = 8;
+
+}  // namespace minkray

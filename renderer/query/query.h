@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// The queries that `minkray cast` answers, as plain data, and what a case says the answer must be.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "core/math/ray.h"
+#include "core/shape/shape.h"
+
+namespace minkray {
+
+/// Where a ray enters a shape.
+struct RayQuery {
+  Shape<double> shape;
+  Ray<double> ray;
+};
+
+/// When the moving shape first touches the obstacle. Each is moved by t times its direction and, if
+/// it has a turn, turned by t times that (a rotation vector, radians) about the middle of its box.
+struct ShapeQuery {
+  Shape<double> moving;
+  Shape<double> obstacle;
+  Vec3<double> direction = Vec3<double>::Zero();
+  Vec3<double> obstacle_direction = Vec3<double>::Zero();
+  Vec3<double> turn = Vec3<double>::Zero();
+  Vec3<double> obstacle_turn = Vec3<double>::Zero();
+  int steps = 64;  ///< of fixed orientation, if anything turns
+  double t_max = std::numeric_limits<double>::infinity();
+
+  bool turns() const { return !turn.isZero(0) || !obstacle_turn.isZero(0); }
+};
+
+/// How far apart two shapes are.
+struct DistanceQuery {
+  Shape<double> a;
+  Shape<double> b;
+};
+
+/// What the answer must be: the part of a case that --check compares.
+struct Expectation {
+  std::optional<bool> hit;
+  bool either = false;  ///< the ray just touches: hit and miss are both right
+  std::optional<double> t;
+  double t_abs_tol = 0;
+  std::optional<Vec3<double>> normal;
+  std::optional<double> distance;
+  double abs_tol = 0;
+};
+
+struct Query {
+  std::string name;
+  std::variant<RayQuery, ShapeQuery, DistanceQuery> kind;
+  std::optional<Expectation> expect;
+};
+
+}  // namespace minkray

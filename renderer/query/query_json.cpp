@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/query/query_json.h"
+
+#include "renderer/json/object_reader.h"
+#include "renderer/json/parse.h"
+#include "renderer/json/values.h"
+#include "renderer/scene/shape_json.h"
+
+namespace minkray {
+namespace {
+
+/// A step more costs a cast more: nobody means more than this.
+constexpr int most_steps = 1000000;
+
+class QueryReader {
+ public:
+  QueryReader(ObjectReader& object, MeshFiles& meshes) : object_(object), meshes_(meshes) {}
+
+  std::optional<Shape<double>> shape(std::string_view key) {
+    const Json* json = object_.require(key, "a shape");
+    if (!json) return std::nullopt;
+    return read_shape(*json, object_.path(key), object_.mistakes(), meshes_);
+  }
+
+  void vector(ObjectReader& from, std::string_view key, Vec3<double>& value, bool required) {
+    const Json* json = required ? from.require(key, "a list of 3 numbers") : from.find(key);
+    if (!json) return;
+    if (const auto read = read_vector(*json, from.path(key), from.mistakes())) value = *read;
+  }
+
+  void t_max(ObjectReader& from, double& value) {
+    if (const Json* json = from.find("t_max"))
+      if (const auto read =
+              read_number(*json, from.path("t_max"), from.mistakes(), Range::not_negative))
+        value = *read;
+  }
+
+  void read_ray(std::optional<Query>& query) {
+    const auto what = shape("shape");
+    RayQuery read{Point<double>{}, {Vec3<double>::Zero(), Vec3<double>::Zero()}};
+    if (const Json* json = object_.require("ray", "an object")) {
+      ObjectReader ray(*json, object_.path("ray"), object_.mistakes());
+      vector(ray, "origin", read.ray.origin, true);
+      vector(ray, "direction", read.ray.direction, true);
+      t_max(ray, read.ray.t_max);
+      ray.finish();
+    }
+    if (!what) return;
+    read.shape = *what;
+    query->kind = std::move(read);
+  }
+
+  void read_shapes(std::optional<Query>& query) {
+    const auto moving = shape("moving"), obstacle = shape("obstacle");
+    ShapeQuery read{Point<double>{}, Point<double>{}};
+    vector(object_, "direction", read.direction, true);
+    vector(object_, "obstacle_direction", read.obstacle_direction, false);
+    vector(object_, "turn", read.turn, false);
+    vector(object_, "obstacle_turn", read.obstacle_turn, false);
+    if (const Json* steps = object_.find("steps"))
+      if (const auto n =
+              read_integer(*steps, object_.path("steps"), object_.mistakes(), 1, most_steps))
+        read.steps = *n;
+    t_max(object_, read.t_max);
+    if (read.turns() && !(read.t_max < std::numeric_limits<double>::infinity()))
+      object_.mistakes().add(object_.path("t_max"), "missing: shapes that turn need one");
+    if (!moving || !obstacle) return;
+    read.moving = *moving;
+    read.obstacle = *obstacle;
+    query->kind = std::move(read);
+  }
+
+  void read_distance(std::optional<Query>& query) {
+    const auto a = shape("a"), b = shape("b");
+    if (a && b) query->kind = DistanceQuery{*a, *b};
+  }
+
+ private:
+  ObjectReader& object_;
+  MeshFiles& meshes_;
+};
+
+Expectation read_expectation(const Json& json, const JsonPath& path, Mistakes& mistakes) {
+  Expectation expect;
+  ObjectReader object(json, path, mistakes);
+  const auto number = [&](std::string_view key, auto& value, Range range) {
+    if (const Json* found = object.find(key))
+      if (const auto read = read_number(*found, object.path(key), mistakes, range)) value = *read;
+  };
+  const auto flag = [&](std::string_view key, auto& value) {
+    if (const Json* found = object.find(key))
+      if (const auto read = read_bool(*found, object.path(key), mistakes)) value = *read;
+  };
+  flag("hit", expect.hit);
+  flag("either", expect.either);
+  number("t", expect.t, Range::any);
+  number("t_abs_tol", expect.t_abs_tol, Range::not_negative);
+  number("distance", expect.distance, Range::not_negative);
+  number("abs_tol", expect.abs_tol, Range::not_negative);
+  if (const Json* normal = object.find("normal"))
+    if (const auto read = read_vector(*normal, object.path("normal"), mistakes))
+      expect.normal = *read;
+  object.finish();
+  return expect;
+}
+
+}  // namespace
+
+std::optional<Query> parse_query(std::string_view text, MeshFiles& meshes, Mistakes& mistakes) {
+  const std::optional<Json> json = parse_json(text, mistakes);
+  if (!json || !mistakes.none()) return std::nullopt;
+  ObjectReader object(*json, JsonPath(), mistakes);
+  if (!object.is_object()) return std::nullopt;
+
+  std::optional<Query> query(Query{{}, DistanceQuery{Point<double>{}, Point<double>{}}, {}});
+  object.allow({"was"});
+  if (const Json* name = object.find("name"))
+    if (const auto read = read_string(*name, object.path("name"), mistakes)) query->name = *read;
+  if (const Json* expect = object.find("expect"))
+    query->expect = read_expectation(*expect, object.path("expect"), mistakes);
+
+  QueryReader reader(object, meshes);
+  const Json* kind = object.require("query", "\"ray\", \"shape\" or \"distance\"");
+  if (!kind) return std::nullopt;
+  if (*kind == "ray") {
+    reader.read_ray(query);
+  } else if (*kind == "shape") {
+    reader.read_shapes(query);
+  } else if (*kind == "distance") {
+    reader.read_distance(query);
+  } else {
+    mistakes.add(object.path("query"),
+                 "must be \"ray\", \"shape\" or \"distance\" (" + found(*kind) + ")");
+    return std::nullopt;
+  }
+  object.finish();
+  if (!mistakes.none()) return std::nullopt;
+  return query;
+}
+
+}  // namespace minkray

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// Queries from JSON, strictly: docs/cast.md says what they may hold.
+#pragma once
+
+#include <optional>
+
+#include "renderer/json/mistakes.h"
+#include "renderer/query/query.h"
+#include "renderer/scene/mesh_files.h"
+
+namespace minkray {
+
+/// The query that one line describes. Nothing, and mistakes, if anything in it is wrong.
+std::optional<Query> parse_query(std::string_view text, MeshFiles& meshes, Mistakes& mistakes);
+
+}  // namespace minkray

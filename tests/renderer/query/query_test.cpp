@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "renderer/query/answer.h"
+#include "renderer/query/query_json.h"
+
+namespace minkray {
+namespace {
+
+std::optional<Query> parse(const std::string& text, Mistakes& mistakes) {
+  MeshFiles meshes{std::filesystem::path()};
+  return parse_query(text, meshes, mistakes);
+}
+
+std::string mistakes_of(const std::string& text) {
+  Mistakes mistakes("q.jsonl:7");
+  EXPECT_FALSE(parse(text, mistakes).has_value());
+  return mistakes.text();
+}
+
+/// All cases of a file, and what is wrong with the answers.
+std::vector<std::string> all_complaints(const std::string& file, const AnswerOptions& options,
+                                        int& cases) {
+  std::ifstream in(std::string(MINKRAY_TEST_CASES) + "/" + file);
+  std::vector<std::string> all;
+  std::string line;
+  cases = 0;
+  while (std::getline(in, line)) {
+    Mistakes mistakes(file);
+    const auto query = parse(line, mistakes);
+    if (!query) {
+      all.push_back(mistakes.text());
+      continue;
+    }
+    ++cases;
+    for (const std::string& complaint :
+         complaints(*query, answer(*query, options).facts, options.precision))
+      all.push_back(query->name + ": " + complaint);
+  }
+  return all;
+}
+
+// The queries on which published engines were wrong, with their exact answers.
+TEST(HardCases, all_are_right_in_double_and_in_float) {
+  for (const Precision precision : {Precision::in_double, Precision::in_float}) {
+    AnswerOptions options;
+    options.precision = precision;
+    int cases = 0;
+    EXPECT_EQ(all_complaints("hard-casts.jsonl", options, cases), std::vector<std::string>());
+    EXPECT_EQ(cases, 47);
+    EXPECT_EQ(all_complaints("hard-distances.jsonl", options, cases), std::vector<std::string>());
+    EXPECT_EQ(cases, 5);
+  }
+}
+
+TEST(HardCases, all_are_right_with_algorithm_1_in_double) {
+  AnswerOptions options;
+  options.solver = SolverKind::first_solution;
+  int cases = 0;
+  EXPECT_EQ(all_complaints("hard-casts.jsonl", options, cases), std::vector<std::string>());
+}
+
+TEST(HardCases, distances_are_right_with_every_subalgorithm) {
+  for (const auto& subalgorithm : subalgorithm_descriptions) {
+    AnswerOptions options;
+    options.subalgorithm = subalgorithm.kind;
+    int cases = 0;
+    EXPECT_EQ(all_complaints("hard-distances.jsonl", options, cases), std::vector<std::string>());
+  }
+}
+
+constexpr const char* ball_query =
+    R"({"query":"ray","shape":{"type":"sphere","radius":1},"ray":{"origin":[-3,0,0],"direction":[1,0,0]},"expect":{"hit":true,"t":2,"t_abs_tol":1e-12}})";
+
+TEST(Queries, a_wrong_answer_is_complained_about) {
+  Mistakes mistakes("q");
+  auto query = parse(ball_query, mistakes);
+  ASSERT_TRUE(query);
+  const AnswerFacts facts = answer(*query, {}).facts;
+  EXPECT_TRUE(complaints(*query, facts, Precision::in_double).empty());
+  query->expect->t = 2.5;
+  EXPECT_EQ(complaints(*query, facts, Precision::in_double).size(), 1u);
+  query->expect->hit = false;
+  EXPECT_EQ(complaints(*query, facts, Precision::in_double).size(), 2u);
+  query->expect->normal = Vec3<double>(0, 1, 0);
+  EXPECT_EQ(complaints(*query, facts, Precision::in_double).size(), 3u);
+  AnswerFacts nothing = facts;
+  nothing.status = "exhausted";
+  nothing.hit = false;
+  EXPECT_EQ(complaints(*query, nothing, Precision::in_double).front(), "status is exhausted");
+}
+
+TEST(Queries, mistakes_name_line_key_and_what_was_expected) {
+  EXPECT_NE(mistakes_of("{").find("q.jsonl:7"), std::string::npos);
+  EXPECT_NE(mistakes_of(R"({"query":"beam"})").find("/query"), std::string::npos);
+  EXPECT_NE(
+      mistakes_of(R"({"query":"distance","a":{"type":"sphere","radius":-1},"b":{"type":"point"}})")
+          .find("/a/radius"),
+      std::string::npos);
+  EXPECT_NE(mistakes_of(R"({"query":"distance","a":{"type":"point"},"b":{"type":"point"},"c":1})")
+                .find("/c: unknown key"),
+            std::string::npos);
+  EXPECT_NE(
+      mistakes_of(R"({"query":"shape","moving":{"type":"point"},"obstacle":{"type":"point"}})")
+          .find("/direction: missing"),
+      std::string::npos);
+  EXPECT_NE(
+      mistakes_of(
+          R"({"query":"shape","moving":{"type":"point"},"obstacle":{"type":"point"},"direction":[1,0,0],"turn":[0,0,1]})")
+          .find("/t_max"),
+      std::string::npos);
+}
+
+TEST(Queries, numbers_of_answers_read_back_as_they_were_and_traces_bound_the_hit) {
+  Mistakes mistakes("q");
+  const auto query = parse(
+      R"({"name":"n","query":"ray","shape":{"type":"ellipsoid","radii":[1,0.5,0.3]},"ray":{"origin":[-3,0.1,0.05],"direction":[1,0.01,0]}})",
+      mistakes);
+  ASSERT_TRUE(query) << mistakes.text();
+  for (const Precision precision : {Precision::in_double, Precision::in_float}) {
+    AnswerOptions options;
+    options.precision = precision;
+    options.solver = SolverKind::paper;
+    options.trace = true;
+    const Answer result = answer(*query, options);
+    EXPECT_EQ(Json::parse(result.json.dump()).at("t").get<double>(), result.facts.t);
+    const Json& trace = result.json.at("trace");
+    ASSERT_EQ(static_cast<int>(trace.size()), result.json.at("iterations").get<int>());
+    double lower = 0;
+    const double rounding = precision == Precision::in_double ? 1e-15 : 1e-6;
+    for (const Json& step : trace) {
+      EXPECT_GE(step.at("t_lo").get<double>(), lower);
+      lower = step.at("t_lo").get<double>();
+      EXPECT_LE(lower, result.facts.t + rounding);
+      EXPECT_TRUE(step.at("t_hi").is_null() || step.at("t_hi").get<double>() >= result.facts.t);
+      EXPECT_GE(step.at("case").get<int>(), 1);
+      EXPECT_LE(step.at("case").get<int>(), 3);
+    }
+    EXPECT_NEAR(lower, result.facts.t, rounding);
+  }
+}
+
+}  // namespace
+}  // namespace minkray
