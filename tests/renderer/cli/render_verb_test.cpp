@@ -90,6 +90,13 @@ TEST_F(RenderVerb, writes_every_output) {
   EXPECT_EQ(files(), (std::vector<std::string>{"a.pfm", "a.png", "h.png", "scene.json"}));
 }
 
+TEST_F(RenderVerb, a_crop_of_a_huge_picture_is_no_huge_picture) {
+  EXPECT_EQ(exit_code({"render", path("scene.json"), "-o", path("a.pfm"), "-s", "1", "-r",
+                       "65536x65536", "--crop", "30000,30000,30010,30005"}),
+            0);
+  EXPECT_EQ(content(path("a.pfm")).substr(0, 8), "PF\n10 5\n");
+}
+
 TEST_F(RenderVerb, wrong_values_are_wrong_usage) {
   const std::vector<std::vector<std::string>> wrong = {{"-s", "0"},
                                                        {"-s", "-1"},
@@ -98,6 +105,7 @@ TEST_F(RenderVerb, wrong_values_are_wrong_usage) {
                                                        {"-r", "64"},
                                                        {"-r", "64x48x2"},
                                                        {"-r", "100000x100000"},
+                                                       {"-r", "20000x20000"},
                                                        {"-r", "64x-48"},
                                                        {"-r", "64 x48"},
                                                        {"-t", "-1"},
