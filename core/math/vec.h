@@ -38,10 +38,14 @@ W select(bool condition, W a, W b) {
 }
 
 /// Whether the condition holds in any lane.
-inline bool any(bool condition) { return condition; }
+inline bool any(bool condition) {
+  return condition;
+}
 
 /// Whether the condition holds in all lanes.
-inline bool all(bool condition) { return condition; }
+inline bool all(bool condition) {
+  return condition;
+}
 
 template <std::floating_point W>
 W power(W base, W exponent) {
@@ -56,7 +60,8 @@ Vec3<W> select(const Mask& condition, const Vec3<W>& a, const Vec3<W>& b) {
 }
 
 /// v divided by its length; the zero vector stays zero. Vectors whose squared length would under-
-/// or overflow are rescaled first, so that the direction keeps its digits over the whole range of W.
+/// or overflow are rescaled first, so that the direction keeps its digits over the whole range of
+/// W.
 template <class W>
 Vec3<W> unit(const Vec3<W>& v) {
   using std::abs;

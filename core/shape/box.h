@@ -5,6 +5,7 @@
 
 #include "core/math/vec.h"
 #include "core/shape/field.h"
+#include "core/shape/jet.h"
 
 namespace minkray {
 
@@ -24,6 +25,11 @@ struct Box {
     const Vec3<W> h = widen<W>(half_extents);
     return {select(n.x() < W(0), W(-h.x()), h.x()), select(n.y() < W(0), W(-h.y()), h.y()),
             select(n.z() < W(0), W(-h.z()), h.z())};
+  }
+
+  template <class W>
+  Jet<W> jet(const Vec3<W>& n) const {
+    return point_jet<W>(support(n));
   }
 };
 

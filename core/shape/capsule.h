@@ -4,6 +4,7 @@
 
 #include "core/math/vec.h"
 #include "core/shape/field.h"
+#include "core/shape/jet.h"
 
 namespace minkray {
 
@@ -28,6 +29,12 @@ struct Capsule {
     Vec3<W> s = unit(n) * W(radius);
     s.z() += select(n.z() < W(0), W(-half_height), W(half_height));
     return s;
+  }
+
+  template <class W>
+  Jet<W> jet(const Vec3<W>& n) const {
+    return ball_jet<W>({W(0), W(0), select(n.z() < W(0), W(-half_height), W(half_height))},
+                       W(radius));
   }
 };
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/shape/disk.h"
+#include "core/shape/jet.h"
 
 namespace minkray {
 
@@ -26,6 +27,13 @@ struct Cone {
     Vec3<W> rim = unit_disk_support(n) * W(radius);
     rim.z() = W(-half_height);
     return select<W>(n.dot(apex - rim) > W(0), apex, rim);
+  }
+
+  template <class W>
+  Jet<W> jet(const Vec3<W>& n) const {
+    const Vec3<W> s = support(n);
+    if (s.z() > W(0)) return point_jet<W>(s);
+    return disk_jet<W>({W(0), W(0), W(-half_height)}, W(radius));
   }
 };
 

@@ -14,9 +14,7 @@ Shape<U> convert(const Shape<T>& shape);
 namespace detail {
 
 template <class U, class T>
-U convert_value(const T& value)
-  requires std::floating_point<T>
-{
+U convert_value(const T& value) requires std::floating_point<T> {
   return static_cast<U>(value);
 }
 template <class U, class T>
@@ -27,7 +25,8 @@ template <class U, class V, std::size_t N>
 auto convert_value(const std::array<V, N>& values) {
   return [&]<std::size_t... I>(std::index_sequence<I...>) {
     return std::array{convert_value<U>(values[I])...};
-  }(std::make_index_sequence<N>());
+  }
+  (std::make_index_sequence<N>());
 }
 template <class U, class T>
 Nested<U> convert_value(const Nested<T>& nested) {
@@ -54,10 +53,10 @@ S<U> convert_fields(const S<T>& shape) {
   const auto from = S<T>::fields();
   const auto to = S<U>::fields();
   [&]<std::size_t... I>(std::index_sequence<I...>) {
-    ((converted.*(std::get<I>(to).member) =
-          convert_value<U>(shape.*(std::get<I>(from).member))),
+    ((converted.*(std::get<I>(to).member) = convert_value<U>(shape.*(std::get<I>(from).member))),
      ...);
-  }(std::make_index_sequence<std::tuple_size_v<decltype(from)>>());
+  }
+  (std::make_index_sequence<std::tuple_size_v<decltype(from)>>());
   return converted;
 }
 
@@ -66,8 +65,8 @@ S<U> convert_fields(const S<T>& shape) {
 /// The shape with its numbers rounded to U.
 template <class U, class T>
 Shape<U> convert(const Shape<T>& shape) {
-  return std::visit(
-      [](const auto& kind) -> Shape<U> { return detail::convert_fields<U>(kind); }, shape.kind);
+  return std::visit([](const auto& kind) -> Shape<U> { return detail::convert_fields<U>(kind); },
+                    shape.kind);
 }
 
 }  // namespace minkray

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/shape/disk.h"
+#include "core/shape/jet.h"
 
 namespace minkray {
 
@@ -25,6 +26,12 @@ struct Cylinder {
     Vec3<W> s = unit_disk_support(n) * W(radius);
     s.z() = select(n.z() < W(0), W(-half_height), W(half_height));
     return s;
+  }
+
+  template <class W>
+  Jet<W> jet(const Vec3<W>& n) const {
+    return disk_jet<W>({W(0), W(0), select(n.z() < W(0), W(-half_height), W(half_height))},
+                       W(radius));
   }
 };
 

@@ -4,6 +4,7 @@
 
 #include "core/math/vec.h"
 #include "core/shape/field.h"
+#include "core/shape/jet.h"
 
 namespace minkray {
 
@@ -19,7 +20,8 @@ struct Disk {
   T radius = T(1);
 
   static constexpr std::string_view name = "disk";
-  static constexpr std::string_view doc = "A flat round disk around the origin, its normal along z.";
+  static constexpr std::string_view doc =
+      "A flat round disk around the origin, its normal along z.";
   static constexpr auto fields() {
     return std::tuple{Field{"radius", &Disk::radius, Unit::length, Range::positive, "its radius"}};
   }
@@ -27,6 +29,11 @@ struct Disk {
   template <class W>
   Vec3<W> support(const Vec3<W>& n) const {
     return unit_disk_support(n) * W(radius);
+  }
+
+  template <class W>
+  Jet<W> jet(const Vec3<W>&) const {
+    return disk_jet<W>(Vec3<W>::Zero(), W(radius));
   }
 };
 

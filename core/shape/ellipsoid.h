@@ -4,6 +4,7 @@
 
 #include "core/math/vec.h"
 #include "core/shape/field.h"
+#include "core/shape/jet.h"
 
 namespace minkray {
 
@@ -22,6 +23,11 @@ struct Ellipsoid {
   Vec3<W> support(const Vec3<W>& n) const {
     const Vec3<W> r = widen<W>(radii);
     return unit<W>(n.cwiseProduct(r)).cwiseProduct(r);
+  }
+
+  template <class W>
+  Jet<W> jet(const Vec3<W>&) const {
+    return {Vec3<W>::Zero(), widen<W>(radii).asDiagonal()};
   }
 };
 

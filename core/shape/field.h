@@ -18,7 +18,8 @@ enum class Range { any, positive, not_negative, at_least_one, zero_to_one, zero_
 /// One parameter: the member of shape S that holds it. The member's type says how it is spelled:
 /// T a number, std::array<T, 2> and Vec3<T> lists of two and three, std::array<Vec3<T>, N> a list
 /// of N points, Nested<T> a shape, ShapeList<T> a list of shapes, PointCloud<T> points or a mesh
-/// file, AffineMap<T> the keys of a pose. An optional parameter keeps its initial value if left out.
+/// file, AffineMap<T> the keys of a pose. An optional parameter keeps its initial value if left
+/// out.
 template <class S, class M>
 struct Field {
   using Member = M;

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "core/shape/disk.h"
+#include "core/shape/jet.h"
 
 namespace minkray {
 
@@ -16,20 +17,33 @@ struct Frustum {
   static constexpr std::string_view name = "frustum";
   static constexpr std::string_view doc = "A cone around the z axis, cut off by two disks.";
   static constexpr auto fields() {
-    return std::tuple{
-        Field{"radii", &Frustum::radii, Unit::length, Range::not_negative,
-              "the disks' radii: at z = -half_height, at z = +half_height"},
-        Field{"half_height", &Frustum::half_height, Unit::length, Range::not_negative,
-              "half its height"}};
+    return std::tuple{Field{"radii", &Frustum::radii, Unit::length, Range::not_negative,
+                            "the disks' radii: at z = -half_height, at z = +half_height"},
+                      Field{"half_height", &Frustum::half_height, Unit::length, Range::not_negative,
+                            "half its height"}};
   }
 
   template <class W>
   Vec3<W> support(const Vec3<W>& n) const {
     const Vec3<W> rim = unit_disk_support(n);
-    const auto upper = n.z() * W(T(2) * half_height) + n.dot(rim) * W(radii[1] - radii[0]) > W(0);
+    const auto upper = is_upper(n, rim);
     Vec3<W> s = rim * select(upper, W(radii[1]), W(radii[0]));
     s.z() = select(upper, W(half_height), W(-half_height));
     return s;
+  }
+
+  template <class W>
+  Jet<W> jet(const Vec3<W>& n) const {
+    const auto upper = is_upper<W>(n, unit_disk_support(n));
+    return disk_jet<W>({W(0), W(0), select(upper, W(half_height), W(-half_height))},
+                       select(upper, W(radii[1]), W(radii[0])));
+  }
+
+ private:
+  /// Whether the upper disk reaches further along n; `rim` is the unit disk's support point.
+  template <class W>
+  auto is_upper(const Vec3<W>& n, const Vec3<W>& rim) const {
+    return n.z() * W(T(2) * half_height) + n.dot(rim) * W(radii[1] - radii[0]) > W(0);
   }
 };
 

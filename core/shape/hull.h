@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/shape/field.h"
+#include "core/shape/jet.h"
 #include "core/shape/point_cloud.h"
 
 namespace minkray {
@@ -22,6 +23,11 @@ struct Hull {
   template <class W>
   Vec3<W> support(const Vec3<W>& n) const {
     return points.support(n);
+  }
+
+  template <class W>
+  Jet<W> jet(const Vec3<W>& n) const {
+    return point_jet<W>(support(n));
   }
 };
 

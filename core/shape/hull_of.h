@@ -4,6 +4,7 @@
 
 #include "core/math/vec.h"
 #include "core/shape/field.h"
+#include "core/shape/jet.h"
 #include "core/shape/nested.h"
 
 namespace minkray {
@@ -25,6 +26,20 @@ struct HullOf {
     for (std::size_t i = 1; i < shapes.size(); ++i) {
       const Vec3<W> candidate = shapes[i]->support(n);
       best = select<W>(n.dot(candidate - best) > W(0), candidate, best);
+    }
+    return best;
+  }
+
+  template <class W>
+  Jet<W> jet(const Vec3<W>& n) const {
+    Jet<W> best = shapes.front()->jet(n);
+    W furthest = best.reach(n);
+    for (std::size_t i = 1; i < shapes.size(); ++i) {
+      const Jet<W> candidate = shapes[i]->jet(n);
+      const W along = candidate.reach(n);
+      if (!(along > furthest)) continue;
+      best = candidate;
+      furthest = along;
     }
     return best;
   }

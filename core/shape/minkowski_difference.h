@@ -5,6 +5,7 @@
 
 #include "core/math/vec.h"
 #include "core/shape/field.h"
+#include "core/shape/jet.h"
 #include "core/shape/nested.h"
 
 namespace minkray {
@@ -25,6 +26,13 @@ struct MinkowskiDifference {
   template <class W>
   Vec3<W> support(const Vec3<W>& n) const {
     return a->support(n) - b->support(Vec3<W>(-n));
+  }
+
+  template <class W>
+  Jet<W> jet(const Vec3<W>& n) const {
+    const Jet<W> mirrored = b->jet(Vec3<W>(-n));
+    return add<W>(a->jet(n),
+                  {Vec3<W>(-mirrored.c), mirrored.F, mirrored.exact, Vec3<W>(-mirrored.s)}, n);
   }
 };
 

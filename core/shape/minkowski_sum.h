@@ -4,6 +4,7 @@
 
 #include "core/math/vec.h"
 #include "core/shape/field.h"
+#include "core/shape/jet.h"
 #include "core/shape/nested.h"
 
 namespace minkray {
@@ -24,6 +25,13 @@ struct MinkowskiSum {
     Vec3<W> s = shapes.front()->support(n);
     for (std::size_t i = 1; i < shapes.size(); ++i) s += shapes[i]->support(n);
     return s;
+  }
+
+  template <class W>
+  Jet<W> jet(const Vec3<W>& n) const {
+    Jet<W> sum = shapes.front()->jet(n);
+    for (std::size_t i = 1; i < shapes.size(); ++i) sum = add<W>(sum, shapes[i]->jet(n), n);
+    return sum;
   }
 };
 

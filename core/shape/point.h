@@ -4,6 +4,7 @@
 
 #include "core/math/vec.h"
 #include "core/shape/field.h"
+#include "core/shape/jet.h"
 
 namespace minkray {
 
@@ -21,6 +22,11 @@ struct Point {
   template <class W>
   Vec3<W> support(const Vec3<W>&) const {
     return widen<W>(position);
+  }
+
+  template <class W>
+  Jet<W> jet(const Vec3<W>&) const {
+    return point_jet<W>(widen<W>(position));
   }
 };
 

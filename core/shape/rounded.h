@@ -4,6 +4,7 @@
 
 #include "core/math/vec.h"
 #include "core/shape/field.h"
+#include "core/shape/jet.h"
 #include "core/shape/nested.h"
 
 namespace minkray {
@@ -14,7 +15,8 @@ struct Rounded {
   Nested<T> shape;
 
   static constexpr std::string_view name = "rounded";
-  static constexpr std::string_view doc = "A shape grown by a radius: its Minkowski sum with a ball.";
+  static constexpr std::string_view doc =
+      "A shape grown by a radius: its Minkowski sum with a ball.";
   static constexpr auto fields() {
     return std::tuple{Field{"radius", &Rounded::radius, Unit::length, Range::not_negative,
                             "how far the shape grows"},
@@ -24,6 +26,12 @@ struct Rounded {
   template <class W>
   Vec3<W> support(const Vec3<W>& n) const {
     return shape->support(n) + unit(n) * W(radius);
+  }
+
+  template <class W>
+  Jet<W> jet(const Vec3<W>& n) const {
+    const Jet<W> ball = ball_jet<W>(Vec3<W>::Zero(), W(radius));
+    return add<W>(shape->jet(n), ball, n);
   }
 };
 

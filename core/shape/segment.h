@@ -6,6 +6,7 @@
 
 #include "core/math/vec.h"
 #include "core/shape/field.h"
+#include "core/shape/jet.h"
 
 namespace minkray {
 
@@ -24,6 +25,11 @@ struct Segment {
   Vec3<W> support(const Vec3<W>& n) const {
     const Vec3<W> a = widen<W>(points[0]), b = widen<W>(points[1]);
     return select<W>(n.dot(b - a) > W(0), b, a);
+  }
+
+  template <class W>
+  Jet<W> jet(const Vec3<W>& n) const {
+    return point_jet<W>(support(n));
   }
 };
 

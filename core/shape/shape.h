@@ -56,8 +56,7 @@ namespace detail {
 template <class S, class Variant>
 inline constexpr bool is_alternative = false;
 template <class S, class... Kinds>
-inline constexpr bool is_alternative<S, std::variant<Kinds...>> =
-    (std::is_same_v<S, Kinds> || ...);
+inline constexpr bool is_alternative<S, std::variant<Kinds...>> = (std::is_same_v<S, Kinds> || ...);
 }  // namespace detail
 
 template <class T>
@@ -65,14 +64,19 @@ struct Shape {
   ShapeVariant<T> kind;
 
   template <class S>
-    requires detail::is_alternative<S, ShapeVariant<T>>
-  Shape(S shape) : kind(std::move(shape)) {}
+  requires detail::is_alternative<S, ShapeVariant<T>> Shape(S shape) : kind(std::move(shape)) {}
 
   /// The point of the shape that lies furthest along n. n need not be of unit length; for n = 0
   /// the answer is some point of the shape.
   template <class W>
   Vec3<W> support(const Vec3<W>& n) const {
     return std::visit([&](const auto& shape) -> Vec3<W> { return shape.support(n); }, kind);
+  }
+
+  /// The ellipsoid that agrees with the shape to second order in direction n.
+  template <class W>
+  Jet<W> jet(const Vec3<W>& n) const {
+    return std::visit([&](const auto& shape) -> Jet<W> { return shape.jet(n); }, kind);
   }
 };
 

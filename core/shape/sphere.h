@@ -4,6 +4,7 @@
 
 #include "core/math/vec.h"
 #include "core/shape/field.h"
+#include "core/shape/jet.h"
 
 namespace minkray {
 
@@ -14,12 +15,18 @@ struct Sphere {
   static constexpr std::string_view name = "sphere";
   static constexpr std::string_view doc = "A ball around the origin.";
   static constexpr auto fields() {
-    return std::tuple{Field{"radius", &Sphere::radius, Unit::length, Range::positive, "its radius"}};
+    return std::tuple{
+        Field{"radius", &Sphere::radius, Unit::length, Range::positive, "its radius"}};
   }
 
   template <class W>
   Vec3<W> support(const Vec3<W>& n) const {
     return unit(n) * W(radius);
+  }
+
+  template <class W>
+  Jet<W> jet(const Vec3<W>&) const {
+    return ball_jet<W>(Vec3<W>::Zero(), W(radius));
   }
 };
 

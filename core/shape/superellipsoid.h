@@ -5,6 +5,7 @@
 
 #include "core/math/vec.h"
 #include "core/shape/field.h"
+#include "core/shape/jet.h"
 
 namespace minkray {
 
@@ -43,6 +44,30 @@ struct Superellipsoid {
     return {select(n.x() < W(0), W(-s.x()), s.x()), select(n.y() < W(0), W(-s.y()), s.y()),
             select(n.z() < W(0), W(-s.z()), s.z())};
   }
+
+  /// With u = m/|m|_q and g_i = sign(n_i) u_i^(q-1), the osculating ellipsoid has the shape matrix
+  /// diag(a) ((q-1) diag(u^(q-2)) - (q-2) g g^T) diag(a). Where p > 2 the curvature is infinite on
+  /// the coordinate planes; u is kept above a small number there.
+  template <class W>
+  Jet<W> jet(const Vec3<W>& n) const {
+    if (exponent == T(2)) return {Vec3<W>::Zero(), widen<W>(radii).asDiagonal()};
+    if (!(exponent > T(1))) return point_jet<W>(support(n));
+    const Vec3<W> a = widen<W>(radii);
+    const Vec3<W> s = support(n);
+    const Vec3<W> g = s.cwiseQuotient(a);
+    const W q = W(exponent / (exponent - T(1)));
+    Mat3<W> A = g * g.transpose() * (W(2) - q);
+    for (int i = 0; i < 3; ++i) {
+      // |g_i| = u_i^(q-1), so u_i^(q-2) = |g_i|^((q-2)/(q-1)).
+      const W size = std::max(std::abs(g[i]), W(least_of_jet));
+      A(i, i) += (q - W(1)) * power(size, W((q - W(2)) / (q - W(1))));
+    }
+    return {Vec3<W>::Zero(), a.asDiagonal() * factor(A), false, s};
+  }
+
+ private:
+  /// A radius of curvature is at most about 1/this times the radii, for p up to 4.
+  static constexpr T least_of_jet = T(1) / T(256);
 };
 
 }  // namespace minkray

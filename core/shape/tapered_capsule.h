@@ -6,6 +6,7 @@
 
 #include "core/math/vec.h"
 #include "core/shape/field.h"
+#include "core/shape/jet.h"
 
 namespace minkray {
 
@@ -18,21 +19,33 @@ struct TaperedCapsule {
   static constexpr std::string_view doc =
       "The convex hull of two balls on the z axis; where one holds the other, that ball.";
   static constexpr auto fields() {
-    return std::tuple{
-        Field{"radii", &TaperedCapsule::radii, Unit::length, Range::not_negative,
-              "the balls' radii: at z = -half_height, at z = +half_height"},
-        Field{"half_height", &TaperedCapsule::half_height, Unit::length, Range::not_negative,
-              "half the distance of the balls' centres"}};
+    return std::tuple{Field{"radii", &TaperedCapsule::radii, Unit::length, Range::not_negative,
+                            "the balls' radii: at z = -half_height, at z = +half_height"},
+                      Field{"half_height", &TaperedCapsule::half_height, Unit::length,
+                            Range::not_negative, "half the distance of the balls' centres"}};
   }
 
   template <class W>
   Vec3<W> support(const Vec3<W>& n) const {
     const Vec3<W> u = unit(n);
-    const auto upper =
-        u.z() * W(T(2) * half_height) + (W(radii[1]) - W(radii[0])) * u.squaredNorm() > W(0);
+    const auto upper = is_upper(u);
     Vec3<W> s = u * select(upper, W(radii[1]), W(radii[0]));
     s.z() += select(upper, W(half_height), W(-half_height));
     return s;
+  }
+
+  template <class W>
+  Jet<W> jet(const Vec3<W>& n) const {
+    const auto upper = is_upper<W>(unit(n));
+    return ball_jet<W>({W(0), W(0), select(upper, W(half_height), W(-half_height))},
+                       select(upper, W(radii[1]), W(radii[0])));
+  }
+
+ private:
+  /// Whether the upper ball reaches further along the unit vector u.
+  template <class W>
+  auto is_upper(const Vec3<W>& u) const {
+    return u.z() * W(T(2) * half_height) + W(radii[1] - radii[0]) * u.squaredNorm() > W(0);
   }
 };
 

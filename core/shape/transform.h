@@ -4,6 +4,7 @@
 
 #include "core/shape/affine_map.h"
 #include "core/shape/field.h"
+#include "core/shape/jet.h"
 #include "core/shape/nested.h"
 
 namespace minkray {
@@ -27,6 +28,13 @@ struct Transform {
   template <class W>
   Vec3<W> support(const Vec3<W>& n) const {
     return map(shape->support(map.inner_direction(n)));
+  }
+
+  template <class W>
+  Jet<W> jet(const Vec3<W>& n) const {
+    const Jet<W> inner = shape->jet(map.inner_direction(n));
+    return {map(inner.c), map.affine().linear.template cast<W>() * inner.F, inner.exact,
+            map(inner.s)};
   }
 };
 

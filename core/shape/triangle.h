@@ -6,6 +6,7 @@
 
 #include "core/math/vec.h"
 #include "core/shape/field.h"
+#include "core/shape/jet.h"
 
 namespace minkray {
 
@@ -25,6 +26,11 @@ struct Triangle {
     const Vec3<W> a = widen<W>(points[0]), b = widen<W>(points[1]), c = widen<W>(points[2]);
     const Vec3<W> ab = select<W>(n.dot(b - a) > W(0), b, a);
     return select<W>(n.dot(c - ab) > W(0), c, ab);
+  }
+
+  template <class W>
+  Jet<W> jet(const Vec3<W>& n) const {
+    return point_jet<W>(support(n));
   }
 };
 

@@ -4,6 +4,7 @@
 
 #include "core/solver/first_solution.h"
 #include "core/solver/gjk_ray_cast.h"
+#include "core/solver/jet_cast.h"
 #include "core/solver/subalgorithm.h"
 
 namespace minkray {
@@ -40,16 +41,25 @@ constexpr bool is_reference(SolverKind kind) {
          kind == SolverKind::paper_signed_volumes;
 }
 
+/// By measurement, see docs/decisions/0002-automatic-solver.md.
+SolverKind best_solver(SurfaceKind surface) {
+  return surface == SurfaceKind::ellipsoids ? SolverKind::jet : SolverKind::paper;
+}
+
 template <class T, class Observer>
 CastResult<T> cast_near(const PreparedShape<T>& shape, const RayNearBall<T>& near,
                         const CastOptions<T>& options, Observer&& observer) {
-  if (is_reference(options.solver)) {
+  const SolverKind solver =
+      options.solver == SolverKind::automatic ? best_solver(shape.surface()) : options.solver;
+  if (is_reference(solver)) {
     CastResult<T> result = cast_reference(shape, near, options, observer);
     result.normal = shape.normal_to_outer(result.normal);
     return result;
   }
   CastResult<T> result = std::visit(
       [&](const auto& kind) {
+        if (solver == SolverKind::jet)
+          return jet_cast(kind, near, shape.inner_ball(), shape.inner_half_extents(), {}, observer);
         return gjk_ray_cast(kind, near, shape.inner_ball(), gjk_options(shape, options), observer);
       },
       shape.inner_shape().kind);
@@ -73,8 +83,7 @@ CastResult<T> cast_ray(const PreparedShape<T>& shape, const Ray<T>& ray,
 template <class T>
 CastResult<T> cast_exit(const PreparedShape<T>& shape, const Ray<T>& ray,
                         const CastOptions<T>& options) {
-  CastResult<T> result =
-      cast_near(shape, shape.to_inner(ray).reversed(), options, NoObserver());
+  CastResult<T> result = cast_near(shape, shape.to_inner(ray).reversed(), options, NoObserver());
   std::swap(result.offset_lo, result.offset_hi);
   if (result.status == Status::hit) result.offset_lo = -std::numeric_limits<T>::infinity();
   return result;

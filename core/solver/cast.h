@@ -27,8 +27,8 @@ struct CastOptions {
 template <class T>
 using CastObserver = std::function<void(const CastIteration<T>&)>;
 
-/// Where the ray enters the shape: the least t in [0, t_max] at which origin + t * direction lies in
-/// it. Origin in the shape: status inside, t = 0. Numbers must be finite, t_max may be infinite.
+/// Where the ray enters the shape: the least t in [0, t_max] at which origin + t * direction lies
+/// in it. Origin in the shape: status inside, t = 0. Numbers must be finite, t_max may be infinite.
 /// The observer, if any, sees every iteration, in the shape's inner frame.
 template <class T>
 CastResult<T> cast_ray(const PreparedShape<T>& shape, const Ray<T>& ray,

@@ -21,9 +21,9 @@ struct SimplexPoints {
 
 template <class T>
 struct ClosestPoint {
-  Vec3<T> v = Vec3<T>::Zero();        ///< the simplex' point closest to the origin
-  std::array<T, 4> weights = {};      ///< barycentric: v = sum of weights[i] * y[i]
-  unsigned kept = 0;                  ///< bit i: vertex i is needed to carry v
+  Vec3<T> v = Vec3<T>::Zero();    ///< the simplex' point closest to the origin
+  std::array<T, 4> weights = {};  ///< barycentric: v = sum of weights[i] * y[i]
+  unsigned kept = 0;              ///< bit i: vertex i is needed to carry v
 };
 
 namespace detail {
@@ -87,8 +87,8 @@ const Vec3<T>& nearest_of(const Vec3<T>& a, const Vec3<T>& b, const Vec3<T>& c,
   return to_a <= to_b && to_a <= to_c ? a : (to_b <= to_c ? b : c);
 }
 
-/// The weights by Gram-Schmidt along the longest edge first: the triangles at the end of a cast on a
-/// cone or a cylinder are slivers, whose determinants have lost the digits that this order keeps.
+/// The weights by Gram-Schmidt along the longest edge first: the triangles at the end of a cast on
+/// a cone or a cylinder are slivers, whose determinants have lost the digits that this order keeps.
 template <class T>
 ClosestPoint<T> closest_on_face(const SimplexPoints<T>& simplex, int i, int j, int k) {
   // P and Q end the longest edge, P on the side of the shortest; S is the third vertex.
@@ -180,10 +180,14 @@ ClosestPoint<T> closest_on_tetrahedron(const SimplexPoints<T>& simplex) {
 template <class T>
 ClosestPoint<T> closest_point(const SimplexPoints<T>& simplex) {
   switch (simplex.size) {
-    case 1: return detail::closest_on_vertex(simplex, 0);
-    case 2: return detail::closest_on_edge(simplex, 0, 1);
-    case 3: return detail::closest_on_face(simplex, 0, 1, 2);
-    default: return detail::closest_on_tetrahedron(simplex);
+    case 1:
+      return detail::closest_on_vertex(simplex, 0);
+    case 2:
+      return detail::closest_on_edge(simplex, 0, 1);
+    case 3:
+      return detail::closest_on_face(simplex, 0, 1, 2);
+    default:
+      return detail::closest_on_tetrahedron(simplex);
   }
 }
 

@@ -8,6 +8,7 @@
 #include "core/math/bounds.h"
 #include "core/shape/shape.h"
 #include "core/shape/shape_bounds.h"
+#include "core/shape/surface.h"
 #include "core/solver/ray_near_ball.h"
 
 namespace minkray {
@@ -26,15 +27,23 @@ class PreparedShape {
       Shape<T> inner = *transform->shape;
       shape_ = std::move(inner);
     }
-    ball_ = ball_around(bounds_of<T>(shape_));
+    const Bounds<T> inner_bounds = bounds_of<T>(shape_);
+    ball_ = ball_around(inner_bounds);
+    half_extents_ = inner_bounds.half_extents();
     centre_ = to_outer(ball_.centre);
+    surface_ = surface_of<T>(shape_);
     is_rigid_identity_ = to_outer.linear == Mat3<T>::Identity();
     to_inner_ = to_outer.linear.inverse();
   }
 
   const Shape<T>& inner_shape() const { return shape_; }
   const Ball<T>& inner_ball() const { return ball_; }
+  /// Of the inner shape's axis-aligned bounds.
+  const Vec3<T>& inner_half_extents() const { return half_extents_; }
   const Bounds<T>& outer_bounds() const { return bounds_; }
+
+  /// What the inner shape's surface is made of.
+  SurfaceKind surface() const { return surface_; }
 
   /// The ray in the inner frame, relative to the ball's centre.
   RayNearBall<T> to_inner(const Ray<T>& ray) const {
@@ -55,9 +64,11 @@ class PreparedShape {
  private:
   Shape<T> shape_;
   Ball<T> ball_;
+  Vec3<T> half_extents_;
   Bounds<T> bounds_;
   Vec3<T> centre_;
   Mat3<T> to_inner_;
+  SurfaceKind surface_;
   bool is_rigid_identity_;
 };
 

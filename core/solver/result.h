@@ -17,10 +17,14 @@ enum class Status : unsigned char {
 
 constexpr std::string_view name_of(Status status) {
   switch (status) {
-    case Status::hit: return "hit";
-    case Status::miss: return "miss";
-    case Status::inside: return "inside";
-    case Status::exhausted: return "exhausted";
+    case Status::hit:
+      return "hit";
+    case Status::miss:
+      return "miss";
+    case Status::inside:
+      return "inside";
+    case Status::exhausted:
+      return "exhausted";
   }
   return "unknown";
 }

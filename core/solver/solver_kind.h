@@ -9,6 +9,7 @@ namespace minkray {
 
 enum class SolverKind : unsigned char {
   automatic,
+  jet,
   paper,
   first_solution,
   paper_johnson,
@@ -25,6 +26,8 @@ inline constexpr std::array solver_descriptions = {
     SolverDescription{SolverKind::automatic, "auto", "the best solver for each shape"},
     SolverDescription{SolverKind::paper, "paper",
                       "the GJK ray cast, Algorithm 3 of van den Bergen (2004)"},
+    SolverDescription{SolverKind::jet, "jet",
+                      "casts on the hull of a few osculating ellipsoids, to rounding accuracy"},
     SolverDescription{SolverKind::first_solution, "first-solution",
                       "Algorithm 1 of the same paper, a slow reference"},
     SolverDescription{SolverKind::paper_johnson, "paper-johnson",

@@ -16,7 +16,7 @@ inline constexpr T epsilon = std::numeric_limits<T>::epsilon();
 /// proportion to max|x-p|^2, as Johnson's determinants have them. Our closest point is rounded
 /// to a few epsilon of |x - p| itself, so its square may be asked for.
 template <class T>
-inline constexpr T gjk_squared = T(16) * epsilon<T> * T(16) * epsilon<T>;
+inline constexpr T gjk_squared = T(16) * epsilon<T>* T(16) * epsilon<T>;
 
 /// Support points are themselves rounded to the shape's size R, however close to x they lie: the
 /// loop also ends when |v| <= this * R.
@@ -32,6 +32,15 @@ inline constexpr T gjk_stalled = T(256) * epsilon<T>;
 /// The GJK ray cast converges linearly: on smooth shapes it was seen to need 60 support points for
 /// the tolerance above, and up to twice that for extents of 1:1000.
 inline constexpr int gjk_max_iterations = 1000;
+
+/// The jet cast ends when the model's hit lies no further than this beyond the best lower bound, as
+/// a distance between planes in units of the bounding radius: what rounding leaves of a support
+/// plane's offset (a few roundings each of the support point, its move to the ray, and the plane).
+template <class T>
+inline constexpr T jet_gap = T(4) * epsilon<T>;
+
+/// Support calls of the jet cast before the GJK ray cast takes over.
+inline constexpr int jet_max_iterations = 48;
 
 /// How far beyond its radius a bounding ball is still taken for hit, relative to the radius.
 template <class T>

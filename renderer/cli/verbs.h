@@ -19,11 +19,15 @@ namespace minkray {
 using AddVerb = void (*)(CLI::App& app, ExitCode& exit_code);
 
 void add_cast(CLI::App& app, ExitCode& exit_code);
+void add_heatmap(CLI::App& app, ExitCode& exit_code);
 void add_info(CLI::App& app, ExitCode& exit_code);
+void add_render(CLI::App& app, ExitCode& exit_code);
 
 /// In the order in which --help shows them.
-inline constexpr std::array<AddVerb, 2> verbs = {
+inline constexpr std::array<AddVerb, 4> verbs = {
+    add_render,
     add_cast,
+    add_heatmap,
     add_info,
 };
 

@@ -8,16 +8,15 @@
 namespace minkray {
 namespace {
 
-/// A file next to this one in a folder of meshes that are fetched, not committed: how to get them.
+/// Meshes that are not part of the sources are fetched by a script of this name beside the scene.
 constexpr const char* fetch_script = "fetch-meshes";
 
-/// " (fetch it with ...)" if the file is missing from a folder that has such a script beside it.
-std::string advice(const std::filesystem::path& file) {
+/// "; fetch it with: scenes/fetch-meshes" if the file is missing and there is such a script.
+std::string advice(const std::filesystem::path& folder, const std::filesystem::path& file) {
   std::error_code error;
-  if (std::filesystem::exists(file, error)) return "";
-  const std::filesystem::path script = file.parent_path().parent_path() / fetch_script;
-  if (!std::filesystem::exists(script, error)) return "";
-  return "; fetch it with: " + script.lexically_normal().string();
+  const std::filesystem::path script = folder / fetch_script;
+  if (std::filesystem::exists(file, error) || !std::filesystem::exists(script, error)) return "";
+  return "; fetch it with: " + script.string();
 }
 
 }  // namespace
@@ -32,7 +31,7 @@ std::optional<PointCloud<double>> MeshFiles::read(const std::string& name, const
     read_.emplace(name, points);
     return points;
   } catch (const std::exception& error) {
-    mistakes.add(path, printable(file.string(), 200) + ": " + error.what() + advice(file));
+    mistakes.add(path, printable(file.string(), 200) + ": " + error.what() + advice(folder_, file));
     return std::nullopt;
   }
 }

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// The convex hull of points, and the polytope that half-spaces cut out (its dual). Solid hulls come
+// from Qhull: Barber, Dobkin and Huhdanpaa, "The Quickhull Algorithm for Convex Hulls" (1996),
+// which convex_hull.cpp alone knows; flat ones from Andrew's monotone chain (1979).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/math/vec.h"
+
+namespace minkray {
+
+/// Polygons as lists of indices, one after the other.
+struct Polygons {
+  std::vector<std::uint32_t> begin = {0};  ///< where each polygon's corners begin, and the end
+  std::vector<std::uint32_t> corners;
+
+  std::size_t size() const { return begin.size() - 1; }
+  std::span<const std::uint32_t> operator[](std::size_t i) const {
+    return std::span(corners).subspan(begin[i], begin[i + 1] - begin[i]);
+  }
+  template <class Corners>
+  void add(const Corners& polygon) {
+    corners.insert(corners.end(), polygon.begin(), polygon.end());
+    begin.push_back(static_cast<std::uint32_t>(corners.size()));
+  }
+};
+
+/// A frame in which a set of points is about as wide as high as deep: its axes are orthogonal, the
+/// first along the longest extent. Hulls are affine invariant, so they may be found in it.
+struct RoundFrame {
+  Vec3<double> origin = Vec3<double>::Zero();    ///< one of the points
+  Mat3<double> axes = Mat3<double>::Identity();  ///< columns of unit length
+  Vec3<double> extents = Vec3<double>::Ones();   ///< along the axes; 1 beyond the rank
+  int rank = 0;  ///< 3 solid, 2 in a plane, 1 on a line, 0 a single point
+
+  /// The point in the frame: the set spans about [-1, 1] along each axis.
+  Vec3<double> to_frame(const Vec3<double>& point) const {
+    return (axes.transpose() * (point - origin)).cwiseQuotient(extents);
+  }
+  Vec3<double> from_frame(const Vec3<double>& q) const {
+    return origin + axes * q.cwiseProduct(extents);
+  }
+};
+
+/// The frame of at least one finite point. Extents up to `flatness` times the largest, or within
+/// the rounding of the coordinates, count as none.
+RoundFrame round_frame(std::span<const Vec3<double>> points, double flatness = 0);
+
+struct ConvexHull {
+  RoundFrame frame;
+  /// The extreme points, as ascending indices into the input. Of equal points, one is kept.
+  std::vector<std::uint32_t> vertices;
+  /// Rank 3: the facets, counter-clockwise from outside, neighbours in one plane merged. Rank 2:
+  /// the polygon, once. Corners are positions in `vertices`.
+  Polygons facets;
+
+  int rank() const { return frame.rank; }
+};
+
+/// The hull of at least one finite point. A set thinner than the rounding of its coordinates counts
+/// as flat; other than that a point is dropped only if it lies in the hull of the others, or within
+/// rounding of it. Throws std::runtime_error if Qhull fails.
+ConvexHull convex_hull(std::span<const Vec3<double>> points);
+
+/// The points x with normal.x <= offset.
+struct HalfSpace {
+  Vec3<double> normal;
+  double offset;
+};
+
+/// The vertices of a bounded intersection of half-spaces that all hold `interior` well inside;
+/// those that touch it nowhere are legal. Throws std::runtime_error if Qhull fails or it is not
+/// bounded.
+std::vector<Vec3<double>> intersection_vertices(std::span<const HalfSpace> half_spaces,
+                                                const Vec3<double>& interior);
+
+}  // namespace minkray

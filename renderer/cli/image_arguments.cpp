@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/cli/image_arguments.h"
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <iostream>
+#include <optional>
+
+#include "renderer/errors.h"
+#include "renderer/image_file.h"
+#include "renderer/interrupt.h"
+#include "renderer/output_file.h"
+
+namespace minkray {
+namespace {
+
+/// Encoders count bytes in an int.
+constexpr int max_pixels = 1 << 27;
+constexpr int max_side = 1 << 16;
+
+/// Whole numbers between separators, nothing else around them.
+std::optional<std::vector<int>> integers(const std::string& text, char separator) {
+  std::vector<int> numbers;
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  for (;;) {
+    int number = 0;
+    const auto [next, error] = std::from_chars(at, end, number);
+    if (error != std::errc()) return std::nullopt;
+    numbers.push_back(number);
+    if (next == end) return numbers;
+    if (*next != separator) return std::nullopt;
+    at = next + 1;
+  }
+}
+
+Resolution parse_resolution(const std::string& text) {
+  const auto numbers = integers(text, 'x');
+  const auto wrong = [&](const std::string& why) -> WrongUsage {
+    return WrongUsage("--resolution: " + why + " (got " + text + ")");
+  };
+  if (!numbers || numbers->size() != 2)
+    throw wrong("must be WIDTHxHEIGHT in pixels, such as 960x540");
+  const Resolution resolution{(*numbers)[0], (*numbers)[1]};
+  if (resolution.width < 1 || resolution.height < 1)
+    throw wrong("width and height must be at least 1");
+  if (resolution.width > max_side || resolution.height > max_side ||
+      std::int64_t{resolution.width} * resolution.height > max_pixels)
+    throw wrong("at most " + std::to_string(max_side) + " pixels along a side and " +
+                std::to_string(max_pixels) + " in all");
+  return resolution;
+}
+
+PixelRect parse_crop(const std::string& text, const Resolution& resolution) {
+  const auto numbers = integers(text, ',');
+  const auto wrong = [&](const std::string& why) -> WrongUsage {
+    return WrongUsage("--crop: " + why + " (got " + text + ")");
+  };
+  if (!numbers || numbers->size() != 4) throw wrong("must be x0,y0,x1,y1 in pixels");
+  const PixelRect crop{(*numbers)[0], (*numbers)[1], (*numbers)[2], (*numbers)[3]};
+  if (crop.empty()) throw wrong("must have x0 < x1 and y0 < y1");
+  if (crop.x0 < 0 || crop.y0 < 0 || crop.x1 > resolution.width || crop.y1 > resolution.height)
+    throw wrong("must lie in the image of " + std::to_string(resolution.width) + "x" +
+                std::to_string(resolution.height));
+  return crop;
+}
+
+}  // namespace
+
+void ImageArguments::add_to(CLI::App& verb) {
+  verb.add_option("scene", scene, "A scene file (JSON)")->required();
+  verb.add_option("-o,--output", outputs,
+                  "Where to write the picture (" + image_extensions() + "); may be given again")
+      ->required()
+      ->allow_extra_args(false);
+  verb.add_option("-r,--resolution", resolution, "WxH in pixels, instead of the scene's");
+  verb.add_option("-s,--spp", samples, "Samples a pixel")
+      ->check(CLI::Range(1, 1 << 24))
+      ->capture_default_str();
+  verb.add_option("-t,--threads", threads, "How many threads; 0 for one a core")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  verb.add_option("--crop", crop, "x0,y0,x1,y1 in pixels: just that part of the picture");
+  verb.add_option("--seed", seed, "Of the random numbers")->capture_default_str();
+  auto* quiet_flag = verb.add_flag("-q,--quiet", quiet, "No progress, no report");
+  verb.add_flag("-v,--verbose", verbose, "Tell what is done and how long it takes")
+      ->excludes(quiet_flag);
+}
+
+void ImageArguments::check_outputs() const {
+  for (const std::string& output : outputs)
+    if (!is_image_path(output))
+      throw WrongUsage("--output: must end in one of " + image_extensions() + " (got " + output +
+                       ")");
+  for (const std::string& output : outputs) check_writable(output);
+}
+
+RenderOptions ImageArguments::render_options(const Scene& loaded) const {
+  RenderOptions options;
+  options.resolution = resolution.empty() ? loaded.camera.resolution : parse_resolution(resolution);
+  if (!crop.empty()) options.crop = parse_crop(crop, options.resolution);
+  options.samples = samples;
+  options.seed = seed;
+  return options;
+}
+
+CastOptions<Real> cast_options(const std::string& solver) {
+  CastOptions<Real> options;
+  std::string names;
+  for (const SolverDescription& description : solver_descriptions) {
+    options.solver = description.kind;
+    if (description.name == solver) return options;
+    names += (names.empty() ? "" : ", ") + std::string(description.name);
+  }
+  throw WrongUsage("--solver: must be one of " + names + " (got " + solver + ")");
+}
+
+void write_images(const std::vector<std::string>& outputs, const Image& picture,
+                  const Image& floats) {
+  for (const std::string& output : outputs) {
+    const auto bytes = encode_image(keeps_floats(output) ? floats : picture, output);
+    InterruptGuard::end_if_interrupted();
+    write_file(output, bytes);
+    InterruptGuard::end_if_interrupted();
+  }
+}
+
+void warn_of_exhausted(std::uint64_t exhausted, std::uint64_t casts) {
+  if (exhausted == 0) return;
+  std::cerr << "warning: the solver gave up in " << exhausted << " of " << casts
+            << " casts; those shapes were passed through there (minkray heatmap --channel status "
+               "shows where)\n";
+}
+
+}  // namespace minkray

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// What the verbs that make pictures take alike: a scene, outputs, size, samples, threads, solver.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "renderer/render.h"
+
+namespace CLI {
+class App;
+}
+
+namespace minkray {
+
+struct ImageArguments {
+  std::string scene;
+  std::vector<std::string> outputs;
+  std::string resolution;  ///< empty: the scene's
+  std::string crop;        ///< empty: all
+  std::string solver = "auto";
+  std::uint64_t seed = 0;
+  int samples = 1;
+  int threads = 0;
+  bool quiet = false;
+  bool verbose = false;
+
+  /// Adds the options; defaults shown are the members' values.
+  void add_to(CLI::App& verb);
+
+  /// Throws WrongUsage for an output whose format is unknown, CannotWrite for one that could not be
+  /// written later.
+  void check_outputs() const;
+
+  /// The options for a scene. Throws WrongUsage where a value is not usable.
+  RenderOptions render_options(const Scene& scene) const;
+};
+
+/// Options for the casts of a solver by name. Throws WrongUsage with the names there are.
+CastOptions<Real> cast_options(const std::string& solver);
+
+/// Encodes and writes to each of the paths: `floats` to the formats that keep them, `picture` to
+/// the others. Ends the process early if it was interrupted.
+void write_images(const std::vector<std::string>& outputs, const Image& picture,
+                  const Image& floats);
+
+/// A warning on stderr if any cast gave up.
+void warn_of_exhausted(std::uint64_t exhausted, std::uint64_t casts);
+
+}  // namespace minkray

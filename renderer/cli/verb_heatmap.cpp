@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// minkray heatmap: a picture of what each pixel of a scene costs.
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+
+#include "core/parallel/parallel.h"
+#include "renderer/cli/image_arguments.h"
+#include "renderer/cli/progress_line.h"
+#include "renderer/cli/verbs.h"
+#include "renderer/errors.h"
+#include "renderer/heatmap.h"
+#include "renderer/interrupt.h"
+#include "renderer/scene/scene_json.h"
+
+namespace minkray {
+namespace {
+
+struct Options {
+  ImageArguments image;
+  std::string channel = "iterations";
+  std::vector<std::string> side_by_side;
+};
+
+HeatChannel channel_of(const std::string& name) {
+  std::string names;
+  for (const HeatChannelDescription& description : heat_channels) {
+    if (description.name == name) return description.channel;
+    names += (names.empty() ? "" : ", ") + std::string(description.name);
+  }
+  throw WrongUsage("--channel: must be one of " + names + " (got " + name + ")");
+}
+
+void run(const Options& options) {
+  const HeatChannel channel = channel_of(options.channel);
+  std::vector<std::string> solvers = options.side_by_side;
+  if (solvers.empty()) solvers.push_back(options.image.solver);
+  for (const std::string& solver : solvers) cast_options(solver);
+  options.image.check_outputs();
+  const Scene scene = load_scene(options.image.scene);
+  const RenderOptions render_options = options.image.render_options(scene);
+
+  std::vector<HeatField> fields;
+  std::vector<HeatPanel> panels;
+  std::uint64_t exhausted = 0, casts = 0;
+  {
+    const InterruptGuard guard;
+    fields.reserve(solvers.size());
+    for (const std::string& solver : solvers) {
+      const RenderWorld world = make_world(scene, cast_options(solver));
+      ProgressLine line(!options.image.quiet);
+      fields.push_back(measure_heat(scene, world, channel, render_options,
+                                    [&](double fraction, std::uint64_t rays) {
+                                      line.show(fraction, rays);
+                                      return !InterruptGuard::interrupted();
+                                    }));
+      InterruptGuard::end_if_interrupted();
+      exhausted += fields.back().work.exhausted;
+      casts += fields.back().work.casts;
+      panels.push_back({solvers.size() > 1 ? "solver " + solver : "", &fields.back()});
+    }
+    write_images(options.image.outputs, heat_picture(panels, channel), heat_numbers(panels));
+  }
+
+  if (!options.image.quiet)
+    for (std::size_t i = 0; i < solvers.size(); ++i)
+      std::cout << options.channel << " (solver " << solvers[i] << ")\n"
+                << heat_report(fields[i], channel);
+  warn_of_exhausted(exhausted, casts);
+}
+
+}  // namespace
+
+void add_heatmap(CLI::App& app, ExitCode&) {
+  CLI::App* verb = app.add_subcommand("heatmap", "Show what each pixel of a scene costs");
+  const auto options = std::make_shared<Options>();
+  options->image.add_to(*verb);
+  std::string channels;
+  for (const HeatChannelDescription& description : heat_channels)
+    channels += "\n" + std::string(description.name) + ": " + std::string(description.doc);
+  verb->add_option("--channel", options->channel, "What to show:" + channels)
+      ->capture_default_str();
+  auto* solver = verb->add_option("--solver", options->image.solver, "Of the ray casts")
+                     ->capture_default_str();
+  verb->add_option("--side-by-side", options->side_by_side,
+                   "Solvers to show beside each other on one scale, such as paper,auto")
+      ->delimiter(',')
+      ->excludes(solver);
+  verb->callback([options] { with_threads(options->image.threads, [&] { run(*options); }); });
+}
+
+}  // namespace minkray

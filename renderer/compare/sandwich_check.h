@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// The Embree sandwich: a shape's casts against Embree's casts at a mesh within and a mesh around
+// the shape. Nothing in it knows any kind of shape.
+//
+// For every ray: a hit of the inner mesh is a hit, a miss of the outer mesh is a miss, and
+// t_outer <= t <= t_inner up to the rounding of Embree's t, which EmbreeMesh::cast bounds. Every
+// other rounding is smaller than the margin by which the meshes are kept apart from the shape.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "core/shape/sandwich.h"
+#include "core/solver/cast.h"
+#include "renderer/compare/embree_mesh.h"
+#include "renderer/compare/gap_histogram.h"
+
+namespace minkray {
+
+struct CompareOptions {
+  int rays = 100000;
+  std::uint64_t seed = 1;
+  SandwichOptions sandwich;
+  CastOptions<double> cast;
+};
+
+enum class Violation : unsigned char {
+  false_hit,   ///< the outer mesh is missed, the shape was hit
+  false_miss,  ///< the inner mesh is hit, the shape was missed
+  early,       ///< t < t_outer
+  late,        ///< t > t_inner
+  gave_up,     ///< the solver answered exhausted
+};
+inline constexpr int violation_kinds = 5;
+std::string_view name_of(Violation kind);
+
+/// A ray whose answer is wrong, for reproduction: in the frame of the shape.
+struct Violator {
+  Violation kind;
+  Ray<double> ray;
+  Status status;
+  double t;
+  double t_outer, t_inner;  ///< infinite where the mesh was missed
+  double bounds;            ///< how far beyond, in units of Embree's bound; early and late only
+};
+
+struct CompareReport {
+  int rank = 3;
+  std::size_t inner_triangles = 0, outer_triangles = 0;
+  int rays = 0;
+  int hits = 0;
+  int outer_hits = 0;
+  std::int64_t supports = 0;
+  std::array<int, violation_kinds> violations = {};
+  /// Disagreements in which every triangle in double agrees with the solver: Embree's edge
+  /// rounding.
+  int embree_at_fault = 0;
+  /// The furthest beyond t_outer or t_inner, in units of Embree's bound; at most 1 if none
+  /// violates.
+  double worst_in_bounds = 0;
+  std::optional<Violator> worst;
+  GapHistogram to_outer;  ///< t - t_outer, as a length in the sandwich's frame
+  GapHistogram to_inner;  ///< t_inner - t
+
+  int total_violations() const;
+  double hit_rate() const { return rays > 0 ? double(hits) / rays : 0; }
+  double outer_hit_rate() const { return rays > 0 ? double(outer_hits) / rays : 0; }
+};
+
+/// Rays start outside of the shape, in all directions, aimed so that about half of them hit (for
+/// segments and points: hit the outer mesh). Throws std::runtime_error if Qhull or Embree fails.
+CompareReport compare_with_embree(const Shape<double>& shape, const CompareOptions& options = {});
+
+}  // namespace minkray

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// The pixel reconstruction filter, used by importance sampling (Ernst, Stamminger and Greiner,
+// "Filter Importance Sampling", 2006): a pixel's samples are spread as the filter weighs and then
+// count alike, so that pixels never share samples and need no order among each other.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace minkray {
+
+/// The separable Blackman-Harris window: smooth, positive, hardly any ringing or blur.
+class PixelFilter {
+ public:
+  /// Half the width of the support, in pixels: its standard deviation is then 0.40 pixels, which is
+  /// that of the usual Gaussian filters.
+  static constexpr double radius = 1.5;
+
+  PixelFilter();
+
+  /// The weight at an offset from the pixel's centre; its integral is 1.
+  static double weight(double offset);
+
+  /// The offset below which a fraction u in [0, 1) of the weight lies.
+  double offset(double u) const;
+
+ private:
+  static constexpr std::size_t steps_ = 1024;
+  std::array<double, steps_ + 1> cumulative_;
+};
+
+}  // namespace minkray

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// The light that arrives along a ray: direct light with shadows, mirrored light, and light
+// scattered by surfaces that the environment and other surfaces shine on.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "renderer/real.h"
+#include "renderer/reflection.h"
+#include "renderer/sampler.h"
+#include "renderer/scene/scene.h"
+
+namespace minkray {
+
+struct RayCounts {
+  std::uint64_t camera = 0;
+  std::uint64_t shadow = 0;     ///< towards directional and point lights
+  std::uint64_t ambient = 0;    ///< the last of a path, towards the environment: any hit will do
+  std::uint64_t scattered = 0;  ///< from a diffuse surface to the next one
+  std::uint64_t mirrored = 0;
+  std::uint64_t from_inside = 0;  ///< camera rays that began in a shape, and see black
+  QueryCounts work;
+
+  std::uint64_t total() const { return camera + shadow + ambient + scattered + mirrored; }
+  RayCounts& operator+=(const RayCounts& other);
+};
+
+struct IntegratorOptions {
+  /// How often light may be scattered between surfaces before the environment's light is the last
+  /// word; 0 is ambient occlusion.
+  int bounces = 1;
+  /// How many mirrors in a row are followed; behind the last, the environment is seen.
+  int mirrors = 4;
+};
+
+/// Refers to the scene's world; keeps everything else itself. Any number of threads may ask.
+class Integrator {
+ public:
+  Integrator(const Scene& scene, const RenderWorld& world, const IntegratorOptions& options = {});
+
+  /// Radiance along a camera ray of unit direction. Objects of the scene and instances of the world
+  /// share their indices.
+  Colour radiance(const Ray<Real>& ray, Sampler& sampler, RayCounts& counts) const;
+
+ private:
+  struct Path;
+  struct Spot;
+  Colour along(const Ray<Real>& ray, const Path& path, Sampler& sampler, RayCounts& counts) const;
+  Colour direct(const Spot& spot, const Path& path, RayCounts& counts) const;
+  Colour scattered(const Spot& spot, const Path& path, Sampler& sampler, RayCounts& counts) const;
+  Colour mirrored(const Spot& spot, const Path& path, Sampler& sampler, RayCounts& counts) const;
+  Colour environment(const Vec3<double>& direction) const;
+
+  const RenderWorld& world_;
+  IntegratorOptions options_;
+  std::vector<Surface> surfaces_;
+  std::vector<std::uint32_t> surface_of_instance_;
+  std::vector<DirectionalLight> directional_;
+  std::vector<PointLight> points_;
+  std::vector<EnvironmentLight> environments_;
+  Background background_;
+};
+
+}  // namespace minkray

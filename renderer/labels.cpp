@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/labels.h"
+
+#include <algorithm>
+
+#include "renderer/camera.h"
+#include "renderer/text.h"
+
+namespace minkray {
+namespace {
+
+/// The picture's rectangle around a box of the world, in pixels.
+std::optional<Bounds<double>> projected(const Camera& camera, const Bounds<double>& box) {
+  Bounds<double> seen;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3<double> point((corner & 1 ? box.upper : box.lower).x(),
+                             (corner & 2 ? box.upper : box.lower).y(),
+                             (corner & 4 ? box.upper : box.lower).z());
+    const auto at = camera.project(point);
+    if (!at) return std::nullopt;
+    seen.extend(Vec3<double>(at->x(), at->y(), 0));
+  }
+  return seen;
+}
+
+}  // namespace
+
+void draw_labels(Image& image, const Scene& scene, const RenderWorld& world,
+                 const RenderOptions& options) {
+  const Camera camera(scene.camera, options.resolution);
+  const PixelRect part = options.part();
+  const double scale = std::clamp(options.resolution.height / 540.0, 1.0, 6.0);
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    const std::string& name = scene.objects[i].name;
+    const Bounds<Real>& bounds = world.instances()[i].outer_bounds();
+    const auto seen = projected(camera, {bounds.lower.cast<double>(), bounds.upper.cast<double>()});
+    if (name.empty() || !seen) continue;
+    const TextSize size = text_size(name, scale);
+    const double x = (seen->lower.x() + seen->upper.x() - size.width) / 2 - part.x0;
+    const double y = seen->upper.y() + 2 * scale - part.y0;
+    fill_rectangle(image, x - 2 * scale, y - 2 * scale, x + size.width + 2 * scale, y + size.height,
+                   Vec3<float>::Zero(), 0.6f);
+    draw_text(image, x, y, name, Vec3<float>::Ones(), scale);
+  }
+}
+
+}  // namespace minkray

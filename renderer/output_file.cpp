@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/output_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <utility>
+
+#include "renderer/errors.h"
+
+namespace minkray {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(const std::string& path, int error) {
+  throw CannotWrite("cannot write " + path + ": " + std::strerror(error));
+}
+
+/// A file descriptor that is closed, and a file that is removed unless it was renamed.
+class TemporaryFile {
+ public:
+  TemporaryFile(const std::string& path, const fs::path& target) : path_(path) {
+    // A name that another process will not choose; our own earlier try may have left one.
+    std::string name(".");
+    name.append(target.filename().string()).append(".").append(std::to_string(::getpid()));
+    temporary_ = target.parent_path() / name.append(".part");
+    ::unlink(temporary_.c_str());
+    descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (descriptor_ < 0) fail(path_, errno);
+  }
+  ~TemporaryFile() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+    if (!temporary_.empty()) ::unlink(temporary_.c_str());
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+  int descriptor() const { return descriptor_; }
+
+  void rename_to(const fs::path& target) {
+    if (::fsync(descriptor_) != 0) fail(path_, errno);
+    if (::close(std::exchange(descriptor_, -1)) != 0) fail(path_, errno);
+    if (::rename(temporary_.c_str(), target.c_str()) != 0) fail(path_, errno);
+    temporary_.clear();
+    // The folder's entry as well; not all file systems can, and the data is safe by now.
+    const fs::path folder = target.parent_path().empty() ? "." : target.parent_path();
+    if (const int handle = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+        handle >= 0) {
+      ::fsync(handle);
+      ::close(handle);
+    }
+  }
+
+ private:
+  std::string path_;
+  fs::path temporary_;
+  int descriptor_ = -1;
+};
+
+void write_all(int descriptor, std::span<const unsigned char> bytes, const std::string& path) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
+    if (written < 0 && errno != EINTR) fail(path, errno);
+    if (written > 0) bytes = bytes.subspan(static_cast<std::size_t>(written));
+  }
+}
+
+/// What a path leads to.
+struct Target {
+  fs::path path;  ///< behind all symbolic links
+  bool exists = false;
+  bool is_regular = true;
+  mode_t mode = 0;
+};
+
+Target find_target(const std::string& path) {
+  if (path.empty() || path.back() == '/')
+    throw CannotWrite("cannot write " + path + ": no file name");
+  std::error_code error;
+  Target target;
+  target.path = fs::weakly_canonical(path, error);
+  if (error) fail(path, error.value());
+  struct stat status = {};
+  if (::stat(target.path.c_str(), &status) != 0) return target;
+  if (S_ISDIR(status.st_mode)) fail(path, EISDIR);
+  if (::access(target.path.c_str(), W_OK) != 0) fail(path, errno);
+  target.exists = true;
+  target.is_regular = S_ISREG(status.st_mode);
+  target.mode = status.st_mode & 07777;
+  return target;
+}
+
+}  // namespace
+
+void check_writable(const std::string& path) {
+  const Target target = find_target(path);
+  if (target.is_regular) TemporaryFile(path, target.path);
+}
+
+void write_file(const std::string& path, std::span<const unsigned char> bytes) {
+  const Target target = find_target(path);
+  if (!target.is_regular) {
+    const int descriptor = ::open(target.path.c_str(), O_WRONLY | O_CLOEXEC);
+    if (descriptor < 0) fail(path, errno);
+    try {
+      write_all(descriptor, bytes, path);
+    } catch (...) {
+      ::close(descriptor);
+      throw;
+    }
+    if (::close(descriptor) != 0) fail(path, errno);
+    return;
+  }
+  TemporaryFile file(path, target.path);
+  if (target.exists && ::fchmod(file.descriptor(), target.mode) != 0) fail(path, errno);
+  write_all(file.descriptor(), bytes, path);
+  file.rename_to(target.path);
+}
+
+}  // namespace minkray

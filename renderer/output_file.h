@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// Files that are there in full or not at all: written beside their target under another name, put
+// on the disk, and only then renamed.
+#pragma once
+
+#include <span>
+#include <string>
+
+namespace minkray {
+
+/// Throws CannotWrite where `write_file` would fail for want of a folder, a right or a file name,
+/// so that nobody waits for an image that cannot be kept. Leaves nothing behind.
+void check_writable(const std::string& path);
+
+/// Writes the bytes; an existing file is replaced in one step and keeps its rights. Devices and
+/// pipes are written to as they are. Throws CannotWrite; the existing file, if any, is then as it
+/// was and nothing is left beside it.
+void write_file(const std::string& path, std::span<const unsigned char> bytes);
+
+}  // namespace minkray

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// The shapes that tests run over: every kind, with common, extreme and flat parameters; and random
+// nestings of them.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/shape/shape.h"
+
+namespace minkray::testing {
+
+struct SampleShape {
+  std::string name;  ///< the kind's name, then what is special
+  Shape<double> shape;
+};
+
+/// At least one of every kind.
+std::vector<SampleShape> sample_shapes();
+
+/// A shape of up to `depth` operators inside each other, of sizes near 1, solid or flat.
+Shape<double> random_nesting(std::uint64_t seed, int depth = 3);
+
+/// Such as "rounded(minkowski_sum(box, hull))".
+std::string name_of_nesting(const Shape<double>& shape);
+
+}  // namespace minkray::testing
