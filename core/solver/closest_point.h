@@ -112,8 +112,9 @@ ClosestPoint<T> closest_on_face(const SimplexPoints<T>& simplex, int i, int j, i
     const T weight_P = T(1) - weight_Q - weight_S;
     // Of vertices in a line, what is across is rounding's: the edges will do.
     const Vec3<T> zero = Vec3<T>::Zero(), normal = face_normal(y(P), y(Q), y(S));
-    const bool is_flat = !(normal.squaredNorm() > tolerance::collinear<T> * tolerance::collinear<T> *
-                                                      e_squared * f.squaredNorm());
+    const bool is_flat =
+        !(normal.squaredNorm() >
+          tolerance::collinear<T> * tolerance::collinear<T> * e_squared * f.squaredNorm());
     if (!is_flat && weight_P > T(0) && weight_Q > T(0) && weight_S > T(0)) {
       ClosestPoint<T> result;
       // Along the plane's normal, so that v keeps its direction however short it is.
@@ -142,9 +143,18 @@ bool beyond_face(const SimplexPoints<T>& simplex, int i, int j, int k, int l) {
   };
   const Vec3<T> normal = face_normal(y(i), y(j), y(k));
   const Vec3<T> zero = Vec3<T>::Zero();
-  const T height_of_vertex = normal.dot(y(l) - nearest_of(y(i), y(j), y(k), y(l)));
+  const Vec3<T> to_vertex = y(l) - nearest_of(y(i), y(j), y(k), y(l));
+  const T height_of_vertex = normal.dot(to_vertex);
+  // Four vertices in a plane (the support of an octahedron's face is its middle, say) enclose
+  // nothing, though rounding gives them a volume.
+  const T rounding = tolerance::flat_simplex<T> * normal.norm() * to_vertex.norm();
+  if (!(std::abs(height_of_vertex) > rounding)) return true;
   const T height_of_origin = -normal.dot(nearest_of(y(i), y(j), y(k), zero));
-  return !(height_of_vertex * height_of_origin > T(0));
+  // A height within the rounding of its vertex has no sign: the four points are in one plane.
+  const T size = std::max({y(i).cwiseAbs().maxCoeff(), y(j).cwiseAbs().maxCoeff(),
+                           y(k).cwiseAbs().maxCoeff(), y(l).cwiseAbs().maxCoeff()});
+  const T rounding = T(8) * std::numeric_limits<T>::epsilon() * size * normal.norm();
+  return !(std::abs(height_of_vertex) > rounding) || !(height_of_vertex * height_of_origin > T(0));
 }
 
 template <class T>

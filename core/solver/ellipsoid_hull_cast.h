@@ -98,11 +98,10 @@ class CommonFactorCast {
 
   const Vec3<T>& at(int i) const { return c_[static_cast<std::size_t>(i)]; }
 
-  /// The lateral position of the ellipsoid's support point in direction m.
+  /// The lateral position of the ellipsoid's support point in direction m. By way of a unit vector,
+  /// so that it is a point of the ellipsoid even where F^T m is nothing but rounding.
   Vec3<T> lateral(const Vec3<T>& m) const {
-    const T length = (F_.transpose() * m).norm();
-    if (!(length > T(0))) return Vec3<T>::Zero();
-    Vec3<T> g = A_ * m / length;
+    Vec3<T> g = F_ * unit<T>(F_.transpose() * m);
     g.z() = T(0);
     return g;
   }
@@ -173,7 +172,10 @@ class CommonFactorCast {
     const Vec3<T> from = at(j) + G;
     const T weight = -(from.x() * e.x() + from.y() * e.y()) / E;
     found.weights = {weight, T(1) - weight};
-    consider(found, weight >= T(0) && weight <= T(1));
+    // Where the ellipsoids are flat and the plane along the cylinder is theirs, G is any of their
+    // points; it counts only if it lies across from the ray.
+    const bool on_the_ray = !(den > T(0)) || std::abs(t.dot(from)) <= lateral_rounding;
+    consider(found, on_the_ray && weight >= T(0) && weight <= T(1));
   }
 
   /// Ray and the plane that touches three ellipsoids.
@@ -199,6 +201,9 @@ class CommonFactorCast {
     consider(found,
              found.weights[0] >= T(0) && found.weights[1] >= T(0) && found.weights[2] >= T(0));
   }
+
+  /// In units of the bounding radius: twice the digits of a value, whose error is the square.
+  inline static const T lateral_rounding = T(4) * std::sqrt(std::numeric_limits<T>::epsilon());
 
   Mat3<T> F_, A_;
   std::array<Vec3<T>, 4> c_;

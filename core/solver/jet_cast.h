@@ -110,6 +110,7 @@ LineHit<T> first_on_line(const S& shape, const Ball<T>& ball, const Vec3<T>& hal
     if (solution.certain) {
       const T cosine = std::min(solution.m.z(), std::max(result.normal.z(), T(0)));
       const T missing = (-solution.height - result.lambda) * cosine;
+      if (missing < -T(16) * gap) return result;  // contradicts a supporting plane: exhausted
       if (missing <= gap * (repeated ? T(4) : T(1))) {
         result.status = Status::hit;
         if (model.is_exact(solution))

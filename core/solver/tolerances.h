@@ -29,6 +29,11 @@ inline constexpr T gjk_rounding = T(4) * epsilon<T>;
 template <class T>
 inline constexpr T gjk_stalled = T(256) * epsilon<T>;
 
+/// A tetrahedron lower than this, as the sine of the angle between its face and the edge to its fourth
+/// vertex, is flat: a normal and a dot product are rounded by about as much.
+template <class T>
+inline constexpr T flat_simplex = T(16) * epsilon<T>;
+
 /// The GJK ray cast converges linearly: on smooth shapes it was seen to need 60 support points for
 /// the tolerance above, and up to twice that for extents of 1:1000.
 inline constexpr int gjk_max_iterations = 1000;
@@ -65,8 +70,8 @@ template <class T>
 inline constexpr T contact_back_off[] = {T(8) * epsilon<T>, T(64) * epsilon<T>,
                                          T(512) * epsilon<T>};
 
-/// The sine below which two edges of a face are taken for parallel: support points that are differences
-/// of two shapes' are each rounded, in a line or not.
+/// The sine below which two edges of a face are taken for parallel: support points that are
+/// differences of two shapes' are each rounded, in a line or not.
 template <class T>
 inline constexpr T collinear = T(4) * epsilon<T>;
 

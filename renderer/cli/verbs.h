@@ -3,8 +3,6 @@
 // and nowhere else.
 #pragma once
 
-#include <array>
-
 #include "renderer/cli/exit_code.h"
 
 namespace CLI {
@@ -19,15 +17,17 @@ namespace minkray {
 using AddVerb = void (*)(CLI::App& app, ExitCode& exit_code);
 
 void add_cast(CLI::App& app, ExitCode& exit_code);
+void add_compare(CLI::App& app, ExitCode& exit_code);
 void add_heatmap(CLI::App& app, ExitCode& exit_code);
 void add_info(CLI::App& app, ExitCode& exit_code);
 void add_render(CLI::App& app, ExitCode& exit_code);
 
 /// In the order in which --help shows them.
-inline constexpr std::array<AddVerb, 4> verbs = {
+inline constexpr AddVerb verbs[] = {
     add_render,
-    add_cast,
     add_heatmap,
+    add_compare,
+    add_cast,
     add_info,
 };
 

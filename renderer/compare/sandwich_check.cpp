@@ -7,6 +7,9 @@
 namespace minkray {
 namespace {
 
+/// From where rays start, in the frame: the shape lies within about 2 of its centre.
+constexpr double start_distance = 3;
+
 /// Rays in the sandwich's frame, in float so that Embree and the solver are given the same ones.
 class RandomRays {
  public:
@@ -16,8 +19,7 @@ class RandomRays {
   /// From a sphere around the shape towards a point within `spread` of its centre (a segment's: of
   /// a point of the segment).
   Ray<float> next(double spread) {
-    constexpr double start = 3;  // the shape lies within about 2 of its centre
-    const Vec3<double> origin = centre_ + start * direction();
+    const Vec3<double> origin = centre_ + start_distance * direction();
     Vec3<double> target = centre_ + spread * std::cbrt(uniform()) * direction();
     if (rank_ == 1) target.x() += uniform() - 0.5;
     const Vec3<double> towards = (target - origin).normalized();
@@ -54,66 +56,26 @@ double spread_for_half(const Sandwich& sandwich, const EmbreeMesh& mesh, std::ui
   return std::exp(low);
 }
 
-Ray<double> from_frame(const RoundFrame& frame, const Ray<float>& ray) {
-  const Vec3<double> direction = ray.direction.cast<double>().cwiseProduct(frame.extents);
-  return {frame.from_frame(ray.origin.cast<double>()), frame.axes * direction};
-}
-
-class Judge {
- public:
-  Judge(CompareReport& report, const EmbreeMesh& inner, const EmbreeMesh& outer)
-      : report_(report), inner_(inner), outer_(outer) {}
-
-  void see(const Ray<float>& mesh_ray, const Ray<double>& ray, const CastResult<double>& result) {
-    const auto outer = outer_.cast(mesh_ray), inner = inner_.cast(mesh_ray);
-    const bool hit = result.found();
-    ++report_.rays;
-    report_.hits += hit;
-    report_.outer_hits += outer.has_value();
-    report_.supports += result.supports;
-
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    Violator found{Violation::gave_up,
-                   ray,
-                   result.status,
-                   result.t(),
-                   outer ? outer->t : infinity,
-                   inner ? inner->t : infinity,
-                   infinity};
-    const auto violates = [&](Violation kind) {
-      ++report_.violations[static_cast<std::size_t>(kind)];
-      found.kind = kind;
-      if (!report_.worst || found.bounds > report_.worst->bounds) report_.worst = found;
-    };
-    if (result.status == Status::exhausted) return violates(Violation::gave_up);
-    if (hit && !outer) {
-      if (!outer_.is_met(mesh_ray)) return violates(Violation::false_hit);
-      ++report_.embree_at_fault;
-    }
-    if (!hit && inner) {
-      if (inner_.is_met(mesh_ray)) return violates(Violation::false_miss);
-      ++report_.embree_at_fault;
-    }
-    if (!hit) return;
-
-    const double t = result.t();
-    // In units of the bound: 0/0 for a mesh met exactly edge-on, which nothing can be said about.
-    const auto beyond = [](double excess, double bound) { return excess > 0 ? excess / bound : 0; };
-    const double early = outer ? beyond(outer->t - t, outer->t_bound) : 0;
-    const double late = inner ? beyond(t - inner->t, inner->t_bound) : 0;
-    if (outer) report_.to_outer.add(t - outer->t);
-    if (inner) report_.to_inner.add(inner->t - t);
-    report_.worst_in_bounds = std::max({report_.worst_in_bounds, early, late});
-    found.bounds = std::max(early, late);
-    if (early > 1) return violates(Violation::early);
-    if (late > 1) return violates(Violation::late);
+void record(CompareReport& report, const Verdict& verdict, const Ray<double>& ray) {
+  const CastResult<double>& result = verdict.result;
+  const bool outer_hit = std::isfinite(verdict.t_outer), inner_hit = std::isfinite(verdict.t_inner);
+  ++report.rays;
+  report.hits += result.found();
+  report.outer_hits += outer_hit;
+  report.supports += result.supports;
+  report.embree_at_fault += verdict.embree_at_fault;
+  if (result.found() && outer_hit) {
+    report.to_outer.add(result.t() - verdict.t_outer);
+    report.worst_in_bounds = std::max(report.worst_in_bounds, verdict.bounds);
   }
-
- private:
-  CompareReport& report_;
-  const EmbreeMesh& inner_;
-  const EmbreeMesh& outer_;
-};
+  if (result.found() && inner_hit) report.to_inner.add(verdict.t_inner - result.t());
+  if (!verdict.violation) return;
+  ++report.violations[static_cast<std::size_t>(*verdict.violation)];
+  if (!report.worst || verdict.bounds > report.worst->bounds)
+    report.worst =
+        Violator{*verdict.violation, ray,           result.status, result.t(), verdict.t_outer,
+                 verdict.t_inner,    verdict.bounds};
+}
 
 }  // namespace
 
@@ -137,24 +99,80 @@ int CompareReport::total_violations() const {
   return std::accumulate(violations.begin(), violations.end(), 0);
 }
 
-CompareReport compare_with_embree(const Shape<double>& shape, const CompareOptions& options) {
-  const Sandwich sandwich = sandwich_of(shape, options.sandwich);
-  const EmbreeMesh inner(sandwich.inner), outer(sandwich.outer);
-  CompareReport report;
-  report.rank = sandwich.rank();
-  report.inner_triangles = sandwich.inner.triangles.size();
-  report.outer_triangles = sandwich.outer.triangles.size();
+SandwichedShape::SandwichedShape(const Shape<double>& shape, const SandwichOptions& options)
+    : prepared_(shape),
+      sandwich_(sandwich_of(shape, options)),
+      inner_(sandwich_.inner),
+      outer_(sandwich_.outer) {}
 
-  const double spread = spread_for_half(sandwich, outer, options.seed);
-  const PreparedShape<double> prepared(shape);
-  RandomRays rays(sandwich, options.seed);
-  Judge judge(report, inner, outer);
+Ray<double> SandwichedShape::to_shape(const Ray<float>& ray) const {
+  const RoundFrame& frame = sandwich_.frame;
+  const Vec3<double> direction = ray.direction.cast<double>().cwiseProduct(frame.extents);
+  return {frame.from_frame(ray.origin.cast<double>()), frame.axes * direction,
+          static_cast<double>(ray.t_max)};
+}
+
+RayInFrame SandwichedShape::to_frame(const Ray<double>& ray) const {
+  const RoundFrame& frame = sandwich_.frame;
+  const Vec3<double> origin = frame.to_frame(ray.origin);
+  const Vec3<double> direction =
+      (frame.axes.transpose() * ray.direction).cwiseQuotient(frame.extents);
+  const double length = direction.norm();
+  const Vec3<double> r = direction / length;
+  const double start = std::max(0.0, (sandwich_.centre - origin).dot(r) - start_distance);
+  return {{(origin + start * r).cast<float>(), r.cast<float>()}, start / length, 1 / length};
+}
+
+Verdict SandwichedShape::judge(const Ray<float>& ray, const CastOptions<double>& options) const {
+  Verdict verdict;
+  verdict.result = cast_ray(prepared_, to_shape(ray), options);
+  const auto outer = outer_.cast(ray), inner = inner_.cast(ray);
+  if (outer) verdict.t_outer = outer->t;
+  if (inner) verdict.t_inner = inner->t;
+  const auto violates = [&](Violation kind, double bounds) {
+    verdict.violation = kind;
+    verdict.bounds = bounds;
+    return verdict;
+  };
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const bool hit = verdict.result.found();
+  if (verdict.result.status == Status::exhausted) return violates(Violation::gave_up, infinity);
+  if (hit && !outer) {
+    if (!outer_.is_met(ray)) return violates(Violation::false_hit, infinity);
+    verdict.embree_at_fault = true;
+  }
+  if (!hit && inner) {
+    if (inner_.is_met(ray)) return violates(Violation::false_miss, infinity);
+    verdict.embree_at_fault = true;
+  }
+  if (!hit) return verdict;
+
+  const double t = verdict.result.t();
+  const auto beyond = [](double excess, double bound) { return excess > 0 ? excess / bound : 0; };
+  const double early = outer ? beyond(outer->t - t, outer->t_bound) : 0;
+  const double late = inner ? beyond(t - inner->t, inner->t_bound) : 0;
+  verdict.bounds = std::max(early, late);
+  if (early > 1) return violates(Violation::early, early);
+  if (late > 1) return violates(Violation::late, late);
+  return verdict;
+}
+
+CompareReport SandwichedShape::compare(const CompareOptions& options) const {
+  CompareReport report;
+  report.rank = sandwich_.rank();
+  report.inner_triangles = sandwich_.inner.triangles.size();
+  report.outer_triangles = sandwich_.outer.triangles.size();
+  const double spread = spread_for_half(sandwich_, outer_, options.seed);
+  RandomRays rays(sandwich_, options.seed);
   for (int i = 0; i < options.rays; ++i) {
-    const Ray<float> mesh_ray = rays.next(spread);
-    const Ray<double> ray = from_frame(sandwich.frame, mesh_ray);
-    judge.see(mesh_ray, ray, cast_ray(prepared, ray, options.cast));
+    const Ray<float> ray = rays.next(spread);
+    record(report, judge(ray, options.cast), to_shape(ray));
   }
   return report;
+}
+
+CompareReport compare_with_embree(const Shape<double>& shape, const CompareOptions& options) {
+  return SandwichedShape(shape, options.sandwich).compare(options);
 }
 
 }  // namespace minkray

@@ -68,8 +68,52 @@ struct CompareReport {
   double outer_hit_rate() const { return rays > 0 ? double(outer_hits) / rays : 0; }
 };
 
-/// Rays start outside of the shape, in all directions, aimed so that about half of them hit (for
-/// segments and points: hit the outer mesh). Throws std::runtime_error if Qhull or Embree fails.
+/// What was found out about one ray. All parameters are those of the ray that was judged.
+struct Verdict {
+  CastResult<double> result;
+  double t_outer = std::numeric_limits<double>::infinity();  ///< infinite if the mesh was missed
+  double t_inner = std::numeric_limits<double>::infinity();
+  double bounds = 0;  ///< how far beyond t_outer or t_inner, in units of Embree's bound
+  std::optional<Violation> violation;
+  bool embree_at_fault = false;
+};
+
+/// A ray in the sandwich's frame. It starts near the shape, has unit length and numbers in float,
+/// so that Embree and the solver are given the same one; t_world = t_base + t * t_per_length.
+struct RayInFrame {
+  Ray<float> ray;
+  double t_base = 0;
+  double t_per_length = 1;
+};
+
+/// A shape, its sandwich in Embree, and the comparison of the two.
+class SandwichedShape {
+ public:
+  /// Throws std::runtime_error if Qhull or Embree fails.
+  explicit SandwichedShape(const Shape<double>& shape, const SandwichOptions& options = {});
+
+  /// Casts a ray of the frame at meshes and shape.
+  Verdict judge(const Ray<float>& ray, const CastOptions<double>& options = {}) const;
+
+  /// The same ray for the solver, in the shape's own frame; t stays.
+  Ray<double> to_shape(const Ray<float>& ray) const;
+
+  /// A ray of the shape's frame from outside of the shape, up to rounding to float.
+  RayInFrame to_frame(const Ray<double>& ray) const;
+
+  /// Rays start outside of the shape, in all directions, aimed so that about half of them hit (for
+  /// segments and points: hit the outer mesh). The sandwich's own options are not used.
+  CompareReport compare(const CompareOptions& options) const;
+
+  const Bounds<double>& bounds() const { return prepared_.outer_bounds(); }
+
+ private:
+  PreparedShape<double> prepared_;
+  Sandwich sandwich_;
+  EmbreeMesh inner_, outer_;
+};
+
+/// Both in one.
 CompareReport compare_with_embree(const Shape<double>& shape, const CompareOptions& options = {});
 
 }  // namespace minkray

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/compare/compare_scene.h"
+
+#include <algorithm>
+#include <mutex>
+
+#include "core/parallel/parallel.h"
+#include "renderer/camera.h"
+
+namespace minkray {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// The pixels whose rays may meet the box: around its corners, or all if one is behind the camera.
+PixelRect pixels_of(const Bounds<double>& bounds, const Camera& camera, int width, int height) {
+  PixelRect rect{width, height, 0, 0};
+  for (int i = 0; i < 8; ++i) {
+    const Vec3<double> corner((i & 1 ? bounds.upper : bounds.lower).x(),
+                              (i & 2 ? bounds.upper : bounds.lower).y(),
+                              (i & 4 ? bounds.upper : bounds.lower).z());
+    const auto at = camera.project(corner);
+    if (!at) return {0, 0, width, height};
+    const auto pixel = [](double x, int size) {
+      return static_cast<int>(std::floor(std::clamp(x, -1.0, size + 1.0)));
+    };
+    rect.x0 = std::min(rect.x0, pixel(at->x(), width) - 1);
+    rect.y0 = std::min(rect.y0, pixel(at->y(), height) - 1);
+    rect.x1 = std::max(rect.x1, pixel(at->x(), width) + 2);
+    rect.y1 = std::max(rect.y1, pixel(at->y(), height) + 2);
+  }
+  return {std::max(rect.x0, 0), std::max(rect.y0, 0), std::min(rect.x1, width),
+          std::min(rect.y1, height)};
+}
+
+/// Judges one object along the camera's rays and keeps what is nearest.
+void look_at(const SandwichedShape& shape, const Camera& camera, const CastOptions<double>& cast,
+             DifferencePicture& difference, std::mutex& mutex) {
+  const PixelRect rect = pixels_of(shape.bounds(), camera, difference.width, difference.height);
+  for (int y = rect.y0; y < rect.y1; ++y) {
+    struct Seen {
+      double t = infinity;
+      float gap = 0;
+      bool violation = false;
+    };
+    std::vector<Seen> row(static_cast<std::size_t>(std::max(rect.width(), 0)));
+    for (int x = rect.x0; x < rect.x1; ++x) {
+      const RayInFrame ray = shape.to_frame(camera.ray(x + 0.5, y + 0.5));
+      const Verdict verdict = shape.judge(ray.ray, cast);
+      Seen& seen = row[static_cast<std::size_t>(x - rect.x0)];
+      seen.violation = verdict.violation.has_value();
+      if (!verdict.result.found()) continue;
+      seen.t = ray.t_base + verdict.result.t() * ray.t_per_length;
+      seen.gap = static_cast<float>(verdict.t_inner - verdict.t_outer);
+    }
+    const std::lock_guard lock(mutex);
+    for (int x = rect.x0; x < rect.x1; ++x) {
+      const Seen& seen = row[static_cast<std::size_t>(x - rect.x0)];
+      const auto pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(difference.width) +
+                         static_cast<std::size_t>(x);
+      if (seen.violation) difference.violation[pixel] = true;
+      if (!(seen.t < difference.t[pixel])) continue;
+      difference.t[pixel] = seen.t;
+      difference.gap[pixel] = seen.gap;
+    }
+  }
+}
+
+}  // namespace
+
+int SceneComparison::violations() const {
+  int sum = 0;
+  for (const ObjectComparison& object : objects) sum += object.report.total_violations();
+  return sum;
+}
+
+int SceneComparison::pixel_violations() const {
+  return static_cast<int>(std::ranges::count(difference.violation, true));
+}
+
+std::int64_t SceneComparison::rays() const {
+  std::int64_t sum = 0;
+  for (const ObjectComparison& object : objects) sum += object.report.rays;
+  return sum;
+}
+
+double SceneComparison::disagreements_per_million() const {
+  std::int64_t sum = 0;
+  for (const ObjectComparison& object : objects)
+    sum += object.report.violations[static_cast<std::size_t>(Violation::false_hit)] +
+           object.report.violations[static_cast<std::size_t>(Violation::false_miss)];
+  return rays() > 0 ? 1e6 * static_cast<double>(sum) / static_cast<double>(rays()) : 0;
+}
+
+SceneComparison compare_scene(const Scene& scene, const CompareSceneOptions& options,
+                              const std::function<bool(double, std::uint64_t)>& progress) {
+  SceneComparison comparison;
+  comparison.objects.resize(scene.objects.size());
+  DifferencePicture& difference = comparison.difference;
+  difference.width = options.picture.width;
+  difference.height = options.picture.height;
+  const auto pixels =
+      static_cast<std::size_t>(difference.width) * static_cast<std::size_t>(difference.height);
+  difference.t.assign(pixels, infinity);
+  difference.gap.assign(pixels, 0);
+  difference.violation.assign(pixels, false);
+  std::optional<Camera> camera;
+  if (pixels > 0) camera.emplace(scene.camera, options.picture);
+
+  std::mutex picture_mutex, progress_mutex;
+  std::size_t done = 0;
+  std::uint64_t rays = 0;
+  bool stopped = false;
+  for_parts(scene.objects.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      {
+        const std::lock_guard lock(progress_mutex);
+        if (stopped) return;
+      }
+      const Object& object = scene.objects[i];
+      const Shape<double> placed =
+          Transform<double>{Nested<double>(object.shape), AffineMap<double>(object.pose)};
+      const SandwichedShape shape(placed, options.object.sandwich);
+      ObjectComparison& result = comparison.objects[i];
+      result.name = object.name;
+      result.shape =
+          std::visit([](const auto& kind) { return std::string(kind.name); }, object.shape.kind);
+      result.report = shape.compare(options.object);
+      if (camera) look_at(shape, *camera, options.object.cast, difference, picture_mutex);
+      const std::lock_guard lock(progress_mutex);
+      ++done;
+      rays += static_cast<std::uint64_t>(result.report.rays);
+      const double fraction = static_cast<double>(done) / static_cast<double>(scene.objects.size());
+      if (progress && !progress(fraction, rays)) stopped = true;
+    }
+  });
+  return comparison;
+}
+
+}  // namespace minkray

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+// Casts against closed forms in long double: every shape that has one, every solver, float and
+// double, at several scales and distances.
+#include "tests/oracle/closed_form.h"
+
+#include <gtest/gtest.h>
+
+#include "core/shape/convert.h"
+#include "core/solver/cast.h"
+#include "tests/support/aimed_rays.h"
+#include "tests/support/sample_shapes.h"
+
+namespace minkray::testing {
+namespace {
+
+/// A cast may be wrong by so many epsilons of the shape's radius, as a distance between planes
+/// (error of t times cosine of incidence): where its search stalls, a solver takes a distance of
+/// tolerance::gjk_stalled = 256 epsilon for zero, and the inner frame of a transform loses about as
+/// much again.
+constexpr double allowed = 512;
+
+struct Outcome {
+  int rays = 0, hits = 0, undecided = 0, exhausted = 0, wrong = 0;
+  double worst = 0;  ///< error of t times cosine, in epsilons of the radius
+  double worst_normal =
+      0;  ///< how far the hit spot lies from the normal's supporting plane, likewise
+  std::string first_wrong;
+};
+
+Vec3<Long> exact(const Vec3<double>& v) {
+  return v.cast<Long>();
+}
+
+template <class T>
+Outcome compare(const Shape<double>& shape_in_double, SolverKind solver, int count, double distance,
+                double scale) {
+  // Numbers that T holds exactly, so that the oracle is asked about the same shape and ray.
+  const Shape<double> scaled =
+      scale == 1 ? shape_in_double
+                 : Shape<double>(Transform<double>{
+                       Nested<double>(shape_in_double),
+                       AffineMap<double>(Affine<double>{Mat3<double>::Identity() * scale,
+                                                        Vec3<double>::Zero()})});
+  const Shape<T> shape = convert<T>(scaled);
+  const Shape<double> same = convert<double>(shape);
+  const PreparedShape<T> prepared(shape);
+  CastOptions<T> options;
+  options.solver = solver;
+  const Bounds<double> bounds = bounds_of<double>(same);
+  const double radius = bounds.half_extents().norm();
+  const Vec3<double> centre = bounds.centre();
+  const double epsilon = static_cast<double>(std::numeric_limits<T>::epsilon());
+
+  // Grown or shrunk by more than any error allowed: a line that meets the one and not the other
+  // grazes the shape, and may do either. A far origin's own rounding does not count: it is exact.
+  const double thinnest = [&] {
+    double least = radius;
+    for (const double extent : bounds.half_extents())
+      if (extent > 1e-9 * radius) least = std::min(least, extent);
+    return least;
+  }();
+  const Long band = static_cast<Long>(allowed * epsilon * radius / thinnest);
+  const auto meets = [&](const Ray<double>& ray, Long size) {
+    const Vec3<Long> origin = exact(centre) + (exact(ray.origin) - exact(centre)) / size;
+    const auto line = line_in_shape(same, origin, exact(ray.direction) / size);
+    return !line->empty() && line->upper >= 0;
+  };
+
+  AimedRays rays(bounds, 11, distance);
+  const double spread = rays.spread_for_half([&](const Ray<double>& ray) { return meets(ray, 1); });
+  Outcome outcome;
+  for (int i = 0; i < count; ++i) {
+    const Ray<double> wanted = rays.next(spread);
+    const Ray<T> ray_in_T{wanted.origin.template cast<T>(), wanted.direction.template cast<T>()};
+    const Ray<double> ray{ray_in_T.origin.template cast<double>(),
+                          ray_in_T.direction.template cast<double>()};
+    const CastResult<T> result = cast_ray(prepared, ray_in_T, options);
+    ++outcome.rays;
+    const bool hit = result.found();
+    outcome.hits += hit;
+    const bool must_hit = meets(ray, 1 - band), may_hit = meets(ray, 1 + band);
+    const auto wrong = [&](const char* why) {
+      if (outcome.wrong++ > 0) return;
+      std::ostringstream text;
+      text.precision(17);
+      text << why << ": " << name_of(result.status) << " for origin " << ray.origin.transpose()
+           << ", direction " << ray.direction.transpose();
+      outcome.first_wrong = text.str();
+    };
+    outcome.undecided += must_hit != may_hit;
+    if (result.status == Status::exhausted) {
+      ++outcome.exhausted;
+      if (must_hit == may_hit) wrong("gave up");
+      continue;
+    }
+    if (must_hit && !hit) wrong("false miss");
+    if (hit && !may_hit) wrong("false hit");
+    if (!(hit && must_hit && may_hit)) continue;
+
+    const auto line = line_in_shape(same, exact(ray.origin), exact(ray.direction));
+    const Long t = static_cast<Long>(result.t_base) + static_cast<Long>(result.t_offset);
+    const Vec3<double> n = result.normal.template cast<double>();
+    const double towards = std::abs(n.dot(ray.direction));
+    const double error = static_cast<double>(std::abs(t - line->lower)) * towards;
+    outcome.worst = std::max(outcome.worst, error / (radius * epsilon));
+    const Vec3<double> x =
+        (exact(ray.origin) + line->lower * exact(ray.direction)).template cast<double>();
+    const double depth = n.dot(same.support(n)) - n.dot(x);
+    outcome.worst_normal = std::max(outcome.worst_normal, std::abs(depth) / (radius * epsilon));
+    EXPECT_NEAR(n.norm(), 1, 8 * epsilon);
+  }
+  return outcome;
+}
+
+bool has_closed_form(const Shape<double>& shape) {
+  return line_in_shape(shape, {-3, 0.1L, 0.2L}, {1, 0.1L, 0.1L}).has_value();
+}
+
+template <class T>
+class ClosedForms : public ::testing::Test {};
+using Scalars = ::testing::Types<float, double>;
+TYPED_TEST_SUITE(ClosedForms, Scalars);
+
+template <class T>
+void expect_agreement(int count, double distance, double scale) {
+  for (const SampleShape& sample : sample_shapes()) {
+    if (!has_closed_form(sample.shape)) continue;
+    for (const SolverDescription& solver : solver_descriptions) {
+      const std::string what = sample.name + ", solver " + std::string(solver.name);
+      const Outcome outcome = compare<T>(sample.shape, solver.kind, count, distance, scale);
+      EXPECT_EQ(outcome.wrong, 0) << what << ": " << outcome.first_wrong;
+      EXPECT_LE(outcome.worst, allowed) << what;
+      EXPECT_LE(outcome.worst_normal, allowed) << what;
+      EXPECT_LT(outcome.undecided, 0.05 * count) << what;
+      EXPECT_GT(outcome.hits, 0.3 * count) << what;
+      EXPECT_LT(outcome.hits, 0.7 * count) << what;
+      if (std::getenv("MINKRAY_SHOW_ERRORS"))
+        std::printf("%-45s %-20s worst %8.3g normal %8.3g undecided %d exhausted %d wrong %d\n",
+                    sample.name.c_str(), std::string(solver.name).c_str(), outcome.worst,
+                    outcome.worst_normal, outcome.undecided, outcome.exhausted, outcome.wrong);
+    }
+  }
+}
+
+TYPED_TEST(ClosedForms, agree_with_every_solver) {
+  expect_agreement<TypeParam>(1500, 3, 1);
+}
+
+TYPED_TEST(ClosedForms, agree_from_a_hundred_thousand_sizes_away) {
+  expect_agreement<TypeParam>(400, 1e5, 1);
+}
+
+TYPED_TEST(ClosedForms, agree_at_a_centimetre_and_at_ten_kilometres) {
+  for (const double scale : {0.01, 1e4}) expect_agreement<TypeParam>(200, 3, scale);
+}
+
+}  // namespace
+}  // namespace minkray::testing

@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: MIT
+#include "tests/oracle/closed_form.h"
+
+#include "core/shape/convex_hull.h"
+
+namespace minkray::testing {
+namespace {
+
+using V = Vec3<Long>;
+
+constexpr Long infinity = std::numeric_limits<Long>::infinity();
+
+Interval everything() {
+  return {-infinity, infinity};
+}
+
+Interval both(const Interval& a, const Interval& b) {
+  return {std::max(a.lower, b.lower), std::min(a.upper, b.upper)};
+}
+
+/// Of two pieces of a convex shape.
+Interval either(const Interval& a, const Interval& b) {
+  if (a.empty()) return b;
+  if (b.empty()) return a;
+  return {std::min(a.lower, b.lower), std::max(a.upper, b.upper)};
+}
+
+/// normal.x <= offset.
+Interval half_space(const V& o, const V& d, const V& normal, Long offset) {
+  const Long along = normal.dot(d), room = offset - normal.dot(o);
+  if (along == 0) return room >= 0 ? everything() : Interval{};
+  return along > 0 ? Interval{-infinity, room / along} : Interval{room / along, infinity};
+}
+
+Interval slab(Long o, Long d, Long lower, Long upper) {
+  if (d == 0) return lower <= o && o <= upper ? everything() : Interval{};
+  const Long a = (lower - o) / d, b = (upper - o) / d;
+  return {std::min(a, b), std::max(a, b)};
+}
+
+/// The roots of a t^2 + 2 b t + c, lower first, without cancellation; nothing if there are none.
+std::optional<Interval> roots(Long a, Long b, Long c) {
+  const Long discriminant = b * b - a * c;
+  if (!(discriminant >= 0) || a == 0) return std::nullopt;
+  const Long q = -(b + std::copysign(std::sqrt(discriminant), b));
+  const Long first = q / a, second = q != 0 ? c / q : first;
+  return Interval{std::min(first, second), std::max(first, second)};
+}
+
+/// From the line's point nearest to the centre, where the quadratic's linear term is small.
+Interval ball(const V& o, const V& d, const V& centre, Long radius) {
+  const Long nearest = -(o - centre).dot(d) / d.squaredNorm();
+  const V close = o + nearest * d - centre;
+  const auto t = roots(d.squaredNorm(), close.dot(d), close.squaredNorm() - radius * radius);
+  return t ? Interval{nearest + t->lower, nearest + t->upper} : Interval{};
+}
+
+/// The round solid around the z axis whose radius goes from r0 at z0 to r1 at z1.
+Interval frustum(const V& o, const V& d, Long z0, Long r0, Long z1, Long r1) {
+  const Interval between = slab(o.z(), d.z(), z0, z1);
+  if (z0 == z1) {  // a disk: the parameter is that of its plane
+    if (between.empty()) return {};
+    if (d.z() == 0) {
+      const V flat_o(o.x(), o.y(), 0), flat_d(d.x(), d.y(), 0);
+      return ball(flat_o, flat_d, V::Zero(), std::max(r0, r1));
+    }
+    const V at = o + between.lower * d;
+    return std::hypot(at.x(), at.y()) <= std::max(r0, r1) ? between : Interval{};
+  }
+  // x^2 + y^2 <= (radius + slope t)^2 along the line, from the point nearest to the axis' middle.
+  const Long middle = -o.dot(d) / d.squaredNorm();
+  const V p = o + middle * d;
+  const Long per_z = (r1 - r0) / (z1 - z0);
+  const Long radius = r0 + (p.z() - z0) * per_z, slope = d.z() * per_z;
+  const Long a = d.x() * d.x() + d.y() * d.y() - slope * slope;
+  const Long b = p.x() * d.x() + p.y() * d.y() - radius * slope;
+  const Long c = p.x() * p.x() + p.y() * p.y() - radius * radius;
+  const Interval here{between.lower - middle, between.upper - middle};
+  Interval inside;
+  if (const auto t = roots(a, b, c)) {
+    if (a > 0) {
+      inside = both(here, *t);
+    } else {  // outside of the roots: one branch a nappe, of which the slab holds one
+      const Interval low = both(here, {-infinity, t->lower});
+      const Interval high = both(here, {t->upper, infinity});
+      inside = either(low, high);
+    }
+  } else if (a < 0) {
+    inside = here;
+  } else if (a == 0) {  // parallel to the mantle: linear
+    if (b == 0)
+      inside = c <= 0 ? here : Interval{};
+    else
+      inside =
+          both(here, b > 0 ? Interval{-infinity, -c / (2 * b)} : Interval{-c / (2 * b), infinity});
+  }
+  return inside.empty() ? Interval{} : Interval{middle + inside.lower, middle + inside.upper};
+}
+
+V exact(const Vec3<double>& v) {
+  return v.cast<Long>();
+}
+
+Interval box(const V& o, const V& d, const V& half) {
+  Interval inside = everything();
+  for (int axis = 0; axis < 3; ++axis)
+    inside = both(inside, slab(o[axis], d[axis], -half[axis], half[axis]));
+  return inside;
+}
+
+Interval in(const Sphere<double>& s, const V& o, const V& d) {
+  return ball(o, d, V::Zero(), s.radius);
+}
+
+Interval in(const Ellipsoid<double>& s, const V& o, const V& d) {
+  const V r = exact(s.radii);
+  return ball(o.cwiseQuotient(r), d.cwiseQuotient(r), V::Zero(), 1);
+}
+
+Interval in(const Box<double>& s, const V& o, const V& d) {
+  return box(o, d, exact(s.half_extents));
+}
+
+Interval in(const Disk<double>& s, const V& o, const V& d) {
+  return frustum(o, d, 0, s.radius, 0, s.radius);
+}
+
+Interval in(const Cylinder<double>& s, const V& o, const V& d) {
+  return frustum(o, d, -Long(s.half_height), s.radius, s.half_height, s.radius);
+}
+
+Interval in(const Cone<double>& s, const V& o, const V& d) {
+  return frustum(o, d, -Long(s.half_height), s.radius, s.half_height, 0);
+}
+
+Interval in(const Frustum<double>& s, const V& o, const V& d) {
+  return frustum(o, d, -Long(s.half_height), s.radii[0], s.half_height, s.radii[1]);
+}
+
+Interval in(const Capsule<double>& s, const V& o, const V& d) {
+  const V top(0, 0, s.half_height);
+  return either(frustum(o, d, -top.z(), s.radius, top.z(), s.radius),
+                either(ball(o, d, top, s.radius), ball(o, d, -top, s.radius)));
+}
+
+/// Two balls and the cone that touches both along circles.
+Interval in(const TaperedCapsule<double>& s, const V& o, const V& d) {
+  const Long r0 = s.radii[0], r1 = s.radii[1], h = s.half_height;
+  const V top(0, 0, h);
+  const Interval lower = ball(o, d, -top, r0), upper = ball(o, d, top, r1);
+  if (std::abs(r0 - r1) >= 2 * h) return r0 > r1 ? lower : upper;
+  const Long sine = (r0 - r1) / (2 * h), cosine = std::sqrt((1 - sine) * (1 + sine));
+  return either(frustum(o, d, -h + r0 * sine, r0 * cosine, h + r1 * sine, r1 * cosine),
+                either(lower, upper));
+}
+
+Interval in(const Triangle<double>& s, const V& o, const V& d) {
+  const V a = exact(s.points[0]) - o, b = exact(s.points[1]) - o, c = exact(s.points[2]) - o;
+  const V normal = (b - a).cross(c - a);
+  const Long ab = d.dot(a.cross(b)), bc = d.dot(b.cross(c)), ca = d.dot(c.cross(a));
+  const bool through = (ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0);
+  if (!through || normal.dot(d) == 0) return {};
+  const Long t = normal.dot(a) / normal.dot(d);
+  return {t, t};
+}
+
+/// The half-spaces of the facets that Qhull found, with offsets that let every vertex in.
+std::optional<Interval> in(const Hull<double>& s, const V& o, const V& d) {
+  const auto& points = s.points.points();
+  const ConvexHull hull = convex_hull(points);
+  if (hull.rank() < 3) return std::nullopt;
+  Interval inside = everything();
+  for (std::size_t f = 0; f < hull.facets.size(); ++f) {
+    const auto corner = [&](std::size_t i) {
+      return exact(points[hull.vertices[hull.facets[f][i]]]);
+    };
+    V normal = V::Zero();
+    for (std::size_t i = 1; i + 1 < hull.facets[f].size(); ++i)
+      normal += (corner(i) - corner(0)).cross(corner(i + 1) - corner(0));
+    Long offset = -infinity;
+    for (std::size_t i = 0; i < hull.facets[f].size(); ++i)
+      offset = std::max(offset, normal.dot(corner(i)));
+    inside = both(inside, half_space(o, d, normal, offset));
+  }
+  return inside;
+}
+
+/// The sum of powers is convex along the line: its least by golden section, then bisection.
+Interval in(const Superellipsoid<double>& s, const V& o, const V& d) {
+  const V radii = exact(s.radii), scaled_o = o.cwiseQuotient(radii),
+          scaled_d = d.cwiseQuotient(radii);
+  const Long p = s.exponent;
+  const auto excess = [&](Long t) {
+    Long sum = 0;
+    for (int axis = 0; axis < 3; ++axis)
+      sum += std::pow(std::abs(scaled_o[axis] + t * scaled_d[axis]), p);
+    return sum - 1;
+  };
+  // The ball around it, radius sqrt(3) at most, brackets.
+  const Interval around = ball(scaled_o, scaled_d, V::Zero(), 1.8L);
+  if (around.empty()) return {};
+  Long low = around.lower, high = around.upper;
+  constexpr Long golden = 0.6180339887498948482L;
+  for (int i = 0; i < 120; ++i) {
+    const Long a = high - golden * (high - low), b = low + golden * (high - low);
+    (excess(a) < excess(b) ? high : low) = excess(a) < excess(b) ? b : a;
+  }
+  const Long least = (low + high) / 2;
+  if (excess(least) > 0) return {};
+  const auto root = [&](Long outside) {
+    Long inside = least;
+    for (int i = 0; i < 80; ++i) {
+      const Long middle = (inside + outside) / 2;
+      (excess(middle) > 0 ? outside : inside) = middle;
+    }
+    return inside;
+  };
+  return {root(around.lower), root(around.upper)};
+}
+
+/// Boxes, as the union of boxes grown along one axis, cylinders around edges and balls at corners;
+/// balls and capsules, as themselves.
+std::optional<Interval> in(const Rounded<double>& s, const V& o, const V& d) {
+  const Long r = s.radius;
+  if (const auto* inner = std::get_if<Sphere<double>>(&s.shape->kind))
+    return ball(o, d, V::Zero(), inner->radius + r);
+  if (const auto* point = std::get_if<Point<double>>(&s.shape->kind))
+    return ball(o, d, exact(point->position), r);
+  const auto* inner = std::get_if<Box<double>>(&s.shape->kind);
+  if (!inner) return std::nullopt;
+  const V half = exact(inner->half_extents);
+  Interval inside;
+  for (int axis = 0; axis < 3; ++axis) {
+    inside = either(inside, box(o, d, half + r * V::Unit(axis)));
+    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    for (const int su : {-1, 1})
+      for (const int sv : {-1, 1}) {
+        V edge_o(o[u] - su * half[u], o[v] - sv * half[v], o[axis]), edge_d(d[u], d[v], d[axis]);
+        inside = either(inside, frustum(edge_o, edge_d, -half[axis], r, half[axis], r));
+      }
+  }
+  for (int i = 0; i < 8; ++i) {
+    const V corner(i & 1 ? half.x() : -half.x(), i & 2 ? half.y() : -half.y(),
+                   i & 4 ? half.z() : -half.z());
+    inside = either(inside, ball(o, d, corner, r));
+  }
+  return inside;
+}
+
+std::optional<Interval> in(const Transform<double>& s, const V& o, const V& d) {
+  const Affine<Long> inverse = s.map.affine().cast<Long>().inverse();
+  return line_in_shape(*s.shape, inverse(o), inverse.linear * d);
+}
+
+template <class S>
+std::optional<Interval> in(const S&, const V&, const V&) {
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Interval> line_in_shape(const Shape<double>& shape, const V& origin,
+                                      const V& direction) {
+  return std::visit(
+      [&](const auto& kind) -> std::optional<Interval> { return in(kind, origin, direction); },
+      shape.kind);
+}
+
+}  // namespace minkray::testing
