@@ -102,7 +102,7 @@ Vertices vertices_of_binary_stl(std::string_view bytes) {
       }
       if (!corner.allFinite()) {
         throw std::runtime_error(
-            "triangle " + std::to_string((triangle - stl_header_bytes) / stl_triangle_bytes) +
+            "triangle " + std::to_string(1 + triangle / stl_triangle_bytes - 1) +
             ": a vertex must be three finite numbers");
       }
       vertices.push_back(corner);
