@@ -123,10 +123,9 @@ void run(const Options& options) {
     Rendering rendering;
     timed("trace", statistics.trace_seconds, [&] {
       ProgressLine line(!options.image.quiet);
-      rendering = render(scene, world, render_options, [&](double fraction, std::uint64_t rays) {
-        line.show(fraction, rays);
-        return !InterruptGuard::interrupted();
-      });
+      rendering = render(scene, world, render_options,
+                         {[&](double fraction, std::uint64_t rays) { line.show(fraction, rays); },
+                          InterruptGuard::interrupted});
     });
     InterruptGuard::end_if_interrupted();
     statistics.counts = rendering.counts;
