@@ -12,7 +12,7 @@ namespace minkray {
 /// The separable Blackman-Harris window: smooth, positive, hardly any ringing or blur.
 class PixelFilter {
  public:
-  /// Half the width of the support, in pixels: its standard deviation is then 0.40 pixels, which is
+  /// Half the width of the support, in pixels: its standard deviation is then 0.42 pixels, which is
   /// that of the usual Gaussian filters.
   static constexpr double radius = 1.5;
 

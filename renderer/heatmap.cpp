@@ -6,7 +6,6 @@
 #include <cstdio>
 
 #include "renderer/camera.h"
-#include "renderer/tiles.h"
 
 namespace minkray {
 namespace {
@@ -56,7 +55,7 @@ std::string bar(double fraction, int width) {
 }  // namespace
 
 HeatField measure_heat(const Scene& scene, const RenderWorld& world, HeatChannel channel,
-                       const RenderOptions& options, const RenderProgress& progress) {
+                       const RenderOptions& options, const RenderWatch& watch) {
   const Camera camera(scene.camera, options.resolution);
   const PixelRect part = options.part();
   HeatField field{part.width(), part.height(), {}, {}, false};
@@ -66,7 +65,7 @@ HeatField measure_heat(const Scene& scene, const RenderWorld& world, HeatChannel
   const auto heat_of_pixel = [&](int x, int y, RayCounts& counts) {
     double sum = 0;
     float gravest = 0;
-    for (int sample = 0; sample < options.samples; ++sample) {
+    for (int sample = 0; sample < options.samples && !watch.stopped(); ++sample) {
       Sampler sampler(options.seed, x, y, static_cast<std::uint32_t>(sample));
       const std::array<double, 2> at =
           options.samples == 1 ? std::array<double, 2>{0.5, 0.5} : sampler.next();
@@ -78,20 +77,14 @@ HeatField measure_heat(const Scene& scene, const RenderWorld& world, HeatChannel
     return channel == HeatChannel::status ? gravest : static_cast<float>(sum / options.samples);
   };
   RayCounts counts;
-  field.complete = for_tiles(
-      part, counts,
-      [&](const PixelRect& tile) {
-        RayCounts of_tile;
-        for (int y = tile.y0; y < tile.y1; ++y)
-          for (int x = tile.x0; x < tile.x1; ++x)
-            field.values[static_cast<std::size_t>(y - part.y0) *
-                             static_cast<std::size_t>(field.width) +
-                         static_cast<std::size_t>(x - part.x0)] = heat_of_pixel(x, y, of_tile);
-        return of_tile;
-      },
-      [&](double fraction, const RayCounts& so_far) {
-        return !progress || progress(fraction, so_far.total());
-      });
+  field.complete = for_tiles(part, counts, watch, [&](const PixelRect& tile) {
+    RayCounts of_tile;
+    for (int y = tile.y0; y < tile.y1; ++y)
+      for (int x = tile.x0; x < tile.x1; ++x)
+        field.values[static_cast<std::size_t>(y - part.y0) * static_cast<std::size_t>(field.width) +
+                     static_cast<std::size_t>(x - part.x0)] = heat_of_pixel(x, y, of_tile);
+    return of_tile;
+  });
   field.work = counts.work;
   return field;
 }

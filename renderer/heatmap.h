@@ -48,7 +48,7 @@ struct HeatField {
 /// Casts one ray through each pixel's centre (samples 1), or samples evenly spread over it, of
 /// which counts are averaged and statuses give way to the gravest.
 HeatField measure_heat(const Scene& scene, const RenderWorld& world, HeatChannel channel,
-                       const RenderOptions& options, const RenderProgress& progress = {});
+                       const RenderOptions& options, const RenderWatch& watch = {});
 
 struct HeatSummary {
   double least = 0, mean = 0, most = 0;

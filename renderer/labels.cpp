@@ -39,7 +39,7 @@ void draw_labels(Image& image, const Scene& scene, const RenderWorld& world,
     const double x = (seen->lower.x() + seen->upper.x() - size.width) / 2 - part.x0;
     const double y = seen->upper.y() + 2 * scale - part.y0;
     fill_rectangle(image, x - 2 * scale, y - 2 * scale, x + size.width + 2 * scale, y + size.height,
-                   Vec3<float>::Zero(), 0.6f);
+                   Vec3<float>::Zero(), 0.85f);
     draw_text(image, x, y, name, Vec3<float>::Ones(), scale);
   }
 }

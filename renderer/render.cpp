@@ -3,7 +3,6 @@
 
 #include "renderer/camera.h"
 #include "renderer/filter.h"
-#include "renderer/tiles.h"
 
 namespace minkray {
 
@@ -15,7 +14,7 @@ RenderWorld make_world(const Scene& scene, const CastOptions<Real>& options) {
 }
 
 Rendering render(const Scene& scene, const RenderWorld& world, const RenderOptions& options,
-                 const RenderProgress& progress) {
+                 const RenderWatch& watch) {
   const Camera camera(scene.camera, options.resolution);
   const PixelFilter filter;
   const Integrator integrator(scene, world, options.integrator);
@@ -25,7 +24,7 @@ Rendering render(const Scene& scene, const RenderWorld& world, const RenderOptio
   Image& image = rendering.image = Image(part.width(), part.height());
   const auto render_pixel = [&](int x, int y, RayCounts& counts) {
     Colour sum = Colour::Zero();
-    for (int sample = 0; sample < options.samples; ++sample) {
+    for (int sample = 0; sample < options.samples && !watch.stopped(); ++sample) {
       Sampler sampler(options.seed, x, y, static_cast<std::uint32_t>(sample));
       const std::array<double, 2> u = sampler.next();
       const Ray<Real> ray =
@@ -34,18 +33,13 @@ Rendering render(const Scene& scene, const RenderWorld& world, const RenderOptio
     }
     return Colour(sum / options.samples);
   };
-  rendering.complete = for_tiles(
-      part, rendering.counts,
-      [&](const PixelRect& tile) {
-        RayCounts counts;
-        for (int y = tile.y0; y < tile.y1; ++y)
-          for (int x = tile.x0; x < tile.x1; ++x)
-            image.at(x - part.x0, y - part.y0) = render_pixel(x, y, counts).cast<float>();
-        return counts;
-      },
-      [&](double fraction, const RayCounts& counts) {
-        return !progress || progress(fraction, counts.total());
-      });
+  rendering.complete = for_tiles(part, rendering.counts, watch, [&](const PixelRect& tile) {
+    RayCounts counts;
+    for (int y = tile.y0; y < tile.y1; ++y)
+      for (int x = tile.x0; x < tile.x1; ++x)
+        image.at(x - part.x0, y - part.y0) = render_pixel(x, y, counts).cast<float>();
+    return counts;
+  });
   return rendering;
 }
 

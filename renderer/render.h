@@ -3,10 +3,9 @@
 // bit for any number of threads and any crop.
 #pragma once
 
-#include <functional>
-
 #include "renderer/image.h"
 #include "renderer/integrator.h"
+#include "renderer/tiles.h"
 
 namespace minkray {
 
@@ -25,18 +24,14 @@ struct RenderOptions {
   }
 };
 
-/// Told after each tile, from any thread but one at a time: the fraction done and the rays so far.
-/// Rendering ends early when it answers false.
-using RenderProgress = std::function<bool(double fraction, std::uint64_t rays)>;
-
 struct Rendering {
   Image image;  ///< linear radiance, of the part asked for
   RayCounts counts;
-  bool complete = false;  ///< false if the progress function said stop
+  bool complete = false;  ///< false if the watch said stop
 };
 
 /// Refers to `world` made of `scene`.
 Rendering render(const Scene& scene, const RenderWorld& world, const RenderOptions& options,
-                 const RenderProgress& progress = {});
+                 const RenderWatch& watch = {});
 
 }  // namespace minkray

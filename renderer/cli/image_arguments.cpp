@@ -14,7 +14,7 @@
 namespace minkray {
 namespace {
 
-/// Encoders count bytes in an int.
+/// Encoders count bytes in an int. Of a crop of a larger picture, the crop's pixels count.
 constexpr int max_pixels = 1 << 27;
 constexpr int max_side = 1 << 16;
 
@@ -44,10 +44,8 @@ Resolution parse_resolution(const std::string& text) {
   const Resolution resolution{(*numbers)[0], (*numbers)[1]};
   if (resolution.width < 1 || resolution.height < 1)
     throw wrong("width and height must be at least 1");
-  if (resolution.width > max_side || resolution.height > max_side ||
-      std::int64_t{resolution.width} * resolution.height > max_pixels)
-    throw wrong("at most " + std::to_string(max_side) + " pixels along a side and " +
-                std::to_string(max_pixels) + " in all");
+  if (resolution.width > max_side || resolution.height > max_side)
+    throw wrong("width and height must be at most " + std::to_string(max_side));
   return resolution;
 }
 
@@ -81,7 +79,9 @@ void ImageArguments::add_to(CLI::App& verb) {
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
   verb.add_option("--crop", crop, "x0,y0,x1,y1 in pixels: just that part of the picture");
-  verb.add_option("--seed", seed, "Of the random numbers")->capture_default_str();
+  verb.add_option("--seed", seed, "Of the random numbers")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   auto* quiet_flag = verb.add_flag("-q,--quiet", quiet, "No progress, no report");
   verb.add_flag("-v,--verbose", verbose, "Tell what is done and how long it takes")
       ->excludes(quiet_flag);
@@ -95,10 +95,15 @@ void ImageArguments::check_outputs() const {
   for (const std::string& output : outputs) check_writable(output);
 }
 
-RenderOptions ImageArguments::render_options(const Scene& loaded) const {
+RenderOptions ImageArguments::render_options(const Scene& loaded, std::size_t panels) const {
   RenderOptions options;
   options.resolution = resolution.empty() ? loaded.camera.resolution : parse_resolution(resolution);
   if (!crop.empty()) options.crop = parse_crop(crop, options.resolution);
+  const PixelRect part = options.part();
+  if (std::int64_t{part.width()} * part.height() > max_pixels / static_cast<std::int64_t>(panels))
+    throw WrongUsage("--resolution: at most " + std::to_string(max_pixels) +
+                     " pixels at once; use --crop (got " + std::to_string(part.width()) + "x" +
+                     std::to_string(part.height()) + ")");
   options.samples = samples;
   options.seed = seed;
   return options;

@@ -33,8 +33,9 @@ struct ImageArguments {
   /// written later.
   void check_outputs() const;
 
-  /// The options for a scene. Throws WrongUsage where a value is not usable.
-  RenderOptions render_options(const Scene& scene) const;
+  /// The options for a scene, of which `panels` pictures come beside each other. Throws WrongUsage
+  /// where a value is not usable.
+  RenderOptions render_options(const Scene& scene, std::size_t panels = 1) const;
 };
 
 /// Options for the casts of a solver by name. Throws WrongUsage with the names there are.

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
+#include <sstream>
 
 #include "core/parallel/parallel.h"
 #include "renderer/cli/image_arguments.h"
@@ -19,7 +20,7 @@ namespace {
 struct Options {
   ImageArguments image;
   std::string channel = "iterations";
-  std::vector<std::string> side_by_side;
+  std::string side_by_side;  ///< solvers between commas; empty: just image.solver
 };
 
 HeatChannel channel_of(const std::string& name) {
@@ -31,14 +32,22 @@ HeatChannel channel_of(const std::string& name) {
   throw WrongUsage("--channel: must be one of " + names + " (got " + name + ")");
 }
 
+std::vector<std::string> split(const std::string& text) {
+  std::vector<std::string> parts;
+  std::istringstream stream(text);
+  for (std::string part; std::getline(stream, part, ',');) parts.push_back(part);
+  if (parts.empty()) parts.push_back(text);
+  return parts;
+}
+
 void run(const Options& options) {
   const HeatChannel channel = channel_of(options.channel);
-  std::vector<std::string> solvers = options.side_by_side;
-  if (solvers.empty()) solvers.push_back(options.image.solver);
+  const std::vector<std::string> solvers =
+      split(options.side_by_side.empty() ? options.image.solver : options.side_by_side);
   for (const std::string& solver : solvers) cast_options(solver);
   options.image.check_outputs();
   const Scene scene = load_scene(options.image.scene);
-  const RenderOptions render_options = options.image.render_options(scene);
+  const RenderOptions render_options = options.image.render_options(scene, solvers.size());
 
   std::vector<HeatField> fields;
   std::vector<HeatPanel> panels;
@@ -49,11 +58,10 @@ void run(const Options& options) {
     for (const std::string& solver : solvers) {
       const RenderWorld world = make_world(scene, cast_options(solver));
       ProgressLine line(!options.image.quiet);
-      fields.push_back(measure_heat(scene, world, channel, render_options,
-                                    [&](double fraction, std::uint64_t rays) {
-                                      line.show(fraction, rays);
-                                      return !InterruptGuard::interrupted();
-                                    }));
+      fields.push_back(
+          measure_heat(scene, world, channel, render_options,
+                       {[&](double fraction, std::uint64_t rays) { line.show(fraction, rays); },
+                        InterruptGuard::interrupted}));
       InterruptGuard::end_if_interrupted();
       exhausted += fields.back().work.exhausted;
       casts += fields.back().work.casts;
@@ -84,7 +92,6 @@ void add_heatmap(CLI::App& app, ExitCode&) {
                      ->capture_default_str();
   verb->add_option("--side-by-side", options->side_by_side,
                    "Solvers to show beside each other on one scale, such as paper,auto")
-      ->delimiter(',')
       ->excludes(solver);
   verb->callback([options] { with_threads(options->image.threads, [&] { run(*options); }); });
 }
