@@ -143,14 +143,14 @@ bool beyond_face(const SimplexPoints<T>& simplex, int i, int j, int k, int l) {
   };
   const Vec3<T> normal = face_normal(y(i), y(j), y(k));
   const Vec3<T> zero = Vec3<T>::Zero();
-  const Vec3<T> to_vertex = y(l) - nearest_of(y(i), y(j), y(k), y(l));
-  const T height_of_vertex = normal.dot(to_vertex);
-  // Four vertices in a plane (the support of an octahedron's face is its middle, say) enclose
-  // nothing, though rounding gives them a volume.
-  const T rounding = tolerance::flat_simplex<T> * normal.norm() * to_vertex.norm();
-  if (!(std::abs(height_of_vertex) > rounding)) return true;
+  const T height_of_vertex = normal.dot(y(l) - nearest_of(y(i), y(j), y(k), y(l)));
   const T height_of_origin = -normal.dot(nearest_of(y(i), y(j), y(k), zero));
-  return !(height_of_vertex * height_of_origin > T(0));
+  // A height within the rounding of its vertex has no sign: the four points are in one plane (the
+  // support of an octahedron's face is its middle, say) and enclose nothing.
+  const T size = std::max({y(i).cwiseAbs().maxCoeff(), y(j).cwiseAbs().maxCoeff(),
+                           y(k).cwiseAbs().maxCoeff(), y(l).cwiseAbs().maxCoeff()});
+  const T rounding = tolerance::flat_simplex<T> * size * normal.norm();
+  return !(std::abs(height_of_vertex) > rounding) || !(height_of_vertex * height_of_origin > T(0));
 }
 
 template <class T>

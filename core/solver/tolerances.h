@@ -29,10 +29,10 @@ inline constexpr T gjk_rounding = T(4) * epsilon<T>;
 template <class T>
 inline constexpr T gjk_stalled = T(256) * epsilon<T>;
 
-/// A tetrahedron lower than this, as the sine of the angle between its face and the edge to its fourth
-/// vertex, is flat: a normal and a dot product are rounded by about as much.
+/// A tetrahedron lower than this, relative to its vertices' largest coordinate, is flat: a vertex, a
+/// normal and their product are rounded by about as much.
 template <class T>
-inline constexpr T flat_simplex = T(16) * epsilon<T>;
+inline constexpr T flat_simplex = T(8) * epsilon<T>;
 
 /// The GJK ray cast converges linearly: on smooth shapes it was seen to need 60 support points for
 /// the tolerance above, and up to twice that for extents of 1:1000.

@@ -5,7 +5,6 @@
 #include <iomanip>
 #include <iostream>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "core/parallel/parallel.h"
 #include "renderer/cli/image_arguments.h"
@@ -13,6 +12,7 @@
 #include "renderer/cli/verbs.h"
 #include "renderer/errors.h"
 #include "renderer/interrupt.h"
+#include "renderer/json/json.h"
 #include "renderer/labels.h"
 #include "renderer/scene/scene_json.h"
 
@@ -39,7 +39,7 @@ struct Statistics {
   }
 };
 
-nlohmann::ordered_json as_json(const Statistics& s) {
+Json as_json(const Statistics& s) {
   const RayCounts& c = s.counts;
   return {{"objects", s.objects},
           {"threads", s.threads},

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <Eigen/LU>
-
 #include "renderer/json/values.h"
 #include "renderer/scene/read_member.h"
 

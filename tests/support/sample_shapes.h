@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,11 @@ struct SampleShape {
   std::string name;  ///< the kind's name, then what is special
   Shape<double> shape;
 };
+
+/// What GoogleTest prints in place of bytes.
+inline void PrintTo(const SampleShape& sample, std::ostream* out) {
+  *out << sample.name;
+}
 
 /// At least one of every kind.
 std::vector<SampleShape> sample_shapes();

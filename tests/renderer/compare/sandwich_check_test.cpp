@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 #include "tests/support/sample_shapes.h"
@@ -53,6 +54,26 @@ INSTANTIATE_TEST_SUITE_P(Shapes, EmbreeSandwich, ::testing::ValuesIn(sample_shap
                            std::string name;
                            for (const char c : instance.param.name)
                              name += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
+                           return name;
+                         });
+
+class EmbreeSandwichOfSolvers : public ::testing::TestWithParam<SolverDescription> {};
+
+TEST_P(EmbreeSandwichOfSolvers, holds) {
+  for (const SampleShape& sample : sample_shapes()) {
+    CompareOptions options;
+    options.rays = 5000;
+    options.seed = 2;
+    options.sandwich.directions = 100;
+    options.cast.solver = GetParam().kind;
+    expect_agreement(compare_with_embree(sample.shape, options), sample.name);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Solvers, EmbreeSandwichOfSolvers, ::testing::ValuesIn(solver_descriptions),
+                         [](const auto& instance) {
+                           std::string name(instance.param.name);
+                           std::ranges::replace(name, '-', '_');
                            return name;
                          });
 
