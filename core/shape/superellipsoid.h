@@ -46,7 +46,7 @@ struct Superellipsoid {
   }
 
   /// With u = m/|m|_q and g_i = sign(n_i) u_i^(q-1), the osculating ellipsoid has the shape matrix
-  /// diag(a) ((q-1) diag(u^(q-2)) - (q-2) g g^T) diag(a). Where p > 2 the curvature is infinite on
+  /// diag(a) ((q-1) diag(u^(q-2)) - (q-2) g g^T) diag(a). Where p > 2 the radius of curvature is infinite on
   /// the coordinate planes; u is kept above a small number there.
   template <class W>
   Jet<W> jet(const Vec3<W>& n) const {
@@ -66,7 +66,7 @@ struct Superellipsoid {
   }
 
  private:
-  /// A radius of curvature is at most about 1/this times the radii, for p up to 4.
+  /// For p up to 4, the osculating ellipsoid is at most about 1/this times as long as the shape.
   static constexpr T least_of_jet = T(1) / T(256);
 };
 

@@ -12,6 +12,7 @@
 #include "core/math/bounds.h"
 #include "core/shape/support_mapped.h"
 #include "core/solver/gjk_distance.h"
+#include "core/solver/miss_plane.h"
 #include "core/solver/observer.h"
 #include "core/solver/ray_near_ball.h"
 #include "core/solver/result.h"
@@ -80,7 +81,12 @@ requires SupportMapped<S, T> CastResult<T> first_solution(
     }
     const T axis_r = axis.dot(r);
     const T clipped = lambda - closest.lower / axis_r;
-    if (!(axis_r < T(0)) || clipped > near.lambda_max) return miss(axis);
+    if (!(axis_r < T(0))) {
+      // Behind x the plane that clipped last keeps off, or the ball's, where the cast began.
+      if (from_origin && !has_advanced) return miss(axis);
+      return miss(joined_plane(axis, has_advanced ? n : x, r));
+    }
+    if (clipped > near.lambda_max) return miss(axis);
     // No advance that lambda can tell: as close as rounding lets it come.
     if (!(clipped > lambda)) return finish();
     lambda = clipped;

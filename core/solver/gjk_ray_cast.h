@@ -15,6 +15,7 @@
 
 #include "core/math/bounds.h"
 #include "core/shape/support_mapped.h"
+#include "core/solver/miss_plane.h"
 #include "core/solver/observer.h"
 #include "core/solver/projection.h"
 #include "core/solver/ray_near_ball.h"
@@ -114,7 +115,13 @@ requires SupportMapped<S, T> CastResult<T> gjk_ray_cast(const S& shape, const Ra
     if (const T v_w = v.dot(w); v_w > T(0)) {
       const T v_r = v.dot(r);
       const T clipped = lambda - v_w / v_r;
-      if (!(v_r < T(0)) || clipped > near.lambda_max) {
+      if (!(v_r < T(0))) {
+        show();
+        // Behind x the plane that clipped last keeps off, or the ball's, where the cast began.
+        if (from_origin && !has_advanced) return miss(v);
+        return miss(joined_plane(v, has_advanced ? n : x, r));
+      }
+      if (clipped > near.lambda_max) {
         show();
         return miss(v);
       }

@@ -118,13 +118,8 @@ LineHit<T> first_on_line(const S& shape, const Ball<T>& ball, const Vec3<T>& hal
         return result;
       }
     }
-    // A tangent line: the plane along it touches the shape where the ray passes.
-    if (!(n.z() > T(0)) && repeated && std::abs(h) <= gap) {
-      result.status = Status::hit;
-      result.lambda = result.lambda_above = -piece.s.z();
-      result.normal = n;
-      return result;
-    }
+    // A tangent line: where along it the shape is touched, no plane along it tells.
+    if (!(n.z() > T(0)) && repeated && std::abs(h) <= gap) return result;
     model.keep(solution);
     n = solution.m;
   }

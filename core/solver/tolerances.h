@@ -29,8 +29,8 @@ inline constexpr T gjk_rounding = T(4) * epsilon<T>;
 template <class T>
 inline constexpr T gjk_stalled = T(256) * epsilon<T>;
 
-/// A tetrahedron lower than this, relative to its vertices' largest coordinate, is flat: a vertex, a
-/// normal and their product are rounded by about as much.
+/// A tetrahedron lower than this, relative to its vertices' largest coordinate, is flat: a vertex,
+/// a normal and their product are rounded by about as much.
 template <class T>
 inline constexpr T flat_simplex = T(8) * epsilon<T>;
 
