@@ -154,19 +154,21 @@ Interval in(const TaperedCapsule<double>& s, const V& o, const V& d) {
                 either(lower, upper));
 }
 
-Interval in(const Triangle<double>& s, const V& o, const V& d) {
+std::optional<Interval> in(const Triangle<double>& s, const V& o, const V& d) {
   const V a = exact(s.points[0]) - o, b = exact(s.points[1]) - o, c = exact(s.points[2]) - o;
   const V normal = (b - a).cross(c - a);
   const Long ab = d.dot(a.cross(b)), bc = d.dot(b.cross(c)), ca = d.dot(c.cross(a));
   const bool through = (ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0);
-  if (!through || normal.dot(d) == 0) return {};
+  if (normal.squaredNorm() == 0) return std::nullopt;  // a segment
+  if (!through || normal.dot(d) == 0) return Interval{};
   const Long t = normal.dot(a) / normal.dot(d);
-  return {t, t};
+  return Interval{t, t};
 }
 
 /// The half-spaces of the facets that Qhull found, with offsets that let every vertex in.
 std::optional<Interval> in(const Hull<double>& s, const V& o, const V& d) {
   const auto& points = s.points.points();
+  if (points.size() > 100) return std::nullopt;  // Qhull for every line would take too long
   const ConvexHull hull = convex_hull(points);
   if (hull.rank() < 3) return std::nullopt;
   Interval inside = everything();
@@ -201,7 +203,7 @@ Interval in(const Superellipsoid<double>& s, const V& o, const V& d) {
   if (around.empty()) return {};
   Long low = around.lower, high = around.upper;
   constexpr Long golden = 0.6180339887498948482L;
-  for (int i = 0; i < 120; ++i) {
+  for (int i = 0; i < 50; ++i) {
     const Long a = high - golden * (high - low), b = low + golden * (high - low);
     (excess(a) < excess(b) ? high : low) = excess(a) < excess(b) ? b : a;
   }
@@ -209,7 +211,7 @@ Interval in(const Superellipsoid<double>& s, const V& o, const V& d) {
   if (excess(least) > 0) return {};
   const auto root = [&](Long outside) {
     Long inside = least;
-    for (int i = 0; i < 80; ++i) {
+    for (int i = 0; i < 64; ++i) {
       const Long middle = (inside + outside) / 2;
       (excess(middle) > 0 ? outside : inside) = middle;
     }

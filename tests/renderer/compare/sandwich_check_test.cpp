@@ -8,6 +8,7 @@
 #include <set>
 
 #include "tests/support/sample_shapes.h"
+#include "tests/support/solvers.h"
 
 namespace minkray::testing {
 namespace {
@@ -60,13 +61,22 @@ INSTANTIATE_TEST_SUITE_P(Shapes, EmbreeSandwich, ::testing::ValuesIn(sample_shap
 class EmbreeSandwichOfSolvers : public ::testing::TestWithParam<SolverDescription> {};
 
 TEST_P(EmbreeSandwichOfSolvers, holds) {
+  const bool is_accurate = std::ranges::any_of(
+      accurate_solvers(), [](const auto& solver) { return solver.kind == GetParam().kind; });
   for (const SampleShape& sample : sample_shapes()) {
     CompareOptions options;
     options.rays = 5000;
     options.seed = 2;
     options.sandwich.directions = 100;
     options.cast.solver = GetParam().kind;
-    expect_agreement(compare_with_embree(sample.shape, options), sample.name);
+    const CompareReport report = compare_with_embree(sample.shape, options);
+    if (is_accurate) {
+      expect_agreement(report, sample.name);
+    } else {
+      // They may give up, and say so; what they answer must be right.
+      const int gave_up = report.violations[static_cast<std::size_t>(Violation::gave_up)];
+      EXPECT_EQ(report.total_violations(), gave_up) << sample.name << what_went_wrong(report);
+    }
   }
 }
 
