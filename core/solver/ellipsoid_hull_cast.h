@@ -44,7 +44,7 @@ template <class T>
 class CommonFactorCast {
  public:
   CommonFactorCast(const Mat3<T>& F, const std::array<Vec3<T>, 4>& c, int count)
-      : F_(F), A_(F * F.transpose()), c_(c), count_(count), is_flat_((F.array() == T(0)).all()) {}
+      : F_(F), c_(c), count_(count), is_flat_((F.array() == T(0)).all()) {}
 
   /// The hit, with piece `newest` among its carriers; among the candidates whose weights are not
   /// negative and that no other piece beats, or, should rounding leave none, the best by value.
@@ -119,26 +119,23 @@ class CommonFactorCast {
       consider(found, qx != T(0) || qy != T(0));
       return;
     }
+    // With q = c_xy, N_kl = f_k x f_l and m_kl = N_kl.z: det = sum m^2, adj q and the rest of A's minors
+    // are sums of products of these, which keep the digits that A itself loses for needles.
     T det = T(0), off = T(0);
+    Vec3<T> across = Vec3<T>::Zero(), adj = Vec3<T>::Zero();
     for (int k = 0; k < 3; ++k) {
       for (int l = k + 1; l < 3; ++l) {
-        const T minor = F_(0, k) * F_(1, l) - F_(1, k) * F_(0, l);
-        det += minor * minor;
+        const Vec3<T> N = F_.col(k).cross(F_.col(l));
+        det += N.z() * N.z();
+        across += N.z() * N;
       }
       const T moment = F_(0, k) * qy - F_(1, k) * qx;
       off += moment * moment;
+      adj += moment * Vec3<T>(-F_(1, k), F_(0, k), T(0));
     }
-    const T volume = std::abs(F_.determinant());
+    const T volume = std::abs(F_.col(0).dot(F_.col(1).cross(F_.col(2))));
     const T den = det - off;
-    const T adj_x = A_(1, 1) * qx - A_(0, 1) * qy, adj_y = A_(0, 0) * qy - A_(0, 1) * qx;
-    if (den > T(0)) {
-      const T root = std::sqrt(den);
-      const T lean_x = A_(1, 1) * A_(0, 2) - A_(0, 1) * A_(1, 2),
-              lean_y = A_(0, 0) * A_(1, 2) - A_(0, 1) * A_(0, 2);
-      found.m = {-root * lean_x - volume * adj_x, -root * lean_y - volume * adj_y, det * root};
-    } else {
-      found.m = {-adj_x, -adj_y, T(0)};
-    }
+    found.m = den > T(0) ? Vec3<T>(std::sqrt(den) * across - volume * adj) : Vec3<T>(-adj);
     consider(found, true);
   }
 
@@ -166,7 +163,7 @@ class CommonFactorCast {
     }
     Vec3<T> G = lateral(found.m);
     if (!(den > T(0)) && ga > T(0)) {
-      const Vec3<T> along = A_ * found.m;
+      const Vec3<T> along = F_ * (F_.transpose() * found.m);
       G = Vec3<T>(along.x(), along.y(), T(0)) * (std::abs(L) / ga);
     }
     const Vec3<T> from = at(j) + G;
@@ -205,7 +202,7 @@ class CommonFactorCast {
   /// In units of the bounding radius: twice the digits of a value, whose error is the square.
   inline static const T lateral_rounding = T(4) * std::sqrt(std::numeric_limits<T>::epsilon());
 
-  Mat3<T> F_, A_;
+  Mat3<T> F_;
   std::array<Vec3<T>, 4> c_;
   int count_;
   bool is_flat_;
