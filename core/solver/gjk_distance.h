@@ -78,9 +78,10 @@ DistanceResult<T, Dim> gjk_distance(const Supports& supports, const Vec<T, Dim>&
   };
   // Rounding has the last word: w brought nothing new.
   const auto stalled = [&] {
-    const T size = std::sqrt(v_squared) / radius;
-    if (!(size > tolerance::gjk_stalled<T>)) return finish(DistanceStatus::overlapping);
-    return finish(result.lower > T(0) ? DistanceStatus::separated : DistanceStatus::exhausted);
+    if (result.lower > tolerance::gjk_rounding<T> * radius)
+      return finish(DistanceStatus::separated);
+    const bool touches = !(std::sqrt(v_squared) > tolerance::gjk_stalled<T> * radius);
+    return finish(touches ? DistanceStatus::overlapping : DistanceStatus::exhausted);
   };
 
   while (result.iterations < options.max_iterations) {

@@ -18,9 +18,12 @@ using AddVerb = void (*)(CLI::App& app, ExitCode& exit_code);
 
 void add_cast(CLI::App& app, ExitCode& exit_code);
 void add_compare(CLI::App& app, ExitCode& exit_code);
+void add_distance_2d(CLI::App& app, ExitCode& exit_code);
 void add_heatmap(CLI::App& app, ExitCode& exit_code);
 void add_info(CLI::App& app, ExitCode& exit_code);
+void add_paper(CLI::App& app, ExitCode& exit_code);
 void add_render(CLI::App& app, ExitCode& exit_code);
+void add_trace(CLI::App& app, ExitCode& exit_code);
 
 /// In the order in which --help shows them.
 inline constexpr AddVerb verbs[] = {
@@ -28,6 +31,9 @@ inline constexpr AddVerb verbs[] = {
     add_heatmap,
     add_compare,
     add_cast,
+    add_trace,
+    add_paper,
+    add_distance_2d,
     add_info,
 };
 

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// minkray distance-2d: the distance algorithm in the plane, drawn step by step.
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+
+#include "renderer/cli/choices.h"
+#include "renderer/cli/verbs.h"
+#include "renderer/json/object_reader.h"
+#include "renderer/json/parse.h"
+#include "renderer/output_file.h"
+#include "renderer/paper/panels.h"
+#include "renderer/scene/shape_json.h"
+
+namespace minkray {
+namespace {
+
+struct Options {
+  std::string file;
+  std::string out;
+  std::string subalgorithm = "projection";
+};
+
+void distance_2d(const Options& options) {
+  check_writable(options.out);
+  Mistakes mistakes(options.file);
+  MeshFiles meshes(std::filesystem::path(options.file).parent_path());
+  std::optional<Shape<double>> a, b;
+  if (const auto text = read_text_file(options.file, mistakes))
+    if (const auto json = parse_json(*text, mistakes)) {
+      ObjectReader object(*json, JsonPath(), mistakes);
+      object.allow({"description"});
+      if (const Json* shape = object.require("a", "a shape"))
+        a = read_shape(*shape, object.path("a"), mistakes, meshes);
+      if (const Json* shape = object.require("b", "a shape"))
+        b = read_shape(*shape, object.path("b"), mistakes, meshes);
+      object.finish();
+    }
+  throw_if_any(mistakes);
+  DistanceResult<double, 2> result;
+  const std::string svg =
+      distance_panels_svg(*a, *b, subalgorithm_named(options.subalgorithm), result);
+  write_file(options.out,
+             std::span(reinterpret_cast<const unsigned char*>(svg.data()), svg.size()));
+  std::cout << name_of(result.status) << ", distance " << result.distance << " after "
+            << result.iterations << " iterations\n";
+}
+
+}  // namespace
+
+void add_distance_2d(CLI::App& app, ExitCode&) {
+  CLI::App* verb = app.add_subcommand(
+      "distance-2d", "Draw the distance algorithm on two flat shapes, one panel an iteration");
+  const auto options = std::make_shared<Options>();
+  verb->add_option("file", options->file,
+                   "JSON: {\"a\": shape, \"b\": shape}; of shapes that are not flat, their shadows "
+                   "on z = 0")
+      ->required();
+  verb->add_option("-o,--output", options->out, "The SVG file")->required();
+  verb->add_option("--subalgorithm", options->subalgorithm, "How simplices are reduced")
+      ->check(CLI::IsMember(subalgorithm_names()))
+      ->capture_default_str();
+  verb->callback([options] { distance_2d(*options); });
+}
+
+}  // namespace minkray

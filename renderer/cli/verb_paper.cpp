@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// minkray paper: reruns the claims of the papers and prints what they say beside what we find.
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <memory>
+
+#include "renderer/cli/verbs.h"
+#include "renderer/errors.h"
+#include "renderer/paper/claim.h"
+
+namespace minkray {
+namespace {
+
+struct Options {
+  std::string only;
+  std::string out;
+  ClaimOptions claim;
+};
+
+void write_plot(const Plot& plot, const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  const std::filesystem::path file = folder / plot.file;
+  std::ofstream out(file, std::ios::binary);
+  out << plot_svg(plot);
+  out.close();
+  if (!out) throw CannotWrite(file.string() + ": cannot be written");
+}
+
+/// Words in lines of at most 96 letters, after a label.
+void print(const std::string& label, const std::string& text) {
+  constexpr std::size_t width = 96, indent = 12;
+  std::string line = "    " + label;
+  line.resize(indent, ' ');
+  std::size_t start = 0;
+  while (start < text.size()) {
+    const std::size_t end = std::min(text.find(' ', start), text.size());
+    const std::string word = text.substr(start, end - start);
+    if (line.size() + word.size() > width && line.size() > indent) {
+      std::cout << line << '\n';
+      line.assign(indent, ' ');
+    }
+    line += word + " ";
+    start = end + 1;
+  }
+  while (!line.empty() && line.back() == ' ') line.pop_back();
+  std::cout << line << '\n';
+}
+
+void paper(const Options& options) {
+  std::cout
+      << "An iteration is one turn of the loop and one call of the support mapping, the last\n"
+         "one counted. Rays, shapes and motions are random with a fixed seed.\n";
+  for (const Claim& claim : claims) {
+    if (!options.only.empty() && claim.id != options.only) continue;
+    const ClaimResult result = claim.run(options.claim);
+    std::cout << "\n(" << claim.id << ") " << claim.title << '\n';
+    print("paper", std::string(claim.paper));
+    for (std::size_t i = 0; i < result.ours.size(); ++i)
+      print(i == 0 ? "ours" : "", result.ours[i]);
+    print("verdict", result.verdict);
+    print("command", "minkray paper --only " + std::string(claim.id) + " --rays " +
+                         std::to_string(options.claim.rays) + " --seed " +
+                         std::to_string(options.claim.seed));
+    std::cout.flush();
+    if (options.out.empty()) continue;
+    for (const Plot& plot : result.plots) {
+      write_plot(plot, options.out);
+      print("plot", (std::filesystem::path(options.out) / plot.file).string());
+    }
+  }
+}
+
+}  // namespace
+
+void add_paper(CLI::App& app, ExitCode&) {
+  CLI::App* verb = app.add_subcommand("paper", "Rerun the claims of the papers (docs/papers.md)");
+  const auto options = std::make_shared<Options>();
+  std::vector<std::string> ids;
+  for (const Claim& claim : claims) ids.emplace_back(claim.id);
+  verb->add_option("--only", options->only, "One claim")->check(CLI::IsMember(ids));
+  verb->add_option("--out", options->out, "A folder for the plots (SVG)");
+  verb->add_option("--rays", options->claim.rays, "Random rays for each figure")
+      ->check(CLI::Range(100, 100000000))
+      ->capture_default_str();
+  verb->add_option("--seed", options->claim.seed, "Seed of all random numbers")
+      ->capture_default_str();
+  verb->callback([options] { paper(*options); });
+}
+
+}  // namespace minkray

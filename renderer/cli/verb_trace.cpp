@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+// minkray trace: every iteration of the cast for one pixel's ray.
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+
+#include "core/shape/convert.h"
+#include "renderer/camera.h"
+#include "renderer/cli/choices.h"
+#include "renderer/cli/verbs.h"
+#include "renderer/errors.h"
+#include "renderer/output_file.h"
+#include "renderer/paper/trace_picture.h"
+#include "renderer/query/number_json.h"
+#include "renderer/scene/scene_json.h"
+
+namespace minkray {
+namespace {
+
+struct Options {
+  std::string scene;
+  std::vector<int> pixel;
+  std::string object;
+  std::string svg;
+  std::string precision = "double";
+  std::string solver = "auto";
+  bool json = false;
+};
+
+/// The object to show: the one that is asked for, else the first that the ray meets, else the one
+/// whose miss took most iterations. No object: the scene has none.
+template <class T>
+std::size_t choose(const std::vector<PreparedShape<T>>& shapes, const Scene& scene,
+                   const Ray<T>& ray, const CastOptions<T>& cast, const std::string& name) {
+  std::size_t nearest = shapes.size(), hardest = shapes.size();
+  T t = std::numeric_limits<T>::infinity();
+  int iterations = -1;
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    if (!name.empty()) {
+      if (scene.objects[i].name == name) return i;
+      continue;
+    }
+    const CastResult<T> result = cast_ray(shapes[i], ray, cast);
+    if (result.found() && result.t() < t) {
+      nearest = i;
+      t = result.t();
+    }
+    if (result.iterations > iterations) {
+      hardest = i;
+      iterations = result.iterations;
+    }
+  }
+  if (!name.empty()) throw WrongUsage("trace: the scene has no object \"" + name + "\"");
+  return nearest < shapes.size() ? nearest : hardest;
+}
+
+template <class T>
+void trace(const Options& options) {
+  const Scene scene = load_scene(options.scene);
+  const Resolution& size = scene.camera.resolution;
+  const int x = options.pixel[0], y = options.pixel[1];
+  if (x < 0 || y < 0 || x >= size.width || y >= size.height)
+    throw WrongUsage("trace: --pixel must be within 0,0 and " + std::to_string(size.width - 1) +
+                     "," + std::to_string(size.height - 1));
+  if (!options.svg.empty()) check_writable(options.svg);
+  const Ray<double> through = Camera(scene.camera, size).ray(x + 0.5, y + 0.5);
+  const Ray<T> ray{through.origin.template cast<T>(), through.direction.template cast<T>()};
+  CastOptions<T> cast;
+  cast.solver = solver_named(options.solver);
+  std::vector<PreparedShape<T>> shapes;
+  for (const Object& object : scene.objects)
+    shapes.emplace_back(convert<T>(object.shape), object.pose.template cast<T>());
+  const std::size_t chosen = choose(shapes, scene, ray, cast, options.object);
+  if (chosen == shapes.size()) throw BadInput(options.scene + ": has no objects");
+  const CastTrace<T> result = trace_ray(shapes[chosen], ray, cast);
+
+  if (!options.svg.empty()) {
+    const std::string svg = trace_svg(result, shapes[chosen]);
+    write_file(options.svg,
+               std::span(reinterpret_cast<const unsigned char*>(svg.data()), svg.size()));
+  }
+  const double t = double(result.result.t_base) + double(result.result.t_offset);
+  const bool found = result.result.found();
+  if (options.json) {
+    Json json{{"object", scene.objects[chosen].name},
+              {"pixel", {x, y}},
+              {"origin", point_json(ray.origin)},
+              {"direction", point_json(ray.direction)},
+              {"ball_centre", point_json(result.ball.centre)},
+              {"status", name_of(result.result.status)}};
+    if (found) json["t"] = number_json(t);
+    json["normal"] = point_json(result.result.normal);
+    json["iterations"] = result.result.iterations;
+    json["supports"] = result.result.supports;
+    json["trace"] = trace_json(result);
+    std::cout << json.dump() << '\n';
+    return;
+  }
+  std::cout << "object \"" << scene.objects[chosen].name << "\": " << name_of(result.result.status);
+  if (found) std::cout << ", t = " << number_json(t).dump();
+  std::cout << ", " << result.result.iterations << " iterations, " << result.result.supports
+            << " supports\n"
+            << trace_table(result);
+}
+
+}  // namespace
+
+void add_trace(CLI::App& app, ExitCode&) {
+  CLI::App* verb = app.add_subcommand("trace", "Show every iteration of the cast for one pixel");
+  const auto options = std::make_shared<Options>();
+  verb->add_option("scene", options->scene, "A scene file (JSON)")->required();
+  verb->add_option("--pixel", options->pixel, "x,y from the upper left corner; through its centre")
+      ->required()
+      ->expected(2)
+      ->delimiter(',');
+  verb->add_option("--object", options->object,
+                   "The object's name; by default the one that is hit");
+  verb->add_option("--precision", options->precision, "float or double")
+      ->check(CLI::IsMember({"float", "double"}))
+      ->capture_default_str();
+  verb->add_option("--solver", options->solver, "How rays are cast")
+      ->check(CLI::IsMember(solver_names()))
+      ->capture_default_str();
+  verb->add_flag("--json", options->json, "Print JSON");
+  verb->add_option("--svg", options->svg, "Also draw it into this file");
+  verb->callback([options] {
+    if (options->precision == "float")
+      trace<float>(*options);
+    else
+      trace<double>(*options);
+  });
+}
+
+}  // namespace minkray

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/paper/trace_picture.h"
+
+#include <cmath>
+#include <sstream>
+
+#include "renderer/paper/plot.h"
+#include "renderer/paper/samples.h"
+
+namespace minkray {
+namespace {
+
+constexpr double side = 560, table_width = 520, margin = 20, line_height = 17;
+constexpr int outline_directions = 720;
+
+}  // namespace
+
+template <class T>
+std::string trace_table(const CastTrace<T>& trace) {
+  std::string text = formatted("%4s %4s %-24s %-24s %-24s %-12s %s\n", "k", "case", "t_clip",
+                               "t_lo", "t_hi", "|v|", "simplex");
+  int k = 0;
+  for (const TracedIteration<T>& step : trace.iterations)
+    text += formatted("%4d %4d %-24.17g %-24.17g %-24.17g %-12.5g %d\n", k++,
+                      static_cast<int>(step.clip.which), trace.t(step.clip.lambda),
+                      trace.t(step.lower), trace.t(step.upper), double(step.v.norm()),
+                      static_cast<int>(step.simplex.size()));
+  return text;
+}
+
+template <class T>
+std::string trace_svg(const CastTrace<T>& trace, const PreparedShape<T>& shape) {
+  // The picture's plane: x along the ray, y from the ball's centre to the ray.
+  const Vec3<T> r = trace.ray.r.isZero(T(0)) ? Vec3<T>(Vec3<T>::UnitX()) : trace.ray.r;
+  Vec3<T> up = trace.ray.s;
+  if (!(up.norm() > T(1e-3) * trace.ball.radius)) up = r.unitOrthogonal();
+  up = (up - up.dot(r) * r).normalized();
+  const double radius = double(trace.ball.radius), scale = (side - 2 * margin) / (4 * radius);
+  const auto px = [&](double along) { return side / 2 + along * scale; };
+  const auto py = [&](double height) { return side / 2 - height * scale; };
+  const auto at = [&](const Vec3<T>& p) {
+    return formatted("%.2f,%.2f", px(double(p.dot(r))), py(double(p.dot(up))));
+  };
+  const double ray_height = double(trace.ray.s.dot(up));
+
+  std::ostringstream svg;
+  const double height = std::max(side, line_height * double(trace.iterations.size() + 6));
+  svg << formatted(
+             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %.0f %.0f\" "
+             "font-family=\"sans-serif\" font-size=\"12\">\n",
+             side + table_width, height)
+      << "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n"
+      << formatted("<clipPath id=\"p\"><rect width=\"%.0f\" height=\"%.0f\"/></clipPath>\n", side,
+                   side)
+      << "<g clip-path=\"url(#p)\">\n<polygon fill=\"#eeeeee\" stroke=\"#888888\" points=\"";
+  for (int i = 0; i < outline_directions; ++i) {
+    const T angle = T(2 * std::acos(-1.0) * i / outline_directions);
+    const Vec3<T> n = std::cos(angle) * r + std::sin(angle) * up;
+    svg << at(shape.inner_shape().support(n) - trace.ball.centre) << ' ';
+  }
+  svg << "\"/>\n"
+      << formatted("<line x1=\"%.2f\" y1=\"%.2f\" x2=\"%.2f\" y2=\"%.2f\" stroke=\"black\"/>\n",
+                   std::max(px(double(trace.ray.lambda_min)), -side), py(ray_height),
+                   std::min(px(double(trace.ray.lambda_max)), 2 * side), py(ray_height));
+  int k = 0;
+  for (const TracedIteration<T>& step : trace.iterations) {
+    const double clip = double(step.clip.lambda);
+    if (std::isfinite(clip) && std::abs(clip) < 4 * radius)
+      svg << formatted(
+          "<line x1=\"%.2f\" y1=\"%.2f\" x2=\"%.2f\" y2=\"%.2f\" stroke=\"%s\" "
+          "stroke-dasharray=\"4 3\"/>\n",
+          px(double(step.p.dot(r))), py(double(step.p.dot(up))), px(clip), py(ray_height),
+          step.clip.which == ClipCase::lower_bound ? "#0072b2" : "#d55e00");
+    svg << formatted(
+               "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"3\" fill=\"#009e73\"/>"
+               "<text x=\"%.2f\" y=\"%.2f\">p%d</text>\n",
+               px(double(step.p.dot(r))), py(double(step.p.dot(up))), px(double(step.p.dot(r))) + 5,
+               py(double(step.p.dot(up))) - 5, k)
+        << formatted("<circle cx=\"%.2f\" cy=\"%.2f\" r=\"3\" fill=\"black\"/>\n",
+                     px(double(step.lambda)), py(ray_height));
+    ++k;
+  }
+  svg << "</g>\n<g font-family=\"monospace\" font-size=\"11\" xml:space=\"preserve\">\n";
+  double y = margin;
+  const auto write = [&](const std::string& text) {
+    svg << formatted("<text x=\"%.0f\" y=\"%.0f\">", side + 10, y) << svg_text(text) << "</text>\n";
+    y += line_height;
+  };
+  write(formatted("%s, t = %.9g", std::string(name_of(trace.result.status)).c_str(),
+                  double(trace.result.t_base) + double(trace.result.t_offset)));
+  write("green: support points; blue: planes that clip the");
+  write("ray from below (case 1), orange: from above (case 2)");
+  y += line_height;
+  write(formatted("%3s %4s %14s %14s %14s", "k", "case", "t_clip", "t_lo", "t_hi"));
+  k = 0;
+  for (const TracedIteration<T>& step : trace.iterations)
+    write(formatted("%3d %4d %14.9g %14.9g %14.9g", k++, static_cast<int>(step.clip.which),
+                    trace.t(step.clip.lambda), trace.t(step.lower), trace.t(step.upper)));
+  svg << "</g>\n</svg>\n";
+  return svg.str();
+}
+
+#define MINKRAY_INSTANTIATE(T)                           \
+  template std::string trace_table(const CastTrace<T>&); \
+  template std::string trace_svg(const CastTrace<T>&, const PreparedShape<T>&);
+MINKRAY_INSTANTIATE(float)
+MINKRAY_INSTANTIATE(double)
+#undef MINKRAY_INSTANTIATE
+
+}  // namespace minkray

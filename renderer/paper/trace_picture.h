@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// One ray cast, iteration by iteration, as a picture and as a table.
+#pragma once
+
+#include <string>
+
+#include "renderer/query/trace.h"
+
+namespace minkray {
+
+/// A line for each iteration: which case of clipping, where, and what is left of the ray.
+template <class T>
+std::string trace_table(const CastTrace<T>& trace);
+
+/// The SVG file: the shape's shadow on the plane through the ray and the centre of its ball, the
+/// ray, the support points, where their planes clip the ray, and the bounds beside it.
+template <class T>
+std::string trace_svg(const CastTrace<T>& trace, const PreparedShape<T>& shape);
+
+}  // namespace minkray

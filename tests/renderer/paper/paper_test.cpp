@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include "core/solver/distance.h"
+#include "renderer/paper/claim.h"
+#include "renderer/paper/panels.h"
+#include "renderer/paper/trace_picture.h"
+
+namespace minkray {
+namespace {
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+    ++found;
+  return found;
+}
+
+TEST(Panels, show_every_iteration_of_a_real_run_with_its_discarded_vertices) {
+  const Shape<double> polygon = Hull<double>{PointCloud<double>(
+      {Vec3<double>(1, 0.2, 0), {2, -1, 0}, {4, 0, 0}, {4, 2, 0}, {2.5, 3, 0}, {1.2, 2, 0}})};
+  const Shape<double> disk = Transform<double>{
+      Nested<double>(Disk<double>{0.5}), Affine<double>{Mat3<double>::Identity(), {-1, -1, 0}}};
+  DistanceResult<double, 2> result;
+  const std::string svg = distance_panels_svg(polygon, disk, SubalgorithmKind::projection, result);
+  EXPECT_EQ(result.status, DistanceStatus::separated);
+  // The vertex (1, 0.2) is closest to the disk.
+  EXPECT_NEAR(result.distance, Vec3<double>(2, 1.2, 0).norm() - 0.5, 1e-14);
+  EXPECT_EQ(count(svg, "k = "), static_cast<std::size_t>(result.iterations));
+  EXPECT_EQ(count(svg, "<g "), count(svg, "</g>"));
+  EXPECT_EQ(svg.find("nan"), std::string::npos);
+}
+
+TEST(Trace, tables_and_pictures_have_a_line_for_each_iteration) {
+  const PreparedShape<double> shape(Shape<double>(Cone<double>{0.7, 0.5}));
+  CastOptions<double> options;
+  options.solver = SolverKind::paper;
+  const CastTrace<double> trace =
+      trace_ray<double>(shape, {{-3, 0.2, 0.1}, {1, 0.01, -0.02}}, options);
+  ASSERT_EQ(trace.result.status, Status::hit);
+  ASSERT_EQ(trace.iterations.size(), static_cast<std::size_t>(trace.result.iterations));
+  EXPECT_EQ(count(trace_table(trace), "\n"), trace.iterations.size() + 1);
+  const std::string svg = trace_svg(trace, shape);
+  EXPECT_EQ(count(svg, ">p"), trace.iterations.size());
+  EXPECT_EQ(svg.find("nan,"), std::string::npos);
+  // The bounds close in on the hit from both sides.
+  for (const auto& step : trace.iterations) {
+    EXPECT_LE(trace.t(step.lower), trace.result.t() + 1e-14);
+    EXPECT_GE(trace.t(step.upper), trace.result.t() - 1e-14);
+  }
+}
+
+TEST(Paper, a_spheres_iterations_are_a_line_in_the_tolerances_logarithm) {
+  ClaimOptions options;
+  options.rays = 500;
+  const ClaimResult result = sphere_iterations(options);
+  EXPECT_EQ(result.verdict.rfind("confirmed", 0), 0u) << result.verdict;
+  ASSERT_EQ(result.plots.size(), 1u);
+  EXPECT_NE(plot_svg(result.plots[0]).find("</svg>"), std::string::npos);
+}
+
+TEST(Paper, caching_the_separating_axis_saves_iterations_and_changes_no_contact) {
+  const ClaimResult result = cached_axis({});
+  EXPECT_EQ(result.verdict.rfind("confirmed", 0), 0u) << result.verdict;
+  EXPECT_EQ(result.ours.size(), 2u) << result.ours.back();
+}
+
+TEST(Paper, in_single_precision_no_cast_loops) {
+  ClaimOptions options;
+  options.rays = 300;
+  EXPECT_EQ(float_terminates(options).verdict.rfind("confirmed", 0), 0u);
+}
+
+}  // namespace
+}  // namespace minkray
