@@ -119,9 +119,9 @@ Vertices read_mesh_vertices(const std::filesystem::path& path) {
     throw std::runtime_error("must be a mesh file that ends in .obj or .stl");
   }
   const std::string text = contents(path);
-  const Vertices vertices = extension == ".obj"   ? vertices_of_lines(text, "v")
-                            : is_binary_stl(text) ? vertices_of_binary_stl(text)
-                                                  : vertices_of_lines(text, "vertex");
+  Vertices vertices = extension == ".obj"   ? vertices_of_lines(text, "v")
+                      : is_binary_stl(text) ? vertices_of_binary_stl(text)
+                                            : vertices_of_lines(text, "vertex");
   if (vertices.empty()) throw std::runtime_error("has no vertices");
   return vertices;
 }

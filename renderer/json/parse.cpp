@@ -171,26 +171,26 @@ std::string reason(const std::string& what) {
 
 }  // namespace
 
-std::optional<Json> parse_json(std::string_view given, Mistakes& mistakes) {
-  std::string text(given);
+std::optional<Json> parse_json(std::string_view text, Mistakes& mistakes) {
+  std::string repaired(text);
   for (int replacements = 0;; ++replacements) {
     TreeBuilder tree(mistakes);
-    if (Json::sax_parse(text, &tree)) return tree.take_root();
+    if (Json::sax_parse(repaired, &tree)) return tree.take_root();
 
     if (tree.too_deep) {
       mistakes.add(tree.path(), "must not be nested more than " +
                                     std::to_string(deepest_json_nesting) + " levels deep");
       return std::nullopt;
     }
-    const Span span = number_not_finite(text, tree);
+    const Span span = number_not_finite(repaired, tree);
     if (span.length > 0 && replacements < most_replacements) {
       mistakes.add(tree.path(), "must be a finite number (got " +
-                                    printable(text.substr(span.start, span.length), 40) + ")");
-      text.replace(span.start, span.length, "null");
+                                    printable(repaired.substr(span.start, span.length), 40) + ")");
+      repaired.replace(span.start, span.length, "null");
       continue;
     }
     mistakes.add(tree.path(), "not valid JSON at line:column " +
-                                  line_and_column(text, tree.error_position) + ": " +
+                                  line_and_column(repaired, tree.error_position) + ": " +
                                   printable(reason(tree.error_reason), 200));
     return std::nullopt;
   }
