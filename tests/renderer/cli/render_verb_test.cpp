@@ -40,7 +40,7 @@ class RenderVerb : public testing::Test {
   std::string path(const std::string& file) const { return (folder_ / file).string(); }
 
   static pid_t start(const std::vector<std::string>& arguments) {
-    std::vector<std::string> words = {MINKRAY_EXECUTABLE};
+    std::vector<std::string> words = {MINKRAY_PROGRAM};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> pointers;
     for (std::string& word : words) pointers.push_back(word.data());
@@ -49,7 +49,7 @@ class RenderVerb : public testing::Test {
     if (child == 0) {
       if (std::freopen("/dev/null", "w", stdout) == nullptr) ::_exit(126);
       if (std::freopen("/dev/null", "w", stderr) == nullptr) ::_exit(126);
-      ::execv(MINKRAY_EXECUTABLE, pointers.data());
+      ::execv(MINKRAY_PROGRAM, pointers.data());
       ::_exit(127);
     }
     return child;
