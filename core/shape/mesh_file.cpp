@@ -101,9 +101,8 @@ Vertices vertices_of_binary_stl(std::string_view bytes) {
         corner[axis] = std::bit_cast<float>(little_endian(bytes.substr(offset)));
       }
       if (!corner.allFinite()) {
-        throw std::runtime_error(
-            "triangle " + std::to_string((triangle - stl_header_bytes) / stl_triangle_bytes) +
-            ": a vertex must be three finite numbers");
+        throw std::runtime_error("triangle " + std::to_string(vertices.size() / 3 + 1) +
+                                 ": a vertex must be three finite numbers");
       }
       vertices.push_back(corner);
     }

@@ -77,13 +77,16 @@ void ObjectReader::allow(std::initializer_list<std::string_view> keys) {
   }
 }
 
-void ObjectReader::finish() {
-  if (!is_object_) return;
+bool ObjectReader::finish() {
+  if (!is_object_) return false;
+  bool all_known = true;
   for (const auto& item : json_.items()) {
     if (std::find(known_.begin(), known_.end(), item.key()) == known_.end()) {
       mistakes_.add(path_ / item.key(), "unknown key (" + suggestion(item.key(), known_) + ")");
+      all_known = false;
     }
   }
+  return all_known;
 }
 
 }  // namespace minkray

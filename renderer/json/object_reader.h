@@ -31,8 +31,8 @@ class ObjectReader {
   /// Names keys that are known without being asked for.
   void allow(std::initializer_list<std::string_view> keys);
 
-  /// Adds a mistake for each key that nobody has asked for. Call it last.
-  void finish();
+  /// Adds a mistake for each key that nobody has asked for; true if there is none. Call it last.
+  bool finish();
 
   const JsonPath& path() const { return path_; }
   JsonPath path(std::string_view key) const { return path_ / key; }

@@ -61,8 +61,8 @@ std::optional<Variant> read_tagged(ObjectReader& object, std::string_view what, 
     if (known || S::name != *name) return;
     known = true;
     S made;
-    if (read(made)) result = std::move(made);
-    object.finish();
+    const bool all_read = read(made);
+    if (object.finish() && all_read) result = std::move(made);
   });
   if (!known) {
     object.mistakes().add(object.path("type"), "must be the name of " + std::string(what) + " (" +
