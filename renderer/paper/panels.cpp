@@ -70,12 +70,13 @@ class Panels {
     svg_ << formatted("<line x1=\"%.2f\" y1=\"%.2f\" x2=\"%.2f\" y2=\"%.2f\" %s/>\n", page_.x(a),
                       page_.y(a), page_.x(b), page_.y(b), style);
   }
-  void dot(const Point2& p, double radius, const char* style, const std::string& label) {
+  void dot(const Point2& p, double radius, const char* style, const std::string& label,
+           double label_below = -6) {
     svg_ << formatted("<circle cx=\"%.2f\" cy=\"%.2f\" r=\"%.1f\" %s/>\n", page_.x(p), page_.y(p),
                       radius, style);
     if (!label.empty())
-      svg_ << formatted("<text x=\"%.2f\" y=\"%.2f\">%s</text>\n", page_.x(p) + 6, page_.y(p) - 6,
-                        label.c_str());
+      svg_ << formatted("<text x=\"%.2f\" y=\"%.2f\">%s</text>\n", page_.x(p) + 6,
+                        page_.y(p) + label_below, label.c_str());
   }
   /// W with the number of the iteration that found it.
   std::string name(const Point2& vertex, std::size_t k) const {
@@ -111,7 +112,7 @@ class Panels {
     if (std::find(step.before.begin(), step.before.end(), step.w) == step.before.end())
       dot(step.w, 4, "fill=\"#d55e00\"", name(step.w, k));
     if (!step.before.empty())
-      dot(step.v, 3, "fill=\"black\"", formatted("V%d", static_cast<int>(k)));
+      dot(step.v, 3, "fill=\"black\"", formatted("V%d", static_cast<int>(k)), 16);
     dot(Point2::Zero(), 3, "fill=\"none\" stroke=\"black\"", "0");
     svg_ << formatted("<text x=\"%.0f\" y=\"%.0f\">k = %d: new vertex %s%s</text>\n", margin,
                       side + 8, static_cast<int>(k), name(step.w, k).c_str(),

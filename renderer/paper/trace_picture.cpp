@@ -86,8 +86,9 @@ std::string trace_svg(const CastTrace<T>& trace, const PreparedShape<T>& shape) 
     svg << formatted("<text x=\"%.0f\" y=\"%.0f\">", side + 10, y) << svg_text(text) << "</text>\n";
     y += line_height;
   };
-  write(formatted("%s, t = %.9g", std::string(name_of(trace.result.status)).c_str(),
-                  double(trace.result.t_base) + double(trace.result.t_offset)));
+  const std::string status(name_of(trace.result.status));
+  const double t = double(trace.result.t_base) + double(trace.result.t_offset);
+  write(trace.result.found() ? formatted("%s, t = %.9g", status.c_str(), t) : status);
   write("green: support points; blue: planes that clip the");
   write("ray from below (case 1), orange: from above (case 2)");
   y += line_height;
