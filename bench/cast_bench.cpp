@@ -2,10 +2,10 @@
 // minkray-bench: rays at single shapes, our solvers beside closed forms, Embree on triangles and
 // Bullet's ray cast, on the same rays in the same run, with errors beside the times.
 //
-// Time is per ray, on one thread. Counters: `error` is the largest |t - t_exact| * cos(incidence) of
-// the hits, in units of the shape's bounding radius; `wrong` how many of the rays were hits taken
-// for misses or the other way round; `supports` support calls per ray. Exact answers come from
-// closed forms in long double, where there is one, else from the GJK ray cast in double.
+// Time is per ray, on one thread. Counters: `error` is the largest |t - t_exact| * cos(incidence)
+// of the hits, in units of the shape's bounding radius; `wrong` how many of the rays were hits
+// taken for misses or the other way round; `supports` support calls per ray. Exact answers come
+// from closed forms in long double, where there is one, else from the GJK ray cast in double.
 #include <benchmark/benchmark.h>
 
 #include <functional>
@@ -63,8 +63,7 @@ Rays make_rays(const Shape<double>& shape) {
 
     const Ray<double> same{ray.origin.cast<double>(), ray.direction.cast<double>(), 10.0};
     const CastResult<double> slow = cast_ray(prepared, same, {SolverKind::paper});
-    Truth truth{slow.found(), slow.t(),
-                std::abs(slow.normal.dot(same.direction)) / ball.radius};
+    Truth truth{slow.found(), slow.t(), std::abs(slow.normal.dot(same.direction)) / ball.radius};
     const auto exact = testing::line_in_shape(shape, same.origin.cast<long double>(),
                                               same.direction.cast<long double>());
     if (exact) {
@@ -106,41 +105,42 @@ void run(benchmark::State& state, const Rays& rays, const Cast& cast) {
 
 template <class T>
 Answer ours(const PreparedShape<T>& shape, const Ray<float>& ray, const CastOptions<T>& options) {
-  const CastResult<T> result = cast_ray<T>(
-      shape, {ray.origin.cast<T>(), ray.direction.cast<T>(), T(ray.t_max)}, options);
+  const CastResult<T> result =
+      cast_ray<T>(shape, {ray.origin.cast<T>(), ray.direction.cast<T>(), T(ray.t_max)}, options);
   return {result.found(), static_cast<double>(result.t()), result.supports};
 }
 
-Answer plain(float t) { return {std::isfinite(t), static_cast<double>(t)}; }
+Answer plain(float t) {
+  return {std::isfinite(t), static_cast<double>(t)};
+}
 
 void add(const Case& subject) {
   const auto rays = std::make_shared<Rays>(make_rays(subject.shape));
   const auto f = std::make_shared<PreparedShape<float>>(convert<float>(subject.shape));
   const auto d = std::make_shared<PreparedShape<double>>(subject.shape);
   const auto enter = [&](const std::string& who, auto cast) {
-    benchmark::RegisterBenchmark((subject.name + "/" + who).c_str(),
-                                 [rays, cast](benchmark::State& state) { run(state, *rays, cast); });
+    benchmark::RegisterBenchmark(
+        (subject.name + "/" + who).c_str(),
+        [rays, cast](benchmark::State& state) { run(state, *rays, cast); });
   };
   for (const SolverDescription& solver : solver_descriptions) {
     if (solver.kind != SolverKind::automatic && solver.kind != SolverKind::jet &&
         solver.kind != SolverKind::paper)
       continue;
     const std::string name(solver.name);
-    enter(name + "/float", [f, kind = solver.kind](const Ray<float>& ray) {
-      return ours<float>(*f, ray, {kind});
-    });
-    enter(name + "/double", [d, kind = solver.kind](const Ray<float>& ray) {
-      return ours<double>(*d, ray, {kind});
-    });
+    enter(name + "/float",
+          [f, kind = solver.kind](const Ray<float>& ray) { return ours<float>(*f, ray, {kind}); });
+    enter(name + "/double",
+          [d, kind = solver.kind](const Ray<float>& ray) { return ours<double>(*d, ray, {kind}); });
   }
   enter("paper-1e-4/float", [f](const Ray<float>& ray) {
     return ours<float>(*f, ray, {SolverKind::paper, 1e-4f});
   });
   if (subject.closed_form)
-    enter("closed-form/float", [form = subject.closed_form](const Ray<float>& ray) {
-      return plain(form(ray));
-    });
-  const auto mesh = std::make_shared<bench::EmbreeTriangles>(subject.shape, subject.mesh_directions);
+    enter("closed-form/float",
+          [form = subject.closed_form](const Ray<float>& ray) { return plain(form(ray)); });
+  const auto mesh =
+      std::make_shared<bench::EmbreeTriangles>(subject.shape, subject.mesh_directions);
   enter("embree-" + std::to_string(mesh->triangles()) + "-triangles",
         [mesh](const Ray<float>& ray) { return plain(mesh->entry(ray)); });
   const std::shared_ptr<bench::BulletCast> bullet = bench::BulletCast::make(subject.shape);
@@ -175,9 +175,8 @@ std::vector<Case> cases() {
       {"hull-16", Hull<double>{PointCloud<double>(few)}},
       {"hull-256", Hull<double>{PointCloud<double>(many)}},
       {"rounded_hull-16", Rounded<double>{0.1, S(Hull<double>{PointCloud<double>(few)})}},
-      {"ellipsoid+ellipsoid",
-       MinkowskiSum<double>{
-           {S(Ellipsoid<double>{{1, 0.5, 0.25}}), S(Ellipsoid<double>{{0.3, 0.5, 1}})}}},
+      {"ellipsoid+ellipsoid", MinkowskiSum<double>{{S(Ellipsoid<double>{{1, 0.5, 0.25}}),
+                                                    S(Ellipsoid<double>{{0.3, 0.5, 1}})}}},
       {"superellipsoid", Superellipsoid<double>{{1, 1, 1}, 4}},
   };
 }
@@ -186,9 +185,11 @@ std::vector<Case> cases() {
 
 int main(int argc, char** argv) {
   // Interleaved in random order, so that a noisy moment does not favour anybody.
-  std::vector<std::string> words = {argv[0], "--benchmark_enable_random_interleaving=true",
+  std::vector<std::string> words = {argv[0],
+                                    "--benchmark_enable_random_interleaving=true",
                                     "--benchmark_counters_tabular=true",
-                                    "--benchmark_min_time=0.05", "--benchmark_repetitions=3",
+                                    "--benchmark_min_time=0.05",
+                                    "--benchmark_repetitions=3",
                                     "--benchmark_report_aggregates_only=true"};
   for (int i = 1; i < argc; ++i)
     words.push_back(std::string(argv[i]) == "--json" ? "--benchmark_format=json" : argv[i]);

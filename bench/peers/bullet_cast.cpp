@@ -19,7 +19,9 @@ btScalar scalar(T value) {
   return static_cast<btScalar>(value);
 }
 
-btVector3 vector(const Vec3<float>& v) { return {scalar(v.x()), scalar(v.y()), scalar(v.z())}; }
+btVector3 vector(const Vec3<float>& v) {
+  return {scalar(v.x()), scalar(v.y()), scalar(v.z())};
+}
 
 std::unique_ptr<btConvexShape> bullet_shape(const Shape<double>& shape) {
   if (const auto* sphere = std::get_if<Sphere<double>>(&shape.kind))

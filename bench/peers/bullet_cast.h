@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Bullet's btSubsimplexConvexCast, as its btCollisionWorld::rayTest uses it: a point cast at a convex
-// shape, with Bullet's default margins and its own absolute tolerances.
+// Bullet's btSubsimplexConvexCast, as its btCollisionWorld::rayTest uses it: a point cast at a
+// convex shape, with Bullet's default margins and its own absolute tolerances.
 #pragma once
 
 #include <memory>

@@ -38,9 +38,9 @@ EmbreeTriangles::EmbreeTriangles(const Shape<double>& shape, int directions)
   scene_->triangles = triangles.size();
 
   RTCGeometry geometry = rtcNewGeometry(scene_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  auto* vertices = static_cast<float*>(
-      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                              3 * sizeof(float), hull.vertices.size()));
+  auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
+                                                               RTC_FORMAT_FLOAT3, 3 * sizeof(float),
+                                                               hull.vertices.size()));
   for (std::size_t i = 0; i < hull.vertices.size(); ++i)
     for (int axis = 0; axis < 3; ++axis)
       vertices[3 * i + static_cast<std::size_t>(axis)] =
@@ -59,7 +59,9 @@ EmbreeTriangles::EmbreeTriangles(const Shape<double>& shape, int directions)
 
 EmbreeTriangles::~EmbreeTriangles() = default;
 
-std::size_t EmbreeTriangles::triangles() const { return scene_->triangles; }
+std::size_t EmbreeTriangles::triangles() const {
+  return scene_->triangles;
+}
 
 float EmbreeTriangles::entry(const Ray<float>& ray) const {
   RTCRayHit query = {};

@@ -46,23 +46,34 @@ SolverKind best_solver(SurfaceKind surface) {
   return surface == SurfaceKind::ellipsoids ? SolverKind::jet : SolverKind::paper;
 }
 
+/// With one solver; the normal is in the inner frame.
 template <class T, class Observer>
-CastResult<T> cast_near(const PreparedShape<T>& shape, const RayNearBall<T>& near,
-                        const CastOptions<T>& options, Observer&& observer) {
-  const SolverKind solver =
-      options.solver == SolverKind::automatic ? best_solver(shape.surface()) : options.solver;
-  if (is_reference(solver)) {
-    CastResult<T> result = cast_reference(shape, near, options, observer);
-    result.normal = shape.normal_to_outer(result.normal);
-    return result;
-  }
-  CastResult<T> result = std::visit(
+CastResult<T> cast_with(SolverKind solver, const PreparedShape<T>& shape,
+                        const RayNearBall<T>& near, const CastOptions<T>& options,
+                        Observer&& observer) {
+  if (is_reference(solver)) return cast_reference(shape, near, options, observer);
+  return std::visit(
       [&](const auto& kind) {
         if (solver == SolverKind::jet)
           return jet_cast(kind, near, shape.inner_ball(), shape.inner_half_extents(), {}, observer);
         return gjk_ray_cast(kind, near, shape.inner_ball(), gjk_options(shape, options), observer);
       },
       shape.inner_shape().kind);
+}
+
+template <class T, class Observer>
+CastResult<T> cast_near(const PreparedShape<T>& shape, const RayNearBall<T>& near,
+                        const CastOptions<T>& options, Observer&& observer) {
+  const bool automatic = options.solver == SolverKind::automatic;
+  const SolverKind solver = automatic ? best_solver(shape.surface()) : options.solver;
+  CastResult<T> result = cast_with(solver, shape, near, options, observer);
+  // The jet cast hands over to the GJK ray cast by itself; the other way round it is done here.
+  if (automatic && solver == SolverKind::paper && result.status == Status::exhausted) {
+    const CastResult<T> first = result;
+    result = cast_with(SolverKind::jet, shape, near, options, observer);
+    result.iterations += first.iterations;
+    result.supports += first.supports;
+  }
   result.normal = shape.normal_to_outer(result.normal);
   return result;
 }

@@ -119,8 +119,8 @@ class CommonFactorCast {
       consider(found, qx != T(0) || qy != T(0));
       return;
     }
-    // With q = c_xy, N_kl = f_k x f_l and m_kl = N_kl.z: det = sum m^2, adj q and the rest of A's minors
-    // are sums of products of these, which keep the digits that A itself loses for needles.
+    // With q = c_xy, N_kl = f_k x f_l and m_kl = N_kl.z: det = sum m^2, adj q and the rest of A's
+    // minors are sums of products of these, which keep the digits that A itself loses for needles.
     T det = T(0), off = T(0);
     Vec3<T> across = Vec3<T>::Zero(), adj = Vec3<T>::Zero();
     for (int k = 0; k < 3; ++k) {

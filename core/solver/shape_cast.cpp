@@ -7,9 +7,9 @@
 namespace minkray {
 namespace {
 
-/// The contact: the closest points of the two at the time of impact. There they touch, and a simplex
-/// around a common point on the boundary is as flat as rounding makes it; so B is taken back along the
-/// normal by a rounding error, and by more where that leaves them touching still.
+/// The contact: the closest points of the two at the time of impact. There they touch, and a
+/// simplex around a common point on the boundary is as flat as rounding makes it; so B is taken
+/// back along the normal by a rounding error, and by more where that leaves them touching still.
 template <class T>
 void find_contact(const PreparedPair<T>& pair, const Vec3<T>& direction,
                   ShapeCastResult<T>& result) {
