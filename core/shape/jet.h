@@ -17,7 +17,8 @@ namespace minkray {
 /// The ellipsoid { c + F b : |b| <= 1 }; columns of F may be zero. `exact` says that the ellipsoid
 /// is part of the shape as a whole (the same one for all directions that it answers), not only
 /// osculating in the direction asked for; then `s` is the shape's support point there, and the
-/// ellipsoid may agree with it less well than the mathematics says (where a radius of curvature is infinite).
+/// ellipsoid may agree with it less well than the mathematics says (where a radius of curvature is
+/// infinite).
 template <class W>
 struct Jet {
   Vec3<W> c = Vec3<W>::Zero();

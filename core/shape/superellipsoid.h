@@ -46,8 +46,8 @@ struct Superellipsoid {
   }
 
   /// With u = m/|m|_q and g_i = sign(n_i) u_i^(q-1), the osculating ellipsoid has the shape matrix
-  /// diag(a) ((q-1) diag(u^(q-2)) - (q-2) g g^T) diag(a). Where p > 2 the radius of curvature is infinite on
-  /// the coordinate planes; u is kept above a small number there.
+  /// diag(a) ((q-1) diag(u^(q-2)) - (q-2) g g^T) diag(a). Where p > 2 the radius of curvature is
+  /// infinite on the coordinate planes; u is kept above a small number there.
   template <class W>
   Jet<W> jet(const Vec3<W>& n) const {
     if (exponent == T(2)) return {Vec3<W>::Zero(), widen<W>(radii).asDiagonal()};
