@@ -93,7 +93,8 @@ std::optional<MeshHit> EmbreeMesh::cast(const Ray<float>& ray) const {
   return MeshHit{query.ray.tfar, across * area / std::abs(normal.dot(direction)), query.hit.primID};
 }
 
-bool EmbreeMesh::is_met(const Ray<float>& ray) const {
+std::optional<double> EmbreeMesh::nearest(const Ray<float>& ray) const {
+  std::optional<double> first;
   const Vec3<double> origin = ray.origin.cast<double>(), direction = ray.direction.cast<double>();
   for (unsigned triangle = 0; triangle < triangles_.size(); ++triangle) {
     auto [a, b, c] = corners(triangle);
@@ -103,9 +104,10 @@ bool EmbreeMesh::is_met(const Ray<float>& ray) const {
     const bool through = (ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0);
     const Vec3<double> normal = (b - a).cross(c - a);
     const double t = normal.dot(a) / normal.dot(direction);
-    if (through && t >= 0 && t <= static_cast<double>(ray.t_max)) return true;
+    if (through && t >= 0 && t <= static_cast<double>(ray.t_max) && (!first || t < *first))
+      first = t;
   }
-  return false;
+  return first;
 }
 
 }  // namespace minkray

@@ -138,11 +138,11 @@ Verdict SandwichedShape::judge(const Ray<float>& ray, const CastOptions<double>&
   const bool hit = verdict.result.found();
   if (verdict.result.status == Status::exhausted) return violates(Violation::gave_up, infinity);
   if (hit && !outer) {
-    if (!outer_.is_met(ray)) return violates(Violation::false_hit, infinity);
+    if (!outer_.nearest(ray)) return violates(Violation::false_hit, infinity);
     verdict.embree_at_fault = true;
   }
   if (!hit && inner) {
-    if (inner_.is_met(ray)) return violates(Violation::false_miss, infinity);
+    if (inner_.nearest(ray)) return violates(Violation::false_miss, infinity);
     verdict.embree_at_fault = true;
   }
   if (!hit) return verdict;
@@ -152,8 +152,18 @@ Verdict SandwichedShape::judge(const Ray<float>& ray, const CastOptions<double>&
   const double early = outer ? beyond(outer->t - t, outer->t_bound) : 0;
   const double late = inner ? beyond(t - inner->t, inner->t_bound) : 0;
   verdict.bounds = std::max(early, late);
-  if (early > 1) return violates(Violation::early, early);
-  if (late > 1) return violates(Violation::late, late);
+  if (early > 1) {
+    const auto referee = outer_.nearest(ray);
+    if (!referee || *referee - t > outer->t_bound) return violates(Violation::early, early);
+    verdict.embree_at_fault = true;
+    verdict.bounds = beyond(*referee - t, outer->t_bound);
+  }
+  if (late > 1) {
+    const auto referee = inner_.nearest(ray);
+    if (referee && t - *referee > inner->t_bound) return violates(Violation::late, late);
+    verdict.embree_at_fault = true;
+    verdict.bounds = referee ? beyond(t - *referee, inner->t_bound) : 0;
+  }
   return verdict;
 }
 
