@@ -33,7 +33,7 @@ struct Case {
   std::string name;
   Shape<double> shape;
   std::function<float(const Ray<float>&)> closed_form = {};
-  int mesh_directions = 40000;
+  int mesh_longitudes = 256;  ///< an error of about 1e-4 of the size
 };
 
 struct Truth {
@@ -140,7 +140,7 @@ void add(const Case& subject) {
     enter("closed-form/float",
           [form = subject.closed_form](const Ray<float>& ray) { return plain(form(ray)); });
   const auto mesh =
-      std::make_shared<bench::EmbreeTriangles>(subject.shape, subject.mesh_directions);
+      std::make_shared<bench::EmbreeTriangles>(subject.shape, subject.mesh_longitudes);
   enter("embree-" + std::to_string(mesh->triangles()) + "-triangles",
         [mesh](const Ray<float>& ray) { return plain(mesh->entry(ray)); });
   const std::shared_ptr<bench::BulletCast> bullet = bench::BulletCast::make(subject.shape);

@@ -3,11 +3,11 @@
 
 #include <embree3/rtcore.h>
 
+#include <numbers>
 #include <stdexcept>
 #include <vector>
 
 #include "core/shape/convex_hull.h"
-#include "core/shape/sandwich.h"
 
 namespace minkray::bench {
 
@@ -22,10 +22,19 @@ struct EmbreeTriangles::Scene {
   }
 };
 
-EmbreeTriangles::EmbreeTriangles(const Shape<double>& shape, int directions)
+EmbreeTriangles::EmbreeTriangles(const Shape<double>& shape, int longitudes)
     : scene_(std::make_unique<Scene>()) {
+  // By longitude and latitude about the z axis, as one would tessellate the shapes by hand: rims
+  // come out as regular polygons, without slivers.
   std::vector<Vec3<double>> points;
-  for (const Vec3<double>& n : even_directions(directions)) points.push_back(shape.support(n));
+  for (int i = 0; i < longitudes; ++i) {
+    for (int j = 0; j < longitudes / 2; ++j) {
+      const double phi = 2 * std::numbers::pi * (i + 0.5) / longitudes;
+      const double theta = 2 * std::numbers::pi * (j + 0.5) / longitudes;
+      points.push_back(shape.support(Vec3<double>(
+          std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta))));
+    }
+  }
   const ConvexHull hull = convex_hull(points);
   if (hull.rank() != 3) throw std::runtime_error("a flat shape has no closed mesh");
 
@@ -53,6 +62,7 @@ EmbreeTriangles::EmbreeTriangles(const Shape<double>& shape, int directions)
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(scene_->scene, geometry);
   rtcReleaseGeometry(geometry);
+  rtcSetSceneFlags(scene_->scene, RTC_SCENE_FLAG_ROBUST);
   rtcSetSceneBuildQuality(scene_->scene, RTC_BUILD_QUALITY_HIGH);
   rtcCommitScene(scene_->scene);
 }

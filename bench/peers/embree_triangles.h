@@ -12,8 +12,8 @@ namespace minkray::bench {
 
 class EmbreeTriangles {
  public:
-  /// The hull of the shape's support points in about `directions` even directions.
-  EmbreeTriangles(const Shape<double>& shape, int directions);
+  /// The hull of the shape's support points in `longitudes` times half as many directions.
+  EmbreeTriangles(const Shape<double>& shape, int longitudes);
   ~EmbreeTriangles();
   EmbreeTriangles(const EmbreeTriangles&) = delete;
   EmbreeTriangles& operator=(const EmbreeTriangles&) = delete;

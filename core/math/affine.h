@@ -8,6 +8,16 @@
 
 namespace minkray {
 
+/// The inverse of an invertible matrix of any scale: divided by a power of two first, so that its
+/// determinant is in range.
+template <class T>
+Mat3<T> inverse_of(const Mat3<T>& linear) {
+  int exponent = 0;
+  std::frexp(linear.cwiseAbs().maxCoeff(), &exponent);
+  const T down = std::ldexp(T(1), -exponent);
+  return Mat3<T>(linear * down).inverse() * down;
+}
+
 template <class T>
 struct Affine {
   Mat3<T> linear = Mat3<T>::Identity();
@@ -21,7 +31,7 @@ struct Affine {
   }
 
   Affine inverse() const {
-    const Mat3<T> inverted = linear.inverse();
+    const Mat3<T> inverted = inverse_of(linear);
     return {inverted, -(inverted * translation)};
   }
 

@@ -27,13 +27,23 @@ class PreparedShape {
       Shape<T> inner = *transform->shape;
       shape_ = std::move(inner);
     }
-    const Bounds<T> inner_bounds = bounds_of<T>(shape_);
+    to_inner_ = inverse_of(to_outer.linear);
+    Bounds<T> inner_bounds = bounds_of<T>(shape_);
+    // Very small and very large shapes are brought to about unit size by a power of two, which is
+    // exact: solvers multiply up to four lengths, and must not leave the range of T.
+    const T size = inner_bounds.half_extents().maxCoeff();
+    if (size > T(0) && !(size >= T(1) / ordinary_size && size <= ordinary_size)) {
+      const T down = std::ldexp(T(1), -std::ilogb(size)), up = std::ldexp(T(1), std::ilogb(size));
+      shape_ = Transform<T>{Nested<T>(shape_), Affine<T>{Mat3<T>::Identity() * down, {0, 0, 0}}};
+      to_outer.linear *= up;
+      to_inner_ *= down;
+      inner_bounds = bounds_of<T>(shape_);
+    }
     ball_ = ball_around(inner_bounds);
     half_extents_ = inner_bounds.half_extents();
     centre_ = to_outer(ball_.centre);
     surface_ = surface_of<T>(shape_);
     is_rigid_identity_ = to_outer.linear == Mat3<T>::Identity();
-    to_inner_ = to_outer.linear.inverse();
   }
 
   const Shape<T>& inner_shape() const { return shape_; }
@@ -62,6 +72,9 @@ class PreparedShape {
   }
 
  private:
+  /// Fourth powers of it, with room for the square of epsilon, are in the range of T.
+  static constexpr T ordinary_size = std::is_same_v<T, float> ? T(0x1p16) : T(0x1p128);
+
   Shape<T> shape_;
   Ball<T> ball_;
   Vec3<T> half_extents_;

@@ -32,10 +32,10 @@ struct RayNearBall {
   RayNearBall mapped(const Mat3<T>& linear) const {
     RayNearBall image = *this;
     image.s = linear * s;
-    image.r = linear * r;
-    const T length = image.r.norm();
+    const Vec3<T> direction = linear * r;
+    image.r = unit(direction);
+    const T length = image.r.dot(direction);
     if (!(length > T(0))) return image;
-    image.r /= length;
     const T correction = -image.s.dot(image.r);
     image.s += correction * image.r;
     image.t_per_length = t_per_length / length;

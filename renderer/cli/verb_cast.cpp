@@ -150,7 +150,7 @@ void add_cast(CLI::App& app, ExitCode& exit_code) {
       ->check(CLI::IsMember(subalgorithm_names()))
       ->capture_default_str();
   verb->add_option("--threads", options->threads, "How many threads; 0 for all")
-      ->check(CLI::NonNegativeNumber)
+      ->check(CLI::Range(0, 1024))
       ->capture_default_str();
   verb->add_flag("--trace", options->trace, "Add every iteration");
   verb->add_flag("--check", options->check,

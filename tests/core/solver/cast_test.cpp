@@ -28,5 +28,20 @@ TEST(Cast, a_ray_from_inside_says_so_and_knows_its_exit) {
   EXPECT_NEAR(exit.normal.y(), 1.0, 1e-14);
 }
 
+/// A ball of 1e-30 was once "hit" at its centre, t = 5 with t_lo = 5: squares had underflowed.
+TEST(Cast, scales_near_the_ends_of_the_number_range_are_answered_like_any_other) {
+  for (const float scale : {1e-30f, 1e-15f, 1e-5f, 1e5f, 1e15f, 1e30f}) {
+    const PreparedShape<float> ball(Sphere<float>{scale}), box(Box<float>{{scale, scale, scale}});
+    for (const SolverKind kind : {SolverKind::automatic, SolverKind::jet, SolverKind::paper}) {
+      const Ray<float> ray{{-5 * scale, 0, 0}, {scale, 0, 0}};
+      EXPECT_EQ(cast_ray<float>(ball, ray, {kind}).status, Status::hit) << scale;
+      EXPECT_NEAR(cast_ray<float>(ball, ray, {kind}).t(), 4, 1e-5) << scale;
+      EXPECT_NEAR(cast_ray<float>(box, ray, {kind}).t(), 4, 1e-5) << scale;
+      const Ray<float> beside{{-5 * scale, 1.5f * scale, 0}, {scale, 0, 0}};
+      EXPECT_EQ(cast_ray<float>(ball, beside, {kind}).status, Status::miss) << scale;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace minkray
