@@ -70,7 +70,7 @@ class HullModel {
       if (i != newest_) flatten(at(i));
   }
 
-  /// Drops all pieces but the carriers of the solution, and the newest.
+  /// Drops all pieces but the carriers of the solution.
   void keep(const HullSolution<T>& solution) {
     std::array<Piece<T>, 4> kept;
     int count = 0;
