@@ -43,21 +43,39 @@ concept JetMapped = requires(const S& shape, const Vec3<T>& n) {
   { shape.jet(n) } -> std::convertible_to<Jet<T>>;
 };
 
-template <class W>
-Jet<W> point_jet(const Vec3<W>& c) {
-  return {c};
-}
+// The jets of common shapes say more in their types: solvers make use of it.
 
+/// A vertex.
 template <class W>
-Jet<W> ball_jet(const Vec3<W>& c, W radius) {
-  return {c, Mat3<W>::Identity() * radius};
-}
+struct PointJet {
+  Vec3<W> c;
+  operator Jet<W>() const { return {c}; }
+};
 
-/// A disk in a plane z = const.
+/// A ball with its centre on the z axis.
 template <class W>
-Jet<W> disk_jet(const Vec3<W>& c, W radius) {
-  return {c, Vec3<W>(radius, radius, W(0)).asDiagonal()};
-}
+struct AxialBallJet {
+  W z;
+  W radius;
+  operator Jet<W>() const { return {{W(0), W(0), z}, Mat3<W>::Identity() * radius}; }
+};
+
+/// A disk around the z axis; of radius zero, a point on it.
+template <class W>
+struct AxialDiskJet {
+  W z;
+  W radius;
+  operator Jet<W>() const {
+    return {{W(0), W(0), z}, Vec3<W>(radius, radius, W(0)).asDiagonal()};
+  }
+};
+
+/// An ellipsoid around the origin with its axes along the coordinate axes.
+template <class W>
+struct AxialEllipsoidJet {
+  Vec3<W> radii;
+  operator Jet<W>() const { return {Vec3<W>::Zero(), radii.asDiagonal()}; }
+};
 
 /// A factor F with F F^T = A, for symmetric positive semidefinite A (Cholesky; what rounding makes
 /// negative counts as zero).

@@ -50,8 +50,8 @@ struct Superellipsoid {
   /// infinite on the coordinate planes; u is kept above a small number there.
   template <class W>
   Jet<W> jet(const Vec3<W>& n) const {
-    if (exponent == T(2)) return {Vec3<W>::Zero(), widen<W>(radii).asDiagonal()};
-    if (!(exponent > T(1))) return point_jet<W>(support(n));
+    if (exponent == T(2)) return AxialEllipsoidJet<W>{widen<W>(radii)};
+    if (!(exponent > T(1))) return PointJet<W>{support(n)};
     const Vec3<W> a = widen<W>(radii);
     const Vec3<W> s = support(n);
     const Vec3<W> g = s.cwiseQuotient(a);

@@ -41,6 +41,24 @@ constexpr bool is_reference(SolverKind kind) {
          kind == SolverKind::paper_signed_volumes;
 }
 
+/// The jet cast of shapes that have a model; where it gives up, the GJK ray cast.
+template <class T, class Observer>
+CastResult<T> cast_with_model(const PreparedShape<T>& shape, const RayNearBall<T>& near,
+                              const CastOptions<T>& options, Observer&& observer) {
+  const Ball<T>& ball = shape.inner_ball();
+  const CastResult<T> result = with_model<T>(
+      shape.inner_shape(), shape.model(), ball.centre, ball.radius, [&](const auto& make_model) {
+        return result_of(
+            model_cast<T>(make_model, near, ball, shape.inner_half_extents(), true, observer));
+      });
+  if (result.status != Status::exhausted) return result;
+  CastResult<T> slow =
+      gjk_ray_cast(shape.inner_shape(), near, ball, gjk_options(shape, options), observer);
+  slow.iterations += result.iterations;
+  slow.supports += result.supports;
+  return slow;
+}
+
 /// By measurement, see docs/decisions/0002-automatic-solver.md.
 SolverKind best_solver(SurfaceKind surface) {
   return surface == SurfaceKind::ellipsoids ? SolverKind::jet : SolverKind::paper;
@@ -52,6 +70,8 @@ CastResult<T> cast_with(SolverKind solver, const PreparedShape<T>& shape,
                         const RayNearBall<T>& near, const CastOptions<T>& options,
                         Observer&& observer) {
   if (is_reference(solver)) return cast_reference(shape, near, options, observer);
+  if (solver == SolverKind::jet && shape.model() != ModelKind::none)
+    return cast_with_model(shape, near, options, observer);
   return std::visit(
       [&](const auto& kind) {
         if (solver == SolverKind::jet)
