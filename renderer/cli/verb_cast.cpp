@@ -5,9 +5,12 @@
 #include <oneapi/tbb/parallel_pipeline.h>
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <memory>
+#include <system_error>
 
 #include "renderer/cli/choices.h"
 #include "renderer/cli/verbs.h"
@@ -72,8 +75,13 @@ ExitCode cast(const Options& options) {
 
   std::ifstream file;
   if (options.file != "-") {
+    std::error_code error;
+    if (std::filesystem::is_directory(options.file, error))
+      throw BadInput(options.file + ": must be a file (got a directory)");
+    errno = 0;
     file.open(options.file, std::ios::binary);
-    if (!file) throw BadInput(options.file + ": cannot be read");
+    if (!file)
+      throw BadInput(options.file + ": cannot be read: " + std::generic_category().message(errno));
   }
   std::istream& in = options.file == "-" ? std::cin : file;
   const std::string name = options.file == "-" ? "stdin" : options.file;
