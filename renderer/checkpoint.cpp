@@ -51,6 +51,7 @@ std::vector<unsigned char> encode(const Rendering& rendering, const RenderOption
 
 std::vector<std::string> facts_that_must_agree() {
   std::vector<std::string> names = common_facts();
+  std::erase(names, fact::aov);  // data channels are quick, and not in a checkpoint
   names.insert(names.end(), {fact::tile, fact::sample_share});
   return names;
 }

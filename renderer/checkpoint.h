@@ -56,7 +56,7 @@ class Checkpoint {
   std::chrono::duration<double> pause_;
   Clock::time_point last_ = Clock::now();
   std::vector<bool> done_;
-  bool is_ours_ = false;  ///< whether the file, if any, was loaded or written here
+  bool is_ours_ = false;              ///< whether the file, if any, was loaded or written here
   std::future<std::string> writing_;  ///< gives the complaint
   std::string complaint_;
 };

@@ -41,8 +41,8 @@ std::vector<Label> labels_of(const Scene& scene, const RenderWorld& world,
     const auto seen = projected(camera, {bounds.lower.cast<double>(), bounds.upper.cast<double>()});
     if (name.empty() || !seen) continue;
     const double width = text_size(name, scale).width;
-    labels.push_back({(seen->lower.x() + seen->upper.x() - width) / 2,
-                      seen->upper.y() + 2 * scale, name});
+    labels.push_back(
+        {(seen->lower.x() + seen->upper.x() - width) / 2, seen->upper.y() + 2 * scale, name});
   }
   return labels;
 }

@@ -42,7 +42,8 @@ Piece piece_of(const Facts& facts) {
 /// Facts of the picture as a whole.
 Facts whole_facts(const Facts& facts) {
   Facts whole;
-  for (const std::string& name : common_facts()) whole[name] = text_of(facts, name);
+  for (const std::string& name : common_facts())
+    if (facts.contains(name)) whole[name] = facts.at(name);
   if (const std::string labels = text_of(facts, labels_fact); !labels.empty())
     whole[labels_fact] = labels;
   return whole;
@@ -93,8 +94,8 @@ class Picture {
   void copy_rows(const Numbers& from, const PixelRect& tile, Numbers& to) const {
     const auto width = static_cast<std::ptrdiff_t>(tile.width());
     for (std::ptrdiff_t row = 0; row < tile.height(); ++row) {
-      const std::ptrdiff_t start = (row + tile.y0 - exr_.window.y0) * exr_.window.width() +
-                                   (tile.x0 - exr_.window.x0);
+      const std::ptrdiff_t start =
+          (row + tile.y0 - exr_.window.y0) * exr_.window.width() + (tile.x0 - exr_.window.x0);
       std::copy_n(from.begin() + row * width, width, to.begin() + start);
     }
   }
@@ -182,8 +183,8 @@ Merged merge_parts(const std::vector<std::string>& files, bool allow_partial) {
         throw BadInput("is a piece of another picture than " + files.front() + ": " + differs);
       if (piece.tile.count != first_piece.tile.count ||
           piece.sample_share.count != first_piece.sample_share.count)
-        throw BadInput("is a piece of another split than " + files.front() + ": " +
-                       name_of(piece) + " and " + name_of(first_piece));
+        throw BadInput("is a piece of another split than " + files.front() + ": " + name_of(piece) +
+                       " and " + name_of(first_piece));
       const auto [at, is_new] = file_of.emplace(piece.place(), file);
       if (!is_new) throw BadInput("holds the same piece as " + at->second + ": " + name_of(piece));
       merged.counts += counts_of(found);
@@ -200,8 +201,7 @@ Merged merge_parts(const std::vector<std::string>& files, bool allow_partial) {
   for (int tile = 1; tile <= first_piece.tile.count; ++tile)
     for (int share = 1; share <= split.count; ++share)
       if (!file_of.contains({tile, share}))
-        merged.missing.push_back(
-            name_of({{tile, first_piece.tile.count}, {share, split.count}}));
+        merged.missing.push_back(name_of({{tile, first_piece.tile.count}, {share, split.count}}));
   if (!merged.missing.empty() && !allow_partial)
     throw BadInput("merge: missing: " + listed(merged.missing) +
                    "; --allow-partial makes a picture without them");

@@ -51,8 +51,8 @@ Facts picture_facts(const Scene& scene, const RenderWorld& world, const RenderOp
 }
 
 std::vector<std::string> common_facts() {
-  return {fact::software, fact::scene, fact::resolution, fact::crop,
-          fact::samples,  fact::seed,  fact::solver,     fact::bounces};
+  return {fact::software, fact::scene,  fact::resolution, fact::crop, fact::samples,
+          fact::seed,     fact::solver, fact::bounces,    fact::aov};
 }
 
 std::string difference(const Facts& found, const Facts& wanted,
@@ -61,8 +61,8 @@ std::string difference(const Facts& found, const Facts& wanted,
   for (const std::string& name : names) {
     const std::string a = text_of(found, name), b = text_of(wanted, name);
     if (a == b) continue;
-    differences += (differences.empty() ? "" : ", ") + name + " is " +
-                   (a.empty() ? "missing" : a) + ", not " + (b.empty() ? "missing" : b);
+    differences += (differences.empty() ? "" : ", ") + name + " is " + (a.empty() ? "missing" : a) +
+                   ", not " + (b.empty() ? "missing" : b);
   }
   return differences;
 }

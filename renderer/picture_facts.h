@@ -24,12 +24,13 @@ inline constexpr const char* samples = "minkray.samples";
 inline constexpr const char* seed = "minkray.seed";
 inline constexpr const char* solver = "minkray.solver";
 inline constexpr const char* bounces = "minkray.bounces";
+inline constexpr const char* aov = "minkray.aov";  ///< names between commas
 inline constexpr const char* tile = "minkray.tile";
 inline constexpr const char* sample_share = "minkray.sample_share";
 
 }  // namespace fact
 
-/// The facts of a picture, without command, tile and share of the samples.
+/// The facts of a picture, without command, data channels, tile and share of the samples.
 Facts picture_facts(const Scene& scene, const RenderWorld& world, const RenderOptions& options);
 
 /// The names of the facts that all pieces of one picture have in common.

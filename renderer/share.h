@@ -30,8 +30,11 @@ Share parse_share(const std::string& text, const std::string& option);
 
 /// The rectangle of a share: the longer side is halved again and again (unequal counts get unequal
 /// pieces), so that all are about as large and about as wide as high. The shares cover the
-/// rectangle exactly once. Empty where there are not enough pixels for that many shares.
+/// rectangle exactly once. Some are empty where there are not enough pixels for that many.
 PixelRect tile_of(const PixelRect& whole, const Share& share);
+
+/// Whether none of so many shares is empty.
+bool can_be_tiled(const PixelRect& whole, int count);
 
 /// The samples of a pixel in blocks. Each block is summed by itself and rounded to float; the
 /// blocks' sums are added in order. That order of additions is the same wherever the blocks were
@@ -44,9 +47,7 @@ struct SampleBlocks {
 
   int count() const { return std::min(samples, most); }
   /// The first sample of a block; of block count(): how many samples there are.
-  int begin(int block) const {
-    return static_cast<int>(std::int64_t{samples} * block / count());
-  }
+  int begin(int block) const { return static_cast<int>(std::int64_t{samples} * block / count()); }
   /// The first block of a share; the share after it begins where it ends.
   int first_of(const Share& share) const {
     return static_cast<int>(std::int64_t{count()} * (share.index - 1) / share.count);

@@ -54,9 +54,9 @@ struct TileJournal {
   std::function<void(std::size_t tile)> finished;
 };
 
-/// Calls render_tile(PixelRect) -> counts for the tiles of `part` that are not done yet, possibly at
-/// once, and joins the counts with +=; counts.total() are rays. Answers whether all tiles were done
-/// without being stopped. Of tiles that were stopped neither counts nor the journal hear.
+/// Calls render_tile(PixelRect) -> counts for the tiles of `part` that are not done yet, possibly
+/// at once, and joins the counts with +=; counts.total() are rays. Answers whether all tiles were
+/// done without being stopped. Of tiles that were stopped neither counts nor the journal hear.
 template <class Counts, class RenderTile>
 bool for_tiles(const PixelRect& part, Counts& counts, const RenderWatch& watch,
                const RenderTile& render_tile, const TileJournal& journal = {}) {

@@ -25,6 +25,10 @@ void end_if_interrupted(const Rendering& rendering, Checkpoint& checkpoint) {
 
 Facts facts_of(const RenderJob& job) {
   Facts facts = picture_facts(job.scene, job.world, job.options);
+  std::string channels;
+  for (const std::string_view channel : job.channels)
+    channels += (channels.empty() ? "" : ",") + std::string(channel);
+  if (!channels.empty()) facts[fact::aov] = channels;
   facts[fact::tile] = job.options.tile.text();
   facts[fact::sample_share] = job.options.sample_share.text();
   return facts;

@@ -2,6 +2,7 @@
 // minkray render: a picture of a scene.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
 #include <iomanip>
 #include <iostream>
 #include <memory>
@@ -12,6 +13,7 @@
 #include "renderer/cli/image_arguments.h"
 #include "renderer/cli/progress_line.h"
 #include "renderer/cli/render_job.h"
+#include "renderer/cli/shared_render.h"
 #include "renderer/cli/verbs.h"
 #include "renderer/cli/write_picture.h"
 #include "renderer/data_channels.h"
@@ -32,6 +34,7 @@ struct Options {
   std::string stats;  ///< empty: none, "true": text, "json"
   std::optional<std::string> aov;
   std::optional<std::string> tile, sample_share;
+  std::optional<int> tiles;
   double checkpoint_seconds = 60;
   bool resume = false;
 
@@ -104,7 +107,7 @@ void print(const Statistics& s) {
 }
 
 /// Throws WrongUsage for what does not go together, and fills in what the options ask for.
-void read_options(const Options& options, RenderJob& job) {
+void read_options(const Options& options, const Ranks& ranks, RenderJob& job) {
   check_exposure(options.exposure);
   if (!options.stats.empty() && options.stats != "true" && options.stats != "json")
     throw WrongUsage("--stats: takes nothing or =json (got " + options.stats + ")");
@@ -120,7 +123,12 @@ void read_options(const Options& options, RenderJob& job) {
     job.options.sample_share = parse_share(*options.sample_share, "--sample-share");
   if (options.sample_share && options.aov)
     throw WrongUsage("--aov: goes with --tile, but not with --sample-share");
-  check_outputs(outputs);
+  if (ranks.count() > 1 && options.is_piece())
+    throw WrongUsage(
+        "--tile, --sample-share: the ranks of an MPI job share the picture themselves");
+  if (ranks.count() == 1 && options.tiles)
+    throw WrongUsage("--tiles: is for several ranks of an MPI job (mpirun minkray render)");
+  if (ranks.rank() == 0) check_outputs(outputs);
   job.command = command_line();
   job.checkpoint_seconds = options.checkpoint_seconds;
   job.resume = options.resume;
@@ -130,7 +138,7 @@ void read_options(const Options& options, RenderJob& job) {
 void check_shares(const RenderOptions& options) {
   const Share tile = options.tile, share = options.sample_share;
   const PixelRect picture = options.picture();
-  if (tile_of(picture, tile).empty())
+  if (!can_be_tiled(picture, tile.count))
     throw WrongUsage("--tile: the picture has too few pixels for " + std::to_string(tile.count) +
                      " tiles");
   const int blocks = SampleBlocks{options.samples}.count();
@@ -140,10 +148,40 @@ void check_shares(const RenderOptions& options) {
                      " (got " + share.text() + ")");
 }
 
+/// All ranks render, rank 0 writes.
+void run_on(Ranks& ranks, const RenderJob& job, const Options& options, Statistics& statistics) {
+  const std::string& output = options.image.outputs.front();
+  const int tiles = options.tiles.value_or(default_tile_count(job.options.picture()));
+  if (!can_be_tiled(job.options.picture(), tiles))
+    throw WrongUsage("--tiles: the picture has too few pixels for " + std::to_string(tiles));
+  const InterruptGuard guard;
+  const Stopwatch watch;
+  std::optional<Merged> merged = render_on(ranks, job, tiles, output);
+  statistics.trace_seconds = watch.seconds();
+  if (!merged) return;
+  statistics.counts = merged->counts;
+  merged->exr.texts[fact::command] = job.command;
+  const Stopwatch write_watch;
+  write_picture(options.image.outputs,
+                {merged->image(), labels_of(merged->exr.texts), merged->exr.window,
+                 job.options.resolution, merged->exr},
+                options.exposure);
+  statistics.write_seconds = write_watch.seconds();
+  std::error_code error;
+  std::filesystem::remove_all(parts_folder(output), error);
+}
+
+void report(const Statistics& statistics, const Options& options) {
+  warn_of_counts(statistics.counts);
+  if (options.stats == "json") std::cout << as_json(statistics).dump(2) << "\n";
+  if (options.stats == "true") print(statistics);
+}
+
 void run(const Options& options) {
+  Ranks ranks;
   RenderJob job;
   const CastOptions<Real> cast = cast_options(options.image.solver);
-  read_options(options, job);
+  read_options(options, ranks, job);
 
   Statistics statistics;
   const auto timed = [&](const char* what, double& seconds, const auto& work) {
@@ -165,6 +203,12 @@ void run(const Options& options) {
   statistics.threads = thread_count();
   statistics.world_bytes = job.world.bytes();
   statistics.bvh_bytes = job.world.bvh().bytes();
+
+  if (ranks.count() > 1) {
+    run_on(ranks, job, options, statistics);
+    if (ranks.rank() == 0) report(statistics, options);
+    return;
+  }
 
   // Of pieces many are rendered, over and over where machines fail.
   const std::string& output = options.image.outputs.front();
@@ -188,9 +232,7 @@ void run(const Options& options) {
     checkpoint.remove();
   }
 
-  warn_of_counts(statistics.counts);
-  if (options.stats == "json") std::cout << as_json(statistics).dump(2) << "\n";
-  if (options.stats == "true") print(statistics);
+  report(statistics, options);
 }
 
 }  // namespace
@@ -218,6 +260,10 @@ void add_render(CLI::App& app, ExitCode&) {
                    "i/n: just the i-th of n pieces of the picture, for minkray merge");
   verb->add_option("--sample-share", options->sample_share,
                    "i/n: just the i-th of n shares of each pixel's samples, for minkray merge");
+  verb->add_option("--tiles", options->tiles,
+                   "Under mpirun: into how many tiles the picture is split; by default each has "
+                   "about 64 x 64 pixels")
+      ->check(CLI::Range(1, 999999));
   verb->add_option("--checkpoint", options->checkpoint_seconds,
                    "Seconds between checkpoints beside the first output; 0 for none")
       ->check(CLI::Range(0.0, 1e9))

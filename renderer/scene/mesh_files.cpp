@@ -30,7 +30,8 @@ std::optional<PointCloud<double>> MeshFiles::read(const std::string& name, const
     std::vector<Vec3<double>> vertices = read_mesh_vertices(file);
     static_assert(sizeof(Vec3<double>) == 3 * sizeof(double));
     Hash hash;
-    hash.add({reinterpret_cast<const char*>(vertices.data()), vertices.size() * sizeof vertices[0]});
+    hash.add(
+        {reinterpret_cast<const char*>(vertices.data()), vertices.size() * sizeof vertices[0]});
     PointCloud<double> points(std::move(vertices), name);
     read_.emplace(name, Mesh{points, hash.text()});
     return points;
