@@ -188,7 +188,10 @@ Merged merge_parts(const std::vector<std::string>& files, bool allow_partial) {
       const auto [at, is_new] = file_of.emplace(piece.place(), file);
       if (!is_new) throw BadInput("holds the same piece as " + at->second + ": " + name_of(piece));
       merged.counts += counts_of(found);
-      merged.seconds += std::strtod(text_of(found, seconds_fact).c_str(), nullptr);
+      std::error_code error;
+      merged.costs.push_back({name_of(piece),
+                              std::strtod(text_of(found, cpu_seconds_fact).c_str(), nullptr),
+                              std::filesystem::file_size(file, error)});
     });
 
   const auto [picture, display, samples] = of_file(files.front(), [&] {

@@ -2,6 +2,7 @@
 // Putting the pieces of one picture together: tiles, shares of the samples, or both.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -9,11 +10,18 @@
 
 namespace minkray {
 
+/// What one piece took.
+struct PieceCost {
+  std::string name;  ///< "tile 3/8"
+  double cpu_seconds = 0;
+  std::uintmax_t bytes = 0;  ///< of its file
+};
+
 struct Merged {
   ExrImage exr;  ///< all planes of the picture; the facts that its pieces have in common
   RayCounts counts;
   std::vector<std::string> missing;  ///< "tile 3/8", "samples 1/2 of tile 3/8"
-  double seconds = 0;                ///< of all pieces together
+  std::vector<PieceCost> costs;      ///< in the order of the files
 
   /// The picture's colours.
   Image image() const { return image_of(exr, "R", "G", "B"); }

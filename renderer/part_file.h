@@ -38,8 +38,9 @@ inline constexpr const char* labels_fact = "minkray.labels";
 std::string labels_text(const std::vector<Label>& labels);
 std::vector<Label> labels_of(const Facts& facts);
 
-/// Seconds that the rendering took, and on how many threads.
+/// Seconds that the rendering took, seconds of all processors together, and on how many threads.
 inline constexpr const char* seconds_fact = "minkray.seconds";
+inline constexpr const char* cpu_seconds_fact = "minkray.cpu_seconds";
 inline constexpr const char* threads_fact = "minkray.threads";
 
 }  // namespace minkray

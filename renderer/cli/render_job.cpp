@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/cli/render_job.h"
 
+#include <ctime>
 #include <iostream>
 
 #include "core/parallel/parallel.h"
@@ -53,6 +54,7 @@ RenderedJob run(const RenderJob& job, Checkpoint& checkpoint) {
 
   RenderedJob done;
   const Stopwatch watch;
+  const std::clock_t begin = std::clock();
   {
     ProgressLine line(!job.quiet);
     done.rendering =
@@ -74,6 +76,8 @@ RenderedJob run(const RenderJob& job, Checkpoint& checkpoint) {
   facts[fact::command] = job.command;
   facts[counts_fact] = counts_text(done.rendering.counts);
   facts[seconds_fact] = std::to_string(done.seconds);
+  facts[cpu_seconds_fact] =
+      std::to_string(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
   facts[threads_fact] = std::to_string(thread_count());
   if (!done.labels.empty()) facts[labels_fact] = labels_text(done.labels);
   done.exr = exr_of(done.rendering, job.options, std::move(facts));

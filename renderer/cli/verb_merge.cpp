@@ -19,6 +19,7 @@ struct Options {
   std::vector<std::string> outputs;
   double exposure = 0;
   bool allow_partial = false;
+  bool times = false;
 };
 
 void run(const Options& options) {
@@ -34,6 +35,9 @@ void run(const Options& options) {
                  resolution_of(merged.exr.texts), merged.exr},
                 options.exposure);
   warn_of_counts(merged.counts);
+  if (options.times)
+    for (const PieceCost& cost : merged.costs)
+      std::cout << cost.name << " " << cost.cpu_seconds << " " << cost.bytes << "\n";
 }
 
 }  // namespace
@@ -48,6 +52,9 @@ void add_merge(CLI::App& app, ExitCode&) {
       ->capture_default_str();
   verb->add_flag("--allow-partial", options->allow_partial,
                  "Missing tiles are black, of missing samples the mean of the others is taken");
+  verb->add_flag("--times", options->times,
+                 "Print what each piece took: its name, seconds of all processors together, bytes "
+                 "of its file");
   verb->callback([options] { run(*options); });
 }
 
