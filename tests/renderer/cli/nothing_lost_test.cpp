@@ -198,6 +198,19 @@ TEST_F(NothingLost, what_is_no_file_is_an_error_at_once) {
   }
 }
 
+// 100 MB without a line's end, before a query that is answered all the same.
+TEST_F(NothingLost, an_endless_line_is_an_error_and_does_not_fill_the_memory) {
+  const ProgramOutcome outcome = shell(
+      "(head -c 100000000 /dev/zero | tr '\\0' x; echo; "
+      "echo '{\"type\": \"cast_ray\"}') > long.jsonl; "
+      "ulimit -v 1048576; \"$MINKRAY\" cast --threads 1 long.jsonl");
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_NE(outcome.err.find("long.jsonl:1: must not be longer than 67108864 bytes"),
+            std::string::npos)
+      << outcome.err;
+  EXPECT_NE(outcome.err.find("long.jsonl:2: "), std::string::npos) << outcome.err;
+}
+
 TEST_F(NothingLost, values_that_do_not_fit_are_wrong_usage) {
   for (const std::string arguments :
        {"render scene.json -o a.png --seed 18446744073709551616",
