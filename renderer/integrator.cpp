@@ -48,6 +48,7 @@ RayCounts& RayCounts::operator+=(const RayCounts& other) {
   ambient += other.ambient;
   scattered += other.scattered;
   mirrored += other.mirrored;
+  background += other.background;
   from_inside += other.from_inside;
   work += other.work;
   return *this;
@@ -103,6 +104,7 @@ Colour Integrator::along(const Ray<Real>& ray, const Path& path, Sampler& sample
   // Nothing there: cameras see the background. Surfaces are lit by the environment, and mirror it,
   // so that no light is counted twice; without one they still mirror the background.
   if (!hit.found()) {
+    if (path.at_camera()) ++counts.background;
     const bool sees_background = path.bounces == 0 && (path.mirrors == 0 || environments_.empty());
     return sees_background ? by_height(background_.zenith, background_.nadir, ray.direction)
                            : environment(ray.direction);

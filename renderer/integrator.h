@@ -19,6 +19,7 @@ struct RayCounts {
   std::uint64_t ambient = 0;    ///< the last of a path, towards the environment: any hit will do
   std::uint64_t scattered = 0;  ///< from a diffuse surface to the next one
   std::uint64_t mirrored = 0;
+  std::uint64_t background = 0;   ///< camera rays that met nothing
   std::uint64_t from_inside = 0;  ///< camera rays that began in a shape, and see black
   QueryCounts work;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The command line: minkray VERB ARGS...
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <exception>
 #include <iostream>
 
@@ -24,7 +25,7 @@ ExitCode run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? ExitCode::done : ExitCode::wrong_usage;
+    exit_code = app.exit(error) == 0 ? ExitCode::done : ExitCode::wrong_usage;
   }
   std::cout.flush();
   if (!std::cout) throw minkray::CannotWrite("stdout: cannot be written");
@@ -50,5 +51,7 @@ ExitCode run_and_report(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  // Beyond a limit of file sizes, writing fails with an error as on a full disk.
+  std::signal(SIGXFSZ, SIG_IGN);
   return static_cast<int>(run_and_report(argc, argv));
 }

@@ -5,9 +5,12 @@
 #include <oneapi/tbb/parallel_pipeline.h>
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <memory>
+#include <system_error>
 
 #include "renderer/cli/choices.h"
 #include "renderer/cli/verbs.h"
@@ -24,6 +27,10 @@ constexpr std::size_t lines_a_batch = 64;
 /// Batches on their way for each thread.
 constexpr std::size_t batches_a_thread = 4;
 
+/// A query with a hull of a million points is shorter; a file without line ends must not fill the
+/// memory.
+constexpr std::size_t most_bytes_a_line = std::size_t{64} << 20;
+
 struct Options {
   std::string file;
   std::string precision = "double";
@@ -34,23 +41,48 @@ struct Options {
   bool check = false;
 };
 
+struct Line {
+  std::string text;
+  bool is_too_long = false;
+};
+
 struct Batch {
   std::size_t first_line = 0;
-  std::vector<std::string> lines;
+  std::vector<Line> lines;
   std::string out;
   std::string err;
   bool has_malformed = false;
   bool has_wrong = false;
 };
 
+/// False at the end. Of a line that is too long only the length is taken notice of.
+bool read_line(std::istream& in, Line& line) {
+  using Traits = std::istream::traits_type;
+  std::streambuf& buffer = *in.rdbuf();
+  if (Traits::eq_int_type(buffer.sgetc(), Traits::eof())) return false;
+  line = {};
+  for (;;) {
+    const auto next = buffer.sbumpc();
+    if (Traits::eq_int_type(next, Traits::eof()) || next == '\n') return true;
+    if (line.text.size() < most_bytes_a_line)
+      line.text.push_back(Traits::to_char_type(next));
+    else
+      line.is_too_long = true;
+  }
+}
+
 bool is_blank(std::string_view line) {
   return line.find_first_not_of(" \t\r") == std::string_view::npos;
 }
 
-void answer_line(const std::string& line, const std::string& place, MeshFiles& meshes,
+void answer_line(const Line& line, const std::string& place, MeshFiles& meshes,
                  const AnswerOptions& options, bool check, Batch& batch) {
   Mistakes mistakes(place);
-  const std::optional<Query> query = parse_query(line, meshes, mistakes);
+  std::optional<Query> query;
+  if (line.is_too_long)
+    mistakes.add("must not be longer than " + std::to_string(most_bytes_a_line) + " bytes");
+  else
+    query = parse_query(line.text, meshes, mistakes);
   if (!query) {
     batch.has_malformed = true;
     batch.err += mistakes.text() + "\n";
@@ -72,8 +104,13 @@ ExitCode cast(const Options& options) {
 
   std::ifstream file;
   if (options.file != "-") {
+    std::error_code error;
+    if (std::filesystem::is_directory(options.file, error))
+      throw BadInput(options.file + ": must be a file (got a directory)");
+    errno = 0;
     file.open(options.file, std::ios::binary);
-    if (!file) throw BadInput(options.file + ": cannot be read");
+    if (!file)
+      throw BadInput(options.file + ": cannot be read: " + std::generic_category().message(errno));
   }
   std::istream& in = options.file == "-" ? std::cin : file;
   const std::string name = options.file == "-" ? "stdin" : options.file;
@@ -96,8 +133,15 @@ ExitCode cast(const Options& options) {
   const auto read = [&](oneapi::tbb::flow_control& flow) -> BatchPointer {
     auto batch = std::make_shared<Batch>();
     batch->first_line = next_line;
-    std::string line;
-    while (batch->lines.size() < lines_a_batch && std::getline(in, line)) {
+    Line line;
+    const auto next = [&] {
+      try {
+        return read_line(in, line);
+      } catch (const std::ios_base::failure&) {
+        throw BadInput(name + ": cannot be read to its end");
+      }
+    };
+    while (batch->lines.size() < lines_a_batch && next()) {
       batch->lines.push_back(std::move(line));
       // Answers to a slow writer come line by line.
       if (in.rdbuf()->in_avail() == 0 && options.file == "-") break;
@@ -108,7 +152,7 @@ ExitCode cast(const Options& options) {
   };
   const auto solve = [&](BatchPointer batch) {
     for (std::size_t i = 0; i < batch->lines.size(); ++i) {
-      if (is_blank(batch->lines[i])) continue;
+      if (is_blank(batch->lines[i].text)) continue;
       const std::string place = name + ":" + std::to_string(batch->first_line + i);
       answer_line(batch->lines[i], place, meshes.local(), answer_options, options.check, *batch);
     }
