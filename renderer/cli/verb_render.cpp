@@ -5,6 +5,7 @@
 #include <iomanip>
 #include <iostream>
 #include <memory>
+#include <optional>
 
 #include "core/parallel/parallel.h"
 #include "renderer/cli/image_arguments.h"
@@ -14,6 +15,7 @@
 #include "renderer/interrupt.h"
 #include "renderer/json/json.h"
 #include "renderer/labels.h"
+#include "renderer/ray_audit.h"
 #include "renderer/scene/scene_json.h"
 
 namespace minkray {
@@ -23,6 +25,7 @@ struct Options {
   ImageArguments image;
   double exposure = 0;
   int bounces = IntegratorOptions().bounces;
+  bool certify = false;
   std::string stats;  ///< empty: none, "true": text, "json"
 };
 
@@ -91,7 +94,24 @@ void print(const Statistics& s) {
             << "\n";
 }
 
-void run(const Options& options) {
+/// What was proven, and what not with a query that shows it.
+void report(const RayAudit& audit) {
+  std::uint64_t failed = 0;
+  std::cerr << "certified   " << audit.certificates() << " certificates for";
+  for (std::size_t i = 0; i < ray_kind_names.size(); ++i) {
+    const auto kind = static_cast<RayKind>(i);
+    failed += audit.failed(kind);
+    std::cerr << (i == 0 ? " " : ", ") << audit.rays(kind) << " " << ray_kind_names[i] << " rays";
+  }
+  std::cerr << "; without proof " << failed << "\n";
+  for (const AuditFailure& failure : audit.failures())
+    std::cerr << failure.message << "\n" << failure.query << (failure.query.empty() ? "" : "\n");
+  if (failed > 0)
+    std::cerr << "the lines in braces are queries for minkray cast --certify; their answers there "
+                 "show what is wrong\n";
+}
+
+ExitCode run(const Options& options) {
   if (!std::isfinite(options.exposure) || std::abs(options.exposure) > 100)
     throw WrongUsage("--exposure: must be a number of stops from -100 to 100");
   if (!options.stats.empty() && options.stats != "true" && options.stats != "json")
@@ -113,6 +133,8 @@ void run(const Options& options) {
 
   RenderWorld world;
   timed("build", statistics.build_seconds, [&] { world = make_world(scene, cast); });
+  std::optional<RayAudit> audit;
+  if (options.certify) render_options.integrator.audit = &audit.emplace(scene, world);
   statistics.objects = scene.objects.size();
   statistics.threads = thread_count();
   statistics.world_bytes = world.bytes();
@@ -143,11 +165,14 @@ void run(const Options& options) {
     std::cerr << "warning: the camera is inside a shape, where it sees black\n";
   if (options.stats == "json") std::cout << as_json(statistics).dump(2) << "\n";
   if (options.stats == "true") print(statistics);
+  if (!audit) return ExitCode::done;
+  report(*audit);
+  return audit->failures().empty() ? ExitCode::done : ExitCode::comparison_failed;
 }
 
 }  // namespace
 
-void add_render(CLI::App& app, ExitCode&) {
+void add_render(CLI::App& app, ExitCode& exit_code) {
   CLI::App* verb = app.add_subcommand("render", "Make a picture of a scene");
   const auto options = std::make_shared<Options>();
   options->image.samples = 16;
@@ -160,7 +185,11 @@ void add_render(CLI::App& app, ExitCode&) {
       ->check(CLI::Range(0, 64))
       ->capture_default_str();
   verb->add_flag("--stats", options->stats, "Print rays, speed, work and memory; --stats=json");
-  verb->callback([options] { with_threads(options->image.threads, [&] { run(*options); }); });
+  verb->add_flag("--certify", options->certify,
+                 "Prove the answer to every ray (docs/certificates.md); exit 1 if a proof fails");
+  verb->callback([options, &exit_code] {
+    with_threads(options->image.threads, [&] { exit_code = run(*options); });
+  });
 }
 
 }  // namespace minkray
