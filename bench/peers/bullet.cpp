@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "bench/peers/bullet_cast.h"
-
+// Bullet's casters, as its btCollisionWorld::rayTest uses them: a point cast at a convex shape,
+// with their own absolute tolerances.
+#include <BulletCollision/NarrowPhaseCollision/btContinuousConvexCollision.h>
+#include <BulletCollision/NarrowPhaseCollision/btGjkConvexCast.h>
+#include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
 #include <BulletCollision/NarrowPhaseCollision/btSubSimplexConvexCast.h>
 #include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>
 #include <btBulletCollisionCommon.h>
 
+#include "bench/peers/others.h"
+
 namespace minkray::bench {
-
-struct BulletCast::State {
-  std::unique_ptr<btConvexShape> shape;
-  btSphereShape point{0};
-};
-
 namespace {
 
 template <class T>
@@ -44,33 +43,77 @@ std::unique_ptr<btConvexShape> bullet_shape(const Shape<double>& shape) {
   return nullptr;
 }
 
-}  // namespace
+/// What a cast refers to.
+struct Pair {
+  std::unique_ptr<btConvexShape> shape;
+  btSphereShape point{0};
+  btGjkEpaPenetrationDepthSolver penetration;
+};
 
-BulletCast::BulletCast(std::unique_ptr<State> state) : state_(std::move(state)) {}
-BulletCast::~BulletCast() = default;
-
-std::unique_ptr<BulletCast> BulletCast::make(const Shape<double>& shape) {
-  auto state = std::make_unique<State>();
-  state->shape = bullet_shape(shape);
-  state->point.setMargin(0);
-  if (!state->shape) return nullptr;
-  return std::unique_ptr<BulletCast>(new BulletCast(std::move(state)));
+template <class Caster>
+bool run(Caster&& caster, const btTransform& from, const btTransform& to,
+         btConvexCast::CastResult& result) {
+  const btTransform still = btTransform::getIdentity();
+  return caster.calcTimeOfImpact(from, to, still, still, result);
 }
 
-float BulletCast::entry(const Ray<float>& ray) const {
+enum class Kind { subsimplex, gjk, continuous };
+
+Hit entry(Pair& pair, Kind kind, const Ray<float>& ray) {
   btVoronoiSimplexSolver simplex;
-  btSubsimplexConvexCast caster(&state_->point, state_->shape.get(), &simplex);
   btTransform from, to;
   from.setIdentity();
   to.setIdentity();
   from.setOrigin(vector(ray.origin));
   to.setOrigin(vector(ray.at(ray.t_max)));
-  const btTransform still = btTransform::getIdentity();
   btConvexCast::CastResult result;
   result.m_fraction = 1;
-  if (!caster.calcTimeOfImpact(from, to, still, still, result))
-    return std::numeric_limits<float>::infinity();
-  return static_cast<float>(result.m_fraction) * ray.t_max;
+  bool met = false;
+  switch (kind) {
+    case Kind::subsimplex:
+      met = run(btSubsimplexConvexCast(&pair.point, pair.shape.get(), &simplex), from, to, result);
+      break;
+    case Kind::gjk:
+      met = run(btGjkConvexCast(&pair.point, pair.shape.get(), &simplex), from, to, result);
+      break;
+    case Kind::continuous:
+      met = run(
+          btContinuousConvexCollision(&pair.point, pair.shape.get(), &simplex, &pair.penetration),
+          from, to, result);
+      break;
+  }
+  if (!met) return {};
+  Hit hit = hit_at(static_cast<double>(result.m_fraction) * static_cast<double>(ray.t_max));
+  hit.normal =
+      Vec3<float>(static_cast<float>(result.m_normal.x()), static_cast<float>(result.m_normal.y()),
+                  static_cast<float>(result.m_normal.z()));
+  return hit;
+}
+
+}  // namespace
+
+Peers bullet(const Shape<double>& shape) {
+  Peers peers;
+  for (const bool no_margin : {false, true}) {
+    const auto pair = std::make_shared<Pair>();
+    pair->shape = bullet_shape(shape);
+    if (!pair->shape) return peers;
+    pair->point.setMargin(0);
+    // A sphere's and a capsule's margin is their radius.
+    const bool is_round = std::holds_alternative<Sphere<double>>(shape.kind) ||
+                          std::holds_alternative<Capsule<double>>(shape.kind);
+    if (no_margin && is_round) continue;
+    if (no_margin) pair->shape->setMargin(0);
+    const std::string suffix = no_margin ? ", no margin/float" : "/float";
+    const auto add = [&](const char* name, Kind kind) {
+      peers.push_back(single_rays<float>(
+          name + suffix, [pair, kind](const Ray<float>& ray) { return entry(*pair, kind, ray); }));
+    };
+    add("bullet-subsimplex", Kind::subsimplex);
+    add("bullet-gjk", Kind::gjk);
+    add("bullet-continuous", Kind::continuous);
+  }
+  return peers;
 }
 
 }  // namespace minkray::bench
