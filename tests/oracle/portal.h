@@ -31,10 +31,12 @@ class PortalCast {
   explicit PortalCast(const Shape<double>& shape) : shape_(convert<Long>(shape)) {
     const Bounds<Long> bounds = bounds_of<Long>(shape_);
     radius_ = bounds.half_extents().norm();
+    // Beside the middle: seen from a centre of symmetry, portals have the line in their sides.
     middle_.setZero();
+    int weight = 0;
     for (int axis = 0; axis < 3; ++axis)
       for (const Long sign : {Long(-1), Long(1)})
-        middle_ += shape_.support(Vec3<Long>(sign * Vec3<Long>::Unit(axis))) / 6;
+        middle_ += ++weight * shape_.support(Vec3<Long>(sign * Vec3<Long>::Unit(axis))) / 21;
   }
 
   Long radius() const { return radius_; }
@@ -123,6 +125,14 @@ class PortalCast {
       return PortalHit::Answer::undecided;
     }
 
+    /// From the two shorter edges: slivers lose digits to the product of the long ones.
+    static Vec3<Long> normal_of(const std::array<Vec3<Long>, 3>& v) {
+      const Vec3<Long> ab = v[1] - v[0], bc = v[2] - v[1], ca = v[0] - v[2];
+      const Long ab2 = ab.squaredNorm(), bc2 = bc.squaredNorm(), ca2 = ca.squaredNorm();
+      if (ab2 >= bc2 && ab2 >= ca2) return bc.cross(ca);
+      return bc2 >= ca2 ? ca.cross(ab) : ab.cross(bc);
+    }
+
     /// How far within a triangle the line is: the least of three areas, negative if it is outside.
     Long room(const Vec3<Long>& p, const Vec3<Long>& q, const Vec3<Long>& s) const {
       const Vec2 i = across(p), j = across(q), k = across(s);
@@ -135,15 +145,16 @@ class PortalCast {
       hit.t_lo = -std::numeric_limits<Long>::infinity();
       hit.t_hi = std::numeric_limits<Long>::infinity();
       for (int i = 0; i < most_supports; ++i) {
-        Vec3<Long> n = (v[1] - v[0]).cross(v[2] - v[0]);
+        Vec3<Long> n = normal_of(v);
         if (n.dot(r) > 0) n = -n;
         n.normalize();
         const Long slope = n.dot(r);
         if (!(slope < 0)) return hit;  // seen from the edge: undecided
         const Vec3<Long> p = support(n);
         const Long in_plane = n.dot(v[0]), touching = n.dot(p);
-        hit.t_lo = std::max(hit.t_lo, touching / slope);
-        hit.t_hi = std::min(hit.t_hi, in_plane / slope);
+        // Not the best of all portals: those seen nearly from their edge round t most.
+        hit.t_lo = touching / slope;
+        hit.t_hi = in_plane / slope;
         if (touching - in_plane <= tolerance) {
           hit.normal = n;
           hit.answer = PortalHit::Answer::hit;
