@@ -41,6 +41,8 @@ pid_t start_minkray(const std::vector<std::string>& arguments) {
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
   const pid_t child = ::fork();
+  // Who kills process -1 kills all there are.
+  if (child < 0) throw std::runtime_error("cannot start a process");
   if (child == 0) {
     if (std::freopen("/dev/null", "w", stdout) == nullptr) ::_exit(126);
     if (std::freopen("/dev/null", "w", stderr) == nullptr) ::_exit(126);
