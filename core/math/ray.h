@@ -6,13 +6,13 @@
 
 namespace minkray {
 
-/// Lengths are in the scene's unit. The direction need not be of unit length (t counts in its
+/// Lengths are in the scene's unit; T may be a packet: a ray in every lane. The direction need not be of unit length (t counts in its
 /// lengths) and may be zero: such a ray is the single point `origin`.
 template <class T>
 struct Ray {
   Vec3<T> origin;
   Vec3<T> direction;
-  T t_max = std::numeric_limits<T>::infinity();
+  T t_max = T(std::numeric_limits<Lane<T>>::infinity());
 
   Vec3<T> at(T t) const { return origin + t * direction; }
 };

@@ -7,9 +7,12 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <concepts>
+#include <cstdint>
 #include <limits>
+#include <type_traits>
 
 namespace minkray {
 
@@ -23,13 +26,18 @@ using Vec = Eigen::Matrix<W, Dim, 1>;
 template <class W>
 using Mat3 = Eigen::Matrix<W, 3, 3>;
 
-/// The type that one lane of W holds: W itself unless W is a packet.
+/// The type that one lane of W holds: W itself unless W is a packet (core/math/wide.h); what
+/// comparisons of W give; and how many lanes there are.
 template <class W>
 struct LaneOf {
   using type = W;
+  using Mask = bool;
+  static constexpr int count = 1;
 };
 template <class W>
 using Lane = typename LaneOf<W>::type;
+template <class W>
+using Mask = typename LaneOf<W>::Mask;
 
 /// `condition ? a : b`, lane by lane for packets.
 template <std::floating_point W>
@@ -52,6 +60,14 @@ W power(W base, W exponent) {
   return std::pow(base, exponent);
 }
 
+/// The power of two that a positive normal number begins with; 0 for smaller numbers.
+template <std::floating_point W>
+W leading_power_of_two(W x) {
+  using Bits = std::conditional_t<sizeof(W) == 4, std::uint32_t, std::uint64_t>;
+  return std::bit_cast<W>(std::bit_cast<Bits>(x) &
+                          std::bit_cast<Bits>(std::numeric_limits<W>::infinity()));
+}
+
 /// The vector of the lanes where the condition holds from a, elsewhere from b.
 template <class W, class Mask>
 Vec3<W> select(const Mask& condition, const Vec3<W>& a, const Vec3<W>& b) {
@@ -72,18 +88,38 @@ Vec3<W> unit(const Vec3<W>& v) {
   constexpr T smallest = std::numeric_limits<T>::min() / std::numeric_limits<T>::epsilon() * T(16);
   constexpr T largest = T(1) / smallest;
   const W squared = v.squaredNorm();
-  if (all((squared > W(smallest)) & (squared < W(largest)))) return v * (W(1) / sqrt(squared));
+  const auto ordinary = (squared > W(smallest)) & (squared < W(largest));
+  const Vec3<W> divided = v * (W(1) / sqrt(squared));
+  if (all(ordinary)) return divided;
   const W size = max(abs(v.x()), max(abs(v.y()), abs(v.z())));
   const auto usable = size > W(0);
   const W safe = select(usable, size, W(1));
   const Vec3<W> scaled(v.x() / safe, v.y() / safe, v.z() / safe);
-  return scaled * select(usable, W(1) / sqrt(scaled.squaredNorm()), W(0));
+  return select<W>(ordinary, divided,
+                   Vec3<W>(scaled * select(usable, W(W(1) / sqrt(scaled.squaredNorm())), W(0))));
 }
 
 /// The lanes of T as W: a shape's own numbers meet a packet of directions.
 template <class W, class T>
 Vec3<W> widen(const Vec3<T>& v) {
   return {W(v.x()), W(v.y()), W(v.z())};
+}
+
+template <class W, class T>
+Mat3<W> widen(const Mat3<T>& m) {
+  Mat3<W> wide;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) wide(i, j) = W(m(i, j));
+  return wide;
+}
+
+/// m v, a matrix of one lane's numbers applied to all lanes.
+template <class W, class T>
+Vec3<W> times(const Mat3<T>& m, const Vec3<W>& v) {
+  const auto row = [&](int i) {
+    return W(m(i, 0)) * v.x() + W(m(i, 1)) * v.y() + W(m(i, 2)) * v.z();
+  };
+  return {row(0), row(1), row(2)};
 }
 
 }  // namespace minkray

@@ -36,14 +36,6 @@ class AffineMap {
   }
 
  private:
-  template <class W>
-  static Vec3<W> times(const Mat3<T>& m, const Vec3<W>& v) {
-    const auto row = [&](int i) {
-      return W(m(i, 0)) * v.x() + W(m(i, 1)) * v.y() + W(m(i, 2)) * v.z();
-    };
-    return {row(0), row(1), row(2)};
-  }
-
   Affine<T> affine_;
   Mat3<T> to_inner_ = Mat3<T>::Identity();
 };

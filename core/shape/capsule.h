@@ -32,9 +32,8 @@ struct Capsule {
   }
 
   template <class W>
-  Jet<W> jet(const Vec3<W>& n) const {
-    return ball_jet<W>({W(0), W(0), select(n.z() < W(0), W(-half_height), W(half_height))},
-                       W(radius));
+  AxialBallJet<W> jet(const Vec3<W>& n) const {
+    return {select(n.z() < W(0), W(-half_height), W(half_height)), W(radius)};
   }
 };
 

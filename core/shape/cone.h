@@ -30,10 +30,9 @@ struct Cone {
   }
 
   template <class W>
-  Jet<W> jet(const Vec3<W>& n) const {
-    const Vec3<W> s = support(n);
-    if (s.z() > W(0)) return point_jet<W>(s);
-    return disk_jet<W>({W(0), W(0), W(-half_height)}, W(radius));
+  AxialDiskJet<W> jet(const Vec3<W>& n) const {
+    const auto apex = support(n).z() > W(0);
+    return {select(apex, W(half_height), W(-half_height)), select(apex, W(0), W(radius))};
   }
 };
 

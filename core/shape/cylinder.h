@@ -29,9 +29,8 @@ struct Cylinder {
   }
 
   template <class W>
-  Jet<W> jet(const Vec3<W>& n) const {
-    return disk_jet<W>({W(0), W(0), select(n.z() < W(0), W(-half_height), W(half_height))},
-                       W(radius));
+  AxialDiskJet<W> jet(const Vec3<W>& n) const {
+    return {select(n.z() < W(0), W(-half_height), W(half_height)), W(radius)};
   }
 };
 

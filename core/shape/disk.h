@@ -32,8 +32,8 @@ struct Disk {
   }
 
   template <class W>
-  Jet<W> jet(const Vec3<W>&) const {
-    return disk_jet<W>(Vec3<W>::Zero(), W(radius));
+  AxialDiskJet<W> jet(const Vec3<W>&) const {
+    return {W(0), W(radius)};
   }
 };
 

@@ -26,8 +26,8 @@ struct Ellipsoid {
   }
 
   template <class W>
-  Jet<W> jet(const Vec3<W>&) const {
-    return {Vec3<W>::Zero(), widen<W>(radii).asDiagonal()};
+  AxialEllipsoidJet<W> jet(const Vec3<W>&) const {
+    return {widen<W>(radii)};
   }
 };
 

@@ -33,10 +33,10 @@ struct Frustum {
   }
 
   template <class W>
-  Jet<W> jet(const Vec3<W>& n) const {
+  AxialDiskJet<W> jet(const Vec3<W>& n) const {
     const auto upper = is_upper<W>(n, unit_disk_support(n));
-    return disk_jet<W>({W(0), W(0), select(upper, W(half_height), W(-half_height))},
-                       select(upper, W(radii[1]), W(radii[0])));
+    return {select(upper, W(half_height), W(-half_height)),
+            select(upper, W(radii[1]), W(radii[0]))};
   }
 
  private:

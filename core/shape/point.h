@@ -25,8 +25,8 @@ struct Point {
   }
 
   template <class W>
-  Jet<W> jet(const Vec3<W>&) const {
-    return point_jet<W>(widen<W>(position));
+  PointJet<W> jet(const Vec3<W>&) const {
+    return {widen<W>(position)};
   }
 };
 

@@ -30,8 +30,7 @@ struct Rounded {
 
   template <class W>
   Jet<W> jet(const Vec3<W>& n) const {
-    const Jet<W> ball = ball_jet<W>(Vec3<W>::Zero(), W(radius));
-    return add<W>(shape->jet(n), ball, n);
+    return add<W>(shape->jet(n), AxialBallJet<W>{W(0), W(radius)}, n);
   }
 };
 

@@ -25,8 +25,8 @@ struct Sphere {
   }
 
   template <class W>
-  Jet<W> jet(const Vec3<W>&) const {
-    return ball_jet<W>(Vec3<W>::Zero(), W(radius));
+  AxialBallJet<W> jet(const Vec3<W>&) const {
+    return {W(0), W(radius)};
   }
 };
 

@@ -35,10 +35,10 @@ struct TaperedCapsule {
   }
 
   template <class W>
-  Jet<W> jet(const Vec3<W>& n) const {
+  AxialBallJet<W> jet(const Vec3<W>& n) const {
     const auto upper = is_upper<W>(unit(n));
-    return ball_jet<W>({W(0), W(0), select(upper, W(half_height), W(-half_height))},
-                       select(upper, W(radii[1]), W(radii[0])));
+    return {select(upper, W(half_height), W(-half_height)),
+            select(upper, W(radii[1]), W(radii[0]))};
   }
 
  private:

@@ -29,8 +29,8 @@ struct Triangle {
   }
 
   template <class W>
-  Jet<W> jet(const Vec3<W>& n) const {
-    return point_jet<W>(support(n));
+  PointJet<W> jet(const Vec3<W>& n) const {
+    return {support(n)};
   }
 };
 

@@ -8,7 +8,7 @@
 #include "core/math/bounds.h"
 #include "core/shape/shape.h"
 #include "core/shape/shape_bounds.h"
-#include "core/shape/surface.h"
+#include "core/solver/model_of.h"
 #include "core/solver/ray_near_ball.h"
 
 namespace minkray {
@@ -42,6 +42,7 @@ class PreparedShape {
     ball_ = ball_around(inner_bounds);
     half_extents_ = inner_bounds.half_extents();
     centre_ = to_outer(ball_.centre);
+    model_ = model_kind_of<T>(shape_);
     surface_ = surface_of<T>(shape_);
     is_rigid_identity_ = to_outer.linear == Mat3<T>::Identity();
   }
@@ -55,15 +56,20 @@ class PreparedShape {
   /// What the inner shape's surface is made of.
   SurfaceKind surface() const { return surface_; }
 
-  /// The ray in the inner frame, relative to the ball's centre.
-  RayNearBall<T> to_inner(const Ray<T>& ray) const {
-    const RayNearBall<T> near = ray_near(centre_, ray);
+  /// What the solvers on jets model it as.
+  ModelKind model() const { return model_; }
+
+  /// The ray in the inner frame, relative to the ball's centre; W is T or a packet of it.
+  template <class W>
+  RayNearBall<W> to_inner(const Ray<W>& ray) const {
+    const RayNearBall<W> near = ray_near(centre_, ray);
     return is_rigid_identity_ ? near : near.mapped(to_inner_);
   }
 
   /// An inner normal in the outer frame, of unit length.
-  Vec3<T> normal_to_outer(const Vec3<T>& normal) const {
-    return is_rigid_identity_ ? normal : unit<T>(to_inner_.transpose() * normal);
+  template <class W>
+  Vec3<W> normal_to_outer(const Vec3<W>& normal) const {
+    return is_rigid_identity_ ? normal : unit<W>(times<W, T>(to_inner_.transpose(), normal));
   }
 
   /// The other way, of any length; for hints, not for hot code.
@@ -82,6 +88,7 @@ class PreparedShape {
   Vec3<T> centre_;
   Mat3<T> to_inner_;
   SurfaceKind surface_;
+  ModelKind model_;
   bool is_rigid_identity_;
 };
 

@@ -11,17 +11,17 @@ namespace minkray {
 
 /// The points centre + s + lambda * r, lambda_min <= lambda <= lambda_max: lambda is a length, r
 /// of unit length (or zero, for a ray without direction), s the ray's closest approach to centre.
-template <class T>
+template <class W>
 struct RayNearBall {
-  Vec3<T> s;
-  Vec3<T> r;
-  T lambda_min;  ///< where the ray's origin is
-  T lambda_max;  ///< where the ray ends
-  T t_base;      ///< the ray's own parameter at s is t_base + t_shift
-  T t_shift;
-  T t_per_length;
+  Vec3<W> s;
+  Vec3<W> r;
+  W lambda_min;  ///< where the ray's origin is
+  W lambda_max;  ///< where the ray ends
+  W t_base;      ///< the ray's own parameter at s is t_base + t_shift
+  W t_shift;
+  W t_per_length;
 
-  T t_offset(T lambda) const { return t_shift + lambda * t_per_length; }
+  W t_offset(W lambda) const { return t_shift + lambda * t_per_length; }
 
   /// The same points, walked the other way.
   RayNearBall reversed() const {
@@ -29,19 +29,20 @@ struct RayNearBall {
   }
 
   /// The ray's image under a linear map that takes the old centre to the new one; parameters stay.
-  RayNearBall mapped(const Mat3<T>& linear) const {
+  RayNearBall mapped(const Mat3<Lane<W>>& linear) const {
+    const Vec3<W> direction = times(linear, r);
     RayNearBall image = *this;
-    image.s = linear * s;
-    const Vec3<T> direction = linear * r;
+    image.s = times(linear, s);
     image.r = unit(direction);
-    const T length = image.r.dot(direction);
-    if (!(length > T(0))) return image;
-    const T correction = -image.s.dot(image.r);
+    const W length = image.r.dot(direction);
+    const Mask<W> has_direction = length > W(0);
+    const W safe_length = select(has_direction, length, W(1));
+    const W correction = -image.s.dot(image.r);
     image.s += correction * image.r;
-    image.t_per_length = t_per_length / length;
+    image.t_per_length = t_per_length / safe_length;
     image.t_shift = t_shift + correction * image.t_per_length;
-    image.lambda_min = lambda_min * length - correction;
-    image.lambda_max = lambda_max * length - correction;
+    image.lambda_min = lambda_min * safe_length - correction;
+    image.lambda_max = lambda_max * safe_length - correction;
     return image;
   }
 };
@@ -50,38 +51,45 @@ struct RayNearBall {
 /// one's parameter is as coarse as the origin is far; s itself is rounded only as coarsely as
 /// centre and shape are large, because fma rounds once and walks along the direction as given, not
 /// along a rounded unit vector.
-template <class T>
-RayNearBall<T> ray_near(const Vec3<T>& centre, const Ray<T>& ray) {
-  RayNearBall<T> near;
-  const T longest = ray.direction.cwiseAbs().maxCoeff();
-  if (!(longest > T(0))) {
-    near.s = ray.origin - centre;
-    near.r = Vec3<T>::Zero();
-    near.lambda_min = near.lambda_max = near.t_base = near.t_shift = near.t_per_length = T(0);
-    return near;
-  }
-  // A power of two keeps the scaled direction exact, and its square in range.
-  int exponent = 0;
-  std::frexp(longest, &exponent);
-  const Vec3<T> direction(std::ldexp(ray.direction.x(), -exponent),
-                          std::ldexp(ray.direction.y(), -exponent),
-                          std::ldexp(ray.direction.z(), -exponent));
-  const T squared = direction.squaredNorm();
-  const T length = std::sqrt(squared);
-  const auto along = [&](const Vec3<T>& from, T steps) -> Vec3<T> {
-    return {std::fma(steps, direction.x(), from.x()), std::fma(steps, direction.y(), from.y()),
-            std::fma(steps, direction.z(), from.z())};
+template <class W>
+RayNearBall<W> ray_near(const Vec3<Lane<W>>& centre_of_ball, const Ray<W>& ray) {
+  using std::abs;
+  using std::fma;
+  using std::max;
+  using std::sqrt;
+  using T = Lane<W>;
+  const Vec3<W> centre = widen<W>(centre_of_ball);
+
+  // Powers of two keep the scaled direction exact, and its square in range; tiny directions take
+  // two of them, since denormal numbers have no leading power.
+  constexpr T tiny = std::is_same_v<T, float> ? T(0x1p-60) : T(0x1p-500);
+  constexpr T up = std::is_same_v<T, float> ? T(0x1p100) : T(0x1p900);
+  const W longest =
+      max(abs(ray.direction.x()), max(abs(ray.direction.y()), abs(ray.direction.z())));
+  const Mask<W> has_direction = longest > W(0);
+  const W first = select(longest < W(tiny), W(up), W(1));
+  const W size = select(has_direction, leading_power_of_two(W(longest * first)), W(1));
+  const W second = W(1) / size;
+  const Vec3<W> direction = ray.direction * first * second;
+
+  const W squared = select(has_direction, direction.squaredNorm(), W(1));
+  const W length = sqrt(squared);
+  const auto along = [&](const Vec3<W>& from, const W& steps) -> Vec3<W> {
+    return {fma(steps, direction.x(), from.x()), fma(steps, direction.y(), from.y()),
+            fma(steps, direction.z(), from.z())};
   };
-  const T steps = -(ray.origin - centre).dot(direction) / squared;
-  const Vec3<T> close = along(ray.origin, steps) - centre;
-  const T more_steps = -close.dot(direction) / squared;
+  const W steps = -(ray.origin - centre).dot(direction) / squared;
+  const Vec3<W> close = along(ray.origin, steps) - centre;
+  const W more_steps = -close.dot(direction) / squared;
+  RayNearBall<W> near;
   near.s = along(close, more_steps);
-  near.r = direction / length;
-  near.t_base = std::ldexp(steps, -exponent);
-  near.t_shift = std::ldexp(more_steps, -exponent);
-  near.t_per_length = std::ldexp(T(1) / length, -exponent);
+  near.r = direction * (W(1) / length);
+  near.t_base = steps * first * second;
+  near.t_shift = more_steps * first * second;
+  near.t_per_length = second / length * first;
   near.lambda_min = -steps * length - more_steps * length;
-  near.lambda_max = std::ldexp(ray.t_max, exponent) * length + near.lambda_min;
+  near.lambda_max =
+      select(has_direction, W(ray.t_max * size * (W(1) / first) * length + near.lambda_min), W(0));
   return near;
 }
 

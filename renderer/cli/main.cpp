@@ -17,8 +17,8 @@ ExitCode run(int argc, char** argv) {
   app.set_version_flag("--version", "minkray " MINKRAY_VERSION);
   app.require_subcommand(1);
   app.footer(
-      "Exit codes: 0 done, 1 a comparison failed, 2 wrong usage, 3 bad scene or input,\n"
-      "4 could not write. Results are on stdout, everything else on stderr.");
+      "Exit codes: 0 done, 1 a comparison or certificate failed, 2 wrong usage,\n"
+      "3 bad scene or input, 4 could not write. Results are on stdout, everything else on stderr.");
   ExitCode exit_code = ExitCode::done;
   for (const minkray::AddVerb add : minkray::verbs) add(app, exit_code);
 

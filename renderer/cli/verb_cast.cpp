@@ -39,6 +39,19 @@ struct Options {
   int threads = 0;
   bool trace = false;
   bool check = false;
+  bool certify = false;
+};
+
+/// How many answers there were, and how many of their certificates hold.
+struct CertificateCounts {
+  std::size_t holding = 0, failing = 0, without = 0;
+
+  CertificateCounts& operator+=(const CertificateCounts& other) {
+    holding += other.holding;
+    failing += other.failing;
+    without += other.without;
+    return *this;
+  }
 };
 
 struct Line {
@@ -53,6 +66,7 @@ struct Batch {
   std::string err;
   bool has_malformed = false;
   bool has_wrong = false;
+  CertificateCounts certificates;
 };
 
 /// False at the end. Of a line that is too long only the length is taken notice of.
@@ -90,6 +104,15 @@ void answer_line(const Line& line, const std::string& place, MeshFiles& meshes,
   }
   const Answer result = answer(*query, options);
   batch.out += result.json.dump() + "\n";
+  if (!result.verdict) {
+    ++batch.certificates.without;
+  } else if (result.verdict->holds) {
+    ++batch.certificates.holding;
+  } else {
+    ++batch.certificates.failing;
+    batch.err += place + ": " + printable(query->name, 80) +
+                 ": not certified: " + std::string(result.verdict->complaint) + "\n";
+  }
   if (!check) return;
   for (const std::string& complaint : complaints(*query, result.facts, options.precision)) {
     batch.has_wrong = true;
@@ -100,7 +123,8 @@ void answer_line(const Line& line, const std::string& place, MeshFiles& meshes,
 ExitCode cast(const Options& options) {
   const AnswerOptions answer_options{
       options.precision == "float" ? Precision::in_float : Precision::in_double,
-      solver_named(options.solver), subalgorithm_named(options.subalgorithm), options.trace};
+      solver_named(options.solver), subalgorithm_named(options.subalgorithm), options.trace,
+      options.certify};
 
   std::ifstream file;
   if (options.file != "-") {
@@ -129,6 +153,7 @@ ExitCode cast(const Options& options) {
   using BatchPointer = std::shared_ptr<Batch>;
   std::size_t next_line = 1;
   bool has_malformed = false, has_wrong = false;
+  CertificateCounts certificates;
 
   const auto read = [&](oneapi::tbb::flow_control& flow) -> BatchPointer {
     auto batch = std::make_shared<Batch>();
@@ -165,6 +190,7 @@ ExitCode cast(const Options& options) {
     std::cerr << batch->err;
     has_malformed |= batch->has_malformed;
     has_wrong |= batch->has_wrong;
+    certificates += batch->certificates;
   };
   using oneapi::tbb::filter_mode;
   oneapi::tbb::parallel_pipeline(
@@ -173,6 +199,10 @@ ExitCode cast(const Options& options) {
           oneapi::tbb::make_filter<BatchPointer, BatchPointer>(filter_mode::parallel, solve) &
           oneapi::tbb::make_filter<BatchPointer, void>(filter_mode::serial_in_order, write));
   if (in.bad()) throw BadInput(name + ": cannot be read");
+  if (options.certify)
+    std::cerr << "certificates: " << certificates.holding << " hold, " << certificates.failing
+              << " do not; " << certificates.without << " answers without (distances, turning)\n";
+  has_wrong |= certificates.failing > 0;
   return has_malformed ? ExitCode::bad_input
                        : (has_wrong ? ExitCode::comparison_failed : ExitCode::done);
 }
@@ -197,6 +227,8 @@ void add_cast(CLI::App& app, ExitCode& exit_code) {
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
   verb->add_flag("--trace", options->trace, "Add every iteration");
+  verb->add_flag("--certify", options->certify,
+                 "Prove every cast's answer (docs/certificates.md); exit 1 if a proof fails");
   verb->add_flag("--check", options->check,
                  "Compare with what each query expects; exit 1 if anything differs");
   verb->callback([options, &exit_code] { exit_code = cast(*options); });

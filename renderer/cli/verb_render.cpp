@@ -22,6 +22,8 @@
 #include "renderer/interrupt.h"
 #include "renderer/json/json.h"
 #include "renderer/merge.h"
+#include "renderer/labels.h"
+#include "renderer/ray_audit.h"
 #include "renderer/scene/scene_json.h"
 
 namespace minkray {
@@ -31,6 +33,7 @@ struct Options {
   ImageArguments image;
   double exposure = 0;
   int bounces = IntegratorOptions().bounces;
+  bool certify = false;
   std::string stats;  ///< empty: none, "true": text, "json"
   std::optional<std::string> aov;
   std::optional<std::string> tile, sample_share;
@@ -106,6 +109,23 @@ void print(const Statistics& s) {
             << "\n";
 }
 
+/// What was proven, and what not with a query that shows it.
+void report(const RayAudit& audit) {
+  std::uint64_t failed = 0;
+  std::cerr << "certified   " << audit.certificates() << " certificates for";
+  for (std::size_t i = 0; i < ray_kind_names.size(); ++i) {
+    const auto kind = static_cast<RayKind>(i);
+    failed += audit.failed(kind);
+    std::cerr << (i == 0 ? " " : ", ") << audit.rays(kind) << " " << ray_kind_names[i] << " rays";
+  }
+  std::cerr << "; without proof " << failed << "\n";
+  for (const AuditFailure& failure : audit.failures())
+    std::cerr << failure.message << "\n" << failure.query << (failure.query.empty() ? "" : "\n");
+  if (failed > 0)
+    std::cerr << "the lines in braces are queries for minkray cast --certify; their answers there "
+                 "show what is wrong\n";
+}
+
 /// Throws WrongUsage for what does not go together, and fills in what the options ask for.
 void read_options(const Options& options, const Ranks& ranks, RenderJob& job) {
   check_exposure(options.exposure);
@@ -126,6 +146,8 @@ void read_options(const Options& options, const Ranks& ranks, RenderJob& job) {
   if (ranks.count() > 1 && options.is_piece())
     throw WrongUsage(
         "--tile, --sample-share: the ranks of an MPI job share the picture themselves");
+  if (options.certify && (ranks.count() > 1 || options.resume))
+    throw WrongUsage("--certify: proves the rays of one whole run: not with --resume or MPI");
   if (ranks.count() == 1 && options.tiles)
     throw WrongUsage("--tiles: is for several ranks of an MPI job (mpirun minkray render)");
   if (ranks.rank() == 0) check_outputs(outputs);
@@ -177,7 +199,7 @@ void report(const Statistics& statistics, const Options& options) {
   if (options.stats == "true") print(statistics);
 }
 
-void run(const Options& options) {
+ExitCode run(const Options& options) {
   Ranks ranks;
   RenderJob job;
   const CastOptions<Real> cast = cast_options(options.image.solver);
@@ -200,6 +222,8 @@ void run(const Options& options) {
 
   timed("build", statistics.build_seconds, [&] { job.world = make_world(job.scene, cast); });
   statistics.objects = job.scene.objects.size();
+  std::optional<RayAudit> audit;
+  if (options.certify) job.options.integrator.audit = &audit.emplace(job.scene, job.world);
   statistics.threads = thread_count();
   statistics.world_bytes = job.world.bytes();
   statistics.bvh_bytes = job.world.bvh().bytes();
@@ -207,14 +231,14 @@ void run(const Options& options) {
   if (ranks.count() > 1) {
     run_on(ranks, job, options, statistics);
     if (ranks.rank() == 0) report(statistics, options);
-    return;
+    return ExitCode::done;
   }
 
   // Of pieces many are rendered, over and over where machines fail.
   const std::string& output = options.image.outputs.front();
   if (options.resume && options.is_piece() && is_part_of(output, facts_of(job))) {
     if (!options.image.quiet) std::cerr << output << ": is there already\n";
-    return;
+    return ExitCode::done;
   }
 
   RenderedJob done;
@@ -233,11 +257,14 @@ void run(const Options& options) {
   }
 
   report(statistics, options);
+  if (!audit) return ExitCode::done;
+  report(*audit);
+  return audit->failures().empty() ? ExitCode::done : ExitCode::comparison_failed;
 }
 
 }  // namespace
 
-void add_render(CLI::App& app, ExitCode&) {
+void add_render(CLI::App& app, ExitCode& exit_code) {
   CLI::App* verb = app.add_subcommand("render", "Make a picture of a scene");
   const auto options = std::make_shared<Options>();
   options->image.samples = 16;
@@ -270,7 +297,11 @@ void add_render(CLI::App& app, ExitCode&) {
       ->capture_default_str();
   verb->add_flag("--resume", options->resume, "Go on from the checkpoint, if there is one");
   verb->add_flag("--stats", options->stats, "Print rays, speed, work and memory; --stats=json");
-  verb->callback([options] { with_threads(options->image.threads, [&] { run(*options); }); });
+  verb->add_flag("--certify", options->certify,
+                 "Prove the answer to every ray (docs/certificates.md); exit 1 if a proof fails");
+  verb->callback([options, &exit_code] {
+    with_threads(options->image.threads, [&] { exit_code = run(*options); });
+  });
 }
 
 }  // namespace minkray

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+// Several numbers that are calculated with at once: the scalar of packets of rays. By way of the
+// compiler's vector types, so that one source serves every instruction set.
+//
+// `Isa` names the instruction set that the including file is compiled for. It is a part of the type
+// so that code for different instruction sets has different names and is never mixed up by the
+// linker (docs/decisions/packets.md).
+#pragma once
+
+#if defined(__AVX2__)
+#include <immintrin.h>
+#elif defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
+#include <cstdint>
+
+#include "core/math/vec.h"
+
+namespace minkray {
+
+struct IsaSse2 {
+  static constexpr std::size_t register_bytes = 16;
+};
+/// With FMA.
+struct IsaAvx2 {
+  static constexpr std::size_t register_bytes = 32;
+};
+#if defined(__AVX2__)
+using IsaHere = IsaAvx2;
+#else
+using IsaHere = IsaSse2;
+#endif
+
+/// A yes or no for each lane.
+template <class T, int N, class Isa>
+struct WideMask {
+  using Lanes __attribute__((vector_size(N * sizeof(T)))) = T;
+  using Bits = decltype(Lanes() < Lanes());  ///< all bits of a lane, or none
+  using Word = std::conditional_t<(N > 0 && sizeof(T) > 0), std::uint64_t, T>;  // depends on T
+  using Words __attribute__((vector_size(N * sizeof(T)))) = Word;
+  Bits bits;
+
+  WideMask() : bits{} {}
+  explicit WideMask(Bits b) : bits(b) {}
+  /// The same for all lanes.
+  explicit WideMask(bool all) : bits(all ? Lanes() == Lanes() : Bits()) {}
+
+  bool lane(int i) const { return bits[i] != 0; }
+  WideMask& operator&=(const WideMask& o) { return bits &= o.bits, *this; }
+  WideMask& operator|=(const WideMask& o) { return bits |= o.bits, *this; }
+  friend WideMask operator&(const WideMask& a, const WideMask& b) {
+    return WideMask(a.bits & b.bits);
+  }
+  friend WideMask operator|(const WideMask& a, const WideMask& b) {
+    return WideMask(a.bits | b.bits);
+  }
+  friend WideMask operator!(const WideMask& a) { return WideMask(~a.bits); }
+
+  friend bool any(const WideMask& mask) {
+#if defined(__AVX2__)
+    if constexpr (sizeof(Bits) == 32)
+      return !_mm256_testz_si256(__m256i(mask.bits), __m256i(mask.bits));
+#elif defined(__SSE2__)
+    if constexpr (sizeof(Bits) == 16) return _mm_movemask_epi8(__m128i(mask.bits)) != 0;
+#endif
+    const Words words = Words(mask.bits);
+    std::uint64_t joined = 0;
+    for (unsigned i = 0; i < sizeof(Words) / sizeof(std::uint64_t); ++i) joined |= words[i];
+    return joined != 0;
+  }
+  friend bool all(const WideMask& mask) { return !any(!mask); }
+};
+
+template <class T, int N, class Isa>
+struct Wide {
+  using Mask = WideMask<T, N, Isa>;
+  using Lanes = typename Mask::Lanes;
+  Lanes lanes;
+
+  Wide() : lanes{} {}
+  explicit Wide(Lanes l) : lanes(l) {}
+  /// The same number in all lanes.
+  explicit Wide(T x) : lanes(x - Lanes()) {}
+
+  static Wide load(const T* from) {
+    Wide w;
+    for (int i = 0; i < N; ++i) w.lanes[i] = from[i];
+    return w;
+  }
+  void store(T* to) const {
+    for (int i = 0; i < N; ++i) to[i] = lanes[i];
+  }
+  T lane(int i) const { return lanes[i]; }
+  void set_lane(int i, T x) { lanes[i] = x; }
+
+  Wide& operator+=(const Wide& o) { return lanes += o.lanes, *this; }
+  Wide& operator-=(const Wide& o) { return lanes -= o.lanes, *this; }
+  Wide& operator*=(const Wide& o) { return lanes *= o.lanes, *this; }
+  Wide& operator/=(const Wide& o) { return lanes /= o.lanes, *this; }
+  friend Wide operator-(const Wide& a) { return Wide(-a.lanes); }
+  friend Wide operator+(const Wide& a, const Wide& b) { return Wide(a.lanes + b.lanes); }
+  friend Wide operator-(const Wide& a, const Wide& b) { return Wide(a.lanes - b.lanes); }
+  friend Wide operator*(const Wide& a, const Wide& b) { return Wide(a.lanes * b.lanes); }
+  friend Wide operator/(const Wide& a, const Wide& b) { return Wide(a.lanes / b.lanes); }
+
+  friend Mask operator<(const Wide& a, const Wide& b) { return Mask(a.lanes < b.lanes); }
+  friend Mask operator>(const Wide& a, const Wide& b) { return Mask(a.lanes > b.lanes); }
+  friend Mask operator<=(const Wide& a, const Wide& b) { return Mask(a.lanes <= b.lanes); }
+  friend Mask operator>=(const Wide& a, const Wide& b) { return Mask(a.lanes >= b.lanes); }
+  friend Mask operator==(const Wide& a, const Wide& b) { return Mask(a.lanes == b.lanes); }
+  friend Mask operator!=(const Wide& a, const Wide& b) { return Mask(a.lanes != b.lanes); }
+
+  friend Wide select(const Mask& condition, const Wide& a, const Wide& b) {
+    return Wide(condition.bits ? a.lanes : b.lanes);
+  }
+  /// As std::min and std::max: where a comparison with NaN fails, a.
+  friend Wide min(const Wide& a, const Wide& b) { return select(b < a, b, a); }
+  friend Wide max(const Wide& a, const Wide& b) { return select(a < b, b, a); }
+  friend Wide abs(const Wide& a) { return Wide(Lanes(Bits(a.lanes) & ~Bits(sign_bit().lanes))); }
+  friend Wide copysign(const Wide& size, const Wide& sign) {
+    return Wide(Lanes(Bits(abs(size).lanes) | (Bits(sign.lanes) & Bits(sign_bit().lanes))));
+  }
+  friend Wide sqrt(const Wide& a) {
+#if defined(__AVX2__)
+    if constexpr (sizeof(Lanes) == 32 && sizeof(T) == 4)
+      return Wide(Lanes(_mm256_sqrt_ps(__m256(a.lanes))));
+    if constexpr (sizeof(Lanes) == 32 && sizeof(T) == 8)
+      return Wide(Lanes(_mm256_sqrt_pd(__m256d(a.lanes))));
+#elif defined(__SSE2__)
+    if constexpr (sizeof(Lanes) == 16 && sizeof(T) == 4)
+      return Wide(Lanes(_mm_sqrt_ps(__m128(a.lanes))));
+    if constexpr (sizeof(Lanes) == 16 && sizeof(T) == 8)
+      return Wide(Lanes(_mm_sqrt_pd(__m128d(a.lanes))));
+#endif
+    return per_lane(a, [](T x) { return std::sqrt(x); });
+  }
+  /// a * b + c, rounded once.
+  friend Wide fma(const Wide& a, const Wide& b, const Wide& c) {
+#if defined(__AVX2__) && defined(__FMA__)
+    if constexpr (sizeof(Lanes) == 32 && sizeof(T) == 4)
+      return Wide(Lanes(_mm256_fmadd_ps(__m256(a.lanes), __m256(b.lanes), __m256(c.lanes))));
+    if constexpr (sizeof(Lanes) == 32 && sizeof(T) == 8)
+      return Wide(Lanes(_mm256_fmadd_pd(__m256d(a.lanes), __m256d(b.lanes), __m256d(c.lanes))));
+#endif
+    Wide result;
+    for (int i = 0; i < N; ++i) result.lanes[i] = std::fma(a.lanes[i], b.lanes[i], c.lanes[i]);
+    return result;
+  }
+  friend Wide power(const Wide& base, const Wide& exponent) {
+    Wide result;
+    for (int i = 0; i < N; ++i) result.lanes[i] = std::pow(base.lanes[i], exponent.lanes[i]);
+    return result;
+  }
+  friend Wide leading_power_of_two(const Wide& a) {
+    return Wide(Lanes(Bits(a.lanes) & Bits(Wide(std::numeric_limits<T>::infinity()).lanes)));
+  }
+
+ private:
+  using Bits = typename Mask::Bits;
+  static Wide sign_bit() { return Wide(T(-0.0)); }
+  template <class F>
+  static Wide per_lane(const Wide& a, F&& f) {
+    Wide result;
+    for (int i = 0; i < N; ++i) result.lanes[i] = f(a.lanes[i]);
+    return result;
+  }
+};
+
+template <class T, int N, class Isa>
+struct LaneOf<Wide<T, N, Isa>> {
+  using type = T;
+  using Mask = WideMask<T, N, Isa>;
+  static constexpr int count = N;
+};
+
+}  // namespace minkray
+
+/// What Eigen needs to know of a scalar.
+template <class T, int N, class Isa>
+struct Eigen::NumTraits<minkray::Wide<T, N, Isa>> {
+  using Real = minkray::Wide<T, N, Isa>;
+  using NonInteger = Real;
+  using Nested = Real;
+  using Literal = Real;
+  enum {
+    IsComplex = 0,
+    IsInteger = 0,
+    IsSigned = 1,
+    RequireInitialization = 0,
+    ReadCost = 1,
+    AddCost = 1,
+    MulCost = 1
+  };
+  static Real epsilon() { return Real(std::numeric_limits<T>::epsilon()); }
+  static Real dummy_precision() { return epsilon(); }
+  static Real highest() { return Real(std::numeric_limits<T>::max()); }
+  static Real lowest() { return Real(std::numeric_limits<T>::lowest()); }
+};

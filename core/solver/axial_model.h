@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: MIT
+// Models for shapes with an axis of revolution, in whose frame the axis is z: one ellipsoid; or two
+// balls or two disks on the axis, any of which may be points (capsules, cylinders, cones). All in
+// closed form. docs/theory.md derives them.
+#pragma once
+
+#include "core/shape/jet.h"
+#include "core/solver/line_cast.h"
+
+namespace minkray {
+
+/// The model of an ellipsoid around the origin: itself.
+template <class W, class S>
+class EllipsoidModel {
+ public:
+  struct Piece {
+    Vec3<W> c, radii;
+    W reach(const Vec3<W>& n) const { return c.dot(n) + n.cwiseProduct(radii).norm(); }
+    Vec3<W> spot(const Vec3<W>& n) const {
+      return c + unit<W>(n.cwiseProduct(radii)).cwiseProduct(radii);
+    }
+  };
+
+  EllipsoidModel(const S& shape, const Vec3<Lane<W>>&, const Vec3<W>& s, const Vec3<W>& r,
+                 Lane<W>)
+      : shape_(shape), s_(s), r_(r) {}
+
+  const Vec3<W>& to_frame(const Vec3<W>& n) const { return n; }
+  const Vec3<W>& to_shape(const Vec3<W>& n) const { return n; }
+  W against_ray(const Vec3<W>& n) const { return -n.dot(r_); }
+
+  Piece support(const Vec3<W>& n) const { return {Vec3<W>(-s_), shape_.jet(n).radii}; }
+
+  ModelHit<W> step(const Piece& piece, const Vec3<W>&, int) const {
+    ModelHit<W> hit;
+    hit.m = normal_on_extents<W>(shape_.radii, s_, r_);
+    const W z = -hit.m.dot(r_);
+    const Mask<W> ahead = z > W(0);
+    hit.height = piece.reach(hit.m) / select(ahead, z, W(1));
+    hit.certain = ahead;
+    hit.repeated = Mask<W>(true);
+    return hit;
+  }
+
+ private:
+  const S& shape_;
+  Vec3<W> s_, r_;
+};
+
+/// The hull of at most two balls or two disks on the z axis.
+template <class W, class S>
+class AxialModel {
+ public:
+  using T = Lane<W>;
+  using JetHere = decltype(std::declval<const S&>().jet(std::declval<const Vec3<W>&>()));
+  static constexpr bool disks = std::is_same_v<JetHere, AxialDiskJet<W>>;
+  static_assert(disks || std::is_same_v<JetHere, AxialBallJet<W>>);
+
+  struct Piece {
+    Vec3<W> c;  ///< relative to s
+    W radius;
+
+    /// How far the unit ball or disk reaches. The length of a direction that is 1 but for rounding.
+    static W bend(const Vec3<W>& n) {
+      using std::sqrt;
+      if constexpr (disks) return sqrt(n.x() * n.x() + n.y() * n.y());
+      return W(T(0.5)) * (W(1) + n.squaredNorm());
+    }
+    W reach(const Vec3<W>& n) const { return c.dot(n) + radius * bend(n); }
+    Vec3<W> spot(const Vec3<W>& n) const {
+      if constexpr (disks) return c + unit<W>({n.x(), n.y(), W(0)}) * radius;
+      return c + n * radius;
+    }
+    Mask<W> same(const Piece& other) const {
+      return (c.z() == other.c.z()) & (radius == other.radius);
+    }
+  };
+
+  /// The shape with its bounding ball's centre, seen from s; R is the ball's radius.
+  AxialModel(const S& shape, const Vec3<T>& centre, const Vec3<W>& s, const Vec3<W>& r, T R)
+      : shape_(shape), centre_z_(centre.z()), s_(s), r_(r), rounding_(tolerance::model_rounding<T> * R) {}
+
+  const Vec3<W>& to_frame(const Vec3<W>& n) const { return n; }
+  const Vec3<W>& to_shape(const Vec3<W>& n) const { return n; }
+  W against_ray(const Vec3<W>& n) const { return -n.dot(r_); }
+
+  Piece support(const Vec3<W>& n) const {
+    const JetHere jet = shape_.jet(n);
+    return {{-s_.x(), -s_.y(), jet.z - centre_z_ - s_.z()}, jet.radius};
+  }
+
+  ModelHit<W> step(const Piece& piece, const Vec3<W>&, int) {
+    const Mask<W> is_first = has_first_ & piece.same(first_);
+    const Mask<W> is_second = has_second_ & piece.same(second_);
+    const Piece other = pick(is_first, second_, first_);
+    const Mask<W> has_other = (is_first & has_second_) | ((!is_first) & has_first_);
+    const Mask<W> make_second = has_first_ & !is_first;
+    second_ = pick(make_second, piece, second_);
+    has_second_ |= make_second;
+    first_ = pick(has_first_, first_, piece);
+    has_first_ = Mask<W>(true);
+
+    // The newest piece alone, unless the other reaches further there.
+    ModelHit<W> hit;
+    hit.repeated = is_first | is_second;
+    hit.m = alone(piece);
+    W reach = piece.reach(hit.m);
+    const Mask<W> settled = (!has_other) | (other.reach(hit.m) - reach <= rounding_);
+    hit.certain = settled;
+    if (!all(settled)) {
+      Vec3<W> m;
+      const Mask<W> between = joined(piece, other, m);
+      hit.m = select<W>(settled, hit.m, m);
+      hit.certain = settled | between;
+      reach = piece.reach(hit.m);
+    }
+    const W z = -hit.m.dot(r_);
+    const Mask<W> ahead = z > W(0);
+    hit.certain &= ahead;
+    hit.height = reach / select(ahead, z, W(1));
+    return hit;
+  }
+
+ private:
+  static Piece pick(const Mask<W>& condition, const Piece& a, const Piece& b) {
+    return {select<W>(condition, a.c, b.c), select(condition, a.radius, b.radius)};
+  }
+
+  /// At right angles to the ray.
+  Vec3<W> beside(const Vec3<W>& x) const { return x - r_ * x.dot(r_); }
+
+  /// The normal where the ray meets one piece, or across the ray from it.
+  Vec3<W> alone(const Piece& piece) const {
+    using std::max;
+    using std::sqrt;
+    if constexpr (disks) {
+      // Where the line crosses the disk's plane, times r.z.
+      const W x = piece.c.z() * r_.x() - piece.c.x() * r_.z();
+      const W y = piece.c.z() * r_.y() - piece.c.y() * r_.z();
+      const W rim = piece.radius * r_.z();
+      const Mask<W> crosses = (x * x + y * y <= rim * rim) & (r_.z() != W(0));
+      const Vec3<W> face(W(0), W(0), select(r_.z() > W(0), W(-1), W(1)));
+      const Vec3<W> past(x * r_.z(), y * r_.z(), -(x * r_.x() + y * r_.y()));
+      return select<W>(crosses, face, unit<W>(past));
+    } else {
+      const Vec3<W> q = beside(piece.c);
+      const W depth = sqrt(max(W(piece.radius * piece.radius - q.squaredNorm()), W(0)));
+      return unit<W>(-q - r_ * depth);
+    }
+  }
+
+  /// The normal m where the ray meets the cone that touches both pieces; whether it does so between
+  /// them. All directions that reach equally far with both are m(phi) = (k cos phi, k sin phi, m_z).
+  /// The plane of m(phi) is crossed at height (alpha + beta cos + gamma sin) / (p + q cos + w sin),
+  /// which is least where A sin + B cos + C = 0.
+  Mask<W> joined(const Piece& piece, const Piece& other, Vec3<W>& m) const {
+    using std::max;
+    using std::min;
+    using std::sqrt;
+    const W m_z = (other.radius - piece.radius) / (piece.c.z() - other.c.z());
+    W k = W(1);
+    if constexpr (!disks) k = sqrt(max(W(W(1) - m_z * m_z), W(0)));
+    const W alpha = piece.c.z() * m_z + piece.radius;
+    const W beta = k * piece.c.x(), gamma = k * piece.c.y();
+    const W p = -r_.z() * m_z, q = -k * r_.x(), w = -k * r_.y();
+    const W A = alpha * q - beta * p, B = gamma * p - alpha * w, C = gamma * q - beta * w;
+    const W AB = A * A + B * B, den = AB - C * C;
+    const Mask<W> crosses = den > W(0);
+    const W root = sqrt(max(den, W(0)));
+    W cosine = (A * root - C * B) / AB, sine = -(C * A + B * root) / AB;
+    if (!all(crosses)) {
+      // Past the cone: the direction at right angles to the ray that reaches least.
+      const W across = sqrt(q * q + w * w);
+      const W u = q / across, v = w / across, x = -p / across;
+      const W y = sqrt(max(W(W(1) - x * x), W(0)));
+      const W turn = select(gamma * u - beta * v > W(0), W(-y), y);
+      cosine = select(crosses, cosine, W(x * u - turn * v));
+      sine = select(crosses, sine, W(x * v + turn * u));
+    }
+    m = unit<W>({k * cosine, k * sine, m_z});
+
+    // The support points of both, and the point between them that is nearest to the ray.
+    const Vec3<W> g = disks ? Vec3<W>(cosine, sine, W(0)) : m;
+    const Vec3<W> from = beside(other.c + g * other.radius);
+    const Vec3<W> along = beside(piece.c + g * piece.radius) - from;
+    const W share = min(max(W(-from.dot(along) / along.squaredNorm()), W(0)), W(1));
+    return crosses & ((from + along * share).squaredNorm() <= rounding_ * rounding_);
+  }
+
+  const S& shape_;
+  W centre_z_;
+  Vec3<W> s_, r_;
+  W rounding_;
+  Piece first_{Vec3<W>::Zero(), W(0)}, second_{Vec3<W>::Zero(), W(0)};
+  Mask<W> has_first_ = Mask<W>(false), has_second_ = Mask<W>(false);
+};
+
+}  // namespace minkray

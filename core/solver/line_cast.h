@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+// The loop that all solvers on jets share. A supporting plane in direction n clips the ray: a
+// rigorous lower bound of the hit. A model of the shape, made of the pieces that the support
+// mapping has shown so far and therefore contained in the shape, is hit later, and its hit's normal
+// is the next n. The two meet. docs/theory.md has the mathematics.
+//
+// W is a number, or a packet: then every lane is a ray of its own. Lanes that have ended go along
+// without effect.
+#pragma once
+
+#include "core/solver/observer.h"
+#include "core/solver/ray_near_ball.h"
+#include "core/solver/tolerances.h"
+
+namespace minkray {
+
+/// What a model answers.
+template <class W>
+struct ModelHit {
+  Vec3<W> m = Vec3<W>::Zero();  ///< the normal, of unit length; zero or not finite: none was found
+  W height = W(0);              ///< where the ray enters the model: at lambda = -height
+  Mask<W> certain = Mask<W>(false);   ///< `height` is the model's, up to rounding
+  Mask<W> repeated = Mask<W>(false);  ///< the newest piece had been seen before
+};
+
+/// Where the whole line s + lambda r meets the shape first.
+template <class W>
+struct LineHit {
+  Mask<W> hit = Mask<W>(false);
+  Mask<W> miss = Mask<W>(false);  ///< neither hit nor miss: exhausted
+  W lambda = W(-std::numeric_limits<Lane<W>>::infinity());       ///< a lower bound, rigorous
+  W lambda_above = W(std::numeric_limits<Lane<W>>::infinity());  ///< the model's hit
+  Vec3<W> normal = Vec3<W>::Zero();
+  W supports = W(0);
+};
+
+/// A model may calculate in a frame of its own, in which all vectors here are; the answer's normal
+/// is in the shape's. It offers
+/// - `to_frame(n)`, `to_shape(n)`: a direction of the shape's frame in its own, and back;
+/// - `against_ray(n)`: the component of n against the ray's direction;
+/// - `support(n)`: the shape's support in direction n of unit length, relative to the ray's closest
+///   approach s, as a piece with reach(n) and spot(n), its support point;
+/// - `step(piece, n, iteration)`: the model's hit once the piece is a part of it.
+///
+/// `first` is the first direction to ask, in the shape's frame; the line is given up beyond
+/// lambda_end; R is the size that rounding refers to. Only `open` lanes count.
+template <class W, class Model, class Observer>
+LineHit<W> first_on_line(Model& model, const Vec3<W>& first, const W& lambda_end, Lane<W> R,
+                         Mask<W> open, int max_iterations, Observer&& observer) {
+  using std::abs;
+  using std::max;
+  using std::min;
+  using T = Lane<W>;
+  constexpr T infinity = std::numeric_limits<T>::infinity();
+  const W gap = W(tolerance::jet_gap<T> * R);
+  LineHit<W> result;
+  Vec3<W> n = model.to_frame(first);
+  ModelHit<W> model_hit;
+  for (int iteration = 0; iteration < max_iterations; ++iteration) {
+    // The supporting plane of direction n: it clips the line, or separates.
+    const auto piece = model.support(n);
+    result.supports += select(open, W(1), W(0));
+    const W h = piece.reach(n), z = model.against_ray(n);
+    const Mask<W> ahead = z > W(0);
+    const W lambda = select(ahead, W(-h / select(ahead, z, W(1))), W(-infinity));
+    if constexpr (LaneOf<W>::count == 1) observer(lambda, model.to_shape(n), model.to_shape(piece.spot(n)));
+    const Mask<W> better = open & (lambda > result.lambda);
+    result.lambda = select(better, lambda, result.lambda);
+    result.normal = select<W>(better, n, result.normal);
+    const Mask<W> misses = open & (((!ahead) & (h < -gap)) | (lambda > lambda_end));
+    result.normal = select<W>(misses, n, result.normal);
+    result.miss |= misses;
+    open &= !misses;
+    if (!any(open)) break;
+
+    // Where the model, as it was, is hit no further than rounding beyond the best plane.
+    const auto meets = [&](const W& within) {
+      const W cosine =
+          min(model.against_ray(model_hit.m), max(model.against_ray(result.normal), W(0)));
+      const W missing = (-model_hit.height - result.lambda) * cosine;
+      const Mask<W> met = open & model_hit.certain & (missing <= within);
+      const Mask<W> contradicts = missing < W(-16) * gap;
+      result.hit |= met & !contradicts;
+      result.lambda_above = select(met & !contradicts, max(W(-model_hit.height), result.lambda),
+                                   result.lambda_above);
+      open &= !met;
+    };
+    meets(gap);
+    if (!any(open)) break;
+
+    // The hit on the model with the new piece.
+    model_hit = model.step(piece, n, iteration);
+    meets(select(model_hit.repeated, W(W(4) * gap), gap));
+    // A tangent line: where along it the shape is touched, no plane along it tells.
+    const Mask<W> touches = (!ahead) & model_hit.repeated & (abs(h) <= gap);
+    const Mask<W> stuck = model_hit.repeated & ((model_hit.m - n).squaredNorm() == W(0));
+    open &= model_hit.m.squaredNorm() > W(0);
+    open &= !(touches | stuck);
+    if (!any(open)) break;
+    n = select<W>(open, model_hit.m, n);
+  }
+  result.normal = model.to_shape(result.normal);
+  return result;
+}
+
+/// The normal where the line s + lambda r first meets the ellipsoid around the origin with these
+/// half extents, or, if it passes by, the ellipsoid's normal towards it, at right angles to r. Of
+/// unit length. Extents that are nothing beside the largest are taken for a little more.
+template <class W>
+Vec3<W> normal_on_extents(const Vec3<Lane<W>>& half_extents, const Vec3<W>& s, const Vec3<W>& r) {
+  using std::max;
+  using std::sqrt;
+  using T = Lane<W>;
+  constexpr T least = T(1) / T(65536);
+  const Vec3<T> scale =
+      half_extents.cwiseMax(Vec3<T>::Constant(least * half_extents.maxCoeff())).cwiseInverse();
+  const Vec3<W> to_ball = widen<W>(scale);
+  const Vec3<W> r_ball = unit<W>(r.cwiseProduct(to_ball));
+  const Vec3<W> s_ball = s.cwiseProduct(to_ball);
+  const Vec3<W> beside = s_ball - r_ball * s_ball.dot(r_ball);
+  const W depth = sqrt(max(W(W(1) - beside.squaredNorm()), W(0)));
+  const Vec3<W> n = (beside - r_ball * depth).cwiseProduct(to_ball);
+  const Vec3<W> safe = unit<W>(n);
+  return select<W>(safe.squaredNorm() > W(0), safe, Vec3<W>(-r));
+}
+
+}  // namespace minkray

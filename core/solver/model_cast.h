@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+// A ray cast with any of the models: from the line's first meeting with the shape to the answer for
+// a ray, which begins and ends somewhere. For one ray, or for a packet of them.
+#pragma once
+
+#include "core/solver/line_cast.h"
+#include "core/solver/result.h"
+
+namespace minkray {
+
+/// CastResult in lanes. A lane that is neither hit, inside nor miss is exhausted.
+template <class W>
+struct CastLanes {
+  Mask<W> hit = Mask<W>(false);
+  Mask<W> inside = Mask<W>(false);
+  Mask<W> miss = Mask<W>(false);
+  W t_base = W(0), t_offset = W(0), offset_lo = W(0), offset_hi = W(0);
+  Vec3<W> normal = Vec3<W>::Zero();
+  W supports = W(0);
+};
+
+/// The ray must be given relative to the ball's centre; the ball must hold the shape, whose bounds
+/// have these half extents. make_model(s, r) makes a model of the shape seen from s along r. Only
+/// `active` lanes are cast.
+template <class W, class MakeModel, class Observer>
+CastLanes<W> model_cast(const MakeModel& make_model, const RayNearBall<W>& near,
+                        const Ball<Lane<W>>& ball, const Vec3<Lane<W>>& half_extents,
+                        const Mask<W>& active, int max_iterations, Observer&& observer) {
+  using std::max;
+  using std::min;
+  using std::sqrt;
+  using T = Lane<W>;
+  const T R = ball.radius;
+  CastLanes<W> result;
+  result.t_base = near.t_base;
+
+  // The bounding ball.
+  const W nearest = min(max(W(0), near.lambda_min), near.lambda_max);
+  const Vec3<W> to_ray = near.s + near.r * nearest;
+  const W reached = W(R * (T(1) + tolerance::ball_padding<T>));
+  const Mask<W> passes = to_ray.squaredNorm() > reached * reached;
+  result.miss = active & passes;
+  result.normal = select<W>(passes, unit<W>(to_ray), result.normal);
+  const Mask<W> castable = active & (!passes) & (near.r.squaredNorm() > W(0)) & (W(R) > W(0));
+  if (!any(castable)) return result;
+
+  // Where the line enters the shape.
+  const Vec3<W>& s = near.s;
+  const Vec3<W>& r = near.r;
+  const W depth = sqrt(max(W(W(R) * W(R) - s.squaredNorm()), W(0))) +
+                  W(tolerance::ball_padding<T> * R);
+  const auto watch = [&](const W& direction) {
+    return [&, direction](const W& lambda, const Vec3<W>& n, const Vec3<W>& p) {
+      if constexpr (LaneOf<W>::count == 1) {
+        const W at = direction * lambda;
+        const Vec3<W> x = s + r * at, point = s + p;
+        observer(CastIteration<T>{at, x, n, point, x - point, std::span<const Vec3<T>>()});
+      }
+    };
+  };
+  auto model = make_model(s, r);
+  const W end = min(depth, near.lambda_max);
+  const LineHit<W> entry = first_on_line<W>(model, normal_on_extents<W>(half_extents, s, r), end, R,
+                                            castable, max_iterations, watch(W(1)));
+  result.supports = entry.supports;
+  result.normal = select<W>(castable, entry.normal, result.normal);
+  result.miss |= entry.miss;
+  // Beyond the ball's far side: joined with the ball's own plane there, the two leave the line no
+  // room, and their sum runs along it.
+  const W z = -entry.normal.dot(r);
+  const Vec3<W> out = s + r * depth;
+  const W along = out.dot(r);
+  const Mask<W> beyond_ball = entry.miss & (z > W(0)) & (end == depth) & (along > W(0));
+  if (any(beyond_ball)) {
+    const W weight = z / select(along > W(0), along, W(1));
+    result.normal =
+        select<W>(beyond_ball, unit<W>(Vec3<W>(entry.normal + out * weight)), result.normal);
+  }
+  const Mask<W> enters = entry.hit & (entry.lambda >= near.lambda_min);
+  result.hit = enters;
+  result.t_offset = result.offset_lo = near.t_offset(entry.lambda);
+  result.offset_hi = near.t_offset(entry.lambda_above);
+
+  // The line enters before the ray begins: where does it leave?
+  const Mask<W> began = entry.hit & !enters;
+  if (!any(began)) return result;
+  const Vec3<W> back = -r;
+  auto model_behind = make_model(s, back);
+  const LineHit<W> exit =
+      first_on_line<W>(model_behind, normal_on_extents<W>(half_extents, s, back),
+                       W(-near.lambda_min), R, began, max_iterations, watch(W(-1)));
+  result.supports += exit.supports;
+  const Mask<W> left = began & (exit.miss | (exit.hit & (-exit.lambda < near.lambda_min)));
+  result.miss |= left;
+  result.normal = select<W>(left, exit.normal, result.normal);
+  result.inside = began & exit.hit & !left;
+  const W start = near.t_offset(near.lambda_min);
+  result.t_offset = select(result.inside, start, result.t_offset);
+  result.offset_lo = select(result.inside, start, result.offset_lo);
+  result.offset_hi = select(result.inside, start, result.offset_hi);
+  result.normal = select<W>(result.inside, Vec3<W>::Zero(), result.normal);
+  return result;
+}
+
+/// One ray's answer.
+template <class T>
+CastResult<T> result_of(const CastLanes<T>& lanes) {
+  CastResult<T> result;
+  result.status = lanes.hit      ? Status::hit
+                  : lanes.inside ? Status::inside
+                  : lanes.miss   ? Status::miss
+                                 : Status::exhausted;
+  result.t_base = lanes.t_base;
+  result.t_offset = lanes.t_offset;
+  result.offset_lo = lanes.offset_lo;
+  result.offset_hi = lanes.offset_hi;
+  result.normal = lanes.normal;
+  result.iterations = result.supports = static_cast<int>(lanes.supports);
+  return result;
+}
+
+}  // namespace minkray

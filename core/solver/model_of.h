@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+// Which model suits a shape: told by the types of its jets where they say enough, else found out
+// when the shape is prepared.
+#pragma once
+
+#include "core/shape/shape.h"
+#include "core/shape/surface.h"
+#include "core/solver/axial_model.h"
+#include "core/solver/model_cast.h"
+#include "core/solver/polytope_model.h"
+#include "core/solver/rounded_points_model.h"
+#include "core/solver/smooth_model.h"
+
+namespace minkray {
+
+enum class ModelKind : unsigned char {
+  closed_form,     ///< told by the type
+  points,          ///< a polytope made of other shapes
+  rounded_points,  ///< a rounded polytope
+  smooth,          ///< a smooth surface
+  none,            ///< other shapes: their jets are modelled one by one (core/solver/jet_cast.h)
+};
+
+namespace detail {
+
+template <class S, class W>
+using JetOf = decltype(std::declval<const S&>().jet(std::declval<const Vec3<W>&>()));
+
+template <class S, class W>
+inline constexpr bool is_axial = std::is_same_v<JetOf<S, W>, AxialBallJet<W>> ||
+                                 std::is_same_v<JetOf<S, W>, AxialDiskJet<W>>;
+template <class S, class W>
+inline constexpr bool is_ellipsoid = std::is_same_v<JetOf<S, W>, AxialEllipsoidJet<W>>;
+template <class S, class W>
+inline constexpr bool is_polytope = std::is_same_v<JetOf<S, W>, PointJet<W>>;
+
+}  // namespace detail
+
+/// A description that chooses between models, on which no answer's correctness depends: supporting
+/// planes bound a shape and support points lie in it, whatever the shape.
+template <class T>
+ModelKind model_kind_of(const Shape<T>& shape) {
+  return std::visit(
+      [&]<class S>(const S& kind) {
+        if constexpr (detail::is_axial<S, T> || detail::is_ellipsoid<S, T> ||
+                      detail::is_polytope<S, T>) {
+          return ModelKind::closed_form;
+        } else {
+          if constexpr (std::is_same_v<S, Rounded<T>>)
+            if (surface_of<T>(*kind.shape) == SurfaceKind::flat) return ModelKind::rounded_points;
+          const SurfaceKind surface = surface_of<T>(shape);
+          return surface == SurfaceKind::flat     ? ModelKind::points
+                 : surface == SurfaceKind::smooth ? ModelKind::smooth
+                                                  : ModelKind::none;
+        }
+      },
+      shape.kind);
+}
+
+/// Calls use(make_model), where make_model(s, r) makes the shape's model as seen from s along r;
+/// `centre` and `R` are the bounding ball's. Not for ModelKind::none.
+template <class W, class Use>
+auto with_model(const Shape<Lane<W>>& shape, ModelKind model, const Vec3<Lane<W>>& centre,
+                Lane<W> R, Use&& use) {
+  using T = Lane<W>;
+  const auto simple = [&]<template <class, class> class Model, class S>(
+                         const S& kind, std::type_identity<Model<W, S>>) {
+    return use(
+        [&](const Vec3<W>& s, const Vec3<W>& r) { return Model<W, S>(kind, centre, s, r, R); });
+  };
+  const auto polytope = [&]<class S>(const S& kind) {
+    return simple(kind, std::type_identity<PolytopeModel<W, S>>());
+  };
+  const auto smooth = [&] {
+    return simple(shape, std::type_identity<SmoothModel<W, Shape<T>>>());
+  };
+  const auto rounded = [&]<class S>(const S& core, T radius) {
+    return use([&, radius](const Vec3<W>& s, const Vec3<W>& r) {
+      return RoundedPointsModel<W, S>(core, radius, centre, s, r, R);
+    });
+  };
+  return std::visit(
+      [&]<class S>(const S& kind) {
+        if constexpr (detail::is_ellipsoid<S, W>) {
+          return simple(kind, std::type_identity<EllipsoidModel<W, S>>());
+        } else if constexpr (detail::is_axial<S, W>) {
+          return simple(kind, std::type_identity<AxialModel<W, S>>());
+        } else if constexpr (detail::is_polytope<S, W>) {
+          return polytope(kind);
+        } else if constexpr (std::is_same_v<S, Rounded<T>>) {
+          if (model == ModelKind::points) return polytope(shape);
+          if (model == ModelKind::smooth) return smooth();
+          return std::visit(
+              [&]<class Core>(const Core& core) {
+                if constexpr (detail::is_polytope<Core, W>)
+                  return rounded(core, kind.radius);
+                else
+                  return rounded(*kind.shape, kind.radius);
+              },
+              kind.shape->kind);
+        } else {
+          return model == ModelKind::points ? polytope(shape) : smooth();
+        }
+      },
+      shape.kind);
+}
+
+}  // namespace minkray

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// The body of the packet casts. MINKRAY_PACKET_KERNEL is the function's name. Everything else here
+// has the type of the lanes, and so the instruction set, in its name: see core/math/wide.h.
+#include "core/math/wide.h"
+#include "core/solver/packet_kernel.h"
+
+namespace minkray {
+namespace {
+
+template <class W>
+Vec3<W> load(const std::array<PacketNumbers<Lane<W>>, 3>& v, std::size_t from) {
+  return {W::load(v[0].data() + from), W::load(v[1].data() + from), W::load(v[2].data() + from)};
+}
+
+template <class W>
+LaneBits bits_of(const Mask<W>& mask) {
+  LaneBits bits = 0;
+  for (int i = 0; i < LaneOf<W>::count; ++i) bits |= LaneBits(mask.lane(i) ? 1 : 0) << i;
+  return bits;
+}
+
+template <class W>
+Mask<W> mask_of(LaneBits bits) {
+  W chosen(Lane<W>(0));
+  for (int i = 0; i < LaneOf<W>::count; ++i)
+    chosen.set_lane(i, bits & (LaneBits(1) << i) ? Lane<W>(1) : Lane<W>(0));
+  return chosen > W(Lane<W>(0));
+}
+
+/// As many lanes as W has, beginning with lane `from`.
+template <class W>
+void part(const PreparedShape<Lane<W>>& shape, const RayPacket<Lane<W>>& rays, LaneBits lanes,
+          std::size_t from, CastPacket<Lane<W>>& answers) {
+  using T = Lane<W>;
+  const Ray<W> ray{load<W>(rays.origin, from), load<W>(rays.direction, from),
+                   W::load(rays.t_max.data() + from)};
+  const RayNearBall<W> near = shape.template to_inner<W>(ray);
+  const Ball<T>& ball = shape.inner_ball();
+  const Mask<W> active = mask_of<W>(lanes >> from);
+  const CastLanes<W> result = with_model<W>(
+      shape.inner_shape(), shape.model(), ball.centre, ball.radius, [&](const auto& make_model) {
+        return model_cast<W>(make_model, near, ball, shape.inner_half_extents(), active,
+                             tolerance::jet_max_iterations, NoObserver());
+      });
+  const Vec3<W> normal = shape.template normal_to_outer<W>(result.normal);
+  const auto at_origin = [&](const W& x) { return select(result.inside, W(T(0)), x); };
+  answers.hit |= bits_of<W>(result.hit) << from;
+  answers.inside |= bits_of<W>(result.inside) << from;
+  answers.miss |= bits_of<W>(result.miss) << from;
+  at_origin(result.t_base).store(answers.t_base.data() + from);
+  at_origin(result.t_offset).store(answers.t_offset.data() + from);
+  at_origin(result.offset_lo).store(answers.offset_lo.data() + from);
+  at_origin(result.offset_hi).store(answers.offset_hi.data() + from);
+  for (int axis = 0; axis < 3; ++axis)
+    normal[axis].store(answers.normal[static_cast<std::size_t>(axis)].data() + from);
+  result.supports.store(answers.supports.data() + from);
+}
+
+/// In parts as wide as the instruction set's registers.
+template <class T>
+void kernel(const PreparedShape<T>& shape, const RayPacket<T>& rays, LaneBits lanes,
+            CastPacket<T>& answers) {
+  using W = Wide<T, static_cast<int>(IsaHere::register_bytes / sizeof(T)), IsaHere>;
+  for (int from = 0; from < packet_lanes<T>; from += LaneOf<W>::count)
+    part<W>(shape, rays, lanes, static_cast<std::size_t>(from), answers);
+}
+
+}  // namespace
+
+void MINKRAY_PACKET_KERNEL(const PreparedShape<float>& shape, const RayPacket<float>& rays,
+                           LaneBits lanes, CastPacket<float>& answers) {
+  kernel(shape, rays, lanes, answers);
+}
+
+void MINKRAY_PACKET_KERNEL(const PreparedShape<double>& shape, const RayPacket<double>& rays,
+                           LaneBits lanes, CastPacket<double>& answers) {
+  kernel(shape, rays, lanes, answers);
+}
+
+}  // namespace minkray
