@@ -123,7 +123,7 @@ for word in "$@"; do
   case "$word" in
     --array=1-*) tasks="${word#--array=1-}" ;;
     --wrap=*) script="${word#--wrap=}" ;;
-    --dependency=afterok:17 | --parsable | --requeue | --signal=TERM@60) ;;
+    --dependency=afterok:17 | --parsable | --requeue | --signal=B:TERM@60) ;;
     --cpus-per-task=* | --job-name=* | --output=*) ;;
     *) echo "sbatch: $word" >&2; exit 1 ;;
   esac
