@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <stdexcept>
+#include <utility>
 
 #include "tests/support/source_files.h"
 
@@ -34,9 +35,7 @@ std::vector<std::string> TemporaryFolder::files() const {
   return names;
 }
 
-pid_t start_minkray(const std::vector<std::string>& arguments) {
-  std::vector<std::string> words = {MINKRAY_PROGRAM};
-  words.insert(words.end(), arguments.begin(), arguments.end());
+pid_t start_program(std::vector<std::string> words) {
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
@@ -46,10 +45,20 @@ pid_t start_minkray(const std::vector<std::string>& arguments) {
   if (child == 0) {
     if (std::freopen("/dev/null", "w", stdout) == nullptr) ::_exit(126);
     if (std::freopen("/dev/null", "w", stderr) == nullptr) ::_exit(126);
-    ::execv(MINKRAY_PROGRAM, pointers.data());
+    ::execvp(pointers[0], pointers.data());
     ::_exit(127);
   }
   return child;
+}
+
+std::string minkray_program() {
+  return MINKRAY_PROGRAM;
+}
+
+pid_t start_minkray(const std::vector<std::string>& arguments) {
+  std::vector<std::string> words = {MINKRAY_PROGRAM};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  return start_program(std::move(words));
 }
 
 int wait_for(pid_t process) {
