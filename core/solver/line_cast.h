@@ -79,13 +79,15 @@ LineHit<W> first_on_line(Model& model, const Vec3<W>& first, const W& lambda_end
     const auto piece = model.support(n);
     result.supports += select(open, W(1), W(0));
     const W h = piece.reach(n), z = model.against_ray(n);
-    const Mask<W> ahead = z > least_slope;
-    const W lambda = select(ahead, W(-h / select(ahead, z, W(1))), W(-infinity));
+    const Mask<W> ahead = z > W(0), steep = z > least_slope, beyond = h < -gap;
+    const W safe_z = select(ahead, z, W(1));
+    const W clear = select(ahead & beyond, W(-(h + gap) / safe_z), W(-infinity));
+    const W lambda = select(steep, W(-h / safe_z), clear);
     if constexpr (LaneOf<W>::count == 1) observer(lambda, model.to_shape(n), model.to_shape(piece.spot(n)));
     const Mask<W> better = open & (lambda > result.lambda);
     result.lambda = select(better, lambda, result.lambda);
     result.normal = select<W>(better, n, result.normal);
-    const Mask<W> misses = open & (((!ahead) & (h < -gap)) | (lambda > lambda_end));
+    const Mask<W> misses = open & (((!ahead) & beyond) | (lambda > lambda_end));
     result.normal = select<W>(misses, n, result.normal);
     result.miss |= misses;
     open &= !misses;
@@ -111,7 +113,7 @@ LineHit<W> first_on_line(Model& model, const Vec3<W>& first, const W& lambda_end
     model_hit = model.step(piece, n, iteration);
     meets(select(model_hit.repeated, W(W(4) * gap), gap));
     // A tangent line: where along it the shape is touched, no plane along it tells.
-    const Mask<W> touches = (!ahead) & model_hit.repeated & (abs(h) <= gap);
+    const Mask<W> touches = (!steep) & model_hit.repeated & (abs(h) <= gap);
     const Mask<W> stuck = model_hit.repeated & ((model_hit.m - n).squaredNorm() == W(0));
     const Mask<W> tangent = open & touches;
     result.tangent |= tangent;

@@ -73,6 +73,12 @@ CastLanes<W> model_cast(const MakeModel& make_model, const RayNearBall<W>& near,
     const Vec3<W> pushed = s - found.normal * W(tolerance::tangent_push<T> * R);
     LineHit<W> again = first_along(pushed, direction, until, found.tangent, sign);
     again.supports += found.supports;
+    // The plane found there, where the line itself crosses it.
+    const W slope = -again.normal.dot(direction);
+    const Mask<W> crosses = again.hit & (slope > W(tolerance::least_slope<T>));
+    const W push = again.normal.dot(found.normal) * W(tolerance::tangent_push<T> * R);
+    again.lambda += select(crosses, W(push / select(crosses, slope, W(1))), W(0));
+    again.lambda_above = max(again.lambda, again.lambda_above);
     return pick(found.tangent, again, found);
   };
   const LineHit<W> entry = first_of(r, end, castable, W(1));
@@ -92,8 +98,12 @@ CastLanes<W> model_cast(const MakeModel& make_model, const RayNearBall<W>& near,
   }
   const Mask<W> enters = entry.hit & (entry.lambda >= near.lambda_min);
   result.hit = enters;
-  result.t_offset = result.offset_lo = near.t_offset(entry.lambda);
+  // Where planes are so steep that their rounding is long, the model's hit is the better answer: it
+  // lies between points of the shape.
+  const Mask<W> bounded = entry.lambda_above < W(std::numeric_limits<T>::infinity());
+  result.offset_lo = near.t_offset(entry.lambda);
   result.offset_hi = near.t_offset(entry.lambda_above);
+  result.t_offset = select(bounded, result.offset_hi, result.offset_lo);
 
   // The line enters before the ray begins: where does it leave?
   const Mask<W> began = entry.hit & !enters;

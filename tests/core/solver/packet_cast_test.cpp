@@ -56,13 +56,13 @@ template <class T>
 template <class T>
 std::vector<RayPacket<T>> packets_at(const Shape<T>& shape, int count) {
   const Bounds<double> bounds = bounds_of<double>(convert<double>(shape));
-  AimedRays near(bounds, 91, 3), far(bounds, 92, 1e4), inside(bounds, 93, 0.3);
+  AimedRays near(bounds, 91, 3), far(bounds, 92, 1e4), inside(bounds, 93, 0.6);
   Random random(94);
   std::vector<RayPacket<T>> packets(static_cast<std::size_t>(count));
   for (RayPacket<T>& packet : packets) {
     for (int lane = 0; lane < packet_lanes<T>; ++lane) {
       const double kind = random.uniform(0, 1);
-      Ray<double> ray = kind < 0.6 ? near.next(0.7) : kind < 0.8 ? far.next(0.7) : inside.next(0.7);
+      Ray<double> ray = kind < 0.6 ? near.next(1.4) : kind < 0.8 ? far.next(1.4) : inside.next(0.7);
       Ray<T> cast_at{ray.origin.cast<T>(), ray.direction.cast<T>()};
       if (kind > 0.97) cast_at.direction.setZero();
       if (kind > 0.5 && kind < 0.55) cast_at.t_max = T(random.uniform(0, 2));
