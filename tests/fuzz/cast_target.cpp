@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <cstring>
+#include <sstream>
 
 #include "core/solver/cast.h"
 #include "core/solver/packet_cast.h"
@@ -32,7 +33,11 @@ std::string compare(const CastResult<T>& one, const CastResult<T>& lane) {
   bool same_normal = true;
   for (int i = 0; i < 3; ++i) same_normal &= same_bits(one.normal[i], lane.normal[i]);
   if (!same_t) return "another t";
-  if (!same_normal) return "another normal";
+  std::ostringstream normals;
+  normals.precision(std::numeric_limits<T>::max_digits10);
+  normals << "another normal (" << name_of(one.status) << "): " << lane.normal.transpose()
+          << " instead of " << one.normal.transpose();
+  if (!same_normal) return normals.str();
   return one.supports == lane.supports ? "" : "other counts";
 }
 
