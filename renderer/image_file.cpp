@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "renderer/colour.h"
+#include "renderer/exr.h"
 #include "renderer/png.h"
 
 namespace minkray {
@@ -39,15 +40,25 @@ Bytes encode_pfm(const Image& image) {
   return bytes;
 }
 
+/// Just the colours. Renders have more to tell: renderer/part_file.h.
+Bytes encode_plain_exr(const Image& image) {
+  const PixelRect window{0, 0, image.width, image.height};
+  ExrImage exr{window, window, {}, {}};
+  add_colour_planes(exr, image);
+  return encode_exr(exr);
+}
+
 struct Format {
   std::string_view extension;
   bool keeps_floats;
+  bool keeps_planes;
   Bytes (*encode)(const Image&);
 };
 
 constexpr std::array formats = {
-    Format{".png", false, encode_png},
-    Format{".pfm", true, encode_pfm},
+    Format{".png", false, false, encode_png},
+    Format{".pfm", true, false, encode_pfm},
+    Format{".exr", true, true, encode_plain_exr},
 };
 
 const Format* format_of(const std::string& path) {
@@ -65,6 +76,11 @@ bool is_image_path(const std::string& path) {
 bool keeps_floats(const std::string& path) {
   const Format* format = format_of(path);
   return format != nullptr && format->keeps_floats;
+}
+
+bool keeps_planes(const std::string& path) {
+  const Format* format = format_of(path);
+  return format != nullptr && format->keeps_planes;
 }
 
 std::string image_extensions() {

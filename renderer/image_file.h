@@ -15,7 +15,10 @@ bool is_image_path(const std::string& path);
 /// Whether the path's format keeps the numbers as they are (linear, unclipped).
 bool keeps_floats(const std::string& path);
 
-/// The extensions, for messages: ".png, .pfm".
+/// Whether the path's format keeps any number of named planes and texts (renderer/exr.h).
+bool keeps_planes(const std::string& path);
+
+/// The extensions, for messages: ".png, .pfm, .exr".
 std::string image_extensions();
 
 /// The file's bytes, in the format that belongs to the path's extension.

@@ -51,6 +51,7 @@ RayCounts& RayCounts::operator+=(const RayCounts& other) {
   ambient += other.ambient;
   scattered += other.scattered;
   mirrored += other.mirrored;
+  background += other.background;
   from_inside += other.from_inside;
   work += other.work;
   return *this;
@@ -99,13 +100,24 @@ Colour Integrator::environment(const Vec3<double>& direction) const {
   return sum;
 }
 
+bool Integrator::occluded(RayKind kind, const Ray<Real>& ray, std::uint32_t skip,
+                          RayCounts& counts) const {
+  const bool answer = world_.occluded(ray, counts.work, skip);
+  if (options_.audit) options_.audit->occluded(kind, ray, skip, answer);
+  return answer;
+}
+
 Colour Integrator::along(const Ray<Real>& ray, const Path& path, Sampler& sampler,
                          RayCounts& counts) const {
   const WorldHit<Real> hit = world_.closest_hit(ray, counts.work, path.left);
+  if (options_.audit)
+    options_.audit->closest(path.at_camera() ? RayKind::camera : RayKind::indirect, ray, path.left,
+                            hit);
 
   // Nothing there: cameras see the background. Surfaces are lit by the environment, and mirror it,
   // so that no light is counted twice; without one they still mirror the background.
   if (!hit.found()) {
+    if (path.at_camera()) ++counts.background;
     const bool sees_background = path.bounces == 0 && (path.mirrors == 0 || environments_.empty());
     return sees_background ? by_height(background_.zenith, background_.nadir, ray.direction)
                            : environment(ray.direction);
@@ -153,7 +165,8 @@ Colour Integrator::direct(const Spot& spot, const Path& path, RayCounts& counts)
     const Vec3<double> w_in = spot.frame.to_local(towards);
     if (!(w_in.z() > 0)) return;
     ++counts.shadow;
-    if (world_.occluded({spot.position, towards, distance}, counts.work, spot.instance)) return;
+    if (occluded(RayKind::shadow, {spot.position, towards, distance}, spot.instance, counts))
+      return;
     const Colour reflected = (spot.surface.base(spot.w_out, w_in).array() +
                               spot.surface.highlight(spot.w_out, w_in, least_alpha))
                                  .matrix();
@@ -179,7 +192,7 @@ Colour Integrator::scattered(const Spot& spot, const Path& path, Sampler& sample
   const Ray<Real> ray{spot.position, direction};
   if (last) {
     ++counts.ambient;
-    if (world_.occluded(ray, counts.work, spot.instance)) return Colour::Zero();
+    if (occluded(RayKind::ambient, ray, spot.instance, counts)) return Colour::Zero();
     return weight.cwiseProduct(environment(direction));
   }
   ++counts.scattered;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "renderer/ray_audit.h"
 #include "renderer/real.h"
 #include "renderer/reflection.h"
 #include "renderer/sampler.h"
@@ -19,6 +20,7 @@ struct RayCounts {
   std::uint64_t ambient = 0;    ///< the last of a path, towards the environment: any hit will do
   std::uint64_t scattered = 0;  ///< from a diffuse surface to the next one
   std::uint64_t mirrored = 0;
+  std::uint64_t background = 0;   ///< camera rays that met nothing
   std::uint64_t from_inside = 0;  ///< camera rays that began in a shape, and see black
   QueryCounts work;
 
@@ -32,6 +34,8 @@ struct IntegratorOptions {
   int bounces = 1;
   /// How many mirrors in a row are followed; behind the last, the environment is seen.
   int mirrors = 4;
+  /// Told of every ray and its answer, if it is there.
+  RayAudit* audit = nullptr;
 };
 
 /// Refers to the scene's world; keeps everything else itself. Any number of threads may ask.
@@ -51,6 +55,7 @@ class Integrator {
   Colour scattered(const Spot& spot, const Path& path, Sampler& sampler, RayCounts& counts) const;
   Colour mirrored(const Spot& spot, const Path& path, Sampler& sampler, RayCounts& counts) const;
   Colour environment(const Vec3<double>& direction) const;
+  bool occluded(RayKind kind, const Ray<Real>& ray, std::uint32_t skip, RayCounts& counts) const;
 
   const RenderWorld& world_;
   IntegratorOptions options_;

@@ -1,10 +1,21 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/interrupt.h"
 
+#include <array>
 #include <atomic>
+#include <csignal>
+#include <cstddef>
+#include <mutex>
 
 namespace minkray {
 namespace {
+
+constexpr std::array signals = {SIGINT, SIGTERM, SIGHUP};
+
+/// How signals are handled belongs to the process, and so does what it was before the first guard.
+std::mutex mutex;
+int guards = 0;
+std::array<struct sigaction, signals.size()> before = {};
 
 /// Signal handlers can reach nothing but a global.
 std::atomic<int> received_signal = 0;
@@ -17,21 +28,25 @@ void note(int signal) {
 }  // namespace
 
 InterruptGuard::InterruptGuard() {
+  const std::lock_guard lock(mutex);
+  if (guards++ > 0) return;
   struct sigaction noting = {};
   noting.sa_handler = note;
   sigemptyset(&noting.sa_mask);
   noting.sa_flags = SA_RESTART;
-  const auto take_over = [&](int signal, struct sigaction& before) {
-    sigaction(signal, nullptr, &before);
-    if (before.sa_handler != SIG_IGN) sigaction(signal, &noting, nullptr);
-  };
-  take_over(SIGINT, before_int_);
-  take_over(SIGTERM, before_term_);
+  for (std::size_t i = 0; i < signals.size(); ++i) {
+    sigaction(signals[i], nullptr, &before[i]);
+    if (before[i].sa_handler != SIG_IGN) sigaction(signals[i], &noting, nullptr);
+  }
 }
 
 InterruptGuard::~InterruptGuard() {
-  sigaction(SIGINT, &before_int_, nullptr);
-  sigaction(SIGTERM, &before_term_, nullptr);
+  {
+    const std::lock_guard lock(mutex);
+    if (--guards > 0) return;
+    for (std::size_t i = 0; i < signals.size(); ++i) sigaction(signals[i], &before[i], nullptr);
+  }
+  end_if_interrupted();
 }
 
 bool InterruptGuard::interrupted() {

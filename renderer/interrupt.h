@@ -2,12 +2,10 @@
 // Ctrl-C and a polite kill: finish what must be finished, then end as the signal wants.
 #pragma once
 
-#include <csignal>
-
 namespace minkray {
 
-/// While one exists, SIGINT and SIGTERM are noted instead of ending the process; where they were
-/// ignored (nohup) they stay so. There must not be two at once.
+/// While one exists, SIGINT, SIGTERM and SIGHUP are noted instead of ending the process; where they
+/// were ignored (nohup) they stay so. When the last one goes, a signal that was noted has its way.
 class InterruptGuard {
  public:
   InterruptGuard();
@@ -21,10 +19,6 @@ class InterruptGuard {
   /// If a signal came, ends the process as that signal does by default, so that shells and makes
   /// learn of it. Destroy everything that matters before.
   static void end_if_interrupted();
-
- private:
-  struct sigaction before_int_ = {};
-  struct sigaction before_term_ = {};
 };
 
 }  // namespace minkray

@@ -23,24 +23,39 @@ std::optional<Bounds<double>> projected(const Camera& camera, const Bounds<doubl
   return seen;
 }
 
+double label_scale(const Resolution& resolution) {
+  return std::clamp(resolution.height / 540.0, 1.0, 6.0);
+}
+
 }  // namespace
 
-void draw_labels(Image& image, const Scene& scene, const RenderWorld& world,
-                 const RenderOptions& options) {
-  const Camera camera(scene.camera, options.resolution);
-  const PixelRect part = options.part();
-  const double scale = std::clamp(options.resolution.height / 540.0, 1.0, 6.0);
+std::vector<Label> labels_of(const Scene& scene, const RenderWorld& world,
+                             const Resolution& resolution) {
+  std::vector<Label> labels;
+  if (!scene.labels) return labels;
+  const Camera camera(scene.camera, resolution);
+  const double scale = label_scale(resolution);
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const std::string& name = scene.objects[i].name;
     const Bounds<Real>& bounds = world.instances()[i].outer_bounds();
     const auto seen = projected(camera, {bounds.lower.cast<double>(), bounds.upper.cast<double>()});
     if (name.empty() || !seen) continue;
-    const TextSize size = text_size(name, scale);
-    const double x = (seen->lower.x() + seen->upper.x() - size.width) / 2 - part.x0;
-    const double y = seen->upper.y() + 2 * scale - part.y0;
+    const double width = text_size(name, scale).width;
+    labels.push_back(
+        {(seen->lower.x() + seen->upper.x() - width) / 2, seen->upper.y() + 2 * scale, name});
+  }
+  return labels;
+}
+
+void draw_labels(Image& image, const std::vector<Label>& labels, const PixelRect& part,
+                 const Resolution& resolution) {
+  const double scale = label_scale(resolution);
+  for (const Label& label : labels) {
+    const TextSize size = text_size(label.text, scale);
+    const double x = label.x - part.x0, y = label.y - part.y0;
     fill_rectangle(image, x - 2 * scale, y - 2 * scale, x + size.width + 2 * scale, y + size.height,
                    Vec3<float>::Zero(), 0.85f);
-    draw_text(image, x, y, name, Vec3<float>::Ones(), scale);
+    draw_text(image, x, y, label.text, Vec3<float>::Ones(), scale);
   }
 }
 

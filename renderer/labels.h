@@ -2,14 +2,28 @@
 // The objects' names, each under the picture of its object.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "renderer/image.h"
 #include "renderer/render.h"
 
 namespace minkray {
 
-/// Draws the names onto `image`, the part of the picture that `options` ask for. Names of objects
-/// that are behind the camera, outside the picture, or have none are left out.
-void draw_labels(Image& image, const Scene& scene, const RenderWorld& world,
-                 const RenderOptions& options);
+/// A name and where it is written: its upper left corner, in pixels of the whole picture.
+struct Label {
+  double x = 0, y = 0;
+  std::string text;
+};
+
+/// Names of objects that are behind the camera or have none are left out; so are all if the scene
+/// does not want them.
+std::vector<Label> labels_of(const Scene& scene, const RenderWorld& world,
+                             const Resolution& resolution);
+
+/// Draws labels onto `image`, the part of the picture of that resolution; those that are outside of
+/// the part are not seen.
+void draw_labels(Image& image, const std::vector<Label>& labels, const PixelRect& part,
+                 const Resolution& resolution);
 
 }  // namespace minkray

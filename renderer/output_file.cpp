@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "renderer/errors.h"
+#include "renderer/interrupt.h"
 
 namespace minkray {
 namespace {
@@ -57,6 +58,7 @@ class TemporaryFile {
   }
 
  private:
+  InterruptGuard until_cleaned_up_;
   std::string path_;
   fs::path temporary_;
   int descriptor_ = -1;

@@ -14,32 +14,66 @@ RenderWorld make_world(const Scene& scene, const CastOptions<Real>& options) {
 }
 
 Rendering render(const Scene& scene, const RenderWorld& world, const RenderOptions& options,
-                 const RenderWatch& watch) {
+                 const RenderWatch& watch, RenderJournal journal) {
   const Camera camera(scene.camera, options.resolution);
   const PixelFilter filter;
   const Integrator integrator(scene, world, options.integrator);
   const PixelRect part = options.part();
+  const SampleBlocks blocks{options.samples};
+  const int first_block = blocks.first_of(options.sample_share);
+  const int end_block = blocks.end_of(options.sample_share);
 
   Rendering rendering;
-  Image& image = rendering.image = Image(part.width(), part.height());
-  const auto render_pixel = [&](int x, int y, RayCounts& counts) {
+  if (journal.done.empty()) {
+    const Image black(part.width(), part.height());
+    rendering.met.resize(black.pixels.size());
+    if (options.sample_share.is_all())
+      rendering.image = black;
+    else
+      rendering.block_sums.assign(static_cast<std::size_t>(end_block - first_block), black);
+  } else {
+    rendering = std::move(journal.begun);
+  }
+
+  const auto render_block = [&](int x, int y, int block, RayCounts& counts) {
     Colour sum = Colour::Zero();
-    for (int sample = 0; sample < options.samples && !watch.stopped(); ++sample) {
+    const int end = blocks.begin(block + 1);
+    for (int sample = blocks.begin(block); sample < end && !watch.stopped(); ++sample) {
       Sampler sampler(options.seed, x, y, static_cast<std::uint32_t>(sample));
       const std::array<double, 2> u = sampler.next();
       const Ray<Real> ray =
           camera.ray(x + 0.5 + filter.offset(u[0]), y + 0.5 + filter.offset(u[1]));
       sum += integrator.radiance(ray, sampler, counts);
     }
-    return Colour(sum / options.samples);
+    return Vec3<float>(sum.cast<float>());
   };
-  rendering.complete = for_tiles(part, rendering.counts, watch, [&](const PixelRect& tile) {
+  const auto render_pixel = [&](int x, int y, RayCounts& counts) {
+    const RayCounts before = counts;
+    const int column = x - part.x0, row = y - part.y0;
+    BlockTotal total;
+    for (int block = first_block; block < end_block; ++block) {
+      const Vec3<float> sum = render_block(x, y, block, counts);
+      total.add(sum);
+      if (!options.sample_share.is_all())
+        rendering.block_sums[static_cast<std::size_t>(block - first_block)].at(column, row) = sum;
+    }
+    if (options.sample_share.is_all())
+      rendering.image.at(column, row) = total.mean(options.samples);
+    const std::uint64_t met =
+        (counts.camera - before.camera) - (counts.background - before.background);
+    rendering.met[static_cast<std::size_t>(row) * static_cast<std::size_t>(part.width()) +
+                  static_cast<std::size_t>(column)] = static_cast<std::uint32_t>(met);
+  };
+  TileJournal tiles{std::move(journal.done), {}};
+  if (journal.finished)
+    tiles.finished = [&](std::size_t tile) { journal.finished(rendering, tile); };
+  const auto render_tile = [&](const PixelRect& tile) {
     RayCounts counts;
     for (int y = tile.y0; y < tile.y1; ++y)
-      for (int x = tile.x0; x < tile.x1; ++x)
-        image.at(x - part.x0, y - part.y0) = render_pixel(x, y, counts).cast<float>();
+      for (int x = tile.x0; x < tile.x1; ++x) render_pixel(x, y, counts);
     return counts;
-  });
+  };
+  rendering.complete = for_tiles(part, rendering.counts, watch, render_tile, tiles);
   return rendering;
 }
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <mutex>
+#include <vector>
 
 #include "core/parallel/parallel.h"
 #include "renderer/image.h"
@@ -25,34 +26,58 @@ struct RenderWatch {
 /// Small enough for even loads, large enough for coherent rays.
 inline constexpr int tile_size = 16;
 
-/// Calls render_tile(PixelRect) -> counts for the tiles of `part`, possibly at once, and joins the
-/// counts with +=; counts.total() are rays. Answers whether all tiles were done without being
-/// stopped.
+/// The tiles of a part of a picture, in rows.
+class TileGrid {
+ public:
+  explicit TileGrid(const PixelRect& part)
+      : part_(part), columns_(tiles_along(part.width())), rows_(tiles_along(part.height())) {}
+
+  std::size_t count() const { return columns_ * rows_; }
+  PixelRect operator[](std::size_t tile) const {
+    const int x = part_.x0 + static_cast<int>(tile % columns_) * tile_size;
+    const int y = part_.y0 + static_cast<int>(tile / columns_) * tile_size;
+    return {x, y, std::min(x + tile_size, part_.x1), std::min(y + tile_size, part_.y1)};
+  }
+
+ private:
+  static std::size_t tiles_along(int pixels) {
+    return static_cast<std::size_t>((pixels + tile_size - 1) / tile_size);
+  }
+  PixelRect part_;
+  std::size_t columns_, rows_;
+};
+
+/// Tiles that are there already, and who hears of those that are rendered.
+struct TileJournal {
+  std::vector<bool> done;  ///< by tile; empty: none
+  /// Told after each tile, one at a time.
+  std::function<void(std::size_t tile)> finished;
+};
+
+/// Calls render_tile(PixelRect) -> counts for the tiles of `part` that are not done yet, possibly
+/// at once, and joins the counts with +=; counts.total() are rays. Answers whether all tiles were
+/// done without being stopped. Of tiles that were stopped neither counts nor the journal hear.
 template <class Counts, class RenderTile>
 bool for_tiles(const PixelRect& part, Counts& counts, const RenderWatch& watch,
-               const RenderTile& render_tile) {
-  const auto tiles_along = [](int pixels) {
-    return static_cast<std::size_t>((pixels + tile_size - 1) / tile_size);
-  };
-  const std::size_t columns = tiles_along(part.width()), rows = tiles_along(part.height());
-  const std::size_t tile_count = columns * rows;
+               const RenderTile& render_tile, const TileJournal& journal = {}) {
+  const TileGrid tiles(part);
   std::mutex mutex;
-  std::size_t done = 0;
-  for_parts(tile_count, 1, [&](std::size_t begin, std::size_t end) {
+  auto done = static_cast<std::size_t>(std::count(journal.done.begin(), journal.done.end(), true));
+  for_parts(tiles.count(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t tile = begin; tile < end && !watch.stopped(); ++tile) {
-      const int x = part.x0 + static_cast<int>(tile % columns) * tile_size;
-      const int y = part.y0 + static_cast<int>(tile / columns) * tile_size;
-      const Counts more = render_tile(
-          PixelRect{x, y, std::min(x + tile_size, part.x1), std::min(y + tile_size, part.y1)});
+      if (!journal.done.empty() && journal.done[tile]) continue;
+      const Counts more = render_tile(tiles[tile]);
       const std::lock_guard lock(mutex);
-      counts += more;
       if (watch.stopped()) return;
+      counts += more;
       ++done;
+      if (journal.finished) journal.finished(tile);
       if (watch.progress)
-        watch.progress(static_cast<double>(done) / static_cast<double>(tile_count), counts.total());
+        watch.progress(static_cast<double>(done) / static_cast<double>(tiles.count()),
+                       counts.total());
     }
   });
-  return done == tile_count;
+  return done == tiles.count();
 }
 
 }  // namespace minkray

@@ -105,6 +105,14 @@ Vec3<W> widen(const Vec3<T>& v) {
   return {W(v.x()), W(v.y()), W(v.z())};
 }
 
+template <class W, class T>
+Mat3<W> widen(const Mat3<T>& m) {
+  Mat3<W> wide;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) wide(i, j) = W(m(i, j));
+  return wide;
+}
+
 /// m v, a matrix of one lane's numbers applied to all lanes.
 template <class W, class T>
 Vec3<W> times(const Mat3<T>& m, const Vec3<W>& v) {

@@ -37,9 +37,9 @@ struct HullOf {
     for (std::size_t i = 1; i < shapes.size(); ++i) {
       const Jet<W> candidate = shapes[i]->jet(n);
       const W along = candidate.reach(n);
-      if (!(along > furthest)) continue;
-      best = candidate;
-      furthest = along;
+      const auto further = along > furthest;
+      best = select<W>(further, candidate, best);
+      furthest = select(further, along, furthest);
     }
     return best;
   }

@@ -23,19 +23,32 @@ template <class W>
 struct Jet {
   Vec3<W> c = Vec3<W>::Zero();
   Mat3<W> F = Mat3<W>::Zero();
-  bool exact = true;
+  Mask<W> exact = Mask<W>(true);
   Vec3<W> s = Vec3<W>::Zero();
 
   /// The shape's support point in the direction n that was asked for.
   Vec3<W> support(const Vec3<W>& n) const {
-    return exact ? Vec3<W>(c + F * unit<W>(F.transpose() * n)) : s;
+    if (!any(exact)) return s;
+    return select<W>(exact, Vec3<W>(c + F * unit<W>(F.transpose() * n)), s);
   }
   /// How far the shape reaches along that n, in lengths of n.
   W reach(const Vec3<W>& n) const {
-    return exact ? n.dot(c) + (F.transpose() * n).norm() : n.dot(s);
+    return select(exact, W(n.dot(c) + (F.transpose() * n).norm()), W(n.dot(s)));
   }
-  bool is_point() const { return (F.array() == W(0)).all(); }
+  Mask<W> is_point() const { return F.cwiseAbs().sum() == W(0); }
 };
+
+/// Lane by lane.
+template <class W>
+Jet<W> select(const Mask<W>& condition, const Jet<W>& a, const Jet<W>& b) {
+  Jet<W> chosen;
+  chosen.c = select<W>(condition, a.c, b.c);
+  for (int k = 0; k < 3; ++k)
+    chosen.F.col(k) = select<W>(condition, Vec3<W>(a.F.col(k)), Vec3<W>(b.F.col(k)));
+  chosen.exact = (condition & a.exact) | ((!condition) & b.exact);
+  chosen.s = select<W>(condition, a.s, b.s);
+  return chosen;
+}
 
 /// A shape that knows its jets.
 template <class S, class T>
@@ -86,12 +99,13 @@ Mat3<W> factor(const Mat3<W>& A) {
   for (int j = 0; j < 3; ++j) {
     W pivot = A(j, j);
     for (int k = 0; k < j; ++k) pivot -= F(j, k) * F(j, k);
-    if (!(pivot > std::numeric_limits<W>::epsilon() * A(j, j))) continue;
-    F(j, j) = sqrt(pivot);
+    const Mask<W> positive = pivot > W(std::numeric_limits<Lane<W>>::epsilon()) * A(j, j);
+    const W root = sqrt(select(positive, pivot, W(1)));
+    F(j, j) = select(positive, root, W(0));
     for (int i = j + 1; i < 3; ++i) {
       W entry = A(i, j);
       for (int k = 0; k < j; ++k) entry -= F(i, k) * F(j, k);
-      F(i, j) = entry / F(j, j);
+      F(i, j) = select(positive, W(entry / root), W(0));
     }
   }
   return F;
@@ -101,26 +115,35 @@ Mat3<W> factor(const Mat3<W>& A) {
 /// curved pieces the curvatures H add, and the sum only osculates.
 template <class W>
 Jet<W> add(const Jet<W>& a, const Jet<W>& b, const Vec3<W>& n) {
+  using T = Lane<W>;
   const Vec3<W> c = a.c + b.c, s = a.support(n) + b.support(n);
-  if (b.is_point()) return {c, a.F, a.exact, s};
-  if (a.is_point()) return {c, b.F, b.exact, s};
-  const auto is_ball = [](const Mat3<W>& F) { return F == Mat3<W>::Identity() * F(0, 0); };
-  if (is_ball(a.F) && is_ball(b.F)) return {c, a.F + b.F, a.exact && b.exact, s};
+  const auto is_ball = [](const Mat3<W>& F) {
+    return (F - Mat3<W>(Mat3<W>::Identity() * F(0, 0))).cwiseAbs().sum() == W(0);
+  };
+  const Mask<W> a_point = a.is_point(), b_point = b.is_point();
+  const Mask<W> balls = is_ball(a.F) & is_ball(b.F);
+  const Mask<W> simple = a_point | b_point | balls;  // where F of a point is zero, factors add
+  const Jet<W> joined{c, Mat3<W>(a.F + b.F), Mask<W>(a.exact & b.exact), s};
+  if (all(simple)) return joined;
 
   const Vec3<W> u_a = a.F.transpose() * n, u_b = b.F.transpose() * n;
   const W h_a = u_a.norm(), h_b = u_b.norm();
-  const Vec3<W> g_a = a.F * unit(u_a), g_b = b.F * unit(u_b);
+  const Vec3<W> g_a = a.F * unit<W>(u_a), g_b = b.F * unit<W>(u_b), g = g_a + g_b;
   const W h = h_a + h_b;
+  const W over_a = h / select(h_a > W(0), h_a, W(1)), over_b = h / select(h_b > W(0), h_b, W(1));
+  const Mat3<W> A_a = a.F * a.F.transpose(), A_b = b.F * b.F.transpose();
+  const Mat3<W> A = (A_a - g_a * g_a.transpose()) * over_a +
+                    (A_b - g_b * g_b.transpose()) * over_b + g * g.transpose();
+  Jet<W> sum{c, factor<W>(A), Mask<W>(false), s};
   // A flat piece seen along its normal has no curvature to speak of: the piece as a whole, moved to
   // the other's support point, lies in the sum and touches its plane.
-  constexpr W flat = W(1) / W(1024);
-  if (!(h_a > flat * h)) return {a.c + b.support(n), a.F, a.exact, s};
-  if (!(h_b > flat * h)) return {b.c + a.support(n), b.F, b.exact, s};
-  const Mat3<W> A_a = a.F * a.F.transpose(), A_b = b.F * b.F.transpose();
-  const Vec3<W> g = g_a + g_b;
-  const Mat3<W> A = (h / h_a) * (A_a - g_a * g_a.transpose()) +
-                    (h / h_b) * (A_b - g_b * g_b.transpose()) + g * g.transpose();
-  return {c, factor(A), false, s};
+  const W flat = h * W(T(1) / T(1024));
+  const Mask<W> a_flat = !(h_a > flat), b_flat = !(h_b > flat);
+  if (any(a_flat))
+    sum = select<W>(a_flat, Jet<W>{Vec3<W>(a.c + b.support(n)), a.F, a.exact, s}, sum);
+  if (any(b_flat))
+    sum = select<W>(b_flat & !a_flat, Jet<W>{Vec3<W>(b.c + a.support(n)), b.F, b.exact, s}, sum);
+  return any(simple) ? select<W>(simple, joined, sum) : sum;
 }
 
 }  // namespace minkray

@@ -3,17 +3,15 @@
 
 #include <bit>
 #include <cctype>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <system_error>
+
+#include "core/files/regular_file.h"
 
 namespace minkray {
 namespace {
@@ -26,19 +24,8 @@ constexpr std::size_t stl_header_bytes = 80;
 constexpr std::size_t stl_triangle_bytes = 50;
 constexpr std::size_t stl_corners_offset = 12;
 
-std::string contents(const std::filesystem::path& path) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error)) {
-    throw std::runtime_error("must be a file (got a directory)");
-  }
-  errno = 0;
-  std::ifstream in(path, std::ios::binary);
-  std::string text(std::istreambuf_iterator<char>(in), {});
-  if (!in.is_open() || in.bad()) {
-    throw std::runtime_error("cannot be read: " + std::generic_category().message(errno));
-  }
-  return text;
-}
+/// More than any mesh worth a convex hull; its vertices take about twice as much memory.
+constexpr std::size_t most_bytes = std::size_t{512} << 20;
 
 /// Cuts the next word off the front of the line.
 std::string_view next_word(std::string_view& line) {
@@ -118,7 +105,8 @@ Vertices read_mesh_vertices(const std::filesystem::path& path) {
   if (extension != ".obj" && extension != ".stl") {
     throw std::runtime_error("must be a mesh file that ends in .obj or .stl");
   }
-  return mesh_vertices(contents(path), extension == ".obj" ? MeshFormat::obj : MeshFormat::stl);
+  return mesh_vertices(read_regular_file(path, most_bytes),
+                       extension == ".obj" ? MeshFormat::obj : MeshFormat::stl);
 }
 
 Vertices mesh_vertices(std::string_view text, MeshFormat format) {

@@ -50,6 +50,8 @@ struct Superellipsoid {
   /// infinite on the coordinate planes; u is kept above a small number there.
   template <class W>
   Jet<W> jet(const Vec3<W>& n) const {
+    using std::abs;
+    using std::max;
     if (exponent == T(2)) return AxialEllipsoidJet<W>{widen<W>(radii)};
     if (!(exponent > T(1))) return PointJet<W>{support(n)};
     const Vec3<W> a = widen<W>(radii);
@@ -59,10 +61,10 @@ struct Superellipsoid {
     Mat3<W> A = g * g.transpose() * (W(2) - q);
     for (int i = 0; i < 3; ++i) {
       // |g_i| = u_i^(q-1), so u_i^(q-2) = |g_i|^((q-2)/(q-1)).
-      const W size = std::max(std::abs(g[i]), W(least_of_jet));
+      const W size = max(W(abs(g[i])), W(least_of_jet));
       A(i, i) += (q - W(1)) * power(size, W((q - W(2)) / (q - W(1))));
     }
-    return {Vec3<W>::Zero(), a.asDiagonal() * factor(A), false, s};
+    return {Vec3<W>::Zero(), a.asDiagonal() * factor<W>(A), Mask<W>(false), s};
   }
 
  private:

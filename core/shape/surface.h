@@ -9,26 +9,29 @@ namespace minkray {
 enum class SurfaceKind : unsigned char {
   flat,        ///< a polytope: points are its only pieces
   ellipsoids,  ///< faces and edges between finitely many ellipsoids
-  smooth,      ///< other curved surfaces, which jets only osculate
+  smooth,      ///< one curved patch, which jets only osculate
+  mixed,       ///< several patches, some of which jets only osculate
 };
 
 /// Found by asking for jets in 27 slightly tilted directions: a description that steers the
 /// choice of a solver, on which no answer's correctness may depend.
 template <class T, class S>
 requires JetMapped<S, T> SurfaceKind surface_of(const S& shape) {
-  SurfaceKind surface = SurfaceKind::flat;
   const Vec3<T> tilt(T(0.11), T(0.07), T(0.13));
-  for (int x = -1; x <= 1; ++x) {
-    for (int y = -1; y <= 1; ++y) {
-      for (int z = -1; z <= 1; ++z) {
-        const Vec3<T> n = Vec3<T>(T(x), T(y), T(z)) + tilt;
-        const Jet<T> jet = shape.jet(n);
-        if (!jet.exact) return SurfaceKind::smooth;
-        if (!jet.is_point()) surface = SurfaceKind::ellipsoids;
-      }
-    }
+  bool all_points = true, all_exact = true, all_inexact = true, one_patch = true;
+  Vec3<T> patch = Vec3<T>::Zero();
+  for (int i = 0; i < 27; ++i) {
+    const Vec3<T> n = Vec3<T>(T(i % 3 - 1), T(i / 3 % 3 - 1), T(i / 9 - 1)) + tilt;
+    const Jet<T> jet = shape.jet(n);
+    if (i == 0) patch = jet.c;
+    all_points = all_points && jet.exact && jet.is_point();
+    all_exact = all_exact && jet.exact;
+    all_inexact = all_inexact && !jet.exact;
+    one_patch = one_patch && jet.c == patch;
   }
-  return surface;
+  if (all_points) return SurfaceKind::flat;
+  if (all_exact) return SurfaceKind::ellipsoids;
+  return all_inexact && one_patch ? SurfaceKind::smooth : SurfaceKind::mixed;
 }
 
 }  // namespace minkray

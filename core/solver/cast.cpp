@@ -41,16 +41,25 @@ constexpr bool is_reference(SolverKind kind) {
          kind == SolverKind::paper_signed_volumes;
 }
 
-/// The jet cast of shapes that have a model; where it gives up, the GJK ray cast.
+/// With models; where they give up, the GJK ray cast.
 template <class T, class Observer>
 CastResult<T> cast_with_model(const PreparedShape<T>& shape, const RayNearBall<T>& near,
                               const CastOptions<T>& options, Observer&& observer) {
   const Ball<T>& ball = shape.inner_ball();
-  const CastResult<T> result = with_model<T>(
-      shape.inner_shape(), shape.model(), ball.centre, ball.radius, [&](const auto& make_model) {
-        return result_of(
-            model_cast<T>(make_model, near, ball, shape.inner_half_extents(), true, observer));
-      });
+  const auto cast = [&](int max_iterations) {
+    return [&, max_iterations](const auto& make_model) {
+      return result_of(model_cast<T>(make_model, near, ball, shape.inner_half_extents(), true,
+                                     max_iterations, observer));
+    };
+  };
+  const CastResult<T> result =
+      options.solver == SolverKind::portal
+          ? cast(tolerance::portal_max_iterations)([&](const Vec3<T>& s, const Vec3<T>& r) {
+              return PolytopeModel<T, Shape<T>>(shape.inner_shape(), ball.centre, s, r,
+                                                ball.radius);
+            })
+          : with_model<T>(shape.inner_shape(), shape.model(), ball.centre, ball.radius,
+                          cast(tolerance::jet_max_iterations));
   if (result.status != Status::exhausted) return result;
   CastResult<T> slow =
       gjk_ray_cast(shape.inner_shape(), near, ball, gjk_options(shape, options), observer);
@@ -60,8 +69,9 @@ CastResult<T> cast_with_model(const PreparedShape<T>& shape, const RayNearBall<T
 }
 
 /// By measurement, see docs/decisions/0002-automatic-solver.md.
-SolverKind best_solver(SurfaceKind surface) {
-  return surface == SurfaceKind::ellipsoids ? SolverKind::jet : SolverKind::paper;
+template <class T>
+SolverKind best_solver(const PreparedShape<T>& shape) {
+  return shape.surface() == SurfaceKind::mixed ? SolverKind::paper : SolverKind::jet;
 }
 
 /// With one solver; the normal is in the inner frame.
@@ -70,7 +80,8 @@ CastResult<T> cast_with(SolverKind solver, const PreparedShape<T>& shape,
                         const RayNearBall<T>& near, const CastOptions<T>& options,
                         Observer&& observer) {
   if (is_reference(solver)) return cast_reference(shape, near, options, observer);
-  if (solver == SolverKind::jet && shape.model() != ModelKind::none)
+  if (solver == SolverKind::portal ||
+      (solver == SolverKind::jet && shape.model() != ModelKind::none))
     return cast_with_model(shape, near, options, observer);
   return std::visit(
       [&](const auto& kind) {
@@ -85,7 +96,7 @@ template <class T, class Observer>
 CastResult<T> cast_near(const PreparedShape<T>& shape, const RayNearBall<T>& near,
                         const CastOptions<T>& options, Observer&& observer) {
   const bool automatic = options.solver == SolverKind::automatic;
-  const SolverKind solver = automatic ? best_solver(shape.surface()) : options.solver;
+  const SolverKind solver = automatic ? best_solver(shape) : options.solver;
   CastResult<T> result = cast_with(solver, shape, near, options, observer);
   // The jet cast hands over to the GJK ray cast by itself; the other way round it is done here.
   if (automatic && solver == SolverKind::paper && result.status == Status::exhausted) {

@@ -25,12 +25,11 @@ struct CastLanes {
 template <class W, class MakeModel, class Observer>
 CastLanes<W> model_cast(const MakeModel& make_model, const RayNearBall<W>& near,
                         const Ball<Lane<W>>& ball, const Vec3<Lane<W>>& half_extents,
-                        const Mask<W>& active, Observer&& observer) {
+                        const Mask<W>& active, int max_iterations, Observer&& observer) {
   using std::max;
   using std::min;
   using std::sqrt;
   using T = Lane<W>;
-  constexpr int iterations = tolerance::jet_max_iterations;
   const T R = ball.radius;
   CastLanes<W> result;
   result.t_base = near.t_base;
@@ -62,7 +61,7 @@ CastLanes<W> model_cast(const MakeModel& make_model, const RayNearBall<W>& near,
   auto model = make_model(s, r);
   const W end = min(depth, near.lambda_max);
   const LineHit<W> entry = first_on_line<W>(model, normal_on_extents<W>(half_extents, s, r), end, R,
-                                            castable, iterations, watch(W(1)));
+                                            castable, max_iterations, watch(W(1)));
   result.supports = entry.supports;
   result.normal = select<W>(castable, entry.normal, result.normal);
   result.miss |= entry.miss;
@@ -89,7 +88,7 @@ CastLanes<W> model_cast(const MakeModel& make_model, const RayNearBall<W>& near,
   auto model_behind = make_model(s, back);
   const LineHit<W> exit =
       first_on_line<W>(model_behind, normal_on_extents<W>(half_extents, s, back),
-                       W(-near.lambda_min), R, began, iterations, watch(W(-1)));
+                       W(-near.lambda_min), R, began, max_iterations, watch(W(-1)));
   result.supports += exit.supports;
   const Mask<W> left = began & (exit.miss | (exit.hit & (-exit.lambda < near.lambda_min)));
   result.miss |= left;

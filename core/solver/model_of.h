@@ -9,6 +9,7 @@
 #include "core/solver/model_cast.h"
 #include "core/solver/polytope_model.h"
 #include "core/solver/rounded_points_model.h"
+#include "core/solver/smooth_model.h"
 
 namespace minkray {
 
@@ -16,6 +17,7 @@ enum class ModelKind : unsigned char {
   closed_form,     ///< told by the type
   points,          ///< a polytope made of other shapes
   rounded_points,  ///< a rounded polytope
+  smooth,          ///< a smooth surface
   none,            ///< other shapes: their jets are modelled one by one (core/solver/jet_cast.h)
 };
 
@@ -46,7 +48,10 @@ ModelKind model_kind_of(const Shape<T>& shape) {
         } else {
           if constexpr (std::is_same_v<S, Rounded<T>>)
             if (surface_of<T>(*kind.shape) == SurfaceKind::flat) return ModelKind::rounded_points;
-          return surface_of<T>(shape) == SurfaceKind::flat ? ModelKind::points : ModelKind::none;
+          const SurfaceKind surface = surface_of<T>(shape);
+          return surface == SurfaceKind::flat     ? ModelKind::points
+                 : surface == SurfaceKind::smooth ? ModelKind::smooth
+                                                  : ModelKind::none;
         }
       },
       shape.kind);
@@ -66,6 +71,9 @@ auto with_model(const Shape<Lane<W>>& shape, ModelKind model, const Vec3<Lane<W>
   const auto polytope = [&]<class S>(const S& kind) {
     return simple(kind, std::type_identity<PolytopeModel<W, S>>());
   };
+  const auto smooth = [&] {
+    return simple(shape, std::type_identity<SmoothModel<W, Shape<T>>>());
+  };
   const auto rounded = [&]<class S>(const S& core, T radius) {
     return use([&, radius](const Vec3<W>& s, const Vec3<W>& r) {
       return RoundedPointsModel<W, S>(core, radius, centre, s, r, R);
@@ -81,6 +89,7 @@ auto with_model(const Shape<Lane<W>>& shape, ModelKind model, const Vec3<Lane<W>
           return polytope(kind);
         } else if constexpr (std::is_same_v<S, Rounded<T>>) {
           if (model == ModelKind::points) return polytope(shape);
+          if (model == ModelKind::smooth) return smooth();
           return std::visit(
               [&]<class Core>(const Core& core) {
                 if constexpr (detail::is_polytope<Core, W>)
@@ -90,7 +99,7 @@ auto with_model(const Shape<Lane<W>>& shape, ModelKind model, const Vec3<Lane<W>
               },
               kind.shape->kind);
         } else {
-          return polytope(shape);
+          return model == ModelKind::points ? polytope(shape) : smooth();
         }
       },
       shape.kind);

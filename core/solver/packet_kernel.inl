@@ -40,7 +40,7 @@ void part(const PreparedShape<Lane<W>>& shape, const RayPacket<Lane<W>>& rays, L
   const CastLanes<W> result = with_model<W>(
       shape.inner_shape(), shape.model(), ball.centre, ball.radius, [&](const auto& make_model) {
         return model_cast<W>(make_model, near, ball, shape.inner_half_extents(), active,
-                             NoObserver());
+                             tolerance::jet_max_iterations, NoObserver());
       });
   const Vec3<W> normal = shape.template normal_to_outer<W>(result.normal);
   const auto at_origin = [&](const W& x) { return select(result.inside, W(T(0)), x); };
@@ -61,7 +61,6 @@ template <class T>
 void kernel(const PreparedShape<T>& shape, const RayPacket<T>& rays, LaneBits lanes,
             CastPacket<T>& answers) {
   using W = Wide<T, static_cast<int>(IsaHere::register_bytes / sizeof(T)), IsaHere>;
-  answers.hit = answers.inside = answers.miss = 0;
   for (int from = 0; from < packet_lanes<T>; from += LaneOf<W>::count)
     part<W>(shape, rays, lanes, static_cast<std::size_t>(from), answers);
 }

@@ -10,6 +10,7 @@ namespace minkray {
 enum class SolverKind : unsigned char {
   automatic,
   jet,
+  portal,
   paper,
   first_solution,
   paper_johnson,
@@ -28,6 +29,8 @@ inline constexpr std::array solver_descriptions = {
                       "the GJK ray cast, Algorithm 3 of van den Bergen (2004)"},
     SolverDescription{SolverKind::jet, "jet",
                       "casts on the hull of a few osculating ellipsoids, to rounding accuracy"},
+    SolverDescription{SolverKind::portal, "portal",
+                      "casts on a triangle of support points that the ray passes through"},
     SolverDescription{SolverKind::first_solution, "first-solution",
                       "Algorithm 1 of the same paper, a slow reference"},
     SolverDescription{SolverKind::paper_johnson, "paper-johnson",

@@ -6,7 +6,7 @@ namespace minkray {
 
 enum class ExitCode : int {
   done = 0,
-  comparison_failed = 1,
+  comparison_failed = 1,  ///< or a certificate
   wrong_usage = 2,
   bad_input = 3,
   cannot_write = 4,

@@ -65,12 +65,19 @@ PixelRect parse_crop(const std::string& text, const Resolution& resolution) {
 
 }  // namespace
 
+std::uint64_t parse_seed(const std::string& text) {
+  std::uint64_t seed = 0;
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, seed);
+  if (error != std::errc() || rest != end)
+    throw WrongUsage("--seed: must be a whole number from 0 to 18446744073709551615 (got " + text +
+                     ")");
+  return seed;
+}
+
 void ImageArguments::add_to(CLI::App& verb) {
   verb.add_option("scene", scene, "A scene file (JSON)")->required();
-  verb.add_option("-o,--output", outputs,
-                  "Where to write the picture (" + image_extensions() + "); may be given again")
-      ->required()
-      ->allow_extra_args(false);
+  add_output_option(verb, outputs);
   verb.add_option("-r,--resolution", resolution, "WxH in pixels, instead of the scene's");
   verb.add_option("-s,--spp", samples, "Samples a pixel")
       ->check(CLI::Range(1, 1 << 24))
@@ -79,15 +86,22 @@ void ImageArguments::add_to(CLI::App& verb) {
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
   verb.add_option("--crop", crop, "x0,y0,x1,y1 in pixels: just that part of the picture");
-  verb.add_option("--seed", seed, "Of the random numbers")
-      ->check(CLI::NonNegativeNumber)
+  // As text: CLI11 takes what does not fit for the largest number.
+  verb.add_option("--seed", seed, "Of the random numbers, from 0 to 2^64 - 1")
       ->capture_default_str();
   auto* quiet_flag = verb.add_flag("-q,--quiet", quiet, "No progress, no report");
   verb.add_flag("-v,--verbose", verbose, "Tell what is done and how long it takes")
       ->excludes(quiet_flag);
 }
 
-void ImageArguments::check_outputs() const {
+void add_output_option(CLI::App& verb, std::vector<std::string>& outputs) {
+  verb.add_option("-o,--output", outputs,
+                  "Where to write the picture (" + image_extensions() + "); may be given again")
+      ->required()
+      ->allow_extra_args(false);
+}
+
+void check_outputs(const std::vector<std::string>& outputs) {
   for (const std::string& output : outputs)
     if (!is_image_path(output))
       throw WrongUsage("--output: must end in one of " + image_extensions() + " (got " + output +
@@ -105,7 +119,7 @@ RenderOptions ImageArguments::render_options(const Scene& loaded, std::size_t pa
                      " pixels at once; use --crop (got " + std::to_string(part.width()) + "x" +
                      std::to_string(part.height()) + ")");
   options.samples = samples;
-  options.seed = seed;
+  options.seed = parse_seed(seed);
   return options;
 }
 
@@ -128,6 +142,12 @@ void write_images(const std::vector<std::string>& outputs, const Image& picture,
     write_file(output, bytes);
     InterruptGuard::end_if_interrupted();
   }
+}
+
+void warn_of_counts(const RayCounts& counts) {
+  warn_of_exhausted(counts.work.exhausted, counts.work.casts);
+  if (counts.from_inside > 0)
+    std::cerr << "warning: the camera is inside a shape, where it sees black\n";
 }
 
 void warn_of_exhausted(std::uint64_t exhausted, std::uint64_t casts) {

@@ -20,7 +20,7 @@ struct ImageArguments {
   std::string resolution;  ///< empty: the scene's
   std::string crop;        ///< empty: all
   std::string solver = "auto";
-  std::uint64_t seed = 0;
+  std::string seed = "0";
   int samples = 1;
   int threads = 0;
   bool quiet = false;
@@ -29,14 +29,20 @@ struct ImageArguments {
   /// Adds the options; defaults shown are the members' values.
   void add_to(CLI::App& verb);
 
-  /// Throws WrongUsage for an output whose format is unknown, CannotWrite for one that could not be
-  /// written later.
-  void check_outputs() const;
-
   /// The options for a scene, of which `panels` pictures come beside each other. Throws WrongUsage
   /// where a value is not usable.
   RenderOptions render_options(const Scene& scene, std::size_t panels = 1) const;
 };
+
+/// Throws WrongUsage for what is no whole number of 64 bits.
+std::uint64_t parse_seed(const std::string& text);
+
+/// Adds -o, of a list of image files.
+void add_output_option(CLI::App& verb, std::vector<std::string>& outputs);
+
+/// Throws WrongUsage for an output whose format is unknown, CannotWrite for one that could not be
+/// written later.
+void check_outputs(const std::vector<std::string>& outputs);
 
 /// Options for the casts of a solver by name. Throws WrongUsage with the names there are.
 CastOptions<Real> cast_options(const std::string& solver);
@@ -45,6 +51,9 @@ CastOptions<Real> cast_options(const std::string& solver);
 /// the others. Ends the process early if it was interrupted.
 void write_images(const std::vector<std::string>& outputs, const Image& picture,
                   const Image& floats);
+
+/// Warnings on stderr if any cast gave up, or a camera ray began in a shape.
+void warn_of_counts(const RayCounts& counts);
 
 /// A warning on stderr if any cast gave up.
 void warn_of_exhausted(std::uint64_t exhausted, std::uint64_t casts);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The command line: minkray VERB ARGS...
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <exception>
 #include <iostream>
 
@@ -16,15 +17,15 @@ ExitCode run(int argc, char** argv) {
   app.set_version_flag("--version", "minkray " MINKRAY_VERSION);
   app.require_subcommand(1);
   app.footer(
-      "Exit codes: 0 done, 1 a comparison failed, 2 wrong usage, 3 bad scene or input,\n"
-      "4 could not write. Results are on stdout, everything else on stderr.");
+      "Exit codes: 0 done, 1 a comparison or certificate failed, 2 wrong usage,\n"
+      "3 bad scene or input, 4 could not write. Results are on stdout, everything else on stderr.");
   ExitCode exit_code = ExitCode::done;
   for (const minkray::AddVerb add : minkray::verbs) add(app, exit_code);
 
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? ExitCode::done : ExitCode::wrong_usage;
+    exit_code = app.exit(error) == 0 ? ExitCode::done : ExitCode::wrong_usage;
   }
   std::cout.flush();
   if (!std::cout) throw minkray::CannotWrite("stdout: cannot be written");
@@ -50,5 +51,7 @@ ExitCode run_and_report(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  // Beyond a limit of file sizes, writing fails with an error as on a full disk.
+  std::signal(SIGXFSZ, SIG_IGN);
   return static_cast<int>(run_and_report(argc, argv));
 }

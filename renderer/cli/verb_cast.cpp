@@ -5,9 +5,12 @@
 #include <oneapi/tbb/parallel_pipeline.h>
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <memory>
+#include <system_error>
 
 #include "renderer/cli/choices.h"
 #include "renderer/cli/verbs.h"
@@ -24,6 +27,10 @@ constexpr std::size_t lines_a_batch = 64;
 /// Batches on their way for each thread.
 constexpr std::size_t batches_a_thread = 4;
 
+/// A query with a hull of a million points is shorter; a file without line ends must not fill the
+/// memory.
+constexpr std::size_t most_bytes_a_line = std::size_t{64} << 20;
+
 struct Options {
   std::string file;
   std::string precision = "double";
@@ -32,25 +39,64 @@ struct Options {
   int threads = 0;
   bool trace = false;
   bool check = false;
+  bool certify = false;
+};
+
+/// How many answers there were, and how many of their certificates hold.
+struct CertificateCounts {
+  std::size_t holding = 0, failing = 0, without = 0;
+
+  CertificateCounts& operator+=(const CertificateCounts& other) {
+    holding += other.holding;
+    failing += other.failing;
+    without += other.without;
+    return *this;
+  }
+};
+
+struct Line {
+  std::string text;
+  bool is_too_long = false;
 };
 
 struct Batch {
   std::size_t first_line = 0;
-  std::vector<std::string> lines;
+  std::vector<Line> lines;
   std::string out;
   std::string err;
   bool has_malformed = false;
   bool has_wrong = false;
+  CertificateCounts certificates;
 };
+
+/// False at the end. Of a line that is too long only the length is taken notice of.
+bool read_line(std::istream& in, Line& line) {
+  using Traits = std::istream::traits_type;
+  std::streambuf& buffer = *in.rdbuf();
+  if (Traits::eq_int_type(buffer.sgetc(), Traits::eof())) return false;
+  line = {};
+  for (;;) {
+    const auto next = buffer.sbumpc();
+    if (Traits::eq_int_type(next, Traits::eof()) || next == '\n') return true;
+    if (line.text.size() < most_bytes_a_line)
+      line.text.push_back(Traits::to_char_type(next));
+    else
+      line.is_too_long = true;
+  }
+}
 
 bool is_blank(std::string_view line) {
   return line.find_first_not_of(" \t\r") == std::string_view::npos;
 }
 
-void answer_line(const std::string& line, const std::string& place, MeshFiles& meshes,
+void answer_line(const Line& line, const std::string& place, MeshFiles& meshes,
                  const AnswerOptions& options, bool check, Batch& batch) {
   Mistakes mistakes(place);
-  const std::optional<Query> query = parse_query(line, meshes, mistakes);
+  std::optional<Query> query;
+  if (line.is_too_long)
+    mistakes.add("must not be longer than " + std::to_string(most_bytes_a_line) + " bytes");
+  else
+    query = parse_query(line.text, meshes, mistakes);
   if (!query) {
     batch.has_malformed = true;
     batch.err += mistakes.text() + "\n";
@@ -58,6 +104,15 @@ void answer_line(const std::string& line, const std::string& place, MeshFiles& m
   }
   const Answer result = answer(*query, options);
   batch.out += result.json.dump() + "\n";
+  if (!result.verdict) {
+    ++batch.certificates.without;
+  } else if (result.verdict->holds) {
+    ++batch.certificates.holding;
+  } else {
+    ++batch.certificates.failing;
+    batch.err += place + ": " + printable(query->name, 80) +
+                 ": not certified: " + std::string(result.verdict->complaint) + "\n";
+  }
   if (!check) return;
   for (const std::string& complaint : complaints(*query, result.facts, options.precision)) {
     batch.has_wrong = true;
@@ -68,12 +123,18 @@ void answer_line(const std::string& line, const std::string& place, MeshFiles& m
 ExitCode cast(const Options& options) {
   const AnswerOptions answer_options{
       options.precision == "float" ? Precision::in_float : Precision::in_double,
-      solver_named(options.solver), subalgorithm_named(options.subalgorithm), options.trace};
+      solver_named(options.solver), subalgorithm_named(options.subalgorithm), options.trace,
+      options.certify};
 
   std::ifstream file;
   if (options.file != "-") {
+    std::error_code error;
+    if (std::filesystem::is_directory(options.file, error))
+      throw BadInput(options.file + ": must be a file (got a directory)");
+    errno = 0;
     file.open(options.file, std::ios::binary);
-    if (!file) throw BadInput(options.file + ": cannot be read");
+    if (!file)
+      throw BadInput(options.file + ": cannot be read: " + std::generic_category().message(errno));
   }
   std::istream& in = options.file == "-" ? std::cin : file;
   const std::string name = options.file == "-" ? "stdin" : options.file;
@@ -92,12 +153,20 @@ ExitCode cast(const Options& options) {
   using BatchPointer = std::shared_ptr<Batch>;
   std::size_t next_line = 1;
   bool has_malformed = false, has_wrong = false;
+  CertificateCounts certificates;
 
   const auto read = [&](oneapi::tbb::flow_control& flow) -> BatchPointer {
     auto batch = std::make_shared<Batch>();
     batch->first_line = next_line;
-    std::string line;
-    while (batch->lines.size() < lines_a_batch && std::getline(in, line)) {
+    Line line;
+    const auto next = [&] {
+      try {
+        return read_line(in, line);
+      } catch (const std::ios_base::failure&) {
+        throw BadInput(name + ": cannot be read to its end");
+      }
+    };
+    while (batch->lines.size() < lines_a_batch && next()) {
       batch->lines.push_back(std::move(line));
       // Answers to a slow writer come line by line.
       if (in.rdbuf()->in_avail() == 0 && options.file == "-") break;
@@ -108,7 +177,7 @@ ExitCode cast(const Options& options) {
   };
   const auto solve = [&](BatchPointer batch) {
     for (std::size_t i = 0; i < batch->lines.size(); ++i) {
-      if (is_blank(batch->lines[i])) continue;
+      if (is_blank(batch->lines[i].text)) continue;
       const std::string place = name + ":" + std::to_string(batch->first_line + i);
       answer_line(batch->lines[i], place, meshes.local(), answer_options, options.check, *batch);
     }
@@ -121,6 +190,7 @@ ExitCode cast(const Options& options) {
     std::cerr << batch->err;
     has_malformed |= batch->has_malformed;
     has_wrong |= batch->has_wrong;
+    certificates += batch->certificates;
   };
   using oneapi::tbb::filter_mode;
   oneapi::tbb::parallel_pipeline(
@@ -129,6 +199,10 @@ ExitCode cast(const Options& options) {
           oneapi::tbb::make_filter<BatchPointer, BatchPointer>(filter_mode::parallel, solve) &
           oneapi::tbb::make_filter<BatchPointer, void>(filter_mode::serial_in_order, write));
   if (in.bad()) throw BadInput(name + ": cannot be read");
+  if (options.certify)
+    std::cerr << "certificates: " << certificates.holding << " hold, " << certificates.failing
+              << " do not; " << certificates.without << " answers without (distances, turning)\n";
+  has_wrong |= certificates.failing > 0;
   return has_malformed ? ExitCode::bad_input
                        : (has_wrong ? ExitCode::comparison_failed : ExitCode::done);
 }
@@ -153,6 +227,8 @@ void add_cast(CLI::App& app, ExitCode& exit_code) {
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
   verb->add_flag("--trace", options->trace, "Add every iteration");
+  verb->add_flag("--certify", options->certify,
+                 "Prove every cast's answer (docs/certificates.md); exit 1 if a proof fails");
   verb->add_flag("--check", options->check,
                  "Compare with what each query expects; exit 1 if anything differs");
   verb->callback([options, &exit_code] { exit_code = cast(*options); });

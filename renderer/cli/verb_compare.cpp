@@ -35,7 +35,7 @@ int directions_for(std::size_t objects) {
 void compare(const Options& options, ExitCode& exit_code) {
   CompareSceneOptions compare_options;
   compare_options.object.cast.solver = cast_options(options.image.solver).solver;
-  options.image.check_outputs();
+  check_outputs(options.image.outputs);
   const Scene scene = load_scene(options.image.scene);
   if (!options.image.outputs.empty())
     compare_options.picture = options.image.render_options(scene).resolution;
@@ -43,7 +43,7 @@ void compare(const Options& options, ExitCode& exit_code) {
   compare_options.object.rays = options.rays > 0 ? options.rays : rays_for(objects);
   compare_options.object.sandwich.directions =
       options.directions > 0 ? options.directions : directions_for(objects);
-  compare_options.object.seed = options.image.seed;
+  compare_options.object.seed = parse_seed(options.image.seed);
 
   SceneComparison comparison;
   {
@@ -75,7 +75,7 @@ void add_compare(CLI::App& app, ExitCode& exit_code) {
       "compare", "Check every object of a scene against triangle meshes in Embree");
   const auto options = std::make_shared<Options>();
   ImageArguments& image = options->image;
-  image.seed = 1;
+  image.seed = "1";
   verb->add_option("scene", image.scene, "A scene file (JSON)")->required();
   verb->add_option("--rays", options->rays,
                    "Rays an object; by default 100000, less in scenes of over 200 objects")

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <sstream>
 
 #include "core/parallel/parallel.h"
@@ -20,7 +21,7 @@ namespace {
 struct Options {
   ImageArguments image;
   std::string channel = "iterations";
-  std::string side_by_side;  ///< solvers between commas; empty: just image.solver
+  std::optional<std::string> side_by_side;  ///< solvers between commas; none: just image.solver
 };
 
 HeatChannel channel_of(const std::string& name) {
@@ -43,9 +44,9 @@ std::vector<std::string> split(const std::string& text) {
 void run(const Options& options) {
   const HeatChannel channel = channel_of(options.channel);
   const std::vector<std::string> solvers =
-      split(options.side_by_side.empty() ? options.image.solver : options.side_by_side);
+      split(options.side_by_side.value_or(options.image.solver));
   for (const std::string& solver : solvers) cast_options(solver);
-  options.image.check_outputs();
+  check_outputs(options.image.outputs);
   const Scene scene = load_scene(options.image.scene);
   const RenderOptions render_options = options.image.render_options(scene, solvers.size());
 

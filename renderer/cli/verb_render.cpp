@@ -1,19 +1,29 @@
 // SPDX-License-Identifier: MIT
 // minkray render: a picture of a scene.
 #include <CLI/CLI.hpp>
-#include <cmath>
+#include <algorithm>
+#include <filesystem>
 #include <iomanip>
 #include <iostream>
 #include <memory>
+#include <optional>
 
 #include "core/parallel/parallel.h"
+#include "renderer/cli/command_line.h"
 #include "renderer/cli/image_arguments.h"
 #include "renderer/cli/progress_line.h"
+#include "renderer/cli/render_job.h"
+#include "renderer/cli/shared_render.h"
 #include "renderer/cli/verbs.h"
+#include "renderer/cli/write_picture.h"
+#include "renderer/data_channels.h"
 #include "renderer/errors.h"
+#include "renderer/image_file.h"
 #include "renderer/interrupt.h"
 #include "renderer/json/json.h"
+#include "renderer/merge.h"
 #include "renderer/labels.h"
+#include "renderer/ray_audit.h"
 #include "renderer/scene/scene_json.h"
 
 namespace minkray {
@@ -23,7 +33,15 @@ struct Options {
   ImageArguments image;
   double exposure = 0;
   int bounces = IntegratorOptions().bounces;
+  bool certify = false;
   std::string stats;  ///< empty: none, "true": text, "json"
+  std::optional<std::string> aov;
+  std::optional<std::string> tile, sample_share;
+  std::optional<int> tiles;
+  double checkpoint_seconds = 60;
+  bool resume = false;
+
+  bool is_piece() const { return tile || sample_share; }
 };
 
 struct Statistics {
@@ -91,13 +109,101 @@ void print(const Statistics& s) {
             << "\n";
 }
 
-void run(const Options& options) {
-  if (!std::isfinite(options.exposure) || std::abs(options.exposure) > 100)
-    throw WrongUsage("--exposure: must be a number of stops from -100 to 100");
+/// What was proven, and what not with a query that shows it.
+void report(const RayAudit& audit) {
+  std::uint64_t failed = 0;
+  std::cerr << "certified   " << audit.certificates() << " certificates for";
+  for (std::size_t i = 0; i < ray_kind_names.size(); ++i) {
+    const auto kind = static_cast<RayKind>(i);
+    failed += audit.failed(kind);
+    std::cerr << (i == 0 ? " " : ", ") << audit.rays(kind) << " " << ray_kind_names[i] << " rays";
+  }
+  std::cerr << "; without proof " << failed << "\n";
+  for (const AuditFailure& failure : audit.failures())
+    std::cerr << failure.message << "\n" << failure.query << (failure.query.empty() ? "" : "\n");
+  if (failed > 0)
+    std::cerr << "the lines in braces are queries for minkray cast --certify; their answers there "
+                 "show what is wrong\n";
+}
+
+/// Throws WrongUsage for what does not go together, and fills in what the options ask for.
+void read_options(const Options& options, const Ranks& ranks, RenderJob& job) {
+  check_exposure(options.exposure);
   if (!options.stats.empty() && options.stats != "true" && options.stats != "json")
     throw WrongUsage("--stats: takes nothing or =json (got " + options.stats + ")");
+  if (options.aov) job.channels = parse_data_channels(*options.aov);
+  const std::vector<std::string>& outputs = options.image.outputs;
+  if (options.aov && std::none_of(outputs.begin(), outputs.end(), keeps_planes))
+    throw WrongUsage("--aov: needs an output that ends in .exr (got " + outputs.front() + ")");
+  for (const std::string& output : outputs)
+    if (options.is_piece() && !keeps_planes(output))
+      throw WrongUsage("--output: a piece of a picture must end in .exr (got " + output + ")");
+  if (options.tile) job.options.tile = parse_share(*options.tile, "--tile");
+  if (options.sample_share)
+    job.options.sample_share = parse_share(*options.sample_share, "--sample-share");
+  if (options.sample_share && options.aov)
+    throw WrongUsage("--aov: goes with --tile, but not with --sample-share");
+  if (ranks.count() > 1 && options.is_piece())
+    throw WrongUsage(
+        "--tile, --sample-share: the ranks of an MPI job share the picture themselves");
+  if (options.certify && (ranks.count() > 1 || options.resume))
+    throw WrongUsage("--certify: proves the rays of one whole run: not with --resume or MPI");
+  if (ranks.count() == 1 && options.tiles)
+    throw WrongUsage("--tiles: is for several ranks of an MPI job (mpirun minkray render)");
+  if (ranks.rank() == 0) check_outputs(outputs);
+  job.command = command_line();
+  job.checkpoint_seconds = options.checkpoint_seconds;
+  job.resume = options.resume;
+  job.quiet = options.image.quiet;
+}
+
+void check_shares(const RenderOptions& options) {
+  const Share tile = options.tile, share = options.sample_share;
+  const PixelRect picture = options.picture();
+  if (!can_be_tiled(picture, tile.count))
+    throw WrongUsage("--tile: the picture has too few pixels for " + std::to_string(tile.count) +
+                     " tiles");
+  const int blocks = SampleBlocks{options.samples}.count();
+  if (share.count > blocks)
+    throw WrongUsage("--sample-share: " + std::to_string(options.samples) +
+                     " samples a pixel can be shared by at most " + std::to_string(blocks) +
+                     " (got " + share.text() + ")");
+}
+
+/// All ranks render, rank 0 writes.
+void run_on(Ranks& ranks, const RenderJob& job, const Options& options, Statistics& statistics) {
+  const std::string& output = options.image.outputs.front();
+  const int tiles = options.tiles.value_or(default_tile_count(job.options.picture()));
+  if (!can_be_tiled(job.options.picture(), tiles))
+    throw WrongUsage("--tiles: the picture has too few pixels for " + std::to_string(tiles));
+  const InterruptGuard guard;
+  const Stopwatch watch;
+  std::optional<Merged> merged = render_on(ranks, job, tiles, output);
+  statistics.trace_seconds = watch.seconds();
+  if (!merged) return;
+  statistics.counts = merged->counts;
+  merged->exr.texts[fact::command] = job.command;
+  const Stopwatch write_watch;
+  write_picture(options.image.outputs,
+                {merged->image(), labels_of(merged->exr.texts), merged->exr.window,
+                 job.options.resolution, merged->exr},
+                options.exposure);
+  statistics.write_seconds = write_watch.seconds();
+  std::error_code error;
+  std::filesystem::remove_all(parts_folder(output), error);
+}
+
+void report(const Statistics& statistics, const Options& options) {
+  warn_of_counts(statistics.counts);
+  if (options.stats == "json") std::cout << as_json(statistics).dump(2) << "\n";
+  if (options.stats == "true") print(statistics);
+}
+
+ExitCode run(const Options& options) {
+  Ranks ranks;
+  RenderJob job;
   const CastOptions<Real> cast = cast_options(options.image.solver);
-  options.image.check_outputs();
+  read_options(options, ranks, job);
 
   Statistics statistics;
   const auto timed = [&](const char* what, double& seconds, const auto& work) {
@@ -106,48 +212,59 @@ void run(const Options& options) {
     seconds = watch.seconds();
     if (options.image.verbose) std::cerr << what << ": " << seconds << " s\n";
   };
-  Scene scene;
-  timed("load", statistics.load_seconds, [&] { scene = load_scene(options.image.scene); });
-  RenderOptions render_options = options.image.render_options(scene);
-  render_options.integrator.bounces = options.bounces;
+  timed("load", statistics.load_seconds, [&] { job.scene = load_scene(options.image.scene); });
+  const RenderOptions shares = job.options;
+  job.options = options.image.render_options(job.scene);
+  job.options.tile = shares.tile;
+  job.options.sample_share = shares.sample_share;
+  job.options.integrator.bounces = options.bounces;
+  check_shares(job.options);
 
-  RenderWorld world;
-  timed("build", statistics.build_seconds, [&] { world = make_world(scene, cast); });
-  statistics.objects = scene.objects.size();
+  timed("build", statistics.build_seconds, [&] { job.world = make_world(job.scene, cast); });
+  statistics.objects = job.scene.objects.size();
+  std::optional<RayAudit> audit;
+  if (options.certify) job.options.integrator.audit = &audit.emplace(job.scene, job.world);
   statistics.threads = thread_count();
-  statistics.world_bytes = world.bytes();
-  statistics.bvh_bytes = world.bvh().bytes();
+  statistics.world_bytes = job.world.bytes();
+  statistics.bvh_bytes = job.world.bvh().bytes();
 
-  {
-    const InterruptGuard guard;
-    Rendering rendering;
-    timed("trace", statistics.trace_seconds, [&] {
-      ProgressLine line(!options.image.quiet);
-      rendering = render(scene, world, render_options,
-                         {[&](double fraction, std::uint64_t rays) { line.show(fraction, rays); },
-                          InterruptGuard::interrupted});
-    });
-    InterruptGuard::end_if_interrupted();
-    statistics.counts = rendering.counts;
-    timed("write", statistics.write_seconds, [&] {
-      const auto gain = static_cast<float>(std::exp2(options.exposure));
-      Image picture = rendering.image;
-      for (Vec3<float>& pixel : picture.pixels) pixel *= gain;
-      if (scene.labels) draw_labels(picture, scene, world, render_options);
-      write_images(options.image.outputs, picture, rendering.image);
-    });
+  if (ranks.count() > 1) {
+    run_on(ranks, job, options, statistics);
+    if (ranks.rank() == 0) report(statistics, options);
+    return ExitCode::done;
   }
 
-  warn_of_exhausted(statistics.counts.work.exhausted, statistics.counts.work.casts);
-  if (statistics.counts.from_inside > 0)
-    std::cerr << "warning: the camera is inside a shape, where it sees black\n";
-  if (options.stats == "json") std::cout << as_json(statistics).dump(2) << "\n";
-  if (options.stats == "true") print(statistics);
+  // Of pieces many are rendered, over and over where machines fail.
+  const std::string& output = options.image.outputs.front();
+  if (options.resume && options.is_piece() && is_part_of(output, facts_of(job))) {
+    if (!options.image.quiet) std::cerr << output << ": is there already\n";
+    return ExitCode::done;
+  }
+
+  RenderedJob done;
+  {
+    const InterruptGuard guard;
+    Checkpoint checkpoint = checkpoint_of(job, output);
+    timed("trace", statistics.trace_seconds, [&] { done = run(job, checkpoint); });
+    statistics.counts = done.rendering.counts;
+    timed("write", statistics.write_seconds, [&] {
+      write_picture(options.image.outputs,
+                    {std::move(done.rendering.image), std::move(done.labels), job.options.part(),
+                     job.options.resolution, std::move(done.exr)},
+                    options.exposure);
+    });
+    checkpoint.remove();
+  }
+
+  report(statistics, options);
+  if (!audit) return ExitCode::done;
+  report(*audit);
+  return audit->failures().empty() ? ExitCode::done : ExitCode::comparison_failed;
 }
 
 }  // namespace
 
-void add_render(CLI::App& app, ExitCode&) {
+void add_render(CLI::App& app, ExitCode& exit_code) {
   CLI::App* verb = app.add_subcommand("render", "Make a picture of a scene");
   const auto options = std::make_shared<Options>();
   options->image.samples = 16;
@@ -159,8 +276,32 @@ void add_render(CLI::App& app, ExitCode&) {
                    "How often light is scattered between objects; 0 for ambient occlusion")
       ->check(CLI::Range(0, 64))
       ->capture_default_str();
+  std::string channels;
+  for (const DataChannelDescription& channel : data_channels)
+    channels += "\n" + std::string(channel.name) + ": " + std::string(channel.doc);
+  verb->add_option("--aov", options->aov,
+                   "Data channels of .exr, between commas, or all; of the ray through the pixel's "
+                   "centre, not filtered:" +
+                       channels);
+  verb->add_option("--tile", options->tile,
+                   "i/n: just the i-th of n pieces of the picture, for minkray merge");
+  verb->add_option("--sample-share", options->sample_share,
+                   "i/n: just the i-th of n shares of each pixel's samples, for minkray merge");
+  verb->add_option("--tiles", options->tiles,
+                   "Under mpirun: into how many tiles the picture is split; by default each has "
+                   "about 64 x 64 pixels")
+      ->check(CLI::Range(1, 999999));
+  verb->add_option("--checkpoint", options->checkpoint_seconds,
+                   "Seconds between checkpoints beside the first output; 0 for none")
+      ->check(CLI::Range(0.0, 1e9))
+      ->capture_default_str();
+  verb->add_flag("--resume", options->resume, "Go on from the checkpoint, if there is one");
   verb->add_flag("--stats", options->stats, "Print rays, speed, work and memory; --stats=json");
-  verb->callback([options] { with_threads(options->image.threads, [&] { run(*options); }); });
+  verb->add_flag("--certify", options->certify,
+                 "Prove the answer to every ray (docs/certificates.md); exit 1 if a proof fails");
+  verb->callback([options, &exit_code] {
+    with_threads(options->image.threads, [&] { exit_code = run(*options); });
+  });
 }
 
 }  // namespace minkray

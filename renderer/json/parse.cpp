@@ -2,13 +2,12 @@
 #include "renderer/json/parse.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <fstream>
-#include <iterator>
+#include <stdexcept>
 #include <string>
-#include <system_error>
 #include <unordered_set>
 #include <vector>
+
+#include "core/files/regular_file.h"
 
 namespace minkray {
 namespace {
@@ -197,19 +196,12 @@ std::optional<Json> parse_json(std::string_view text, Mistakes& mistakes) {
 }
 
 std::optional<std::string> read_text_file(const std::filesystem::path& path, Mistakes& mistakes) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error)) {
-    mistakes.add("must be a file (got a directory)");
+  try {
+    return read_regular_file(path, most_json_bytes);
+  } catch (const std::runtime_error& error) {
+    mistakes.add(error.what());
     return std::nullopt;
   }
-  errno = 0;
-  std::ifstream in(path, std::ios::binary);
-  std::string text(std::istreambuf_iterator<char>(in), {});
-  if (!in.is_open() || in.bad()) {
-    mistakes.add("cannot be read: " + std::generic_category().message(errno));
-    return std::nullopt;
-  }
-  return text;
 }
 
 }  // namespace minkray

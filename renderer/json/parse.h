@@ -16,11 +16,15 @@ namespace minkray {
 /// can hold.
 inline constexpr std::size_t deepest_json_nesting = 256;
 
+/// Some million objects. The values take about twenty times as much memory as the text.
+inline constexpr std::size_t most_json_bytes = std::size_t{256} << 20;
+
 /// The value, with null in the place of numbers that are not finite. Nothing if the text cannot be
 /// read to its end; whatever is wrong with it is added to the mistakes.
 std::optional<Json> parse_json(std::string_view text, Mistakes& mistakes);
 
-/// The contents of a file; nothing, and a mistake, if it cannot be read.
+/// The contents of a file; nothing, and a mistake, if it cannot be read,
+/// is no regular file (pipes do not end), or is too large.
 std::optional<std::string> read_text_file(const std::filesystem::path& path, Mistakes& mistakes);
 
 }  // namespace minkray

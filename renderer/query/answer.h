@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/solver/cast.h"
+#include "core/solver/check_certificate.h"
 #include "core/solver/subalgorithm.h"
 #include "renderer/json/json.h"
 #include "renderer/query/query.h"
@@ -20,6 +21,7 @@ struct AnswerOptions {
   SolverKind solver = SolverKind::automatic;
   SubalgorithmKind subalgorithm = SubalgorithmKind::projection;  ///< for distances
   bool trace = false;
+  bool certify = false;  ///< prove the answers of casts
 };
 
 /// What --check compares.
@@ -34,6 +36,7 @@ struct AnswerFacts {
 struct Answer {
   Json json;
   AnswerFacts facts;
+  std::optional<CertificateVerdict> verdict;  ///< on the answer's certificate, if one was asked for
 };
 
 Answer answer(const Query& query, const AnswerOptions& options);

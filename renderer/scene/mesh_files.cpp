@@ -24,15 +24,27 @@ std::string advice(const std::filesystem::path& folder, const std::filesystem::p
 std::optional<PointCloud<double>> MeshFiles::read(const std::string& name, const JsonPath& path,
                                                   Mistakes& mistakes) {
   const auto known = read_.find(name);
-  if (known != read_.end()) return known->second;
+  if (known != read_.end()) return known->second.points;
   const std::filesystem::path file = folder_ / name;
   try {
-    PointCloud<double> points(read_mesh_vertices(file), name);
-    read_.emplace(name, points);
+    std::vector<Vec3<double>> vertices = read_mesh_vertices(file);
+    static_assert(sizeof(Vec3<double>) == 3 * sizeof(double));
+    Hash hash;
+    hash.add(
+        {reinterpret_cast<const char*>(vertices.data()), vertices.size() * sizeof vertices[0]});
+    PointCloud<double> points(std::move(vertices), name);
+    read_.emplace(name, Mesh{points, hash.text()});
     return points;
   } catch (const std::exception& error) {
     mistakes.add(path, printable(file.string(), 200) + ": " + error.what() + advice(folder_, file));
     return std::nullopt;
+  }
+}
+
+void MeshFiles::add_to(Hash& hash) const {
+  for (const auto& [name, mesh] : read_) {
+    hash.add(name);
+    hash.add(mesh.hash);
   }
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/shape/point_cloud.h"
+#include "renderer/hash.h"
 #include "renderer/json/mistakes.h"
 
 namespace minkray {
@@ -21,9 +22,16 @@ class MeshFiles {
   std::optional<PointCloud<double>> read(const std::string& name, const JsonPath& path,
                                          Mistakes& mistakes);
 
+  /// Of what was read: the names, and all vertices.
+  void add_to(Hash& hash) const;
+
  private:
+  struct Mesh {
+    PointCloud<double> points;
+    std::string hash;  ///< of all vertices, in the file's order
+  };
   std::filesystem::path folder_;
-  std::map<std::string, PointCloud<double>> read_;
+  std::map<std::string, Mesh> read_;
 };
 
 }  // namespace minkray

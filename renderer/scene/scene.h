@@ -177,6 +177,7 @@ struct Scene {
   std::vector<Object> objects;
   Background background;
   bool labels = false;  ///< whether the objects' names are drawn into the picture
+  std::string hash;     ///< of the file it came from and of its meshes' vertices; or empty
 };
 
 }  // namespace minkray

@@ -22,6 +22,8 @@ class SceneReader {
   SceneReader(Scene& scene, const std::filesystem::path& folder, Mistakes& mistakes)
       : scene_(scene), meshes_(folder), mistakes_(mistakes) {}
 
+  void add_meshes_to(Hash& hash) const { meshes_.add_to(hash); }
+
   void read(const Json& json) {
     ObjectReader file(json, JsonPath(), mistakes_);
     if (!file.is_object()) return;
@@ -196,8 +198,13 @@ std::optional<Scene> parse_scene(std::string_view text, const std::filesystem::p
   const auto json = parse_json(text, mistakes);
   if (!json) return std::nullopt;
   Scene scene;
-  SceneReader(scene, folder, mistakes).read(*json);
+  SceneReader reader(scene, folder, mistakes);
+  reader.read(*json);
   if (!mistakes.none()) return std::nullopt;
+  Hash hash;
+  hash.add(text);
+  reader.add_meshes_to(hash);
+  scene.hash = hash.text();
   return scene;
 }
 

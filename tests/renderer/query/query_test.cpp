@@ -55,6 +55,27 @@ TEST(HardCases, all_are_right_in_double_and_in_float) {
   }
 }
 
+TEST(HardCases, all_are_certified_in_double_and_in_float) {
+  std::ifstream in(std::string(MINKRAY_TEST_CASES) + "/hard-casts.jsonl");
+  int certified = 0;
+  for (std::string line; std::getline(in, line);) {
+    Mistakes mistakes("hard-casts.jsonl");
+    const auto query = parse(line, mistakes);
+    ASSERT_TRUE(query.has_value());
+    for (const Precision precision : {Precision::in_double, Precision::in_float}) {
+      AnswerOptions options;
+      options.precision = precision;
+      options.certify = true;
+      const Answer result = answer(*query, options);
+      ASSERT_TRUE(result.verdict.has_value()) << query->name;
+      EXPECT_TRUE(result.verdict->holds) << query->name << ": " << result.verdict->complaint;
+      EXPECT_EQ(result.json.at("certified").at("holds"), true);
+      ++certified;
+    }
+  }
+  EXPECT_EQ(certified, 2 * 47);
+}
+
 TEST(HardCases, all_are_right_with_algorithm_1_in_double) {
   AnswerOptions options;
   options.solver = SolverKind::first_solution;

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#include "bench/peers/closed_forms.h"
+#include "bench/peers/others.h"
+
+namespace minkray::bench {
+namespace {
+
+template <class Entry>
+Peers one(Entry entry) {
+  Peers peers;
+  peers.push_back(single_rays<float>(
+      "closed-form/float", [entry](const Ray<float>& ray) { return hit_at(entry(ray)); }));
+  return peers;
+}
+
+}  // namespace
+
+Peers closed_forms(const Shape<double>& shape) {
+  if (const auto* s = std::get_if<Sphere<double>>(&shape.kind))
+    return one([radii = Vec3<float>(Vec3<float>::Constant(static_cast<float>(s->radius)))](
+                   const Ray<float>& ray) { return ellipsoid_entry(radii, ray); });
+  if (const auto* s = std::get_if<Ellipsoid<double>>(&shape.kind))
+    return one([radii = Vec3<float>(s->radii.cast<float>())](const Ray<float>& ray) {
+      return ellipsoid_entry(radii, ray);
+    });
+  if (const auto* s = std::get_if<Box<double>>(&shape.kind))
+    return one([extents = Vec3<float>(s->half_extents.cast<float>())](const Ray<float>& ray) {
+      return box_entry(extents, ray);
+    });
+  if (const auto* s = std::get_if<Cylinder<double>>(&shape.kind))
+    return one([r = static_cast<float>(s->radius), h = static_cast<float>(s->half_height)](
+                   const Ray<float>& ray) { return cylinder_entry(r, h, ray); });
+  if (const auto* s = std::get_if<Capsule<double>>(&shape.kind))
+    return one([r = static_cast<float>(s->radius), h = static_cast<float>(s->half_height)](
+                   const Ray<float>& ray) { return capsule_entry(r, h, ray); });
+  return {};
+}
+
+}  // namespace minkray::bench

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#include "bench/peers/others.h"
+#include "tests/oracle/mujoco_ray.h"
+
+namespace minkray::bench {
+
+Peers mujoco(const Shape<double>& shape) {
+  Peers peers;
+  if (const auto ray_at = testing::MujocoRay::make(shape))
+    peers.push_back(single_rays<double>(
+        "mujoco/double",
+        [ray_at = *ray_at](const Ray<double>& ray) { return hit_at(ray_at.entry(ray)); }));
+  return peers;
+}
+
+}  // namespace minkray::bench

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: MIT
+// Casting the ray exactly on the hull of at most four translates of one ball or ellipsoid: in closed
+// form. docs/theory.md derives it.
+//
+// Frame: the ray runs down the z axis, from +z to -z. In a direction m with m.z > 0 the hull's
+// supporting plane cuts the axis at height reach(m)/m.z, and the hit is the least of these heights.
+// m.z = 0 with reach(m) < 0 separates hull and ray.
+#pragma once
+
+#include <array>
+
+#include "core/solver/ray_frame.h"
+
+namespace minkray {
+
+/// What translates of one body look like: a ball.
+template <class W>
+struct RoundBody {
+  W radius;
+
+  W bend(const Vec3<W>&) const { return radius; }
+  Vec3<W> spot(const Vec3<W>& m) const { return m * radius; }
+
+  /// The normal, of unit length, where the ray meets the body around c, or across from it.
+  Vec3<W> alone(const Vec3<W>& c) const {
+    using std::max;
+    using std::sqrt;
+    const W den = radius * radius - (c.x() * c.x() + c.y() * c.y());
+    return unit<W>({-c.x(), -c.y(), sqrt(max(den, W(0)))});
+  }
+
+  /// The same for the cylinder that the body sweeps along e. `touch` is where, seen from the body's
+  /// centre, the cylinder is met; if it is passed by, where one grown to be touched would be.
+  Vec3<W> swept(const Vec3<W>& c, const Vec3<W>& e, const W& length, Vec3<W>& touch) const {
+    using std::abs;
+    using std::max;
+    using std::sqrt;
+    const Vec3<W> t(-e.y() / length, e.x() / length, W(0));
+    const Vec3<W> w = unit<W>({-e.x() * e.z(), -e.y() * e.z(), length * length});
+    const W L = t.x() * c.x() + t.y() * c.y();
+    const W den = radius * radius - L * L;
+    const Mask<W> crosses = den > W(0);
+    const Vec3<W> onto = unit<W>(Vec3<W>(w * sqrt(max(den, W(0))) - t * L));
+    const Vec3<W> m = select<W>(crosses, onto, select<W>(L > W(0), Vec3<W>(-t), t));
+    touch = m * select(crosses, radius, W(abs(L)));
+    return m;
+  }
+};
+
+/// An ellipsoid { F b : |b| <= 1 }; columns of F may be zero.
+template <class W>
+struct EllipsoidBody {
+  Mat3<W> F;
+
+  W bend(const Vec3<W>& m) const { return (F.transpose() * m).norm(); }
+  /// By way of a unit vector, so that it is a point of the ellipsoid even where F^T m is nothing but
+  /// rounding.
+  Vec3<W> spot(const Vec3<W>& m) const { return F * unit<W>(F.transpose() * m); }
+
+  Vec3<W> alone(const Vec3<W>& c) const {
+    using std::abs;
+    using std::max;
+    using std::sqrt;
+    // With N_kl = f_k x f_l: det = sum N_kl.z^2, adj c and the rest of the minors of A = F F^T are
+    // sums of products of these, which keep the digits that A itself loses for needles.
+    W det(0), off(0);
+    Vec3<W> across = Vec3<W>::Zero(), adj = Vec3<W>::Zero();
+    for (int k = 0; k < 3; ++k) {
+      for (int l = k + 1; l < 3; ++l) {
+        const Vec3<W> N = F.col(k).cross(F.col(l));
+        det += N.z() * N.z();
+        across += N * N.z();
+      }
+      const W moment = F(0, k) * c.y() - F(1, k) * c.x();
+      off += moment * moment;
+      adj += Vec3<W>(-F(1, k), F(0, k), W(0)) * moment;
+    }
+    const W volume = abs(F.col(0).dot(F.col(1).cross(F.col(2))));
+    const W den = det - off;
+    const Vec3<W> onto = across * sqrt(max(den, W(0))) - adj * volume;
+    return unit<W>(select<W>(den > W(0), onto, Vec3<W>(-adj)));
+  }
+
+  Vec3<W> swept(const Vec3<W>& c, const Vec3<W>& e, const W& length, Vec3<W>& touch) const {
+    using std::abs;
+    using std::max;
+    using std::sqrt;
+    const Vec3<W> t(-e.y() / length, e.x() / length, W(0));
+    const Vec3<W> w = unit<W>({-e.x() * e.z(), -e.y() * e.z(), length * length});
+    const Vec3<W> yw = F.transpose() * w, yt = F.transpose() * t;
+    const W ga = yt.squaredNorm(), et = yw.dot(yt), D = yw.cross(yt).norm();
+    const W L = -t.dot(c);
+    const W den = ga - L * L, root = sqrt(max(den, W(0)));
+    const Mask<W> crosses = den > W(0);
+    const Vec3<W> onto = w * (ga * root) + t * (L * D - et * root);
+    const Vec3<W> m = select<W>(crosses, unit<W>(onto), select<W>(L < W(0), Vec3<W>(-t), t));
+    const Vec3<W> grown = F * (F.transpose() * m) * (abs(L) / select(ga > W(0), ga, W(1)));
+    touch = select<W>(crosses, spot(m), grown);
+    return m;
+  }
+};
+
+/// The bodies' centres that are there beside the newest one.
+template <class W>
+struct Translates {
+  std::array<Vec3<W>, 3> c = {Vec3<W>::Zero(), Vec3<W>::Zero(), Vec3<W>::Zero()};
+  std::array<Mask<W>, 3> valid = {Mask<W>(false), Mask<W>(false), Mask<W>(false)};
+};
+
+/// The hit on the hull.
+template <class W>
+struct HullCastHit {
+  Vec3<W> m = Vec3<W>::Zero();     ///< of unit length
+  Mask<W> found = Mask<W>(false);  ///< it is the hit, or separates; otherwise the best that is known
+  std::array<W, 3> weights = {W(0), W(0), W(0)};  ///< of the others' spots; the newest's completes 1
+  W rank = W(std::numeric_limits<Lane<W>>::infinity());  ///< height of the hull's plane
+};
+
+/// The cast; `rounding` is how far beside the ray counts as on it.
+template <class W, class Body>
+class HullCast {
+ public:
+  using T = Lane<W>;
+
+  HullCast(const Body& body, const Vec3<W>& newest, const Translates<W>& others, const W& rounding)
+      : body_(body), newest_(newest), others_(others), rounding_(rounding) {}
+
+  /// The hit, the newest body among its carriers. A candidate that another body reaches beyond is
+  /// joined by that body; should this not lead to the hit, all candidates are tried.
+  HullCastHit<W> solve() {
+    const Furthest second =
+        consider(body_.alone(newest_), Mask<W>(true), {W(0), W(0), W(0)}, Mask<W>(true));
+    if (all(hit_.found)) return hit_;
+    const Furthest third = edge(second.c, second.at, second.some);
+    if (all(hit_.found)) return hit_;
+    face(second, third);
+    if (all(hit_.found)) return hit_;
+    for (std::size_t k = 0; k < 3; ++k) edge(others_.c[k], only(k), others_.valid[k]);
+    for (std::size_t j = 0; j < 3; ++j)
+      for (std::size_t k = j + 1; k < 3; ++k)
+        face({others_.c[j], W(0), only(j), others_.valid[j]},
+             {others_.c[k], W(0), only(k), others_.valid[k]});
+    return hit_;
+  }
+
+ private:
+  using Places = std::array<Mask<W>, 3>;
+
+  /// The body that reaches furthest in some direction, if there is one.
+  struct Furthest {
+    Vec3<W> c = Vec3<W>::Zero();
+    W reach = W(-std::numeric_limits<T>::infinity());
+    Places at = {Mask<W>(false), Mask<W>(false), Mask<W>(false)};
+    Mask<W> some = Mask<W>(false);
+  };
+
+  static Places only(std::size_t k) {
+    Places at = {Mask<W>(false), Mask<W>(false), Mask<W>(false)};
+    at[k] = Mask<W>(true);
+    return at;
+  }
+
+  Furthest furthest_in(const Vec3<W>& m) const {
+    Furthest best;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const W reach = others_.c[k].dot(m);
+      const Mask<W> further = others_.valid[k] & (reach > best.reach);
+      best.c = select<W>(further, others_.c[k], best.c);
+      best.reach = select(further, reach, best.reach);
+      for (std::size_t j = 0; j < k; ++j) best.at[j] &= !further;
+      best.at[k] = further;
+      best.some |= further;
+    }
+    return best;
+  }
+
+  /// Takes the candidate of direction m where it is better than the hit so far: where `meets` (its
+  /// bodies meet the ray) and no other body reaches further, it is the hit.
+  Furthest consider(const Vec3<W>& m, const Mask<W>& meets, const std::array<W, 3>& weights,
+                    const Mask<W>& candidate) {
+    using std::max;
+    const Furthest furthest = furthest_in(m);
+    const W reach = newest_.dot(m);
+    const Mask<W> unbeaten = !(furthest.reach - reach > rounding_);
+    const W value = max(reach, furthest.reach) + body_.bend(m);
+    const Mask<W> ahead = m.z() > W(0);
+    const W out_of_reach = W(std::numeric_limits<T>::max());
+    const W rank = select(ahead, W(value / select(ahead, m.z(), W(1))),
+                          select(value < W(0), W(-out_of_reach), out_of_reach));
+    const Mask<W> useful = meets & unbeaten & (ahead | (value < W(0)));
+    const Mask<W> wins = candidate & (!hit_.found) & (useful | (rank < hit_.rank));
+    hit_.m = select<W>(wins, m, hit_.m);
+    hit_.rank = select(wins, rank, hit_.rank);
+    hit_.found |= wins & useful;
+    for (std::size_t k = 0; k < 3; ++k)
+      hit_.weights[k] = select(wins, weights[k], hit_.weights[k]);
+    return furthest;
+  }
+
+  /// Two: the cylinder between them.
+  Furthest edge(const Vec3<W>& other, const Places& at, const Mask<W>& candidate) {
+    using std::sqrt;
+    if (!any(candidate & !hit_.found)) return {};
+    const Vec3<W> e = newest_ - other;
+    const W E = e.x() * e.x() + e.y() * e.y();
+    const W length = sqrt(E);
+    Vec3<W> touch;
+    const Vec3<W> m = body_.swept(newest_, e, length, touch);
+    const W x = other.x() + touch.x(), y = other.y() + touch.y();
+    const W share = -(x * e.x() + y * e.y()) / E, slack = rounding_ / length;
+    std::array<W, 3> weights;
+    for (std::size_t k = 0; k < 3; ++k) weights[k] = select(at[k], W(W(1) - share), W(0));
+    return consider(m, (share >= -slack) & (share <= W(1) + slack), weights,
+                    candidate & (E > W(0)));
+  }
+
+  /// Three: the plane that touches them.
+  void face(const Furthest& second, const Furthest& third) {
+    Mask<W> candidate = second.some & third.some;
+    for (std::size_t k = 0; k < 3; ++k) candidate &= !(second.at[k] & third.at[k]);
+    if (!any(candidate & !hit_.found)) return;
+    const Vec3<W> m = upper_normal(newest_, second.c, third.c);
+    const Vec3<W> touch = body_.spot(m);
+    const Vec3<W> a = newest_ + touch, b = second.c + touch, c = third.c + touch;
+    const Mask<W> meets = passes_between(a, b, c) | passes_edge(a, b, rounding_) |
+                          passes_edge(b, c, rounding_) | passes_edge(c, a, rounding_);
+    const W of_b = cross_2d(c, a), of_c = cross_2d(a, b), sum = cross_2d(b, c) + of_b + of_c;
+    std::array<W, 3> weights;
+    for (std::size_t k = 0; k < 3; ++k)
+      weights[k] = select(second.at[k], W(of_b / sum), select(third.at[k], W(of_c / sum), W(0)));
+    consider(m, meets, weights, candidate & (m.z() > W(0)) & (sum != W(0)));
+  }
+
+  Body body_;
+  Vec3<W> newest_;
+  const Translates<W>& others_;
+  W rounding_;
+  HullCastHit<W> hit_;
+};
+
+}  // namespace minkray

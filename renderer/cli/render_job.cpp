@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/cli/render_job.h"
+
+#include <ctime>
+#include <iostream>
+
+#include "core/parallel/parallel.h"
+#include "renderer/cli/progress_line.h"
+#include "renderer/data_channels.h"
+#include "renderer/interrupt.h"
+#include "renderer/part_file.h"
+
+namespace minkray {
+namespace {
+
+/// Ends the process if it was interrupted, when the checkpoint is on the disk.
+void end_if_interrupted(const Rendering& rendering, Checkpoint& checkpoint) {
+  if (!InterruptGuard::interrupted()) return;
+  checkpoint.interrupted(rendering);
+  if (const std::string complaint = checkpoint.complaint(); !complaint.empty())
+    std::cerr << "warning: no checkpoint: " << complaint << "\n";
+  InterruptGuard::end_if_interrupted();
+}
+
+}  // namespace
+
+Facts facts_of(const RenderJob& job) {
+  Facts facts = picture_facts(job.scene, job.world, job.options);
+  std::string channels;
+  for (const std::string_view channel : job.channels)
+    channels += (channels.empty() ? "" : ",") + std::string(channel);
+  if (!channels.empty()) facts[fact::aov] = channels;
+  facts[fact::tile] = job.options.tile.text();
+  facts[fact::sample_share] = job.options.sample_share.text();
+  return facts;
+}
+
+Checkpoint checkpoint_of(const RenderJob& job, const std::string& output) {
+  return {Checkpoint::path_for(output), job.options, facts_of(job), job.checkpoint_seconds};
+}
+
+RenderedJob run(const RenderJob& job, Checkpoint& checkpoint) {
+  RenderJournal journal;
+  if (job.resume && checkpoint.exists()) {
+    journal = checkpoint.load();
+  } else if (!job.quiet && job.resume) {
+    std::cerr << "no checkpoint: from the beginning\n";
+  } else if (!job.quiet && checkpoint.exists()) {
+    std::cerr << "from the beginning: without --resume, the checkpoint that is there is replaced\n";
+  }
+  journal.finished = [&](const Rendering& rendering, std::size_t tile) {
+    checkpoint.tile_finished(rendering, tile);
+  };
+
+  RenderedJob done;
+  const Stopwatch watch;
+  const std::clock_t begin = std::clock();
+  {
+    ProgressLine line(!job.quiet);
+    done.rendering =
+        render(job.scene, job.world, job.options,
+               {[&](double fraction, std::uint64_t rays) { line.show(fraction, rays); },
+                InterruptGuard::interrupted},
+               std::move(journal));
+  }
+  end_if_interrupted(done.rendering, checkpoint);
+  std::vector<ExrPlane> data;
+  if (!job.channels.empty())
+    data = measure_data_channels(job.scene, job.world, job.channels, job.options,
+                                 {{}, InterruptGuard::interrupted});
+  end_if_interrupted(done.rendering, checkpoint);
+  done.seconds = watch.seconds();
+
+  done.labels = labels_of(job.scene, job.world, job.options.resolution);
+  Facts facts = facts_of(job);
+  facts[fact::command] = job.command;
+  facts[counts_fact] = counts_text(done.rendering.counts);
+  facts[seconds_fact] = std::to_string(done.seconds);
+  facts[cpu_seconds_fact] =
+      std::to_string(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
+  facts[threads_fact] = std::to_string(thread_count());
+  if (!done.labels.empty()) facts[labels_fact] = labels_text(done.labels);
+  done.exr = exr_of(done.rendering, job.options, std::move(facts));
+  for (ExrPlane& plane : data) done.exr.planes.push_back(std::move(plane));
+  if (const std::string complaint = checkpoint.complaint(); !complaint.empty())
+    std::cerr << "warning: a checkpoint could not be written: " << complaint << "\n";
+  return done;
+}
+
+}  // namespace minkray

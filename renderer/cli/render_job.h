@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// Rendering a picture or a piece of one such that nothing is lost: with checkpoints, going on where
+// an earlier run ended, and in the OpenEXR form that is written.
+#pragma once
+
+#include <string_view>
+
+#include "renderer/checkpoint.h"
+#include "renderer/exr.h"
+#include "renderer/labels.h"
+
+namespace minkray {
+
+/// What is the same for all pieces of a picture.
+struct RenderJob {
+  Scene scene;
+  RenderWorld world;
+  RenderOptions options;
+  std::vector<std::string_view> channels;  ///< names of data channels
+  std::string command;
+  double checkpoint_seconds = 60;
+  bool resume = false;
+  bool quiet = false;
+};
+
+struct RenderedJob {
+  Rendering rendering;
+  ExrImage exr;  ///< with facts: the picture's, the piece's, what it cost
+  std::vector<Label> labels;
+  double seconds = 0;
+};
+
+/// The facts of the job's picture and of which piece of it it is.
+Facts facts_of(const RenderJob& job);
+
+/// The checkpoint beside the first of a job's outputs.
+Checkpoint checkpoint_of(const RenderJob& job, const std::string& output);
+
+/// Renders; goes on from the checkpoint if the job says so and there is one. Ends the process if it
+/// is interrupted, with what is done in the checkpoint. Remove the checkpoint when all is written.
+RenderedJob run(const RenderJob& job, Checkpoint& checkpoint);
+
+}  // namespace minkray

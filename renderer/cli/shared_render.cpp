@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/cli/shared_render.h"
+
+#include <sched.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <mutex>
+#include <thread>
+
+#include "core/parallel/parallel.h"
+#include "renderer/errors.h"
+#include "renderer/interrupt.h"
+#include "renderer/output_file.h"
+
+namespace minkray {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What a rank asks for, and what it gets if there is nothing left; tiles count from 1.
+constexpr int give_me_a_tile = 0;
+constexpr int no_more_tiles = 0;
+
+/// How often rank 0 looks for requests. Waiting within MPI would keep a core busy.
+constexpr auto pause = std::chrono::milliseconds(1);
+
+/// Hands out the numbers 1 to count, each once.
+class TileQueue {
+ public:
+  explicit TileQueue(int count) : count_(count) {}
+  int next() {
+    const std::lock_guard lock(mutex_);
+    return given_ < count_ ? ++given_ : no_more_tiles;
+  }
+
+ private:
+  std::mutex mutex_;
+  const int count_;
+  int given_ = 0;
+};
+
+/// Answers the other ranks until each was told that there are no more tiles, or a stop is wanted.
+void hand_out(const std::stop_token& stop, Ranks& ranks, TileQueue& queue) {
+  int at_work = ranks.count() - 1;
+  while (at_work > 0 && !stop.stop_requested() && !InterruptGuard::interrupted()) {
+    const auto request = ranks.poll();
+    if (!request) {
+      std::this_thread::sleep_for(pause);
+      continue;
+    }
+    const int tile = queue.next();
+    ranks.send(request->from, tile);
+    if (tile == no_more_tiles) --at_work;
+  }
+}
+
+std::string part_file(const std::string& output, int tile, int tiles) {
+  std::array<char, 64> name;
+  std::snprintf(name.data(), name.size(), "%06d-of-%06d.exr", tile, tiles);
+  return (fs::path(parts_folder(output)) / name.data()).string();
+}
+
+void tell_threads(const Ranks& ranks) {
+  std::array<char, 256> host = {};
+  ::gethostname(host.data(), host.size() - 1);
+  const std::string rank =
+      "rank " + std::to_string(ranks.rank()) + " of " + std::to_string(ranks.count());
+  std::string text = rank + " on " + host.data() + ": " + std::to_string(thread_count()) +
+                     (thread_count() == 1 ? " thread\n" : " threads\n");
+  cpu_set_t cores;
+  CPU_ZERO(&cores);
+  const long online = ::sysconf(_SC_NPROCESSORS_ONLN);
+  if (::sched_getaffinity(0, sizeof cores, &cores) == 0 && CPU_COUNT(&cores) == 1 && online > 1)
+    text += "warning: " + rank + " is pinned to one of " + std::to_string(online) +
+            " cores: give mpirun --bind-to none, or --map-by slot:PE=n for n cores a rank\n";
+  std::cerr << text;  // at once, so that the ranks' lines do not mix
+}
+
+}  // namespace
+
+std::string parts_folder(const std::string& output) {
+  return output + ".parts";
+}
+
+int default_tile_count(const PixelRect& picture) {
+  constexpr std::int64_t pixels_a_tile = 64 * 64;
+  const std::int64_t pixels = std::int64_t{picture.width()} * picture.height();
+  return static_cast<int>(std::clamp<std::int64_t>(pixels / pixels_a_tile, 1, 9999));
+}
+
+std::optional<Merged> render_on(Ranks& ranks, const RenderJob& job, int tiles,
+                                const std::string& output) {
+  tell_threads(ranks);
+  std::error_code error;
+  fs::create_directories(parts_folder(output), error);
+  if (error) throw CannotWrite("cannot write " + parts_folder(output) + ": " + error.message());
+
+  RenderJob tile_job = job;
+  tile_job.quiet = true;
+  const auto render_tile = [&](int tile) {
+    tile_job.options.tile = {tile, tiles};
+    const std::string file = part_file(output, tile, tiles);
+    if (job.resume && is_part_of(file, facts_of(tile_job))) return;
+    Checkpoint checkpoint = checkpoint_of(tile_job, file);
+    write_file(file, encode_exr(run(tile_job, checkpoint).exr));
+    checkpoint.remove();
+    InterruptGuard::end_if_interrupted();
+  };
+
+  if (ranks.rank() != 0) {
+    for (;;) {
+      ranks.send(0, give_me_a_tile);
+      const int tile = ranks.receive(0).number;
+      if (tile == no_more_tiles) return std::nullopt;
+      render_tile(tile);
+    }
+  }
+  TileQueue queue(tiles);
+  {
+    // Declared after what it uses: it is joined first, also when a tile of ours fails.
+    std::jthread others([&](const std::stop_token& stop) { hand_out(stop, ranks, queue); });
+    while (const int tile = queue.next()) {
+      render_tile(tile);
+      if (!job.quiet && ::isatty(STDERR_FILENO) == 1)
+        std::cerr << "\rtile " << tile << " of " << tiles << std::flush;
+    }
+    others.join();
+  }
+  InterruptGuard::end_if_interrupted();
+  std::vector<std::string> files;
+  for (int tile = 1; tile <= tiles; ++tile) files.push_back(part_file(output, tile, tiles));
+  return merge_parts(files, false);
+}
+
+}  // namespace minkray

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// One picture by all ranks of an MPI job: rank 0 hands out tiles, every rank (rank 0 as well)
+// renders them into files as `render --tile` does, and rank 0 merges the files. A job that was
+// killed goes on from the files that are there.
+#pragma once
+
+#include <optional>
+
+#include "renderer/cli/render_job.h"
+#include "renderer/merge.h"
+#include "renderer/ranks.h"
+
+namespace minkray {
+
+/// The folder of the tiles' files, beside the picture.
+std::string parts_folder(const std::string& output);
+
+/// So many tiles that each has about 64 x 64 pixels: enough for even loads on many ranks, few
+/// enough that the files' cost does not count. Depends on the picture only, so that a job may go on
+/// with another number of ranks.
+int default_tile_count(const PixelRect& picture);
+
+/// The picture, on rank 0; nothing on the others. Ends the process if it is interrupted. Remove the
+/// folder of the parts when the picture is written.
+std::optional<Merged> render_on(Ranks& ranks, const RenderJob& job, int tiles,
+                                const std::string& output);
+
+}  // namespace minkray

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// minkray merge: one picture from the pieces that `render --tile` and `--sample-share` made.
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+
+#include "renderer/cli/command_line.h"
+#include "renderer/cli/image_arguments.h"
+#include "renderer/cli/verbs.h"
+#include "renderer/cli/write_picture.h"
+#include "renderer/interrupt.h"
+#include "renderer/merge.h"
+
+namespace minkray {
+namespace {
+
+struct Options {
+  std::vector<std::string> parts;
+  std::vector<std::string> outputs;
+  double exposure = 0;
+  bool allow_partial = false;
+  bool times = false;
+};
+
+void run(const Options& options) {
+  check_exposure(options.exposure);
+  check_outputs(options.outputs);
+  Merged merged = merge_parts(options.parts, options.allow_partial);
+  for (const std::string& missing : merged.missing)
+    std::cerr << "warning: missing: " << missing << "\n";
+  merged.exr.texts[fact::command] = command_line();
+  const InterruptGuard guard;
+  write_picture(options.outputs,
+                {merged.image(), labels_of(merged.exr.texts), merged.exr.window,
+                 resolution_of(merged.exr.texts), merged.exr},
+                options.exposure);
+  warn_of_counts(merged.counts);
+  if (options.times)
+    for (const PieceCost& cost : merged.costs)
+      std::cout << cost.name << " " << cost.cpu_seconds << " " << cost.bytes << "\n";
+}
+
+}  // namespace
+
+void add_merge(CLI::App& app, ExitCode&) {
+  CLI::App* verb = app.add_subcommand(
+      "merge", "Make a picture of the pieces by render --tile and --sample-share");
+  const auto options = std::make_shared<Options>();
+  verb->add_option("parts", options->parts, "The pieces (.exr), in any order")->required();
+  add_output_option(*verb, options->outputs);
+  verb->add_option("--exposure", options->exposure, "Stops brighter, for .png")
+      ->capture_default_str();
+  verb->add_flag("--allow-partial", options->allow_partial,
+                 "Missing tiles are black, of missing samples the mean of the others is taken");
+  verb->add_flag("--times", options->times,
+                 "Print what each piece took: its name, seconds of all processors together, bytes "
+                 "of its file");
+  verb->callback([options] { run(*options); });
+}
+
+}  // namespace minkray

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/cli/write_picture.h"
+
+#include <cmath>
+
+#include "renderer/errors.h"
+#include "renderer/image_file.h"
+#include "renderer/interrupt.h"
+#include "renderer/output_file.h"
+
+namespace minkray {
+namespace {
+
+Image to_look_at(const FinishedPicture& finished, double exposure) {
+  const auto gain = static_cast<float>(std::exp2(exposure));
+  Image picture = finished.image;
+  for (Vec3<float>& pixel : picture.pixels) pixel *= gain;
+  draw_labels(picture, finished.labels, finished.window, finished.resolution);
+  return picture;
+}
+
+}  // namespace
+
+void write_picture(const std::vector<std::string>& outputs, const FinishedPicture& picture,
+                   double exposure) {
+  for (const std::string& output : outputs) {
+    const auto bytes = keeps_planes(output)   ? encode_exr(picture.exr)
+                       : keeps_floats(output) ? encode_image(picture.image, output)
+                                              : encode_image(to_look_at(picture, exposure), output);
+    InterruptGuard::end_if_interrupted();
+    write_file(output, bytes);
+    InterruptGuard::end_if_interrupted();
+  }
+}
+
+void check_exposure(double exposure) {
+  if (!std::isfinite(exposure) || std::abs(exposure) > 100)
+    throw WrongUsage("--exposure: must be a number of stops from -100 to 100");
+}
+
+}  // namespace minkray

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#include <cstdlib>
+
+#include "renderer/errors.h"
+#include "renderer/ranks.h"
+
+namespace minkray {
+
+const bool has_mpi = false;
+
+Ranks::Ranks() {
+  for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"})
+    if (const char* size = std::getenv(name); size != nullptr && std::atoi(size) > 1)
+      throw WrongUsage(
+          "this minkray was built without MPI: install libopenmpi-dev and build again with "
+          "-DMINKRAY_MPI=ON, or render with --tile");
+}
+
+Ranks::~Ranks() = default;
+
+void Ranks::send(int, int) {}
+
+RankMessage Ranks::receive(int) {
+  return {};
+}
+
+std::optional<RankMessage> Ranks::poll() {
+  return std::nullopt;
+}
+
+}  // namespace minkray

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include "tests/proof/certified_casts.h"
+
+#include "core/shape/convert.h"
+#include "core/solver/cast.h"
+#include "tests/support/rounded.h"
+
+namespace minkray::testing {
+
+CertifiedCasts& CertifiedCasts::operator+=(const CertifiedCasts& other) {
+  hits += other.hits;
+  misses += other.misses;
+  insides += other.insides;
+  exhausted += other.exhausted;
+  failed += other.failed;
+  gap = std::max(gap, other.gap);
+  lateral = std::max(lateral, other.lateral);
+  margin = std::max(margin, other.margin);
+  claim_error = std::max(claim_error, other.claim_error);
+  t_error = std::max(t_error, other.t_error);
+  supports += other.supports;
+  for (const FailedCertificate& failure : other.first_failures)
+    if (first_failures.size() < 3) first_failures.push_back(failure);
+  return *this;
+}
+
+template <class T>
+CertifiedCasts certified_casts(const Shape<double>& shape, RayFamily family, int rays,
+                               std::uint64_t seed, SolverKind solver) {
+  const Shape<T> cast_at = convert<T>(shape);
+  const Shape<double> same = convert<double>(cast_at);
+  const PreparedShape<T> prepared(cast_at);
+  const SupportFunction support = supports_of(same);
+  CastOptions<T> options;
+  options.solver = solver;
+  FamilyRays source(same, family, seed);
+  CertifiedCasts all;
+  for (int i = 0; i < rays; ++i) {
+    const Ray<T> ray = rounded_to<T>(source.next());
+    const Ray<double> same_ray = in_double(ray);
+    const Claim claim = claim_of(cast_ray(prepared, ray, options));
+    if (claim.status == Status::exhausted) {
+      ++all.exhausted;
+      if (all.first_failures.size() < 3)
+        all.first_failures.push_back({same_ray, claim, {}, Vec3<double>::Zero()});
+      continue;
+    }
+    const Certificate certificate = certify(support, same_ray, claim);
+    const CertificateVerdict verdict = check_certificate(support, same_ray, claim, certificate);
+    all.supports += certificate.supports;
+    ++(claim.status == Status::hit ? all.hits
+                                   : (claim.status == Status::miss ? all.misses : all.insides));
+    if (!verdict.holds) {
+      ++all.failed;
+      if (all.first_failures.size() < 3)
+        all.first_failures.push_back({same_ray, claim, verdict, certificate.plane});
+      continue;
+    }
+    const double unit_length = verdict.allowed / certificate_rounding;
+    if (claim.status == Status::miss) {
+      all.margin = std::max(all.margin, -verdict.margin / unit_length);
+      continue;
+    }
+    all.lateral = std::max(all.lateral, verdict.lateral / unit_length);
+    all.gap = std::max(all.gap, verdict.gap / unit_length);
+    all.claim_error = std::max(all.claim_error, verdict.claim_error / unit_length);
+    if (claim.status != Status::hit) continue;
+    const double late = verdict.late * std::abs(claim.normal.dot(same_ray.direction.normalized()));
+    all.t_error = std::max(all.t_error, late / unit_length);
+  }
+  return all;
+}
+
+template CertifiedCasts certified_casts<float>(const Shape<double>&, RayFamily, int, std::uint64_t,
+                                               SolverKind);
+template CertifiedCasts certified_casts<double>(const Shape<double>&, RayFamily, int, std::uint64_t,
+                                                SolverKind);
+
+}  // namespace minkray::testing

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// Many rays at one shape, each answer certified and checked.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/solver/check_certificate.h"
+#include "core/solver/solver_kind.h"
+#include "tests/support/ray_families.h"
+
+namespace minkray::testing {
+
+struct FailedCertificate {
+  Ray<double> ray;
+  Claim claim;
+  CertificateVerdict verdict;
+  Vec3<double> plane;
+};
+
+/// Extremes are in units of machine epsilon times the size (NearSegment::size); they are over the
+/// certificates that hold.
+struct CertifiedCasts {
+  int hits = 0, misses = 0, insides = 0, exhausted = 0;
+  int failed = 0;
+  double gap = 0, lateral = 0, margin = 0, claim_error = 0;
+  double t_error = 0;   ///< of the claimed t beyond [t_lo, t_hi], times cosine
+  double supports = 0;  ///< for the certificates, in all
+  std::vector<FailedCertificate> first_failures;  ///< at most three
+
+  int rays() const { return hits + misses + insides + exhausted; }
+  CertifiedCasts& operator+=(const CertifiedCasts& other);
+};
+
+/// Casts in T at the shape rounded to T, with rays rounded to T; proofs in double.
+template <class T>
+CertifiedCasts certified_casts(const Shape<double>& shape, RayFamily family, int rays,
+                               std::uint64_t seed, SolverKind solver = SolverKind::automatic);
+
+extern template CertifiedCasts certified_casts<float>(const Shape<double>&, RayFamily, int,
+                                                      std::uint64_t, SolverKind);
+extern template CertifiedCasts certified_casts<double>(const Shape<double>&, RayFamily, int,
+                                                       std::uint64_t, SolverKind);
+
+}  // namespace minkray::testing

@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: MIT
+// Faults from outside: killed at any moment, disks that are full or cannot be written, files that
+// are none. Whatever happens, a picture is the old one or the new one, and the user is told.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include "tests/support/program.h"
+#include "tests/support/source_files.h"
+
+namespace minkray {
+namespace {
+
+namespace fs = std::filesystem;
+
+class NothingLost : public testing::Test {
+ protected:
+  NothingLost() { write_ball_scene(folder_ / "scene.json"); }
+
+  std::string quoted(const std::string& name) const { return "'" + (folder_ / name) + "'"; }
+  ProgramOutcome shell(const std::string& command) const {
+    return run_shell("cd '" + (folder_ / ".") + "' && " + command);
+  }
+
+  TemporaryFolder folder_;
+};
+
+// Renders again and again to where a good picture is, and is killed after any time from none to a
+// whole render's.
+TEST_F(NothingLost, killed_at_any_moment_the_old_picture_is_there_or_the_new_one) {
+  const std::string target = folder_ / "a.exr";
+  const auto render = [&](const char* samples) {
+    return start_minkray({"render", folder_ / "scene.json", "-o", target, "-s", samples, "-t", "1",
+                          "--bounces", "0"});
+  };
+  using Clock = std::chrono::steady_clock;
+  ASSERT_EQ(wait_for(render("1")), 0);
+  const std::string old_picture = text_of_file(target);
+  const auto begin = Clock::now();
+  ASSERT_EQ(wait_for(render("32")), 0);
+  const auto whole = Clock::now() - begin;
+  const std::string size_of_new = std::to_string(fs::file_size(target));
+
+  constexpr int rounds = 45;
+  int old_ones = 0, new_ones = 0;
+  for (int i = 0; i < rounds; ++i) {
+    const int signal = std::array{SIGKILL, SIGTERM, SIGINT}[static_cast<std::size_t>(i) % 3];
+    std::ofstream(target, std::ios::binary) << old_picture;
+    const pid_t child = render("32");
+    std::this_thread::sleep_for(whole * i / (rounds - 8));
+    ::kill(child, signal);
+    const int status = wait_for(child);
+    if (text_of_file(target) == old_picture) {
+      ++old_ones;
+      EXPECT_NE(status, 0) << i;
+    } else {
+      ++new_ones;  // whole: what is in it can be read again
+      EXPECT_EQ(shell("\"$MINKRAY\" merge a.exr -o b.pfm").exit_code, 0) << i;
+      fs::remove(folder_ / "b.pfm");
+    }
+    // SIGKILL leaves no time to tidy up.
+    std::vector<std::string> files = folder_.files();
+    std::erase_if(files, [](const std::string& name) {
+      return name.starts_with(".a.exr.") && name.ends_with(".part");
+    });
+    EXPECT_EQ(files, (std::vector<std::string>{"a.exr", "scene.json"})) << i;
+    if (signal != SIGKILL) {
+      EXPECT_EQ(folder_.files(), files) << i;
+    }
+    for (const std::string& name : folder_.files())
+      if (name.starts_with(".")) fs::remove(folder_ / name);
+  }
+  EXPECT_GT(old_ones, 5);
+  EXPECT_GT(new_ones, 0);
+}
+
+TEST_F(NothingLost, killed_again_and_again_a_render_ends_with_the_same_picture) {
+  const std::vector<std::string> common = {"render", folder_ / "scene.json", "-s",  "200", "-t",
+                                           "1",      "--checkpoint",         "0.02"};
+  const auto with = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = common;
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+  };
+  ASSERT_EQ(wait_for(start_minkray(with({"-o", folder_ / "whole.pfm"}))), 0);
+  int kills = 0;
+  for (; kills < 200; ++kills) {
+    const pid_t child = start_minkray(with({"-o", folder_ / "a.pfm", "--resume"}));
+    std::this_thread::sleep_for(std::chrono::milliseconds(150));
+    ::kill(child, kills % 2 ? SIGKILL : SIGTERM);
+    if (wait_for(child) == 0) break;
+    EXPECT_FALSE(fs::exists(folder_ / "a.pfm"));
+  }
+  EXPECT_GE(kills, 2);
+  EXPECT_EQ(text_of_file(folder_ / "a.pfm"), text_of_file(folder_ / "whole.pfm"));
+  EXPECT_FALSE(fs::exists(folder_ / "a.pfm.checkpoint"));
+}
+
+TEST_F(NothingLost, a_checkpoint_of_another_picture_is_refused) {
+  const pid_t child = start_minkray({"render", folder_ / "scene.json", "-o", folder_ / "a.png",
+                                     "-s", "5000", "--checkpoint", "0.05"});
+  for (int i = 0; i < 400 && !fs::exists(folder_ / "a.png.checkpoint"); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  ::kill(child, SIGTERM);
+  EXPECT_TRUE(WIFSIGNALED(wait_for(child)));
+  const ProgramOutcome other = shell("\"$MINKRAY\" render scene.json -o a.png -s 2 --resume");
+  EXPECT_EQ(other.exit_code, 3);
+  EXPECT_NE(other.err.find("a.png.checkpoint: is the checkpoint of another picture: "
+                           "minkray.samples is 5000, not 2"),
+            std::string::npos)
+      << other.err;
+  EXPECT_TRUE(fs::exists(folder_ / "a.png.checkpoint"));
+  EXPECT_EQ(shell("\"$MINKRAY\" render scene.json -o a.png -s 2").exit_code, 0);
+  EXPECT_FALSE(fs::exists(folder_ / "a.png.checkpoint"));
+}
+
+TEST_F(NothingLost, a_full_disk_costs_the_new_picture_and_not_the_old_one) {
+  if (fs::exists("/dev/full")) {
+    const ProgramOutcome full =
+        shell("ln -s /dev/full full.png; \"$MINKRAY\" render scene.json -o full.png -s 1");
+    EXPECT_EQ(full.exit_code, 4);
+    EXPECT_NE(full.err.find("full.png: No space left on device"), std::string::npos) << full.err;
+    fs::remove(folder_ / "full.png");
+  }
+  // A limit of file sizes: some blocks can be written, and then no more.
+  const ProgramOutcome limited =
+      shell("echo old > a.pfm; ulimit -f 8; \"$MINKRAY\" render scene.json -o a.pfm -s 1");
+  EXPECT_EQ(limited.exit_code, 4);
+  EXPECT_NE(limited.err.find("a.pfm: File too large"), std::string::npos) << limited.err;
+  EXPECT_EQ(text_of_file(folder_ / "a.pfm"), "old\n");
+  EXPECT_EQ(folder_.files(), (std::vector<std::string>{"a.pfm", "scene.json"}));
+}
+
+TEST_F(NothingLost, a_full_file_system_as_well) {
+  const ProgramOutcome mounted = shell("mkdir small && mount -t tmpfs -o size=16k minkray small");
+  if (mounted.exit_code != 0) GTEST_SKIP() << "may not mount a tmpfs";
+  const ProgramOutcome full = shell(
+      "echo old > small/a.pfm; \"$MINKRAY\" render scene.json -o small/a.pfm -s 1; code=$?; "
+      "cat small/a.pfm; ls -A small; exit $code");
+  EXPECT_EQ(shell("umount small").exit_code, 0);
+  EXPECT_EQ(full.exit_code, 4);
+  EXPECT_NE(full.err.find("small/a.pfm: No space left on device"), std::string::npos) << full.err;
+  EXPECT_EQ(full.out, "old\na.pfm\n");
+}
+
+TEST_F(NothingLost, a_folder_that_cannot_be_written_is_told_before_the_render) {
+  fs::create_directory(folder_ / "locked");
+  std::string target = folder_ / "locked/a.png";
+  bool is_mount = false;
+  if (::geteuid() == 0) {  // whom no rights stop
+    is_mount = shell("mount -t tmpfs -o ro minkray locked").exit_code == 0;
+    if (!is_mount) GTEST_SKIP() << "root, and may not mount a read-only tmpfs";
+  } else {
+    ::chmod((folder_ / "locked").c_str(), 0500);
+  }
+  const ProgramOutcome refused =
+      shell("\"$MINKRAY\" render scene.json -o locked/a.png -s 16777216");
+  EXPECT_EQ(refused.exit_code, 4);
+  EXPECT_NE(refused.err.find("locked/a.png: "), std::string::npos) << refused.err;
+  if (is_mount) {
+    EXPECT_EQ(shell("umount locked").exit_code, 0);
+  }
+  ::chmod((folder_ / "locked").c_str(), 0700);
+}
+
+TEST_F(NothingLost, what_is_no_file_is_an_error_at_once) {
+  ASSERT_EQ(::mkfifo((folder_ / "pipe.json").c_str(), 0600), 0);
+  ASSERT_EQ(::mkfifo((folder_ / "pipe.obj").c_str(), 0600), 0);
+  std::ofstream(folder_ / "mesh.json") << R"({"version": 1,
+    "camera": {"position": [0, -5, 1], "look_at": [0, 0, 0]}, "lights": [],
+    "materials": [{"name": "matt", "type": "lambert", "color": [1, 1, 1]}],
+    "objects": [{"name": "hull", "shape": {"type": "hull", "file": "pipe.obj"},
+                 "material": "matt"}]})";
+  std::ofstream(folder_ / "huge.json") << "{";
+  fs::resize_file(folder_ / "huge.json", std::uintmax_t{2} << 30);  // a hole: takes no disk
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"info pipe.json", "pipe.json: must be a file (got a pipe)"},
+      {"info mesh.json", "pipe.obj: must be a file (got a pipe)"},
+      {"info /dev/zero", "/dev/zero: must be a file (got a device)"},
+      {"info .", ".: must be a file (got a directory)"},
+      {"info huge.json", "huge.json: must not hold more than 268435456 bytes (got 2147483648)"},
+      {"merge pipe.json -o a.png", "pipe.json: must be a file (got a pipe)"},
+      {"cast none.jsonl", "none.jsonl: cannot be read: No such file or directory"},
+      {"cast .", ".: must be a file (got a directory)"},
+  };
+  for (const auto& [arguments, message] : cases) {
+    // 1 GiB of address space: more is not taken for a file that is refused.
+    const ProgramOutcome outcome = shell("ulimit -v 1048576; timeout 10 \"$MINKRAY\" " + arguments);
+    EXPECT_EQ(outcome.exit_code, 3) << arguments << outcome.err;
+    EXPECT_NE(outcome.err.find(message), std::string::npos) << arguments << ": " << outcome.err;
+  }
+}
+
+// 100 MB without a line's end, before a query that is answered all the same.
+TEST_F(NothingLost, an_endless_line_is_an_error_and_does_not_fill_the_memory) {
+  const ProgramOutcome outcome = shell(
+      "(head -c 100000000 /dev/zero | tr '\\0' x; echo; "
+      "echo '{\"type\": \"cast_ray\"}') > long.jsonl; "
+      "ulimit -v 1048576; \"$MINKRAY\" cast --threads 1 long.jsonl");
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_NE(outcome.err.find("long.jsonl:1: must not be longer than 67108864 bytes"),
+            std::string::npos)
+      << outcome.err;
+  EXPECT_NE(outcome.err.find("long.jsonl:2: "), std::string::npos) << outcome.err;
+}
+
+TEST_F(NothingLost, values_that_do_not_fit_are_wrong_usage) {
+  for (const std::string arguments :
+       {"render scene.json -o a.png --seed 18446744073709551616",
+        "render scene.json -o a.png --seed 99999999999999999999999",
+        "render scene.json -o a.png --seed 1.5", "heatmap scene.json -o a.png --side-by-side ''",
+        "render scene.json -o a.png --aov Z", "render scene.json -o a.exr --aov depth",
+        "render scene.json -o a.exr --tile 3/2", "render scene.json -o a.png --tile 1/2",
+        "render scene.json -o a.exr -r 2x2 --tile 1/5",
+        "render scene.json -o a.exr -s 2 --sample-share 1/3",
+        "render scene.json -o a.exr --sample-share 1/2 --aov Z",
+        "render scene.json -o a.png --checkpoint -1", "merge -o a.png"}) {
+    const ProgramOutcome outcome = shell("\"$MINKRAY\" " + arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << arguments;
+    EXPECT_NE(outcome.err, "") << arguments;
+  }
+  EXPECT_EQ(folder_.files(), std::vector<std::string>{"scene.json"});
+  EXPECT_EQ(
+      shell("\"$MINKRAY\" render scene.json -o a.png -s 1 --seed 18446744073709551615").exit_code,
+      0);
+}
+
+TEST_F(NothingLost, help_that_nobody_gets_is_no_success) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "needs /dev/full";
+  EXPECT_EQ(shell("\"$MINKRAY\" --help > /dev/full").exit_code, 4);
+  EXPECT_EQ(shell("\"$MINKRAY\" render --help > /dev/full").exit_code, 4);
+  EXPECT_EQ(shell("\"$MINKRAY\" --version > /dev/full").exit_code, 4);
+}
+
+TEST_F(NothingLost, tiles_are_rendered_once_and_merged_to_the_same_picture) {
+  const ProgramOutcome made = shell(R"(set -e
+    "$MINKRAY" render scene.json -s 3 -o whole.exr -o whole.png -o whole.pfm --aov all
+    for i in 1 2 3; do "$MINKRAY" render scene.json -s 3 --tile $i/3 -o $i.exr --aov all; done
+    "$MINKRAY" render scene.json -s 3 --tile 2/3 -o 2.exr --aov all --resume
+    "$MINKRAY" merge 3.exr 1.exr 2.exr -o merged.exr -o merged.png -o merged.pfm
+    cmp whole.png merged.png; cmp whole.pfm merged.pfm
+    "$MINKRAY" merge merged.exr -o x.png 2> refused && exit 1; cat refused >&2
+    if "$MINKRAY" render scene.json -s 4 --tile 2/3 -o 2.exr --aov all --resume; then exit 1; fi)");
+  EXPECT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_NE(made.err.find("2.exr: is there already"), std::string::npos);
+  EXPECT_NE(made.err.find("2.exr: is of another picture: minkray.samples is 3, not 4"),
+            std::string::npos);
+}
+
+TEST_F(NothingLost, other_programs_read_the_files) {
+  ASSERT_EQ(shell("\"$MINKRAY\" render scene.json -s 2 -o a.exr --aov all").exit_code, 0);
+  if (!has_program("exrheader") && !has_program("iinfo"))
+    GTEST_SKIP() << "needs exrheader (openexr) or iinfo (openimageio-tools)";
+  if (has_program("exrheader")) {
+    const std::string header = shell("exrheader a.exr").out;
+    for (const char* line :
+         {"dataWindow (type box2i): (0 0) - (63 47)", "id.object, 32-bit unsigned integer",
+          "gjk.gap, 32-bit floating-point", "minkray.seed (type string): \"0\"",
+          "minkray.samples (type string): \"2\"",
+          "minkray.scene (type string): ", "minkray render scene.json -s 2 -o a.exr --aov all",
+          "software (type string): \"minkray "})
+      EXPECT_NE(header.find(line), std::string::npos) << line;
+  }
+  if (has_program("iinfo")) {
+    const std::string info = shell("iinfo -v --stats a.exr").out;
+    EXPECT_NE(info.find("17 channel"), std::string::npos) << info;
+    EXPECT_NE(info.find("Stats NanCount: 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace minkray

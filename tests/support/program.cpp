@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#include "tests/support/program.h"
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <stdexcept>
+
+#include "tests/support/source_files.h"
+
+namespace minkray {
+
+namespace fs = std::filesystem;
+
+TemporaryFolder::TemporaryFolder() {
+  std::string name = (fs::temp_directory_path() / "minkray_test_XXXXXX").string();
+  if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
+  path_ = name;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code error;
+  fs::remove_all(path_, error);
+}
+
+std::vector<std::string> TemporaryFolder::files() const {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(path_))
+    names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+pid_t start_minkray(const std::vector<std::string>& arguments) {
+  std::vector<std::string> words = {MINKRAY_PROGRAM};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    if (std::freopen("/dev/null", "w", stdout) == nullptr) ::_exit(126);
+    if (std::freopen("/dev/null", "w", stderr) == nullptr) ::_exit(126);
+    ::execv(MINKRAY_PROGRAM, pointers.data());
+    ::_exit(127);
+  }
+  return child;
+}
+
+int wait_for(pid_t process) {
+  int status = 0;
+  ::waitpid(process, &status, 0);
+  return status;
+}
+
+ProgramOutcome run_shell(const std::string& command) {
+  const TemporaryFolder folder;
+  const std::string out = folder / "out", err = folder / "err";
+  const std::string line = "MINKRAY='" MINKRAY_PROGRAM "'; export MINKRAY; ( " + command +
+                           "\n) >'" + out + "' 2>'" + err + "'";
+  const int status = std::system(line.c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of_file(out), text_of_file(err)};
+}
+
+void write_ball_scene(const std::string& file, double radius) {
+  std::ofstream(file) << R"({"version": 1,
+  "camera": {"position": [0, -5, 1], "look_at": [0, 0, 0], "up": [0, 0, 1], "fov_y_degrees": 40,
+             "resolution": [64, 48]},
+  "lights": [{"type": "environment", "zenith": [1, 1, 1], "nadir": [0.3, 0.2, 0.1]}],
+  "materials": [{"name": "glossy", "type": "glossy", "color": [0.7, 0.5, 0.3]}],
+  "objects": [{"name": "ball", "shape": {"type": "sphere", "radius": )"
+                      << radius << R"(}, "material": "glossy"}]})";
+}
+
+bool has_program(const std::string& name) {
+  return std::system(("command -v " + name + " >/dev/null 2>&1").c_str()) == 0;
+}
+
+}  // namespace minkray

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// The program minkray as its users meet it, in a folder that is gone afterwards.
+#pragma once
+
+#include <sys/types.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace minkray {
+
+class TemporaryFolder {
+ public:
+  TemporaryFolder();
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+  /// The names of all entries, sorted.
+  std::vector<std::string> files() const;
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// Starts minkray with its output thrown away; the process is to be waited for.
+pid_t start_minkray(const std::vector<std::string>& arguments);
+
+/// The status as waitpid has it.
+int wait_for(pid_t process);
+
+struct ProgramOutcome {
+  int exit_code = -1;  ///< -1: ended by a signal
+  std::string out, err;
+};
+
+/// Runs a shell's command in which $MINKRAY is the program.
+ProgramOutcome run_shell(const std::string& command);
+
+/// Writes a small scene: a ball under an even sky; `radius` makes another one.
+void write_ball_scene(const std::string& file, double radius = 1);
+
+/// Whether a shell finds a program of that name.
+bool has_program(const std::string& name);
+
+}  // namespace minkray
