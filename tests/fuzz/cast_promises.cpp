@@ -12,7 +12,8 @@ constexpr Real allowed = 2048;
 /// Iterations of the search for a plane that keeps a claimed point off: a plane that it finds is
 /// proof, whatever it does not find.
 constexpr int most_steps = 24;
-/// The longest cast: the jet cast towards and back, then the GJK ray cast (core/solver/tolerances.h).
+/// The longest cast: the jet cast towards and back, then the GJK ray cast
+/// (core/solver/tolerances.h).
 constexpr int most_supports = 2 * 1000 + 4 * 48 + 8;
 
 std::string number(Real x) {
@@ -50,19 +51,18 @@ CastReferee<T>::CastReferee(const Shape<T>& shape, const Ray<T>& ray)
   epsilon_ = Limits::epsilon();
   // Parameters in steps of the least number, too.
   const Real least = Real(Limits::denorm_min()) * (1 + speed_) * 64;
-  rounding_ = allowed * epsilon_ * extent.condition *
-                  (extent.size + epsilon_ * distance) + least;
+  rounding_ = allowed * epsilon_ * extent.condition * (extent.size + epsilon_ * distance) + least;
   // Where the ray begins and ends is known as well as its parameter there.
   end_rounding_ = 64 * epsilon_ * extent.condition * distance;
   if (std::isfinite(t_max_)) end_rounding_ += 64 * epsilon_ * extent.condition * t_max_ * speed_;
   constexpr Real margin = 1024;
   const Real most = Limits::max() / margin, fewest = Limits::min() * margin;
   const Real longest = distance + radius_ + rounding_;
-  in_range_ = extent.size < most && distance < most && extent.condition < 1e4L &&
-              (extent.size == 0 || extent.size * epsilon_ > fewest) &&
-              (speed_ == 0 ||
-               (speed_ > fewest && speed_ < most && longest / speed_ < most &&
-                extent.size * epsilon_ / speed_ > fewest && distance < 1e18L * extent.size));
+  in_range_ =
+      extent.size < most && distance < most && extent.condition < 1e4L &&
+      (extent.size == 0 || extent.size * epsilon_ > fewest) &&
+      (speed_ == 0 || (speed_ > fewest && speed_ < most && longest / speed_ < most &&
+                       extent.size * epsilon_ / speed_ > fewest && distance < 1e18L * extent.size));
 }
 
 template <class T>
@@ -77,12 +77,11 @@ Vec3<Real> CastReferee<T>::at(Real t_base, Real t_offset) const {
 }
 
 template <class T>
-std::string CastReferee<T>::kept_off(const Vec3<Real>& x, const Vec3<Real>& n) const {
-  const Real gap = n.dot(x) - height(n);
-  const Real bound = rounding_ + end_rounding_ * 0;
-  if (!(gap > bound)) return "";
-  return "a point said to be in the shape lies " + number(gap) + " outside (allowed " +
-         number(bound) + ")";
+std::string CastReferee<T>::kept_off(const Claim& claim, const Vec3<Real>& n) const {
+  const Real gap = n.dot(claim.x) - height(n);
+  if (!(gap > rounding_)) return "";
+  return "the point found (" + claim.by + ") lies " + number(gap) + " outside (allowed " +
+         number(rounding_) + ")";
 }
 
 template <class T>
@@ -112,7 +111,7 @@ std::string CastReferee<T>::check_miss(const Vec3<Real>& n) const {
 }
 
 template <class T>
-std::string CastReferee<T>::check(const CastResult<T>& result) {
+std::string CastReferee<T>::check(std::string_view solver, const CastResult<T>& result) {
   const Vec3<Real> n = result.normal.template cast<Real>();
   if (result.supports < 0 || result.supports > most_supports)
     return "supports: " + std::to_string(result.supports);
@@ -124,7 +123,7 @@ std::string CastReferee<T>::check(const CastResult<T>& result) {
   if (result.status == Status::inside) {
     if (result.t_base != 0 || result.t_offset != 0) return "inside, but not at t = 0";
     if (!n.isZero(0)) return "inside, with a normal";
-    claimed_.push_back(at(0, 0));
+    claimed_.push_back({at(0, 0), std::string(solver) + ", inside"});
     return "";
   }
   if (!(std::abs(n.norm() - 1) < 64 * epsilon_)) return "a normal of length " + number(n.norm());
@@ -136,7 +135,8 @@ std::string CastReferee<T>::check(const CastResult<T>& result) {
   const Real t = Real(result.t_base) + Real(result.t_offset);
   const Real slack = (rounding_ + end_rounding_);
   if (!(t * speed_ >= -slack)) return "a hit behind the ray's origin, t = " + number(t);
-  if (!(t * speed_ <= t_max_ * speed_ + slack)) return "a hit beyond the ray's end, t = " + number(t);
+  if (!(t * speed_ <= t_max_ * speed_ + slack))
+    return "a hit beyond the ray's end, t = " + number(t);
   if (result.offset_lo > result.t_offset || result.offset_hi < result.t_offset)
     return "t is not within its bounds";
   const Vec3<Real> x = at(result.t_base, result.t_offset);
@@ -144,12 +144,13 @@ std::string CastReferee<T>::check(const CastResult<T>& result) {
   if (!(std::abs(above) <= rounding_))
     return "the hit's plane does not hold the hit: " + number(above) + " off (allowed " +
            number(rounding_) + ")";
-  claimed_.push_back(x);
+  claimed_.push_back({x, std::string(solver) + ", hit at t = " + number(t)});
   return "";
 }
 
 template <class T>
-std::string CastReferee<T>::check_exit(const CastResult<T>& entry, const CastResult<T>& exit) {
+std::string CastReferee<T>::check_exit(std::string_view solver, const CastResult<T>& entry,
+                                       const CastResult<T>& exit) {
   if (!in_range_ || exit.status != Status::hit) return "";
   const Vec3<Real> n = exit.normal.template cast<Real>();
   if (!n.allFinite() || !std::isfinite(exit.t_base) || !std::isfinite(exit.t_offset))
@@ -160,7 +161,8 @@ std::string CastReferee<T>::check_exit(const CastResult<T>& entry, const CastRes
   if (!(std::abs(above) <= rounding_))
     return "the exit's plane does not hold the exit: " + number(above) + " off (allowed " +
            number(rounding_) + ")";
-  claimed_.push_back(x);
+  claimed_.push_back({x, std::string(solver) +
+                             ", exit at t = " + number(Real(exit.t_base) + Real(exit.t_offset))});
   if (entry.status != Status::hit) return "";
   const Vec3<Real> first = at(entry.t_base, entry.t_offset);
   // Entry and exit in order, as distances between planes.
@@ -174,9 +176,10 @@ std::string CastReferee<T>::check_exit(const CastResult<T>& entry, const CastRes
 
 template <class T>
 std::string CastReferee<T>::check_claimed() {
-  for (const Vec3<Real>& x : claimed_) {
+  for (const Claim& claim : claimed_) {
+    const Vec3<Real>& x = claim.x;
     for (const Vec3<Real>& n : planes_)
-      if (const std::string bad = kept_off(x, n); !bad.empty()) return bad;
+      if (const std::string bad = kept_off(claim, n); !bad.empty()) return bad;
     // Towards the point of the hull of the support points so far that is nearest to x.
     std::vector<oracle::Column<3>> points;
     Vec3<Real> n = x;
@@ -184,7 +187,7 @@ std::string CastReferee<T>::check_claimed() {
       const Real length = n.stableNorm();
       if (!(length > rounding_)) break;
       n /= length;
-      if (const std::string bad = kept_off(x, n); !bad.empty()) return bad;
+      if (const std::string bad = kept_off(claim, n); !bad.empty()) return bad;
       points.push_back((shape_.support(n) - centre_ - x) / radius_);
       n = -radius_ * oracle::nearest_to_origin<3>(points);
     }

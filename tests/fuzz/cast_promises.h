@@ -9,6 +9,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/math/ray.h"
@@ -33,19 +34,25 @@ class CastReferee {
   bool in_range() const { return in_range_; }
 
   /// What is wrong with the answer; nothing if nothing is. Remembers its plane.
-  std::string check(const CastResult<T>& result);
-  std::string check_exit(const CastResult<T>& entry, const CastResult<T>& exit);
+  std::string check(std::string_view solver, const CastResult<T>& result);
+  std::string check_exit(std::string_view solver, const CastResult<T>& entry,
+                         const CastResult<T>& exit);
 
   /// Whether a point that is claimed to be in the shape is kept off by any plane: those that have
   /// been remembered, and those that a search of our own finds.
   std::string check_claimed();
 
  private:
+  struct Claim {
+    Vec3<Real> x;  ///< said to be in the shape; from the centre
+    std::string by;
+  };
+
   /// Of o + t d: how far beyond the shape's furthest point along n, relative to the centre.
   Real height(const Vec3<Real>& n) const { return n.dot(shape_.support(n) - centre_); }
   Vec3<Real> at(Real t_base, Real t_offset) const;
   std::string check_miss(const Vec3<Real>& n) const;
-  std::string kept_off(const Vec3<Real>& x, const Vec3<Real>& n) const;
+  std::string kept_off(const Claim& claim, const Vec3<Real>& n) const;
 
   Shape<Real> shape_;
   Vec3<Real> centre_;
@@ -57,7 +64,7 @@ class CastReferee {
   Real epsilon_, rounding_, end_rounding_;
   bool in_range_;
   std::vector<Vec3<Real>> planes_;
-  std::vector<Vec3<Real>> claimed_;  ///< points said to be in the shape, from the centre
+  std::vector<Claim> claimed_;
 };
 
 extern template class CastReferee<float>;

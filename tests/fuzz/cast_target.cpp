@@ -65,8 +65,8 @@ std::string check_packets(const PreparedShape<T>& prepared, const RayPacket<T>& 
       if (!(lanes & (LaneBits(1) << lane))) continue;
       const std::string bad = compare(cast_ray(prepared, rays.ray(lane)), answers.result(lane));
       if (!bad.empty())
-        return "lane " + std::to_string(lane) + (set == InstructionSet::sse2 ? ", SSE2" : ", AVX2") +
-               ": " + bad;
+        return "lane " + std::to_string(lane) +
+               (set == InstructionSet::sse2 ? ", SSE2" : ", AVX2") + ": " + bad;
     }
   }
   return "";
@@ -76,18 +76,17 @@ template <class T>
 std::string check_ray(const Shape<T>& shape, const PreparedShape<T>& prepared, const Ray<T>& ray) {
   CastReferee<T> referee(shape, ray);
   const auto complaint = [&](std::string_view who, const std::string& bad) {
-    return std::string(sizeof(T) == 4 ? "float" : "double") + ", solver " + std::string(who) + ": " +
-           bad + "\n" + as_query(shape, ray);
+    return std::string(sizeof(T) == 4 ? "float" : "double") + ", solver " + std::string(who) +
+           ": " + bad + "\n" + as_query(shape, ray);
   };
-  CastResult<T> entry;
   for (const SolverDescription& solver : testing::accurate_solvers()) {
     CastOptions<T> options;
     options.solver = solver.kind;
     const CastResult<T> result = cast_ray(prepared, ray, options);
-    if (const std::string bad = referee.check(result); !bad.empty())
+    if (const std::string bad = referee.check(solver.name, result); !bad.empty())
       return complaint(solver.name, bad);
-    if (solver.kind == SolverKind::automatic) entry = result;
-    if (const std::string bad = referee.check_exit(entry, cast_exit(prepared, ray, options));
+    if (const std::string bad =
+            referee.check_exit(solver.name, result, cast_exit(prepared, ray, options));
         !bad.empty())
       return complaint(solver.name, "exit: " + bad);
   }

@@ -11,8 +11,8 @@
 namespace minkray::fuzz {
 
 struct Extent {
-  long double size = 0;      ///< no intermediate coordinate is larger (up to a small factor)
-  long double condition = 1; ///< of the maps around and in the shape, multiplied along the nesting
+  long double size = 0;       ///< no intermediate coordinate is larger (up to a small factor)
+  long double condition = 1;  ///< of the maps around and in the shape, multiplied along the nesting
 };
 
 template <class T>
@@ -61,8 +61,8 @@ Extent extent_of(const Shape<T>& shape) {
           const T reach =
               std::max(bounds.lower.cwiseAbs().maxCoeff(), bounds.upper.cwiseAbs().maxCoeff());
           // Of an operator also its own lengths: all that its bounds have beyond its operands'.
-          extent.size = has_operands ? std::max(extent.size, 2 * (long double)(reach))
-                                     : (long double)(reach);
+          extent.size =
+              has_operands ? std::max(extent.size, 2 * (long double)(reach)) : (long double)(reach);
           return extent;
         }
       },

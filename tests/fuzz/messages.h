@@ -12,7 +12,8 @@ namespace minkray::fuzz {
 inline std::string check_messages(const Mistakes& mistakes) {
   constexpr std::size_t longest = 700;
   for (const std::string& message : mistakes.messages()) {
-    if (message.size() > longest) return "a message of " + std::to_string(message.size()) + " bytes";
+    if (message.size() > longest)
+      return "a message of " + std::to_string(message.size()) + " bytes";
     if (printable(message, longest) != message) return "not printable: " + printable(message, 300);
   }
   return "";

@@ -18,7 +18,8 @@ std::string check_written(const Shape<double>& shape) {
   MeshFiles meshes(no_folder);
   const auto again = read_shape(written, JsonPath(), mistakes, meshes);
   if (!again) return "a written shape is not read: " + mistakes.text() + "\n" + written.dump();
-  if (write_shape(*again) != written) return "a shape changes when it is written: " + written.dump();
+  if (write_shape(*again) != written)
+    return "a shape changes when it is written: " + written.dump();
   return "";
 }
 

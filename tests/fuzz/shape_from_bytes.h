@@ -17,8 +17,8 @@ Affine<T> map_from(Bytes& bytes, bool wild) {
   const auto part = [&] { return bytes.below(4) == 0 ? 0.0 : 2 * bytes.fraction() - 1; };
   const double x = part(), y = part(), z = part(), w = part();
   const Quaternion q(w, x, y, z);
-  const Mat3<double> turn = q.norm() > 0.1 ? q.normalized().toRotationMatrix()
-                                           : Mat3<double>(Mat3<double>::Identity());
+  const Mat3<double> turn =
+      q.norm() > 0.1 ? q.normalized().toRotationMatrix() : Mat3<double>(Mat3<double>::Identity());
   Vec3<double> scale;
   for (double& s : scale) s = std::ldexp(bytes.byte() & 1 ? -1 : 1, bytes.below(7) - 3);
   if (wild && bytes.below(3) == 0) scale *= std::ldexp(1, bytes.below(120) - 60);

@@ -49,7 +49,8 @@ inline Shape<double> draw_shape(int depth = 2) {
 }
 
 inline Vec3<double> draw_direction() {
-  const auto component = rc::gen::map(rc::gen::inRange(-1000, 1001), [](int x) { return x / 1000.0; });
+  const auto component =
+      rc::gen::map(rc::gen::inRange(-1000, 1001), [](int x) { return x / 1000.0; });
   const double x = *component, y = *component, z = *component;
   return {x, y, z};
 }

@@ -63,8 +63,8 @@ TEST(Algebra, rounding_is_a_sum_with_a_ball) {
       [] {
         const S a = draw_shape();
         const double radius = *rc::gen::inRange(1, 64) / 16.0;
-        assert_same(Rounded<double>{radius, a}, MinkowskiSum<double>{{a, S(Sphere<double>{radius})}},
-                    draw_direction());
+        assert_same(Rounded<double>{radius, a},
+                    MinkowskiSum<double>{{a, S(Sphere<double>{radius})}}, draw_direction());
       },
       draws);
 }
@@ -111,10 +111,10 @@ TEST(Algebra, a_sum_with_a_hull_is_the_hull_of_the_sums) {
   expect_always(
       [] {
         const S a = draw_shape(1), b = draw_shape(1), c = draw_shape(1);
-        assert_same(MinkowskiSum<double>{{a, S(HullOf<double>{{b, c}})}},
-                    HullOf<double>{
-                        {S(MinkowskiSum<double>{{a, b}}), S(MinkowskiSum<double>{{a, c}})}},
-                    draw_direction());
+        assert_same(
+            MinkowskiSum<double>{{a, S(HullOf<double>{{b, c}})}},
+            HullOf<double>{{S(MinkowskiSum<double>{{a, b}}), S(MinkowskiSum<double>{{a, c}})}},
+            draw_direction());
       },
       draws);
 }
