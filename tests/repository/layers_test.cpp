@@ -89,6 +89,8 @@ TEST(Layers, each_library_is_seen_in_one_place) {
       {"rapidcheck", "tests/support/property.h"},
       {"Eigen/", "tests/oracle/"},
       {"Eigen/", "tests/fuzz/"},
+      {"mujoco/", "tests/oracle/"},
+      {"ode/", "tests/oracle/"},
       {"stb/stb_image.h", "tests/renderer/"},
   };
   const std::regex standard("[a-z_]+");
