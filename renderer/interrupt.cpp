@@ -33,7 +33,7 @@ InterruptGuard::InterruptGuard() {
   struct sigaction noting = {};
   noting.sa_handler = note;
   sigemptyset(&noting.sa_mask);
-  noting.sa_flags = SA_RESTART;
+  noting.sa_flags = 0;  // what waits (for a pipe's reader) is to wake up
   for (std::size_t i = 0; i < signals.size(); ++i) {
     sigaction(signals[i], nullptr, &before[i]);
     if (before[i].sa_handler != SIG_IGN) sigaction(signals[i], &noting, nullptr);

@@ -67,7 +67,8 @@ class TemporaryFile {
 void write_all(int descriptor, std::span<const unsigned char> bytes, const std::string& path) {
   while (!bytes.empty()) {
     const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
-    if (written < 0 && errno != EINTR) fail(path, errno);
+    // A pipe's reader may never read on.
+    if (written < 0 && (errno != EINTR || InterruptGuard::interrupted())) fail(path, errno);
     if (written > 0) bytes = bytes.subspan(static_cast<std::size_t>(written));
   }
 }
@@ -107,6 +108,7 @@ void check_writable(const std::string& path) {
 void write_file(const std::string& path, std::span<const unsigned char> bytes) {
   const Target target = find_target(path);
   if (!target.is_regular) {
+    // Of a pipe without a reader this waits for one, or for a signal.
     const int descriptor = ::open(target.path.c_str(), O_WRONLY | O_CLOEXEC);
     if (descriptor < 0) fail(path, errno);
     try {

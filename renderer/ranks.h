@@ -29,8 +29,6 @@ class Ranks {
   int count() const { return count_; }
 
   void send(int to, int number);
-  /// Waits for it.
-  RankMessage receive(int from);
   /// Does not wait; nothing if there is none.
   std::optional<RankMessage> poll();
 

@@ -20,10 +20,6 @@ Ranks::~Ranks() = default;
 
 void Ranks::send(int, int) {}
 
-RankMessage Ranks::receive(int) {
-  return {};
-}
-
 std::optional<RankMessage> Ranks::poll() {
   return std::nullopt;
 }

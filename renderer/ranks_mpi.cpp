@@ -46,18 +46,14 @@ void Ranks::send(int to, int number) {
   MPI_Send(&number, 1, MPI_INT, to, tag, MPI_COMM_WORLD);
 }
 
-RankMessage Ranks::receive(int from) {
-  RankMessage message{from, 0};
-  MPI_Recv(&message.number, 1, MPI_INT, from, tag, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
-  return message;
-}
-
 std::optional<RankMessage> Ranks::poll() {
   int is_there = 0;
   MPI_Status status;
   MPI_Iprobe(MPI_ANY_SOURCE, tag, MPI_COMM_WORLD, &is_there, &status);
   if (!is_there) return std::nullopt;
-  return receive(status.MPI_SOURCE);
+  RankMessage message{status.MPI_SOURCE, 0};
+  MPI_Recv(&message.number, 1, MPI_INT, message.from, tag, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+  return message;
 }
 
 }  // namespace minkray

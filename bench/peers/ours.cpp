@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "bench/peers/ours.h"
 
+#include <algorithm>
+
 #include "core/shape/convert.h"
-#include "core/solver/cast.h"
+#include "core/solver/packet_cast.h"
 
 namespace minkray::bench {
 namespace {
@@ -27,6 +29,42 @@ std::unique_ptr<Peer> solver(std::string name, const std::shared_ptr<PreparedSha
     return as_hit(cast_ray(*shape, ray, options));
   });
 }
+
+/// Neighbours in packets, in the order of the batch.
+template <class T>
+class Packets : public Peer {
+ public:
+  Packets(std::string name, std::shared_ptr<PreparedShape<T>> shape, InstructionSet set)
+      : Peer(std::move(name)), shape_(std::move(shape)), set_(set) {}
+
+  void prepare(const RayBatch& rays) override {
+    packets_.assign((rays.size() + lanes - 1) / lanes, {});
+    for (std::size_t i = 0; i < packets_.size() * lanes; ++i) {
+      const std::size_t from = std::min(i, rays.size() - 1);
+      Ray<T> ray;
+      if constexpr (std::is_same_v<T, float>)
+        ray = rays.in_float[from];
+      else
+        ray = rays.in_double[from];
+      packets_[i / lanes].set(static_cast<int>(i % lanes), ray);
+    }
+  }
+
+  void cast(const RayBatch&, std::span<Hit> hits) override {
+    CastPacket<T> answers;
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+      const int lane = static_cast<int>(i % lanes);
+      if (lane == 0) cast_packet(*shape_, packets_[i / lanes], all_lanes<T>, answers, set_);
+      hits[i] = as_hit(answers.result(lane));
+    }
+  }
+
+ private:
+  static constexpr std::size_t lanes = static_cast<std::size_t>(packet_lanes<T>);
+  std::shared_ptr<PreparedShape<T>> shape_;
+  InstructionSet set_;
+  std::vector<RayPacket<T>> packets_;
+};
 
 }  // namespace
 
@@ -66,11 +104,18 @@ Peers scalar_solvers(const Shape<double>& shape, bool sweep) {
   return peers;
 }
 
-/// No packets yet: each `cast_packet` becomes a Peer here, "minkray-packet-8/float" and
-/// "minkray-packet-4/double", whose prepare() brings the rays into packets. The table and the
-/// comparisons in measures.cpp find them by these names.
-Peers packet_solvers(const Shape<double>&) {
-  return {};
+Peers packet_solvers(const Shape<double>& shape) {
+  Peers peers;
+  const auto f = std::make_shared<PreparedShape<float>>(convert<float>(shape));
+  const auto d = std::make_shared<PreparedShape<double>>(shape);
+  peers.push_back(std::make_unique<Packets<float>>("minkray-packet-8/float", f,
+                                                   best_instruction_set()));
+  peers.push_back(std::make_unique<Packets<double>>("minkray-packet-4/double", d,
+                                                    best_instruction_set()));
+  if (best_instruction_set() != InstructionSet::sse2)
+    peers.push_back(std::make_unique<Packets<float>>("minkray-packet-8-sse2/float", f,
+                                                     InstructionSet::sse2));
+  return peers;
 }
 
 }  // namespace minkray::bench

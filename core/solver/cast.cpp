@@ -4,7 +4,7 @@
 
 #include "core/solver/first_solution.h"
 #include "core/solver/gjk_ray_cast.h"
-#include "core/solver/jet_cast.h"
+#include "core/solver/mixed_model.h"
 #include "core/solver/subalgorithm.h"
 
 namespace minkray {
@@ -52,17 +52,23 @@ CastResult<T> cast_with_model(const PreparedShape<T>& shape, const RayNearBall<T
                                      max_iterations, observer));
     };
   };
-  const CastResult<T> result =
-      options.solver == SolverKind::portal
-          ? cast(tolerance::portal_max_iterations)([&](const Vec3<T>& s, const Vec3<T>& r) {
-              return PolytopeModel<T, Shape<T>>(shape.inner_shape(), ball.centre, s, r,
-                                                ball.radius);
-            })
-          : with_model<T>(shape.inner_shape(), shape.model(), ball.centre, ball.radius,
-                          cast(tolerance::jet_max_iterations));
+  const Shape<T>& any = shape.inner_shape();
+  const auto model_and_cast = [&] {
+    if (options.solver == SolverKind::portal)
+      return cast(tolerance::portal_max_iterations)([&](const Vec3<T>& s, const Vec3<T>& r) {
+        return PolytopeModel<T, Shape<T>>(any, ball.centre, s, r, ball.radius);
+      });
+    const auto jet_cast = cast(tolerance::jet_max_iterations);
+    if (shape.model() == ModelKind::mixed)
+      return jet_cast([&](const Vec3<T>& s, const Vec3<T>& r) {
+        return MixedModel<T, Shape<T>>(any, ball, shape.inner_half_extents(), s, r);
+      });
+    return with_model<T>(any, shape.model(), ball.centre, ball.radius, jet_cast);
+  };
+  const CastResult<T> result = model_and_cast();
   if (result.status != Status::exhausted) return result;
   CastResult<T> slow =
-      gjk_ray_cast(shape.inner_shape(), near, ball, gjk_options(shape, options), observer);
+      gjk_ray_cast(any, near, ball, gjk_options(shape, options), observer);
   slow.iterations += result.iterations;
   slow.supports += result.supports;
   return slow;
@@ -80,13 +86,10 @@ CastResult<T> cast_with(SolverKind solver, const PreparedShape<T>& shape,
                         const RayNearBall<T>& near, const CastOptions<T>& options,
                         Observer&& observer) {
   if (is_reference(solver)) return cast_reference(shape, near, options, observer);
-  if (solver == SolverKind::portal ||
-      (solver == SolverKind::jet && shape.model() != ModelKind::none))
+  if (solver == SolverKind::portal || solver == SolverKind::jet)
     return cast_with_model(shape, near, options, observer);
   return std::visit(
       [&](const auto& kind) {
-        if (solver == SolverKind::jet)
-          return jet_cast(kind, near, shape.inner_ball(), shape.inner_half_extents(), {}, observer);
         return gjk_ray_cast(kind, near, shape.inner_ball(), gjk_options(shape, options), observer);
       },
       shape.inner_shape().kind);

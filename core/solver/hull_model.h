@@ -4,11 +4,40 @@
 // calls are made here.
 #pragma once
 
+#include <array>
+
 #include "core/shape/jet.h"
-#include "core/solver/ellipsoid_hull_cast.h"
+#include "core/solver/hull_cast.h"
+#include "core/solver/tolerances.h"
 
 namespace minkray {
 
+/// One ellipsoid { c + F b : |b| <= 1 }, or a point where F = 0.
+template <class T>
+struct HullPiece {
+  Vec3<T> c = Vec3<T>::Zero();
+  Mat3<T> F = Mat3<T>::Zero();
+  bool exact = true;                ///< part of the shape, not only osculating
+  Vec3<T> s = Vec3<T>::Zero();      ///< its support point when it was found
+  Vec3<T> n = Vec3<T>::Zero();      ///< the direction, of unit length, in which it was found
+  Vec3<T> patch = Vec3<T>::Zero();  ///< what tells the pieces of one curved patch: its centre
+
+  T value(const Vec3<T>& m) const { return c.dot(m) + (F.transpose() * m).norm(); }
+  bool is_point() const { return (F.array() == T(0)).all(); }
+};
+
+/// Which pieces carry the model's hit, and with which weights.
+template <class T>
+struct HullSolution {
+  Vec3<T> m = Vec3<T>::Zero();       ///< the direction, of unit length; zero: none was found
+  int size = 0;                      ///< how many pieces carry it
+  std::array<int, 4> carriers = {};  ///< their indices
+  std::array<T, 4> weights = {};     ///< convex weights of their support points
+  T height = T(0);                   ///< of the hit on the axis, where m.z > 0
+  bool certain = false;              ///< `height` is the model's hit, up to rounding
+};
+
+/// Frame: the ray runs down the z axis, and lengths are in units of the shape's bounding radius.
 template <class T>
 class HullModel {
  public:
@@ -17,15 +46,15 @@ class HullModel {
   explicit HullModel(const Mat3<T>& surrogate) : surrogate_(surrogate) {}
 
   int size() const { return size_; }
-  const Piece<T>& piece(int i) const { return pieces_[static_cast<std::size_t>(i)]; }
+  const HullPiece<T>& piece(int i) const { return pieces_[static_cast<std::size_t>(i)]; }
 
   /// Adds a piece, replacing the same piece where it is there already, and says whether it was.
   /// Osculating pieces keep their ellipsoids only if they belong to different patches (different
   /// centre) and were found in nearly the same direction; older ones become their support points,
   /// which are part of the shape whatever the curvature.
-  bool add(const Piece<T>& piece) {
+  bool add(const HullPiece<T>& piece) {
     for (int i = 0; i < size_; ++i) {
-      const Piece<T>& old = at(i);
+      const HullPiece<T>& old = at(i);
       if (old.patch == piece.patch || (old.n - piece.n).squaredNorm() > near_squared)
         flatten(at(i));
     }
@@ -51,7 +80,7 @@ class HullModel {
     }
     if (points) return solve_points(n, shrink);
     HullSolution<T> solution =
-        common ? CommonFactorCast<T>(at(0).F, centres(), size_).solve(newest_) : solve_mixed(n);
+        common ? translates(at(0).F, centres(), newest_) : solve_mixed(n);
     solution.certain = solution.certain && has_settled(solution, n);
     return solution;
   }
@@ -72,7 +101,7 @@ class HullModel {
 
   /// Drops all pieces but the carriers of the solution.
   void keep(const HullSolution<T>& solution) {
-    std::array<Piece<T>, 4> kept;
+    std::array<HullPiece<T>, 4> kept;
     int count = 0;
     for (int k = 0; k < solution.size; ++k)
       kept[static_cast<std::size_t>(count++)] = at(solution.carriers[static_cast<std::size_t>(k)]);
@@ -86,7 +115,7 @@ class HullModel {
     Vec3<T> p = Vec3<T>::Zero();
     for (int k = 0; k < solution.size; ++k) {
       const auto index = static_cast<std::size_t>(k);
-      const Piece<T>& carrier = pieces_[static_cast<std::size_t>(solution.carriers[index])];
+      const HullPiece<T>& carrier = pieces_[static_cast<std::size_t>(solution.carriers[index])];
       p += solution.weights[index] *
            (carrier.c + carrier.F * unit<T>(carrier.F.transpose() * solution.m));
     }
@@ -94,12 +123,12 @@ class HullModel {
   }
 
  private:
-  static void flatten(Piece<T>& piece) {
-    if (!piece.exact) piece = Piece<T>{piece.s, Mat3<T>::Zero(), true, piece.s, piece.n, piece.s};
+  static void flatten(HullPiece<T>& piece) {
+    if (!piece.exact) piece = HullPiece<T>{piece.s, Mat3<T>::Zero(), true, piece.s, piece.n, piece.s};
   }
 
-  Piece<T>& at(int i) { return pieces_[static_cast<std::size_t>(i)]; }
-  const Piece<T>& at(int i) const { return pieces_[static_cast<std::size_t>(i)]; }
+  HullPiece<T>& at(int i) { return pieces_[static_cast<std::size_t>(i)]; }
+  const HullPiece<T>& at(int i) const { return pieces_[static_cast<std::size_t>(i)]; }
 
   std::array<Vec3<T>, 4> centres() const {
     std::array<Vec3<T>, 4> c;
@@ -107,17 +136,64 @@ class HullModel {
     return c;
   }
 
+  /// The hit on translates of one ellipsoid, the newest among its carriers.
+  HullSolution<T> translates(const Mat3<T>& F, const std::array<Vec3<T>, 4>& c, int newest) const {
+    Translates<T> others;
+    std::array<int, 3> index = {};
+    std::size_t count = 0;
+    for (int i = 0; i < size_; ++i) {
+      if (i == newest) continue;
+      others.c[count] = c[static_cast<std::size_t>(i)];
+      others.valid[count] = true;
+      index[count++] = i;
+    }
+    const Vec3<T>& c_newest = c[static_cast<std::size_t>(newest)];
+    const bool points = (F.array() == T(0)).all();
+    const HullCastHit<T> hit =
+        points ? HullCast<T, RoundBody<T>>({T(0)}, c_newest, others, rounding).solve()
+               : HullCast<T, EllipsoidBody<T>>({F}, c_newest, others, rounding).solve();
+    HullSolution<T> solution;
+    if (!(hit.m.squaredNorm() > T(0))) return solution;
+    solution.m = hit.m;
+    solution.height = hit.rank;
+    solution.certain = hit.found && hit.m.z() > T(0);
+    T rest = T(1);
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (hit.weights[k] == T(0)) continue;
+      rest -= hit.weights[k];
+      const auto place = static_cast<std::size_t>(solution.size++);
+      solution.carriers[place] = index[k];
+      solution.weights[place] = hit.weights[k];
+    }
+    const auto place = static_cast<std::size_t>(solution.size++);
+    solution.carriers[place] = newest;
+    solution.weights[place] = rest;
+    return solution;
+  }
+
+  /// The same with any of them among the carriers: the first that is certain, or the lowest.
+  HullSolution<T> any_translates(const Mat3<T>& F, const std::array<Vec3<T>, 4>& c) const {
+    HullSolution<T> best;
+    for (int i = size_ - 1; i >= 0; --i) {
+      const HullSolution<T> solution = translates(F, c, i);
+      if (solution.size == 0) continue;
+      if (best.size == 0 || solution.height < best.height) best = solution;
+      if (solution.certain) return solution;
+    }
+    return best;
+  }
+
   /// Points only: the triangle that encloses the ray, or else the same points made round.
   HullSolution<T> solve_points(const Vec3<T>& n, T shrink) const {
     const HullSolution<T> flat =
-        CommonFactorCast<T>(Mat3<T>::Zero(), centres(), size_).solve(newest_);
+        translates(Mat3<T>::Zero(), centres(), newest_);
     if (flat.certain || shrink < least_shrink) return flat;
     // The ellipsoids touch the planes of direction n in the points themselves.
     const Mat3<T> F = surrogate_ * shrink;
     const Vec3<T> g = F * unit<T>(F.transpose() * n);
     std::array<Vec3<T>, 4> c = centres();
     for (Vec3<T>& centre : c) centre -= g;
-    HullSolution<T> round = CommonFactorCast<T>(F, c, size_).solve(newest_);
+    HullSolution<T> round = translates(F, c, newest_);
     round.certain = false;
     return round;
   }
@@ -151,7 +227,7 @@ class HullModel {
         c[k] = at(i).c + g[k] - g_mean;
       }
       const Mat3<T> F = factor<T>(h_mean * H + g_mean * g_mean.transpose());
-      const HullSolution<T> next = CommonFactorCast<T>(F, c, size_).solve_any();
+      const HullSolution<T> next = any_translates(F, c);
       if (next.size == 0) return solution;
       const T moved = (next.m - m).norm();
       const bool same = next.size == solution.size && next.carriers == solution.carriers;
@@ -213,11 +289,13 @@ class HullModel {
   /// In units of the bounding radius: the value's error is its square over the radius of curvature.
   inline static const T on_the_ray = T(0.6) * std::sqrt(epsilon);
 
+  /// In units of the bounding radius.
+  static constexpr T rounding = tolerance::model_rounding<T>;
   /// In units of the bounding radius: how close to the ray an osculating ellipsoid is trusted.
   inline static const T model_reach = std::cbrt(epsilon);
 
   Mat3<T> surrogate_;
-  std::array<Piece<T>, 4> pieces_;
+  std::array<HullPiece<T>, 4> pieces_;
   int size_ = 0;
   int newest_ = 0;
 };

@@ -20,6 +20,8 @@ struct ModelHit {
   Vec3<W> m = Vec3<W>::Zero();  ///< the normal, of unit length; zero or not finite: none was found
   W height = W(0);              ///< where the ray enters the model: at lambda = -height
   Mask<W> certain = Mask<W>(false);   ///< `height` is the model's, up to rounding
+  /// The carriers of the hit are parts of the shape, so that it bounds the shape's hit.
+  Mask<W> inner = Mask<W>(true);
   Mask<W> repeated = Mask<W>(false);  ///< the newest piece had been seen before
 };
 
@@ -28,11 +30,26 @@ template <class W>
 struct LineHit {
   Mask<W> hit = Mask<W>(false);
   Mask<W> miss = Mask<W>(false);  ///< neither hit nor miss: exhausted
+  /// Exhausted because the line is tangent to the shape within rounding: `normal` is the plane's.
+  Mask<W> tangent = Mask<W>(false);
   W lambda = W(-std::numeric_limits<Lane<W>>::infinity());       ///< a lower bound, rigorous
   W lambda_above = W(std::numeric_limits<Lane<W>>::infinity());  ///< the model's hit
   Vec3<W> normal = Vec3<W>::Zero();
   W supports = W(0);
 };
+
+/// Lane by lane.
+template <class W>
+LineHit<W> pick(const Mask<W>& condition, const LineHit<W>& a, const LineHit<W>& b) {
+  const Mask<W> other = !condition;
+  return {Mask<W>((condition & a.hit) | (other & b.hit)),
+          Mask<W>((condition & a.miss) | (other & b.miss)),
+          Mask<W>((condition & a.tangent) | (other & b.tangent)),
+          select(condition, a.lambda, b.lambda),
+          select(condition, a.lambda_above, b.lambda_above),
+          select<W>(condition, a.normal, b.normal),
+          select(condition, a.supports, b.supports)};
+}
 
 /// A model may calculate in a frame of its own, in which all vectors here are; the answer's normal
 /// is in the shape's. It offers
@@ -52,7 +69,8 @@ LineHit<W> first_on_line(Model& model, const Vec3<W>& first, const W& lambda_end
   using std::min;
   using T = Lane<W>;
   constexpr T infinity = std::numeric_limits<T>::infinity();
-  const W gap = W(tolerance::jet_gap<T> * R);
+  const W gap = W(tolerance::jet_gap<T> * R), gap_along = W(tolerance::jet_gap_along<T> * R);
+  const W least_slope = W(tolerance::least_slope<T>);
   LineHit<W> result;
   Vec3<W> n = model.to_frame(first);
   ModelHit<W> model_hit;
@@ -61,7 +79,7 @@ LineHit<W> first_on_line(Model& model, const Vec3<W>& first, const W& lambda_end
     const auto piece = model.support(n);
     result.supports += select(open, W(1), W(0));
     const W h = piece.reach(n), z = model.against_ray(n);
-    const Mask<W> ahead = z > W(0);
+    const Mask<W> ahead = z > least_slope;
     const W lambda = select(ahead, W(-h / select(ahead, z, W(1))), W(-infinity));
     if constexpr (LaneOf<W>::count == 1) observer(lambda, model.to_shape(n), model.to_shape(piece.spot(n)));
     const Mask<W> better = open & (lambda > result.lambda);
@@ -75,14 +93,15 @@ LineHit<W> first_on_line(Model& model, const Vec3<W>& first, const W& lambda_end
 
     // Where the model, as it was, is hit no further than rounding beyond the best plane.
     const auto meets = [&](const W& within) {
-      const W cosine =
-          min(model.against_ray(model_hit.m), max(model.against_ray(result.normal), W(0)));
-      const W missing = (-model_hit.height - result.lambda) * cosine;
-      const Mask<W> met = open & model_hit.certain & (missing <= within);
+      const W slope = model.against_ray(model_hit.m);
+      const W along = -model_hit.height - result.lambda;
+      const W missing = along * min(slope, max(model.against_ray(result.normal), W(0)));
+      const Mask<W> met = open & model_hit.certain & (slope > least_slope) & (missing <= within) &
+                          (along <= gap_along);
       const Mask<W> contradicts = missing < W(-16) * gap;
       result.hit |= met & !contradicts;
-      result.lambda_above = select(met & !contradicts, max(W(-model_hit.height), result.lambda),
-                                   result.lambda_above);
+      result.lambda_above = select(met & model_hit.inner & !contradicts,
+                                   max(W(-model_hit.height), result.lambda), result.lambda_above);
       open &= !met;
     };
     meets(gap);
@@ -94,6 +113,9 @@ LineHit<W> first_on_line(Model& model, const Vec3<W>& first, const W& lambda_end
     // A tangent line: where along it the shape is touched, no plane along it tells.
     const Mask<W> touches = (!ahead) & model_hit.repeated & (abs(h) <= gap);
     const Mask<W> stuck = model_hit.repeated & ((model_hit.m - n).squaredNorm() == W(0));
+    const Mask<W> tangent = open & touches;
+    result.tangent |= tangent;
+    result.normal = select<W>(tangent, n, result.normal);
     open &= model_hit.m.squaredNorm() > W(0);
     open &= !(touches | stuck);
     if (!any(open)) break;

@@ -58,10 +58,24 @@ CastLanes<W> model_cast(const MakeModel& make_model, const RayNearBall<W>& near,
       }
     };
   };
-  auto model = make_model(s, r);
   const W end = min(depth, near.lambda_max);
-  const LineHit<W> entry = first_on_line<W>(model, normal_on_extents<W>(half_extents, s, r), end, R,
-                                            castable, max_iterations, watch(W(1)));
+  const auto first_along = [&](const Vec3<W>& from, const Vec3<W>& direction, const W& until,
+                               const Mask<W>& open, const W& sign) {
+    auto model = make_model(from, direction);
+    return first_on_line<W>(model, normal_on_extents<W>(half_extents, from, direction), until, R,
+                            open, max_iterations, watch(sign));
+  };
+  // Where a line is tangent within rounding, one that is no further away enters at a steeper angle.
+  const auto first_of = [&](const Vec3<W>& direction, const W& until, const Mask<W>& open,
+                            const W& sign) {
+    LineHit<W> found = first_along(s, direction, until, open, sign);
+    if (!any(found.tangent)) return found;
+    const Vec3<W> pushed = s - found.normal * W(tolerance::tangent_push<T> * R);
+    LineHit<W> again = first_along(pushed, direction, until, found.tangent, sign);
+    again.supports += found.supports;
+    return pick(found.tangent, again, found);
+  };
+  const LineHit<W> entry = first_of(r, end, castable, W(1));
   result.supports = entry.supports;
   result.normal = select<W>(castable, entry.normal, result.normal);
   result.miss |= entry.miss;
@@ -85,10 +99,7 @@ CastLanes<W> model_cast(const MakeModel& make_model, const RayNearBall<W>& near,
   const Mask<W> began = entry.hit & !enters;
   if (!any(began)) return result;
   const Vec3<W> back = -r;
-  auto model_behind = make_model(s, back);
-  const LineHit<W> exit =
-      first_on_line<W>(model_behind, normal_on_extents<W>(half_extents, s, back),
-                       W(-near.lambda_min), R, began, max_iterations, watch(W(-1)));
+  const LineHit<W> exit = first_of(back, W(-near.lambda_min), began, W(-1));
   result.supports += exit.supports;
   const Mask<W> left = began & (exit.miss | (exit.hit & (-exit.lambda < near.lambda_min)));
   result.miss |= left;

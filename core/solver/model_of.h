@@ -18,7 +18,7 @@ enum class ModelKind : unsigned char {
   points,          ///< a polytope made of other shapes
   rounded_points,  ///< a rounded polytope
   smooth,          ///< a smooth surface
-  none,            ///< other shapes: their jets are modelled one by one (core/solver/jet_cast.h)
+  mixed,           ///< any other shape: MixedModel, for single rays only
 };
 
 namespace detail {
@@ -46,19 +46,21 @@ ModelKind model_kind_of(const Shape<T>& shape) {
                       detail::is_polytope<S, T>) {
           return ModelKind::closed_form;
         } else {
-          if constexpr (std::is_same_v<S, Rounded<T>>)
-            if (surface_of<T>(*kind.shape) == SurfaceKind::flat) return ModelKind::rounded_points;
           const SurfaceKind surface = surface_of<T>(shape);
+          if constexpr (std::is_same_v<S, Rounded<T>>)
+            if (surface != SurfaceKind::flat &&
+                surface_of<T>(*kind.shape) == SurfaceKind::flat)
+              return ModelKind::rounded_points;
           return surface == SurfaceKind::flat     ? ModelKind::points
                  : surface == SurfaceKind::smooth ? ModelKind::smooth
-                                                  : ModelKind::none;
+                                                  : ModelKind::mixed;
         }
       },
       shape.kind);
 }
 
 /// Calls use(make_model), where make_model(s, r) makes the shape's model as seen from s along r;
-/// `centre` and `R` are the bounding ball's. Not for ModelKind::none.
+/// `centre` and `R` are the bounding ball's. Not for ModelKind::mixed.
 template <class W, class Use>
 auto with_model(const Shape<Lane<W>>& shape, ModelKind model, const Vec3<Lane<W>>& centre,
                 Lane<W> R, Use&& use) {

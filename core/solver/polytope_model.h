@@ -40,6 +40,8 @@ class PolytopeModel {
   }
 
   ModelHit<W> step(const Piece& piece, const Vec3<W>& n, int iteration) {
+    using std::max;
+    using std::min;
     const Vec3<W>& newest = piece.c;
     // Forget an older copy of the newest vertex.
     ModelHit<W> hit;
@@ -56,7 +58,8 @@ class PolytopeModel {
       const Vec3<W> m = rounded(newest, n);
       hit.m = select<W>(hit.certain, hit.m, m);
     }
-    hit.height = newest.dot(hit.m) / select(hit.m.z() > W(0), hit.m.z(), W(1));
+    const W height = newest.dot(hit.m) / select(hit.m.z() > W(0), hit.m.z(), W(1));
+    hit.height = select(hit.certain, min(max(height, lowest_), highest_), height);
     replace(newest, n, iteration);
     return hit;
   }
@@ -73,6 +76,8 @@ class PolytopeModel {
   /// normal. Where the newest is not new, rounding has the last word: edges are passed through by
   /// what touches them.
   Mask<W> portal(const Vec3<W>& newest, const Mask<W>& repeated, Vec3<W>& m) {
+    using std::max;
+    using std::min;
     Mask<W> found(false);
     for (Kept& kept : kept_) kept.carries = Mask<W>(false);
     for (std::size_t i = 0; i < 3; ++i) {
@@ -91,6 +96,9 @@ class PolytopeModel {
       candidate &= normal.z() > W(0);
       candidate &= !beaten;
       m = select<W>(candidate, normal, m);
+      // Between the three, whatever rounding made of a sliver's normal.
+      lowest_ = select(candidate, min(newest.z(), min(a.c.z(), b.c.z())), lowest_);
+      highest_ = select(candidate, max(newest.z(), max(a.c.z(), b.c.z())), highest_);
       a.carries |= candidate;
       b.carries |= candidate;
       found |= candidate;
@@ -158,6 +166,7 @@ class PolytopeModel {
   RayFrame<W> frame_;
   W rounding_;
   W ball_, least_ball_;
+  W lowest_ = W(0), highest_ = W(0);  ///< of the portal's vertices
   std::array<Kept, 3> kept_;
 };
 

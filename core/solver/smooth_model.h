@@ -76,6 +76,7 @@ class SmoothModel {
     const W z = select(ahead, hit.m.z(), W(1));
     hit.height = (c.dot(hit.m) + body.bend(hit.m)) / z;
     hit.certain = on_hull.found & ahead & settled(piece, n, on_hull);
+    hit.inner = Mask<W>(false);
     hit.repeated = repeated;
     keep(piece, n, on_hull);
 

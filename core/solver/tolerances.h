@@ -4,6 +4,7 @@
 #pragma once
 
 #include <limits>
+#include <type_traits>
 
 namespace minkray::tolerance {
 
@@ -43,6 +44,22 @@ inline constexpr int gjk_max_iterations = 1000;
 /// plane's offset (a few roundings each of the support point, its move to the ray, and the plane).
 template <class T>
 inline constexpr T jet_gap = T(4) * epsilon<T>;
+
+/// A supporting plane whose normal's component against the ray is no more than this says nothing
+/// of where along the ray the shape begins: the plane's rounding is as long as sqrt(epsilon) there.
+/// No shape's silhouette is as near to a ray that is told from a miss as this is small.
+template <class T>
+inline constexpr T least_slope = std::is_same_v<T, float> ? T(0x1p-12) : T(0x1p-26);
+
+/// The last word on a hit, whatever the planes' slopes: model and best plane agree so well along
+/// the ray, in units of the bounding radius.
+template <class T>
+inline constexpr T jet_gap_along = least_slope<T>;
+
+/// How deep a line that is tangent within rounding is pushed into the shape to find where it
+/// enters, in units of the bounding radius: more than jet_gap, and all roundings together.
+template <class T>
+inline constexpr T tangent_push = T(16) * epsilon<T>;
 
 /// How far beside the ray, in units of the bounding radius, a point of the model counts as on it,
 /// and how much further a piece must reach than another to matter: a few roundings of a position.

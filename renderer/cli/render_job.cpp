@@ -80,7 +80,7 @@ RenderedJob run(const RenderJob& job, Checkpoint& checkpoint) {
       std::to_string(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
   facts[threads_fact] = std::to_string(thread_count());
   if (!done.labels.empty()) facts[labels_fact] = labels_text(done.labels);
-  done.exr = exr_of(done.rendering, job.options, std::move(facts));
+  if (job.wants_planes) done.exr = exr_of(done.rendering, job.options, std::move(facts));
   for (ExrPlane& plane : data) done.exr.planes.push_back(std::move(plane));
   if (const std::string complaint = checkpoint.complaint(); !complaint.empty())
     std::cerr << "warning: a checkpoint could not be written: " << complaint << "\n";

@@ -20,12 +20,14 @@ struct RenderJob {
   std::string command;
   double checkpoint_seconds = 60;
   bool resume = false;
+  bool wants_planes = true;  ///< whether any output has them; they take as much memory again
   bool quiet = false;
 };
 
 struct RenderedJob {
   Rendering rendering;
-  ExrImage exr;  ///< with facts: the picture's, the piece's, what it cost
+  ExrImage exr;  ///< without planes if they are not wanted; with facts: the picture's, the piece's,
+                 ///< what it cost
   std::vector<Label> labels;
   double seconds = 0;
 };

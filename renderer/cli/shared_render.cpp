@@ -22,11 +22,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What a rank asks for, and what it gets if there is nothing left; tiles count from 1.
+/// What rank 0 says when all is ready to begin, what a rank asks for then, and what it gets if
+/// there is nothing left; tiles count from 1.
+constexpr int begin = -1;
 constexpr int give_me_a_tile = 0;
 constexpr int no_more_tiles = 0;
 
-/// How often rank 0 looks for requests. Waiting within MPI would keep a core busy.
+/// How often messages are looked for. Waiting within MPI would keep a core busy, and signals would
+/// not be heard.
 constexpr auto pause = std::chrono::milliseconds(1);
 
 /// Hands out the numbers 1 to count, each once.
@@ -43,6 +46,15 @@ class TileQueue {
   const int count_;
   int given_ = 0;
 };
+
+/// What rank 0 sent, when it does. Ends the process if it is interrupted.
+int answer_of_rank_0(Ranks& ranks) {
+  for (;;) {
+    if (const auto message = ranks.poll()) return message->number;
+    InterruptGuard::end_if_interrupted();
+    std::this_thread::sleep_for(pause);
+  }
+}
 
 /// Answers the other ranks until each was told that there are no more tiles, or a stop is wanted.
 void hand_out(const std::stop_token& stop, Ranks& ranks, TileQueue& queue) {
@@ -96,9 +108,14 @@ int default_tile_count(const PixelRect& picture) {
 std::optional<Merged> render_on(Ranks& ranks, const RenderJob& job, int tiles,
                                 const std::string& output) {
   tell_threads(ranks);
-  std::error_code error;
-  fs::create_directories(parts_folder(output), error);
-  if (error) throw CannotWrite("cannot write " + parts_folder(output) + ": " + error.message());
+  if (ranks.rank() == 0) {
+    std::error_code error;
+    fs::create_directory(parts_folder(output), error);
+    if (error) throw CannotWrite("cannot write " + parts_folder(output) + ": " + error.message());
+    for (int other = 1; other < ranks.count(); ++other) ranks.send(other, begin);
+  } else if (answer_of_rank_0(ranks) != begin) {
+    return std::nullopt;
+  }
 
   RenderJob tile_job = job;
   tile_job.quiet = true;
@@ -115,7 +132,7 @@ std::optional<Merged> render_on(Ranks& ranks, const RenderJob& job, int tiles,
   if (ranks.rank() != 0) {
     for (;;) {
       ranks.send(0, give_me_a_tile);
-      const int tile = ranks.receive(0).number;
+      const int tile = answer_of_rank_0(ranks);
       if (tile == no_more_tiles) return std::nullopt;
       render_tile(tile);
     }

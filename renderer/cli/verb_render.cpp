@@ -21,8 +21,8 @@
 #include "renderer/image_file.h"
 #include "renderer/interrupt.h"
 #include "renderer/json/json.h"
-#include "renderer/merge.h"
 #include "renderer/labels.h"
+#include "renderer/merge.h"
 #include "renderer/ray_audit.h"
 #include "renderer/scene/scene_json.h"
 
@@ -154,6 +154,7 @@ void read_options(const Options& options, const Ranks& ranks, RenderJob& job) {
   job.command = command_line();
   job.checkpoint_seconds = options.checkpoint_seconds;
   job.resume = options.resume;
+  job.wants_planes = ranks.count() > 1 || std::any_of(outputs.begin(), outputs.end(), keeps_planes);
   job.quiet = options.image.quiet;
 }
 
@@ -236,7 +237,9 @@ ExitCode run(const Options& options) {
 
   // Of pieces many are rendered, over and over where machines fail.
   const std::string& output = options.image.outputs.front();
-  if (options.resume && options.is_piece() && is_part_of(output, facts_of(job))) {
+  const auto is_there = [&](const std::string& file) { return is_part_of(file, facts_of(job)); };
+  if (options.resume && options.is_piece() &&
+      std::all_of(options.image.outputs.begin(), options.image.outputs.end(), is_there)) {
     if (!options.image.quiet) std::cerr << output << ": is there already\n";
     return ExitCode::done;
   }

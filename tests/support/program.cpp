@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <stdexcept>
+#include <utility>
 
 #include "tests/support/source_files.h"
 
@@ -34,20 +35,30 @@ std::vector<std::string> TemporaryFolder::files() const {
   return names;
 }
 
-pid_t start_minkray(const std::vector<std::string>& arguments) {
-  std::vector<std::string> words = {MINKRAY_PROGRAM};
-  words.insert(words.end(), arguments.begin(), arguments.end());
+pid_t start_program(std::vector<std::string> words) {
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
   const pid_t child = ::fork();
+  // Who kills process -1 kills all there are.
+  if (child < 0) throw std::runtime_error("cannot start a process");
   if (child == 0) {
     if (std::freopen("/dev/null", "w", stdout) == nullptr) ::_exit(126);
     if (std::freopen("/dev/null", "w", stderr) == nullptr) ::_exit(126);
-    ::execv(MINKRAY_PROGRAM, pointers.data());
+    ::execvp(pointers[0], pointers.data());
     ::_exit(127);
   }
   return child;
+}
+
+std::string minkray_program() {
+  return MINKRAY_PROGRAM;
+}
+
+pid_t start_minkray(const std::vector<std::string>& arguments) {
+  std::vector<std::string> words = {MINKRAY_PROGRAM};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  return start_program(std::move(words));
 }
 
 int wait_for(pid_t process) {

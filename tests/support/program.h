@@ -25,8 +25,13 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-/// Starts minkray with its output thrown away; the process is to be waited for.
+/// Starts a program, looked for in PATH, with its output thrown away; the process is to be waited
+/// for.
+pid_t start_program(std::vector<std::string> words);
 pid_t start_minkray(const std::vector<std::string>& arguments);
+
+/// The file name of the program minkray.
+std::string minkray_program();
 
 /// The status as waitpid has it.
 int wait_for(pid_t process);
