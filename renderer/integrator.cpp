@@ -19,6 +19,9 @@ template <class... F>
 struct Overloaded : F... {
   using F::operator()...;
 };
+// Clang finds it by itself only from version 17 on.
+template <class... F>
+Overloaded(F...) -> Overloaded<F...>;
 
 Colour by_height(const Colour& zenith, const Colour& nadir, const Vec3<double>& direction) {
   const double up = 0.5 + 0.5 * direction.z();

@@ -105,10 +105,14 @@ Vertices read_mesh_vertices(const std::filesystem::path& path) {
   if (extension != ".obj" && extension != ".stl") {
     throw std::runtime_error("must be a mesh file that ends in .obj or .stl");
   }
-  const std::string text = read_regular_file(path, most_bytes);
-  Vertices vertices = extension == ".obj"   ? vertices_of_lines(text, "v")
-                      : is_binary_stl(text) ? vertices_of_binary_stl(text)
-                                            : vertices_of_lines(text, "vertex");
+  return mesh_vertices(read_regular_file(path, most_bytes),
+                       extension == ".obj" ? MeshFormat::obj : MeshFormat::stl);
+}
+
+Vertices mesh_vertices(std::string_view text, MeshFormat format) {
+  Vertices vertices = format == MeshFormat::obj ? vertices_of_lines(text, "v")
+                      : is_binary_stl(text)     ? vertices_of_binary_stl(text)
+                                                : vertices_of_lines(text, "vertex");
   if (vertices.empty()) throw std::runtime_error("has no vertices");
   return vertices;
 }

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string_view>
 #include <vector>
 
 #include "core/math/vec.h"
@@ -14,5 +15,10 @@ namespace minkray {
 /// All vertices, in the file's order and unit; at least one, each finite. Throws std::runtime_error
 /// that says what is wrong with the file, without its name: "line 12: ...".
 std::vector<Vec3<double>> read_mesh_vertices(const std::filesystem::path& path);
+
+enum class MeshFormat : unsigned char { obj, stl };
+
+/// The same of a file's contents.
+std::vector<Vec3<double>> mesh_vertices(std::string_view contents, MeshFormat format);
 
 }  // namespace minkray

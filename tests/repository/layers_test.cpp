@@ -40,9 +40,9 @@ std::string layer_of(const std::string& file) {
   return layer;
 }
 
-std::vector<SourceFile> sources() {
+std::vector<SourceFile> sources(const std::vector<std::string>& folders = {"core", "renderer"}) {
   std::vector<SourceFile> files;
-  for (const char* folder : {"core", "renderer"}) {
+  for (const std::string& folder : folders) {
     for (SourceFile& file : files_in(folder)) {
       if (file.name.ends_with(".h") || file.name.ends_with(".cpp")) {
         files.push_back(std::move(file));
@@ -83,8 +83,30 @@ TEST(Layers, each_library_is_seen_in_one_place) {
       {"stb/stb_image_write", "renderer/png.cpp"},
       {"stb/stb_easy_font", "renderer/text.cpp"},
   };
+  // What only tests see; there may be one line for each of several places.
+  const std::vector<std::pair<std::string, std::string>> places_in_tests = {
+      {"gtest/", "tests/"},
+      {"rapidcheck", "tests/support/property.h"},
+      {"Eigen/", "tests/oracle/"},
+      {"Eigen/", "tests/fuzz/"},
+      {"mujoco/", "tests/oracle/"},
+      {"ode/", "tests/oracle/"},
+      {"stb/stb_image.h", "tests/renderer/"},
+  };
   const std::regex standard("[a-z_]+");
   const std::regex posix("(sys/)?[a-z]+\\.h");
+  for (const SourceFile& file : sources({"tests"})) {
+    for (const std::string& included : library_includes(file)) {
+      if (std::regex_match(included, standard)) continue;
+      if (std::regex_match(included, posix) && !included.starts_with("rapidcheck")) continue;
+      EXPECT_TRUE(std::any_of(places_in_tests.begin(), places_in_tests.end(),
+                              [&](const auto& place) {
+                                return included.starts_with(place.first) &&
+                                       file.name.starts_with(place.second);
+                              }))
+          << file.name << " must not include " << included;
+    }
+  }
   for (const SourceFile& file : sources()) {
     for (const std::string& included : library_includes(file)) {
       const auto place = std::find_if(places.begin(), places.end(), [&](const auto& candidate) {

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// What a cast promises, checked with nothing but support points, computed in long double from the
+// same shape. Everything is allowed the rounding of its own numbers, and no more:
+//
+// - a miss is proven by its plane: all of the ray that could meet the shape lies on its other side;
+// - a hit lies on a supporting plane that faces the ray: the ray does not enter the shape earlier;
+// - a hit and an origin that is inside lie in the shape: no plane that anyone finds keeps it off;
+// - nothing is NaN, the normal is of unit length, t is in [0, t_max], the bounds are in order.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/math/ray.h"
+#include "core/shape/convert.h"
+#include "core/solver/result.h"
+#include "tests/fuzz/extent.h"
+
+namespace minkray::fuzz {
+
+using Real = long double;
+/// For what cancels: a ray's far origin against the shape's own position.
+__extension__ using Quad = __float128;
+
+/// One shape and one ray; what all solvers answer to it is checked against the same facts.
+template <class T>
+class CastReferee {
+ public:
+  /// The shape as it lies in the ray's frame.
+  CastReferee(const Shape<T>& shape, const Ray<T>& ray);
+
+  /// Whether the numbers of the answer are in T's range at all: t is distance over speed.
+  bool in_range() const { return in_range_; }
+
+  /// What is wrong with the answer; nothing if nothing is. Remembers its plane.
+  std::string check(std::string_view solver, const CastResult<T>& result);
+  std::string check_exit(std::string_view solver, const CastResult<T>& entry,
+                         const CastResult<T>& exit);
+
+  /// Whether a point that is claimed to be in the shape is kept off by any plane: those that have
+  /// been remembered, and those that a search of our own finds.
+  std::string check_claimed();
+
+ private:
+  struct Claim {
+    Vec3<Real> x;  ///< said to be in the shape; from the centre
+    std::string by;
+  };
+
+  /// Of o + t d: how far beyond the shape's furthest point along n, relative to the centre.
+  Real height(const Vec3<Real>& n) const { return n.dot(shape_.support(n) - centre_); }
+  Vec3<Real> at(Real t_base, Real t_offset) const;
+  std::string check_miss(const Vec3<Real>& n) const;
+  std::string kept_off(const Claim& claim, const Vec3<Real>& n) const;
+
+  Shape<Real> shape_;
+  Vec3<Real> centre_;
+  Vec3<Real> direction_;
+  std::array<Quad, 3> from_centre_;  ///< the ray's origin
+  Real speed_, t_max_, t_closest_;
+  Vec3<Real> closest_;  ///< the line's point at t_closest_, from the centre
+  Real radius_;         ///< of a ball around the centre that holds the shape
+  Real epsilon_, rounding_, end_rounding_;
+  bool in_range_;
+  std::vector<Vec3<Real>> planes_;
+  std::vector<Claim> claimed_;
+};
+
+extern template class CastReferee<float>;
+extern template class CastReferee<double>;
+
+}  // namespace minkray::fuzz

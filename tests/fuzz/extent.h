@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// The numbers that a shape's support points are computed by way of: what their rounding is relative
+// to. A large shape minus a large shape may be small, but is not known any better.
+#pragma once
+
+#include <Eigen/LU>
+
+#include "core/shape/shape.h"
+#include "core/shape/shape_bounds.h"
+
+namespace minkray::fuzz {
+
+struct Extent {
+  long double size = 0;       ///< no intermediate coordinate is larger (up to a small factor)
+  long double condition = 1;  ///< of the maps around and in the shape, multiplied along the nesting
+};
+
+template <class T>
+Extent extent_of(const Shape<T>& shape);
+
+namespace detail {
+
+template <class T>
+void add_operand(Extent& sum, const Nested<T>& operand) {
+  const Extent extent = extent_of(*operand);
+  sum.size += extent.size;
+  sum.condition = std::max(sum.condition, extent.condition);
+}
+
+}  // namespace detail
+
+template <class T>
+Extent under(const Affine<T>& map, const Extent& inner) {
+  const Mat3<long double> M = map.linear.template cast<long double>();
+  return {M.norm() * inner.size + map.translation.template cast<long double>().norm(),
+          inner.condition * M.norm() * inverse_of<long double>(M).norm() / 3};
+}
+
+template <class T>
+Extent extent_of(const Shape<T>& shape) {
+  return std::visit(
+      [&]<class S>(const S& kind) -> Extent {
+        if constexpr (std::is_same_v<S, Transform<T>>) {
+          return under(kind.map.affine(), extent_of(*kind.shape));
+        } else {
+          Extent extent;
+          bool has_operands = false;
+          for_each_field<S>([&](const auto& field) {
+            using Member = typename std::decay_t<decltype(field)>::Member;
+            const Member& member = kind.*(field.member);
+            if constexpr (std::is_same_v<Member, Nested<T>>) {
+              detail::add_operand(extent, member);
+              has_operands = true;
+            }
+            if constexpr (std::is_same_v<Member, ShapeList<T>>) {
+              for (const Nested<T>& operand : member) detail::add_operand(extent, operand);
+              has_operands = true;
+            }
+          });
+          const Bounds<T> bounds = bounds_of<T>(kind);
+          const T reach =
+              std::max(bounds.lower.cwiseAbs().maxCoeff(), bounds.upper.cwiseAbs().maxCoeff());
+          // Of an operator also its own lengths: all that its bounds have beyond its operands'.
+          extent.size =
+              has_operands ? std::max(extent.size, 2 * (long double)(reach)) : (long double)(reach);
+          return extent;
+        }
+      },
+      shape.kind);
+}
+
+}  // namespace minkray::fuzz

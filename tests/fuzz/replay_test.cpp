@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// The inputs that fuzzing is begun with, and those on which it once found something, with every
+// build of the suite.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "tests/fuzz/target.h"
+#include "tests/support/source_files.h"
+
+namespace minkray::fuzz {
+namespace {
+
+using Check = std::string (*)(std::string_view);
+
+struct Target {
+  const char* name;
+  Check check;
+};
+
+class Replay : public ::testing::TestWithParam<Target> {};
+
+TEST_P(Replay, kept_inputs_keep_every_promise) {
+  int count = 0;
+  for (const char* kind : {"corpus", "findings"}) {
+    const std::string folder = "tests/fuzz/" + std::string(kind) + "/" + GetParam().name;
+    if (!std::filesystem::is_directory(source_folder() / folder)) continue;
+    for (const SourceFile& file : files_in(folder)) {
+      EXPECT_EQ(GetParam().check(file.text), "") << file.name;
+      ++count;
+    }
+  }
+  EXPECT_GT(count, 3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Targets, Replay,
+                         ::testing::Values(Target{"scene", check_scene},
+                                           Target{"query", check_queries},
+                                           Target{"mesh", check_mesh}, Target{"cast", check_cast}),
+                         [](const auto& instance) { return std::string(instance.param.name); });
+
+}  // namespace
+}  // namespace minkray::fuzz

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// What is fuzzed. Each target takes any bytes, does with them what a user or a caller could, and
+// says what is wrong with the outcome: nothing, if every promise was kept. libFuzzer runs them
+// (tests/fuzz/entry.cpp) on inputs that it invents, the suite (tests/fuzz/replay_test.cpp) on those
+// that are kept.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace minkray::fuzz {
+
+/// A scene file: read into a scene that can be described and written, or refused with messages.
+std::string check_scene(std::string_view bytes);
+
+/// Lines of queries: each answered, in float and in double, or refused with messages.
+std::string check_queries(std::string_view bytes);
+
+/// A mesh file, its first byte telling OBJ from STL: read into points whose hull holds them all, or
+/// refused with a message.
+std::string check_mesh(std::string_view bytes);
+
+/// Shapes, nestings and rays made of the bytes (tests/fuzz/shape_from_bytes.h), cast by all
+/// accurate solvers and in packets; the answers checked by tests/fuzz/cast_promises.h.
+std::string check_cast(std::string_view bytes);
+
+}  // namespace minkray::fuzz
