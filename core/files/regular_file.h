@@ -10,8 +10,8 @@
 
 namespace minkray {
 
-/// A file that is read piece by piece. All throw std::runtime_error that says what is wrong with the
-/// file, without its name. Never waits for another process.
+/// A file that is read piece by piece. All throw std::runtime_error that says what is wrong with
+/// the file, without its name. Never waits for another process.
 class RegularFile {
  public:
   explicit RegularFile(const std::filesystem::path& path);

@@ -66,8 +66,7 @@ void Instances<T>::add_many(std::uint32_t definition, std::size_t count, bool li
   // Alike: the first one's linear part is that of all, or the identity.
   const auto placement = shape.placed(pose_of(0));
   if (linear_alike && !placement.is_rigid_identity)
-    linear_.push_back(
-        {placement.to_inner, shape.bounds_of(pose_of(0)).half_extents().maxCoeff()});
+    linear_.push_back({placement.to_inner, shape.bounds_of(pose_of(0)).half_extents().maxCoeff()});
   if (!linear_alike) linear_.resize(first_linear + count);
   for_parts(count, poses_a_part, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {

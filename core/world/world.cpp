@@ -51,8 +51,9 @@ bool World<T>::occluded(const Ray<T>& ray, QueryCounts& counts, std::uint32_t sk
   bool met = false;
   counts.nodes += traverse(bvh_, ray, [&](std::uint32_t instance, T& t_max) {
     if (instance == skip) return false;
-    met = counted_cast(instances_.at(instance), {ray.origin, ray.direction, t_max}, options_, counts)
-              .found();
+    met =
+        counted_cast(instances_.at(instance), {ray.origin, ray.direction, t_max}, options_, counts)
+            .found();
     return met;
   });
   return met;

@@ -107,7 +107,8 @@ void trace(const Options& options) {
     std::cout << json.dump() << '\n';
     return;
   }
-  std::cout << "object \"" << instance_object(scene, chosen).name << "\": " << name_of(result.result.status);
+  std::cout << "object \"" << instance_object(scene, chosen).name
+            << "\": " << name_of(result.result.status);
   if (found) std::cout << ", t = " << number_json(t).dump();
   std::cout << ", " << result.result.iterations << " iterations, " << result.result.supports
             << " supports\n"

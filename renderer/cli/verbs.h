@@ -29,7 +29,7 @@ void add_trace(CLI::App& app, ExitCode& exit_code);
 
 /// In the order in which --help shows them.
 inline constexpr AddVerb verbs[] = {
-    add_render, add_merge, add_heatmap,     add_compare, add_cast,
+    add_render, add_merge, add_heatmap,     add_compare,  add_cast,
     add_trace,  add_paper, add_distance_2d, add_generate, add_info,
 };
 

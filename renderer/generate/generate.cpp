@@ -19,8 +19,8 @@ namespace {
 /// Spheres, boxes and capsules that are put anywhere fill about this part of the cube.
 constexpr double random_fill = 0.15;
 
-/// Ellipsoids without overlap: dense enough that neighbours nearly touch, and far below where random
-/// sequential addition finds no more room (about 0.38 for spheres).
+/// Ellipsoids without overlap: dense enough that neighbours nearly touch, and far below where
+/// random sequential addition finds no more room (about 0.38 for spheres).
 constexpr double packed_fill = 0.17;
 
 /// A row of numbers, as the file's floats.
@@ -103,13 +103,12 @@ Json frame(const GenerateOptions& options, double half_size) {
                      {"look_at", to_json(Vec3<double>(0, 0, -0.1) * away)},
                      {"fov_y_degrees", 36},
                      {"resolution", {960, 720}}};
-  scene["lights"] = Json::array({{{"type", "directional"},
-                                  {"direction", {-0.3, 1, -1.4}},
-                                  {"color", {1, 0.96, 0.9}},
-                                  {"intensity", 2.2}},
-                                 {{"type", "environment"},
-                                  {"zenith", {0.55, 0.65, 0.8}},
-                                  {"nadir", {0.25, 0.23, 0.2}}}});
+  scene["lights"] = Json::array(
+      {{{"type", "directional"},
+        {"direction", {-0.3, 1, -1.4}},
+        {"color", {1, 0.96, 0.9}},
+        {"intensity", 2.2}},
+       {{"type", "environment"}, {"zenith", {0.55, 0.65, 0.8}}, {"nadir", {0.25, 0.23, 0.2}}}});
   scene["materials"] =
       Json::array({{{"name", "matt"}, {"type", "lambert"}, {"color", {0.75, 0.62, 0.45}}}});
   scene["objects"] = Json::array();
@@ -124,8 +123,8 @@ void write_text(const std::string& file, const std::string& text) {
 /// Each hull a cell of the grid: 8 to 40 points of a stretched sphere.
 void generate_hulls(const GenerateOptions& options, const std::string& file) {
   if (options.count > most_generated_hulls)
-    throw WrongUsage("generate: at most " + std::to_string(most_generated_hulls) +
-                     " hulls (got " + std::to_string(options.count) + ")");
+    throw WrongUsage("generate: at most " + std::to_string(most_generated_hulls) + " hulls (got " +
+                     std::to_string(options.count) + ")");
   const auto side = static_cast<std::size_t>(std::ceil(std::cbrt(double(options.count))));
   const double half_size = 0.6 * static_cast<double>(side);
   Json scene = frame(options, half_size);
@@ -144,8 +143,7 @@ void generate_hulls(const GenerateOptions& options, const std::string& file) {
       points.push_back(std::move(point));
     }
     Json place = Json::array();
-    for (int axis = 0; axis < 3; ++axis)
-      place.push_back(1.2 * (cell[axis] + 0.5) - half_size);
+    for (int axis = 0; axis < 3; ++axis) place.push_back(1.2 * (cell[axis] + 0.5) - half_size);
     scene["objects"].push_back({{"name", "hull " + std::to_string(i)},
                                 {"shape", {{"type", "hull"}, {"points", std::move(points)}}},
                                 {"material", "matt"},

@@ -73,8 +73,7 @@ class Packing {
     if (distance >= cell_) return false;
     if (distance <= 2 * least_radius_) return true;
     // Exhausted counts as meeting.
-    return distance_between(shape, centred(shape_, pose_of(b))).status !=
-           DistanceStatus::separated;
+    return distance_between(shape, centred(shape_, pose_of(b))).status != DistanceStatus::separated;
   }
 
   Shape<double> shape_;

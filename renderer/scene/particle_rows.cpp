@@ -133,8 +133,7 @@ void parse_line(std::string_view line, std::size_t number, const ParticleRows& r
     const auto [next, error] = std::from_chars(at, end, value);
     const bool ends = next == end || is_blank(*next) || *next == ',';
     if (error != std::errc() || !ends) {
-      const auto stop =
-          std::find_if(begin, end, [](char c) { return is_blank(c) || c == ','; });
+      const auto stop = std::find_if(begin, end, [](char c) { return is_blank(c) || c == ','; });
       fail("line", number,
            std::string(rows.column_of(row.size())) + " must be a number that a double can hold " +
                "(got \"" + printable(std::string_view(begin, std::size_t(stop - begin)), 40) +

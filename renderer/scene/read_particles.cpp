@@ -77,8 +77,8 @@ bool read_materials(ObjectReader& block, bool has_column, const ParticleSource& 
   const JsonPath path = block.path("materials");
   if (!names->is_array() || names->empty() || names->size() > most_materials) {
     block.mistakes().add(path, "must be a list of the names of 1 to " +
-                                   std::to_string(most_materials) + " materials (" +
-                                   found(*names) + ")");
+                                   std::to_string(most_materials) + " materials (" + found(*names) +
+                                   ")");
     return false;
   }
   for (std::size_t i = 0; i < names->size(); ++i)
@@ -132,8 +132,8 @@ std::optional<ParticleSet> read_particles(const Json& json, const JsonPath& path
                                     set.materials);
   std::optional<std::size_t> count;
   if (const Json* written = block.find("count")) {
-    const auto number = read_integer(*written, block.path("count"), mistakes, 1,
-                                     std::numeric_limits<int>::max());
+    const auto number =
+        read_integer(*written, block.path("count"), mistakes, 1, std::numeric_limits<int>::max());
     good &= number.has_value();
     if (number) count = static_cast<std::size_t>(*number);
   }
@@ -144,8 +144,8 @@ std::optional<ParticleSet> read_particles(const Json& json, const JsonPath& path
                            (poses ? "both)" : "neither)"));
     good = false;
   }
-  const char* unused = columns && contains(*columns, ParticleColumn::material) ? "material"
-                                                                               : "materials";
+  const char* unused =
+      columns && contains(*columns, ParticleColumn::material) ? "material" : "materials";
   if (columns && block.find(unused)) {
     mistakes.add(block.path(unused),
                  std::string("must not be there: \"materials\" goes with a column ") +

@@ -132,8 +132,8 @@ std::string info_as_text(const Scene& scene) {
     return text_of(static_cast<double>(bytes) /
                    static_cast<double>(std::max<std::size_t>(summary.instances, 1)));
   };
-  text += line("memory", "scene " + bytes_text(summary.bytes) + ", world " +
-                             bytes_text(world.bytes()));
+  text +=
+      line("memory", "scene " + bytes_text(summary.bytes) + ", world " + bytes_text(world.bytes()));
   text += line("an object", per_object(summary.bytes) + " bytes in the scene, " +
                                 per_object(world.instances().bytes()) + " posed, " +
                                 per_object(world.bvh().bytes()) + " in the hierarchy");

@@ -24,7 +24,7 @@ struct SceneSummary {
   std::size_t bytes = 0;         ///< of all objects and particles with their shapes and points
   std::size_t instances = 0;     ///< objects and particles
   std::size_t particles = 0;
-  Bounds<double> bounds;         ///< in the world; empty if there are no objects
+  Bounds<double> bounds;  ///< in the world; empty if there are no objects
 };
 
 SceneSummary summarise(const Scene& scene);

@@ -58,8 +58,7 @@ TYPED_TEST(InstancesOf, posed_definitions_are_cast_at_bit_for_bit_as_shapes_of_t
     for (Affine<T>& pose : poses) pose = random.pose();
     poses[7].linear = Mat3<T>::Identity();
     Instances<T> many, one_by_one;
-    many.add_many(many.define(shape), poses.size(), false,
-                  [&](std::size_t i) { return poses[i]; });
+    many.add_many(many.define(shape), poses.size(), false, [&](std::size_t i) { return poses[i]; });
     const std::uint32_t definition = one_by_one.define(shape);
     for (const Affine<T>& pose : poses) one_by_one.add(definition, pose);
     for (std::size_t i = 0; i < poses.size(); ++i)
@@ -83,9 +82,7 @@ TYPED_TEST(InstancesOf, poses_that_differ_in_translation_share_their_linear_part
   const Affine<T> first = random.pose();
   for (const Shape<T>& shape : shapes(random)) {
     Instances<T> alike, different;
-    const auto pose_of = [&](std::size_t i) {
-      return Affine<T>{first.linear, {T(i), T(0), T(0)}};
-    };
+    const auto pose_of = [&](std::size_t i) { return Affine<T>{first.linear, {T(i), T(0), T(0)}}; };
     alike.add_many(alike.define(shape), 1000, true, pose_of);
     different.add_many(different.define(shape), 1000, false, pose_of);
     EXPECT_LT(alike.bytes(), different.bytes() * 6 / 10);
@@ -107,8 +104,9 @@ TYPED_TEST(InstancesOf, an_instance_costs_its_pose_however_large_its_shape) {
   for (Vec3<T>& point : points) point = random.vector();
   Instances<T> hulls;
   const std::size_t count = 10000;
-  hulls.add_many(hulls.define(Hull<T>{PointCloud<T>(points)}), count, false,
-                 [&](std::size_t i) { return Affine<T>{Mat3<T>(rotation_matrix(T(1), T(2), T(3), T(i))), {T(i), 0, 0}}; });
+  hulls.add_many(hulls.define(Hull<T>{PointCloud<T>(points)}), count, false, [&](std::size_t i) {
+    return Affine<T>{Mat3<T>(rotation_matrix(T(1), T(2), T(3), T(i))), {T(i), 0, 0}};
+  });
   EXPECT_EQ(hulls.take_boxes().size(), count);
   const std::size_t pose = 12 * sizeof(T) + sizeof(T) + 2 * sizeof(std::uint32_t);
   EXPECT_LE(hulls.bytes(), count * pose + 2000);

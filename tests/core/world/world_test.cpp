@@ -33,8 +33,7 @@ Instances<T> scattered_shapes(int count, Random<T>& random) {
   for (int i = 0; i < count; ++i) {
     const Vec3<T> axis = random.point(1);
     const Mat3<T> turn = rotation_matrix(axis.x(), axis.y(), axis.z(), random.within(-1, 1));
-    shapes.add(kinds[static_cast<std::size_t>(i) % kinds.size()],
-                        Affine<T>{turn, random.point(6)});
+    shapes.add(kinds[static_cast<std::size_t>(i) % kinds.size()], Affine<T>{turn, random.point(6)});
   }
   return shapes;
 }

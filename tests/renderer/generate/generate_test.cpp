@@ -24,8 +24,7 @@ TEST(Generate, every_kind_is_read_back_with_as_many_shapes_as_asked_for) {
       EXPECT_EQ(instance_count(scene), count) << kind.name;
       // In sight of the camera, whatever their number.
       const Bounds<double> bounds = summarise(scene).bounds;
-      EXPECT_GT((scene.camera.position - bounds.centre()).norm(),
-                bounds.half_extents().norm());
+      EXPECT_GT((scene.camera.position - bounds.centre()).norm(), bounds.half_extents().norm());
     }
 }
 

@@ -34,8 +34,8 @@ class Particles : public testing::Test {
   /// The scene; what is wrong with it is kept.
   std::optional<Scene> read(const std::string& block) {
     Mistakes mistakes("x.json");
-    auto scene = parse_scene(scene_text("", "{\"name\": \"grain\", " + block + "}"), folder_ / "",
-                             mistakes);
+    auto scene =
+        parse_scene(scene_text("", "{\"name\": \"grain\", " + block + "}"), folder_ / "", mistakes);
     complaint_ = mistakes.text();
     return scene;
   }
@@ -97,7 +97,8 @@ TEST_F(Particles, all_kinds_of_files_say_the_same) {
   write("p.csv", "# x, y, z, scale\n 1,2,3,0.5\r\n\n-4 +5\t-625e-2 , 2");
   for (const char* file : {"p.f32", "p.f64", "p.csv"}) {
     const auto scene = read(std::string(box) + R"(, "material": "red", "columns": ["position",
-      "scale"], "count": 2, "file": ")" + file + "\"");
+      "scale"], "count": 2, "file": ")" +
+                            file + "\"");
     ASSERT_TRUE(scene) << complaint_;
     const ParticleSet& set = scene->particles[0];
     ASSERT_EQ(set.size(), 2u);
@@ -121,8 +122,7 @@ TEST_F(Particles, long_files_are_read_as_short_ones) {
   write("p.csv", text);
   write_numbers("p.f64", numbers);
   for (const char* file : {"p.csv", "p.f64"}) {
-    const auto scene =
-        read(std::string(box) + R"(, "material": "red", "file": ")" + file + "\"");
+    const auto scene = read(std::string(box) + R"(, "material": "red", "file": ")" + file + "\"");
     ASSERT_TRUE(scene) << complaint_;
     EXPECT_EQ(scene->particles[0].poses, numbers);
   }
@@ -141,14 +141,12 @@ TEST_F(Particles, mistakes_are_told_with_file_and_row) {
   write("empty.f64", "");
   EXPECT_EQ(with_file("empty.f64"), at + "empty.f64: must hold at least one row (got none)");
   write_numbers("short.f64", std::vector<double>{1, 2, 3, 4});
-  EXPECT_EQ(with_file("short.f64"),
-            at + "short.f64: row 2: is cut off (got 8 of its 24 bytes)");
+  EXPECT_EQ(with_file("short.f64"), at + "short.f64: row 2: is cut off (got 8 of its 24 bytes)");
   write_numbers("two.f64", std::vector<double>{1, 2, 3, 4, 5, 6});
   EXPECT_EQ(with_file("two.f64", "\"count\": 3, "),
             at + "two.f64: must hold 3 rows, as \"count\" says (got 2)");
   write_numbers("nan.f32", std::vector<float>{1, 2, 3, 4, NAN, 6});
-  EXPECT_EQ(with_file("nan.f32"),
-            at + "nan.f32: row 2: position must be finite (got 4 nan 6)");
+  EXPECT_EQ(with_file("nan.f32"), at + "nan.f32: row 2: position must be finite (got 4 nan 6)");
   write_numbers("zero.f64", std::vector<double>{1, 2, 3, 0, 0, 0, 0});
   EXPECT_EQ(with_file("zero.f64", turned),
             at + "zero.f64: row 1: rotation must not be zero (got 0 0 0 0)");
@@ -167,8 +165,7 @@ TEST_F(Particles, mistakes_are_told_with_file_and_row) {
   EXPECT_EQ(with_file("infinite.csv"),
             at + "infinite.csv: line 1: position must be finite (got 1 2 inf)");
   write("long.csv", std::string(3 << 20, '1'));
-  EXPECT_EQ(with_file("long.csv"),
-            at + "long.csv: line 1: must not be longer than 65536 bytes");
+  EXPECT_EQ(with_file("long.csv"), at + "long.csv: line 1: must not be longer than 65536 bytes");
   EXPECT_EQ(with_file("../"), at + "../: its name must end in .csv, .f32 or .f64");
   std::filesystem::create_directory(folder_ / "folder.csv");
   EXPECT_EQ(with_file("folder.csv"), at + "folder.csv: must be a file (got a directory)");
