@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/integrator.h"
 
+#include "renderer/scene/scene_instances.h"
+
 namespace minkray {
 namespace {
 
@@ -79,7 +81,10 @@ Integrator::Integrator(const Scene& scene, const RenderWorld& world,
                        const IntegratorOptions& options)
     : world_(world), options_(options), background_(scene.background) {
   for (const Material& material : scene.materials) surfaces_.emplace_back(material);
+  surface_of_instance_.reserve(instance_count(scene));
   for (const Object& object : scene.objects) surface_of_instance_.push_back(object.material);
+  for (const ParticleSet& set : scene.particles)
+    for (std::size_t i = 0; i < set.size(); ++i) surface_of_instance_.push_back(set.material(i));
   for (const Light& light : scene.lights)
     std::visit(Overloaded{[&](const DirectionalLight& l) { directional_.push_back(l); },
                           [&](const PointLight& l) { points_.push_back(l); },
@@ -131,9 +136,8 @@ Colour Integrator::along(const Ray<Real>& ray, const Path& path, Sampler& sample
 
   const Real t = hit.cast.t();
   const Vec3<Real> on_surface = ray.at(t);
-  const auto& bounds = world_.instances()[hit.instance].outer_bounds();
   const Real largest =
-      std::max({on_surface.cwiseAbs().maxCoeff(), t, bounds.half_extents().maxCoeff()});
+      std::max({on_surface.cwiseAbs().maxCoeff(), t, world_.instances().half_extent(hit.instance)});
   const Real offset = surface_offset * tolerance::epsilon<Real> * largest;
   const Frame frame(hit.cast.normal.template cast<double>());
   Vec3<double> w_out = frame.to_local(-ray.direction);

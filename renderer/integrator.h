@@ -43,7 +43,7 @@ class Integrator {
  public:
   Integrator(const Scene& scene, const RenderWorld& world, const IntegratorOptions& options = {});
 
-  /// Radiance along a camera ray of unit direction. Objects of the scene and instances of the world
+  /// Radiance along a camera ray of unit direction. Instances of the scene and of the world
   /// share their indices.
   Colour radiance(const Ray<Real>& ray, Sampler& sampler, RayCounts& counts) const;
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "renderer/camera.h"
+#include "renderer/scene/summary.h"
 #include "renderer/text.h"
 
 namespace minkray {
@@ -29,16 +30,14 @@ double label_scale(const Resolution& resolution) {
 
 }  // namespace
 
-std::vector<Label> labels_of(const Scene& scene, const RenderWorld& world,
-                             const Resolution& resolution) {
+std::vector<Label> labels_of(const Scene& scene, const Resolution& resolution) {
   std::vector<Label> labels;
   if (!scene.labels) return labels;
   const Camera camera(scene.camera, resolution);
   const double scale = label_scale(resolution);
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const std::string& name = scene.objects[i].name;
-    const Bounds<Real>& bounds = world.instances()[i].outer_bounds();
-    const auto seen = projected(camera, {bounds.lower.cast<double>(), bounds.upper.cast<double>()});
+    const auto seen = projected(camera, bounds_of(scene.objects[i]));
     if (name.empty() || !seen) continue;
     const double width = text_size(name, scale).width;
     labels.push_back(

@@ -16,10 +16,9 @@ struct Label {
   std::string text;
 };
 
-/// Names of objects that are behind the camera or have none are left out; so are all if the scene
-/// does not want them.
-std::vector<Label> labels_of(const Scene& scene, const RenderWorld& world,
-                             const Resolution& resolution);
+/// Of objects, not of particles. Names of objects that are behind the camera or have none are left
+/// out; so are all if the scene does not want them.
+std::vector<Label> labels_of(const Scene& scene, const Resolution& resolution);
 
 /// Draws labels onto `image`, the part of the picture of that resolution; those that are outside of
 /// the part are not seen.

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <filesystem>
 #include <utility>
+#include <vector>
 
 #include "renderer/errors.h"
 #include "renderer/interrupt.h"
@@ -124,6 +125,42 @@ void write_file(const std::string& path, std::span<const unsigned char> bytes) {
   if (target.exists && ::fchmod(file.descriptor(), target.mode) != 0) fail(path, errno);
   write_all(file.descriptor(), bytes, path);
   file.rename_to(target.path);
+}
+
+struct OutputFile::Parts {
+  explicit Parts(const std::string& named)
+      : path(named), target(find_target(named)), file(named, target.path) {}
+
+  /// Few large pieces are written sooner than many small ones.
+  static constexpr std::size_t buffer_bytes = std::size_t{1} << 20;
+
+  void flush() {
+    write_all(file.descriptor(), buffer, path);
+    buffer.clear();
+  }
+
+  std::string path;
+  Target target;
+  TemporaryFile file;
+  std::vector<unsigned char> buffer;
+};
+
+OutputFile::OutputFile(const std::string& path) : parts_(std::make_unique<Parts>(path)) {
+  if (!parts_->target.is_regular) throw CannotWrite("cannot write " + path + ": no regular file");
+}
+
+OutputFile::~OutputFile() = default;
+
+void OutputFile::write(std::span<const unsigned char> bytes) {
+  parts_->buffer.insert(parts_->buffer.end(), bytes.begin(), bytes.end());
+  if (parts_->buffer.size() >= Parts::buffer_bytes) parts_->flush();
+}
+
+void OutputFile::finish() {
+  parts_->flush();
+  if (parts_->target.exists && ::fchmod(parts_->file.descriptor(), parts_->target.mode) != 0)
+    fail(parts_->path, errno);
+  parts_->file.rename_to(parts_->target.path);
 }
 
 }  // namespace minkray

@@ -3,6 +3,7 @@
 // on the disk, and only then renamed.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string>
 
@@ -17,5 +18,20 @@ void check_writable(const std::string& path);
 /// was and nothing is left beside it, nor if a signal that may be noted (renderer/interrupt.h)
 /// comes; SIGKILL or a crash of the machine may leave ".NAME.PROCESS.part" beside it.
 void write_file(const std::string& path, std::span<const unsigned char> bytes);
+
+/// The same piece by piece, for regular files: more than fits in memory. The file is there when
+/// `finish` has returned; without it, nothing is left.
+class OutputFile {
+ public:
+  explicit OutputFile(const std::string& path);
+  ~OutputFile();
+
+  void write(std::span<const unsigned char> bytes);
+  void finish();
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
 
 }  // namespace minkray

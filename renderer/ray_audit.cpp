@@ -3,6 +3,7 @@
 
 #include "renderer/json/json.h"
 #include "renderer/query/number_json.h"
+#include "renderer/scene/scene_instances.h"
 #include "renderer/scene/shape_json.h"
 
 namespace minkray {
@@ -46,7 +47,8 @@ std::string query_line(const Object& object, const Shape<double>& in_world,
 }  // namespace
 
 RayAudit::RayAudit(const Scene& scene, const RenderWorld& world) : scene_(scene), world_(world) {
-  for (const Object& object : scene.objects) {
+  for (std::size_t i = 0; i < instance_count(scene); ++i) {
+    const Object object = instance_object(scene, i);
     const Shape<double> in_world = Transform<double>{object.shape, object.pose};
     Bounds<double> bounds = bounds_of<double>(in_world);
     const double padding = box_padding * std::max(bounds.lower.cwiseAbs().maxCoeff(),
@@ -75,7 +77,7 @@ void RayAudit::fail(RayKind kind, std::uint32_t instance, const Ray<double>& ray
     failures_.push_back({message + std::string(what), {}});
     return;
   }
-  const Object& object = scene_.objects[instance];
+  const Object object = instance_object(scene_, instance);
   message += object.name + ": " + std::string(what);
   failures_.push_back({message, query_line(object, targets_[instance].shape, ray)});
 }
@@ -119,7 +121,7 @@ void RayAudit::occluded(RayKind kind, const Ray<Real>& ray, std::uint32_t skip, 
   }
   for (std::uint32_t i = 0; i < targets_.size(); ++i) {
     if (i == skip || !may_meet(targets_[i].bounds, ray)) continue;
-    const CastResult<Real> cast = cast_ray(world_.instances()[i], ray, world_.options());
+    const CastResult<Real> cast = cast_ray(world_.instances().at(i), ray, world_.options());
     if (cast.found() && verdict(i, ray, claim_of(cast)).holds) return;
   }
   fail(kind, no_instance, ray, "nothing is proven to be in its way");

@@ -3,13 +3,17 @@
 
 #include "renderer/camera.h"
 #include "renderer/filter.h"
+#include "renderer/scene/scene_instances.h"
 
 namespace minkray {
 
 RenderWorld make_world(const Scene& scene, const CastOptions<Real>& options) {
-  std::vector<PreparedShape<Real>> instances;
-  instances.reserve(scene.objects.size());
-  for (const Object& object : scene.objects) instances.emplace_back(object.shape, object.pose);
+  Instances<Real> instances;
+  instances.reserve(instance_count(scene));
+  for (const Object& object : scene.objects) instances.add(object.shape, object.pose);
+  for (const ParticleSet& set : scene.particles)
+    instances.add_many(instances.define(set.shape), set.size(), set.linear_alike(),
+                       [&](std::size_t i) { return set.pose(i); });
   return RenderWorld(std::move(instances), options);
 }
 

@@ -10,7 +10,7 @@
 
 namespace minkray {
 
-/// The scene's objects, in order.
+/// The scene's objects, then its particles, in order.
 RenderWorld make_world(const Scene& scene, const CastOptions<Real>& options = {});
 
 struct RenderOptions {

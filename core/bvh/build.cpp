@@ -102,19 +102,9 @@ struct Split {
   std::size_t bin = 0;  ///< the first bin of the right side
 };
 
-template <class T>
-Box rounded_outwards(const Bounds<T>& bounds) {
-  Box box;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto i = static_cast<std::size_t>(axis);
-    float lower = static_cast<float>(bounds.lower[axis]);
-    float upper = static_cast<float>(bounds.upper[axis]);
-    if (T(lower) > bounds.lower[axis]) lower = std::nextafter(lower, -INFINITY);
-    if (T(upper) < bounds.upper[axis]) upper = std::nextafter(upper, INFINITY);
-    box.lower[i] = lower;
-    box.upper[i] = upper;
-  }
-  return box;
+Box box_of(const Bounds<float>& bounds) {
+  return {{bounds.lower.x(), bounds.lower.y(), bounds.lower.z()},
+          {bounds.upper.x(), bounds.upper.y(), bounds.upper.z()}};
 }
 
 class Builder {
@@ -124,16 +114,18 @@ class Builder {
       : primitives_(boxes.size()), nodes_(2 * boxes.size() - 1) {
     for_parts(boxes.size(), parallel_size, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i)
-        primitives_[i] = {rounded_outwards(boxes[i]), static_cast<std::uint32_t>(i)};
+        primitives_[i] = {box_of(rounded_outwards(boxes[i])), static_cast<std::uint32_t>(i)};
     });
   }
 
   Bvh build() {
     build_node(0, 1, 0, primitives_.size(), 0);
     Bvh bvh;
-    bvh.nodes = without_gaps();
     bvh.primitives.reserve(primitives_.size());
     for (const Primitive& primitive : primitives_) bvh.primitives.push_back(primitive.index);
+    // Before the nodes are there twice: of millions of primitives, memory is at its highest here.
+    primitives_ = {};
+    bvh.nodes = without_gaps();
     return bvh;
   }
 

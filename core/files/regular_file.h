@@ -5,9 +5,30 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <span>
 #include <string>
 
 namespace minkray {
+
+/// A file that is read piece by piece. All throw std::runtime_error that says what is wrong with
+/// the file, without its name. Never waits for another process.
+class RegularFile {
+ public:
+  explicit RegularFile(const std::filesystem::path& path);
+  ~RegularFile();
+  RegularFile(const RegularFile&) = delete;
+  RegularFile& operator=(const RegularFile&) = delete;
+
+  /// When it was opened; a hint only: files of /proc say 0, and a file may grow while it is read.
+  std::size_t size() const { return size_; }
+
+  /// Fills the buffer, less of it only at the end of the file; answers how much.
+  std::size_t read(std::span<char> buffer);
+
+ private:
+  int descriptor_;
+  std::size_t size_ = 0;
+};
 
 /// The contents. Throws std::runtime_error that says what is wrong with the file, without its name,
 /// if it cannot be read, is no regular file, or holds more than `most_bytes` (of a larger file

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/LU>
+#include <algorithm>
 
 #include "core/math/vec.h"
 
@@ -54,6 +55,16 @@ Mat3<T> rotation_matrix(T x, T y, T z, T w) {
       s * (x * y + z * w), T(1) - s * (x * x + z * z), s * (y * z - x * w),   //
       s * (x * z - y * w), s * (y * z + x * w), T(1) - s * (x * x + y * y);
   return m;
+}
+
+/// The same of a quaternion of any length but zero. A unit quaternion stays as it is; the squares
+/// of others could leave the range of T.
+template <class T>
+Mat3<T> rotation_matrix_of_any(T x, T y, T z, T w) {
+  using std::abs;
+  const T largest = std::max({abs(x), abs(y), abs(z), abs(w)});
+  const T size = largest > T(2) || largest < T(0.25) ? largest : T(1);
+  return rotation_matrix(x / size, y / size, z / size, w / size);
 }
 
 /// x -> translate + rotate(scale * x).

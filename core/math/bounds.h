@@ -26,6 +26,23 @@ struct Bounds {
   }
 };
 
+/// The least box of floats that holds a box, which must not be empty.
+template <class T>
+Bounds<float> rounded_outwards(const Bounds<T>& bounds) {
+  Bounds<float> box;
+  for (int axis = 0; axis < 3; ++axis) {
+    float lower = static_cast<float>(bounds.lower[axis]);
+    float upper = static_cast<float>(bounds.upper[axis]);
+    if (T(lower) > bounds.lower[axis])
+      lower = std::nextafter(lower, -std::numeric_limits<float>::infinity());
+    if (T(upper) < bounds.upper[axis])
+      upper = std::nextafter(upper, std::numeric_limits<float>::infinity());
+    box.lower[axis] = lower;
+    box.upper[axis] = upper;
+  }
+  return box;
+}
+
 /// A ball that holds a shape: where a cast moves its origin to, and the size tolerances refer to.
 template <class T>
 struct Ball {

@@ -4,22 +4,9 @@
 #include <utility>
 
 #include "core/bvh/traverse.h"
-#include "core/parallel/parallel.h"
 
 namespace minkray {
 namespace {
-
-/// Support points, and so the bounds made of them, are rounded; a solver's hits are as well.
-/// Relative to the box's size and distance from the world's origin, in units of the machine
-/// epsilon.
-constexpr int bounds_padding = 32;
-
-template <class T>
-Bounds<T> padded(const Bounds<T>& bounds) {
-  const T size = bounds.lower.cwiseAbs().cwiseMax(bounds.upper.cwiseAbs()).maxCoeff();
-  const T padding = T(bounds_padding) * tolerance::epsilon<T> * size;
-  return {(bounds.lower.array() - padding).matrix(), (bounds.upper.array() + padding).matrix()};
-}
 
 template <class T>
 CastResult<T> counted_cast(const PreparedShape<T>& shape, const Ray<T>& ray,
@@ -35,13 +22,10 @@ CastResult<T> counted_cast(const PreparedShape<T>& shape, const Ray<T>& ray,
 }  // namespace
 
 template <class T>
-World<T>::World(std::vector<PreparedShape<T>> instances, const CastOptions<T>& options)
+World<T>::World(Instances<T> instances, const CastOptions<T>& options)
     : instances_(std::move(instances)), options_(options) {
-  std::vector<Bounds<T>> boxes(instances_.size());
-  for_parts(boxes.size(), 4096, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) boxes[i] = padded(instances_[i].outer_bounds());
-  });
-  bvh_ = build_bvh<T>(boxes);
+  const std::vector<Bounds<float>> boxes = instances_.take_boxes();
+  bvh_ = build_bvh<float>(boxes);
 }
 
 template <class T>
@@ -52,7 +36,7 @@ WorldHit<T> World<T>::closest_hit(const Ray<T>& ray, QueryCounts& counts,
   counts.nodes += traverse(bvh_, ray, [&](std::uint32_t instance, T& t_max) {
     if (instance == skip) return false;
     const CastResult<T> result =
-        counted_cast(instances_[instance], {ray.origin, ray.direction, t_max}, options_, counts);
+        counted_cast(instances_.at(instance), {ray.origin, ray.direction, t_max}, options_, counts);
     // Order matters: what is not clearly nearer is passed over.
     if (!result.found() || !(result.t() < t_max || !closest.found())) return false;
     closest = {instance, result};
@@ -67,8 +51,9 @@ bool World<T>::occluded(const Ray<T>& ray, QueryCounts& counts, std::uint32_t sk
   bool met = false;
   counts.nodes += traverse(bvh_, ray, [&](std::uint32_t instance, T& t_max) {
     if (instance == skip) return false;
-    met = counted_cast(instances_[instance], {ray.origin, ray.direction, t_max}, options_, counts)
-              .found();
+    met =
+        counted_cast(instances_.at(instance), {ray.origin, ray.direction, t_max}, options_, counts)
+            .found();
     return met;
   });
   return met;

@@ -10,6 +10,7 @@
 #include "core/bvh/bvh.h"
 #include "core/math/ray.h"
 #include "core/solver/cast.h"
+#include "core/world/instances.h"
 
 namespace minkray {
 
@@ -48,7 +49,7 @@ template <class T>
 class World {
  public:
   World() = default;
-  explicit World(std::vector<PreparedShape<T>> instances, const CastOptions<T>& options = {});
+  explicit World(Instances<T> instances, const CastOptions<T>& options = {});
 
   /// The instance that the ray meets first, with 0 <= t <= t_max; where several are met at the same
   /// t, one of them. `skip` is left out: a ray that leaves a convex shape does not meet it again.
@@ -59,17 +60,15 @@ class World {
   /// Whether any instance but `skip` is met with 0 <= t <= t_max.
   bool occluded(const Ray<T>& ray, QueryCounts& counts, std::uint32_t skip = no_instance) const;
 
-  const std::vector<PreparedShape<T>>& instances() const { return instances_; }
+  const Instances<T>& instances() const { return instances_; }
   const Bvh& bvh() const { return bvh_; }
   const CastOptions<T>& options() const { return options_; }
 
-  /// Memory of instances and hierarchy, without what shapes share among each other.
-  std::size_t bytes() const {
-    return bvh_.bytes() + instances_.capacity() * sizeof(PreparedShape<T>);
-  }
+  /// Memory of instances and hierarchy, without the points of hulls, which shapes share.
+  std::size_t bytes() const { return bvh_.bytes() + instances_.bytes(); }
 
  private:
-  std::vector<PreparedShape<T>> instances_;
+  Instances<T> instances_;
   Bvh bvh_;
   CastOptions<T> options_;
 };

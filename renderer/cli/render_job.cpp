@@ -71,7 +71,7 @@ RenderedJob run(const RenderJob& job, Checkpoint& checkpoint) {
   end_if_interrupted(done.rendering, checkpoint);
   done.seconds = watch.seconds();
 
-  done.labels = labels_of(job.scene, job.world, job.options.resolution);
+  done.labels = labels_of(job.scene, job.options.resolution);
   Facts facts = facts_of(job);
   facts[fact::command] = job.command;
   facts[counts_fact] = counts_text(done.rendering.counts);

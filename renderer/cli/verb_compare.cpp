@@ -10,6 +10,7 @@
 #include "renderer/cli/verbs.h"
 #include "renderer/compare/compare_scene.h"
 #include "renderer/interrupt.h"
+#include "renderer/scene/scene_instances.h"
 #include "renderer/scene/scene_json.h"
 
 namespace minkray {
@@ -39,7 +40,7 @@ void compare(const Options& options, ExitCode& exit_code) {
   const Scene scene = load_scene(options.image.scene);
   if (!options.image.outputs.empty())
     compare_options.picture = options.image.render_options(scene).resolution;
-  const std::size_t objects = scene.objects.size();
+  const std::size_t objects = instance_count(scene);
   compare_options.object.rays = options.rays > 0 ? options.rays : rays_for(objects);
   compare_options.object.sandwich.directions =
       options.directions > 0 ? options.directions : directions_for(objects);

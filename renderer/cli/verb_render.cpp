@@ -24,6 +24,7 @@
 #include "renderer/labels.h"
 #include "renderer/merge.h"
 #include "renderer/ray_audit.h"
+#include "renderer/scene/scene_instances.h"
 #include "renderer/scene/scene_json.h"
 
 namespace minkray {
@@ -51,6 +52,9 @@ struct Statistics {
   std::size_t world_bytes = 0, bvh_bytes = 0;
   RayCounts counts;
 
+  double per_object(std::size_t bytes) const {
+    return static_cast<double>(bytes) / static_cast<double>(std::max<std::size_t>(objects, 1));
+  }
   double per_ray(std::uint64_t count) const {
     const auto rays = static_cast<double>(std::max<std::uint64_t>(counts.total(), 1));
     return static_cast<double>(count) / rays;
@@ -81,7 +85,10 @@ Json as_json(const Statistics& s) {
             {"supports", s.per_ray(c.work.supports)}}},
           {"exhausted", c.work.exhausted},
           {"camera_rays_from_inside", c.from_inside},
-          {"bytes", {{"world", s.world_bytes}, {"hierarchy", s.bvh_bytes}}}};
+          {"bytes",
+           {{"world", s.world_bytes},
+            {"hierarchy", s.bvh_bytes},
+            {"per_object", s.per_object(s.world_bytes)}}}};
 }
 
 void print(const Statistics& s) {
@@ -106,7 +113,8 @@ void print(const Statistics& s) {
             << s.per_ray(c.work.supports) << " support points\n"
             << "exhausted   " << c.work.exhausted << " casts\n"
             << "memory      " << s.world_bytes << " bytes, of which the hierarchy " << s.bvh_bytes
-            << "\n";
+            << "; " << s.per_object(s.world_bytes) << " an object, of which the hierarchy "
+            << s.per_object(s.bvh_bytes) << "\n";
 }
 
 /// What was proven, and what not with a query that shows it.
@@ -222,7 +230,7 @@ ExitCode run(const Options& options) {
   check_shares(job.options);
 
   timed("build", statistics.build_seconds, [&] { job.world = make_world(job.scene, cast); });
-  statistics.objects = job.scene.objects.size();
+  statistics.objects = instance_count(job.scene);
   std::optional<RayAudit> audit;
   if (options.certify) job.options.integrator.audit = &audit.emplace(job.scene, job.world);
   statistics.threads = thread_count();

@@ -12,6 +12,7 @@
 #include "renderer/output_file.h"
 #include "renderer/paper/trace_picture.h"
 #include "renderer/query/number_json.h"
+#include "renderer/scene/scene_instances.h"
 #include "renderer/scene/scene_json.h"
 
 namespace minkray {
@@ -27,6 +28,9 @@ struct Options {
   bool json = false;
 };
 
+/// Each takes some hundred bytes, and is cast at alone.
+constexpr std::size_t most_traced = 1000000;
+
 /// The object to show: the one that is asked for, else the first that the ray meets, else the one
 /// whose miss took most iterations. No object: the scene has none.
 template <class T>
@@ -37,7 +41,7 @@ std::size_t choose(const std::vector<PreparedShape<T>>& shapes, const Scene& sce
   int iterations = -1;
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     if (!name.empty()) {
-      if (scene.objects[i].name == name) return i;
+      if (instance_object(scene, i).name == name) return i;
       continue;
     }
     const CastResult<T> result = cast_ray(shapes[i], ray, cast);
@@ -68,8 +72,15 @@ void trace(const Options& options) {
   CastOptions<T> cast;
   cast.solver = solver_named(options.solver);
   std::vector<PreparedShape<T>> shapes;
-  for (const Object& object : scene.objects)
+  const std::size_t count = instance_count(scene);
+  if (count > most_traced)
+    throw BadInput(options.scene + ": has " + std::to_string(count) + " objects, trace takes " +
+                   std::to_string(most_traced));
+  shapes.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Object object = instance_object(scene, i);
     shapes.emplace_back(convert<T>(object.shape), object.pose.template cast<T>());
+  }
   const std::size_t chosen = choose(shapes, scene, ray, cast, options.object);
   if (chosen == shapes.size()) throw BadInput(options.scene + ": has no objects");
   const CastTrace<T> result = trace_ray(shapes[chosen], ray, cast);
@@ -82,7 +93,7 @@ void trace(const Options& options) {
   const double t = double(result.result.t_base) + double(result.result.t_offset);
   const bool found = result.result.found();
   if (options.json) {
-    Json json{{"object", scene.objects[chosen].name},
+    Json json{{"object", instance_object(scene, chosen).name},
               {"pixel", {x, y}},
               {"origin", point_json(ray.origin)},
               {"direction", point_json(ray.direction)},
@@ -96,7 +107,8 @@ void trace(const Options& options) {
     std::cout << json.dump() << '\n';
     return;
   }
-  std::cout << "object \"" << scene.objects[chosen].name << "\": " << name_of(result.result.status);
+  std::cout << "object \"" << instance_object(scene, chosen).name
+            << "\": " << name_of(result.result.status);
   if (found) std::cout << ", t = " << number_json(t).dump();
   std::cout << ", " << result.result.iterations << " iterations, " << result.result.supports
             << " supports\n"

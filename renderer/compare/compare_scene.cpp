@@ -6,6 +6,7 @@
 
 #include "core/parallel/parallel.h"
 #include "renderer/camera.h"
+#include "renderer/scene/scene_instances.h"
 
 namespace minkray {
 namespace {
@@ -95,7 +96,8 @@ double SceneComparison::disagreements_per_million() const {
 SceneComparison compare_scene(const Scene& scene, const CompareSceneOptions& options,
                               const std::function<bool(double, std::uint64_t)>& progress) {
   SceneComparison comparison;
-  comparison.objects.resize(scene.objects.size());
+  const std::size_t count = instance_count(scene);
+  comparison.objects.resize(count);
   DifferencePicture& difference = comparison.difference;
   difference.width = options.picture.width;
   difference.height = options.picture.height;
@@ -111,13 +113,13 @@ SceneComparison compare_scene(const Scene& scene, const CompareSceneOptions& opt
   std::size_t done = 0;
   std::uint64_t rays = 0;
   bool stopped = false;
-  for_parts(scene.objects.size(), 1, [&](std::size_t begin, std::size_t end) {
+  for_parts(count, 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       {
         const std::lock_guard lock(progress_mutex);
         if (stopped) return;
       }
-      const Object& object = scene.objects[i];
+      const Object object = instance_object(scene, i);
       const Shape<double> placed =
           Transform<double>{Nested<double>(object.shape), AffineMap<double>(object.pose)};
       const SandwichedShape shape(placed, options.object.sandwich);
@@ -130,7 +132,7 @@ SceneComparison compare_scene(const Scene& scene, const CompareSceneOptions& opt
       const std::lock_guard lock(progress_mutex);
       ++done;
       rays += static_cast<std::uint64_t>(result.report.rays);
-      const double fraction = static_cast<double>(done) / static_cast<double>(scene.objects.size());
+      const double fraction = static_cast<double>(done) / static_cast<double>(count);
       if (progress && !progress(fraction, rays)) stopped = true;
     }
   });

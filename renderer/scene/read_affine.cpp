@@ -87,9 +87,7 @@ std::optional<Mat3<double>> read_rotation(const Json& json, const JsonPath& path
     mistakes.add(path, "must be a quaternion [x, y, z, w] other than zero (" + found(json) + ")");
     return std::nullopt;
   }
-  // A unit quaternion stays as it is written; the squares of others could leave a double's range.
-  const double size = largest > 2 || largest < 0.25 ? largest : 1;
-  return rotation_matrix((*q)[0] / size, (*q)[1] / size, (*q)[2] / size, (*q)[3] / size);
+  return rotation_matrix_of_any((*q)[0], (*q)[1], (*q)[2], (*q)[3]);
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "core/math/vec.h"
 #include "core/shape/field.h"
 #include "core/shape/shape.h"
+#include "renderer/scene/particles.h"
 
 namespace minkray {
 
@@ -149,7 +150,7 @@ struct Material {
 
 struct Object {
   std::string name;
-  Shape<double> shape;
+  Shape<double> shape = Point<double>();
   Affine<double> pose;         ///< from the shape's frame to the world
   std::uint32_t material = 0;  ///< index into Scene::materials
 };
@@ -175,9 +176,10 @@ struct Scene {
   std::vector<Light> lights;
   std::vector<Material> materials;
   std::vector<Object> objects;
+  std::vector<ParticleSet> particles;
   Background background;
   bool labels = false;  ///< whether the objects' names are drawn into the picture
-  std::string hash;     ///< of the file it came from and of its meshes' vertices; or empty
+  std::string hash;     ///< of the file it came from and of all files it names; or empty
 };
 
 }  // namespace minkray

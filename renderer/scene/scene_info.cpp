@@ -5,6 +5,7 @@
 
 #include "renderer/json/mistakes.h"
 #include "renderer/json/values.h"
+#include "renderer/render.h"
 #include "renderer/scene/describe_member.h"
 #include "renderer/scene/schema.h"
 #include "renderer/scene/summary.h"
@@ -74,7 +75,8 @@ std::string info_as_json(const Scene& scene) {
   const SceneSummary summary = summarise(scene);
   Json json;
   json["description"] = scene.description;
-  json["objects"] = scene.objects.size();
+  json["objects"] = summary.instances;
+  json["particles"] = summary.particles;
   json["shapes"] = Json::object();
   for (const KindCount& kind : summary.kinds) {
     json["shapes"][std::string(kind.name)] = {{"objects", kind.objects},
@@ -82,6 +84,9 @@ std::string info_as_json(const Scene& scene) {
   }
   json["hull_points"] = summary.hull_points;
   json["bytes"] = summary.bytes;
+  const RenderWorld world = make_world(scene);
+  json["world_bytes"] = world.bytes();
+  json["hierarchy_bytes"] = world.bvh().bytes();
   json["bounds"] = nullptr;
   if (!summary.bounds.empty()) {
     json["bounds"] = {{"lower", to_json(summary.bounds.lower)},
@@ -106,7 +111,9 @@ std::string info_as_text(const Scene& scene) {
   const SceneSummary summary = summarise(scene);
   std::string text;
   if (!scene.description.empty()) text += line("scene", printable(scene.description, 400));
-  text += line("objects", std::to_string(scene.objects.size()));
+  text += line("objects", std::to_string(summary.instances));
+  if (summary.particles > 0)
+    text += line("", std::to_string(summary.particles) + " of them particles");
   for (const KindCount& kind : summary.kinds) {
     std::string count = std::to_string(kind.objects) + " " + std::string(kind.name);
     if (kind.operands > 0) {
@@ -119,7 +126,17 @@ std::string info_as_text(const Scene& scene) {
   if (!summary.bounds.empty()) {
     text += line("bounds", text_of(summary.bounds.lower) + " to " + text_of(summary.bounds.upper));
   }
-  text += line("memory", bytes_text(summary.bytes));
+  // What is read, and what is made of it for rays.
+  const RenderWorld world = make_world(scene);
+  const auto per_object = [&](std::size_t bytes) {
+    return text_of(static_cast<double>(bytes) /
+                   static_cast<double>(std::max<std::size_t>(summary.instances, 1)));
+  };
+  text +=
+      line("memory", "scene " + bytes_text(summary.bytes) + ", world " + bytes_text(world.bytes()));
+  text += line("an object", per_object(summary.bytes) + " bytes in the scene, " +
+                                per_object(world.instances().bytes()) + " posed, " +
+                                per_object(world.bvh().bytes()) + " in the hierarchy");
   for (const Material& material : scene.materials) {
     text += line(
         "material",

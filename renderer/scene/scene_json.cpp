@@ -6,6 +6,8 @@
 
 #include "renderer/json/parse.h"
 #include "renderer/json/values.h"
+#include "renderer/scene/read_particles.h"
+#include "renderer/scene/scene_instances.h"
 #include "renderer/scene/shape_json.h"
 #include "renderer/scene/tagged_json.h"
 
@@ -20,9 +22,12 @@ constexpr double parallel_sine = 1e-9;
 class SceneReader {
  public:
   SceneReader(Scene& scene, const std::filesystem::path& folder, Mistakes& mistakes)
-      : scene_(scene), meshes_(folder), mistakes_(mistakes) {}
+      : scene_(scene), folder_(folder), meshes_(folder), mistakes_(mistakes) {}
 
-  void add_meshes_to(Hash& hash) const { meshes_.add_to(hash); }
+  void add_files_to(Hash& hash) const {
+    meshes_.add_to(hash);
+    if (!scene_.particles.empty()) hash.add(particle_files_.text());
+  }
 
   void read(const Json& json) {
     ObjectReader file(json, JsonPath(), mistakes_);
@@ -51,6 +56,11 @@ class SceneReader {
     });
     for_each_item(file, "objects",
                   [&](const Json& object, const JsonPath& path) { read_object(object, path); });
+    if (file.find("particles")) {
+      for_each_item(file, "particles", [&](const Json& block, const JsonPath& path) {
+        read_particle_block(block, path);
+      });
+    }
     if (const Json* background = file.find("background")) {
       read_background(*background, file.path("background"));
     }
@@ -151,6 +161,14 @@ class SceneReader {
     if (shape) scene_.objects.push_back({name, std::move(*shape), pose, material});
   }
 
+  void read_particle_block(const Json& json, const JsonPath& path) {
+    auto set = read_particles(
+        json, path, mistakes_,
+        {folder_, meshes_, particle_files_, most_instances - instance_count(scene_),
+         [&](const Json& name, const JsonPath& at) { return read_material_name(name, at); }});
+    if (set) scene_.particles.push_back(std::move(*set));
+  }
+
   std::uint32_t read_material_name(const Json& json, const JsonPath& path) {
     const auto name = read_string(json, path, mistakes_);
     if (!name) return 0;
@@ -186,6 +204,8 @@ class SceneReader {
   }
 
   Scene& scene_;
+  std::filesystem::path folder_;
+  Hash particle_files_;
   MeshFiles meshes_;
   Mistakes& mistakes_;
   std::map<std::string, std::uint32_t> material_index_;
@@ -203,7 +223,7 @@ std::optional<Scene> parse_scene(std::string_view text, const std::filesystem::p
   if (!mistakes.none()) return std::nullopt;
   Hash hash;
   hash.add(text);
-  reader.add_meshes_to(hash);
+  reader.add_files_to(hash);
   scene.hash = hash.text();
   return scene;
 }

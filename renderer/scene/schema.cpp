@@ -2,6 +2,7 @@
 #include "renderer/scene/schema.h"
 
 #include "renderer/scene/describe_member.h"
+#include "renderer/scene/particles.h"
 #include "renderer/scene/scene_json.h"
 #include "renderer/scene/shape_json.h"
 #include "renderer/scene/tagged_json.h"
@@ -90,6 +91,36 @@ Json scene_schema() {
                           {"transform", {{"$ref", "#/$defs/transform"}}}};
   object["required"] = {"name", "shape", "material"};
 
+  Json column_names = Json::array();
+  std::string column_docs = "what each row's numbers are, in their order";
+  for (const ParticleColumnDescription& column : particle_columns) {
+    column_names.push_back(std::string(column.name));
+    column_docs += "; " + std::string(column.name) + ": " + std::string(column.doc);
+  }
+  Json particles = object_schema("One shape, posed many times.");
+  particles["properties"] = {
+      {"name", name},
+      {"shape", {{"$ref", "#/$defs/shape"}}},
+      {"columns",
+       {{"type", "array"},
+        {"description", column_docs},
+        {"items", {{"enum", column_names}}},
+        {"contains", {{"const", "position"}}},
+        {"uniqueItems", true}}},
+      {"material", name},
+      {"materials", {{"type", "array"}, {"items", name}, {"minItems", 1}}},
+      {"count", {{"type", "integer"}, {"minimum", 1}, {"description", "how many rows there are"}}},
+      {"poses",
+       {{"type", "array"},
+        {"items", {{"type", "array"}, {"items", {{"type", "number"}}}}},
+        {"minItems", 1}}},
+      {"file",
+       {{"type", "string"}, {"pattern", "\\.(csv|f32|f64)$"}, {"description", "holds the rows"}}}};
+  particles["required"] = {"name", "shape"};
+  particles["allOf"] = Json::array(
+      {{{"oneOf", Json::array({{{"required", {"poses"}}}, {{"required", {"file"}}}})}},
+       {{"oneOf", Json::array({{{"required", {"material"}}}, {{"required", {"materials"}}}})}}});
+
   Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"},
                  {"title", "Minkray scene"}};
   schema.update(object_schema("Shapes, their materials, lights, and a camera."));
@@ -102,6 +133,7 @@ Json scene_schema() {
       {"lights", list_of("light")},
       {"materials", list_of("material")},
       {"objects", list_of("object")},
+      {"particles", list_of("particles")},
       {"background", {{"oneOf", {colour, background}}}}};
   schema["required"] = {"version", "camera", "lights", "materials", "objects"};
 
@@ -118,6 +150,7 @@ Json scene_schema() {
         material["required"].push_back("name");
       });
   definitions["object"] = std::move(object);
+  definitions["particles"] = std::move(particles);
   definitions["transform"] =
       described_object(object_schema("Where an object stands."), [](Json& transform) {
         const auto pose = describe(Parameter(), Member<AffineMap<double>>());

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/scene/summary.h"
 
+#include <algorithm>
 #include <type_traits>
 
+#include "core/parallel/parallel.h"
 #include "core/shape/shape_bounds.h"
 
 namespace minkray {
@@ -15,9 +17,10 @@ class Counter {
     for_each_shape_kind<double>([&]<class S>() { kinds_.push_back({S::name}); });
   }
 
-  void add(const Shape<double>& shape, bool is_operand) {
+  /// `times`: how often it is posed; its operands are there once.
+  void add(const Shape<double>& shape, bool is_operand, std::size_t times = 1) {
     KindCount& count = kinds_[shape.kind.index()];
-    ++(is_operand ? count.operands : count.objects);
+    (is_operand ? count.operands : count.objects) += times;
     if (is_operand) bytes += sizeof(shape);
     std::visit(
         [&]<class S>(const S& kind) {
@@ -60,6 +63,21 @@ Bounds<double> bounds_of(const Object& object) {
   return bounds_of<double>(Transform<double>{Nested<double>(object.shape), object.pose});
 }
 
+/// In parts, which several threads take.
+Bounds<double> bounds_of(const ParticleSet& set) {
+  constexpr std::size_t part_size = 65536;
+  std::vector<Bounds<double>> parts((set.size() + part_size - 1) / part_size);
+  for_parts(parts.size(), 1, [&](std::size_t first, std::size_t last) {
+    for (std::size_t part = first; part < last; ++part)
+      for (std::size_t i = part * part_size; i < std::min((part + 1) * part_size, set.size()); ++i)
+        parts[part].extend(
+            bounds_of<double>(Transform<double>{Nested<double>(set.shape), set.pose(i)}));
+  });
+  Bounds<double> bounds;
+  for (const Bounds<double>& part : parts) bounds.extend(part);
+  return bounds;
+}
+
 SceneSummary summarise(const Scene& scene) {
   Counter counter;
   SceneSummary summary;
@@ -68,6 +86,13 @@ SceneSummary summarise(const Scene& scene) {
     counter.bytes += sizeof(Object) + object.name.capacity();
     summary.bounds.extend(bounds_of(object));
   }
+  for (const ParticleSet& set : scene.particles) {
+    counter.add(set.shape, false, set.size());
+    counter.bytes += sizeof(ParticleSet) + set.name.capacity() + set.bytes();
+    summary.particles += set.size();
+    summary.bounds.extend(bounds_of(set));
+  }
+  summary.instances = scene.objects.size() + summary.particles;
   summary.kinds = counter.occurring();
   summary.hull_points = counter.hull_points;
   summary.bytes = counter.bytes;

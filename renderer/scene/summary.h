@@ -21,13 +21,16 @@ struct KindCount {
 struct SceneSummary {
   std::vector<KindCount> kinds;  ///< those that occur
   std::size_t hull_points = 0;   ///< extreme points kept by hulls
-  std::size_t bytes = 0;         ///< of all objects with their shapes and points
-  Bounds<double> bounds;         ///< in the world; empty if there are no objects
+  std::size_t bytes = 0;         ///< of all objects and particles with their shapes and points
+  std::size_t instances = 0;     ///< objects and particles
+  std::size_t particles = 0;
+  Bounds<double> bounds;  ///< in the world; empty if there are no objects
 };
 
 SceneSummary summarise(const Scene& scene);
 
-/// The bounds of an object in the world.
+/// The bounds of an object, or of all particles, in the world.
 Bounds<double> bounds_of(const Object& object);
+Bounds<double> bounds_of(const ParticleSet& set);
 
 }  // namespace minkray

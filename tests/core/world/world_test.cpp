@@ -21,7 +21,7 @@ struct Random {
 };
 
 template <class T>
-std::vector<PreparedShape<T>> scattered_shapes(int count, Random<T>& random) {
+Instances<T> scattered_shapes(int count, Random<T>& random) {
   const std::vector<Shape<T>> kinds = {
       Sphere<T>{T(0.7)},
       Rounded<T>{T(0.1), Shape<T>(Box<T>{{T(0.6), T(0.5), T(0.3)}})},
@@ -29,14 +29,20 @@ std::vector<PreparedShape<T>> scattered_shapes(int count, Random<T>& random) {
       Cylinder<T>{T(0.3), T(0.8)},
       Disk<T>{T(0.8)},
       Triangle<T>{{Vec3<T>(0, 0, 0), Vec3<T>(1, 0, 0), Vec3<T>(0, 1, 0)}}};
-  std::vector<PreparedShape<T>> shapes;
+  Instances<T> shapes;
   for (int i = 0; i < count; ++i) {
     const Vec3<T> axis = random.point(1);
     const Mat3<T> turn = rotation_matrix(axis.x(), axis.y(), axis.z(), random.within(-1, 1));
-    shapes.emplace_back(kinds[static_cast<std::size_t>(i) % kinds.size()],
-                        Affine<T>{turn, random.point(6)});
+    shapes.add(kinds[static_cast<std::size_t>(i) % kinds.size()], Affine<T>{turn, random.point(6)});
   }
   return shapes;
+}
+
+template <class T>
+Instances<T> only(const Shape<T>& shape) {
+  Instances<T> instances;
+  instances.add(shape);
+  return instances;
 }
 
 TYPED_TEST(WorldOf, closest_hit_is_the_nearest_of_all_instances) {
@@ -50,8 +56,8 @@ TYPED_TEST(WorldOf, closest_hit_is_the_nearest_of_all_instances) {
     QueryCounts counts;
     const WorldHit<T> hit = world.closest_hit(ray, counts);
     T nearest = std::numeric_limits<T>::infinity();
-    for (const PreparedShape<T>& shape : world.instances())
-      if (const CastResult<T> cast = cast_ray(shape, ray); cast.found())
+    for (std::size_t k = 0; k < world.instances().size(); ++k)
+      if (const CastResult<T> cast = cast_ray(world.instances().at(k), ray); cast.found())
         nearest = std::min(nearest, cast.t());
     ASSERT_EQ(hit.found(), nearest < std::numeric_limits<T>::infinity());
     EXPECT_EQ(counts.exhausted, 0u);
@@ -98,7 +104,7 @@ TYPED_TEST(WorldOf, empty_worlds_and_rays_from_inside) {
   EXPECT_FALSE(World<T>().occluded(ray, counts));
   EXPECT_EQ(World<T>().closest_hit(ray, counts).cast.status, Status::miss);
 
-  const World<T> around({PreparedShape<T>(Sphere<T>{T(1)})});
+  const World<T> around(only<T>(Sphere<T>{T(1)}));
   EXPECT_EQ(around.closest_hit(ray, counts).cast.status, Status::inside);
   EXPECT_EQ(around.closest_hit(ray, counts).cast.t(), T(0));
   EXPECT_TRUE(around.occluded(ray, counts));
@@ -110,7 +116,7 @@ TYPED_TEST(WorldOf, exhausted_casts_are_counted_and_taken_for_neither) {
   CastOptions<T> impatient;
   impatient.solver = SolverKind::paper;
   impatient.max_iterations = 1;
-  const World<T> world({PreparedShape<T>(Box<T>{{1, 1, 1}})}, impatient);
+  const World<T> world(only<T>(Box<T>{{1, 1, 1}}), impatient);
   QueryCounts counts;
   const WorldHit<T> hit = world.closest_hit({{-3, T(0.2), T(0.1)}, {1, 0, 0}}, counts);
   EXPECT_FALSE(hit.found());

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include "core/world/instances.h"
+
+#include "core/parallel/parallel.h"
+#include "core/solver/tolerances.h"
+
+namespace minkray {
+namespace {
+
+/// Support points, and so the bounds made of them, are rounded; a solver's hits are as well.
+/// Relative to the box's size and distance from the world's origin, in units of the machine
+/// epsilon.
+constexpr int bounds_padding = 32;
+
+/// Poses that one thread takes at a time: some hundred microseconds of work.
+constexpr std::size_t poses_a_part = 4096;
+
+template <class T>
+Bounds<T> padded(const Bounds<T>& bounds) {
+  const T size = bounds.lower.cwiseAbs().cwiseMax(bounds.upper.cwiseAbs()).maxCoeff();
+  const T padding = T(bounds_padding) * tolerance::epsilon<T> * size;
+  return {(bounds.lower.array() - padding).matrix(), (bounds.upper.array() + padding).matrix()};
+}
+
+}  // namespace
+
+template <class T>
+std::uint32_t Instances<T>::define(Shape<T> shape) {
+  definitions_.push_back(std::make_shared<const ShapeDefinition<T>>(std::move(shape)));
+  return static_cast<std::uint32_t>(definitions_.size() - 1);
+}
+
+template <class T>
+void Instances<T>::reserve(std::size_t count) {
+  places_.reserve(places_.size() + count);
+  boxes_.reserve(boxes_.size() + count);
+}
+
+template <class T>
+void Instances<T>::add(std::uint32_t definition, const Affine<T>& pose) {
+  const ShapeDefinition<T>& shape = *definitions_[definition];
+  const auto placement = shape.placed(pose);
+  const Bounds<T> bounds = shape.bounds_of(pose);
+  std::uint32_t linear = identity;
+  if (!placement.is_rigid_identity) {
+    const Linear own{placement.to_inner, bounds.half_extents().maxCoeff()};
+    // Of one shape with one linear part, boxes are of one size but for rounding.
+    const bool as_before = !places_.empty() && places_.back().definition == definition &&
+                           places_.back().linear != identity &&
+                           linear_[places_.back().linear].to_inner == own.to_inner;
+    if (!as_before) linear_.push_back(own);
+    linear = as_before ? places_.back().linear : static_cast<std::uint32_t>(linear_.size() - 1);
+  }
+  places_.push_back({placement.centre, definition, linear});
+  boxes_.push_back(rounded_outwards(padded(bounds)));
+}
+
+template <class T>
+void Instances<T>::add_many(std::uint32_t definition, std::size_t count, bool linear_alike,
+                            const std::function<Affine<T>(std::size_t)>& pose_of) {
+  if (count == 0) return;
+  const ShapeDefinition<T>& shape = *definitions_[definition];
+  const std::size_t first = places_.size(), first_linear = linear_.size();
+  places_.resize(first + count);
+  boxes_.resize(first + count);
+  // Alike: the first one's linear part is that of all, or the identity.
+  const auto placement = shape.placed(pose_of(0));
+  if (linear_alike && !placement.is_rigid_identity)
+    linear_.push_back({placement.to_inner, shape.bounds_of(pose_of(0)).half_extents().maxCoeff()});
+  if (!linear_alike) linear_.resize(first_linear + count);
+  for_parts(count, poses_a_part, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Affine<T> pose = pose_of(i);
+      const auto placed = shape.placed(pose);
+      const Bounds<T> bounds = shape.bounds_of(pose);
+      boxes_[first + i] = rounded_outwards(padded(bounds));
+      std::uint32_t linear = identity;
+      if (!placed.is_rigid_identity) {
+        const std::size_t at = first_linear + (linear_alike ? 0 : i);
+        linear = static_cast<std::uint32_t>(at);
+        if (!linear_alike) linear_[at] = {placed.to_inner, bounds.half_extents().maxCoeff()};
+      }
+      places_[first + i] = {placed.centre, definition, linear};
+    }
+  });
+}
+
+template <class T>
+std::size_t Instances<T>::bytes() const {
+  return definitions_.size() * (sizeof(ShapeDefinition<T>) + sizeof(definitions_[0])) +
+         places_.capacity() * sizeof(Place) + linear_.capacity() * sizeof(Linear) +
+         boxes_.capacity() * sizeof(boxes_[0]);
+}
+
+template class Instances<float>;
+template class Instances<double>;
+
+}  // namespace minkray

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// The shapes of a world, each with its pose: definitions once, and for each instance no more than
+// where it stands, so that there may be tens of millions.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "core/solver/prepared_shape.h"
+
+namespace minkray {
+
+/// In double an instance takes 32 bytes, and 80 more if it is turned or scaled otherwise than the
+/// one before.
+template <class T>
+class Instances {
+ public:
+  /// A shape for `add` to pose, named by the answer.
+  std::uint32_t define(Shape<T> shape);
+
+  /// `pose` maps the frame of the definition's shape to the world; it must be invertible.
+  void add(std::uint32_t definition, const Affine<T>& pose);
+  void add(Shape<T> shape, const Affine<T>& pose = {}) { add(define(std::move(shape)), pose); }
+
+  /// `count` instances, the i-th at pose_of(i), which is asked from several threads at once.
+  /// `linear_alike`: the poses differ in their translation alone.
+  void add_many(std::uint32_t definition, std::size_t count, bool linear_alike,
+                const std::function<Affine<T>(std::size_t)>& pose_of);
+
+  /// Room for so many more instances of `add`.
+  void reserve(std::size_t count);
+
+  std::size_t size() const { return places_.size(); }
+
+  /// Refers to this, which must outlive it.
+  PreparedShape<T> at(std::size_t i) const {
+    const Place& place = places_[i];
+    return {*definitions_[place.definition], place.centre,
+            place.linear == identity ? nullptr : &linear_[place.linear].to_inner};
+  }
+
+  /// Half the longest side of the instance's box in the world, but for rounding.
+  T half_extent(std::size_t i) const {
+    const Place& place = places_[i];
+    return place.linear == identity
+               ? definitions_[place.definition]->inner_half_extents().maxCoeff()
+               : linear_[place.linear].half_extent;
+  }
+
+  /// Boxes that hold the instances and what rounding makes of them; once, since they are given
+  /// away.
+  std::vector<Bounds<float>> take_boxes() { return std::exchange(boxes_, {}); }
+
+  std::size_t definitions() const { return definitions_.size(); }
+
+  /// Without the points of hulls, which shapes share.
+  std::size_t bytes() const;
+
+ private:
+  static constexpr std::uint32_t identity = std::numeric_limits<std::uint32_t>::max();
+  struct Place {
+    Vec3<T> centre;
+    std::uint32_t definition;
+    std::uint32_t linear;  ///< into linear_, or identity
+  };
+  struct Linear {
+    Mat3<T> to_inner;
+    T half_extent;
+  };
+
+  std::vector<std::shared_ptr<const ShapeDefinition<T>>> definitions_;
+  std::vector<Place> places_;
+  std::vector<Linear> linear_;
+  std::vector<Bounds<float>> boxes_;
+};
+
+extern template class Instances<float>;
+extern template class Instances<double>;
+
+}  // namespace minkray

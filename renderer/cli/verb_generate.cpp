@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// minkray generate: benchmark scenes of any size.
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "renderer/cli/verbs.h"
+#include "renderer/generate/generate.h"
+#include "renderer/scene/scene_instances.h"
+
+namespace minkray {
+namespace {
+
+struct Options {
+  std::string kind;
+  std::string out;
+  std::size_t count = 1000;
+  std::uint64_t seed = 0;
+};
+
+}  // namespace
+
+void add_generate(CLI::App& app, ExitCode&) {
+  CLI::App* verb =
+      app.add_subcommand("generate", "Make a scene of many shapes, the same for the same seed");
+  const auto options = std::make_shared<Options>();
+  std::vector<std::string> names;
+  std::string docs;
+  for (const GeneratedKind& kind : generated_kinds) {
+    names.emplace_back(kind.name);
+    docs += (docs.empty() ? "" : "; ") + std::string(kind.name) + ": " + std::string(kind.doc);
+  }
+  verb->add_option("kind", options->kind, docs)->required()->check(CLI::IsMember(names));
+  verb->add_option("-n,--count", options->count, "How many shapes")
+      ->check(CLI::Range(std::size_t{1}, most_instances))
+      ->capture_default_str();
+  verb->add_option("-o,--output", options->out,
+                   "The scene file (JSON); many poses go into a file beside it, with .f32 at the "
+                   "end of its name")
+      ->required();
+  verb->add_option("--seed", options->seed, "Another seed is another scene")->capture_default_str();
+  verb->callback([options] {
+    generate_scene({options->kind, options->count, options->seed}, options->out);
+  });
+}
+
+}  // namespace minkray

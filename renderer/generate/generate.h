@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// Benchmark scenes of as many shapes as are asked for, the same bit for bit for the same seed.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace minkray {
+
+struct GeneratedKind {
+  std::string_view name;
+  std::string_view doc;
+};
+
+inline constexpr GeneratedKind generated_kinds[] = {
+    {"rounded-boxes", "random rounded boxes, turned; they overlap here and there"},
+    {"spheres", "random spheres"},
+    {"ellipsoids", "a packing of ellipsoids, turned, none of which overlap"},
+    {"hulls", "a grid of convex hulls, each another one"},
+    {"capsules", "random fibres"},
+};
+
+struct GenerateOptions {
+  std::string_view kind;
+  std::size_t count = 1000;
+  std::uint64_t seed = 0;
+};
+
+/// Hulls are points in the scene file itself, each hull its own; a file of more could not be read.
+inline constexpr std::size_t most_generated_hulls = 100000;
+
+/// So few poses are written into the scene file, more into a file beside it.
+inline constexpr std::size_t most_inline_poses = 1000;
+
+/// Writes the scene file and, if there are many poses, first their file beside it: of the same
+/// name, but ending in .f32. Each is there in full or not at all. Throws CannotWrite, and
+/// WrongUsage if the kind is unknown or the count not possible.
+void generate_scene(const GenerateOptions& options, const std::string& file);
+
+}  // namespace minkray

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// A block of particles in a scene file: docs/scene-format.md says what it may hold.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+
+#include "renderer/hash.h"
+#include "renderer/json/json.h"
+#include "renderer/json/mistakes.h"
+#include "renderer/scene/mesh_files.h"
+#include "renderer/scene/particles.h"
+
+namespace minkray {
+
+/// What a block is read with.
+struct ParticleSource {
+  const std::filesystem::path& folder;  ///< files are named relative to it
+  MeshFiles& meshes;
+  Hash& hash;             ///< files' contents go into it
+  std::size_t most_rows;  ///< no more particles than these
+  /// The index of the material of that name; a mistake, and any index, if there is none.
+  std::function<std::uint32_t(const Json&, const JsonPath&)> material_named;
+};
+
+/// Nothing, and mistakes, if anything in it is wrong.
+std::optional<ParticleSet> read_particles(const Json& json, const JsonPath& path,
+                                          Mistakes& mistakes, const ParticleSource& source);
+
+}  // namespace minkray
