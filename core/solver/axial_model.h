@@ -33,11 +33,11 @@ class EllipsoidModel {
 
   ModelHit<W> step(const Piece& piece, const Vec3<W>&, int) const {
     ModelHit<W> hit;
-    hit.m = normal_on_extents<W>(shape_.radii, s_, r_);
+    hit.m = normal_on_ellipsoid<W>(shape_.radii, s_, r_, hit.certain);
     const W z = -hit.m.dot(r_);
     const Mask<W> ahead = z > W(0);
     hit.height = piece.reach(hit.m) / select(ahead, z, W(1));
-    hit.certain = ahead;
+    hit.certain &= ahead;
     hit.repeated = Mask<W>(true);
     return hit;
   }
@@ -103,15 +103,16 @@ class AxialModel {
     // The newest piece alone, unless the other reaches further there.
     ModelHit<W> hit;
     hit.repeated = is_first | is_second;
-    hit.m = alone(piece);
+    Mask<W> meets;
+    hit.m = alone(piece, meets);
     W reach = piece.reach(hit.m);
     const Mask<W> settled = (!has_other) | (other.reach(hit.m) - reach <= rounding_);
-    hit.certain = settled;
+    hit.certain = settled & meets;
     if (!all(settled)) {
       Vec3<W> m;
       const Mask<W> between = joined(piece, other, m);
       hit.m = select<W>(settled, hit.m, m);
-      hit.certain = settled | between;
+      hit.certain |= (!settled) & between;
       reach = piece.reach(hit.m);
     }
     const W z = -hit.m.dot(r_);
@@ -129,8 +130,8 @@ class AxialModel {
   /// At right angles to the ray.
   Vec3<W> beside(const Vec3<W>& x) const { return x - r_ * x.dot(r_); }
 
-  /// The normal where the ray meets one piece, or across the ray from it.
-  Vec3<W> alone(const Piece& piece) const {
+  /// The normal where the ray meets one piece, or across the ray from it; which of the two.
+  Vec3<W> alone(const Piece& piece, Mask<W>& meets) const {
     using std::max;
     using std::sqrt;
     if constexpr (disks) {
@@ -138,14 +139,16 @@ class AxialModel {
       const W x = piece.c.z() * r_.x() - piece.c.x() * r_.z();
       const W y = piece.c.z() * r_.y() - piece.c.y() * r_.z();
       const W rim = piece.radius * r_.z();
-      const Mask<W> crosses = (x * x + y * y <= rim * rim) & (r_.z() != W(0));
+      meets = (x * x + y * y <= rim * rim) & (r_.z() != W(0));
       const Vec3<W> face(W(0), W(0), select(r_.z() > W(0), W(-1), W(1)));
       const Vec3<W> past(x * r_.z(), y * r_.z(), -(x * r_.x() + y * r_.y()));
-      return select<W>(crosses, face, unit<W>(past));
+      return select<W>(meets, face, unit<W>(past));
     } else {
-      const Vec3<W> q = beside(piece.c);
-      const W depth = sqrt(max(W(piece.radius * piece.radius - q.squaredNorm()), W(0)));
-      return unit<W>(-q - r_ * depth);
+      // Twice, for what is short beside what it is the remainder of.
+      const Vec3<W> q = beside(beside(piece.c));
+      const W den = piece.radius * piece.radius - q.squaredNorm();
+      meets = den > W(0);
+      return unit<W>(-q - r_ * sqrt(max(den, W(0))));
     }
   }
 
@@ -165,9 +168,9 @@ class AxialModel {
     const W p = -r_.z() * m_z, q = -k * r_.x(), w = -k * r_.y();
     const W A = alpha * q - beta * p, B = gamma * p - alpha * w, C = gamma * q - beta * w;
     const W AB = A * A + B * B, den = AB - C * C;
-    const Mask<W> crosses = den > W(0);
     const W root = sqrt(max(den, W(0)));
     W cosine = (A * root - C * B) / AB, sine = -(C * A + B * root) / AB;
+    const Mask<W> crosses = (den > W(0)) & (p + q * cosine + w * sine > W(0));
     if (!all(crosses)) {
       // Past the cone: the direction at right angles to the ray that reaches least.
       const W across = sqrt(q * q + w * w);

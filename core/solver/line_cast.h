@@ -75,7 +75,8 @@ LineHit<W> first_on_line(Model& model, const Vec3<W>& first, const W& lambda_end
   Vec3<W> n = model.to_frame(first);
   ModelHit<W> model_hit;
   for (int iteration = 0; iteration < max_iterations; ++iteration) {
-    // The supporting plane of direction n: it clips the line, or separates.
+    // The supporting plane of direction n: it clips the line, or separates (where it leans away from
+    // the ray: all of the line in the bounding ball).
     const auto piece = model.support(n);
     result.supports += select(open, W(1), W(0));
     const W h = piece.reach(n), z = model.against_ray(n);
@@ -87,7 +88,7 @@ LineHit<W> first_on_line(Model& model, const Vec3<W>& first, const W& lambda_end
     const Mask<W> better = open & (lambda > result.lambda);
     result.lambda = select(better, lambda, result.lambda);
     result.normal = select<W>(better, n, result.normal);
-    const Mask<W> misses = open & (((!ahead) & beyond) | (lambda > lambda_end));
+    const Mask<W> misses = open & (((!ahead) & (h - z * W(R) < -gap)) | (lambda > lambda_end));
     result.normal = select<W>(misses, n, result.normal);
     result.miss |= misses;
     open &= !misses;
@@ -128,24 +129,35 @@ LineHit<W> first_on_line(Model& model, const Vec3<W>& first, const W& lambda_end
 }
 
 /// The normal where the line s + lambda r first meets the ellipsoid around the origin with these
-/// half extents, or, if it passes by, the ellipsoid's normal towards it, at right angles to r. Of
-/// unit length. Extents that are nothing beside the largest are taken for a little more.
+/// radii, all positive, or, if it passes by, the ellipsoid's normal towards it, at right angles to
+/// r. Of unit length. `meets` says which.
 template <class W>
-Vec3<W> normal_on_extents(const Vec3<Lane<W>>& half_extents, const Vec3<W>& s, const Vec3<W>& r) {
+Vec3<W> normal_on_ellipsoid(const Vec3<Lane<W>>& radii, const Vec3<W>& s, const Vec3<W>& r,
+                            Mask<W>& meets) {
   using std::max;
   using std::sqrt;
-  using T = Lane<W>;
-  constexpr T least = T(1) / T(65536);
-  const Vec3<T> scale =
-      half_extents.cwiseMax(Vec3<T>::Constant(least * half_extents.maxCoeff())).cwiseInverse();
-  const Vec3<W> to_ball = widen<W>(scale);
+  const Vec3<W> to_ball = widen<W>(Vec3<Lane<W>>(radii.cwiseInverse()));
   const Vec3<W> r_ball = unit<W>(r.cwiseProduct(to_ball));
   const Vec3<W> s_ball = s.cwiseProduct(to_ball);
-  const Vec3<W> beside = s_ball - r_ball * s_ball.dot(r_ball);
-  const W depth = sqrt(max(W(W(1) - beside.squaredNorm()), W(0)));
-  const Vec3<W> n = (beside - r_ball * depth).cwiseProduct(to_ball);
-  const Vec3<W> safe = unit<W>(n);
-  return select<W>(safe.squaredNorm() > W(0), safe, Vec3<W>(-r));
+  // By cross products, which keep the digits of components that are nothing beside others.
+  const Vec3<W> beside = r_ball.cross(s_ball.cross(r_ball));
+  const W den = W(1) - beside.squaredNorm();
+  meets = den > W(0);
+  const W depth = sqrt(max(den, W(0)));
+  Vec3<W> n = unit<W>(Vec3<W>((beside - r_ball * depth).cwiseProduct(to_ball)));
+  if (!all(meets)) n = select<W>(meets, n, unit<W>(Vec3<W>(n - r * n.dot(r))));
+  return select<W>(n.squaredNorm() > W(0), n, Vec3<W>(-r));
+}
+
+/// A first direction for a shape with these half extents. Extents that are nothing beside the
+/// largest are taken for a little more.
+template <class W>
+Vec3<W> normal_on_extents(const Vec3<Lane<W>>& half_extents, const Vec3<W>& s, const Vec3<W>& r) {
+  using T = Lane<W>;
+  constexpr T least = T(1) / T(65536);
+  Mask<W> meets;
+  return normal_on_ellipsoid<W>(
+      half_extents.cwiseMax(Vec3<T>::Constant(least * half_extents.maxCoeff())), s, r, meets);
 }
 
 }  // namespace minkray

@@ -53,8 +53,9 @@ class PolytopeModel {
     }
     hit.certain = portal(newest, hit.repeated, hit.m);
     if (!all(hit.certain)) {
-      ball_ = select(hit.repeated, W(ball_ * W(T(0.1))), ball_);
-      if (iteration >= 3) ball_ *= W(T(0.5));
+      const Mask<W> open = !hit.certain;
+      ball_ = select(open & hit.repeated, W(ball_ * W(T(0.1))), ball_);
+      if (iteration >= 3) ball_ = select(open, W(ball_ * W(T(0.5))), ball_);
       const Vec3<W> m = rounded(newest, n);
       hit.m = select<W>(hit.certain, hit.m, m);
     }

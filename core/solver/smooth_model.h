@@ -167,7 +167,7 @@ class SmoothModel {
       const Mask<W> fits = overshoots & (there > min(from, to)) & (there < max(from, to));
       // Across it as the model wants. Or else less of the best direction's own step.
       const W aside = here.x * -e_y + here.y * e_x;
-      damping_ = select(worse, W(damping_ * W(T(0.5))), W(1));
+      damping_ = select(back & worse, W(damping_ * W(T(0.5))), damping_);
       const W to_x =
           select(fits, W(there * e_x - aside * e_y), W(best_.x + (best_.to_x - best_.x) * damping_));
       const W to_y =

@@ -105,7 +105,7 @@ class SandwichedShape {
   /// segments and points: hit the outer mesh). The sandwich's own options are not used.
   CompareReport compare(const CompareOptions& options) const;
 
-  const Bounds<double>& bounds() const { return prepared_.outer_bounds(); }
+  Bounds<double> bounds() const { return prepared_.definition().bounds_of(Affine<double>{}); }
 
  private:
   PreparedShape<double> prepared_;

@@ -84,7 +84,7 @@ TYPED_TEST_SUITE(CastTruths, Scalars);
 
 template <class T>
 double radius_of(const PreparedShape<T>& shape) {
-  return double(shape.outer_bounds().half_extents().norm());
+  return double(shape.definition().bounds_of(Affine<T>{}).half_extents().norm());
 }
 
 /// The certificate of a hit: its plane touches the shape, and the hit spot lies on it. Of a miss:

@@ -21,7 +21,7 @@ class MissPlanes : public ::testing::TestWithParam<SampleShape> {};
 TEST_P(MissPlanes, separate_ray_and_shape) {
   const Shape<double>& shape = GetParam().shape;
   const PreparedShape<double> prepared(shape);
-  Bounds<double> bounds = prepared.outer_bounds();
+  Bounds<double> bounds = prepared.definition().bounds_of(Affine<double>{});
   if (!(bounds.half_extents().maxCoeff() > 0)) {  // a point: rays that pass beside it
     const Vec3<double> point = bounds.centre();
     bounds.extend(Vec3<double>(point.array() - 1));
