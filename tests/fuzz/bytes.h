@@ -27,19 +27,23 @@ class Bytes {
   /// 0 .. n - 1, n at most 256.
   int below(int n) { return static_cast<int>(byte()) % n; }
   /// In [0, 1), in steps of 2^-16.
-  double fraction() { return (byte() * 256 + byte()) * 0x1p-16; }
+  double fraction() {
+    // One after the other: in which order operands are evaluated differs between compilers.
+    const unsigned high = byte(), low = byte();
+    return (high * 256 + low) * 0x1p-16;
+  }
 
   /// A length that is not negative: mostly near 1, some whole, zero, denormal, or anywhere from
   /// 1e-30 to 1e30. Wild or not, it is in the range in which casts are promised to be right.
   template <class T>
   T length(bool wild) {
     const unsigned kind = byte();
-    if (kind < 128 || (!wild && kind < 192)) return T(std::ldexp(0.5 + fraction(), below(9) - 5));
+    if (kind < 128 || (!wild && kind < 192)) return scaled<T>(0.5, 9, 5);
     if (kind < 208) return T(below(4));
     if (kind < 216) return T(0);
     if (!wild) return T(1) / T(1 + below(16));
     if (kind < 220) return std::numeric_limits<T>::denorm_min() * T(1 + byte());
-    return T(std::ldexp(1 + fraction(), below(200) - 100));
+    return scaled<T>(1, 200, 100);
   }
   template <class T>
   T positive(bool wild) {
@@ -58,6 +62,12 @@ class Bytes {
   }
 
  private:
+  template <class T>
+  T scaled(double least, int exponents, int middle) {
+    const double mantissa = least + fraction();
+    return T(std::ldexp(mantissa, below(exponents) - middle));
+  }
+
   std::string_view left_;
 };
 

@@ -20,7 +20,10 @@ Affine<T> map_from(Bytes& bytes, bool wild) {
   const Mat3<double> turn =
       q.norm() > 0.1 ? q.normalized().toRotationMatrix() : Mat3<double>(Mat3<double>::Identity());
   Vec3<double> scale;
-  for (double& s : scale) s = std::ldexp(bytes.byte() & 1 ? -1 : 1, bytes.below(7) - 3);
+  for (double& s : scale) {
+    const double sign = bytes.byte() & 1 ? -1 : 1;
+    s = std::ldexp(sign, bytes.below(7) - 3);
+  }
   if (wild && bytes.below(3) == 0) scale *= std::ldexp(1, bytes.below(120) - 60);
   const bool moves = bytes.below(2) == 1;
   const Vec3<T> by = moves ? bytes.point<T>(wild) : Vec3<T>(Vec3<T>::Zero());
