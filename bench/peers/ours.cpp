@@ -108,13 +108,13 @@ Peers packet_solvers(const Shape<double>& shape) {
   Peers peers;
   const auto f = std::make_shared<PreparedShape<float>>(convert<float>(shape));
   const auto d = std::make_shared<PreparedShape<double>>(shape);
-  peers.push_back(std::make_unique<Packets<float>>("minkray-packet-8/float", f,
-                                                   best_instruction_set()));
-  peers.push_back(std::make_unique<Packets<double>>("minkray-packet-4/double", d,
-                                                    best_instruction_set()));
+  peers.push_back(
+      std::make_unique<Packets<float>>("minkray-packet-8/float", f, best_instruction_set()));
+  peers.push_back(
+      std::make_unique<Packets<double>>("minkray-packet-4/double", d, best_instruction_set()));
   if (best_instruction_set() != InstructionSet::sse2)
-    peers.push_back(std::make_unique<Packets<float>>("minkray-packet-8-sse2/float", f,
-                                                     InstructionSet::sse2));
+    peers.push_back(
+        std::make_unique<Packets<float>>("minkray-packet-8-sse2/float", f, InstructionSet::sse2));
   return peers;
 }
 

@@ -6,8 +6,9 @@
 
 namespace minkray {
 
-/// Lengths are in the scene's unit; T may be a packet: a ray in every lane. The direction need not be of unit length (t counts in its
-/// lengths) and may be zero: such a ray is the single point `origin`.
+/// Lengths are in the scene's unit; T may be a packet: a ray in every lane. The direction need not
+/// be of unit length (t counts in its lengths) and may be zero: such a ray is the single point
+/// `origin`.
 template <class T>
 struct Ray {
   Vec3<T> origin;

@@ -69,7 +69,9 @@ struct WideMask {
     for (unsigned i = 0; i < sizeof(Words) / sizeof(std::uint64_t); ++i) joined |= words[i];
     return joined != 0;
   }
-  friend bool all(const WideMask& mask) { return !any(!mask); }
+  friend bool all(const WideMask& mask) {
+    return !any(!mask);
+  }
 };
 
 template <class T, int N, class Isa>
@@ -158,7 +160,9 @@ struct Wide {
 
  private:
   using Bits = typename Mask::Bits;
-  static Wide sign_bit() { return Wide(T(-0.0)); }
+  static Wide sign_bit() {
+    return Wide(T(-0.0));
+  }
   template <class F>
   static Wide per_lane(const Wide& a, F&& f) {
     Wide result;

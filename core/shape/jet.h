@@ -78,9 +78,7 @@ template <class W>
 struct AxialDiskJet {
   W z;
   W radius;
-  operator Jet<W>() const {
-    return {{W(0), W(0), z}, Vec3<W>(radius, radius, W(0)).asDiagonal()};
-  }
+  operator Jet<W>() const { return {{W(0), W(0), z}, Vec3<W>(radius, radius, W(0)).asDiagonal()}; }
 };
 
 /// An ellipsoid around the origin with its axes along the coordinate axes.

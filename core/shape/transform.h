@@ -33,8 +33,7 @@ struct Transform {
   template <class W>
   Jet<W> jet(const Vec3<W>& n) const {
     const Jet<W> inner = shape->jet(map.inner_direction(n));
-    return {map(inner.c), widen<W, T>(map.affine().linear) * inner.F, inner.exact,
-            map(inner.s)};
+    return {map(inner.c), widen<W, T>(map.affine().linear) * inner.F, inner.exact, map(inner.s)};
   }
 };
 

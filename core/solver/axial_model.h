@@ -21,8 +21,7 @@ class EllipsoidModel {
     }
   };
 
-  EllipsoidModel(const S& shape, const Vec3<Lane<W>>&, const Vec3<W>& s, const Vec3<W>& r,
-                 Lane<W>)
+  EllipsoidModel(const S& shape, const Vec3<Lane<W>>&, const Vec3<W>& s, const Vec3<W>& r, Lane<W>)
       : shape_(shape), s_(s), r_(r) {}
 
   const Vec3<W>& to_frame(const Vec3<W>& n) const { return n; }
@@ -78,7 +77,11 @@ class AxialModel {
 
   /// The shape with its bounding ball's centre, seen from s; R is the ball's radius.
   AxialModel(const S& shape, const Vec3<T>& centre, const Vec3<W>& s, const Vec3<W>& r, T R)
-      : shape_(shape), centre_z_(centre.z()), s_(s), r_(r), rounding_(tolerance::model_rounding<T> * R) {}
+      : shape_(shape),
+        centre_z_(centre.z()),
+        s_(s),
+        r_(r),
+        rounding_(tolerance::model_rounding<T> * R) {}
 
   const Vec3<W>& to_frame(const Vec3<W>& n) const { return n; }
   const Vec3<W>& to_shape(const Vec3<W>& n) const { return n; }
@@ -153,9 +156,9 @@ class AxialModel {
   }
 
   /// The normal m where the ray meets the cone that touches both pieces; whether it does so between
-  /// them. All directions that reach equally far with both are m(phi) = (k cos phi, k sin phi, m_z).
-  /// The plane of m(phi) is crossed at height (alpha + beta cos + gamma sin) / (p + q cos + w sin),
-  /// which is least where A sin + B cos + C = 0.
+  /// them. All directions that reach equally far with both are m(phi) = (k cos phi, k sin phi,
+  /// m_z). The plane of m(phi) is crossed at height (alpha + beta cos + gamma sin) / (p + q cos + w
+  /// sin), which is least where A sin + B cos + C = 0.
   Mask<W> joined(const Piece& piece, const Piece& other, Vec3<W>& m) const {
     using std::max;
     using std::min;

@@ -67,8 +67,7 @@ CastResult<T> cast_with_model(const PreparedShape<T>& shape, const RayNearBall<T
   };
   const CastResult<T> result = model_and_cast();
   if (result.status != Status::exhausted) return result;
-  CastResult<T> slow =
-      gjk_ray_cast(any, near, ball, gjk_options(shape, options), observer);
+  CastResult<T> slow = gjk_ray_cast(any, near, ball, gjk_options(shape, options), observer);
   slow.iterations += result.iterations;
   slow.supports += result.supports;
   return slow;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Casting the ray exactly on the hull of at most four translates of one ball or ellipsoid: in closed
-// form. docs/theory.md derives it.
+// Casting the ray exactly on the hull of at most four translates of one ball or ellipsoid: in
+// closed form. docs/theory.md derives it.
 //
 // Frame: the ray runs down the z axis, from +z to -z. In a direction m with m.z > 0 the hull's
 // supporting plane cuts the axis at height reach(m)/m.z, and the hit is the least of these heights.
@@ -53,8 +53,8 @@ struct EllipsoidBody {
   Mat3<W> F;
 
   W bend(const Vec3<W>& m) const { return (F.transpose() * m).norm(); }
-  /// By way of a unit vector, so that it is a point of the ellipsoid even where F^T m is nothing but
-  /// rounding.
+  /// By way of a unit vector, so that it is a point of the ellipsoid even where F^T m is nothing
+  /// but rounding.
   Vec3<W> spot(const Vec3<W>& m) const { return F * unit<W>(F.transpose() * m); }
 
   Vec3<W> alone(const Vec3<W>& c) const {
@@ -110,9 +110,11 @@ struct Translates {
 /// The hit on the hull.
 template <class W>
 struct HullCastHit {
-  Vec3<W> m = Vec3<W>::Zero();     ///< of unit length
-  Mask<W> found = Mask<W>(false);  ///< it is the hit, or separates; otherwise the best that is known
-  std::array<W, 3> weights = {W(0), W(0), W(0)};  ///< of the others' spots; the newest's completes 1
+  Vec3<W> m = Vec3<W>::Zero();  ///< of unit length
+  Mask<W> found =
+      Mask<W>(false);  ///< it is the hit, or separates; otherwise the best that is known
+  std::array<W, 3> weights = {W(0), W(0),
+                              W(0)};  ///< of the others' spots; the newest's completes 1
   W rank = W(std::numeric_limits<Lane<W>>::infinity());  ///< height of the hull's plane
 };
 
@@ -192,8 +194,7 @@ class HullCast {
     hit_.m = select<W>(wins, m, hit_.m);
     hit_.rank = select(wins, rank, hit_.rank);
     hit_.found |= wins & useful;
-    for (std::size_t k = 0; k < 3; ++k)
-      hit_.weights[k] = select(wins, weights[k], hit_.weights[k]);
+    for (std::size_t k = 0; k < 3; ++k) hit_.weights[k] = select(wins, weights[k], hit_.weights[k]);
     return furthest;
   }
 

@@ -79,8 +79,7 @@ class HullModel {
       points = points && at(i).is_point();
     }
     if (points) return solve_points(n, shrink);
-    HullSolution<T> solution =
-        common ? translates(at(0).F, centres(), newest_) : solve_mixed(n);
+    HullSolution<T> solution = common ? translates(at(0).F, centres(), newest_) : solve_mixed(n);
     solution.certain = solution.certain && has_settled(solution, n);
     return solution;
   }
@@ -124,7 +123,8 @@ class HullModel {
 
  private:
   static void flatten(HullPiece<T>& piece) {
-    if (!piece.exact) piece = HullPiece<T>{piece.s, Mat3<T>::Zero(), true, piece.s, piece.n, piece.s};
+    if (!piece.exact)
+      piece = HullPiece<T>{piece.s, Mat3<T>::Zero(), true, piece.s, piece.n, piece.s};
   }
 
   HullPiece<T>& at(int i) { return pieces_[static_cast<std::size_t>(i)]; }
@@ -185,8 +185,7 @@ class HullModel {
 
   /// Points only: the triangle that encloses the ray, or else the same points made round.
   HullSolution<T> solve_points(const Vec3<T>& n, T shrink) const {
-    const HullSolution<T> flat =
-        translates(Mat3<T>::Zero(), centres(), newest_);
+    const HullSolution<T> flat = translates(Mat3<T>::Zero(), centres(), newest_);
     if (flat.certain || shrink < least_shrink) return flat;
     // The ellipsoids touch the planes of direction n in the points themselves.
     const Mat3<T> F = surrogate_ * shrink;

@@ -19,7 +19,7 @@ template <class W>
 struct ModelHit {
   Vec3<W> m = Vec3<W>::Zero();  ///< the normal, of unit length; zero or not finite: none was found
   W height = W(0);              ///< where the ray enters the model: at lambda = -height
-  Mask<W> certain = Mask<W>(false);   ///< `height` is the model's, up to rounding
+  Mask<W> certain = Mask<W>(false);  ///< `height` is the model's, up to rounding
   /// The carriers of the hit are parts of the shape, so that it bounds the shape's hit.
   Mask<W> inner = Mask<W>(true);
   Mask<W> repeated = Mask<W>(false);  ///< the newest piece had been seen before
@@ -75,8 +75,8 @@ LineHit<W> first_on_line(Model& model, const Vec3<W>& first, const W& lambda_end
   Vec3<W> n = model.to_frame(first);
   ModelHit<W> model_hit;
   for (int iteration = 0; iteration < max_iterations; ++iteration) {
-    // The supporting plane of direction n: it clips the line, or separates (where it leans away from
-    // the ray: all of the line in the bounding ball).
+    // The supporting plane of direction n: it clips the line, or separates (where it leans away
+    // from the ray: all of the line in the bounding ball).
     const auto piece = model.support(n);
     result.supports += select(open, W(1), W(0));
     const W h = piece.reach(n), z = model.against_ray(n);
@@ -84,7 +84,8 @@ LineHit<W> first_on_line(Model& model, const Vec3<W>& first, const W& lambda_end
     const W safe_z = select(ahead, z, W(1));
     const W clear = select(ahead & beyond, W(-(h + gap) / safe_z), W(-infinity));
     const W lambda = select(steep, W(-h / safe_z), clear);
-    if constexpr (LaneOf<W>::count == 1) observer(lambda, model.to_shape(n), model.to_shape(piece.spot(n)));
+    if constexpr (LaneOf<W>::count == 1)
+      observer(lambda, model.to_shape(n), model.to_shape(piece.spot(n)));
     const Mask<W> better = open & (lambda > result.lambda);
     result.lambda = select(better, lambda, result.lambda);
     result.normal = select<W>(better, n, result.normal);

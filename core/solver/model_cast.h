@@ -47,8 +47,8 @@ CastLanes<W> model_cast(const MakeModel& make_model, const RayNearBall<W>& near,
   // Where the line enters the shape.
   const Vec3<W>& s = near.s;
   const Vec3<W>& r = near.r;
-  const W depth = sqrt(max(W(W(R) * W(R) - s.squaredNorm()), W(0))) +
-                  W(tolerance::ball_padding<T> * R);
+  const W depth =
+      sqrt(max(W(W(R) * W(R) - s.squaredNorm()), W(0))) + W(tolerance::ball_padding<T> * R);
   const auto watch = [&](const W& direction) {
     return [&, direction](const W& lambda, const Vec3<W>& n, const Vec3<W>& p) {
       if constexpr (LaneOf<W>::count == 1) {
@@ -98,12 +98,8 @@ CastLanes<W> model_cast(const MakeModel& make_model, const RayNearBall<W>& near,
   }
   const Mask<W> enters = entry.hit & (entry.lambda >= near.lambda_min);
   result.hit = enters;
-  // Where planes are so steep that their rounding is long, the model's hit is the better answer: it
-  // lies between points of the shape.
-  const Mask<W> bounded = entry.lambda_above < W(std::numeric_limits<T>::infinity());
-  result.offset_lo = near.t_offset(entry.lambda);
+  result.t_offset = result.offset_lo = near.t_offset(entry.lambda);
   result.offset_hi = near.t_offset(entry.lambda_above);
-  result.t_offset = select(bounded, result.offset_hi, result.offset_lo);
 
   // The line enters before the ray begins: where does it leave?
   const Mask<W> began = entry.hit & !enters;

@@ -27,8 +27,8 @@ template <class S, class W>
 using JetOf = decltype(std::declval<const S&>().jet(std::declval<const Vec3<W>&>()));
 
 template <class S, class W>
-inline constexpr bool is_axial = std::is_same_v<JetOf<S, W>, AxialBallJet<W>> ||
-                                 std::is_same_v<JetOf<S, W>, AxialDiskJet<W>>;
+inline constexpr bool is_axial =
+    std::is_same_v<JetOf<S, W>, AxialBallJet<W>> || std::is_same_v<JetOf<S, W>, AxialDiskJet<W>>;
 template <class S, class W>
 inline constexpr bool is_ellipsoid = std::is_same_v<JetOf<S, W>, AxialEllipsoidJet<W>>;
 template <class S, class W>
@@ -48,8 +48,7 @@ ModelKind model_kind_of(const Shape<T>& shape) {
         } else {
           const SurfaceKind surface = surface_of<T>(shape);
           if constexpr (std::is_same_v<S, Rounded<T>>)
-            if (surface != SurfaceKind::flat &&
-                surface_of<T>(*kind.shape) == SurfaceKind::flat)
+            if (surface != SurfaceKind::flat && surface_of<T>(*kind.shape) == SurfaceKind::flat)
               return ModelKind::rounded_points;
           return surface == SurfaceKind::flat     ? ModelKind::points
                  : surface == SurfaceKind::smooth ? ModelKind::smooth
@@ -66,16 +65,14 @@ auto with_model(const Shape<Lane<W>>& shape, ModelKind model, const Vec3<Lane<W>
                 Lane<W> R, Use&& use) {
   using T = Lane<W>;
   const auto simple = [&]<template <class, class> class Model, class S>(
-                         const S& kind, std::type_identity<Model<W, S>>) {
+                          const S& kind, std::type_identity<Model<W, S>>) {
     return use(
         [&](const Vec3<W>& s, const Vec3<W>& r) { return Model<W, S>(kind, centre, s, r, R); });
   };
   const auto polytope = [&]<class S>(const S& kind) {
     return simple(kind, std::type_identity<PolytopeModel<W, S>>());
   };
-  const auto smooth = [&] {
-    return simple(shape, std::type_identity<SmoothModel<W, Shape<T>>>());
-  };
+  const auto smooth = [&] { return simple(shape, std::type_identity<SmoothModel<W, Shape<T>>>()); };
   const auto rounded = [&]<class S>(const S& core, T radius) {
     return use([&, radius](const Vec3<W>& s, const Vec3<W>& r) {
       return RoundedPointsModel<W, S>(core, radius, centre, s, r, R);

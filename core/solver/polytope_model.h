@@ -87,9 +87,9 @@ class PolytopeModel {
       if (!any(candidate)) continue;
       Mask<W> passes = passes_between(newest, a.c, b.c);
       if (any(candidate & repeated & !passes))
-        passes |= repeated & (passes_edge(newest, a.c, rounding_) |
-                              passes_edge(newest, b.c, rounding_) |
-                              passes_edge(a.c, b.c, rounding_));
+        passes |=
+            repeated & (passes_edge(newest, a.c, rounding_) | passes_edge(newest, b.c, rounding_) |
+                        passes_edge(a.c, b.c, rounding_));
       candidate &= passes;
       if (!any(candidate)) continue;
       const Vec3<W> normal = upper_normal(newest, a.c, b.c);

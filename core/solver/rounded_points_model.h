@@ -43,8 +43,8 @@ class RoundedPointsModel {
     ModelHit<W> hit;
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec3<W>& c = kept_.c[k];
-      const Mask<W> same = kept_.valid[k] & (c.x() == piece.c.x()) & (c.y() == piece.c.y()) &
-                           (c.z() == piece.c.z());
+      const Mask<W> same =
+          kept_.valid[k] & (c.x() == piece.c.x()) & (c.y() == piece.c.y()) & (c.z() == piece.c.z());
       hit.repeated |= same;
       kept_.valid[k] &= !same;
     }

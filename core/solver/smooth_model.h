@@ -22,7 +22,7 @@ class SmoothModel {
     Vec3<W> s;  ///< the support point, relative to the ray's s
     Mat3<W> F;
     Vec3<W> patch;  ///< the jet's centre, which tells the patches of the surface apart
-    W height;  ///< of the supporting plane over the origin
+    W height;       ///< of the supporting plane over the origin
     W reach(const Vec3<W>&) const { return height; }
     const Vec3<W>& spot(const Vec3<W>&) const { return s; }
   };
@@ -168,10 +168,10 @@ class SmoothModel {
       // Across it as the model wants. Or else less of the best direction's own step.
       const W aside = here.x * -e_y + here.y * e_x;
       damping_ = select(back & worse, W(damping_ * W(T(0.5))), damping_);
-      const W to_x =
-          select(fits, W(there * e_x - aside * e_y), W(best_.x + (best_.to_x - best_.x) * damping_));
-      const W to_y =
-          select(fits, W(there * e_y + aside * e_x), W(best_.y + (best_.to_y - best_.y) * damping_));
+      const W to_x = select(fits, W(there * e_x - aside * e_y),
+                            W(best_.x + (best_.to_x - best_.x) * damping_));
+      const W to_y = select(fits, W(there * e_y + aside * e_x),
+                            W(best_.y + (best_.to_y - best_.y) * damping_));
       hit.m = select<W>(back & (fits | worse), unit<W>({to_x, to_y, W(1)}), hit.m);
     }
     was_back_ = back;

@@ -45,17 +45,18 @@ inline constexpr int gjk_max_iterations = 1000;
 template <class T>
 inline constexpr T jet_gap = T(4) * epsilon<T>;
 
-/// A supporting plane whose normal's component against the ray is no more than this tells nothing of
-/// where along the ray the shape begins, but for what lies clearly beyond rounding. Rays at plates
-/// of 1:1000 were seen to need 1e-4 in float; rays in the plane of a face have a few epsilon.
+/// A supporting plane whose normal's component against the ray is no more than this tells nothing
+/// of where along the ray the shape begins, but for what lies clearly beyond rounding. Rays at
+/// plates of 1:1000 were seen to need 1e-4 in float; rays in the plane of a face have a few
+/// epsilon.
 template <class T>
 inline constexpr T least_slope = std::is_same_v<T, float> ? T(0x1p-16) : T(0x1p-36);
 
 /// The last word on a hit, whatever the planes' slopes: model and best plane agree so well along
-/// the ray, in units of the bounding radius. A gap of jet_gap at a slope of 1e-4 in float and 1e-9
+/// the ray, in units of the bounding radius. A gap of jet_gap at a slope of 1e-4 in float and 1e-6
 /// in double.
 template <class T>
-inline constexpr T jet_gap_along = std::is_same_v<T, float> ? T(0x1p-8) : T(0x1p-20);
+inline constexpr T jet_gap_along = std::is_same_v<T, float> ? T(0x1p-8) : T(0x1p-30);
 
 /// How deep a line that is tangent within rounding is pushed into the shape to find where it
 /// enters, in units of the bounding radius: more than jet_gap.

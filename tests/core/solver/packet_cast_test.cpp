@@ -107,8 +107,7 @@ TEST(PacketCast, answers_as_single_casts_do_in_double) {
 }
 
 TEST(PacketCast, lanes_that_are_not_asked_for_change_nothing) {
-  const PreparedShape<float> box(
-      convert<float>(sample_shapes().front().shape));
+  const PreparedShape<float> box(convert<float>(sample_shapes().front().shape));
   for (const RayPacket<float>& packet : packets_at(box.inner_shape(), 50)) {
     CastPacket<float> whole, half;
     cast_packet(box, packet, all_lanes<float>, whole);
