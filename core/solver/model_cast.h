@@ -98,8 +98,12 @@ CastLanes<W> model_cast(const MakeModel& make_model, const RayNearBall<W>& near,
   }
   const Mask<W> enters = entry.hit & (entry.lambda >= near.lambda_min);
   result.hit = enters;
-  result.t_offset = result.offset_lo = near.t_offset(entry.lambda);
+  // Where planes are so steep that their rounding is long, the model's hit is the better answer: it
+  // lies between points of the shape.
+  const Mask<W> bounded = entry.lambda_above < W(std::numeric_limits<T>::infinity());
+  result.offset_lo = near.t_offset(entry.lambda);
   result.offset_hi = near.t_offset(entry.lambda_above);
+  result.t_offset = select(bounded, result.offset_hi, result.offset_lo);
 
   // The line enters before the ray begins: where does it leave?
   const Mask<W> began = entry.hit & !enters;

@@ -53,10 +53,10 @@ template <class T>
 inline constexpr T least_slope = std::is_same_v<T, float> ? T(0x1p-16) : T(0x1p-36);
 
 /// The last word on a hit, whatever the planes' slopes: model and best plane agree so well along
-/// the ray, in units of the bounding radius. A gap of jet_gap at a slope of 1e-4 in float and 1e-6
+/// the ray, in units of the bounding radius. A gap of jet_gap at a slope of 1e-3 in float and 1e-6
 /// in double.
 template <class T>
-inline constexpr T jet_gap_along = std::is_same_v<T, float> ? T(0x1p-8) : T(0x1p-30);
+inline constexpr T jet_gap_along = std::is_same_v<T, float> ? T(0x1p-11) : T(0x1p-30);
 
 /// How deep a line that is tangent within rounding is pushed into the shape to find where it
 /// enters, in units of the bounding radius: more than jet_gap.

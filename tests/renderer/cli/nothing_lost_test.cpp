@@ -82,7 +82,7 @@ TEST_F(NothingLost, killed_at_any_moment_the_old_picture_is_there_or_the_new_one
 }
 
 TEST_F(NothingLost, killed_again_and_again_a_render_ends_with_the_same_picture) {
-  const std::vector<std::string> common = {"render", folder_ / "scene.json", "-s",  "200", "-t",
+  const std::vector<std::string> common = {"render", folder_ / "scene.json", "-s",  "1000", "-t",
                                            "1",      "--checkpoint",         "0.02"};
   const auto with = [&](const std::vector<std::string>& more) {
     std::vector<std::string> arguments = common;
