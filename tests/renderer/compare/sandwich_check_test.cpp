@@ -77,10 +77,13 @@ TEST_P(EmbreeSandwichOfSolvers, holds) {
     if (is_accurate) {
       expect_agreement(report, sample.name);
     } else {
-      // They may give up, and say so; what they answer must be right, but for one ray in 5000 that
-      // signed volumes take for a hit where they stall.
+      // They may give up, and say so; what they answer must be right, but for one ray that signed
+      // volumes take for a hit where they stall.
       const int gave_up = report.violations[static_cast<std::size_t>(Violation::gave_up)];
-      EXPECT_LE(report.total_violations(), gave_up + 1) << sample.name << what_went_wrong(report);
+      const bool known = GetParam().kind == SolverKind::paper_signed_volumes &&
+                         sample.name == "superellipsoid, octahedron";
+      EXPECT_LE(report.total_violations(), gave_up + (known ? 1 : 0))
+          << sample.name << what_went_wrong(report);
     }
   }
 }
