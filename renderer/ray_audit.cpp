@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/ray_audit.h"
 
+#include "core/shape/shape_bounds.h"
 #include "renderer/json/json.h"
 #include "renderer/query/number_json.h"
 #include "renderer/scene/scene_instances.h"

@@ -75,28 +75,56 @@ Vec3<W> select(const Mask& condition, const Vec3<W>& a, const Vec3<W>& b) {
           select(condition, a.z(), b.z())};
 }
 
+namespace detail {
+
+/// `unit` for vectors whose squared length leaves the range of W, and zero.
+template <class W>
+[[gnu::noinline, gnu::cold]] Vec3<W> unit_rescaled(const Vec3<W>& v, const Mask<W>& ordinary) {
+  using std::abs;
+  using std::max;
+  using std::sqrt;
+  const W size = max(abs(v.x()), max(abs(v.y()), abs(v.z())));
+  const auto usable = size > W(0);
+  const W safe = select(usable, size, W(1));
+  const Vec3<W> scaled(v.x() / safe, v.y() / safe, v.z() / safe);
+  const Vec3<W> rescaled = scaled * select(usable, W(W(1) / sqrt(scaled.squaredNorm())), W(0));
+  return select<W>(ordinary, Vec3<W>(v * (W(1) / sqrt(v.squaredNorm()))), rescaled);
+}
+
+}  // namespace detail
+
 /// v divided by its length; the zero vector stays zero. Vectors whose squared length would under-
 /// or overflow are rescaled first, so that the direction keeps its digits over the whole range of
 /// W.
 template <class W>
-Vec3<W> unit(const Vec3<W>& v) {
-  using std::abs;
-  using std::max;
+[[gnu::always_inline]] inline Vec3<W> unit(const Vec3<W>& v) {
   using std::sqrt;
   using T = Lane<W>;
   // Squares of components down to 1/16 of an ulp of the result must be normal numbers.
   constexpr T smallest = std::numeric_limits<T>::min() / std::numeric_limits<T>::epsilon() * T(16);
   constexpr T largest = T(1) / smallest;
   const W squared = v.squaredNorm();
-  const auto ordinary = (squared > W(smallest)) & (squared < W(largest));
-  const Vec3<W> divided = v * (W(1) / sqrt(squared));
-  if (all(ordinary)) return divided;
-  const W size = max(abs(v.x()), max(abs(v.y()), abs(v.z())));
-  const auto usable = size > W(0);
-  const W safe = select(usable, size, W(1));
-  const Vec3<W> scaled(v.x() / safe, v.y() / safe, v.z() / safe);
-  return select<W>(ordinary, divided,
-                   Vec3<W>(scaled * select(usable, W(W(1) / sqrt(scaled.squaredNorm())), W(0))));
+  const Mask<W> ordinary = (squared > W(smallest)) & (squared < W(largest));
+  if (!all(ordinary)) return detail::unit_rescaled<W>(v, ordinary);
+  return v * (W(1) / sqrt(squared));
+}
+
+/// The vector that an index stands for, which is a small whole number.
+template <std::floating_point W, class VectorOf>
+Vec3<W> gather(W index, VectorOf&& vector_of) {
+  return vector_of(static_cast<std::size_t>(index));
+}
+
+/// The number that an index stands for.
+template <std::floating_point W, class NumberOf>
+W lookup(W index, NumberOf&& number_of) {
+  return number_of(static_cast<std::size_t>(index));
+}
+
+/// Rounded towards zero; for small numbers that are not negative.
+template <std::floating_point W>
+W whole(W x) {
+  return static_cast<W>(static_cast<int>(x));
 }
 
 /// The lanes of T as W: a shape's own numbers meet a packet of directions.

@@ -13,7 +13,10 @@
 #include <emmintrin.h>
 #endif
 
+#include <array>
 #include <cstdint>
+#include <cstring>
+#include <utility>
 
 #include "core/math/vec.h"
 
@@ -87,12 +90,10 @@ struct Wide {
 
   static Wide load(const T* from) {
     Wide w;
-    for (int i = 0; i < N; ++i) w.lanes[i] = from[i];
+    std::memcpy(&w.lanes, from, sizeof(Lanes));
     return w;
   }
-  void store(T* to) const {
-    for (int i = 0; i < N; ++i) to[i] = lanes[i];
-  }
+  void store(T* to) const { std::memcpy(to, &lanes, sizeof(Lanes)); }
   T lane(int i) const { return lanes[i]; }
   void set_lane(int i, T x) { lanes[i] = x; }
 
@@ -154,6 +155,11 @@ struct Wide {
     for (int i = 0; i < N; ++i) result.lanes[i] = std::pow(base.lanes[i], exponent.lanes[i]);
     return result;
   }
+  friend Wide whole(const Wide& x) {
+    using Int = std::conditional_t<sizeof(T) == 4, std::int32_t, std::int64_t>;
+    using Ints __attribute__((vector_size(N * sizeof(T)))) = Int;
+    return Wide(__builtin_convertvector(__builtin_convertvector(x.lanes, Ints), Lanes));
+  }
   friend Wide leading_power_of_two(const Wide& a) {
     return Wide(Lanes(Bits(a.lanes) & Bits(Wide(std::numeric_limits<T>::infinity()).lanes)));
   }
@@ -177,6 +183,37 @@ struct LaneOf<Wide<T, N, Isa>> {
   using Mask = WideMask<T, N, Isa>;
   static constexpr int count = N;
 };
+
+/// The vectors that vector_of(lane) gives, lane by lane.
+template <class W, class VectorOf>
+Vec3<W> per_lane(VectorOf&& vector_of) {
+  using T = Lane<W>;
+  using Lanes = typename W::Lanes;
+  return [&]<int... i>(std::integer_sequence<int, i...>)->Vec3<W> {
+    const std::array<Vec3<T>, sizeof...(i)> v = {Vec3<T>(vector_of(i))...};
+    // All at once: lanes that are written one by one to memory are slow to read as a whole.
+    return {W(Lanes{v[i].x()...}), W(Lanes{v[i].y()...}), W(Lanes{v[i].z()...})};
+  }
+  (std::make_integer_sequence<int, LaneOf<W>::count>());
+}
+
+/// The numbers that the lanes' indices stand for, which are small whole numbers.
+template <class W, class NumberOf>
+requires(LaneOf<W>::count > 1) W lookup(const W& index, NumberOf&& number_of) {
+  return [&]<int... i>(std::integer_sequence<int, i...>) {
+    return W(typename W::Lanes{number_of(static_cast<std::size_t>(index.lane(i)))...});
+  }
+  (std::make_integer_sequence<int, LaneOf<W>::count>());
+}
+
+/// The vectors that the lanes' indices stand for, which are small whole numbers.
+template <class W, class VectorOf>
+requires(LaneOf<W>::count > 1) Vec3<W> gather(const W& index, VectorOf&& vector_of) {
+  using T = Lane<W>;
+  const auto at = [&](int lane) { return static_cast<std::size_t>(index.lane(lane)); };
+  if (all(index == W(index.lane(0)))) return widen<W>(Vec3<T>(vector_of(at(0))));
+  return per_lane<W>([&](int lane) { return vector_of(at(lane)); });
+}
 
 }  // namespace minkray
 

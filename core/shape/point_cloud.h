@@ -9,6 +9,7 @@
 
 #include "core/math/vec.h"
 #include "core/shape/direction_table.h"
+#include "core/shape/facet_mesh.h"
 
 namespace minkray {
 
@@ -24,6 +25,9 @@ class PointCloud {
   const std::vector<Vec3<T>>& points() const { return *points_; }
   const std::string& source() const { return source_; }
 
+  /// Null if the hull is flat. Its normals are the points' before they were rounded to T.
+  const FacetMesh<T>* facets() const { return facets_.get(); }
+
   /// Rounded to U. What was found out about the points is shared rather than found out again: the
   /// support stays a maximum up to the rounding of the points.
   template <class U>
@@ -34,35 +38,41 @@ class PointCloud {
     for (const Vec3<T>& p : *points_) points->push_back(p.template cast<U>());
     converted.points_ = std::move(points);
     converted.table_ = table_;
+    if (facets_)
+      converted.facets_ = std::make_shared<const FacetMesh<U>>(facets_->template cast<U>());
     converted.source_ = source_;
     return converted;
   }
 
   template <class W>
   Vec3<W> support(const Vec3<W>& n) const {
-    if constexpr (std::floating_point<W>) {
-      const Vec3<T>* const points = points_->data();
-      if (!table_)
-        return points[furthest_of(
-                          points_->size(), [](std::size_t i) { return i; }, n)]
-            .template cast<W>();
-      const std::span<const std::uint32_t> list = table_->candidates(n);
-      return points[furthest_of(
-                        list.size(), [&](std::size_t i) { return list[i]; }, n)]
-          .template cast<W>();
-    } else {
-      return furthest_of_all(n);
-    }
+    if constexpr (std::floating_point<W>)
+      return (*points_)[furthest(n)];
+    else
+      return table_ ? furthest_by_lane(n) : furthest_of_all(n);
   }
 
   std::size_t memory_bytes() const {
-    return points_->capacity() * sizeof(Vec3<T>) + (table_ ? table_->memory_bytes() : 0);
+    return points_->capacity() * sizeof(Vec3<T>) + (table_ ? table_->memory_bytes() : 0) +
+           (facets_ ? facets_->memory_bytes() : 0);
   }
 
  private:
   template <class U>
   friend class PointCloud;
 
+  /// The index of a point furthest along n. Not inline: packets of every instruction set call it.
+  std::size_t furthest(const Vec3<T>& n) const;
+
+  /// The table has a list for each lane of its own.
+  template <class W>
+  Vec3<W> furthest_by_lane(const Vec3<W>& n) const {
+    return per_lane<W>([&](int lane) {
+      return (*points_)[furthest(Vec3<T>(n.x().lane(lane), n.y().lane(lane), n.z().lane(lane)))];
+    });
+  }
+
+  /// For few points: the scan of one lane is that of all.
   template <class W>
   Vec3<W> furthest_of_all(const Vec3<W>& n) const {
     Vec3<W> best = widen<W>(points_->front());
@@ -77,22 +87,9 @@ class PointCloud {
     return best;
   }
 
-  /// By index: keeping the point itself would copy three numbers wherever a maximum is beaten.
-  template <std::floating_point W, class Index>
-  std::size_t furthest_of(std::size_t size, Index&& index, const Vec3<W>& n) const {
-    const Vec3<T>* const points = points_->data();
-    std::size_t best = index(0);
-    W furthest = n.dot(widen<W>(points[best]));
-    for (std::size_t i = 1; i < size; ++i) {
-      const W along = n.dot(widen<W>(points[index(i)]));
-      best = along > furthest ? index(i) : best;
-      furthest = along > furthest ? along : furthest;
-    }
-    return best;
-  }
-
   std::shared_ptr<const std::vector<Vec3<T>>> points_;
   std::shared_ptr<const DirectionTable> table_;  ///< none for few points, which are scanned faster
+  std::shared_ptr<const FacetMesh<T>> facets_;   ///< of solid hulls
   std::string source_;
 };
 

@@ -30,6 +30,10 @@ class EllipsoidModel {
 
   Piece support(const Vec3<W>& n) const { return {Vec3<W>(-s_), shape_.jet(n).radii}; }
 
+  ModelHit<W> begin(const Vec3<Lane<W>>&) const {
+    return step({Vec3<W>(-s_), widen<W>(shape_.radii)}, s_, 0);
+  }
+
   ModelHit<W> step(const Piece& piece, const Vec3<W>&, int) const {
     ModelHit<W> hit;
     hit.m = normal_on_ellipsoid<W>(shape_.radii, s_, r_, hit.certain);
@@ -92,42 +96,59 @@ class AxialModel {
     return {{-s_.x(), -s_.y(), jet.z - centre_z_ - s_.z()}, jet.radius};
   }
 
-  ModelHit<W> step(const Piece& piece, const Vec3<W>&, int) {
-    const Mask<W> is_first = has_first_ & piece.same(first_);
-    const Mask<W> is_second = has_second_ & piece.same(second_);
-    const Piece other = pick(is_first, second_, first_);
-    const Mask<W> has_other = (is_first & has_second_) | ((!is_first) & has_first_);
-    const Mask<W> make_second = has_first_ & !is_first;
-    second_ = pick(make_second, piece, second_);
-    has_second_ |= make_second;
-    first_ = pick(has_first_, first_, piece);
-    has_first_ = Mask<W>(true);
+  /// The piece that faces the ray is tried first.
+  ModelHit<W> begin(const Vec3<T>&) {
+    const Piece upper = support({W(0), W(0), W(1)}), lower = support({W(0), W(0), W(-1)});
+    const Mask<W> from_above = r_.z() < W(0);
+    first_ = pick(from_above, upper, lower);
+    second_ = pick(from_above, lower, upper);
+    return on_both(first_, second_);
+  }
 
-    // The newest piece alone, unless the other reaches further there.
-    ModelHit<W> hit;
-    hit.repeated = is_first | is_second;
-    Mask<W> meets;
-    hit.m = alone(piece, meets);
-    W reach = piece.reach(hit.m);
-    const Mask<W> settled = (!has_other) | (other.reach(hit.m) - reach <= rounding_);
-    hit.certain = settled & meets;
-    if (!all(settled)) {
-      Vec3<W> m;
-      const Mask<W> between = joined(piece, other, m);
-      hit.m = select<W>(settled, hit.m, m);
-      hit.certain |= (!settled) & between;
-      reach = piece.reach(hit.m);
-    }
-    const W z = -hit.m.dot(r_);
-    const Mask<W> ahead = z > W(0);
-    hit.certain &= ahead;
-    hit.height = reach / select(ahead, z, W(1));
+  ModelHit<W> step(const Piece& piece, const Vec3<W>&, int) {
+    const Mask<W> is_first = piece.same(first_);
+    ModelHit<W> hit = on_both(piece, pick(is_first, second_, first_));
+    hit.repeated = Mask<W>(true);
     return hit;
   }
 
  private:
   static Piece pick(const Mask<W>& condition, const Piece& a, const Piece& b) {
     return {select<W>(condition, a.c, b.c), select(condition, a.radius, b.radius)};
+  }
+
+  /// The first piece alone, unless the second reaches further there; what joins the two; or the
+  /// second alone.
+  ModelHit<W> on_both(const Piece& first, const Piece& second) const {
+    ModelHit<W> hit;
+    Mask<W> meets;
+    hit.m = alone(first, meets);
+    W reach = first.reach(hit.m);
+    const Mask<W> settled = second.reach(hit.m) - reach <= rounding_;
+    hit.certain = settled & meets;
+    if (!all(settled)) {
+      Vec3<W> m;
+      const Mask<W> between = joined(first, second, m);
+      hit.m = select<W>(settled, hit.m, m);
+      reach = select(settled, reach, first.reach(m));
+      hit.certain |= (!settled) & between;
+      const Mask<W> open = !(settled | between);
+      if (any(open)) {
+        m = alone(second, meets);
+        const W second_reach = second.reach(m);
+        const Mask<W> last = open & (first.reach(m) - second_reach <= rounding_);
+        hit.m = select<W>(last, m, hit.m);
+        reach = select(last, second_reach, reach);
+        hit.certain |= last & meets;
+      }
+    }
+    const W z = -hit.m.dot(r_);
+    const Mask<W> ahead = z > W(0);
+    hit.certain &= ahead;
+    hit.height = reach / select(ahead, z, W(1));
+    const Mask<W> some = hit.m.squaredNorm() > W(0);
+    if (!all(some)) hit.m = select<W>(some, hit.m, Vec3<W>(-r_));
+    return hit;
   }
 
   /// At right angles to the ray.
@@ -198,7 +219,6 @@ class AxialModel {
   Vec3<W> s_, r_;
   W rounding_;
   Piece first_{Vec3<W>::Zero(), W(0)}, second_{Vec3<W>::Zero(), W(0)};
-  Mask<W> has_first_ = Mask<W>(false), has_second_ = Mask<W>(false);
 };
 
 }  // namespace minkray

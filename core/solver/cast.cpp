@@ -5,6 +5,7 @@
 #include "core/solver/first_solution.h"
 #include "core/solver/gjk_ray_cast.h"
 #include "core/solver/mixed_model.h"
+#include "core/solver/model_of.h"
 #include "core/solver/subalgorithm.h"
 
 namespace minkray {

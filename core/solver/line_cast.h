@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The loop that all solvers on jets share. A supporting plane in direction n clips the ray: a
 // rigorous lower bound of the hit. A model of the shape, made of the pieces that the support
-// mapping has shown so far and therefore contained in the shape, is hit later, and its hit's normal
-// is the next n. The two meet. docs/theory.md has the mathematics.
+// mapping has shown so far, is hit later (where the pieces are parts of the shape, and else about
+// there), and its hit's normal is the next n. The two meet. docs/theory.md has the mathematics.
 //
 // W is a number, or a packet: then every lane is a ray of its own. Lanes that have ended go along
 // without effect.
@@ -55,15 +55,17 @@ LineHit<W> pick(const Mask<W>& condition, const LineHit<W>& a, const LineHit<W>&
 /// is in the shape's. It offers
 /// - `to_frame(n)`, `to_shape(n)`: a direction of the shape's frame in its own, and back;
 /// - `against_ray(n)`: the component of n against the ray's direction;
+/// - `begin(half_extents)`: what is known before the first support: a first direction, and a hit if
+///   the model knows pieces of the shape already; half_extents are the shape's;
 /// - `support(n)`: the shape's support in direction n of unit length, relative to the ray's closest
 ///   approach s, as a piece with reach(n) and spot(n), its support point;
 /// - `step(piece, n, iteration)`: the model's hit once the piece is a part of it.
 ///
-/// `first` is the first direction to ask, in the shape's frame; the line is given up beyond
-/// lambda_end; R is the size that rounding refers to. Only `open` lanes count.
+/// The line is given up beyond lambda_end; R is the size that rounding refers to. Only `open` lanes
+/// count. `observer` may be NoObserver, or else is told of each plane.
 template <class W, class Model, class Observer>
-LineHit<W> first_on_line(Model& model, const Vec3<W>& first, const W& lambda_end, Lane<W> R,
-                         Mask<W> open, int max_iterations, Observer&& observer) {
+LineHit<W> first_on_line(Model& model, const Vec3<Lane<W>>& half_extents, const W& lambda_end,
+                         Lane<W> R, Mask<W> open, int max_iterations, Observer&& observer) {
   using std::abs;
   using std::max;
   using std::min;
@@ -72,8 +74,8 @@ LineHit<W> first_on_line(Model& model, const Vec3<W>& first, const W& lambda_end
   const W gap = W(tolerance::jet_gap<T> * R), gap_along = W(tolerance::jet_gap_along<T> * R);
   const W least_slope = W(tolerance::least_slope<T>);
   LineHit<W> result;
-  Vec3<W> n = model.to_frame(first);
-  ModelHit<W> model_hit;
+  ModelHit<W> model_hit = model.begin(half_extents);
+  Vec3<W> n = model_hit.m;
   for (int iteration = 0; iteration < max_iterations; ++iteration) {
     // The supporting plane of direction n: it clips the line, or separates (where it leans away
     // from the ray: all of the line in the bounding ball).
@@ -84,7 +86,7 @@ LineHit<W> first_on_line(Model& model, const Vec3<W>& first, const W& lambda_end
     const W safe_z = select(ahead, z, W(1));
     const W clear = select(ahead & beyond, W(-(h + gap) / safe_z), W(-infinity));
     const W lambda = select(steep, W(-h / safe_z), clear);
-    if constexpr (LaneOf<W>::count == 1)
+    if constexpr (!std::is_same_v<std::remove_cvref_t<Observer>, NoObserver>)
       observer(lambda, model.to_shape(n), model.to_shape(piece.spot(n)));
     const Mask<W> better = open & (lambda > result.lambda);
     result.lambda = select(better, lambda, result.lambda);
@@ -147,18 +149,30 @@ Vec3<W> normal_on_ellipsoid(const Vec3<Lane<W>>& radii, const Vec3<W>& s, const 
   const W depth = sqrt(max(den, W(0)));
   Vec3<W> n = unit<W>(Vec3<W>((beside - r_ball * depth).cwiseProduct(to_ball)));
   if (!all(meets)) n = select<W>(meets, n, unit<W>(Vec3<W>(n - r * n.dot(r))));
-  return select<W>(n.squaredNorm() > W(0), n, Vec3<W>(-r));
+  const Mask<W> some = n.squaredNorm() > W(0);
+  return all(some) ? n : select<W>(some, n, Vec3<W>(-r));
 }
 
-/// A first direction for a shape with these half extents. Extents that are nothing beside the
-/// largest are taken for a little more.
+/// About the same for a shape with these half extents: a first direction to ask, of unit length.
+/// Extents that are nothing beside the largest are taken for a little more.
 template <class W>
 Vec3<W> normal_on_extents(const Vec3<Lane<W>>& half_extents, const Vec3<W>& s, const Vec3<W>& r) {
+  using std::max;
+  using std::sqrt;
   using T = Lane<W>;
   constexpr T least = T(1) / T(65536);
-  Mask<W> meets;
-  return normal_on_ellipsoid<W>(
-      half_extents.cwiseMax(Vec3<T>::Constant(least * half_extents.maxCoeff())), s, r, meets);
+  const Vec3<T> radii = half_extents.cwiseMax(Vec3<T>::Constant(least * half_extents.maxCoeff()));
+  const Vec3<W> to_ball = widen<W>(Vec3<T>(radii.cwiseInverse()));
+  const Vec3<W> r_ball = r.cwiseProduct(to_ball), s_ball = s.cwiseProduct(to_ball);
+  const W a = r_ball.squaredNorm(), b = s_ball.dot(r_ball);
+  const W den = b * b - a * (s_ball.squaredNorm() - W(1));
+  const Vec3<W> met = s_ball - r_ball * ((b + sqrt(max(den, W(0)))) / a);
+  Vec3<W> n = met.cwiseProduct(to_ball);
+  const Mask<W> meets = den > W(0);
+  if (!all(meets)) n = select<W>(meets, n, Vec3<W>(n - r * n.dot(r)));
+  n = unit<W>(n);
+  const Mask<W> some = n.squaredNorm() > W(0);
+  return all(some) ? n : select<W>(some, n, Vec3<W>(-r));
 }
 
 }  // namespace minkray

@@ -23,6 +23,7 @@ class MixedModel {
   MixedModel(const S& shape, const Ball<T>& ball, const Vec3<T>& half_extents, const Vec3<T>& s,
              const Vec3<T>& r)
       : shape_(shape),
+        s_(s),
         from_(ball.centre + s),
         R_(ball.radius),
         frame_(r),
@@ -31,6 +32,12 @@ class MixedModel {
   Vec3<T> to_frame(const Vec3<T>& n) const { return frame_.into(n); }
   Vec3<T> to_shape(const Vec3<T>& n) const { return frame_.out_of(n); }
   T against_ray(const Vec3<T>& n) const { return n.z(); }
+
+  ModelHit<T> begin(const Vec3<T>& half_extents) const {
+    ModelHit<T> hit;
+    hit.m = frame_.into(normal_on_extents<T>(half_extents, s_, Vec3<T>(-frame_.z)));
+    return hit;
+  }
 
   Piece support(const Vec3<T>& n) const {
     const Jet<T> jet = shape_.jet(frame_.out_of(n));
@@ -77,7 +84,7 @@ class MixedModel {
   }
 
   const S& shape_;
-  Vec3<T> from_;
+  Vec3<T> s_, from_;
   T R_;
   RayFrame<T> frame_;
   HullModel<T> model_;

@@ -40,7 +40,7 @@ CastLanes<W> model_cast(const MakeModel& make_model, const RayNearBall<W>& near,
   const W reached = W(R * (T(1) + tolerance::ball_padding<T>));
   const Mask<W> passes = to_ray.squaredNorm() > reached * reached;
   result.miss = active & passes;
-  result.normal = select<W>(passes, unit<W>(to_ray), result.normal);
+  if (any(passes)) result.normal = select<W>(passes, unit<W>(to_ray), result.normal);
   const Mask<W> castable = active & (!passes) & (near.r.squaredNorm() > W(0)) & (W(R) > W(0));
   if (!any(castable)) return result;
 
@@ -50,20 +50,21 @@ CastLanes<W> model_cast(const MakeModel& make_model, const RayNearBall<W>& near,
   const W depth =
       sqrt(max(W(W(R) * W(R) - s.squaredNorm()), W(0))) + W(tolerance::ball_padding<T> * R);
   const auto watch = [&](const W& direction) {
-    return [&, direction](const W& lambda, const Vec3<W>& n, const Vec3<W>& p) {
-      if constexpr (LaneOf<W>::count == 1) {
+    if constexpr (std::is_same_v<std::remove_cvref_t<Observer>, NoObserver>) {
+      return NoObserver();
+    } else {
+      return [&, direction](const W& lambda, const Vec3<W>& n, const Vec3<W>& p) {
         const W at = direction * lambda;
         const Vec3<W> x = s + r * at, point = s + p;
         observer(CastIteration<T>{at, x, n, point, x - point, std::span<const Vec3<T>>()});
-      }
-    };
+      };
+    }
   };
   const W end = min(depth, near.lambda_max);
   const auto first_along = [&](const Vec3<W>& from, const Vec3<W>& direction, const W& until,
                                const Mask<W>& open, const W& sign) {
     auto model = make_model(from, direction);
-    return first_on_line<W>(model, normal_on_extents<W>(half_extents, from, direction), until, R,
-                            open, max_iterations, watch(sign));
+    return first_on_line<W>(model, half_extents, until, R, open, max_iterations, watch(sign));
   };
   // Where a line is tangent within rounding, one that is no further away enters at a steeper angle.
   const auto first_of = [&](const Vec3<W>& direction, const W& until, const Mask<W>& open,

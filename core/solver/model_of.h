@@ -1,25 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Which model suits a shape: told by the types of its jets where they say enough, else found out
-// when the shape is prepared.
+// From a shape and the kind of model that suits it to the model. Only what casts includes this.
 #pragma once
 
 #include "core/shape/shape.h"
-#include "core/shape/surface.h"
 #include "core/solver/axial_model.h"
 #include "core/solver/model_cast.h"
+#include "core/solver/model_kind.h"
 #include "core/solver/polytope_model.h"
 #include "core/solver/rounded_points_model.h"
 #include "core/solver/smooth_model.h"
 
 namespace minkray {
-
-enum class ModelKind : unsigned char {
-  closed_form,     ///< told by the type
-  points,          ///< a polytope made of other shapes
-  rounded_points,  ///< a rounded polytope
-  smooth,          ///< a smooth surface
-  mixed,           ///< any other shape: MixedModel, for single rays only
-};
 
 namespace detail {
 
@@ -35,28 +26,6 @@ template <class S, class W>
 inline constexpr bool is_polytope = std::is_same_v<JetOf<S, W>, PointJet<W>>;
 
 }  // namespace detail
-
-/// A description that chooses between models, on which no answer's correctness depends: supporting
-/// planes bound a shape and support points lie in it, whatever the shape.
-template <class T>
-ModelKind model_kind_of(const Shape<T>& shape) {
-  return std::visit(
-      [&]<class S>(const S& kind) {
-        if constexpr (detail::is_axial<S, T> || detail::is_ellipsoid<S, T> ||
-                      detail::is_polytope<S, T>) {
-          return ModelKind::closed_form;
-        } else {
-          const SurfaceKind surface = surface_of<T>(shape);
-          if constexpr (std::is_same_v<S, Rounded<T>>)
-            if (surface != SurfaceKind::flat && surface_of<T>(*kind.shape) == SurfaceKind::flat)
-              return ModelKind::rounded_points;
-          return surface == SurfaceKind::flat     ? ModelKind::points
-                 : surface == SurfaceKind::smooth ? ModelKind::smooth
-                                                  : ModelKind::mixed;
-        }
-      },
-      shape.kind);
-}
 
 /// Calls use(make_model), where make_model(s, r) makes the shape's model as seen from s along r;
 /// `centre` and `R` are the bounding ball's. Not for ModelKind::mixed.

@@ -2,6 +2,7 @@
 // The body of the packet casts. MINKRAY_PACKET_KERNEL is the function's name. Everything else here
 // has the type of the lanes, and so the instruction set, in its name: see core/math/wide.h.
 #include "core/math/wide.h"
+#include "core/solver/model_of.h"
 #include "core/solver/packet_kernel.h"
 
 namespace minkray {

@@ -2,13 +2,14 @@
 // The model for polytopes: the hull of up to four vertices. A triangle of them that the ray passes
 // through is a portal, whose plane's normal is asked next. While there is none, vertices are made
 // round, by balls that touch the planes they were found with from inside: what a curved shape would
-// look like there. The balls shrink, so that this cannot go on for ever.
+// look like there. The balls shrink, so that this cannot go on for ever. Where the polytope's
+// facets are known, the first portal is the one that the ray enters by.
 #pragma once
 
 #include <array>
 
+#include "core/solver/entered_facet.h"
 #include "core/solver/line_cast.h"
-#include "core/solver/ray_frame.h"
 
 namespace minkray {
 
@@ -25,6 +26,7 @@ class PolytopeModel {
 
   PolytopeModel(const Core& core, const Vec3<T>& centre, const Vec3<W>& s, const Vec3<W>& r, T R)
       : core_(core),
+        s_(s),
         from_(widen<W>(centre) + s),
         frame_(r),
         rounding_(tolerance::model_rounding<T> * R),
@@ -37,6 +39,28 @@ class PolytopeModel {
 
   Piece support(const Vec3<W>& n) const {
     return {frame_.into(core_.template support<W>(frame_.out_of(n)) - from_)};
+  }
+
+  /// On the facet that the ray enters, if facets are known.
+  ModelHit<W> begin(const Vec3<T>& half_extents) {
+    ModelHit<W> hit;
+    EnteredFacet<W> facet;
+    if (Known::known(core_)) facet = Known::entered(core_, T(0), half_extents, s_, from_, frame_);
+    if (all(facet.known))
+      hit.m = frame_.into(facet.normal);
+    else
+      hit.m = frame_.into(select<W>(facet.known, facet.normal,
+                                    normal_on_extents<W>(half_extents, s_, Vec3<W>(-frame_.z))));
+    if (!any(facet.enters)) return hit;
+    const auto keep = [&](Kept& kept, const Vec3<W>& vertex) {
+      kept = {vertex, hit.m, facet.enters, facet.enters};
+    };
+    for (std::size_t k = 0; k < Known::neighbour_count; ++k) keep(kept_[k], facet.neighbours[k]);
+    if (Known::neighbour_count == 2) keep(kept_[2], facet.corner);
+    const Mask<W> ahead = hit.m.z() > W(0);
+    hit.certain = facet.enters & ahead;
+    hit.height = facet.corner.dot(hit.m) / select(ahead, hit.m.z(), W(1));
+    return hit;
   }
 
   ModelHit<W> step(const Piece& piece, const Vec3<W>& n, int iteration) {
@@ -162,8 +186,10 @@ class PolytopeModel {
   /// In units of R. Balls smaller than the least are as good as points.
   static constexpr T first_ball = T(1) / T(2), least_ball = T(1) / T(1024);
 
+  using Known = Facets<W, Core>;
+
   const Core& core_;
-  Vec3<W> from_;
+  Vec3<W> s_, from_;
   RayFrame<W> frame_;
   W rounding_;
   W ball_, least_ball_;

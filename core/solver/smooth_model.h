@@ -29,6 +29,7 @@ class SmoothModel {
 
   SmoothModel(const S& shape, const Vec3<T>& centre, const Vec3<W>& s, const Vec3<W>& r, T R)
       : shape_(shape),
+        s_in_shape_(s),
         from_(widen<W>(centre) + s),
         frame_(r),
         R_(R),
@@ -37,6 +38,12 @@ class SmoothModel {
   Vec3<W> to_frame(const Vec3<W>& n) const { return frame_.into(n); }
   Vec3<W> to_shape(const Vec3<W>& n) const { return frame_.out_of(n); }
   W against_ray(const Vec3<W>& n) const { return n.z(); }
+
+  ModelHit<W> begin(const Vec3<T>& half_extents) const {
+    ModelHit<W> hit;
+    hit.m = frame_.into(normal_on_extents<W>(half_extents, s_in_shape_, Vec3<W>(-frame_.z)));
+    return hit;
+  }
 
   Piece support(const Vec3<W>& n) const {
     const Vec3<W> n_shape = frame_.out_of(n);
@@ -202,7 +209,7 @@ class SmoothModel {
   static constexpr T infinity = std::numeric_limits<T>::infinity();
 
   const S& shape_;
-  Vec3<W> from_;
+  Vec3<W> s_in_shape_, from_;
   RayFrame<W> frame_;
   T R_;
   W rounding_;

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// Which model suits a shape: told by the types of its jets where they say enough, else found out
+// when the shape is prepared.
+#pragma once
+
+#include "core/shape/shape.h"
+
+namespace minkray {
+
+enum class ModelKind : unsigned char {
+  closed_form,     ///< told by the type
+  points,          ///< a polytope made of other shapes
+  rounded_points,  ///< a rounded polytope
+  smooth,          ///< a smooth surface
+  mixed,           ///< any other shape: MixedModel, for single rays only
+};
+
+/// A description that chooses between models, on which no answer's correctness depends: supporting
+/// planes bound a shape and support points lie in it, whatever the shape.
+template <class T>
+ModelKind model_kind_of(const Shape<T>& shape);
+
+extern template ModelKind model_kind_of(const Shape<float>&);
+extern template ModelKind model_kind_of(const Shape<double>&);
+
+}  // namespace minkray
