@@ -8,6 +8,7 @@ namespace minkray {
 
 enum class SurfaceKind : unsigned char {
   flat,        ///< a polytope: points are its only pieces
+  translates,  ///< faces and edges between finitely many translates of one ellipsoid
   ellipsoids,  ///< faces and edges between finitely many ellipsoids
   smooth,      ///< one curved patch, which jets only osculate
   mixed,       ///< several patches, some of which jets only osculate
@@ -19,18 +20,20 @@ template <class T, class S>
 requires JetMapped<S, T> SurfaceKind surface_of(const S& shape) {
   const Vec3<T> tilt(T(0.11), T(0.07), T(0.13));
   bool all_points = true, all_exact = true, all_inexact = true, one_patch = true;
-  Vec3<T> patch = Vec3<T>::Zero();
+  bool one_body = true;
+  Jet<T> first;
   for (int i = 0; i < 27; ++i) {
     const Vec3<T> n = Vec3<T>(T(i % 3 - 1), T(i / 3 % 3 - 1), T(i / 9 - 1)) + tilt;
     const Jet<T> jet = shape.jet(n);
-    if (i == 0) patch = jet.c;
+    if (i == 0) first = jet;
     all_points = all_points && jet.exact && jet.is_point();
     all_exact = all_exact && jet.exact;
     all_inexact = all_inexact && !jet.exact;
-    one_patch = one_patch && jet.c == patch;
+    one_patch = one_patch && jet.c == first.c;
+    one_body = one_body && jet.F == first.F;
   }
   if (all_points) return SurfaceKind::flat;
-  if (all_exact) return SurfaceKind::ellipsoids;
+  if (all_exact) return one_body ? SurfaceKind::translates : SurfaceKind::ellipsoids;
   return all_inexact && one_patch ? SurfaceKind::smooth : SurfaceKind::mixed;
 }
 

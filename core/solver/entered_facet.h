@@ -19,32 +19,44 @@ struct EnteredFacet {
   /// which the line lies beyond the polytope.
   Vec3<W> normal;
   Vec3<W> corner;                     ///< the facet's corner that is nearest to the line
-  std::array<Vec3<W>, 3> neighbours;  ///< corners beside it, as many as Facets has
+  std::array<Vec3<W>, 3> neighbours;  ///< corners beside it
+  std::array<Mask<W>, 3> there = {Mask<W>(false), Mask<W>(false), Mask<W>(false)};  ///< which
 };
 
-/// Of a polytope without known facets. The others have the same members; `grows` says that
-/// `entered` is about the polytope grown by the radius, in all directions or at least its facets'.
+/// Of a polytope without any. Others have `known`, whether there is a facet for a line;
+/// `entered`, the facet of the polytope; and `around`, one that is near where the line meets the
+/// polytope rounded by a radius. The line passes `from`, which is s from the bounding ball's
+/// centre.
 template <class W, class Core>
 struct Facets {
-  static constexpr std::size_t neighbour_count = 0;
-  static constexpr bool grows = false;
-  static bool known(const Core&) { return false; }
-  static EnteredFacet<W> entered(const Core&, Lane<W>, const Vec3<Lane<W>>&, const Vec3<W>&,
-                                 const Vec3<W>&, const RayFrame<W>&) {
-    return {};
-  }
+  static constexpr bool some = false;
 };
 
 template <class W>
 struct Facets<W, Box<Lane<W>>> {
   using T = Lane<W>;
-  static constexpr std::size_t neighbour_count = 3;
-  static constexpr bool grows = true;
+  static constexpr bool some = true;
   static bool known(const Box<T>&) { return true; }
 
-  /// Of the box grown by `radius`. The line passes `from`, which is s from the ball's centre.
-  static EnteredFacet<W> entered(const Box<T>& box, T radius, const Vec3<T>&, const Vec3<W>&,
+  static EnteredFacet<W> entered(const Box<T>& box, const Vec3<T>&, const Vec3<W>&,
                                  const Vec3<W>& from, const RayFrame<W>& frame) {
+    EnteredFacet<W> facet = grown(box, T(0), from, frame);
+    facet.there = {facet.enters, facet.enters, facet.enters};
+    return facet;
+  }
+
+  /// Lines that pass by the grown box pass by the rounded one.
+  static EnteredFacet<W> around(const Box<T>& box, T radius, const Vec3<T>&, const Vec3<W>&,
+                                const Vec3<W>& from, const RayFrame<W>& frame) {
+    EnteredFacet<W> facet = grown(box, radius, from, frame);
+    facet.there = {facet.enters, facet.enters, facet.enters};
+    return facet;
+  }
+
+ private:
+  /// With its faces moved out by the radius; the corner is one of the box itself.
+  static EnteredFacet<W> grown(const Box<T>& box, T radius, const Vec3<W>& from,
+                               const RayFrame<W>& frame) {
     using std::abs;
     using std::copysign;
     const Vec3<W> r = -frame.z;
@@ -94,17 +106,15 @@ struct Facets<W, Box<Lane<W>>> {
 template <class W>
 struct Facets<W, Hull<Lane<W>>> {
   using T = Lane<W>;
-  static constexpr std::size_t neighbour_count = 2;
-  static constexpr bool grows = false;
+  static constexpr bool some = true;
   static bool known(const Hull<T>& hull) { return hull.points.facets() != nullptr; }
 
-  /// The line passes `from`, which is s from the ball's centre. Seen along the ray the facets that
-  /// face it are a triangulation; from one that is likely to be near, the walk leaves each triangle
-  /// by the edge that the line is furthest beyond (Devillers, Pion and Teillaud, "Walking in a
-  /// Triangulation", 2002). Where that leads to a facet that faces away, the edge is on the outline
-  /// and the line passes by.
-  static EnteredFacet<W> entered(const Hull<T>& hull, T, const Vec3<T>& half_extents,
-                                 const Vec3<W>& s, const Vec3<W>& from, const RayFrame<W>& frame) {
+  /// Seen along the ray the facets that face it are a triangulation; from one that is likely to be
+  /// near, the walk leaves each triangle by the edge that the line is furthest beyond (Devillers,
+  /// Pion and Teillaud, "Walking in a Triangulation", 2002). Where that leads to a facet that faces
+  /// away, the edge is on the outline and the line passes by.
+  static EnteredFacet<W> entered(const Hull<T>& hull, const Vec3<T>& half_extents, const Vec3<W>& s,
+                                 const Vec3<W>& from, const RayFrame<W>& frame) {
     const FacetMesh<T>& mesh = *hull.points.facets();
     const Vec3<W> start =
         normal_on_extents<W>(half_extents, s, Vec3<W>(-frame.z)) + frame.z * W(towards_ray);
@@ -145,23 +155,91 @@ struct Facets<W, Hull<Lane<W>>> {
     facet.normal =
         gather<W>(found, [&](std::size_t i) { return Vec3<T>(mesh[i].normal.template cast<T>()); });
     if (any(beside)) facet.normal = select<W>(beside, frame.out_of(unit<W>(outline)), facet.normal);
-    // The nearest corner comes first.
-    const auto off = [](const Vec3<W>& p) { return p.x() * p.x() + p.y() * p.y(); };
     facet.corner = corners[0];
-    W least = off(corners[0]);
-    facet.neighbours = {corners[1], corners[2], corners[2]};
-    for (std::size_t k = 1; k < 3; ++k) {
-      const W squared = off(corners[k]);
-      const Mask<W> nearer = squared < least;
-      least = select(nearer, squared, least);
-      const Vec3<W> before = facet.corner;
-      facet.corner = select<W>(nearer, corners[k], before);
-      facet.neighbours[k - 1] = select<W>(nearer, before, facet.neighbours[k - 1]);
+    facet.neighbours = {corners[1], corners[2], corners[0]};
+    facet.there = {facet.enters, facet.enters, facet.enters};
+    return facet;
+  }
+
+  /// Where the line meets a facet's plane moved out by the radius tells, by that spot's foot on the
+  /// facet, where to go next. Between two facets that point to each other is their edge.
+  static EnteredFacet<W> around(const Hull<T>& hull, T radius, const Vec3<T>& half_extents,
+                                const Vec3<W>& s, const Vec3<W>& from, const RayFrame<W>& frame) {
+    const FacetMesh<T>& mesh = *hull.points.facets();
+    const Vec3<W> start =
+        normal_on_extents<W>(half_extents, s, Vec3<W>(-frame.z)) + frame.z * W(towards_ray);
+
+    EnteredFacet<W> facet;
+    facet.normal = frame.z;
+    W at = mesh.facing(start), last = W(-1);
+    Mask<W> open = Mask<W>(true);
+    // Of the last step: the edge crossed, the corner of the facet left behind, the foot there.
+    Vec3<W> begin = Vec3<W>::Zero(), end = begin, behind = begin, foot = begin;
+    const auto answer = [&](const Mask<W>& lanes, const Vec3<W>& a, const Vec3<W>& b,
+                            const Vec3<W>& c, const Vec3<W>& d, const Mask<W>& has_d) {
+      const Mask<W> swap = (b - foot).squaredNorm() < (a - foot).squaredNorm();
+      facet.known |= lanes;
+      facet.corner = select<W>(lanes, select<W>(swap, b, a), facet.corner);
+      facet.neighbours[0] = select<W>(lanes, select<W>(swap, a, b), facet.neighbours[0]);
+      facet.neighbours[1] = select<W>(lanes, c, facet.neighbours[1]);
+      facet.neighbours[2] = select<W>(lanes, d, facet.neighbours[2]);
+      facet.there[0] |= lanes;
+      facet.there[1] |= lanes;
+      facet.there[2] |= lanes & has_d;
+    };
+    for (int step = 0; step < max_steps; ++step) {
+      std::array<Vec3<W>, 3> p;
+      for (std::size_t k = 0; k < 3; ++k)
+        p[k] = frame.into(gather<W>(at, [&](std::size_t i) { return mesh[i].corners[k]; }) - from);
+      const Vec3<W> m = frame.into(gather<W>(at, [&](std::size_t i) { return mesh[i].normal; }));
+      const Mask<W> away = open & !(m.z() > W(least_facing));
+      if (any(away)) {
+        // Over the outline, or lost from the start.
+        if (step > 0) answer(away, begin, end, behind, behind, Mask<W>(false));
+        open &= !away;
+        if (!any(open)) break;
+      }
+      const W height = (p[0].dot(m) + W(radius)) / select(m.z() > W(least_facing), m.z(), W(1));
+      foot = select<W>(open, Vec3<W>(Vec3<W>(W(0), W(0), height) - m * W(radius)), foot);
+      const auto beyond = [&](const Vec3<W>& a, const Vec3<W>& b) {
+        return (b - a).cross(foot - a).dot(m);
+      };
+      const W a = beyond(p[0], p[1]), b = beyond(p[1], p[2]), c = beyond(p[2], p[0]);
+      const Mask<W> within = open & (a >= W(0)) & (b >= W(0)) & (c >= W(0));
+      if (any(within)) {
+        answer(within, p[0], p[1], p[2], p[2], Mask<W>(false));
+        facet.enters |= within;
+        open &= !within;
+        if (!any(open)) break;
+      }
+
+      const Mask<W> by_b = b < a, by_c = (c < a) & (c < b);
+      const Vec3<W> next = gather<W>(at, [&](std::size_t i) {
+        const auto& neighbours = mesh[i].neighbours;
+        return Vec3<T>(T(neighbours[0]), T(neighbours[1]), T(neighbours[2]));
+      });
+      const W to = select(by_c, next.z(), select(by_b, next.y(), next.x()));
+      const Vec3<W> from_corner = select<W>(by_c, p[2], select<W>(by_b, p[1], p[0]));
+      const Vec3<W> to_corner = select<W>(by_c, p[0], select<W>(by_b, p[2], p[1]));
+      const Vec3<W> opposite = select<W>(by_c, p[1], select<W>(by_b, p[0], p[2]));
+      const Mask<W> returns = open & (to == last);
+      if (any(returns)) {
+        answer(returns, from_corner, to_corner, opposite, behind, Mask<W>(true));
+        open &= !returns;
+        if (!any(open)) break;
+      }
+      begin = select<W>(open, from_corner, begin);
+      end = select<W>(open, to_corner, end);
+      behind = select<W>(open, opposite, behind);
+      last = select(open, at, last);
+      at = select(open, to, at);
     }
     return facet;
   }
 
  private:
+  /// The sine below which a facet counts as facing away.
+  static constexpr T least_facing = T(1) / T(1024);
   /// A start that faces the ray for sure is not as near, but near the outline better than one which
   /// does not.
   static constexpr T towards_ray = T(0.5);

@@ -18,7 +18,8 @@ template <class W>
 struct RoundBody {
   W radius;
 
-  W bend(const Vec3<W>&) const { return radius; }
+  /// How far it reaches along m, of unit length but for rounding.
+  W bend(const Vec3<W>& m) const { return radius * (W(Lane<W>(0.5)) * (W(1) + m.squaredNorm())); }
   Vec3<W> spot(const Vec3<W>& m) const { return m * radius; }
 
   /// The normal, of unit length, where the ray meets the body around c, or across from it.

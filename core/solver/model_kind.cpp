@@ -18,9 +18,10 @@ ModelKind model_kind_of(const Shape<T>& shape) {
           if constexpr (std::is_same_v<S, Rounded<T>>)
             if (surface != SurfaceKind::flat && surface_of<T>(*kind.shape) == SurfaceKind::flat)
               return ModelKind::rounded_points;
-          return surface == SurfaceKind::flat     ? ModelKind::points
-                 : surface == SurfaceKind::smooth ? ModelKind::smooth
-                                                  : ModelKind::mixed;
+          return surface == SurfaceKind::flat         ? ModelKind::points
+                 : surface == SurfaceKind::translates ? ModelKind::translates
+                 : surface == SurfaceKind::smooth     ? ModelKind::smooth
+                                                      : ModelKind::mixed;
         }
       },
       shape.kind);

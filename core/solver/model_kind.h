@@ -11,6 +11,7 @@ enum class ModelKind : unsigned char {
   closed_form,     ///< told by the type
   points,          ///< a polytope made of other shapes
   rounded_points,  ///< a rounded polytope
+  translates,      ///< the hull of translates of one ellipsoid
   smooth,          ///< a smooth surface
   mixed,           ///< any other shape: MixedModel, for single rays only
 };

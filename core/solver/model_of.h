@@ -7,8 +7,8 @@
 #include "core/solver/model_cast.h"
 #include "core/solver/model_kind.h"
 #include "core/solver/polytope_model.h"
-#include "core/solver/rounded_points_model.h"
 #include "core/solver/smooth_model.h"
+#include "core/solver/translates_model.h"
 
 namespace minkray {
 
@@ -44,7 +44,12 @@ auto with_model(const Shape<Lane<W>>& shape, ModelKind model, const Vec3<Lane<W>
   const auto smooth = [&] { return simple(shape, std::type_identity<SmoothModel<W, Shape<T>>>()); };
   const auto rounded = [&]<class S>(const S& core, T radius) {
     return use([&, radius](const Vec3<W>& s, const Vec3<W>& r) {
-      return RoundedPointsModel<W, S>(core, radius, centre, s, r, R);
+      return TranslatesModel<W, RoundedPolytope<W, S>>({core, radius}, centre, s, r, R);
+    });
+  };
+  const auto translates = [&] {
+    return use([&](const Vec3<W>& s, const Vec3<W>& r) {
+      return TranslatesModel<W, JetTranslates<W, Shape<T>>>({shape}, centre, s, r, R);
     });
   };
   return std::visit(
@@ -58,6 +63,7 @@ auto with_model(const Shape<Lane<W>>& shape, ModelKind model, const Vec3<Lane<W>
         } else if constexpr (std::is_same_v<S, Rounded<T>>) {
           if (model == ModelKind::points) return polytope(shape);
           if (model == ModelKind::smooth) return smooth();
+          if (model == ModelKind::translates) return translates();
           return std::visit(
               [&]<class Core>(const Core& core) {
                 if constexpr (detail::is_polytope<Core, W>)
@@ -67,7 +73,8 @@ auto with_model(const Shape<Lane<W>>& shape, ModelKind model, const Vec3<Lane<W>
               },
               kind.shape->kind);
         } else {
-          return model == ModelKind::points ? polytope(shape) : smooth();
+          if (model == ModelKind::points) return polytope(shape);
+          return model == ModelKind::translates ? translates() : smooth();
         }
       },
       shape.kind);

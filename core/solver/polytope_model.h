@@ -45,18 +45,16 @@ class PolytopeModel {
   ModelHit<W> begin(const Vec3<T>& half_extents) {
     ModelHit<W> hit;
     EnteredFacet<W> facet;
-    if (Known::known(core_)) facet = Known::entered(core_, T(0), half_extents, s_, from_, frame_);
+    if constexpr (Known::some)
+      if (Known::known(core_)) facet = Known::entered(core_, half_extents, s_, from_, frame_);
     if (all(facet.known))
       hit.m = frame_.into(facet.normal);
     else
       hit.m = frame_.into(select<W>(facet.known, facet.normal,
                                     normal_on_extents<W>(half_extents, s_, Vec3<W>(-frame_.z))));
     if (!any(facet.enters)) return hit;
-    const auto keep = [&](Kept& kept, const Vec3<W>& vertex) {
-      kept = {vertex, hit.m, facet.enters, facet.enters};
-    };
-    for (std::size_t k = 0; k < Known::neighbour_count; ++k) keep(kept_[k], facet.neighbours[k]);
-    if (Known::neighbour_count == 2) keep(kept_[2], facet.corner);
+    for (std::size_t k = 0; k < 3; ++k)
+      kept_[k] = {facet.neighbours[k], hit.m, facet.there[k], facet.there[k]};
     const Mask<W> ahead = hit.m.z() > W(0);
     hit.certain = facet.enters & ahead;
     hit.height = facet.corner.dot(hit.m) / select(ahead, hit.m.z(), W(1));
