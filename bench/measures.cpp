@@ -34,6 +34,7 @@ struct Options {
   std::string json;
   std::string shape;   ///< only shapes whose names contain this
   std::string family;  ///< only this kind of rays
+  std::string only;    ///< only peers whose names begin so, beside the baseline
   std::size_t rays = 4096;
   int rounds = 15;
   bool quick = false;
@@ -228,6 +229,8 @@ Options read_options(int argc, char** argv) {
       options.shape = value();
     else if (word == "--family")
       options.family = value();
+    else if (word == "--only")
+      options.only = value();
     else if (word == "--rays")
       options.rays = static_cast<std::size_t>(std::stoul(value()));
     else if (word == "--rounds")
@@ -243,7 +246,9 @@ Options read_options(int argc, char** argv) {
       throw std::invalid_argument(
           word +
           ": unknown; takes --json FILE, --quick, --shape NAME, --family NAME, --rays N, "
-          "--rounds N, --coarse (no meshes of error 1e-6)");
+          "--rounds N, --coarse (no meshes of error 1e-6), --only PEER (those whose name begins "
+          "so, "
+          "beside the baseline)");
   }
   if (options.rays < 64 || options.rounds < 1)
     throw std::invalid_argument("--rays: at least 64; --rounds: at least 1");
@@ -273,7 +278,11 @@ void run(const Options& options) {
       const Shape<double> shape = convert<double>(convert<float>(wished));
       const double radius = ball_around(bounds_of<double>(shape)).radius;
       if (part.families.empty()) continue;
-      const Peers peers = make_peers(shape, radius, part.with_others, options);
+      Peers peers = make_peers(shape, radius, part.with_others && options.only.empty(), options);
+      if (!options.only.empty())
+        std::erase_if(peers, [&](const auto& peer) {
+          return peer->name() != baseline && !peer->name().starts_with(options.only);
+        });
       Json families = Json::array();
       for (const std::string& family : part.families) {
         const RaysWithTruth rays = make_rays(shape, family, options.rays);

@@ -87,8 +87,10 @@ template <class W>
   const auto usable = size > W(0);
   const W safe = select(usable, size, W(1));
   const Vec3<W> scaled(v.x() / safe, v.y() / safe, v.z() / safe);
-  const Vec3<W> rescaled = scaled * select(usable, W(W(1) / sqrt(scaled.squaredNorm())), W(0));
-  return select<W>(ordinary, Vec3<W>(v * (W(1) / sqrt(v.squaredNorm()))), rescaled);
+  const W squared = select(usable, W(scaled.squaredNorm()), W(1));
+  const Vec3<W> rescaled = scaled * select(usable, W(W(1) / sqrt(squared)), W(0));
+  const W as_it_is = select(ordinary, W(v.squaredNorm()), W(1));
+  return select<W>(ordinary, Vec3<W>(v * (W(1) / sqrt(as_it_is))), rescaled);
 }
 
 }  // namespace detail

@@ -108,6 +108,8 @@ CastResult<T> cast_near(const PreparedShape<T>& shape, const RayNearBall<T>& nea
     result.iterations += first.iterations;
     result.supports += first.supports;
   }
+  // A direction so short that the hit's t is no number of T.
+  if (result.status == Status::hit && !std::isfinite(result.t())) result.status = Status::exhausted;
   // Of a point all directions are normals.
   if (result.status == Status::hit && result.normal.isZero(T(0))) result.normal = -near.r;
   result.normal = shape.normal_to_outer(result.normal);

@@ -100,7 +100,7 @@ LineHit<W> first_on_line(Model& model, const Vec3<Lane<W>>& half_extents, const 
     // Where the model, as it was, is hit no further than rounding beyond the best plane.
     const auto meets = [&](const W& within) {
       const W slope = model.against_ray(model_hit.m);
-      const W along = -model_hit.height - result.lambda;
+      const W along = select(model_hit.certain, W(-model_hit.height - result.lambda), W(0));
       const W missing = along * min(slope, max(model.against_ray(result.normal), W(0)));
       const Mask<W> met = open & model_hit.certain & (slope > least_slope) & (missing <= within) &
                           (along <= gap_along);

@@ -45,7 +45,10 @@ void part(const PreparedShape<Lane<W>>& shape, const RayPacket<Lane<W>>& rays, L
       });
   const Vec3<W> normal = shape.template normal_to_outer<W>(result.normal);
   const auto at_origin = [&](const W& x) { return select(result.inside, W(T(0)), x); };
-  answers.hit |= bits_of<W>(result.hit) << from;
+  using std::abs;
+  const Mask<W> in_range =
+      abs(result.t_base + result.t_offset) < W(std::numeric_limits<T>::infinity());
+  answers.hit |= bits_of<W>(result.hit & in_range) << from;
   answers.inside |= bits_of<W>(result.inside) << from;
   answers.miss |= bits_of<W>(result.miss) << from;
   at_origin(result.t_base).store(answers.t_base.data() + from);
