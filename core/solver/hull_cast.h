@@ -128,21 +128,18 @@ class HullCast {
   HullCast(const Body& body, const Vec3<W>& newest, const Translates<W>& others, const W& rounding)
       : body_(body), newest_(newest), others_(others), rounding_(rounding) {}
 
-  /// The hit, the newest body among its carriers. A candidate that another body reaches beyond is
-  /// joined by that body; should this not lead to the hit, all candidates are tried.
+  /// The newest body is likely to be among the hit's carriers. A candidate that another body
+  /// reaches beyond is joined by that body; should this not lead to the hit, all candidates are
+  /// tried, those with the newest body first.
   HullCastHit<W> solve() {
-    const Furthest second =
-        consider(body_.alone(newest_), Mask<W>(true), {W(0), W(0), W(0)}, Mask<W>(true));
+    const Furthest newest = {newest_, W(0), nowhere(), Mask<W>(true)};
+    const Furthest second = alone(newest);
     if (all(hit_.found)) return hit_;
-    const Furthest third = edge(second.c, second.at, second.some);
+    const Furthest third = edge(newest, second);
     if (all(hit_.found)) return hit_;
-    face(second, third);
+    face(newest, second, third);
     if (all(hit_.found)) return hit_;
-    for (std::size_t k = 0; k < 3; ++k) edge(others_.c[k], only(k), others_.valid[k]);
-    for (std::size_t j = 0; j < 3; ++j)
-      for (std::size_t k = j + 1; k < 3; ++k)
-        face({others_.c[j], W(0), only(j), others_.valid[j]},
-             {others_.c[k], W(0), only(k), others_.valid[k]});
+    try_all(newest);
     return hit_;
   }
 
@@ -157,10 +154,22 @@ class HullCast {
     Mask<W> some = Mask<W>(false);
   };
 
-  static Places only(std::size_t k) {
-    Places at = {Mask<W>(false), Mask<W>(false), Mask<W>(false)};
+  static Places nowhere() { return {Mask<W>(false), Mask<W>(false), Mask<W>(false)}; }
+  Furthest other(std::size_t k) const {
+    Places at = nowhere();
     at[k] = Mask<W>(true);
-    return at;
+    return {others_.c[k], W(0), at, others_.valid[k]};
+  }
+
+  void try_all(const Furthest& newest) {
+    for (std::size_t k = 0; k < 3; ++k) edge(newest, other(k));
+    for (std::size_t j = 0; j < 3; ++j)
+      for (std::size_t k = j + 1; k < 3; ++k) face(newest, other(j), other(k));
+    if (all(hit_.found)) return;
+    for (std::size_t k = 0; k < 3; ++k) alone(other(k));
+    for (std::size_t j = 0; j < 3; ++j)
+      for (std::size_t k = j + 1; k < 3; ++k) edge(other(j), other(k));
+    face(other(0), other(1), other(2));
   }
 
   Furthest furthest_in(const Vec3<W>& m) const {
@@ -178,14 +187,15 @@ class HullCast {
   }
 
   /// Takes the candidate of direction m where it is better than the hit so far: where `meets` (its
-  /// bodies meet the ray) and no other body reaches further, it is the hit.
-  Furthest consider(const Vec3<W>& m, const Mask<W>& meets, const std::array<W, 3>& weights,
-                    const Mask<W>& candidate) {
+  /// bodies meet the ray) and no other body reaches further than its carrier, it is the hit.
+  /// Answers the body that reaches furthest of all but the newest.
+  Furthest consider(const Vec3<W>& m, const Vec3<W>& carrier, const Mask<W>& meets,
+                    const std::array<W, 3>& weights, const Mask<W>& candidate) {
     using std::max;
     const Furthest furthest = furthest_in(m);
-    const W reach = newest_.dot(m);
-    const Mask<W> unbeaten = !(furthest.reach - reach > rounding_);
-    const W value = max(reach, furthest.reach) + body_.bend(m);
+    const W reach = max(newest_.dot(m), furthest.reach);
+    const Mask<W> unbeaten = !(reach - carrier.dot(m) > rounding_);
+    const W value = reach + body_.bend(m);
     const Mask<W> ahead = m.z() > W(0);
     const W out_of_reach = W(std::numeric_limits<T>::max());
     const W rank = select(ahead, W(value / select(ahead, m.z(), W(1))),
@@ -199,38 +209,49 @@ class HullCast {
     return furthest;
   }
 
+  /// One.
+  Furthest alone(const Furthest& a) {
+    std::array<W, 3> weights;
+    for (std::size_t k = 0; k < 3; ++k) weights[k] = select(a.at[k], W(1), W(0));
+    return consider(body_.alone(a.c), a.c, Mask<W>(true), weights, a.some);
+  }
+
   /// Two: the cylinder between them.
-  Furthest edge(const Vec3<W>& other, const Places& at, const Mask<W>& candidate) {
+  Furthest edge(const Furthest& a, const Furthest& b) {
     using std::sqrt;
+    const Mask<W> candidate = a.some & b.some;
     if (!any(candidate & !hit_.found)) return {};
-    const Vec3<W> e = newest_ - other;
+    const Vec3<W> e = a.c - b.c;
     const W E = e.x() * e.x() + e.y() * e.y();
     const W length = sqrt(E);
     Vec3<W> touch;
-    const Vec3<W> m = body_.swept(newest_, e, length, touch);
-    const W x = other.x() + touch.x(), y = other.y() + touch.y();
+    const Vec3<W> m = body_.swept(a.c, e, length, touch);
+    const W x = b.c.x() + touch.x(), y = b.c.y() + touch.y();
     const W share = -(x * e.x() + y * e.y()) / E, slack = rounding_ / length;
     std::array<W, 3> weights;
-    for (std::size_t k = 0; k < 3; ++k) weights[k] = select(at[k], W(W(1) - share), W(0));
-    return consider(m, (share >= -slack) & (share <= W(1) + slack), weights,
+    for (std::size_t k = 0; k < 3; ++k)
+      weights[k] = select(a.at[k], share, select(b.at[k], W(W(1) - share), W(0)));
+    return consider(m, a.c, (share >= -slack) & (share <= W(1) + slack), weights,
                     candidate & (E > W(0)));
   }
 
   /// Three: the plane that touches them.
-  void face(const Furthest& second, const Furthest& third) {
-    Mask<W> candidate = second.some & third.some;
-    for (std::size_t k = 0; k < 3; ++k) candidate &= !(second.at[k] & third.at[k]);
+  void face(const Furthest& a, const Furthest& b, const Furthest& c) {
+    Mask<W> candidate = a.some & b.some & c.some;
+    for (std::size_t k = 0; k < 3; ++k) candidate &= !(b.at[k] & c.at[k]);
     if (!any(candidate & !hit_.found)) return;
-    const Vec3<W> m = upper_normal(newest_, second.c, third.c);
+    const Vec3<W> m = upper_normal(a.c, b.c, c.c);
     const Vec3<W> touch = body_.spot(m);
-    const Vec3<W> a = newest_ + touch, b = second.c + touch, c = third.c + touch;
-    const Mask<W> meets = passes_between(a, b, c) | passes_edge(a, b, rounding_) |
-                          passes_edge(b, c, rounding_) | passes_edge(c, a, rounding_);
-    const W of_b = cross_2d(c, a), of_c = cross_2d(a, b), sum = cross_2d(b, c) + of_b + of_c;
+    const Vec3<W> at_a = a.c + touch, at_b = b.c + touch, at_c = c.c + touch;
+    const Mask<W> meets = passes_between(at_a, at_b, at_c) | passes_edge(at_a, at_b, rounding_) |
+                          passes_edge(at_b, at_c, rounding_) | passes_edge(at_c, at_a, rounding_);
+    const W of_a = cross_2d(at_b, at_c), of_b = cross_2d(at_c, at_a), of_c = cross_2d(at_a, at_b);
+    const W sum = of_a + of_b + of_c;
     std::array<W, 3> weights;
     for (std::size_t k = 0; k < 3; ++k)
-      weights[k] = select(second.at[k], W(of_b / sum), select(third.at[k], W(of_c / sum), W(0)));
-    consider(m, meets, weights, candidate & (m.z() > W(0)) & (sum != W(0)));
+      weights[k] = select(a.at[k], W(of_a / sum),
+                          select(b.at[k], W(of_b / sum), select(c.at[k], W(of_c / sum), W(0))));
+    consider(m, a.c, meets, weights, candidate & (m.z() > W(0)) & (sum != W(0)));
   }
 
   Body body_;

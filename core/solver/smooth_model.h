@@ -80,14 +80,14 @@ class SmoothModel {
     ModelHit<W> hit;
     hit.m = on_hull.m;
     const Mask<W> ahead = hit.m.z() > W(0);
-    const W z = select(ahead, hit.m.z(), W(1));
-    hit.height = (c.dot(hit.m) + body.bend(hit.m)) / z;
+    hit.height = select(ahead, on_hull.rank, W(0));
     hit.certain = on_hull.found & ahead & settled(piece, n, on_hull);
     hit.inner = Mask<W>(false);
     hit.repeated = repeated;
     keep(piece, n, on_hull);
 
     step_back(piece, n, hit);
+    stay_between(piece, n, hit);
     return hit;
   }
 
@@ -140,10 +140,10 @@ class SmoothModel {
     using std::max;
     using std::min;
     using std::sqrt;
-    const Mask<W> cuts = n.z() > W(0);
+    const Mask<W> cuts = n.z() > W(along_ray);
     const W z = select(cuts, n.z(), W(1));
     const W lambda = select(cuts, W(-piece.height / z), W(-infinity));
-    const Mask<W> onto = hit.m.z() > W(0);
+    const Mask<W> onto = hit.m.z() > W(along_ray);
     const W m_z = select(onto, hit.m.z(), W(1)), x = n.x() / z, y = n.y() / z;
     const Point here{x,
                      y,
@@ -187,6 +187,33 @@ class SmoothModel {
     best_lambda_ = select(worse, best_lambda_, lambda);
   }
 
+  /// Among directions along the ray (n.z = 0), where the model passes the ray by as well: the least
+  /// reach lies where its derivative along that circle changes sign. A step out of the arc between
+  /// two signs, or over half of it, is replaced by the secant's.
+  void stay_between(const Piece& piece, const Vec3<W>& n, ModelHit<W>& hit) {
+    using std::abs;
+    const Mask<W> on_circle = (abs(n.z()) <= W(along_ray)) & !(hit.m.z() > W(along_ray));
+    if (!any(on_circle)) return;
+    const W slope = n.x() * piece.s.y() - n.y() * piece.s.x();  // counter-clockwise
+    const Mask<W> falls = on_circle & (slope < W(0)), rises = on_circle & (slope > W(0));
+    // An end that stays for a second time counts half (the Illinois variant).
+    rising_.slope = select(falls & fell_, W(rising_.slope * W(T(0.5))), rising_.slope);
+    falling_.slope = select(rises & rose_, W(falling_.slope * W(T(0.5))), falling_.slope);
+    fell_ = falls;
+    rose_ = rises;
+    falling_.set(falls, n, slope);
+    rising_.set(rises, n, slope);
+
+    const W arc = (rising_.n - falling_.n).squaredNorm();
+    const Mask<W> outside =
+        !((cross_2d(falling_.n, hit.m) > W(0)) & (cross_2d(hit.m, rising_.n) > W(0)) &
+          ((hit.m - n).squaredNorm() <= W(T(0.25)) * arc));
+    const Mask<W> between = on_circle & falling_.there & rising_.there & outside &
+                            (cross_2d(falling_.n, rising_.n) > W(0));
+    const Vec3<W> secant = falling_.n * rising_.slope - rising_.n * falling_.slope;
+    if (any(between)) hit.m = select<W>(between, unit<W>({secant.x(), secant.y(), W(0)}), hit.m);
+  }
+
   void keep(const Piece& piece, const Vec3<W>& n, const HullCastHit<W>& on_hull) {
     Mask<W> placed(false);
     for (std::size_t k = 0; k < 3; ++k) {
@@ -200,6 +227,20 @@ class SmoothModel {
     }
   }
 
+  /// A direction along the ray.
+  struct OnCircle {
+    Vec3<W> n = Vec3<W>::Zero();
+    W slope = W(0);
+    Mask<W> there = Mask<W>(false);
+    void set(const Mask<W>& lanes, const Vec3<W>& direction, const W& its_slope) {
+      n = select<W>(lanes, direction, n);
+      slope = select(lanes, its_slope, slope);
+      there |= lanes;
+    }
+  };
+
+  /// The sine below which a direction counts as at right angles to the ray.
+  static constexpr T along_ray = T(64) * std::numeric_limits<T>::epsilon();
   /// In units of R: how close to the ray an osculating ellipsoid is trusted (cbrt epsilon).
   inline static const T model_reach = std::cbrt(tolerance::epsilon<T>);
   /// Up to about 15 degrees between their directions, two patches go together.
@@ -221,6 +262,8 @@ class SmoothModel {
   Point best_;
   Mask<W> was_back_ = Mask<W>(false);
   W damping_ = W(1);
+  OnCircle falling_, rising_;
+  Mask<W> fell_ = Mask<W>(false), rose_ = Mask<W>(false);
   std::array<Mask<W>, 3> valid_ = {Mask<W>(false), Mask<W>(false), Mask<W>(false)};
 };
 

@@ -149,7 +149,7 @@ class TranslatesModel {
     hit.m = on_hull.m;
     const Mask<W> ahead = hit.m.z() > W(0);
     hit.certain = on_hull.found & ahead;
-    hit.height = piece.reach(hit.m) / select(ahead, hit.m.z(), W(1));
+    hit.height = select(ahead, on_hull.rank, W(0));
 
     // Keep the pieces that carry the hit.
     Mask<W> placed(false);

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#include "core/shape/facet_mesh.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "tests/support/random.h"
+
+namespace minkray::testing {
+namespace {
+
+std::vector<Vec3<double>> on_sphere(int count) {
+  Random random(51);
+  std::vector<Vec3<double>> points;
+  for (int i = 0; i < count; ++i) points.push_back(random.direction());
+  return points;
+}
+
+std::vector<Vec3<double>> prism(int sides) {
+  std::vector<Vec3<double>> points;
+  for (int i = 0; i < sides; ++i) {
+    const double angle = 6.283185307179586 * i / sides;
+    for (const double z : {-1.0, 1.0}) points.push_back({std::cos(angle), std::sin(angle), z});
+  }
+  return points;
+}
+
+FacetMesh<double> mesh_of(const std::vector<Vec3<double>>& points) {
+  const ConvexHull hull = convex_hull(points);
+  std::vector<Vec3<double>> vertices;
+  for (const std::uint32_t v : hull.vertices) vertices.push_back(points[v]);
+  return FacetMesh<double>(hull, vertices);
+}
+
+TEST(FacetMesh, closes_and_every_neighbour_shares_the_edge) {
+  for (const auto& points : {on_sphere(4), on_sphere(60), prism(3), prism(17)}) {
+    const FacetMesh<double> mesh = mesh_of(points);
+    EXPECT_EQ(mesh.size(), 2 * points.size() - 4);  // Euler, for triangles
+    for (std::size_t f = 0; f < mesh.size(); ++f) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto& other = mesh[mesh[f].neighbours[k]];
+        ASSERT_NE(mesh[f].neighbours[k], f);
+        // The neighbour walks the edge the other way round, and knows the way back.
+        bool shared = false;
+        for (std::size_t j = 0; j < 3; ++j)
+          shared = shared ||
+                   (other.corners[j] == mesh[f].corners[(k + 1) % 3] &&
+                    other.corners[(j + 1) % 3] == mesh[f].corners[k] && other.neighbours[j] == f);
+        EXPECT_TRUE(shared) << f << ", side " << k;
+      }
+    }
+  }
+}
+
+TEST(FacetMesh, normals_point_outwards) {
+  for (const auto& points : {on_sphere(30), prism(9)}) {
+    const FacetMesh<double> mesh = mesh_of(points);
+    for (std::size_t f = 0; f < mesh.size(); ++f) {
+      EXPECT_NEAR(mesh[f].normal.norm(), 1, 1e-15);
+      for (const Vec3<double>& p : points)
+        EXPECT_LE(mesh[f].normal.dot(p - mesh[f].corners[0]), 1e-15);
+    }
+  }
+}
+
+TEST(FacetMesh, finds_a_facet_near_a_direction) {
+  const FacetMesh<double> mesh = mesh_of(on_sphere(200));
+  Random random(52);
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3<double> n = random.direction();
+    const auto found = static_cast<std::size_t>(mesh.facing(n));
+    ASSERT_LT(found, mesh.size());
+    EXPECT_GT(mesh[found].normal.dot(n.normalized()), 0.9);
+    EXPECT_EQ(mesh.facing(Vec3<double>(n * 1e-100)), mesh.facing(n));
+  }
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_LT(static_cast<std::size_t>(mesh.facing(Vec3<double>(nan, nan, nan))), mesh.size());
+}
+
+TEST(FacetMesh, is_the_same_in_float) {
+  const FacetMesh<double> mesh = mesh_of(on_sphere(40));
+  const FacetMesh<float> rounded = mesh.cast<float>();
+  ASSERT_EQ(rounded.size(), mesh.size());
+  for (std::size_t f = 0; f < mesh.size(); ++f) {
+    EXPECT_EQ(rounded[f].neighbours, mesh[f].neighbours);
+    EXPECT_EQ(rounded[f].normal, mesh[f].normal.cast<float>());
+  }
+}
+
+}  // namespace
+}  // namespace minkray::testing
