@@ -113,6 +113,11 @@ CastResult<T> cast_near(const PreparedShape<T>& shape, const RayNearBall<T>& nea
   // Of a point all directions are normals.
   if (result.status == Status::hit && result.normal.isZero(T(0))) result.normal = -near.r;
   result.normal = shape.normal_to_outer(result.normal);
+  // Where the ray's distance in the shape's own frame overflows.
+  if (!result.normal.allFinite()) {
+    result.status = Status::exhausted;
+    result.normal.setZero();
+  }
   return result;
 }
 
