@@ -278,11 +278,14 @@ TEST_F(NothingLost, values_that_do_not_fit_are_wrong_usage) {
         "render scene.json -o a.exr -r 2x2 --tile 1/5",
         "render scene.json -o a.exr -s 2 --sample-share 1/3",
         "render scene.json -o a.exr --sample-share 1/2 --aov Z",
-        "render scene.json -o a.png --checkpoint -1", "merge -o a.png"}) {
+        "render scene.json -o a.png --checkpoint -1", "render scene.json -o a.png --checkpoint nan",
+        "heatmap scene.json -o a.png --side-by-side auto,fast",
+        "generate spheres -o b.json --seed 18446744073709551616", "frobnicate", "merge -o a.png"}) {
     const ProgramOutcome outcome = shell("\"$MINKRAY\" " + arguments);
     EXPECT_EQ(outcome.exit_code, 2) << arguments;
     EXPECT_NE(outcome.err, "") << arguments;
   }
+  EXPECT_EQ(shell("\"$MINKRAY\" trace scene.json --pixel 1,1 --svg ''").exit_code, 4);
   EXPECT_EQ(folder_.files(), std::vector<std::string>{"scene.json"});
   EXPECT_EQ(
       shell("\"$MINKRAY\" render scene.json -o a.png -s 1 --seed 18446744073709551615").exit_code,
