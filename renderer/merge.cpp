@@ -194,9 +194,13 @@ Merged merge_parts(const std::vector<std::string>& files, bool allow_partial) {
                               std::filesystem::file_size(file, error)});
     });
 
-  const auto [picture, display, samples] = of_file(files.front(), [&] {
+  PixelRect picture, display;
+  int samples = 0;
+  of_file(files.front(), [&] {
     const Resolution size = resolution_of(facts);
-    return std::tuple{crop_of(facts), PixelRect{0, 0, size.width, size.height}, samples_of(facts)};
+    picture = crop_of(facts);
+    display = {0, 0, size.width, size.height};
+    samples = samples_of(facts);
   });
   const Share& split = first_piece.sample_share;
   if (picture.empty() || split.count > SampleBlocks{samples}.count())
@@ -213,9 +217,10 @@ Merged merge_parts(const std::vector<std::string>& files, bool allow_partial) {
   Picture whole(display, picture);
   std::optional<SampleSum> sum;
   for (auto at = file_of.begin(); at != file_of.end(); ++at) {
-    const auto& [place, file] = *at;
+    const auto& place = at->first;
+    const std::string& file = at->second;
     const Piece piece{{place.first, first_piece.tile.count}, {place.second, split.count}};
-    of_file(file, [&, &file = file] {
+    of_file(file, [&] {
       const ExrImage exr = read_exr(file);
       if (const std::string differs = difference(exr.texts, facts, common_facts());
           !differs.empty())

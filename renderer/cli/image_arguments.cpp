@@ -123,7 +123,7 @@ RenderOptions ImageArguments::render_options(const Scene& loaded, std::size_t pa
   return options;
 }
 
-CastOptions<Real> cast_options(const std::string& solver) {
+CastOptions<Real> cast_options(const std::string& solver, const std::string& option) {
   CastOptions<Real> options;
   std::string names;
   for (const SolverDescription& description : solver_descriptions) {
@@ -131,7 +131,7 @@ CastOptions<Real> cast_options(const std::string& solver) {
     if (description.name == solver) return options;
     names += (names.empty() ? "" : ", ") + std::string(description.name);
   }
-  throw WrongUsage("--solver: must be one of " + names + " (got " + solver + ")");
+  throw WrongUsage(option + ": must be one of " + names + " (got " + solver + ")");
 }
 
 void write_images(const std::vector<std::string>& outputs, const Image& picture,

@@ -45,7 +45,7 @@ void add_output_option(CLI::App& verb, std::vector<std::string>& outputs);
 void check_outputs(const std::vector<std::string>& outputs);
 
 /// Options for the casts of a solver by name. Throws WrongUsage with the names there are.
-CastOptions<Real> cast_options(const std::string& solver);
+CastOptions<Real> cast_options(const std::string& solver, const std::string& option = "--solver");
 
 /// Encodes and writes to each of the paths: `floats` to the formats that keep them, `picture` to
 /// the others. Ends the process early if it was interrupted.

@@ -4,13 +4,27 @@
 #include <csignal>
 #include <exception>
 #include <iostream>
+#include <new>
+#include <string>
 
 #include "renderer/cli/verbs.h"
 #include "renderer/errors.h"
+#include "renderer/json/mistakes.h"
 
 namespace {
 
 using minkray::ExitCode;
+
+/// CLI11 says of an unknown verb only that one is required.
+void check_verb(const CLI::App& app, const std::string& name) {
+  std::string names;
+  for (const CLI::App* verb : app.get_subcommands(nullptr)) {
+    if (verb->get_name() == name) return;
+    names += (names.empty() ? "" : ", ") + verb->get_name();
+  }
+  throw minkray::WrongUsage("minkray: must be one of " + names + " (got " +
+                            minkray::printable(name, 40) + ")");
+}
 
 ExitCode run(int argc, char** argv) {
   CLI::App app("Minkray casts rays at exact convex shapes.", "minkray");
@@ -22,6 +36,7 @@ ExitCode run(int argc, char** argv) {
   ExitCode exit_code = ExitCode::done;
   for (const minkray::AddVerb add : minkray::verbs) add(app, exit_code);
 
+  if (argc > 1 && argv[1][0] != '-') check_verb(app, argv[1]);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -43,6 +58,9 @@ ExitCode run_and_report(int argc, char** argv) {
     return report(error, ExitCode::wrong_usage);
   } catch (const minkray::CannotWrite& error) {
     return report(error, ExitCode::cannot_write);
+  } catch (const std::bad_alloc&) {
+    std::cerr << "minkray: there is not enough memory for this\n";
+    return ExitCode::bad_input;
   } catch (const std::exception& error) {
     return report(error, ExitCode::bad_input);
   }

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "renderer/cli/image_arguments.h"
 #include "renderer/cli/verbs.h"
 #include "renderer/generate/generate.h"
 #include "renderer/scene/scene_instances.h"
@@ -14,7 +15,7 @@ struct Options {
   std::string kind;
   std::string out;
   std::size_t count = 1000;
-  std::uint64_t seed = 0;
+  std::string seed = "0";
 };
 
 }  // namespace
@@ -37,9 +38,10 @@ void add_generate(CLI::App& app, ExitCode&) {
                    "The scene file (JSON); many poses go into a file beside it, with .f32 at the "
                    "end of its name")
       ->required();
-  verb->add_option("--seed", options->seed, "Another seed is another scene")->capture_default_str();
+  verb->add_option("--seed", options->seed, "Another seed is another scene; from 0 to 2^64 - 1")
+      ->capture_default_str();
   verb->callback([options] {
-    generate_scene({options->kind, options->count, options->seed}, options->out);
+    generate_scene({options->kind, options->count, parse_seed(options->seed)}, options->out);
   });
 }
 

@@ -45,7 +45,8 @@ void run(const Options& options) {
   const HeatChannel channel = channel_of(options.channel);
   const std::vector<std::string> solvers =
       split(options.side_by_side.value_or(options.image.solver));
-  for (const std::string& solver : solvers) cast_options(solver);
+  const char* const solver_option = options.side_by_side ? "--side-by-side" : "--solver";
+  for (const std::string& solver : solvers) cast_options(solver, solver_option);
   check_outputs(options.image.outputs);
   const Scene scene = load_scene(options.image.scene);
   const RenderOptions render_options = options.image.render_options(scene, solvers.size());

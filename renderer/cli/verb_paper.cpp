@@ -20,8 +20,6 @@ struct Options {
 };
 
 void write_plot(const Plot& plot, const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
   const std::filesystem::path file = folder / plot.file;
   std::ofstream out(file, std::ios::binary);
   out << plot_svg(plot);
@@ -50,6 +48,13 @@ void print(const std::string& label, const std::string& text) {
 }
 
 void paper(const Options& options) {
+  if (!options.out.empty()) {
+    std::error_code error;
+    std::filesystem::create_directories(options.out, error);
+    if (!std::filesystem::is_directory(options.out, error))
+      throw CannotWrite("--out: must be a folder that is there or can be made (got " + options.out +
+                        ")");
+  }
   std::cout
       << "An iteration is one turn of the loop and one call of the support mapping, the last\n"
          "one counted. Rays, shapes and motions are random with a fixed seed.\n";

@@ -2,6 +2,7 @@
 // minkray render: a picture of a scene.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <iomanip>
 #include <iostream>
@@ -139,6 +140,8 @@ void read_options(const Options& options, const Ranks& ranks, RenderJob& job) {
   check_exposure(options.exposure);
   if (!options.stats.empty() && options.stats != "true" && options.stats != "json")
     throw WrongUsage("--stats: takes nothing or =json (got " + options.stats + ")");
+  if (std::isnan(options.checkpoint_seconds))
+    throw WrongUsage("--checkpoint: must be a number of seconds (got nan)");
   if (options.aov) job.channels = parse_data_channels(*options.aov);
   const std::vector<std::string>& outputs = options.image.outputs;
   if (options.aov && std::none_of(outputs.begin(), outputs.end(), keeps_planes))

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
+#include <optional>
 
 #include "core/shape/convert.h"
 #include "renderer/camera.h"
@@ -22,7 +23,7 @@ struct Options {
   std::string scene;
   std::vector<int> pixel;
   std::string object;
-  std::string svg;
+  std::optional<std::string> svg;
   std::string precision = "double";
   std::string solver = "auto";
   bool json = false;
@@ -66,7 +67,7 @@ void trace(const Options& options) {
   if (x < 0 || y < 0 || x >= size.width || y >= size.height)
     throw WrongUsage("trace: --pixel must be within 0,0 and " + std::to_string(size.width - 1) +
                      "," + std::to_string(size.height - 1));
-  if (!options.svg.empty()) check_writable(options.svg);
+  if (options.svg) check_writable(*options.svg);
   const Ray<double> through = Camera(scene.camera, size).ray(x + 0.5, y + 0.5);
   const Ray<T> ray{through.origin.template cast<T>(), through.direction.template cast<T>()};
   CastOptions<T> cast;
@@ -85,9 +86,9 @@ void trace(const Options& options) {
   if (chosen == shapes.size()) throw BadInput(options.scene + ": has no objects");
   const CastTrace<T> result = trace_ray(shapes[chosen], ray, cast);
 
-  if (!options.svg.empty()) {
+  if (options.svg) {
     const std::string svg = trace_svg(result, shapes[chosen]);
-    write_file(options.svg,
+    write_file(*options.svg,
                std::span(reinterpret_cast<const unsigned char*>(svg.data()), svg.size()));
   }
   const double t = double(result.result.t_base) + double(result.result.t_offset);

@@ -174,7 +174,14 @@ std::optional<Json> parse_json(std::string_view text, Mistakes& mistakes) {
   std::string repaired(text);
   for (int replacements = 0;; ++replacements) {
     TreeBuilder tree(mistakes);
-    if (Json::sax_parse(repaired, &tree)) return tree.take_root();
+    if (Json::sax_parse(repaired, &tree)) {
+      // nlohmann-json takes a zero byte for the end of the text.
+      const std::size_t zero = repaired.find('\0');
+      if (zero == std::string::npos) return tree.take_root();
+      mistakes.add(
+          {}, "not valid JSON at line:column " + line_and_column(repaired, zero) + ": a zero byte");
+      return std::nullopt;
+    }
 
     if (tree.too_deep) {
       mistakes.add(tree.path(), "must not be nested more than " +

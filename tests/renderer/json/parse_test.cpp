@@ -47,6 +47,8 @@ TEST(ParseJson, text_that_is_not_json_is_told_with_its_line_and_column) {
             0u);
   EXPECT_EQ(only("").find("x: /: not valid JSON at line:column 1:1: "), 0u);
   EXPECT_EQ(only("{} {}").find("x: /: not valid JSON at line:column 1:"), 0u);
+  EXPECT_EQ(only(std::string_view("{}\n\0", 4)),
+            "x: /: not valid JSON at line:column 2:1: a zero byte");
   EXPECT_EQ(only("[1,]").find("x: /1: not valid JSON"), 0u);
   EXPECT_NE(only("[\"a\xff\"]").find("UTF-8"), std::string::npos);
   // Nothing of the broken text reaches the terminal as it is.

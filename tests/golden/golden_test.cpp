@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+// Pictures have the same bits for any number of threads and any split into tiles and shares of the
+// samples, and the bits that hashes.txt records. `./run golden` records them anew.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include "renderer/exr.h"
+#include "renderer/hash.h"
+#include "tests/support/program.h"
+#include "tests/support/source_files.h"
+
+namespace minkray {
+namespace {
+
+/// What rounds: the compiler that built the tests, and the C library whose sin and exp are called.
+/// Another machine may make other last bits; there the pictures are only compared with each other.
+std::string build_name() {
+  return "gcc-" + std::to_string(__GNUC__) + " glibc-" + std::to_string(__GLIBC__) + "." +
+         std::to_string(__GLIBC_MINOR__);
+}
+#if defined(__clang__)
+constexpr bool is_gcc = false;
+#else
+constexpr bool is_gcc = true;
+#endif
+
+std::string hash_file() {
+  return (source_folder() / "tests/golden/hashes.txt").string();
+}
+
+struct Recorded {
+  std::string build;
+  std::map<std::string, std::string> hashes;  ///< by name and part of the picture
+};
+
+/// The file's lines: `build NAME...`, then `PICTURE PART HASH`; # begins a comment.
+Recorded read_recorded() {
+  Recorded recorded;
+  std::istringstream lines(text_of_file(hash_file()));
+  for (std::string line; std::getline(lines, line);) {
+    if (line.empty() || line.front() == '#') continue;
+    if (line.starts_with("build ")) {
+      recorded.build = line.substr(6);
+      continue;
+    }
+    const std::size_t space = line.rfind(' ');
+    recorded.hashes[line.substr(0, space)] = line.substr(space + 1);
+  }
+  return recorded;
+}
+
+/// The colours, and each data channel by itself: what has changed is told. The header is left out:
+/// it says when and how the picture was made.
+std::map<std::string, std::string> hashes_of(const std::string& file) {
+  std::map<std::string, std::string> hashes;
+  for (const ExrPlane& plane : read_exr(file).planes) {
+    Hash hash;
+    std::visit(
+        [&](const auto& values) {
+          hash.add({reinterpret_cast<const char*>(values.data()),
+                    values.size() * sizeof(values.front())});
+        },
+        plane.values);
+    hashes[plane.name] = hash.text();
+  }
+  return hashes;
+}
+
+struct Picture {
+  const char* name;
+  const char* scene;  ///< a shell's words; $SCENES is the folder of scenes
+  const char* options;
+};
+
+constexpr Picture pictures[] = {
+    {"showcase", "$SCENES/showcase.json", "-r 96x54 -s 4"},
+    {"shape-zoo", "$SCENES/shape-zoo.json", "-r 96x54 -s 2 --aov all"},
+    {"boxes", "$SCENES/rounded-boxes-10k.json", "-r 64x48 -s 2 --bounces 2 --aov all"},
+    {"particles", "particles.json", "-r 64x48 -s 2 --aov all"},
+};
+
+/// One way of many to make the same picture: $1 is the scene, $2 the file, $3... the options. Other
+/// widths of packets belong here once the command line can choose them.
+struct Way {
+  const char* name;
+  const char* script;
+};
+
+constexpr Way ways[] = {
+    {"2 threads", "\"$MINKRAY\" render \"$scene\" -q -o \"$out\" -t 2 $options"},
+    {"7 threads", "\"$MINKRAY\" render \"$scene\" -q -o \"$out\" -t 7 $options"},
+    {"5 tiles",
+     "for i in 1 2 3 4 5; do \"$MINKRAY\" render \"$scene\" -q -o tile-$i.exr --tile $i/5 $options "
+     "|| exit 1; done; \"$MINKRAY\" merge tile-?.exr -o \"$out\"; code=$?; rm tile-?.exr; exit "
+     "$code"},
+};
+/// Data channels do not go with shares of the samples.
+constexpr Way shares = {
+    "2 shares of the samples, 2 tiles",
+    "for i in 1 2; do for j in 1 2; do \"$MINKRAY\" render \"$scene\" -q -o share-$i$j.exr --tile "
+    "$i/2 --sample-share $j/2 $options || exit 1; done; done; \"$MINKRAY\" merge share-??.exr -o "
+    "\"$out\"; code=$?; rm share-??.exr; exit $code"};
+
+class Golden : public testing::TestWithParam<Picture> {
+ protected:
+  Golden() {
+    EXPECT_EQ(run_shell("cd '" + (folder_ / ".") +
+                        "' && \"$MINKRAY\" generate capsules -n 2000 --seed 3 -o particles.json")
+                  .exit_code,
+              0);
+  }
+
+  std::map<std::string, std::string> made(const Way& way, const std::string& options) const {
+    const std::string scenes = (source_folder() / "scenes").string();
+    const ProgramOutcome outcome =
+        run_shell("cd '" + (folder_ / ".") + "' || exit 99; SCENES='" + scenes + "'; scene=\"" +
+                  GetParam().scene + "\"; options='" + options + "'; out=a.exr\n" + way.script);
+    EXPECT_EQ(outcome.exit_code, 0) << way.name << ": " << outcome.err;
+    return outcome.exit_code == 0 ? hashes_of(folder_ / "a.exr")
+                                  : std::map<std::string, std::string>{};
+  }
+
+  TemporaryFolder folder_;
+};
+
+constexpr Way one_thread = {"1 thread",
+                            "\"$MINKRAY\" render \"$scene\" -q -o \"$out\" -t 1 $options"};
+
+/// Adds the picture's lines to the file, in place of those that were there.
+void record(const std::string& picture, const std::map<std::string, std::string>& hashes) {
+  Recorded recorded = read_recorded();
+  std::erase_if(recorded.hashes,
+                [&](const auto& entry) { return entry.first.starts_with(picture + " "); });
+  for (const auto& [part, hash] : hashes) recorded.hashes[picture + " " + part] = hash;
+  std::ofstream out(hash_file());
+  out << "# What the pictures of golden_test.cpp have been; made anew by `./run golden`. Change "
+         "this "
+         "file\n# only with a change that is meant to change pictures, and say so there.\nbuild "
+      << build_name() << '\n';
+  for (const auto& [name, hash] : recorded.hashes) out << name << ' ' << hash << '\n';
+}
+
+TEST_P(Golden, the_same_bits_in_every_way_and_as_recorded) {
+  const std::string name = GetParam().name, options = GetParam().options;
+  const auto first = made(one_thread, options);
+  ASSERT_GE(first.size(), 3u);
+  for (const Way& way : ways) EXPECT_EQ(made(way, options), first) << way.name;
+  const std::string colours = options.substr(0, options.find(" --aov"));
+  const auto in_shares = made(shares, colours);
+  for (const char* colour : {"R", "G", "B"})
+    EXPECT_EQ(in_shares.contains(colour) ? in_shares.at(colour) : "none", first.at(colour))
+        << shares.name << ", " << colour;
+  if (std::getenv("MINKRAY_RECORD_GOLDEN") != nullptr) return record(name, first);
+
+  const Recorded recorded = read_recorded();
+  if (!is_gcc || recorded.build != build_name())
+    GTEST_SKIP() << "recorded with " << recorded.build << ": other last bits are no mistake";
+  for (const auto& [part, hash] : first) {
+    const auto found = recorded.hashes.find(name + " " + part);
+    ASSERT_NE(found, recorded.hashes.end()) << part << ": not recorded; ./run golden";
+    EXPECT_EQ(hash, found->second) << part << " of " << name << " has changed";
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Pictures, Golden, testing::ValuesIn(pictures), [](const auto& instance) {
+  std::string name = instance.param.name;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+});
+
+}  // namespace
+}  // namespace minkray
