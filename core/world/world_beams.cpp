@@ -49,6 +49,7 @@ bool runs_apart(const Ray<T>& a, const SlabRay& slabs_a, const Ray<T>& b, const 
 template <class T, class OnGroup, class OnSingle>
 void in_groups(std::span<const WorldRay<T>> rays, std::array<SlabRay, capacity>& slabs,
                const OnGroup& on_group, const OnSingle& on_single) {
+  if (rays.empty()) return;
   for (std::size_t i = 0; i < rays.size(); ++i) slabs[i] = SlabRay(rays[i].ray);
   Group group;
   for (BeamRays open = ~BeamRays(0) >> (capacity - rays.size()); open != 0;) {

@@ -108,6 +108,24 @@ TYPED_TEST(WorldBeamsOf, answers_are_those_of_single_rays) {
   EXPECT_LT(together.nodes, alone.nodes);
 }
 
+TYPED_TEST(WorldBeamsOf, no_rays_and_no_world) {
+  using T = TypeParam;
+  Random<T> random;
+  const World<T> world(scattered_shapes(20, random)), empty;
+  QueryCounts counts;
+  EXPECT_EQ(world.occluded(std::span<const WorldRay<T>>(), counts), 0u);
+  world.closest_hits({}, {}, counts);
+  EXPECT_EQ(counts.nodes, 0u);
+  const auto asked = bundle<T>(random, 0, 8, 1);
+  std::vector<WorldHit<T>> answers(asked.size());
+  empty.closest_hits(asked, answers, counts);
+  EXPECT_EQ(empty.occluded(asked, counts), 0u);
+  for (const WorldHit<T>& hit : answers) {
+    EXPECT_FALSE(hit.found());
+    EXPECT_EQ(hit.cast.status, Status::miss);
+  }
+}
+
 TYPED_TEST(WorldBeamsOf, of_instances_at_the_same_t_the_first_is_met) {
   using T = TypeParam;
   Random<T> random;
