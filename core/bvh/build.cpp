@@ -1,281 +1,199 @@
 // SPDX-License-Identifier: MIT
-// The builder: top down, 16 bins on each of the three axes, in place. Subtrees are built at once on
-// several threads; where a subtree's nodes go depends on the numbers of primitives alone, so that
-// the result does not depend on who came first.
+// The builder: from the root down, each node at once with all of its children (Wald, Benthin and
+// Boulos, "Getting Rid of Packets", 2008): its range is split in two, the heaviest part again,
+// until all places are taken. Large subtrees are built at once on several threads, each into nodes
+// of its own, which are put together in the order of the tree: the result does not depend on who
+// came first.
 #include <algorithm>
 #include <array>
-#include <atomic>
-#include <cmath>
+#include <memory>
 
 #include "core/bvh/bvh.h"
+#include "core/bvh/split.h"
 #include "core/parallel/parallel.h"
 
 namespace minkray {
 namespace {
 
-constexpr std::size_t bin_count = 16;
-
-/// What testing a primitive costs, in units of visiting a node: a cast takes several support
-/// points, each about as dear as a node. Leaves of several primitives are therefore rare.
-constexpr double primitive_cost = 8;
-constexpr std::size_t max_leaf_size = 8;
-
-/// From this depth on ranges are split into halves, which takes at most 32 levels more.
-constexpr int sah_depth = bvh_max_depth - 34;
-
 /// Ranges at least as large are worth a second thread.
 constexpr std::size_t parallel_size = 4096;
 
-struct Box {
-  std::array<float, 3> lower = {INFINITY, INFINITY, INFINITY};
-  std::array<float, 3> upper = {-INFINITY, -INFINITY, -INFINITY};
-
-  void extend(const Box& other) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      lower[i] = std::min(lower[i], other.lower[i]);
-      upper[i] = std::max(upper[i], other.upper[i]);
-    }
-  }
-
-  /// Half of the surface; in double, which float extents cannot overflow.
-  double area() const {
-    const auto extent = [&](std::size_t i) { return double(upper[i]) - double(lower[i]); };
-    return extent(0) * extent(1) + extent(1) * extent(2) + extent(2) * extent(0);
-  }
-};
-
-struct Primitive {
-  Box box;
-  std::uint32_t index;
-
-  /// Twice the middle, and never NaN.
-  float middle(std::size_t axis) const {
-    const float sum = box.lower[axis] + box.upper[axis];
-    return std::isfinite(sum) ? sum : 0.0f;
-  }
-};
-
-struct Bin {
-  Box box;
+/// The parts that a node's range is split into.
+struct Parts {
+  std::array<BuildRange, bvh_width> ranges;
   std::size_t count = 0;
 
-  void extend(const Bin& other) {
-    box.extend(other.box);
-    count += other.count;
-  }
-};
-using Bins = std::array<std::array<Bin, bin_count>, 3>;
-
-/// The boxes of a range: of the primitives, and of their (doubled) middles.
-struct Extent {
-  Box box;
-  Box middles;
-
-  void extend(const Extent& other) {
-    box.extend(other.box);
-    middles.extend(other.middles);
+  /// Of the ranges that may be chosen the one of the greatest weight; count if none may.
+  template <class MayBe, class Weight>
+  std::size_t heaviest(const MayBe& may_be, const Weight& weight) const {
+    std::size_t best = count;
+    for (std::size_t i = 0; i < count; ++i)
+      if (may_be(ranges[i]) && (best == count || weight(ranges[i]) > weight(ranges[best])))
+        best = i;
+    return best;
   }
 };
 
-/// Where a primitive's middle falls among the bins of a range.
-struct Binning {
-  std::array<float, 3> lower;
-  std::array<float, 3> scale;
+/// A piece of the hierarchy that one thread has built: nodes[0] is its root, and children are
+/// counted from there. In a large piece the root stands alone, and its children are pieces.
+struct Piece {
+  std::vector<BvhNode> nodes;
+  std::vector<std::pair<int, std::unique_ptr<Piece>>>
+      below;  ///< with the child's place in the root
+  BuildBox box;
 
-  explicit Binning(const Box& middles) : lower(middles.lower) {
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      scale[axis] = static_cast<float>(bin_count) / (middles.upper[axis] - lower[axis]);
-  }
-
-  std::size_t operator()(const Primitive& primitive, std::size_t axis) const {
-    const float at = (primitive.middle(axis) - lower[axis]) * scale[axis];
-    // NaN (no extent at all) must fall through to the first bin.
-    return at > 0.0f
-               ? std::min(static_cast<std::size_t>(std::min(at, float(bin_count))), bin_count - 1)
-               : 0;
+  std::size_t node_count() const {
+    std::size_t count = nodes.size();
+    for (const auto& [child, piece] : below) count += piece->node_count();
+    return count;
   }
 };
 
-struct Split {
-  double cost = std::numeric_limits<double>::infinity();  ///< sum of area * count over both sides
-  std::size_t axis = 0;
-  std::size_t bin = 0;  ///< the first bin of the right side
-};
-
-Box box_of(const Bounds<float>& bounds) {
-  return {{bounds.lower.x(), bounds.lower.y(), bounds.lower.z()},
-          {bounds.upper.x(), bounds.upper.y(), bounds.upper.z()}};
-}
-
+template <class Splitter>
 class Builder {
  public:
-  template <class T>
-  explicit Builder(std::span<const Bounds<T>> boxes)
-      : primitives_(boxes.size()), nodes_(2 * boxes.size() - 1) {
-    for_parts(boxes.size(), parallel_size, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i)
-        primitives_[i] = {box_of(rounded_outwards(boxes[i])), static_cast<std::uint32_t>(i)};
-    });
-  }
+  Builder(std::span<const Primitive> primitives, const Splitter& splitter)
+      : primitives_(primitives), splitter_(splitter) {}
 
-  Bvh build() {
-    build_node(0, 1, 0, primitives_.size(), 0);
-    Bvh bvh;
-    bvh.primitives.reserve(primitives_.size());
-    for (const Primitive& primitive : primitives_) bvh.primitives.push_back(primitive.index);
-    // Before the nodes are there twice: of millions of primitives, memory is at its highest here.
-    primitives_ = {};
-    bvh.nodes = without_gaps();
-    return bvh;
+  std::unique_ptr<Piece> build(const BuildRange& range) const {
+    auto piece = std::make_unique<Piece>();
+    if (range.count() < parallel_size) {
+      piece->nodes.reserve(range.count() / 3 + 1);
+      piece->box = append(range, piece->nodes);
+      return piece;
+    }
+    const Parts parts = parts_of(range);
+    std::array<std::unique_ptr<Piece>, bvh_width> built;
+    for_parts(parts.count, 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i)
+        if (parts.ranges[i].count() > 1) built[i] = build(parts.ranges[i]);
+    });
+    BvhNode root = empty_node();
+    for (std::size_t i = 0; i < parts.count; ++i) {
+      const int child = static_cast<int>(i);
+      const BuildBox box = built[i] ? built[i]->box : primitives_[parts.ranges[i].begin].box;
+      root.set(child, box.bounds(), leaf_of(parts.ranges[i].begin));
+      piece->box.extend(box);
+      if (built[i]) piece->below.emplace_back(child, std::move(built[i]));
+    }
+    piece->nodes.push_back(root);
+    return piece;
   }
 
  private:
-  /// Builds the node `at` of the primitives [begin, end); its descendants, at most
-  /// 2 (end - begin) - 2, go to free_nodes and behind.
-  void build_node(std::size_t at, std::size_t free_nodes, std::size_t begin, std::size_t end,
-                  int depth) {
-    const std::size_t count = end - begin;
-    const Extent extent = extent_of(begin, end);
-    BvhNode& node = nodes_[at];
-    for (std::size_t i = 0; i < 3; ++i) {
-      node.planes[0][i] = extent.box.lower[i];
-      node.planes[1][i] = extent.box.upper[i];
-    }
-    node.first = static_cast<std::uint32_t>(begin);
-    node.count = static_cast<std::uint32_t>(count);
-    if (count == 1) return;
-
-    std::size_t middle = begin;
-    if (depth < sah_depth) {
-      const Binning binning(extent.middles);
-      const Split split = best_split(binning, begin, end);
-      const double area = extent.box.area();
-      if (count <= max_leaf_size &&
-          !(area + primitive_cost * split.cost < primitive_cost * area * double(count)))
-        return;
-      const auto first_right =
-          std::partition(primitives_.begin() + offset(begin), primitives_.begin() + offset(end),
-                         [&](const Primitive& p) { return binning(p, split.axis) < split.bin; });
-      middle = static_cast<std::size_t>(first_right - primitives_.begin());
-    }
-    // Nothing to choose between (all in one place), or too deep: halves.
-    if (middle == begin || middle == end) middle = begin + count / 2;
-
-    node.first = static_cast<std::uint32_t>(free_nodes);
-    node.count = 0;
-    node_count_.fetch_add(2, std::memory_order_relaxed);
-    const std::size_t left = free_nodes, right = free_nodes + 1;
-    const std::size_t free_left = free_nodes + 2, free_right = free_left + 2 * (middle - begin) - 2;
-    const auto build_left = [&] { build_node(left, free_left, begin, middle, depth + 1); };
-    const auto build_right = [&] { build_node(right, free_right, middle, end, depth + 1); };
-    if (count >= parallel_size) {
-      run_both(build_left, build_right);
-    } else {
-      build_left();
-      build_right();
-    }
-  }
-
-  /// fold(result, i) for all i of a range, in parts; results of parts are joined in their order.
-  template <class Result, class Fold>
-  static Result folded(std::size_t begin, std::size_t end, const Fold& fold) {
-    if (end - begin < 4 * parallel_size) {
-      Result result;
-      for (std::size_t i = begin; i < end; ++i) fold(result, i);
-      return result;
-    }
-    constexpr std::size_t part_size = 2 * parallel_size;
-    const std::size_t part_count = (end - begin + part_size - 1) / part_size;
-    std::vector<Result> parts(part_count);
-    for_parts(part_count, 1, [&](std::size_t first, std::size_t last) {
-      for (std::size_t part = first; part < last; ++part)
-        for (std::size_t i = begin + part * part_size;
-             i < std::min(begin + (part + 1) * part_size, end); ++i)
-          fold(parts[part], i);
-    });
-    Result result;
-    for (const Result& part : parts) join(result, part);
-    return result;
-  }
-
-  static void join(Extent& extent, const Extent& other) { extent.extend(other); }
-  static void join(Bins& bins, const Bins& others) {
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      for (std::size_t i = 0; i < bin_count; ++i) bins[axis][i].extend(others[axis][i]);
-  }
-
-  Extent extent_of(std::size_t begin, std::size_t end) const {
-    return folded<Extent>(begin, end, [&](Extent& extent, std::size_t i) {
-      const Primitive& primitive = primitives_[i];
-      extent.box.extend(primitive.box);
-      Box middle;
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        middle.lower[axis] = middle.upper[axis] = primitive.middle(axis);
-      extent.middles.extend(middle);
-    });
-  }
-
-  Split best_split(const Binning& binning, std::size_t begin, std::size_t end) const {
-    const Bins bins = folded<Bins>(begin, end, [&](Bins& into, std::size_t i) {
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        into[axis][binning(primitives_[i], axis)].extend(Bin{primitives_[i].box, 1});
-    });
-    Split best;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      std::array<double, bin_count> right_costs;
-      Bin right;
-      for (std::size_t i = bin_count; i-- > 1;) {
-        right.extend(bins[axis][i]);
-        right_costs[i] = right.count == 0 ? 0 : right.box.area() * double(right.count);
+  /// Appends the nodes of a range, the root first, and answers its box.
+  BuildBox append(const BuildRange& range, std::vector<BvhNode>& nodes) const {
+    const std::size_t at = nodes.size();
+    nodes.push_back(empty_node());
+    const Parts parts = parts_of(range);
+    BuildBox whole;
+    for (std::size_t i = 0; i < parts.count; ++i) {
+      const BuildRange& part = parts.ranges[i];
+      std::uint32_t what = leaf_of(part.begin);
+      BuildBox box = primitives_[part.begin].box;
+      if (part.count() > 1) {
+        what = static_cast<std::uint32_t>(nodes.size());
+        box = append(part, nodes);
       }
-      Bin left;
-      for (std::size_t i = 1; i < bin_count; ++i) {
-        left.extend(bins[axis][i - 1]);
-        if (left.count == 0 || left.count == end - begin) continue;
-        const double cost = left.box.area() * double(left.count) + right_costs[i];
-        if (cost < best.cost) best = {cost, axis, i};
-      }
+      nodes[at].set(static_cast<int>(i), box.bounds(), what);
+      whole.extend(box);
     }
-    return best;
+    return whole;
   }
 
-  /// The nodes without the room that leaves of several primitives left, siblings side by side,
-  /// parents before children.
-  std::vector<BvhNode> without_gaps() const {
-    std::vector<BvhNode> packed;
-    packed.reserve(node_count_);
-    packed.push_back(nodes_[0]);
-    std::vector<std::size_t> open = {0};  // packed nodes whose children are still to come
-    while (!open.empty()) {
-      BvhNode& parent = packed[open.back()];
-      open.pop_back();
-      if (parent.is_leaf()) continue;
-      const std::size_t from = parent.first, to = packed.size();
-      parent.first = static_cast<std::uint32_t>(to);
-      packed.push_back(nodes_[from]);
-      packed.push_back(nodes_[from + 1]);
-      open.push_back(to + 1);
-      open.push_back(to);
+  Parts parts_of(const BuildRange& range) const {
+    constexpr std::size_t width = bvh_width;
+    Parts parts;
+    const auto add_all = [&](const BuildRange& of) {
+      for (std::size_t i = of.begin; i < of.end; ++i)
+        parts.ranges[parts.count++] = {i, i + 1, of.depth + 1, {}};
+    };
+    if (range.count() <= width) {
+      add_all(range);
+      return parts;
     }
-    return packed;
+    parts.ranges[parts.count++] = range;
+    while (parts.count < width) {
+      // Ranges that fill no more than a node stay together.
+      const std::size_t i =
+          parts.heaviest([](const BuildRange& r) { return r.count() > width; }, Splitter::weight);
+      if (i == parts.count) break;
+      const BuildHalves halves = splitter_.split(parts.ranges[i]);
+      parts.ranges[i] = halves.left;
+      parts.ranges[parts.count++] = halves.right;
+    }
+    // What would be a node of its own, but finds room here.
+    for (;;) {
+      const std::size_t free = width - parts.count;
+      const std::size_t i = parts.heaviest(
+          [&](const BuildRange& r) { return r.count() > 1 && r.count() <= free + 1; },
+          Splitter::weight);
+      if (i == parts.count) return parts;
+      const BuildRange inlined = parts.ranges[i];
+      parts.ranges[i] = parts.ranges[--parts.count];
+      add_all(inlined);
+    }
   }
 
-  static std::ptrdiff_t offset(std::size_t i) { return static_cast<std::ptrdiff_t>(i); }
+  std::uint32_t leaf_of(std::size_t primitive) const {
+    return BvhNode::leaf | primitives_[primitive].index();
+  }
 
-  std::vector<Primitive> primitives_;
-  std::vector<BvhNode> nodes_;
-  std::atomic<std::size_t> node_count_ = 1;
+  static BvhNode empty_node() {
+    BvhNode node;
+    for (int child = 0; child < bvh_width; ++child) node.set(child, {}, BvhNode::none);
+    return node;
+  }
+
+  std::span<const Primitive> primitives_;
+  const Splitter& splitter_;
 };
+
+/// Puts the nodes of a piece to `begin` and behind, and frees the piece.
+void put(std::unique_ptr<Piece> piece, std::vector<BvhNode>& nodes, std::size_t begin) {
+  for (std::size_t i = 0; i < piece->nodes.size(); ++i) {
+    BvhNode& node = nodes[begin + i] = piece->nodes[i];
+    for (std::uint32_t& child : node.children)
+      if (!(child & BvhNode::leaf)) child += static_cast<std::uint32_t>(begin);
+  }
+  std::vector<std::size_t> begins;
+  std::size_t next = begin + piece->nodes.size();
+  for (const auto& [child, below] : piece->below) {
+    nodes[begin].children[child] = static_cast<std::uint32_t>(next);
+    begins.push_back(next);
+    next += below->node_count();
+  }
+  for_parts(piece->below.size(), 1, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+      put(std::move(piece->below[i].second), nodes, begins[i]);
+  });
+}
+
+std::unique_ptr<Piece> built(std::vector<Primitive>& primitives, BvhBuild build) {
+  if (build == BvhBuild::speed) {
+    const CurveSplitter splitter(primitives);
+    return Builder<CurveSplitter>(primitives, splitter).build(splitter.whole());
+  }
+  const AreaSplitter splitter(primitives);
+  return Builder<AreaSplitter>(primitives, splitter).build(splitter.whole());
+}
 
 }  // namespace
 
-template <class T>
-Bvh build_bvh(std::span<const Bounds<T>> boxes) {
-  if (boxes.empty()) return {};
-  return Builder(boxes).build();
+Bvh build_bvh(std::span<const Bounds<float>> boxes, BvhBuild build) {
+  Bvh bvh;
+  if (boxes.empty()) return bvh;
+  std::vector<Primitive> primitives(boxes.size());
+  for_parts(boxes.size(), parallel_size, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      primitives[i] = Primitive(boxes[i], static_cast<std::uint32_t>(i));
+  });
+  std::unique_ptr<Piece> whole = built(primitives, build);
+  // Before the nodes are there twice: of millions of primitives, memory is at its highest here.
+  primitives = {};
+  bvh.nodes.resize(whole->node_count());
+  put(std::move(whole), bvh.nodes, 0);
+  return bvh;
 }
-
-template Bvh build_bvh(std::span<const Bounds<float>>);
-template Bvh build_bvh(std::span<const Bounds<double>>);
 
 }  // namespace minkray

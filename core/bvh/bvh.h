@@ -10,37 +10,67 @@
 
 namespace minkray {
 
-/// 32 bytes whatever the scalar of the rays: boxes are rounded outwards to float, which costs at
-/// most a few visits more, and rays are tested in their own scalar.
-struct BvhNode {
-  float planes[2][3];   ///< lower corner, upper corner
-  std::uint32_t first;  ///< leaf: into Bvh::primitives; else the left child, the right one follows
-  std::uint32_t count;  ///< how many primitives a leaf has; 0: not a leaf
+/// Children of a node: as many boxes as fill a register of AVX2.
+inline constexpr int bvh_width = 8;
 
-  bool is_leaf() const { return count != 0; }
+/// Up to eight boxes, coordinate by coordinate, and what is in each. Boxes are rounded outwards to
+/// float whatever the scalar of the rays, which costs at most a few visits more.
+struct alignas(32) BvhNode {
+  /// No such child: the box is empty, and so are all that follow.
+  static constexpr std::uint32_t none = ~std::uint32_t{0};
+  /// In a child: it is one of the boxes that the hierarchy was built of, the rest is its index;
+  /// otherwise it is a node.
+  static constexpr std::uint32_t leaf = std::uint32_t{1} << 31;
+
+  float planes[2][3][bvh_width];  ///< lower corners, upper corners
+  std::uint32_t children[bvh_width];
+
+  Bounds<float> box(int child) const {
+    const auto at = [&](int corner) {
+      const auto& from = planes[corner];
+      return Vec3<float>(from[0][child], from[1][child], from[2][child]);
+    };
+    return {at(0), at(1)};
+  }
+  void set(int child, const Bounds<float>& box, std::uint32_t what) {
+    for (int axis = 0; axis < 3; ++axis) {
+      planes[0][axis][child] = box.lower[axis];
+      planes[1][axis][child] = box.upper[axis];
+    }
+    children[child] = what;
+  }
 };
-static_assert(sizeof(BvhNode) == 32);
+static_assert(sizeof(BvhNode) == 224);
 
-/// Node 0 is the root; no nodes at all if there are no primitives.
+/// Node 0 is the root; no nodes at all if there are no boxes. Children follow their parents.
 struct Bvh {
   std::vector<BvhNode> nodes;
-  std::vector<std::uint32_t> primitives;  ///< indices of the boxes, in the order of the leaves
 
-  std::size_t bytes() const {
-    return nodes.capacity() * sizeof(BvhNode) + primitives.capacity() * sizeof(std::uint32_t);
-  }
+  std::size_t bytes() const { return nodes.capacity() * sizeof(BvhNode); }
 };
 
 /// No path from the root is longer than this, whatever the boxes.
 inline constexpr int bvh_max_depth = 80;
 
-/// The hierarchy of boxes [0, count), by the surface area heuristic in bins (Wald, "On fast
-/// Construction of SAH-based Bounding Volume Hierarchies", 2007). The same for any number of
-/// threads. The boxes must not be empty; they may be flat, alike, or infinite.
-template <class T>
-Bvh build_bvh(std::span<const Bounds<T>> boxes);
+/// What to spend on a hierarchy (docs/decisions/wide-nodes.md has the numbers).
+enum class BvhBuild : unsigned char {
+  quality,  ///< by the surface area heuristic in bins (Wald 2007)
+  speed,    ///< along a space-filling curve (Lauterbach et al. 2009)
+};
 
-extern template Bvh build_bvh(std::span<const Bounds<float>>);
-extern template Bvh build_bvh(std::span<const Bounds<double>>);
+/// The hierarchy of boxes [0, count), which must be at most 2^30. The same for any number of
+/// threads. The boxes must not be empty; they may be flat, alike, or infinite.
+Bvh build_bvh(std::span<const Bounds<float>> boxes, BvhBuild build = BvhBuild::quality);
+
+/// The same hierarchy around other boxes: of things that have moved. The further they have moved
+/// against each other, the more rays visit too much; rays find the same as after a build anew.
+void refit(Bvh& bvh, std::span<const Bounds<float>> boxes);
+
+/// How many nodes, and how many boxes of leaves, a random line that meets the root's box visits:
+/// the sums of surface areas over that of the whole. What the surface area heuristic makes small.
+struct VisitEstimate {
+  double nodes = 0, leaves = 0;
+};
+VisitEstimate expected_visits(const Bvh& bvh);
 
 }  // namespace minkray

@@ -69,20 +69,32 @@ void Instances<T>::add_many(std::uint32_t definition, std::size_t count, bool li
     linear_.push_back({placement.to_inner, shape.bounds_of(pose_of(0)).half_extents().maxCoeff()});
   if (!linear_alike) linear_.resize(first_linear + count);
   for_parts(count, poses_a_part, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const Affine<T> pose = pose_of(i);
-      const auto placed = shape.placed(pose);
-      const Bounds<T> bounds = shape.bounds_of(pose);
-      boxes_[first + i] = rounded_outwards(padded(bounds));
-      std::uint32_t linear = identity;
-      if (!placed.is_rigid_identity) {
-        const std::size_t at = first_linear + (linear_alike ? 0 : i);
-        linear = static_cast<std::uint32_t>(at);
-        if (!linear_alike) linear_[at] = {placed.to_inner, bounds.half_extents().maxCoeff()};
-      }
-      places_[first + i] = {placed.centre, definition, linear};
-    }
+    for (std::size_t i = begin; i < end; ++i)
+      place(first + i, definition, pose_of(i), first_linear + (linear_alike ? 0 : i),
+            !linear_alike);
   });
+}
+
+template <class T>
+void Instances<T>::pose_all(const std::function<Affine<T>(std::size_t)>& pose_of) {
+  linear_.resize(places_.size());
+  boxes_.resize(places_.size());
+  for_parts(places_.size(), poses_a_part, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) place(i, places_[i].definition, pose_of(i), i, true);
+  });
+}
+
+template <class T>
+void Instances<T>::place(std::size_t i, std::uint32_t definition, const Affine<T>& pose,
+                         std::size_t linear, bool writes) {
+  const ShapeDefinition<T>& shape = *definitions_[definition];
+  const auto placed = shape.placed(pose);
+  const Bounds<T> bounds = shape.bounds_of(pose);
+  boxes_[i] = rounded_outwards(padded(bounds));
+  if (writes && !placed.is_rigid_identity)
+    linear_[linear] = {placed.to_inner, bounds.half_extents().maxCoeff()};
+  places_[i] = {placed.centre, definition,
+                placed.is_rigid_identity ? identity : static_cast<std::uint32_t>(linear)};
 }
 
 template <class T>

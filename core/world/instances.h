@@ -31,6 +31,10 @@ class Instances {
   void add_many(std::uint32_t definition, std::size_t count, bool linear_alike,
                 const std::function<Affine<T>(std::size_t)>& pose_of);
 
+  /// Moves every instance: the i-th to pose_of(i), which is asked from several threads at once.
+  /// There are boxes to take again.
+  void pose_all(const std::function<Affine<T>(std::size_t)>& pose_of);
+
   /// Room for so many more instances of `add`.
   void reserve(std::size_t count);
 
@@ -51,8 +55,8 @@ class Instances {
                : linear_[place.linear].half_extent;
   }
 
-  /// Boxes that hold the instances and what rounding makes of them; once, since they are given
-  /// away.
+  /// Boxes that hold the instances and what rounding makes of them; once after each change, since
+  /// they are given away.
   std::vector<Bounds<float>> take_boxes() { return std::exchange(boxes_, {}); }
 
   std::size_t definitions() const { return definitions_.size(); }
@@ -71,6 +75,10 @@ class Instances {
     Mat3<T> to_inner;
     T half_extent;
   };
+  /// Places the i-th instance; its linear part, unless it is the identity, is to be the given entry
+  /// of linear_, and is written there if `writes`.
+  void place(std::size_t i, std::uint32_t definition, const Affine<T>& pose, std::size_t linear,
+             bool writes);
 
   std::vector<std::shared_ptr<const ShapeDefinition<T>>> definitions_;
   std::vector<Place> places_;

@@ -19,29 +19,38 @@ CastResult<T> counted_cast(const PreparedShape<T>& shape, const Ray<T>& ray,
   return result;
 }
 
+/// Packets are cast with the default options only.
+template <class T>
+bool are_default(const CastOptions<T>& options) {
+  const CastOptions<T> standard;
+  return options.solver == standard.solver && options.eps_tol == standard.eps_tol &&
+         options.max_iterations == standard.max_iterations && options.v0 == standard.v0;
+}
+
 }  // namespace
 
 template <class T>
-World<T>::World(Instances<T> instances, const CastOptions<T>& options)
-    : instances_(std::move(instances)), options_(options) {
+World<T>::World(Instances<T> instances, const CastOptions<T>& options, BvhBuild build)
+    : instances_(std::move(instances)), options_(options), in_packets_(are_default(options)) {
   const std::vector<Bounds<float>> boxes = instances_.take_boxes();
-  bvh_ = build_bvh<float>(boxes);
+  bvh_ = build_bvh(boxes, build);
 }
 
+// Casts see the ray's own t_max, not that of the nearest hit so far: so their answers, and which of
+// them is the nearest, do not depend on the order of the boxes.
 template <class T>
 WorldHit<T> World<T>::closest_hit(const Ray<T>& ray, QueryCounts& counts,
                                   std::uint32_t skip) const {
   WorldHit<T> closest;
   closest.cast.status = Status::miss;
-  counts.nodes += traverse(bvh_, ray, [&](std::uint32_t instance, T& t_max) {
+  SlabRay slabs(ray);
+  counts.nodes += traverse(bvh_, slabs, [&](std::uint32_t instance) {
     if (instance == skip) return false;
-    const CastResult<T> result =
-        counted_cast(instances_.at(instance), {ray.origin, ray.direction, t_max}, options_, counts);
-    // Order matters: what is not clearly nearer is passed over.
-    if (!result.found() || !(result.t() < t_max || !closest.found())) return false;
+    const CastResult<T> result = counted_cast(instances_.at(instance), ray, options_, counts);
+    if (!result.found() || !closest.yields_to(instance, result.t())) return false;
     closest = {instance, result};
-    t_max = result.t();
-    return result.status == Status::inside;
+    slabs.numbers.t_max = slabs.limit(static_cast<double>(result.t()));
+    return false;
   });
   return closest;
 }
@@ -49,14 +58,19 @@ WorldHit<T> World<T>::closest_hit(const Ray<T>& ray, QueryCounts& counts,
 template <class T>
 bool World<T>::occluded(const Ray<T>& ray, QueryCounts& counts, std::uint32_t skip) const {
   bool met = false;
-  counts.nodes += traverse(bvh_, ray, [&](std::uint32_t instance, T& t_max) {
+  const SlabRay slabs(ray);
+  counts.nodes += traverse(bvh_, slabs, [&](std::uint32_t instance) {
     if (instance == skip) return false;
-    met =
-        counted_cast(instances_.at(instance), {ray.origin, ray.direction, t_max}, options_, counts)
-            .found();
+    met = counted_cast(instances_.at(instance), ray, options_, counts).found();
     return met;
   });
   return met;
+}
+
+template <class T>
+void World<T>::pose_all(const std::function<Affine<T>(std::size_t)>& pose_of) {
+  instances_.pose_all(pose_of);
+  refit(bvh_, instances_.take_boxes());
 }
 
 template class World<float>;

@@ -4,9 +4,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <limits>
-#include <vector>
+#include <span>
 
+#include "core/bvh/beam.h"
 #include "core/bvh/bvh.h"
 #include "core/math/ray.h"
 #include "core/solver/cast.h"
@@ -19,7 +21,7 @@ inline constexpr std::uint32_t no_instance = std::numeric_limits<std::uint32_t>:
 
 /// What queries cost, and how often a solver gave up. Adds up over rays.
 struct QueryCounts {
-  std::uint64_t nodes = 0;  ///< boxes tested
+  std::uint64_t nodes = 0;  ///< visited; by rays that go together, once for all of them
   std::uint64_t casts = 0;  ///< shapes cast at
   std::uint64_t iterations = 0;
   std::uint64_t supports = 0;
@@ -42,23 +44,53 @@ struct WorldHit {
   CastResult<T> cast;  ///< of that instance (status hit or inside); if none was met, status miss
 
   bool found() const { return instance != no_instance; }
+  /// Whether another instance, met at t, comes before this.
+  bool yields_to(std::uint32_t other, T t) const {
+    return !found() || t < cast.t() || (t == cast.t() && other < instance);
+  }
 };
 
-/// Immutable once made, so any number of threads may ask.
+/// A ray, and the instance that it leaves.
+template <class T>
+struct WorldRay {
+  Ray<T> ray;
+  std::uint32_t skip = no_instance;
+};
+
+/// So many rays can be asked for at once.
+inline constexpr int most_rays_at_once = beam_capacity;
+
+/// Immutable but for pose_all, so any number of threads may ask. An answer depends on nothing but
+/// the ray: the same bit for bit whether it is asked for alone or with others, and for whatever
+/// hierarchy.
 template <class T>
 class World {
  public:
   World() = default;
-  explicit World(Instances<T> instances, const CastOptions<T>& options = {});
+  explicit World(Instances<T> instances, const CastOptions<T>& options = {},
+                 BvhBuild build = BvhBuild::quality);
 
   /// The instance that the ray meets first, with 0 <= t <= t_max; where several are met at the same
-  /// t, one of them. `skip` is left out: a ray that leaves a convex shape does not meet it again.
-  /// Casts that exhaust their solver are counted and taken for neither: the caller must look.
+  /// t, that of the least index. `skip` is left out: a ray that leaves a convex shape does not meet
+  /// it again. Casts that exhaust their solver are counted and taken for neither: the caller must
+  /// look.
   WorldHit<T> closest_hit(const Ray<T>& ray, QueryCounts& counts,
                           std::uint32_t skip = no_instance) const;
 
   /// Whether any instance but `skip` is met with 0 <= t <= t_max.
   bool occluded(const Ray<T>& ray, QueryCounts& counts, std::uint32_t skip = no_instance) const;
+
+  /// The same for up to most_rays_at_once rays, faster the closer together they run. hits[i]
+  /// answers rays[i].
+  void closest_hits(std::span<const WorldRay<T>> rays, std::span<WorldHit<T>> hits,
+                    QueryCounts& counts) const;
+
+  /// Bit i answers rays[i].
+  BeamRays occluded(std::span<const WorldRay<T>> rays, QueryCounts& counts) const;
+
+  /// Moves all instances: the i-th to pose_of(i), which is asked from several threads at once. The
+  /// hierarchy stays the same tree.
+  void pose_all(const std::function<Affine<T>(std::size_t)>& pose_of);
 
   const Instances<T>& instances() const { return instances_; }
   const Bvh& bvh() const { return bvh_; }
@@ -71,6 +103,7 @@ class World {
   Instances<T> instances_;
   Bvh bvh_;
   CastOptions<T> options_;
+  bool in_packets_ = true;  ///< whether the options are those of packets
 };
 
 extern template class World<float>;

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+// Rays made ready for slab tests against boxes of floats, eight boxes or eight rays at a time. The
+// tests are padded after Ize, "Robust BVH Ray Traversal" (2013), so that rounding never loses a box
+// that the exact ray meets; a beam holds several rays and is tested once for all of them.
+//
+// Rays of any scalar are tested in float. What float cannot hold is rounded to the safe side: the
+// origin towards where the first planes come earlier and the last ones later. Along the ray, t is
+// counted in steps of a power of two so large that the direction's largest component is about 1:
+// directions of any length stay in range.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "core/math/ray.h"
+
+namespace minkray {
+
+/// What a slab test needs to know of a ray, or of a beam. Planes are met first (near) or last
+/// (far); which of a box's planes is the near one is the same for all rays of a beam.
+struct SlabNumbers {
+  float origin_near[3], origin_far[3];
+  float inverse_near[3], inverse_far[3];  ///< 1 / direction: infinite where there is no component
+  float t_max;                            ///< in steps; negative: meets nothing
+  int near[3];                            ///< 0: the lower plane, 1: the upper one
+};
+
+/// (plane - origin) * inverse is rounded three times: relative error gamma = 3u / (1 - 3u), u half
+/// the machine epsilon. Twice that, for two planes compared with each other, and one more rounding
+/// for the product: 1 + 2 gamma + u < 1 + 4 epsilon.
+inline constexpr float beam_padding = 1 + 4 * std::numeric_limits<float>::epsilon();
+
+/// Hit parameters are rounded when they are found and when they are brought to steps: boxes are
+/// still entered so much behind a hit.
+inline constexpr float hit_padding = 1 + 32 * std::numeric_limits<float>::epsilon();
+
+/// What is lost where numbers are too small to have all digits.
+inline constexpr float beam_tiny = std::numeric_limits<float>::min();
+
+namespace detail {
+
+inline float next_above(float x) {
+  if (x == 0) return std::numeric_limits<float>::denorm_min();
+  const auto bits = std::bit_cast<std::int32_t>(x);
+  return x == std::numeric_limits<float>::infinity()
+             ? x
+             : std::bit_cast<float>(x > 0 ? bits + 1 : bits - 1);
+}
+inline float float_above(double x) {
+  const auto nearest = static_cast<float>(x);
+  return static_cast<double>(nearest) < x ? next_above(nearest) : nearest;
+}
+inline float float_below(double x) {
+  return -float_above(-x);
+}
+
+}  // namespace detail
+
+/// The numbers of a ray, and how long a step is.
+struct SlabRay {
+  SlabNumbers numbers;
+  double steps;  ///< so many steps are t = 1
+
+  SlabRay() = default;
+  /// Origin and direction must be finite; components of the direction may be zero (also -0), all of
+  /// them too: such a ray is a single point.
+  template <class T>
+  explicit SlabRay(const Ray<T>& ray) {
+    const double largest = static_cast<double>(ray.direction.cwiseAbs().maxCoeff());
+    int exponent = 0;
+    if (largest > 0 && !(largest >= 0.5 && largest < 2)) std::frexp(largest, &exponent);
+    steps = std::ldexp(1.0, exponent);
+    for (int axis = 0; axis < 3; ++axis) {
+      const double d = exponent == 0
+                           ? static_cast<double>(ray.direction[axis])
+                           : std::ldexp(static_cast<double>(ray.direction[axis]), -exponent);
+      const bool down = std::signbit(d);
+      const double inverse = 1 / d;
+      const auto o = static_cast<double>(ray.origin[axis]);
+      const float above = detail::float_above(o), below = detail::float_below(o);
+      numbers.near[axis] = down ? 1 : 0;
+      numbers.origin_near[axis] = down ? below : above;
+      numbers.origin_far[axis] = down ? above : below;
+      numbers.inverse_near[axis] = numbers.inverse_far[axis] = static_cast<float>(inverse);
+      // Too large for float, but not without end.
+      constexpr float most = std::numeric_limits<float>::max();
+      if (d != 0 && !(std::abs(numbers.inverse_near[axis]) <= most))
+        numbers.inverse_near[axis] = down ? -most : most;
+    }
+    numbers.t_max = limit(static_cast<double>(ray.t_max));
+  }
+
+  /// The steps beyond which boxes cannot hold anything that is met up to t.
+  float limit(double t) const { return static_cast<float>(t * steps) * hit_padding + beam_tiny; }
+
+  /// Rays with the same octant can share a beam.
+  int octant() const { return numbers.near[0] | numbers.near[1] << 1 | numbers.near[2] << 2; }
+};
+
+/// A set of a beam's rays: a bit for each, the lowest for ray 0.
+using BeamRays = std::uint64_t;
+inline constexpr int beam_capacity = 64;
+
+/// Rays of one octant.
+struct Beam {
+  SlabNumbers whole;  ///< t_max included: the greatest
+  int count = 0;
+  // Ray by ray; filled up to a multiple of 8.
+  alignas(32) std::array<std::array<float, beam_capacity>, 3> origin_near, origin_far, inverse_near,
+      inverse_far;
+  alignas(32) std::array<float, beam_capacity> t_max;
+
+  void add(const SlabNumbers& ray);
+
+  /// To be called behind the last ray.
+  void fill_up();
+
+  /// Boxes beyond that are of no interest to a ray any more. Call `narrow` behind such calls.
+  void set_t_max(int ray, float limit) { t_max[static_cast<std::size_t>(ray)] = limit; }
+  void narrow() {
+    whole.t_max = t_max[0];
+    for (int i = 1; i < count; ++i)
+      whole.t_max = t_max[static_cast<std::size_t>(i)] > whole.t_max
+                        ? t_max[static_cast<std::size_t>(i)]
+                        : whole.t_max;
+  }
+};
+
+inline void Beam::add(const SlabNumbers& ray) {
+  const auto at = static_cast<std::size_t>(count);
+  const bool first = count++ == 0;
+  if (first) whole = ray;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<std::size_t>(axis);
+    origin_near[i][at] = ray.origin_near[i];
+    origin_far[i][at] = ray.origin_far[i];
+    inverse_near[i][at] = ray.inverse_near[i];
+    inverse_far[i][at] = ray.inverse_far[i];
+    // The origin that meets first planes earliest and last planes latest. Planes in front of it:
+    // the first ones by the steepest ray, the last ones by the flattest.
+    const bool down = ray.near[i] == 1;
+    const auto pick = [&](float& all, float one, bool greatest) {
+      if (greatest ? one > all : one < all) all = one;
+    };
+    pick(whole.origin_near[i], ray.origin_near[i], !down);
+    pick(whole.origin_far[i], ray.origin_far[i], down);
+    pick(whole.inverse_near[i], ray.inverse_near[i], down);
+    pick(whole.inverse_far[i], ray.inverse_far[i], !down);
+  }
+  t_max[at] = ray.t_max;
+  whole.t_max = std::max(whole.t_max, ray.t_max);
+}
+
+inline void Beam::fill_up() {
+  for (auto at = static_cast<std::size_t>(count); at % 8 != 0; ++at) {
+    for (std::size_t i = 0; i < 3; ++i)
+      for (auto* numbers : {&origin_near, &origin_far, &inverse_near, &inverse_far})
+        (*numbers)[i][at] = (*numbers)[i][0];
+    t_max[at] = -1;
+  }
+}
+
+}  // namespace minkray

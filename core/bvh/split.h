@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// Splitting a range of primitives in two: what builders of hierarchies differ in.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "core/bvh/primitive.h"
+
+namespace minkray {
+
+/// Primitives [begin, end), found by so many splits.
+struct BuildRange {
+  std::size_t begin = 0, end = 0;
+  int depth = 0;
+  Extent extent;  ///< known to the area splitter alone
+
+  std::size_t count() const { return end - begin; }
+};
+
+struct BuildHalves {
+  BuildRange left, right;
+};
+
+/// From this depth on ranges are split into halves, which takes at most 32 levels more.
+inline constexpr int free_split_depth = 46;
+
+/// By the surface area heuristic in bins on each axis (Wald, "On fast Construction of SAH-based
+/// Bounding Volume Hierarchies", 2007). Reorders the primitives.
+class AreaSplitter {
+ public:
+  explicit AreaSplitter(std::span<Primitive> primitives) : primitives_(primitives) {}
+  BuildRange whole() const;
+  BuildHalves split(const BuildRange& range) const;
+  /// Of the ranges of a node, the largest by this is split next.
+  static double weight(const BuildRange& range) { return range.extent.box.area(); }
+
+ private:
+  std::span<Primitive> primitives_;
+};
+
+/// Where the bits of their middles' place on a Morton curve differ first (Lauterbach et al., "Fast
+/// BVH Construction on GPUs", 2009). Sorts the primitives when made.
+class CurveSplitter {
+ public:
+  explicit CurveSplitter(std::span<Primitive> primitives);
+  BuildRange whole() const { return {0, codes_.size(), 0, {}}; }
+  BuildHalves split(const BuildRange& range) const;
+  static double weight(const BuildRange& range) { return static_cast<double>(range.count()); }
+
+ private:
+  std::vector<std::uint32_t> codes_;
+};
+
+}  // namespace minkray

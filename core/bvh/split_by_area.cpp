@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#include <array>
+#include <utility>
+
+#include "core/bvh/folded.h"
+#include "core/bvh/split.h"
+
+namespace minkray {
+namespace {
+
+constexpr int most_bins = 16;
+/// Few primitives need few bins: sweeping over them would take longer than filling them.
+constexpr int few_bins = 8;
+constexpr std::size_t few_primitives = 64;
+
+struct Bins {
+  std::array<std::array<BuildBox, most_bins>, 3> boxes;
+  std::array<std::array<std::uint32_t, most_bins>, 3> counts{};
+
+  void extend(const Bins& others) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      for (std::size_t i = 0; i < most_bins; ++i) {
+        boxes[axis][i].extend(others.boxes[axis][i]);
+        counts[axis][i] += others.counts[axis][i];
+      }
+  }
+};
+
+/// Where a primitive's middle falls among the bins of a range.
+class Binning {
+ public:
+  Binning(const BuildBox& middles, int bins)
+      : lower_(middles.lower),
+        scale_(Float4(static_cast<float>(bins)) / (middles.upper - middles.lower)),
+        last_(static_cast<float>(bins - 1)) {}
+
+  /// Whole numbers in [0, bins), but for what comes behind the point.
+  Float4 operator()(const Primitive& primitive) const {
+    const Float4 at = (primitive.middle() - lower_) * scale_;
+    // NaN (no extent at all) must fall through to the first bin.
+    return min(select(at > Float4(0.0f), at, Float4(0.0f)), last_);
+  }
+
+ private:
+  Float4 lower_, scale_, last_;
+};
+
+struct Split {
+  double cost = std::numeric_limits<double>::infinity();  ///< sum of area * count over both sides
+  int axis = 0;
+  int bin = 0;  ///< the first bin of the right side
+};
+
+Split best_split(const Bins& bins, int bin_count, std::size_t count) {
+  Split best;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto& boxes = bins.boxes[static_cast<std::size_t>(axis)];
+    const auto& counts = bins.counts[static_cast<std::size_t>(axis)];
+    std::array<double, most_bins> right_costs;
+    BuildBox right;
+    std::size_t in_right = 0;
+    for (int i = bin_count; i-- > 1;) {
+      const auto at = static_cast<std::size_t>(i);
+      right.extend(boxes[at]);
+      in_right += counts[at];
+      right_costs[at] = in_right == 0 ? 0 : right.area() * static_cast<double>(in_right);
+    }
+    BuildBox left;
+    std::size_t in_left = 0;
+    for (int i = 1; i < bin_count; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      left.extend(boxes[at - 1]);
+      in_left += counts[at - 1];
+      if (in_left == 0 || in_left == count) continue;
+      const double cost = left.area() * static_cast<double>(in_left) + right_costs[at];
+      if (cost < best.cost) best = {cost, axis, i};
+    }
+  }
+  return best;
+}
+
+void join(Extent& extent, const Extent& other) {
+  extent.extend(other);
+}
+
+Extent extent_of(std::span<const Primitive> primitives, std::size_t begin, std::size_t end) {
+  return folded<Extent>(
+      begin, end, [&](Extent& extent, std::size_t i) { extent.add(primitives[i]); }, join);
+}
+
+}  // namespace
+
+BuildRange AreaSplitter::whole() const {
+  return {0, primitives_.size(), 0, extent_of(primitives_, 0, primitives_.size())};
+}
+
+BuildHalves AreaSplitter::split(const BuildRange& range) const {
+  BuildHalves halves;
+  std::size_t left = range.begin, right = range.end;
+  if (range.depth < free_split_depth) {
+    const int bin_count = range.count() < few_primitives ? few_bins : most_bins;
+    const Binning binning(range.extent.middles, bin_count);
+    const auto fill = [&](Bins& bins, std::size_t i) {
+      const Primitive& primitive = primitives_[i];
+      const Float4 at = binning(primitive);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto bin = static_cast<std::size_t>(at.lane(static_cast<int>(axis)));
+        bins.boxes[axis][bin].extend(primitive.box);
+        ++bins.counts[axis][bin];
+      }
+    };
+    const auto bins = folded<Bins>(range.begin, range.end, fill,
+                                   [](Bins& into, const Bins& part) { into.extend(part); });
+    const Split best = best_split(bins, bin_count, range.count());
+
+    // In place, from both ends; what goes to a side is added to its extent on the way.
+    const auto first_right = static_cast<float>(best.bin);
+    const auto goes_left = [&](const Primitive& primitive) {
+      return binning(primitive).lane(best.axis) < first_right;
+    };
+    if (best.bin > 0) {
+      for (;;) {
+        while (left < right && goes_left(primitives_[left]))
+          halves.left.extent.add(primitives_[left++]);
+        while (left < right && !goes_left(primitives_[right - 1]))
+          halves.right.extent.add(primitives_[--right]);
+        if (left == right) break;
+        std::swap(primitives_[left], primitives_[right - 1]);
+      }
+    }
+  }
+  // Nothing to choose between (all in one place), or too deep: halves.
+  if (left == range.begin || left == range.end) {
+    left = range.begin + range.count() / 2;
+    halves.left.extent = extent_of(primitives_, range.begin, left);
+    halves.right.extent = extent_of(primitives_, left, range.end);
+  }
+  halves.left = {range.begin, left, range.depth + 1, halves.left.extent};
+  halves.right = {left, range.end, range.depth + 1, halves.right.extent};
+  return halves;
+}
+
+}  // namespace minkray

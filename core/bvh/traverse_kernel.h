@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// Walking through a hierarchy for each instruction set: traverse_kernel.inl compiled once with each
+// set's flags (core/CMakeLists.txt).
+#pragma once
+
+#include "core/bvh/beam.h"
+#include "core/bvh/bvh.h"
+
+namespace minkray {
+
+/// Told of the boxes that are met. A plain function, so that kernels share no code.
+struct BoxVisitor {
+  /// `rays`: those of a beam that meet the box; of a single ray no more than bit 0. Answers
+  /// whether to end the walk.
+  bool (*visit)(void* context, std::uint32_t box, BeamRays rays);
+  void* context;
+};
+
+/// Both answer how many nodes were visited. The visitor may lower t_max of the ray, or of rays and
+/// the whole of the beam.
+std::uint32_t walk_sse2(const BvhNode* nodes, const SlabNumbers& ray, const BoxVisitor& visitor);
+std::uint32_t walk_sse2(const BvhNode* nodes, const Beam& beam, const BoxVisitor& visitor);
+
+/// Only on machines that have AVX2 and FMA.
+std::uint32_t walk_avx2(const BvhNode* nodes, const SlabNumbers& ray, const BoxVisitor& visitor);
+std::uint32_t walk_avx2(const BvhNode* nodes, const Beam& beam, const BoxVisitor& visitor);
+
+}  // namespace minkray

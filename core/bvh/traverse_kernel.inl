@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+// The body of the walks, near boxes first. MINKRAY_WALK_KERNEL is the functions' name. Everything
+// else here has the type of the lanes, and so the instruction set, in its name: see
+// core/math/wide.h.
+#include "core/bvh/traverse_kernel.h"
+#include "core/math/wide.h"
+
+namespace minkray {
+namespace {
+
+using Lanes = Wide<float, static_cast<int>(IsaHere::register_bytes / sizeof(float)), IsaHere>;
+constexpr int lane_count = LaneOf<Lanes>::count;
+
+/// Where the near and far planes of an axis are met, in lanes. A ray within a plane gives
+/// 0 * infinity = NaN: max and min are such that it falls through, and the plane does not limit the
+/// ray.
+struct Interval {
+  Lanes enter, leave;
+
+  void meet(const Lanes& near_plane, const Lanes& far_plane, const Lanes& origin_near,
+            const Lanes& origin_far, const Lanes& inverse_near, const Lanes& inverse_far) {
+    enter = max(enter, Lanes((near_plane - origin_near) * inverse_near));
+    leave = min(leave, Lanes((far_plane - origin_far) * inverse_far));
+  }
+  Mask<Lanes> is_met() const { return enter <= leave * Lanes(beam_padding) + Lanes(beam_tiny); }
+};
+
+/// Which of a node's boxes are met, and where.
+std::uint32_t boxes_met(const BvhNode& node, const SlabNumbers& ray, float (&enters)[bvh_width]) {
+  std::uint32_t met = 0;
+  for (int from = 0; from < bvh_width; from += lane_count) {
+    Interval t{Lanes(0.0f), Lanes(ray.t_max)};
+    for (int axis = 0; axis < 3; ++axis)
+      t.meet(Lanes::load(node.planes[ray.near[axis]][axis] + from),
+             Lanes::load(node.planes[1 - ray.near[axis]][axis] + from),
+             Lanes(ray.origin_near[axis]), Lanes(ray.origin_far[axis]),
+             Lanes(ray.inverse_near[axis]), Lanes(ray.inverse_far[axis]));
+    t.enter.store(enters + from);
+    met |= lane_bits(t.is_met()) << from;
+  }
+  return met;
+}
+
+/// Which of a beam's rays meet one of a node's boxes: the same test.
+BeamRays rays_met(const BvhNode& node, int child, const Beam& beam) {
+  BeamRays met = 0;
+  for (int from = 0; from < beam.count; from += lane_count) {
+    const Lanes t_max = Lanes::load(&beam.t_max[0] + from);
+    Interval t{Lanes(0.0f), t_max};
+    for (int axis = 0; axis < 3; ++axis) {
+      const int near = beam.whole.near[axis];
+      const auto lanes = [&](const auto& numbers) {
+        return Lanes::load(&numbers[0][0] + axis * beam_capacity + from);
+      };
+      t.meet(Lanes(node.planes[near][axis][child]), Lanes(node.planes[1 - near][axis][child]),
+             lanes(beam.origin_near), lanes(beam.origin_far), lanes(beam.inverse_near),
+             lanes(beam.inverse_far));
+    }
+    met |= static_cast<BeamRays>(lane_bits(t.is_met() & (t.enter <= t_max))) << from;
+  }
+  return met;
+}
+
+const SlabNumbers& whole_of(const SlabNumbers& ray) {
+  return ray;
+}
+const SlabNumbers& whole_of(const Beam& beam) {
+  return beam.whole;
+}
+/// A single ray meets the boxes that are on its stack.
+BeamRays rays_met(const BvhNode&, int, const SlabNumbers&) {
+  return 1;
+}
+
+template <class RayOrBeam>
+std::uint32_t walk(const BvhNode* nodes, const RayOrBeam& rays, const BoxVisitor& visitor) {
+  struct Waiting {
+    std::uint32_t node;
+    int child;
+    float enter;
+  };
+  const SlabNumbers& whole = whole_of(rays);
+  Waiting stack[bvh_max_depth * (bvh_width - 1) + 1];
+  int top = 0;
+  std::uint32_t visited = 0, node = 0;
+  for (;;) {
+    ++visited;
+    float enters[bvh_width];
+    std::uint32_t met = boxes_met(nodes[node], whole, enters);
+    // The nearest on top.
+    for (const int bottom = top; met != 0; met &= met - 1) {
+      const int child = __builtin_ctz(met);
+      if (nodes[node].children[child] == BvhNode::none) break;  // rays from beyond float's range
+      int at = top++;
+      for (; at > bottom && stack[at - 1].enter < enters[child]; --at) stack[at] = stack[at - 1];
+      stack[at] = {node, child, enters[child]};
+    }
+    // The next node, and the boxes before it, if hits found meanwhile have not made them pointless.
+    for (;;) {
+      if (top == 0) return visited;
+      const Waiting& next = stack[--top];
+      if (!(next.enter <= whole.t_max)) continue;
+      const BvhNode& parent = nodes[next.node];
+      const std::uint32_t what = parent.children[next.child];
+      if (!(what & BvhNode::leaf)) {
+        node = what;
+        break;
+      }
+      const BeamRays meeting = rays_met(parent, next.child, rays);
+      if (meeting != 0 && visitor.visit(visitor.context, what & ~BvhNode::leaf, meeting))
+        return visited;
+    }
+  }
+}
+
+}  // namespace
+
+std::uint32_t MINKRAY_WALK_KERNEL(const BvhNode* nodes, const SlabNumbers& ray,
+                                  const BoxVisitor& visitor) {
+  return walk(nodes, ray, visitor);
+}
+
+std::uint32_t MINKRAY_WALK_KERNEL(const BvhNode* nodes, const Beam& beam,
+                                  const BoxVisitor& visitor) {
+  return walk(nodes, beam, visitor);
+}
+
+}  // namespace minkray

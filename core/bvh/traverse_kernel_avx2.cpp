@@ -1,0 +1,3 @@
+// SPDX-License-Identifier: MIT
+#define MINKRAY_WALK_KERNEL walk_avx2
+#include "core/bvh/traverse_kernel.inl"

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+// Several rays at once: one walk through the hierarchy for all that run the same way, and packets
+// of those that come to the same instance.
+#include <array>
+
+#include "core/bvh/traverse.h"
+#include "core/solver/packet_cast.h"
+#include "core/world/world.h"
+
+namespace minkray {
+namespace {
+
+constexpr auto capacity = static_cast<std::size_t>(beam_capacity);
+
+/// Rays of one octant out of several, as a beam.
+struct Group {
+  Beam beam;
+  std::array<std::uint8_t, capacity> ray_of;  ///< by the beam's ray: which of all rays
+
+  void add(const SlabNumbers& numbers, std::size_t ray) {
+    ray_of[static_cast<std::size_t>(beam.count)] = static_cast<std::uint8_t>(ray);
+    beam.add(numbers);
+  }
+};
+
+/// Takes the lowest of the rays out.
+int next_of(BeamRays& rays) {
+  const int ray = std::countr_zero(rays);
+  rays &= rays - 1;
+  return ray;
+}
+
+/// on_group(group) for all rays that share their octant with others, on_single(i) for the rest.
+/// `slabs` gets what each ray is tested with.
+template <class T, class OnGroup, class OnSingle>
+void by_octant(std::span<const WorldRay<T>> rays, std::array<SlabRay, capacity>& slabs,
+               const OnGroup& on_group, const OnSingle& on_single) {
+  std::array<BeamRays, 8> in_octant{};
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    slabs[i] = SlabRay(rays[i].ray);
+    in_octant[static_cast<std::size_t>(slabs[i].octant())] |= BeamRays(1) << i;
+  }
+  for (BeamRays of_octant : in_octant) {
+    if (of_octant == 0) continue;
+    if (std::has_single_bit(of_octant)) {
+      on_single(static_cast<std::size_t>(next_of(of_octant)));
+      continue;
+    }
+    Group group;
+    while (of_octant != 0) {
+      const auto i = static_cast<std::size_t>(next_of(of_octant));
+      group.add(slabs[i].numbers, i);
+    }
+    group.beam.fill_up();
+    on_group(group);
+  }
+}
+
+/// Casts the rays (of those that `ray_of` numbers, the set `which`) at one shape, in packets as
+/// full as can be, and what is left over alone. on_found(lane, t, result) for those that meet it;
+/// result() makes the CastResult.
+template <class T, class RayOf, class OnFound>
+void cast_all(const PreparedShape<T>& shape, BeamRays which, const RayOf& ray_of,
+              const CastOptions<T>& options, bool in_packets, QueryCounts& counts,
+              const OnFound& on_found) {
+  const auto count = [&](std::uint64_t supports, std::uint64_t iterations, bool exhausted) {
+    ++counts.casts;
+    counts.iterations += iterations;
+    counts.supports += supports;
+    counts.exhausted += exhausted ? 1 : 0;
+  };
+  const bool has_packets = in_packets && shape.model() != ModelKind::mixed;
+  while (which != 0) {
+    if (!has_packets || std::has_single_bit(which)) {
+      const int lane = next_of(which);
+      const CastResult<T> result = cast_ray(shape, ray_of(lane), options);
+      count(static_cast<std::uint64_t>(result.supports),
+            static_cast<std::uint64_t>(result.iterations), result.status == Status::exhausted);
+      if (result.found()) on_found(lane, result.t(), [&] { return result; });
+      continue;
+    }
+    std::array<int, packet_lanes<T>> lane_of;
+    int used = 0;
+    RayPacket<T> packet;
+    for (; used < packet_lanes<T> && which != 0; ++used) {
+      const int lane = next_of(which);
+      lane_of[static_cast<std::size_t>(used)] = lane;
+      packet.set(used, ray_of(lane));
+    }
+    for (int i = used; i < packet_lanes<T>; ++i) packet.set(i, ray_of(lane_of[0]));
+    CastPacket<T> answers;
+    cast_packet(shape, packet, (LaneBits(1) << used) - 1, answers);
+    const LaneBits answered = answers.found() | answers.miss;
+    for (int i = 0; i < used; ++i) {
+      const auto supports =
+          static_cast<std::uint64_t>(answers.supports[static_cast<std::size_t>(i)]);
+      count(supports, supports, !(answered >> i & 1));
+      if (answers.found() >> i & 1)
+        on_found(lane_of[static_cast<std::size_t>(i)], answers.t(i),
+                 [&] { return answers.result(i); });
+    }
+  }
+}
+
+}  // namespace
+
+template <class T>
+void World<T>::closest_hits(std::span<const WorldRay<T>> rays, std::span<WorldHit<T>> hits,
+                            QueryCounts& counts) const {
+  std::array<SlabRay, capacity> slabs;
+  const auto on_single = [&](std::size_t i) {
+    hits[i] = closest_hit(rays[i].ray, counts, rays[i].skip);
+  };
+  const auto on_group = [&](Group& group) {
+    const auto index = [&](int lane) { return group.ray_of[static_cast<std::size_t>(lane)]; };
+    const auto ray_of = [&](int lane) -> const Ray<T>& { return rays[index(lane)].ray; };
+    counts.nodes += traverse(bvh_, group.beam, [&](std::uint32_t instance, BeamRays meeting) {
+      for (BeamRays left = meeting; left != 0;) {
+        const int lane = next_of(left);
+        if (rays[index(lane)].skip == instance) meeting &= ~(BeamRays(1) << lane);
+      }
+      bool nearer = false;
+      cast_all<T>(instances_.at(instance), meeting, ray_of, options_, in_packets_, counts,
+                  [&](int lane, T t, const auto& result) {
+                    WorldHit<T>& hit = hits[index(lane)];
+                    if (!hit.yields_to(instance, t)) return;
+                    hit = {instance, result()};
+                    group.beam.set_t_max(lane, slabs[index(lane)].limit(static_cast<double>(t)));
+                    nearer = true;
+                  });
+      if (nearer) group.beam.narrow();
+      return false;
+    });
+  };
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    hits[i] = {};
+    hits[i].cast.status = Status::miss;
+  }
+  by_octant(rays, slabs, on_group, on_single);
+}
+
+template <class T>
+BeamRays World<T>::occluded(std::span<const WorldRay<T>> rays, QueryCounts& counts) const {
+  BeamRays met = 0;
+  std::array<SlabRay, capacity> slabs;
+  const auto on_single = [&](std::size_t i) {
+    if (occluded(rays[i].ray, counts, rays[i].skip)) met |= BeamRays(1) << i;
+  };
+  const auto on_group = [&](Group& group) {
+    const auto index = [&](int lane) { return group.ray_of[static_cast<std::size_t>(lane)]; };
+    const auto ray_of = [&](int lane) -> const Ray<T>& { return rays[index(lane)].ray; };
+    int open = group.beam.count;
+    counts.nodes += traverse(bvh_, group.beam, [&](std::uint32_t instance, BeamRays meeting) {
+      for (BeamRays left = meeting; left != 0;) {
+        const int lane = next_of(left);
+        if (rays[index(lane)].skip == instance) meeting &= ~(BeamRays(1) << lane);
+      }
+      const int before = open;
+      cast_all<T>(instances_.at(instance), meeting, ray_of, options_, in_packets_, counts,
+                  [&](int lane, T, const auto&) {
+                    met |= BeamRays(1) << index(lane);
+                    group.beam.set_t_max(lane, -1);
+                    --open;
+                  });
+      if (open < before) group.beam.narrow();
+      return open == 0;
+    });
+  };
+  by_octant(rays, slabs, on_group, on_single);
+  return met;
+}
+
+template void World<float>::closest_hits(std::span<const WorldRay<float>>,
+                                         std::span<WorldHit<float>>, QueryCounts&) const;
+template void World<double>::closest_hits(std::span<const WorldRay<double>>,
+                                          std::span<WorldHit<double>>, QueryCounts&) const;
+template BeamRays World<float>::occluded(std::span<const WorldRay<float>>, QueryCounts&) const;
+template BeamRays World<double>::occluded(std::span<const WorldRay<double>>, QueryCounts&) const;
+
+}  // namespace minkray
