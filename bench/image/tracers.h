@@ -10,10 +10,10 @@ namespace minkray::bench {
 
 /// Minkray's world in T: exact shapes.
 template <class T>
-std::unique_ptr<Tracer> exact_shapes(const Scene& scene);
+std::unique_ptr<Tracer> exact_shapes(const Scene& scene, BvhBuild build = BvhBuild::quality);
 
-extern template std::unique_ptr<Tracer> exact_shapes<float>(const Scene&);
-extern template std::unique_ptr<Tracer> exact_shapes<double>(const Scene&);
+extern template std::unique_ptr<Tracer> exact_shapes<float>(const Scene&, BvhBuild);
+extern template std::unique_ptr<Tracer> exact_shapes<double>(const Scene&, BvhBuild);
 
 /// Embree on instances of triangle meshes, one mesh for each of the scene's shapes; the meshes'
 /// hierarchies at its highest quality, which is slow to build, or at its default.
