@@ -27,8 +27,8 @@ inline constexpr std::array heat_channels = {
                            "iterations of all casts"},
     HeatChannelDescription{HeatChannel::supports, "supports", "support points per ray",
                            "support points of all casts"},
-    HeatChannelDescription{HeatChannel::nodes, "nodes", "boxes tested per ray",
-                           "boxes of the hierarchy that were tested"},
+    HeatChannelDescription{HeatChannel::nodes, "nodes", "nodes visited per ray",
+                           "nodes of the hierarchy that were visited, of up to 8 boxes each"},
     HeatChannelDescription{HeatChannel::status, "status", "answer of the solver",
                            "hit, miss, inside, or exhausted if any cast gave up"},
 };

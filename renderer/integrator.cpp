@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/integrator.h"
 
+#include <array>
+
 #include "renderer/scene/scene_instances.h"
 
 namespace minkray {
@@ -77,6 +79,13 @@ struct Integrator::Spot {
   std::uint32_t instance;
 };
 
+/// The way to a light, and what comes from there.
+struct Integrator::ShadowRay {
+  Ray<Real> ray;
+  Vec3<double> w_in;  ///< in the spot's frame
+  Colour irradiance;
+};
+
 Integrator::Integrator(const Scene& scene, const RenderWorld& world,
                        const IntegratorOptions& options)
     : world_(world), options_(options), background_(scene.background) {
@@ -118,7 +127,47 @@ Colour Integrator::along(const Ray<Real>& ray, const Path& path, Sampler& sample
   if (options_.audit)
     options_.audit->closest(path.at_camera() ? RayKind::camera : RayKind::indirect, ray, path.left,
                             hit);
+  if (hit.cast.status != Status::hit) return off_surface(ray, hit, path, counts);
+  const Spot spot = spot_of(ray, hit);
+  return from_spot(spot, direct(spot, path, counts), path, sampler, counts);
+}
 
+/// The camera rays together, then the shadow rays of what they meet, light by light. What comes
+/// behind is scattered too widely to gain by it (docs/decisions/rays-together.md).
+void Integrator::trace(std::span<CameraRay> rays, RayCounts& counts) const {
+  if (rays.size() == 1) {
+    const std::uint64_t background = counts.background;
+    rays[0].radiance = radiance(rays[0].ray, rays[0].sampler, counts);
+    rays[0].met = counts.background == background;
+    return;
+  }
+  std::array<WorldRay<Real>, most_in_packet> asked;
+  std::array<WorldHit<Real>, most_in_packet> hits;
+  std::array<std::optional<Spot>, most_in_packet> spots;
+  std::array<Colour, most_in_packet> arrived;
+  const std::size_t count = rays.size();
+  for (std::size_t i = 0; i < count; ++i) asked[i].ray = rays[i].ray;
+  counts.camera += count;
+  world_.closest_hits(std::span(asked).first(count), hits, counts.work);
+
+  const Path at_camera;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (options_.audit) options_.audit->closest(RayKind::camera, rays[i].ray, no_instance, hits[i]);
+    rays[i].met = hits[i].found();
+    if (hits[i].cast.status == Status::hit)
+      spots[i].emplace(spot_of(rays[i].ray, hits[i]));
+    else
+      rays[i].radiance = off_surface(rays[i].ray, hits[i], at_camera, counts);
+  }
+  direct(std::span(spots).first(count), at_camera, arrived, counts);
+  for (std::size_t i = 0; i < count; ++i)
+    if (spots[i])
+      rays[i].radiance = from_spot(*spots[i], arrived[i], at_camera, rays[i].sampler, counts);
+}
+
+/// Of a ray that meets nothing, or begins in a shape.
+Colour Integrator::off_surface(const Ray<Real>& ray, const WorldHit<Real>& hit, const Path& path,
+                               RayCounts& counts) const {
   // Nothing there: cameras see the background. Surfaces are lit by the environment, and mirror it,
   // so that no light is counted twice; without one they still mirror the background.
   if (!hit.found()) {
@@ -127,13 +176,12 @@ Colour Integrator::along(const Ray<Real>& ray, const Path& path, Sampler& sample
     return sees_background ? by_height(background_.zenith, background_.nadir, ray.direction)
                            : environment(ray.direction);
   }
-
   // Within a solid it is dark.
-  if (hit.cast.status == Status::inside) {
-    if (path.at_camera()) ++counts.from_inside;
-    return Colour::Zero();
-  }
+  if (path.at_camera()) ++counts.from_inside;
+  return Colour::Zero();
+}
 
+Integrator::Spot Integrator::spot_of(const Ray<Real>& ray, const WorldHit<Real>& hit) const {
   const Real t = hit.cast.t();
   const Vec3<Real> on_surface = ray.at(t);
   const Real largest =
@@ -143,10 +191,13 @@ Colour Integrator::along(const Ray<Real>& ray, const Path& path, Sampler& sample
   Vec3<double> w_out = frame.to_local(-ray.direction);
   // A grazing normal may be rounded to the far side.
   w_out.z() = std::max(w_out.z(), std::numeric_limits<double>::epsilon());
-  const Spot spot{on_surface + offset * frame.z, frame, w_out,
-                  surfaces_[surface_of_instance_[hit.instance]], hit.instance};
+  return {on_surface + offset * frame.z, frame, w_out,
+          surfaces_[surface_of_instance_[hit.instance]], hit.instance};
+}
 
-  const Colour arrived = direct(spot, path, counts);
+/// `arrived` is the direct light.
+Colour Integrator::from_spot(const Spot& spot, const Colour& arrived, const Path& path,
+                             Sampler& sampler, RayCounts& counts) const {
   if (!spot.surface.has_coat()) return arrived + scattered(spot, path, sampler, counts);
 
   // What the camera sees directly follows both of the coat and the base, for a quiet picture;
@@ -155,35 +206,79 @@ Colour Integrator::along(const Ray<Real>& ray, const Path& path, Sampler& sample
     const Colour base = scattered(spot, path, sampler, counts);
     return arrived + base + mirrored(spot, path, sampler, counts);
   }
-  const double mirror_weight = fresnel(w_out.z(), spot.surface.eta());
+  const double mirror_weight = fresnel(spot.w_out.z(), spot.surface.eta());
   const double base_weight = (1 - mirror_weight) * spot.surface.colour().maxCoeff();
   const double chance = mirror_weight / (mirror_weight + base_weight);
   if (sampler.next()[0] < chance) return arrived + mirrored(spot, path, sampler, counts) / chance;
   return arrived + scattered(spot, path, sampler, counts) / (1 - chance);
 }
 
-Colour Integrator::direct(const Spot& spot, const Path& path, RayCounts& counts) const {
-  const double least_alpha = path.bounces == 0 ? 0 : least_alpha_behind_bounce;
-  Colour sum = Colour::Zero();
-  const auto add = [&](const Vec3<double>& towards, double distance, const Colour& irradiance) {
+/// Directional lights first, then points. Nothing for lights behind the surface.
+std::optional<Integrator::ShadowRay> Integrator::shadow_ray(std::size_t light,
+                                                            const Spot& spot) const {
+  const auto from = [&](const Vec3<double>& towards, double distance,
+                        const Colour& irradiance) -> std::optional<ShadowRay> {
     const Vec3<double> w_in = spot.frame.to_local(towards);
-    if (!(w_in.z() > 0)) return;
-    ++counts.shadow;
-    if (occluded(RayKind::shadow, {spot.position, towards, distance}, spot.instance, counts))
-      return;
-    const Colour reflected = (spot.surface.base(spot.w_out, w_in).array() +
-                              spot.surface.highlight(spot.w_out, w_in, least_alpha))
-                                 .matrix();
-    sum += w_in.z() * irradiance.cwiseProduct(reflected);
+    if (!(w_in.z() > 0)) return std::nullopt;
+    return ShadowRay{{spot.position, towards, distance}, w_in, irradiance};
   };
-  for (const DirectionalLight& light : directional_)
-    add(-light.direction, std::numeric_limits<double>::infinity(), light.colour);
-  for (const PointLight& light : points_) {
-    const Vec3<double> to_light = light.position - spot.position;
-    const double distance = to_light.norm();
-    if (distance > 0) add(to_light / distance, distance, light.colour / (distance * distance));
+  if (light < directional_.size()) {
+    const DirectionalLight& sun = directional_[light];
+    return from(-sun.direction, std::numeric_limits<double>::infinity(), sun.colour);
+  }
+  const PointLight& lamp = points_[light - directional_.size()];
+  const Vec3<double> to_light = lamp.position - spot.position;
+  const double distance = to_light.norm();
+  if (!(distance > 0)) return std::nullopt;
+  return from(to_light / distance, distance, lamp.colour / (distance * distance));
+}
+
+/// What the surface makes of a light that nothing is in front of.
+Colour Integrator::unblocked(const ShadowRay& light, const Spot& spot, const Path& path) const {
+  const double least_alpha = path.bounces == 0 ? 0 : least_alpha_behind_bounce;
+  const Colour reflected = (spot.surface.base(spot.w_out, light.w_in).array() +
+                            spot.surface.highlight(spot.w_out, light.w_in, least_alpha))
+                               .matrix();
+  return light.w_in.z() * light.irradiance.cwiseProduct(reflected);
+}
+
+Colour Integrator::direct(const Spot& spot, const Path& path, RayCounts& counts) const {
+  Colour sum = Colour::Zero();
+  for (std::size_t light = 0; light < light_count(); ++light) {
+    const std::optional<ShadowRay> shadow = shadow_ray(light, spot);
+    if (!shadow) continue;
+    ++counts.shadow;
+    if (occluded(RayKind::shadow, shadow->ray, spot.instance, counts)) continue;
+    sum += unblocked(*shadow, spot, path);
   }
   return sum;
+}
+
+/// The same for many spots.
+void Integrator::direct(std::span<const std::optional<Spot>> spots, const Path& path,
+                        std::span<Colour> arrived, RayCounts& counts) const {
+  std::array<WorldRay<Real>, most_in_packet> asked;
+  std::array<std::optional<ShadowRay>, most_in_packet> shadows;
+  for (std::size_t i = 0; i < spots.size(); ++i) arrived[i].setZero();
+  for (std::size_t light = 0; light < light_count(); ++light) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < spots.size(); ++i) {
+      shadows[i].reset();
+      if (spots[i]) shadows[i] = shadow_ray(light, *spots[i]);
+      if (shadows[i]) asked[count++] = {shadows[i]->ray, spots[i]->instance};
+    }
+    counts.shadow += count;
+    const std::span<const WorldRay<Real>> rays = std::span(asked).first(count);
+    BeamRays blocked = world_.occluded(rays, counts.work);
+    if (options_.audit)
+      for (std::size_t k = 0; k < count; ++k)
+        options_.audit->occluded(RayKind::shadow, rays[k].ray, rays[k].skip, blocked >> k & 1);
+    for (std::size_t i = 0; i < spots.size(); ++i) {
+      if (!shadows[i]) continue;
+      if (!(blocked & 1)) arrived[i] += unblocked(*shadows[i], *spots[i], path);
+      blocked >>= 1;
+    }
+  }
 }
 
 Colour Integrator::scattered(const Spot& spot, const Path& path, Sampler& sampler,

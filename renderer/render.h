@@ -11,7 +11,8 @@
 namespace minkray {
 
 /// The scene's objects, then its particles, in order.
-RenderWorld make_world(const Scene& scene, const CastOptions<Real>& options = {});
+RenderWorld make_world(const Scene& scene, const CastOptions<Real>& options = {},
+                       BvhBuild build = BvhBuild::quality);
 
 struct RenderOptions {
   Resolution resolution;

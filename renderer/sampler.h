@@ -53,6 +53,7 @@ constexpr std::uint32_t sobol_second(std::uint32_t index) {
 /// asked for before, never on tiles or threads.
 class Sampler {
  public:
+  Sampler() = default;
   Sampler(std::uint64_t seed, int x, int y, std::uint32_t sample)
       : stream_(detail::mixed(detail::mixed(seed) ^
                               (static_cast<std::uint64_t>(static_cast<std::uint32_t>(y)) << 32 |
@@ -73,9 +74,9 @@ class Sampler {
   }
 
  private:
-  std::uint64_t stream_;
+  std::uint64_t stream_ = 0;
   std::uint64_t pair_ = 0;
-  std::uint32_t sample_;
+  std::uint32_t sample_ = 0;
 };
 
 }  // namespace minkray

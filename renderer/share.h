@@ -48,6 +48,12 @@ struct SampleBlocks {
   int count() const { return std::min(samples, most); }
   /// The first sample of a block; of block count(): how many samples there are.
   int begin(int block) const { return static_cast<int>(std::int64_t{samples} * block / count()); }
+  /// The block that a sample belongs to.
+  int of(int sample) const {
+    auto block = static_cast<int>(std::int64_t{sample} * count() / samples);
+    while (begin(block + 1) <= sample) ++block;
+    return block;
+  }
   /// The first block of a share; the share after it begins where it ends.
   int first_of(const Share& share) const {
     return static_cast<int>(std::int64_t{count()} * (share.index - 1) / share.count);

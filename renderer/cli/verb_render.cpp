@@ -34,6 +34,8 @@ struct Options {
   ImageArguments image;
   double exposure = 0;
   int bounces = IntegratorOptions().bounces;
+  int packet = IntegratorOptions().packet;
+  BvhBuild build = BvhBuild::quality;
   bool certify = false;
   std::string stats;  ///< empty: none, "true": text, "json"
   std::optional<std::string> aov;
@@ -227,9 +229,11 @@ ExitCode run(const Options& options) {
   job.options.tile = shares.tile;
   job.options.sample_share = shares.sample_share;
   job.options.integrator.bounces = options.bounces;
+  job.options.integrator.packet = options.packet;
   check_shares(job.options);
 
-  timed("build", statistics.build_seconds, [&] { job.world = make_world(job.scene, cast); });
+  timed("build", statistics.build_seconds,
+        [&] { job.world = make_world(job.scene, cast, options.build); });
   statistics.objects = instance_count(job.scene);
   std::optional<RayAudit> audit;
   if (options.certify) job.options.integrator.audit = &audit.emplace(job.scene, job.world);
@@ -287,6 +291,17 @@ void add_render(CLI::App& app, ExitCode& exit_code) {
                    "How often light is scattered between objects; 0 for ambient occlusion")
       ->check(CLI::Range(0, 64))
       ->capture_default_str();
+  verb->add_option("--packet", options->packet,
+                   "Camera rays that are traced together; the picture is the same for any number")
+      ->check(CLI::Range(1, most_in_packet))
+      ->capture_default_str();
+  verb->add_option_function<std::string>(
+          "--build",
+          [options](const std::string& name) {
+            options->build = name == "speed" ? BvhBuild::speed : BvhBuild::quality;
+          },
+          "Of the hierarchy: quality, for fast rays, or speed, for a fast build")
+      ->check(CLI::IsMember({"quality", "speed"}));
   std::string channels;
   for (const DataChannelDescription& channel : data_channels)
     channels += "\n" + std::string(channel.name) + ": " + std::string(channel.doc);

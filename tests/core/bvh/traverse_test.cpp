@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: MIT
+// Walks through hierarchies: no box that a ray meets is missed, by whatever instruction set, alone
+// or in a beam.
+#include "core/bvh/traverse.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/core/bvh/boxes.h"
+
+namespace minkray::testing {
+namespace {
+
+template <class T>
+class TraverseOf : public ::testing::Test {};
+using Scalars = ::testing::Types<float, double>;
+TYPED_TEST_SUITE(TraverseOf, Scalars);
+
+/// Nothing is missing; what is there without need is touched but for rounding. Answers how many are
+/// met.
+template <class T>
+std::size_t expect_boxes(const Bvh& bvh, const Boxes& boxes, const Ray<T>& ray) {
+  const BoxSet met = boxes_met(boxes, ray);
+  BoxSet first;
+  for (const WalkSet set : walk_sets()) {
+    const BoxSet found = boxes_found(bvh, ray, set);
+    EXPECT_TRUE(includes(found, met)) << found.size() << " of " << met.size();
+    if (set == WalkSet::sse2) first = found;
+    EXPECT_EQ(found, first);
+  }
+  return met.size();
+}
+
+/// A box is found by a ray where it should be.
+template <class T>
+bool is_found(const Bounds<double>& only, const Ray<T>& ray) {
+  return !boxes_found(built({only}), ray).empty();
+}
+
+TEST(Traverse, nothing_in_an_empty_hierarchy) {
+  const SlabRay ray(Ray<double>{{0, 0, 0}, {1, 0, 0}});
+  int called = 0;
+  auto count = [&](std::uint32_t) { return ++called, false; };
+  EXPECT_EQ(traverse(Bvh(), ray, count), 0u);
+  EXPECT_EQ(traverse(built({box({1, -1, -1}, {2, 1, 1})}), ray, count), 1u);
+  EXPECT_EQ(called, 1);
+}
+
+TYPED_TEST(TraverseOf, a_box_is_entered_where_it_should) {
+  using T = TypeParam;
+  using R = Ray<T>;
+  const Bounds<double> only = box({1, -1, -1}, {3, 1, 1});
+  EXPECT_TRUE(is_found(only, R{{0, 0, 0}, {1, 0, 0}}));
+  EXPECT_TRUE(is_found(only, R{{4, 0, 0}, {-1, 0, 0}}));
+  EXPECT_TRUE(is_found(only, R{{2, 0, 0}, {1, 0, 0}}));  // begins within
+  EXPECT_FALSE(is_found(only, R{{0, 0, 0}, {-1, 0, 0}}));
+  EXPECT_FALSE(is_found(only, R{{0, 0, 0}, {1, 0, 0}, T(0.99999)}));
+  EXPECT_TRUE(is_found(only, R{{0, 0, 0}, {1, 0, 0}, T(1)}));
+  EXPECT_FALSE(is_found(only, R{{0, T(1.00001), 0}, {1, 0, 0}}));
+  EXPECT_FALSE(is_found(only, R{{0, T(1.00001), 0}, {1, T(-0.0), 0}}));
+}
+
+// A ray within the plane of a face, and the same with -0: 0 * infinity must not lose the box.
+TYPED_TEST(TraverseOf, rays_that_lie_in_a_face_are_kept) {
+  using T = TypeParam;
+  using R = Ray<T>;
+  const Bounds<double> only = box({1, -1, -1}, {3, 1, 1}), flat = box({1, 1, -1}, {3, 1, 1});
+  for (const T zero : {T(0), T(-0.0)}) {
+    for (const T y : {T(-1), T(1)}) {
+      EXPECT_TRUE(is_found(only, R{{0, y, 0}, {1, zero, zero}}));
+      EXPECT_TRUE(is_found(only, R{{4, y, 1}, {-1, zero, zero}}));
+    }
+    EXPECT_TRUE(is_found(flat, R{{0, 1, 0}, {1, zero, zero}}));
+    EXPECT_FALSE(is_found(flat, R{{0, 2, 0}, {1, zero, zero}}));
+    EXPECT_TRUE(is_found(flat, R{{2, 1, 0}, {zero, zero, zero}}));
+    EXPECT_FALSE(is_found(flat, R{{2, 2, 0}, {zero, zero, zero}, T(1)}));
+  }
+}
+
+// Rays aimed at points of the box, corners and edges above all, must meet it however they round.
+TYPED_TEST(TraverseOf, a_box_is_never_lost_by_rounding) {
+  using T = TypeParam;
+  BoxRandom random(7);
+  // Multiples of 1/1024, so that differences are exact in float, too.
+  const auto point = [&](double size) {
+    return Vec3<double>((random.point(size) * 1024).array().round() / 1024);
+  };
+  int aimed = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Vec3<double> a = point(1);
+    Vec3<double> b = point(1), target;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (random.below(3) == 0) b[axis] = a[axis];
+      const int where = random.below(3);
+      target[axis] = where == 0 ? a[axis] : where == 1 ? b[axis] : (a[axis] + b[axis]) / 2;
+    }
+    const Vec3<T> origin = point(i % 2 ? 8 : 1000).template cast<T>(), end = target.cast<T>();
+    // The exact ray through origin and target: a direction that is not rounded.
+    const Vec3<T> direction = end - origin;
+    if (end - direction != origin || origin + direction != end) continue;
+    ++aimed;
+    EXPECT_TRUE(is_found(box(a, b), Ray<T>{origin, direction}));
+    EXPECT_TRUE(is_found(box(a, b), Ray<T>{origin, direction, T(1)}));
+  }
+  EXPECT_GT(aimed, 10000);
+}
+
+TYPED_TEST(TraverseOf, finds_what_a_search_of_all_boxes_finds) {
+  using T = TypeParam;
+  BoxRandom random;
+  std::size_t met = 0;
+  for (const BvhBuild build : {BvhBuild::quality, BvhBuild::speed})
+    for (const std::size_t count : {2u, 3u, 17u, 100u, 1000u}) {
+      const Boxes boxes = scattered_boxes(count, random);
+      const Bvh bvh = built(boxes, build);
+      for (int i = 0; i < 200; ++i) {
+        const Vec3<T> origin = random.point(15).cast<T>();
+        const Vec3<T> target =
+            boxes[static_cast<std::size_t>(random.below(int(count)))].centre().cast<T>();
+        met += expect_boxes<T>(bvh, boxes,
+                               {origin, target - origin, static_cast<T>(random.within(0.5, 2))});
+        met += expect_boxes<T>(bvh, boxes, {origin, Vec3<T>::Unit(i % 3)});
+      }
+    }
+  EXPECT_GT(met, 1000u);
+}
+
+// Directions of any length, and origins far away: the same line finds the same boxes.
+TEST(Traverse, lengths_and_distances_lose_nothing) {
+  BoxRandom random;
+  const Boxes boxes = scattered_boxes(300, random);
+  const Bvh bvh = built(boxes);
+  for (const int exponent : {-1000, -150, -60, 60, 150, 1000})
+    for (int i = 0; i < 100; ++i) {
+      const Vec3<double> target = boxes[static_cast<std::size_t>(i)].centre();
+      const Vec3<double> origin = random.point(15), away = target - origin;
+      const Vec3<double> scaled(std::ldexp(away.x(), exponent), std::ldexp(away.y(), exponent),
+                                std::ldexp(away.z(), exponent));
+      const BoxSet found = boxes_found(bvh, Ray<double>{origin, scaled});
+      EXPECT_EQ(found, boxes_found(bvh, Ray<double>{origin, away}));
+      EXPECT_TRUE(found.count(static_cast<std::uint32_t>(i)));
+      const double far = std::ldexp(1.0, std::clamp(exponent, 20, 150));
+      EXPECT_TRUE(boxes_found(bvh, Ray<double>{target - far * away, away})
+                      .count(static_cast<std::uint32_t>(i)));
+    }
+}
+
+// A grid of cubes that share faces, edges and corners, at coordinates that float rounds, and rays
+// within those faces, along those edges, and through those corners from afar.
+TEST(Traverse, loses_nothing_at_shared_faces_and_edges) {
+  BoxRandom random;
+  constexpr int n = 6;
+  const auto plane = [](int i) { return 0.1 * i - 0.3; };
+  Boxes boxes;
+  for (int x = 0; x < n; ++x)
+    for (int y = 0; y < n; ++y)
+      for (int z = 0; z < n; ++z)
+        boxes.push_back(
+            {{plane(x), plane(y), plane(z)}, {plane(x + 1), plane(y + 1), plane(z + 1)}});
+  const Bvh bvh = built(boxes);
+  const auto corner = [&] {
+    return Vec3<double>(plane(random.below(n + 1)), plane(random.below(n + 1)),
+                        plane(random.below(n + 1)));
+  };
+  std::size_t met = 0;
+  for (int i = 0; i < 1500; ++i) {
+    const Vec3<double> a = corner(), b = corner();
+    met += expect_boxes<double>(bvh, boxes, {a + 3 * (a - b), b - a});  // corner to corner
+    Vec3<double> along = Vec3<double>::Zero();
+    along[i % 3] = i % 2 ? 1 : -1;
+    met += expect_boxes<double>(bvh, boxes, {a - 5 * along, along});  // along an edge
+    along[(i + 1) % 3] = random.within(-1, 1);
+    met += expect_boxes<double>(bvh, boxes, {a - 5 * along, along});  // within a face
+  }
+  EXPECT_GT(met, 4500u);
+}
+
+/// Rays of one octant: from about one point, or from anywhere.
+template <class T>
+std::vector<Ray<T>> rays_of_a_beam(BoxRandom& random, int count, double spread) {
+  const Vec3<double> from = random.point(12);
+  Vec3<double> towards = random.point(6) - from;
+  std::vector<Ray<T>> rays;
+  int octant = -1;
+  while (static_cast<int>(rays.size()) < count) {
+    Vec3<double> direction = towards + random.point(spread);
+    if (random.below(9) == 0) direction[random.below(3)] = 0;
+    const Ray<T> ray{(from + random.point(spread)).cast<T>(), direction.cast<T>(),
+                     static_cast<T>(random.below(3) ? 1e9 : random.within(0.2, 1))};
+    const int of = SlabRay(ray).octant();
+    if (octant == -1) octant = of;
+    if (of == octant) rays.push_back(ray);
+  }
+  return rays;
+}
+
+// To each ray of a beam happens what happens to it alone.
+TYPED_TEST(TraverseOf, beams_find_for_each_ray_what_it_finds_alone) {
+  using T = TypeParam;
+  BoxRandom random;
+  const Boxes boxes = scattered_boxes(3000, random);
+  const Bvh bvh = built(boxes);
+  std::size_t found = 0;
+  for (const double spread : {0.0, 0.1, 4.0})
+    for (const int count : {2, 7, 8, 9, 33, beam_capacity})
+      for (int i = 0; i < 10; ++i) {
+        const auto rays = rays_of_a_beam<T>(random, count, spread);
+        Beam beam;
+        for (const Ray<T>& ray : rays) beam.add(SlabRay(ray).numbers);
+        beam.fill_up();
+        for (const WalkSet set : walk_sets()) {
+          std::vector<BoxSet> together(rays.size());
+          traverse(
+              bvh, beam,
+              [&](std::uint32_t index, BeamRays which) {
+                for (std::size_t k = 0; k < rays.size(); ++k)
+                  if (which >> k & 1) together[k].insert(index);
+                return false;
+              },
+              set);
+          for (std::size_t k = 0; k < rays.size(); ++k) {
+            EXPECT_EQ(together[k], boxes_found(bvh, rays[k], set));
+            found += together[k].size();
+          }
+        }
+      }
+  EXPECT_GT(found, 3000u);
+}
+
+TEST(Traverse, near_boxes_come_first_and_a_hit_ends_the_search_behind_it) {
+  Boxes row;
+  for (int i = 0; i < 1024; ++i) row.push_back(box({2.0 * i, 0, 0}, {2.0 * i + 1, 1, 1}));
+  const Bvh bvh = built(row);
+  for (const bool backwards : {false, true}) {
+    SlabRay ray(backwards ? Ray<double>{{4000, 0.5, 0.5}, {-1, 0, 0}}
+                          : Ray<double>{{-4000, 0.5, 0.5}, {1, 0, 0}});
+    std::vector<std::uint32_t> order;
+    const auto visited = traverse(bvh, ray, [&](std::uint32_t i) {
+      order.push_back(i);
+      ray.numbers.t_max = ray.limit(4000 + (backwards ? -1.0 : 1.0) * 2.0 * i);
+      return false;
+    });
+    EXPECT_EQ(order, std::vector<std::uint32_t>{backwards ? 1023u : 0u});
+    EXPECT_LE(visited, 5u);
+  }
+}
+
+}  // namespace
+}  // namespace minkray::testing
