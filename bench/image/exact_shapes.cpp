@@ -21,9 +21,12 @@ class ExactShapes : public Tracer {
     hierarchy_seconds_ = clock.seconds_on(thread_count());
   }
 
-  std::vector<std::string> entries() const override { return {"single", "together"}; }
+  std::vector<std::string> entries() const override {
+    return {"single", "16 together", "64 together"};
+  }
   std::unique_ptr<RayQueue> queue(std::size_t entry) const override {
-    return std::make_unique<Queue>(world_, entry == 1);
+    constexpr std::array<std::size_t, 3> groups = {1, 16, 64};
+    return std::make_unique<Queue>(world_, groups[entry]);
   }
   Vec3<float> world_normal(const FirstHit& hit) const override { return hit.normal; }
   std::size_t bytes() const override { return world_.bytes(); }
@@ -35,13 +38,14 @@ class ExactShapes : public Tracer {
     return {static_cast<float>(hit.cast.t()), hit.instance, hit.cast.normal.template cast<float>()};
   }
 
-  /// One by one, or as many at once as the world takes.
+  /// One by one, or `group` rays together; as in the renderer, only those that are coherent.
   class Queue : public RayQueue {
    public:
-    Queue(const World<T>& world, bool together) : world_(world), together_(together) {}
+    Queue(const World<T>& world, std::size_t group) : world_(world), group_(group) {}
 
     void prepare(const RaySpan& rays) override {
       rays_.clear();
+      together_ = group_ > 1 && rays.coherent;
       for (std::size_t i = 0; i < rays.size(); ++i) {
         const Ray<float>& ray = rays.rays[i];
         rays_.push_back({{ray.origin.cast<T>(), ray.direction.cast<T>(), T(ray.t_max)},
@@ -81,13 +85,13 @@ class ExactShapes : public Tracer {
    private:
     template <class Take>
     void for_groups(const Take& take) const {
-      constexpr auto most = static_cast<std::size_t>(most_rays_at_once);
-      for (std::size_t begin = 0; begin < rays_.size(); begin += most)
-        take(begin, std::span(rays_).subspan(begin, std::min(most, rays_.size() - begin)));
+      for (std::size_t begin = 0; begin < rays_.size(); begin += group_)
+        take(begin, std::span(rays_).subspan(begin, std::min(group_, rays_.size() - begin)));
     }
 
     const World<T>& world_;
-    bool together_;
+    std::size_t group_;
+    bool together_ = false;
     std::vector<WorldRay<T>> rays_;
     std::array<WorldHit<T>, static_cast<std::size_t>(most_rays_at_once)> answers_;
   };

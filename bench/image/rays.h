@@ -16,8 +16,8 @@ struct SecondaryRays {
   std::vector<std::uint32_t> from;  ///< by ray: the index of the hit it starts from
 };
 
-/// A tile's camera rays: sample by sample, in blocks of 4 x 2 pixels, so that eight neighbours make
-/// a packet. `pixel_of` tells their pixels.
+/// A tile's camera rays: sample by sample, in blocks of 8 x 8 pixels made of blocks of 4 x 2, so
+/// that neighbours make packets. `pixel_of` tells their pixels.
 void camera_rays(const Camera& camera, const PixelRect& tile, int samples,
                  std::vector<Ray<float>>& rays, std::vector<std::array<int, 2>>& pixel_of);
 

@@ -109,12 +109,15 @@ void World<T>::closest_hits(std::span<const WorldRay<T>> rays, std::span<WorldHi
                             QueryCounts& counts) const {
   std::array<SlabRay, capacity> slabs;
   const auto on_single = [&](std::size_t i) {
-    hits[i] = closest_hit(rays[i].ray, counts, rays[i].skip);
+    hits[i] = closest_hit(rays[i].ray, counts, rays[i].skip, rays[i].time);
   };
   const auto on_group = [&](Group& group) {
     const auto index = [&](int lane) { return group.ray_of[static_cast<std::size_t>(lane)]; };
-    const auto ray_of = [&](int lane) -> const Ray<T>& { return rays[index(lane)].ray; };
     counts.nodes += traverse(bvh_, group.beam, [&](std::uint32_t instance, BeamRays meeting) {
+      const auto ray_of = [&](int lane) {
+        const WorldRay<T>& asked = rays[index(lane)];
+        return instances_.seen_by(instance, asked.ray, asked.time);
+      };
       for (BeamRays left = meeting; left != 0;) {
         const int lane = next_of(left);
         if (rays[index(lane)].skip == instance) meeting &= ~(BeamRays(1) << lane);
@@ -144,13 +147,16 @@ BeamRays World<T>::occluded(std::span<const WorldRay<T>> rays, QueryCounts& coun
   BeamRays met = 0;
   std::array<SlabRay, capacity> slabs;
   const auto on_single = [&](std::size_t i) {
-    if (occluded(rays[i].ray, counts, rays[i].skip)) met |= BeamRays(1) << i;
+    if (occluded(rays[i].ray, counts, rays[i].skip, rays[i].time)) met |= BeamRays(1) << i;
   };
   const auto on_group = [&](Group& group) {
     const auto index = [&](int lane) { return group.ray_of[static_cast<std::size_t>(lane)]; };
-    const auto ray_of = [&](int lane) -> const Ray<T>& { return rays[index(lane)].ray; };
     int open = group.beam.count;
     counts.nodes += traverse(bvh_, group.beam, [&](std::uint32_t instance, BeamRays meeting) {
+      const auto ray_of = [&](int lane) {
+        const WorldRay<T>& asked = rays[index(lane)];
+        return instances_.seen_by(instance, asked.ray, asked.time);
+      };
       for (BeamRays left = meeting; left != 0;) {
         const int lane = next_of(left);
         if (rays[index(lane)].skip == instance) meeting &= ~(BeamRays(1) << lane);
