@@ -32,7 +32,10 @@ Scene flight(double shutter) {
   scene.objects = {{"floor", Box<double>{{20, 20, 1}}, {Mat3<double>::Identity(), {0, 0, -2}}, 1},
                    {"box", rounded_box(), {}, 0},
                    {"ball", Sphere<double>{0.5}, {}, 0}};
-  scene.objects[1].motion = Motion{{{0, {-2, 0, 0}, about_z(0)}, {1, {1, 1, 1}, about_z(2)}}, {}};
+  // Tilted: where a normal is horizontal but for rounding, the frame that scattered rays are drawn
+  // in may be one or the other.
+  const Affine<double> tilt{rotation_matrix(0.2, 0.15, 0.0, 1.0), {0, 0, 0}};
+  scene.objects[1].motion = Motion{{{0, {-2, 0, 0}, about_z(0)}, {1, {1, 1, 1}, about_z(2)}}, tilt};
   scene.objects[2].motion =
       Motion{{{0.25, {1, 0, 0}, {0, 0, 0, 1}}, {0.5, {1, 0, 1}, {0, 0, 0, 1}}}, {}};
   set_time(scene, 0);
