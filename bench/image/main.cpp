@@ -29,7 +29,7 @@ struct Options {
   std::string kind = "rounded-boxes";
   std::size_t objects = 100000;
   std::size_t build_objects = 1000000;
-  std::size_t rays = 200000;
+  std::size_t rays = 400000;
   int rounds = 3;
   int width = 1920, height = 1080, samples = 1;
   std::vector<double> mesh_errors = {1e-4, 1e-6};
@@ -106,7 +106,7 @@ class Bench {
   void casts() {
     const Subject boxes = subject(options_.kind, options_.objects);
     const std::vector<Contender> contenders =
-        contenders_for(boxes.scene, {options_.mesh_errors, true, false});
+        contenders_for(boxes.scene, {options_.mesh_errors, true, false, false});
     const std::vector<CastResults> results =
         measure_casts(boxes, contenders, options_.rays, options_.rounds);
     Json list = Json::array();
@@ -132,7 +132,7 @@ class Bench {
 
   void build() {
     const Subject boxes = subject(options_.kind, options_.build_objects);
-    const std::vector<Contender> contenders = contenders_for(boxes.scene, {{}, true, false});
+    const std::vector<Contender> contenders = contenders_for(boxes.scene, {{}, true, true, false});
     // The picture is small: building is what is measured.
     const std::vector<ImageTime> times =
         measure_images(boxes, contenders, {{64, 64}, 1, 1, options_.rounds});
@@ -165,7 +165,8 @@ class Bench {
 
   void hulls() {
     const Subject hulls = subject("rounded-hulls", 1000);
-    const std::vector<Contender> contenders = contenders_for(hulls.scene, {{1e-4}, true, true});
+    const std::vector<Contender> contenders =
+        contenders_for(hulls.scene, {{1e-4}, true, false, true});
     const Resolution resolution{options_.width, options_.height};
     const std::vector<ImageTime> times =
         measure_images(hulls, contenders, {resolution, options_.samples, 1, options_.rounds});
@@ -191,7 +192,8 @@ class Bench {
 
   void threads() {
     const Subject boxes = subject(options_.kind, options_.objects);
-    const std::vector<Contender> contenders = contenders_for(boxes.scene, {{}, false, false});
+    const std::vector<Contender> contenders =
+        contenders_for(boxes.scene, {{}, false, false, false});
     const Resolution resolution{960, 540};
     std::vector<double> trace, image;
     for (int round = 0; round < options_.rounds; ++round) {
@@ -249,7 +251,7 @@ class Bench {
   void image() {
     const Subject made = subject(options_.kind, options_.objects);
     const std::vector<Contender> contenders =
-        contenders_for(made.scene, {options_.mesh_errors, true, false});
+        contenders_for(made.scene, {options_.mesh_errors, true, false, false});
     const std::vector<ImageTime> times = measure_images(
         made, contenders,
         {{options_.width, options_.height}, options_.samples, options_.threads, options_.rounds});
@@ -267,7 +269,7 @@ class Bench {
     for (std::size_t objects = options_.growth_from; objects <= options_.growth_to; objects *= 10) {
       const Subject made = subject(options_.kind, objects);
       const std::vector<Contender> contenders =
-          contenders_for(made.scene, {options_.mesh_errors, true, false});
+          contenders_for(made.scene, {options_.mesh_errors, true, false, false});
       const std::vector<ImageTime> times = measure_images(
           made, contenders,
           {{options_.width, options_.height}, options_.samples, options_.threads, options_.rounds});
