@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "core/bvh/bvh.h"
 #include "core/math/ray.h"
 
 namespace minkray {
@@ -72,7 +73,7 @@ struct SlabRay {
     const double largest = static_cast<double>(ray.direction.cwiseAbs().maxCoeff());
     int exponent = 0;
     if (largest > 0 && !(largest >= 0.5 && largest < 2)) std::frexp(largest, &exponent);
-    steps = std::ldexp(1.0, exponent);
+    steps = exponent == 0 ? 1 : std::ldexp(1.0, exponent);
     for (int axis = 0; axis < 3; ++axis) {
       const double d = exponent == 0
                            ? static_cast<double>(ray.direction[axis])
@@ -100,14 +101,13 @@ struct SlabRay {
   int octant() const { return numbers.near[0] | numbers.near[1] << 1 | numbers.near[2] << 2; }
 };
 
-/// A set of a beam's rays: a bit for each, the lowest for ray 0.
-using BeamRays = std::uint64_t;
-inline constexpr int beam_capacity = 64;
-
 /// Rays of one octant.
 struct Beam {
   SlabNumbers whole;  ///< t_max included: the greatest
   int count = 0;
+  /// How many leaves that no ray meets may be tested: a beam of rays that run apart costs more than
+  /// its rays alone.
+  int patience = std::numeric_limits<int>::max();
   // Ray by ray; filled up to a multiple of 8.
   alignas(32) std::array<std::array<float, beam_capacity>, 3> origin_near, origin_far, inverse_near,
       inverse_far;

@@ -5,9 +5,8 @@ namespace minkray {
 namespace {
 
 template <class RayOrBeam>
-std::uint32_t walk_with(const Bvh& bvh, const RayOrBeam& rays, const BoxVisitor& visitor,
-                        WalkSet set) {
-  if (bvh.nodes.empty()) return 0;
+Walk walk_with(const Bvh& bvh, const RayOrBeam& rays, const BoxVisitor& visitor, WalkSet set) {
+  if (bvh.nodes.empty()) return {};
   return set == WalkSet::avx2 ? walk_avx2(bvh.nodes.data(), rays, visitor)
                               : walk_sse2(bvh.nodes.data(), rays, visitor);
 }
@@ -23,11 +22,11 @@ WalkSet best_walk_set() {
 #endif
 }
 
-std::uint32_t walk(const Bvh& bvh, const SlabNumbers& ray, const BoxVisitor& visitor, WalkSet set) {
+Walk walk(const Bvh& bvh, const SlabNumbers& ray, const BoxVisitor& visitor, WalkSet set) {
   return walk_with(bvh, ray, visitor, set);
 }
 
-std::uint32_t walk(const Bvh& bvh, const Beam& beam, const BoxVisitor& visitor, WalkSet set) {
+Walk walk(const Bvh& bvh, const Beam& beam, const BoxVisitor& visitor, WalkSet set) {
   return walk_with(bvh, beam, visitor, set);
 }
 

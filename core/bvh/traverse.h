@@ -14,10 +14,10 @@ namespace minkray {
 enum class WalkSet : unsigned char { sse2, avx2 };
 WalkSet best_walk_set();
 
-std::uint32_t walk(const Bvh& bvh, const SlabNumbers& ray, const BoxVisitor& visitor,
-                   WalkSet set = best_walk_set());
-std::uint32_t walk(const Bvh& bvh, const Beam& beam, const BoxVisitor& visitor,
-                   WalkSet set = best_walk_set());
+Walk walk(const Bvh& bvh, const SlabNumbers& ray, const BoxVisitor& visitor,
+          WalkSet set = best_walk_set());
+Walk walk(const Bvh& bvh, const Beam& beam, const BoxVisitor& visitor,
+          WalkSet set = best_walk_set());
 
 /// Calls on_box(index) for the boxes that the ray meets with 0 <= t <= t_max, and rounding may add
 /// some. It may lower ray.numbers.t_max, and ends the walk by returning true. Answers how many
@@ -29,14 +29,14 @@ std::uint32_t traverse(const Bvh& bvh, const SlabRay& ray, OnBox&& on_box,
   const auto visit = [](void* context, std::uint32_t box, BeamRays) -> bool {
     return (*static_cast<Function*>(context))(box);
   };
-  return walk(bvh, ray.numbers, {visit, &on_box}, set);
+  return walk(bvh, ray.numbers, {visit, &on_box}, set).visited;
 }
 
 /// Calls on_box(index, rays) for the boxes that rays of the beam meet: to each ray happens what
-/// would happen to it alone, but for the order of boxes. It may lower t_max of rays.
+/// would happen to it alone, but for the order of boxes, if the walk is complete. It may lower
+/// t_max of rays.
 template <class OnBox>
-std::uint32_t traverse(const Bvh& bvh, const Beam& beam, OnBox&& on_box,
-                       WalkSet set = best_walk_set()) {
+Walk traverse(const Bvh& bvh, const Beam& beam, OnBox&& on_box, WalkSet set = best_walk_set()) {
   using Function = std::remove_reference_t<OnBox>;
   const auto visit = [](void* context, std::uint32_t box, BeamRays rays) -> bool {
     return (*static_cast<Function*>(context))(box, rays);

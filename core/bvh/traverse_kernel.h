@@ -16,13 +16,20 @@ struct BoxVisitor {
   void* context;
 };
 
-/// Both answer how many nodes were visited. The visitor may lower t_max of the ray, or of rays and
+/// How many nodes were visited, and whether that was all: a beam may have lost its patience, and
+/// met just a part of the boxes.
+struct Walk {
+  std::uint32_t visited = 0;
+  bool complete = true;
+};
+
+/// The visitor may lower t_max of the ray, or of rays and
 /// the whole of the beam.
-std::uint32_t walk_sse2(const BvhNode* nodes, const SlabNumbers& ray, const BoxVisitor& visitor);
-std::uint32_t walk_sse2(const BvhNode* nodes, const Beam& beam, const BoxVisitor& visitor);
+Walk walk_sse2(const BvhNode* nodes, const SlabNumbers& ray, const BoxVisitor& visitor);
+Walk walk_sse2(const BvhNode* nodes, const Beam& beam, const BoxVisitor& visitor);
 
 /// Only on machines that have AVX2 and FMA.
-std::uint32_t walk_avx2(const BvhNode* nodes, const SlabNumbers& ray, const BoxVisitor& visitor);
-std::uint32_t walk_avx2(const BvhNode* nodes, const Beam& beam, const BoxVisitor& visitor);
+Walk walk_avx2(const BvhNode* nodes, const SlabNumbers& ray, const BoxVisitor& visitor);
+Walk walk_avx2(const BvhNode* nodes, const Beam& beam, const BoxVisitor& visitor);
 
 }  // namespace minkray

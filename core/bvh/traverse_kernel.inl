@@ -72,8 +72,15 @@ BeamRays rays_met(const BvhNode&, int, const SlabNumbers&) {
   return 1;
 }
 
+int patience_of(const SlabNumbers&) {
+  return 1;
+}
+int patience_of(const Beam& beam) {
+  return beam.patience;
+}
+
 template <class RayOrBeam>
-std::uint32_t walk(const BvhNode* nodes, const RayOrBeam& rays, const BoxVisitor& visitor) {
+Walk walk(const BvhNode* nodes, const RayOrBeam& rays, const BoxVisitor& visitor) {
   struct Waiting {
     std::uint32_t node;
     int child;
@@ -82,9 +89,11 @@ std::uint32_t walk(const BvhNode* nodes, const RayOrBeam& rays, const BoxVisitor
   const SlabNumbers& whole = whole_of(rays);
   Waiting stack[bvh_max_depth * (bvh_width - 1) + 1];
   int top = 0;
-  std::uint32_t visited = 0, node = 0;
+  int patience = patience_of(rays);
+  Walk done;
+  std::uint32_t node = 0;
   for (;;) {
-    ++visited;
+    ++done.visited;
     float enters[bvh_width];
     std::uint32_t met = boxes_met(nodes[node], whole, enters);
     // The nearest on top.
@@ -97,7 +106,7 @@ std::uint32_t walk(const BvhNode* nodes, const RayOrBeam& rays, const BoxVisitor
     }
     // The next node, and the boxes before it, if hits found meanwhile have not made them pointless.
     for (;;) {
-      if (top == 0) return visited;
+      if (top == 0) return done;
       const Waiting& next = stack[--top];
       if (!(next.enter <= whole.t_max)) continue;
       const BvhNode& parent = nodes[next.node];
@@ -107,21 +116,23 @@ std::uint32_t walk(const BvhNode* nodes, const RayOrBeam& rays, const BoxVisitor
         break;
       }
       const BeamRays meeting = rays_met(parent, next.child, rays);
-      if (meeting != 0 && visitor.visit(visitor.context, what & ~BvhNode::leaf, meeting))
-        return visited;
+      if (meeting != 0) {
+        if (visitor.visit(visitor.context, what & ~BvhNode::leaf, meeting)) return done;
+      } else if (--patience < 0) {
+        done.complete = false;
+        return done;
+      }
     }
   }
 }
 
 }  // namespace
 
-std::uint32_t MINKRAY_WALK_KERNEL(const BvhNode* nodes, const SlabNumbers& ray,
-                                  const BoxVisitor& visitor) {
+Walk MINKRAY_WALK_KERNEL(const BvhNode* nodes, const SlabNumbers& ray, const BoxVisitor& visitor) {
   return walk(nodes, ray, visitor);
 }
 
-std::uint32_t MINKRAY_WALK_KERNEL(const BvhNode* nodes, const Beam& beam,
-                                  const BoxVisitor& visitor) {
+Walk MINKRAY_WALK_KERNEL(const BvhNode* nodes, const Beam& beam, const BoxVisitor& visitor) {
   return walk(nodes, beam, visitor);
 }
 

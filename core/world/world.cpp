@@ -47,35 +47,45 @@ World<T>::World(Instances<T> instances, const CastOptions<T>& options, BvhBuild 
 // Casts see the ray's own t_max, not that of the nearest hit so far: so their answers, and which of
 // them is the nearest, do not depend on the order of the boxes.
 template <class T>
-WorldHit<T> World<T>::closest_hit(const Ray<T>& ray, QueryCounts& counts, std::uint32_t skip,
-                                  T time) const {
-  WorldHit<T> closest;
-  closest.cast.status = Status::miss;
-  SlabRay slabs(ray);
+void World<T>::closer_hit(const WorldRay<T>& ray, SlabRay& slabs, WorldHit<T>& closest,
+                          QueryCounts& counts) const {
   counts.nodes += traverse(bvh_, slabs, [&](std::uint32_t instance) {
-    if (instance == skip) return false;
+    if (instance == ray.skip) return false;
     const CastResult<T> result = counted_cast(
-        instances_.at(instance), instances_.seen_by(instance, ray, time), options_, counts);
+        instances_.at(instance), instances_.seen_by(instance, ray.ray, ray.time), options_, counts);
     if (!result.found() || !closest.yields_to(instance, result.t())) return false;
     closest = {instance, result};
     slabs.numbers.t_max = slabs.limit(static_cast<double>(result.t()));
     return false;
   });
+}
+
+template <class T>
+bool World<T>::is_blocked(const WorldRay<T>& ray, const SlabRay& slabs, QueryCounts& counts) const {
+  bool met = false;
+  counts.nodes += traverse(bvh_, slabs, [&](std::uint32_t instance) {
+    if (instance == ray.skip) return false;
+    met = counted_cast(instances_.at(instance), instances_.seen_by(instance, ray.ray, ray.time),
+                       options_, counts)
+              .found();
+    return met;
+  });
+  return met;
+}
+
+template <class T>
+WorldHit<T> World<T>::closest_hit(const Ray<T>& ray, QueryCounts& counts, std::uint32_t skip,
+                                  T time) const {
+  WorldHit<T> closest;
+  closest.cast.status = Status::miss;
+  SlabRay slabs(ray);
+  closer_hit({ray, skip, time}, slabs, closest, counts);
   return closest;
 }
 
 template <class T>
 bool World<T>::occluded(const Ray<T>& ray, QueryCounts& counts, std::uint32_t skip, T time) const {
-  bool met = false;
-  const SlabRay slabs(ray);
-  counts.nodes += traverse(bvh_, slabs, [&](std::uint32_t instance) {
-    if (instance == skip) return false;
-    met = counted_cast(instances_.at(instance), instances_.seen_by(instance, ray, time), options_,
-                       counts)
-              .found();
-    return met;
-  });
-  return met;
+  return is_blocked({ray, skip, time}, SlabRay(ray), counts);
 }
 
 template <class T>

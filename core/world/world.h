@@ -8,13 +8,14 @@
 #include <limits>
 #include <span>
 
-#include "core/bvh/beam.h"
 #include "core/bvh/bvh.h"
 #include "core/math/ray.h"
 #include "core/solver/cast.h"
 #include "core/world/instances.h"
 
 namespace minkray {
+
+struct SlabRay;
 
 /// "No instance": as an answer, nothing was met; as the instance to leave out, none is.
 inline constexpr std::uint32_t no_instance = std::numeric_limits<std::uint32_t>::max();
@@ -105,6 +106,12 @@ class World {
   std::size_t bytes() const { return bvh_.bytes() + instances_.bytes(); }
 
  private:
+  /// Of a ray that is made ready: what comes before the closest hit so far, if any; whether
+  /// anything is met.
+  void closer_hit(const WorldRay<T>& ray, SlabRay& slabs, WorldHit<T>& closest,
+                  QueryCounts& counts) const;
+  bool is_blocked(const WorldRay<T>& ray, const SlabRay& slabs, QueryCounts& counts) const;
+
   Instances<T> instances_;
   Bvh bvh_;
   BvhBuild build_ = BvhBuild::quality;

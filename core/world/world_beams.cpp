@@ -30,28 +30,46 @@ int next_of(BeamRays& rays) {
   return ray;
 }
 
-/// on_group(group) for all rays that share their octant with others, on_single(i) for the rest.
-/// `slabs` gets what each ray is tested with.
+/// Directions further apart than this (their largest component is about 1) cannot gain by a beam.
+constexpr double widest_beam = 0.25;
+
+/// Leaves that a beam may test in vain, for each of its rays: about as many as cost what a ray
+/// costs alone. By measurement, see docs/decisions/rays-together.md.
+constexpr int patience_a_ray = 2;
+
+template <class T>
+bool runs_apart(const Ray<T>& a, const SlabRay& slabs_a, const Ray<T>& b, const SlabRay& slabs_b) {
+  const Vec3<double> difference = a.direction.template cast<double>() / slabs_a.steps -
+                                  b.direction.template cast<double>() / slabs_b.steps;
+  return difference.cwiseAbs().maxCoeff() > widest_beam;
+}
+
+/// on_group(group) for all rays that run along with others, on_single(i) for the rest. `slabs` gets
+/// what each ray is tested with.
 template <class T, class OnGroup, class OnSingle>
-void by_octant(std::span<const WorldRay<T>> rays, std::array<SlabRay, capacity>& slabs,
+void in_groups(std::span<const WorldRay<T>> rays, std::array<SlabRay, capacity>& slabs,
                const OnGroup& on_group, const OnSingle& on_single) {
-  std::array<BeamRays, 8> in_octant{};
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    slabs[i] = SlabRay(rays[i].ray);
-    in_octant[static_cast<std::size_t>(slabs[i].octant())] |= BeamRays(1) << i;
-  }
-  for (BeamRays of_octant : in_octant) {
-    if (of_octant == 0) continue;
-    if (std::has_single_bit(of_octant)) {
-      on_single(static_cast<std::size_t>(next_of(of_octant)));
+  if (rays.empty()) return;
+  for (std::size_t i = 0; i < rays.size(); ++i) slabs[i] = SlabRay(rays[i].ray);
+  Group group;
+  for (BeamRays open = ~BeamRays(0) >> (capacity - rays.size()); open != 0;) {
+    const auto first = static_cast<std::size_t>(next_of(open));
+    group.beam.count = 0;
+    group.add(slabs[first].numbers, first);
+    for (BeamRays others = open; others != 0;) {
+      const auto i = static_cast<std::size_t>(next_of(others));
+      if (slabs[i].octant() != slabs[first].octant() ||
+          runs_apart(rays[i].ray, slabs[i], rays[first].ray, slabs[first]))
+        continue;
+      group.add(slabs[i].numbers, i);
+      open &= ~(BeamRays(1) << i);
+    }
+    if (group.beam.count == 1) {
+      on_single(first);
       continue;
     }
-    Group group;
-    while (of_octant != 0) {
-      const auto i = static_cast<std::size_t>(next_of(of_octant));
-      group.add(slabs[i].numbers, i);
-    }
     group.beam.fill_up();
+    group.beam.patience = patience_a_ray * group.beam.count;
     on_group(group);
   }
 }
@@ -108,12 +126,10 @@ template <class T>
 void World<T>::closest_hits(std::span<const WorldRay<T>> rays, std::span<WorldHit<T>> hits,
                             QueryCounts& counts) const {
   std::array<SlabRay, capacity> slabs;
-  const auto on_single = [&](std::size_t i) {
-    hits[i] = closest_hit(rays[i].ray, counts, rays[i].skip, rays[i].time);
-  };
+  const auto on_single = [&](std::size_t i) { closer_hit(rays[i], slabs[i], hits[i], counts); };
   const auto on_group = [&](Group& group) {
     const auto index = [&](int lane) { return group.ray_of[static_cast<std::size_t>(lane)]; };
-    counts.nodes += traverse(bvh_, group.beam, [&](std::uint32_t instance, BeamRays meeting) {
+    const Walk walk = traverse(bvh_, group.beam, [&](std::uint32_t instance, BeamRays meeting) {
       const auto ray_of = [&](int lane) {
         const WorldRay<T>& asked = rays[index(lane)];
         return instances_.seen_by(instance, asked.ray, asked.time);
@@ -128,18 +144,23 @@ void World<T>::closest_hits(std::span<const WorldRay<T>> rays, std::span<WorldHi
                     WorldHit<T>& hit = hits[index(lane)];
                     if (!hit.yields_to(instance, t)) return;
                     hit = {instance, result()};
-                    group.beam.set_t_max(lane, slabs[index(lane)].limit(static_cast<double>(t)));
+                    SlabRay& slab = slabs[index(lane)];
+                    slab.numbers.t_max = slab.limit(static_cast<double>(t));
+                    group.beam.set_t_max(lane, slab.numbers.t_max);
                     nearer = true;
                   });
       if (nearer) group.beam.narrow();
       return false;
     });
+    counts.nodes += walk.visited;
+    if (walk.complete) return;
+    for (int lane = 0; lane < group.beam.count; ++lane) on_single(index(lane));
   };
   for (std::size_t i = 0; i < rays.size(); ++i) {
     hits[i] = {};
     hits[i].cast.status = Status::miss;
   }
-  by_octant(rays, slabs, on_group, on_single);
+  in_groups(rays, slabs, on_group, on_single);
 }
 
 template <class T>
@@ -147,12 +168,12 @@ BeamRays World<T>::occluded(std::span<const WorldRay<T>> rays, QueryCounts& coun
   BeamRays met = 0;
   std::array<SlabRay, capacity> slabs;
   const auto on_single = [&](std::size_t i) {
-    if (occluded(rays[i].ray, counts, rays[i].skip, rays[i].time)) met |= BeamRays(1) << i;
+    if (is_blocked(rays[i], slabs[i], counts)) met |= BeamRays(1) << i;
   };
   const auto on_group = [&](Group& group) {
     const auto index = [&](int lane) { return group.ray_of[static_cast<std::size_t>(lane)]; };
     int open = group.beam.count;
-    counts.nodes += traverse(bvh_, group.beam, [&](std::uint32_t instance, BeamRays meeting) {
+    const Walk walk = traverse(bvh_, group.beam, [&](std::uint32_t instance, BeamRays meeting) {
       const auto ray_of = [&](int lane) {
         const WorldRay<T>& asked = rays[index(lane)];
         return instances_.seen_by(instance, asked.ray, asked.time);
@@ -171,8 +192,12 @@ BeamRays World<T>::occluded(std::span<const WorldRay<T>> rays, QueryCounts& coun
       if (open < before) group.beam.narrow();
       return open == 0;
     });
+    counts.nodes += walk.visited;
+    if (walk.complete) return;
+    for (int lane = 0; lane < group.beam.count; ++lane)
+      if (!(met >> index(lane) & 1)) on_single(index(lane));
   };
-  by_octant(rays, slabs, on_group, on_single);
+  in_groups(rays, slabs, on_group, on_single);
   return met;
 }
 

@@ -56,6 +56,90 @@ TEST(Render, the_same_bits_for_any_number_of_threads) {
   }
 }
 
+/// Turned boxes and others, as many as may be, that shade each other, in light of every kind.
+Scene heap() {
+  Scene scene = still_life();
+  const Shape<double> box(Box<double>{{0.2, 0.15, 0.1}});
+  const std::vector<Shape<double>> kinds = {Rounded<double>{0.05, box}, Sphere<double>{0.25},
+                                            Cylinder<double>{0.15, 0.2}, box};
+  Sampler places(77, 0, 0, 0);
+  for (std::size_t i = 0; i < 300; ++i) {
+    const auto [a, b] = places.next();
+    const auto [c, d] = places.next();
+    scene.objects.push_back({"one of many",
+                             kinds[i % kinds.size()],
+                             {rotation_matrix(a, b, c, d), {6 * a - 3, 6 * b - 3, 1.5 * c}},
+                             static_cast<std::uint32_t>(i % 3)});
+  }
+  return scene;
+}
+
+// Rays that are traced together must not know of each other.
+TEST(Render, the_same_bits_for_any_packet) {
+  const Scene scene = heap();
+  const RenderWorld world = make_world(scene), other_tree = make_world(scene, {}, BvhBuild::speed);
+  for (const int samples : {1, 3, 70}) {
+    RenderOptions options = small_picture();
+    options.samples = samples;
+    if (samples == 70) options.crop = {30, 20, 41, 27};
+    options.integrator.packet = 1;
+    const Rendering alone = render(scene, world, options);
+    EXPECT_EQ(render(scene, other_tree, options).image.pixels, alone.image.pixels);
+    for (const int packet : {2, 4, 7, 8, 16, most_in_packet}) {
+      options.integrator.packet = packet;
+      Rendering together;
+      with_threads(1 + packet % 3, [&] { together = render(scene, world, options); });
+      EXPECT_EQ(together.image.pixels, alone.image.pixels) << packet << " of " << samples;
+      EXPECT_EQ(together.met, alone.met);
+      EXPECT_EQ(together.counts.total(), alone.counts.total());
+      EXPECT_EQ(together.counts.shadow, alone.counts.shadow);
+      EXPECT_EQ(together.counts.background, alone.counts.background);
+      EXPECT_LT(together.counts.work.nodes, alone.counts.work.nodes);
+    }
+  }
+}
+
+TEST(Render, shares_of_samples_do_not_depend_on_packets) {
+  const Scene scene = heap();
+  const RenderWorld world = make_world(scene);
+  RenderOptions options = small_picture();
+  options.crop = {30, 20, 50, 31};
+  options.samples = 7;
+  options.sample_share = {2, 3};
+  options.integrator.packet = 1;
+  const Rendering alone = render(scene, world, options);
+  ASSERT_GT(alone.block_sums.size(), 1u);
+  for (const int packet : {4, 8}) {
+    options.integrator.packet = packet;
+    const Rendering together = render(scene, world, options);
+    ASSERT_EQ(together.block_sums.size(), alone.block_sums.size());
+    for (std::size_t i = 0; i < alone.block_sums.size(); ++i)
+      EXPECT_EQ(together.block_sums[i].pixels, alone.block_sums[i].pixels);
+  }
+}
+
+// Proof is asked for every ray, in packets or not.
+TEST(Render, packets_are_audited) {
+  const Scene scene = still_life();
+  const RenderWorld world = make_world(scene);
+  RenderOptions options = small_picture();
+  options.crop = {20, 20, 31, 29};
+  std::array<std::uint64_t, 4> rays_alone{};
+  for (const int packet : {1, 8}) {
+    RayAudit audit(scene, world);
+    options.integrator.packet = packet;
+    options.integrator.audit = &audit;
+    render(scene, world, options);
+    for (std::size_t kind = 0; kind < 4; ++kind) {
+      EXPECT_EQ(audit.failed(static_cast<RayKind>(kind)), 0u);
+      const std::uint64_t rays = audit.rays(static_cast<RayKind>(kind));
+      if (packet == 1) rays_alone[kind] = rays;
+      EXPECT_EQ(rays, rays_alone[kind]) << ray_kind_names[kind];
+      EXPECT_GT(rays, 0u) << ray_kind_names[kind];
+    }
+  }
+}
+
 TEST(Render, a_crop_is_a_part_of_the_whole_picture) {
   const Scene scene = still_life();
   const RenderWorld world = make_world(scene);
