@@ -175,7 +175,8 @@ class Bench {
     print(std::cout, times);
     json_["hulls"] = as_json(times);
     const auto measured = [](const ImageTime& time) { return time.image_ratio; };
-    goal("time to image, 1000 rounded hulls, 1080p, " + std::to_string(options_.samples) +
+    goal("time to image, 1000 rounded hulls, " + std::to_string(resolution.width) + "x" +
+             std::to_string(resolution.height) + ", " + std::to_string(options_.samples) +
              (options_.samples == 1 ? " sample" : " samples") +
              ": Embree's triangles of error 1e-4",
          ">= 3", 3, false, least_ratio(times, "embree triangles 0.0001", measured));

@@ -8,7 +8,7 @@
 namespace minkray::bench {
 namespace {
 
-constexpr int name_width = 27, entry_width = 13;
+constexpr int name_width = 32, entry_width = 13;
 
 std::string number(double value, int digits = 3) {
   std::ostringstream text;

@@ -77,8 +77,8 @@ Json tumbling_scene(std::size_t count, std::uint64_t seed) {
   scene["version"] = scene_version;
   scene["description"] = std::to_string(count) + " bodies that tumble (minkray generate, seed " +
                          std::to_string(seed) + ").";
-  scene["camera"] = {{"position", list_of(Vec3<double>(1.6, -3.6, 0.8) * (half_size + 3))},
-                     {"look_at", list_of(Vec3<double>(0, 0, -0.25) * (half_size + 3))},
+  scene["camera"] = {{"position", list_of(Vec3<double>(2.0, -4.5, 1.0) * (half_size + 3))},
+                     {"look_at", list_of(Vec3<double>(0, 0, -0.3) * (half_size + 3))},
                      {"fov_y_degrees", 40},
                      {"resolution", {960, 540}},
                      {"shutter", 0.02}};
@@ -105,7 +105,7 @@ Json tumbling_scene(std::size_t count, std::uint64_t seed) {
         spacing * (cell + Vec3<double>::Constant(0.5)) - Vec3<double>::Constant(half_size);
     // Outwards, and each a little its own way.
     const Vec3<double> velocity =
-        0.45 * from + Vec3<double>(0, 0, 0.6 * half_size) + 2 * random.in_cube(1);
+        0.45 * from + Vec3<double>(0, 0, 0.4 * half_size) + 2 * random.in_cube(1);
     Quaternion q = random.rotation();
     const Quaternion step = turn(random);
     const std::size_t kind = random.bits() % shape_kinds;
