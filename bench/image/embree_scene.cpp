@@ -91,7 +91,7 @@ class Singles : public RayQueue {
   std::vector<RTCRayHit> queries_;
 };
 
-/// Packets of eight, one call each or one call for all.
+/// Packets of eight, one call each or, for first hits, one call for all.
 class Packets : public RayQueue {
  public:
   Packets(RTCScene scene, EmbreeNumber number, bool stream)
@@ -146,13 +146,11 @@ class Packets : public RayQueue {
 
   void occluded(std::span<unsigned char> answers) override {
     RTCIntersectContext context = context_for(coherent_);
-    if (stream_)
-      rtcOccludedNM(scene_, &context, reinterpret_cast<RTCRayN*>(packets_.data()), lanes,
-                    static_cast<unsigned>(packets_.size()), sizeof(RTCRayHit8));
     for (std::size_t begin = 0; begin < size_; begin += lanes) {
       RTCRay8& ray = packets_[begin / lanes].ray;
       const std::size_t count = std::min(lanes, size_ - begin);
-      if (!stream_) rtcOccluded8(valid(count), scene_, &context, &ray);
+      // Also for streams: rtcOccludedNM of Embree 3.13.5 has been seen not to return on instances.
+      rtcOccluded8(valid(count), scene_, &context, &ray);
       for (std::size_t lane = 0; lane < count; ++lane)
         answers[begin + lane] = is_occluded(ray.tfar[lane]) ? 1 : 0;
     }
