@@ -105,7 +105,7 @@ Json tumbling_scene(std::size_t count, std::uint64_t seed) {
         spacing * (cell + Vec3<double>::Constant(0.5)) - Vec3<double>::Constant(half_size);
     // Outwards, and each a little its own way.
     const Vec3<double> velocity =
-        0.45 * from + Vec3<double>(0, 0, 0.4 * half_size) + 2 * random.in_cube(1);
+        0.45 * from + Vec3<double>(0, 0, 0.6 * half_size) + 2 * random.in_cube(1);
     Quaternion q = random.rotation();
     const Quaternion step = turn(random);
     const std::size_t kind = random.bits() % shape_kinds;
