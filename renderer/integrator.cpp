@@ -66,6 +66,7 @@ struct Integrator::Path {
   int bounces = 0;
   int mirrors = 0;
   std::uint32_t left = no_instance;  ///< the instance that the ray leaves
+  Real time = 0;                     ///< while the shutter is open: from 0 to 1
 
   bool at_camera() const { return bounces == 0 && mirrors == 0; }
 };
@@ -77,6 +78,7 @@ struct Integrator::Spot {
   Vec3<double> w_out;  ///< where the ray came from, in the frame
   const Surface& surface;
   std::uint32_t instance;
+  Real time;
 };
 
 /// The way to a light, and what comes from there.
@@ -102,9 +104,10 @@ Integrator::Integrator(const Scene& scene, const RenderWorld& world,
   for (DirectionalLight& light : directional_) light.direction = unit(light.direction);
 }
 
-Colour Integrator::radiance(const Ray<Real>& ray, Sampler& sampler, RayCounts& counts) const {
+Colour Integrator::radiance(const Ray<Real>& ray, Sampler& sampler, RayCounts& counts,
+                            Real time) const {
   ++counts.camera;
-  return along(ray, {}, sampler, counts);
+  return along(ray, {0, 0, no_instance, time}, sampler, counts);
 }
 
 Colour Integrator::environment(const Vec3<double>& direction) const {
@@ -114,21 +117,21 @@ Colour Integrator::environment(const Vec3<double>& direction) const {
   return sum;
 }
 
-bool Integrator::occluded(RayKind kind, const Ray<Real>& ray, std::uint32_t skip,
+bool Integrator::occluded(RayKind kind, const Ray<Real>& ray, const Spot& from,
                           RayCounts& counts) const {
-  const bool answer = world_.occluded(ray, counts.work, skip);
-  if (options_.audit) options_.audit->occluded(kind, ray, skip, answer);
+  const bool answer = world_.occluded(ray, counts.work, from.instance, from.time);
+  if (options_.audit) options_.audit->occluded(kind, ray, from.instance, answer);
   return answer;
 }
 
 Colour Integrator::along(const Ray<Real>& ray, const Path& path, Sampler& sampler,
                          RayCounts& counts) const {
-  const WorldHit<Real> hit = world_.closest_hit(ray, counts.work, path.left);
+  const WorldHit<Real> hit = world_.closest_hit(ray, counts.work, path.left, path.time);
   if (options_.audit)
     options_.audit->closest(path.at_camera() ? RayKind::camera : RayKind::indirect, ray, path.left,
                             hit);
   if (hit.cast.status != Status::hit) return off_surface(ray, hit, path, counts);
-  const Spot spot = spot_of(ray, hit);
+  const Spot spot = spot_of(ray, hit, path.time);
   return from_spot(spot, direct(spot, path, counts), path, sampler, counts);
 }
 
@@ -137,7 +140,7 @@ Colour Integrator::along(const Ray<Real>& ray, const Path& path, Sampler& sample
 void Integrator::trace(std::span<CameraRay> rays, RayCounts& counts) const {
   if (rays.size() == 1) {
     const std::uint64_t background = counts.background;
-    rays[0].radiance = radiance(rays[0].ray, rays[0].sampler, counts);
+    rays[0].radiance = radiance(rays[0].ray, rays[0].sampler, counts, rays[0].time);
     rays[0].met = counts.background == background;
     return;
   }
@@ -146,7 +149,7 @@ void Integrator::trace(std::span<CameraRay> rays, RayCounts& counts) const {
   std::array<std::optional<Spot>, most_in_packet> spots;
   std::array<Colour, most_in_packet> arrived;
   const std::size_t count = rays.size();
-  for (std::size_t i = 0; i < count; ++i) asked[i].ray = rays[i].ray;
+  for (std::size_t i = 0; i < count; ++i) asked[i] = {rays[i].ray, no_instance, rays[i].time};
   counts.camera += count;
   world_.closest_hits(std::span(asked).first(count), hits, counts.work);
 
@@ -155,7 +158,7 @@ void Integrator::trace(std::span<CameraRay> rays, RayCounts& counts) const {
     if (options_.audit) options_.audit->closest(RayKind::camera, rays[i].ray, no_instance, hits[i]);
     rays[i].met = hits[i].found();
     if (hits[i].cast.status == Status::hit)
-      spots[i].emplace(spot_of(rays[i].ray, hits[i]));
+      spots[i].emplace(spot_of(rays[i].ray, hits[i], rays[i].time));
     else
       rays[i].radiance = off_surface(rays[i].ray, hits[i], at_camera, counts);
   }
@@ -181,7 +184,8 @@ Colour Integrator::off_surface(const Ray<Real>& ray, const WorldHit<Real>& hit, 
   return Colour::Zero();
 }
 
-Integrator::Spot Integrator::spot_of(const Ray<Real>& ray, const WorldHit<Real>& hit) const {
+Integrator::Spot Integrator::spot_of(const Ray<Real>& ray, const WorldHit<Real>& hit,
+                                     Real time) const {
   const Real t = hit.cast.t();
   const Vec3<Real> on_surface = ray.at(t);
   const Real largest =
@@ -191,8 +195,12 @@ Integrator::Spot Integrator::spot_of(const Ray<Real>& ray, const WorldHit<Real>&
   Vec3<double> w_out = frame.to_local(-ray.direction);
   // A grazing normal may be rounded to the far side.
   w_out.z() = std::max(w_out.z(), std::numeric_limits<double>::epsilon());
-  return {on_surface + offset * frame.z, frame, w_out,
-          surfaces_[surface_of_instance_[hit.instance]], hit.instance};
+  return {on_surface + offset * frame.z,
+          frame,
+          w_out,
+          surfaces_[surface_of_instance_[hit.instance]],
+          hit.instance,
+          time};
 }
 
 /// `arrived` is the direct light.
@@ -248,7 +256,7 @@ Colour Integrator::direct(const Spot& spot, const Path& path, RayCounts& counts)
     const std::optional<ShadowRay> shadow = shadow_ray(light, spot);
     if (!shadow) continue;
     ++counts.shadow;
-    if (occluded(RayKind::shadow, shadow->ray, spot.instance, counts)) continue;
+    if (occluded(RayKind::shadow, shadow->ray, spot, counts)) continue;
     sum += unblocked(*shadow, spot, path);
   }
   return sum;
@@ -265,7 +273,7 @@ void Integrator::direct(std::span<const std::optional<Spot>> spots, const Path& 
     for (std::size_t i = 0; i < spots.size(); ++i) {
       shadows[i].reset();
       if (spots[i]) shadows[i] = shadow_ray(light, *spots[i]);
-      if (shadows[i]) asked[count++] = {shadows[i]->ray, spots[i]->instance};
+      if (shadows[i]) asked[count++] = {shadows[i]->ray, spots[i]->instance, spots[i]->time};
     }
     counts.shadow += count;
     const std::span<const WorldRay<Real>> rays = std::span(asked).first(count);
@@ -291,11 +299,11 @@ Colour Integrator::scattered(const Spot& spot, const Path& path, Sampler& sample
   const Ray<Real> ray{spot.position, direction};
   if (last) {
     ++counts.ambient;
-    if (occluded(RayKind::ambient, ray, spot.instance, counts)) return Colour::Zero();
+    if (occluded(RayKind::ambient, ray, spot, counts)) return Colour::Zero();
     return weight.cwiseProduct(environment(direction));
   }
   ++counts.scattered;
-  const Path next{path.bounces + 1, path.mirrors, spot.instance};
+  const Path next{path.bounces + 1, path.mirrors, spot.instance, spot.time};
   return weight.cwiseProduct(along(ray, next, sampler, counts));
 }
 
@@ -306,7 +314,7 @@ Colour Integrator::mirrored(const Spot& spot, const Path& path, Sampler& sampler
   const Vec3<double> direction = unit(spot.frame.to_world(mirrored.w_in));
   if (path.mirrors >= options_.mirrors) return mirrored.weight * environment(direction);
   ++counts.mirrored;
-  const Path next{path.bounces, path.mirrors + 1, spot.instance};
+  const Path next{path.bounces, path.mirrors + 1, spot.instance, spot.time};
   return mirrored.weight * along({spot.position, direction}, next, sampler, counts);
 }
 

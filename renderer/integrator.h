@@ -48,7 +48,8 @@ struct CameraRay {
   Ray<Real> ray;  ///< of unit direction
   Sampler sampler;
   Colour radiance;
-  bool met;  ///< whether it met an object
+  bool met;       ///< whether it met an object
+  Real time = 0;  ///< while the shutter is open: from 0 to 1
 };
 
 /// No more camera rays can be traced together.
@@ -63,8 +64,8 @@ class Integrator {
   /// on the others. Instances of the scene and of the world share their indices.
   void trace(std::span<CameraRay> rays, RayCounts& counts) const;
 
-  /// Radiance along a single camera ray.
-  Colour radiance(const Ray<Real>& ray, Sampler& sampler, RayCounts& counts) const;
+  /// Radiance along a single camera ray, at a time from 0 to 1 while the shutter is open.
+  Colour radiance(const Ray<Real>& ray, Sampler& sampler, RayCounts& counts, Real time = 0) const;
 
  private:
   struct Path;
@@ -73,7 +74,7 @@ class Integrator {
   Colour along(const Ray<Real>& ray, const Path& path, Sampler& sampler, RayCounts& counts) const;
   Colour off_surface(const Ray<Real>& ray, const WorldHit<Real>& hit, const Path& path,
                      RayCounts& counts) const;
-  Spot spot_of(const Ray<Real>& ray, const WorldHit<Real>& hit) const;
+  Spot spot_of(const Ray<Real>& ray, const WorldHit<Real>& hit, Real time) const;
   Colour from_spot(const Spot& spot, const Colour& arrived, const Path& path, Sampler& sampler,
                    RayCounts& counts) const;
   std::optional<ShadowRay> shadow_ray(std::size_t light, const Spot& spot) const;
@@ -84,7 +85,7 @@ class Integrator {
   Colour scattered(const Spot& spot, const Path& path, Sampler& sampler, RayCounts& counts) const;
   Colour mirrored(const Spot& spot, const Path& path, Sampler& sampler, RayCounts& counts) const;
   Colour environment(const Vec3<double>& direction) const;
-  bool occluded(RayKind kind, const Ray<Real>& ray, std::uint32_t skip, RayCounts& counts) const;
+  bool occluded(RayKind kind, const Ray<Real>& ray, const Spot& from, RayCounts& counts) const;
   std::size_t light_count() const { return directional_.size() + points_.size(); }
 
   const RenderWorld& world_;

@@ -20,6 +20,12 @@ struct PacketShape {
   }
 };
 
+/// While the shutter is open.
+bool is_on_the_move(const Scene& scene) {
+  return std::any_of(scene.objects.begin(), scene.objects.end(),
+                     [](const Object& object) { return !object.shift.isZero(0); });
+}
+
 /// on_pixel(x, y, i) for all pixels, in rows.
 template <class OnPixel>
 void for_pixels(const PixelRect& pixels, const OnPixel& on_pixel) {
@@ -55,7 +61,17 @@ RenderWorld make_world(const Scene& scene, const CastOptions<Real>& options, Bvh
   for (const ParticleSet& set : scene.particles)
     instances.add_many(instances.define(set.shape), set.size(), set.linear_alike(),
                        [&](std::size_t i) { return set.pose(i); });
-  return RenderWorld(std::move(instances), options, build);
+  RenderWorld world(std::move(instances), options, build);
+  if (is_on_the_move(scene)) follow(world, scene);
+  return world;
+}
+
+void follow(RenderWorld& world, const Scene& scene) {
+  const auto pose = [&](std::size_t i) { return instance_pose(scene, i); };
+  if (is_on_the_move(scene))
+    world.pose_all(pose, [&](std::size_t i) { return instance_shift(scene, i); });
+  else
+    world.pose_all(pose);
 }
 
 Rendering render(const Scene& scene, const RenderWorld& world, const RenderOptions& options,
@@ -83,6 +99,8 @@ Rendering render(const Scene& scene, const RenderWorld& world, const RenderOptio
   // The rays of a packet: samples of one pixel first, they are the closest together; then pixels.
   const PacketShape packet(options.integrator.packet,
                            blocks.begin(end_block) - blocks.begin(first_block));
+  // When nothing moves no random numbers are spent on when.
+  const bool blurs = world.instances().move();
   const auto render_pixels = [&](const PixelRect& pixels, RayCounts& counts) {
     std::array<PixelSum, most_in_packet> sums;
     std::array<CameraRay, most_in_packet> rays;
@@ -97,6 +115,7 @@ Rendering render(const Scene& scene, const RenderWorld& world, const RenderOptio
           ray.sampler = Sampler(options.seed, x, y, static_cast<std::uint32_t>(sample));
           const std::array<double, 2> u = ray.sampler.next();
           ray.ray = camera.ray(x + 0.5 + filter.offset(u[0]), y + 0.5 + filter.offset(u[1]));
+          ray.time = blurs ? ray.sampler.next()[0] : 0;
         }
       });
       integrator.trace(std::span(rays).first(count), counts);

@@ -14,6 +14,9 @@ namespace minkray {
 RenderWorld make_world(const Scene& scene, const CastOptions<Real>& options = {},
                        BvhBuild build = BvhBuild::quality);
 
+/// Moves a world's instances to where the scene, of which it was made, has them by now.
+void follow(RenderWorld& world, const Scene& scene);
+
 struct RenderOptions {
   Resolution resolution;
   PixelRect crop;      ///< the picture that is wanted; empty: all

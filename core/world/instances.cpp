@@ -76,11 +76,21 @@ void Instances<T>::add_many(std::uint32_t definition, std::size_t count, bool li
 }
 
 template <class T>
-void Instances<T>::pose_all(const std::function<Affine<T>(std::size_t)>& pose_of) {
+void Instances<T>::pose_all(const std::function<Affine<T>(std::size_t)>& pose_of,
+                            const std::function<Vec3<T>(std::size_t)>& shift_of) {
   linear_.resize(places_.size());
   boxes_.resize(places_.size());
+  shifts_.resize(shift_of ? places_.size() : 0);
   for_parts(places_.size(), poses_a_part, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) place(i, places_[i].definition, pose_of(i), i, true);
+    for (std::size_t i = begin; i < end; ++i) {
+      place(i, places_[i].definition, pose_of(i), i, true);
+      if (!shift_of) continue;
+      shifts_[i] = shift_of(i);
+      const Bounds<T> before = definitions_[places_[i].definition]->bounds_of(pose_of(i));
+      Bounds<T> all = before;
+      all.extend(Bounds<T>{before.lower + shifts_[i], before.upper + shifts_[i]});
+      boxes_[i] = rounded_outwards(padded(all));
+    }
   });
 }
 
@@ -101,7 +111,7 @@ template <class T>
 std::size_t Instances<T>::bytes() const {
   return definitions_.size() * (sizeof(ShapeDefinition<T>) + sizeof(definitions_[0])) +
          places_.capacity() * sizeof(Place) + linear_.capacity() * sizeof(Linear) +
-         boxes_.capacity() * sizeof(boxes_[0]);
+         shifts_.capacity() * sizeof(shifts_[0]) + boxes_.capacity() * sizeof(boxes_[0]);
 }
 
 template class Instances<float>;

@@ -32,8 +32,21 @@ class Instances {
                 const std::function<Affine<T>(std::size_t)>& pose_of);
 
   /// Moves every instance: the i-th to pose_of(i), which is asked from several threads at once.
-  /// There are boxes to take again.
-  void pose_all(const std::function<Affine<T>(std::size_t)>& pose_of);
+  /// There are boxes to take again. If there is a shift_of, instances are on the move: while time
+  /// goes from 0 to 1 the i-th goes along shift_of(i), and its box holds all of that.
+  void pose_all(const std::function<Affine<T>(std::size_t)>& pose_of,
+                const std::function<Vec3<T>(std::size_t)>& shift_of = {});
+
+  /// Whether any instance is on the move.
+  bool move() const { return !shifts_.empty(); }
+
+  /// The ray as the i-th instance sees it at that time, from where it stands at time 0: an instance
+  /// that has gone along `time` times its shift is met just where the ray's origin has gone the
+  /// other way.
+  Ray<T> seen_by(std::size_t i, const Ray<T>& ray, T time) const {
+    if (shifts_.empty()) return ray;
+    return {ray.origin - time * shifts_[i], ray.direction, ray.t_max};
+  }
 
   /// Room for so many more instances of `add`.
   void reserve(std::size_t count);
@@ -83,6 +96,7 @@ class Instances {
   std::vector<std::shared_ptr<const ShapeDefinition<T>>> definitions_;
   std::vector<Place> places_;
   std::vector<Linear> linear_;
+  std::vector<Vec3<T>> shifts_;  ///< by instance; empty if all stand still
   std::vector<Bounds<float>> boxes_;
 };
 

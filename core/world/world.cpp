@@ -19,6 +19,11 @@ CastResult<T> counted_cast(const PreparedShape<T>& shape, const Ray<T>& ray,
   return result;
 }
 
+/// A hierarchy whose boxes have moved is kept until rays are expected to visit so many times as
+/// much as when it was built. Building 10,000 boxes anew takes as long as some ten thousand rays,
+/// so that any picture pays for it; what is won by waiting is small, too.
+constexpr double most_visits_after_refit = 1.5;
+
 /// Packets are cast with the default options only.
 template <class T>
 bool are_default(const CastOptions<T>& options) {
@@ -31,7 +36,10 @@ bool are_default(const CastOptions<T>& options) {
 
 template <class T>
 World<T>::World(Instances<T> instances, const CastOptions<T>& options, BvhBuild build)
-    : instances_(std::move(instances)), options_(options), in_packets_(are_default(options)) {
+    : instances_(std::move(instances)),
+      build_(build),
+      options_(options),
+      in_packets_(are_default(options)) {
   const std::vector<Bounds<float>> boxes = instances_.take_boxes();
   bvh_ = build_bvh(boxes, build);
 }
@@ -43,7 +51,8 @@ void World<T>::closer_hit(const WorldRay<T>& ray, SlabRay& slabs, WorldHit<T>& c
                           QueryCounts& counts) const {
   counts.nodes += traverse(bvh_, slabs, [&](std::uint32_t instance) {
     if (instance == ray.skip) return false;
-    const CastResult<T> result = counted_cast(instances_.at(instance), ray.ray, options_, counts);
+    const CastResult<T> result = counted_cast(
+        instances_.at(instance), instances_.seen_by(instance, ray.ray, ray.time), options_, counts);
     if (!result.found() || !closest.yields_to(instance, result.t())) return false;
     closest = {instance, result};
     slabs.numbers.t_max = slabs.limit(static_cast<double>(result.t()));
@@ -56,31 +65,43 @@ bool World<T>::is_blocked(const WorldRay<T>& ray, const SlabRay& slabs, QueryCou
   bool met = false;
   counts.nodes += traverse(bvh_, slabs, [&](std::uint32_t instance) {
     if (instance == ray.skip) return false;
-    met = counted_cast(instances_.at(instance), ray.ray, options_, counts).found();
+    met = counted_cast(instances_.at(instance), instances_.seen_by(instance, ray.ray, ray.time),
+                       options_, counts)
+              .found();
     return met;
   });
   return met;
 }
 
 template <class T>
-WorldHit<T> World<T>::closest_hit(const Ray<T>& ray, QueryCounts& counts,
-                                  std::uint32_t skip) const {
+WorldHit<T> World<T>::closest_hit(const Ray<T>& ray, QueryCounts& counts, std::uint32_t skip,
+                                  T time) const {
   WorldHit<T> closest;
   closest.cast.status = Status::miss;
   SlabRay slabs(ray);
-  closer_hit({ray, skip}, slabs, closest, counts);
+  closer_hit({ray, skip, time}, slabs, closest, counts);
   return closest;
 }
 
 template <class T>
-bool World<T>::occluded(const Ray<T>& ray, QueryCounts& counts, std::uint32_t skip) const {
-  return is_blocked({ray, skip}, SlabRay(ray), counts);
+bool World<T>::occluded(const Ray<T>& ray, QueryCounts& counts, std::uint32_t skip, T time) const {
+  return is_blocked({ray, skip, time}, SlabRay(ray), counts);
 }
 
 template <class T>
-void World<T>::pose_all(const std::function<Affine<T>(std::size_t)>& pose_of) {
-  instances_.pose_all(pose_of);
-  refit(bvh_, instances_.take_boxes());
+void World<T>::pose_all(const std::function<Affine<T>(std::size_t)>& pose_of,
+                        const std::function<Vec3<T>(std::size_t)>& shift_of) {
+  const auto visits = [&] {
+    const VisitEstimate expected = expected_visits(bvh_);
+    return expected.nodes + expected.leaves;
+  };
+  instances_.pose_all(pose_of, shift_of);
+  const std::vector<Bounds<float>> boxes = instances_.take_boxes();
+  if (visits_as_built_ == 0) visits_as_built_ = visits();
+  refit(bvh_, boxes);
+  if (visits() <= most_visits_after_refit * visits_as_built_) return;
+  bvh_ = build_bvh(boxes, build_);
+  visits_as_built_ = visits();
 }
 
 template class World<float>;

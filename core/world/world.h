@@ -51,11 +51,12 @@ struct WorldHit {
   }
 };
 
-/// A ray, and the instance that it leaves.
+/// A ray, the instance that it leaves, and when it is cast: from 0 to 1.
 template <class T>
 struct WorldRay {
   Ray<T> ray;
   std::uint32_t skip = no_instance;
+  T time = T(0);
 };
 
 /// So many rays can be asked for at once.
@@ -75,11 +76,12 @@ class World {
   /// t, that of the least index. `skip` is left out: a ray that leaves a convex shape does not meet
   /// it again. Casts that exhaust their solver are counted and taken for neither: the caller must
   /// look.
-  WorldHit<T> closest_hit(const Ray<T>& ray, QueryCounts& counts,
-                          std::uint32_t skip = no_instance) const;
+  WorldHit<T> closest_hit(const Ray<T>& ray, QueryCounts& counts, std::uint32_t skip = no_instance,
+                          T time = T(0)) const;
 
   /// Whether any instance but `skip` is met with 0 <= t <= t_max.
-  bool occluded(const Ray<T>& ray, QueryCounts& counts, std::uint32_t skip = no_instance) const;
+  bool occluded(const Ray<T>& ray, QueryCounts& counts, std::uint32_t skip = no_instance,
+                T time = T(0)) const;
 
   /// The same for up to most_rays_at_once rays, faster the closer together they run. hits[i]
   /// answers rays[i].
@@ -89,9 +91,12 @@ class World {
   /// Bit i answers rays[i].
   BeamRays occluded(std::span<const WorldRay<T>> rays, QueryCounts& counts) const;
 
-  /// Moves all instances: the i-th to pose_of(i), which is asked from several threads at once. The
-  /// hierarchy stays the same tree.
-  void pose_all(const std::function<Affine<T>(std::size_t)>& pose_of);
+  /// Moves all instances: the i-th to pose_of(i), which is asked from several threads at once, and
+  /// if there is a shift_of, from there along shift_of(i) while time goes from 0 to 1. The
+  /// hierarchy stays the same tree around other boxes, unless these make rays visit half as much
+  /// again: then it is built anew.
+  void pose_all(const std::function<Affine<T>(std::size_t)>& pose_of,
+                const std::function<Vec3<T>(std::size_t)>& shift_of = {});
 
   const Instances<T>& instances() const { return instances_; }
   const Bvh& bvh() const { return bvh_; }
@@ -109,6 +114,8 @@ class World {
 
   Instances<T> instances_;
   Bvh bvh_;
+  BvhBuild build_ = BvhBuild::quality;
+  double visits_as_built_ = 0;  ///< expected of a ray; 0: not asked for yet
   CastOptions<T> options_;
   bool in_packets_ = true;  ///< whether the options are those of packets
 };

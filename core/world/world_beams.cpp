@@ -129,8 +129,11 @@ void World<T>::closest_hits(std::span<const WorldRay<T>> rays, std::span<WorldHi
   const auto on_single = [&](std::size_t i) { closer_hit(rays[i], slabs[i], hits[i], counts); };
   const auto on_group = [&](Group& group) {
     const auto index = [&](int lane) { return group.ray_of[static_cast<std::size_t>(lane)]; };
-    const auto ray_of = [&](int lane) -> const Ray<T>& { return rays[index(lane)].ray; };
     const Walk walk = traverse(bvh_, group.beam, [&](std::uint32_t instance, BeamRays meeting) {
+      const auto ray_of = [&](int lane) {
+        const WorldRay<T>& asked = rays[index(lane)];
+        return instances_.seen_by(instance, asked.ray, asked.time);
+      };
       for (BeamRays left = meeting; left != 0;) {
         const int lane = next_of(left);
         if (rays[index(lane)].skip == instance) meeting &= ~(BeamRays(1) << lane);
@@ -169,9 +172,12 @@ BeamRays World<T>::occluded(std::span<const WorldRay<T>> rays, QueryCounts& coun
   };
   const auto on_group = [&](Group& group) {
     const auto index = [&](int lane) { return group.ray_of[static_cast<std::size_t>(lane)]; };
-    const auto ray_of = [&](int lane) -> const Ray<T>& { return rays[index(lane)].ray; };
     int open = group.beam.count;
     const Walk walk = traverse(bvh_, group.beam, [&](std::uint32_t instance, BeamRays meeting) {
+      const auto ray_of = [&](int lane) {
+        const WorldRay<T>& asked = rays[index(lane)];
+        return instances_.seen_by(instance, asked.ray, asked.time);
+      };
       for (BeamRays left = meeting; left != 0;) {
         const int lane = next_of(left);
         if (rays[index(lane)].skip == instance) meeting &= ~(BeamRays(1) << lane);

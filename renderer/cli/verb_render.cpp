@@ -11,6 +11,7 @@
 
 #include "core/parallel/parallel.h"
 #include "renderer/cli/command_line.h"
+#include "renderer/cli/frames.h"
 #include "renderer/cli/image_arguments.h"
 #include "renderer/cli/progress_line.h"
 #include "renderer/cli/render_job.h"
@@ -19,6 +20,7 @@
 #include "renderer/cli/write_picture.h"
 #include "renderer/data_channels.h"
 #include "renderer/errors.h"
+#include "renderer/hash.h"
 #include "renderer/image_file.h"
 #include "renderer/interrupt.h"
 #include "renderer/json/json.h"
@@ -44,6 +46,9 @@ struct Options {
   std::optional<int> tiles;
   double checkpoint_seconds = 60;
   bool resume = false;
+  std::optional<std::string> frames;
+  double rate = 24;
+  std::string contact_sheet;  ///< empty: none
 
   bool is_piece() const { return tile || sample_share; }
 };
@@ -213,20 +218,87 @@ void report(const Statistics& statistics, const Options& options) {
   if (options.stats == "true") print(statistics);
 }
 
+template <class Work>
+void timed(const Options& options, const char* what, double& seconds, const Work& work) {
+  const Stopwatch watch;
+  work();
+  seconds += watch.seconds();
+  if (options.image.verbose) std::cerr << what << ": " << watch.seconds() << " s\n";
+}
+
+/// One picture into its files; answers the light that was written.
+Image render_and_write(const RenderJob& job, const Options& options,
+                       const std::vector<std::string>& outputs, Statistics& statistics) {
+  const InterruptGuard guard;
+  Checkpoint checkpoint = checkpoint_of(job, outputs.front());
+  RenderedJob done;
+  timed(options, "trace", statistics.trace_seconds, [&] { done = run(job, checkpoint); });
+  statistics.counts += done.rendering.counts;
+  const FinishedPicture picture{std::move(done.rendering.image), std::move(done.labels),
+                                job.options.part(), job.options.resolution, std::move(done.exr)};
+  timed(options, "write", statistics.write_seconds,
+        [&] { write_picture(outputs, picture, options.exposure); });
+  checkpoint.remove();
+  return picture.image;
+}
+
+void check_frames(const Options& options, const Ranks& ranks) {
+  if (!options.frames) {
+    if (!options.contact_sheet.empty())
+      throw WrongUsage("--contact-sheet: goes with --frames only");
+    return;
+  }
+  for (const std::string& output : options.image.outputs) check_frame_name(output);
+  if (options.is_piece() || ranks.count() > 1)
+    throw WrongUsage("--frames: not with --tile, --sample-share or MPI; share the frames instead");
+  if (options.certify) throw WrongUsage("--frames: not with --certify, which proves one picture");
+  if (options.contact_sheet.empty()) return;
+  if (options.resume)
+    throw WrongUsage("--contact-sheet: shows the frames of a whole run: not with --resume");
+  check_outputs({options.contact_sheet});
+}
+
+/// The world moves from frame to frame.
+void render_frames(RenderJob& job, const Options& options, const FrameRange& frames,
+                   Statistics& statistics) {
+  const std::string scene_hash = job.scene.hash;
+  ContactSheet sheet;
+  for (int frame = frames.first; frame <= frames.last; ++frame) {
+    std::vector<std::string> outputs;
+    for (const std::string& name : options.image.outputs)
+      outputs.push_back(file_of_frame(name, frame));
+    const auto is_there = [](const std::string& file) { return std::filesystem::exists(file); };
+    if (options.resume && std::all_of(outputs.begin(), outputs.end(), is_there)) continue;
+    if (!options.image.quiet) std::cerr << outputs.front() << "\n";
+    timed(options, "move", statistics.build_seconds, [&] {
+      set_time(job.scene, frame / options.rate);
+      follow(job.world, job.scene);
+    });
+    Hash hash;
+    hash.add(scene_hash);
+    hash.add(std::to_string(job.scene.time));
+    job.scene.hash = hash.text();
+    const Image image = render_and_write(job, options, outputs, statistics);
+    if (!options.contact_sheet.empty()) sheet.add(image);
+  }
+  if (options.contact_sheet.empty()) return;
+  const Image image = sheet.image();
+  const FinishedPicture picture{
+      image, {}, {0, 0, image.width, image.height}, {image.width, image.height}, {}};
+  write_picture({options.contact_sheet}, picture, options.exposure);
+}
+
 ExitCode run(const Options& options) {
   Ranks ranks;
   RenderJob job;
   const CastOptions<Real> cast = cast_options(options.image.solver);
   read_options(options, ranks, job);
+  check_frames(options, ranks);
+  const FrameRange frames = options.frames ? parse_frames(*options.frames) : FrameRange{};
 
   Statistics statistics;
-  const auto timed = [&](const char* what, double& seconds, const auto& work) {
-    const Stopwatch watch;
-    work();
-    seconds = watch.seconds();
-    if (options.image.verbose) std::cerr << what << ": " << seconds << " s\n";
-  };
-  timed("load", statistics.load_seconds, [&] { job.scene = load_scene(options.image.scene); });
+  timed(options, "load", statistics.load_seconds,
+        [&] { job.scene = load_scene(options.image.scene); });
   const RenderOptions shares = job.options;
   job.options = options.image.render_options(job.scene);
   job.options.tile = shares.tile;
@@ -235,10 +307,14 @@ ExitCode run(const Options& options) {
   job.options.integrator.packet = options.packet;
   check_shares(job.options);
 
-  timed("build", statistics.build_seconds,
+  timed(options, "build", statistics.build_seconds,
         [&] { job.world = make_world(job.scene, cast, options.build); });
   statistics.objects = instance_count(job.scene);
   std::optional<RayAudit> audit;
+  if (options.certify && job.world.instances().move())
+    throw WrongUsage(
+        "--certify: proves what stands still; here objects move while the shutter is "
+        "open");
   if (options.certify) job.options.integrator.audit = &audit.emplace(job.scene, job.world);
   statistics.threads = thread_count();
   statistics.world_bytes = job.world.bytes();
@@ -247,6 +323,12 @@ ExitCode run(const Options& options) {
   if (ranks.count() > 1) {
     run_on(ranks, job, options, statistics);
     if (ranks.rank() == 0) report(statistics, options);
+    return ExitCode::done;
+  }
+
+  if (options.frames) {
+    render_frames(job, options, frames, statistics);
+    report(statistics, options);
     return ExitCode::done;
   }
 
@@ -259,21 +341,7 @@ ExitCode run(const Options& options) {
     return ExitCode::done;
   }
 
-  RenderedJob done;
-  {
-    const InterruptGuard guard;
-    Checkpoint checkpoint = checkpoint_of(job, output);
-    timed("trace", statistics.trace_seconds, [&] { done = run(job, checkpoint); });
-    statistics.counts = done.rendering.counts;
-    timed("write", statistics.write_seconds, [&] {
-      write_picture(options.image.outputs,
-                    {std::move(done.rendering.image), std::move(done.labels), job.options.part(),
-                     job.options.resolution, std::move(done.exr)},
-                    options.exposure);
-    });
-    checkpoint.remove();
-  }
-
+  render_and_write(job, options, options.image.outputs, statistics);
   report(statistics, options);
   if (!audit) return ExitCode::done;
   report(*audit);
@@ -325,6 +393,15 @@ void add_render(CLI::App& app, ExitCode& exit_code) {
       ->check(CLI::Range(0.0, 1e9))
       ->capture_default_str();
   verb->add_flag("--resume", options->resume, "Go on from the checkpoint, if there is one");
+  verb->add_option("--frames", options->frames,
+                   "a..b: pictures of these frames, into files with the frame's number in the "
+                   "place of #### in the output's name; frame 0 is at 0 s. With --resume, without "
+                   "those that are there");
+  verb->add_option("--rate", options->rate, "Frames a second")
+      ->check(CLI::Range(1e-6, 1e6))
+      ->capture_default_str();
+  verb->add_option("--contact-sheet", options->contact_sheet,
+                   "With --frames: all frames, small, in one more picture");
   verb->add_flag("--stats", options->stats, "Print rays, speed, work and memory; --stats=json");
   verb->add_flag("--certify", options->certify,
                  "Prove the answer to every ray (docs/certificates.md); exit 1 if a proof fails");

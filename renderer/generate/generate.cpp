@@ -8,6 +8,7 @@
 
 #include "renderer/errors.h"
 #include "renderer/generate/packing.h"
+#include "renderer/generate/tumbling.h"
 #include "renderer/json/json.h"
 #include "renderer/output_file.h"
 #include "renderer/scene/scene_json.h"
@@ -152,10 +153,18 @@ void generate_hulls(const GenerateOptions& options, const std::string& file) {
   write_text(file, scene.dump() + "\n");
 }
 
+void generate_tumbling(const GenerateOptions& options, const std::string& file) {
+  if (options.count > most_tumbling)
+    throw WrongUsage("generate: at most " + std::to_string(most_tumbling) +
+                     " tumbling bodies (got " + std::to_string(options.count) + ")");
+  write_text(file, tumbling_scene(options.count, options.seed).dump() + "\n");
+}
+
 }  // namespace
 
 void generate_scene(const GenerateOptions& options, const std::string& file) {
   if (options.kind == "hulls") return generate_hulls(options, file);
+  if (options.kind == "tumbling") return generate_tumbling(options, file);
   const Posed kind = posed(options.kind);
   const double half_size = half_size_for(kind, options.count);
   Json scene = frame(options, half_size);

@@ -20,6 +20,7 @@ inline constexpr GeneratedKind generated_kinds[] = {
     {"ellipsoids", "a packing of ellipsoids, turned, none of which overlap"},
     {"hulls", "a grid of convex hulls, each another one"},
     {"capsules", "random fibres"},
+    {"tumbling", "bodies of many shapes that fly apart, with keys for two seconds"},
 };
 
 struct GenerateOptions {

@@ -76,9 +76,17 @@ std::optional<Vec3<double>> read_scale(const Json& json, const JsonPath& path, M
   return read_vector(json, path, mistakes);
 }
 
-/// A quaternion [x, y, z, w] of any length but zero.
 std::optional<Mat3<double>> read_rotation(const Json& json, const JsonPath& path,
                                           Mistakes& mistakes) {
+  const auto q = read_quaternion(json, path, mistakes);
+  if (!q) return std::nullopt;
+  return rotation_matrix_of_any((*q)[0], (*q)[1], (*q)[2], (*q)[3]);
+}
+
+}  // namespace
+
+std::optional<std::array<double, 4>> read_quaternion(const Json& json, const JsonPath& path,
+                                                     Mistakes& mistakes) {
   const auto q = read_numbers(json, path, mistakes, 4);
   if (!q) return std::nullopt;
   double largest = 0;
@@ -87,10 +95,8 @@ std::optional<Mat3<double>> read_rotation(const Json& json, const JsonPath& path
     mistakes.add(path, "must be a quaternion [x, y, z, w] other than zero (" + found(json) + ")");
     return std::nullopt;
   }
-  return rotation_matrix_of_any((*q)[0], (*q)[1], (*q)[2], (*q)[3]);
+  return std::array{(*q)[0], (*q)[1], (*q)[2], (*q)[3]};
 }
-
-}  // namespace
 
 std::optional<Affine<double>> read_affine(ObjectReader& object) {
   Mistakes& mistakes = object.mistakes();

@@ -45,6 +45,13 @@ bool read_member(ObjectReader&, const Parameter&, Resolution& member, MeshFiles&
 /// The keys "translate", "rotate" and "scale", each optional, or "matrix".
 std::optional<Affine<double>> read_affine(ObjectReader& object);
 
+/// A quaternion [x, y, z, w] of any length but zero.
+std::optional<std::array<double, 4>> read_quaternion(const Json& json, const JsonPath& path,
+                                                     Mistakes& mistakes);
+
+/// A list of keyed poses with rising times.
+std::vector<PoseKey> read_keys(const Json& json, const JsonPath& path, Mistakes& mistakes);
+
 /// All parameters of a described struct: a shape, a light, a material, the camera.
 template <class S>
 bool read_members(ObjectReader& object, S& described, MeshFiles& meshes) {

@@ -14,6 +14,7 @@
 #include "core/math/vec.h"
 #include "core/shape/field.h"
 #include "core/shape/shape.h"
+#include "renderer/scene/motion.h"
 #include "renderer/scene/particles.h"
 
 namespace minkray {
@@ -34,6 +35,7 @@ struct CameraDescription {
   Vec3<double> up = {0, 0, 1};
   double fov_y_degrees = 40;
   Resolution resolution;
+  double shutter = 0;  ///< in seconds
 
   static constexpr std::string_view doc = "Where the picture is taken from.";
   static constexpr auto fields() {
@@ -46,7 +48,9 @@ struct CameraDescription {
         Field{"fov_y_degrees", &C::fov_y_degrees, Unit::degrees, Range::zero_to_180,
               "the angle of view from the picture's lower to its upper edge", true},
         Field{"resolution", &C::resolution, Unit::none, Range::any,
-              "the picture's width and height in pixels", true}};
+              "the picture's width and height in pixels", true},
+        Field{"shutter", &C::shutter, Unit::none, Range::not_negative,
+              "how many seconds the shutter is open: what moves meanwhile is blurred", true}};
   }
 };
 
@@ -151,8 +155,10 @@ struct Material {
 struct Object {
   std::string name;
   Shape<double> shape = Point<double>();
-  Affine<double> pose;         ///< from the shape's frame to the world
-  std::uint32_t material = 0;  ///< index into Scene::materials
+  Affine<double> pose;                        ///< from the shape's frame to the world
+  std::uint32_t material = 0;                 ///< index into Scene::materials
+  std::optional<Motion> motion = {};          ///< `pose` is what it is at the scene's time
+  Vec3<double> shift = Vec3<double>::Zero();  ///< how far it goes while the shutter is open
 };
 
 /// What a ray sees that meets nothing: a vertical gradient.
@@ -180,6 +186,14 @@ struct Scene {
   Background background;
   bool labels = false;  ///< whether the objects' names are drawn into the picture
   std::string hash;     ///< of the file it came from and of all files it names; or empty
+  double time = 0;      ///< when the shutter opens, in seconds
 };
+
+/// Whether any object has keys.
+bool moves(const Scene& scene);
+
+/// Puts all objects where they are at that time, in seconds. While the shutter is open objects go
+/// straight on and do not turn.
+void set_time(Scene& scene, double time);
 
 }  // namespace minkray

@@ -16,6 +16,22 @@ inline std::size_t instance_count(const Scene& scene) {
   return count;
 }
 
+/// Where the i-th instance stands.
+inline Affine<double> instance_pose(const Scene& scene, std::size_t i) {
+  if (i < scene.objects.size()) return scene.objects[i].pose;
+  i -= scene.objects.size();
+  for (const ParticleSet& set : scene.particles) {
+    if (i < set.size()) return set.pose(i);
+    i -= set.size();
+  }
+  return {};
+}
+
+/// How far it goes while the shutter is open.
+inline Vec3<double> instance_shift(const Scene& scene, std::size_t i) {
+  return i < scene.objects.size() ? scene.objects[i].shift : Vec3<double>::Zero();
+}
+
 /// As an object of its own; a particle's name is that of its set with its number: "grains[12]".
 /// For single ones, not for millions.
 inline Object instance_object(const Scene& scene, std::size_t i) {

@@ -157,8 +157,13 @@ class SceneReader {
       pose = read_affine(transform).value_or(Affine<double>());
       transform.finish();
     }
+    std::optional<Motion> motion;
+    if (const Json* written = object.find("keys"))
+      motion = Motion{read_keys(*written, object.path("keys"), mistakes_), pose};
     object.finish();
-    if (shape) scene_.objects.push_back({name, std::move(*shape), pose, material});
+    if (!shape) return;
+    scene_.objects.push_back({name, std::move(*shape), pose, material});
+    scene_.objects.back().motion = std::move(motion);
   }
 
   void read_particle_block(const Json& json, const JsonPath& path) {
@@ -221,6 +226,7 @@ std::optional<Scene> parse_scene(std::string_view text, const std::filesystem::p
   SceneReader reader(scene, folder, mistakes);
   reader.read(*json);
   if (!mistakes.none()) return std::nullopt;
+  set_time(scene, 0);
   Hash hash;
   hash.add(text);
   reader.add_files_to(hash);

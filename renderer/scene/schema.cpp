@@ -88,8 +88,20 @@ Json scene_schema() {
   object["properties"] = {{"name", name},
                           {"shape", {{"$ref", "#/$defs/shape"}}},
                           {"material", name},
-                          {"transform", {{"$ref", "#/$defs/transform"}}}};
+                          {"transform", {{"$ref", "#/$defs/transform"}}},
+                          {"keys",
+                           {{"type", "array"},
+                            {"description", "where it is when, with rising times"},
+                            {"items", {{"$ref", "#/$defs/key"}}},
+                            {"minItems", 1}}}};
   object["required"] = {"name", "shape", "material"};
+
+  Json key = object_schema("Where an object is at a time, after its transform.");
+  key["properties"] = {{"time", {{"type", "number"}, {"description", "in seconds"}}},
+                       {"translate", schema_of_list({{"type", "number"}}, 3)},
+                       {"rotate", schema_of_list({{"type", "number"}}, 4)}};
+  key["properties"]["rotate"]["description"] = "a quaternion [x, y, z, w] of any length but zero";
+  key["required"] = {"time"};
 
   Json column_names = Json::array();
   std::string column_docs = "what each row's numbers are, in their order";
@@ -150,6 +162,7 @@ Json scene_schema() {
         material["required"].push_back("name");
       });
   definitions["object"] = std::move(object);
+  definitions["key"] = std::move(key);
   definitions["particles"] = std::move(particles);
   definitions["transform"] =
       described_object(object_schema("Where an object stands."), [](Json& transform) {

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// Nothing but casts: all tracers answer the same rays in turn, round after round, so that a noisy
+// moment hits all of them.
+#pragma once
+
+#include "bench/image/agreement.h"
+#include "bench/image/contender.h"
+#include "bench/image/subject.h"
+
+namespace minkray::bench {
+
+struct CastSpeed {
+  std::string contender, entry;
+  double nanoseconds = 0;  ///< a ray, on one thread: the median of the rounds
+  double ratio = 0;        ///< to ours, entry by best entry: the median of the rounds' ratios
+  Agreement agreement;     ///< with our answers
+};
+
+struct CastResults {
+  std::string rays;  ///< which
+  std::size_t count = 0;
+  double hit_rate = 0;
+  std::vector<CastSpeed> speeds;
+
+  /// The least ratio of a contender's entries: its best case.
+  double best_ratio(const std::string& contender) const;
+};
+
+/// Coherent rays of the camera, and incoherent ones: from where those arrive to all sides, in
+/// random order. About `rays` of each.
+std::vector<CastResults> measure_casts(const Subject& subject,
+                                       const std::vector<Contender>& contenders, std::size_t rays,
+                                       int rounds);
+
+}  // namespace minkray::bench

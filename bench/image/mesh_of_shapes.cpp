@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#include "bench/image/mesh_of_shapes.h"
+
+#include "bench/image/clock.h"
+#include "bench/image/rounded_mesh.h"
+#include "bench/image/subject.h"
+#include "core/parallel/parallel.h"
+
+namespace minkray::bench {
+
+std::size_t Meshes::triangles() const {
+  std::size_t count = 0;
+  for (const TriangleMesh& mesh : meshes) count += mesh.triangles.size();
+  return count;
+}
+
+TriangleMesh mesh_of_shape(const Shape<double>& shape, double relative_error) {
+  const double error = relative_error * ball_around(bounds_of<double>(shape)).radius;
+  if (std::optional<TriangleMesh> mesh = rounded_mesh(shape, error)) return *std::move(mesh);
+  return tessellate(shape, error);
+}
+
+Meshes meshes_of(const Scene& scene, double relative_error) {
+  const Clock clock;
+  const std::vector<Shape<double>> shapes = shapes_of(scene);
+  Meshes meshes;
+  meshes.relative_error = relative_error;
+  meshes.meshes.resize(shapes.size());
+  for_parts(shapes.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      meshes.meshes[i] = mesh_of_shape(shapes[i], relative_error);
+  });
+  meshes.seconds = clock.seconds();
+  return meshes;
+}
+
+}  // namespace minkray::bench

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// The scenes that are measured: made by `minkray generate`, read as any scene, so that everybody
+// gets the same objects.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "core/world/instances.h"
+#include "renderer/scene/scene.h"
+
+namespace minkray::bench {
+
+struct Subject {
+  std::string kind;
+  Scene scene;
+  double load_seconds = 0;  ///< reading the file, for all tracers alike
+  double generate_seconds = 0;
+
+  std::size_t objects() const;
+};
+
+/// A kind of `minkray generate`, or "rounded-hulls": its hulls, each rounded by a tenth of its
+/// size.
+Subject make_subject(const std::string& kind, std::size_t objects);
+
+/// All shapes there are, each once.
+std::vector<Shape<double>> shapes_of(const Scene& scene);
+
+/// Calls take(which of the shapes, pose) for each instance in order.
+void for_each_instance(const Scene& scene,
+                       const std::function<void(std::uint32_t, const Affine<double>&)>& take);
+
+/// For a world in T.
+template <class T>
+Instances<T> instances_of(const Scene& scene);
+
+extern template Instances<float> instances_of(const Scene&);
+extern template Instances<double> instances_of(const Scene&);
+
+}  // namespace minkray::bench

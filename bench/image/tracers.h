@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// The tracers that are measured, each made from a scene: making one is the building that is timed.
+#pragma once
+
+#include "bench/image/mesh_of_shapes.h"
+#include "bench/image/tracer.h"
+#include "renderer/scene/scene.h"
+
+namespace minkray::bench {
+
+/// Minkray's world in T: exact shapes.
+template <class T>
+std::unique_ptr<Tracer> exact_shapes(const Scene& scene, BvhBuild build = BvhBuild::quality);
+
+extern template std::unique_ptr<Tracer> exact_shapes<float>(const Scene&, BvhBuild);
+extern template std::unique_ptr<Tracer> exact_shapes<double>(const Scene&, BvhBuild);
+
+/// Embree on instances of triangle meshes, one mesh for each of the scene's shapes; the meshes'
+/// hierarchies at its highest quality, which is slow to build, or at its default.
+std::unique_ptr<Tracer> embree_triangles(const Scene& scene, const Meshes& meshes,
+                                         bool highest_quality, int threads);
+
+/// Embree on user geometry: its hierarchy over the boxes of our instances, and in it our cast of
+/// one ray at one shape, in float.
+std::unique_ptr<Tracer> embree_with_our_cast(const Scene& scene, int threads);
+
+/// Whether all shapes of a scene are rounded boxes.
+bool has_closed_form(const Scene& scene);
+
+/// The same with the closed form of a ray and a rounded box.
+std::unique_ptr<Tracer> embree_with_closed_form(const Scene& scene, int threads);
+
+}  // namespace minkray::bench

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// Bodies of many shapes that fly apart, tumbling: a scene with keys.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "renderer/json/json.h"
+
+namespace minkray {
+
+/// They are written into the scene file itself, each with its keys; a file of more could not be
+/// read.
+inline constexpr std::size_t most_tumbling = 100000;
+
+/// A block of `count` bodies bursts at 0 s and falls for two seconds; nothing collides.
+Json tumbling_scene(std::size_t count, std::uint64_t seed);
+
+}  // namespace minkray

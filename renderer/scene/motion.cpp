@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/scene/motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace minkray {
+namespace {
+
+using Quaternion = std::array<double, 4>;
+
+/// Below this sine of the angle between two quaternions a line between them is as good as the arc:
+/// they differ by the sine's square, and dividing by it would only add noise.
+constexpr double small_sine = 1e-6;
+
+struct Between {
+  const PoseKey *from, *to;
+  double fraction;
+};
+
+/// The keys around a time; the same one twice beyond the ends.
+Between between(const std::vector<PoseKey>& keys, double time) {
+  const auto after = std::upper_bound(keys.begin(), keys.end(), time,
+                                      [](double t, const PoseKey& key) { return t < key.time; });
+  if (after == keys.begin()) return {&keys.front(), &keys.front(), 0};
+  if (after == keys.end()) return {&keys.back(), &keys.back(), 0};
+  const PoseKey &from = *(after - 1), &to = *after;
+  return {&from, &to, (time - from.time) / (to.time - from.time)};
+}
+
+Quaternion slerp(const Quaternion& a, Quaternion b, double fraction) {
+  double cosine = 0;
+  for (std::size_t i = 0; i < 4; ++i) cosine += a[i] * b[i];
+  // A quaternion and its negative are the same rotation; the nearer one is the shorter way.
+  if (cosine < 0)
+    for (double& entry : b) entry = -entry;
+  cosine = std::abs(cosine);
+  const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
+  double of_a = 1 - fraction, of_b = fraction;
+  if (sine > small_sine) {
+    const double angle = std::atan2(sine, cosine);
+    of_a = std::sin((1 - fraction) * angle) / sine;
+    of_b = std::sin(fraction * angle) / sine;
+  }
+  Quaternion q;
+  for (std::size_t i = 0; i < 4; ++i) q[i] = of_a * a[i] + of_b * b[i];
+  return q;
+}
+
+Vec3<double> lerp(const Between& at) {
+  if (at.fraction == 0) return at.from->translate;
+  return at.from->translate + at.fraction * (at.to->translate - at.from->translate);
+}
+
+}  // namespace
+
+Vec3<double> Motion::translation_at(double time) const {
+  return lerp(between(keys, time));
+}
+
+Affine<double> Motion::pose_at(double time) const {
+  const Between at = between(keys, time);
+  const Quaternion q =
+      at.fraction == 0 ? at.from->rotate : slerp(at.from->rotate, at.to->rotate, at.fraction);
+  return Affine<double>{rotation_matrix(q[0], q[1], q[2], q[3]), lerp(at)} * rest;
+}
+
+}  // namespace minkray

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+// Frames as the program's users make them.
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "tests/support/program.h"
+#include "tests/support/source_files.h"
+
+namespace minkray {
+namespace {
+
+class Frames : public testing::Test {
+ protected:
+  Frames() {
+    std::ofstream(folder_ / "scene.json") << R"({
+      "version": 1,
+      "camera": {"position": [0, -5, 1], "look_at": [0, 0, 0], "resolution": [48, 32],
+                 "shutter": 0.05},
+      "lights": [{"type": "environment", "zenith": [1, 1, 1], "nadir": [1, 1, 1]}],
+      "materials": [{"name": "matt", "type": "lambert", "color": [0.7, 0.2, 0.2]}],
+      "objects": [{"name": "ball", "shape": {"type": "sphere", "radius": 0.5}, "material": "matt",
+                   "keys": [{"time": 0, "translate": [-1, 0, 0]},
+                            {"time": 1, "translate": [1, 0, 0]}]}]})";
+  }
+
+  ProgramOutcome render(const std::string& arguments) const {
+    return run_shell("cd '" + (folder_ / "") + "' && \"$MINKRAY\" render scene.json -s 2 -q " +
+                     arguments);
+  }
+  std::vector<std::string> pictures() const {
+    std::vector<std::string> names;
+    for (const std::string& name : folder_.files())
+      if (!name.ends_with(".json")) names.push_back(name);
+    return names;
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(Frames, each_into_a_file_of_its_number_and_all_onto_the_contact_sheet) {
+  const ProgramOutcome outcome =
+      render("--frames 9..11 --rate 10 -o 'f-###.png' --contact-sheet sheet.png");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(pictures(),
+            (std::vector<std::string>{"f-009.png", "f-010.png", "f-011.png", "sheet.png"}));
+  EXPECT_NE(text_of_file(folder_ / "f-009.png"), text_of_file(folder_ / "f-010.png"));
+}
+
+TEST_F(Frames, a_frame_is_the_same_alone_and_in_a_sequence) {
+  EXPECT_EQ(render("--frames 0..2 --rate 4 -o 'a#.pfm'").exit_code, 0);
+  EXPECT_EQ(render("--frames 2..2 --rate 4 -o 'b#.pfm'").exit_code, 0);
+  EXPECT_TRUE(text_of_file(folder_ / "a2.pfm") == text_of_file(folder_ / "b2.pfm"));
+  // Frame 0 is what the scene shows without frames.
+  EXPECT_EQ(render("-o still.pfm").exit_code, 0);
+  EXPECT_TRUE(text_of_file(folder_ / "a0.pfm") == text_of_file(folder_ / "still.pfm"));
+}
+
+TEST_F(Frames, resume_renders_those_that_are_not_there) {
+  std::ofstream(folder_ / "f0.png") << "kept";
+  EXPECT_EQ(render("--frames 0..1 -o 'f#.png' --resume").exit_code, 0);
+  EXPECT_EQ(text_of_file(folder_ / "f0.png"), "kept");
+  EXPECT_EQ(pictures(), (std::vector<std::string>{"f0.png", "f1.png"}));
+}
+
+TEST_F(Frames, wrong_usage_is_told_and_leaves_nothing) {
+  const auto tells = [&](const std::string& arguments, const std::string& what) {
+    const ProgramOutcome outcome = render(arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << arguments;
+    EXPECT_NE(outcome.err.find(what), std::string::npos) << arguments << "\n" << outcome.err;
+  };
+  tells("--frames 9..3 -o 'f#.png'",
+        "--frames: the first frame must not be after the last (got 9..3)");
+  tells("--frames 3 -o 'f#.png'",
+        "--frames: must be the first and the last frame, as in 0..24 (got 3)");
+  tells("--frames=-1..3 -o 'f#.png'", "--frames: frames go from 0 to 1000000 (got -1..3)");
+  tells("--frames 1..x -o 'f#.png'", "--frames: must be the first and the last frame");
+  tells("--frames 0..1 -o f.png", "must have one run of # for the frame's number");
+  tells("--frames 0..1 -o 'f#-#.png'", "must have one run of # for the frame's number");
+  tells("--frames 0..1 -o 'f#.exr' --tile 1/2", "--frames: not with --tile");
+  tells("--frames 0..1 -o 'f#.png' --certify", "--frames: not with --certify");
+  tells("-o f.png --contact-sheet s.png", "--contact-sheet: goes with --frames only");
+  tells("--frames 0..1 -o 'f#.png' --contact-sheet s.png --resume", "not with --resume");
+  tells("--frames 0..1 -o 'f#.png' --contact-sheet s.txt", "s.txt");
+  EXPECT_TRUE(pictures().empty());
+}
+
+}  // namespace
+}  // namespace minkray
