@@ -53,14 +53,31 @@ class Packets : public Peer {
   void cast(const RayBatch&, std::span<Hit> hits) override {
     CastPacket<T> answers;
     for (std::size_t i = 0; i < hits.size(); ++i) {
-      const int lane = static_cast<int>(i % lanes);
+      const std::size_t lane = i % lanes;
       if (lane == 0) cast_packet(*shape_, packets_[i / lanes], all_lanes<T>, answers, set_);
-      hits[i] = as_hit(answers.result(lane));
+      hits[i] = hit_of(answers, lane);
     }
   }
 
  private:
   static constexpr std::size_t lanes = static_cast<std::size_t>(packet_lanes<T>);
+
+  static Hit hit_of(const CastPacket<T>& answers, std::size_t lane) {
+    const LaneBits bit = LaneBits(1) << lane;
+    Hit hit;
+    hit.supports = static_cast<int>(answers.supports[lane]);
+    if (answers.found() & bit) {
+      hit.outcome = Outcome::hit;
+      hit.t_base = double(answers.t_base[lane]);
+      hit.t_offset = double(answers.t_offset[lane]);
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        hit.normal[static_cast<int>(axis)] = static_cast<float>(answers.normal[axis][lane]);
+    } else if (!(answers.miss & bit)) {
+      hit.outcome = Outcome::exhausted;
+    }
+    return hit;
+  }
+
   std::shared_ptr<PreparedShape<T>> shape_;
   InstructionSet set_;
   std::vector<RayPacket<T>> packets_;

@@ -76,6 +76,23 @@ struct WideMask {
     return !any(!mask);
   }
   /// A bit for each lane, the lowest for lane 0.
+  friend std::uint32_t bits_of(const WideMask& mask) {
+#if defined(__AVX2__)
+    if constexpr (sizeof(Bits) == 32 && sizeof(T) == 4)
+      return static_cast<std::uint32_t>(_mm256_movemask_ps(__m256(mask.bits)));
+    if constexpr (sizeof(Bits) == 32 && sizeof(T) == 8)
+      return static_cast<std::uint32_t>(_mm256_movemask_pd(__m256d(mask.bits)));
+#elif defined(__SSE2__)
+    if constexpr (sizeof(Bits) == 16 && sizeof(T) == 4)
+      return static_cast<std::uint32_t>(_mm_movemask_ps(__m128(mask.bits)));
+    if constexpr (sizeof(Bits) == 16 && sizeof(T) == 8)
+      return static_cast<std::uint32_t>(_mm_movemask_pd(__m128d(mask.bits)));
+#endif
+    std::uint32_t bits = 0;
+    for (int i = 0; i < N; ++i) bits |= (mask.bits[i] != 0 ? 1u : 0u) << i;
+    return bits;
+  }
+  /// A bit for each lane, the lowest for lane 0.
   friend std::uint32_t lane_bits(const WideMask& mask) {
 #if defined(__AVX2__)
     if constexpr (sizeof(Bits) == 32 && sizeof(T) == 4)

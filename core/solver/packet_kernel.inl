@@ -14,14 +14,9 @@ Vec3<W> load(const std::array<PacketNumbers<Lane<W>>, 3>& v, std::size_t from) {
 }
 
 template <class W>
-LaneBits bits_of(const Mask<W>& mask) {
-  LaneBits bits = 0;
-  for (int i = 0; i < LaneOf<W>::count; ++i) bits |= LaneBits(mask.lane(i) ? 1 : 0) << i;
-  return bits;
-}
-
-template <class W>
 Mask<W> mask_of(LaneBits bits) {
+  constexpr LaneBits every = (LaneBits(1) << LaneOf<W>::count) - 1;
+  if ((bits & every) == every) return Mask<W>(true);
   W chosen(Lane<W>(0));
   for (int i = 0; i < LaneOf<W>::count; ++i)
     chosen.set_lane(i, bits & (LaneBits(1) << i) ? Lane<W>(1) : Lane<W>(0));
@@ -49,9 +44,9 @@ void part(const PreparedShape<Lane<W>>& shape, const RayPacket<Lane<W>>& rays, L
   const Mask<W> in_range =
       abs(result.t_base + result.t_offset) < W(std::numeric_limits<T>::infinity());
   const Mask<W> has_normal = normal.squaredNorm() < W(T(2));
-  answers.hit |= bits_of<W>(result.hit & in_range & has_normal) << from;
-  answers.inside |= bits_of<W>(result.inside) << from;
-  answers.miss |= bits_of<W>(result.miss & has_normal) << from;
+  answers.hit |= bits_of(result.hit & in_range & has_normal) << from;
+  answers.inside |= bits_of(result.inside) << from;
+  answers.miss |= bits_of(result.miss & has_normal) << from;
   at_origin(result.t_base).store(answers.t_base.data() + from);
   at_origin(result.t_offset).store(answers.t_offset.data() + from);
   at_origin(result.offset_lo).store(answers.offset_lo.data() + from);
