@@ -83,8 +83,7 @@ constexpr Picture pictures[] = {
     {"particles", "particles.json", "-r 64x48 -s 2 --aov all"},
 };
 
-/// One way of many to make the same picture: $1 is the scene, $2 the file, $3... the options. Other
-/// widths of packets belong here once the command line can choose them.
+/// One way of many to make the same picture: $1 is the scene, $2 the file, $3... the options.
 struct Way {
   const char* name;
   const char* script;
@@ -93,6 +92,10 @@ struct Way {
 constexpr Way ways[] = {
     {"2 threads", "\"$MINKRAY\" render \"$scene\" -q -o \"$out\" -t 2 $options"},
     {"7 threads", "\"$MINKRAY\" render \"$scene\" -q -o \"$out\" -t 7 $options"},
+    {"rays one by one", "\"$MINKRAY\" render \"$scene\" -q -o \"$out\" --packet 1 $options"},
+    {"packets of 4", "\"$MINKRAY\" render \"$scene\" -q -o \"$out\" --packet 4 $options"},
+    {"packets of 8, a tree built for speed",
+     "\"$MINKRAY\" render \"$scene\" -q -o \"$out\" --packet 8 --build speed $options"},
     {"5 tiles",
      "for i in 1 2 3 4 5; do \"$MINKRAY\" render \"$scene\" -q -o tile-$i.exr --tile $i/5 $options "
      "|| exit 1; done; \"$MINKRAY\" merge tile-?.exr -o \"$out\"; code=$?; rm tile-?.exr; exit "
