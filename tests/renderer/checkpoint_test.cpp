@@ -24,13 +24,14 @@ class CheckpointFile : public testing::Test {
     world_ = make_world(scene_);
     options_.resolution = {70, 50};
     options_.samples = 3;
+    options_.integrator.packet = 4;
   }
 
   Checkpoint checkpoint(double seconds = always) {
     return {path_, options_, picture_facts(scene_, world_, options_), seconds};
   }
 
-  /// Renders until so many rays were asked for, and goes on if there is a checkpoint.
+  /// Renders until so many packets were asked for, and goes on if there is a checkpoint.
   Rendering render_until(int asked_at_most, Checkpoint& checkpoint) {
     RenderJournal journal;
     if (checkpoint.exists()) journal = checkpoint.load();
@@ -48,7 +49,7 @@ class CheckpointFile : public testing::Test {
   Rendering rendered_with_interruptions(int& interruptions) {
     for (interruptions = 0; interruptions < 1000; ++interruptions) {
       Checkpoint each = checkpoint();
-      Rendering rendering = render_until(3000, each);
+      Rendering rendering = render_until(800, each);
       if (rendering.complete) {
         each.remove();
         return rendering;
@@ -92,7 +93,7 @@ TEST_F(CheckpointFile, so_is_a_share_of_the_samples_of_a_tile) {
 TEST_F(CheckpointFile, of_another_picture_is_refused_with_what_differs) {
   {
     Checkpoint first = checkpoint();
-    render_until(3000, first);
+    render_until(800, first);
   }
   ASSERT_TRUE(std::filesystem::exists(path_));
   const auto complaint = [&] {
@@ -124,9 +125,9 @@ TEST_F(CheckpointFile, of_another_picture_is_refused_with_what_differs) {
 
 TEST_F(CheckpointFile, of_a_short_render_is_never_written) {
   Checkpoint rare = checkpoint(1e6);
-  render_until(3000, rare);
+  render_until(800, rare);
   Checkpoint never = checkpoint(0);
-  render_until(3000, never);
+  render_until(800, never);
   EXPECT_FALSE(std::filesystem::exists(path_));
 }
 
