@@ -22,10 +22,10 @@ class ExactShapes : public Tracer {
   }
 
   std::vector<std::string> entries() const override {
-    return {"single", "16 together", "64 together"};
+    return {"single", "16 together", std::to_string(most_rays_at_once) + " together"};
   }
   std::unique_ptr<RayQueue> queue(std::size_t entry) const override {
-    constexpr std::array<std::size_t, 3> groups = {1, 16, 64};
+    constexpr std::array<std::size_t, 3> groups = {1, 16, most_rays_at_once};
     return std::make_unique<Queue>(world_, groups[entry]);
   }
   Vec3<float> world_normal(const FirstHit& hit) const override { return hit.normal; }
