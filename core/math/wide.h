@@ -76,7 +76,7 @@ struct WideMask {
     return !any(!mask);
   }
   /// A bit for each lane, the lowest for lane 0.
-  friend std::uint32_t bits_of(const WideMask& mask) {
+  friend std::uint32_t lane_bits(const WideMask& mask) {
 #if defined(__AVX2__)
     if constexpr (sizeof(Bits) == 32 && sizeof(T) == 4)
       return static_cast<std::uint32_t>(_mm256_movemask_ps(__m256(mask.bits)));
@@ -90,19 +90,6 @@ struct WideMask {
 #endif
     std::uint32_t bits = 0;
     for (int i = 0; i < N; ++i) bits |= (mask.bits[i] != 0 ? 1u : 0u) << i;
-    return bits;
-  }
-  /// A bit for each lane, the lowest for lane 0.
-  friend std::uint32_t lane_bits(const WideMask& mask) {
-#if defined(__AVX2__)
-    if constexpr (sizeof(Bits) == 32 && sizeof(T) == 4)
-      return static_cast<std::uint32_t>(_mm256_movemask_ps(__m256(mask.bits)));
-#elif defined(__SSE2__)
-    if constexpr (sizeof(Bits) == 16 && sizeof(T) == 4)
-      return static_cast<std::uint32_t>(_mm_movemask_ps(__m128(mask.bits)));
-#endif
-    std::uint32_t bits = 0;
-    for (int i = 0; i < N; ++i) bits |= std::uint32_t(mask.lane(i) ? 1 : 0) << i;
     return bits;
   }
 };
