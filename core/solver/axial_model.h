@@ -120,15 +120,22 @@ class AxialModel {
   /// The first piece alone, unless the second reaches further there; what joins the two; or the
   /// second alone.
   ModelHit<W> on_both(const Piece& first, const Piece& second) const {
+    using std::max;
+    using std::min;
     ModelHit<W> hit;
     Mask<W> meets;
     hit.m = alone(first, meets);
     W reach = first.reach(hit.m);
     const Mask<W> settled = second.reach(hit.m) - reach <= rounding_;
     hit.certain = settled & meets;
+    // Of a plane as steep as the ray, the hit is known no better than from the points around it.
+    W lowest = W(-std::numeric_limits<T>::infinity()), highest = -lowest;
     if (!all(settled)) {
       Vec3<W> m;
-      const Mask<W> between = joined(first, second, m);
+      W low, high;
+      const Mask<W> between = joined(first, second, m, low, high);
+      lowest = select((!settled) & between, low, lowest);
+      highest = select((!settled) & between, high, highest);
       hit.m = select<W>(settled, hit.m, m);
       reach = select(settled, reach, first.reach(m));
       hit.certain |= (!settled) & between;
@@ -145,7 +152,7 @@ class AxialModel {
     const W z = -hit.m.dot(r_);
     const Mask<W> ahead = z > W(0);
     hit.certain &= ahead;
-    hit.height = reach / select(ahead, z, W(1));
+    hit.height = min(max(W(reach / select(ahead, z, W(1))), lowest), highest);
     const Mask<W> some = hit.m.squaredNorm() > W(0);
     if (!all(some)) hit.m = select<W>(some, hit.m, Vec3<W>(-r_));
     return hit;
@@ -179,8 +186,9 @@ class AxialModel {
   /// The normal m where the ray meets the cone that touches both pieces; whether it does so between
   /// them. All directions that reach equally far with both are m(phi) = (k cos phi, k sin phi,
   /// m_z). The plane of m(phi) is crossed at height (alpha + beta cos + gamma sin) / (p + q cos + w
-  /// sin), which is least where A sin + B cos + C = 0.
-  Mask<W> joined(const Piece& piece, const Piece& other, Vec3<W>& m) const {
+  /// sin), which is least where A sin + B cos + C = 0. The hit's height is between `low` and
+  /// `high`.
+  Mask<W> joined(const Piece& piece, const Piece& other, Vec3<W>& m, W& low, W& high) const {
     using std::max;
     using std::min;
     using std::sqrt;
@@ -208,8 +216,11 @@ class AxialModel {
 
     // The support points of both, and the point between them that is nearest to the ray.
     const Vec3<W> g = disks ? Vec3<W>(cosine, sine, W(0)) : m;
-    const Vec3<W> from = beside(other.c + g * other.radius);
-    const Vec3<W> along = beside(piece.c + g * piece.radius) - from;
+    const Vec3<W> on_other = other.c + g * other.radius, on_piece = piece.c + g * piece.radius;
+    low = min(W(-on_other.dot(r_)), W(-on_piece.dot(r_)));
+    high = max(W(-on_other.dot(r_)), W(-on_piece.dot(r_)));
+    const Vec3<W> from = beside(on_other);
+    const Vec3<W> along = beside(on_piece) - from;
     const W share = min(max(W(-from.dot(along) / along.squaredNorm()), W(0)), W(1));
     return crosses & ((from + along * share).squaredNorm() <= rounding_ * rounding_);
   }

@@ -106,8 +106,10 @@ LineHit<W> first_on_line(Model& model, const Vec3<Lane<W>>& half_extents, const 
                           (along <= gap_along);
       const Mask<W> contradicts = missing < W(-16) * gap;
       result.hit |= met & !contradicts;
-      result.lambda_above = select(met & model_hit.inner & !contradicts,
-                                   max(W(-model_hit.height), result.lambda), result.lambda_above);
+      // Where the plane is beyond it by rounding, the model is right: it lies between points.
+      const Mask<W> inner = met & model_hit.inner & !contradicts;
+      result.lambda_above = select(inner, W(-model_hit.height), result.lambda_above);
+      result.lambda = select(inner, min(result.lambda, W(-model_hit.height)), result.lambda);
       open &= !met;
     };
     meets(gap);

@@ -74,12 +74,9 @@ CastLanes<W> model_cast(const MakeModel& make_model, const RayNearBall<W>& near,
     const Vec3<W> pushed = s - found.normal * W(tolerance::tangent_push<T> * R);
     LineHit<W> again = first_along(pushed, direction, until, found.tangent, sign);
     again.supports += found.supports;
-    // The plane found there, where the line itself crosses it.
-    const W slope = -again.normal.dot(direction);
-    const Mask<W> crosses = again.hit & (slope > W(tolerance::least_slope<T>));
-    const W push = again.normal.dot(found.normal) * W(tolerance::tangent_push<T> * R);
-    again.lambda += select(crosses, W(push / select(crosses, slope, W(1))), W(0));
-    again.lambda_above = max(again.lambda, again.lambda_above);
+    // The pushed line's hit is the line's, beside it by no more than the push: where the line itself
+    // crosses the plane may be as much further along it as the plane is steep. That is later, so the
+    // lower bound holds.
     return pick(found.tangent, again, found);
   };
   const LineHit<W> entry = first_of(r, end, castable, W(1));
