@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Where a line enters a polytope whose facets are known: a box between its slabs, a hull by walking
-// from facet to facet. A guess for the solvers, which ask the support mapping whether it is right.
+// Where a line enters a polytope that knows its facets: between its slabs, or by walking from facet
+// to facet. A guess for the solvers, which ask the support mapping whether it is right.
 #pragma once
 
-#include "core/shape/box.h"
-#include "core/shape/hull.h"
+#include "core/shape/facet_mesh.h"
 #include "core/solver/line_cast.h"
 #include "core/solver/ray_frame.h"
 
@@ -32,13 +31,16 @@ struct Facets {
   static constexpr bool some = false;
 };
 
-template <class W>
-struct Facets<W, Box<Lane<W>>> {
+template <class W, class Core>
+requires requires(const Core& core) {
+  core.half_extents;
+}
+struct Facets<W, Core> {
   using T = Lane<W>;
   static constexpr bool some = true;
-  static bool known(const Box<T>&) { return true; }
+  static bool known(const Core&) { return true; }
 
-  static EnteredFacet<W> entered(const Box<T>& box, const Vec3<T>&, const Vec3<W>&,
+  static EnteredFacet<W> entered(const Core& box, const Vec3<T>&, const Vec3<W>&,
                                  const Vec3<W>& from, const RayFrame<W>& frame) {
     EnteredFacet<W> facet = grown(box, T(0), from, frame);
     facet.there = {facet.enters, facet.enters, facet.enters};
@@ -46,7 +48,7 @@ struct Facets<W, Box<Lane<W>>> {
   }
 
   /// Lines that pass by the grown box pass by the rounded one.
-  static EnteredFacet<W> around(const Box<T>& box, T radius, const Vec3<T>&, const Vec3<W>&,
+  static EnteredFacet<W> around(const Core& box, T radius, const Vec3<T>&, const Vec3<W>&,
                                 const Vec3<W>& from, const RayFrame<W>& frame) {
     EnteredFacet<W> facet = grown(box, radius, from, frame);
     facet.there = {facet.enters, facet.enters, facet.enters};
@@ -55,7 +57,7 @@ struct Facets<W, Box<Lane<W>>> {
 
  private:
   /// With its faces moved out by the radius; the corner is one of the box itself.
-  static EnteredFacet<W> grown(const Box<T>& box, T radius, const Vec3<W>& from,
+  static EnteredFacet<W> grown(const Core& box, T radius, const Vec3<W>& from,
                                const RayFrame<W>& frame) {
     using std::abs;
     using std::copysign;
@@ -91,8 +93,7 @@ struct Facets<W, Box<Lane<W>>> {
     const Vec3<W> at = from + r * select(abs(last_in) < infinity, last_in, W(0));
     Vec3<W> corner;
     for (int k = 0; k < 3; ++k)
-      corner[k] =
-          copysign(W(box.half_extents[k]), select(in_normal[k] != W(0), in_normal[k], at[k]));
+      corner[k] = copysign(W(box.half_extents[k]), select(in_normal[k] != W(0), in_normal[k], at[k]));
     facet.corner = frame.into(corner - from);
     for (int k = 0; k < 3; ++k) {
       Vec3<W> other = corner;
@@ -103,17 +104,20 @@ struct Facets<W, Box<Lane<W>>> {
   }
 };
 
-template <class W>
-struct Facets<W, Hull<Lane<W>>> {
+template <class W, class Core>
+requires requires(const Core& core) {
+  core.points.facets();
+}
+struct Facets<W, Core> {
   using T = Lane<W>;
   static constexpr bool some = true;
-  static bool known(const Hull<T>& hull) { return hull.points.facets() != nullptr; }
+  static bool known(const Core& hull) { return hull.points.facets() != nullptr; }
 
   /// Seen along the ray the facets that face it are a triangulation; from one that is likely to be
   /// near, the walk leaves each triangle by the edge that the line is furthest beyond (Devillers,
   /// Pion and Teillaud, "Walking in a Triangulation", 2002). Where that leads to a facet that faces
   /// away, the edge is on the outline and the line passes by.
-  static EnteredFacet<W> entered(const Hull<T>& hull, const Vec3<T>& half_extents, const Vec3<W>& s,
+  static EnteredFacet<W> entered(const Core& hull, const Vec3<T>& half_extents, const Vec3<W>& s,
                                  const Vec3<W>& from, const RayFrame<W>& frame) {
     const FacetMesh<T>& mesh = *hull.points.facets();
     const Vec3<W> start =
@@ -163,7 +167,7 @@ struct Facets<W, Hull<Lane<W>>> {
 
   /// Where the line meets a facet's plane moved out by the radius tells, by that spot's foot on the
   /// facet, where to go next. Between two facets that point to each other is their edge.
-  static EnteredFacet<W> around(const Hull<T>& hull, T radius, const Vec3<T>& half_extents,
+  static EnteredFacet<W> around(const Core& hull, T radius, const Vec3<T>& half_extents,
                                 const Vec3<W>& s, const Vec3<W>& from, const RayFrame<W>& frame) {
     const FacetMesh<T>& mesh = *hull.points.facets();
     const Vec3<W> start =

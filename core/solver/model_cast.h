@@ -74,9 +74,19 @@ CastLanes<W> model_cast(const MakeModel& make_model, const RayNearBall<W>& near,
     const Vec3<W> pushed = s - found.normal * W(tolerance::tangent_push<T> * R);
     LineHit<W> again = first_along(pushed, direction, until, found.tangent, sign);
     again.supports += found.supports;
-    // The pushed line's hit is the line's, beside it by no more than the push: where the line itself
-    // crosses the plane may be as much further along it as the plane is steep. That is later, so the
-    // lower bound holds.
+    // The plane found there, where the line itself crosses it: later, but not behind the shape's
+    // end or the ray's.
+    auto model = make_model(s, direction);
+    const Vec3<W> ahead = model.to_frame(direction);
+    const W last = model.support(ahead).reach(ahead);
+    again.supports += select(found.tangent, W(1), W(0));
+    const W slope = -again.normal.dot(direction);
+    const Mask<W> crosses = again.hit & (slope > W(tolerance::least_slope<T>));
+    const W push = again.normal.dot(found.normal) * W(tolerance::tangent_push<T> * R);
+    const W later = again.lambda + push / select(crosses, slope, W(1));
+    const W latest = max(again.lambda, min(last, until));
+    again.lambda = select(crosses & (later > again.lambda), min(later, latest), again.lambda);
+    again.lambda_above = max(again.lambda, again.lambda_above);
     return pick(found.tangent, again, found);
   };
   const LineHit<W> entry = first_of(r, end, castable, W(1));

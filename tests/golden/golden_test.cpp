@@ -94,8 +94,7 @@ constexpr Way ways[] = {
     {"7 threads", "\"$MINKRAY\" render \"$scene\" -q -o \"$out\" -t 7 $options"},
     {"rays one by one", "\"$MINKRAY\" render \"$scene\" -q -o \"$out\" --packet 1 $options"},
     {"packets of 4", "\"$MINKRAY\" render \"$scene\" -q -o \"$out\" --packet 4 $options"},
-    {"packets of 8, a tree built for speed",
-     "\"$MINKRAY\" render \"$scene\" -q -o \"$out\" --packet 8 --build speed $options"},
+    {"packets of 8", "\"$MINKRAY\" render \"$scene\" -q -o \"$out\" --packet 8 $options"},
     {"5 tiles",
      "for i in 1 2 3 4 5; do \"$MINKRAY\" render \"$scene\" -q -o tile-$i.exr --tile $i/5 $options "
      "|| exit 1; done; \"$MINKRAY\" merge tile-?.exr -o \"$out\"; code=$?; rm tile-?.exr; exit "
