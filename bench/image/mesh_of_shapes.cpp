@@ -5,6 +5,7 @@
 #include "bench/image/rounded_mesh.h"
 #include "bench/image/subject.h"
 #include "core/parallel/parallel.h"
+#include "core/shape/shape_bounds.h"
 
 namespace minkray::bench {
 

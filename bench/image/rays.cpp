@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "bench/image/subject.h"
+#include "core/shape/shape_bounds.h"
 #include "renderer/reflection.h"
 #include "renderer/sampler.h"
 

@@ -4,6 +4,7 @@
 #include "bench/image/clock.h"
 #include "bench/image/temporary_folder.h"
 #include "core/shape/convert.h"
+#include "core/shape/shape_bounds.h"
 #include "renderer/generate/generate.h"
 #include "renderer/scene/scene_instances.h"
 #include "renderer/scene/scene_json.h"

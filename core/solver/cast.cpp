@@ -114,7 +114,9 @@ CastResult<T> cast_near(const PreparedShape<T>& shape, const RayNearBall<T>& nea
   if (result.status == Status::hit && result.normal.isZero(T(0))) result.normal = -near.r;
   result.normal = shape.normal_to_outer(result.normal);
   // Where the ray's distance in the shape's own frame overflows.
-  if (!result.normal.allFinite()) {
+  const bool has_numbers = !std::isnan(result.t_base) && !std::isnan(result.t_offset) &&
+                           !std::isnan(result.offset_lo) && !std::isnan(result.offset_hi);
+  if (!has_numbers || !result.normal.allFinite()) {
     result.status = Status::exhausted;
     result.normal.setZero();
   }

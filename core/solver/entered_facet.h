@@ -9,14 +9,14 @@
 
 namespace minkray {
 
-/// In the ray's frame (the ray runs down the z axis), but for `normal`, which is in the shape's.
+/// In the ray's frame: the ray runs down the z axis.
 template <class W>
 struct EnteredFacet {
   Mask<W> known = Mask<W>(false);   ///< there is an answer
   Mask<W> enters = Mask<W>(false);  ///< the line passes through the facet
   /// Outward, of unit length: the facet's. Of a line that passes by, one at right angles to it in
   /// which the line lies beyond the polytope.
-  Vec3<W> normal;
+  Vec3<W> normal = Vec3<W>::Zero();
   Vec3<W> corner;                     ///< the facet's corner that is nearest to the line
   std::array<Vec3<W>, 3> neighbours;  ///< corners beside it
   std::array<Mask<W>, 3> there = {Mask<W>(false), Mask<W>(false), Mask<W>(false)};  ///< which
@@ -90,10 +90,12 @@ struct Facets<W, Core> {
     if (!all(facet.enters))
       facet.normal = select<W>(facet.enters, in_normal,
                                unit<W>(Vec3<W>(in_normal * out_slope + out_normal * in_slope)));
+    facet.normal = frame.into(facet.normal);
     const Vec3<W> at = from + r * select(abs(last_in) < infinity, last_in, W(0));
     Vec3<W> corner;
     for (int k = 0; k < 3; ++k)
-      corner[k] = copysign(W(box.half_extents[k]), select(in_normal[k] != W(0), in_normal[k], at[k]));
+      corner[k] =
+          copysign(W(box.half_extents[k]), select(in_normal[k] != W(0), in_normal[k], at[k]));
     facet.corner = frame.into(corner - from);
     for (int k = 0; k < 3; ++k) {
       Vec3<W> other = corner;
@@ -124,7 +126,7 @@ struct Facets<W, Core> {
         normal_on_extents<W>(half_extents, s, Vec3<W>(-frame.z)) + frame.z * W(towards_ray);
 
     EnteredFacet<W> facet;
-    W at = mesh.facing(start), found = at;
+    W at = mesh.facing(start);
     Mask<W> open = Mask<W>(true), stepped = Mask<W>(false), beside = Mask<W>(false);
     Vec3<W> outline = Vec3<W>::Zero();
     std::array<Vec3<W>, 3> corners = {Vec3<W>::Zero(), Vec3<W>::Zero(), Vec3<W>::Zero()};
@@ -137,7 +139,6 @@ struct Facets<W, Core> {
       beside |= open & stepped & !faces;
       open = faces;
       for (std::size_t k = 0; k < 3; ++k) corners[k] = select<W>(open, p[k], corners[k]);
-      found = select(open, at, found);
       facet.known |= open;
       const Mask<W> within = open & (a >= W(0)) & (b >= W(0)) & (c >= W(0));
       facet.enters |= within;
@@ -156,9 +157,12 @@ struct Facets<W, Core> {
       stepped |= open;
     }
 
-    facet.normal =
-        gather<W>(found, [&](std::size_t i) { return Vec3<T>(mesh[i].normal.template cast<T>()); });
-    if (any(beside)) facet.normal = select<W>(beside, frame.out_of(unit<W>(outline)), facet.normal);
+    // Of these corners, so that the plane is theirs to the last digit; none if they are in line.
+    facet.normal = upper_normal(corners[0], corners[1], corners[2]);
+    if (any(beside)) facet.normal = select<W>(beside, unit<W>(outline), facet.normal);
+    const Mask<W> has_normal = facet.normal.squaredNorm() > W(0);
+    facet.known &= has_normal;
+    facet.enters &= has_normal;
     facet.corner = corners[0];
     facet.neighbours = {corners[1], corners[2], corners[0]};
     facet.there = {facet.enters, facet.enters, facet.enters};
@@ -174,7 +178,7 @@ struct Facets<W, Core> {
         normal_on_extents<W>(half_extents, s, Vec3<W>(-frame.z)) + frame.z * W(towards_ray);
 
     EnteredFacet<W> facet;
-    facet.normal = frame.z;
+    facet.normal = Vec3<W>(W(0), W(0), W(1));
     W at = mesh.facing(start), last = W(-1);
     Mask<W> open = Mask<W>(true);
     // Of the last step: the edge crossed, the corner of the facet left behind, the foot there.

@@ -43,10 +43,13 @@ void part(const PreparedShape<Lane<W>>& shape, const RayPacket<Lane<W>>& rays, L
   using std::abs;
   const Mask<W> in_range =
       abs(result.t_base + result.t_offset) < W(std::numeric_limits<T>::infinity());
-  const Mask<W> has_normal = normal.squaredNorm() < W(T(2));
-  answers.hit |= lane_bits(result.hit & in_range & has_normal) << from;
+  const Mask<W> has_numbers = (normal.squaredNorm() < W(T(2))) & (result.t_base == result.t_base) &
+                              (result.t_offset == result.t_offset) &
+                              (result.offset_lo == result.offset_lo) &
+                              (result.offset_hi == result.offset_hi);
+  answers.hit |= lane_bits(result.hit & in_range & has_numbers) << from;
   answers.inside |= lane_bits(result.inside) << from;
-  answers.miss |= lane_bits(result.miss & has_normal) << from;
+  answers.miss |= lane_bits(result.miss & has_numbers) << from;
   at_origin(result.t_base).store(answers.t_base.data() + from);
   at_origin(result.t_offset).store(answers.t_offset.data() + from);
   at_origin(result.offset_lo).store(answers.offset_lo.data() + from);

@@ -47,11 +47,10 @@ class PolytopeModel {
     EnteredFacet<W> facet;
     if constexpr (Known::some)
       if (Known::known(core_)) facet = Known::entered(core_, half_extents, s_, from_, frame_);
-    if (all(facet.known))
-      hit.m = frame_.into(facet.normal);
-    else
-      hit.m = frame_.into(select<W>(facet.known, facet.normal,
-                                    normal_on_extents<W>(half_extents, s_, Vec3<W>(-frame_.z))));
+    hit.m = facet.normal;
+    if (!all(facet.known))
+      hit.m = select<W>(facet.known, hit.m,
+                        frame_.into(normal_on_extents<W>(half_extents, s_, Vec3<W>(-frame_.z))));
     if (!any(facet.enters)) return hit;
     for (std::size_t k = 0; k < 3; ++k)
       kept_[k] = {facet.neighbours[k], hit.m, facet.there[k], facet.there[k]};

@@ -102,11 +102,10 @@ class TranslatesModel {
     if constexpr (Known::some)
       if (Known::known(bodies_.core))
         facet = Known::around(bodies_.core, bodies_.radius, half_extents, s_, from_, frame_);
-    if (all(facet.known))
-      hit.m = frame_.into(facet.normal);
-    else
-      hit.m = frame_.into(select<W>(facet.known, facet.normal,
-                                    normal_on_extents<W>(half_extents, s_, Vec3<W>(-frame_.z))));
+    hit.m = facet.normal;
+    if (!all(facet.known))
+      hit.m = select<W>(facet.known, hit.m,
+                        frame_.into(normal_on_extents<W>(half_extents, s_, Vec3<W>(-frame_.z))));
     const Mask<W> near = facet.there[0];
     if (!any(near)) return hit;
     kept_.c = facet.neighbours;

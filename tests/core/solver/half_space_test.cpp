@@ -63,13 +63,17 @@ std::vector<Polytope> polytopes() {
   };
 }
 
+/// `detour`: the hull was kept in float before.
 template <class T>
-void compare(const Polytope& polytope, RayFamily family, int count) {
+void compare(const Polytope& polytope, RayFamily family, int count, bool detour = false) {
   SCOPED_TRACE(polytope.name);
   // Numbers that T holds exactly, so that both are asked about the same.
   std::vector<Vec3<double>> points;
-  for (const auto& p : polytope.points) points.push_back(p.cast<T>().template cast<double>());
-  const Shape<double> shape = Hull<double>{PointCloud<double>(points)};
+  for (const auto& p : polytope.points)
+    points.push_back(detour ? Vec3<double>(p.cast<float>().cast<double>())
+                            : Vec3<double>(p.cast<T>().template cast<double>()));
+  Shape<double> shape = Hull<double>{PointCloud<double>(points)};
+  if (detour) shape = convert<double>(convert<float>(shape));
   const PreparedShape<T> prepared(convert<T>(shape));
   const HalfSpaces planes(points);
   const double radius = double(prepared.inner_ball().radius);
@@ -132,6 +136,10 @@ class BesideHalfSpaces : public ::testing::TestWithParam<RayFamily> {};
 
 TEST_P(BesideHalfSpaces, in_double) {
   for (const Polytope& polytope : polytopes()) compare<double>(polytope, GetParam(), 1000);
+}
+
+TEST_P(BesideHalfSpaces, in_double_after_a_detour_through_float) {
+  for (const Polytope& polytope : polytopes()) compare<double>(polytope, GetParam(), 1000, true);
 }
 
 TEST_P(BesideHalfSpaces, in_float) {
