@@ -3,6 +3,7 @@
 // of a polytope, or of an ellipsoid. The hull of up to four of them.
 #pragma once
 
+#include "core/shape/jet.h"
 #include "core/solver/entered_facet.h"
 #include "core/solver/hull_cast.h"
 #include "core/solver/line_cast.h"
