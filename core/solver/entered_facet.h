@@ -17,6 +17,7 @@ struct EnteredFacet {
   /// Outward, of unit length: the facet's. Of a line that passes by, one at right angles to it in
   /// which the line lies beyond the polytope.
   Vec3<W> normal = Vec3<W>::Zero();
+  W height = W(0);                    ///< the line enters at lambda = -height
   Vec3<W> corner;                     ///< the facet's corner that is nearest to the line
   std::array<Vec3<W>, 3> neighbours;  ///< corners beside it
   std::array<Mask<W>, 3> there = {Mask<W>(false), Mask<W>(false), Mask<W>(false)};  ///< which
@@ -86,6 +87,7 @@ struct Facets<W, Core> {
     EnteredFacet<W> facet;
     facet.known = Mask<W>(true);
     facet.enters = last_in <= first_out;
+    facet.height = -last_in;
     facet.normal = in_normal;
     if (!all(facet.enters))
       facet.normal = select<W>(facet.enters, in_normal,
@@ -121,6 +123,8 @@ struct Facets<W, Core> {
   /// away, the edge is on the outline and the line passes by.
   static EnteredFacet<W> entered(const Core& hull, const Vec3<T>& half_extents, const Vec3<W>& s,
                                  const Vec3<W>& from, const RayFrame<W>& frame) {
+    using std::max;
+    using std::min;
     const FacetMesh<T>& mesh = *hull.points.facets();
     const Vec3<W> start =
         normal_on_extents<W>(half_extents, s, Vec3<W>(-frame.z)) + frame.z * W(towards_ray);
@@ -163,8 +167,13 @@ struct Facets<W, Core> {
     const Mask<W> has_normal = facet.normal.squaredNorm() > W(0);
     facet.known &= has_normal;
     facet.enters &= has_normal;
-    facet.corner = corners[0];
-    facet.neighbours = {corners[1], corners[2], corners[0]};
+    // Between the corners, however steep the plane.
+    const auto& [a, b, c] = corners;
+    const W z = select(facet.normal.z() > W(0), facet.normal.z(), W(1));
+    facet.height = min(max(W(a.dot(facet.normal) / z), min(a.z(), min(b.z(), c.z()))),
+                       max(a.z(), max(b.z(), c.z())));
+    facet.corner = a;
+    facet.neighbours = {b, c, a};
     facet.there = {facet.enters, facet.enters, facet.enters};
     return facet;
   }

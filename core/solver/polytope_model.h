@@ -56,7 +56,7 @@ class PolytopeModel {
       kept_[k] = {facet.neighbours[k], hit.m, facet.there[k], facet.there[k]};
     const Mask<W> ahead = hit.m.z() > W(0);
     hit.certain = facet.enters & ahead;
-    hit.height = facet.corner.dot(hit.m) / select(ahead, hit.m.z(), W(1));
+    hit.height = facet.height;
     return hit;
   }
 
