@@ -38,7 +38,9 @@ struct Frame {
   Vec3<double> x, y, z;
 
   explicit Frame(const Vec3<double>& normal) : z(normal) {
-    const double sign = std::copysign(1.0, z.z());
+    // Where the two halves meet neighbouring samples see different patterns: not at z = 0, where
+    // the upright faces are.
+    const double sign = z.z() < -0.6 ? -1.0 : 1.0;
     const double a = -1 / (sign + z.z()), b = z.x() * z.y() * a;
     x = {1 + sign * z.x() * z.x() * a, sign * b, -sign * z.x()};
     y = {b, sign + z.y() * z.y() * a, -z.y()};

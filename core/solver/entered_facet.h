@@ -17,9 +17,10 @@ struct EnteredFacet {
   /// Outward, of unit length: the facet's. Of a line that passes by, one at right angles to it in
   /// which the line lies beyond the polytope.
   Vec3<W> normal = Vec3<W>::Zero();
-  W height = W(0);                    ///< the line enters at lambda = -height
-  Vec3<W> corner;                     ///< the facet's corner that is nearest to the line
-  std::array<Vec3<W>, 3> neighbours;  ///< corners beside it
+  Vec3<W> in_shape = Vec3<W>::Zero();  ///< the normal in the shape's frame
+  W height = W(0);                     ///< the line enters at lambda = -height
+  Vec3<W> corner;                      ///< the facet's corner that is nearest to the line
+  std::array<Vec3<W>, 3> neighbours;   ///< corners beside it
   std::array<Mask<W>, 3> there = {Mask<W>(false), Mask<W>(false), Mask<W>(false)};  ///< which
 };
 
@@ -92,7 +93,8 @@ struct Facets<W, Core> {
     if (!all(facet.enters))
       facet.normal = select<W>(facet.enters, in_normal,
                                unit<W>(Vec3<W>(in_normal * out_slope + out_normal * in_slope)));
-    facet.normal = frame.into(facet.normal);
+    facet.in_shape = facet.normal;
+    facet.normal = frame.into(facet.in_shape);
     const Vec3<W> at = from + r * select(abs(last_in) < infinity, last_in, W(0));
     Vec3<W> corner;
     for (int k = 0; k < 3; ++k)
@@ -165,6 +167,7 @@ struct Facets<W, Core> {
     facet.normal = upper_normal(corners[0], corners[1], corners[2]);
     if (any(beside)) facet.normal = select<W>(beside, unit<W>(outline), facet.normal);
     const Mask<W> has_normal = facet.normal.squaredNorm() > W(0);
+    facet.in_shape = frame.out_of(facet.normal);
     facet.known &= has_normal;
     facet.enters &= has_normal;
     // Between the corners, however steep the plane.

@@ -34,7 +34,11 @@ class PolytopeModel {
         least_ball_(least_ball * R) {}
 
   Vec3<W> to_frame(const Vec3<W>& n) const { return frame_.into(n); }
-  Vec3<W> to_shape(const Vec3<W>& n) const { return frame_.out_of(n); }
+  /// There and back, a facet's normal would be rounded.
+  Vec3<W> to_shape(const Vec3<W>& n) const {
+    const Mask<W> first = (n.x() == first_.x()) & (n.y() == first_.y()) & (n.z() == first_.z());
+    return select<W>(first, first_in_shape_, frame_.out_of(n));
+  }
   W against_ray(const Vec3<W>& n) const { return n.z(); }
 
   Piece support(const Vec3<W>& n) const {
@@ -52,6 +56,8 @@ class PolytopeModel {
       hit.m = select<W>(facet.known, hit.m,
                         frame_.into(normal_on_extents<W>(half_extents, s_, Vec3<W>(-frame_.z))));
     if (!any(facet.enters)) return hit;
+    first_ = select<W>(facet.enters, hit.m, first_);
+    first_in_shape_ = facet.in_shape;
     for (std::size_t k = 0; k < 3; ++k)
       kept_[k] = {facet.neighbours[k], hit.m, facet.there[k], facet.there[k]};
     const Mask<W> ahead = hit.m.z() > W(0);
@@ -190,6 +196,7 @@ class PolytopeModel {
   RayFrame<W> frame_;
   W rounding_;
   W ball_, least_ball_;
+  Vec3<W> first_ = Vec3<W>::Zero(), first_in_shape_ = Vec3<W>::Zero();  ///< the facet's normal
   W lowest_ = W(0), highest_ = W(0);  ///< of the portal's vertices
   std::array<Kept, 3> kept_;
 };
