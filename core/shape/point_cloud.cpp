@@ -12,8 +12,8 @@ namespace {
 /// clearly faster than a scan of all of them (0.65 ns each; both in float on an AMD EPYC).
 constexpr std::size_t table_from = 24;
 
-/// Facets take four times the memory of the vertices, and the index of one must be a whole number
-/// in float.
+/// A hull has twice as many facets as vertices, and walks keep the index of one in a float, which
+/// holds whole numbers up to 2^24.
 constexpr std::size_t most_vertices_with_facets = std::size_t(1) << 22;
 
 }  // namespace

@@ -19,7 +19,7 @@ struct EnteredFacet {
   Vec3<W> normal = Vec3<W>::Zero();
   Vec3<W> in_shape = Vec3<W>::Zero();  ///< the normal in the shape's frame
   W height = W(0);                     ///< the line enters at lambda = -height
-  Vec3<W> corner;                      ///< the facet's corner that is nearest to the line
+  Vec3<W> corner;                      ///< one of the facet's; of `around`, the nearest to the line
   std::array<Vec3<W>, 3> neighbours;   ///< corners beside it
   std::array<Mask<W>, 3> there = {Mask<W>(false), Mask<W>(false), Mask<W>(false)};  ///< which
 };
@@ -44,17 +44,13 @@ struct Facets<W, Core> {
 
   static EnteredFacet<W> entered(const Core& box, const Vec3<T>&, const Vec3<W>&,
                                  const Vec3<W>& from, const RayFrame<W>& frame) {
-    EnteredFacet<W> facet = grown(box, T(0), from, frame);
-    facet.there = {facet.enters, facet.enters, facet.enters};
-    return facet;
+    return grown(box, T(0), from, frame);
   }
 
   /// Lines that pass by the grown box pass by the rounded one.
   static EnteredFacet<W> around(const Core& box, T radius, const Vec3<T>&, const Vec3<W>&,
                                 const Vec3<W>& from, const RayFrame<W>& frame) {
-    EnteredFacet<W> facet = grown(box, radius, from, frame);
-    facet.there = {facet.enters, facet.enters, facet.enters};
-    return facet;
+    return grown(box, radius, from, frame);
   }
 
  private:
@@ -88,6 +84,7 @@ struct Facets<W, Core> {
     EnteredFacet<W> facet;
     facet.known = Mask<W>(true);
     facet.enters = last_in <= first_out;
+    facet.there = {facet.enters, facet.enters, facet.enters};
     facet.height = -last_in;
     facet.normal = in_normal;
     if (!all(facet.enters))
@@ -228,7 +225,6 @@ struct Facets<W, Core> {
       const Mask<W> within = open & (a >= W(0)) & (b >= W(0)) & (c >= W(0));
       if (any(within)) {
         answer(within, p[0], p[1], p[2], p[2], Mask<W>(false));
-        facet.enters |= within;
         open &= !within;
         if (!any(open)) break;
       }
@@ -258,12 +254,14 @@ struct Facets<W, Core> {
   }
 
  private:
-  /// The sine below which a facet counts as facing away.
+  /// The sine below which a facet counts as facing away: the line crosses its moved plane a
+  /// thousand radii beside it.
   static constexpr T least_facing = T(1) / T(1024);
   /// A start that faces the ray for sure is not as near, but near the outline better than one which
   /// does not.
   static constexpr T towards_ray = T(0.5);
-  /// Walks of hulls with thousands of facets were seen to take up to 20; only rounding makes more.
+  /// Walks of regular triangulations end by themselves, but for rounding; from a start that is near
+  /// they are short. What takes longer goes on without known facets.
   static constexpr int max_steps = 64;
 };
 

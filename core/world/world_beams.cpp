@@ -120,6 +120,19 @@ void cast_all(const PreparedShape<T>& shape, BeamRays which, const RayOf& ray_of
   }
 }
 
+/// The beam's rays of the set `which` that do not leave the instance.
+template <class T>
+BeamRays without_leaving(BeamRays which, std::uint32_t instance, std::span<const WorldRay<T>> rays,
+                         const Group& group) {
+  BeamRays rest = which;
+  for (BeamRays left = which; left != 0;) {
+    const int lane = next_of(left);
+    if (rays[group.ray_of[static_cast<std::size_t>(lane)]].skip == instance)
+      rest &= ~(BeamRays(1) << lane);
+  }
+  return rest;
+}
+
 }  // namespace
 
 template <class T>
@@ -134,10 +147,7 @@ void World<T>::closest_hits(std::span<const WorldRay<T>> rays, std::span<WorldHi
         const WorldRay<T>& asked = rays[index(lane)];
         return instances_.seen_by(instance, asked.ray, asked.time);
       };
-      for (BeamRays left = meeting; left != 0;) {
-        const int lane = next_of(left);
-        if (rays[index(lane)].skip == instance) meeting &= ~(BeamRays(1) << lane);
-      }
+      meeting = without_leaving(meeting, instance, rays, group);
       bool nearer = false;
       cast_all<T>(instances_.at(instance), meeting, ray_of, options_, in_packets_, counts,
                   [&](int lane, T t, const auto& result) {
@@ -178,10 +188,7 @@ BeamRays World<T>::occluded(std::span<const WorldRay<T>> rays, QueryCounts& coun
         const WorldRay<T>& asked = rays[index(lane)];
         return instances_.seen_by(instance, asked.ray, asked.time);
       };
-      for (BeamRays left = meeting; left != 0;) {
-        const int lane = next_of(left);
-        if (rays[index(lane)].skip == instance) meeting &= ~(BeamRays(1) << lane);
-      }
+      meeting = without_leaving(meeting, instance, rays, group);
       const int before = open;
       cast_all<T>(instances_.at(instance), meeting, ray_of, options_, in_packets_, counts,
                   [&](int lane, T, const auto&) {
