@@ -58,6 +58,9 @@ struct WideMask {
   friend WideMask operator|(const WideMask& a, const WideMask& b) {
     return WideMask(a.bits | b.bits);
   }
+  friend WideMask operator^(const WideMask& a, const WideMask& b) {
+    return WideMask(a.bits ^ b.bits);
+  }
   friend WideMask operator!(const WideMask& a) { return WideMask(~a.bits); }
 
   friend bool any(const WideMask& mask) {

@@ -15,9 +15,13 @@ class AffineMap {
   /// directions stay near unit size however small or large the map makes things.
   AffineMap(const Affine<T>& affine)
       : affine_(affine),
-        to_inner_(affine.linear.transpose() / affine.linear.cwiseAbs().maxCoeff()) {}
+        to_inner_(affine.linear.transpose() / affine.linear.cwiseAbs().maxCoeff()),
+        similarity_(similarity_of(affine.linear)) {}
 
   const Affine<T>& affine() const { return affine_; }
+
+  /// By how much it scales all lengths alike, up to rounding; 0 if it does not.
+  T similarity() const { return similarity_; }
 
   template <class U>
   AffineMap<U> cast() const {
@@ -36,8 +40,17 @@ class AffineMap {
   }
 
  private:
+  static T similarity_of(const Mat3<T>& linear) {
+    constexpr T rounding = T(4) * std::numeric_limits<T>::epsilon();
+    const Mat3<T> squared = linear * linear.transpose();
+    const T scale = squared.trace() / T(3);
+    const Mat3<T> rest = squared - Mat3<T>::Identity() * scale;
+    return rest.cwiseAbs().maxCoeff() <= rounding * scale ? std::sqrt(scale) : T(0);
+  }
+
   Affine<T> affine_;
   Mat3<T> to_inner_ = Mat3<T>::Identity();
+  T similarity_ = T(1);
 };
 
 }  // namespace minkray

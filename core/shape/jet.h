@@ -109,6 +109,19 @@ Mat3<W> factor(const Mat3<W>& A) {
   return F;
 }
 
+/// A factor of the ellipsoid that agrees, in direction n, with the sum of two ellipsoids around
+/// their common centre in reach, support point and curvature.
+template <class W>
+Mat3<W> osculating_sum(const Mat3<W>& F_a, const Mat3<W>& F_b, const Vec3<W>& n) {
+  const Vec3<W> u_a = F_a.transpose() * n, u_b = F_b.transpose() * n;
+  const W h_a = u_a.norm(), h_b = u_b.norm(), h = h_a + h_b;
+  const Vec3<W> g_a = F_a * unit<W>(u_a), g_b = F_b * unit<W>(u_b), g = g_a + g_b;
+  const W over_a = h / select(h_a > W(0), h_a, W(1)), over_b = h / select(h_b > W(0), h_b, W(1));
+  const Mat3<W> A_a = F_a * F_a.transpose(), A_b = F_b * F_b.transpose();
+  return factor<W>((A_a - g_a * g_a.transpose()) * over_a + (A_b - g_b * g_b.transpose()) * over_b +
+                   g * g.transpose());
+}
+
 /// The jet of a Minkowski sum. A sum with a point stays exact, as does the sum of two balls; of two
 /// curved pieces the curvatures H add, and the sum only osculates.
 template <class W>
@@ -124,18 +137,11 @@ Jet<W> add(const Jet<W>& a, const Jet<W>& b, const Vec3<W>& n) {
   const Jet<W> joined{c, Mat3<W>(a.F + b.F), Mask<W>(a.exact & b.exact), s};
   if (all(simple)) return joined;
 
-  const Vec3<W> u_a = a.F.transpose() * n, u_b = b.F.transpose() * n;
-  const W h_a = u_a.norm(), h_b = u_b.norm();
-  const Vec3<W> g_a = a.F * unit<W>(u_a), g_b = b.F * unit<W>(u_b), g = g_a + g_b;
-  const W h = h_a + h_b;
-  const W over_a = h / select(h_a > W(0), h_a, W(1)), over_b = h / select(h_b > W(0), h_b, W(1));
-  const Mat3<W> A_a = a.F * a.F.transpose(), A_b = b.F * b.F.transpose();
-  const Mat3<W> A = (A_a - g_a * g_a.transpose()) * over_a +
-                    (A_b - g_b * g_b.transpose()) * over_b + g * g.transpose();
-  Jet<W> sum{c, factor<W>(A), Mask<W>(false), s};
+  Jet<W> sum{c, osculating_sum<W>(a.F, b.F, n), Mask<W>(false), s};
   // A flat piece seen along its normal has no curvature to speak of: the piece as a whole, moved to
   // the other's support point, lies in the sum and touches its plane.
-  const W flat = h * W(T(1) / T(1024));
+  const W h_a = (a.F.transpose() * n).norm(), h_b = (b.F.transpose() * n).norm();
+  const W flat = (h_a + h_b) * W(T(1) / T(1024));
   const Mask<W> a_flat = !(h_a > flat), b_flat = !(h_b > flat);
   if (any(a_flat))
     sum = select<W>(a_flat, Jet<W>{Vec3<W>(a.c + b.support(n)), a.F, a.exact, s}, sum);

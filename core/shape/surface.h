@@ -14,17 +14,24 @@ enum class SurfaceKind : unsigned char {
   mixed,       ///< several patches, some of which jets only osculate
 };
 
+inline constexpr int tilted_directions = 27;
+
+/// Slightly beside the directions of a cube's faces, edges and corners, where shapes are special.
+template <class T>
+Vec3<T> tilted_direction(int i) {
+  const Vec3<T> tilt(T(0.11), T(0.07), T(0.13));
+  return Vec3<T>(T(i % 3 - 1), T(i / 3 % 3 - 1), T(i / 9 - 1)) + tilt;
+}
+
 /// Found by asking for jets in 27 slightly tilted directions: a description that steers the
 /// choice of a solver, on which no answer's correctness may depend.
 template <class T, class S>
 requires JetMapped<S, T> SurfaceKind surface_of(const S& shape) {
-  const Vec3<T> tilt(T(0.11), T(0.07), T(0.13));
   bool all_points = true, all_exact = true, all_inexact = true, one_patch = true;
   bool one_body = true;
   Jet<T> first;
-  for (int i = 0; i < 27; ++i) {
-    const Vec3<T> n = Vec3<T>(T(i % 3 - 1), T(i / 3 % 3 - 1), T(i / 9 - 1)) + tilt;
-    const Jet<T> jet = shape.jet(n);
+  for (int i = 0; i < tilted_directions; ++i) {
+    const Jet<T> jet = shape.jet(tilted_direction<T>(i));
     if (i == 0) first = jet;
     all_points = all_points && jet.exact && jet.is_point();
     all_exact = all_exact && jet.exact;

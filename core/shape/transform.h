@@ -33,7 +33,17 @@ struct Transform {
   template <class W>
   Jet<W> jet(const Vec3<W>& n) const {
     const Jet<W> inner = shape->jet(map.inner_direction(n));
-    return {map(inner.c), widen<W, T>(map.affine().linear) * inner.F, inner.exact, map(inner.s)};
+    return {map(inner.c), mapped_factor<W>(inner.F), inner.exact, map(inner.s)};
+  }
+
+  /// Of an ellipsoid's factor; a ball stays one where lengths are scaled alike.
+  template <class W>
+  Mat3<W> mapped_factor(const Mat3<W>& F) const {
+    if (map.similarity() > T(0)) {
+      const Mat3<W> ball = Mat3<W>::Identity() * F(0, 0);
+      if (all((F - ball).cwiseAbs().sum() == W(0))) return ball * W(map.similarity());
+    }
+    return widen<W, T>(map.affine().linear) * F;
   }
 };
 

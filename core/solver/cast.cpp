@@ -4,7 +4,6 @@
 
 #include "core/solver/first_solution.h"
 #include "core/solver/gjk_ray_cast.h"
-#include "core/solver/mixed_model.h"
 #include "core/solver/model_of.h"
 #include "core/solver/subalgorithm.h"
 
@@ -59,12 +58,8 @@ CastResult<T> cast_with_model(const PreparedShape<T>& shape, const RayNearBall<T
       return cast(tolerance::portal_max_iterations)([&](const Vec3<T>& s, const Vec3<T>& r) {
         return PolytopeModel<T, Shape<T>>(any, ball.centre, s, r, ball.radius);
       });
-    const auto jet_cast = cast(tolerance::jet_max_iterations);
-    if (shape.model() == ModelKind::mixed)
-      return jet_cast([&](const Vec3<T>& s, const Vec3<T>& r) {
-        return MixedModel<T, Shape<T>>(any, ball, shape.inner_half_extents(), s, r);
-      });
-    return with_model<T>(any, shape.model(), ball.centre, ball.radius, jet_cast);
+    return with_model<T>(any, shape.model(), ball.centre, ball.radius,
+                         cast(tolerance::jet_max_iterations));
   };
   const CastResult<T> result = model_and_cast();
   if (result.status != Status::exhausted) return result;
@@ -77,7 +72,7 @@ CastResult<T> cast_with_model(const PreparedShape<T>& shape, const RayNearBall<T
 /// By measurement, see docs/decisions/0002-automatic-solver.md.
 template <class T>
 SolverKind best_solver(const PreparedShape<T>& shape) {
-  return shape.surface() == SurfaceKind::mixed ? SolverKind::paper : SolverKind::jet;
+  return shape.model() == ModelKind::osculated_parts ? SolverKind::paper : SolverKind::jet;
 }
 
 /// With one solver; the normal is in the inner frame.

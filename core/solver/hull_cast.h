@@ -10,6 +10,7 @@
 #include <array>
 
 #include "core/solver/ray_frame.h"
+#include "core/solver/tolerances.h"
 
 namespace minkray {
 
@@ -46,6 +47,9 @@ struct RoundBody {
     touch = m * select(crosses, radius, W(abs(L)));
     return m;
   }
+
+  /// Balls have no flat sides.
+  void between_disks(const Vec3<W>&, const Vec3<W>&, const Vec3<W>&, W&, Mask<W>&) const {}
 };
 
 /// An ellipsoid { F b : |b| <= 1 }; columns of F may be zero.
@@ -55,8 +59,39 @@ struct EllipsoidBody {
 
   W bend(const Vec3<W>& m) const { return (F.transpose() * m).norm(); }
   /// By way of a unit vector, so that it is a point of the ellipsoid even where F^T m is nothing
-  /// but rounding.
-  Vec3<W> spot(const Vec3<W>& m) const { return F * unit<W>(F.transpose() * m); }
+  /// but rounding. A disk's along its axis: the centre.
+  Vec3<W> spot(const Vec3<W>& m) const {
+    const Vec3<W> u = F.transpose() * m;
+    const Vec3<W> spot = F * unit<W>(u);
+    const Mask<W> along = is_along_axis(u);
+    return any(along) ? select<W>(along, Vec3<W>(Vec3<W>::Zero()), spot) : spot;
+  }
+
+  /// Whether F is a disk and u = F^T m zero but for rounding.
+  Mask<W> is_along_axis(const Vec3<W>& u) const {
+    const Mask<W> is_disk = F.col(2).cwiseAbs().sum() == W(0);
+    if (!any(is_disk)) return is_disk;
+    return is_disk & (u.cwiseAbs().sum() <= F.cwiseAbs().sum() * W(tolerance::flat_disk<Lane<W>>));
+  }
+
+  /// Where two disks lie in one plane, across m: which point between their centres, b + share e, is
+  /// such that the ray meets a disk around it, and whether it does.
+  void between_disks(const Vec3<W>& m, const Vec3<W>& b, const Vec3<W>& e, W& share,
+                     Mask<W>& meets) const {
+    const Mask<W> along = is_along_axis(F.transpose() * m);
+    if (!any(along)) return;
+    // In units of the disk: x = F y.
+    const Vec3<W> f = F.col(0), g = F.col(1);
+    const W det = cross_2d(f, g);
+    const auto unit_x = [&](const Vec3<W>& v) { return cross_2d(v, g) / det; };
+    const auto unit_y = [&](const Vec3<W>& v) { return cross_2d(f, v) / det; };
+    const W b_x = unit_x(b), b_y = unit_y(b), e_x = unit_x(e), e_y = unit_y(e);
+    const W between = -(b_x * e_x + b_y * e_y) / (e_x * e_x + e_y * e_y);
+    const W x = b_x + between * e_x, y = b_y + between * e_y;
+    const Mask<W> inside = (between >= W(0)) & (between <= W(1)) & (x * x + y * y <= W(1));
+    share = select(along, between, share);
+    meets = (along & inside) | ((!along) & meets);
+  }
 
   Vec3<W> alone(const Vec3<W>& c) const {
     using std::abs;
@@ -227,12 +262,14 @@ class HullCast {
     Vec3<W> touch;
     const Vec3<W> m = body_.swept(a.c, e, length, touch);
     const W x = b.c.x() + touch.x(), y = b.c.y() + touch.y();
-    const W share = -(x * e.x() + y * e.y()) / E, slack = rounding_ / length;
+    W share = -(x * e.x() + y * e.y()) / E;
+    const W slack = rounding_ / length;
+    Mask<W> meets = (share >= -slack) & (share <= W(1) + slack);
+    body_.between_disks(m, b.c, e, share, meets);
     std::array<W, 3> weights;
     for (std::size_t k = 0; k < 3; ++k)
       weights[k] = select(a.at[k], share, select(b.at[k], W(W(1) - share), W(0)));
-    return consider(m, a.c, (share >= -slack) & (share <= W(1) + slack), weights,
-                    candidate & (E > W(0)));
+    return consider(m, a.c, meets, weights, candidate & (E > W(0)));
   }
 
   /// Three: the plane that touches them.

@@ -1,10 +1,30 @@
 // SPDX-License-Identifier: MIT
 #include "core/solver/model_kind.h"
 
+#include "core/shape/ellipsoid_sum.h"
 #include "core/shape/surface.h"
 #include "core/solver/model_of.h"
 
 namespace minkray {
+namespace {
+
+template <class T>
+ModelKind kind_of_surface(const Shape<T>& shape) {
+  switch (surface_of<T>(shape)) {
+    case SurfaceKind::flat:
+      return ModelKind::points;
+    case SurfaceKind::translates:
+      return ModelKind::translates;
+    case SurfaceKind::ellipsoids:
+      return ModelKind::parts;
+    case SurfaceKind::smooth:
+      return has_exact_parts(shape) ? ModelKind::parts : ModelKind::smooth;
+    default:
+      return has_exact_parts(shape) ? ModelKind::parts : ModelKind::osculated_parts;
+  }
+}
+
+}  // namespace
 
 template <class T>
 ModelKind model_kind_of(const Shape<T>& shape) {
@@ -14,14 +34,11 @@ ModelKind model_kind_of(const Shape<T>& shape) {
                       detail::is_polytope<S, T>) {
           return ModelKind::closed_form;
         } else {
-          const SurfaceKind surface = surface_of<T>(shape);
+          const ModelKind model = kind_of_surface(shape);
           if constexpr (std::is_same_v<S, Rounded<T>>)
-            if (surface != SurfaceKind::flat && surface_of<T>(*kind.shape) == SurfaceKind::flat)
+            if (model != ModelKind::points && surface_of<T>(*kind.shape) == SurfaceKind::flat)
               return ModelKind::rounded_points;
-          return surface == SurfaceKind::flat         ? ModelKind::points
-                 : surface == SurfaceKind::translates ? ModelKind::translates
-                 : surface == SurfaceKind::smooth     ? ModelKind::smooth
-                                                      : ModelKind::mixed;
+          return model;
         }
       },
       shape.kind);

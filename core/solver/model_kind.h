@@ -8,12 +8,13 @@
 namespace minkray {
 
 enum class ModelKind : unsigned char {
-  closed_form,     ///< told by the type
-  points,          ///< a polytope made of other shapes
-  rounded_points,  ///< a rounded polytope
-  translates,      ///< the hull of translates of one ellipsoid
-  smooth,          ///< a smooth surface
-  mixed,           ///< any other shape: MixedModel, for single rays only
+  closed_form,      ///< told by the type
+  points,           ///< a polytope made of other shapes
+  rounded_points,   ///< a rounded polytope
+  translates,       ///< the hull of translates of one ellipsoid
+  smooth,           ///< a smooth surface
+  parts,            ///< the hull of finitely many sums of ellipsoids
+  osculated_parts,  ///< any other shape: the same, but some parts only osculate
 };
 
 /// A description that chooses between models, on which no answer's correctness depends: supporting

@@ -6,6 +6,7 @@
 #include "core/solver/axial_model.h"
 #include "core/solver/model_cast.h"
 #include "core/solver/model_kind.h"
+#include "core/solver/parts_model.h"
 #include "core/solver/polytope_model.h"
 #include "core/solver/smooth_model.h"
 #include "core/solver/translates_model.h"
@@ -28,7 +29,7 @@ inline constexpr bool is_polytope = std::is_same_v<JetOf<S, W>, PointJet<W>>;
 }  // namespace detail
 
 /// Calls use(make_model), where make_model(s, r) makes the shape's model as seen from s along r;
-/// `centre` and `R` are the bounding ball's. Not for ModelKind::mixed.
+/// `centre` and `R` are the bounding ball's.
 template <class W, class Use>
 auto with_model(const Shape<Lane<W>>& shape, ModelKind model, const Vec3<Lane<W>>& centre,
                 Lane<W> R, Use&& use) {
@@ -42,6 +43,10 @@ auto with_model(const Shape<Lane<W>>& shape, ModelKind model, const Vec3<Lane<W>
     return simple(kind, std::type_identity<PolytopeModel<W, S>>());
   };
   const auto smooth = [&] { return simple(shape, std::type_identity<SmoothModel<W, Shape<T>>>()); };
+  const auto parts = [&] {
+    return use(
+        [&](const Vec3<W>& s, const Vec3<W>& r) { return PartsModel<W>(shape, centre, s, r, R); });
+  };
   const auto rounded = [&]<class S>(const S& core, T radius) {
     return use([&, radius](const Vec3<W>& s, const Vec3<W>& r) {
       return TranslatesModel<W, RoundedPolytope<W, S>>({core, radius}, centre, s, r, R);
@@ -64,6 +69,7 @@ auto with_model(const Shape<Lane<W>>& shape, ModelKind model, const Vec3<Lane<W>
           if (model == ModelKind::points) return polytope(shape);
           if (model == ModelKind::smooth) return smooth();
           if (model == ModelKind::translates) return translates();
+          if (model == ModelKind::parts || model == ModelKind::osculated_parts) return parts();
           return std::visit(
               [&]<class Core>(const Core& core) {
                 if constexpr (detail::is_polytope<Core, W>)
@@ -74,6 +80,7 @@ auto with_model(const Shape<Lane<W>>& shape, ModelKind model, const Vec3<Lane<W>
               kind.shape->kind);
         } else {
           if (model == ModelKind::points) return polytope(shape);
+          if (model == ModelKind::parts || model == ModelKind::osculated_parts) return parts();
           return model == ModelKind::translates ? translates() : smooth();
         }
       },

@@ -52,13 +52,13 @@ template <class T>
 void cast_packet(const PreparedShape<T>& shape, const RayPacket<T>& rays, LaneBits lanes,
                  CastPacket<T>& answers, InstructionSet set) {
   answers.hit = answers.inside = answers.miss = 0;
-  if (shape.model() != ModelKind::mixed) {
+  if (shape.model() != ModelKind::osculated_parts) {
     if (set == InstructionSet::avx2)
       packet_kernel_avx2(shape, rays, lanes, answers);
     else
       packet_kernel_sse2(shape, rays, lanes, answers);
   }
-  // What has no model for packets, or exhausted it, goes one by one.
+  // What is not cast at with a model, or exhausted it, goes one by one.
   const LaneBits open = lanes & ~(answers.hit | answers.inside | answers.miss);
   for (int lane = 0; lane < packet_lanes<T>; ++lane)
     if (open & (LaneBits(1) << lane)) answers.set(lane, cast_ray(shape, rays.ray(lane)));

@@ -51,9 +51,6 @@ class PreparedShape {
   /// Of the inner shape's axis-aligned bounds.
   const Vec3<T>& inner_half_extents() const { return definition_->inner_half_extents(); }
 
-  /// What the inner shape's surface is made of.
-  SurfaceKind surface() const { return definition_->surface(); }
-
   /// What the solvers on jets model it as.
   ModelKind model() const { return definition_->model(); }
 

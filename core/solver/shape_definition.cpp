@@ -32,7 +32,6 @@ ShapeDefinition<T>::ShapeDefinition(Shape<T> shape) : original_(shape), inner_(s
   ball_ = ball_around(bounds);
   half_extents_ = bounds.half_extents();
   model_ = model_kind_of<T>(inner_);
-  surface_ = surface_of<T>(inner_);
 }
 
 template <class T>

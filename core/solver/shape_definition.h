@@ -9,7 +9,6 @@
 #include "core/math/affine.h"
 #include "core/math/bounds.h"
 #include "core/shape/shape.h"
-#include "core/shape/surface.h"
 #include "core/solver/model_kind.h"
 
 namespace minkray {
@@ -24,7 +23,6 @@ class ShapeDefinition {
   const Ball<T>& inner_ball() const { return ball_; }
   /// Of the inner shape's axis-aligned bounds.
   const Vec3<T>& inner_half_extents() const { return half_extents_; }
-  SurfaceKind surface() const { return surface_; }
   ModelKind model() const { return model_; }
 
   /// Bounds of the whole shape (the transforms on) under a pose.
@@ -47,7 +45,6 @@ class ShapeDefinition {
   T up_ = T(1), down_ = T(1);
   Ball<T> ball_;
   Vec3<T> half_extents_;
-  SurfaceKind surface_;
   ModelKind model_;
 };
 

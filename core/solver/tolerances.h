@@ -68,6 +68,11 @@ inline constexpr T tangent_push = T(8) * epsilon<T>;
 template <class T>
 inline constexpr T model_rounding = T(8) * epsilon<T>;
 
+/// How far a disk may reach along a direction, relative to its size, for that to count as its axis:
+/// a few roundings of either.
+template <class T>
+inline constexpr T flat_disk = T(8) * epsilon<T>;
+
 /// Support calls of the jet cast before the GJK ray cast takes over.
 inline constexpr int jet_max_iterations = 48;
 

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+// Parts of shapes: a jet with its summands kept apart. What Minkowski sums make of two curved
+// pieces is no ellipsoid, so that one ellipsoid can only osculate it; but the list of both is the
+// part of the shape as a whole, h(n) = c.n + sum |F_k^T n|. Nearly every shape is the hull of
+// finitely many of these.
+#pragma once
+
+#include <array>
+
+#include "core/shape/jet.h"
+#include "core/shape/shape.h"
+#include "core/shape/surface.h"
+
+namespace minkray {
+
+/// { c + sum F_k b_k : |b_k| <= 1 }, seen from one direction n that was asked for.
+template <class W>
+struct EllipsoidSum {
+  /// More are joined into one that osculates.
+  static constexpr std::size_t most = 4;
+
+  Vec3<W> c = Vec3<W>::Zero();
+  std::array<Mat3<W>, most> F = {Mat3<W>::Zero(), Mat3<W>::Zero(), Mat3<W>::Zero(),
+                                 Mat3<W>::Zero()};  ///< columns may be zero
+  std::size_t used = 0;                             ///< those from here on are zero in all lanes
+  Mask<W> exact = Mask<W>(true);                    ///< part of the shape, not only osculating
+  Vec3<W> s = Vec3<W>::Zero();                      ///< the shape's support point in direction n
+  /// Where it is exact, c; else what all the ellipsoids that osculate one patch have in common.
+  Vec3<W> patch = Vec3<W>::Zero();
+
+  /// How far it reaches along n, in lengths of n.
+  W reach(const Vec3<W>& n) const {
+    W reach = c.dot(n);
+    for (std::size_t k = 0; k < used; ++k) reach += (F[k].transpose() * n).norm();
+    return reach;
+  }
+
+  /// Adds an ellipsoid. Ellipsoids of the same proportions become one. Each lane decides for
+  /// itself, so that none depends on the others.
+  void add(const Mat3<W>& other, const Vec3<W>& n) {
+    Mask<W> left = other.cwiseAbs().sum() > W(0);
+    for (std::size_t k = 0; k < most && any(left); ++k) {
+      const W mine = F[k].trace(), its = other.trace();
+      const Mask<W> fits =
+          (F[k].cwiseAbs().sum() == W(0)) |
+          ((mine * its > W(0)) & ((F[k] * its - other * mine).cwiseAbs().sum() == W(0)));
+      const Mask<W> here = left & fits;
+      if (!any(here)) continue;
+      for (int j = 0; j < 3; ++j)
+        F[k].col(j) = select<W>(here, Vec3<W>(F[k].col(j) + other.col(j)), Vec3<W>(F[k].col(j)));
+      used = std::max(used, k + 1);
+      left &= !here;
+    }
+    if (!any(left)) return;
+    const Mat3<W> joined = osculating_sum<W>(F[most - 1], other, n);
+    for (int j = 0; j < 3; ++j)
+      F[most - 1].col(j) = select<W>(left, Vec3<W>(joined.col(j)), Vec3<W>(F[most - 1].col(j)));
+    exact &= !left;
+  }
+};
+
+/// Lane by lane.
+template <class W>
+EllipsoidSum<W> select(const Mask<W>& condition, const EllipsoidSum<W>& a,
+                       const EllipsoidSum<W>& b) {
+  EllipsoidSum<W> chosen;
+  chosen.c = select<W>(condition, a.c, b.c);
+  chosen.used = std::max(a.used, b.used);
+  for (std::size_t k = 0; k < chosen.used; ++k)
+    for (int j = 0; j < 3; ++j)
+      chosen.F[k].col(j) = select<W>(condition, Vec3<W>(a.F[k].col(j)), Vec3<W>(b.F[k].col(j)));
+  chosen.exact = (condition & a.exact) | ((!condition) & b.exact);
+  chosen.s = select<W>(condition, a.s, b.s);
+  chosen.patch = select<W>(condition, a.patch, b.patch);
+  return chosen;
+}
+
+/// The Minkowski sum, in direction n.
+template <class W>
+EllipsoidSum<W> sum_of(EllipsoidSum<W> a, const EllipsoidSum<W>& b, const Vec3<W>& n) {
+  a.c += b.c;
+  a.s += b.s;
+  a.patch += b.patch;
+  a.exact &= b.exact;
+  for (std::size_t k = 0; k < b.used; ++k) a.add(b.F[k], n);
+  return a;
+}
+
+template <class W, class T>
+EllipsoidSum<W> part_of(const Shape<T>& shape, const Vec3<W>& n);
+
+namespace detail {
+
+/// Of a shape whose jets are ellipsoids. Those that only osculate are moved to touch the shape.
+template <class W, class S>
+EllipsoidSum<W> part_of_kind(const S& shape, const Vec3<W>& n) {
+  const Jet<W> jet = shape.jet(n);
+  EllipsoidSum<W> part;
+  part.s = jet.support(n);
+  part.exact = jet.exact | jet.is_point();
+  part.c = select<W>(jet.exact, jet.c, Vec3<W>(jet.s - jet.F * unit<W>(jet.F.transpose() * n)));
+  part.patch = jet.c;
+  part.add(jet.F, n);
+  return part;
+}
+
+template <class W, class T>
+EllipsoidSum<W> part_of_kind(const Rounded<T>& shape, const Vec3<W>& n) {
+  EllipsoidSum<W> part = part_of<W>(*shape.shape, n);
+  part.s += unit<W>(n) * W(shape.radius);
+  part.add(Mat3<W>(Mat3<W>::Identity() * W(shape.radius)), n);
+  return part;
+}
+
+template <class W, class T>
+EllipsoidSum<W> part_of_kind(const MinkowskiSum<T>& sum, const Vec3<W>& n) {
+  EllipsoidSum<W> part = part_of<W>(*sum.shapes.front(), n);
+  for (std::size_t i = 1; i < sum.shapes.size(); ++i)
+    part = sum_of<W>(part, part_of<W>(*sum.shapes[i], n), n);
+  return part;
+}
+
+template <class W, class T>
+EllipsoidSum<W> part_of_kind(const MinkowskiDifference<T>& obstacle, const Vec3<W>& n) {
+  EllipsoidSum<W> mirrored = part_of<W>(*obstacle.b, Vec3<W>(-n));
+  mirrored.c = -mirrored.c;
+  mirrored.s = -mirrored.s;
+  mirrored.patch = -mirrored.patch;
+  return sum_of<W>(part_of<W>(*obstacle.a, n), mirrored, n);
+}
+
+template <class W, class T>
+EllipsoidSum<W> part_of_kind(const HullOf<T>& hull, const Vec3<W>& n) {
+  EllipsoidSum<W> best = part_of<W>(*hull.shapes.front(), n);
+  W furthest = best.s.dot(n);
+  for (std::size_t i = 1; i < hull.shapes.size(); ++i) {
+    const EllipsoidSum<W> other = part_of<W>(*hull.shapes[i], n);
+    const W along = other.s.dot(n);
+    const Mask<W> further = along > furthest;
+    best = select<W>(further, other, best);
+    furthest = select(further, along, furthest);
+  }
+  return best;
+}
+
+template <class W, class T>
+EllipsoidSum<W> part_of_kind(const Transform<T>& moved, const Vec3<W>& n) {
+  EllipsoidSum<W> part = part_of<W>(*moved.shape, moved.map.inner_direction(n));
+  part.c = moved.map(part.c);
+  part.s = moved.map(part.s);
+  part.patch = moved.map(part.patch);
+  for (std::size_t k = 0; k < part.used; ++k)
+    part.F[k] = moved.template mapped_factor<W>(part.F[k]);
+  return part;
+}
+
+}  // namespace detail
+
+/// The part of the shape that it touches its supporting plane of direction n with.
+template <class W, class T>
+EllipsoidSum<W> part_of(const Shape<T>& shape, const Vec3<W>& n) {
+  return std::visit([&](const auto& kind) { return detail::part_of_kind<W>(kind, n); }, shape.kind);
+}
+
+/// Whether the shape is the hull of such sums, as far as a few directions tell.
+template <class T>
+bool has_exact_parts(const Shape<T>& shape) {
+  for (int i = 0; i < tilted_directions; ++i)
+    if (!part_of<T>(shape, tilted_direction<T>(i)).exact) return false;
+  return true;
+}
+
+}  // namespace minkray
