@@ -88,9 +88,9 @@ struct WideMask {
     if constexpr (sizeof(Bits) == 16 && sizeof(T) == 8)
       return static_cast<std::uint32_t>(_mm_movemask_pd(__m128d(mask.bits)));
 #endif
-    std::uint32_t bits = 0;
-    for (int i = 0; i < N; ++i) bits |= (mask.bits[i] != 0 ? 1u : 0u) << i;
-    return bits;
+    std::uint32_t chosen = 0;
+    for (int i = 0; i < N; ++i) chosen |= (mask.bits[i] != 0 ? 1u : 0u) << i;
+    return chosen;
   }
 };
 
