@@ -4,7 +4,10 @@
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
+
+#include "core/parallel/stream.h"
 
 namespace minkray {
 
@@ -26,6 +29,24 @@ void with_threads(int threads, const std::function<void()>& work) {
 
 int thread_count() {
   return tbb::this_task_arena::max_concurrency();
+}
+
+void stream_of_any(std::size_t most, const std::function<std::shared_ptr<void>()>& read,
+                   const std::function<void(void*)>& work,
+                   const std::function<void(void*)>& write) {
+  using Item = std::shared_ptr<void>;
+  tbb::parallel_pipeline(
+      most,
+      tbb::make_filter<void, Item>(tbb::filter_mode::serial_in_order, [&](tbb::flow_control& flow) {
+        Item item = read();
+        if (!item) flow.stop();
+        return item;
+      }) & tbb::make_filter<Item, Item>(tbb::filter_mode::parallel, [&](Item item) {
+        work(item.get());
+        return item;
+      }) & tbb::make_filter<Item, void>(tbb::filter_mode::serial_in_order, [&](const Item& item) {
+        write(item.get());
+      }));
 }
 
 }  // namespace minkray

@@ -9,10 +9,13 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstdlib>
+#include <memory>
 #include <mutex>
 #include <stdexcept>
 #include <thread>
 #include <vector>
+
+#include "core/parallel/stream.h"
 
 using namespace minkray;
 
@@ -103,6 +106,60 @@ TEST(Parallel, an_exception_of_a_part_is_passed_on) {
       EXPECT_EQ(parts, 100) << "after an exception";
     });
   }
+}
+
+TEST(Stream, takes_things_in_the_order_they_were_made_in) {
+  struct Item {
+    int number, square;
+  };
+  for (const int threads : {1, 2, 5})
+    for (const int count : {0, 1, 7, 300}) {
+      int made = 0;
+      std::vector<int> taken;  // without a lock: written by one at a time
+      Crowd on_their_way, at_work;
+      const auto read = [&] {
+        if (made == count) return std::shared_ptr<Item>();
+        on_their_way.come();
+        return std::make_shared<Item>(Item{made++, 0});
+      };
+      const auto work = [&](Item& item) {
+        at_work.come();
+        // The later the quicker, so that they would overtake each other.
+        std::this_thread::sleep_for(std::chrono::microseconds(item.number % 3 == 0 ? 200 : 0));
+        item.square = item.number * item.number;
+        at_work.go();
+      };
+      const auto write = [&](const Item& item) {
+        taken.push_back(item.square);
+        on_their_way.go();
+      };
+      with_threads(threads, [&] { stream<Item>(4, read, work, write); });
+      ASSERT_EQ(taken.size(), static_cast<std::size_t>(count));
+      for (int i = 0; i < count; ++i) ASSERT_EQ(taken[static_cast<std::size_t>(i)], i * i);
+      EXPECT_LE(on_their_way.most(), 4);
+      EXPECT_LE(at_work.most(), threads);
+    }
+}
+
+TEST(Stream, ends_with_the_first_exception) {
+  for (const int threads : {1, 4})
+    for (const int where : {0, 1, 2}) {  // in read, work, write
+      int made = 0;
+      const auto fail_at = [&](int place, int number) {
+        if (place == where && number == 20) throw std::runtime_error("of number 20");
+      };
+      const auto read = [&] {
+        fail_at(0, made);
+        return std::make_shared<int>(made++);
+      };
+      with_threads(threads, [&] {
+        EXPECT_THROW(stream<int>(
+                         8, read, [&](int& item) { fail_at(1, item); },
+                         [&](int& item) { fail_at(2, item); }),
+                     std::runtime_error);
+      });
+      EXPECT_LT(made, 40);
+    }
 }
 
 // That the suite passes under ThreadSanitizer means something only if a race between parts would
