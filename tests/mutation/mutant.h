@@ -13,8 +13,14 @@ namespace minkray::mutant {
 /// else is initialized.
 extern int active;
 
+/// Which mutants the process came by, whether they were on or not.
+inline constexpr int most_mutants = 4096;
+extern bool reached[most_mutants];
+
 template <int k>
 bool on() {
+  static_assert(k < most_mutants);
+  reached[k] = true;
   return active == k;
 }
 
