@@ -170,7 +170,13 @@ TEST(ParallelDeathTest, thread_sanitizer_sees_a_race_between_parts) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   const auto race = [] {
     int sum = 0;
-    for_parts(1000, 1, [&](std::size_t begin, std::size_t) { sum += static_cast<int>(begin); });
+    std::atomic<int> here = 0;
+    for_parts(2, 1, [&](std::size_t, std::size_t) {
+      // Both have begun; relaxed, so that nothing looks ordered by this.
+      here.fetch_add(1, std::memory_order_relaxed);
+      while (here.load(std::memory_order_relaxed) < 2) std::this_thread::yield();
+      ++sum;
+    });
     std::exit(sum == 0);
   };
   EXPECT_EXIT(race(), testing::ExitedWithCode(66), "data race");
