@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
 // minkray cast: answers queries, one JSON object a line in and out, as they stream by.
-#include <oneapi/tbb/enumerable_thread_specific.h>
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/parallel_pipeline.h>
-
 #include <CLI/CLI.hpp>
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <memory>
+#include <mutex>
 #include <system_error>
+#include <vector>
 
+#include "core/parallel/parallel.h"
+#include "core/parallel/stream.h"
 #include "renderer/cli/choices.h"
 #include "renderer/cli/verbs.h"
 #include "renderer/errors.h"
@@ -67,6 +67,29 @@ struct Batch {
   bool has_malformed = false;
   bool has_wrong = false;
   CertificateCounts certificates;
+};
+
+/// The mesh files that were read, for each batch that is answered at once with others.
+class MeshPool {
+ public:
+  explicit MeshPool(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  std::unique_ptr<MeshFiles> take() {
+    const std::lock_guard lock(mutex_);
+    if (free_.empty()) return std::make_unique<MeshFiles>(folder_);
+    std::unique_ptr<MeshFiles> meshes = std::move(free_.back());
+    free_.pop_back();
+    return meshes;
+  }
+  void give_back(std::unique_ptr<MeshFiles> meshes) {
+    const std::lock_guard lock(mutex_);
+    free_.push_back(std::move(meshes));
+  }
+
+ private:
+  const std::filesystem::path folder_;
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<MeshFiles>> free_;
 };
 
 /// False at the end. Of a line that is too long only the length is taken notice of.
@@ -141,21 +164,12 @@ ExitCode cast(const Options& options) {
   const std::filesystem::path folder =
       options.file == "-" ? std::filesystem::path() : std::filesystem::path(name).parent_path();
 
-  std::unique_ptr<oneapi::tbb::global_control> limit;
-  if (options.threads > 0)
-    limit = std::make_unique<oneapi::tbb::global_control>(
-        oneapi::tbb::global_control::max_allowed_parallelism,
-        static_cast<std::size_t>(options.threads));
-  const std::size_t threads = oneapi::tbb::global_control::active_value(
-      oneapi::tbb::global_control::max_allowed_parallelism);
-  oneapi::tbb::enumerable_thread_specific<MeshFiles> meshes([&] { return MeshFiles(folder); });
-
-  using BatchPointer = std::shared_ptr<Batch>;
+  MeshPool pool(folder);
   std::size_t next_line = 1;
   bool has_malformed = false, has_wrong = false;
   CertificateCounts certificates;
 
-  const auto read = [&](oneapi::tbb::flow_control& flow) -> BatchPointer {
+  const auto read = [&] {
     auto batch = std::make_shared<Batch>();
     batch->first_line = next_line;
     Line line;
@@ -172,32 +186,27 @@ ExitCode cast(const Options& options) {
       if (in.rdbuf()->in_avail() == 0 && options.file == "-") break;
     }
     next_line += batch->lines.size();
-    if (batch->lines.empty()) flow.stop();
-    return batch;
+    return batch->lines.empty() ? nullptr : batch;
   };
-  const auto solve = [&](BatchPointer batch) {
-    for (std::size_t i = 0; i < batch->lines.size(); ++i) {
-      if (is_blank(batch->lines[i].text)) continue;
-      const std::string place = name + ":" + std::to_string(batch->first_line + i);
-      answer_line(batch->lines[i], place, meshes.local(), answer_options, options.check, *batch);
+  const auto solve = [&](Batch& batch) {
+    std::unique_ptr<MeshFiles> meshes = pool.take();
+    for (std::size_t i = 0; i < batch.lines.size(); ++i) {
+      if (is_blank(batch.lines[i].text)) continue;
+      const std::string place = name + ":" + std::to_string(batch.first_line + i);
+      answer_line(batch.lines[i], place, *meshes, answer_options, options.check, batch);
     }
-    return batch;
+    pool.give_back(std::move(meshes));
   };
-  const auto write = [&](const BatchPointer& batch) {
-    std::cout << batch->out;
+  const auto write = [&](const Batch& batch) {
+    std::cout << batch.out;
     if (options.file == "-") std::cout.flush();
     if (!std::cout) throw CannotWrite("stdout: cannot be written");
-    std::cerr << batch->err;
-    has_malformed |= batch->has_malformed;
-    has_wrong |= batch->has_wrong;
-    certificates += batch->certificates;
+    std::cerr << batch.err;
+    has_malformed |= batch.has_malformed;
+    has_wrong |= batch.has_wrong;
+    certificates += batch.certificates;
   };
-  using oneapi::tbb::filter_mode;
-  oneapi::tbb::parallel_pipeline(
-      threads * batches_a_thread,
-      oneapi::tbb::make_filter<void, BatchPointer>(filter_mode::serial_in_order, read) &
-          oneapi::tbb::make_filter<BatchPointer, BatchPointer>(filter_mode::parallel, solve) &
-          oneapi::tbb::make_filter<BatchPointer, void>(filter_mode::serial_in_order, write));
+  stream<Batch>(static_cast<std::size_t>(thread_count()) * batches_a_thread, read, solve, write);
   if (in.bad()) throw BadInput(name + ": cannot be read");
   if (options.certify)
     std::cerr << "certificates: " << certificates.holding << " hold, " << certificates.failing
@@ -231,7 +240,9 @@ void add_cast(CLI::App& app, ExitCode& exit_code) {
                  "Prove every cast's answer (docs/certificates.md); exit 1 if a proof fails");
   verb->add_flag("--check", options->check,
                  "Compare with what each query expects; exit 1 if anything differs");
-  verb->callback([options, &exit_code] { exit_code = cast(*options); });
+  verb->callback([options, &exit_code] {
+    with_threads(options->threads, [&] { exit_code = cast(*options); });
+  });
 }
 
 }  // namespace minkray

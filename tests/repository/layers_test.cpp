@@ -74,8 +74,6 @@ TEST(Layers, each_library_is_seen_in_one_place) {
       {"Eigen/", "core/math/"},
       {"libqhull", "core/shape/convex_hull.cpp"},
       {"tbb/", "core/parallel/parallel.cpp"},
-      {"sanitizer/", "core/parallel/parallel.cpp"},   // only in ThreadSanitizer's build
-      {"oneapi/tbb/", "renderer/cli/verb_cast.cpp"},  // its pipeline of lines
       {"nlohmann/", "renderer/json/json.h"},
       {"CLI/", "renderer/cli/"},
       {"embree3/", "renderer/compare/"},

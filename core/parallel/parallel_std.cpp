@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+// parallel.h without oneTBB, for ThreadSanitizer, which does not see what Debian's library does:
+// here it sees all of it. Threads are started for each for_parts, which costs too much for other
+// builds.
+#include <algorithm>
+#include <atomic>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "core/parallel/parallel.h"
+#include "core/parallel/stream.h"
+
+namespace minkray {
+namespace {
+
+/// More than one on any machine: races are looked for.
+constexpr int fewest_threads = 4;
+
+/// The threads that work on one with_threads.
+struct Team {
+  explicit Team(int threads) : count(threads), idle(threads - 1) {}
+
+  const int count;
+  std::atomic<int> idle;
+
+  bool take_one() {
+    int left = idle.load(std::memory_order_relaxed);
+    while (left > 0 && !idle.compare_exchange_weak(left, left - 1, std::memory_order_relaxed)) {
+    }
+    return left > 0;
+  }
+};
+
+/// The team of this thread; none outside with_threads and for_parts.
+thread_local Team* team_here = nullptr;
+
+class InTeam {
+ public:
+  explicit InTeam(Team& team) : before_(team_here) { team_here = &team; }
+  ~InTeam() { team_here = before_; }
+  InTeam(const InTeam&) = delete;
+  InTeam& operator=(const InTeam&) = delete;
+
+ private:
+  Team* before_;
+};
+
+/// Keeps the first of several threads' exceptions.
+class FirstException {
+ public:
+  /// To be called in a catch block.
+  void take() {
+    failed_.store(true, std::memory_order_relaxed);
+    const std::lock_guard lock(mutex_);
+    if (!exception_) exception_ = std::current_exception();
+  }
+  bool failed() const { return failed_.load(std::memory_order_relaxed); }
+  /// After all threads were joined.
+  void pass_on() const {
+    if (exception_) std::rethrow_exception(exception_);
+  }
+
+ private:
+  std::atomic<bool> failed_ = false;
+  std::mutex mutex_;
+  std::exception_ptr exception_;
+};
+
+/// Calls work() here, and at once on as many of the team's idle threads, but at most `helpers`.
+void on_team(Team& team, std::size_t helpers, const std::function<void()>& work) {
+  std::vector<std::thread> threads;
+  while (threads.size() < helpers && team.take_one())
+    threads.emplace_back([&] {
+      const InTeam here(team);
+      work();
+    });
+  work();
+  for (std::thread& thread : threads) thread.join();
+  team.idle.fetch_add(static_cast<int>(threads.size()), std::memory_order_relaxed);
+}
+
+int one_per_core() {
+  return std::max(fewest_threads, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+/// The parts of one for_parts, taken by whoever is free. Every atomic is relaxed: parts of
+/// different threads must not look ordered, for oneTBB does not promise that.
+class Parts {
+ public:
+  Parts(std::size_t count, std::size_t grain,
+        const std::function<void(std::size_t, std::size_t)>& body)
+      : count_(count), grain_(grain), body_(body) {}
+
+  void take_all() {
+    try {
+      for (;;) {
+        const std::size_t begin = next_.fetch_add(grain_, std::memory_order_relaxed);
+        if (begin >= count_ || exception_.failed()) return;
+        body_(begin, std::min(begin + grain_, count_));
+      }
+    } catch (...) {
+      exception_.take();
+    }
+  }
+  void pass_exception_on() const { exception_.pass_on(); }
+
+ private:
+  const std::size_t count_, grain_;
+  const std::function<void(std::size_t, std::size_t)>& body_;
+  std::atomic<std::size_t> next_ = 0;
+  FirstException exception_;
+};
+
+}  // namespace
+
+void for_parts(std::size_t count, std::size_t grain,
+               const std::function<void(std::size_t, std::size_t)>& body) {
+  if (!team_here) return with_threads(one_per_core(), [&] { for_parts(count, grain, body); });
+  Parts parts(count, grain, body);
+  const std::size_t part_count = (count + grain - 1) / grain;
+  if (part_count > 0) on_team(*team_here, part_count - 1, [&] { parts.take_all(); });
+  parts.pass_exception_on();
+}
+
+void with_threads(int threads, const std::function<void()>& work) {
+  if (threads == 0) return work();
+  Team team(threads);
+  const InTeam here(team);
+  work();
+}
+
+int thread_count() {
+  return team_here ? team_here->count : one_per_core();
+}
+
+void stream_of_any(std::size_t most, const std::function<std::shared_ptr<void>()>& read,
+                   const std::function<void(void*)>& work,
+                   const std::function<void(void*)>& write) {
+  if (!team_here)
+    return with_threads(one_per_core(), [&] { stream_of_any(most, read, work, write); });
+  std::mutex reading, writing;
+  std::condition_variable written;
+  bool at_end = false;  // both by `reading`
+  std::size_t read_count = 0;
+  std::size_t written_count = 0;  // by `writing`
+  FirstException exception;
+  on_team(*team_here, most - 1, [&] {
+    while (!exception.failed()) {
+      try {
+        std::shared_ptr<void> item;
+        std::size_t number = 0;
+        {
+          const std::lock_guard lock(reading);
+          if (!at_end) item = read();
+          at_end = !item;
+          if (at_end) return;
+          number = read_count++;
+        }
+        work(item.get());
+        std::unique_lock lock(writing);
+        written.wait(lock, [&] { return written_count == number || exception.failed(); });
+        if (exception.failed()) return;
+        write(item.get());
+        ++written_count;
+      } catch (...) {
+        const std::lock_guard lock(writing);  // nobody is between looking and waiting
+        exception.take();
+      }
+      written.notify_all();
+    }
+  });
+  exception.pass_on();
+}
+
+}  // namespace minkray
