@@ -8,6 +8,7 @@
 #include "core/solver/model_kind.h"
 #include "core/solver/polytope_model.h"
 #include "core/solver/smooth_model.h"
+#include "core/solver/superellipsoid_model.h"
 #include "core/solver/translates_model.h"
 
 namespace minkray {
@@ -74,6 +75,9 @@ auto with_model(const Shape<Lane<W>>& shape, ModelKind model, const Vec3<Lane<W>
               kind.shape->kind);
         } else {
           if (model == ModelKind::points) return polytope(shape);
+          if constexpr (std::is_same_v<S, Superellipsoid<T>>)
+            if (model == ModelKind::smooth)
+              return simple(kind, std::type_identity<SuperellipsoidModel<W, S>>());
           return model == ModelKind::translates ? translates() : smooth();
         }
       },
