@@ -4,6 +4,7 @@
 
 #include "core/shape/shape.h"
 #include "core/solver/axial_model.h"
+#include "core/solver/ellipsoid_sum_model.h"
 #include "core/solver/model_cast.h"
 #include "core/solver/model_kind.h"
 #include "core/solver/polytope_model.h"
@@ -42,7 +43,13 @@ auto with_model(const Shape<Lane<W>>& shape, ModelKind model, const Vec3<Lane<W>
   const auto polytope = [&]<class S>(const S& kind) {
     return simple(kind, std::type_identity<PolytopeModel<W, S>>());
   };
-  const auto smooth = [&] { return simple(shape, std::type_identity<SmoothModel<W, Shape<T>>>()); };
+  const auto smooth = [&] {
+    const EllipsoidTerms<T> terms = ellipsoid_terms(shape);
+    if (terms.count == 0) return simple(shape, std::type_identity<SmoothModel<W, Shape<T>>>());
+    return use([&](const Vec3<W>& s, const Vec3<W>& r) {
+      return EllipsoidSumModel<W, Shape<T>>(shape, terms, centre, s, r, R);
+    });
+  };
   const auto rounded = [&]<class S>(const S& core, T radius) {
     return use([&, radius](const Vec3<W>& s, const Vec3<W>& r) {
       return TranslatesModel<W, RoundedPolytope<W, S>>({core, radius}, centre, s, r, R);

@@ -195,11 +195,11 @@ class SuperellipsoidModel {
   }
 
   /// Whether the parabola is as good as the gauge over a step of this length, in units of the
-  /// radii. The gauge's third derivative is about p^2 at most for p >= 2; for less it is unbounded
+  /// radii. The gauge's third derivative is about p^2 at most for p >= 3; for less it is unbounded
   /// where a coordinate changes its sign, and there the gauge deviates as |x|^p.
   Mask<W> trusted(const W& step) const {
     const T p = shape_.exponent;
-    if (p < T(2)) return step <= W(power<T>(tolerance::epsilon<T>, T(1) / p));
+    if (p < T(3)) return step <= W(power<T>(tolerance::epsilon<T>, T(1) / p));
     return step * step * step * W(T(1) + p * p * T(0.25)) <= W(tolerance::epsilon<T>);
   }
 
