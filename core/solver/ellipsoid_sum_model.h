@@ -124,7 +124,8 @@ class EllipsoidSumModel {
   /// reaches to it, or else the best that is known.
   ModelHit<W> find() const {
     using std::sqrt;
-    const W rounding = W(tolerance::epsilon<T> * R_), gap = W(tolerance::jet_gap<T> * R_);
+    const W rounding = W(tolerance::epsilon<T> * R_);
+    const T gap = tolerance::jet_gap<T> * R_;
     std::array<Form, EllipsoidTerms<T>::most> A;
     Form around = zero();
     T sum = T(0);
@@ -186,9 +187,12 @@ class EllipsoidSumModel {
       const Mask<W> on_to = next.z() > W(along_ray);
       const Mask<W> settled =
           ahead & on_to & (!outer) & (beside * step <= rounding) & (beside <= W(model_reach * R_));
+      // Separates; or reaches least of those across the ray. A ray that is tangent up to rounding
+      // may send the direction to and fro.
+      const W enough = i < max_across ? W(T(-2) * gap) : W(gap);
       const Mask<W> across =
-          (!ahead) & ((reach < W(-2) * gap) |
-                      ((!on_to) & (!outer) & (step * step <= W(tolerance::epsilon<T>))));
+          (!ahead) &
+          ((reach <= enough) | ((!on_to) & (!outer) & (step * step <= W(tolerance::epsilon<T>))));
       const Mask<W> ends = open & (settled | across);
       hit.m = select<W>(open, select<W>(settled, next, m), hit.m);
       if (any(open & settled)) {
@@ -207,6 +211,8 @@ class EllipsoidSumModel {
   /// Sums of two ordinary ellipsoids need three or four, those of needles dozens: SmoothModel goes
   /// on with these.
   static constexpr int max_evaluations = 12;
+  /// The directions across the ray converge in about four.
+  static constexpr int max_across = 6;
   /// The sine below which a direction counts as at right angles to the ray.
   static constexpr T along_ray = T(64) * std::numeric_limits<T>::epsilon();
   /// In units of R: how close to the ray an osculating ellipsoid is trusted (cbrt epsilon).
