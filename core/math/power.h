@@ -69,6 +69,8 @@ W power_by_exponential(const W& base, Lane<W> exponent) {
     }
     return product;
   }
+  if (!(exponent <= std::numeric_limits<T>::max()))
+    return select(base < W(1), W(0), select(base > W(1), exp2_of<W>(W(exponent)), W(1)));
   using std::sqrt;
   if (exponent == T(0.5)) return sqrt(base);
   if (exponent == T(0.25)) return sqrt(sqrt(base));
@@ -87,7 +89,8 @@ W power_by_exponential(const W& base, Lane<W> exponent) {
 
 }  // namespace detail
 
-/// base^exponent for 0 <= base; 0^exponent is 0, whatever the exponent but 0.
+/// base^exponent for 0 <= base; 0^exponent is 0, whatever the exponent but 0. The exponent may be
+/// infinite.
 template <class W>
 W power(const W& base, Lane<W> exponent) {
   // Precisions that there are no packets of: the tests' own.

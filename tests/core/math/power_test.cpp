@@ -61,6 +61,14 @@ TEST(Power, of_numbers_below_the_normal_ones_is_not_lost) {
   EXPECT_NEAR(power<double>(1e-320, 0.01), std::pow(1e-320, 0.01), 1e-15);
 }
 
+TEST(Power, to_infinity_leaves_what_is_not_less_than_one) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(power<double>(1, infinity), 1);
+  EXPECT_EQ(power<double>(std::nextafter(1.0, 0.0), infinity), 0);
+  EXPECT_EQ(power<double>(0, infinity), 0);
+  EXPECT_GT(power<double>(1.5, infinity), 1e300);
+}
+
 TEST(Power, that_leaves_the_range_is_zero_or_large) {
   EXPECT_EQ(power<float>(0.5f, 1000), 0);
   EXPECT_EQ(power<double>(0.5, 1e300), 0);
