@@ -170,11 +170,6 @@ struct Wide {
     for (int i = 0; i < N; ++i) result.lanes[i] = std::fma(a.lanes[i], b.lanes[i], c.lanes[i]);
     return result;
   }
-  friend Wide power(const Wide& base, const Wide& exponent) {
-    Wide result;
-    for (int i = 0; i < N; ++i) result.lanes[i] = std::pow(base.lanes[i], exponent.lanes[i]);
-    return result;
-  }
   friend Wide whole(const Wide& x) {
     using Int = std::conditional_t<sizeof(T) == 4, std::int32_t, std::int64_t>;
     using Ints __attribute__((vector_size(N * sizeof(T)))) = Int;
@@ -183,9 +178,20 @@ struct Wide {
   friend Wide leading_power_of_two(const Wide& a) {
     return Wide(Lanes(Bits(a.lanes) & Bits(Wide(std::numeric_limits<T>::infinity()).lanes)));
   }
+  friend Wide exponent_of(const Wide& power_of_two) {
+    const Bits biased = Bits(power_of_two.lanes) >> mantissa_bits;
+    return Wide(Lanes(biased | Bits(Wide(ones).lanes))) - Wide(ones + bias);
+  }
+  friend Wide two_to(const Wide& k) {
+    return Wide(Lanes(Bits((k + Wide(ones + bias)).lanes) << mantissa_bits));
+  }
 
  private:
   using Bits = typename Mask::Bits;
+  static constexpr int mantissa_bits = std::numeric_limits<T>::digits - 1;
+  /// The least number without digits after the point; what exponents are stored larger by.
+  static constexpr T ones = T(1) / std::numeric_limits<T>::epsilon();
+  static constexpr T bias = T(std::numeric_limits<T>::max_exponent - 1);
   static Wide sign_bit() {
     return Wide(T(-0.0));
   }

@@ -170,4 +170,18 @@ bool has_exact_parts(const Shape<T>& shape) {
   return true;
 }
 
+/// Whether the shape is one such sum, without flat summands, as far as a few directions tell.
+template <class T>
+bool is_ellipsoid_sum(const Shape<T>& shape) {
+  const EllipsoidSum<T> first = part_of<T>(shape, tilted_direction<T>(0));
+  if (first.used == 0) return false;
+  for (std::size_t k = 0; k < first.used; ++k)
+    if (first.F[k].col(2).isZero(T(0))) return false;
+  for (int i = 0; i < tilted_directions; ++i) {
+    const EllipsoidSum<T> part = part_of<T>(shape, tilted_direction<T>(i));
+    if (!part.exact || part.c != first.c || part.F != first.F) return false;
+  }
+  return true;
+}
+
 }  // namespace minkray

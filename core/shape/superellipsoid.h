@@ -3,7 +3,7 @@
 // p = 2, towards the box as p grows.
 #pragma once
 
-#include "core/math/vec.h"
+#include "core/math/power.h"
 #include "core/shape/field.h"
 #include "core/shape/jet.h"
 
@@ -35,11 +35,12 @@ struct Superellipsoid {
     const Vec3<W> m(abs(an.x()), abs(an.y()), abs(an.z()));
     const W largest = max(m.x(), max(m.y(), m.z()));
     const W scale = select(largest > W(0), largest, W(1));
-    const W q_less_1 = W(T(1) / (exponent - T(1)));
+    const T q_less_1 = T(1) / (exponent - T(1));
     const Vec3<W> u(m.x() / scale, m.y() / scale, m.z() / scale);
-    const Vec3<W> powers(power(u.x(), q_less_1), power(u.y(), q_less_1), power(u.z(), q_less_1));
+    const Vec3<W> powers(power<W>(u.x(), q_less_1), power<W>(u.y(), q_less_1),
+                         power<W>(u.z(), q_less_1));
     const W sum = u.dot(powers);
-    const W length = power(select(sum > W(0), sum, W(1)), W(T(1) / exponent));
+    const W length = power<W>(select(sum > W(0), sum, W(1)), T(1) / exponent);
     const Vec3<W> s = powers.cwiseProduct(a) * (W(1) / length);
     return {select(n.x() < W(0), W(-s.x()), s.x()), select(n.y() < W(0), W(-s.y()), s.y()),
             select(n.z() < W(0), W(-s.z()), s.z())};
@@ -57,17 +58,61 @@ struct Superellipsoid {
     const Vec3<W> a = widen<W>(radii);
     const Vec3<W> s = support(n);
     const Vec3<W> g = s.cwiseQuotient(a);
-    const W q = W(exponent / (exponent - T(1)));
-    Mat3<W> A = g * g.transpose() * (W(2) - q);
+    const T q = exponent / (exponent - T(1));
+    Mat3<W> A = g * g.transpose() * W(T(2) - q);
     for (int i = 0; i < 3; ++i) {
       // |g_i| = u_i^(q-1), so u_i^(q-2) = |g_i|^((q-2)/(q-1)).
       const W size = max(W(abs(g[i])), W(least_of_jet));
-      A(i, i) += (q - W(1)) * power(size, W((q - W(2)) / (q - W(1))));
+      A(i, i) += W(q - T(1)) * power<W>(size, (q - T(2)) / (q - T(1)));
     }
     return {Vec3<W>::Zero(), a.asDiagonal() * factor<W>(A), Mask<W>(false), s};
   }
 
+  /// The gauge |x/a|_p of points x(lambda) = (u + lambda v) a on a line: the least factor by which
+  /// the shape must grow to reach them; 1 on the surface, and convex.
+  template <class W>
+  struct Gauge {
+    W value;
+    /// By x/a: in the dual norm of length 1, so that gradient/a is the normal of the supporting
+    /// plane where a line from the middle to x meets the surface, and the gauge of x never less
+    /// than gradient.(x/a).
+    Vec3<W> gradient;
+    W slope;  ///< by lambda
+    W bend;   ///< half of the second derivative of the gauge's square
+  };
+
+  template <class W>
+  Gauge<W> gauge_along(const Vec3<W>& u, const Vec3<W>& v, const W& lambda) const {
+    using std::abs;
+    using std::copysign;
+    using std::max;
+    const Vec3<W> x = u + v * lambda;
+    const Vec3<W> size(abs(x.x()), abs(x.y()), abs(x.z()));
+    const W largest = max(size.x(), max(size.y(), size.z()));
+    const Vec3<W> k = size * (W(1) / select(largest > W(0), largest, W(1)));
+    const T p = exponent;
+    const Vec3<W> powers(power<W>(k.x(), p - T(1)), power<W>(k.y(), p - T(1)),
+                         power<W>(k.z(), p - T(1)));
+    // The largest k is 1 but for rounding.
+    const W sum = max(W(1), W(powers.dot(k)));
+    const W root = power<W>(sum, T(1) / p), scale = root / sum;
+    Gauge<W> gauge;
+    gauge.value = largest * root;
+    W squares(0);
+    for (int i = 0; i < 3; ++i) {
+      gauge.gradient[i] = copysign(W(powers[i] * scale), x[i]);
+      squares += powers[i] / max(k[i], W(least_of_bend)) * (v[i] * v[i]);
+    }
+    gauge.slope = gauge.gradient.dot(v);
+    const W slope_squared = gauge.slope * gauge.slope;
+    gauge.bend =
+        slope_squared + W(p - T(1)) * max(W(squares * (root * scale) - slope_squared), W(0));
+    return gauge;
+  }
+
  private:
+  /// Where curvature is infinite (p < 2, on the coordinate planes), as it is so far beside.
+  static constexpr T least_of_bend = T(1) / T(4096);
   /// For p up to 4, the osculating ellipsoid is at most about 1/this times as long as the shape.
   static constexpr T least_of_jet = T(1) / T(256);
 };

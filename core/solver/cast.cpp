@@ -53,20 +53,28 @@ CastResult<T> cast_with_model(const PreparedShape<T>& shape, const RayNearBall<T
     };
   };
   const Shape<T>& any = shape.inner_shape();
+  const auto portal = [&] {
+    return cast(tolerance::portal_max_iterations)([&](const Vec3<T>& s, const Vec3<T>& r) {
+      return PolytopeModel<T, Shape<T>>(any, ball.centre, s, r, ball.radius);
+    });
+  };
   const auto model_and_cast = [&] {
-    if (options.solver == SolverKind::portal)
-      return cast(tolerance::portal_max_iterations)([&](const Vec3<T>& s, const Vec3<T>& r) {
-        return PolytopeModel<T, Shape<T>>(any, ball.centre, s, r, ball.radius);
-      });
+    if (options.solver == SolverKind::portal) return portal();
     return with_model<T>(any, shape.model(), ball.centre, ball.radius,
                          cast(tolerance::jet_max_iterations));
   };
-  const CastResult<T> result = model_and_cast();
-  if (result.status != Status::exhausted) return result;
-  CastResult<T> slow = gjk_ray_cast(any, near, ball, gjk_options(shape, options), observer);
-  slow.iterations += result.iterations;
-  slow.supports += result.supports;
-  return slow;
+  const auto after = [](const CastResult<T>& first, CastResult<T> then) {
+    then.iterations += first.iterations;
+    then.supports += first.supports;
+    return then;
+  };
+  CastResult<T> result = model_and_cast();
+  if (result.status == Status::exhausted)
+    result = after(result, gjk_ray_cast(any, near, ball, gjk_options(shape, options), observer));
+  // Rays along edges between flat and curved, where the simplices of the GJK ray cast are slivers.
+  if (result.status == Status::exhausted && options.solver != SolverKind::portal)
+    result = after(result, portal());
+  return result;
 }
 
 /// By measurement, see docs/decisions/0002-automatic-solver.md.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/solver/model_kind.h"
 
-#include "core/shape/ellipsoid_sum.h"
 #include "core/shape/surface.h"
 #include "core/solver/model_of.h"
 
@@ -18,6 +17,7 @@ ModelKind kind_of_surface(const Shape<T>& shape) {
     case SurfaceKind::ellipsoids:
       return ModelKind::parts;
     case SurfaceKind::smooth:
+      if (is_ellipsoid_sum(shape)) return ModelKind::ellipsoid_sum;
       return has_exact_parts(shape) ? ModelKind::parts : ModelKind::smooth;
     default:
       return has_exact_parts(shape) ? ModelKind::parts : ModelKind::osculated_parts;
@@ -44,6 +44,13 @@ ModelKind model_kind_of(const Shape<T>& shape) {
       shape.kind);
 }
 
+template <class T>
+EllipsoidSum<T> the_sum(const Shape<T>& shape) {
+  return part_of<T>(shape, tilted_direction<T>(0));
+}
+
+template EllipsoidSum<float> the_sum(const Shape<float>&);
+template EllipsoidSum<double> the_sum(const Shape<double>&);
 template ModelKind model_kind_of(const Shape<float>&);
 template ModelKind model_kind_of(const Shape<double>&);
 

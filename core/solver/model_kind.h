@@ -3,6 +3,7 @@
 // when the shape is prepared.
 #pragma once
 
+#include "core/shape/ellipsoid_sum.h"
 #include "core/shape/shape.h"
 
 namespace minkray {
@@ -12,6 +13,7 @@ enum class ModelKind : unsigned char {
   points,           ///< a polytope made of other shapes
   rounded_points,   ///< a rounded polytope
   translates,       ///< the hull of translates of one ellipsoid
+  ellipsoid_sum,    ///< a sum of ellipsoids
   smooth,           ///< a smooth surface
   parts,            ///< the hull of finitely many sums of ellipsoids
   osculated_parts,  ///< any other shape: the same, but some parts only osculate
@@ -22,6 +24,12 @@ enum class ModelKind : unsigned char {
 template <class T>
 ModelKind model_kind_of(const Shape<T>& shape);
 
+/// What a shape of the kind ellipsoid_sum is, in all directions.
+template <class T>
+EllipsoidSum<T> the_sum(const Shape<T>& shape);
+
+extern template EllipsoidSum<float> the_sum(const Shape<float>&);
+extern template EllipsoidSum<double> the_sum(const Shape<double>&);
 extern template ModelKind model_kind_of(const Shape<float>&);
 extern template ModelKind model_kind_of(const Shape<double>&);
 

@@ -4,11 +4,13 @@
 
 #include "core/shape/shape.h"
 #include "core/solver/axial_model.h"
+#include "core/solver/ellipsoid_sum_model.h"
 #include "core/solver/model_cast.h"
 #include "core/solver/model_kind.h"
 #include "core/solver/parts_model.h"
 #include "core/solver/polytope_model.h"
 #include "core/solver/smooth_model.h"
+#include "core/solver/superellipsoid_model.h"
 #include "core/solver/translates_model.h"
 
 namespace minkray {
@@ -43,6 +45,11 @@ auto with_model(const Shape<Lane<W>>& shape, ModelKind model, const Vec3<Lane<W>
     return simple(kind, std::type_identity<PolytopeModel<W, S>>());
   };
   const auto smooth = [&] { return simple(shape, std::type_identity<SmoothModel<W, Shape<T>>>()); };
+  const auto ellipsoid_sum = [&] {
+    return use([&, sum = the_sum(shape)](const Vec3<W>& s, const Vec3<W>& r) {
+      return EllipsoidSumModel<W, Shape<T>>(shape, sum, centre, s, r, R);
+    });
+  };
   const auto parts = [&] {
     return use(
         [&](const Vec3<W>& s, const Vec3<W>& r) { return PartsModel<W>(shape, centre, s, r, R); });
@@ -69,6 +76,7 @@ auto with_model(const Shape<Lane<W>>& shape, ModelKind model, const Vec3<Lane<W>
           if (model == ModelKind::points) return polytope(shape);
           if (model == ModelKind::smooth) return smooth();
           if (model == ModelKind::translates) return translates();
+          if (model == ModelKind::ellipsoid_sum) return ellipsoid_sum();
           if (model == ModelKind::parts || model == ModelKind::osculated_parts) return parts();
           return std::visit(
               [&]<class Core>(const Core& core) {
@@ -80,6 +88,10 @@ auto with_model(const Shape<Lane<W>>& shape, ModelKind model, const Vec3<Lane<W>
               kind.shape->kind);
         } else {
           if (model == ModelKind::points) return polytope(shape);
+          if constexpr (std::is_same_v<S, Superellipsoid<T>>)
+            if (model == ModelKind::smooth)
+              return simple(kind, std::type_identity<SuperellipsoidModel<W, S>>());
+          if (model == ModelKind::ellipsoid_sum) return ellipsoid_sum();
           if (model == ModelKind::parts || model == ModelKind::osculated_parts) return parts();
           return model == ModelKind::translates ? translates() : smooth();
         }

@@ -118,7 +118,9 @@ TEST(FlatSides, of_disks_of_two_sizes) {
                                 ? 0.4 + 0.05 * n.z() - (off - arc_until) * 0.8 / 0.7
                                 : -0.4 + std::sqrt(std::max(0.0, 0.0025 - (off - 1) * (off - 1)));
     ASSERT_NEAR(height, expected, 1e-7) << off;
-    if (off < 1) ASSERT_NEAR(height, expected, 1e-13) << off;
+    if (off < 1) {
+      ASSERT_NEAR(height, expected, 1e-13) << off;
+    }
   }
 }
 

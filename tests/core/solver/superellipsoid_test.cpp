@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+// Casts at superellipsoids of all exponents against bisection in long double: the hit, what is
+// missed, and how many support calls it takes.
+#include <gtest/gtest.h>
+
+#include "core/shape/convert.h"
+#include "core/solver/cast.h"
+#include "tests/support/ray_families.h"
+#include "tests/support/rounded.h"
+
+namespace minkray::testing {
+namespace {
+
+using Long = long double;
+
+/// The gauge |x/a|_p along a line, by the C library's powers.
+struct Line {
+  Vec3<Long> radii, origin, direction;
+  Long p;
+
+  Vec3<Long> at(Long t) const { return (origin + t * direction).cwiseQuotient(radii); }
+  Long gauge(Long t) const {
+    const Vec3<Long> x = at(t).cwiseAbs();
+    const Long largest = x.maxCoeff();
+    if (!(largest > 0)) return 0;
+    Long sum = 0;
+    for (int i = 0; i < 3; ++i) sum += std::pow(x[i] / largest, p);
+    return largest * std::pow(sum, 1 / p);
+  }
+  /// In the shape's frame: the gradient of the gauge.
+  Vec3<Long> normal(Long t) const {
+    const Vec3<Long> x = at(t);
+    const Long largest = x.cwiseAbs().maxCoeff();
+    Vec3<Long> n;
+    Long sum = 0;
+    for (int i = 0; i < 3; ++i) {
+      n[i] = std::copysign(std::pow(std::abs(x[i]) / largest, p - 1), x[i]);
+      sum += std::pow(std::abs(x[i]) / largest, p);
+    }
+    return n.cwiseQuotient(radii) * std::pow(sum, 1 / p - 1);
+  }
+};
+
+Long bisected(Long low, Long high, const auto& is_before) {
+  for (int i = 0; i < 200; ++i) {
+    const Long middle = (low + high) / 2;
+    if (middle == low || middle == high) break;
+    (is_before(middle) ? low : high) = middle;
+  }
+  return high;
+}
+
+struct Truth {
+  bool hit;
+  /// How far the line would have to be moved to just touch, at most: negative inside.
+  double beside;
+  Long t;
+  Vec3<Long> normal;  ///< of unit length
+};
+
+Truth truth_of(const Line& line, Long R) {
+  const Long middle = -line.origin.dot(line.direction) / line.direction.squaredNorm();
+  const Long ball = 2 * R / line.direction.norm();
+  const Long least = bisected(middle - ball, middle + ball,
+                              [&](Long t) { return line.normal(t).dot(line.direction) < 0; });
+  const Long gauge = line.gauge(least);
+  const double beside = static_cast<double>((gauge - 1) / line.normal(least).norm());
+  if (gauge > 1) return {false, beside, 0, Vec3<Long>::Zero()};
+  const Long t = bisected(middle - ball, least, [&](Long at) { return line.gauge(at) > 1; });
+  return {true, beside, t, line.normal(t).normalized()};
+}
+
+struct Outcome {
+  int hits = 0, misses = 0, others = 0, supports = 0, most_supports = 0;
+  int wrong = 0;        ///< status, further from the silhouette than the band
+  double worst = 0;     ///< error of t times cosine, in units of R
+  double unproven = 0;  ///< how far the lower bound is behind the true hit, likewise
+};
+
+/// In units of R: how near to the silhouette either answer is right.
+template <class T>
+constexpr double band = std::is_same_v<T, float> ? 1e-6 : 1e-14;
+
+template <class T>
+Outcome cast_at(const Superellipsoid<double>& wanted, RayFamily family, int count) {
+  const Shape<T> shape = convert<T>(Shape<double>(wanted));
+  const Shape<double> same = convert<double>(shape);
+  const auto& exact = std::get<Superellipsoid<double>>(same.kind);
+  const PreparedShape<T> prepared(shape);
+  FamilyRays rays(same, family, 83);
+  const double R = rays.ball().radius;
+  Outcome outcome;
+  for (int i = 0; i < count; ++i) {
+    const Ray<T> ray = rounded_to<T>(rays.next());
+    const Ray<double> known = in_double(ray);
+    const Line line{exact.radii.cast<Long>(), known.origin.cast<Long>(),
+                    known.direction.cast<Long>(), exact.exponent};
+    const Truth truth = truth_of(line, R);
+    const CastResult<T> result = cast_ray(prepared, ray);
+    const bool hit = result.status == Status::hit;
+    outcome.hits += hit;
+    outcome.misses += result.status == Status::miss;
+    outcome.others += !hit && result.status != Status::miss;
+    outcome.supports += result.supports;
+    outcome.most_supports = std::max(outcome.most_supports, result.supports);
+    if (hit != truth.hit && std::abs(truth.beside) > band<T> * R) ++outcome.wrong;
+    if (!hit || !truth.hit) continue;
+    const Long across = -truth.normal.dot(line.direction);
+    const auto error = [&](T offset) {
+      return static_cast<double>(
+          (static_cast<Long>(result.t_base) + static_cast<Long>(offset) - truth.t) * across / R);
+    };
+    outcome.worst = std::max(outcome.worst, std::abs(error(result.t_offset)));
+    outcome.unproven = std::max(outcome.unproven, error(result.offset_lo));
+  }
+  return outcome;
+}
+
+std::vector<Superellipsoid<double>> shapes() {
+  std::vector<Superellipsoid<double>> all;
+  for (const double p : {1.2, 1.5, 1.9, 2.001, 2.5, 3.0, 4.0, 5.5, 8.0, 12.0, 60.0})
+    for (const Vec3<double>& radii : {Vec3<double>(1, 1, 1), Vec3<double>(0.3, 2, 0.7)})
+      all.push_back({radii, p});
+  all.push_back({{1, 0.03, 0.001}, 4});
+  return all;
+}
+
+std::string name_of(const Superellipsoid<double>& shape) {
+  std::ostringstream text;
+  text << shape.radii.transpose() << ", p = " << shape.exponent;
+  return text.str();
+}
+
+/// What rounding leaves of a support plane, and of the gauge: a few epsilon.
+template <class T>
+constexpr double exactness = 6 * std::numeric_limits<T>::epsilon();
+
+template <class T>
+void check_ordinary(RayFamily family) {
+  int misses = 0;
+  for (const Superellipsoid<double>& shape : shapes()) {
+    SCOPED_TRACE(name_of(shape));
+    const int count = 100;
+    const Outcome outcome = cast_at<T>(shape, family, count);
+    EXPECT_EQ(outcome.wrong, 0);
+    EXPECT_EQ(outcome.others, 0);
+    EXPECT_LE(outcome.worst, exactness<T>);
+    EXPECT_LE(outcome.unproven, exactness<T>);
+    // One proves, but where a ray is tangent within rounding.
+    EXPECT_LE(outcome.supports, 1.05 * count);
+    EXPECT_LE(outcome.most_supports, 24);
+    EXPECT_GT(outcome.hits, 0);
+    misses += outcome.misses;
+  }
+  EXPECT_GT(misses, 300);
+}
+
+TEST(Superellipsoid, is_hit_to_rounding_by_one_support_call) {
+  check_ordinary<double>(RayFamily::random);
+  check_ordinary<float>(RayFamily::random);
+  check_ordinary<float>(RayFamily::far);
+}
+
+TEST(Superellipsoid, is_grazed_to_rounding_by_one_support_call) {
+  check_ordinary<double>(RayFamily::grazing);
+  check_ordinary<float>(RayFamily::grazing);
+}
+
+/// Along axes and in coordinate planes, where curvature vanishes or is infinite, at the middle of
+/// flat sides and tangential there.
+template <class T>
+void check_degenerate() {
+  for (const Superellipsoid<double>& shape : shapes()) {
+    SCOPED_TRACE(name_of(shape));
+    const Outcome outcome = cast_at<T>(shape, RayFamily::degenerate, 100);
+    EXPECT_EQ(outcome.wrong, 0);
+    EXPECT_EQ(outcome.others, 0);
+    // Casts that the GJK ray cast has finished are right to its own rounding.
+    EXPECT_LE(outcome.worst, static_cast<double>(tolerance::gjk_stalled<T>));
+    EXPECT_GT(outcome.hits, 0);
+  }
+}
+
+TEST(Superellipsoid, is_hit_by_rays_along_its_axes_and_in_its_planes) {
+  check_degenerate<double>();
+  check_degenerate<float>();
+}
+
+/// Next to the octahedron and next to the box, which the bands above would be too narrow for: the
+/// surface turns by a right angle within rounding.
+TEST(Superellipsoid, of_extreme_exponents_is_hit_and_missed) {
+  for (const double p : {1.0001, 1.01, 1e3, 1e6, 1e12}) {
+    SCOPED_TRACE(p);
+    const Superellipsoid<double> shape{{1, 0.7, 0.5}, p};
+    const Outcome outcome = cast_at<double>(shape, RayFamily::random, 300);
+    EXPECT_EQ(outcome.wrong, 0);
+    EXPECT_EQ(outcome.others, 0);
+    EXPECT_LE(outcome.worst, static_cast<double>(tolerance::gjk_stalled<double>));
+    EXPECT_GT(outcome.hits, 150);
+  }
+}
+
+}  // namespace
+}  // namespace minkray::testing
