@@ -79,5 +79,33 @@ TEST(Certificate, of_an_origin_within_a_shape_is_that_shapes_wherever_it_is) {
   }
 }
 
+// Of a flat shape the plane touches with both normals.
+TEST(Certificate, of_a_flat_shape_hit_from_behind_its_normal_is_refused) {
+  const Shape<double> disk = Disk<double>{1};
+  const SupportFunction support = supports_of(disk);
+  const Ray<double> ray{{0.25, 0.5, 2}, {0.1, 0, -1}};
+  Claim claim = claim_of(cast_ray(PreparedShape<double>(disk), ray));
+  ASSERT_EQ(claim.status, Status::hit);
+  for (const double side : {1.0, -1.0}) {
+    claim.normal = {0, 0, side};
+    EXPECT_EQ(check_certificate(support, ray, claim, certify(support, ray, claim)).holds, side > 0);
+  }
+}
+
+// The checker's allowance could be ten times as wide.
+TEST(Certificate, a_hit_is_refused_that_is_two_hundred_roundings_off) {
+  const Shape<double> ball = Sphere<double>{2};
+  const SupportFunction support = supports_of(ball);
+  const Ray<double> ray{{-3, 0, 0}, {1, 0, 0}};                        // enters at t = 1
+  const double rounding = 2 * std::numeric_limits<double>::epsilon();  // of the radius
+  for (const double roundings : {-200.0, -10.0, 0.0, 10.0, 200.0}) {
+    Claim claim = claim_of(cast_ray(PreparedShape<double>(ball), ray));
+    claim.t_offset += roundings * rounding;
+    EXPECT_EQ(check_certificate(support, ray, claim, certify(support, ray, claim)).holds,
+              std::abs(roundings) < 100)
+        << roundings;
+  }
+}
+
 }  // namespace
 }  // namespace minkray::testing
