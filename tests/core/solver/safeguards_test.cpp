@@ -107,5 +107,19 @@ TEST(Certificate, a_hit_is_refused_that_is_two_hundred_roundings_off) {
   }
 }
 
+// How late a claim is was told by nobody.
+TEST(Certificate, tells_how_far_beyond_its_bounds_a_late_hit_is) {
+  const Shape<double> ball = Sphere<double>{2};
+  const SupportFunction support = supports_of(ball);
+  const Ray<double> ray{{-3, 0, 0}, {1, 0, 0}};
+  const Claim right = claim_of(cast_ray(PreparedShape<double>(ball), ray));
+  const Certificate certificate = certify(support, ray, right);
+  for (const double late : {0.0, 1e-9, 1e-3, 0.5}) {
+    Claim claim = right;
+    claim.t_offset += late;
+    EXPECT_NEAR(check_certificate(support, ray, claim, certificate).late, late, 1e-14);
+  }
+}
+
 }  // namespace
 }  // namespace minkray::testing
