@@ -7,6 +7,7 @@
 #include "core/solver/cast.h"
 #include "core/solver/check_certificate.h"
 #include "core/solver/distance.h"
+#include "core/solver/johnson.h"
 #include "core/solver/shape_cast.h"
 #include "tests/proof/certified_casts.h"
 #include "tests/support/random.h"
@@ -52,6 +53,28 @@ TEST(Distance, of_balls_that_are_scaled_and_moved_has_its_closed_form) {
   }
   EXPECT_GT(apart, 50);
   EXPECT_LT(apart, 190);
+}
+
+// The backup procedure answered for all simplices, or with nothing, and only time was lost.
+TEST(Johnson, asks_for_backup_for_vertices_in_line_alone_and_gets_a_point_of_them) {
+  Random random(3);
+  const auto closest = [&](double thickness) {
+    JohnsonSubalgorithm<double, 3> simplex;
+    simplex.begin(V::Zero());
+    const V middle = 2 * random.direction(), along = random.direction();
+    for (int i = 0; i < 4; ++i)
+      simplex.add(middle + random.uniform(-1, 1) * along + thickness * random.in_cube());
+    return simplex.closest();
+  };
+  int backups = 0;
+  for (int i = 0; i < 5000; ++i) {
+    EXPECT_TRUE(closest(0.1).proper);
+    const auto answer = closest(0);
+    backups += answer.proper ? 0 : 1;
+    EXPECT_GT(answer.v.norm(), 1 - 1e-12);  // the line's part is between 1 and 3 away
+    EXPECT_LT(answer.v.norm(), 3);
+  }
+  EXPECT_GT(backups, 10);
 }
 
 // The new place of the first shape was forgotten.
