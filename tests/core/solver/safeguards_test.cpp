@@ -97,8 +97,12 @@ TEST(Certificate, of_an_origin_within_a_shape_is_that_shapes_wherever_it_is) {
     const Ray<double> ray{from, V(0, 0, 1)};
     Claim claim;
     claim.status = Status::inside;
-    const bool holds = check_certificate(support, ray, claim, certify(support, ray, claim)).holds;
-    EXPECT_EQ(holds, (from - where).norm() < 2) << from.transpose();
+    const CertificateVerdict verdict =
+        check_certificate(support, ray, claim, certify(support, ray, claim));
+    EXPECT_EQ(verdict.holds, (from - where).norm() < 2) << from.transpose();
+    if (!verdict.holds) continue;
+    EXPECT_EQ(verdict.t_base + verdict.offset_lo, 0);  // where the ray begins
+    EXPECT_EQ(verdict.t_base + verdict.offset_hi, 0);
   }
 }
 
@@ -141,6 +145,49 @@ TEST(Certificate, tells_how_far_beyond_its_bounds_a_late_hit_is) {
     Claim claim = right;
     claim.t_offset += late;
     EXPECT_NEAR(check_certificate(support, ray, claim, certificate).late, late, 1e-14);
+  }
+}
+
+// Support points on the right plane, but beside the ray, were taken for a proof.
+TEST(Certificate, whose_support_points_span_a_spot_beside_the_ray_is_refused) {
+  const Shape<double> box = Box<double>{{1, 2, 3}};
+  const SupportFunction support = supports_of(box);
+  const Ray<double> ray{{-5, 0.5, 0.25}, {1, 0, 0}};
+  const Claim claim = claim_of(cast_ray(PreparedShape<double>(box), ray));
+  Certificate certificate = certify(support, ray, claim);
+  ASSERT_TRUE(check_certificate(support, ray, claim, certificate).holds);
+  certificate.plane = {-1, 0, 0};
+  certificate.spanning = {};
+  certificate.spanning[0] = {V(-1, 0.1, 0.1), 1};  // a corner of the face that is hit
+  const CertificateVerdict verdict = check_certificate(support, ray, claim, certificate);
+  EXPECT_FALSE(verdict.holds);
+  EXPECT_NEAR(verdict.lateral, V(0, 1.5, 2.75).norm(), 1e-12);
+}
+
+// Algorithm 1 was asked about hits alone.
+TEST(Cast, of_every_solver_tells_hits_misses_and_insides_apart) {
+  for (const SolverDescription& solver : solver_descriptions) {
+    CastOptions<double> options;
+    options.solver = solver.kind;
+    for (const Shape<double>& shape :
+         {Shape<double>(Sphere<double>{1}), Shape<double>(Cylinder<double>{1, 1})}) {
+      const PreparedShape<double> prepared(shape);
+      const auto cast = [&](const V& origin, const V& direction) {
+        return cast_ray(prepared, Ray<double>{origin, direction}, options);
+      };
+      const CastResult<double> hit = cast({-4, 0, 0}, {1, 0, 0});
+      EXPECT_EQ(hit.status, Status::hit) << solver.name;
+      EXPECT_NEAR(hit.t(), 3, 1e-7) << solver.name;
+      EXPECT_LT(hit.normal.x(), -0.999) << solver.name;
+      EXPECT_EQ(cast({0.25, 0.5, 0}, {1, 0, 0}).status, Status::inside) << solver.name;
+      EXPECT_EQ(cast({0.25, 0.5, 0}, {1, 0, 0}).t(), 0) << solver.name;
+      for (const V& from : {V(-4, 1.5, 0), V(4, 0, 0), V(-4, 0, 1.75)}) {
+        const CastResult<double> miss = cast(from, {1, 0, 0});
+        EXPECT_EQ(miss.status, Status::miss) << solver.name;
+        EXPECT_GT(miss.normal.dot(from), miss.normal.dot(shape.support(miss.normal)))
+            << solver.name;
+      }
+    }
   }
 }
 
