@@ -164,6 +164,22 @@ TEST(Certificate, whose_support_points_span_a_spot_beside_the_ray_is_refused) {
   EXPECT_NEAR(verdict.lateral, V(0, 1.5, 2.75).norm(), 1e-12);
 }
 
+// With weights below zero, support points span spots outside the shape.
+TEST(Certificate, with_negative_weights_is_refused) {
+  const Shape<double> box = Box<double>{{1, 2, 3}};
+  const SupportFunction support = supports_of(box);
+  const Ray<double> beside{{-5, 3, 3}, {1, 0, 0}};
+  Claim claim;
+  claim.status = Status::hit;
+  claim.t_offset = 4;
+  claim.normal = {-1, 0, 0};
+  Certificate certificate;
+  certificate.plane = {-1, 0, 0};
+  certificate.spanning[0] = {V(-1, 1, 1), 1.25};
+  certificate.spanning[1] = {V(-1, -1, 1), -0.25};
+  EXPECT_FALSE(check_certificate(support, beside, claim, certificate).holds);
+}
+
 // Algorithm 1 was asked about hits alone.
 TEST(Cast, of_every_solver_tells_hits_misses_and_insides_apart) {
   for (const SolverDescription& solver : solver_descriptions) {
