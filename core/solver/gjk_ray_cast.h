@@ -114,13 +114,13 @@ requires SupportMapped<S, T> CastResult<T> gjk_ray_cast(const S& shape, const Ra
     bool advanced = false;
     if (const T v_w = v.dot(w); v_w > T(0)) {
       const T v_r = v.dot(r);
-      const T clipped = lambda - v_w / v_r;
       if (!(v_r < T(0))) {
         show();
         // Behind x the plane that clipped last keeps off, or the ball's, where the cast began.
         if (from_origin && !has_advanced) return miss(v);
         return miss(joined_plane(v, has_advanced ? n : x, r));
       }
+      const T clipped = lambda - v_w / v_r;
       if (clipped > near.lambda_max) {
         show();
         return miss(v);
