@@ -60,8 +60,7 @@ CastResult<T> cast_with_model(const PreparedShape<T>& shape, const RayNearBall<T
   };
   const auto model_and_cast = [&] {
     if (options.solver == SolverKind::portal) return portal();
-    return with_model<T>(any, shape.model(), ball.centre, ball.radius,
-                         cast(tolerance::jet_max_iterations));
+    return with_model<T>(shape.definition(), cast(tolerance::jet_max_iterations));
   };
   const auto after = [](const CastResult<T>& first, CastResult<T> then) {
     then.iterations += first.iterations;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/solver/model_kind.h"
 
+#include "core/shape/ellipsoid_sum.h"
 #include "core/shape/surface.h"
 #include "core/solver/model_of.h"
 
@@ -44,13 +45,6 @@ ModelKind model_kind_of(const Shape<T>& shape) {
       shape.kind);
 }
 
-template <class T>
-EllipsoidSum<T> the_sum(const Shape<T>& shape) {
-  return part_of<T>(shape, tilted_direction<T>(0));
-}
-
-template EllipsoidSum<float> the_sum(const Shape<float>&);
-template EllipsoidSum<double> the_sum(const Shape<double>&);
 template ModelKind model_kind_of(const Shape<float>&);
 template ModelKind model_kind_of(const Shape<double>&);
 

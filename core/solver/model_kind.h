@@ -3,7 +3,6 @@
 // when the shape is prepared.
 #pragma once
 
-#include "core/shape/ellipsoid_sum.h"
 #include "core/shape/shape.h"
 
 namespace minkray {
@@ -24,12 +23,6 @@ enum class ModelKind : unsigned char {
 template <class T>
 ModelKind model_kind_of(const Shape<T>& shape);
 
-/// What a shape of the kind ellipsoid_sum is, in all directions.
-template <class T>
-EllipsoidSum<T> the_sum(const Shape<T>& shape);
-
-extern template EllipsoidSum<float> the_sum(const Shape<float>&);
-extern template EllipsoidSum<double> the_sum(const Shape<double>&);
 extern template ModelKind model_kind_of(const Shape<float>&);
 extern template ModelKind model_kind_of(const Shape<double>&);
 

@@ -6,9 +6,9 @@
 #include "core/solver/axial_model.h"
 #include "core/solver/ellipsoid_sum_model.h"
 #include "core/solver/model_cast.h"
-#include "core/solver/model_kind.h"
 #include "core/solver/parts_model.h"
 #include "core/solver/polytope_model.h"
+#include "core/solver/shape_definition.h"
 #include "core/solver/smooth_model.h"
 #include "core/solver/superellipsoid_model.h"
 #include "core/solver/translates_model.h"
@@ -27,15 +27,21 @@ template <class S, class W>
 inline constexpr bool is_ellipsoid = std::is_same_v<JetOf<S, W>, AxialEllipsoidJet<W>>;
 template <class S, class W>
 inline constexpr bool is_polytope = std::is_same_v<JetOf<S, W>, PointJet<W>>;
+template <class S, class W>
+inline constexpr bool has_gauge = requires(const S& shape, const Vec3<W>& u, const W& lambda) {
+  shape.template gauge_along<W>(u, u, lambda);
+};
 
 }  // namespace detail
 
-/// Calls use(make_model), where make_model(s, r) makes the shape's model as seen from s along r;
-/// `centre` and `R` are the bounding ball's.
+/// Calls use(make_model), where make_model(s, r) makes the shape's model as seen from s along r.
 template <class W, class Use>
-auto with_model(const Shape<Lane<W>>& shape, ModelKind model, const Vec3<Lane<W>>& centre,
-                Lane<W> R, Use&& use) {
+auto with_model(const ShapeDefinition<Lane<W>>& definition, Use&& use) {
   using T = Lane<W>;
+  const Shape<T>& shape = definition.inner_shape();
+  const ModelKind model = definition.model();
+  const Vec3<T>& centre = definition.inner_ball().centre;
+  const T R = definition.inner_ball().radius;
   const auto simple = [&]<template <class, class> class Model, class S>(
                           const S& kind, std::type_identity<Model<W, S>>) {
     return use(
@@ -46,8 +52,8 @@ auto with_model(const Shape<Lane<W>>& shape, ModelKind model, const Vec3<Lane<W>
   };
   const auto smooth = [&] { return simple(shape, std::type_identity<SmoothModel<W, Shape<T>>>()); };
   const auto ellipsoid_sum = [&] {
-    return use([&, sum = the_sum(shape)](const Vec3<W>& s, const Vec3<W>& r) {
-      return EllipsoidSumModel<W, Shape<T>>(shape, sum, centre, s, r, R);
+    return use([&](const Vec3<W>& s, const Vec3<W>& r) {
+      return EllipsoidSumModel<W, Shape<T>>(shape, definition.ellipsoid_sum(), centre, s, r, R);
     });
   };
   const auto parts = [&] {
@@ -88,7 +94,7 @@ auto with_model(const Shape<Lane<W>>& shape, ModelKind model, const Vec3<Lane<W>
               kind.shape->kind);
         } else {
           if (model == ModelKind::points) return polytope(shape);
-          if constexpr (std::is_same_v<S, Superellipsoid<T>>)
+          if constexpr (detail::has_gauge<S, W>)
             if (model == ModelKind::smooth)
               return simple(kind, std::type_identity<SuperellipsoidModel<W, S>>());
           if (model == ModelKind::ellipsoid_sum) return ellipsoid_sum();

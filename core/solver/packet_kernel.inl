@@ -33,8 +33,8 @@ void part(const PreparedShape<Lane<W>>& shape, const RayPacket<Lane<W>>& rays, L
   const RayNearBall<W> near = shape.template to_inner<W>(ray);
   const Ball<T>& ball = shape.inner_ball();
   const Mask<W> active = mask_of<W>(lanes >> from);
-  const CastLanes<W> result = with_model<W>(
-      shape.inner_shape(), shape.model(), ball.centre, ball.radius, [&](const auto& make_model) {
+  const CastLanes<W> result =
+      with_model<W>(shape.definition(), [&](const auto& make_model) {
         return model_cast<W>(make_model, near, ball, shape.inner_half_extents(), active,
                              tolerance::jet_max_iterations, NoObserver());
       });

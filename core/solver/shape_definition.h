@@ -8,6 +8,7 @@
 
 #include "core/math/affine.h"
 #include "core/math/bounds.h"
+#include "core/shape/ellipsoid_sum.h"
 #include "core/shape/shape.h"
 #include "core/solver/model_kind.h"
 
@@ -24,6 +25,8 @@ class ShapeDefinition {
   /// Of the inner shape's axis-aligned bounds.
   const Vec3<T>& inner_half_extents() const { return half_extents_; }
   ModelKind model() const { return model_; }
+  /// What the inner shape is, where model() says that it is a sum of ellipsoids.
+  const EllipsoidSum<T>& ellipsoid_sum() const { return ellipsoid_sum_; }
 
   /// Bounds of the whole shape (the transforms on) under a pose.
   Bounds<T> bounds_of(const Affine<T>& pose) const;
@@ -46,6 +49,7 @@ class ShapeDefinition {
   Ball<T> ball_;
   Vec3<T> half_extents_;
   ModelKind model_;
+  EllipsoidSum<T> ellipsoid_sum_;
 };
 
 extern template class ShapeDefinition<float>;
