@@ -5,6 +5,7 @@
 #include "core/solver/first_solution.h"
 #include "core/solver/gjk_ray_cast.h"
 #include "core/solver/model_of.h"
+#include "core/solver/proven_cast.h"
 #include "core/solver/subalgorithm.h"
 
 namespace minkray {
@@ -41,6 +42,14 @@ constexpr bool is_reference(SolverKind kind) {
          kind == SolverKind::paper_signed_volumes;
 }
 
+/// What was spent before is counted as well.
+template <class T>
+CastResult<T> after(const CastResult<T>& first, CastResult<T> then) {
+  then.iterations += first.iterations;
+  then.supports += first.supports;
+  return then;
+}
+
 /// With models; where they give up, the GJK ray cast.
 template <class T, class Observer>
 CastResult<T> cast_with_model(const PreparedShape<T>& shape, const RayNearBall<T>& near,
@@ -61,11 +70,6 @@ CastResult<T> cast_with_model(const PreparedShape<T>& shape, const RayNearBall<T
   const auto model_and_cast = [&] {
     if (options.solver == SolverKind::portal) return portal();
     return with_model<T>(shape.definition(), cast(tolerance::jet_max_iterations));
-  };
-  const auto after = [](const CastResult<T>& first, CastResult<T> then) {
-    then.iterations += first.iterations;
-    then.supports += first.supports;
-    return then;
   };
   CastResult<T> result = model_and_cast();
   if (result.status == Status::exhausted)
@@ -97,28 +101,152 @@ CastResult<T> cast_with(SolverKind solver, const PreparedShape<T>& shape,
       shape.inner_shape().kind);
 }
 
+CastOptions<double> in_double(const CastOptions<float>& options) {
+  CastOptions<double> other;
+  other.solver = options.solver;
+  if (options.eps_tol != CastOptions<float>().eps_tol) other.eps_tol = options.eps_tol;
+  other.max_iterations = options.max_iterations;
+  other.v0 = options.v0.cast<double>();
+  return other;
+}
+
+/// The normal is in the inner frame.
 template <class T, class Observer>
-CastResult<T> cast_near(const PreparedShape<T>& shape, const RayNearBall<T>& near,
-                        const CastOptions<T>& options, Observer&& observer) {
+CastResult<T> cast_inner(const PreparedShape<T>& shape, const RayNearBall<T>& near,
+                         const CastOptions<T>& options, Observer&& observer) {
   const bool automatic = options.solver == SolverKind::automatic;
   const SolverKind solver = automatic ? best_solver(shape) : options.solver;
   CastResult<T> result = cast_with(solver, shape, near, options, observer);
   // The jet cast hands over to the GJK ray cast by itself; the other way round it is done here.
-  if (automatic && solver == SolverKind::paper && result.status == Status::exhausted) {
-    const CastResult<T> first = result;
-    result = cast_with(SolverKind::jet, shape, near, options, observer);
-    result.iterations += first.iterations;
-    result.supports += first.supports;
-  }
-  // A direction so short that the hit's t is no number of T.
-  if (result.status == Status::hit && !std::isfinite(result.t())) result.status = Status::exhausted;
+  if (automatic && solver == SolverKind::paper && result.status == Status::exhausted)
+    result = after(result, cast_with(SolverKind::jet, shape, near, options, observer));
   // Of a point all directions are normals.
   if (result.status == Status::hit && result.normal.isZero(T(0))) result.normal = -near.r;
+  return result;
+}
+
+template <class T, class Observer>
+CastResult<T> cast_near(const PreparedShape<T>& shape, const RayNearBall<T>& near,
+                        const CastOptions<T>& options, Observer&& observer);
+
+template <class T, class Observer>
+CastResult<T> cast_near(const PreparedShape<T>& shape, const RayNearBall<T>& near,
+                        const CastOptions<T>& options, Observer&& observer);
+
+/// The GJK ray cast with three digits more, for slivers.
+CastResult<double> cast_in_long_double(const Shape<long double>& shape, const Ball<double>& ball,
+                                       const RayNearBall<double>& near) {
+  using Long = long double;
+  const RayNearBall<Long> exact =
+      RayNearBall<Long>{near.s.cast<Long>(), near.r.cast<Long>(), near.lambda_min,  near.lambda_max,
+                        near.t_base,         near.t_shift,        near.t_per_length}
+          .mapped(Mat3<Long>::Identity());
+  const CastResult<Long> found =
+      gjk_ray_cast(shape, exact, Ball<Long>{ball.centre.cast<Long>(), Long(ball.radius)});
+  return {found.status,
+          near.t_base,
+          double(found.t_offset),
+          double(found.offset_lo),
+          double(found.offset_hi),
+          found.normal.cast<double>(),
+          found.iterations,
+          found.supports};
+}
+
+/// The first answer that can be proven. If none can, the first of all: at shapes of extreme
+/// proportions as exhausted.
+template <class Observer>
+CastResult<double> cast_proven(const PreparedShape<double>& shape, const RayNearBall<double>& near,
+                               CastOptions<double> options, Observer&& observer) {
+  ProvenCast best;
+  int iterations = 0, supports = 0;
+  const auto proves = [&](const CastResult<double>& answer) {
+    const ProvenCast cast = proven(shape.inner_shape(), shape.inner_ball(), near, answer);
+    if (cast.holds || supports == 0) best = cast;
+    iterations += cast.answer.iterations;
+    supports += cast.answer.supports;
+    return cast.holds;
+  };
+  const auto proves_with = [&](SolverKind solver) {
+    options.solver = solver;
+    return proves(cast_inner(shape, near, options, observer));
+  };
+  const Shape<long double>* exact = shape.definition().in_long_double();
+  if (options.solver == SolverKind::automatic || options.solver == SolverKind::jet)
+    proves_with(SolverKind::jet) || proves_with(SolverKind::paper) ||
+        (exact && proves(cast_in_long_double(*exact, shape.inner_ball(), near)));
+  else
+    proves_with(options.solver);
+  best.answer.iterations = iterations;
+  best.answer.supports = supports;
+  if (!best.holds && shape.definition().is_extreme()) best.answer.status = Status::exhausted;
+  return best.answer;
+}
+
+template <class Observer>
+CastResult<float> cast_proven(const PreparedShape<float>& shape, const RayNearBall<float>& near,
+                              const CastOptions<float>& options, Observer&& observer) {
+  const ShapeDefinition<double>& definition = *shape.definition().in_double();
+  const auto placement = definition.placed({});
+  const PreparedShape<double> exact(definition, placement.centre,
+                                    placement.is_rigid_identity ? nullptr : &placement.to_inner);
+  RayNearBall<double> exact_near{near.s.cast<double>(), near.r.cast<double>(), near.lambda_min,
+                                 near.lambda_max,       near.t_base,           near.t_shift,
+                                 near.t_per_length};
+  exact_near.s += shape.inner_ball().centre.cast<double>() - exact.centre();
+  exact_near = exact_near.mapped(exact.linear_to_inner() ? *exact.linear_to_inner()
+                                                         : Mat3<double>(Mat3<double>::Identity()));
+  const auto tell = [&](const CastIteration<double>& iteration) {
+    std::vector<Vec3<float>> simplex;
+    for (const Vec3<double>& p : iteration.simplex) simplex.push_back(p.cast<float>());
+    observer(CastIteration<float>{float(iteration.lambda), iteration.x.cast<float>(),
+                                  iteration.v.cast<float>(), iteration.p.cast<float>(),
+                                  iteration.w.cast<float>(), simplex});
+  };
+  CastResult<double> found;
+  if constexpr (std::is_same_v<std::remove_cvref_t<Observer>, NoObserver>)
+    found = cast_near(exact, exact_near, in_double(options), NoObserver());
+  else
+    found = cast_near(exact, exact_near, in_double(options), tell);
+  CastResult<float> result;
+  result.status = found.status;
+  result.t_base = near.t_base;
+  result.t_offset = float(found.t_offset);
+  result.offset_lo = float(found.offset_lo);
+  result.offset_hi = float(found.offset_hi);
+  result.normal = found.normal.cast<float>();
+  result.iterations = found.iterations;
+  result.supports = found.supports;
+  return result;
+}
+
+/// Whether an answer is meant to be exact: coarser tolerances prove nothing.
+template <class T>
+bool is_exact(const CastOptions<T>& options) {
+  return !is_reference(options.solver) && options.eps_tol <= tolerance::gjk_squared<T>;
+}
+
+template <class T, class Observer>
+CastResult<T> cast_near(const PreparedShape<T>& shape, const RayNearBall<T>& near,
+                        const CastOptions<T>& options, Observer&& observer) {
+  CastResult<T> result;
+  if (shape.definition().is_extreme() && is_exact(options)) {
+    result = cast_proven(shape, near, options, observer);
+  } else {
+    result = cast_inner(shape, near, options, observer);
+    const bool is_doubtful =
+        result.status == Status::hit && -result.normal.dot(near.r) < tolerance::doubtful_slope<T>;
+    if constexpr (std::is_same_v<T, double>)
+      if (is_doubtful && is_exact(options)) result = cast_proven(shape, near, options, observer);
+  }
   result.normal = shape.normal_to_outer(result.normal);
-  // Where the ray's distance in the shape's own frame overflows.
+  // A direction so short that the hit's t is no number of T.
+  if (result.status == Status::hit && !std::isfinite(result.t())) result.status = Status::exhausted;
+  // Where lengths in the shape's own frame overflow, or their squares vanish.
   const bool has_numbers = !std::isnan(result.t_base) && !std::isnan(result.t_offset) &&
                            !std::isnan(result.offset_lo) && !std::isnan(result.offset_hi);
-  if (!has_numbers || !result.normal.allFinite()) {
+  const bool no_plane = result.status == Status::miss && result.normal.isZero(T(0));
+  if (!has_numbers || no_plane || !result.normal.allFinite()) {
     result.status = Status::exhausted;
     result.normal.setZero();
   }

@@ -34,6 +34,8 @@ constexpr std::array tilts = {0x1p-26, 0x1p-24, 0x1p-21, 0x1p-14};
 constexpr int tilt_directions = 6;
 constexpr int refinements = 24;
 
+using Long = long double;
+
 /// A simplex of support points that remembers their directions.
 class Spanned {
  public:
@@ -161,12 +163,13 @@ class Finder {
   /// The point of the shape near x(lambda), where its normal is about n: found among the triangles
   /// of support points in directions tilted a little from n. On a face with rounding around it, or
   /// a patch of curvature radius rho, tilts by delta give points rho * delta around the spot and
-  /// only rho * delta^2 under it. Answers how far the best is from x(lambda).
+  /// only rho * delta^2 under it. Answers how far the best is from x(lambda). In long double, since
+  /// between the corners of a sliver a point is only known as well as the sliver is thin.
   double refine(double lambda, const Vec3<double>& n) {
-    const Vec3<double> x = near_.at(lambda);
+    const Vec3<Long> x = near_.s.cast<Long>() + Long(lambda) * near_.r.cast<Long>();
     std::vector<Seen> seen;
     const auto see = [&](const Vec3<double>& direction) {
-      const Vec3<double> y = x - support(direction);
+      const Vec3<Long> y = x - support(direction).cast<Long>();
       for (const Seen& other : seen)
         if (other.y == y) return false;
       seen.push_back({y, direction});
@@ -183,13 +186,13 @@ class Finder {
       }
     }
     // The nearest triangle of all; then more support points where it is not near enough.
-    ClosestPoint<double> best;
-    double best_squared = std::numeric_limits<double>::infinity();
+    ClosestPoint<Long> best;
+    Long best_squared = std::numeric_limits<Long>::infinity();
     std::array<std::size_t, 3> corners{};
     const auto try_triangle = [&](std::size_t i, std::size_t j, std::size_t k) {
-      const SimplexPoints<double> triangle{{seen[i].y, seen[j].y, seen[k].y}, 3};
-      const ClosestPoint<double> closest = closest_point(triangle);
-      const double squared = closest.v.squaredNorm();
+      const SimplexPoints<Long> triangle{{seen[i].y, seen[j].y, seen[k].y}, 3};
+      const ClosestPoint<Long> closest = closest_point(triangle);
+      const Long squared = closest.v.squaredNorm();
       if (!(squared < best_squared)) return;
       best = closest;
       best_squared = squared;
@@ -205,9 +208,10 @@ class Finder {
         for (std::size_t j = i; j <= k; ++j) try_triangle(i, j, k);
     for (int round = 0; round < refinements; ++round) {
       // What lies beyond the triangle's side: n turned towards it, little and much.
-      const double distance = std::sqrt(best_squared);
-      if (distance <= close_enough * rounding_) break;
-      const Vec3<double> v = best.v / distance, aside = unit<double>(v - n.dot(v) * n);
+      const Long distance = std::sqrt(best_squared);
+      if (distance <= Long(close_enough * rounding_)) break;
+      const Vec3<double> v = (best.v / distance).cast<double>(),
+                         aside = unit<double>(v - n.dot(v) * n);
       bool found = false;
       const auto look = [&](const Vec3<double>& direction) {
         if (!see(direction)) return;
@@ -222,16 +226,17 @@ class Finder {
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const bool kept = best.kept & (1u << i);
       certificate.spanning[i] = {seen[corners[i]].direction,
-                                 kept ? std::max(best.weights[i], 0.0) : 0};
+                                 kept ? double(std::max(best.weights[i], Long(0))) : 0};
     }
-    return std::sqrt(best_squared);
+    return double(std::sqrt(best_squared));
   }
 
   Certificate certificate;
 
  private:
   struct Seen {
-    Vec3<double> y, direction;
+    Vec3<Long> y;
+    Vec3<double> direction;
   };
   const SupportFunction& support_;
   NearSegment near_;

@@ -113,6 +113,7 @@ class Checker {
     if (!(at_q >= near_.lambda_of(0, 0) - verdict_.allowed) ||
         !(at_q <= near_.lambda_of(ray_.t_max, 0) + verdict_.allowed))
       complain("the support points span no point of the ray");
+    verdict_.offset_spanned = near_.t_offset(at_q);
     verdict_.offset_lo = near_.t_offset(std::min(lower, at_q));
     verdict_.offset_hi = near_.t_offset(std::max(lower, at_q));
     verdict_.late = lambda - std::max(lower, at_q);

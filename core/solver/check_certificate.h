@@ -23,6 +23,7 @@ struct CertificateVerdict {
   /// Hit: t lies in t_base + [lo, hi], where hi is up to `lateral`: the ray passes so near to a
   /// point of the shape there.
   double t_base = 0, offset_lo = 0, offset_hi = 0;
+  double offset_spanned = 0;  ///< hit: where that point is; rounding may put planes beyond it
   double gap = 0;      ///< hit: how deep that point lies under the plane: (t_hi - t_lo) * cosine
   double lateral = 0;  ///< hit, inside: the distance of the spanned point from ray or origin
   double margin = 0;   ///< miss: from the plane to the ray; negative if the ray crosses it

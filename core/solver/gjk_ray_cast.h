@@ -125,6 +125,11 @@ requires SupportMapped<S, T> CastResult<T> gjk_ray_cast(const S& shape, const Ra
         show();
         return miss(v);
       }
+      // Beyond the ball's far side, where the ball's own plane keeps off.
+      if (clipped > depth + tolerance::ball_padding<T> * ball.radius) {
+        show();
+        return miss(joined_plane(Vec3<T>(s + depth * r), v, r));
+      }
       advanced = clipped > lambda;
       if (advanced) {
         lambda = clipped;

@@ -52,7 +52,7 @@ template <class T>
 void cast_packet(const PreparedShape<T>& shape, const RayPacket<T>& rays, LaneBits lanes,
                  CastPacket<T>& answers, InstructionSet set) {
   answers.hit = answers.inside = answers.miss = 0;
-  if (shape.model() != ModelKind::osculated_parts) {
+  if (shape.definition().has_packets()) {
     if (set == InstructionSet::avx2)
       packet_kernel_avx2(shape, rays, lanes, answers);
     else

@@ -47,9 +47,14 @@ void part(const PreparedShape<Lane<W>>& shape, const RayPacket<Lane<W>>& rays, L
                               (result.t_offset == result.t_offset) &
                               (result.offset_lo == result.offset_lo) &
                               (result.offset_hi == result.offset_hi);
-  answers.hit |= lane_bits(result.hit & in_range & has_numbers) << from;
-  answers.inside |= lane_bits(result.inside) << from;
-  answers.miss |= lane_bits(result.miss & has_numbers) << from;
+  // Doubtful hits are left to the single casts.
+  Mask<W> hit = result.hit & in_range & has_numbers;
+  constexpr T doubtful = tolerance::doubtful_slope<T>;
+  if constexpr (doubtful != T(0)) hit &= -result.normal.dot(near.r) >= W(doubtful);
+  answers.hit |= lane_bits(hit) << from;
+  answers.inside |= lane_bits(result.inside & has_numbers) << from;
+  const Mask<W> has_plane = normal.squaredNorm() > W(T(0));
+  answers.miss |= lane_bits(result.miss & has_numbers & has_plane) << from;
   at_origin(result.t_base).store(answers.t_base.data() + from);
   at_origin(result.t_offset).store(answers.t_offset.data() + from);
   at_origin(result.offset_lo).store(answers.offset_lo.data() + from);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/solver/shape_definition.h"
 
+#include "core/shape/convert.h"
+#include "core/shape/proportions.h"
 #include "core/shape/shape_bounds.h"
 
 namespace minkray {
@@ -34,6 +36,12 @@ ShapeDefinition<T>::ShapeDefinition(Shape<T> shape) : original_(shape), inner_(s
   model_ = model_kind_of<T>(inner_);
   if (model_ == ModelKind::ellipsoid_sum)
     ellipsoid_sum_ = part_of<T>(inner_, Vec3<T>(T(0), T(0), T(1)));
+  is_extreme_ = has_extreme_proportions(inner_);
+  if constexpr (std::is_same_v<T, float>)
+    if (is_extreme_)
+      in_double_ = std::make_shared<const ShapeDefinition<double>>(convert<double>(inner_));
+  if (is_extreme_)
+    in_long_double_ = std::make_shared<const Shape<long double>>(convert<long double>(inner_));
 }
 
 template <class T>
@@ -54,7 +62,7 @@ typename ShapeDefinition<T>::Placement ShapeDefinition<T>::placed(const Affine<T
   return placement;
 }
 
-template class ShapeDefinition<float>;
 template class ShapeDefinition<double>;
+template class ShapeDefinition<float>;
 
 }  // namespace minkray

@@ -4,6 +4,7 @@
 // posed.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "core/math/affine.h"
@@ -27,6 +28,14 @@ class ShapeDefinition {
   ModelKind model() const { return model_; }
   /// What the inner shape is, where model() says that it is a sum of ellipsoids.
   const EllipsoidSum<T>& ellipsoid_sum() const { return ellipsoid_sum_; }
+  /// Casts at it are proven, one by one and in double, before they are answered.
+  bool is_extreme() const { return is_extreme_; }
+  /// Of extreme shapes in float: the inner shape in double. Null for others.
+  const ShapeDefinition<double>* in_double() const { return in_double_.get(); }
+  /// Of extreme shapes: the inner shape in long double. Null for others.
+  const Shape<long double>* in_long_double() const { return in_long_double_.get(); }
+  /// Whether packets of rays have a solver of their own.
+  bool has_packets() const { return !is_extreme_ && model_ != ModelKind::osculated_parts; }
 
   /// Bounds of the whole shape (the transforms on) under a pose.
   Bounds<T> bounds_of(const Affine<T>& pose) const;
@@ -50,6 +59,9 @@ class ShapeDefinition {
   Vec3<T> half_extents_;
   ModelKind model_;
   EllipsoidSum<T> ellipsoid_sum_;
+  bool is_extreme_;
+  std::shared_ptr<const ShapeDefinition<double>> in_double_;
+  std::shared_ptr<const Shape<long double>> in_long_double_;
 };
 
 extern template class ShapeDefinition<float>;

@@ -29,6 +29,9 @@ inline constexpr T gjk_rounding = T(4) * epsilon<T>;
 /// single support points.
 template <class T>
 inline constexpr T gjk_stalled = T(256) * epsilon<T>;
+/// Long double answers are given, and proven, in double.
+template <>
+inline constexpr long double gjk_stalled<long double> = gjk_stalled<double>;
 
 /// A tetrahedron lower than this, relative to its vertices' largest coordinate, is flat: a vertex,
 /// a normal and their product are rounded by about as much.
@@ -51,6 +54,12 @@ inline constexpr T jet_gap = T(4) * epsilon<T>;
 /// epsilon.
 template <class T>
 inline constexpr T least_slope = std::is_same_v<T, float> ? T(0x1p-16) : T(0x1p-36);
+
+/// Hits whose normal's component against the ray is less than this are looked at again in double:
+/// rounding across the plane is so much longer along the ray, and past a corner the ray leaves the
+/// shape's neighbourhood. Casts within 1e-11 R of a smooth silhouette have it.
+template <class T>
+inline constexpr T doubtful_slope = std::is_same_v<T, float> ? T(0) : T(0x1p-18);
 
 /// The last word on a hit, whatever the planes' slopes: model and best plane agree so well along
 /// the ray, in units of the bounding radius. A gap of jet_gap at a slope of 1e-3 in float and 1e-6

@@ -87,7 +87,7 @@ void cast_all(const PreparedShape<T>& shape, BeamRays which, const RayOf& ray_of
     counts.supports += supports;
     counts.exhausted += exhausted ? 1 : 0;
   };
-  const bool has_packets = in_packets && shape.model() != ModelKind::osculated_parts;
+  const bool has_packets = in_packets && shape.definition().has_packets();
   while (which != 0) {
     if (!has_packets || std::has_single_bit(which)) {
       const int lane = next_of(which);

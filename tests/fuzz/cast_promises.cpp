@@ -12,9 +12,10 @@ constexpr Real allowed = 2048;
 /// Iterations of the search for a plane that keeps a claimed point off: a plane that it finds is
 /// proof, whatever it does not find.
 constexpr int most_steps = 24;
-/// The longest cast: the jet cast towards and back, then the GJK ray cast
-/// (core/solver/tolerances.h).
-constexpr int most_supports = 2 * 1000 + 4 * 48 + 8;
+/// The longest cast: each of the jet cast, towards and back, the GJK ray cast and the portal cast
+/// (core/solver/tolerances.h), and then those in turn with a proof of each answer, which is four
+/// searches of 400 support points at most (core/solver/certificate.cpp).
+constexpr int most_supports = 3 * (4 * 48 + 1000 + 4 * 256 + 4 * 400) + 32;
 
 std::string number(Real x) {
   char text[64];

@@ -4,6 +4,7 @@
 
 #include "core/solver/cast.h"
 #include "core/solver/packet_cast.h"
+#include "renderer/query/query_json.h"
 #include "renderer/scene/shape_json.h"
 #include "tests/fuzz/cast_promises.h"
 #include "tests/fuzz/shape_from_bytes.h"
@@ -122,7 +123,25 @@ std::string check(Bytes bytes, bool wild) {
   return text;
 }
 
+template <class T>
+std::string check(const Shape<double>& shape, const Ray<double>& ray) {
+  const Shape<T> rounded = convert<T>(shape);
+  return check_ray(rounded, PreparedShape<T>(rounded),
+                   Ray<T>{ray.origin.cast<T>(), ray.direction.cast<T>(), T(ray.t_max)});
+}
+
 }  // namespace
+
+std::string check_cast_query(std::string_view line) {
+  Mistakes mistakes("casts");
+  MeshFiles meshes("no-such-folder");
+  const std::optional<Query> query = parse_query(line, meshes, mistakes);
+  if (!query) return mistakes.text();
+  const auto* cast = std::get_if<RayQuery>(&query->kind);
+  if (!cast) return "not a ray cast";
+  const std::string bad = check<double>(cast->shape, cast->ray);
+  return bad.empty() ? check<float>(cast->shape, cast->ray) : bad;
+}
 
 std::string check_cast(std::string_view input) {
   Bytes bytes(input);

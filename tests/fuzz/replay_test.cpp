@@ -3,7 +3,8 @@
 // build of the suite.
 #include <gtest/gtest.h>
 
-#include <random>
+#include <fstream>
+#include <string>
 
 #include "tests/fuzz/target.h"
 #include "tests/support/source_files.h"
@@ -38,6 +39,14 @@ INSTANTIATE_TEST_SUITE_P(Targets, Replay,
                                            Target{"query", check_queries},
                                            Target{"mesh", check_mesh}, Target{"cast", check_cast}),
                          [](const auto& instance) { return std::string(instance.param.name); });
+
+TEST(CastQueries, that_were_answered_wrongly_once) {
+  std::ifstream file(source_folder() / "tests/fuzz/casts.jsonl");
+  int count = 0;
+  for (std::string line; std::getline(file, line); ++count)
+    EXPECT_EQ(check_cast_query(line), "") << line;
+  EXPECT_GT(count, 10);
+}
 
 }  // namespace
 }  // namespace minkray::fuzz

@@ -24,4 +24,7 @@ std::string check_mesh(std::string_view bytes);
 /// accurate solvers and in packets; the answers checked by tests/fuzz/cast_promises.h.
 std::string check_cast(std::string_view bytes);
 
+/// The same of one cast, given as a line for `minkray cast`, in float and in double.
+std::string check_cast_query(std::string_view line);
+
 }  // namespace minkray::fuzz

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// Shapes whose proportions are beyond what the solvers' rounding was made for: needles, plates and
+// slivers of more than 1 : 10^4 to 10^6.
+#pragma once
+
+#include "core/shape/shape.h"
+
+namespace minkray {
+
+/// Whether any of the shapes it is made of is so much longer than it is thick, the maps around it
+/// included, or so much larger than another of them. Parts without any thickness (disks, segments,
+/// flat hulls) are not thin.
+template <class T>
+bool has_extreme_proportions(const Shape<T>& shape);
+
+extern template bool has_extreme_proportions(const Shape<float>&);
+extern template bool has_extreme_proportions(const Shape<double>&);
+
+}  // namespace minkray
