@@ -35,27 +35,39 @@ class RoundedBoxModel {
     const Folded line(*this);
     Entry entry = near_sides(line);
     if (!all(entry.certain)) {
-      const Entry any = any_side(line);
-      entry.m = select<W>(entry.certain, entry.m, any.m);
-      entry.certain |= any.certain;
+      const Entry other = any_side(line);
+      entry.m = select<W>(entry.certain, entry.m, other.m);
+      entry.certain |= other.certain;
     }
-    for (int k = 0; k < 3; ++k) entry.m[k] = entry.m[k] * line.side[k];
-    known_.m = unit<W>(entry.m);
-    const W z = against_ray(known_.m);
-    const Mask<W> ahead = z > W(0);
-    known_.height = support(known_.m).reach(known_.m) / select(ahead, z, W(1));
-    known_.certain = entry.certain & ahead;
-    return known_;
+    certain_ = entry.certain;
+    const Vec3<W> m = unit<W>(each([&](int k) -> W { return entry.m[k] * line.side[k]; }));
+    return meeting(support(m), m);
   }
 
   /// Nothing can be added to what `begin` has answered.
-  ModelHit<W> step(const Piece&, const Vec3<W>&, int) const {
-    ModelHit<W> hit = known_;
+  ModelHit<W> step(const Piece& piece, const Vec3<W>& n, int) const {
+    ModelHit<W> hit = meeting(piece, n);
     hit.repeated = Mask<W>(true);
     return hit;
   }
 
  private:
+  template <class Component>
+  static Vec3<W> each(const Component& component) {
+    return {component(0), component(1), component(2)};
+  }
+
+  /// Of direction m, which the piece was found in.
+  ModelHit<W> meeting(const Piece& piece, const Vec3<W>& m) const {
+    ModelHit<W> hit;
+    hit.m = m;
+    const W z = against_ray(m);
+    const Mask<W> ahead = z > W(0);
+    hit.height = piece.reach(m) / select(ahead, z, W(1));
+    hit.certain = certain_ & ahead;
+    return hit;
+  }
+
   /// The line as seen when the box is mirrored such that it runs towards positive coordinates, from
   /// the corner that it comes by first: the box is 0 <= y <= width, the line y = u + lambda v.
   struct Folded {
@@ -66,16 +78,15 @@ class RoundedBoxModel {
       using std::abs;
       using std::copysign;
       using std::max;
-      const W least(parallel);
-      for (int k = 0; k < 3; ++k) {
-        const W h = W(model.box_.half_extents[k]);
-        side[k] = copysign(W(1), model.r_[k]);
-        u[k] = model.from_[k] * side[k] + h;
+      const Vec3<W> h = widen<W>(model.box_.half_extents);
+      side = each([&](int k) { return copysign(W(1), model.r_[k]); });
+      u = model.from_.cwiseProduct(side) + h;
+      v = each([&](int k) -> W {
         const W slope = abs(model.r_[k]);
-        v[k] = select(slope < least, W(0), slope);
-        width[k] = h + h;
-        into[k] = -u[k] / max(slope, least);
-      }
+        return select(slope < W(parallel), W(0), slope);
+      });
+      width = h + h;
+      into = each([&](int k) -> W { return -u[k] / max(v[k], W(parallel)); });
     }
     Vec3<W> at(const W& lambda) const { return u + v * lambda; }
   };
@@ -109,23 +120,21 @@ class RoundedBoxModel {
   /// crossed after the hit if the distance there is the radius at most.
   Entry near_sides(const Folded& line) const {
     using std::min;
-    Vec3<W> u, v;
-    for (int k = 0; k < 3; ++k) {
+    const auto before_hit = [&](int k) -> Mask<W> {
       const int i = (k + 1) % 3, j = (k + 2) % 3;
       const W y_i = min(W(line.u[i] + line.v[i] * line.into[k]), W(0));
       const W y_j = min(W(line.u[j] + line.v[j] * line.into[k]), W(0));
-      const Mask<W> before = y_i * y_i + y_j * y_j <= W(radius_ * radius_);
-      u[k] = select(before, line.u[k], W(0));
-      v[k] = select(before, line.v[k], W(0));
-    }
-    const Link link = on_link(u, v);
+      return y_i * y_i + y_j * y_j <= W(radius_ * radius_);
+    };
+    const std::array<Mask<W>, 3> before = {before_hit(0), before_hit(1), before_hit(2)};
+    const auto of_those = [&](const Vec3<W>& x) {
+      return each([&](int k) { return select(before[static_cast<std::size_t>(k)], x[k], W(0)); });
+    };
+    const Link link = on_link(of_those(line.u), of_those(line.v));
     const Vec3<W> y = line.at(link.lambda);
-    Entry entry{link.spot, link.meets};
-    for (int k = 0; k < 3; ++k) {
-      entry.m[k] = min(link.spot[k], W(0));
-      entry.certain &= y[k] <= line.width[k];
-    }
-    return entry;
+    const Mask<W> beside =
+        (y.x() <= line.width.x()) & (y.y() <= line.width.y()) & (y.z() <= line.width.z());
+    return {each([&](int k) { return min(link.spot[k], W(0)); }), Mask<W>(link.meets & beside)};
   }
 
   /// Beside any of the faces. A joint lies after the hit if the distance there is the radius at
@@ -191,7 +200,7 @@ class RoundedBoxModel {
   T radius_;
   Vec3<W> from_, r_;
   T R_;
-  ModelHit<W> known_;
+  Mask<W> certain_ = Mask<W>(false);
 };
 
 }  // namespace minkray
