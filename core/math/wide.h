@@ -19,9 +19,6 @@
 #include <utility>
 
 #include "core/math/vec.h"
-#if defined(__AVX512VL__) && defined(__AVX512DQ__)
-#include "core/math/wide_mask_avx512.h"
-#endif
 
 namespace minkray {
 
@@ -32,14 +29,7 @@ struct IsaSse2 {
 struct IsaAvx2 {
   static constexpr std::size_t register_bytes = 32;
 };
-/// With AVX2 and FMA. Vectors of 32 bytes as there: what helps are masks with registers of their
-/// own, and twice as many registers (docs/decisions/packets.md).
-struct IsaAvx512 {
-  static constexpr std::size_t register_bytes = 32;
-};
-#if defined(__AVX512VL__) && defined(__AVX512DQ__)
-using IsaHere = IsaAvx512;
-#elif defined(__AVX2__)
+#if defined(__AVX2__)
 using IsaHere = IsaAvx2;
 #else
 using IsaHere = IsaSse2;
@@ -58,13 +48,6 @@ struct WideMask {
   explicit WideMask(Bits b) : bits(b) {}
   /// The same for all lanes.
   explicit WideMask(bool all) : bits(all ? Lanes() == Lanes() : Bits()) {}
-
-  static WideMask less(const Lanes& a, const Lanes& b) { return WideMask(a < b); }
-  static WideMask at_most(const Lanes& a, const Lanes& b) { return WideMask(a <= b); }
-  static WideMask equal(const Lanes& a, const Lanes& b) { return WideMask(a == b); }
-  static WideMask different(const Lanes& a, const Lanes& b) { return WideMask(a != b); }
-  /// From a where the answer is yes, elsewhere from b.
-  Lanes choose(const Lanes& a, const Lanes& b) const { return bits ? a : b; }
 
   bool lane(int i) const { return bits[i] != 0; }
   WideMask& operator&=(const WideMask& o) { return bits &= o.bits, *this; }
@@ -144,15 +127,15 @@ struct Wide {
   friend Wide operator*(const Wide& a, const Wide& b) { return Wide(a.lanes * b.lanes); }
   friend Wide operator/(const Wide& a, const Wide& b) { return Wide(a.lanes / b.lanes); }
 
-  friend Mask operator<(const Wide& a, const Wide& b) { return Mask::less(a.lanes, b.lanes); }
-  friend Mask operator>(const Wide& a, const Wide& b) { return Mask::less(b.lanes, a.lanes); }
-  friend Mask operator<=(const Wide& a, const Wide& b) { return Mask::at_most(a.lanes, b.lanes); }
-  friend Mask operator>=(const Wide& a, const Wide& b) { return Mask::at_most(b.lanes, a.lanes); }
-  friend Mask operator==(const Wide& a, const Wide& b) { return Mask::equal(a.lanes, b.lanes); }
-  friend Mask operator!=(const Wide& a, const Wide& b) { return Mask::different(a.lanes, b.lanes); }
+  friend Mask operator<(const Wide& a, const Wide& b) { return Mask(a.lanes < b.lanes); }
+  friend Mask operator>(const Wide& a, const Wide& b) { return Mask(a.lanes > b.lanes); }
+  friend Mask operator<=(const Wide& a, const Wide& b) { return Mask(a.lanes <= b.lanes); }
+  friend Mask operator>=(const Wide& a, const Wide& b) { return Mask(a.lanes >= b.lanes); }
+  friend Mask operator==(const Wide& a, const Wide& b) { return Mask(a.lanes == b.lanes); }
+  friend Mask operator!=(const Wide& a, const Wide& b) { return Mask(a.lanes != b.lanes); }
 
   friend Wide select(const Mask& condition, const Wide& a, const Wide& b) {
-    return Wide(condition.choose(a.lanes, b.lanes));
+    return Wide(condition.bits ? a.lanes : b.lanes);
   }
   /// As std::min and std::max: where a comparison with NaN fails, a. The machine's own answer its
   /// second argument there, and for zeros of either sign.
@@ -233,7 +216,7 @@ struct Wide {
   }
 
  private:
-  using Bits = decltype(Lanes() < Lanes());
+  using Bits = typename Mask::Bits;
   static constexpr int mantissa_bits = std::numeric_limits<T>::digits - 1;
   /// The least number without digits after the point; what exponents are stored larger by.
   static constexpr T ones = T(1) / std::numeric_limits<T>::epsilon();

@@ -42,12 +42,7 @@ void CastPacket<T>::set(int lane, const CastResult<T>& result) {
 InstructionSet best_instruction_set() {
 #if defined(__x86_64__)
   static const bool has_avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-  static const bool has_avx512 =
-      has_avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
-      __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw");
-  return has_avx512 ? InstructionSet::avx512
-         : has_avx2 ? InstructionSet::avx2
-                    : InstructionSet::sse2;
+  return has_avx2 ? InstructionSet::avx2 : InstructionSet::sse2;
 #else
   return InstructionSet::sse2;
 #endif
@@ -58,9 +53,7 @@ void cast_packet(const PreparedShape<T>& shape, const RayPacket<T>& rays, LaneBi
                  CastPacket<T>& answers, InstructionSet set) {
   answers.hit = answers.inside = answers.miss = 0;
   if (shape.model() != ModelKind::osculated_parts) {
-    if (set == InstructionSet::avx512)
-      packet_kernel_avx512(shape, rays, lanes, answers);
-    else if (set == InstructionSet::avx2)
+    if (set == InstructionSet::avx2)
       packet_kernel_avx2(shape, rays, lanes, answers);
     else
       packet_kernel_sse2(shape, rays, lanes, answers);

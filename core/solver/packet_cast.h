@@ -62,9 +62,8 @@ struct alignas(32) CastPacket {
   void set(int lane, const CastResult<T>& result);
 };
 
-/// What packets are compiled for, each with all before it; the best is the last that this machine
-/// has.
-enum class InstructionSet : unsigned char { sse2, avx2, avx512 };
+/// The widest instruction set that packets are compiled for and this machine has.
+enum class InstructionSet : unsigned char { sse2, avx2 };
 InstructionSet best_instruction_set();
 
 /// cast_ray for the lanes asked for. The instruction set must be one that the machine has.

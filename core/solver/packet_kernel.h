@@ -19,10 +19,4 @@ void packet_kernel_avx2(const PreparedShape<float>& shape, const RayPacket<float
 void packet_kernel_avx2(const PreparedShape<double>& shape, const RayPacket<double>& rays,
                         LaneBits lanes, CastPacket<double>& answers);
 
-/// Only on machines that also have AVX-512 F, VL, DQ and BW.
-void packet_kernel_avx512(const PreparedShape<float>& shape, const RayPacket<float>& rays,
-                          LaneBits lanes, CastPacket<float>& answers);
-void packet_kernel_avx512(const PreparedShape<double>& shape, const RayPacket<double>& rays,
-                          LaneBits lanes, CastPacket<double>& answers);
-
 }  // namespace minkray

@@ -57,8 +57,7 @@ std::string as_query(const Shape<T>& shape, const Ray<T>& ray) {
 template <class T>
 std::string check_packets(const PreparedShape<T>& prepared, const RayPacket<T>& rays,
                           LaneBits lanes) {
-  for (const InstructionSet set :
-       {InstructionSet::sse2, InstructionSet::avx2, InstructionSet::avx512}) {
+  for (const InstructionSet set : {InstructionSet::sse2, InstructionSet::avx2}) {
     if (set > best_instruction_set()) continue;
     CastPacket<T> answers{};
     cast_packet(prepared, rays, lanes, answers, set);
@@ -66,8 +65,8 @@ std::string check_packets(const PreparedShape<T>& prepared, const RayPacket<T>& 
       if (!(lanes & (LaneBits(1) << lane))) continue;
       const std::string bad = compare(cast_ray(prepared, rays.ray(lane)), answers.result(lane));
       if (!bad.empty())
-        return "lane " + std::to_string(lane) + ", instruction set " +
-               std::to_string(static_cast<int>(set)) + ": " + bad;
+        return "lane " + std::to_string(lane) +
+               (set == InstructionSet::sse2 ? ", SSE2" : ", AVX2") + ": " + bad;
     }
   }
   return "";
