@@ -151,7 +151,7 @@ class RoundedBoxModel {
       }
       return (squared <= W(radius_ * radius_)) | (change >= W(0));
     };
-    const W far(T(4) * R_);  // everything there is behind the shape, or before it
+    const W far(T(4) * R_);  // there the line is past the shape, or before it, on two axes alone
     Vec3<W> u, v;
     std::array<Mask<W>, 3> near;
     for (int k = 0; k < 3; ++k) {
