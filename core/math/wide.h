@@ -137,10 +137,39 @@ struct Wide {
   friend Wide select(const Mask& condition, const Wide& a, const Wide& b) {
     return Wide(condition.bits ? a.lanes : b.lanes);
   }
-  /// As std::min and std::max: where a comparison with NaN fails, a.
-  friend Wide min(const Wide& a, const Wide& b) { return select(b < a, b, a); }
-  friend Wide max(const Wide& a, const Wide& b) { return select(a < b, b, a); }
-  friend Wide abs(const Wide& a) { return Wide(Lanes(Bits(a.lanes) & ~Bits(sign_bit().lanes))); }
+  /// As std::min and std::max: where a comparison with NaN fails, a. The machine's own answer its
+  /// second argument there, and for zeros of either sign.
+  friend Wide min(const Wide& a, const Wide& b) {
+#if defined(__AVX2__)
+    if constexpr (sizeof(Lanes) == 32 && sizeof(T) == 4)
+      return Wide(Lanes(_mm256_min_ps(__m256(b.lanes), __m256(a.lanes))));
+    if constexpr (sizeof(Lanes) == 32 && sizeof(T) == 8)
+      return Wide(Lanes(_mm256_min_pd(__m256d(b.lanes), __m256d(a.lanes))));
+#elif defined(__SSE2__)
+    if constexpr (sizeof(Lanes) == 16 && sizeof(T) == 4)
+      return Wide(Lanes(_mm_min_ps(__m128(b.lanes), __m128(a.lanes))));
+    if constexpr (sizeof(Lanes) == 16 && sizeof(T) == 8)
+      return Wide(Lanes(_mm_min_pd(__m128d(b.lanes), __m128d(a.lanes))));
+#endif
+    return select(b < a, b, a);
+  }
+  friend Wide max(const Wide& a, const Wide& b) {
+#if defined(__AVX2__)
+    if constexpr (sizeof(Lanes) == 32 && sizeof(T) == 4)
+      return Wide(Lanes(_mm256_max_ps(__m256(b.lanes), __m256(a.lanes))));
+    if constexpr (sizeof(Lanes) == 32 && sizeof(T) == 8)
+      return Wide(Lanes(_mm256_max_pd(__m256d(b.lanes), __m256d(a.lanes))));
+#elif defined(__SSE2__)
+    if constexpr (sizeof(Lanes) == 16 && sizeof(T) == 4)
+      return Wide(Lanes(_mm_max_ps(__m128(b.lanes), __m128(a.lanes))));
+    if constexpr (sizeof(Lanes) == 16 && sizeof(T) == 8)
+      return Wide(Lanes(_mm_max_pd(__m128d(b.lanes), __m128d(a.lanes))));
+#endif
+    return select(a < b, b, a);
+  }
+  friend Wide abs(const Wide& a) {
+    return Wide(Lanes(Bits(a.lanes) & ~Bits(sign_bit().lanes)));
+  }
   friend Wide copysign(const Wide& size, const Wide& sign) {
     return Wide(Lanes(Bits(abs(size).lanes) | (Bits(sign.lanes) & Bits(sign_bit().lanes))));
   }

@@ -124,9 +124,9 @@ class AxialModel {
     using std::min;
     ModelHit<W> hit;
     Mask<W> meets;
-    hit.m = alone(first, meets);
-    W reach = first.reach(hit.m);
-    const Mask<W> settled = second.reach(hit.m) - reach <= rounding_;
+    Vec3<W> n = alone(first, meets);
+    W reach = first.reach(n);
+    const Mask<W> settled = second.reach(n) - reach <= rounding_;
     hit.certain = settled & meets;
     // Of a plane as steep as the ray, the hit is known no better than from the points around it.
     W lowest = W(-std::numeric_limits<T>::infinity()), highest = -lowest;
@@ -136,7 +136,7 @@ class AxialModel {
       const Mask<W> between = joined(first, second, m, low, high);
       lowest = select((!settled) & between, low, lowest);
       highest = select((!settled) & between, high, highest);
-      hit.m = select<W>(settled, hit.m, m);
+      n = select<W>(settled, n, m);
       reach = select(settled, reach, first.reach(m));
       hit.certain |= (!settled) & between;
       const Mask<W> open = !(settled | between);
@@ -144,17 +144,17 @@ class AxialModel {
         m = alone(second, meets);
         const W second_reach = second.reach(m);
         const Mask<W> last = open & (first.reach(m) - second_reach <= rounding_);
-        hit.m = select<W>(last, m, hit.m);
+        n = select<W>(last, m, n);
         reach = select(last, second_reach, reach);
         hit.certain |= last & meets;
       }
     }
-    const W z = -hit.m.dot(r_);
+    const W z = -n.dot(r_);
     const Mask<W> ahead = z > W(0);
     hit.certain &= ahead;
     hit.height = min(max(W(reach / select(ahead, z, W(1))), lowest), highest);
-    const Mask<W> some = hit.m.squaredNorm() > W(0);
-    if (!all(some)) hit.m = select<W>(some, hit.m, Vec3<W>(-r_));
+    const Mask<W> some = n.squaredNorm() > W(0);
+    hit.m = all(some) ? n : select<W>(some, n, Vec3<W>(-r_));
     return hit;
   }
 

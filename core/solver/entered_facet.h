@@ -26,8 +26,8 @@ struct EnteredFacet {
 
 /// Of a polytope without any. Others have `known`, whether there is a facet for a line;
 /// `entered`, the facet of the polytope; and `around`, one that is near where the line meets the
-/// polytope rounded by a radius. The line passes `from`, which is s from the bounding ball's
-/// centre.
+/// polytope rounded by a radius (but for boxes, which have a model of their own then). The line
+/// passes `from`, which is s from the bounding ball's centre.
 template <class W, class Core>
 struct Facets {
   static constexpr bool some = false;
@@ -42,21 +42,9 @@ struct Facets<W, Core> {
   static constexpr bool some = true;
   static bool known(const Core&) { return true; }
 
+  /// The last of its slabs.
   static EnteredFacet<W> entered(const Core& box, const Vec3<T>&, const Vec3<W>&,
                                  const Vec3<W>& from, const RayFrame<W>& frame) {
-    return grown(box, T(0), from, frame);
-  }
-
-  /// Lines that pass by the grown box pass by the rounded one.
-  static EnteredFacet<W> around(const Core& box, T radius, const Vec3<T>&, const Vec3<W>&,
-                                const Vec3<W>& from, const RayFrame<W>& frame) {
-    return grown(box, radius, from, frame);
-  }
-
- private:
-  /// With its faces moved out by the radius; the corner is one of the box itself.
-  static EnteredFacet<W> grown(const Core& box, T radius, const Vec3<W>& from,
-                               const RayFrame<W>& frame) {
     using std::abs;
     using std::copysign;
     const Vec3<W> r = -frame.z;
@@ -64,7 +52,7 @@ struct Facets<W, Core> {
     W last_in = -infinity, first_out = infinity, in_slope = W(1), out_slope = W(1);
     Vec3<W> in_normal = Vec3<W>::Zero(), out_normal = Vec3<W>::Zero();
     for (int axis = 0; axis < 3; ++axis) {
-      const W h = W(box.half_extents[axis] + radius), slope = abs(r[axis]);
+      const W h = W(box.half_extents[axis]), slope = abs(r[axis]);
       const W side = copysign(W(1), r[axis]), along = from[axis] * side;
       const Mask<W> crosses = slope > W(0), beside = abs(along) > h;
       const W safe = select(crosses, slope, W(1));

@@ -68,10 +68,8 @@ CastLanes<W> model_cast(const MakeModel& make_model, const RayNearBall<W>& near,
     return first_on_line<W>(model, half_extents, until, R, open, max_iterations, watch(sign));
   };
   // Where a line is tangent within rounding, one that is no further away enters at a steeper angle.
-  const auto first_of = [&](const Vec3<W>& direction, const W& until, const Mask<W>& open,
-                            const W& sign) {
-    LineHit<W> found = first_along(s, direction, until, open, sign);
-    if (!any(found.tangent)) return found;
+  const auto not_touching = [&](const LineHit<W>& found, const Vec3<W>& direction, const W& until,
+                                const W& sign) {
     const Vec3<W> pushed = s - found.normal * W(tolerance::tangent_push<T> * R);
     LineHit<W> again = first_along(pushed, direction, until, found.tangent, sign);
     again.supports += found.supports;
@@ -99,7 +97,14 @@ CastLanes<W> model_cast(const MakeModel& make_model, const RayNearBall<W>& near,
     const Mask<W> on_plane = abs(again.normal.dot(from_plane)) <= rounding;
     again.lambda = select(on_line & on_plane & (at <= until), at, again.lambda);
     again.lambda_above = max(again.lambda, again.lambda_above);
-    return pick(found.tangent, again, found);
+    return again;
+  };
+  const auto first_of = [&](const Vec3<W>& direction, const W& until, const Mask<W>& open,
+                            const W& sign) {
+    LineHit<W> found = first_along(s, direction, until, open, sign);
+    if (any(found.tangent))
+      found = pick(found.tangent, not_touching(found, direction, until, sign), found);
+    return found;
   };
   const LineHit<W> entry = first_of(r, end, castable, W(1));
   result.supports = entry.supports;

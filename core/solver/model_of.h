@@ -8,6 +8,7 @@
 #include "core/solver/model_cast.h"
 #include "core/solver/parts_model.h"
 #include "core/solver/polytope_model.h"
+#include "core/solver/rounded_box_model.h"
 #include "core/solver/shape_definition.h"
 #include "core/solver/smooth_model.h"
 #include "core/solver/superellipsoid_model.h"
@@ -27,6 +28,11 @@ template <class S, class W>
 inline constexpr bool is_ellipsoid = std::is_same_v<JetOf<S, W>, AxialEllipsoidJet<W>>;
 template <class S, class W>
 inline constexpr bool is_polytope = std::is_same_v<JetOf<S, W>, PointJet<W>>;
+/// Of polytopes, those that are a box around the origin.
+template <class S>
+inline constexpr bool is_box = requires(const S& shape) {
+  shape.half_extents;
+};
 template <class S, class W>
 inline constexpr bool has_gauge = requires(const S& shape, const Vec3<W>& u, const W& lambda) {
   shape.template gauge_along<W>(u, u, lambda);
@@ -62,7 +68,10 @@ auto with_model(const ShapeDefinition<Lane<W>>& definition, Use&& use) {
   };
   const auto rounded = [&]<class S>(const S& core, T radius) {
     return use([&, radius](const Vec3<W>& s, const Vec3<W>& r) {
-      return TranslatesModel<W, RoundedPolytope<W, S>>({core, radius}, centre, s, r, R);
+      if constexpr (detail::is_box<S>)
+        return RoundedBoxModel<W, S>(core, radius, centre, s, r, R);
+      else
+        return TranslatesModel<W, RoundedPolytope<W, S>>({core, radius}, centre, s, r, R);
     });
   };
   const auto translates = [&] {

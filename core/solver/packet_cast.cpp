@@ -60,6 +60,7 @@ void cast_packet(const PreparedShape<T>& shape, const RayPacket<T>& rays, LaneBi
   }
   // What is not cast at with a model, or exhausted it, goes one by one.
   const LaneBits open = lanes & ~(answers.hit | answers.inside | answers.miss);
+  if (!open) return;
   for (int lane = 0; lane < packet_lanes<T>; ++lane)
     if (open & (LaneBits(1) << lane)) answers.set(lane, cast_ray(shape, rays.ray(lane)));
 }

@@ -57,8 +57,9 @@ class PreparedShape {
   /// The ray in the inner frame, relative to the ball's centre; W is T or a packet of it.
   template <class W>
   RayNearBall<W> to_inner(const Ray<W>& ray) const {
-    const RayNearBall<W> near = ray_near(centre_, ray);
-    return is_rigid_identity_ ? near : near.mapped(to_inner_);
+    RayNearBall<W> near = ray_near(centre_, ray);
+    if (!is_rigid_identity_) near = near.mapped(to_inner_);
+    return near;  // not copied: a processor reads slowly what it has just written in parts
   }
 
   /// An inner normal in the outer frame, of unit length.

@@ -83,10 +83,11 @@ RayNearBall<W> ray_near(const Vec3<Lane<W>>& centre_of_ball, const Ray<W>& ray) 
   const W more_steps = -close.dot(direction) / squared;
   RayNearBall<W> near;
   near.s = along(close, more_steps);
-  near.r = direction * (W(1) / length);
+  const W per_length = W(1) / length;
+  near.r = direction * per_length;
   near.t_base = steps * first * second;
   near.t_shift = more_steps * first * second;
-  near.t_per_length = second / length * first;
+  near.t_per_length = second * per_length * first;
   near.lambda_min = -steps * length - more_steps * length;
   near.lambda_max =
       select(has_direction, W(ray.t_max * size * (W(1) / first) * length + near.lambda_min), W(0));
