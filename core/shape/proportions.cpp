@@ -105,10 +105,17 @@ void look_at(const Shape<T>& shape, const Stretch& stretch, Seen& seen) {
         } else if constexpr (std::is_same_v<S, Triangle<T>> || std::is_same_v<S, Segment<T>>) {
           look_at_points(kind, kind.points);
         } else if constexpr (std::is_same_v<S, Rounded<T>>) {
-          look_at(*kind.shape, stretch, seen);
-          if (kind.radius > T(0))
-            seen.least_rounding =
-                std::min(seen.least_rounding, double(kind.radius) * stretch.least);
+          // What is rounded that far is as thick as that, however thin its core.
+          const double radius = double(kind.radius);
+          const double size = double(bounds_of<T>(*kind.shape).half_extents().maxCoeff());
+          if (radius * most_askew > size) {
+            seen.add(size + radius, stretch);
+            seen.add(radius, stretch);
+          } else {
+            look_at(*kind.shape, stretch, seen);
+            if (radius > 0)
+              seen.least_rounding = std::min(seen.least_rounding, radius * stretch.least);
+          }
         } else if constexpr (std::is_same_v<S, MinkowskiDifference<T>>) {
           look_at(*kind.a, stretch, seen);
           look_at(*kind.b, stretch, seen);

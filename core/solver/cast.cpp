@@ -57,8 +57,10 @@ CastResult<T> cast_with_model(const PreparedShape<T>& shape, const RayNearBall<T
   const Ball<T>& ball = shape.inner_ball();
   const auto cast = [&](int max_iterations) {
     return [&, max_iterations](const auto& make_model) {
-      return result_of(model_cast<T>(make_model, near, ball, shape.inner_half_extents(), true,
-                                     max_iterations, observer));
+      CastLanes<T> lanes = model_cast<T>(make_model, near, ball, shape.inner_half_extents(), true,
+                                         max_iterations, observer);
+      if (lanes.doubtful && !shape.definition().is_smooth()) lanes.inside = false;
+      return result_of(lanes);
     };
   };
   const Shape<T>& any = shape.inner_shape();
@@ -234,8 +236,8 @@ CastResult<T> cast_near(const PreparedShape<T>& shape, const RayNearBall<T>& nea
     result = cast_proven(shape, near, options, observer);
   } else {
     result = cast_inner(shape, near, options, observer);
-    const bool is_doubtful =
-        result.status == Status::hit && -result.normal.dot(near.r) < tolerance::doubtful_slope<T>;
+    const bool is_doubtful = result.status == Status::hit && !shape.definition().is_smooth() &&
+                             -result.normal.dot(near.r) < tolerance::doubtful_slope<T>;
     if constexpr (std::is_same_v<T, double>)
       if (is_doubtful && is_exact(options)) result = cast_proven(shape, near, options, observer);
   }

@@ -14,6 +14,8 @@ struct CastLanes {
   Mask<W> hit = Mask<W>(false);
   Mask<W> inside = Mask<W>(false);
   Mask<W> miss = Mask<W>(false);
+  /// Inside, but between planes so steep that rounding decides, as where the line runs in a side.
+  Mask<W> doubtful = Mask<W>(false);
   W t_base = W(0), t_offset = W(0), offset_lo = W(0), offset_hi = W(0);
   Vec3<W> normal = Vec3<W>::Zero();
   W supports = W(0);
@@ -26,7 +28,6 @@ template <class W, class MakeModel, class Observer>
 CastLanes<W> model_cast(const MakeModel& make_model, const RayNearBall<W>& near,
                         const Ball<Lane<W>>& ball, const Vec3<Lane<W>>& half_extents,
                         const Mask<W>& active, int max_iterations, Observer&& observer) {
-  using std::abs;
   using std::max;
   using std::min;
   using std::sqrt;
@@ -85,17 +86,6 @@ CastLanes<W> model_cast(const MakeModel& make_model, const RayNearBall<W>& near,
     const W later = again.lambda + push / select(crosses, slope, W(1));
     const W latest = max(again.lambda, min(last, until));
     again.lambda = select(crosses & (later > again.lambda), min(later, latest), again.lambda);
-    // Touched at a point, such as a corner, that the plane found there holds as well: the plane may
-    // be so steep that it does not tell where on it, the point does.
-    const Vec3<W> touching = model.to_frame(found.normal);
-    const Vec3<W> spot = model.to_shape(model.support(touching).spot(touching));
-    again.supports += select(found.tangent, W(1), W(0));
-    const W at = spot.dot(direction);
-    const W rounding = W(tolerance::model_rounding<T> * R);
-    const Mask<W> on_line = (spot - direction * at).squaredNorm() <= rounding * rounding;
-    const Vec3<W> from_plane = spot - direction * again.lambda;
-    const Mask<W> on_plane = abs(again.normal.dot(from_plane)) <= rounding;
-    again.lambda = select(on_line & on_plane & (at <= until), at, again.lambda);
     again.lambda_above = max(again.lambda, again.lambda_above);
     return again;
   };
@@ -125,8 +115,9 @@ CastLanes<W> model_cast(const MakeModel& make_model, const RayNearBall<W>& near,
   result.hit = enters;
   // Where planes are so steep that their rounding is long, the model's hit is the better answer: it
   // lies between points of the shape. But not where the model is the steeper one.
-  const Mask<W> bounded =
-      (entry.lambda_above - entry.lambda) * z <= W(T(4) * tolerance::jet_gap<T> * R);
+  Mask<W> bounded = entry.lambda_above < W(std::numeric_limits<T>::infinity());
+  const W apart = select(bounded, W(entry.lambda_above - entry.lambda), W(0));
+  bounded &= apart * z <= W(T(4) * tolerance::jet_gap<T> * R);
   result.offset_lo = near.t_offset(entry.lambda);
   result.offset_hi = near.t_offset(entry.lambda_above);
   result.t_offset = select(bounded, result.offset_hi, result.offset_lo);
@@ -140,12 +131,10 @@ CastLanes<W> model_cast(const MakeModel& make_model, const RayNearBall<W>& near,
   const Mask<W> left = began & (exit.miss | (exit.hit & (-exit.lambda < near.lambda_min)));
   result.miss |= left;
   result.normal = select<W>(left, exit.normal, result.normal);
-  // Planes so steep that rounding decides between them: the GJK ray cast looks at the point itself.
-  Mask<W> encloses = exit.hit & !left;
+  result.inside = began & exit.hit & !left;
   constexpr T doubtful = tolerance::doubtful_slope<T>;
   if constexpr (doubtful != T(0))
-    encloses &= (z >= W(doubtful)) & (exit.normal.dot(r) >= W(doubtful));
-  result.inside = began & encloses;
+    result.doubtful = result.inside & !((z >= W(doubtful)) & (exit.normal.dot(r) >= W(doubtful)));
   const W start = near.t_offset(near.lambda_min);
   result.t_offset = select(result.inside, start, result.t_offset);
   result.offset_lo = select(result.inside, start, result.offset_lo);

@@ -47,12 +47,15 @@ void part(const PreparedShape<Lane<W>>& shape, const RayPacket<Lane<W>>& rays, L
                               (result.t_offset == result.t_offset) &
                               (result.offset_lo == result.offset_lo) &
                               (result.offset_hi == result.offset_hi);
-  // Doubtful hits are left to the single casts.
-  Mask<W> hit = result.hit & in_range & has_numbers;
+  // What is doubtful is left to the single casts.
+  Mask<W> hit = result.hit & in_range & has_numbers, inside = result.inside & has_numbers;
   constexpr T doubtful = tolerance::doubtful_slope<T>;
-  if constexpr (doubtful != T(0)) hit &= -result.normal.dot(near.r) >= W(doubtful);
+  if (doubtful != T(0) && !shape.definition().is_smooth()) {
+    hit &= -result.normal.dot(near.r) >= W(doubtful);
+    inside &= !result.doubtful;
+  }
   answers.hit |= lane_bits(hit) << from;
-  answers.inside |= lane_bits(result.inside & has_numbers) << from;
+  answers.inside |= lane_bits(inside) << from;
   const Mask<W> has_plane = normal.squaredNorm() > W(T(0));
   answers.miss |= lane_bits(result.miss & has_numbers & has_plane) << from;
   at_origin(result.t_base).store(answers.t_base.data() + from);

@@ -34,6 +34,11 @@ class ShapeDefinition {
   const ShapeDefinition<double>* in_double() const { return in_double_.get(); }
   /// Of extreme shapes: the inner shape in long double. Null for others.
   const Shape<long double>* in_long_double() const { return in_long_double_.get(); }
+  /// Has no corners; rounded ones are none.
+  bool is_smooth() const {
+    return model_ == ModelKind::smooth || model_ == ModelKind::ellipsoid_sum ||
+           model_ == ModelKind::rounded_points;
+  }
   /// Whether packets of rays have a solver of their own.
   bool has_packets() const { return !is_extreme_ && model_ != ModelKind::osculated_parts; }
 

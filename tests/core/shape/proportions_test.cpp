@@ -77,6 +77,7 @@ TEST(Proportions, parts_and_the_maps_around_them_count) {
   EXPECT_TRUE(is_extreme(HullOf<double>{{ball, Shape<double>(Disk<double>{1e17})}}));
   EXPECT_TRUE(is_extreme(Rounded<double>{1e-7, ball}));
   EXPECT_FALSE(is_extreme(Rounded<double>{1e-5, ball}));
+  EXPECT_FALSE(is_extreme(Rounded<double>{0.1, squeezed(1e-7)}));
 }
 
 }  // namespace
