@@ -153,7 +153,7 @@ class RoundedBoxModel {
     };
     const W far(T(4) * R_);  // there the line is past the shape, or before it, on two axes alone
     Vec3<W> u, v;
-    std::array<Mask<W>, 3> near;
+    Mask<W> near[3];
     for (int k = 0; k < 3; ++k) {
       const W into = min(max(line.into[k], W(-far)), far);
       const W past = line.into[k] + line.width[k] / max(line.v[k], W(parallel));

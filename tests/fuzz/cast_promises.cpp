@@ -12,6 +12,8 @@ constexpr Real allowed = 2048;
 /// Iterations of the search for a plane that keeps a claimed point off: a plane that it finds is
 /// proof, whatever it does not find.
 constexpr int most_steps = 24;
+/// Of the nearest point among so few: between nearly equal points it may go round in circles.
+constexpr int most_turns = 100;
 /// The longest cast: each of the jet cast, towards and back, the GJK ray cast and the portal cast
 /// (core/solver/tolerances.h), and then those in turn with a proof of each answer, which is four
 /// searches of 400 support points at most (core/solver/certificate.cpp).
@@ -190,7 +192,7 @@ std::string CastReferee<T>::check_claimed() {
       n /= length;
       if (const std::string bad = kept_off(claim, n); !bad.empty()) return bad;
       points.push_back((shape_.support(n) - centre_ - x) / radius_);
-      n = -radius_ * oracle::nearest_to_origin<3>(points);
+      n = -radius_ * oracle::nearest_to_origin<3>(points, most_turns);
     }
   }
   return "";

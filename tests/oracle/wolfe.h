@@ -15,7 +15,7 @@ template <int Dim>
 using Column = Eigen::Matrix<Real, Dim, 1>;
 
 template <int Dim>
-Column<Dim> nearest_to_origin(const std::vector<Column<Dim>>& points) {
+Column<Dim> nearest_to_origin(const std::vector<Column<Dim>>& points, int most_turns = 10000) {
   using Dynamic = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
   constexpr Real epsilon = 1e-17L;  // a few units in the last place of long double
   Real scale = 0;
@@ -31,7 +31,7 @@ Column<Dim> nearest_to_origin(const std::vector<Column<Dim>>& points) {
       x += weights(static_cast<Eigen::Index>(i)) * points[S[i]];
     return x;
   };
-  for (int major = 0; major < 10000; ++major) {
+  for (int major = 0; major < most_turns; ++major) {
     const Column<Dim> x = combination();
     std::size_t best = 0;
     for (std::size_t i = 1; i < points.size(); ++i)
