@@ -71,7 +71,7 @@ struct Stretch {
 
 template <class T>
 Stretch operator*(const Stretch& outer, const Mat3<T>& linear) {
-  const Mat3<double> M = linear.template cast<double>();
+  const Mat3<double>& M = linear.template cast<double>();
   const double size = M.cwiseAbs().maxCoeff();
   const Vec3<double> squares =
       principal_axes((M / size).transpose() * (M / size)).values.cwiseMax(0.0);

@@ -265,9 +265,9 @@ struct Candidate {
 
 /// A unit direction to begin with.
 Vec3<double> first_direction(const Claim& claim, const Vec3<double>& towards) {
-  const Vec3<double> normal = unit(claim.normal);
+  Vec3<double> normal = unit(claim.normal);
   if (normal.allFinite() && normal.squaredNorm() > 0) return normal;
-  const Vec3<double> other = unit(towards);
+  Vec3<double> other = unit(towards);
   return other.squaredNorm() > 0 ? other : Vec3<double>::UnitX();
 }
 
