@@ -57,7 +57,7 @@ double ratio_of_points(std::span<const Vec3<T>> points) {
     least = least.cwiseMin(along);
     most = most.cwiseMax(along);
   }
-  constexpr double roundings = 64;
+  constexpr double roundings = 64;  // of coordinates, a turn, and axes that are rounded as well
   const double coordinate = std::max(lower.cwiseAbs().maxCoeff(), upper.cwiseAbs().maxCoeff());
   return ratio_of(most - least,
                   roundings * double(std::numeric_limits<T>::epsilon()) * coordinate / size);

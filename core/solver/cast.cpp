@@ -131,10 +131,6 @@ template <class T, class Observer>
 CastResult<T> cast_near(const PreparedShape<T>& shape, const RayNearBall<T>& near,
                         const CastOptions<T>& options, Observer&& observer);
 
-template <class T, class Observer>
-CastResult<T> cast_near(const PreparedShape<T>& shape, const RayNearBall<T>& near,
-                        const CastOptions<T>& options, Observer&& observer);
-
 /// The GJK ray cast with three digits more, for slivers.
 CastResult<double> cast_in_long_double(const Shape<long double>& shape, const Ball<double>& ball,
                                        const RayNearBall<double>& near) {
@@ -155,11 +151,13 @@ CastResult<double> cast_in_long_double(const Shape<long double>& shape, const Ba
           found.supports};
 }
 
-/// The first answer that can be proven. If none can, the first of all: at shapes of extreme
-/// proportions as exhausted.
+/// `first`, if it can be proven, or else another solver's answer that can. If none can, `first`: at
+/// shapes of extreme proportions as exhausted.
 template <class Observer>
-CastResult<double> cast_proven(const PreparedShape<double>& shape, const RayNearBall<double>& near,
-                               CastOptions<double> options, Observer&& observer) {
+CastResult<double> prove_or_replace(const PreparedShape<double>& shape,
+                                    const RayNearBall<double>& near,
+                                    const CastOptions<double>& options,
+                                    const CastResult<double>& first, Observer&& observer) {
   ProvenCast best;
   int iterations = 0, supports = 0;
   const auto proves = [&](const CastResult<double>& answer) {
@@ -169,25 +167,24 @@ CastResult<double> cast_proven(const PreparedShape<double>& shape, const RayNear
     supports += cast.answer.supports;
     return cast.holds;
   };
-  const auto proves_with = [&](SolverKind solver) {
-    options.solver = solver;
-    return proves(cast_inner(shape, near, options, observer));
+  const auto others_prove = [&] {
+    if (options.solver != SolverKind::automatic && options.solver != SolverKind::jet) return false;
+    const Shape<long double>* exact = shape.definition().in_long_double();
+    return proves(cast_with(SolverKind::paper, shape, near, options, observer)) ||
+           (exact && proves(cast_in_long_double(*exact, shape.inner_ball(), near)));
   };
-  const Shape<long double>* exact = shape.definition().in_long_double();
-  if (options.solver == SolverKind::automatic || options.solver == SolverKind::jet)
-    proves_with(SolverKind::jet) || proves_with(SolverKind::paper) ||
-        (exact && proves(cast_in_long_double(*exact, shape.inner_ball(), near)));
-  else
-    proves_with(options.solver);
+  const bool holds = proves(first) || others_prove();
   best.answer.iterations = iterations;
   best.answer.supports = supports;
-  if (!best.holds && shape.definition().is_extreme()) best.answer.status = Status::exhausted;
+  if (!holds && shape.definition().is_extreme()) best.answer.status = Status::exhausted;
   return best.answer;
 }
 
+/// At a float shape of extreme proportions: the cast in double.
 template <class Observer>
-CastResult<float> cast_proven(const PreparedShape<float>& shape, const RayNearBall<float>& near,
-                              const CastOptions<float>& options, Observer&& observer) {
+CastResult<float> cast_through_double(const PreparedShape<float>& shape,
+                                      const RayNearBall<float>& near,
+                                      const CastOptions<float>& options, Observer&& observer) {
   const ShapeDefinition<double>& definition = *shape.definition().in_double();
   const auto placement = definition.placed({});
   const PreparedShape<double> exact(definition, placement.centre,
@@ -231,16 +228,22 @@ bool is_exact(const CastOptions<T>& options) {
 template <class T, class Observer>
 CastResult<T> cast_near(const PreparedShape<T>& shape, const RayNearBall<T>& near,
                         const CastOptions<T>& options, Observer&& observer) {
-  CastResult<T> result;
-  if (shape.definition().is_extreme() && is_exact(options)) {
-    result = cast_proven(shape, near, options, observer);
-  } else {
-    result = cast_inner(shape, near, options, observer);
-    const bool is_doubtful = result.status == Status::hit && !shape.definition().is_smooth() &&
-                             -result.normal.dot(near.r) < tolerance::doubtful_slope<T>;
-    if constexpr (std::is_same_v<T, double>)
-      if (is_doubtful && is_exact(options)) result = cast_proven(shape, near, options, observer);
-  }
+  const auto cast = [&]() -> CastResult<T> {
+    const bool is_extreme = shape.definition().is_extreme();
+    if constexpr (std::is_same_v<T, float>) {
+      if (is_extreme && is_exact(options))
+        return cast_through_double(shape, near, options, observer);
+      return cast_inner(shape, near, options, observer);
+    } else {
+      const CastResult<T> first = cast_inner(shape, near, options, observer);
+      const bool is_doubtful = first.status == Status::hit && !shape.definition().is_smooth() &&
+                               -first.normal.dot(near.r) < tolerance::doubtful_slope<T>;
+      if ((is_extreme || is_doubtful) && is_exact(options))
+        return prove_or_replace(shape, near, options, first, observer);
+      return first;
+    }
+  };
+  CastResult<T> result = cast();
   result.normal = shape.normal_to_outer(result.normal);
   // A direction so short that the hit's t is no number of T.
   if (result.status == Status::hit && !std::isfinite(result.t())) result.status = Status::exhausted;

@@ -10,13 +10,14 @@
 
 namespace minkray {
 
-/// Hits are moved to between the bounds of their certificate, where there is one. Otherwise
-/// `answer` as it is. `near` is relative to the ball's centre, the ball holds the shape, and the
-/// normal is in the shape's frame.
 struct ProvenCast {
   CastResult<double> answer;
   bool holds = false;
 };
+
+/// The answer, and whether a certificate of it holds. A hit is moved to the point that its
+/// certificate spans, if it has one. `near` is relative to the ball's centre, the ball holds the
+/// shape, and the normal is in the shape's frame.
 ProvenCast proven(const Shape<double>& shape, const Ball<double>& ball,
                   const RayNearBall<double>& near, const CastResult<double>& answer);
 

@@ -34,7 +34,7 @@ class ShapeDefinition {
   const ShapeDefinition<double>* in_double() const { return in_double_.get(); }
   /// Of extreme shapes: the inner shape in long double. Null for others.
   const Shape<long double>* in_long_double() const { return in_long_double_.get(); }
-  /// Has no corners; rounded ones are none.
+  /// Known to have no corners, for hits that just touch; of other smooth shapes it is not asked.
   bool is_smooth() const {
     return model_ == ModelKind::smooth || model_ == ModelKind::ellipsoid_sum ||
            model_ == ModelKind::rounded_points;

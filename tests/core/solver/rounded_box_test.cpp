@@ -5,6 +5,7 @@
 
 #include "core/shape/convert.h"
 #include "core/solver/cast.h"
+#include "tests/support/cast_truth.h"
 #include "tests/support/ray_families.h"
 #include "tests/support/rounded.h"
 
@@ -20,30 +21,14 @@ struct Form {
   Shape<double> shape() const { return Rounded<double>{radius, Shape<double>(Box{half_extents})}; }
 };
 
-struct Truth {
-  bool hit;
-  /// How far the line would have to be moved to just touch, at most: negative inside.
-  double beside;
-  Long t;
-  Vec3<Long> normal;  ///< of unit length
-};
-
 /// The distance from the box is convex along the line: least where it no longer falls, and before
 /// that the radius at the hit.
-Truth truth_of(const Form& form, const Ray<double>& ray) {
+CastTruth truth_of(const Form& form, const Ray<double>& ray) {
   const Vec3<Long> h = form.half_extents.cast<Long>(), o = ray.origin.cast<Long>(),
                    d = ray.direction.cast<Long>();
   const auto from_box = [&](Long t) -> Vec3<Long> {
     const Vec3<Long> x = o + t * d;
     return x - x.cwiseMax(-h).cwiseMin(h);
-  };
-  const auto bisected = [](Long low, Long high, const auto& is_before) {
-    for (int i = 0; i < 200; ++i) {
-      const Long middle = (low + high) / 2;
-      if (middle == low || middle == high) break;
-      (is_before(middle) ? low : high) = middle;
-    }
-    return high;
   };
   const Long radius = form.radius, around = 2 * (h.norm() + radius) / d.norm();
   const Long middle = -o.dot(d) / d.squaredNorm();
@@ -56,17 +41,6 @@ Truth truth_of(const Form& form, const Ray<double>& ray) {
   return {true, beside, t, from_box(t).normalized()};
 }
 
-struct Outcome {
-  int hits = 0, misses = 0, others = 0, supports = 0, most_supports = 0;
-  int wrong = 0;        ///< status, further from the silhouette than the band
-  double worst = 0;     ///< error of t times cosine, in units of R
-  double unproven = 0;  ///< how far the lower bound is behind the true hit, likewise
-};
-
-/// In units of R: how near to the silhouette either answer is right.
-template <class T>
-constexpr double band = std::is_same_v<T, float> ? 1e-6 : 1e-14;
-
 /// The shape as T holds it.
 template <class T>
 Form held(const Form& form) {
@@ -75,35 +49,19 @@ Form held(const Form& form) {
 }
 
 template <class T>
-void add_cast(Outcome& outcome, const Form& form, double R, const PreparedShape<T>& prepared,
+void add_cast(CastOutcome& outcome, const Form& form, double R, const PreparedShape<T>& prepared,
               const Ray<T>& ray) {
   const Ray<double> known = in_double(ray);
-  const Truth truth = truth_of(form, known);
-  const CastResult<T> result = cast_ray(prepared, ray);
-  const bool hit = result.status == Status::hit;
-  outcome.hits += hit;
-  outcome.misses += result.status == Status::miss;
-  outcome.others += !hit && result.status != Status::miss;
-  outcome.supports += result.supports;
-  outcome.most_supports = std::max(outcome.most_supports, result.supports);
-  if (hit != truth.hit && std::abs(truth.beside) > band<T> * R) ++outcome.wrong;
-  if (!hit || !truth.hit) return;
-  const Long across = -truth.normal.dot(known.direction.cast<Long>());
-  const auto error = [&](T offset) {
-    return static_cast<double>(
-        (static_cast<Long>(result.t_base) + static_cast<Long>(offset) - truth.t) * across / R);
-  };
-  outcome.worst = std::max(outcome.worst, std::abs(error(result.t_offset)));
-  outcome.unproven = std::max(outcome.unproven, error(result.offset_lo));
+  outcome.add(cast_ray(prepared, ray), truth_of(form, known), known.direction, R);
 }
 
 template <class T>
-Outcome cast_at(const Form& wanted, RayFamily family, int count) {
+CastOutcome cast_at(const Form& wanted, RayFamily family, int count) {
   const Form form = held<T>(wanted);
   const Shape<double> same = form.shape();
   const PreparedShape<T> prepared(convert<T>(same));
   FamilyRays rays(same, family, 83);
-  Outcome outcome;
+  CastOutcome outcome;
   for (int i = 0; i < count; ++i)
     add_cast<T>(outcome, form, rays.ball().radius, prepared, rounded_to<T>(rays.next()));
   return outcome;
@@ -138,7 +96,7 @@ void check_ordinary(RayFamily family) {
   for (const Form& form : forms()) {
     SCOPED_TRACE(name_of(form));
     const int count = 200;
-    const Outcome outcome = cast_at<T>(form, family, count);
+    const CastOutcome outcome = cast_at<T>(form, family, count);
     EXPECT_EQ(outcome.wrong, 0);
     EXPECT_EQ(outcome.others, 0);
     EXPECT_LE(outcome.worst, exactness<T>);
@@ -169,7 +127,7 @@ void check_degenerate() {
   for (const Form& form : forms()) {
     SCOPED_TRACE(name_of(form));
     const int count = 200;
-    const Outcome outcome = cast_at<T>(form, RayFamily::degenerate, count);
+    const CastOutcome outcome = cast_at<T>(form, RayFamily::degenerate, count);
     EXPECT_EQ(outcome.wrong, 0);
     EXPECT_EQ(outcome.others, 0);
     EXPECT_GT(outcome.hits, 0);
@@ -192,7 +150,7 @@ void check_hardly_rounded() {
     SCOPED_TRACE(roundings);
     const Form form{{1, 0.7, 0.5}, roundings * std::numeric_limits<T>::epsilon()};
     for (const RayFamily family : {RayFamily::random, RayFamily::grazing, RayFamily::degenerate}) {
-      const Outcome outcome = cast_at<T>(form, family, 500);
+      const CastOutcome outcome = cast_at<T>(form, family, 500);
       EXPECT_EQ(outcome.wrong, 0);
       EXPECT_EQ(outcome.others, 0);
       if (family != RayFamily::degenerate) {
@@ -221,7 +179,7 @@ void check_far_sides() {
   const PreparedShape<T> prepared(convert<T>(form.shape()));
   const double R = form.half_extents.norm() + form.radius;
   Random random(17);
-  Outcome outcome;
+  CastOutcome outcome;
   const int count = 3000;
   for (int i = 0; i < count; ++i) {
     const Vec3<double> n = random.direction();

@@ -5,6 +5,7 @@
 
 #include "core/shape/convert.h"
 #include "core/solver/cast.h"
+#include "tests/support/cast_truth.h"
 #include "tests/support/ray_families.h"
 #include "tests/support/rounded.h"
 
@@ -41,24 +42,7 @@ struct Line {
   }
 };
 
-Long bisected(Long low, Long high, const auto& is_before) {
-  for (int i = 0; i < 200; ++i) {
-    const Long middle = (low + high) / 2;
-    if (middle == low || middle == high) break;
-    (is_before(middle) ? low : high) = middle;
-  }
-  return high;
-}
-
-struct Truth {
-  bool hit;
-  /// How far the line would have to be moved to just touch, at most: negative inside.
-  double beside;
-  Long t;
-  Vec3<Long> normal;  ///< of unit length
-};
-
-Truth truth_of(const Line& line, Long R) {
+CastTruth truth_of(const Line& line, Long R) {
   const Long middle = -line.origin.dot(line.direction) / line.direction.squaredNorm();
   const Long ball = 2 * R / line.direction.norm();
   const Long least = bisected(middle - ball, middle + ball,
@@ -70,48 +54,21 @@ Truth truth_of(const Line& line, Long R) {
   return {true, beside, t, line.normal(t).normalized()};
 }
 
-struct Outcome {
-  int hits = 0, misses = 0, others = 0, supports = 0, most_supports = 0;
-  int wrong = 0;        ///< status, further from the silhouette than the band
-  double worst = 0;     ///< error of t times cosine, in units of R
-  double unproven = 0;  ///< how far the lower bound is behind the true hit, likewise
-};
-
-/// In units of R: how near to the silhouette either answer is right.
 template <class T>
-constexpr double band = std::is_same_v<T, float> ? 1e-6 : 1e-14;
-
-template <class T>
-Outcome cast_at(const Superellipsoid<double>& wanted, RayFamily family, int count) {
+CastOutcome cast_at(const Superellipsoid<double>& wanted, RayFamily family, int count) {
   const Shape<T> shape = convert<T>(Shape<double>(wanted));
   const Shape<double> same = convert<double>(shape);
   const auto& exact = std::get<Superellipsoid<double>>(same.kind);
   const PreparedShape<T> prepared(shape);
   FamilyRays rays(same, family, 83);
   const double R = rays.ball().radius;
-  Outcome outcome;
+  CastOutcome outcome;
   for (int i = 0; i < count; ++i) {
     const Ray<T> ray = rounded_to<T>(rays.next());
     const Ray<double> known = in_double(ray);
     const Line line{exact.radii.cast<Long>(), known.origin.cast<Long>(),
                     known.direction.cast<Long>(), exact.exponent};
-    const Truth truth = truth_of(line, R);
-    const CastResult<T> result = cast_ray(prepared, ray);
-    const bool hit = result.status == Status::hit;
-    outcome.hits += hit;
-    outcome.misses += result.status == Status::miss;
-    outcome.others += !hit && result.status != Status::miss;
-    outcome.supports += result.supports;
-    outcome.most_supports = std::max(outcome.most_supports, result.supports);
-    if (hit != truth.hit && std::abs(truth.beside) > band<T> * R) ++outcome.wrong;
-    if (!hit || !truth.hit) continue;
-    const Long across = -truth.normal.dot(line.direction);
-    const auto error = [&](T offset) {
-      return static_cast<double>(
-          (static_cast<Long>(result.t_base) + static_cast<Long>(offset) - truth.t) * across / R);
-    };
-    outcome.worst = std::max(outcome.worst, std::abs(error(result.t_offset)));
-    outcome.unproven = std::max(outcome.unproven, error(result.offset_lo));
+    outcome.add(cast_ray(prepared, ray), truth_of(line, R), known.direction, R);
   }
   return outcome;
 }
@@ -141,7 +98,7 @@ void check_ordinary(RayFamily family) {
   for (const Superellipsoid<double>& shape : shapes()) {
     SCOPED_TRACE(name_of(shape));
     const int count = 100;
-    const Outcome outcome = cast_at<T>(shape, family, count);
+    const CastOutcome outcome = cast_at<T>(shape, family, count);
     EXPECT_EQ(outcome.wrong, 0);
     EXPECT_EQ(outcome.others, 0);
     EXPECT_LE(outcome.worst, exactness<T>);
@@ -172,7 +129,7 @@ template <class T>
 void check_degenerate() {
   for (const Superellipsoid<double>& shape : shapes()) {
     SCOPED_TRACE(name_of(shape));
-    const Outcome outcome = cast_at<T>(shape, RayFamily::degenerate, 100);
+    const CastOutcome outcome = cast_at<T>(shape, RayFamily::degenerate, 100);
     EXPECT_EQ(outcome.wrong, 0);
     EXPECT_EQ(outcome.others, 0);
     // Casts that the GJK ray cast has finished are right to its own rounding.
@@ -192,7 +149,7 @@ TEST(Superellipsoid, of_extreme_exponents_is_hit_and_missed) {
   for (const double p : {1.0001, 1.01, 1e3, 1e6, 1e12}) {
     SCOPED_TRACE(p);
     const Superellipsoid<double> shape{{1, 0.7, 0.5}, p};
-    const Outcome outcome = cast_at<double>(shape, RayFamily::random, 300);
+    const CastOutcome outcome = cast_at<double>(shape, RayFamily::random, 300);
     EXPECT_EQ(outcome.wrong, 0);
     EXPECT_EQ(outcome.others, 0);
     EXPECT_LE(outcome.worst, static_cast<double>(tolerance::gjk_stalled<double>));

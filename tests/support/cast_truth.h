@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// Casts compared with truths in long double that need neither a solver nor support points.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/solver/result.h"
+
+namespace minkray::testing {
+
+/// What a line does at a shape.
+struct CastTruth {
+  bool hit;
+  /// How far the line would have to be moved to just touch, at most: negative inside.
+  double beside;
+  long double t;
+  Vec3<long double> normal;  ///< of unit length
+};
+
+/// Where is_before, true first and false then, turns between low and high.
+long double bisected(long double low, long double high, const auto& is_before) {
+  for (int i = 0; i < 200; ++i) {
+    const long double middle = (low + high) / 2;
+    if (middle == low || middle == high) break;
+    (is_before(middle) ? low : high) = middle;
+  }
+  return high;
+}
+
+/// In units of R: how near to the silhouette either answer is right.
+template <class T>
+constexpr double silhouette_band = std::is_same_v<T, float> ? 1e-6 : 1e-14;
+
+/// What became of many casts at one shape of bounding radius R.
+struct CastOutcome {
+  int hits = 0, misses = 0, others = 0, supports = 0, most_supports = 0;
+  int wrong = 0;        ///< status, further from the silhouette than the band
+  double worst = 0;     ///< error of t times cosine, in units of R
+  double unproven = 0;  ///< how far the lower bound is behind the true hit, likewise
+
+  template <class T>
+  void add(const CastResult<T>& result, const CastTruth& truth, const Vec3<double>& direction,
+           double R) {
+    using Long = long double;
+    const bool hit = result.status == Status::hit;
+    hits += hit;
+    misses += result.status == Status::miss;
+    others += !hit && result.status != Status::miss;
+    supports += result.supports;
+    most_supports = std::max(most_supports, result.supports);
+    if (hit != truth.hit && std::abs(truth.beside) > silhouette_band<T> * R) ++wrong;
+    if (!hit || !truth.hit) return;
+    const Long across = -truth.normal.dot(direction.cast<Long>());
+    const auto error = [&](T offset) {
+      return static_cast<double>((Long(result.t_base) + Long(offset) - truth.t) * across / R);
+    };
+    worst = std::max(worst, std::abs(error(result.t_offset)));
+    unproven = std::max(unproven, error(result.offset_lo));
+  }
+};
+
+}  // namespace minkray::testing
