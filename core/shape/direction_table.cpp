@@ -87,13 +87,12 @@ class ConeInSquare {
 
 }  // namespace
 
-DirectionTable::DirectionTable(const ConvexHull& hull, std::span<const Vec3<double>> vertices) {
+DirectionTable::DirectionTable(const ConvexHull& hull, std::span<const Vec3<double>> vertices)
+    : directions_(cells_per_vertex * static_cast<double>(vertices.size())) {
   // Only the extents' ratios matter to a direction; at most 1, they overflow at no scale.
   const Vec3<double> extents = hull.frame.extents / hull.frame.extents.maxCoeff();
-  rows_ = extents.asDiagonal() * hull.frame.axes.transpose();
-  resolution_ = static_cast<std::size_t>(
-      std::ceil(std::sqrt(cells_per_vertex / 6 * static_cast<double>(vertices.size()))));
-  begin_.reserve(6 * resolution_ * resolution_ + 1);
+  to_frame_ = extents.asDiagonal() * hull.frame.axes.transpose();
+  begin_.reserve(directions_.cells() + 1);
   begin_.push_back(0);
 
   std::vector<Vec3<double>> q;
@@ -112,16 +111,11 @@ DirectionTable::DirectionTable(const ConvexHull& hull, std::span<const Vec3<doub
   std::vector<std::size_t> seen_in(vertices.size(), 0);  // the last cell + 1 that looked at it
   ConeInSquare meets;
   std::uint32_t start = 0;
-  const double width = 2.0 / static_cast<double>(resolution_);
-  for (std::size_t cell = 0; cell < 6 * resolution_ * resolution_; ++cell) {
-    const std::size_t face = cell / (resolution_ * resolution_);
-    const double u = -1 + width * static_cast<double>(cell / resolution_ % resolution_);
-    const double v = -1 + width * static_cast<double>(cell % resolution_);
+  for (std::size_t cell = 0; cell < directions_.cells(); ++cell) {
+    const auto [axis, sign, u, v, width] = directions_[cell];
     const double u0 = u - widening, v0 = v - widening;
     const double u1 = u + width + widening, v1 = v + width + widening;
-    const Square square{static_cast<int>(face / 2),
-                        face % 2 == 0 ? 1.0 : -1.0,
-                        {Eigen::Vector2d(u0, v0), {u1, v0}, {u1, v1}, {u0, v1}}};
+    const Square square{axis, sign, {Eigen::Vector2d(u0, v0), {u1, v0}, {u1, v1}, {u0, v1}}};
 
     // From the support point of the cell's middle outwards: the cones that meet a convex cell hang
     // together by edges.

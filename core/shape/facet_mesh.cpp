@@ -7,10 +7,38 @@
 namespace minkray {
 namespace {
 
-/// Along one side of the cube map's faces; finer ones would leave the cache and save no steps.
-constexpr double finest_cube_map = 64;
+/// Cells of the cube map a facet: at 4 a walk over a sphere's hull takes two facets on average.
+constexpr double cells_per_facet = 4;
+
+/// More would leave the cache and save no steps.
+constexpr double most_cells = 6 * 64 * 64;
 
 }  // namespace
+
+template <class T>
+FacetMesh<T>::Facet::Facet(const std::array<Vec3<T>, 3>& counter_clockwise) {
+  for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      numbers_[corners + 3 * k + axis] = counter_clockwise[k][static_cast<int>(axis)];
+  find_normal();
+}
+
+template <class T>
+void FacetMesh<T>::Facet::find_normal() {
+  const Vec3<T> a = corner(0), b = corner(1), c = corner(2);
+  const Vec3<T> ab = b - a, bc = c - b, ac = c - a;
+  const Vec3<T> normal = unit<T>(ab.squaredNorm() < bc.squaredNorm() ? ab.cross(ac) : ac.cross(bc));
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    numbers_[normals + axis] = normal[static_cast<int>(axis)];
+}
+
+template <class T>
+void FacetMesh<T>::Facet::turn(std::size_t k) {
+  const auto first = numbers_.begin();
+  std::rotate(first, first + static_cast<std::ptrdiff_t>(3 * k), first + neighbours);
+  std::rotate(first + neighbours, first + static_cast<std::ptrdiff_t>(neighbours + k),
+              first + normals);
+}
 
 template <class T>
 FacetMesh<T>::FacetMesh(const ConvexHull& hull, std::span<const Vec3<double>> vertices) {
@@ -19,11 +47,9 @@ FacetMesh<T>::FacetMesh(const ConvexHull& hull, std::span<const Vec3<double>> ve
     const std::span<const std::uint32_t> polygon = hull.facets[f];
     for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
       corners.push_back({polygon[0], polygon[i], polygon[i + 1]});
-      const Vec3<double>&a = vertices[polygon[0]], &b = vertices[polygon[i]],
-            &c = vertices[polygon[i + 1]];
-      facets_.push_back({{a.cast<T>(), b.cast<T>(), c.cast<T>()},
-                         unit<double>((b - a).cross(c - a)).template cast<T>(),
-                         {0, 0, 0}});
+      const typename FacetMesh<double>::Facet facet(
+          {vertices[polygon[0]], vertices[polygon[i]], vertices[polygon[i + 1]]});
+      facets_.push_back(facet.template cast<T>());
     }
   }
   link_neighbours(corners);
@@ -42,39 +68,38 @@ void FacetMesh<T>::link_neighbours(std::span<const std::array<std::uint32_t, 3>>
     for (std::uint32_t k = 0; k < 3; ++k) {
       const std::uint32_t a = corners[f][k], b = corners[f][(k + 1) % 3];
       edges.push_back({std::min(a, b), std::max(a, b), f, k});
-      facets_[f].neighbours[k] = f;  // until its neighbour is found
+      facets_[f].numbers_[Facet::neighbours + k] =
+          static_cast<T>(f);  // until its neighbour is found
     }
   }
   std::sort(edges.begin(), edges.end());
   for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
     const Edge &a = edges[i], &b = edges[i + 1];
     if (a < b) continue;
-    facets_[a.facet].neighbours[a.side] = b.facet;
-    facets_[b.facet].neighbours[b.side] = a.facet;
+    facets_[a.facet].numbers_[Facet::neighbours + a.side] = static_cast<T>(b.facet);
+    facets_[b.facet].numbers_[Facet::neighbours + b.side] = static_cast<T>(a.facet);
   }
 }
 
 template <class T>
 void FacetMesh<T>::fill_cube_map() {
-  resolution_ = static_cast<std::size_t>(std::clamp(
-      std::ceil(std::sqrt(static_cast<double>(facets_.size()) / 6)), 1.0, finest_cube_map));
-  const double width = 2.0 / static_cast<double>(resolution_);
+  directions_ =
+      CubeMap(std::min(cells_per_facet * static_cast<double>(facets_.size()), most_cells));
   std::uint32_t at = 0;
-  for (std::size_t cell = 0; cell < 6 * resolution_ * resolution_; ++cell) {
-    const std::size_t face = cell / (resolution_ * resolution_);
-    const int axis = static_cast<int>(face / 2);
+  for (std::size_t cell = 0; cell < directions_.cells(); ++cell) {
+    const CubeMap::Cell square = directions_[cell];
     Vec3<T> direction;
-    direction[axis] = face % 2 == 0 ? T(1) : T(-1);
-    direction[(axis + 1) % 3] =
-        static_cast<T>(-1 + width * (0.5 + static_cast<double>(cell / resolution_ % resolution_)));
-    direction[(axis + 2) % 3] =
-        static_cast<T>(-1 + width * (0.5 + static_cast<double>(cell % resolution_)));
+    direction[square.axis] = static_cast<T>(square.sign);
+    direction[(square.axis + 1) % 3] = static_cast<T>(square.u + square.width / 2);
+    direction[(square.axis + 2) % 3] = static_cast<T>(square.v + square.width / 2);
     // Uphill from the last cell's.
     for (bool climbed = true; climbed;) {
       climbed = false;
-      for (const std::uint32_t other : facets_[at].neighbours)
-        if (facets_[other].normal.dot(direction) > facets_[at].normal.dot(direction))
-          at = other, climbed = true;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t other = facets_[at].neighbour(k);
+        if (facets_[other].normal().dot(direction) > facets_[at].normal().dot(direction))
+          at = static_cast<std::uint32_t>(other), climbed = true;
+      }
     }
     facing_.push_back(at);
   }
@@ -82,5 +107,6 @@ void FacetMesh<T>::fill_cube_map() {
 
 template class FacetMesh<float>;
 template class FacetMesh<double>;
+template class FacetMesh<long double>;  // for oracles
 
 }  // namespace minkray

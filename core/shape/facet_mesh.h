@@ -3,24 +3,69 @@
 // the polytope can be found by walking from triangle to triangle.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "core/math/vec.h"
+#include "core/math/gather_rows.h"
 #include "core/shape/convex_hull.h"
+#include "core/shape/cube_map.h"
 
 namespace minkray {
 
-/// Polygons are cut into fans of triangles. Everything that a step of a walk needs lies together.
+/// Polygons are cut into fans of triangles. All that a step of a walk needs lies together, as
+/// numbers that packets of rays read a row at a time.
 template <class T>
 class FacetMesh {
  public:
-  struct Facet {
-    std::array<Vec3<T>, 3> corners;  ///< counter-clockwise from outside
-    Vec3<T> normal;                  ///< outward, of unit length; zero of a triangle without area
-    std::array<std::uint32_t, 3> neighbours;  ///< facets: beyond the edge from corner k to k + 1
+  class Facet {
+   public:
+    /// Where the numbers begin: of three corners, three neighbours, the normal, and a 1 where the
+    /// facet is supported.
+    static constexpr std::size_t corners = 0, neighbours = 9, normals = 12, supported = 15;
+    static constexpr std::size_t size = 16;
+
+    Facet() = default;
+    explicit Facet(const std::array<Vec3<T>, 3>& counter_clockwise);
+
+    /// Counter-clockwise from outside.
+    Vec3<T> corner(std::size_t k) const { return vector_at(corners + 3 * k); }
+    /// Outward, of unit length; zero of a triangle without area.
+    Vec3<T> normal() const { return vector_at(normals); }
+    /// The facet beyond the edge from corner k to k + 1.
+    std::size_t neighbour(std::size_t k) const {
+      return static_cast<std::size_t>(numbers_[neighbours + k]);
+    }
+    /// No vertex of the hull reaches further along the normal than corner 0.
+    bool is_supported() const { return numbers_[supported] != T(0); }
+
+    /// Rounded to U; whether it is supported is not known then. Where U is more precise, the normal
+    /// is found again, since this one is rounded to T.
+    template <class U>
+    typename FacetMesh<U>::Facet cast() const {
+      typename FacetMesh<U>::Facet converted;
+      std::transform(numbers_.begin(), numbers_.end(), converted.numbers_.begin(),
+                     [](T x) { return static_cast<U>(x); });
+      converted.numbers_[supported] = U(0);
+      if constexpr (std::numeric_limits<U>::digits > std::numeric_limits<T>::digits)
+        converted.find_normal();
+      return converted;
+    }
+
+   private:
+    template <class U>
+    friend class FacetMesh;
+    Vec3<T> vector_at(std::size_t i) const {
+      return {numbers_[i], numbers_[i + 1], numbers_[i + 2]};
+    }
+    /// By way of the shorter edges, whose rounding is least.
+    void find_normal();
+    /// Corner k becomes corner 0.
+    void turn(std::size_t k);
+
+    alignas(4 * sizeof(T)) std::array<T, size> numbers_ = {};
   };
 
   /// Of a hull of rank 3; `vertices` are its vertices in order.
@@ -30,15 +75,24 @@ class FacetMesh {
   FacetMesh<U> cast() const {
     FacetMesh<U> converted;
     converted.facets_.reserve(facets_.size());
-    for (const Facet& f : facets_)
-      converted.facets_.push_back(
-          {{f.corners[0].template cast<U>(), f.corners[1].template cast<U>(),
-            f.corners[2].template cast<U>()},
-           f.normal.template cast<U>(),
-           f.neighbours});
-    converted.resolution_ = resolution_;
+    for (const Facet& facet : facets_) converted.facets_.push_back(facet.template cast<U>());
+    converted.directions_ = directions_;
     converted.facing_ = facing_;
     return converted;
+  }
+
+  /// Finds out which facets are supported, and by which corner: furthest(n) is the hull's support
+  /// point in direction n.
+  template <class Furthest>
+  void find_supported(Furthest&& furthest) {
+    for (Facet& facet : facets_) {
+      const Vec3<T> normal = facet.normal();
+      if (!(normal.squaredNorm() > T(0))) continue;
+      const auto reach = [&](std::size_t k) { return normal.dot(facet.corner(k)); };
+      facet.turn(reach(1) > reach(0) ? (reach(2) > reach(1) ? 2 : 1)
+                                     : (reach(2) > reach(0) ? 2 : 0));
+      facet.numbers_[Facet::supported] = reach(0) >= normal.dot(furthest(normal)) ? T(1) : T(0);
+    }
   }
 
   const Facet& operator[](std::size_t i) const { return facets_[i]; }
@@ -47,7 +101,14 @@ class FacetMesh {
   /// The index of a facet whose normal is near the direction n, of any length. NaN gets some facet.
   template <class W>
   W facing(const Vec3<W>& n) const {
-    return lookup<W>(cell_of(n), [&](std::size_t cell) { return static_cast<T>(facing_[cell]); });
+    return lookup<W>(directions_.cell_of(n),
+                     [&](std::size_t cell) { return static_cast<T>(facing_[cell]); });
+  }
+
+  /// `count` numbers of each lane's facet, beginning with number `first`.
+  template <std::size_t first, std::size_t count, class W>
+  std::array<W, count> numbers(const W& facet) const {
+    return gather_row<count>(facet, facets_.front().numbers_.data() + first, Facet::size);
   }
 
   std::size_t memory_bytes() const {
@@ -59,36 +120,16 @@ class FacetMesh {
   friend class FacetMesh;
   FacetMesh() = default;
 
-  /// The cube's face by the largest component, the cell in it by the ratios of the others to it.
-  template <class W>
-  W cell_of(const Vec3<W>& n) const {
-    using std::abs;
-    const W x = abs(n.x()), y = abs(n.y()), z = abs(n.z());
-    const Mask<W> along_x = (x >= y) & (x >= z), along_y = (!along_x) & (y >= z);
-    const auto by_axis = [&](const W& if_x, const W& if_y, const W& if_z) {
-      return select(along_x, if_x, select(along_y, if_y, if_z));
-    };
-    const W largest = by_axis(n.x(), n.y(), n.z()), over = W(1) / abs(largest);
-    const W cells = W(static_cast<T>(resolution_)), last = cells - W(1);
-    const auto index = [&](const W& component) {
-      W scaled = (component * over + W(1)) * (W(T(0.5)) * cells);
-      scaled = select(scaled > W(0), scaled, W(0));  // in this order: NaN falls to 0
-      return whole(select(scaled < last, scaled, last));
-    };
-    const W face = by_axis(W(0), W(2), W(4)) + select(largest < W(0), W(1), W(0));
-    return (face * cells + index(by_axis(n.y(), n.z(), n.x()))) * cells +
-           index(by_axis(n.z(), n.x(), n.y()));
-  }
-
   void link_neighbours(std::span<const std::array<std::uint32_t, 3>> corners);
   void fill_cube_map();
 
   std::vector<Facet> facets_;
-  std::size_t resolution_ = 1;
-  std::vector<std::uint32_t> facing_;  ///< by cell of a cube map
+  CubeMap directions_{1};
+  std::vector<std::uint32_t> facing_;  ///< by the direction's cell
 };
 
 extern template class FacetMesh<float>;
 extern template class FacetMesh<double>;
+extern template class FacetMesh<long double>;
 
 }  // namespace minkray

@@ -24,6 +24,10 @@ struct Hull {
   Vec3<W> support(const Vec3<W>& n) const {
     return points.support(n);
   }
+  template <class W>
+  Vec3<W> support_where(const Mask<W>& wanted, const Vec3<W>& n) const {
+    return points.support_where(wanted, n);
+  }
 
   template <class W>
   PointJet<W> jet(const Vec3<W>& n) const {

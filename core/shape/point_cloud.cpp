@@ -36,10 +36,10 @@ PointCloud<T>::PointCloud(std::vector<Vec3<T>> points, std::string source)
   std::vector<Vec3<double>> vertices;
   vertices.reserve(hull.vertices.size());
   for (const std::uint32_t v : hull.vertices) vertices.push_back(exact[v]);
-  if (hull.rank() == 3 && vertices.size() <= most_vertices_with_facets)
-    facets_ = std::make_shared<const FacetMesh<T>>(hull, vertices);
   if (vertices.size() >= table_from)
     table_ = std::make_shared<const DirectionTable>(hull, vertices);
+  if (hull.rank() == 3 && vertices.size() <= most_vertices_with_facets)
+    facets_ = with_supports(FacetMesh<T>(hull, vertices));
 }
 
 namespace {
@@ -61,19 +61,27 @@ std::size_t furthest_of(const Vec3<T>* points, std::size_t size, Index&& index, 
 }  // namespace
 
 template <class T>
-std::size_t PointCloud<T>::furthest(const Vec3<T>& n) const {
+std::size_t PointCloud<T>::furthest(const Vec3<T>& n, T cell) const {
   const Vec3<T>* const points = points_->data();
   if (!table_)
     return furthest_of(
         points, points_->size(), [](std::size_t i) { return i; }, n);
-  const std::span<const std::uint32_t> list = table_->candidates(n);
+  const std::span<const std::uint32_t> list = table_->candidates(static_cast<std::size_t>(cell));
   return furthest_of(
       points, list.size(), [&](std::size_t i) { return list[i]; }, n);
+}
+
+template <class T>
+std::shared_ptr<const FacetMesh<T>> PointCloud<T>::with_supports(FacetMesh<T> facets) const {
+  facets.find_supported([&](const Vec3<T>& n) { return support(n); });
+  return std::make_shared<const FacetMesh<T>>(std::move(facets));
 }
 
 template class PointCloud<float>;
 template class PointCloud<double>;
 // For oracles.
-template std::size_t PointCloud<long double>::furthest(const Vec3<long double>&) const;
+template std::size_t PointCloud<long double>::furthest(const Vec3<long double>&, long double) const;
+template std::shared_ptr<const FacetMesh<long double>> PointCloud<long double>::with_supports(
+    FacetMesh<long double>) const;
 
 }  // namespace minkray

@@ -38,18 +38,23 @@ class PointCloud {
     for (const Vec3<T>& p : *points_) points->push_back(p.template cast<U>());
     converted.points_ = std::move(points);
     converted.table_ = table_;
-    if (facets_)
-      converted.facets_ = std::make_shared<const FacetMesh<U>>(facets_->template cast<U>());
+    if (facets_) converted.facets_ = converted.with_supports(facets_->template cast<U>());
     converted.source_ = source_;
     return converted;
   }
 
   template <class W>
   Vec3<W> support(const Vec3<W>& n) const {
+    return support_where(Mask<W>(true), n);
+  }
+
+  /// In the lanes that `wanted` names; in others any of the points.
+  template <class W>
+  Vec3<W> support_where(const Mask<W>& wanted, const Vec3<W>& n) const {
     if constexpr (std::floating_point<W>)
-      return (*points_)[furthest(n)];
+      return (*points_)[wanted ? furthest(n, table_ ? table_->cell_of(n) : W(0)) : 0];
     else
-      return table_ ? furthest_by_lane(n) : furthest_of_all(n);
+      return table_ ? furthest_by_lane(wanted, n) : furthest_of_all(n);
   }
 
   std::size_t memory_bytes() const {
@@ -61,14 +66,20 @@ class PointCloud {
   template <class U>
   friend class PointCloud;
 
-  /// The index of a point furthest along n. Not inline: packets of every instruction set call it.
-  std::size_t furthest(const Vec3<T>& n) const;
+  /// The index of a point furthest along n, a direction of this cell of the table's, if there is a
+  /// table. Not inline: packets of every instruction set call it.
+  std::size_t furthest(const Vec3<T>& n, T cell) const;
+
+  /// These, which know now where they touch the hull.
+  std::shared_ptr<const FacetMesh<T>> with_supports(FacetMesh<T> facets) const;
 
   /// The table has a list for each lane of its own.
   template <class W>
-  Vec3<W> furthest_by_lane(const Vec3<W>& n) const {
+  Vec3<W> furthest_by_lane(const Mask<W>& wanted, const Vec3<W>& n) const {
+    const W cell = table_->cell_of(n);
     return per_lane<W>([&](int lane) {
-      return (*points_)[furthest(Vec3<T>(n.x().lane(lane), n.y().lane(lane), n.z().lane(lane)))];
+      const Vec3<T> of_lane(n.x().lane(lane), n.y().lane(lane), n.z().lane(lane));
+      return (*points_)[wanted.lane(lane) ? furthest(of_lane, cell.lane(lane)) : 0];
     });
   }
 

@@ -28,7 +28,9 @@ class EllipsoidModel {
   const Vec3<W>& to_shape(const Vec3<W>& n) const { return n; }
   W against_ray(const Vec3<W>& n) const { return -n.dot(r_); }
 
-  Piece support(const Vec3<W>& n) const { return {Vec3<W>(-s_), shape_.jet(n).radii}; }
+  Piece support(const Vec3<W>& n, const Mask<W>&) const {
+    return {Vec3<W>(-s_), shape_.jet(n).radii};
+  }
 
   ModelHit<W> begin(const Vec3<Lane<W>>&) const {
     return step({Vec3<W>(-s_), widen<W>(shape_.radii)}, s_, 0);
@@ -91,14 +93,16 @@ class AxialModel {
   const Vec3<W>& to_shape(const Vec3<W>& n) const { return n; }
   W against_ray(const Vec3<W>& n) const { return -n.dot(r_); }
 
-  Piece support(const Vec3<W>& n) const {
+  Piece support(const Vec3<W>& n, const Mask<W>&) const {
     const JetHere jet = shape_.jet(n);
     return {{-s_.x(), -s_.y(), jet.z - centre_z_ - s_.z()}, jet.radius};
   }
 
   /// The piece that faces the ray is tried first.
   ModelHit<W> begin(const Vec3<T>&) {
-    const Piece upper = support({W(0), W(0), W(1)}), lower = support({W(0), W(0), W(-1)});
+    const Mask<W> all_lanes(true);
+    const Piece upper = support({W(0), W(0), W(1)}, all_lanes);
+    const Piece lower = support({W(0), W(0), W(-1)}, all_lanes);
     const Mask<W> from_above = r_.z() < W(0);
     first_ = pick(from_above, upper, lower);
     second_ = pick(from_above, lower, upper);

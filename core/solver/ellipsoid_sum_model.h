@@ -39,7 +39,7 @@ class EllipsoidSumModel {
   const Vec3<W>& to_shape(const Vec3<W>& n) const { return n; }
   W against_ray(const Vec3<W>& n) const { return -n.dot(r_); }
 
-  Piece support(const Vec3<W>& n) const {
+  Piece support(const Vec3<W>& n, const Mask<W>&) const {
     return {Vec3<W>(shape_.template support<W>(n) - (widen<W>(centre_) + s_))};
   }
 
@@ -58,7 +58,7 @@ class EllipsoidSumModel {
     using std::abs;
     if (!smooth_) smooth_.emplace(shape_, centre_, s_, r_, R_);
     const Vec3<W> n_frame = smooth_->to_frame(n);
-    ModelHit<W> hit = smooth_->step(smooth_->support(n_frame), n_frame, iteration);
+    ModelHit<W> hit = smooth_->step(smooth_->support(n_frame, Mask<W>(true)), n_frame, iteration);
     hit.m = smooth_->to_shape(hit.m);
     // Across the ray nothing reaches less than the direction that was asked for.
     hit.repeated |= across_;

@@ -12,14 +12,17 @@ namespace minkray {
 /// In the ray's frame: the ray runs down the z axis.
 template <class W>
 struct EnteredFacet {
-  Mask<W> known = Mask<W>(false);   ///< there is an answer
-  Mask<W> enters = Mask<W>(false);  ///< the line passes through the facet
+  Mask<W> known = Mask<W>(false);  ///< there is an answer
+  /// The line passes through the facet; of `around`, the facet moved outwards.
+  Mask<W> enters = Mask<W>(false);
+  /// No point of the polytope is further along the facet's normal than `corner`.
+  Mask<W> supported = Mask<W>(false);
   /// Outward, of unit length: the facet's. Of a line that passes by, one at right angles to it in
   /// which the line lies beyond the polytope.
   Vec3<W> normal = Vec3<W>::Zero();
   Vec3<W> in_shape = Vec3<W>::Zero();  ///< the normal in the shape's frame
-  W height = W(0);                     ///< the line enters at lambda = -height
-  Vec3<W> corner;                      ///< one of the facet's; of `around`, the nearest to the line
+  W height = W(0);                     ///< the line enters at lambda = -height, if it does
+  Vec3<W> corner;                      ///< one of the facet's
   std::array<Vec3<W>, 3> neighbours;   ///< corners beside it
   std::array<Mask<W>, 3> there = {Mask<W>(false), Mask<W>(false), Mask<W>(false)};  ///< which
 };
@@ -72,6 +75,7 @@ struct Facets<W, Core> {
     EnteredFacet<W> facet;
     facet.known = Mask<W>(true);
     facet.enters = last_in <= first_out;
+    facet.supported = facet.enters;
     facet.there = {facet.enters, facet.enters, facet.enters};
     facet.height = -last_in;
     facet.normal = in_normal;
@@ -113,46 +117,51 @@ struct Facets<W, Core> {
     using std::max;
     using std::min;
     const FacetMesh<T>& mesh = *hull.points.facets();
-    const Vec3<W> start =
-        normal_on_extents<W>(half_extents, s, Vec3<W>(-frame.z)) + frame.z * W(towards_ray);
+    const Vec3<W> guess = normal_on_extents<W>(half_extents, s, Vec3<W>(-frame.z));
 
     EnteredFacet<W> facet;
-    W at = mesh.facing(start);
+    W at = mesh.facing(Vec3<W>(guess + frame.z * W(towards_ray)));
     Mask<W> open = Mask<W>(true), stepped = Mask<W>(false), beside = Mask<W>(false);
     Vec3<W> outline = Vec3<W>::Zero();
     std::array<Vec3<W>, 3> corners = {Vec3<W>::Zero(), Vec3<W>::Zero(), Vec3<W>::Zero()};
     for (int step = 0; step < max_steps; ++step) {
-      std::array<Vec3<W>, 3> p;
-      for (std::size_t k = 0; k < 3; ++k)
-        p[k] = frame.into(gather<W>(at, [&](std::size_t i) { return mesh[i].corners[k]; }) - from);
+      const auto row = mesh.template numbers<Row::corners, Row::normals>(at);
+      const std::array<Vec3<W>, 3> p = corners_of(row, from, frame);
       const W a = cross_2d(p[0], p[1]), b = cross_2d(p[1], p[2]), c = cross_2d(p[2], p[0]);
-      const Mask<W> faces = open & (a + b + c > W(0));
-      beside |= open & stepped & !faces;
-      open = faces;
+      const Mask<W> away = open & !(a + b + c > W(0));
+      const Mask<W> lost = step < tries ? Mask<W>(away & !stepped) : Mask<W>(false);
+      beside |= away & stepped;
+      open &= !away;
       for (std::size_t k = 0; k < 3; ++k) corners[k] = select<W>(open, p[k], corners[k]);
       facet.known |= open;
       const Mask<W> within = open & (a >= W(0)) & (b >= W(0)) & (c >= W(0));
       facet.enters |= within;
       open &= !within;
-      if (!any(open)) break;
+      if (!any(open | lost)) break;
 
       const Mask<W> by_b = b < a, by_c = (c < a) & (c < b);
       const Vec3<W> begin = select<W>(by_c, p[2], select<W>(by_b, p[1], p[0]));
       const Vec3<W> end = select<W>(by_c, p[0], select<W>(by_b, p[2], p[1]));
       outline = select<W>(open, Vec3<W>(end.y() - begin.y(), begin.x() - end.x(), W(0)), outline);
-      const Vec3<W> next = gather<W>(at, [&](std::size_t i) {
-        const auto& neighbours = mesh[i].neighbours;
-        return Vec3<T>(T(neighbours[0]), T(neighbours[1]), T(neighbours[2]));
-      });
-      at = select(open, select(by_c, next.z(), select(by_b, next.y(), next.x())), at);
+      at = select(open, beyond(row, by_b, by_c), at);
       stepped |= open;
+      if (any(lost)) at = select(lost, further_towards_ray(mesh, guess, frame, step), at);
+      open |= lost;
     }
 
-    // Of these corners, so that the plane is theirs to the last digit; none if they are in line.
-    facet.normal = upper_normal(corners[0], corners[1], corners[2]);
-    if (any(beside)) facet.normal = select<W>(beside, unit<W>(outline), facet.normal);
+    const auto plane = mesh.template numbers<Row::normals, Row::size - Row::normals>(at);
+    facet.in_shape = Vec3<W>(plane[0], plane[1], plane[2]);
+    facet.normal = frame.into(facet.in_shape);
+    // Seen edge-on, the normal must be the corners' to the last digit.
+    const Mask<W> steep = facet.enters & !(facet.normal.z() > W(least_facing));
+    facet.supported = facet.enters & (plane[Row::supported - Row::normals] > W(0)) & !steep;
+    const auto replace_normal = [&](const Mask<W>& lanes, const Vec3<W>& normal) {
+      facet.normal = select<W>(lanes, normal, facet.normal);
+      facet.in_shape = select<W>(lanes, frame.out_of(normal), facet.in_shape);
+    };
+    if (any(steep)) replace_normal(steep, upper_normal(corners[0], corners[1], corners[2]));
+    if (any(beside)) replace_normal(beside, unit<W>(outline));
     const Mask<W> has_normal = facet.normal.squaredNorm() > W(0);
-    facet.in_shape = frame.out_of(facet.normal);
     facet.known &= has_normal;
     facet.enters &= has_normal;
     // Between the corners, however steep the plane.
@@ -171,83 +180,119 @@ struct Facets<W, Core> {
   static EnteredFacet<W> around(const Core& hull, T radius, const Vec3<T>& half_extents,
                                 const Vec3<W>& s, const Vec3<W>& from, const RayFrame<W>& frame) {
     const FacetMesh<T>& mesh = *hull.points.facets();
-    const Vec3<W> start =
-        normal_on_extents<W>(half_extents, s, Vec3<W>(-frame.z)) + frame.z * W(towards_ray);
+    const Vec3<W> guess = normal_on_extents<W>(half_extents, s, Vec3<W>(-frame.z));
 
     EnteredFacet<W> facet;
     facet.normal = Vec3<W>(W(0), W(0), W(1));
-    W at = mesh.facing(start), last = W(-1);
-    Mask<W> open = Mask<W>(true);
+    W at = mesh.facing(Vec3<W>(guess + frame.z * W(towards_ray))), last = W(-1);
+    Mask<W> open = Mask<W>(true), stepped = Mask<W>(false);
     // Of the last step: the edge crossed, the corner of the facet left behind, the foot there.
     Vec3<W> begin = Vec3<W>::Zero(), end = begin, behind = begin, foot = begin;
     const auto answer = [&](const Mask<W>& lanes, const Vec3<W>& a, const Vec3<W>& b,
                             const Vec3<W>& c, const Vec3<W>& d, const Mask<W>& has_d) {
-      const Mask<W> swap = (b - foot).squaredNorm() < (a - foot).squaredNorm();
       facet.known |= lanes;
-      facet.corner = select<W>(lanes, select<W>(swap, b, a), facet.corner);
-      facet.neighbours[0] = select<W>(lanes, select<W>(swap, a, b), facet.neighbours[0]);
+      facet.corner = select<W>(lanes, a, facet.corner);
+      facet.neighbours[0] = select<W>(lanes, b, facet.neighbours[0]);
       facet.neighbours[1] = select<W>(lanes, c, facet.neighbours[1]);
       facet.neighbours[2] = select<W>(lanes, d, facet.neighbours[2]);
       facet.there[0] |= lanes;
       facet.there[1] |= lanes;
       facet.there[2] |= lanes & has_d;
     };
+    // The nearer corner of the edge first.
+    const auto answer_edge = [&](const Mask<W>& lanes, const Vec3<W>& a, const Vec3<W>& b,
+                                 const Vec3<W>& c, const Vec3<W>& d, const Mask<W>& has_d) {
+      const Mask<W> swap = (b - foot).squaredNorm() < (a - foot).squaredNorm();
+      answer(lanes, select<W>(swap, b, a), select<W>(swap, a, b), c, d, has_d);
+    };
     for (int step = 0; step < max_steps; ++step) {
-      std::array<Vec3<W>, 3> p;
-      for (std::size_t k = 0; k < 3; ++k)
-        p[k] = frame.into(gather<W>(at, [&](std::size_t i) { return mesh[i].corners[k]; }) - from);
-      const Vec3<W> m = frame.into(gather<W>(at, [&](std::size_t i) { return mesh[i].normal; }));
+      const auto row = mesh.template numbers<Row::corners, Row::size>(at);
+      const std::array<Vec3<W>, 3> p = corners_of(row, from, frame);
+      const Vec3<W> m =
+          frame.into({row[Row::normals], row[Row::normals + 1], row[Row::normals + 2]});
       const Mask<W> away = open & !(m.z() > W(least_facing));
+      const Mask<W> lost = step < tries ? Mask<W>(away & !stepped) : Mask<W>(false);
       if (any(away)) {
-        // Over the outline, or lost from the start.
-        if (step > 0) answer(away, begin, end, behind, behind, Mask<W>(false));
+        answer_edge(away & stepped, begin, end, behind, behind, Mask<W>(false));
         open &= !away;
-        if (!any(open)) break;
+        if (!any(open | lost)) break;
       }
       const W height = (p[0].dot(m) + W(radius)) / select(m.z() > W(least_facing), m.z(), W(1));
       foot = select<W>(open, Vec3<W>(Vec3<W>(W(0), W(0), height) - m * W(radius)), foot);
-      const auto beyond = [&](const Vec3<W>& a, const Vec3<W>& b) {
+      const auto within_edge = [&](const Vec3<W>& a, const Vec3<W>& b) {
         return (b - a).cross(foot - a).dot(m);
       };
-      const W a = beyond(p[0], p[1]), b = beyond(p[1], p[2]), c = beyond(p[2], p[0]);
+      const W a = within_edge(p[0], p[1]), b = within_edge(p[1], p[2]), c = within_edge(p[2], p[0]);
       const Mask<W> within = open & (a >= W(0)) & (b >= W(0)) & (c >= W(0));
       if (any(within)) {
         answer(within, p[0], p[1], p[2], p[2], Mask<W>(false));
+        facet.enters |= within;
+        facet.supported |= within & (row[Row::supported] > W(0));
+        facet.normal = select<W>(within, m, facet.normal);
+        for (int k = 0; k < 3; ++k)
+          facet.in_shape[k] =
+              select(within, row[Row::normals + static_cast<std::size_t>(k)], facet.in_shape[k]);
+        facet.height = select(within, height, facet.height);
         open &= !within;
-        if (!any(open)) break;
+        if (!any(open | lost)) break;
       }
 
       const Mask<W> by_b = b < a, by_c = (c < a) & (c < b);
-      const Vec3<W> next = gather<W>(at, [&](std::size_t i) {
-        const auto& neighbours = mesh[i].neighbours;
-        return Vec3<T>(T(neighbours[0]), T(neighbours[1]), T(neighbours[2]));
-      });
-      const W to = select(by_c, next.z(), select(by_b, next.y(), next.x()));
+      const W to = beyond(row, by_b, by_c);
       const Vec3<W> from_corner = select<W>(by_c, p[2], select<W>(by_b, p[1], p[0]));
       const Vec3<W> to_corner = select<W>(by_c, p[0], select<W>(by_b, p[2], p[1]));
       const Vec3<W> opposite = select<W>(by_c, p[1], select<W>(by_b, p[0], p[2]));
       const Mask<W> returns = open & (to == last);
       if (any(returns)) {
-        answer(returns, from_corner, to_corner, opposite, behind, Mask<W>(true));
+        answer_edge(returns, from_corner, to_corner, opposite, behind, Mask<W>(true));
         open &= !returns;
-        if (!any(open)) break;
+        if (!any(open | lost)) break;
       }
       begin = select<W>(open, from_corner, begin);
       end = select<W>(open, to_corner, end);
       behind = select<W>(open, opposite, behind);
       last = select(open, at, last);
       at = select(open, to, at);
+      stepped |= open;
+      if (any(lost)) at = select(lost, further_towards_ray(mesh, guess, frame, step), at);
+      open |= lost;
     }
     return facet;
   }
 
  private:
-  /// The sine below which a facet counts as facing away: the line crosses its moved plane a
-  /// thousand radii beside it.
+  using Row = typename FacetMesh<T>::Facet;
+
+  /// In the frame, as seen from a point.
+  template <class Numbers>
+  static std::array<Vec3<W>, 3> corners_of(const Numbers& row, const Vec3<W>& from,
+                                           const RayFrame<W>& frame) {
+    const auto corner = [&](std::size_t k) {
+      const std::size_t first = Row::corners + 3 * k;
+      return frame.into(Vec3<W>(row[first], row[first + 1], row[first + 2]) - from);
+    };
+    return {corner(0), corner(1), corner(2)};
+  }
+
+  /// The neighbour beyond the third edge, the second, or else the first.
+  template <class Numbers>
+  static W beyond(const Numbers& row, const Mask<W>& second, const Mask<W>& third) {
+    return select(third, row[Row::neighbours + 2],
+                  select(second, row[Row::neighbours + 1], row[Row::neighbours]));
+  }
+
+  /// The sine below which a facet counts as seen edge-on; a rounded one, as facing away: the line
+  /// crosses its moved plane a thousand radii beside it.
   static constexpr T least_facing = T(1) / T(1024);
-  /// A start that faces the ray for sure is not as near, but near the outline better than one which
-  /// does not.
-  static constexpr T towards_ray = T(0.5);
+  /// Where a walk begins anew that has found itself on a facet which faces away: at one that is
+  /// less near, but faces the ray more surely.
+  static W further_towards_ray(const FacetMesh<T>& mesh, const Vec3<W>& guess,
+                               const RayFrame<W>& frame, int step) {
+    return mesh.facing(Vec3<W>(guess + frame.z * W(step == 0 ? T(0.5) : T(4))));
+  }
+  static constexpr int tries = 2;
+  /// For guesses at right angles to the ray, so that most of them face it.
+  static constexpr T towards_ray = T(1) / T(32);
   /// Walks of regular triangulations end by themselves, but for rounding; from a start that is near
   /// they are short. What takes longer goes on without known facets.
   static constexpr int max_steps = 64;

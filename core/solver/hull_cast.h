@@ -178,6 +178,14 @@ class HullCast {
     return hit_;
   }
 
+  /// The same where the hit is known in some lanes, and likely to be between the newest body and
+  /// the first of the others in the rest.
+  HullCastHit<W> solve_from(const HullCastHit<W>& known) {
+    hit_ = known;
+    if (!all(hit_.found)) edge({newest_, W(0), nowhere(), Mask<W>(true)}, other(0));
+    return all(hit_.found) ? hit_ : solve();
+  }
+
  private:
   using Places = std::array<Mask<W>, 3>;
 
@@ -235,7 +243,8 @@ class HullCast {
     const W out_of_reach = W(std::numeric_limits<T>::max());
     const W rank = select(ahead, W(value / select(ahead, m.z(), W(1))),
                           select(value < W(0), W(-out_of_reach), out_of_reach));
-    const Mask<W> useful = meets & unbeaten & (ahead | (value < W(0)));
+    // What separates does so wherever its bodies are met.
+    const Mask<W> useful = unbeaten & ((ahead & meets) | ((!ahead) & (value < W(0))));
     const Mask<W> wins = candidate & (!hit_.found) & (useful | (rank < hit_.rank));
     hit_.m = select<W>(wins, m, hit_.m);
     hit_.rank = select(wins, rank, hit_.rank);

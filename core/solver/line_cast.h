@@ -57,8 +57,9 @@ LineHit<W> pick(const Mask<W>& condition, const LineHit<W>& a, const LineHit<W>&
 /// - `against_ray(n)`: the component of n against the ray's direction;
 /// - `begin(half_extents)`: what is known before the first support: a first direction, and a hit if
 ///   the model knows pieces of the shape already; half_extents are the shape's;
-/// - `support(n)`: the shape's support in direction n of unit length, relative to the ray's closest
-///   approach s, as a piece with reach(n) and spot(n), its support point;
+/// - `support(n, wanted)`: the shape's support in direction n of unit length, relative to the ray's
+///   closest approach s, as a piece with reach(n) and spot(n), its support point; in lanes that are
+///   not wanted, any piece;
 /// - `step(piece, n, iteration)`: the model's hit once the piece is a part of it.
 ///
 /// The line is given up beyond lambda_end; R is the size that rounding refers to. Only `open` lanes
@@ -79,7 +80,7 @@ LineHit<W> first_on_line(Model& model, const Vec3<Lane<W>>& half_extents, const 
   for (int iteration = 0; iteration < max_iterations; ++iteration) {
     // The supporting plane of direction n: it clips the line, or separates (where it leans away
     // from the ray: all of the line in the bounding ball).
-    const auto piece = model.support(n);
+    const auto piece = model.support(n, open);
     result.supports += select(open, W(1), W(0));
     const W h = piece.reach(n), z = model.against_ray(n);
     const Mask<W> ahead = z > W(0), steep = z > least_slope, beyond = h < -gap;

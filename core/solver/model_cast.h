@@ -78,7 +78,7 @@ CastLanes<W> model_cast(const MakeModel& make_model, const RayNearBall<W>& near,
     // end or the ray's.
     auto model = make_model(s, direction);
     const Vec3<W> ahead = model.to_frame(direction);
-    const W last = model.support(ahead).reach(ahead);
+    const W last = model.support(ahead, found.tangent).reach(ahead);
     again.supports += select(found.tangent, W(1), W(0));
     const W slope = -again.normal.dot(direction);
     const Mask<W> crosses = again.hit & (slope > W(tolerance::least_slope<T>));

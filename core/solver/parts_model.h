@@ -43,7 +43,7 @@ class PartsModel {
     return hit;
   }
 
-  Piece support(const Vec3<W>& n) const {
+  Piece support(const Vec3<W>& n, const Mask<W>&) const {
     const Part in_shape = part_of<W>(shape_, frame_.out_of(n));
     Piece piece{{}, n};
     piece.part.patch = in_shape.patch;

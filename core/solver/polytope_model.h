@@ -36,13 +36,20 @@ class PolytopeModel {
   Vec3<W> to_frame(const Vec3<W>& n) const { return frame_.into(n); }
   /// There and back, a facet's normal would be rounded.
   Vec3<W> to_shape(const Vec3<W>& n) const {
-    const Mask<W> first = (n.x() == first_.x()) & (n.y() == first_.y()) & (n.z() == first_.z());
-    return select<W>(first, first_in_shape_, frame_.out_of(n));
+    return select<W>(is_first(n), first_in_shape_, frame_.out_of(n));
   }
   W against_ray(const Vec3<W>& n) const { return n.z(); }
 
-  Piece support(const Vec3<W>& n) const {
-    return {frame_.into(core_.template support<W>(frame_.out_of(n)) - from_)};
+  Piece support(const Vec3<W>& n, const Mask<W>& wanted) const {
+    const auto seen = [&](const Vec3<W>& point) { return frame_.into(point - from_); };
+    if constexpr (looks_up) {
+      const Mask<W> known = first_supported_ & is_first(n), open = wanted & !known;
+      if (!any(open)) return {first_corner_};
+      const Vec3<W> corner = seen(core_.support_where(open, frame_.out_of(n)));
+      return {select<W>(known, first_corner_, corner)};
+    } else {
+      return {seen(core_.template support<W>(frame_.out_of(n)))};
+    }
   }
 
   /// On the facet that the ray enters, if facets are known.
@@ -58,6 +65,10 @@ class PolytopeModel {
     if (!any(facet.enters)) return hit;
     first_ = select<W>(facet.enters, hit.m, first_);
     first_in_shape_ = facet.in_shape;
+    if constexpr (looks_up) {
+      first_corner_ = facet.corner;
+      first_supported_ = facet.supported;
+    }
     for (std::size_t k = 0; k < 3; ++k)
       kept_[k] = {facet.neighbours[k], hit.m, facet.there[k], facet.there[k]};
     const Mask<W> ahead = hit.m.z() > W(0);
@@ -93,6 +104,11 @@ class PolytopeModel {
   }
 
  private:
+  /// Whether n is the normal of the facet that the line enters.
+  Mask<W> is_first(const Vec3<W>& n) const {
+    return (n.x() == first_.x()) & (n.y() == first_.y()) & (n.z() == first_.z());
+  }
+
   struct Kept {
     Vec3<W> c = Vec3<W>::Zero();
     Vec3<W> n = Vec3<W>::Zero();  ///< the direction it was found in
@@ -191,12 +207,19 @@ class PolytopeModel {
 
   using Known = Facets<W, Core>;
 
+  /// Asking for a support point takes longer than knowing those in the directions of facets.
+  static constexpr bool looks_up = requires(const Core& core, const Vec3<W>& n) {
+    core.support_where(Mask<W>(true), n);
+  };
+
   const Core& core_;
   Vec3<W> s_, from_;
   RayFrame<W> frame_;
   W rounding_;
   W ball_, least_ball_;
   Vec3<W> first_ = Vec3<W>::Zero(), first_in_shape_ = Vec3<W>::Zero();  ///< the facet's normal
+  Vec3<W> first_corner_ = Vec3<W>::Zero();  ///< the support point there, where that is known
+  Mask<W> first_supported_ = Mask<W>(false);
   W lowest_ = W(0), highest_ = W(0);  ///< of the portal's vertices
   std::array<Kept, 3> kept_;
 };

@@ -27,7 +27,7 @@ class RoundedBoxModel {
   const Vec3<W>& to_shape(const Vec3<W>& n) const { return n; }
   W against_ray(const Vec3<W>& n) const { return -n.dot(r_); }
 
-  Piece support(const Vec3<W>& n) const {
+  Piece support(const Vec3<W>& n, const Mask<W>&) const {
     return {Vec3<W>(box_.template support<W>(n) - from_), {W(radius_)}};
   }
 
@@ -41,7 +41,7 @@ class RoundedBoxModel {
     }
     certain_ = entry.certain;
     const Vec3<W> m = unit<W>(each([&](int k) -> W { return entry.m[k] * line.side[k]; }));
-    return meeting(support(m), m);
+    return meeting(support(m, Mask<W>(true)), m);
   }
 
   /// Nothing can be added to what `begin` has answered.

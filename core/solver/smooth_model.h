@@ -45,7 +45,7 @@ class SmoothModel {
     return hit;
   }
 
-  Piece support(const Vec3<W>& n) const {
+  Piece support(const Vec3<W>& n, const Mask<W>&) const {
     const Vec3<W> n_shape = frame_.out_of(n);
     const Jet<W> jet = shape_.template jet<W>(n_shape);
     Piece piece;

@@ -36,7 +36,9 @@ class SuperellipsoidModel {
   const Vec3<W>& to_shape(const Vec3<W>& n) const { return n; }
   W against_ray(const Vec3<W>& n) const { return -n.dot(r_); }
 
-  Piece support(const Vec3<W>& n) const { return {Vec3<W>(shape_.template support<W>(n) - from_)}; }
+  Piece support(const Vec3<W>& n, const Mask<W>&) const {
+    return {Vec3<W>(shape_.template support<W>(n) - from_)};
+  }
 
   ModelHit<W> begin(const Vec3<T>&) {
     const Found found = find();

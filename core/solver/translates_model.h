@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/shape/jet.h"
+#include "core/shape/support_where.h"
 #include "core/solver/entered_facet.h"
 #include "core/solver/hull_cast.h"
 #include "core/solver/line_cast.h"
@@ -29,10 +30,11 @@ struct RoundedPolytope {
   Lane<W> radius;
 
   Body body(const RayFrame<W>&) const { return {W(radius)}; }
-  /// The one that reaches furthest along n, seen from a point. In the frame, but for the point.
-  Translate<W, Body> furthest(const Vec3<W>& n, const Vec3<W>& from,
+  /// The one that reaches furthest along n, seen from a point, at least in the lanes that are
+  /// wanted. In the frame, but for the point.
+  Translate<W, Body> furthest(const Vec3<W>& n, const Mask<W>& wanted, const Vec3<W>& from,
                               const RayFrame<W>& frame) const {
-    return {frame.into(core.template support<W>(frame.out_of(n)) - from), {W(radius)}};
+    return {frame.into(support_where<W>(core, wanted, frame.out_of(n)) - from), {W(radius)}};
   }
   static Mask<W> alike(const Body&, const Body&) { return Mask<W>(true); }
 };
@@ -48,7 +50,7 @@ struct JetTranslates {
   Body body(const RayFrame<W>& frame) const {
     return turned(shape.template jet<W>(Vec3<W>(W(1), W(0), W(0))).F, frame);
   }
-  Translate<W, Body> furthest(const Vec3<W>& n, const Vec3<W>& from,
+  Translate<W, Body> furthest(const Vec3<W>& n, const Mask<W>&, const Vec3<W>& from,
                               const RayFrame<W>& frame) const {
     const Jet<W> jet = shape.template jet<W>(frame.out_of(n));
     Translate<W, Body> piece{frame.into(jet.c - from), turned(jet.F, frame)};
@@ -91,10 +93,21 @@ class TranslatesModel {
         rounding_(tolerance::model_rounding<T> * R) {}
 
   Vec3<W> to_frame(const Vec3<W>& n) const { return frame_.into(n); }
-  Vec3<W> to_shape(const Vec3<W>& n) const { return frame_.out_of(n); }
+  /// There and back, a facet's normal would be rounded.
+  Vec3<W> to_shape(const Vec3<W>& n) const {
+    if constexpr (!Known::some) return frame_.out_of(n);
+    return select<W>(is_first(n), first_in_shape_, frame_.out_of(n));
+  }
   W against_ray(const Vec3<W>& n) const { return n.z(); }
 
-  Piece support(const Vec3<W>& n) const { return bodies_.furthest(n, from_, frame_); }
+  Piece support(const Vec3<W>& n, const Mask<W>& wanted) const {
+    if constexpr (!Known::some) return bodies_.furthest(n, wanted, from_, frame_);
+    const Mask<W> known = first_supported_ & is_first(n), open = wanted & !known;
+    if (!any(open)) return {first_corner_, body_};
+    Piece piece = bodies_.furthest(n, open, from_, frame_);
+    piece.c = select<W>(known, first_corner_, piece.c);
+    return piece;
+  }
 
   /// Around the facet that the ray enters, if facets are known.
   ModelHit<W> begin(const Vec3<T>& half_extents) {
@@ -109,9 +122,20 @@ class TranslatesModel {
                         frame_.into(normal_on_extents<W>(half_extents, s_, Vec3<W>(-frame_.z))));
     const Mask<W> near = facet.there[0];
     if (!any(near)) return hit;
+    first_ = select<W>(facet.enters, facet.normal, first_);
+    first_in_shape_ = facet.in_shape;
+    first_corner_ = facet.corner;
+    first_supported_ = facet.supported;
     kept_.c = facet.neighbours;
     kept_.valid = facet.there;
-    const ModelHit<W> around = with({facet.corner, body_});
+    HullCastHit<W> on_facet;
+    on_facet.found = facet.enters | !near;
+    on_facet.m = facet.normal;
+    on_facet.rank = facet.height;
+    on_facet.weights[0] = on_facet.weights[1] = W(1);
+    const Piece corner{facet.corner, body_};
+    const ModelHit<W> around =
+        keep(corner, HullCast<W, Body>(body_, corner.c, kept_, rounding_).solve_from(on_facet));
     for (Mask<W>& valid : kept_.valid) valid &= near;
     const Mask<W> some = near & (around.m.squaredNorm() > W(0));
     hit.m = select<W>(some, around.m, hit.m);
@@ -130,7 +154,7 @@ class TranslatesModel {
       repeated |= same;
       kept_.valid[k] &= !same;
     }
-    ModelHit<W> hit = with(piece);
+    ModelHit<W> hit = keep(piece, HullCast<W, Body>(body_, piece.c, kept_, rounding_).solve());
     hit.repeated = repeated;
     // A body of another kind: not a shape for this model after all.
     const Mask<W> alike = Bodies::alike(piece.body, body_);
@@ -142,16 +166,20 @@ class TranslatesModel {
  private:
   using Known = Facets<W, typename Bodies::Core>;
 
-  /// The hit on the hull of the pieces that are kept and this one, which is none of them.
-  ModelHit<W> with(const Piece& piece) {
+  /// Whether n is the normal of the facet that the line enters.
+  Mask<W> is_first(const Vec3<W>& n) const {
+    return (n.x() == first_.x()) & (n.y() == first_.y()) & (n.z() == first_.z());
+  }
+
+  /// The hit on the hull of the pieces that are kept and this one, which is none of them; from now
+  /// on those that carry the hit are kept.
+  ModelHit<W> keep(const Piece& piece, const HullCastHit<W>& on_hull) {
     ModelHit<W> hit;
-    const HullCastHit<W> on_hull = HullCast<W, Body>(body_, piece.c, kept_, rounding_).solve();
     hit.m = on_hull.m;
     const Mask<W> ahead = hit.m.z() > W(0);
     hit.certain = on_hull.found & ahead;
     hit.height = select(ahead, on_hull.rank, W(0));
 
-    // Keep the pieces that carry the hit.
     Mask<W> placed(false);
     for (std::size_t k = 0; k < 3; ++k) {
       kept_.valid[k] &= on_hull.weights[k] != W(0);
@@ -169,6 +197,9 @@ class TranslatesModel {
   Body body_;
   W rounding_;
   Translates<W> kept_;
+  Vec3<W> first_ = Vec3<W>::Zero(), first_in_shape_ = Vec3<W>::Zero();  ///< the facet's normal
+  Vec3<W> first_corner_ = Vec3<W>::Zero();  ///< the support point there, where that is known
+  Mask<W> first_supported_ = Mask<W>(false);
 };
 
 }  // namespace minkray

@@ -3,8 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include <set>
+#include <algorithm>
 
+#include "core/shape/point_cloud.h"
 #include "tests/support/random.h"
 
 namespace minkray::testing {
@@ -39,14 +40,14 @@ TEST(FacetMesh, closes_and_every_neighbour_shares_the_edge) {
     EXPECT_EQ(mesh.size(), 2 * points.size() - 4);  // Euler, for triangles
     for (std::size_t f = 0; f < mesh.size(); ++f) {
       for (std::size_t k = 0; k < 3; ++k) {
-        const auto& other = mesh[mesh[f].neighbours[k]];
-        ASSERT_NE(mesh[f].neighbours[k], f);
+        const auto& other = mesh[mesh[f].neighbour(k)];
+        ASSERT_NE(mesh[f].neighbour(k), f);
         // The neighbour walks the edge the other way round, and knows the way back.
         bool shared = false;
         for (std::size_t j = 0; j < 3; ++j)
-          shared = shared ||
-                   (other.corners[j] == mesh[f].corners[(k + 1) % 3] &&
-                    other.corners[(j + 1) % 3] == mesh[f].corners[k] && other.neighbours[j] == f);
+          shared =
+              shared || (other.corner(j) == mesh[f].corner((k + 1) % 3) &&
+                         other.corner((j + 1) % 3) == mesh[f].corner(k) && other.neighbour(j) == f);
         EXPECT_TRUE(shared) << f << ", side " << k;
       }
     }
@@ -57,9 +58,9 @@ TEST(FacetMesh, normals_point_outwards) {
   for (const auto& points : {on_sphere(30), prism(9)}) {
     const FacetMesh<double> mesh = mesh_of(points);
     for (std::size_t f = 0; f < mesh.size(); ++f) {
-      EXPECT_NEAR(mesh[f].normal.norm(), 1, 1e-15);
+      EXPECT_NEAR(mesh[f].normal().norm(), 1, 1e-15);
       for (const Vec3<double>& p : points)
-        EXPECT_LE(mesh[f].normal.dot(p - mesh[f].corners[0]), 1e-15);
+        EXPECT_LE(mesh[f].normal().dot(p - mesh[f].corner(0)), 1e-15);
     }
   }
 }
@@ -71,7 +72,7 @@ TEST(FacetMesh, finds_a_facet_near_a_direction) {
     const Vec3<double> n = random.direction();
     const auto found = static_cast<std::size_t>(mesh.facing(n));
     ASSERT_LT(found, mesh.size());
-    EXPECT_GT(mesh[found].normal.dot(n.normalized()), 0.9);
+    EXPECT_GT(mesh[found].normal().dot(n.normalized()), 0.9);
     EXPECT_EQ(mesh.facing(Vec3<double>(n * 1e-100)), mesh.facing(n));
   }
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -84,7 +85,56 @@ TEST(FacetMesh, is_the_same_in_float) {
   ASSERT_EQ(rounded.size(), mesh.size());
   for (std::size_t f = 0; f < mesh.size(); ++f) {
     EXPECT_EQ(rounded[f].neighbours, mesh[f].neighbours);
-    EXPECT_EQ(rounded[f].normal, mesh[f].normal.cast<float>());
+    EXPECT_EQ(rounded[f].normal(), mesh[f].normal().cast<float>());
+  }
+}
+
+/// What reaches furthest along a facet's normal is its first corner, or the facet says that it does
+/// not know.
+template <class T>
+void expect_supported(const std::vector<Vec3<T>>& points) {
+  const PointCloud<T> cloud(points);
+  const FacetMesh<T>& mesh = *cloud.facets();
+  std::size_t supported = 0;
+  for (std::size_t f = 0; f < mesh.size(); ++f) {
+    const Vec3<T> n = mesh[f].normal();
+    T furthest = -std::numeric_limits<T>::infinity();
+    for (const Vec3<T>& point : cloud.points()) furthest = std::max(furthest, n.dot(point));
+    EXPECT_EQ(mesh[f].is_supported(), n.dot(mesh[f].corner(0)) >= furthest) << f;
+    supported += mesh[f].is_supported() ? 1 : 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_EQ(std::count(cloud.points().begin(), cloud.points().end(), mesh[f].corner(k)), 1);
+  }
+  EXPECT_GE(supported, mesh.size() / 3);
+}
+
+TEST(FacetMesh, knows_which_corner_supports_a_facet) {
+  for (const auto& points : {on_sphere(12), on_sphere(300), prism(9), prism(40)}) {
+    expect_supported<double>(points);
+    std::vector<Vec3<float>> rounded;
+    for (const Vec3<double>& point : points) rounded.push_back(point.cast<float>());
+    expect_supported<float>(rounded);
+  }
+}
+
+TEST(FacetMesh, knows_it_anew_where_points_were_rounded) {
+  const PointCloud<double> cloud(on_sphere(100));
+  const PointCloud<float> rounded = cloud.cast<float>();
+  const FacetMesh<float>& mesh = *rounded.facets();
+  for (std::size_t f = 0; f < mesh.size(); ++f) {
+    const Vec3<float> n = mesh[f].normal();
+    EXPECT_EQ(mesh[f].is_supported(), n.dot(mesh[f].corner(0)) >= n.dot(rounded.support(n)));
+  }
+}
+
+TEST(FacetMesh, rows_are_the_facets) {
+  const FacetMesh<double> mesh = mesh_of(on_sphere(20));
+  for (std::size_t f = 0; f < mesh.size(); ++f) {
+    const auto row = mesh.numbers<0, 16>(static_cast<double>(f));
+    const auto last = mesh.numbers<12, 4>(static_cast<double>(f));
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_EQ(Vec3<double>(row[3 * k], row[3 * k + 1], row[3 * k + 2]), mesh[f].corner(k));
+    EXPECT_EQ(Vec3<double>(last[0], last[1], last[2]), mesh[f].normal());
   }
 }
 
