@@ -128,13 +128,7 @@ template <class W>
   return v * (W(1) / sqrt(squared));
 }
 
-/// The vector that an index stands for, which is a small whole number.
-template <std::floating_point W, class VectorOf>
-Vec3<W> gather(W index, VectorOf&& vector_of) {
-  return vector_of(static_cast<std::size_t>(index));
-}
-
-/// The number that an index stands for.
+/// The number that an index stands for, which is a small whole number.
 template <std::floating_point W, class NumberOf>
 W lookup(W index, NumberOf&& number_of) {
   return number_of(static_cast<std::size_t>(index));

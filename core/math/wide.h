@@ -261,15 +261,6 @@ requires(LaneOf<W>::count > 1) W lookup(const W& index, NumberOf&& number_of) {
   (std::make_integer_sequence<int, LaneOf<W>::count>());
 }
 
-/// The vectors that the lanes' indices stand for, which are small whole numbers.
-template <class W, class VectorOf>
-requires(LaneOf<W>::count > 1) Vec3<W> gather(const W& index, VectorOf&& vector_of) {
-  using T = Lane<W>;
-  const auto at = [&](int lane) { return static_cast<std::size_t>(index.lane(lane)); };
-  if (all(index == W(index.lane(0)))) return widen<W>(Vec3<T>(vector_of(at(0))));
-  return per_lane<W>([&](int lane) { return vector_of(at(lane)); });
-}
-
 }  // namespace minkray
 
 /// What Eigen needs to know of a scalar.

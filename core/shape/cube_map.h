@@ -43,10 +43,10 @@ class CubeMap {
     const auto by_axis = [&](const W& if_x, const W& if_y, const W& if_z) {
       return select(along_x, if_x, select(along_y, if_y, if_z));
     };
-    const W largest = by_axis(n.x(), n.y(), n.z()), over = W(1) / abs(largest);
+    const W largest = by_axis(n.x(), n.y(), n.z()), size = abs(largest);
     const W side = W(static_cast<T>(resolution_)), last = side - W(1);
     const auto index = [&](const W& component) {
-      W scaled = (component * over + W(1)) * (W(T(0.5)) * side);
+      W scaled = (component / size + W(1)) * (W(T(0.5)) * side);
       scaled = select(scaled > W(0), scaled, W(0));  // in this order: NaN falls to 0
       return whole(select(scaled < last, scaled, last));
     };

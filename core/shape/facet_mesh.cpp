@@ -33,6 +33,13 @@ void FacetMesh<T>::Facet::find_normal() {
 }
 
 template <class T>
+T FacetMesh<T>::Facet::thickness() const {
+  const Vec3<T> ab = corner(1) - corner(0), ac = corner(2) - corner(0), bc = corner(2) - corner(1);
+  const T longest = std::sqrt(std::max({ab.squaredNorm(), ac.squaredNorm(), bc.squaredNorm()}));
+  return longest > T(0) ? ab.cross(ac).norm() / longest : T(0);
+}
+
+template <class T>
 void FacetMesh<T>::Facet::turn(std::size_t k) {
   const auto first = numbers_.begin();
   std::rotate(first, first + static_cast<std::ptrdiff_t>(3 * k), first + neighbours);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -38,7 +39,9 @@ class FacetMesh {
     std::size_t neighbour(std::size_t k) const {
       return static_cast<std::size_t>(numbers_[neighbours + k]);
     }
-    /// No vertex of the hull reaches further along the normal than corner 0.
+    /// No vertex of the hull reaches further along the normal than corner 0, nor do the other
+    /// corners reach less but for rounding, and the facet is thick enough for rounding to tell
+    /// whether a line passes through it.
     bool is_supported() const { return numbers_[supported] != T(0); }
 
     /// Rounded to U; whether it is supported is not known then. Where U is more precise, the normal
@@ -62,6 +65,8 @@ class FacetMesh {
     }
     /// By way of the shorter edges, whose rounding is least.
     void find_normal();
+    /// The least height of the triangle.
+    T thickness() const;
     /// Corner k becomes corner 0.
     void turn(std::size_t k);
 
@@ -85,13 +90,19 @@ class FacetMesh {
   /// point in direction n.
   template <class Furthest>
   void find_supported(Furthest&& furthest) {
+    T largest(0);
+    for (const Facet& facet : facets_)
+      for (std::size_t k = 0; k < 3; ++k)
+        largest = std::max(largest, facet.corner(k).cwiseAbs().maxCoeff());
     for (Facet& facet : facets_) {
       const Vec3<T> normal = facet.normal();
-      if (!(normal.squaredNorm() > T(0))) continue;
       const auto reach = [&](std::size_t k) { return normal.dot(facet.corner(k)); };
       facet.turn(reach(1) > reach(0) ? (reach(2) > reach(1) ? 2 : 1)
                                      : (reach(2) > reach(0) ? 2 : 0));
-      facet.numbers_[Facet::supported] = reach(0) >= normal.dot(furthest(normal)) ? T(1) : T(0);
+      const bool fits = reach(0) - std::min(reach(1), reach(2)) <= uneven * largest;
+      const bool supported =
+          fits && facet.thickness() > thin * largest && reach(0) >= normal.dot(furthest(normal));
+      facet.numbers_[Facet::supported] = supported ? T(1) : T(0);
     }
   }
 
@@ -108,6 +119,7 @@ class FacetMesh {
   /// `count` numbers of each lane's facet, beginning with number `first`.
   template <std::size_t first, std::size_t count, class W>
   std::array<W, count> numbers(const W& facet) const {
+    static_assert(sizeof(Facet) == Facet::size * sizeof(T));
     return gather_row<count>(facet, facets_.front().numbers_.data() + first, Facet::size);
   }
 
@@ -119,6 +131,11 @@ class FacetMesh {
   template <class U>
   friend class FacetMesh;
   FacetMesh() = default;
+
+  /// Of the largest coordinate: a few roundings of a reach, and many of a corner's place as a ray
+  /// sees it.
+  static constexpr T uneven = 16 * std::numeric_limits<T>::epsilon();
+  static constexpr T thin = 64 * std::numeric_limits<T>::epsilon();
 
   void link_neighbours(std::span<const std::array<std::uint32_t, 3>> corners);
   void fill_cube_map();

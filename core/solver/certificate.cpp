@@ -39,15 +39,15 @@ using Long = long double;
 /// A simplex of support points that remembers their directions.
 class Spanned {
  public:
-  explicit Spanned(const Vec3<double>& x) { simplex_.begin(x); }
+  explicit Spanned(const Vec3<Long>& x) { simplex_.begin(x); }
 
-  void move(const Vec3<double>& x) {
+  void move(const Vec3<Long>& x) {
     simplex_.move(x);
-    squared_ = std::numeric_limits<double>::infinity();
+    squared_ = std::numeric_limits<Long>::infinity();
   }
   /// With p, the support point along n (seen from x: the difference to it): false if it brought
   /// nothing nearer.
-  bool add(const Vec3<double>& p, const Vec3<double>& n) {
+  bool add(const Vec3<Long>& p, const Vec3<double>& n) {
     if (simplex_.full() || simplex_.holds(p)) return false;
     directions_[static_cast<std::size_t>(simplex_.add(p))] = n;
     const auto closest = simplex_.closest();
@@ -62,34 +62,47 @@ class Spanned {
   }
   bool full() const { return simplex_.full(); }
   /// From the spanned point to x.
-  const Vec3<double>& v() const { return closest_.v; }
+  const Vec3<Long>& v() const { return closest_.v; }
 
   /// How far x is from the point that the weights span: v, but where the simplex is a tetrahedron,
   /// which holds x and of which v is zero, the rounding of its volumes.
   double off() const {
-    Vec3<double> sum = Vec3<double>::Zero();
-    double weights = 0;
+    Vec3<Long> sum = Vec3<Long>::Zero();
+    Long weights = 0;
     for (int i = 0; i < 4; ++i) {
       if (!(closest_.kept & (1u << i))) continue;
-      const double weight = std::max(closest_.weights[static_cast<std::size_t>(i)], 0.0);
+      const Long weight = std::max(closest_.weights[static_cast<std::size_t>(i)], Long(0));
       sum += weight * simplex_.y(i);
       weights += weight;
     }
-    return (sum / weights).norm();
+    return static_cast<double>((sum / weights).norm());
+  }
+
+  /// Of a tetrahedron that holds x, the weights with which its corners span x, by elimination:
+  /// ratios of volumes lose the digits that a sliver's volume has lost.
+  void balance() {
+    if (!full()) return;
+    Mat3<Long> edges;
+    for (int i = 0; i < 3; ++i) edges.col(i) = simplex_.y(i + 1) - simplex_.y(0);
+    const Vec3<Long> weights = edges.fullPivLu().solve(-simplex_.y(0));
+    const Long first = 1 - weights.sum();
+    if (!weights.allFinite() || !(std::min(first, weights.minCoeff()) >= 0)) return;
+    closest_.weights = {first, weights[0], weights[1], weights[2]};
   }
 
   void write_to(Certificate& certificate) const {
     for (std::size_t i = 0; i < directions_.size(); ++i) {
       const bool kept = closest_.kept & (1u << i);
-      certificate.spanning[i] = {directions_[i], kept ? std::max(closest_.weights[i], 0.0) : 0};
+      certificate.spanning[i] = {
+          directions_[i], kept ? static_cast<double>(std::max(closest_.weights[i], Long(0))) : 0};
     }
   }
 
  private:
-  ProjectionSubalgorithm<double, 3> simplex_;
-  SubalgorithmAnswer<double, 3> closest_;
+  ProjectionSubalgorithm<Long, 3> simplex_;
+  SubalgorithmAnswer<Long, 3> closest_;
   std::array<Vec3<double>, 4> directions_;
-  double squared_ = std::numeric_limits<double>::infinity();
+  Long squared_ = std::numeric_limits<Long>::infinity();
 };
 
 /// Finds points of one shape near one ray.
@@ -112,7 +125,7 @@ class Finder {
   /// from it: infinite for a miss.
   double enter(Vec3<double> n, double& lambda) {
     Vec3<double> x = near_.at(lambda);
-    Spanned spanned(x);
+    Spanned spanned(x.cast<Long>());
     for (int i = 0; i < most_supports; ++i) {
       const Vec3<double> p = support(n);
       const double above = n.dot(x - p), slope = n.dot(near_.r);
@@ -125,14 +138,15 @@ class Finder {
           lambda = clipped;
           certificate.plane = n;
           x = near_.at(lambda);
-          spanned.move(x);
+          spanned.move(x.cast<Long>());
           moved = true;
         }
       }
-      if (!spanned.add(p, n) && !moved) break;
+      if (!spanned.add(p.cast<Long>(), n) && !moved) break;
       if (spanned.full() || spanned.v().norm() <= close_enough * rounding_) break;
-      n = spanned.v().normalized();
+      n = spanned.v().cast<double>().normalized();
     }
+    spanned.balance();
     spanned.write_to(certificate);
     return spanned.off();
   }
@@ -141,21 +155,22 @@ class Finder {
   /// shape's is spanned by support points. Answers their distance; the plane between them is
   /// `separating`.
   double nearest(double a, double b, Vec3<double> n, Vec3<double>& separating) {
-    Spanned spanned(Vec3<double>::Zero());
+    Spanned spanned(Vec3<Long>::Zero());
     double widest = -std::numeric_limits<double>::infinity();
     for (int i = 0; i < most_supports; ++i) {
       const Vec3<double> p = support(n);
-      const Vec3<double> y = near_.at(n.dot(near_.r) > 0 ? a : b) - p;
-      if (const double margin = n.dot(y); margin > widest) {
+      const Vec3<Long> y = near_.at(n.dot(near_.r) > 0 ? a : b).cast<Long>() - p.cast<Long>();
+      if (const double margin = n.dot(y.cast<double>()); margin > widest) {
         widest = margin;
         separating = n;
       }
       if (!spanned.add(-y, n)) break;
-      const double distance = spanned.v().norm();
+      const auto distance = static_cast<double>(spanned.v().norm());
       if (spanned.full() || distance <= close_enough * rounding_) break;
       if (distance - widest <= rounding_) break;
-      n = spanned.v() / distance;
+      n = spanned.v().cast<double>() / distance;
     }
+    spanned.balance();
     spanned.write_to(certificate);
     return spanned.off();
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Where a line enters a polytope that knows its facets: between its slabs, or by walking from facet
-// to facet. A guess for the solvers, which ask the support mapping whether it is right.
+// to facet. A guess for the solvers, which ask the support mapping whether it is right, or know
+// what it said when the polytope was made.
 #pragma once
 
 #include "core/shape/facet_mesh.h"
@@ -13,18 +14,49 @@ namespace minkray {
 template <class W>
 struct EnteredFacet {
   Mask<W> known = Mask<W>(false);  ///< there is an answer
-  /// The line passes through the facet; of `around`, the facet moved outwards.
+  /// The line passes through the facet; of `around`, through the facet moved outwards, if that is
+  /// supported.
   Mask<W> enters = Mask<W>(false);
-  /// No point of the polytope is further along the facet's normal than `corner`.
+  /// Known: no point of the polytope is further along the facet's normal than `corner`.
   Mask<W> supported = Mask<W>(false);
   /// Outward, of unit length: the facet's. Of a line that passes by, one at right angles to it in
   /// which the line lies beyond the polytope.
   Vec3<W> normal = Vec3<W>::Zero();
   Vec3<W> in_shape = Vec3<W>::Zero();  ///< the normal in the shape's frame
   W height = W(0);                     ///< the line enters at lambda = -height, if it does
-  Vec3<W> corner;                      ///< one of the facet's
-  std::array<Vec3<W>, 3> neighbours;   ///< corners beside it
+  Vec3<W> corner = Vec3<W>::Zero();    ///< one of the facet's
+  /// Corners beside it.
+  std::array<Vec3<W>, 3> neighbours = {Vec3<W>::Zero(), Vec3<W>::Zero(), Vec3<W>::Zero()};
   std::array<Mask<W>, 3> there = {Mask<W>(false), Mask<W>(false), Mask<W>(false)};  ///< which
+};
+
+/// The supporting plane of the facet that a line enters, to know it again.
+template <class W>
+class FacetPlane {
+ public:
+  FacetPlane() = default;
+  explicit FacetPlane(const EnteredFacet<W>& facet)
+      : normal_(select<W>(facet.enters, facet.normal, Vec3<W>(Vec3<W>::Zero()))),
+        in_shape_(select<W>(facet.enters, facet.in_shape, Vec3<W>(Vec3<W>::Zero()))),
+        corner_(facet.corner),
+        supported_(facet.enters & facet.supported) {}
+
+  /// Whether n is its normal, and the corner the polytope's support point in that direction.
+  Mask<W> is_known(const Vec3<W>& n) const { return supported_ & is_normal(n); }
+  const Vec3<W>& corner() const { return corner_; }
+
+  /// n in the shape's frame: there and back, the facet's normal would be rounded.
+  Vec3<W> to_shape(const Vec3<W>& n, const RayFrame<W>& frame) const {
+    return select<W>(is_normal(n), in_shape_, frame.out_of(n));
+  }
+
+ private:
+  Mask<W> is_normal(const Vec3<W>& n) const {
+    return (n.x() == normal_.x()) & (n.y() == normal_.y()) & (n.z() == normal_.z());
+  }
+
+  Vec3<W> normal_ = Vec3<W>::Zero(), in_shape_ = Vec3<W>::Zero(), corner_ = Vec3<W>::Zero();
+  Mask<W> supported_ = Mask<W>(false);
 };
 
 /// Of a polytope without any. Others have `known`, whether there is a facet for a line;
@@ -75,7 +107,6 @@ struct Facets<W, Core> {
     EnteredFacet<W> facet;
     facet.known = Mask<W>(true);
     facet.enters = last_in <= first_out;
-    facet.supported = facet.enters;
     facet.there = {facet.enters, facet.enters, facet.enters};
     facet.height = -last_in;
     facet.normal = in_normal;
@@ -125,7 +156,7 @@ struct Facets<W, Core> {
     Vec3<W> outline = Vec3<W>::Zero();
     std::array<Vec3<W>, 3> corners = {Vec3<W>::Zero(), Vec3<W>::Zero(), Vec3<W>::Zero()};
     for (int step = 0; step < max_steps; ++step) {
-      const auto row = mesh.template numbers<Row::corners, Row::normals>(at);
+      const auto row = mesh.template numbers<Row::corners, Row::normals - Row::corners>(at);
       const std::array<Vec3<W>, 3> p = corners_of(row, from, frame);
       const W a = cross_2d(p[0], p[1]), b = cross_2d(p[1], p[2]), c = cross_2d(p[2], p[0]);
       const Mask<W> away = open & !(a + b + c > W(0));
@@ -226,13 +257,14 @@ struct Facets<W, Core> {
       const Mask<W> within = open & (a >= W(0)) & (b >= W(0)) & (c >= W(0));
       if (any(within)) {
         answer(within, p[0], p[1], p[2], p[2], Mask<W>(false));
-        facet.enters |= within;
-        facet.supported |= within & (row[Row::supported] > W(0));
-        facet.normal = select<W>(within, m, facet.normal);
+        const Mask<W> enters = within & (row[Row::supported] > W(0));
+        facet.enters |= enters;
+        facet.supported |= enters;
+        facet.normal = select<W>(enters, m, facet.normal);
         for (int k = 0; k < 3; ++k)
           facet.in_shape[k] =
-              select(within, row[Row::normals + static_cast<std::size_t>(k)], facet.in_shape[k]);
-        facet.height = select(within, height, facet.height);
+              select(enters, row[Row::normals + static_cast<std::size_t>(k)], facet.in_shape[k]);
+        facet.height = select(enters, height, facet.height);
         open &= !within;
         if (!any(open | lost)) break;
       }

@@ -243,8 +243,9 @@ class HullCast {
     const W out_of_reach = W(std::numeric_limits<T>::max());
     const W rank = select(ahead, W(value / select(ahead, m.z(), W(1))),
                           select(value < W(0), W(-out_of_reach), out_of_reach));
-    // What separates does so wherever its bodies are met.
-    const Mask<W> useful = unbeaten & ((ahead & meets) | ((!ahead) & (value < W(0))));
+    // What separates for sure does so wherever its bodies are met.
+    const Mask<W> separates = (!ahead) & ((value < -rounding_) | (meets & (value < W(0))));
+    const Mask<W> useful = unbeaten & ((ahead & meets) | separates);
     const Mask<W> wins = candidate & (!hit_.found) & (useful | (rank < hit_.rank));
     hit_.m = select<W>(wins, m, hit_.m);
     hit_.rank = select(wins, rank, hit_.rank);

@@ -34,19 +34,16 @@ class PolytopeModel {
         least_ball_(least_ball * R) {}
 
   Vec3<W> to_frame(const Vec3<W>& n) const { return frame_.into(n); }
-  /// There and back, a facet's normal would be rounded.
-  Vec3<W> to_shape(const Vec3<W>& n) const {
-    return select<W>(is_first(n), first_in_shape_, frame_.out_of(n));
-  }
+  Vec3<W> to_shape(const Vec3<W>& n) const { return first_.to_shape(n, frame_); }
   W against_ray(const Vec3<W>& n) const { return n.z(); }
 
   Piece support(const Vec3<W>& n, const Mask<W>& wanted) const {
     const auto seen = [&](const Vec3<W>& point) { return frame_.into(point - from_); };
     if constexpr (looks_up) {
-      const Mask<W> known = first_supported_ & is_first(n), open = wanted & !known;
-      if (!any(open)) return {first_corner_};
+      const Mask<W> known = first_.is_known(n), open = wanted & !known;
+      if (!any(open)) return {first_.corner()};
       const Vec3<W> corner = seen(core_.support_where(open, frame_.out_of(n)));
-      return {select<W>(known, first_corner_, corner)};
+      return {select<W>(known, first_.corner(), corner)};
     } else {
       return {seen(core_.template support<W>(frame_.out_of(n)))};
     }
@@ -63,12 +60,7 @@ class PolytopeModel {
       hit.m = select<W>(facet.known, hit.m,
                         frame_.into(normal_on_extents<W>(half_extents, s_, Vec3<W>(-frame_.z))));
     if (!any(facet.enters)) return hit;
-    first_ = select<W>(facet.enters, hit.m, first_);
-    first_in_shape_ = facet.in_shape;
-    if constexpr (looks_up) {
-      first_corner_ = facet.corner;
-      first_supported_ = facet.supported;
-    }
+    first_ = FacetPlane<W>(facet);
     for (std::size_t k = 0; k < 3; ++k)
       kept_[k] = {facet.neighbours[k], hit.m, facet.there[k], facet.there[k]};
     const Mask<W> ahead = hit.m.z() > W(0);
@@ -104,11 +96,6 @@ class PolytopeModel {
   }
 
  private:
-  /// Whether n is the normal of the facet that the line enters.
-  Mask<W> is_first(const Vec3<W>& n) const {
-    return (n.x() == first_.x()) & (n.y() == first_.y()) & (n.z() == first_.z());
-  }
-
   struct Kept {
     Vec3<W> c = Vec3<W>::Zero();
     Vec3<W> n = Vec3<W>::Zero();  ///< the direction it was found in
@@ -217,9 +204,7 @@ class PolytopeModel {
   RayFrame<W> frame_;
   W rounding_;
   W ball_, least_ball_;
-  Vec3<W> first_ = Vec3<W>::Zero(), first_in_shape_ = Vec3<W>::Zero();  ///< the facet's normal
-  Vec3<W> first_corner_ = Vec3<W>::Zero();  ///< the support point there, where that is known
-  Mask<W> first_supported_ = Mask<W>(false);
+  FacetPlane<W> first_;
   W lowest_ = W(0), highest_ = W(0);  ///< of the portal's vertices
   std::array<Kept, 3> kept_;
 };

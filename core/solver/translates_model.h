@@ -93,20 +93,24 @@ class TranslatesModel {
         rounding_(tolerance::model_rounding<T> * R) {}
 
   Vec3<W> to_frame(const Vec3<W>& n) const { return frame_.into(n); }
-  /// There and back, a facet's normal would be rounded.
   Vec3<W> to_shape(const Vec3<W>& n) const {
-    if constexpr (!Known::some) return frame_.out_of(n);
-    return select<W>(is_first(n), first_in_shape_, frame_.out_of(n));
+    if constexpr (Known::some)
+      return first_.to_shape(n, frame_);
+    else
+      return frame_.out_of(n);
   }
   W against_ray(const Vec3<W>& n) const { return n.z(); }
 
   Piece support(const Vec3<W>& n, const Mask<W>& wanted) const {
-    if constexpr (!Known::some) return bodies_.furthest(n, wanted, from_, frame_);
-    const Mask<W> known = first_supported_ & is_first(n), open = wanted & !known;
-    if (!any(open)) return {first_corner_, body_};
-    Piece piece = bodies_.furthest(n, open, from_, frame_);
-    piece.c = select<W>(known, first_corner_, piece.c);
-    return piece;
+    if constexpr (Known::some) {
+      const Mask<W> known = first_.is_known(n), open = wanted & !known;
+      if (!any(open)) return {first_.corner(), body_};
+      Piece piece = bodies_.furthest(n, open, from_, frame_);
+      piece.c = select<W>(known, first_.corner(), piece.c);
+      return piece;
+    } else {
+      return bodies_.furthest(n, wanted, from_, frame_);
+    }
   }
 
   /// Around the facet that the ray enters, if facets are known.
@@ -122,20 +126,18 @@ class TranslatesModel {
                         frame_.into(normal_on_extents<W>(half_extents, s_, Vec3<W>(-frame_.z))));
     const Mask<W> near = facet.there[0];
     if (!any(near)) return hit;
-    first_ = select<W>(facet.enters, facet.normal, first_);
-    first_in_shape_ = facet.in_shape;
-    first_corner_ = facet.corner;
-    first_supported_ = facet.supported;
+    first_ = FacetPlane<W>(facet);
     kept_.c = facet.neighbours;
     kept_.valid = facet.there;
-    HullCastHit<W> on_facet;
-    on_facet.found = facet.enters | !near;
-    on_facet.m = facet.normal;
-    on_facet.rank = facet.height;
-    on_facet.weights[0] = on_facet.weights[1] = W(1);
+    HullCastHit<W> known;
+    known.found = facet.enters | !near;
+    known.m = select<W>(facet.enters, facet.normal, known.m);
+    known.rank = select(facet.enters, facet.height, known.rank);
+    for (std::size_t k = 0; k < 2; ++k)
+      known.weights[k] = select(facet.enters, W(1), known.weights[k]);
     const Piece corner{facet.corner, body_};
     const ModelHit<W> around =
-        keep(corner, HullCast<W, Body>(body_, corner.c, kept_, rounding_).solve_from(on_facet));
+        keep(corner, HullCast<W, Body>(body_, corner.c, kept_, rounding_).solve_from(known));
     for (Mask<W>& valid : kept_.valid) valid &= near;
     const Mask<W> some = near & (around.m.squaredNorm() > W(0));
     hit.m = select<W>(some, around.m, hit.m);
@@ -166,11 +168,6 @@ class TranslatesModel {
  private:
   using Known = Facets<W, typename Bodies::Core>;
 
-  /// Whether n is the normal of the facet that the line enters.
-  Mask<W> is_first(const Vec3<W>& n) const {
-    return (n.x() == first_.x()) & (n.y() == first_.y()) & (n.z() == first_.z());
-  }
-
   /// The hit on the hull of the pieces that are kept and this one, which is none of them; from now
   /// on those that carry the hit are kept.
   ModelHit<W> keep(const Piece& piece, const HullCastHit<W>& on_hull) {
@@ -197,9 +194,7 @@ class TranslatesModel {
   Body body_;
   W rounding_;
   Translates<W> kept_;
-  Vec3<W> first_ = Vec3<W>::Zero(), first_in_shape_ = Vec3<W>::Zero();  ///< the facet's normal
-  Vec3<W> first_corner_ = Vec3<W>::Zero();  ///< the support point there, where that is known
-  Mask<W> first_supported_ = Mask<W>(false);
+  FacetPlane<W> first_;
 };
 
 }  // namespace minkray

@@ -5,6 +5,7 @@
 
 #include "core/shape/convert.h"
 #include "core/solver/cast.h"
+#include "core/solver/check_certificate.h"
 #include "core/solver/packet_cast.h"
 #include "tests/support/random.h"
 #include "tests/support/ray_families.h"
@@ -145,6 +146,59 @@ TEST(ExtremeShapes, slivers_are_met_where_they_are) {
   EXPECT_GT(answered.misses, 300);
   // Where the sliver is so thin that even its middle is lost in rounding.
   EXPECT_LE(answered.exhausted, 60);
+}
+
+/// The corners of a box that has been turned, and a spot within it.
+struct TurnedBox {
+  std::vector<Vec3<double>> corners;
+  Vec3<double> within;
+};
+TurnedBox turned_box(const Vec3<double>& half_extents, Random& random) {
+  const Vec3<double> x = random.direction();
+  const Vec3<double> y = x.cross(random.direction()).normalized();
+  const auto turned = [&](const Vec3<double>& at) -> Vec3<double> {
+    return x * at.x() + y * at.y() + x.cross(y) * at.z();
+  };
+  TurnedBox box;
+  for (int corner = 0; corner < 8; ++corner)
+    box.corners.push_back(turned({corner & 1 ? half_extents.x() : -half_extents.x(),
+                                  corner & 2 ? half_extents.y() : -half_extents.y(),
+                                  corner & 4 ? half_extents.z() : -half_extents.z()}));
+  box.within = turned(0.8 * random.in_cube().cwiseProduct(half_extents));
+  return box;
+}
+
+void expect_inside(const Shape<double>& shape, const Vec3<double>& origin, Random& random) {
+  const Ray<double> ray{origin, random.direction()};
+  const CastResult<double> result = cast_ray(PreparedShape<double>(shape), ray);
+  EXPECT_EQ(result.status, Status::inside) << origin.transpose();
+  const SupportFunction support = supports_of(shape);
+  const Claim claim = claim_of(result);
+  EXPECT_EQ(check_certificate(support, ray, claim, certify(support, ray, claim)).complaint, "");
+}
+
+TEST(ExtremeShapes, what_is_inside_can_be_proven) {
+  Random random(11);
+  for (const double thin : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-9})
+    for (const Vec3<double>& half_extents :
+         {Vec3<double>(1, thin, thin), Vec3<double>(1, 1, thin), Vec3<double>(1, 0.03, thin)})
+      for (int i = 0; i < 20; ++i) {
+        SCOPED_TRACE(half_extents.transpose());
+        const TurnedBox box = turned_box(half_extents, random);
+        expect_inside(Hull<double>{PointCloud<double>(box.corners)}, box.within, random);
+      }
+}
+
+TEST(ExtremeShapes, in_a_thin_skin_one_is_inside) {
+  Random random(12);
+  for (const double radius : {1e-3, 1e-5, 1e-7, 1e-9})
+    for (int i = 0; i < 20; ++i) {
+      const TurnedBox box = turned_box({1, 0.8, 0.6}, random);
+      const Vec3<double> middle = (box.corners[0] + box.corners[3]) / 2;  // of a face
+      const Vec3<double> out = middle.normalized() * radius * random.uniform(0.1, 0.9);
+      const Shape<double> hull = Hull<double>{PointCloud<double>(box.corners)};
+      expect_inside(Rounded<double>{radius, hull}, middle + out, random);
+    }
 }
 
 TEST(ExtremeShapes, packets_say_what_single_casts_say) {
