@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reading rows of a table, a row for each lane: whole registers are read and transposed, which
-// takes a third of the instructions of reading number by number.
+// Reading rows of a table, a row for each lane: whole registers are read and transposed, instead
+// of putting number after number into its lane.
 #pragma once
 
 #include "core/math/wide.h"

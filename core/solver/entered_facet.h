@@ -151,7 +151,7 @@ struct Facets<W, Core> {
     const Vec3<W> guess = normal_on_extents<W>(half_extents, s, Vec3<W>(-frame.z));
 
     EnteredFacet<W> facet;
-    W at = mesh.facing(Vec3<W>(guess + frame.z * W(towards_ray)));
+    W at = start(mesh, guess, frame, 0);
     Mask<W> open = Mask<W>(true), stepped = Mask<W>(false), beside = Mask<W>(false);
     Vec3<W> outline = Vec3<W>::Zero();
     std::array<Vec3<W>, 3> corners = {Vec3<W>::Zero(), Vec3<W>::Zero(), Vec3<W>::Zero()};
@@ -160,7 +160,7 @@ struct Facets<W, Core> {
       const std::array<Vec3<W>, 3> p = corners_of(row, from, frame);
       const W a = cross_2d(p[0], p[1]), b = cross_2d(p[1], p[2]), c = cross_2d(p[2], p[0]);
       const Mask<W> away = open & !(a + b + c > W(0));
-      const Mask<W> lost = step < tries ? Mask<W>(away & !stepped) : Mask<W>(false);
+      const Mask<W> lost = step < restarts ? Mask<W>(away & !stepped) : Mask<W>(false);
       beside |= away & stepped;
       open &= !away;
       for (std::size_t k = 0; k < 3; ++k) corners[k] = select<W>(open, p[k], corners[k]);
@@ -176,7 +176,7 @@ struct Facets<W, Core> {
       outline = select<W>(open, Vec3<W>(end.y() - begin.y(), begin.x() - end.x(), W(0)), outline);
       at = select(open, beyond(row, by_b, by_c), at);
       stepped |= open;
-      if (any(lost)) at = select(lost, further_towards_ray(mesh, guess, frame, step), at);
+      if (any(lost)) at = select(lost, start(mesh, guess, frame, step + 1), at);
       open |= lost;
     }
 
@@ -215,7 +215,7 @@ struct Facets<W, Core> {
 
     EnteredFacet<W> facet;
     facet.normal = Vec3<W>(W(0), W(0), W(1));
-    W at = mesh.facing(Vec3<W>(guess + frame.z * W(towards_ray))), last = W(-1);
+    W at = start(mesh, guess, frame, 0), last = W(-1);
     Mask<W> open = Mask<W>(true), stepped = Mask<W>(false);
     // Of the last step: the edge crossed, the corner of the facet left behind, the foot there.
     Vec3<W> begin = Vec3<W>::Zero(), end = begin, behind = begin, foot = begin;
@@ -242,7 +242,7 @@ struct Facets<W, Core> {
       const Vec3<W> m =
           frame.into({row[Row::normals], row[Row::normals + 1], row[Row::normals + 2]});
       const Mask<W> away = open & !(m.z() > W(least_facing));
-      const Mask<W> lost = step < tries ? Mask<W>(away & !stepped) : Mask<W>(false);
+      const Mask<W> lost = step < restarts ? Mask<W>(away & !stepped) : Mask<W>(false);
       if (any(away)) {
         answer_edge(away & stepped, begin, end, behind, behind, Mask<W>(false));
         open &= !away;
@@ -286,7 +286,7 @@ struct Facets<W, Core> {
       last = select(open, at, last);
       at = select(open, to, at);
       stepped |= open;
-      if (any(lost)) at = select(lost, further_towards_ray(mesh, guess, frame, step), at);
+      if (any(lost)) at = select(lost, start(mesh, guess, frame, step + 1), at);
       open |= lost;
     }
     return facet;
@@ -313,18 +313,19 @@ struct Facets<W, Core> {
                   select(second, row[Row::neighbours + 1], row[Row::neighbours]));
   }
 
+  /// How far the guess is tilted towards the ray where a walk begins: little, so that most guesses
+  /// at right angles to the ray face it; and more if it has found itself on a facet which faces
+  /// away, which is less near but faces the ray more surely.
+  static constexpr std::array<T, 3> tilts = {T(1) / T(32), T(1) / T(2), T(4)};
+  static constexpr int restarts = static_cast<int>(tilts.size()) - 1;
+  static W start(const FacetMesh<T>& mesh, const Vec3<W>& guess, const RayFrame<W>& frame,
+                 int attempt) {
+    return mesh.facing(Vec3<W>(guess + frame.z * W(tilts[static_cast<std::size_t>(attempt)])));
+  }
+
   /// The sine below which a facet counts as seen edge-on; a rounded one, as facing away: the line
   /// crosses its moved plane a thousand radii beside it.
   static constexpr T least_facing = T(1) / T(1024);
-  /// Where a walk begins anew that has found itself on a facet which faces away: at one that is
-  /// less near, but faces the ray more surely.
-  static W further_towards_ray(const FacetMesh<T>& mesh, const Vec3<W>& guess,
-                               const RayFrame<W>& frame, int step) {
-    return mesh.facing(Vec3<W>(guess + frame.z * W(step == 0 ? T(0.5) : T(4))));
-  }
-  static constexpr int tries = 2;
-  /// For guesses at right angles to the ray, so that most of them face it.
-  static constexpr T towards_ray = T(1) / T(32);
   /// Walks of regular triangulations end by themselves, but for rounding; from a start that is near
   /// they are short. What takes longer goes on without known facets.
   static constexpr int max_steps = 64;
