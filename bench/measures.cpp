@@ -72,7 +72,8 @@ std::vector<Measured> measure(const Peers& peers, const Shape<double>& shape,
   for (std::size_t p = 0; p < peers.size(); ++p) {
     // The first answers are judged; they also warm the caches.
     peers[p]->prepare(rays.batch);
-    peers[p]->cast(rays.batch, hits);
+    peers[p]->cast();
+    peers[p]->read(hits);
     all[p].name = peers[p]->name();
     all[p].triangles = peers[p]->triangles();
     all[p].judgement = judge(shape, rays, hits, band_of(all[p].name));
@@ -80,8 +81,9 @@ std::vector<Measured> measure(const Peers& peers, const Shape<double>& shape,
   }
   for (int round = 0; round < rounds; ++round) {
     for (std::size_t p = 0; p < peers.size(); ++p) {
+      peers[p]->prepare(rays.batch);
       const auto begin = Clock::now();
-      peers[p]->cast(rays.batch, hits);
+      peers[p]->cast();
       const std::chrono::duration<double, std::nano> time = Clock::now() - begin;
       times[p].push_back(time.count() / static_cast<double>(count));
     }

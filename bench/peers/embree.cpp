@@ -3,7 +3,8 @@
 // its highest quality, with its fastest (not its robust) intersection.
 #include <embree3/rtcore.h>
 
-#include <cstring>
+#include <algorithm>
+#include <array>
 
 #include "bench/peers/others.h"
 
@@ -41,14 +42,6 @@ struct Scene {
 
 using ScenePointer = std::shared_ptr<Scene>;
 
-RTCIntersectContext context_for(const RayBatch& rays) {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags =
-      rays.coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-  return context;
-}
-
 Hit as_hit(bool met, float t, float x, float y, float z) {
   if (!met) return {};
   Hit hit = hit_at(static_cast<double>(t));
@@ -56,83 +49,112 @@ Hit as_hit(bool met, float t, float x, float y, float z) {
   return hit;
 }
 
-class OneRay : public Peer {
+/// What one and eight rays share: the scene, and whether the batch is coherent.
+class EmbreePeer : public Peer {
  public:
-  OneRay(std::string name, ScenePointer scene) : Peer(std::move(name)), scene_(std::move(scene)) {}
+  EmbreePeer(std::string name, ScenePointer scene)
+      : Peer(std::move(name)), scene_(std::move(scene)) {}
   std::size_t triangles() const override { return scene_->triangles; }
 
-  void cast(const RayBatch& rays, std::span<Hit> hits) override {
-    RTCIntersectContext context = context_for(rays);
-    for (std::size_t i = 0; i < hits.size(); ++i) {
+ protected:
+  void set_flags(const RayBatch& rays) {
+    flags_ =
+        rays.coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+  }
+  RTCIntersectContext context() const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = flags_;
+    return context;
+  }
+  RTCScene scene() const { return scene_->scene; }
+
+ private:
+  ScenePointer scene_;
+  RTCIntersectContextFlags flags_ = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+};
+
+class OneRay : public EmbreePeer {
+ public:
+  using EmbreePeer::EmbreePeer;
+
+  void prepare(const RayBatch& rays) override {
+    set_flags(rays);
+    queries_.assign(rays.size(), {});
+    for (std::size_t i = 0; i < rays.size(); ++i) {
       const Ray<float>& ray = rays.in_float[i];
-      RTCRayHit query;
+      RTCRayHit& query = queries_[i];
       query.ray.org_x = ray.origin.x();
       query.ray.org_y = ray.origin.y();
       query.ray.org_z = ray.origin.z();
-      query.ray.tnear = 0;
       query.ray.dir_x = ray.direction.x();
       query.ray.dir_y = ray.direction.y();
       query.ray.dir_z = ray.direction.z();
-      query.ray.time = 0;
       query.ray.tfar = ray.t_max;
       query.ray.mask = ~0u;
-      query.ray.id = 0;
-      query.ray.flags = 0;
       query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
       query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-      rtcIntersect1(scene_->scene, &context, &query);
+    }
+  }
+
+  void cast() override {
+    RTCIntersectContext asked = context();
+    for (RTCRayHit& query : queries_) rtcIntersect1(scene(), &asked, &query);
+  }
+
+  void read(std::span<Hit> hits) const override {
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+      const RTCRayHit& query = queries_[i];
       hits[i] = as_hit(query.hit.geomID != RTC_INVALID_GEOMETRY_ID, query.ray.tfar, query.hit.Ng_x,
                        query.hit.Ng_y, query.hit.Ng_z);
     }
   }
 
  private:
-  ScenePointer scene_;
+  std::vector<RTCRayHit> queries_;
 };
 
-class EightRays : public Peer {
+class EightRays : public EmbreePeer {
  public:
-  EightRays(std::string name, ScenePointer scene)
-      : Peer(std::move(name)), scene_(std::move(scene)) {}
-  std::size_t triangles() const override { return scene_->triangles; }
+  using EmbreePeer::EmbreePeer;
 
   void prepare(const RayBatch& rays) override {
-    packets_.assign((rays.size() + 7) / 8, {});
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      RTCRay8& to = packets_[i / 8].ray;
-      const Ray<float>& ray = rays.in_float[i];
+    set_flags(rays);
+    queries_.assign((rays.size() + 7) / 8, {});
+    for (std::size_t i = 0; i < queries_.size() * 8; ++i) {
+      RTCRayHit8& query = queries_[i / 8];
+      const Ray<float>& ray = rays.in_float[std::min(i, rays.size() - 1)];
       const std::size_t lane = i % 8;
-      to.org_x[lane] = ray.origin.x();
-      to.org_y[lane] = ray.origin.y();
-      to.org_z[lane] = ray.origin.z();
-      to.dir_x[lane] = ray.direction.x();
-      to.dir_y[lane] = ray.direction.y();
-      to.dir_z[lane] = ray.direction.z();
-      to.tfar[lane] = ray.t_max;
-      to.mask[lane] = ~0u;
-      packets_[i / 8].hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
-      packets_[i / 8].hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
+      query.ray.org_x[lane] = ray.origin.x();
+      query.ray.org_y[lane] = ray.origin.y();
+      query.ray.org_z[lane] = ray.origin.z();
+      query.ray.dir_x[lane] = ray.direction.x();
+      query.ray.dir_y[lane] = ray.direction.y();
+      query.ray.dir_z[lane] = ray.direction.z();
+      query.ray.tfar[lane] = ray.t_max;
+      query.ray.mask[lane] = ~0u;
+      query.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
+      query.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
     }
   }
 
-  void cast(const RayBatch& rays, std::span<Hit> hits) override {
-    RTCIntersectContext context = context_for(rays);
-    for (std::size_t begin = 0; begin < hits.size(); begin += 8) {
-      const std::size_t count = std::min<std::size_t>(8, hits.size() - begin);
-      alignas(32) int valid[8];
-      for (std::size_t lane = 0; lane < 8; ++lane) valid[lane] = lane < count ? -1 : 0;
-      RTCRayHit8 query = packets_[begin / 8];
-      rtcIntersect8(valid, scene_->scene, &context, &query);
-      for (std::size_t lane = 0; lane < count; ++lane)
-        hits[begin + lane] =
-            as_hit(query.hit.geomID[lane] != RTC_INVALID_GEOMETRY_ID, query.ray.tfar[lane],
-                   query.hit.Ng_x[lane], query.hit.Ng_y[lane], query.hit.Ng_z[lane]);
+  void cast() override {
+    RTCIntersectContext asked = context();
+    alignas(32) constexpr std::array<int, 8> all = {-1, -1, -1, -1, -1, -1, -1, -1};
+    for (RTCRayHit8& query : queries_) rtcIntersect8(all.data(), scene(), &asked, &query);
+  }
+
+  void read(std::span<Hit> hits) const override {
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+      const RTCRayHit8& query = queries_[i / 8];
+      const std::size_t lane = i % 8;
+      hits[i] = as_hit(query.hit.geomID[lane] != RTC_INVALID_GEOMETRY_ID, query.ray.tfar[lane],
+                       query.hit.Ng_x[lane], query.hit.Ng_y[lane], query.hit.Ng_z[lane]);
     }
   }
 
  private:
-  ScenePointer scene_;
-  std::vector<RTCRayHit8> packets_;
+  std::vector<RTCRayHit8> queries_;
 };
 
 Peers one_and_eight(const std::string& label, const ScenePointer& scene) {

@@ -25,9 +25,9 @@ Hit as_hit(const CastResult<T>& result) {
 template <class T>
 std::unique_ptr<Peer> solver(std::string name, const std::shared_ptr<PreparedShape<T>>& shape,
                              const CastOptions<T>& options) {
-  return single_rays<T>(std::move(name), [shape, options](const Ray<T>& ray) {
-    return as_hit(cast_ray(*shape, ray, options));
-  });
+  return single_rays<T>(
+      std::move(name),
+      [shape, options](const Ray<T>& ray) { return cast_ray(*shape, ray, options); }, as_hit<T>);
 }
 
 /// Neighbours in packets, in the order of the batch.
@@ -39,6 +39,7 @@ class Packets : public Peer {
 
   void prepare(const RayBatch& rays) override {
     packets_.assign((rays.size() + lanes - 1) / lanes, {});
+    answers_.assign(packets_.size(), {});
     for (std::size_t i = 0; i < packets_.size() * lanes; ++i) {
       const std::size_t from = std::min(i, rays.size() - 1);
       Ray<T> ray;
@@ -50,37 +51,23 @@ class Packets : public Peer {
     }
   }
 
-  void cast(const RayBatch&, std::span<Hit> hits) override {
-    CastPacket<T> answers;
-    for (std::size_t i = 0; i < hits.size(); ++i) {
-      const std::size_t lane = i % lanes;
-      if (lane == 0) cast_packet(*shape_, packets_[i / lanes], all_lanes<T>, answers, set_);
-      hits[i] = hit_of(answers, lane);
-    }
+  void cast() override {
+    for (std::size_t i = 0; i < packets_.size(); ++i)
+      cast_packet(*shape_, packets_[i], all_lanes<T>, answers_[i], set_);
+  }
+
+  void read(std::span<Hit> hits) const override {
+    for (std::size_t i = 0; i < hits.size(); ++i)
+      hits[i] = as_hit(answers_[i / lanes].result(static_cast<int>(i % lanes)));
   }
 
  private:
   static constexpr std::size_t lanes = static_cast<std::size_t>(packet_lanes<T>);
 
-  static Hit hit_of(const CastPacket<T>& answers, std::size_t lane) {
-    const LaneBits bit = LaneBits(1) << lane;
-    Hit hit;
-    hit.supports = static_cast<int>(answers.supports[lane]);
-    if (answers.found() & bit) {
-      hit.outcome = Outcome::hit;
-      hit.t_base = double(answers.t_base[lane]);
-      hit.t_offset = double(answers.t_offset[lane]);
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        hit.normal[static_cast<int>(axis)] = static_cast<float>(answers.normal[axis][lane]);
-    } else if (!(answers.miss & bit)) {
-      hit.outcome = Outcome::exhausted;
-    }
-    return hit;
-  }
-
   std::shared_ptr<PreparedShape<T>> shape_;
   InstructionSet set_;
   std::vector<RayPacket<T>> packets_;
+  std::vector<CastPacket<T>> answers_;
 };
 
 }  // namespace

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 // What every ray caster that is measured looks like: it answers a whole batch of rays at one shape,
-// as its users would ask it.
+// as its users would ask it: with rays and answers in its own layout.
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <memory>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "core/math/ray.h"
@@ -42,10 +44,12 @@ class Peer {
   const std::string& name() const { return name_; }
   /// Triangles, for meshes.
   virtual std::size_t triangles() const { return 0; }
-  /// What takes no part in the timing: the batch in the peer's own layout.
-  virtual void prepare(const RayBatch&) {}
-  /// The batch that was prepared; one hit a ray.
-  virtual void cast(const RayBatch& rays, std::span<Hit> hits) = 0;
+  /// The batch in the peer's own layout, ready to be cast once. Not timed.
+  virtual void prepare(const RayBatch& rays) = 0;
+  /// Answers the batch that was prepared, into the peer's own layout. This is timed.
+  virtual void cast() = 0;
+  /// The answers, one a ray of the batch. Not timed.
+  virtual void read(std::span<Hit> hits) const = 0;
 
  private:
   std::string name_;
@@ -53,27 +57,38 @@ class Peer {
 
 using Peers = std::vector<std::unique_ptr<Peer>>;
 
-/// A peer from a function that answers one ray of scalar T: Hit(const Ray<T>&).
-template <class T, class Entry>
+/// A peer from a function that answers one ray of scalar T, and one that makes a Hit of an answer.
+template <class T, class Entry, class ToHit>
 class SingleRays : public Peer {
  public:
-  SingleRays(std::string name, Entry entry) : Peer(std::move(name)), entry_(std::move(entry)) {}
+  SingleRays(std::string name, Entry entry, ToHit to_hit)
+      : Peer(std::move(name)), entry_(std::move(entry)), to_hit_(std::move(to_hit)) {}
 
-  void cast(const RayBatch& rays, std::span<Hit> hits) override {
-    if constexpr (std::is_same_v<T, float>) {
-      for (std::size_t i = 0; i < hits.size(); ++i) hits[i] = entry_(rays.in_float[i]);
-    } else {
-      for (std::size_t i = 0; i < hits.size(); ++i) hits[i] = entry_(rays.in_double[i]);
-    }
+  void prepare(const RayBatch& batch) override {
+    if constexpr (std::is_same_v<T, float>)
+      rays_ = batch.in_float;
+    else
+      rays_ = batch.in_double;
+    answers_.resize(rays_.size());
+  }
+  void cast() override {
+    for (std::size_t i = 0; i < rays_.size(); ++i) answers_[i] = entry_(rays_[i]);
+  }
+  void read(std::span<Hit> hits) const override {
+    for (std::size_t i = 0; i < hits.size(); ++i) hits[i] = to_hit_(answers_[i]);
   }
 
  private:
   Entry entry_;
+  ToHit to_hit_;
+  std::vector<Ray<T>> rays_;
+  std::vector<std::invoke_result_t<const Entry&, const Ray<T>&>> answers_;
 };
 
-template <class T, class Entry>
-std::unique_ptr<Peer> single_rays(std::string name, Entry entry) {
-  return std::make_unique<SingleRays<T, Entry>>(std::move(name), std::move(entry));
+template <class T, class Entry, class ToHit = std::identity>
+std::unique_ptr<Peer> single_rays(std::string name, Entry entry, ToHit to_hit = {}) {
+  return std::make_unique<SingleRays<T, Entry, ToHit>>(std::move(name), std::move(entry),
+                                                       std::move(to_hit));
 }
 
 /// For those who answer with one number, infinite for a miss.

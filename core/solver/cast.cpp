@@ -55,10 +55,20 @@ template <class T, class Observer>
 CastResult<T> cast_with_model(const PreparedShape<T>& shape, const RayNearBall<T>& near,
                               const CastOptions<T>& options, Observer&& observer) {
   const Ball<T>& ball = shape.inner_ball();
+  const Vec3<T>& half_extents = shape.inner_half_extents();
+  const BoundsCast<T> bounds = cast_at_bounds(near, ball, half_extents, true);
+  if (bounds.miss) {
+    CastLanes<T> passed;
+    passed.miss = true;
+    passed.t_base = near.t_base;
+    passed.normal = bounds.normal;
+    return result_of(passed);
+  }
   const auto cast = [&](int max_iterations) {
     return [&, max_iterations](const auto& make_model) {
-      CastLanes<T> lanes = model_cast<T>(make_model, near, ball, shape.inner_half_extents(), true,
-                                         max_iterations, observer);
+      CastLanes<T> lanes;
+      if (bounds.open)
+        lanes = model_cast<T>(make_model, near, ball, half_extents, true, max_iterations, observer);
       if (lanes.doubtful && !shape.definition().is_smooth()) lanes.inside = false;
       return result_of(lanes);
     };

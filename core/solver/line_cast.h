@@ -77,6 +77,7 @@ LineHit<W> first_on_line(Model& model, const Vec3<Lane<W>>& half_extents, const 
   LineHit<W> result;
   ModelHit<W> model_hit = model.begin(half_extents);
   Vec3<W> n = model_hit.m;
+  W best_slope(0);  // of result.normal's plane
   for (int iteration = 0; iteration < max_iterations; ++iteration) {
     // The supporting plane of direction n: it clips the line, or separates (where it leans away
     // from the ray: all of the line in the bounding ball).
@@ -84,14 +85,16 @@ LineHit<W> first_on_line(Model& model, const Vec3<Lane<W>>& half_extents, const 
     result.supports += select(open, W(1), W(0));
     const W h = piece.reach(n), z = model.against_ray(n);
     const Mask<W> ahead = z > W(0), steep = z > least_slope, beyond = h < -gap;
-    const W safe_z = select(ahead, z, W(1));
-    const W clear = select(ahead & beyond, W(-(h + gap) / safe_z), W(-infinity));
-    const W lambda = select(steep, W(-h / safe_z), clear);
+    // Where it is not steep, only what lies clearly beyond rounding counts.
+    const W clear = select(steep, h, W(h + gap));
+    const W lambda =
+        select(steep | (ahead & beyond), W(-clear / select(ahead, z, W(1))), W(-infinity));
     if constexpr (!std::is_same_v<std::remove_cvref_t<Observer>, NoObserver>)
       observer(lambda, model.to_shape(n), model.to_shape(piece.spot(n)));
     const Mask<W> better = open & (lambda > result.lambda);
     result.lambda = select(better, lambda, result.lambda);
     result.normal = select<W>(better, n, result.normal);
+    best_slope = select(better, z, best_slope);
     const Mask<W> misses = open & (((!ahead) & (h - z * W(R) < -gap)) | (lambda > lambda_end));
     result.normal = select<W>(misses, n, result.normal);
     result.miss |= misses;
@@ -99,10 +102,9 @@ LineHit<W> first_on_line(Model& model, const Vec3<Lane<W>>& half_extents, const 
     if (!any(open)) break;
 
     // Where the model, as it was, is hit no further than rounding beyond the best plane.
-    const auto meets = [&](const W& within) {
-      const W slope = model.against_ray(model_hit.m);
+    const auto meets = [&](const W& slope, const W& within) {
       const W along = select(model_hit.certain, W(-model_hit.height - result.lambda), W(0));
-      const W missing = along * min(slope, max(model.against_ray(result.normal), W(0)));
+      const W missing = along * min(slope, max(best_slope, W(0)));
       const Mask<W> met = open & model_hit.certain & (slope > least_slope) & (missing <= within) &
                           (along <= gap_along);
       const Mask<W> contradicts = missing < W(-16) * gap;
@@ -113,12 +115,12 @@ LineHit<W> first_on_line(Model& model, const Vec3<Lane<W>>& half_extents, const 
       result.lambda = select(inner, min(result.lambda, W(-model_hit.height)), result.lambda);
       open &= !met;
     };
-    meets(gap);
+    meets(z, gap);
     if (!any(open)) break;
 
     // The hit on the model with the new piece.
     model_hit = model.step(piece, n, iteration);
-    meets(select(model_hit.repeated, W(W(4) * gap), gap));
+    meets(model.against_ray(model_hit.m), select(model_hit.repeated, W(W(4) * gap), gap));
     // A tangent line: where along it the shape is touched, no plane along it tells.
     const Mask<W> touches = (!steep) & model_hit.repeated & (abs(h) <= gap);
     const Mask<W> stuck = model_hit.repeated & ((model_hit.m - n).squaredNorm() == W(0));

@@ -21,13 +21,64 @@ struct CastLanes {
   W supports = W(0);
 };
 
-/// The ray must be given relative to the ball's centre; the ball must hold the shape, whose bounds
-/// have these half extents. make_model(s, r) makes a model of the shape seen from s along r. Only
-/// `active` lanes are cast.
+/// What the shape's bounds tell of a cast.
+template <class W>
+struct BoundsCast {
+  Mask<W> open = Mask<W>(false);  ///< the shape itself has to be asked
+  Mask<W> miss = Mask<W>(false);
+  Vec3<W> normal = Vec3<W>::Zero();  ///< of misses: of a plane between ray and bounds
+};
+
+/// The ray must be given relative to the ball's centre; the ball must hold the shape, and so must
+/// the axis-aligned box around the same centre. Only `active` lanes are cast.
+template <class W>
+BoundsCast<W> cast_at_bounds(const RayNearBall<W>& near, const Ball<Lane<W>>& ball,
+                             const Vec3<Lane<W>>& half_extents, const Mask<W>& active) {
+  using std::abs;
+  using std::copysign;
+  using std::max;
+  using std::min;
+  using T = Lane<W>;
+  const T R = ball.radius, padding = tolerance::ball_padding<T> * R;
+  const Vec3<W>&s = near.s, &r = near.r;
+  BoundsCast<W> result;
+  const W nearest = min(max(W(0), near.lambda_min), near.lambda_max);
+  const Vec3<W> to_ray = s + r * nearest;
+  const W reached(R + padding);
+  const Mask<W> by_ball = to_ray.squaredNorm() > reached * reached;
+  result.miss = active & by_ball;
+  result.open = active & (!by_ball) & (r.squaredNorm() > W(0)) & (W(R) > W(0));
+  Vec3<W> across = to_ray;
+  if (any(result.open)) {
+    // The line passes by the box if it does so seen along one of the axes e_k: in the direction
+    // r x e_k, to either side, the line is s . (r x e_k) = (s x r)_k away.
+    const Vec3<W> h = widen<W>(Vec3<T>(half_extents + Vec3<T>::Constant(padding)));
+    const Vec3<W> beside = s.cross(r);
+    const Vec3<W> size(abs(r.x()), abs(r.y()), abs(r.z()));
+    const Mask<W> by_x = abs(beside.x()) > h.y() * size.z() + h.z() * size.y();
+    const Mask<W> by_y = abs(beside.y()) > h.z() * size.x() + h.x() * size.z();
+    const Mask<W> by_z = abs(beside.z()) > h.x() * size.y() + h.y() * size.x();
+    const Mask<W> by_box = result.open & (by_x | by_y | by_z);
+    if (any(by_box)) {
+      const Vec3<W> axis(select(by_x, copysign(W(1), beside.x()), W(0)),
+                         select(by_y & !by_x, copysign(W(1), beside.y()), W(0)),
+                         select(by_x | by_y, W(0), copysign(W(1), beside.z())));
+      across = select<W>(by_box, r.cross(axis), across);
+      result.miss |= by_box;
+      result.open &= !by_box;
+    }
+  }
+  if (any(result.miss)) result.normal = select<W>(result.miss, unit<W>(across), result.normal);
+  return result;
+}
+
+/// Of a ray at a shape whose bounds it meets, as seen from the bounding ball's centre; R is its
+/// radius, half_extents the bounding box's. make_model(s, r) makes a model of the shape seen from s
+/// along r. Only `castable` lanes are cast.
 template <class W, class MakeModel, class Observer>
 CastLanes<W> model_cast(const MakeModel& make_model, const RayNearBall<W>& near,
                         const Ball<Lane<W>>& ball, const Vec3<Lane<W>>& half_extents,
-                        const Mask<W>& active, int max_iterations, Observer&& observer) {
+                        const Mask<W>& castable, int max_iterations, Observer&& observer) {
   using std::max;
   using std::min;
   using std::sqrt;
@@ -35,16 +86,6 @@ CastLanes<W> model_cast(const MakeModel& make_model, const RayNearBall<W>& near,
   const T R = ball.radius;
   CastLanes<W> result;
   result.t_base = near.t_base;
-
-  // The bounding ball.
-  const W nearest = min(max(W(0), near.lambda_min), near.lambda_max);
-  const Vec3<W> to_ray = near.s + near.r * nearest;
-  const W reached = W(R * (T(1) + tolerance::ball_padding<T>));
-  const Mask<W> passes = to_ray.squaredNorm() > reached * reached;
-  result.miss = active & passes;
-  if (any(passes)) result.normal = select<W>(passes, unit<W>(to_ray), result.normal);
-  const Mask<W> castable = active & (!passes) & (near.r.squaredNorm() > W(0)) & (W(R) > W(0));
-  if (!any(castable)) return result;
 
   // Where the line enters the shape.
   const Vec3<W>& s = near.s;
@@ -98,15 +139,15 @@ CastLanes<W> model_cast(const MakeModel& make_model, const RayNearBall<W>& near,
   };
   const LineHit<W> entry = first_of(r, end, castable, W(1));
   result.supports = entry.supports;
-  result.normal = select<W>(castable, entry.normal, result.normal);
-  result.miss |= entry.miss;
+  result.normal = entry.normal;
+  result.miss = entry.miss;
   // Beyond the ball's far side: joined with the ball's own plane there, the two leave the line no
   // room, and their sum runs along it.
   const W z = -entry.normal.dot(r);
-  const Vec3<W> out = s + r * depth;
-  const W along = out.dot(r);
-  const Mask<W> beyond_ball = entry.miss & (z > W(0)) & (end == depth) & (along > W(0));
-  if (any(beyond_ball)) {
+  if (any(entry.miss)) {
+    const Vec3<W> out = s + r * depth;
+    const W along = out.dot(r);
+    const Mask<W> beyond_ball = entry.miss & (z > W(0)) & (end == depth) & (along > W(0));
     const W weight = z / select(along > W(0), along, W(1));
     result.normal =
         select<W>(beyond_ball, unit<W>(Vec3<W>(entry.normal + out * weight)), result.normal);

@@ -33,13 +33,33 @@ void part(const PreparedShape<Lane<W>>& shape, const RayPacket<Lane<W>>& rays, L
   const RayNearBall<W> near = shape.template to_inner<W>(ray);
   const Ball<T>& ball = shape.inner_ball();
   const Mask<W> active = mask_of<W>(lanes >> from);
-  const CastLanes<W> result =
-      with_model<W>(shape.definition(), [&](const auto& make_model) {
-        return model_cast<W>(make_model, near, ball, shape.inner_half_extents(), active,
-                             tolerance::jet_max_iterations, NoObserver());
-      });
+  const Vec3<T>& half_extents = shape.inner_half_extents();
+  const BoundsCast<W> bounds = cast_at_bounds(near, ball, half_extents, active);
+  if (!any(bounds.open)) {
+    const Vec3<W> normal = shape.template normal_to_outer<W>(bounds.normal);
+    const Mask<W> has_numbers = (normal.squaredNorm() < W(T(2))) & (near.t_base == near.t_base);
+    answers.miss |= lane_bits(bounds.miss & has_numbers) << from;
+    near.t_base.store(answers.t_base.data() + from);
+    const W zero(T(0));
+    zero.store(answers.t_offset.data() + from);
+    zero.store(answers.offset_lo.data() + from);
+    zero.store(answers.offset_hi.data() + from);
+    for (int axis = 0; axis < 3; ++axis)
+      normal[axis].store(answers.normal[static_cast<std::size_t>(axis)].data() + from);
+    zero.store(answers.supports.data() + from);
+    return;
+  }
+  CastLanes<W> result = with_model<W>(shape.definition(), [&](const auto& make_model) {
+    return model_cast<W>(make_model, near, ball, half_extents, bounds.open,
+                         tolerance::jet_max_iterations, NoObserver());
+  });
+  result.miss |= bounds.miss;
+  result.normal = select<W>(bounds.miss, bounds.normal, result.normal);
   const Vec3<W> normal = shape.template normal_to_outer<W>(result.normal);
-  const auto at_origin = [&](const W& x) { return select(result.inside, W(T(0)), x); };
+  const bool some_inside = any(result.inside);
+  const auto at_origin = [&](const W& x) {
+    return some_inside ? select(result.inside, W(T(0)), x) : x;
+  };
   using std::abs;
   const Mask<W> in_range =
       abs(result.t_base + result.t_offset) < W(std::numeric_limits<T>::infinity());

@@ -47,12 +47,11 @@ struct RayNearBall {
   }
 };
 
-/// The ray moved to its closest approach to `centre`. Two steps, since the rounding of the first
-/// one's parameter is as coarse as the origin is far; s itself is rounded only as coarsely as
-/// centre and shape are large, because fma rounds once and walks along the direction as given, not
-/// along a rounded unit vector.
+namespace detail {
+
 template <class W>
-RayNearBall<W> ray_near(const Vec3<Lane<W>>& centre_of_ball, const Ray<W>& ray) {
+[[gnu::always_inline]] inline RayNearBall<W> ray_near_here(const Vec3<Lane<W>>& centre_of_ball,
+                                                           const Ray<W>& ray) {
   using std::abs;
   using std::fma;
   using std::max;
@@ -92,6 +91,31 @@ RayNearBall<W> ray_near(const Vec3<Lane<W>>& centre_of_ball, const Ray<W>& ray) 
   near.lambda_max =
       select(has_direction, W(ray.t_max * size * (W(1) / first) * length + near.lambda_min), W(0));
   return near;
+}
+
+#if defined(__x86_64__) && !defined(__FMA__)
+/// Where the machine has FMA but the compiler must not count on it, fma is otherwise a function
+/// call, six times over. The same bits.
+template <class W>
+[[gnu::target("fma")]] RayNearBall<W> ray_near_with_fma(const Vec3<Lane<W>>& centre,
+                                                        const Ray<W>& ray) {
+  return ray_near_here<W>(centre, ray);
+}
+#endif
+
+}  // namespace detail
+
+/// The ray moved to its closest approach to `centre`. Two steps, since the rounding of the first
+/// one's parameter is as coarse as the origin is far; s itself is rounded only as coarsely as
+/// centre and shape are large, because fma rounds once and walks along the direction as given, not
+/// along a rounded unit vector.
+template <class W>
+RayNearBall<W> ray_near(const Vec3<Lane<W>>& centre, const Ray<W>& ray) {
+#if defined(__x86_64__) && !defined(__FMA__)
+  if constexpr (std::is_same_v<W, float> || std::is_same_v<W, double>)
+    if (__builtin_cpu_supports("fma")) return detail::ray_near_with_fma<W>(centre, ray);
+#endif
+  return detail::ray_near_here<W>(centre, ray);
 }
 
 }  // namespace minkray

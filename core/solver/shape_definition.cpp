@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/solver/shape_definition.h"
 
+#include "core/shape/as_rounded_box.h"
 #include "core/shape/convert.h"
 #include "core/shape/proportions.h"
 #include "core/shape/shape_bounds.h"
@@ -16,10 +17,14 @@ constexpr T ordinary_size = std::is_same_v<T, float> ? T(0x1p16) : T(0x1p128);
 
 template <class T>
 ShapeDefinition<T>::ShapeDefinition(Shape<T> shape) : original_(shape), inner_(std::move(shape)) {
-  while (const auto* transform = std::get_if<Transform<T>>(&inner_.kind)) {
-    maps_.push_back(transform->map.affine());
-    Shape<T> nested = *transform->shape;
-    inner_ = std::move(nested);
+  for (bool simpler = true; simpler;) {
+    std::optional<Shape<T>> next = as_rounded_box(inner_);
+    if (const auto* transform = std::get_if<Transform<T>>(&inner_.kind)) {
+      maps_.push_back(transform->map.affine());
+      next = *transform->shape;
+    }
+    simpler = next.has_value();
+    if (simpler) inner_ = *std::move(next);
   }
   Bounds<T> bounds = minkray::bounds_of<T>(inner_);
   // Very small and very large shapes are brought to about unit size by a power of two, which is

@@ -45,7 +45,9 @@ std::vector<Limit> limits() {
       {"rounded hull of 16", Rounded<double>{0.1, hull(16)}, 1.2, 10, 1.5},
       {"rounded hull of 256", Rounded<double>{0.1, hull(256)}, 1.3, 10, 1.6},
       {"superellipsoid", Superellipsoid<double>{{1, 1, 1}, 4}, 1.1, 6, 1.1},
-      {"ellipsoid and box", MinkowskiSum<double>{{egg, box}}, 5, 10, 4},
+      {"ellipsoid and box", MinkowskiSum<double>{{egg, box}}, 1.1, 6, 1.2},
+      {"slender ellipsoid and box",
+       MinkowskiSum<double>{{S(Ellipsoid<double>{{1, 0.5, 0.2}}), box}}, 5, 10, 4},
       {"sum of ellipsoids", MinkowskiSum<double>{{egg, S(Ellipsoid<double>{{0.3, 0.5, 1}})}}, 5, 10,
        4},
   };
