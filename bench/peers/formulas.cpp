@@ -9,7 +9,7 @@ template <class Entry>
 Peers one(Entry entry) {
   Peers peers;
   peers.push_back(single_rays<float>(
-      "closed-form/float", [entry](const Ray<float>& ray) { return hit_at(entry(ray)); }));
+      "closed-form/float", [entry](const Ray<float>& ray) { return entry(ray); }, hit_at));
   return peers;
 }
 

@@ -8,8 +8,8 @@ Peers mujoco(const Shape<double>& shape) {
   Peers peers;
   if (const auto ray_at = testing::MujocoRay::make(shape))
     peers.push_back(single_rays<double>(
-        "mujoco/double",
-        [ray_at = *ray_at](const Ray<double>& ray) { return hit_at(ray_at.entry(ray)); }));
+        "mujoco/double", [ray_at = *ray_at](const Ray<double>& ray) { return ray_at.entry(ray); },
+        hit_at));
   return peers;
 }
 

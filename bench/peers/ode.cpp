@@ -8,7 +8,7 @@ Peers ode(const Shape<double>& shape) {
   Peers peers;
   if (const std::shared_ptr<testing::OdeRay> ray_at = testing::OdeRay::make(shape))
     peers.push_back(single_rays<double>(
-        "ode/double", [ray_at](const Ray<double>& ray) { return hit_at(ray_at->entry(ray)); }));
+        "ode/double", [ray_at](const Ray<double>& ray) { return ray_at->entry(ray); }, hit_at));
   return peers;
 }
 

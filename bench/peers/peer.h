@@ -69,7 +69,7 @@ class SingleRays : public Peer {
       rays_ = batch.in_float;
     else
       rays_ = batch.in_double;
-    answers_.resize(rays_.size());
+    answers_.assign(rays_.size(), {});
   }
   void cast() override {
     for (std::size_t i = 0; i < rays_.size(); ++i) answers_[i] = entry_(rays_[i]);

@@ -15,6 +15,11 @@ struct Bounds {
   bool empty() const { return !(lower.array() <= upper.array()).all(); }
   Vec3<T> centre() const { return lower * T(0.5) + upper * T(0.5); }
   Vec3<T> half_extents() const { return upper * T(0.5) - lower * T(0.5); }
+  /// Half extents of a box around the centre, as that is rounded, which holds this one.
+  Vec3<T> reach_of_centre() const {
+    const Vec3<T> middle = centre();
+    return (upper - middle).cwiseMax(middle - lower);
+  }
 
   void extend(const Vec3<T>& point) {
     lower = lower.cwiseMin(point);

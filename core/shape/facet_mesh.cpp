@@ -92,14 +92,36 @@ template <class T>
 void FacetMesh<T>::fill_cube_map() {
   directions_ =
       CubeMap(std::min(cells_per_facet * static_cast<double>(facets_.size()), most_cells));
-  std::uint32_t at = 0;
-  for (std::size_t cell = 0; cell < directions_.cells(); ++cell) {
-    const CubeMap::Cell square = directions_[cell];
-    Vec3<T> direction;
-    direction[square.axis] = static_cast<T>(square.sign);
-    direction[(square.axis + 1) % 3] = static_cast<T>(square.u + square.width / 2);
-    direction[(square.axis + 2) % 3] = static_cast<T>(square.v + square.width / 2);
-    // Uphill from the last cell's.
+  constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+  facing_.assign(directions_.cells(), none);
+  const auto middle_of = [&](const CubeMap::Cell& square, double u, double v) {
+    Vec3<double> direction;
+    direction[square.axis] = square.sign;
+    direction[(square.axis + 1) % 3] = square.u + u * square.width;
+    direction[(square.axis + 2) % 3] = square.v + v * square.width;
+    return direction;
+  };
+  const auto cell_of = [&](const Vec3<double>& direction) {
+    return static_cast<std::size_t>(directions_.cell_of(direction));
+  };
+  // From the cells that normals are in to all others.
+  std::vector<std::size_t> reached;
+  const auto reach = [&](std::size_t cell, std::uint32_t facet) {
+    if (facing_[cell] != none) return;
+    facing_[cell] = facet;
+    reached.push_back(cell);
+  };
+  for (std::uint32_t f = 0; f < facets_.size(); ++f)
+    reach(cell_of(facets_[f].normal().template cast<double>()), f);
+  for (std::size_t i = 0; i < reached.size(); ++i) {
+    const CubeMap::Cell square = directions_[reached[i]];
+    for (const auto& [u, v] : {std::pair{-0.5, 0.5}, {1.5, 0.5}, {0.5, -0.5}, {0.5, 1.5}})
+      reach(cell_of(middle_of(square, u, v)), facing_[reached[i]]);
+  }
+  // Uphill from there; that alone would stop on sides of several facets.
+  for (std::size_t cell = 0; cell < facing_.size(); ++cell) {
+    const Vec3<T> direction = middle_of(directions_[cell], 0.5, 0.5).template cast<T>();
+    std::uint32_t& at = facing_[cell];
     for (bool climbed = true; climbed;) {
       climbed = false;
       for (std::size_t k = 0; k < 3; ++k) {
@@ -108,7 +130,6 @@ void FacetMesh<T>::fill_cube_map() {
           at = static_cast<std::uint32_t>(other), climbed = true;
       }
     }
-    facing_.push_back(at);
   }
 }
 

@@ -24,7 +24,7 @@ requires SupportMapped<S, T> Bounds<T> bounds_of(const S& shape) {
 template <class T>
 Ball<T> ball_around(const Bounds<T>& bounds) {
   constexpr T padding = T(1) + T(8) * std::numeric_limits<T>::epsilon();
-  return {bounds.centre(), bounds.half_extents().stableNorm() * padding};
+  return {bounds.centre(), bounds.reach_of_centre().stableNorm() * padding};
 }
 
 }  // namespace minkray

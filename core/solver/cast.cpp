@@ -50,25 +50,24 @@ CastResult<T> after(const CastResult<T>& first, CastResult<T> then) {
   return then;
 }
 
-/// With models; where they give up, the GJK ray cast.
+template <class T>
+CastResult<T> miss_of(const Vec3<T>& normal) {
+  CastResult<T> result;
+  result.status = Status::miss;
+  result.normal = normal;
+  result.offset_hi = T(0);
+  return result;
+}
+
+/// With models, of a ray that meets the bounding ball; where they give up, the GJK ray cast.
 template <class T, class Observer>
-CastResult<T> cast_with_model(const PreparedShape<T>& shape, const RayNearBall<T>& near,
-                              const CastOptions<T>& options, Observer&& observer) {
+CastResult<T> cast_in_ball(const PreparedShape<T>& shape, const RayNearBall<T>& near,
+                           bool is_castable, const CastOptions<T>& options, Observer&& observer) {
   const Ball<T>& ball = shape.inner_ball();
-  const Vec3<T>& half_extents = shape.inner_half_extents();
-  const BoundsCast<T> bounds = cast_at_bounds(near, ball, half_extents, true);
-  if (bounds.miss) {
-    CastLanes<T> passed;
-    passed.miss = true;
-    passed.t_base = near.t_base;
-    passed.normal = bounds.normal;
-    return result_of(passed);
-  }
   const auto cast = [&](int max_iterations) {
     return [&, max_iterations](const auto& make_model) {
-      CastLanes<T> lanes;
-      if (bounds.open)
-        lanes = model_cast<T>(make_model, near, ball, half_extents, true, max_iterations, observer);
+      CastLanes<T> lanes = model_cast<T>(make_model, near, ball, shape.inner_half_extents(), true,
+                                         max_iterations, observer);
       if (lanes.doubtful && !shape.definition().is_smooth()) lanes.inside = false;
       return result_of(lanes);
     };
@@ -80,6 +79,7 @@ CastResult<T> cast_with_model(const PreparedShape<T>& shape, const RayNearBall<T
     });
   };
   const auto model_and_cast = [&] {
+    if (!is_castable) return CastResult<T>();
     if (options.solver == SolverKind::portal) return portal();
     return with_model<T>(shape.definition(), cast(tolerance::jet_max_iterations));
   };
@@ -87,9 +87,18 @@ CastResult<T> cast_with_model(const PreparedShape<T>& shape, const RayNearBall<T
   if (result.status == Status::exhausted)
     result = after(result, gjk_ray_cast(any, near, ball, gjk_options(shape, options), observer));
   // Rays along edges between flat and curved, where the simplices of the GJK ray cast are slivers.
-  if (result.status == Status::exhausted && options.solver != SolverKind::portal)
+  if (result.status == Status::exhausted && options.solver != SolverKind::portal && is_castable)
     result = after(result, portal());
   return result;
+}
+
+template <class T, class Observer>
+CastResult<T> cast_with_model(const PreparedShape<T>& shape, const RayNearBall<T>& near,
+                              const CastOptions<T>& options, Observer&& observer) {
+  BoundsCast<T> bounds{true, false, Vec3<T>::Zero()};
+  cast_at_ball(near, shape.inner_ball().radius, bounds);
+  if (bounds.miss) return miss_of(bounds.normal);
+  return cast_in_ball(shape, near, bounds.open, options, observer);
 }
 
 /// By measurement, see docs/decisions/0002-automatic-solver.md.
@@ -133,7 +142,9 @@ CastResult<T> cast_inner(const PreparedShape<T>& shape, const RayNearBall<T>& ne
   if (automatic && solver == SolverKind::paper && result.status == Status::exhausted)
     result = after(result, cast_with(SolverKind::jet, shape, near, options, observer));
   // Of a point all directions are normals.
-  if (result.status == Status::hit && result.normal.isZero(T(0))) result.normal = -near.r;
+  const bool is_point = !(shape.inner_ball().radius > T(0));
+  if (result.status == Status::hit && (is_point || result.normal.isZero(T(0))))
+    result.normal = -near.r;
   return result;
 }
 
@@ -238,23 +249,28 @@ bool is_exact(const CastOptions<T>& options) {
 template <class T, class Observer>
 CastResult<T> cast_near(const PreparedShape<T>& shape, const RayNearBall<T>& near,
                         const CastOptions<T>& options, Observer&& observer) {
-  const auto cast = [&]() -> CastResult<T> {
-    const bool is_extreme = shape.definition().is_extreme();
-    if constexpr (std::is_same_v<T, float>) {
+  const bool is_extreme = shape.definition().is_extreme();
+  // Results are built where they are returned: a processor reads slowly what was just written in
+  // parts (docs/decisions/packets.md).
+  const auto cast = [&] {
+    if constexpr (std::is_same_v<T, float>)
       if (is_extreme && is_exact(options))
         return cast_through_double(shape, near, options, observer);
-      return cast_inner(shape, near, options, observer);
-    } else {
-      const CastResult<T> first = cast_inner(shape, near, options, observer);
-      const bool is_doubtful = first.status == Status::hit && !shape.definition().is_smooth() &&
-                               -first.normal.dot(near.r) < tolerance::doubtful_slope<T>;
-      if ((is_extreme || is_doubtful) && is_exact(options))
-        return prove_or_replace(shape, near, options, first, observer);
-      return first;
-    }
+    return cast_inner(shape, near, options, observer);
   };
   CastResult<T> result = cast();
+  if constexpr (std::is_same_v<T, double>) {
+    const bool is_doubtful = result.status == Status::hit && !shape.definition().is_smooth() &&
+                             -result.normal.dot(near.r) < tolerance::doubtful_slope<T>;
+    if ((is_extreme || is_doubtful) && is_exact(options))
+      result = prove_or_replace(shape, near, options, result, observer);
+  }
   result.normal = shape.normal_to_outer(result.normal);
+  // No earlier than the ray's beginning, which rounding may have put within the shape's surface.
+  if (result.status == Status::hit) {
+    result.t_offset = std::max(result.t_offset, -result.t_base);
+    result.offset_hi = std::max(result.offset_hi, result.t_offset);
+  }
   // A direction so short that the hit's t is no number of T.
   if (result.status == Status::hit && !std::isfinite(result.t())) result.status = Status::exhausted;
   // Where lengths in the shape's own frame overflow, or their squares vanish.
@@ -268,17 +284,40 @@ CastResult<T> cast_near(const PreparedShape<T>& shape, const RayNearBall<T>& nea
   return result;
 }
 
-}  // namespace
+/// Whether bounds may be asked first: not by solvers that are meant to be as they were published,
+/// and not where answers have to be proven.
+template <class T>
+bool asks_bounds(const PreparedShape<T>& shape, SolverKind solver) {
+  if (shape.definition().is_extreme()) return false;
+  if (solver == SolverKind::automatic) solver = best_solver(shape);
+  return solver == SolverKind::jet || solver == SolverKind::portal;
+}
 
 template <class T>
-CastResult<T> cast_ray(const PreparedShape<T>& shape, const Ray<T>& ray,
-                       const CastOptions<T>& options, const CastObserver<T>& observer) {
+CastResult<T> cast_past_bounds(const PreparedShape<T>& shape, const Ray<T>& ray,
+                               const CastOptions<T>& options, const CastObserver<T>& observer) {
   const RayNearBall<T> near = shape.to_inner(ray);
   CastResult<T> result = observer ? cast_near(shape, near, options, observer)
                                   : cast_near(shape, near, options, NoObserver());
   if (result.status == Status::inside)
     result.t_base = result.t_offset = result.offset_lo = result.offset_hi = T(0);
   return result;
+}
+
+}  // namespace
+
+template <class T>
+CastResult<T> cast_ray(const PreparedShape<T>& shape, const Ray<T>& ray,
+                       const CastOptions<T>& options, const CastObserver<T>& observer) {
+  if (asks_bounds(shape, options.solver)) {
+    const BoundsCast<T> bounds = cast_at_box(shape.line_to_inner(ray), shape.inner_half_extents(),
+                                             shape.inner_ball().radius, true);
+    if (bounds.miss) {
+      const Vec3<T> normal = shape.normal_to_outer(bounds.normal);
+      if (normal.squaredNorm() > T(0)) return miss_of(normal);
+    }
+  }
+  return cast_past_bounds(shape, ray, options, observer);
 }
 
 template <class T>

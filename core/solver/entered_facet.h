@@ -149,10 +149,12 @@ struct Facets<W, Core> {
     using std::min;
     const FacetMesh<T>& mesh = *hull.points.facets();
     const Vec3<W> guess = normal_on_extents<W>(half_extents, s, Vec3<W>(-frame.z));
+    const T R = half_extents.norm(), rounding = T(2) * tolerance::epsilon<T> * R;
 
     EnteredFacet<W> facet;
     W at = start(mesh, guess, frame, 0);
     Mask<W> open = Mask<W>(true), stepped = Mask<W>(false), beside = Mask<W>(false);
+    Mask<W> at_edge = Mask<W>(false);
     Vec3<W> outline = Vec3<W>::Zero();
     std::array<Vec3<W>, 3> corners = {Vec3<W>::Zero(), Vec3<W>::Zero(), Vec3<W>::Zero()};
     for (int step = 0; step < max_steps; ++step) {
@@ -167,6 +169,7 @@ struct Facets<W, Core> {
       facet.known |= open;
       const Mask<W> within = open & (a >= W(0)) & (b >= W(0)) & (c >= W(0));
       facet.enters |= within;
+      at_edge |= within & (min(a, min(b, c)) <= W(rounding * (T(8) * R)));
       open &= !within;
       if (!any(open | lost)) break;
 
@@ -180,6 +183,7 @@ struct Facets<W, Core> {
       open |= lost;
     }
 
+    if (any(at_edge)) settle(mesh, from, frame, at_edge, W(rounding), at, corners);
     const auto plane = mesh.template numbers<Row::normals, Row::size - Row::normals>(at);
     facet.in_shape = Vec3<W>(plane[0], plane[1], plane[2]);
     facet.normal = frame.into(facet.in_shape);
@@ -239,8 +243,7 @@ struct Facets<W, Core> {
     for (int step = 0; step < max_steps; ++step) {
       const auto row = mesh.template numbers<Row::corners, Row::size>(at);
       const std::array<Vec3<W>, 3> p = corners_of(row, from, frame);
-      const Vec3<W> m =
-          frame.into({row[Row::normals], row[Row::normals + 1], row[Row::normals + 2]});
+      const Vec3<W> m = frame.into(normal_of(row));
       const Mask<W> away = open & !(m.z() > W(least_facing));
       const Mask<W> lost = step < restarts ? Mask<W>(away & !stepped) : Mask<W>(false);
       if (any(away)) {
@@ -294,6 +297,42 @@ struct Facets<W, Core> {
 
  private:
   using Row = typename FacetMesh<T>::Facet;
+
+  /// Where the line passes an edge within rounding, the facet beyond it is entered as well, at a
+  /// distance that is rounded less if it faces the ray more: a facet that is seen nearly edge-on
+  /// has a plane that rounding may let the line cross long before the edge.
+  static void settle(const FacetMesh<T>& mesh, const Vec3<W>& from, const RayFrame<W>& frame,
+                     const Mask<W>& at_edge, const W& rounding, W& at,
+                     std::array<Vec3<W>, 3>& corners) {
+    using std::abs;
+    constexpr int around_a_corner = 4;
+    for (int hop = 0; hop < around_a_corner; ++hop) {
+      const auto here = mesh.template numbers<Row::corners, Row::size>(at);
+      W facing = frame.z.dot(normal_of(here)), next = at;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const W& beyond_edge = here[Row::neighbours + k];
+        const auto row = mesh.template numbers<Row::corners, Row::size>(beyond_edge);
+        const W its = frame.z.dot(normal_of(row));
+        const Vec3<W>&a = corners[k], &b = corners[(k + 1) % 3];
+        const W length = abs(b.x() - a.x()) + abs(b.y() - a.y());
+        const Mask<W> near = cross_2d(a, b) <= rounding * length;
+        const Mask<W> better = at_edge & near & (its > facing);
+        next = select(better, beyond_edge, next);
+        facing = select(better, its, facing);
+      }
+      const Mask<W> moves = next != at;
+      if (!any(moves)) return;
+      at = next;
+      const auto row = mesh.template numbers<Row::corners, Row::size>(at);
+      const std::array<Vec3<W>, 3> p = corners_of(row, from, frame);
+      for (std::size_t k = 0; k < 3; ++k) corners[k] = select<W>(moves, p[k], corners[k]);
+    }
+  }
+
+  template <class Numbers>
+  static Vec3<W> normal_of(const Numbers& row) {
+    return {row[Row::normals], row[Row::normals + 1], row[Row::normals + 2]};
+  }
 
   /// In the frame, as seen from a point.
   template <class Numbers>

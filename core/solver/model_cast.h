@@ -21,59 +21,8 @@ struct CastLanes {
   W supports = W(0);
 };
 
-/// What the shape's bounds tell of a cast.
-template <class W>
-struct BoundsCast {
-  Mask<W> open = Mask<W>(false);  ///< the shape itself has to be asked
-  Mask<W> miss = Mask<W>(false);
-  Vec3<W> normal = Vec3<W>::Zero();  ///< of misses: of a plane between ray and bounds
-};
-
-/// The ray must be given relative to the ball's centre; the ball must hold the shape, and so must
-/// the axis-aligned box around the same centre. Only `active` lanes are cast.
-template <class W>
-BoundsCast<W> cast_at_bounds(const RayNearBall<W>& near, const Ball<Lane<W>>& ball,
-                             const Vec3<Lane<W>>& half_extents, const Mask<W>& active) {
-  using std::abs;
-  using std::copysign;
-  using std::max;
-  using std::min;
-  using T = Lane<W>;
-  const T R = ball.radius, padding = tolerance::ball_padding<T> * R;
-  const Vec3<W>&s = near.s, &r = near.r;
-  BoundsCast<W> result;
-  const W nearest = min(max(W(0), near.lambda_min), near.lambda_max);
-  const Vec3<W> to_ray = s + r * nearest;
-  const W reached(R + padding);
-  const Mask<W> by_ball = to_ray.squaredNorm() > reached * reached;
-  result.miss = active & by_ball;
-  result.open = active & (!by_ball) & (r.squaredNorm() > W(0)) & (W(R) > W(0));
-  Vec3<W> across = to_ray;
-  if (any(result.open)) {
-    // The line passes by the box if it does so seen along one of the axes e_k: in the direction
-    // r x e_k, to either side, the line is s . (r x e_k) = (s x r)_k away.
-    const Vec3<W> h = widen<W>(Vec3<T>(half_extents + Vec3<T>::Constant(padding)));
-    const Vec3<W> beside = s.cross(r);
-    const Vec3<W> size(abs(r.x()), abs(r.y()), abs(r.z()));
-    const Mask<W> by_x = abs(beside.x()) > h.y() * size.z() + h.z() * size.y();
-    const Mask<W> by_y = abs(beside.y()) > h.z() * size.x() + h.x() * size.z();
-    const Mask<W> by_z = abs(beside.z()) > h.x() * size.y() + h.y() * size.x();
-    const Mask<W> by_box = result.open & (by_x | by_y | by_z);
-    if (any(by_box)) {
-      const Vec3<W> axis(select(by_x, copysign(W(1), beside.x()), W(0)),
-                         select(by_y & !by_x, copysign(W(1), beside.y()), W(0)),
-                         select(by_x | by_y, W(0), copysign(W(1), beside.z())));
-      across = select<W>(by_box, r.cross(axis), across);
-      result.miss |= by_box;
-      result.open &= !by_box;
-    }
-  }
-  if (any(result.miss)) result.normal = select<W>(result.miss, unit<W>(across), result.normal);
-  return result;
-}
-
-/// Of a ray at a shape whose bounds it meets, as seen from the bounding ball's centre; R is its
-/// radius, half_extents the bounding box's. make_model(s, r) makes a model of the shape seen from s
+/// Of a ray at a shape whose bounds it meets, as seen from the bounding ball's centre; half_extents
+/// are the bounding box's. make_model(s, r) makes a model of the shape seen from s
 /// along r. Only `castable` lanes are cast.
 template <class W, class MakeModel, class Observer>
 CastLanes<W> model_cast(const MakeModel& make_model, const RayNearBall<W>& near,

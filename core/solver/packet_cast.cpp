@@ -14,10 +14,13 @@ CastResult<T> CastPacket<T>::result(int lane) const {
                   : inside & bit ? Status::inside
                   : miss & bit   ? Status::miss
                                  : Status::exhausted;
-  result.t_base = t_base[i];
-  result.t_offset = t_offset[i];
-  result.offset_lo = offset_lo[i];
-  result.offset_hi = offset_hi[i];
+  result.offset_hi = T(0);
+  if (result.found()) {
+    result.t_base = t_base[i];
+    result.t_offset = t_offset[i];
+    result.offset_lo = offset_lo[i];
+    result.offset_hi = offset_hi[i];
+  }
   result.normal = {normal[0][i], normal[1][i], normal[2][i]};
   result.iterations = result.supports = static_cast<int>(supports[i]);
   return result;

@@ -45,7 +45,8 @@ using LaneBits = std::uint32_t;
 template <class T>
 inline constexpr LaneBits all_lanes = (LaneBits(1) << packet_lanes<T>)-1;
 
-/// CastResult, lane by lane. Lanes that were not asked for hold nothing of meaning.
+/// CastResult, lane by lane. Lanes that were not asked for hold nothing of meaning, nor do the
+/// numbers of t in lanes that miss.
 template <class T>
 struct alignas(32) CastPacket {
   LaneBits hit = 0, inside = 0, miss = 0;  ///< a lane that was asked for and has none: exhausted

@@ -30,31 +30,36 @@ void part(const PreparedShape<Lane<W>>& shape, const RayPacket<Lane<W>>& rays, L
   using T = Lane<W>;
   const Ray<W> ray{load<W>(rays.origin, from), load<W>(rays.direction, from),
                    W::load(rays.t_max.data() + from)};
-  const RayNearBall<W> near = shape.template to_inner<W>(ray);
-  const Ball<T>& ball = shape.inner_ball();
-  const Mask<W> active = mask_of<W>(lanes >> from);
-  const Vec3<T>& half_extents = shape.inner_half_extents();
-  const BoundsCast<W> bounds = cast_at_bounds(near, ball, half_extents, active);
-  if (!any(bounds.open)) {
-    const Vec3<W> normal = shape.template normal_to_outer<W>(bounds.normal);
-    const Mask<W> has_numbers = (normal.squaredNorm() < W(T(2))) & (near.t_base == near.t_base);
-    answers.miss |= lane_bits(bounds.miss & has_numbers) << from;
-    near.t_base.store(answers.t_base.data() + from);
-    const W zero(T(0));
-    zero.store(answers.t_offset.data() + from);
-    zero.store(answers.offset_lo.data() + from);
-    zero.store(answers.offset_hi.data() + from);
+  const auto keep_normal = [&](const Vec3<W>& normal) {
     for (int axis = 0; axis < 3; ++axis)
       normal[axis].store(answers.normal[static_cast<std::size_t>(axis)].data() + from);
+  };
+  const auto all_miss = [&](const BoundsCast<W>& bounds) {
+    const Vec3<W> normal = shape.template normal_to_outer<W>(bounds.normal);
+    const W squared = normal.squaredNorm(), zero(T(0));
+    answers.miss |= lane_bits(bounds.miss & (squared > zero) & (squared < W(T(2)))) << from;
+    keep_normal(normal);
     zero.store(answers.supports.data() + from);
-    return;
-  }
+  };
+
+  const Vec3<T>& half_extents = shape.inner_half_extents();
+  const Ball<T>& ball = shape.inner_ball();
+  BoundsCast<W> bounds = cast_at_box(shape.template line_to_inner<W>(ray), half_extents,
+                                     ball.radius, mask_of<W>(lanes >> from));
+  if (!any(bounds.open)) return all_miss(bounds);
+  const RayNearBall<W> near = shape.template to_inner<W>(ray);
+  cast_at_ball(near, ball.radius, bounds);
+  if (!any(bounds.open)) return all_miss(bounds);
   CastLanes<W> result = with_model<W>(shape.definition(), [&](const auto& make_model) {
     return model_cast<W>(make_model, near, ball, half_extents, bounds.open,
                          tolerance::jet_max_iterations, NoObserver());
   });
   result.miss |= bounds.miss;
   result.normal = select<W>(bounds.miss, bounds.normal, result.normal);
+  // No earlier than the ray's beginning.
+  using std::max;
+  result.t_offset = max(result.t_offset, -result.t_base);
+  result.offset_hi = max(result.offset_hi, result.t_offset);
   const Vec3<W> normal = shape.template normal_to_outer<W>(result.normal);
   const bool some_inside = any(result.inside);
   const auto at_origin = [&](const W& x) {
@@ -82,8 +87,7 @@ void part(const PreparedShape<Lane<W>>& shape, const RayPacket<Lane<W>>& rays, L
   at_origin(result.t_offset).store(answers.t_offset.data() + from);
   at_origin(result.offset_lo).store(answers.offset_lo.data() + from);
   at_origin(result.offset_hi).store(answers.offset_hi.data() + from);
-  for (int axis = 0; axis < 3; ++axis)
-    normal[axis].store(answers.normal[static_cast<std::size_t>(axis)].data() + from);
+  keep_normal(normal);
   result.supports.store(answers.supports.data() + from);
 }
 

@@ -6,6 +6,7 @@
 
 #include <memory>
 
+#include "core/solver/bounds_cast.h"
 #include "core/solver/ray_near_ball.h"
 #include "core/solver/shape_definition.h"
 
@@ -60,6 +61,24 @@ class PreparedShape {
     RayNearBall<W> near = ray_near(centre_, ray);
     if (!is_rigid_identity_) near = near.mapped(to_inner_);
     return near;  // not copied: a processor reads slowly what it has just written in parts
+  }
+
+  /// The ray's line in the inner frame, from the centre of the inner bounds.
+  template <class W>
+  [[gnu::always_inline]] LineFromCentre<W> line_to_inner(const Ray<W>& ray) const {
+    using std::abs;
+    using std::max;
+    const auto sizes = [](const Vec3<W>& v) { return Vec3<W>(abs(v.x()), abs(v.y()), abs(v.z())); };
+    const auto line = [](const Vec3<W>& origin, const Vec3<W>& direction, const Vec3<W>& o,
+                         const Vec3<W>& d) -> LineFromCentre<W> {
+      return {origin, direction, max(o.x(), max(o.y(), o.z())), W(d.x() + d.y() + d.z())};
+    };
+    const Vec3<W> origin = ray.origin - widen<W>(centre_);
+    const Vec3<W> o = sizes(origin), d = sizes(ray.direction);
+    if (is_rigid_identity_) return line(origin, ray.direction, o, d);
+    const Mat3<T> map_sizes = to_inner_.cwiseAbs();
+    return line(times(to_inner_, origin), times(to_inner_, ray.direction), times(map_sizes, o),
+                times(map_sizes, d));
   }
 
   /// An inner normal in the outer frame, of unit length.

@@ -84,23 +84,21 @@ template <class W>
   near.s = along(close, more_steps);
   const W per_length = W(1) / length;
   near.r = direction * per_length;
-  near.t_base = steps * first * second;
-  near.t_shift = more_steps * first * second;
+  near.t_base = steps * second * first;  // in this order, it is a number if the product is
+  near.t_shift = more_steps * second * first;
   near.t_per_length = second * per_length * first;
   near.lambda_min = -steps * length - more_steps * length;
-  near.lambda_max =
-      select(has_direction, W(ray.t_max * size * (W(1) / first) * length + near.lambda_min), W(0));
+  // Counted from s, where the end keeps its digits if it is not far from the shape.
+  const W left = ray.t_max * size * (W(1) / first) - steps - more_steps;
+  near.lambda_max = select(has_direction, W(left * length), W(0));
   return near;
 }
 
-#if defined(__x86_64__) && !defined(__FMA__)
-/// Where the machine has FMA but the compiler must not count on it, fma is otherwise a function
-/// call, six times over. The same bits.
-template <class W>
-[[gnu::target("fma")]] RayNearBall<W> ray_near_with_fma(const Vec3<Lane<W>>& centre,
-                                                        const Ray<W>& ray) {
-  return ray_near_here<W>(centre, ray);
-}
+#if defined(__x86_64__)
+/// The same with fma as an instruction, where the machine has it; elsewhere it is a function call,
+/// six times over. Compiled in one place, so that no other flags give other bits.
+RayNearBall<float> ray_near_with_fma(const Vec3<float>& centre, const Ray<float>& ray);
+RayNearBall<double> ray_near_with_fma(const Vec3<double>& centre, const Ray<double>& ray);
 #endif
 
 }  // namespace detail
@@ -111,9 +109,9 @@ template <class W>
 /// along a rounded unit vector.
 template <class W>
 RayNearBall<W> ray_near(const Vec3<Lane<W>>& centre, const Ray<W>& ray) {
-#if defined(__x86_64__) && !defined(__FMA__)
+#if defined(__x86_64__)
   if constexpr (std::is_same_v<W, float> || std::is_same_v<W, double>)
-    if (__builtin_cpu_supports("fma")) return detail::ray_near_with_fma<W>(centre, ray);
+    if (__builtin_cpu_supports("fma")) return detail::ray_near_with_fma(centre, ray);
 #endif
   return detail::ray_near_here<W>(centre, ray);
 }

@@ -37,7 +37,7 @@ ShapeDefinition<T>::ShapeDefinition(Shape<T> shape) : original_(shape), inner_(s
     bounds = minkray::bounds_of<T>(inner_);
   }
   ball_ = ball_around(bounds);
-  half_extents_ = bounds.half_extents();
+  half_extents_ = bounds.reach_of_centre();
   model_ = model_kind_of<T>(inner_);
   if (model_ == ModelKind::ellipsoid_sum)
     ellipsoid_sum_ = part_of<T>(inner_, Vec3<T>(T(0), T(0), T(1)));

@@ -23,7 +23,7 @@ class ShapeDefinition {
 
   const Shape<T>& inner_shape() const { return inner_; }
   const Ball<T>& inner_ball() const { return ball_; }
-  /// Of the inner shape's axis-aligned bounds.
+  /// Of the inner shape's axis-aligned bounds, around the ball's centre.
   const Vec3<T>& inner_half_extents() const { return half_extents_; }
   ModelKind model() const { return model_; }
   /// What the inner shape is, where model() says that it is a sum of ellipsoids.

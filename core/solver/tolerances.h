@@ -93,6 +93,17 @@ inline constexpr int portal_max_iterations = 256;
 template <class T>
 inline constexpr T ball_padding = T(8) * epsilon<T>;
 
+/// How far beside a bounding box, relative to the sizes of what was added up, a line counts as
+/// meeting it: origin and direction, mapped, are sums of up to four rounded numbers, and their
+/// cross product and the box's reach round a few times more.
+template <class T>
+inline constexpr T box_padding = T(8) * epsilon<T>;
+
+/// A direction's size above which products with a shape's sizes (2^-16 or more in float, see
+/// ShapeDefinition) and box_padding are numbers with all their digits.
+template <class T>
+inline constexpr T shortest_told = std::is_same_v<T, float> ? T(0x1p-60) : T(0x1p-500);
+
 /// The GJK distance ends when |v|^2 - v.w <= this * |v| (|v| + R): v.w is a difference of numbers
 /// of size |v| (|v| + R), each rounded to an epsilon of that. The distance is then known to a few
 /// epsilon of itself and of the objects' size.

@@ -92,8 +92,12 @@ void solve(const RayQuery& query, const AnswerOptions& options, Answer& answer) 
   const CastResult<T>& result = trace.result;
   add_cast(answer, result);
   if (result.found()) {
-    const Vec3<T> near = ray.origin + result.t_base * ray.direction;
-    answer.json["point"] = point_json(Vec3<T>(near + result.t_offset * ray.direction));
+    // In double: from far away the sum's terms are much larger than it.
+    const Vec3<double> origin = ray.origin.template cast<double>(),
+                       direction = ray.direction.template cast<double>();
+    const Vec3<double> near = origin + static_cast<double>(result.t_base) * direction;
+    const Vec3<double> point = near + static_cast<double>(result.t_offset) * direction;
+    answer.json["point"] = point_json(Vec3<T>(point.template cast<T>()));
   }
   add_costs<T>(answer, result.iterations, result.supports);
   if (options.certify) add_certificate(answer, plain, ray, result);

@@ -79,6 +79,32 @@ TEST(FacetMesh, finds_a_facet_near_a_direction) {
   EXPECT_LT(static_cast<std::size_t>(mesh.facing(Vec3<double>(nan, nan, nan))), mesh.size());
 }
 
+/// Sides of several facets have one normal, so that no neighbour of a facet within may point nearer
+/// to a direction although others do.
+TEST(FacetMesh, finds_sides_of_several_facets) {
+  std::vector<Vec3<double>> box;
+  for (int k = 0; k < 8; ++k)
+    box.push_back({k & 1 ? 1.0 : -1.0, k & 2 ? 0.8 : -0.8, k & 4 ? 0.6 : -0.6});
+  Random random(53);
+  for (const auto& points : {box, prism(5), prism(64)}) {
+    const FacetMesh<double> mesh = mesh_of(points);
+    for (int i = 0; i < 1000; ++i) {
+      const Vec3<double> n = random.direction();
+      const auto found = static_cast<std::size_t>(mesh.facing(n));
+      double nearest = 0;
+      for (std::size_t f = 0; f < mesh.size(); ++f)
+        nearest = std::max(nearest, mesh[f].normal().dot(n));
+      EXPECT_GT(mesh[found].normal().dot(n), nearest - 0.6) << n.transpose();
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+      if (points.size() != box.size()) continue;
+      const auto found =
+          static_cast<std::size_t>(mesh.facing(Vec3<double>(Vec3<double>::Unit(axis))));
+      EXPECT_NEAR(mesh[found].normal()[axis], 1, 1e-15);
+    }
+  }
+}
+
 TEST(FacetMesh, is_the_same_in_float) {
   const FacetMesh<double> mesh = mesh_of(on_sphere(40));
   const FacetMesh<float> rounded = mesh.cast<float>();

@@ -3,8 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/random.h"
+
 namespace minkray {
 namespace {
+
+using testing::Random;
 
 TEST(Cast, a_far_origin_costs_no_precision_in_float) {
   const PreparedShape<float> ball(Sphere<float>{1.0f});
@@ -41,6 +45,111 @@ TEST(Cast, scales_near_the_ends_of_the_number_range_are_answered_like_any_other)
       EXPECT_EQ(cast_ray<float>(ball, beside, {kind}).status, Status::miss) << scale;
     }
   }
+}
+
+/// Far from the shape t is coarse, but what is left of it near the shape is not.
+template <class T>
+void check_ends_from_afar() {
+  Random random(19);
+  const PreparedShape<T> ball{Shape<T>(Sphere<T>{T(1)})};
+  int hits = 0, misses = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const Vec3<double> aim = random.direction() * random.uniform(0, 0.9);
+    const double distance = std::pow(10.0, random.uniform(4, 5.5));
+    const Vec3<double> o = aim - random.direction() * distance;
+    Ray<T> ray{o.cast<T>(), Vec3<double>((aim - o) / distance * random.uniform(0.5, 3)).cast<T>()};
+    using Long = long double;
+    const Vec3<Long> origin = ray.origin.template cast<Long>(),
+                     direction = ray.direction.template cast<Long>();
+    const Long a = direction.squaredNorm(), b = origin.dot(direction);
+    const Long den = b * b - a * (origin.squaredNorm() - 1);
+    if (den <= 0) continue;
+    const Long enters = -(b + std::sqrt(den)) / a;
+    ray.t_max = static_cast<T>(enters + random.uniform(-0.1, 0.1));
+    const Long left = (Long(ray.t_max) - enters) * std::sqrt(a);
+    const double rounding = 1e2 * std::numeric_limits<T>::epsilon();
+    if (std::abs(left) < rounding / std::sqrt(den / a)) continue;
+    const Status status = cast_ray(ball, ray).status;
+    ASSERT_EQ(status, left > 0 ? Status::hit : Status::miss) << i << ": " << double(left);
+    ++(left > 0 ? hits : misses);
+  }
+  EXPECT_GT(hits, 500);
+  EXPECT_GT(misses, 500);
+}
+
+TEST(Cast, t_max_is_as_sharp_from_afar) {
+  check_ends_from_afar<double>();
+  check_ends_from_afar<float>();
+}
+
+/// Between a side that the ray grazes and a steep one, rounding cannot tell which it enters by, but
+/// only one of them is where it meets the hull.
+template <class T>
+void check_spots_near_edges(double least_slope) {
+  Random random(23);
+  double worst = 0;
+  int hits = 0;
+  for (int i = 0; i < 8000; ++i) {
+    const Vec3<double> h(random.uniform(0.3, 1), random.uniform(0.3, 1), random.uniform(0.3, 1));
+    const Vec3<T> half = h.cast<T>();
+    std::vector<Vec3<T>> corners;
+    for (int k = 0; k < 8; ++k)
+      corners.push_back(half.cwiseProduct(
+          Vec3<T>(k & 1 ? T(1) : T(-1), k & 2 ? T(1) : T(-1), k & 4 ? T(1) : T(-1))));
+    const PreparedShape<T> hull{Shape<T>(Hull<T>{PointCloud<T>(corners)})};
+    const double slope = least_slope * std::pow(10.0, random.uniform(0, 3));
+    const Vec3<double> edge(-h.x(), h.y() * random.uniform(-0.9, 0.9), h.z());
+    const Vec3<double> r = Vec3<double>(1, random.uniform(-0.6, 0.6), -slope);
+    const Ray<T> ray{Vec3<double>(edge - r * random.uniform(0.5, 2)).cast<T>(), r.cast<T>()};
+    const CastResult<T> result = cast_ray(hull, ray);
+    if (result.status != Status::hit) continue;
+    ++hits;
+    const Vec3<double> spot =
+        ray.origin.template cast<double>() +
+        ray.direction.template cast<double>() * (double(result.t_base) + double(result.t_offset));
+    worst = std::max(worst, (spot.cwiseAbs() - half.template cast<double>()).maxCoeff());
+  }
+  EXPECT_GT(hits, 3000);
+  EXPECT_LE(worst, 16 * std::numeric_limits<T>::epsilon());
+}
+
+TEST(Cast, spots_near_the_edges_of_hulls_lie_on_them) {
+  check_spots_near_edges<double>(1e-5);
+  check_spots_near_edges<float>(2e-5);
+}
+
+TEST(Cast, the_shortest_directions_have_the_longest_t) {
+  const PreparedShape<float> ball{Shape<float>(Sphere<float>{1})};
+  const CastResult<float> result = cast_ray(ball, Ray<float>{{-1e9f, 0, 0}, {5e-19f, 0, 0}});
+  ASSERT_EQ(result.status, Status::hit);
+  EXPECT_NEAR(result.t() / 2e27f, 1, 1e-6);
+  const PreparedShape<double> large{Shape<double>(Sphere<double>{1e37})};
+  const CastResult<double> far = cast_ray(large, Ray<double>{{-1e39, 0, 0}, {1e-151, 0, 0}});
+  ASSERT_EQ(far.status, Status::hit);
+  EXPECT_NEAR(far.t() / 9.9e189, 1, 1e-14);
+}
+
+TEST(Cast, no_hit_is_before_the_rays_beginning) {
+  const PreparedShape<float> plate{
+      Shape<float>(Box<float>{{0.027657020837068558f, 0, 0.08756916970014572f}})};
+  const CastResult<float> result = cast_ray(
+      plate, Ray<float>{{0.007332629524171352f, 0, 0.003028969746083021f},
+                        {-0.14729009568691254f, 0.7463956475257874f, -0.6489985585212708f}});
+  ASSERT_TRUE(result.found());
+  EXPECT_GE(result.t(), 0);
+}
+
+TEST(Cast, a_points_normal_is_against_the_ray) {
+  Mat3<double> linear;
+  linear << -1, -0.07, -0.03, 0, 0.42, -0.91, 0.08, -0.9, -0.42;
+  const Shape<float> point =
+      Transform<float>{Shape<float>(Point<float>{{-0.1f, -0.5f, 0.6f}}),
+                       AffineMap<float>(Affine<float>{linear.cast<float>(), {0.9f, -0.5f, -0.7f}})};
+  const CastResult<float> result = cast_ray(
+      PreparedShape<float>(point),
+      Ray<float>{{1.0169999599456787f, -1.25600004196167f, -7.510000228881836f}, {0, 0, 1e6f}});
+  if (result.status != Status::hit) return;
+  EXPECT_LT(result.normal.z(), -0.5f);
 }
 
 }  // namespace
