@@ -216,6 +216,10 @@ struct Facets<W, Core> {
                                 const Vec3<W>& s, const Vec3<W>& from, const RayFrame<W>& frame) {
     const FacetMesh<T>& mesh = *hull.points.facets();
     const Vec3<W> guess = normal_on_extents<W>(half_extents, s, Vec3<W>(-frame.z));
+    // Facets count as supported if they are thick beside the hull; they must also be beside the
+    // radius, or rounding tells on which of them the foot is.
+    const T R = half_extents.maxCoeff();
+    const bool tells = T(4) * (R - radius) >= R;
 
     EnteredFacet<W> facet;
     facet.normal = Vec3<W>(W(0), W(0), W(1));
@@ -260,7 +264,7 @@ struct Facets<W, Core> {
       const Mask<W> within = open & (a >= W(0)) & (b >= W(0)) & (c >= W(0));
       if (any(within)) {
         answer(within, p[0], p[1], p[2], p[2], Mask<W>(false));
-        const Mask<W> enters = within & (row[Row::supported] > W(0));
+        const Mask<W> enters = within & (row[Row::supported] > W(0)) & Mask<W>(tells);
         facet.enters |= enters;
         facet.supported |= enters;
         facet.normal = select<W>(enters, m, facet.normal);

@@ -141,5 +141,43 @@ TEST(RoundedHull, is_where_the_distance_is_its_radius) {
     }
 }
 
+/// Rounded by much more than its size, a hull is a ball that has as many facets as it likes.
+template <class T>
+void check_as_ball(double radius) {
+  SCOPED_TRACE(radius);
+  Random random(93);
+  std::vector<Vec3<T>> points;
+  for (int i = 0; i < 30; ++i) points.push_back(random.direction().cast<T>());
+  const PreparedShape<T> prepared{
+      Shape<T>(Rounded<T>{static_cast<T>(radius), Shape<T>(Hull<T>{PointCloud<T>(points)})})};
+  const double allowed = 1 + 16 * radius * std::numeric_limits<T>::epsilon();
+  int hits = 0;
+  for (int i = 0; i < 500; ++i) {
+    const Vec3<double> o = random.direction() * 3 * radius;
+    const Ray<T> ray{
+        o.cast<T>(),
+        Vec3<double>(random.direction() * radius * random.uniform(0, 1.5) - o).cast<T>()};
+    const Ray<double> same = in_double(ray);
+    const Vec3<Long> from = same.origin.cast<Long>(), along = same.direction.cast<Long>();
+    const Long a = along.squaredNorm(), b = from.dot(along);
+    const Long beside = (from - along * (b / a)).norm();
+    const CastResult<T> result = cast_ray(prepared, ray);
+    if (beside > radius + 2 * allowed) {
+      EXPECT_EQ(result.status, Status::miss);
+    } else if (beside < radius - 2 * allowed) {
+      ASSERT_EQ(result.status, Status::hit);
+      const Long t = Long(result.t_base) + Long(result.t_offset);
+      EXPECT_NEAR(static_cast<double>((from + along * t).norm()), radius, 2 * allowed);
+      ++hits;
+    }
+  }
+  EXPECT_GT(hits, 100);
+}
+
+TEST(RoundedHull, by_much_more_than_its_size_is_a_ball) {
+  for (const double radius : {1e3, 1e8, 1e17, 1e24}) check_as_ball<double>(radius);
+  for (const double radius : {1e3, 1e6, 1e9, 1e15}) check_as_ball<float>(radius);
+}
+
 }  // namespace
 }  // namespace minkray::testing
