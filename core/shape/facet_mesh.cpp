@@ -104,24 +104,15 @@ void FacetMesh<T>::fill_cube_map() {
   const auto cell_of = [&](const Vec3<double>& direction) {
     return static_cast<std::size_t>(directions_.cell_of(direction));
   };
-  // From the cells that normals are in to all others.
+  // From the cells that normals are in to all others, uphill in each; uphill alone would stop on
+  // sides of several facets.
   std::vector<std::size_t> reached;
   const auto reach = [&](std::size_t cell, std::uint32_t facet) {
     if (facing_[cell] != none) return;
     facing_[cell] = facet;
     reached.push_back(cell);
   };
-  for (std::uint32_t f = 0; f < facets_.size(); ++f)
-    reach(cell_of(facets_[f].normal().template cast<double>()), f);
-  for (std::size_t i = 0; i < reached.size(); ++i) {
-    const CubeMap::Cell square = directions_[reached[i]];
-    for (const auto& [u, v] : {std::pair{-0.5, 0.5}, {1.5, 0.5}, {0.5, -0.5}, {0.5, 1.5}})
-      reach(cell_of(middle_of(square, u, v)), facing_[reached[i]]);
-  }
-  // Uphill from there; that alone would stop on sides of several facets.
-  for (std::size_t cell = 0; cell < facing_.size(); ++cell) {
-    const Vec3<T> direction = middle_of(directions_[cell], 0.5, 0.5).template cast<T>();
-    std::uint32_t& at = facing_[cell];
+  const auto climb = [&](std::uint32_t at, const Vec3<T>& direction) {
     for (bool climbed = true; climbed;) {
       climbed = false;
       for (std::size_t k = 0; k < 3; ++k) {
@@ -130,6 +121,16 @@ void FacetMesh<T>::fill_cube_map() {
           at = static_cast<std::uint32_t>(other), climbed = true;
       }
     }
+    return at;
+  };
+  for (std::uint32_t f = 0; f < facets_.size(); ++f)
+    reach(cell_of(facets_[f].normal().template cast<double>()), f);
+  for (std::size_t i = 0; i < reached.size(); ++i) {
+    const CubeMap::Cell square = directions_[reached[i]];
+    std::uint32_t& facet = facing_[reached[i]];
+    facet = climb(facet, middle_of(square, 0.5, 0.5).template cast<T>());
+    for (const auto& [u, v] : {std::pair{-0.5, 0.5}, {1.5, 0.5}, {0.5, -0.5}, {0.5, 1.5}})
+      reach(cell_of(middle_of(square, u, v)), facet);
   }
 }
 

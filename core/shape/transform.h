@@ -39,11 +39,16 @@ struct Transform {
   /// Of an ellipsoid's factor; a ball stays one where lengths are scaled alike.
   template <class W>
   Mat3<W> mapped_factor(const Mat3<W>& F) const {
+    Mat3<W> mapped = widen<W, T>(map.affine().linear) * F;
     if (map.similarity() > T(0)) {
+      // Each lane by itself, so that none depends on the others.
       const Mat3<W> ball = Mat3<W>::Identity() * F(0, 0);
-      if (all((F - ball).cwiseAbs().sum() == W(0))) return ball * W(map.similarity());
+      const Mask<W> is_ball = (F - ball).cwiseAbs().sum() == W(0);
+      const Mat3<W> scaled = ball * W(map.similarity());
+      for (int j = 0; j < 3; ++j)
+        mapped.col(j) = select<W>(is_ball, Vec3<W>(scaled.col(j)), Vec3<W>(mapped.col(j)));
     }
-    return widen<W, T>(map.affine().linear) * F;
+    return mapped;
   }
 };
 

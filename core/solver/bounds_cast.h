@@ -41,12 +41,14 @@ template <class W>
   const Vec3<W> beside = o.cross(d);
   const Vec3<W> size(abs(d.x()), abs(d.y()), abs(d.z()));
   const Vec3<W> h = widen<W>(half_extents);
-  const W padding = W(tolerance::box_padding<T>) * (W(R) + line.origin_size) * line.direction_size;
+  const W largest_term = (W(R) + line.origin_size) * line.direction_size;
+  const W padding = W(tolerance::box_padding<T>) * largest_term;
   const Mask<W> by_x = abs(beside.x()) > h.y() * size.z() + h.z() * size.y() + padding;
   const Mask<W> by_y = abs(beside.y()) > h.z() * size.x() + h.x() * size.z() + padding;
   const Mask<W> by_z = abs(beside.z()) > h.x() * size.y() + h.y() * size.x() + padding;
-  // Shorter directions may have lost digits.
-  const Mask<W> told = line.direction_size > W(tolerance::shortest_told<T>);
+  // Shorter directions may have lost digits, larger terms overflow.
+  const Mask<W> told = (line.direction_size > W(tolerance::shortest_told<T>)) &
+                       (largest_term < W(std::numeric_limits<T>::max() / T(8)));
   BoundsCast<W> result;
   result.miss = active & told & (by_x | by_y | by_z);
   result.open = active & !result.miss;

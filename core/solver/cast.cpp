@@ -266,11 +266,6 @@ CastResult<T> cast_near(const PreparedShape<T>& shape, const RayNearBall<T>& nea
       result = prove_or_replace(shape, near, options, result, observer);
   }
   result.normal = shape.normal_to_outer(result.normal);
-  // No earlier than the ray's beginning, which rounding may have put within the shape's surface.
-  if (result.status == Status::hit) {
-    result.t_offset = std::max(result.t_offset, -result.t_base);
-    result.offset_hi = std::max(result.offset_hi, result.t_offset);
-  }
   // A direction so short that the hit's t is no number of T.
   if (result.status == Status::hit && !std::isfinite(result.t())) result.status = Status::exhausted;
   // Where lengths in the shape's own frame overflow, or their squares vanish.
@@ -293,12 +288,21 @@ bool asks_bounds(const PreparedShape<T>& shape, SolverKind solver) {
   return solver == SolverKind::jet || solver == SolverKind::portal;
 }
 
+/// No earlier than the ray's beginning, which rounding may have put within the shape's surface.
+template <class T>
+void begin_with_ray(CastResult<T>& result) {
+  if (result.status != Status::hit) return;
+  result.t_offset = std::max(result.t_offset, -result.t_base);
+  result.offset_hi = std::max(result.offset_hi, result.t_offset);
+}
+
 template <class T>
 CastResult<T> cast_past_bounds(const PreparedShape<T>& shape, const Ray<T>& ray,
                                const CastOptions<T>& options, const CastObserver<T>& observer) {
   const RayNearBall<T> near = shape.to_inner(ray);
   CastResult<T> result = observer ? cast_near(shape, near, options, observer)
                                   : cast_near(shape, near, options, NoObserver());
+  begin_with_ray(result);
   if (result.status == Status::inside)
     result.t_base = result.t_offset = result.offset_lo = result.offset_hi = T(0);
   return result;
@@ -325,6 +329,7 @@ CastResult<T> cast_exit(const PreparedShape<T>& shape, const Ray<T>& ray,
                         const CastOptions<T>& options) {
   CastResult<T> result = cast_near(shape, shape.to_inner(ray).reversed(), options, NoObserver());
   std::swap(result.offset_lo, result.offset_hi);
+  begin_with_ray(result);
   if (result.status == Status::hit) result.offset_lo = -std::numeric_limits<T>::infinity();
   return result;
 }

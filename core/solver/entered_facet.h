@@ -149,7 +149,10 @@ struct Facets<W, Core> {
     using std::min;
     const FacetMesh<T>& mesh = *hull.points.facets();
     const Vec3<W> guess = normal_on_extents<W>(half_extents, s, Vec3<W>(-frame.z));
-    const T R = half_extents.norm(), rounding = T(2) * tolerance::epsilon<T> * R;
+    // Of corners as the ray sees them; hulls may be far from their own origin.
+    const T R = half_extents.norm();
+    const W rounding =
+        W(T(2) * tolerance::epsilon<T>) * (W(R) + Vec3<W>(from - s).cwiseAbs().sum());
 
     EnteredFacet<W> facet;
     W at = start(mesh, guess, frame, 0);
@@ -169,7 +172,7 @@ struct Facets<W, Core> {
       facet.known |= open;
       const Mask<W> within = open & (a >= W(0)) & (b >= W(0)) & (c >= W(0));
       facet.enters |= within;
-      at_edge |= within & (min(a, min(b, c)) <= W(rounding * (T(8) * R)));
+      at_edge |= within & (min(a, min(b, c)) <= rounding * W(T(8) * R));
       open &= !within;
       if (!any(open | lost)) break;
 
@@ -183,7 +186,7 @@ struct Facets<W, Core> {
       open |= lost;
     }
 
-    if (any(at_edge)) settle(mesh, from, frame, at_edge, W(rounding), at, corners);
+    if (any(at_edge)) settle(mesh, from, frame, at_edge, rounding, at, corners);
     const auto plane = mesh.template numbers<Row::normals, Row::size - Row::normals>(at);
     facet.in_shape = Vec3<W>(plane[0], plane[1], plane[2]);
     facet.normal = frame.into(facet.in_shape);

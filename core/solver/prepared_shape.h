@@ -67,11 +67,10 @@ class PreparedShape {
   template <class W>
   [[gnu::always_inline]] LineFromCentre<W> line_to_inner(const Ray<W>& ray) const {
     using std::abs;
-    using std::max;
     const auto sizes = [](const Vec3<W>& v) { return Vec3<W>(abs(v.x()), abs(v.y()), abs(v.z())); };
     const auto line = [](const Vec3<W>& origin, const Vec3<W>& direction, const Vec3<W>& o,
                          const Vec3<W>& d) -> LineFromCentre<W> {
-      return {origin, direction, max(o.x(), max(o.y(), o.z())), W(d.x() + d.y() + d.z())};
+      return {origin, direction, W(o.x() + o.y() + o.z()), W(d.x() + d.y() + d.z())};
     };
     const Vec3<W> origin = ray.origin - widen<W>(centre_);
     const Vec3<W> o = sizes(origin), d = sizes(ray.direction);

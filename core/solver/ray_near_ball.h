@@ -89,7 +89,7 @@ template <class W>
   near.t_per_length = second * per_length * first;
   near.lambda_min = -steps * length - more_steps * length;
   // Counted from s, where the end keeps its digits if it is not far from the shape.
-  const W left = ray.t_max * size * (W(1) / first) - steps - more_steps;
+  const W left = ray.t_max * (size * (W(1) / first)) - steps - more_steps;
   near.lambda_max = select(has_direction, W(left * length), W(0));
   return near;
 }

@@ -179,7 +179,13 @@ TEST(BoundsCast, leaves_what_it_cannot_tell) {
   EXPECT_TRUE(box.cast({past, x * infinity}).open);
   EXPECT_TRUE(box.cast({past * infinity, x}).open);
   EXPECT_TRUE(box.cast({past * 1e30f, x * 1e30f}).open) << "overflows";
-  EXPECT_TRUE(box.cast({{std::nanf(""), 2, 0}, x}).open);
+  const float nan = std::nanf("");
+  EXPECT_TRUE(box.cast({{nan, 2, 0}, x}).open);
+  EXPECT_TRUE(box.cast({{0, nan, 2}, x}).open);
+  EXPECT_TRUE(box.cast({{0, 2, nan}, x}).open);
+  const MappedBox<float> cube({1, 1, 1}, as_it_is);
+  EXPECT_TRUE(cube.cast({{0, -356.57901f, -183.640625f}, {0, 1.85347219e36f, 9.5351664e35f}}).open)
+      << "one product overflows, the other does not";
 }
 
 TEST(BoundsCast, tells_rays_that_end_before_the_ball_or_begin_behind_it) {

@@ -129,6 +129,16 @@ TEST(Cast, the_shortest_directions_have_the_longest_t) {
   EXPECT_NEAR(far.t() / 9.9e189, 1, 1e-14);
 }
 
+TEST(Cast, the_shortest_directions_end_as_well) {
+  const PreparedShape<float> large(Box<float>{{1024, 1024, 1024}}), small(Box<float>{{1, 1, 1}});
+  const auto status = [](const PreparedShape<float>& shape, float z, float d, float t_max) {
+    return cast_ray(shape, Ray<float>{{0, 0, z}, {0, 0, d}, t_max}).status;
+  };
+  EXPECT_EQ(status(large, -0x1p50f, 0x1p-61f, 0x1p100f), Status::miss);
+  EXPECT_EQ(status(large, -0x1p50f, 0x1p-61f, 0x1p112f), Status::hit);
+  EXPECT_EQ(status(small, -0x1p70f, 0x1p-61f, 3.4e38f), Status::miss);
+}
+
 TEST(Cast, no_hit_is_before_the_rays_beginning) {
   const PreparedShape<float> plate{
       Shape<float>(Box<float>{{0.027657020837068558f, 0, 0.08756916970014572f}})};
