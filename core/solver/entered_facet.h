@@ -322,7 +322,9 @@ struct Facets<W, Core> {
         const W its = frame.z.dot(normal_of(row));
         const Vec3<W>&a = corners[k], &b = corners[(k + 1) % 3];
         const W length = abs(b.x() - a.x()) + abs(b.y() - a.y());
-        const Mask<W> near = cross_2d(a, b) <= rounding * length;
+        // Beside the edge, not beyond its ends: of slivers, all edges are in line with the ray.
+        const W along = a.x() * b.x() + a.y() * b.y();
+        const Mask<W> near = (cross_2d(a, b) <= rounding * length) & (along <= rounding * length);
         const Mask<W> better = at_edge & near & (its > facing);
         next = select(better, beyond_edge, next);
         facing = select(better, its, facing);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/shape/convert.h"
 #include "tests/support/random.h"
 
 namespace minkray {
@@ -116,6 +117,30 @@ void check_spots_near_edges(double least_slope) {
 TEST(Cast, spots_near_the_edges_of_hulls_lie_on_them) {
   check_spots_near_edges<double>(1e-5);
   check_spots_near_edges<float>(2e-5);
+}
+
+/// Seen edge-on, all edges of a plate as thin as rounding are in line with the ray.
+TEST(Cast, edges_of_the_thinnest_plates_are_not_met_beyond_their_ends) {
+  const double e = 3.858838162201783e-15;
+  const Shape<double> plate =
+      Hull<double>{PointCloud<double>(std::vector<Vec3<double>>{{1, -2, e},
+                                                                {-1, 2, e},
+                                                                {-1, 0, e},
+                                                                {0, 2, 0},
+                                                                {0, 0, -e},
+                                                                {1, 0, 0},
+                                                                {0, -2, e},
+                                                                {-1, 2, 0},
+                                                                {1, -2, -e},
+                                                                {-1, -2, 0}})};
+  const PreparedShape<float> in_float(convert<float>(plate));
+  const CastResult<float> exit = cast_exit(
+      in_float, Ray<float>{{1, -4, 7.717676324403566e-15f}, {0, 2, -3.858838162201783e-15f}});
+  if (exit.status == Status::hit) {
+    EXPECT_NEAR(exit.t(), 2, 1e-5);
+  } else {
+    EXPECT_EQ(exit.status, Status::miss);  // within rounding, it is
+  }
 }
 
 TEST(Cast, the_shortest_directions_have_the_longest_t) {
