@@ -3,7 +3,6 @@
 // same axes is, measured in the ellipsoid's radii, the sum of a box and the unit ball.
 #pragma once
 
-#include <cmath>
 #include <optional>
 
 #include "core/shape/shape.h"

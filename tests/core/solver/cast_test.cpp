@@ -183,7 +183,7 @@ TEST(Cast, a_points_normal_is_against_the_ray) {
   const CastResult<float> result = cast_ray(
       PreparedShape<float>(point),
       Ray<float>{{1.0169999599456787f, -1.25600004196167f, -7.510000228881836f}, {0, 0, 1e6f}});
-  if (result.status != Status::hit) return;
+  ASSERT_EQ(result.status, Status::hit);
   EXPECT_LT(result.normal.z(), -0.5f);
 }
 
