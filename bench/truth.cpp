@@ -72,7 +72,12 @@ Truth truth_of(const Shape<double>& shape, const testing::PortalCast& portal,
   return truth;
 }
 
-/// How far within the shape's shadow along the ray the ray lies; negative: outside of it.
+void mix(std::uint64_t& hash, std::uint64_t value) {
+  hash = (hash ^ value) * 0x100000001b3u;
+}
+
+}  // namespace
+
 double room_in_shadow(const Shape<double>& shape, const Ray<double>& ray) {
   const Vec3<double> r = ray.direction.normalized(), a = r.unitOrthogonal(), b = r.cross(a);
   const Vec3<double> near = ray.origin + (shape.support(r) - ray.origin).dot(r) * r;
@@ -99,12 +104,6 @@ double room_in_shadow(const Shape<double>& shape, const Ray<double>& ray) {
   }
   return least;
 }
-
-void mix(std::uint64_t& hash, std::uint64_t value) {
-  hash = (hash ^ value) * 0x100000001b3u;
-}
-
-}  // namespace
 
 std::vector<std::string> family_names() {
   std::vector<std::string> names = {std::string(coherent)};

@@ -187,6 +187,14 @@ std::optional<Interval> in(const Hull<double>& s, const V& o, const V& d) {
   return inside;
 }
 
+/// Of a base that is not negative; by multiplications if p is a small whole number.
+Long power(Long base, Long p) {
+  if (p != std::floor(p) || p > 16) return std::pow(base, p);
+  Long product = 1;
+  for (int i = 0; i < static_cast<int>(p); ++i) product *= base;
+  return product;
+}
+
 /// The sum of powers is convex along the line: its least by golden section, then bisection.
 Interval in(const Superellipsoid<double>& s, const V& o, const V& d) {
   const V radii = exact(s.radii), scaled_o = o.cwiseQuotient(radii),
@@ -195,7 +203,7 @@ Interval in(const Superellipsoid<double>& s, const V& o, const V& d) {
   const auto excess = [&](Long t) {
     Long sum = 0;
     for (int axis = 0; axis < 3; ++axis)
-      sum += std::pow(std::abs(scaled_o[axis] + t * scaled_d[axis]), p);
+      sum += power(std::abs(scaled_o[axis] + t * scaled_d[axis]), p);
     return sum - 1;
   };
   // The ball around it, radius sqrt(3) at most, brackets.

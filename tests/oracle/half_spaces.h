@@ -3,6 +3,7 @@
 // by looking at every three of the points, in long double. Knows nothing of Qhull or of supports.
 #pragma once
 
+#include <array>
 #include <limits>
 #include <span>
 #include <vector>
@@ -28,11 +29,17 @@ class HalfSpaces {
           const Vec3<Long> across = (at(j) - at(i)).cross(at(k) - at(i));
           const Long length = across.norm();
           if (!(length > slack * size)) continue;
-          add_if_outer(points, across / length, at(i), slack);
-          add_if_outer(points, -across / length, at(i), slack);
+          add_if_outer(points, across / length, {i, j, k}, slack);
+          add_if_outer(points, -across / length, {i, j, k}, slack);
         }
   }
 
+  struct Plane {
+    Vec3<Long> normal, point;
+    std::array<std::size_t, 3> through;  ///< the points it was found by; point is the first
+  };
+  /// One for each three points of a facet: several, if it has more than three.
+  const std::vector<Plane>& planes() const { return planes_; }
   std::size_t size() const { return planes_.size(); }
 
   /// The line o + t d lies in the hull, all planes moved out by `grown`, for lower <= t <= upper.
@@ -59,15 +66,12 @@ class HalfSpaces {
   }
 
  private:
-  struct Plane {
-    Vec3<Long> normal, point;
-  };
-
   void add_if_outer(std::span<const Vec3<double>> points, const Vec3<Long>& normal,
-                    const Vec3<Long>& through, Long slack) {
+                    const std::array<std::size_t, 3>& through, Long slack) {
+    const Vec3<Long> point = points[through[0]].cast<Long>();
     for (const Vec3<double>& p : points)
-      if (normal.dot(p.cast<Long>() - through) > slack) return;
-    planes_.push_back({normal, through});
+      if (normal.dot(p.cast<Long>() - point) > slack) return;
+    planes_.push_back({normal, point, through});
   }
 
   std::vector<Plane> planes_;

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: MIT
+// minkray-many-rays: tens of millions of casts at every shape that is measured, each beside an
+// oracle in long double (tests/oracle/line_entry.h): errors, false hits and misses, casts that
+// gave up. Not timed.
+//   many_rays [RAYS [NAME]]   so many random rays (default 100,000), and a tenth as many of each
+//                             other kind, for shapes whose names contain NAME
+#include <algorithm>
+#include <iomanip>
+#include <iostream>
+#include <mutex>
+#include <sstream>
+#include <string>
+
+#include "bench/shapes.h"
+#include "bench/truth.h"
+#include "core/parallel/parallel.h"
+#include "core/shape/convert.h"
+#include "core/shape/shape_bounds.h"
+#include "core/solver/cast.h"
+#include "tests/oracle/line_entry.h"
+#include "tests/support/ray_families.h"
+#include "tests/support/rounded.h"
+
+namespace {
+
+using namespace minkray;
+using namespace minkray::bench;
+using testing::LineEntry;
+using Long = long double;
+
+/// How far from the silhouette an answer may be mistaken, in units of R.
+template <class T>
+constexpr double band = std::is_same_v<T, float> ? 1e-6 : 1e-12;
+
+struct Count {
+  long hits = 0, exhausted = 0;
+  long undecided = 0;       ///< by the oracle
+  long mistaken = 0;        ///< a hit for a miss or the reverse
+  long false_answers = 0;   ///< those of them further from the silhouette than the band
+  double along_normal = 0;  ///< the greatest |t - exact| * cosine of a hit, in units of R
+  double supports_of_hits = 0;
+  int most_supports = 0;
+  std::string worst;        ///< the ray of along_normal
+  std::string first_false;  ///< an answer of false_answers, with its ray
+
+  void operator+=(const Count& other) {
+    hits += other.hits;
+    exhausted += other.exhausted;
+    undecided += other.undecided;
+    mistaken += other.mistaken;
+    false_answers += other.false_answers;
+    supports_of_hits += other.supports_of_hits;
+    most_supports = std::max(most_supports, other.most_supports);
+    if (other.along_normal > along_normal) {
+      along_normal = other.along_normal;
+      worst = other.worst;
+    }
+    if (first_false.empty()) first_false = other.first_false;
+  }
+};
+
+std::string told(const Ray<double>& ray) {
+  std::ostringstream out;
+  out << std::setprecision(17) << "origin " << ray.origin.transpose() << ", direction "
+      << ray.direction.transpose();
+  return out.str();
+}
+
+/// The cosine between the ray and the normal that was answered, if that is one of the shape where
+/// the ray enters; else 1, which allows least.
+double cosine_at(const Shape<double>& shape, const Ray<double>& ray, Long t, double radius,
+                 const Vec3<double>& normal) {
+  constexpr double close = 1e-9;
+  const Vec3<Long> x = ray.origin.cast<Long>() + t * ray.direction.cast<Long>();
+  const auto beyond =
+      static_cast<double>(normal.cast<Long>().dot(shape.support(normal).cast<Long>() - x));
+  if (!(std::abs(beyond) <= close * radius)) return 1;
+  return std::abs(normal.dot(ray.direction)) / ray.direction.norm();
+}
+
+template <class T>
+void judge_one(const Shape<double>& shape, const Ray<double>& ray, double radius,
+               const CastResult<T>& answer, const LineEntry& truth, double cosine, Count& count) {
+  if (answer.status == Status::exhausted) {
+    ++count.exhausted;
+    return;
+  }
+  if (truth.answer == LineEntry::Answer::undecided) {
+    ++count.undecided;
+    return;
+  }
+  const auto is_within_band = [&] {
+    return std::abs(room_in_shadow(shape, ray)) <= band<T> * radius;
+  };
+  const bool is_hit = answer.status == Status::hit;
+  if (is_hit != (truth.answer == LineEntry::Answer::hit)) {
+    ++count.mistaken;
+    if (is_within_band()) return;
+    ++count.false_answers;
+    if (count.first_false.empty())
+      count.first_false = std::string(name_of(answer.status)) + " at " + told(ray);
+    return;
+  }
+  if (!is_hit) return;
+  const Long late = (Long(answer.t_base) - truth.t) + Long(answer.t_offset);
+  const double error = std::abs(static_cast<double>(late)) * ray.direction.norm() * cosine / radius;
+  if (error > band<T> && is_within_band()) {  // along a side: entered anywhere, or not at all
+    ++count.mistaken;
+    return;
+  }
+  ++count.hits;
+  count.supports_of_hits += answer.supports;
+  count.most_supports = std::max(count.most_supports, answer.supports);
+  if (error > count.along_normal) {
+    count.along_normal = error;
+    count.worst = told(ray);
+  }
+}
+
+/// A shape as rounded to float, so that both precisions and the oracle mean the same one.
+struct Candidate {
+  explicit Candidate(const Shape<double>& shape)
+      : in_float(convert<float>(shape)),
+        same(convert<double>(in_float)),
+        for_float(in_float),
+        for_double(same),
+        oracle(same) {}
+
+  Shape<float> in_float;
+  Shape<double> same;
+  PreparedShape<float> for_float;
+  PreparedShape<double> for_double;
+  testing::LineEntries oracle;
+};
+
+struct Both {
+  Count in_float, in_double;
+};
+
+/// One part of a family's rays.
+Both cast_many(const Candidate& shape, testing::RayFamily family, long rays, std::uint64_t seed) {
+  testing::FamilyRays source(shape.same, family, seed);
+  const Ball<double> ball = source.ball();
+  Both both;
+  for (long i = 0; i < rays; ++i) {
+    const Ray<float> ray = testing::rounded_to<float>(source.next());
+    const Ray<double> same_ray = testing::in_double(ray);
+    const CastResult<double> fine = cast_ray(shape.for_double, same_ray);
+    const CastResult<float> coarse = cast_ray(shape.for_float, ray);
+    // Moved near, by a step whose product is exact.
+    const auto base =
+        Long(static_cast<float>((ball.centre - same_ray.origin).dot(same_ray.direction) /
+                                same_ray.direction.squaredNorm()));
+    const Vec3<Long> d = same_ray.direction.cast<Long>();
+    LineEntry truth = shape.oracle(same_ray.origin.cast<Long>() + base * d, d, fine.normal);
+    truth.t += base;
+    const double cosine = truth.answer == LineEntry::Answer::hit
+                              ? cosine_at(shape.same, same_ray, truth.t, ball.radius, fine.normal)
+                              : 1;
+    judge_one(shape.same, same_ray, ball.radius, coarse, truth, cosine, both.in_float);
+    judge_one(shape.same, same_ray, ball.radius, fine, truth, cosine, both.in_double);
+  }
+  return both;
+}
+
+void print(const std::string& name, std::string_view family, std::string_view precision, long rays,
+           const Count& count) {
+  std::cout << std::left << std::setw(22) << name << std::setw(11) << family << std::setw(7)
+            << precision << std::right << std::setw(10) << rays << std::setw(10) << count.hits
+            << std::setw(6) << count.exhausted << std::setw(7) << count.undecided << std::setw(9)
+            << count.mistaken << std::setw(7) << count.false_answers << std::setprecision(2)
+            << std::scientific << std::setw(10) << count.along_normal << std::fixed << std::setw(7)
+            << count.supports_of_hits / static_cast<double>(std::max(count.hits, 1L))
+            << std::setw(5) << count.most_supports << "\n";
+  if (count.along_normal > band<float> / 2 ||
+      (precision == "double" && count.along_normal > band<double>))
+    std::cout << "  # the greatest error: " << count.worst << "\n";
+  if (!count.first_false.empty()) std::cout << "  # false: " << count.first_false << "\n";
+  std::cout << std::flush;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const long rays = argc > 1 ? std::stol(argv[1]) : 100000;
+  const std::string wanted = argc > 2 ? argv[2] : "";
+  constexpr long part = 65536;
+  std::cout << std::left << std::setw(22) << "shape" << std::setw(11) << "rays" << std::setw(7)
+            << "in" << std::right << std::setw(10) << "count" << std::setw(10) << "hits"
+            << std::setw(6) << "exh." << std::setw(7) << "undec." << std::setw(9) << "mistaken"
+            << std::setw(7) << "false" << std::setw(10) << "dt*cos/R" << std::setw(7) << "supp."
+            << std::setw(5) << "max"
+            << "\n";
+  bool is_good = true, is_any = false;
+  for (const Subject& subject : subjects()) {
+    if (subject.name.find(wanted) == std::string::npos) continue;
+    is_any = true;
+    const Candidate candidate(subject.shape);
+    for (const testing::RayFamilyDescription& family : testing::ray_families) {
+      const bool is_random = family.family == testing::RayFamily::random;
+      const long count = std::max(is_random ? rays : rays / 10, 1L);
+      Both all;
+      std::mutex mutex;
+      for_parts(static_cast<std::size_t>((count + part - 1) / part), 1,
+                [&](std::size_t begin, std::size_t end) {
+                  for (std::size_t i = begin; i < end; ++i) {
+                    const long here = std::min(part, count - static_cast<long>(i) * part);
+                    const Both counted = cast_many(candidate, family.family, here, 1000 + i);
+                    const std::lock_guard lock(mutex);
+                    all.in_float += counted.in_float;
+                    all.in_double += counted.in_double;
+                  }
+                });
+      print(subject.name, family.name, "float", count, all.in_float);
+      print(subject.name, family.name, "double", count, all.in_double);
+      for (const Count* counted : {&all.in_float, &all.in_double})
+        is_good = is_good && counted->false_answers == 0 && counted->exhausted == 0;
+    }
+  }
+  if (!is_any) std::cerr << "no shape's name contains " << wanted << "\n";
+  return is_good && is_any ? 0 : 1;
+}
