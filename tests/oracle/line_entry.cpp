@@ -138,6 +138,7 @@ class TwoEllipsoids {
       : a_(a.cast<Long>()),
         b_(b.cast<Long>()),
         least_radius_(least_curvature_radius(a_) + least_curvature_radius(b_)),
+        greatest_radius_(greatest_curvature_radius(a_) + greatest_curvature_radius(b_)),
         size_(a_.norm() + b_.norm()) {}
 
   LineEntry operator()(const V& o, const V& d, const Vec3<double>& begin) const {
@@ -155,9 +156,12 @@ class TwoEllipsoids {
       const Long not_after = ball_entry(o, d, dd, centre, least_radius_);
       if (slope < 0 && not_after < infinity && (not_after - not_before) * -slope <= close * size_)
         return {Answer::hit, not_after};
-      // Where the ball is met, or passed nearest, the normal is nearer to the sought one.
-      const Long met = not_after < infinity ? not_after : (centre - o).dot(d) / dd;
-      n = (o + met * d - centre).normalized();
+      // The ball that touches there and holds the sum is met where the normal is nearer to the
+      // sought one: by a share of the least radius in the greatest at least.
+      const V far_centre = s - greatest_radius_ * n;
+      const Long met = ball_entry(o, d, dd, far_centre, greatest_radius_);
+      if (!(met < infinity)) return {Answer::miss, 0};
+      n = (o + met * d - far_centre).normalized();
     }
     return {};
   }
@@ -167,13 +171,17 @@ class TwoEllipsoids {
     const Long least = radii.minCoeff();
     return least * least / radii.maxCoeff();
   }
+  static Long greatest_curvature_radius(const V& radii) {
+    const Long greatest = radii.maxCoeff();
+    return greatest * greatest / radii.minCoeff();
+  }
   V support(const V& n) const {
     const V in_a = a_.cwiseProduct(n), in_b = b_.cwiseProduct(n);
     return a_.cwiseProduct(in_a) / in_a.norm() + b_.cwiseProduct(in_b) / in_b.norm();
   }
 
   V a_, b_;
-  Long least_radius_, size_;
+  Long least_radius_, greatest_radius_, size_;
 };
 
 std::vector<Vec3<double>> corners_of(const Shape<double>& shape) {
