@@ -58,9 +58,15 @@ inline bool all(bool condition) {
 /// The power of two that a positive normal number begins with; 0 for smaller numbers.
 template <std::floating_point W>
 W leading_power_of_two(W x) {
-  using Bits = std::conditional_t<sizeof(W) == 4, std::uint32_t, std::uint64_t>;
-  return std::bit_cast<W>(std::bit_cast<Bits>(x) &
-                          std::bit_cast<Bits>(std::numeric_limits<W>::infinity()));
+  if constexpr (sizeof(W) > sizeof(double)) {
+    int exponent = 0;
+    std::frexp(x, &exponent);
+    return x < std::numeric_limits<W>::min() ? W(0) : std::ldexp(W(0.5), exponent);
+  } else {
+    using Bits = std::conditional_t<sizeof(W) == 4, std::uint32_t, std::uint64_t>;
+    return std::bit_cast<W>(std::bit_cast<Bits>(x) &
+                            std::bit_cast<Bits>(std::numeric_limits<W>::infinity()));
+  }
 }
 
 /// The k of 2^k, a normal number.

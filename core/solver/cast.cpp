@@ -2,6 +2,7 @@
 // The one place where solvers meet shapes: every solver is compiled here, for every shape.
 #include "core/solver/cast.h"
 
+#include "core/shape/convert.h"
 #include "core/solver/first_solution.h"
 #include "core/solver/gjk_ray_cast.h"
 #include "core/solver/model_of.h"
@@ -122,6 +123,13 @@ CastResult<T> cast_with(SolverKind solver, const PreparedShape<T>& shape,
       shape.inner_shape().kind);
 }
 
+template <class To, class From>
+CastResult<To> in_precision(const CastResult<From>& found) {
+  return {found.status,        To(found.t_base),    To(found.t_offset),
+          To(found.offset_lo), To(found.offset_hi), found.normal.template cast<To>(),
+          found.iterations,    found.supports};
+}
+
 CastOptions<double> in_double(const CastOptions<float>& options) {
   CastOptions<double> other;
   other.solver = options.solver;
@@ -152,24 +160,55 @@ template <class T, class Observer>
 CastResult<T> cast_near(const PreparedShape<T>& shape, const RayNearBall<T>& near,
                         const CastOptions<T>& options, Observer&& observer);
 
-/// The GJK ray cast with three digits more, for slivers.
-CastResult<double> cast_in_long_double(const Shape<long double>& shape, const Ball<double>& ball,
-                                       const RayNearBall<double>& near) {
-  using Long = long double;
-  const RayNearBall<Long> exact =
-      RayNearBall<Long>{near.s.cast<Long>(), near.r.cast<Long>(), near.lambda_min,  near.lambda_max,
-                        near.t_base,         near.t_shift,        near.t_per_length}
-          .mapped(Mat3<Long>::Identity());
-  const CastResult<Long> found =
-      gjk_ray_cast(shape, exact, Ball<Long>{ball.centre.cast<Long>(), Long(ball.radius)});
-  return {found.status,
-          near.t_base,
-          double(found.t_offset),
-          double(found.offset_lo),
-          double(found.offset_hi),
-          found.normal.cast<double>(),
-          found.iterations,
-          found.supports};
+/// The GJK ray cast with more digits, for slivers; the answer's t_base is near.t_base.
+template <class Finer, class T>
+CastResult<double> cast_finer(const Shape<Finer>& shape, const Ball<T>& ball,
+                              const RayNearBall<T>& near) {
+  const RayNearBall<Finer> finer = RayNearBall<Finer>{near.s.template cast<Finer>(),
+                                                      near.r.template cast<Finer>(),
+                                                      near.lambda_min,
+                                                      near.lambda_max,
+                                                      near.t_base,
+                                                      near.t_shift,
+                                                      near.t_per_length}
+                                       .mapped(Mat3<Finer>::Identity());
+  return in_precision<double>(gjk_ray_cast(
+      shape, finer, Ball<Finer>{ball.centre.template cast<Finer>(), Finer(ball.radius)}));
+}
+
+/// Where all solvers gave up, as where an edge or a rim is touched: with more digits, if the answer
+/// can be proven then. Else `first`.
+template <class T>
+CastResult<T> replace_exhausted(const PreparedShape<T>& shape, const RayNearBall<T>& near,
+                                const CastResult<T>& first) {
+  using Finer = std::conditional_t<std::is_same_v<T, float>, double, long double>;
+  const Ball<double> ball{shape.inner_ball().centre.template cast<double>(),
+                          double(shape.inner_ball().radius)};
+  const RayNearBall<double> near_in_double{near.s.template cast<double>(),
+                                           near.r.template cast<double>(),
+                                           near.lambda_min,
+                                           near.lambda_max,
+                                           near.t_base,
+                                           near.t_shift,
+                                           near.t_per_length};
+  const Shape<double> same = convert<double>(shape.inner_shape());
+  const Shape<Finer> finer = convert<Finer>(same);
+  int supports = first.supports;
+  const auto proves = [&](const CastResult<double>& answer, CastResult<T>& result) {
+    const ProvenCast cast = proven(same, ball, near_in_double, answer);
+    supports += cast.answer.supports;
+    if (!cast.holds) return false;
+    result = in_precision<T>(cast.answer);
+    result.iterations += first.iterations;
+    result.supports = supports;
+    return true;
+  };
+  CastResult<T> result;
+  if (proves(cast_finer(finer, shape.inner_ball(), near), result)) return result;
+  CastResult<double> claim = in_precision<double>(first);
+  claim.status = Status::hit;
+  if (!claim.normal.isZero(0) && proves(claim, result)) return result;
+  return after(CastResult<T>{.supports = supports - first.supports}, first);
 }
 
 /// `first`, if it can be proven, or else another solver's answer that can. If none can, `first`: at
@@ -192,7 +231,7 @@ CastResult<double> prove_or_replace(const PreparedShape<double>& shape,
     if (options.solver != SolverKind::automatic && options.solver != SolverKind::jet) return false;
     const Shape<long double>* exact = shape.definition().in_long_double();
     return proves(cast_with(SolverKind::paper, shape, near, options, observer)) ||
-           (exact && proves(cast_in_long_double(*exact, shape.inner_ball(), near)));
+           (exact && proves(cast_finer(*exact, shape.inner_ball(), near)));
   };
   const bool holds = proves(first) || others_prove();
   best.answer.iterations = iterations;
@@ -228,15 +267,8 @@ CastResult<float> cast_through_double(const PreparedShape<float>& shape,
     found = cast_near(exact, exact_near, in_double(options), NoObserver());
   else
     found = cast_near(exact, exact_near, in_double(options), tell);
-  CastResult<float> result;
-  result.status = found.status;
+  CastResult<float> result = in_precision<float>(found);
   result.t_base = near.t_base;
-  result.t_offset = float(found.t_offset);
-  result.offset_lo = float(found.offset_lo);
-  result.offset_hi = float(found.offset_hi);
-  result.normal = found.normal.cast<float>();
-  result.iterations = found.iterations;
-  result.supports = found.supports;
   return result;
 }
 
@@ -265,6 +297,10 @@ CastResult<T> cast_near(const PreparedShape<T>& shape, const RayNearBall<T>& nea
     if ((is_extreme || is_doubtful) && is_exact(options))
       result = prove_or_replace(shape, near, options, result, observer);
   }
+  const bool is_default =
+      options.solver == SolverKind::automatic || options.solver == SolverKind::jet;
+  if (result.status == Status::exhausted && is_default && !is_extreme && is_exact(options))
+    result = replace_exhausted(shape, near, result);
   result.normal = shape.normal_to_outer(result.normal);
   // A direction so short that the hit's t is no number of T.
   if (result.status == Status::hit && !std::isfinite(result.t())) result.status = Status::exhausted;
@@ -288,21 +324,47 @@ bool asks_bounds(const PreparedShape<T>& shape, SolverKind solver) {
   return solver == SolverKind::jet || solver == SolverKind::portal;
 }
 
-/// No earlier than the ray's beginning, which rounding may have put within the shape's surface.
+/// A hit no earlier than the ray's beginning, which rounding may have put within the shape's
+/// surface, and no later than its end.
 template <class T>
-void begin_with_ray(CastResult<T>& result) {
+void keep_on_ray(const Ray<T>& ray, CastResult<T>& result) {
   if (result.status != Status::hit) return;
   result.t_offset = std::max(result.t_offset, -result.t_base);
+  if (result.t() > ray.t_max) {  // by rounding
+    const T last = ray.t_max - result.t_base;
+    result.t_offset = last - std::numeric_limits<T>::epsilon() * std::abs(last);
+  }
+  result.offset_lo = std::min(result.offset_lo, result.t_offset);
   result.offset_hi = std::max(result.offset_hi, result.t_offset);
+}
+
+/// The ray in the inner frame, with all its digits wherever it comes from.
+template <class T>
+RayNearBall<T> near_inner(const PreparedShape<T>& shape, const Ray<T>& ray) {
+  RayNearBall<T> near = shape.to_inner(ray);
+  if (near.is_from_afar(shape.inner_ball().radius)) near = shape.to_inner_from_afar(ray);
+  return near;
+}
+
+/// Exhausted, if the ray has lost its digits even so.
+template <class T>
+void end_far_cast(const PreparedShape<T>& shape, const RayNearBall<T>& near,
+                  CastResult<T>& result) {
+  const T R = shape.inner_ball().radius;
+  if (R > T(0) && std::abs(near.lambda_min) > tolerance::farthest_origin<T> * R) {
+    result.status = Status::exhausted;
+    result.normal.setZero();
+  }
 }
 
 template <class T>
 CastResult<T> cast_past_bounds(const PreparedShape<T>& shape, const Ray<T>& ray,
                                const CastOptions<T>& options, const CastObserver<T>& observer) {
-  const RayNearBall<T> near = shape.to_inner(ray);
+  const RayNearBall<T> near = near_inner(shape, ray);
   CastResult<T> result = observer ? cast_near(shape, near, options, observer)
                                   : cast_near(shape, near, options, NoObserver());
-  begin_with_ray(result);
+  end_far_cast(shape, near, result);
+  keep_on_ray(ray, result);
   if (result.status == Status::inside)
     result.t_base = result.t_offset = result.offset_lo = result.offset_hi = T(0);
   return result;
@@ -327,9 +389,11 @@ CastResult<T> cast_ray(const PreparedShape<T>& shape, const Ray<T>& ray,
 template <class T>
 CastResult<T> cast_exit(const PreparedShape<T>& shape, const Ray<T>& ray,
                         const CastOptions<T>& options) {
-  CastResult<T> result = cast_near(shape, shape.to_inner(ray).reversed(), options, NoObserver());
+  const RayNearBall<T> near = near_inner(shape, ray);
+  CastResult<T> result = cast_near(shape, near.reversed(), options, NoObserver());
+  end_far_cast(shape, near, result);
   std::swap(result.offset_lo, result.offset_hi);
-  begin_with_ray(result);
+  keep_on_ray(ray, result);
   if (result.status == Status::hit) result.offset_lo = -std::numeric_limits<T>::infinity();
   return result;
 }

@@ -33,7 +33,7 @@ CentredShape<T> centred(Shape<T> shape, const Affine<T>& pose = {}) {
   const bool in_place = middle == Vec3<T>::Zero();
   if (!in_place || to_world.linear != Mat3<T>::Identity())
     shape = Transform<T>{shape, Affine<T>{to_world.linear, -(to_world.linear * middle)}};
-  const T radius = bounds_of<T>(shape).half_extents().norm();
+  const T radius = bounds_of<T>(shape).half_extents().stableNorm();
   // The box's middle is the centre but for rounding, which the ball allows for.
   return {std::move(shape), centre, radius * (T(1) + T(16) * std::numeric_limits<T>::epsilon())};
 }

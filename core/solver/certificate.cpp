@@ -331,7 +331,12 @@ Certificate certify(const SupportFunction& support, const Ray<double>& ray, cons
   if (claim.status == Status::hit) certify_hit(finder, claim, n);
   if (claim.status == Status::inside) {
     const double origin = near.lambda_of(0, 0);
-    finder.nearest(origin, origin, n, separating);
+    Candidate best;
+    best.take(finder.nearest(origin, origin, n, separating), separating, finder);
+    // On the surface, where the search comes to a point of a rim or a seam but slowly.
+    if (!(best.off <= good_enough * finder.rounding()))
+      best.take(finder.refine(origin, separating), separating, finder);
+    best.give(finder);
   }
   if (claim.status == Status::miss && !(near.begin > near.end)) {
     const double margin =

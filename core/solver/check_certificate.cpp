@@ -25,6 +25,7 @@ class Checker {
   }
 
   CertificateVerdict run() {
+    if (near_.is_too_far) complain("the origin is too far away");
     switch (claim_.status) {
       case Status::hit:
         check_hit();
@@ -124,7 +125,7 @@ class Checker {
     if (!spanned_point(q)) return complain("no support points");
     verdict_.lateral = (q - (ray_.origin - near_.centre)).norm();
     expect_at_most(verdict_.lateral, "the support points do not enclose the origin");
-    verdict_.offset_lo = verdict_.offset_hi = -verdict_.t_base;
+    verdict_.offset_lo = verdict_.offset_hi = -near_.t_base;
   }
 
   void check_miss() {

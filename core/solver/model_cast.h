@@ -64,6 +64,8 @@ CastLanes<W> model_cast(const MakeModel& make_model, const RayNearBall<W>& near,
     const Vec3<W> pushed = s - found.normal * W(tolerance::tangent_push<T> * R);
     LineHit<W> again = first_along(pushed, direction, until, found.tangent, sign);
     again.supports += found.supports;
+    // Thinner than the push: the line left through the other side, and nothing is known of it.
+    again.miss &= !(again.normal.dot(found.normal) < W(0));
     // The plane found there, where the line itself crosses it: later, but not behind the shape's
     // end or the ray's.
     auto model = make_model(s, direction);

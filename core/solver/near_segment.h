@@ -16,14 +16,17 @@ namespace minkray {
 struct NearSegment {
   Vec3<double> centre, s, r;
   double begin = 0, end = 0;
-  double first = 0;   ///< where the supporting plane is that the ray meets from outside
-  double t_base = 0;  ///< the ray's parameter at lambda = 0
-  double speed = 0;   ///< length of the ray's direction
-  double size = 0;    ///< of the largest coordinates that occur: the middle's distance + radius
+  double first = 0;  ///< where the supporting plane is that the ray meets from outside
+  double t_base = 0, t_shift = 0;  ///< their sum is the ray's parameter at lambda = 0
+  bool is_too_far = false;         ///< the origin: the segment is not where it should be
+  double speed = 0;                ///< length of the ray's direction
+  double size = 0;  ///< of the largest coordinates that occur: the middle's distance + radius
 
   Vec3<double> at(double lambda) const { return s + lambda * r; }
-  double lambda_of(double base, double offset) const { return ((base - t_base) + offset) * speed; }
-  double t_offset(double lambda) const { return speed > 0 ? lambda / speed : 0; }
+  double lambda_of(double base, double offset) const {
+    return ((base - t_base) + (offset - t_shift)) * speed;
+  }
+  double t_offset(double lambda) const { return speed > 0 ? t_shift + lambda / speed : 0; }
 };
 
 /// Asks for eight support points. `support` is called with directions, Vec3<double>.
@@ -45,10 +48,25 @@ NearSegment near_segment(const Support& support, const Ray<double>& ray) {
     near.s = ray.origin - near.centre;
     return near;
   }
-  // fma rounds once, to the size of the result.
-  near.t_base = -((ray.origin - near.centre).dot(near.r) / near.speed);
-  for (int axis = 0; axis < 3; ++axis)
-    near.s[axis] = std::fma(near.t_base, d[axis], ray.origin[axis]) - near.centre[axis];
+  // Two steps, in long double: fma rounds once, to the size of the result, and the first step
+  // leaves as much of the way as its parameter was rounded by.
+  using Long = long double;
+  const Vec3<Long> centre = near.centre.cast<Long>();
+  Vec3<Long> s = ray.origin.cast<Long>();
+  const auto move = [&](double t) {
+    for (int axis = 0; axis < 3; ++axis) s[axis] = std::fma(Long(t), Long(d[axis]), s[axis]);
+  };
+  const auto parameter = [&] {
+    return -static_cast<double>((s - centre).dot(near.r.cast<Long>()) / near.speed);
+  };
+  near.t_base = parameter();
+  move(near.t_base);
+  const auto step = static_cast<double>((s - centre).norm());
+  near.t_shift = parameter();
+  move(near.t_shift);
+  near.s = (s - centre).cast<double>();
+  constexpr double most = 0x1p11;  // of which long double's epsilon is double's of one
+  near.is_too_far = step > most * (near.size + near.s.norm());
   const double pad = 8 * std::numeric_limits<double>::epsilon() * near.size;
   const double at_s = near.r.dot(near.s);
   near.first = near.r.dot(support(-near.r) - near.centre) - at_s - pad;

@@ -48,6 +48,7 @@ void part(const PreparedShape<Lane<W>>& shape, const RayPacket<Lane<W>>& rays, L
                                      ball.radius, mask_of<W>(lanes >> from));
   if (!any(bounds.open)) return all_miss(bounds);
   const RayNearBall<W> near = shape.template to_inner<W>(ray);
+  bounds.open &= !near.is_from_afar(ball.radius);  // left to the single casts
   cast_at_ball(near, ball.radius, bounds);
   if (!any(bounds.open)) return all_miss(bounds);
   CastLanes<W> result = with_model<W>(shape.definition(), [&](const auto& make_model) {
@@ -56,16 +57,24 @@ void part(const PreparedShape<Lane<W>>& shape, const RayPacket<Lane<W>>& rays, L
   });
   result.miss |= bounds.miss;
   result.normal = select<W>(bounds.miss, bounds.normal, result.normal);
-  // No earlier than the ray's beginning.
+  // No earlier than the ray's beginning, no later than its end.
+  using std::abs;
   using std::max;
+  using std::min;
   result.t_offset = max(result.t_offset, -result.t_base);
+  const Mask<W> beyond = result.t_base + result.t_offset > ray.t_max;  // by rounding
+  if (any(beyond)) {
+    const W last = ray.t_max - result.t_base;
+    const W before = last - W(std::numeric_limits<T>::epsilon()) * abs(last);
+    result.t_offset = select(beyond, before, result.t_offset);
+  }
+  result.offset_lo = min(result.offset_lo, result.t_offset);
   result.offset_hi = max(result.offset_hi, result.t_offset);
   const Vec3<W> normal = shape.template normal_to_outer<W>(result.normal);
   const bool some_inside = any(result.inside);
   const auto at_origin = [&](const W& x) {
     return some_inside ? select(result.inside, W(T(0)), x) : x;
   };
-  using std::abs;
   const Mask<W> in_range =
       abs(result.t_base + result.t_offset) < W(std::numeric_limits<T>::infinity());
   const Mask<W> has_numbers = (normal.squaredNorm() < W(T(2))) & (result.t_base == result.t_base) &

@@ -63,6 +63,12 @@ class PreparedShape {
     return near;  // not copied: a processor reads slowly what it has just written in parts
   }
 
+  /// The same of one ray from anywhere.
+  RayNearBall<T> to_inner_from_afar(const Ray<T>& ray) const {
+    const RayNearBall<T> near = ray_near_from_afar(centre_, ray);
+    return is_rigid_identity_ ? near : near.mapped(to_inner_);
+  }
+
   /// The ray's line in the inner frame, from the centre of the inner bounds.
   template <class W>
   [[gnu::always_inline]] LineFromCentre<W> line_to_inner(const Ray<W>& ray) const {

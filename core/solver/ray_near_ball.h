@@ -6,6 +6,7 @@
 
 #include "core/math/bounds.h"
 #include "core/math/ray.h"
+#include "core/solver/tolerances.h"
 
 namespace minkray {
 
@@ -22,6 +23,13 @@ struct RayNearBall {
   W t_per_length;
 
   W t_offset(W lambda) const { return t_shift + lambda * t_per_length; }
+
+  /// Whether s lost digits to the distance of the ray's origin, beside a shape of radius R: the
+  /// first step's parameter is rounded as coarsely as that, and its remainder must be small.
+  Mask<W> is_from_afar(Lane<W> R) const {
+    using std::abs;
+    return (abs(lambda_min) > W(tolerance::far_origin<Lane<W>> * R)) & (W(R) > W(0));
+  }
 
   /// The same points, walked the other way.
   RayNearBall reversed() const {
@@ -114,6 +122,25 @@ RayNearBall<W> ray_near(const Vec3<Lane<W>>& centre, const Ray<W>& ray) {
     if (__builtin_cpu_supports("fma")) return detail::ray_near_with_fma(centre, ray);
 #endif
   return detail::ray_near_here<W>(centre, ray);
+}
+
+/// The same of one ray for origins further away than far_origin, with digits to spare; no better
+/// beyond farthest_origin.
+template <class T>
+RayNearBall<T> ray_near_from_afar(const Vec3<T>& centre, const Ray<T>& ray) {
+  using Finer = std::conditional_t<std::is_same_v<T, float>, double, long double>;
+  const Ray<Finer> same{ray.origin.template cast<Finer>(), ray.direction.template cast<Finer>(),
+                        Finer(ray.t_max)};
+  const RayNearBall<Finer> fine = detail::ray_near_here<Finer>(centre.template cast<Finer>(), same);
+  RayNearBall<T> near;
+  near.s = fine.s.template cast<T>();
+  near.r = fine.r.template cast<T>();
+  near.lambda_min = T(fine.lambda_min);
+  near.lambda_max = T(fine.lambda_max);
+  near.t_base = T(fine.t_base);
+  near.t_shift = T((fine.t_base - Finer(near.t_base)) + fine.t_shift);
+  near.t_per_length = T(fine.t_per_length);
+  return near;
 }
 
 }  // namespace minkray

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/solver/rotating_cast.h"
 
+#include "core/solver/distance.h"
+
 namespace minkray {
 namespace {
 
@@ -71,6 +73,12 @@ RotatingCastResult<T> cast_rotating(const MovingBody<T>& a, const MovingBody<T>&
     result.point_a = now.point_a + now.cast.t() * a.velocity;
     result.point_b = now.point_b + now.cast.t() * a.velocity;
     result.normal = now.cast.normal;
+    // The orientation changed at once, and the bodies were in each other: the plane was between
+    // them before that.
+    if (result.status == Status::hit && result.normal.isZero(T(0))) {
+      const T before = begin - step / T(2);
+      result.normal = distance_between(frozen(a, begin, before), frozen(b, begin, before)).axis;
+    }
     return result;
   }
   result.status = Status::miss;

@@ -93,6 +93,18 @@ inline constexpr int portal_max_iterations = 256;
 template <class T>
 inline constexpr T ball_padding = T(8) * epsilon<T>;
 
+/// Distances of origins, in units of the bounding radius, up to which moving a ray near the shape
+/// loses no digits: the first step's error is 2^-24 or 2^-53 of the distance, the second's as much
+/// of that.
+template <class T>
+inline constexpr T far_origin = std::is_same_v<T, float> ? T(0x1p24) : T(0x1p53);
+
+/// Distances beyond which no pair of numbers, t_base and t_offset, tells where on the shape a ray
+/// arrives (float), or the ray moved in long double has lost its digits (double): a cast from there
+/// is exhausted.
+template <class T>
+inline constexpr T farthest_origin = std::is_same_v<T, float> ? T(0x1p46) : T(0x1p62);
+
 /// How far beside a bounding box, relative to the sizes of what was added up, a line counts as
 /// meeting it: origin and direction, mapped, are sums of up to four rounded numbers, and their
 /// cross product and the box's reach round a few times more.
