@@ -77,8 +77,23 @@ bool Checkpoint::exists() const {
   return std::filesystem::exists(path_, error);
 }
 
+void Checkpoint::check_replaceable() const {
+  if (!exists()) return;
+  std::error_code error;
+  const std::string remedy = "; it would be replaced by the picture's checkpoint: move it away";
+  if (!std::filesystem::is_regular_file(path_, error))
+    throw CannotWrite(path_ + ": is no file" + remedy);
+  if (!is_exr(path_)) throw CannotWrite(path_ + ": is no checkpoint" + remedy);
+}
+
 RenderJournal Checkpoint::load() {
-  const ExrImage exr = read_exr(path_);
+  const ExrImage exr = [&] {
+    try {
+      return read_exr(path_);
+    } catch (const BadInput& error) {
+      throw BadInput(std::string(error.what()) + "; remove it, or render without --resume");
+    }
+  }();
   if (const std::string differs = difference(exr.texts, facts_, facts_that_must_agree());
       !differs.empty())
     throw BadInput(path_ + ": is the checkpoint of another picture: " + differs +

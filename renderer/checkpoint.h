@@ -27,6 +27,9 @@ class Checkpoint {
   /// Whether there is a file.
   bool exists() const;
 
+  /// Throws CannotWrite if there is something that is no checkpoint.
+  void check_replaceable() const;
+
   /// The rendering to go on with, as the file has it. Throws BadInput if it cannot be used or is of
   /// another picture, and says in what they differ.
   RenderJournal load();

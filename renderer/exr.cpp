@@ -8,6 +8,7 @@
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfStringAttribute.h>
+#include <OpenEXR/ImfTestFile.h>
 
 #include <algorithm>
 #include <cstring>
@@ -187,6 +188,10 @@ ExrImage decode_exr(std::string_view bytes, const std::string& file) {
   } catch (const std::exception& error) {
     throw unusable(file, error);
   }
+}
+
+bool is_exr(const std::string& file) {
+  return Imf::isOpenExrFile(file.c_str());
 }
 
 ExrImage read_exr(const std::string& file) {

@@ -12,6 +12,9 @@ constexpr double pi = std::numbers::pi;
 /// number too large to be summed: the coat counts as smooth. A standard deviation of slopes.
 constexpr double smallest_alpha = 1e-3;
 
+/// Beyond this a coat mirrors all but 4e-6 of the light, and squares of it would lose what is left.
+constexpr double most_refraction = 1e6;
+
 }  // namespace
 
 double fresnel(double cosine, double eta) {
@@ -67,7 +70,7 @@ Surface::Surface(const Material& material) {
   const auto& glossy = std::get<GlossyMaterial>(material.kind);
   colour_ = glossy.colour;
   has_coat_ = true;
-  eta_ = glossy.index_of_refraction;
+  eta_ = std::min(glossy.index_of_refraction, most_refraction);
   // The usual reading of roughness: alpha is its square.
   const double alpha = glossy.roughness * glossy.roughness;
   alpha_ = alpha < smallest_alpha ? 0 : alpha;

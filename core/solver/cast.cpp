@@ -346,15 +346,18 @@ RayNearBall<T> near_inner(const PreparedShape<T>& shape, const Ray<T>& ray) {
   return near;
 }
 
-/// Exhausted, if the ray has lost its digits even so.
+/// Exhausted, if the ray has lost its digits even so: but for misses by more than that.
 template <class T>
 void end_far_cast(const PreparedShape<T>& shape, const RayNearBall<T>& near,
                   CastResult<T>& result) {
-  const T R = shape.inner_ball().radius;
-  if (R > T(0) && std::abs(near.lambda_min) > tolerance::farthest_origin<T> * R) {
-    result.status = Status::exhausted;
-    result.normal.setZero();
-  }
+  const T R = shape.inner_ball().radius,
+          error = std::abs(near.lambda_min) / tolerance::farthest_origin<T>;
+  if (!(R > T(0)) || error <= R) return;
+  const T nearest = std::min(std::max(T(0), near.lambda_min), near.lambda_max);
+  const bool is_clear = (near.s + nearest * near.r).stableNorm() > R + T(4) * error;
+  if (result.status == Status::miss && is_clear) return;
+  result.status = Status::exhausted;
+  result.normal.setZero();
 }
 
 template <class T>

@@ -107,6 +107,21 @@ void check_outputs(const std::vector<std::string>& outputs) {
       throw WrongUsage("--output: must end in one of " + image_extensions() + " (got " + output +
                        ")");
   for (const std::string& output : outputs) check_writable(output);
+  for (std::size_t i = 0; i < outputs.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (is_same_file(outputs[i], outputs[j]))
+        throw WrongUsage("--output: names the same file twice (" + outputs[j] + " and " +
+                         outputs[i] + ")");
+}
+
+bool is_same_file(const std::string& a, const std::string& b) {
+  std::error_code error;
+  const auto whole = [&error](const std::string& file) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(file, error), error);
+  };
+  const auto status = std::filesystem::status(a, error);
+  if (std::filesystem::is_character_file(status) || std::filesystem::is_fifo(status)) return false;
+  return whole(a) == whole(b) || std::filesystem::equivalent(a, b, error);
 }
 
 RenderOptions ImageArguments::render_options(const Scene& loaded, std::size_t panels) const {

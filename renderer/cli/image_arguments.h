@@ -44,6 +44,9 @@ void add_output_option(CLI::App& verb, std::vector<std::string>& outputs);
 /// written later.
 void check_outputs(const std::vector<std::string>& outputs);
 
+/// Whether two names are one file's, which need not be there. Devices and pipes are never the same.
+bool is_same_file(const std::string& a, const std::string& b);
+
 /// Options for the casts of a solver by name. Throws WrongUsage with the names there are.
 CastOptions<Real> cast_options(const std::string& solver, const std::string& option = "--solver");
 

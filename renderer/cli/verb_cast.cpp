@@ -127,19 +127,19 @@ void answer_line(const Line& line, const std::string& place, MeshFiles& meshes,
   }
   const Answer result = answer(*query, options);
   batch.out += result.json.dump() + "\n";
+  const std::string whose = query->name.empty() ? place : place + ": " + printable(query->name, 80);
   if (!result.verdict) {
     ++batch.certificates.without;
   } else if (result.verdict->holds) {
     ++batch.certificates.holding;
   } else {
     ++batch.certificates.failing;
-    batch.err += place + ": " + printable(query->name, 80) +
-                 ": not certified: " + std::string(result.verdict->complaint) + "\n";
+    batch.err += whose + ": not certified: " + std::string(result.verdict->complaint) + "\n";
   }
   if (!check) return;
   for (const std::string& complaint : complaints(*query, result.facts, options.precision)) {
     batch.has_wrong = true;
-    batch.err += place + ": " + printable(query->name, 80) + ": " + complaint + "\n";
+    batch.err += whose + ": " + complaint + "\n";
   }
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "renderer/cli/choices.h"
+#include "renderer/cli/file_ending.h"
 #include "renderer/cli/verbs.h"
 #include "renderer/json/object_reader.h"
 #include "renderer/json/parse.h"
@@ -22,6 +23,7 @@ struct Options {
 };
 
 void distance_2d(const Options& options) {
+  check_ending(options.out, ".svg", "--output");
   check_writable(options.out);
   Mistakes mistakes(options.file);
   MeshFiles meshes(std::filesystem::path(options.file).parent_path());

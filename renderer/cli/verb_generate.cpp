@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "renderer/cli/file_ending.h"
 #include "renderer/cli/image_arguments.h"
 #include "renderer/cli/verbs.h"
 #include "renderer/generate/generate.h"
@@ -41,6 +42,7 @@ void add_generate(CLI::App& app, ExitCode&) {
   verb->add_option("--seed", options->seed, "Another seed is another scene; from 0 to 2^64 - 1")
       ->capture_default_str();
   verb->callback([options] {
+    check_ending(options->out, ".json", "--output");
     generate_scene({options->kind, options->count, parse_seed(options->seed)}, options->out);
   });
 }

@@ -8,6 +8,7 @@
 #include "renderer/cli/image_arguments.h"
 #include "renderer/cli/verbs.h"
 #include "renderer/cli/write_picture.h"
+#include "renderer/errors.h"
 #include "renderer/interrupt.h"
 #include "renderer/merge.h"
 
@@ -25,6 +26,10 @@ struct Options {
 void run(const Options& options) {
   check_exposure(options.exposure);
   check_outputs(options.outputs);
+  for (const std::string& output : options.outputs)
+    for (const std::string& part : options.parts)
+      if (is_same_file(output, part))
+        throw WrongUsage("--output: must be none of the pieces (got " + output + ")");
   Merged merged = merge_parts(options.parts, options.allow_partial);
   for (const std::string& missing : merged.missing)
     std::cerr << "warning: missing: " << missing << "\n";

@@ -149,6 +149,7 @@ void read_options(const Options& options, const Ranks& ranks, RenderJob& job) {
     throw WrongUsage("--stats: takes nothing or =json (got " + options.stats + ")");
   if (std::isnan(options.checkpoint_seconds))
     throw WrongUsage("--checkpoint: must be a number of seconds (got nan)");
+  if (std::isnan(options.rate)) throw WrongUsage("--rate: must be a number of frames (got nan)");
   if (options.aov) job.channels = parse_data_channels(*options.aov);
   const std::vector<std::string>& outputs = options.image.outputs;
   if (options.aov && std::none_of(outputs.begin(), outputs.end(), keeps_planes))
@@ -242,7 +243,7 @@ Image render_and_write(const RenderJob& job, const Options& options,
   return picture.image;
 }
 
-void check_frames(const Options& options, const Ranks& ranks) {
+void check_frames(const Options& options, const FrameRange& frames, const Ranks& ranks) {
   if (!options.frames) {
     if (!options.contact_sheet.empty())
       throw WrongUsage("--contact-sheet: goes with --frames only");
@@ -256,6 +257,11 @@ void check_frames(const Options& options, const Ranks& ranks) {
   if (options.resume)
     throw WrongUsage("--contact-sheet: shows the frames of a whole run: not with --resume");
   check_outputs({options.contact_sheet});
+  for (int frame = frames.first; frame <= frames.last; ++frame)
+    for (const std::string& name : options.image.outputs)
+      if (is_same_file(file_of_frame(name, frame), options.contact_sheet))
+        throw WrongUsage("--contact-sheet: is the file of frame " + std::to_string(frame) +
+                         " (got " + options.contact_sheet + ")");
 }
 
 /// The world moves from frame to frame.
@@ -293,8 +299,8 @@ ExitCode run(const Options& options) {
   RenderJob job;
   const CastOptions<Real> cast = cast_options(options.image.solver);
   read_options(options, ranks, job);
-  check_frames(options, ranks);
   const FrameRange frames = options.frames ? parse_frames(*options.frames) : FrameRange{};
+  check_frames(options, frames, ranks);
 
   Statistics statistics;
   timed(options, "load", statistics.load_seconds,

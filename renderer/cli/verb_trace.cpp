@@ -8,6 +8,7 @@
 #include "core/shape/convert.h"
 #include "renderer/camera.h"
 #include "renderer/cli/choices.h"
+#include "renderer/cli/file_ending.h"
 #include "renderer/cli/verbs.h"
 #include "renderer/errors.h"
 #include "renderer/output_file.h"
@@ -61,6 +62,7 @@ std::size_t choose(const std::vector<PreparedShape<T>>& shapes, const Scene& sce
 
 template <class T>
 void trace(const Options& options) {
+  if (options.svg) check_ending(*options.svg, ".svg", "--svg");
   const Scene scene = load_scene(options.scene);
   const Resolution& size = scene.camera.resolution;
   const int x = options.pixel[0], y = options.pixel[1];

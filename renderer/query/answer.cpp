@@ -92,12 +92,15 @@ void solve(const RayQuery& query, const AnswerOptions& options, Answer& answer) 
   const CastResult<T>& result = trace.result;
   add_cast(answer, result);
   if (result.found()) {
-    // In double: from far away the sum's terms are much larger than it.
-    const Vec3<double> origin = ray.origin.template cast<double>(),
-                       direction = ray.direction.template cast<double>();
-    const Vec3<double> near = origin + static_cast<double>(result.t_base) * direction;
-    const Vec3<double> point = near + static_cast<double>(result.t_offset) * direction;
-    answer.json["point"] = point_json(Vec3<T>(point.template cast<T>()));
+    // From far away the terms are much larger than their sum: the product is not rounded.
+    using Long = long double;
+    Vec3<T> point;
+    for (int axis = 0; axis < 3; ++axis) {
+      const Long direction = ray.direction[axis];
+      const Long near = std::fma(Long(result.t_base), direction, Long(ray.origin[axis]));
+      point[axis] = static_cast<T>(std::fma(Long(result.t_offset), direction, near));
+    }
+    answer.json["point"] = point_json(point);
   }
   add_costs<T>(answer, result.iterations, result.supports);
   if (options.certify) add_certificate(answer, plain, ray, result);

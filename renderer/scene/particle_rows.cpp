@@ -163,6 +163,9 @@ void read_csv(RegularFile& file, std::optional<std::size_t> count, std::size_t m
   std::size_t line_number = 0, kept = 0;  // kept: bytes of a line that is not complete
   const auto take = [&](std::string_view line) {
     ++line_number;
+    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+    if (line_number == 1 && line.starts_with(byte_order_mark))
+      line.remove_prefix(byte_order_mark.size());
     while (!line.empty() && is_blank(line.front())) line.remove_prefix(1);
     if (line.empty() || line == "\r" || line.front() == '#') return;
     if (rows.count() == most_rows)

@@ -58,6 +58,17 @@ TEST(Reflection, a_white_coated_surface_gives_back_all_light) {
   }
 }
 
+/// An index of 1e20 made pixels that were no numbers.
+TEST(Reflection, any_index_of_refraction_gives_numbers) {
+  for (const double eta : {1.0, 1e3, 1e8, 1e16, 1e20, 1e200, 1e308}) {
+    const Surface surface({"", GlossyMaterial{Colour::Constant(0.7), 0.1, eta}});
+    const Vec3<double> w_out = from_above(0.4), w_in = from_above(0.8);
+    EXPECT_TRUE(surface.base_weight(w_out, w_in).allFinite()) << eta;
+    EXPECT_GE(surface.mirror(w_out, {0.5, 0.5}).weight, 0) << eta;
+    EXPECT_LE(surface.mirror(w_out, {0.5, 0.5}).weight, 1) << eta;
+  }
+}
+
 TEST(Reflection, light_may_go_either_way) {
   const Surface surface({"", GlossyMaterial{{0.8, 0.5, 0.1}, 0.4, 1.5}});
   const Vec3<double> a = from_above(0.3, 1.0), b = from_above(0.8, 4.0);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/shape/convert.h"
+#include "core/solver/packet_cast.h"
 #include "tests/support/random.h"
 
 namespace minkray {
@@ -20,6 +21,63 @@ TEST(Cast, a_far_origin_costs_no_precision_in_float) {
   EXPECT_NEAR(near.t_offset, -std::sqrt(0.75f), 1e-6f);
   EXPECT_EQ(far.t_offset, near.t_offset);
   EXPECT_EQ(far.t_base, 262144.0f);
+}
+
+/// Further off than numbers with the digits of two can tell, no answer is an answer: rays through a
+/// ball's middle were once missed, and with a certificate.
+TEST(Cast, no_ray_is_too_far_away_to_be_told_of) {
+  const PreparedShape<double> ball(Sphere<double>{1});
+  const PreparedShape<float> in_float(Sphere<float>{1});
+  for (int power = 1; power < 36; ++power) {
+    for (const double speed : {0.75, 3.0, 1e3, 1e-3, 1e20}) {
+      const Ray<double> ray{{0, 0, -std::pow(10.0, power)}, {0, 0, speed}};
+      const CastResult<double> fine = cast_ray(ball, ray);
+      EXPECT_EQ(name_of(fine.status), name_of(power < 18 ? Status::hit : fine.status)) << power;
+      EXPECT_NE(name_of(fine.status), name_of(Status::miss)) << power << " " << speed;
+      const Ray<float> same = {ray.origin.cast<float>(), ray.direction.cast<float>()};
+      const CastResult<float> coarse = cast_ray(in_float, same);
+      EXPECT_EQ(name_of(coarse.status), name_of(power < 13 ? Status::hit : coarse.status)) << power;
+      EXPECT_NE(name_of(coarse.status), name_of(Status::miss)) << power << " " << speed;
+      RayPacket<float> packet;
+      for (int lane = 0; lane < packet_lanes<float>; ++lane) packet.set(lane, same);
+      CastPacket<float> together;
+      cast_packet(in_float, packet, LaneBits(1), together);
+      EXPECT_EQ(together.result(0).status, coarse.status) << power << " " << speed;
+      // Beside the ball, as far off.
+      const Ray<double> beside{{1.5, 0, -std::pow(10.0, power)}, {0, 0, speed}};
+      EXPECT_NE(name_of(cast_ray(ball, beside).status), name_of(Status::hit)) << power;
+      if (fine.status != Status::hit) continue;
+      // o + t d with the digits of both.
+      const long double at =
+          std::fma((long double)(fine.t_base), (long double)(speed), (long double)(ray.origin.z()));
+      const long double spot = at + (long double)(fine.t_offset) * speed;
+      EXPECT_NEAR(static_cast<double>(spot), -1, 1e-15 + std::pow(10.0, power - 31)) << power;
+    }
+  }
+}
+
+TEST(Cast, no_hit_is_after_the_rays_end) {
+  Random random(8);
+  int hits = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const PreparedShape<double> box(Box<double>{{1, random.uniform(0.1, 2), 1}});
+    Ray<double> ray{{-random.uniform(1, 3), 0.05, 0.3}, {random.uniform(0.1, 7), 0, 0.01}};
+    const CastResult<double> first = cast_ray(box, ray);
+    if (first.status != Status::hit) continue;
+    ray.t_max = std::nextafter(first.t(), 0.0);
+    const CastResult<double> last = cast_ray(box, ray);
+    if (last.status != Status::hit) continue;
+    ++hits;
+    EXPECT_LE(last.t(), ray.t_max);
+    EXPECT_LE(last.offset_lo, last.t_offset);
+    EXPECT_GE(last.offset_hi, last.t_offset);
+    RayPacket<double> packet;
+    for (int lane = 0; lane < packet_lanes<double>; ++lane) packet.set(lane, ray);
+    CastPacket<double> together;
+    cast_packet(box, packet, LaneBits(1), together);
+    EXPECT_EQ(together.result(0).t(), last.t());
+  }
+  EXPECT_GT(hits, 100);
 }
 
 TEST(Cast, a_ray_from_inside_says_so_and_knows_its_exit) {

@@ -136,6 +136,31 @@ TEST(Certificate, far_origins_cost_nothing) {
   EXPECT_FALSE(verdict_on(ball, ray, claim).holds);
 }
 
+/// Where not even long double tells which part of the ray is near the shape, nothing is proven.
+TEST(Certificate, origins_too_far_away_are_refused) {
+  const Ray<double> ray{{0, 0, -1e34}, {0, 0, 1e30}};
+  for (const Status status : {Status::miss, Status::hit}) {
+    Claim claim = claim_for(ball, ray);
+    claim.status = status;
+    claim.normal = {0, 0, -1};
+    EXPECT_FALSE(verdict_on(ball, ray, claim).holds);
+  }
+}
+
+/// On a rim or a seam the search for support points comes to the origin but slowly.
+TEST(Certificate, of_origins_on_the_surface) {
+  const Shape<double> capsule = Capsule<double>{1, 1}, cylinder = Cylinder<double>{1, 1};
+  for (const auto& [shape, origin] :
+       {std::pair(capsule, Vec3<double>(-1, 0, -1)), std::pair(cylinder, Vec3<double>(0, 1, -1)),
+        std::pair(cylinder, Vec3<double>(0, 1, 0))}) {
+    const Ray<double> ray{origin, {0.5, -0.75, 0.4}};
+    const Claim claim = claim_for(shape, ray);
+    EXPECT_NE(name_of(claim.status), name_of(Status::miss));
+    const CertificateVerdict verdict = verdict_on(shape, ray, claim);
+    EXPECT_TRUE(verdict.holds) << verdict.lateral;
+  }
+}
+
 class CertifiedShapes : public ::testing::TestWithParam<SampleShape> {};
 
 /// Every answer in float and double has a certificate that holds.

@@ -205,6 +205,36 @@ TEST(Distance, scales_with_the_world) {
   }
 }
 
+/// Squares of lengths beyond the range of numbers made overlaps of shapes far apart.
+template <class T>
+void expect_scales_to(int least_power, int greatest_power) {
+  for (int power = least_power; power <= greatest_power; ++power) {
+    const T size = static_cast<T>(std::pow(10.0, power));
+    const Affine<T> far{Mat3<T>::Identity(), {T(0), T(4) * size, T(0)}};
+    const Shape<T> ball = Sphere<T>{size}, box = Box<T>{Vec3<T>::Constant(size)};
+    for (const auto& [a, b] : {std::pair(ball, ball), std::pair(ball, box), std::pair(box, box)}) {
+      const auto result = distance_between(centred<T>(a), centred<T>(b, far));
+      ASSERT_EQ(name_of(result.status), name_of(DistanceStatus::separated)) << power;
+      ASSERT_NEAR(double(result.distance / size), 2, 1e-5) << power;
+      ASSERT_NEAR(double(result.point_b.y() / size), 3, 1e-5) << power;
+      const Affine<T> near{Mat3<T>::Identity(), {T(0), size, T(0)}};
+      ASSERT_EQ(name_of(distance_between(centred<T>(a), centred<T>(b, near)).status),
+                name_of(DistanceStatus::overlapping))
+          << power;
+    }
+  }
+}
+
+TEST(Distance, scales_to_the_ends_of_the_number_range) {
+  expect_scales_to<float>(-30, 36);
+  expect_scales_to<double>(-290, 300);
+  const auto none = distance_between(
+      centred<float>(Sphere<float>{1}),
+      centred<float>(Sphere<float>{1},
+                     {Mat3<float>::Identity(), {std::numeric_limits<float>::infinity(), 0, 0}}));
+  EXPECT_EQ(none.status, DistanceStatus::exhausted);
+}
+
 TEST(Distance, of_touching_boxes_is_zero_and_of_barely_parted_ones_the_gap) {
   const auto box = place<double>(Box<double>{{1, 1, 1}});
   EXPECT_EQ(distance_between(box, place<double>(Box<double>{{1, 1, 1}}, at(2, 0.5, 0.25))).status,

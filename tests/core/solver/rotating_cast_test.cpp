@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/solver/distance.h"
+#include "tests/support/random.h"
 
 namespace minkray {
 namespace {
@@ -33,6 +34,27 @@ TEST(RotatingCast, approaches_the_truth_as_steps_shrink_and_never_claims_more) {
     EXPECT_LE(distance.distance, result.position_error) << steps;
     EXPECT_LE(result.position_error, 2.1 / steps) << steps;
   }
+}
+
+/// Also where the orientation's change at once has put them into each other.
+TEST(RotatingCast, every_hit_has_a_normal_between_the_two) {
+  testing::Random random(4);
+  int hits = 0;
+  for (int i = 0; i < 300; ++i) {
+    MovingBody<double> a = bar(), b = bar();
+    b.pose.translation = 2.2 * random.direction();
+    a.angular_velocity = 3 * random.direction();
+    b.angular_velocity = 3 * random.direction();
+    a.velocity = 0.5 * random.direction();
+    const auto result = cast_rotating(a, b, 2.0, 12);
+    if (result.status != Status::hit) continue;
+    ++hits;
+    ASSERT_NEAR(result.normal.norm(), 1, 1e-12) << i;
+    // From A, outward: towards B.
+    const V towards = b.pose.translation - (a.pose.translation + result.t * a.velocity);
+    EXPECT_GT(result.normal.dot(towards), 0) << i;
+  }
+  EXPECT_GT(hits, 30);
 }
 
 TEST(RotatingCast, without_turning_is_the_shape_cast) {

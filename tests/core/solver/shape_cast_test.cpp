@@ -262,6 +262,24 @@ TEST(ShapeCast, touching_at_the_start_is_inside_when_approaching) {
   EXPECT_NEAR(hit.cast.t(), 1e-9, 1e-15);
 }
 
+/// A cylinder that touches a plate's edge with its rim, and a box that comes down on a disk's: in
+/// double no solver could tell.
+TEST(ShapeCast, rims_and_edges_that_touch_are_told) {
+  for (const double scale : {1.0, 1e-3}) {
+    const Shape<double> cylinder = Cylinder<double>{scale, scale},
+                        plate = Box<double>{{scale, scale, 0}};
+    const auto touching = pair_of(plate, {}, cylinder, at(scale * V(2, 0, 1)));
+    EXPECT_EQ(name_of(cast_shape<double>(touching, V(0, scale, 0)).cast.status),
+              name_of(Status::inside))
+        << scale;
+  }
+  constexpr double half = 1.220631673816707;
+  const auto pair = pair_of(Disk<double>{0.5}, {}, Box<double>{{1, half, 1}}, at(V(-1, 9, 1)));
+  const auto hit = cast_shape<double>(pair, V(0, -1, 0));
+  ASSERT_EQ(name_of(hit.cast.status), name_of(Status::hit));
+  EXPECT_NEAR(hit.cast.t(), 9 - half - 0.5, 4e-15);
+}
+
 TEST(ShapeCast, of_two_moving_shapes_is_that_of_their_relative_motion) {
   const auto pair = pair_of(Sphere<double>{1}, {}, Sphere<double>{1}, at(V(10, 0, 0)));
   const auto result = cast_shapes<double>(pair, V(1, 1, 0), V(-1, 1, 0), 10);

@@ -269,18 +269,28 @@ TEST_F(NothingLost, an_endless_line_is_an_error_and_does_not_fill_the_memory) {
 }
 
 TEST_F(NothingLost, values_that_do_not_fit_are_wrong_usage) {
-  for (const std::string arguments :
-       {"render scene.json -o a.png --seed 18446744073709551616",
-        "render scene.json -o a.png --seed 99999999999999999999999",
-        "render scene.json -o a.png --seed 1.5", "heatmap scene.json -o a.png --side-by-side ''",
-        "render scene.json -o a.png --aov Z", "render scene.json -o a.exr --aov depth",
-        "render scene.json -o a.exr --tile 3/2", "render scene.json -o a.png --tile 1/2",
-        "render scene.json -o a.exr -r 2x2 --tile 1/5",
-        "render scene.json -o a.exr -s 2 --sample-share 1/3",
-        "render scene.json -o a.exr --sample-share 1/2 --aov Z",
-        "render scene.json -o a.png --checkpoint -1", "render scene.json -o a.png --checkpoint nan",
-        "heatmap scene.json -o a.png --side-by-side auto,fast",
-        "generate spheres -o b.json --seed 18446744073709551616", "frobnicate", "merge -o a.png"}) {
+  for (const std::string arguments : {"render scene.json -o a.png --seed 18446744073709551616",
+                                      "render scene.json -o a.png --seed 99999999999999999999999",
+                                      "render scene.json -o a.png --seed 1.5",
+                                      "heatmap scene.json -o a.png --side-by-side ''",
+                                      "render scene.json -o a.png --aov Z",
+                                      "render scene.json -o a.exr --aov depth",
+                                      "render scene.json -o a.exr --tile 3/2",
+                                      "render scene.json -o a.png --tile 1/2",
+                                      "render scene.json -o a.exr -r 2x2 --tile 1/5",
+                                      "render scene.json -o a.exr -s 2 --sample-share 1/3",
+                                      "render scene.json -o a.exr --sample-share 1/2 --aov Z",
+                                      "render scene.json -o a.png --checkpoint -1",
+                                      "render scene.json -o a.png --checkpoint nan",
+                                      "heatmap scene.json -o a.png --side-by-side auto,fast",
+                                      "render scene.json -o a.png --frames 0..1 --rate nan",
+                                      "render scene.json -o a.png -o ./a.png",
+                                      "generate spheres -o b.json --seed 18446744073709551616",
+                                      "generate spheres -o b.f32",
+                                      "trace scene.json --pixel 1,1 --svg scene.json",
+                                      "distance-2d scene.json -o scene.json",
+                                      "frobnicate",
+                                      "merge -o a.png"}) {
     const ProgramOutcome outcome = shell("\"$MINKRAY\" " + arguments);
     EXPECT_EQ(outcome.exit_code, 2) << arguments;
     EXPECT_NE(outcome.err, "") << arguments;
@@ -290,6 +300,26 @@ TEST_F(NothingLost, values_that_do_not_fit_are_wrong_usage) {
   EXPECT_EQ(
       shell("\"$MINKRAY\" render scene.json -o a.png -s 1 --seed 18446744073709551615").exit_code,
       0);
+}
+
+TEST_F(NothingLost, no_output_takes_the_place_of_an_input_or_another_output) {
+  const ProgramOutcome made = shell(R"(set -e
+    for i in 1 2; do "$MINKRAY" render scene.json -s 1 --tile $i/2 -o $i.exr; done
+    cp 1.exr kept.exr
+    if "$MINKRAY" merge 1.exr 2.exr -o 1.exr; then exit 1; fi
+    if "$MINKRAY" merge 1.exr 2.exr -o ./2.exr; then exit 1; fi
+    cmp 1.exr kept.exr
+    if "$MINKRAY" render scene.json -s 1 -o 'f#.png' --frames 1..2 --contact-sheet f2.png; then
+      exit 1; fi
+    test ! -e f1.png
+    echo notes > a.png.checkpoint
+    if "$MINKRAY" render scene.json -s 1 -o a.png; then exit 1; fi
+    grep -q notes a.png.checkpoint
+    mkdir b.png.checkpoint
+    if "$MINKRAY" render scene.json -s 1 -o b.png; then exit 1; fi
+    test -d b.png.checkpoint)");
+  EXPECT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_NE(made.err.find("a.png.checkpoint: is no checkpoint"), std::string::npos) << made.err;
 }
 
 TEST_F(NothingLost, help_that_nobody_gets_is_no_success) {

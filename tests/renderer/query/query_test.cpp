@@ -134,6 +134,20 @@ TEST(Queries, mistakes_name_line_key_and_what_was_expected) {
       std::string::npos);
 }
 
+/// o + t d is a difference of numbers as large as the origin is far.
+TEST(Queries, the_point_is_as_precise_from_afar) {
+  for (const double distance : {1e3, 1e8, 1e12, 1e16}) {
+    Mistakes mistakes("q");
+    Json json = Json::parse(
+        R"({"name":"n","query":"ray","shape":{"type":"sphere","radius":1},"ray":{"origin":[0,0,0],"direction":[0,0,3]}})");
+    json["ray"]["origin"] = {0, 0, -distance};
+    const auto query = parse(json.dump(), mistakes);
+    ASSERT_TRUE(query) << mistakes.text();
+    const Answer result = answer(*query, {});
+    EXPECT_NEAR(result.json.at("point")[2].get<double>(), -1, 1e-15) << distance;
+  }
+}
+
 TEST(Queries, numbers_of_answers_read_back_as_they_were_and_traces_bound_the_hit) {
   Mistakes mistakes("q");
   const auto query = parse(

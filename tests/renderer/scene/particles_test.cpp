@@ -95,7 +95,8 @@ TEST_F(Particles, all_kinds_of_files_say_the_same) {
   write_numbers("p.f32", floats);
   write_numbers("p.f64", std::vector<double>(floats.begin(), floats.end()));
   write("p.csv", "# x, y, z, scale\n 1,2,3,0.5\r\n\n-4 +5\t-625e-2 , 2");
-  for (const char* file : {"p.f32", "p.f64", "p.csv"}) {
+  write("marked.csv", "\xEF\xBB\xBF# x, y, z, scale\n1,2,3,0.5\n-4,5,-6.25,2\n");
+  for (const char* file : {"p.f32", "p.f64", "p.csv", "marked.csv"}) {
     const auto scene = read(std::string(box) + R"(, "material": "red", "columns": ["position",
       "scale"], "count": 2, "file": ")" +
                             file + "\"");
