@@ -94,7 +94,7 @@ double room_in_shadow(const Shape<double>& shape, const Ray<double>& ray) {
       best = angle;
     }
   }
-  for (double step = 2 * std::numbers::pi / samples; step > 1e-9; step /= 1.5) {
+  for (double step = 2 * std::numbers::pi / samples; step > 1e-16; step /= 1.5) {
     for (const double angle : {best - step, best + step}) {
       if (const double value = room(angle); value < least) {
         least = value;
