@@ -193,6 +193,7 @@ void Checkpoint::interrupted(const Rendering& rendering) {
 
 void Checkpoint::remove() {
   complaint();
+  if (!is_ours_ && !is_exr(path_)) return;
   std::error_code error;
   std::filesystem::remove(path_, error);
 }

@@ -191,24 +191,30 @@ CastResult<T> replace_exhausted(const PreparedShape<T>& shape, const RayNearBall
                                            near.t_base,
                                            near.t_shift,
                                            near.t_per_length};
-  const Shape<double> same = convert<double>(shape.inner_shape());
-  const Shape<Finer> finer = convert<Finer>(same);
-  int supports = first.supports;
-  const auto proves = [&](const CastResult<double>& answer, CastResult<T>& result) {
+  const Shape<Finer> finer = convert<Finer>(shape.inner_shape());
+  const Shape<double>& same = [&]() -> const Shape<double>& {
+    if constexpr (std::is_same_v<T, float>)
+      return finer;
+    else
+      return shape.inner_shape();
+  }();
+  int iterations = first.iterations, supports = first.supports;
+  CastResult<T> result = first;
+  const auto proves = [&](const CastResult<double>& answer) {
     const ProvenCast cast = proven(same, ball, near_in_double, answer);
+    iterations += cast.answer.iterations;
     supports += cast.answer.supports;
-    if (!cast.holds) return false;
-    result = in_precision<T>(cast.answer);
-    result.iterations += first.iterations;
-    result.supports = supports;
-    return true;
+    if (cast.holds) result = in_precision<T>(cast.answer);
+    return cast.holds;
   };
-  CastResult<T> result;
-  if (proves(cast_finer(finer, shape.inner_ball(), near), result)) return result;
   CastResult<double> claim = in_precision<double>(first);
   claim.status = Status::hit;
-  if (!claim.normal.isZero(0) && proves(claim, result)) return result;
-  return after(CastResult<T>{.supports = supports - first.supports}, first);
+  claim.iterations = claim.supports = 0;
+  if (!proves(cast_finer(finer, shape.inner_ball(), near)) && !claim.normal.isZero(0))
+    proves(claim);
+  result.iterations = iterations;
+  result.supports = supports;
+  return result;
 }
 
 /// `first`, if it can be proven, or else another solver's answer that can. If none can, `first`: at
@@ -329,11 +335,11 @@ bool asks_bounds(const PreparedShape<T>& shape, SolverKind solver) {
 template <class T>
 void keep_on_ray(const Ray<T>& ray, CastResult<T>& result) {
   if (result.status != Status::hit) return;
-  result.t_offset = std::max(result.t_offset, -result.t_base);
   if (result.t() > ray.t_max) {  // by rounding
     const T last = ray.t_max - result.t_base;
     result.t_offset = last - std::numeric_limits<T>::epsilon() * std::abs(last);
   }
+  result.t_offset = std::max(result.t_offset, -result.t_base);
   result.offset_lo = std::min(result.offset_lo, result.t_offset);
   result.offset_hi = std::max(result.offset_hi, result.t_offset);
 }
@@ -356,8 +362,10 @@ void end_far_cast(const PreparedShape<T>& shape, const RayNearBall<T>& near,
   const T nearest = std::min(std::max(T(0), near.lambda_min), near.lambda_max);
   const bool is_clear = (near.s + nearest * near.r).stableNorm() > R + T(4) * error;
   if (result.status == Status::miss && is_clear) return;
-  result.status = Status::exhausted;
-  result.normal.setZero();
+  CastResult<T> none;
+  none.iterations = result.iterations;
+  none.supports = result.supports;
+  result = none;
 }
 
 template <class T>

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <vector>
 
-#include "core/shape/convert.h"
-
 namespace minkray {
 namespace {
 
@@ -40,7 +38,8 @@ T unit_for(T largest) {
   return largest < least ? least : leading_power_of_two(largest);
 }
 
-template <class T, int Dim>
+/// In numbers of type F, of which the shapes' supports are T.
+template <class F, class T, int Dim>
 DistanceResult<T, Dim> solve(
     const CentredShape<T>& a, const CentredShape<T>& b, const DistanceOptions<T, Dim>& options,
     SubalgorithmKind subalgorithm,
@@ -49,54 +48,52 @@ DistanceResult<T, Dim> solve(
   const T largest = std::max(a.radius + b.radius, apart.cwiseAbs().maxCoeff());
   if (!std::isfinite(largest)) return {};
   const T unit = unit_for(largest);
-  const auto supports = [&](const Vec<T, Dim>& v) {
-    return SupportPair<T, Dim>{support_in<T, Dim>(a.about_centre, v) / unit,
-                               support_in<T, Dim>(b.about_centre, Vec<T, Dim>(-v)) / unit};
+  const auto supports = [&](const Vec<F, Dim>& v) {
+    // A direction of T's range.
+    const Vec<T, Dim> n =
+        (std::is_same_v<F, T> ? v : Vec<F, Dim>(v / v.cwiseAbs().maxCoeff())).template cast<T>();
+    const Vec<T, Dim> p = support_in<T, Dim>(a.about_centre, n) / unit,
+                      q = support_in<T, Dim>(b.about_centre, Vec<T, Dim>(-n)) / unit;
+    return SupportPair<F, Dim>{p.template cast<F>(), q.template cast<F>()};
   };
-  const Vec<T, Dim> x = apart / unit;
-  const T radius = (a.radius + b.radius) / unit;
-  const auto tell = [&](const DistanceIteration<T, Dim>& iteration) {
-    tell_in(unit, iteration, observer);
-  };
-  DistanceResult<T, Dim> result =
-      with_subalgorithm<T, Dim>(subalgorithm, [&]<class G>(G Y) -> DistanceResult<T, Dim> {
-        if (observer) return gjk_distance<T, Dim>(supports, x, radius, options, Y, tell);
-        return gjk_distance<T, Dim>(supports, x, radius, options, Y);
+  const Vec<F, Dim> x = (apart / unit).template cast<F>();
+  const F radius = F((a.radius + b.radius) / unit);
+  const DistanceOptions<F, Dim> same_options{F(options.gap), options.max_iterations,
+                                             options.v0.template cast<F>(),
+                                             options.only_separation};
+  const DistanceResult<F, Dim> found =
+      with_subalgorithm<F, Dim>(subalgorithm, [&]<class G>(G Y) -> DistanceResult<F, Dim> {
+        if constexpr (std::is_same_v<F, T>) {
+          const auto tell = [&](const DistanceIteration<T, Dim>& iteration) {
+            tell_in(unit, iteration, observer);
+          };
+          if (observer) return gjk_distance<F, Dim>(supports, x, radius, same_options, Y, tell);
+        }
+        return gjk_distance<F, Dim>(supports, x, radius, same_options, Y);
       });
-  result.distance *= unit;
-  result.lower *= unit;
-  result.certificate = result.certificate * unit * unit;
   const Vec<T, Dim> centre = a.centre.template head<Dim>();
-  result.point_a = result.point_a * unit + centre;
-  result.point_b = result.point_b * unit + centre;
-  return result;
-}
-
-/// With more digits, where rounding left the solver without an answer.
-template <class T>
-DistanceResult<T, 3> solve_finer(const CentredShape<T>& a, const CentredShape<T>& b,
-                                 const DistanceOptions<T, 3>& options) {
-  using Finer = std::conditional_t<std::is_same_v<T, float>, double, long double>;
-  const auto finer = [](const CentredShape<T>& shape) {
-    return CentredShape<Finer>{convert<Finer>(shape.about_centre),
-                               shape.centre.template cast<Finer>(), Finer(shape.radius)};
+  const auto placed = [&](const Vec<F, Dim>& p) -> Vec<T, Dim> {
+    return p.template cast<T>() * unit + centre;
   };
-  DistanceOptions<Finer, 3> finer_options;
-  finer_options.gap = options.gap;
-  finer_options.max_iterations = options.max_iterations;
-  finer_options.v0 = options.v0.template cast<Finer>();
-  const DistanceResult<Finer, 3> found =
-      solve<Finer, 3>(finer(a), finer(b), finer_options, SubalgorithmKind::projection, {});
   return {found.status,
-          T(found.distance),
-          T(found.lower),
-          T(found.certificate),
-          found.point_a.template cast<T>(),
-          found.point_b.template cast<T>(),
+          T(found.distance) * unit,
+          T(found.lower) * unit,
+          T(found.certificate) * unit * unit,
+          placed(found.point_a),
+          placed(found.point_b),
           found.axis.template cast<T>(),
           found.iterations,
           found.supports,
           found.backups};
+}
+
+/// Where rounding ended the loop before its two bounds met: curved surfaces near each other make
+/// simplices that are slivers.
+template <class T>
+bool is_coarse(const DistanceResult<T, 3>& result, T size) {
+  if (result.status == DistanceStatus::overlapping) return false;
+  const T rounding = tolerance::distance_gap<T> * (result.distance + size);
+  return !(result.distance - result.lower <= T(4) * rounding);
 }
 
 }  // namespace
@@ -106,16 +103,25 @@ DistanceResult<T, 3> distance_between(const CentredShape<T>& a, const CentredSha
                                       const DistanceOptions<T, 3>& options,
                                       SubalgorithmKind subalgorithm,
                                       const DistanceObserver<T>& observer) {
-  const DistanceResult<T, 3> result = solve<T, 3>(a, b, options, subalgorithm, observer);
-  const bool gave_up = result.status == DistanceStatus::exhausted &&
-                       result.iterations < options.max_iterations && result.iterations > 0;
-  if (!gave_up || subalgorithm != SubalgorithmKind::projection || options.only_separation)
+  const DistanceResult<T, 3> result = solve<T, T, 3>(a, b, options, subalgorithm, observer);
+  const bool was_free = result.iterations > 0 && result.iterations < options.max_iterations &&
+                        !options.only_separation;
+  if (!was_free || subalgorithm != SubalgorithmKind::projection ||
+      !is_coarse(result, a.radius + b.radius))
     return result;
-  DistanceResult<T, 3> finer = solve_finer(a, b, options);
-  if (finer.status == DistanceStatus::exhausted) return result;
+  // Once more from its answer, with the supports as they are, but more digits for their simplices.
+  using Finer = std::conditional_t<std::is_same_v<T, float>, double, long double>;
+  DistanceOptions<T, 3> from_there = options;
+  from_there.v0 = result.axis;
+  DistanceResult<T, 3> finer = solve<Finer, T, 3>(a, b, from_there, subalgorithm, {});
+  const bool is_possible =
+      finer.status == DistanceStatus::separated ||
+      (finer.status == DistanceStatus::overlapping && result.status == DistanceStatus::exhausted);
+  const bool is_better =
+      is_possible && finer.distance - finer.lower < result.distance - result.lower;
+  if (!is_better) return result;
   finer.iterations += result.iterations;
   finer.supports += result.supports;
-  finer.backups += result.backups;
   return finer;
 }
 
@@ -124,7 +130,7 @@ DistanceResult<T, 2> distance_in_plane(
     const CentredShape<T>& a, const CentredShape<T>& b, const DistanceOptions<T, 2>& options,
     SubalgorithmKind subalgorithm,
     const std::function<void(const DistanceIteration<T, 2>&)>& observer) {
-  return solve<T, 2>(a, b, options, subalgorithm, observer);
+  return solve<T, T, 2>(a, b, options, subalgorithm, observer);
 }
 
 #define MINKRAY_INSTANTIATE(T)                                                                   \

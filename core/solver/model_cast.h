@@ -110,6 +110,8 @@ CastLanes<W> model_cast(const MakeModel& make_model, const RayNearBall<W>& near,
   Mask<W> bounded = entry.lambda_above < W(std::numeric_limits<T>::infinity());
   const W apart = select(bounded, W(entry.lambda_above - entry.lambda), W(0));
   bounded &= apart * z <= W(T(4) * tolerance::jet_gap<T> * R);
+  // Where the two are apart, the model had only a plane nearly along the ray, and nothing is known.
+  result.hit &= bounded | !(entry.lambda_above < W(std::numeric_limits<T>::infinity()));
   result.offset_lo = near.t_offset(entry.lambda);
   result.offset_hi = near.t_offset(entry.lambda_above);
   result.t_offset = select(bounded, result.offset_hi, result.offset_lo);

@@ -66,7 +66,7 @@ NearSegment near_segment(const Support& support, const Ray<double>& ray) {
   move(near.t_shift);
   near.s = (s - centre).cast<double>();
   constexpr double most = 0x1p11;  // of which long double's epsilon is double's of one
-  near.is_too_far = step > most * (near.size + near.s.norm());
+  near.is_too_far = !(step <= most * (near.size + near.s.norm()));
   const double pad = 8 * std::numeric_limits<double>::epsilon() * near.size;
   const double at_s = near.r.dot(near.s);
   near.first = near.r.dot(support(-near.r) - near.centre) - at_s - pad;

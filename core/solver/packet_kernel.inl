@@ -61,13 +61,13 @@ void part(const PreparedShape<Lane<W>>& shape, const RayPacket<Lane<W>>& rays, L
   using std::abs;
   using std::max;
   using std::min;
-  result.t_offset = max(result.t_offset, -result.t_base);
   const Mask<W> beyond = result.t_base + result.t_offset > ray.t_max;  // by rounding
   if (any(beyond)) {
     const W last = ray.t_max - result.t_base;
     const W before = last - W(std::numeric_limits<T>::epsilon()) * abs(last);
     result.t_offset = select(beyond, before, result.t_offset);
   }
+  result.t_offset = max(result.t_offset, -result.t_base);
   result.offset_lo = min(result.offset_lo, result.t_offset);
   result.offset_hi = max(result.offset_hi, result.t_offset);
   const Vec3<W> normal = shape.template normal_to_outer<W>(result.normal);

@@ -60,13 +60,16 @@ class PreparedShape {
   RayNearBall<W> to_inner(const Ray<W>& ray) const {
     RayNearBall<W> near = ray_near(centre_, ray);
     if (!is_rigid_identity_) near = near.mapped(to_inner_);
+    near.lambda_max += W(end_slack());
     return near;  // not copied: a processor reads slowly what it has just written in parts
   }
 
   /// The same of one ray from anywhere.
   RayNearBall<T> to_inner_from_afar(const Ray<T>& ray) const {
-    const RayNearBall<T> near = ray_near_from_afar(centre_, ray);
-    return is_rigid_identity_ ? near : near.mapped(to_inner_);
+    RayNearBall<T> near = ray_near_from_afar(centre_, ray);
+    if (!is_rigid_identity_) near = near.mapped(to_inner_);
+    near.lambda_max += end_slack();
+    return near;
   }
 
   /// The ray's line in the inner frame, from the centre of the inner bounds.
@@ -98,6 +101,9 @@ class PreparedShape {
   }
 
  private:
+  /// A ray that ends on the surface hits it, however the two were rounded.
+  T end_slack() const { return tolerance::end_slack<T> * inner_ball().radius; }
+
   std::shared_ptr<const Definition> definition_;
   Vec3<T> centre_;
   Mat3<T> to_inner_;

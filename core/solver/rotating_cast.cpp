@@ -77,7 +77,13 @@ RotatingCastResult<T> cast_rotating(const MovingBody<T>& a, const MovingBody<T>&
     // them before that.
     if (result.status == Status::hit && result.normal.isZero(T(0))) {
       const T before = begin - step / T(2);
-      result.normal = distance_between(frozen(a, begin, before), frozen(b, begin, before)).axis;
+      const CentredShape<T> A_before = frozen(a, begin, before),
+                            B_before = frozen(b, begin, before);
+      const DistanceResult<T, 3> distance = distance_between(A_before, B_before);
+      result.iterations += distance.iterations;
+      result.supports += distance.supports;
+      result.normal =
+          distance.axis.isZero(T(0)) ? unit<T>(B_before.centre - A_before.centre) : distance.axis;
     }
     return result;
   }

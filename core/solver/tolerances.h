@@ -93,9 +93,14 @@ inline constexpr int portal_max_iterations = 256;
 template <class T>
 inline constexpr T ball_padding = T(8) * epsilon<T>;
 
+/// How far beyond its end a ray still meets the shape, in units of the bounding radius: a few
+/// roundings of a position. The answer's t is not beyond t_max.
+template <class T>
+inline constexpr T end_slack = T(8) * epsilon<T>;
+
 /// Distances of origins, in units of the bounding radius, up to which moving a ray near the shape
-/// loses no digits: the first step's error is 2^-24 or 2^-53 of the distance, the second's as much
-/// of that.
+/// loses no digits, both in the shape's own frame: the first step's error is 2^-24 or 2^-53 of the
+/// distance, the second's as much of that.
 template <class T>
 inline constexpr T far_origin = std::is_same_v<T, float> ? T(0x1p24) : T(0x1p53);
 

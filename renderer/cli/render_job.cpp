@@ -41,7 +41,7 @@ Checkpoint checkpoint_of(const RenderJob& job, const std::string& output) {
 
 RenderedJob run(const RenderJob& job, Checkpoint& checkpoint) {
   RenderJournal journal;
-  if (!job.resume) checkpoint.check_replaceable();
+  if (!job.resume && job.checkpoint_seconds > 0) checkpoint.check_replaceable();
   if (job.resume && checkpoint.exists()) {
     journal = checkpoint.load();
   } else if (!job.quiet && job.resume) {

@@ -257,11 +257,10 @@ void check_frames(const Options& options, const FrameRange& frames, const Ranks&
   if (options.resume)
     throw WrongUsage("--contact-sheet: shows the frames of a whole run: not with --resume");
   check_outputs({options.contact_sheet});
-  for (int frame = frames.first; frame <= frames.last; ++frame)
-    for (const std::string& name : options.image.outputs)
-      if (is_same_file(file_of_frame(name, frame), options.contact_sheet))
-        throw WrongUsage("--contact-sheet: is the file of frame " + std::to_string(frame) +
-                         " (got " + options.contact_sheet + ")");
+  for (const std::string& name : options.image.outputs)
+    if (const auto frame = frame_of_file(name, options.contact_sheet, frames))
+      throw WrongUsage("--contact-sheet: is the file of frame " + std::to_string(*frame) +
+                       " (got " + options.contact_sheet + ")");
 }
 
 /// The world moves from frame to frame.

@@ -56,6 +56,52 @@ TEST(Cast, no_ray_is_too_far_away_to_be_told_of) {
   }
 }
 
+/// Where a ray ends on the surface it hits it, and a hit is within the ray, whatever is rounded.
+TEST(Cast, the_rays_ends_belong_to_it) {
+  Random random(9);
+  int hits = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const PreparedShape<double> box(Box<double>{{1, random.uniform(0.1, 2), 1}});
+    Ray<double> ray{Vec3<double>(-1 - random.below(3) * random.uniform(0, 2),
+                                 random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5)),
+                    random.direction() + Vec3<double>(2, 0, 0)};
+    const CastResult<double> first = cast_ray(box, ray);
+    if (first.status == Status::hit) {
+      ray.t_max = first.t();
+      const CastResult<double> last = cast_ray(box, ray);
+      ASSERT_EQ(name_of(last.status), name_of(Status::hit)) << i;
+      ++hits;
+    }
+    for (const double t_max : {0.0, 1e-20, 1e-17, 1e-16}) {
+      ray.t_max = t_max;
+      for (const CastResult<double>& answer : {cast_ray(box, ray), cast_exit(box, ray)}) {
+        if (answer.status != Status::hit) continue;
+        EXPECT_GE(answer.t(), 0) << t_max;
+        EXPECT_LE(answer.t(), t_max);
+      }
+    }
+  }
+  EXPECT_GT(hits, 500);
+}
+
+/// Edge on, the portal's triangle can be a sliver whose plane runs nearly along the ray: the two
+/// bounds, 3.5e-4 apart, were taken for one.
+TEST(Cast, thin_plates_are_met_edge_on) {
+  for (const float half : {0x1p-8f, 0x1p-10f, 0x1p-14f}) {
+    const Shape<float> plate = Box<float>{{8, 8, half}};
+    const PreparedShape<float> sum(Shape<float>(MinkowskiSum<float>{{plate, plate}}));
+    Random random(3);
+    for (int i = 0; i < 400; ++i) {
+      const float y = static_cast<float>(random.below(129) - 64) / 8;
+      const float x = -16 - static_cast<float>(1 + random.below(64)) / 16;
+      const CastResult<float> answer = cast_ray(sum, Ray<float>{{x, y, 0}, {1, 0, 0}});
+      ASSERT_EQ(name_of(answer.status), name_of(Status::hit)) << y;
+      ASSERT_NEAR(answer.t(), -16 - x, 2e-5f) << y;
+      ASSERT_NEAR(answer.normal.x(), -1, 1e-6f) << y;
+    }
+  }
+}
+
 TEST(Cast, no_hit_is_after_the_rays_end) {
   Random random(8);
   int hits = 0;

@@ -144,7 +144,9 @@ TYPED_TEST(FlatShapes, are_met_in_their_planes) {
     for (int lane = 0; lane < packet_lanes<T>; ++lane) packet.set(lane, ray);
     CastPacket<T> together;
     cast_packet(shape, packet, LaneBits(1), together);
-    ASSERT_EQ(name_of(together.result(0).status), name_of(*exact)) << i;
+    const CastResult<T> lane = together.result(0);
+    ASSERT_EQ(name_of(lane.status), name_of(*exact)) << i;
+    ASSERT_EQ(lane.normal, answer.normal) << i;
     ++(*exact == Status::hit ? hits : *exact == Status::inside ? insides : misses);
     if (*exact != Status::hit) continue;
     const double tolerance = 300 * double(std::numeric_limits<T>::epsilon());

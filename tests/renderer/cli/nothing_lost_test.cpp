@@ -304,19 +304,21 @@ TEST_F(NothingLost, values_that_do_not_fit_are_wrong_usage) {
 
 TEST_F(NothingLost, no_output_takes_the_place_of_an_input_or_another_output) {
   const ProgramOutcome made = shell(R"(set -e
+    fails() { expected=$1; shift; if "$MINKRAY" "$@"; then exit 1; else test $? = $expected; fi; }
     for i in 1 2; do "$MINKRAY" render scene.json -s 1 --tile $i/2 -o $i.exr; done
-    cp 1.exr kept.exr
-    if "$MINKRAY" merge 1.exr 2.exr -o 1.exr; then exit 1; fi
-    if "$MINKRAY" merge 1.exr 2.exr -o ./2.exr; then exit 1; fi
-    cmp 1.exr kept.exr
-    if "$MINKRAY" render scene.json -s 1 -o 'f#.png' --frames 1..2 --contact-sheet f2.png; then
-      exit 1; fi
+    cp 1.exr kept1.exr; cp 2.exr kept2.exr
+    fails 2 merge 1.exr 2.exr -o 1.exr
+    fails 2 merge 1.exr 2.exr -o ./2.exr
+    cmp 1.exr kept1.exr; cmp 2.exr kept2.exr
+    fails 2 render scene.json -s 1 -o 'f#.png' --frames 1..2 --contact-sheet ./f2.png
+    fails 2 render scene.json -s 1 -o 'f#.png' --frames 0..1000000 --contact-sheet f1000000.png
     test ! -e f1.png
     echo notes > a.png.checkpoint
-    if "$MINKRAY" render scene.json -s 1 -o a.png; then exit 1; fi
+    fails 4 render scene.json -s 1 -o a.png
+    "$MINKRAY" render scene.json -s 1 -o a.png --checkpoint 0
     grep -q notes a.png.checkpoint
     mkdir b.png.checkpoint
-    if "$MINKRAY" render scene.json -s 1 -o b.png; then exit 1; fi
+    fails 4 render scene.json -s 1 -o b.png
     test -d b.png.checkpoint)");
   EXPECT_EQ(made.exit_code, 0) << made.err;
   EXPECT_NE(made.err.find("a.png.checkpoint: is no checkpoint"), std::string::npos) << made.err;
