@@ -13,9 +13,9 @@ namespace minkray {
 template <class T>
 using DistanceObserver = std::function<void(const DistanceIteration<T, 3>&)>;
 
-/// Points and axis are in the world. The distance is exact to a few machine epsilon of itself and
-/// of the shapes' sizes, wherever in the world they stand; touching counts as overlapping. The
-/// observer, if any, sees every iteration.
+/// Points and axis are in the world. The distance is exact to a few epsilon of itself and of the
+/// sizes, of curved shapes in double to 1e-9 at worst; `lower` bounds it. Touching counts as
+/// overlapping, unless it is exhausted. The observer sees every iteration but those of a retry.
 template <class T>
 DistanceResult<T, 3> distance_between(const CentredShape<T>& a, const CentredShape<T>& b,
                                       const DistanceOptions<T, 3>& options = {},

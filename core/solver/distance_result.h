@@ -34,7 +34,7 @@ struct DistanceResult {
   DistanceStatus status = DistanceStatus::exhausted;
   T distance = T(0);  ///< |v|, from the two points: never less than the truth, but for rounding
   T lower = T(0);     ///< max v.w/|v|, the gap between two parallel planes: never more
-  /// The paper's |v|^2 - v.w, an upper bound of |v - v(A - B)|^2: the certificate. 0 if
+  /// The paper's |v|^2 - v.w, an upper bound of |v - v(A - B)|^2, which may be infinite. 0 if
   /// overlapping.
   T certificate = T(0);
   Vec<T, Dim> point_a = Vec<T, Dim>::Zero();  ///< of A, closest to B; overlapping: common to both
