@@ -124,6 +124,17 @@ CastResult<T> cast_with(SolverKind solver, const PreparedShape<T>& shape,
 }
 
 template <class To, class From>
+RayNearBall<To> in_precision(const RayNearBall<From>& near) {
+  return {near.s.template cast<To>(),
+          near.r.template cast<To>(),
+          To(near.lambda_min),
+          To(near.lambda_max),
+          To(near.t_base),
+          To(near.t_shift),
+          To(near.t_per_length)};
+}
+
+template <class To, class From>
 CastResult<To> in_precision(const CastResult<From>& found) {
   return {found.status,        To(found.t_base),    To(found.t_offset),
           To(found.offset_lo), To(found.offset_hi), found.normal.template cast<To>(),
@@ -164,14 +175,8 @@ CastResult<T> cast_near(const PreparedShape<T>& shape, const RayNearBall<T>& nea
 template <class Finer, class T>
 CastResult<double> cast_finer(const Shape<Finer>& shape, const Ball<T>& ball,
                               const RayNearBall<T>& near) {
-  const RayNearBall<Finer> finer = RayNearBall<Finer>{near.s.template cast<Finer>(),
-                                                      near.r.template cast<Finer>(),
-                                                      near.lambda_min,
-                                                      near.lambda_max,
-                                                      near.t_base,
-                                                      near.t_shift,
-                                                      near.t_per_length}
-                                       .mapped(Mat3<Finer>::Identity());
+  // Mapped, though to itself: r is of unit length to the wider numbers' rounding then.
+  const RayNearBall<Finer> finer = in_precision<Finer>(near).mapped(Mat3<Finer>::Identity());
   return in_precision<double>(gjk_ray_cast(
       shape, finer, Ball<Finer>{ball.centre.template cast<Finer>(), Finer(ball.radius)}));
 }
@@ -184,13 +189,7 @@ CastResult<T> replace_exhausted(const PreparedShape<T>& shape, const RayNearBall
   using Finer = std::conditional_t<std::is_same_v<T, float>, double, long double>;
   const Ball<double> ball{shape.inner_ball().centre.template cast<double>(),
                           double(shape.inner_ball().radius)};
-  const RayNearBall<double> near_in_double{near.s.template cast<double>(),
-                                           near.r.template cast<double>(),
-                                           near.lambda_min,
-                                           near.lambda_max,
-                                           near.t_base,
-                                           near.t_shift,
-                                           near.t_per_length};
+  const RayNearBall<double> near_in_double = in_precision<double>(near);
   const Shape<Finer> finer = convert<Finer>(shape.inner_shape());
   const Shape<double>& same = [&]() -> const Shape<double>& {
     if constexpr (std::is_same_v<T, float>)
@@ -255,9 +254,7 @@ CastResult<float> cast_through_double(const PreparedShape<float>& shape,
   const auto placement = definition.placed({});
   const PreparedShape<double> exact(definition, placement.centre,
                                     placement.is_rigid_identity ? nullptr : &placement.to_inner);
-  RayNearBall<double> exact_near{near.s.cast<double>(), near.r.cast<double>(), near.lambda_min,
-                                 near.lambda_max,       near.t_base,           near.t_shift,
-                                 near.t_per_length};
+  RayNearBall<double> exact_near = in_precision<double>(near);
   exact_near.s += shape.inner_ball().centre.cast<double>() - exact.centre();
   exact_near = exact_near.mapped(exact.linear_to_inner() ? *exact.linear_to_inner()
                                                          : Mat3<double>(Mat3<double>::Identity()));
