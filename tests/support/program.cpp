@@ -76,6 +76,14 @@ ProgramOutcome run_shell(const std::string& command) {
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of_file(out), text_of_file(err)};
 }
 
+std::string limited_memory() {
+#if defined(__SANITIZE_ADDRESS__)
+  return "";
+#else
+  return "ulimit -v 1048576; ";
+#endif
+}
+
 void write_ball_scene(const std::string& file, double radius) {
   std::ofstream(file) << R"({"version": 1,
   "camera": {"position": [0, -5, 1], "look_at": [0, 0, 0], "up": [0, 0, 1], "fov_y_degrees": 40,

@@ -44,6 +44,10 @@ struct ProgramOutcome {
 /// Runs a shell's command in which $MINKRAY is the program.
 ProgramOutcome run_shell(const std::string& command);
 
+/// For a shell: what follows may have 1 GiB of address space. Nothing under AddressSanitizer, which
+/// needs terabytes of it.
+std::string limited_memory();
+
 /// Writes a small scene: a ball under an even sky; `radius` makes another one.
 void write_ball_scene(const std::string& file, double radius = 1);
 

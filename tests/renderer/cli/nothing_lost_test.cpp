@@ -227,8 +227,8 @@ TEST_F(NothingLost, what_is_no_file_is_an_error_at_once) {
       {"cast .", ".: must be a file (got a directory)"},
   };
   for (const auto& [arguments, message] : cases) {
-    // 1 GiB of address space: more is not taken for a file that is refused.
-    const ProgramOutcome outcome = shell("ulimit -v 1048576; timeout 10 \"$MINKRAY\" " + arguments);
+    // More is not taken for a file that is refused.
+    const ProgramOutcome outcome = shell(limited_memory() + "timeout 10 \"$MINKRAY\" " + arguments);
     EXPECT_EQ(outcome.exit_code, 3) << arguments << outcome.err;
     EXPECT_NE(outcome.err.find(message), std::string::npos) << arguments << ": " << outcome.err;
   }
@@ -259,8 +259,8 @@ TEST_F(NothingLost, a_pipe_that_nobody_reads_can_be_left) {
 TEST_F(NothingLost, an_endless_line_is_an_error_and_does_not_fill_the_memory) {
   const ProgramOutcome outcome = shell(
       "(head -c 100000000 /dev/zero | tr '\\0' x; echo; "
-      "echo '{\"type\": \"cast_ray\"}') > long.jsonl; "
-      "ulimit -v 1048576; \"$MINKRAY\" cast --threads 1 long.jsonl");
+      "echo '{\"type\": \"cast_ray\"}') > long.jsonl; " +
+      limited_memory() + "\"$MINKRAY\" cast --threads 1 long.jsonl");
   EXPECT_EQ(outcome.exit_code, 3);
   EXPECT_NE(outcome.err.find("long.jsonl:1: must not be longer than 67108864 bytes"),
             std::string::npos)
