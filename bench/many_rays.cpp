@@ -12,12 +12,12 @@
 #include <string>
 
 #include "bench/shapes.h"
-#include "bench/truth.h"
 #include "core/parallel/parallel.h"
 #include "core/shape/convert.h"
 #include "core/shape/shape_bounds.h"
 #include "core/solver/cast.h"
 #include "tests/oracle/line_entry.h"
+#include "tests/oracle/silhouette.h"
 #include "tests/support/ray_families.h"
 #include "tests/support/rounded.h"
 
@@ -96,7 +96,7 @@ void judge_one(const Shape<double>& shape, const Ray<double>& ray, double radius
     return;
   }
   const auto is_within_band = [&] {
-    return std::abs(room_in_shadow(shape, ray)) <= band<T> * radius;
+    return std::abs(testing::room_in_shadow(shape, ray)) <= band<T> * radius;
   };
   const bool is_hit = answer.status == Status::hit;
   if (is_hit != (truth.answer == LineEntry::Answer::hit)) {

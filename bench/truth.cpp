@@ -7,6 +7,7 @@
 #include "core/shape/shape_bounds.h"
 #include "tests/oracle/closed_form.h"
 #include "tests/oracle/portal.h"
+#include "tests/oracle/silhouette.h"
 #include "tests/support/ray_families.h"
 #include "tests/support/rounded.h"
 
@@ -78,33 +79,6 @@ void mix(std::uint64_t& hash, std::uint64_t value) {
 
 }  // namespace
 
-double room_in_shadow(const Shape<double>& shape, const Ray<double>& ray) {
-  const Vec3<double> r = ray.direction.normalized(), a = r.unitOrthogonal(), b = r.cross(a);
-  const Vec3<double> near = ray.origin + (shape.support(r) - ray.origin).dot(r) * r;
-  const auto room = [&](double angle) {
-    const Vec3<double> u = std::cos(angle) * a + std::sin(angle) * b;
-    return u.dot(shape.support(u) - near);
-  };
-  constexpr int samples = 256;
-  double best = 0, least = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < samples; ++i) {
-    const double angle = 2 * std::numbers::pi * i / samples, value = room(angle);
-    if (value < least) {
-      least = value;
-      best = angle;
-    }
-  }
-  for (double step = 2 * std::numbers::pi / samples; step > 1e-16; step /= 1.5) {
-    for (const double angle : {best - step, best + step}) {
-      if (const double value = room(angle); value < least) {
-        least = value;
-        best = angle;
-      }
-    }
-  }
-  return least;
-}
-
 std::vector<std::string> family_names() {
   std::vector<std::string> names = {std::string(coherent)};
   for (const auto& family : testing::ray_families) names.emplace_back(family.name);
@@ -173,7 +147,7 @@ Judgement judge(const Shape<double>& shape, const RaysWithTruth& rays, std::span
     }
     if (is_hit != (truth.answer == Truth::Answer::hit)) {
       ++all.wrong;
-      if (std::abs(room_in_shadow(shape, ray)) > band * rays.radius)
+      if (std::abs(testing::room_in_shadow(shape, ray)) > band * rays.radius)
         ++(is_hit ? all.false_hits : all.false_misses);
       continue;
     }

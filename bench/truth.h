@@ -32,9 +32,6 @@ struct RaysWithTruth {
 /// At the shape as rounded to float, so that all precisions mean the same one.
 RaysWithTruth make_rays(const Shape<double>& shape, std::string_view family, std::size_t count);
 
-/// How far within the shape's shadow along the ray the ray lies; negative: outside of it.
-double room_in_shadow(const Shape<double>& shape, const Ray<double>& ray);
-
 struct Spread {
   double mean = 0, most_of_all = 0, max = 0;  ///< most_of_all: 99.9 % are no more
 
