@@ -40,7 +40,8 @@ template <class T, int N, class Isa>
 struct WideMask {
   using Lanes __attribute__((vector_size(N * sizeof(T)))) = T;
   using Bits = decltype(Lanes() < Lanes());  ///< all bits of a lane, or none
-  using Word = std::conditional_t<(N > 0 && sizeof(T) > 0), std::uint64_t, T>;  // depends on T
+  // Depends on T.
+  using Word = std::conditional_t<std::is_arithmetic_v<T>, std::uint64_t, T>;
   using Words __attribute__((vector_size(N * sizeof(T)))) = Word;
   Bits bits;
 
