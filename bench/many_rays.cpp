@@ -11,13 +11,13 @@
 #include <sstream>
 #include <string>
 
-#include "bench/shapes.h"
 #include "core/parallel/parallel.h"
 #include "core/shape/convert.h"
 #include "core/shape/shape_bounds.h"
 #include "core/solver/cast.h"
 #include "tests/oracle/line_entry.h"
 #include "tests/oracle/silhouette.h"
+#include "tests/support/measured_shapes.h"
 #include "tests/support/ray_families.h"
 #include "tests/support/rounded.h"
 
@@ -178,8 +178,9 @@ void print(const std::string& name, std::string_view family, std::string_view pr
   std::cout << std::left << std::setw(22) << name << std::setw(11) << family << std::setw(7)
             << precision << std::right << std::setw(10) << rays << std::setw(10) << count.hits
             << std::setw(6) << count.exhausted << std::setw(7) << count.undecided << std::setw(9)
-            << count.mistaken << std::setw(7) << count.false_answers << std::setprecision(2)
-            << std::scientific << std::setw(10) << count.along_normal << std::fixed << std::setw(7)
+            << count.mistaken << std::setw(7) << count.false_answers << std::setw(7) << count.coarse
+            << std::setprecision(2) << std::scientific << std::setw(10) << count.along_normal
+            << std::fixed << std::setw(7)
             << count.supports_of_hits / static_cast<double>(std::max(count.hits, 1L))
             << std::setw(5) << count.most_supports << "\n";
   if (count.coarse > 0) std::cout << "  # the greatest error: " << count.worst << "\n";
@@ -200,7 +201,7 @@ int main(int argc, char** argv) {
             << std::setw(7) << "supp." << std::setw(5) << "max"
             << "\n";
   bool is_good = true, is_any = false;
-  for (const Subject& subject : subjects()) {
+  for (const testing::MeasuredShape& subject : testing::measured_shapes()) {
     if (subject.name.find(wanted) == std::string::npos) continue;
     is_any = true;
     const Candidate candidate(subject.shape);

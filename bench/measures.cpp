@@ -16,10 +16,10 @@
 
 #include "bench/peers/others.h"
 #include "bench/peers/ours.h"
-#include "bench/shapes.h"
 #include "bench/truth.h"
 #include "core/shape/convert.h"
 #include "core/shape/shape_bounds.h"
+#include "tests/support/measured_shapes.h"
 
 namespace {
 
@@ -271,12 +271,12 @@ void run(const Options& options) {
   std::uint64_t hash = 0;
   std::cout << machine() << ", one thread, " << options.rays << " rays, " << options.rounds
             << " rounds; ratio: time by that of " << baseline << "; errors in bounding radii\n";
-  for (const Subject& subject : subjects()) {
+  for (const testing::MeasuredShape& subject : testing::measured_shapes()) {
     if (subject.name.find(options.shape) == std::string::npos) continue;
     for (const Part& part : parts(options)) {
       // All numbers that a float can hold, so that every precision has the same shape.
       const Shape<double> wished =
-          part.scale == 1 ? subject.shape : scaled(subject.shape, part.scale);
+          part.scale == 1 ? subject.shape : testing::scaled(subject.shape, part.scale);
       const Shape<double> shape = convert<double>(convert<float>(wished));
       const double radius = ball_around(bounds_of<double>(shape)).radius;
       if (part.families.empty()) continue;

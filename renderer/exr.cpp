@@ -8,14 +8,16 @@
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfStringAttribute.h>
-#include <OpenEXR/ImfTestFile.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
+#include <new>
 #include <stdexcept>
 
 #include "core/files/regular_file.h"
 #include "renderer/errors.h"
+#include "renderer/of_file.h"
 
 namespace minkray {
 namespace {
@@ -24,6 +26,7 @@ namespace {
 constexpr std::int64_t most_pixels = std::int64_t{1} << 30;
 constexpr std::size_t most_planes = 4096;
 constexpr std::size_t most_file_bytes = std::size_t{16} << 30;
+constexpr std::size_t most_header_bytes = std::size_t{256} << 20;
 
 class ToMemory : public Imf::OStream {
  public:
@@ -63,6 +66,26 @@ class FromMemory : public Imf::IStream {
 
  private:
   std::string_view bytes_;
+  std::size_t at_ = 0;
+};
+
+/// Reads on as far as it is asked to: a header, without what comes behind it.
+class FromFile : public Imf::IStream {
+ public:
+  FromFile(RegularFile& file, const std::string& name) : Imf::IStream(name.c_str()), file_(file) {}
+
+  bool read(char bytes[], int count) override {
+    const auto size = static_cast<std::size_t>(count);
+    if (size > most_header_bytes - at_) throw std::runtime_error("its header is too long");
+    if (file_.read({bytes, size}) < size) throw std::runtime_error("the file ends too early");
+    at_ += size;
+    return true;
+  }
+  std::uint64_t tellg() override { return at_; }
+  void seekg(std::uint64_t) override { throw std::logic_error("a header is read in order"); }
+
+ private:
+  RegularFile& file_;
   std::size_t at_ = 0;
 };
 
@@ -106,16 +129,45 @@ std::map<std::string, std::string> texts_of(const Imf::Header& header) {
   return texts;
 }
 
-std::string bytes_of(const std::string& file) {
-  try {
-    return read_regular_file(file, most_file_bytes);
-  } catch (const std::runtime_error& error) {
-    throw BadInput(file + ": " + error.what());
-  }
-}
-
 BadInput unusable(const std::string& file, const std::exception& error) {
   return BadInput(file + ": cannot be used as an OpenEXR image: " + error.what());
+}
+
+BadInput too_large(const std::string& file) {
+  return BadInput(file + ": there is not enough memory to read it");
+}
+
+/// How an OpenEXR file begins.
+constexpr std::array<char, 4> magic = {0x76, 0x2f, 0x31, 0x01};
+
+/// The pixels that a header promises. In a damaged file the numbers may be anything.
+PixelRect window_of(const Imf::Header& header) {
+  const PixelRect window = rect_of(header.dataWindow());
+  if (window.empty() || std::int64_t{window.width()} * window.height() > most_pixels)
+    throw std::runtime_error("its data window is empty or too large");
+  return window;
+}
+
+/// The header alone. Throws if the file is no OpenEXR file, or far longer than its header says.
+Imf::Header header_of(RegularFile& file, const std::string& name) {
+  FromFile stream(file, name);
+  std::array<char, 4> begin, version;
+  stream.read(begin.data(), begin.size());
+  if (begin != magic) throw std::runtime_error("it does not begin like one");
+  stream.read(version.data(), version.size());
+  Imf::Header header;
+  int flags = 0;
+  std::memcpy(&flags, version.data(), sizeof flags);
+  header.readFrom(stream, flags);
+  std::size_t channels = 0;
+  for (auto it = header.channels().begin(); it != header.channels().end(); ++it) ++channels;
+  // Uncompressed, twice over, and what else there is in a file.
+  const std::size_t most = 8 * pixel_count(window_of(header)) * channels +
+                           static_cast<std::size_t>(stream.tellg()) + (std::size_t{1} << 20);
+  if (file.size() > most)
+    throw std::runtime_error("its " + std::to_string(file.size()) +
+                             " bytes are far more than its header says");
+  return header;
 }
 
 }  // namespace
@@ -159,12 +211,9 @@ ExrImage decode_exr(std::string_view bytes, const std::string& file) {
     FromMemory memory(bytes, file);
     Imf::InputFile in(memory, 0);
     const Imf::Header& header = in.header();
-    ExrImage image{rect_of(header.displayWindow()), rect_of(header.dataWindow()), {}, {}};
+    ExrImage image{rect_of(header.displayWindow()), window_of(header), {}, {}};
     // What an honest header says fits the file: no memory is taken on a damaged one's word. (The
     // compression saves at most a factor of about 1000.)
-    const std::int64_t pixels = std::int64_t{image.window.width()} * image.window.height();
-    if (image.window.empty() || pixels > most_pixels)
-      throw std::runtime_error("its data window is empty or too large");
     image.texts = texts_of(header);
     for (auto it = header.channels().begin(); it != header.channels().end(); ++it) {
       if (it.channel().xSampling != 1 || it.channel().ySampling != 1)
@@ -185,27 +234,38 @@ ExrImage decode_exr(std::string_view bytes, const std::string& file) {
     in.setFrameBuffer(target);
     in.readPixels(image.window.y0, image.window.y1 - 1);
     return image;
+  } catch (const std::bad_alloc&) {
+    throw too_large(file);
   } catch (const std::exception& error) {
     throw unusable(file, error);
   }
 }
 
 bool is_exr(const std::string& file) {
-  return Imf::isOpenExrFile(file.c_str());
+  try {
+    std::array<char, magic.size()> begin = {};
+    return RegularFile(file).read(begin) == begin.size() && begin == magic;
+  } catch (const std::runtime_error&) {
+    return false;
+  }
 }
 
 ExrImage read_exr(const std::string& file) {
-  return decode_exr(bytes_of(file), file);
+  read_exr_texts(file);  // of what is none, no more is read
+  return of_file(file, [&] { return decode_exr(read_regular_file(file, most_file_bytes), file); });
 }
 
-std::map<std::string, std::string> read_exr_texts(const std::string& file) {
-  const std::string bytes = bytes_of(file);
-  try {
-    FromMemory memory(bytes, file);
-    return texts_of(Imf::InputFile(memory, 0).header());
-  } catch (const std::exception& error) {
-    throw unusable(file, error);
-  }
+std::map<std::string, std::string> read_exr_texts(const std::string& name) {
+  return of_file(name, [&] {
+    RegularFile file(name);
+    try {
+      return texts_of(header_of(file, name));
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const std::exception& error) {
+      throw unusable(name, error);
+    }
+  });
 }
 
 }  // namespace minkray

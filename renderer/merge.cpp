@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "renderer/errors.h"
+#include "renderer/of_file.h"
 
 namespace minkray {
 namespace {
@@ -139,17 +140,6 @@ class SampleSum {
   std::vector<std::uint32_t> met_;
   int samples_ = 0;  ///< those that are there
 };
-
-/// Runs `work` and puts the file's name before what is wrong with it.
-template <class Work>
-auto of_file(const std::string& file, const Work& work) {
-  try {
-    return work();
-  } catch (const BadInput& error) {
-    const std::string what = error.what();
-    throw BadInput(what.starts_with(file + ": ") ? what : file + ": " + what);
-  }
-}
 
 /// "a, b, c and 5 more".
 std::string listed(const std::vector<std::string>& names) {

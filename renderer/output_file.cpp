@@ -2,10 +2,14 @@
 #include "renderer/output_file.h"
 
 #include <fcntl.h>
+#include <sys/random.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
+#include <cstdint>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <utility>
@@ -23,17 +27,28 @@ namespace fs = std::filesystem;
   throw CannotWrite("cannot write " + path + ": " + std::strerror(error));
 }
 
+/// ".NAME.PROCESS.RANDOM.part": processes in two containers, or on two machines that share the
+/// folder, may have one number.
+std::string temporary_name(const std::string& path, const fs::path& target) {
+  std::uint32_t random = 0;
+  if (::getrandom(&random, sizeof random, 0) != sizeof random) fail(path, errno);
+  std::array<char, 64> end;
+  std::snprintf(end.data(), end.size(), ".%ld.%08x.part", static_cast<long>(::getpid()), random);
+  return "." + target.filename().string() + end.data();
+}
+
 /// A file descriptor that is closed, and a file that is removed unless it was renamed.
 class TemporaryFile {
  public:
   TemporaryFile(const std::string& path, const fs::path& target) : path_(path) {
-    // A name that another process will not choose; our own earlier try may have left one.
-    std::string name(".");
-    name.append(target.filename().string()).append(".").append(std::to_string(::getpid()));
-    temporary_ = target.parent_path() / name.append(".part");
-    ::unlink(temporary_.c_str());
-    descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    // What is there already is another's, and stays.
+    fs::path temporary;
+    do {
+      temporary = target.parent_path() / temporary_name(path, target);
+      descriptor_ = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    } while (descriptor_ < 0 && errno == EEXIST);
     if (descriptor_ < 0) fail(path_, errno);
+    temporary_ = temporary;
   }
   ~TemporaryFile() {
     if (descriptor_ >= 0) ::close(descriptor_);

@@ -16,7 +16,8 @@ void check_writable(const std::string& path);
 /// Writes the bytes; an existing file is replaced in one step and keeps its rights. Devices and
 /// pipes are written to as they are. Throws CannotWrite; the existing file, if any, is then as it
 /// was and nothing is left beside it, nor if a signal that may be noted (renderer/interrupt.h)
-/// comes; SIGKILL or a crash of the machine may leave ".NAME.PROCESS.part" beside it.
+/// comes; SIGKILL or a crash of the machine may leave ".NAME.PROCESS.RANDOM.part" beside
+/// it. Whoever writes the same file at the same time has a temporary file of his own.
 void write_file(const std::string& path, std::span<const unsigned char> bytes);
 
 /// The same piece by piece, for regular files: more than fits in memory. The file is there when

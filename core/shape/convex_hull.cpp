@@ -19,6 +19,9 @@ namespace {
 /// turned or computed are off their plane by a few roundings of their own size.
 constexpr double flat_rounding = 16 * std::numeric_limits<double>::epsilon();
 
+/// Larger coordinates, and those smaller than its inverse, are scaled: Qhull squares lengths.
+constexpr double most_in_range = 0x1p200;
+
 /// The point with the largest measure, and that measure.
 template <class Measure>
 std::pair<std::size_t, double> furthest(std::span<const Vec3<double>> points, Measure&& measure) {
@@ -120,7 +123,10 @@ Polygons solid_facets(std::span<const Vec3<double>> points) {
     if (!run.failed()) return run.facets();
   }
   QhullRun run(coordinates, "Pp QJ");
-  if (run.failed()) throw std::runtime_error("Qhull failed: " + run.message());
+  if (run.failed()) {
+    const std::string message = run.message();
+    throw std::runtime_error("Qhull failed: " + message.substr(0, message.find('\n')));
+  }
   return run.facets();
 }
 
@@ -175,7 +181,10 @@ RoundFrame round_frame(std::span<const Vec3<double>> points, double flatness) {
   return frame;
 }
 
-ConvexHull convex_hull(std::span<const Vec3<double>> points) {
+namespace {
+
+/// Of coordinates whose differences and their squares are numbers.
+ConvexHull hull_in_range(std::span<const Vec3<double>> points) {
   ConvexHull hull;
   hull.frame = round_frame(points);
   std::vector<Vec3<double>> q;
@@ -220,6 +229,35 @@ ConvexHull convex_hull(std::span<const Vec3<double>> points) {
     if (inward != mirrored) std::reverse(corners.begin(), corners.end());
     hull.facets.add(corners);
   }
+  return hull;
+}
+
+}  // namespace
+
+ConvexHull convex_hull(std::span<const Vec3<double>> points) {
+  double largest = 0;
+  Vec3<double> lower = points[0], upper = points[0];
+  for (const Vec3<double>& p : points) {
+    largest = std::max(largest, p.cwiseAbs().maxCoeff());
+    lower = lower.cwiseMin(p);
+    upper = upper.cwiseMax(p);
+  }
+  if (!std::isfinite((upper - lower).stableNorm()))
+    throw std::runtime_error("must not be wider than the largest number");
+  if (largest == 0 || (largest < most_in_range && largest > 1 / most_in_range))
+    return hull_in_range(points);
+  // By a power of two, so that the points stay the same: but for those that are nothing beside.
+  const int exponent = std::ilogb(largest);
+  std::vector<Vec3<double>> scaled;
+  scaled.reserve(points.size());
+  const auto scale = [](Vec3<double> v, int by) {
+    for (double& x : v) x = std::ldexp(x, by);
+    return v;
+  };
+  for (const Vec3<double>& p : points) scaled.push_back(scale(p, -exponent));
+  ConvexHull hull = hull_in_range(scaled);
+  hull.frame.origin = scale(hull.frame.origin, exponent);
+  hull.frame.extents = scale(hull.frame.extents, exponent);
   return hull;
 }
 

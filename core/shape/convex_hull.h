@@ -62,7 +62,8 @@ struct ConvexHull {
 
 /// The hull of at least one finite point. A set thinner than the rounding of its coordinates counts
 /// as flat; other than that a point is dropped only if it lies in the hull of the others, or within
-/// rounding of it. Throws std::runtime_error if Qhull fails.
+/// rounding of it. Throws std::runtime_error if Qhull fails, or if they are further apart than any
+/// number says.
 ConvexHull convex_hull(std::span<const Vec3<double>> points);
 
 /// The points x with normal.x <= offset.

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The vertices of mesh files: Wavefront OBJ, and STL as text or binary. Only positions matter, for
-// their convex hull is all that is wanted. Read here rather than by tinyobjloader, which takes a
-// malformed coordinate for 0, 1e999 for infinity, and rounds 0.3 to another double than C++ does.
+// their convex hull is all that is wanted; but files that are cut off are refused where that shows:
+// at faces without vertices, solids without an end, and fewer bytes than the triangles need.
+// Read here rather than by tinyobjloader, which takes a malformed coordinate for 0, 1e999 for
+// infinity, and rounds 0.3 to another double than C++ does.
 #pragma once
 
 #include <filesystem>

@@ -30,6 +30,20 @@ double ratio_of(Vec3<double> lengths, double flat) {
   return 1;
 }
 
+/// Exactly, up to the rounding of long double.
+template <class T>
+bool is_on_a_line(std::span<const Vec3<T>> points) {
+  using Long = long double;
+  const Vec3<Long> first = points[0].template cast<Long>();
+  Vec3<Long> along = Vec3<Long>::Zero();
+  for (const Vec3<T>& p : points) {
+    const Vec3<Long> edge = p.template cast<Long>() - first;
+    if (along.isZero(0)) along = edge;
+    if (!along.cross(edge).isZero(0)) return false;
+  }
+  return true;
+}
+
 /// Their lengths along their principal axes. They are scaled, lest squares leave the range.
 template <class T>
 double ratio_of_points(std::span<const Vec3<T>> points) {
@@ -59,8 +73,15 @@ double ratio_of_points(std::span<const Vec3<T>> points) {
   }
   constexpr double roundings = 64;  // of coordinates, a turn, and axes that are rounded as well
   const double coordinate = std::max(lower.cwiseAbs().maxCoeff(), upper.cwiseAbs().maxCoeff());
-  return ratio_of(most - least,
-                  roundings * double(std::numeric_limits<T>::epsilon()) * coordinate / size);
+  const double flat = roundings * double(std::numeric_limits<T>::epsilon()) * coordinate / size;
+  Vec3<double> lengths = most - least;
+  std::sort(lengths.begin(), lengths.end());
+  // A needle that is thinner than rounding both ways, but no segment. Not in float, whose rays are
+  // rounded as coarsely: in double, a cast would tell that they pass it by.
+  if (std::is_same_v<T, double> && lengths[1] <= flat &&
+      lengths[1] * most_along_axes<T> <= lengths[2] && !is_on_a_line(points))
+    return std::numeric_limits<double>::infinity();
+  return ratio_of(lengths, flat);
 }
 
 /// How much maps lengthen and shorten what they map, at most.

@@ -2,6 +2,8 @@
 // The one place where solvers meet shapes: every solver is compiled here, for every shape.
 #include "core/solver/cast.h"
 
+#include <optional>
+
 #include "core/shape/convert.h"
 #include "core/solver/first_solution.h"
 #include "core/solver/gjk_ray_cast.h"
@@ -216,33 +218,33 @@ CastResult<T> replace_exhausted(const PreparedShape<T>& shape, const RayNearBall
   return result;
 }
 
-/// `first`, if it can be proven, or else another solver's answer that can. If none can, `first`: at
-/// shapes of extreme proportions as exhausted.
+/// The first of `first` and other solvers' answers that has a sharp proof; else one that has any
+/// proof. If none has, `first`: at shapes of extreme proportions as exhausted.
 template <class Observer>
 CastResult<double> prove_or_replace(const PreparedShape<double>& shape,
                                     const RayNearBall<double>& near,
                                     const CastOptions<double>& options,
                                     const CastResult<double>& first, Observer&& observer) {
-  ProvenCast best;
+  std::optional<ProvenCast> best;
   int iterations = 0, supports = 0;
-  const auto proves = [&](const CastResult<double>& answer) {
+  const auto proves_sharply = [&](const CastResult<double>& answer) {
     const ProvenCast cast = proven(shape.inner_shape(), shape.inner_ball(), near, answer);
-    if (cast.holds || supports == 0) best = cast;
+    if (!best || cast.is_sharp || (cast.holds && !best->holds)) best = cast;
     iterations += cast.answer.iterations;
     supports += cast.answer.supports;
-    return cast.holds;
+    return cast.is_sharp;
   };
   const auto others_prove = [&] {
     if (options.solver != SolverKind::automatic && options.solver != SolverKind::jet) return false;
     const Shape<long double>* exact = shape.definition().in_long_double();
-    return proves(cast_with(SolverKind::paper, shape, near, options, observer)) ||
-           (exact && proves(cast_finer(*exact, shape.inner_ball(), near)));
+    return proves_sharply(cast_with(SolverKind::paper, shape, near, options, observer)) ||
+           (exact && proves_sharply(cast_finer(*exact, shape.inner_ball(), near)));
   };
-  const bool holds = proves(first) || others_prove();
-  best.answer.iterations = iterations;
-  best.answer.supports = supports;
-  if (!holds && shape.definition().is_extreme()) best.answer.status = Status::exhausted;
-  return best.answer;
+  if (!proves_sharply(first)) others_prove();
+  best->answer.iterations = iterations;
+  best->answer.supports = supports;
+  if (!best->holds && shape.definition().is_extreme()) best->answer.status = Status::exhausted;
+  return best->answer;
 }
 
 /// At a float shape of extreme proportions: the cast in double.

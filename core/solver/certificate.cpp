@@ -34,6 +34,11 @@ constexpr std::array tilts = {0x1p-26, 0x1p-24, 0x1p-21, 0x1p-14};
 constexpr int tilt_directions = 6;
 constexpr int refinements = 24;
 
+/// They converge as fast as Newton's method once they are near.
+constexpr int secant_steps = 16;
+/// Where a step led nowhere, as within a corner's normals, the next one is so many times as long.
+constexpr double longer_step = 16;
+
 using Long = long double;
 
 /// A simplex of support points that remembers their directions.
@@ -221,11 +226,15 @@ class Finder {
     for (std::size_t k = 0; k < seen.size(); ++k)
       for (std::size_t i = 0; i <= k; ++i)
         for (std::size_t j = i; j <= k; ++j) try_triangle(i, j, k);
-    for (int round = 0; round < refinements; ++round) {
+    const auto is_near_enough = [&] {
+      return std::sqrt(best_squared) <= Long(close_enough * rounding_);
+    };
+    // From n, and from the direction in which x lies, which is one of the normals of most rims.
+    for (const Vec3<double>& from : {n, unit<double>(x.cast<double>())})
+      if (!is_near_enough() && !from.isZero(0) && see(towards(x, from))) try_with_last();
+    for (int round = 0; round < refinements && !is_near_enough(); ++round) {
       // What lies beyond the triangle's side: n turned towards it, little and much.
-      const Long distance = std::sqrt(best_squared);
-      if (distance <= Long(close_enough * rounding_)) break;
-      const Vec3<double> v = (best.v / distance).cast<double>(),
+      const Vec3<double> v = (best.v / std::sqrt(best_squared)).cast<double>(),
                          aside = unit<double>(v - n.dot(v) * n);
       bool found = false;
       const auto look = [&](const Vec3<double>& direction) {
@@ -253,6 +262,26 @@ class Finder {
     Vec3<Long> y;
     Vec3<double> direction;
   };
+
+  /// A direction whose support point is nearer to x than n's, where the surface bends, as along a
+  /// rim: the secant method, since the point wanders along with the direction.
+  Vec3<double> towards(const Vec3<Long>& x, Vec3<double> n) {
+    if (!(near_.size > 0)) return n;
+    double step = 1 / near_.size;
+    Vec3<Long> y = x - support(n).cast<Long>();
+    for (int i = 0; i < secant_steps && y.norm() > Long(close_enough * rounding_); ++i) {
+      const Vec3<double> turned = unit<double>(n + step * y.cast<double>());
+      if (!turned.allFinite() || turned.isZero(0)) break;
+      const Vec3<Long> left = x - support(turned).cast<Long>();
+      const auto share = static_cast<double>((y - left).dot(y) / y.squaredNorm());
+      step *= share > 0 ? 1 / share : longer_step;
+      if (!(left.squaredNorm() < y.squaredNorm())) continue;
+      n = turned;
+      y = left;
+    }
+    return n;
+  }
+
   const SupportFunction& support_;
   NearSegment near_;
   double rounding_ = 0;

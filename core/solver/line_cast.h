@@ -109,10 +109,14 @@ LineHit<W> first_on_line(Model& model, const Vec3<Lane<W>>& half_extents, const 
                           (along <= gap_along);
       const Mask<W> contradicts = missing < W(-16) * gap;
       result.hit |= met & !contradicts;
-      // Where the plane is beyond it by rounding, the model is right: it lies between points.
+      // Where the plane is beyond it by rounding, the model is right: it lies between points. But
+      // where the model's own plane is so nearly along the line that the model is off by more than
+      // the best plane's rounding, that plane is.
       const Mask<W> inner = met & model_hit.inner & !contradicts;
-      result.lambda_above = select(inner, W(-model_hit.height), result.lambda_above);
-      result.lambda = select(inner, min(result.lambda, W(-model_hit.height)), result.lambda);
+      const Mask<W> closer = inner & (along * best_slope >= W(-16) * gap);
+      const W above = select(closer, W(-model_hit.height), result.lambda);
+      result.lambda_above = select(inner, above, result.lambda_above);
+      result.lambda = select(closer, min(result.lambda, above), result.lambda);
       open &= !met;
     };
     meets(z, gap);

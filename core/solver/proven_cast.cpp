@@ -46,6 +46,8 @@ ProvenCast proven(const Shape<double>& shape, const Ball<double>& ball,
     }
   }
   proof.holds = verdict.holds;
+  const double off = answer.status == Status::miss ? -verdict.margin : verdict.lateral;
+  proof.is_sharp = verdict.holds && roundings_allowed * off <= verdict.allowed;
   return proof;
 }
 

@@ -24,8 +24,9 @@ void find_contact(const PreparedPair<T>& pair, const Vec3<T>& direction,
   options.v0 = result.cast.normal;
   DistanceResult<T, 3> closest;
   Vec3<T> backed_off = Vec3<T>::Zero();
+  const T size = std::min(a.radius + b.radius, std::numeric_limits<T>::max());
   for (const T step : tolerance::contact_back_off<T>) {
-    backed_off = step * (a.radius + b.radius) * result.cast.normal;
+    backed_off = step * size * result.cast.normal;
     b.centre = offset + backed_off;
     closest = distance_between(a, b, options);
     if (result.cast.status == Status::inside || closest.status == DistanceStatus::separated) break;

@@ -5,6 +5,7 @@
 #include <exception>
 #include <iostream>
 #include <new>
+#include <sstream>
 #include <string>
 
 #include "renderer/cli/verbs.h"
@@ -40,7 +41,10 @@ ExitCode run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    exit_code = app.exit(error) == 0 ? ExitCode::done : ExitCode::wrong_usage;
+    std::ostringstream complaints;
+    exit_code =
+        app.exit(error, std::cout, complaints) == 0 ? ExitCode::done : ExitCode::wrong_usage;
+    std::cerr << minkray::printable_lines(complaints.str());
   }
   std::cout.flush();
   if (!std::cout) throw minkray::CannotWrite("stdout: cannot be written");
@@ -49,7 +53,7 @@ ExitCode run(int argc, char** argv) {
 
 ExitCode run_and_report(int argc, char** argv) {
   const auto report = [](const std::exception& error, ExitCode exit_code) {
-    std::cerr << error.what() << '\n';
+    std::cerr << minkray::printable_lines(error.what()) << '\n';
     return exit_code;
   };
   try {

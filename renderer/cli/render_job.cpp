@@ -8,6 +8,7 @@
 #include "renderer/cli/progress_line.h"
 #include "renderer/data_channels.h"
 #include "renderer/interrupt.h"
+#include "renderer/json/mistakes.h"
 #include "renderer/part_file.h"
 
 namespace minkray {
@@ -18,7 +19,7 @@ void end_if_interrupted(const Rendering& rendering, Checkpoint& checkpoint) {
   if (!InterruptGuard::interrupted()) return;
   checkpoint.interrupted(rendering);
   if (const std::string complaint = checkpoint.complaint(); !complaint.empty())
-    std::cerr << "warning: no checkpoint: " << complaint << "\n";
+    std::cerr << "warning: no checkpoint: " << printable(complaint) << "\n";
   InterruptGuard::end_if_interrupted();
 }
 
@@ -84,7 +85,7 @@ RenderedJob run(const RenderJob& job, Checkpoint& checkpoint) {
   if (job.wants_planes) done.exr = exr_of(done.rendering, job.options, std::move(facts));
   for (ExrPlane& plane : data) done.exr.planes.push_back(std::move(plane));
   if (const std::string complaint = checkpoint.complaint(); !complaint.empty())
-    std::cerr << "warning: a checkpoint could not be written: " << complaint << "\n";
+    std::cerr << "warning: a checkpoint could not be written: " << printable(complaint) << "\n";
   return done;
 }
 

@@ -10,11 +10,14 @@
 #include <filesystem>
 #include <iostream>
 #include <mutex>
+#include <regex>
+#include <system_error>
 #include <thread>
 
 #include "core/parallel/parallel.h"
 #include "renderer/errors.h"
 #include "renderer/interrupt.h"
+#include "renderer/json/mistakes.h"
 #include "renderer/output_file.h"
 
 namespace minkray {
@@ -71,10 +74,15 @@ void hand_out(const std::stop_token& stop, Ranks& ranks, TileQueue& queue) {
   }
 }
 
+std::string six_digits(int number) {
+  std::array<char, 16> text;
+  std::snprintf(text.data(), text.size(), "%06d", number);
+  return text.data();
+}
+
 std::string part_file(const std::string& output, int tile, int tiles) {
-  std::array<char, 64> name;
-  std::snprintf(name.data(), name.size(), "%06d-of-%06d.exr", tile, tiles);
-  return (fs::path(parts_folder(output)) / name.data()).string();
+  const std::string name = six_digits(tile) + "-of-" + six_digits(tiles) + ".exr";
+  return (fs::path(parts_folder(output)) / name).string();
 }
 
 void tell_threads(const Ranks& ranks) {
@@ -152,6 +160,26 @@ std::optional<Merged> render_on(Ranks& ranks, const RenderJob& job, int tiles,
   std::vector<std::string> files;
   for (int tile = 1; tile <= tiles; ++tile) files.push_back(part_file(output, tile, tiles));
   return merge_parts(files, false);
+}
+
+void remove_parts(const std::string& output, int tiles) {
+  // Checkpoints and temporary files are what ranks that were killed left.
+  const std::regex is_ours("\\.?[0-9]{6}-of-" + six_digits(tiles) +
+                           "\\.exr(\\.checkpoint)?(\\.[0-9]+\\.[0-9a-f]{8}\\.part)?");
+  const std::string folder = parts_folder(output);
+  std::error_code error, ignored;
+  std::vector<fs::path> files;
+  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
+    if (at->is_regular_file(ignored) && std::regex_match(at->path().filename().string(), is_ours))
+      files.push_back(at->path());
+  // The first error tells why the folder stays; that it is not empty would follow from it.
+  for (const fs::path& file : files) fs::remove(file, error ? ignored : error);
+  if (fs::remove(folder, ignored); !ignored) return;
+  if (!error) error = ignored;
+  const std::string why = error == std::errc::directory_not_empty
+                              ? ", for there is more in it than this picture's tiles"
+                              : ": " + error.message();
+  std::cerr << "note: " + printable(folder) + " stays" + printable(why) + "\n";
 }
 
 }  // namespace minkray

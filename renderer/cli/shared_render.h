@@ -21,8 +21,12 @@ std::string parts_folder(const std::string& output);
 int default_tile_count(const PixelRect& picture);
 
 /// The picture, on rank 0; nothing on the others. Ends the process if it is interrupted. Remove the
-/// folder of the parts when the picture is written.
+/// parts when the picture is written.
 std::optional<Merged> render_on(Ranks& ranks, const RenderJob& job, int tiles,
                                 const std::string& output);
+
+/// Removes the files of the picture's tiles, and their folder if nothing else is in it; if there is
+/// it stays, and a note on stderr says so.
+void remove_parts(const std::string& output, int tiles);
 
 }  // namespace minkray

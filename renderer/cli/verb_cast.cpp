@@ -116,18 +116,26 @@ void answer_line(const Line& line, const std::string& place, MeshFiles& meshes,
                  const AnswerOptions& options, bool check, Batch& batch) {
   Mistakes mistakes(place);
   std::optional<Query> query;
-  if (line.is_too_long)
-    mistakes.add("must not be longer than " + std::to_string(most_bytes_a_line) + " bytes");
-  else
-    query = parse_query(line.text, meshes, mistakes);
+  Answer result;
+  try {
+    if (line.is_too_long)
+      mistakes.add("must not be longer than " + std::to_string(most_bytes_a_line) + " bytes");
+    else
+      query = parse_query(line.text, meshes, mistakes);
+    if (query) result = answer(*query, options);
+  } catch (const std::runtime_error& error) {
+    // One query that cannot be answered is no reason to leave the others.
+    query.reset();
+    mistakes.add(std::string("cannot be answered: ") + error.what());
+  }
   if (!query) {
     batch.has_malformed = true;
     batch.err += mistakes.text() + "\n";
     return;
   }
-  const Answer result = answer(*query, options);
   batch.out += result.json.dump() + "\n";
-  const std::string whose = query->name.empty() ? place : place + ": " + printable(query->name, 80);
+  const std::string whose =
+      printable(place) + (query->name.empty() ? "" : ": " + printable(query->name, 80));
   if (!result.verdict) {
     ++batch.certificates.without;
   } else if (result.verdict->holds) {

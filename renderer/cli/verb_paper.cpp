@@ -2,12 +2,13 @@
 // minkray paper: reruns the claims of the papers and prints what they say beside what we find.
 #include <CLI/CLI.hpp>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <memory>
+#include <span>
 
 #include "renderer/cli/verbs.h"
 #include "renderer/errors.h"
+#include "renderer/output_file.h"
 #include "renderer/paper/claim.h"
 
 namespace minkray {
@@ -20,11 +21,9 @@ struct Options {
 };
 
 void write_plot(const Plot& plot, const std::filesystem::path& folder) {
-  const std::filesystem::path file = folder / plot.file;
-  std::ofstream out(file, std::ios::binary);
-  out << plot_svg(plot);
-  out.close();
-  if (!out) throw CannotWrite(file.string() + ": cannot be written");
+  const std::string svg = plot_svg(plot);
+  write_file((folder / plot.file).string(),
+             std::span(reinterpret_cast<const unsigned char*>(svg.data()), svg.size()));
 }
 
 /// Words in lines of at most 96 letters, after a label.

@@ -20,10 +20,12 @@
 #include "renderer/cli/write_picture.h"
 #include "renderer/data_channels.h"
 #include "renderer/errors.h"
+#include "renderer/frames_record.h"
 #include "renderer/hash.h"
 #include "renderer/image_file.h"
 #include "renderer/interrupt.h"
 #include "renderer/json/json.h"
+#include "renderer/json/mistakes.h"
 #include "renderer/labels.h"
 #include "renderer/merge.h"
 #include "renderer/ray_audit.h"
@@ -209,8 +211,7 @@ void run_on(Ranks& ranks, const RenderJob& job, const Options& options, Statisti
                  job.options.resolution, merged->exr},
                 options.exposure);
   statistics.write_seconds = write_watch.seconds();
-  std::error_code error;
-  std::filesystem::remove_all(parts_folder(output), error);
+  remove_parts(output, tiles);
 }
 
 void report(const Statistics& statistics, const Options& options) {
@@ -263,18 +264,33 @@ void check_frames(const Options& options, const FrameRange& frames, const Ranks&
                        " (got " + options.contact_sheet + ")");
 }
 
+/// One record for each output.
+std::vector<FramesRecord> records_of(const RenderJob& job, const Options& options) {
+  Facts facts = facts_of(job);
+  facts[fact::rate] = Json(options.rate).dump();
+  facts[fact::exposure] = Json(options.exposure).dump();
+  std::vector<FramesRecord> records;
+  for (const std::string& name : options.image.outputs)
+    records.emplace_back(FramesRecord::path_for(name), facts, options.resume);
+  for (const FramesRecord& record : records) record.write();  // none before all are known to fit
+  return records;
+}
+
 /// The world moves from frame to frame.
 void render_frames(RenderJob& job, const Options& options, const FrameRange& frames,
                    Statistics& statistics) {
   const std::string scene_hash = job.scene.hash;
+  std::vector<FramesRecord> records = records_of(job, options);
   ContactSheet sheet;
   for (int frame = frames.first; frame <= frames.last; ++frame) {
     std::vector<std::string> outputs;
-    for (const std::string& name : options.image.outputs)
-      outputs.push_back(file_of_frame(name, frame));
-    const auto is_there = [](const std::string& file) { return std::filesystem::exists(file); };
-    if (options.resume && std::all_of(outputs.begin(), outputs.end(), is_there)) continue;
-    if (!options.image.quiet) std::cerr << outputs.front() << "\n";
+    bool is_there = true;
+    for (std::size_t i = 0; i < records.size(); ++i) {
+      outputs.push_back(file_of_frame(options.image.outputs[i], frame));
+      is_there = is_there && records[i].has(frame) && std::filesystem::exists(outputs[i]);
+    }
+    if (options.resume && is_there) continue;
+    if (!options.image.quiet) std::cerr << printable(outputs.front()) << "\n";
     timed(options, "move", statistics.build_seconds, [&] {
       set_time(job.scene, frame / options.rate);
       follow(job.world, job.scene);
@@ -284,6 +300,7 @@ void render_frames(RenderJob& job, const Options& options, const FrameRange& fra
     hash.add(std::to_string(job.scene.time));
     job.scene.hash = hash.text();
     const Image image = render_and_write(job, options, outputs, statistics);
+    for (FramesRecord& record : records) record.add(frame);
     if (!options.contact_sheet.empty()) sheet.add(image);
   }
   if (options.contact_sheet.empty()) return;
@@ -342,7 +359,7 @@ ExitCode run(const Options& options) {
   const auto is_there = [&](const std::string& file) { return is_part_of(file, facts_of(job)); };
   if (options.resume && options.is_piece() &&
       std::all_of(options.image.outputs.begin(), options.image.outputs.end(), is_there)) {
-    if (!options.image.quiet) std::cerr << output << ": is there already\n";
+    if (!options.image.quiet) std::cerr << printable(output) << ": is there already\n";
     return ExitCode::done;
   }
 
@@ -400,8 +417,8 @@ void add_render(CLI::App& app, ExitCode& exit_code) {
   verb->add_flag("--resume", options->resume, "Go on from the checkpoint, if there is one");
   verb->add_option("--frames", options->frames,
                    "a..b: pictures of these frames, into files with the frame's number in the "
-                   "place of #### in the output's name; frame 0 is at 0 s. With --resume, without "
-                   "those that are there");
+                   "place of #### in the output's name; frame 0 is at 0 s. A record beside them, "
+                   "####.png.frames, tells which are there: with --resume they are left out");
   verb->add_option("--rate", options->rate, "Frames a second")
       ->check(CLI::Range(1e-6, 1e6))
       ->capture_default_str();

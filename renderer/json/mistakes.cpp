@@ -53,14 +53,25 @@ std::string printable(std::string_view text, std::size_t limit) {
   return shown.substr(0, head) + "..." + shown.substr(tail);
 }
 
+std::string printable_lines(std::string_view text) {
+  std::string shown;
+  for (;;) {
+    const std::size_t end = text.find('\n');
+    shown += printable(text.substr(0, end));
+    if (end == text.npos) return shown;
+    shown += '\n';
+    text.remove_prefix(end + 1);
+  }
+}
+
 void Mistakes::add(const JsonPath& path, std::string_view message) {
   if (!paths_.insert(path.text()).second) return;
-  messages_.push_back(file_ + ": " + printable(path.text(), longest_path) + ": " +
-                      std::string(message));
+  add(printable(path.text(), longest_path) + ": " + std::string(message));
 }
 
 void Mistakes::add(std::string_view message) {
-  messages_.push_back(file_ + ": " + std::string(message));
+  // Whoever gives us a file also gives it its name.
+  messages_.push_back(printable(file_ + ": " + std::string(message)));
 }
 
 std::string Mistakes::text() const {

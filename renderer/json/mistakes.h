@@ -2,6 +2,7 @@
 // The user's mistakes in one file, collected so that all of them can be told at once.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <string_view>
 #include <unordered_set>
@@ -28,7 +29,7 @@ class Mistakes {
   const std::vector<std::string>& messages() const { return messages_; }
   const std::string& file() const { return file_; }
 
-  /// All messages, one a line, without a newline at the end.
+  /// All messages, one a line, without a newline at the end; each as printable() has it.
   std::string text() const;
 
  private:
@@ -42,6 +43,10 @@ void throw_if_any(const Mistakes& mistakes);
 
 /// The text as it may be shown on a terminal: control characters and broken UTF-8 become '?',
 /// and the middle of a text of more than `limit` bytes becomes "...".
-std::string printable(std::string_view text, std::size_t limit);
+std::string printable(std::string_view text,
+                      std::size_t limit = std::numeric_limits<std::size_t>::max());
+
+/// The same of a text of several lines, whose ends stay.
+std::string printable_lines(std::string_view text);
 
 }  // namespace minkray

@@ -2,6 +2,10 @@
 #include "renderer/json/parse.h"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <unordered_set>
@@ -13,18 +17,79 @@ namespace minkray {
 namespace {
 
 /// After so many numbers that are not finite the rest of the text is not read.
-constexpr int most_replacements = 100;
+constexpr std::size_t most_not_finite = 100;
+
+/// A number that is not finite (NaN, -Infinity, 1e999).
+struct NotFinite {
+  std::size_t ordinal = 0;  ///< how many numbers, trues, falses and nulls stand before it
+  std::string written;
+};
+
+/// Whether a word is one of those that other languages write for such numbers, or a number that
+/// nlohmann-json reads as infinite.
+bool is_not_finite(std::string_view word) {
+  const bool has_sign = word.starts_with('-') || word.starts_with('+');
+  const std::string_view digits = word.substr(has_sign ? 1 : 0);
+  const auto is = [&](std::string_view name) {
+    return std::equal(digits.begin(), digits.end(), name.begin(), name.end(),
+                      [](char a, char b) { return (a | 0x20) == b; });
+  };
+  if (is("nan") || is("inf") || is("infinity")) return true;
+
+  // Whatever has neither an exponent nor hundreds of digits is not too large.
+  constexpr auto digits_of_largest = std::size_t{std::numeric_limits<double>::max_exponent10};
+  if (digits.empty() || digits[0] < '0' || digits[0] > '9' || word[0] == '+') return false;
+  if (digits.size() <= digits_of_largest && digits.find_first_of("eE") == digits.npos) return false;
+  double value = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  // Numbers too near zero are out of range, too, but read as zero.
+  return error == std::errc::result_out_of_range && end == digits.data() + digits.size() &&
+         std::isinf(std::strtod(std::string(digits).c_str(), nullptr));
+}
+
+/// Finds the first numbers of a JSON text that are not finite, and writes 0 and blanks in their
+/// place: nlohmann-json stops at them, but nothing else moves. Counts as nlohmann-json does up to
+/// the first error in the text.
+std::vector<NotFinite> replace_not_finite(std::string& text) {
+  constexpr std::string_view between_words = "\"[]{},: \t\r\n";
+  std::vector<NotFinite> replaced;
+  std::size_t ordinal = 0;
+  const std::string_view byte_order_mark = "\xef\xbb\xbf";  // nlohmann-json skips it
+  const std::size_t begin = text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
+  for (std::size_t at = begin; at < text.size() && replaced.size() < most_not_finite;) {
+    if (text[at] == '"') {
+      for (++at; at < text.size() && text[at] != '"';) at += text[at] == '\\' ? 2 : 1;
+      ++at;
+    } else if (between_words.find(text[at]) != between_words.npos) {
+      ++at;
+    } else {
+      const std::size_t end = std::min(text.find_first_of(between_words, at), text.size());
+      const std::string_view word = std::string_view(text).substr(at, end - at);
+      if (is_not_finite(word)) {
+        replaced.push_back({ordinal, std::string(word)});
+        std::fill(text.begin() + std::ptrdiff_t(at), text.begin() + std::ptrdiff_t(end), ' ');
+        text[at] = '0';
+      }
+      ++ordinal;
+      at = end;
+    }
+  }
+  return replaced;
+}
 
 /// Builds the value while nlohmann-json reads the text, and knows the path it is at.
 class TreeBuilder : public nlohmann::json_sax<Json> {
  public:
-  explicit TreeBuilder(Mistakes& mistakes) : mistakes_(mistakes) {}
+  TreeBuilder(const std::vector<NotFinite>& not_finite, Mistakes& mistakes)
+      : not_finite_(not_finite), mistakes_(mistakes) {}
 
   Json take_root() { return std::move(root_); }
 
-  /// Where reading stopped, if it did: bytes from the start, the offending text, the reason.
+  /// Whether each number that is not finite has been told.
+  bool has_told_all() const { return told_ == not_finite_.size(); }
+
+  /// Where reading stopped, if it did: the bytes before the last one read, and the reason.
   std::size_t error_position = 0;
-  std::string error_token;
   std::string error_reason;
   bool too_deep = false;
 
@@ -32,19 +97,19 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
     JsonPath path;
     for (const Level& level : levels_) {
       if (level.filled.is_array()) {
-        path = path / level.filled.size();
+        path = std::move(path) / level.filled.size();
       } else if (level.has_key) {
-        path = path / level.key;
+        path = std::move(path) / level.key;
       }
     }
     return path;
   }
 
-  bool null() override { return put(nullptr); }
-  bool boolean(bool value) override { return put(value); }
-  bool number_integer(number_integer_t value) override { return put(value); }
-  bool number_unsigned(number_unsigned_t value) override { return put(value); }
-  bool number_float(number_float_t value, const string_t&) override { return put(value); }
+  bool null() override { return put_word(nullptr); }
+  bool boolean(bool value) override { return put_word(value); }
+  bool number_integer(number_integer_t value) override { return put_word(value); }
+  bool number_unsigned(number_unsigned_t value) override { return put_word(value); }
+  bool number_float(number_float_t value, const string_t&) override { return put_word(value); }
   bool string(string_t& value) override { return put(std::move(value)); }
   bool binary(binary_t&) override { return false; }
 
@@ -62,10 +127,9 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
     return true;
   }
 
-  bool parse_error(std::size_t position, const std::string& last_token,
+  bool parse_error(std::size_t position, const std::string&,
                    const Json::exception& error) override {
-    error_position = position;
-    error_token = last_token;
+    error_position = position - 1;  // nlohmann-json has read that byte, or found the end there
     error_reason = error.what();
     return false;
   }
@@ -78,6 +142,18 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
     bool is_duplicate = false;
     std::unordered_set<std::string> keys;
   };
+
+  /// Puts null, and adds a mistake, where a number is not finite.
+  bool put_word(Json value) {
+    if (told_ < not_finite_.size() && not_finite_[told_].ordinal == words_) {
+      mistakes_.add(path(), "must be a finite number (got " +
+                                printable(not_finite_[told_].written, 40) + ")");
+      value = nullptr;
+      ++told_;
+    }
+    ++words_;
+    return put(std::move(value));
+  }
 
   /// Puts a finished value into the innermost open list or object.
   bool put(Json value) {
@@ -113,7 +189,10 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
     return put(std::move(value));
   }
 
+  const std::vector<NotFinite>& not_finite_;
   Mistakes& mistakes_;
+  std::size_t words_ = 0;  ///< numbers, trues, falses and nulls so far
+  std::size_t told_ = 0;   ///< of those that are not finite
   Json root_;
   std::vector<Level> levels_;
 };
@@ -124,37 +203,6 @@ std::string line_and_column(std::string_view text, std::size_t position) {
   const auto line = std::count(before.begin(), before.end(), '\n') + 1;
   const std::size_t start = before.rfind('\n') + 1;  // npos + 1 is 0
   return std::to_string(line) + ':' + std::to_string(before.size() - start + 1);
-}
-
-/// Where reading stopped at a number that is not finite (NaN, Infinity, 1e999): its first byte and
-/// its length; length 0 if it stopped for another reason.
-struct Span {
-  std::size_t start = 0;
-  std::size_t length = 0;
-};
-Span number_not_finite(std::string_view text, const TreeBuilder& tree) {
-  // A number too large for a double: the reader has just passed it.
-  const std::string& token = tree.error_token;
-  for (const std::size_t end : {tree.error_position, tree.error_position - 1}) {
-    if (token.size() <= end && end <= text.size() && !token.empty() &&
-        (token[0] == '-' || (token[0] >= '0' && token[0] <= '9')) &&
-        text.substr(end - token.size(), token.size()) == token &&
-        tree.error_reason.find("out_of_range") != std::string::npos) {
-      return {end - token.size(), token.size()};
-    }
-  }
-  // A word: the reader stopped somewhere in it.
-  const auto is_letter = [](char c) { return (c | 0x20) >= 'a' && (c | 0x20) <= 'z'; };
-  std::size_t start = std::min(tree.error_position, text.size());
-  while (start > 0 && (is_letter(text[start - 1]) || text[start - 1] == '-')) --start;
-  std::size_t end = start;
-  if (end < text.size() && text[end] == '-') ++end;
-  while (end < text.size() && is_letter(text[end])) ++end;
-  std::string word(text.substr(start, end - start));
-  if (word.starts_with('-')) word.erase(0, 1);
-  for (char& c : word) c = static_cast<char>(c | 0x20);
-  if (word == "nan" || word == "inf" || word == "infinity") return {start, end - start};
-  return {};
 }
 
 /// nlohmann-json's reason without its own name and its own idea of the place.
@@ -172,34 +220,27 @@ std::string reason(const std::string& what) {
 
 std::optional<Json> parse_json(std::string_view text, Mistakes& mistakes) {
   std::string repaired(text);
-  for (int replacements = 0;; ++replacements) {
-    TreeBuilder tree(mistakes);
-    if (Json::sax_parse(repaired, &tree)) {
-      // nlohmann-json takes a zero byte for the end of the text.
-      const std::size_t zero = repaired.find('\0');
-      if (zero == std::string::npos) return tree.take_root();
+  const std::vector<NotFinite> not_finite = replace_not_finite(repaired);
+  TreeBuilder tree(not_finite, mistakes);
+  if (Json::sax_parse(repaired, &tree)) {
+    // nlohmann-json takes a zero byte for the end of the text.
+    const std::size_t zero = text.find('\0');
+    if (zero != text.npos)
       mistakes.add(
-          {}, "not valid JSON at line:column " + line_and_column(repaired, zero) + ": a zero byte");
-      return std::nullopt;
-    }
-
-    if (tree.too_deep) {
-      mistakes.add(tree.path(), "must not be nested more than " +
-                                    std::to_string(deepest_json_nesting) + " levels deep");
-      return std::nullopt;
-    }
-    const Span span = number_not_finite(repaired, tree);
-    if (span.length > 0 && replacements < most_replacements) {
-      mistakes.add(tree.path(), "must be a finite number (got " +
-                                    printable(repaired.substr(span.start, span.length), 40) + ")");
-      repaired.replace(span.start, span.length, "null");
-      continue;
-    }
+          {}, "not valid JSON at line:column " + line_and_column(text, zero) + ": a zero byte");
+    else if (!tree.has_told_all())
+      mistakes.add({}, "must hold finite numbers only");
+    else
+      return tree.take_root();
+  } else if (tree.too_deep) {
+    mistakes.add(tree.path(), "must not be nested more than " +
+                                  std::to_string(deepest_json_nesting) + " levels deep");
+  } else {
     mistakes.add(tree.path(), "not valid JSON at line:column " +
-                                  line_and_column(repaired, tree.error_position) + ": " +
+                                  line_and_column(text, tree.error_position) + ": " +
                                   printable(reason(tree.error_reason), 200));
-    return std::nullopt;
   }
+  return std::nullopt;
 }
 
 std::optional<std::string> read_text_file(const std::filesystem::path& path, Mistakes& mistakes) {

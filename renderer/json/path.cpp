@@ -3,24 +3,23 @@
 
 namespace minkray {
 
-JsonPath JsonPath::operator/(std::string_view key) const {
-  std::string text = text_;
-  text.reserve(text_.size() + key.size() + 1);
-  text += '/';
+JsonPath JsonPath::operator/(std::string_view key) && {
+  text_ += '/';
   for (const char c : key) {
     if (c == '~') {
-      text += "~0";
+      text_ += "~0";
     } else if (c == '/') {
-      text += "~1";
+      text_ += "~1";
     } else {
-      text += c;
+      text_ += c;
     }
   }
-  return JsonPath(std::move(text));
+  return std::move(*this);
 }
 
-JsonPath JsonPath::operator/(std::size_t index) const {
-  return JsonPath(text_ + '/' + std::to_string(index));
+JsonPath JsonPath::operator/(std::size_t index) && {
+  text_ += '/' + std::to_string(index);
+  return std::move(*this);
 }
 
 const std::string& JsonPath::text() const {

@@ -13,15 +13,16 @@ class JsonPath {
   /// The whole document.
   JsonPath() = default;
 
-  JsonPath operator/(std::string_view key) const;
-  JsonPath operator/(std::size_t index) const;
+  JsonPath operator/(std::string_view key) const& { return JsonPath(*this) / key; }
+  JsonPath operator/(std::size_t index) const& { return JsonPath(*this) / index; }
+  /// Of a path that is not needed any more: in time of the key alone.
+  JsonPath operator/(std::string_view key) &&;
+  JsonPath operator/(std::size_t index) &&;
 
   /// "/objects/3/shape"; "/" for the whole document.
   const std::string& text() const;
 
  private:
-  explicit JsonPath(std::string text) : text_(std::move(text)) {}
-
   std::string text_;
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/scene/read_member.h"
 
+#include <stdexcept>
+
 #include "renderer/json/values.h"
 #include "renderer/scene/shape_json.h"
 
@@ -92,7 +94,12 @@ bool read_member(ObjectReader& object, const Parameter& parameter, PointCloud<do
         [&](const Json& json, const JsonPath& path) -> std::optional<PointCloud<double>> {
           auto points = read_points(json, path, mistakes, 1, json.max_size());
           if (!points) return std::nullopt;
-          return PointCloud<double>(std::move(*points));
+          try {
+            return PointCloud<double>(std::move(*points));
+          } catch (const std::runtime_error& error) {
+            mistakes.add(path, error.what());
+            return std::nullopt;
+          }
         });
   }
   if (inline_points) {

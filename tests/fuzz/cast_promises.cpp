@@ -118,6 +118,8 @@ std::string CastReferee<T>::check(std::string_view solver, const CastResult<T>& 
   const Vec3<Real> n = result.normal.template cast<Real>();
   if (result.supports < 0 || result.supports > most_supports)
     return "supports: " + std::to_string(result.supports);
+  if (result.iterations < 0 || result.iterations > most_supports)
+    return "iterations: " + std::to_string(result.iterations);
   if (!in_range_ || result.status == Status::exhausted) return "";
   if (!n.allFinite()) return "a normal that is not finite";
   if (std::isnan(result.t_base) || std::isnan(result.t_offset) || std::isnan(result.offset_lo) ||

@@ -32,6 +32,8 @@ class CastReferee {
 
   /// Whether the numbers of the answer are in T's range at all: t is distance over speed.
   bool in_range() const { return in_range_; }
+  /// What a plane or a point may be off: a length.
+  double rounding() const { return static_cast<double>(rounding_); }
 
   /// What is wrong with the answer; nothing if nothing is. Remembers its plane.
   std::string check(std::string_view solver, const CastResult<T>& result);

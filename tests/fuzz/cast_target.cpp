@@ -3,6 +3,8 @@
 #include <sstream>
 
 #include "core/solver/cast.h"
+#include "core/solver/check_certificate.h"
+#include "core/solver/near_segment.h"
 #include "core/solver/packet_cast.h"
 #include "renderer/query/query_json.h"
 #include "renderer/scene/shape_json.h"
@@ -73,6 +75,33 @@ std::string check_packets(const PreparedShape<T>& prepared, const RayPacket<T>& 
   return "";
 }
 
+/// Whether the answer's certificate holds, if it is allowed `rounding`, and one of a hit that is
+/// claimed too early does not.
+template <class T>
+std::string check_proof(const Shape<T>& shape, const Ray<T>& ray, const CastResult<T>& result,
+                        double rounding) {
+  if (result.status == Status::exhausted) return "";
+  const Shape<double> same = convert<double>(shape);
+  const Ray<double> same_ray{ray.origin.template cast<double>(),
+                             ray.direction.template cast<double>(), double(ray.t_max)};
+  const SupportFunction support = supports_of(same);
+  const Bounds<double> bounds = bounds_of<double>(same);
+  const double size = bounds.centre().norm() + bounds.half_extents().norm();
+  Claim claim = claim_of(result);
+  if (size > 0) claim.epsilon = std::max(claim.epsilon, rounding / (certificate_rounding * size));
+  const Certificate certificate = certify(support, same_ray, claim);
+  const CertificateVerdict verdict = check_certificate(support, same_ray, claim, certificate);
+  if (near_segment(support, same_ray).is_too_far) return "";
+  if (!verdict.holds) return "the certificate: " + std::string(verdict.complaint);
+  const double slope = -claim.normal.dot(same_ray.direction);
+  if (result.status != Status::hit || !(slope > 0)) return "";
+  claim.t_offset -= 4 * verdict.allowed / slope;
+  const bool is_early = claim.t_offset + 3 * verdict.allowed / slope < double(result.t_offset);
+  if (is_early && check_certificate(support, same_ray, claim, certificate).holds)
+    return "a certificate holds of a hit that is too early";
+  return "";
+}
+
 template <class T>
 std::string check_ray(const Shape<T>& shape, const PreparedShape<T>& prepared, const Ray<T>& ray) {
   CastReferee<T> referee(shape, ray);
@@ -86,6 +115,11 @@ std::string check_ray(const Shape<T>& shape, const PreparedShape<T>& prepared, c
     const CastResult<T> result = cast_ray(prepared, ray, options);
     if (const std::string bad = referee.check(solver.name, result); !bad.empty())
       return complaint(solver.name, bad);
+    // At extreme proportions casts prove what they say themselves, in the shape's own frame.
+    const bool is_ordinary = referee.in_range() && !prepared.definition().is_extreme();
+    if (solver.kind == SolverKind::automatic && is_ordinary)
+      if (const std::string bad = check_proof(shape, ray, result, referee.rounding()); !bad.empty())
+        return complaint(solver.name, bad);
     if (const std::string bad =
             referee.check_exit(solver.name, result, cast_exit(prepared, ray, options));
         !bad.empty())

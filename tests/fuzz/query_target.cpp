@@ -14,6 +14,11 @@ std::string check_answer(const Query& query, const AnswerOptions& options) {
   const Answer result = answer(query, options);
   const std::string status = result.facts.status;
   if (status.empty() || status == "unknown") return "no status";
+  // What is not finite is written as null.
+  if (status != "exhausted")
+    for (const char* key : {"t", "point", "normal", "distance", "point_a", "point_b"})
+      if (result.json.contains(key) && result.json[key].dump().find("null") != std::string::npos)
+        return std::string(key) + " is not a number: " + result.json.dump();
   // Throws on anything that JSON cannot hold.
   if (result.json.dump().find('\n') != std::string::npos) return "an answer of several lines";
   for (const std::string& complaint : complaints(query, result.facts, options.precision))

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
+#include "core/solver/cast.h"
 #include "renderer/camera.h"
 #include "renderer/errors.h"
 
@@ -90,6 +92,64 @@ TEST_F(DataChannels, are_those_of_the_ray_through_the_pixels_centre) {
   EXPECT_GT(of_ball, 100);
   EXPECT_GT(of_box, 100);
   EXPECT_GT(of_nothing, 100);
+}
+
+/// Of one object, seen by the paper's solver, which has work to tell and bounds that are apart:
+/// what a cast from the pixel's centre says, number by number.
+TEST(DataChannelsOfOneCast, are_its_iterations_supports_gap_and_status) {
+  Scene scene;
+  scene.camera.position = {1, -6, 2};
+  scene.camera.look_at = {0, 0, 0};
+  scene.materials = {{"matt", LambertMaterial{}}};
+  const Shape<double> shape = Ellipsoid<double>{{2, 0.5, 1}};
+  scene.objects = {{"egg", shape, Affine<double>{Mat3<double>::Identity(), {0, 0, 0}}, 0}};
+  CastOptions<Real> cast_options;
+  cast_options.solver = SolverKind::paper;
+  RenderOptions options;
+  options.resolution = {32, 24};
+  const std::vector<std::string_view> names =
+      parse_data_channels("gjk.iterations,gjk.supports,gjk.gap,status");
+  std::set<std::uint32_t> statuses, iterations;
+  const auto check = [&] {
+    const auto planes =
+        measure_data_channels(scene, make_world(scene, cast_options), names, options);
+    const auto number = [&](std::size_t plane, std::size_t pixel) {
+      return std::get<std::vector<std::uint32_t>>(planes[plane].values)[pixel];
+    };
+    const PreparedShape<Real> prepared(shape);
+    const Camera camera(scene.camera, options.resolution);
+    for (std::size_t i = 0; i < 32 * 24; ++i) {
+      const Ray<Real> ray =
+          camera.ray(static_cast<double>(i % 32) + 0.5, static_cast<double>(i / 32) + 0.5);
+      const CastResult<Real> cast = cast_ray(prepared, ray, cast_options);
+      const bool is_asked = number(1, i) > 0;  // rays past the bounds are not cast
+      if (!is_asked) {
+        EXPECT_NE(cast.status, Status::hit) << i;
+        EXPECT_EQ(number(3, i), 0u) << i;
+        continue;
+      }
+      EXPECT_EQ(number(3, i), cast.status == Status::miss     ? 0u
+                              : cast.status == Status::hit    ? 1u
+                              : cast.status == Status::inside ? 2u
+                                                              : 3u);
+      EXPECT_EQ(number(0, i), static_cast<std::uint32_t>(cast.iterations)) << i;
+      EXPECT_EQ(number(1, i), static_cast<std::uint32_t>(cast.supports)) << i;
+      const double gap = cast.status == Status::hit ? cast.offset_hi - cast.offset_lo : 0;
+      EXPECT_EQ(std::get<std::vector<float>>(planes[2].values)[i], static_cast<float>(gap)) << i;
+      statuses.insert(number(3, i));
+      iterations.insert(number(0, i));
+    }
+  };
+  check();
+  EXPECT_EQ(statuses, (std::set<std::uint32_t>{0, 1}));
+  EXPECT_GT(iterations.size(), 3u);
+  cast_options.max_iterations = 2;  // it gives up
+  check();
+  EXPECT_TRUE(statuses.contains(3u));
+  cast_options.max_iterations = CastOptions<Real>().max_iterations;
+  scene.camera.position = {0.1, 0.1, 0.1};  // from within
+  check();
+  EXPECT_EQ(statuses, (std::set<std::uint32_t>{0, 1, 2, 3}));
 }
 
 TEST_F(DataChannels, of_a_tile_are_a_part_of_the_whole) {

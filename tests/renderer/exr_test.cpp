@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 #include <limits>
 
 #include "renderer/errors.h"
+#include "tests/support/program.h"
 
 namespace minkray {
 namespace {
@@ -64,6 +66,34 @@ TEST(Exr, damaged_files_are_errors_that_name_the_file) {
     }
   }
   EXPECT_GT(refused, 100);  // texts, and a picture's numbers, may be anything
+}
+
+// Headers alone are read by another way, which looks at no more of the file.
+TEST(Exr, so_are_files_whose_header_is_damaged) {
+  const TemporaryFolder folder;
+  const std::string file = folder / "x.exr";
+  const std::vector<unsigned char> bytes = encode_exr(small_image());
+  const auto is_refused = [&](std::string_view damaged) {
+    std::ofstream(file, std::ios::binary) << damaged;
+    try {
+      read_exr_texts(file);
+      return false;
+    } catch (const BadInput& error) {
+      EXPECT_TRUE(std::string(error.what()).starts_with(file + ": ")) << error.what();
+      return true;
+    }
+  };
+  EXPECT_FALSE(is_refused(text_of(bytes)));
+  EXPECT_EQ(read_exr_texts(file).at("minkray.command"), "minkray render 'a b'");
+  for (std::size_t length = 0; length < 300; ++length)
+    EXPECT_TRUE(is_refused(text_of(bytes).substr(0, length))) << length;
+  int refused = 0;
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    std::vector<unsigned char> damaged = bytes;
+    damaged[i] ^= 0xff;
+    refused += is_refused(text_of(damaged));
+  }
+  EXPECT_GT(refused, 50);
 }
 
 }  // namespace

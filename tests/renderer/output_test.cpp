@@ -112,6 +112,30 @@ TEST_F(Output, replaces_files_and_leaves_nothing_beside_them) {
   EXPECT_EQ(file_count(), 1u);
 }
 
+// Processes in two containers may have one number: until now each removed the other's file.
+TEST_F(Output, nobody_elses_file_is_touched) {
+  const std::string foreign = path(".a." + std::to_string(::getpid()) + ".part");
+  std::ofstream(foreign) << "another's";
+  write_file(path("a"), bytes("ours"));
+  check_writable(path("a"));
+  EXPECT_EQ(content(foreign), "another's");
+  EXPECT_EQ(content(path("a")), "ours");
+  EXPECT_EQ(file_count(), 2u);
+}
+
+TEST_F(Output, of_two_that_write_one_file_the_last_wins) {
+  OutputFile first(path("a")), second(path("a"));
+  EXPECT_EQ(file_count(), 2u);
+  first.write(bytes("first "));
+  second.write(bytes("second"));
+  first.write(bytes("and last"));
+  second.finish();
+  EXPECT_EQ(content(path("a")), "second");
+  first.finish();
+  EXPECT_EQ(content(path("a")), "first and last");
+  EXPECT_EQ(file_count(), 1u);
+}
+
 TEST_F(Output, a_link_stays_a_link) {
   write_file(path("target"), bytes("first"));
   fs::create_symlink("target", path("link"));

@@ -3,7 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
+#include <stdexcept>
+
+#include "core/shape/point_cloud.h"
 
 namespace minkray {
 namespace {
@@ -131,6 +135,32 @@ TEST(ConvexHull, nothing_depends_on_the_unit_of_length) {
     for (auto& p : scaled) p *= unit;
     EXPECT_EQ(convex_hull(scaled).vertices, expected) << unit;
   }
+  // By powers of two, nearly to the ends of the range, where squares overflow.
+  for (const int exponent : {-900, 900, 1021}) {
+    Points scaled = points;
+    for (auto& p : scaled)
+      for (double& x : p) x = std::ldexp(x, exponent);
+    EXPECT_EQ(convex_hull(scaled).vertices, expected) << exponent;
+    // The table of directions as well, which large hulls have.
+    const PointCloud<double> cloud(scaled), plain(points);
+    for (const Vec3<double>& n : on_ellipsoid(100, {1, 1, 1}, 5)) {
+      Vec3<double> support = plain.support(n);
+      for (double& x : support) x = std::ldexp(x, exponent);
+      EXPECT_EQ(cloud.support(n), support) << exponent;
+    }
+  }
+}
+
+TEST(ConvexHull, that_is_wider_than_the_largest_number_is_refused) {
+  const Points huge = {{-1e300, 1e300, -5e-324}, {1.7e308, -1.7e308, -1e-30},
+                       {-1e-45, 5e-324, 1e300},  {-5e-324, -1e-45, -1e-300},
+                       {1e300, 1e200, 3e-39},    {1e38, -1e200, 1e154}};
+  EXPECT_THROW(convex_hull(huge), std::runtime_error);
+  Points half = huge;
+  for (auto& p : half) p *= 0.25;
+  const ConvexHull hull = convex_hull(half);
+  for (const std::uint32_t v : {0u, 1u})
+    EXPECT_EQ(std::count(hull.vertices.begin(), hull.vertices.end(), v), 1) << v;
 }
 
 TEST(HalfSpaces, those_of_a_box_meet_in_its_corners) {

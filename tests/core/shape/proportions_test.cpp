@@ -11,6 +11,8 @@
 namespace minkray::testing {
 namespace {
 
+using P = Vec3<double>;
+
 bool is_extreme(const Shape<double>& shape) {
   return has_extreme_proportions(shape);
 }
@@ -42,6 +44,31 @@ TEST(Proportions, what_is_flat_is_not_thin) {
   for (int i = 0; i < 100; ++i) {
     const Vec3<double> a = random.direction(), b = a.unitOrthogonal();
     EXPECT_FALSE(is_extreme(hull({a, b, -a, -b, 0.3 * a + 0.3 * b}))) << i;
+  }
+}
+
+TEST(Proportions, needles_thinner_than_rounding_are_no_segments) {
+  Random random(3);
+  for (int i = 0; i < 100; ++i) {
+    const Vec3<double> a = random.direction();
+    for (const double thickness : {1e-10, 1e-14}) {
+      const Vec3<double> beside = 0.3 * a + thickness * a.unitOrthogonal();
+      EXPECT_TRUE(is_extreme(Triangle<double>{{a, -a, beside}})) << i << ": " << thickness;
+    }
+    EXPECT_FALSE(is_extreme(Triangle<double>{{a, -a, a}})) << i;
+  }
+  EXPECT_FALSE(is_extreme(Triangle<double>{{P(0, 0, 0), P(1, 2, 3), P(2, 4, 6)}}));
+}
+
+/// Where coordinates are coarse beside the shape, it is rounded and not thin.
+TEST(Proportions, what_is_far_from_its_frames_origin_is_ordinary) {
+  for (const double distance : {1e4, 1e6, 1e8}) {
+    const P o(distance, -distance, distance);
+    const Shape<double> triangle = Triangle<double>{{o, P(o + P(1, 0, 0)), P(o + P(0, 0.05, 0.3))}};
+    EXPECT_FALSE(is_extreme(triangle)) << distance;
+    if (distance < 1e6) {
+      EXPECT_FALSE(has_extreme_proportions(convert<float>(triangle)));
+    }
   }
 }
 

@@ -6,7 +6,9 @@
 
 #include "core/solver/cast.h"
 #include "core/solver/check_certificate.h"
+#include "core/solver/tolerances.h"
 #include "tests/proof/certified_casts.h"
+#include "tests/support/random.h"
 #include "tests/support/sample_shapes.h"
 
 namespace minkray::testing {
@@ -159,6 +161,26 @@ TEST(Certificate, of_origins_on_the_surface) {
     const CertificateVerdict verdict = verdict_on(shape, ray, claim);
     EXPECT_TRUE(verdict.holds) << verdict.lateral;
   }
+}
+
+/// Where the origin lies on a rim but for a rounding: two support points beside it span it.
+TEST(Certificate, of_origins_on_rims) {
+  Random random(5);
+  int inside = 0;
+  for (int i = 0; i < 300; ++i) {
+    const double r = random.uniform(0.1, 10), h = random.uniform(0.01, 10);
+    const Shape<double> shape = Cylinder<double>{r, h};
+    const double angle = random.uniform(0, 6.28);
+    const Ray<double> ray{{r * std::cos(angle), r * std::sin(angle), i % 2 ? h : -h},
+                          random.direction()};
+    const Claim claim = claim_for(shape, ray);
+    if (claim.status != Status::inside) continue;
+    ++inside;
+    const CertificateVerdict verdict = verdict_on(shape, ray, claim);
+    EXPECT_TRUE(verdict.holds) << i << ": " << verdict.lateral;
+    EXPECT_LT(verdict.lateral, 16 * tolerance::epsilon<double> * (r + h)) << i;
+  }
+  EXPECT_GT(inside, 50);
 }
 
 class CertifiedShapes : public ::testing::TestWithParam<SampleShape> {};

@@ -3,11 +3,14 @@
 // way round, and no t is further off than is promised. `./run bench --many` casts many more.
 #include <gtest/gtest.h>
 
+#include <cctype>
+
 #include "core/shape/convert.h"
 #include "core/shape/shape_bounds.h"
 #include "core/solver/cast.h"
 #include "tests/oracle/line_entry.h"
 #include "tests/oracle/silhouette.h"
+#include "tests/support/measured_shapes.h"
 #include "tests/support/ray_families.h"
 #include "tests/support/rounded.h"
 
@@ -23,43 +26,11 @@ struct Promise {
 template <class T>
 constexpr Promise promise = std::is_same_v<T, float> ? Promise{1e-6, 5e-7} : Promise{1e-12, 1e-12};
 
-Shape<double> hull_of(int points) {
-  Random random(16);
-  std::vector<Vec3<double>> cloud;
-  for (int i = 0; i < points; ++i) cloud.push_back(random.direction());
-  return Hull<double>{PointCloud<double>(cloud)};
-}
-
-struct Candidate {
-  std::string name;
-  Shape<double> shape;
-};
-
-std::vector<Candidate> candidates() {
-  const Shape<double> box = Box<double>{{1, 0.7, 0.5}}, egg = Ellipsoid<double>{{1, 0.5, 0.25}};
-  return {{"sphere", Sphere<double>{1}},
-          {"ellipsoid", egg},
-          {"needle", Ellipsoid<double>{{1, 0.03, 0.001}}},
-          {"capsule", Capsule<double>{1, 1}},
-          {"cylinder", Cylinder<double>{1, 1}},
-          {"cone", Cone<double>{1, 1}},
-          {"frustum", Frustum<double>{{1, 0.3}, 1}},
-          {"tapered_capsule", TaperedCapsule<double>{{1, 0.3}, 1}},
-          {"rounded_box", Rounded<double>{0.2, box}},
-          {"rounded_hull", Rounded<double>{0.1, hull_of(16)}},
-          {"box", box},
-          {"hull", hull_of(64)},
-          {"box_and_ellipsoid", MinkowskiSum<double>{{egg, box}}},
-          {"two_ellipsoids",
-           MinkowskiSum<double>{{egg, Shape<double>(Ellipsoid<double>{{0.3, 0.5, 1}})}}},
-          {"superellipsoid", Superellipsoid<double>{{1, 1, 1}, 4}}};
-}
-
-class MillionCasts : public ::testing::TestWithParam<Candidate> {};
+class MillionCasts : public ::testing::TestWithParam<MeasuredShape> {};
 
 template <class T>
-void expect_right(const Candidate& candidate, RayFamily family, int rays) {
-  const Shape<T> shape = convert<T>(candidate.shape);
+void expect_right(const MeasuredShape& measured, RayFamily family, int rays) {
+  const Shape<T> shape = convert<T>(measured.shape);
   const Shape<double> same = convert<double>(shape);
   const PreparedShape<T> prepared(shape);
   const LineEntries entries(same);
@@ -101,8 +72,13 @@ TEST_P(MillionCasts, are_right) {
   expect_right<double>(GetParam(), RayFamily::grazing, 4000);
 }
 
-INSTANTIATE_TEST_SUITE_P(Shapes, MillionCasts, ::testing::ValuesIn(candidates()),
-                         [](const auto& tested) { return tested.param.name; });
+INSTANTIATE_TEST_SUITE_P(Shapes, MillionCasts, ::testing::ValuesIn(measured_shapes()),
+                         [](const auto& tested) {
+                           std::string name = tested.param.name;
+                           for (char& c : name)
+                             if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
+                           return name;
+                         });
 
 }  // namespace
 }  // namespace minkray::testing

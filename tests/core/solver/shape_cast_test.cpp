@@ -289,6 +289,17 @@ TEST(ShapeCast, of_two_moving_shapes_is_that_of_their_relative_motion) {
   EXPECT_LT((result.point_b - V(5, 4, 0)).norm(), 1e-13);
 }
 
+TEST(ShapeCast, contact_points_of_the_largest_bodies_are_numbers) {
+  const double most = 1.7e308;
+  for (const Shape<double>& moving :
+       {Shape<double>(Sphere<double>{most}), Shape<double>(Cylinder<double>{most, 1})}) {
+    const auto pair = pair_of(Sphere<double>{1}, {}, moving, {});
+    const auto result = cast_shape<double>(pair, V(1, 0, 0), 1);
+    EXPECT_NE(name_of(result.cast.status), name_of(Status::miss));
+    EXPECT_TRUE(result.point_a.allFinite() && result.point_b.allFinite());
+  }
+}
+
 TEST(ShapeCast, begun_with_the_last_frames_axis_needs_one_support_to_miss_again) {
   auto pair = pair_of(Box<double>{{1, 2, 0.5}}, {rotation_matrix(0.1, 0.3, 0.2, 1.0), V::Zero()},
                       Cylinder<double>{0.5, 1}, at(V(3, 2.5, 1)));

@@ -3,9 +3,13 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <cstdlib>
+#include <fstream>
 
+#include "renderer/json/mistakes.h"
 #include "renderer/scene/scene_info.h"
+#include "tests/support/program.h"
 #include "tests/support/source_files.h"
 
 namespace minkray {
@@ -97,6 +101,65 @@ TEST(Cli, what_cannot_be_written_is_4) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "needs /dev/full";
   const std::string base = "info --schema > /dev/full";
   EXPECT_EQ(run(base).exit_code, 4);
+}
+
+TEST(Cli, names_of_files_do_not_steer_the_terminal) {
+  const TemporaryFolder folder;
+  const std::string name = "c\x1b[31m\xc2\x9b.json";
+  std::ofstream(folder / name) << "{\"version\": 2}";
+  for (const std::string arguments :
+       {"info 'FILE'", "info 'FILE.none'", "cast 'FILE'", "cast 'FILE.none'",
+        "render 'FILE' -o a.png", "merge 'FILE' -o a.exr", "info a.json 'FILE'", "'FILE'",
+        "info '--FILE'"}) {
+    std::string words = arguments;
+    words.replace(words.find("FILE"), 4, folder / name);
+    const Outcome outcome = run(words);
+    EXPECT_NE(outcome.exit_code, 0) << arguments;
+    EXPECT_NE(outcome.err.find("c?[31m?.json"), std::string::npos) << outcome.err;
+    EXPECT_EQ(outcome.err, printable_lines(outcome.err)) << arguments;
+  }
+}
+
+/// A query that is as short as they get.
+const std::string short_query =
+    R"({"query":"distance","a":{"type":"point","position":[0,0,0]},"b":{"type":"sphere","radius":1}})";
+
+std::size_t lines_of(std::string_view text) {
+  return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+TEST(Cli, queries_cut_off_anywhere_are_told_and_all_others_answered) {
+  const TemporaryFolder folder;
+  {
+    std::ofstream file(folder / "q.jsonl");
+    for (std::size_t length = 1; length < short_query.size(); ++length)
+      file << short_query.substr(0, length) << "\n" << short_query << "\n";
+  }
+  const Outcome outcome = run("cast '" + folder / "q.jsonl" + "'");
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_EQ(lines_of(outcome.out), short_query.size() - 1);
+  EXPECT_EQ(lines_of(outcome.err), short_query.size() - 1);
+  for (std::size_t line = 1; line < 2 * (short_query.size() - 1); line += 2) {
+    EXPECT_NE(outcome.err.find("q.jsonl:" + std::to_string(line) + ": "), std::string::npos)
+        << line;
+  }
+}
+
+TEST(Cli, a_file_of_queries_cut_off_anywhere_is_answered_up_to_there) {
+  const std::string text = short_query + "\n" + short_query + "\n";
+  const TemporaryFolder folder;
+  // Every seventh byte, and all around the lines' ends: each is a process.
+  for (std::size_t length = 0; length <= text.size(); ++length) {
+    const std::size_t in_line = length % (short_query.size() + 1);
+    if (length % 7 != 0 && in_line > 1 && in_line + 2 < short_query.size()) continue;
+    std::ofstream(folder / "q.jsonl", std::ios::binary) << text.substr(0, length);
+    const Outcome outcome = run("cast '" + folder / "q.jsonl" + "'");
+    const bool is_cut = in_line != 0 && in_line != short_query.size();
+    const std::size_t answers = (length + 1) / (short_query.size() + 1);
+    EXPECT_EQ(outcome.exit_code, is_cut ? 3 : 0) << length;
+    EXPECT_EQ(lines_of(outcome.out), answers) << length;
+    EXPECT_EQ(lines_of(outcome.err), is_cut ? 1u : 0u) << outcome.err;
+  }
 }
 
 }  // namespace

@@ -42,8 +42,8 @@ TEST_F(Frames, each_into_a_file_of_its_number_and_all_onto_the_contact_sheet) {
   const ProgramOutcome outcome =
       render("--frames 9..11 --rate 10 -o 'f-###.png' --contact-sheet sheet.png");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_EQ(pictures(),
-            (std::vector<std::string>{"f-009.png", "f-010.png", "f-011.png", "sheet.png"}));
+  EXPECT_EQ(pictures(), (std::vector<std::string>{"f-###.png.frames", "f-009.png", "f-010.png",
+                                                  "f-011.png", "sheet.png"}));
   EXPECT_NE(text_of_file(folder_ / "f-009.png"), text_of_file(folder_ / "f-010.png"));
 }
 
@@ -57,10 +57,58 @@ TEST_F(Frames, a_frame_is_the_same_alone_and_in_a_sequence) {
 }
 
 TEST_F(Frames, resume_renders_those_that_are_not_there) {
+  EXPECT_EQ(render("--frames 0..2 -o 'f#.png'").exit_code, 0);
+  const std::string first = text_of_file(folder_ / "f1.png");
   std::ofstream(folder_ / "f0.png") << "kept";
-  EXPECT_EQ(render("--frames 0..1 -o 'f#.png' --resume").exit_code, 0);
+  std::filesystem::remove(folder_ / "f1.png");
+  EXPECT_EQ(render("--frames 0..3 -o 'f#.png' --resume").exit_code, 0);
   EXPECT_EQ(text_of_file(folder_ / "f0.png"), "kept");
-  EXPECT_EQ(pictures(), (std::vector<std::string>{"f0.png", "f1.png"}));
+  EXPECT_EQ(text_of_file(folder_ / "f1.png"), first);
+  EXPECT_EQ(pictures(),
+            (std::vector<std::string>{"f#.png.frames", "f0.png", "f1.png", "f2.png", "f3.png"}));
+}
+
+// Until now whatever had a frame's name was taken for it.
+TEST_F(Frames, of_which_no_record_tells_are_rendered_again) {
+  std::ofstream(folder_ / "f0.png") << "whose?";
+  EXPECT_EQ(render("--frames 0..1 -o 'f#.png' --resume").exit_code, 0);
+  EXPECT_EQ(text_of_file(folder_ / "f0.png").substr(1, 3), "PNG");
+  // Another output has a record of its own.
+  std::ofstream(folder_ / "f1.pfm") << "whose?";
+  EXPECT_EQ(render("--frames 0..1 -o 'f#.png' -o 'f#.pfm' --resume").exit_code, 0);
+  EXPECT_EQ(text_of_file(folder_ / "f1.pfm").substr(0, 2), "PF");
+}
+
+TEST_F(Frames, of_another_animation_are_refused_with_what_differs) {
+  EXPECT_EQ(render("--frames 0..1 -o 'f#.png'").exit_code, 0);
+  const std::string before = text_of_file(folder_ / "f#.png.frames");
+  for (const auto& [options, difference] : std::vector<std::pair<std::string, std::string>>{
+           {"-r 24x16", "minkray.resolution is 48x32, not 24x16"},
+           {"--seed 3", "minkray.seed is 0, not 3"},
+           {"--rate 25", "minkray.rate is 24.0, not 25.0"},
+           {"--exposure 0.5", "minkray.exposure is 0.0, not 0.5"},
+           {"--crop 0,0,9,9", "minkray.crop is 0,0,48,32, not 0,0,9,9"},
+           {"--solver paper", "minkray.solver is auto, not paper"}}) {
+    const ProgramOutcome other = render("--frames 0..2 -o 'f#.png' --resume " + options);
+    EXPECT_EQ(other.exit_code, 3) << options;
+    EXPECT_NE(other.err.find("f#.png.frames: is the record of other frames: " + difference),
+              std::string::npos)
+        << other.err;
+    EXPECT_NE(other.err.find("; remove it, or render without --resume\n"), std::string::npos)
+        << other.err;
+  }
+  EXPECT_EQ(text_of_file(folder_ / "f#.png.frames"), before);
+  EXPECT_EQ(pictures(), (std::vector<std::string>{"f#.png.frames", "f0.png", "f1.png"}));
+  EXPECT_EQ(render("--frames 0..1 -o 'f#.png' --seed 3").exit_code, 0);
+  EXPECT_EQ(render("--frames 0..1 -o 'f#.png' --seed 3 --resume").exit_code, 0);
+}
+
+TEST_F(Frames, a_file_that_is_no_record_stays) {
+  std::ofstream(folder_ / "f#.png.frames") << "notes";
+  EXPECT_EQ(render("--frames 0..1 -o 'f#.png'").exit_code, 4);
+  EXPECT_EQ(render("--frames 0..1 -o 'f#.png' --resume").exit_code, 3);
+  EXPECT_EQ(text_of_file(folder_ / "f#.png.frames"), "notes");
+  EXPECT_EQ(pictures(), std::vector<std::string>{"f#.png.frames"});
 }
 
 TEST_F(Frames, wrong_usage_is_told_and_leaves_nothing) {

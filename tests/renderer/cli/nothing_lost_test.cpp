@@ -4,54 +4,23 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <thread>
 
-#include "tests/support/program.h"
+#include "renderer/exr.h"
+#include "renderer/scene/scene_json.h"
+#include "tests/renderer/cli/nothing_lost.h"
 #include "tests/support/source_files.h"
 
 namespace minkray {
 namespace {
 
 namespace fs = std::filesystem;
-
-class NothingLost : public testing::Test {
- protected:
-  NothingLost() { write_ball_scene(folder_ / "scene.json"); }
-
-  std::string quoted(const std::string& name) const { return "'" + (folder_ / name) + "'"; }
-  ProgramOutcome shell(const std::string& command) const {
-    return run_shell("cd '" + (folder_ / ".") + "' || exit 99\n" + command);
-  }
-
-  /// Whether it comes true within a minute; asked a thousand times a second.
-  template <class Condition>
-  static bool wait_until(const Condition& is_true) {
-    for (int i = 0; i < 60000; ++i) {
-      if (is_true()) return true;
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-    return false;
-  }
-  /// The file's number; 0 if there is none.
-  static ino_t inode_of(const std::string& file) {
-    struct stat status = {};
-    return ::stat(file.c_str(), &status) == 0 ? status.st_ino : 0;
-  }
-  /// It is still to be waited for.
-  static bool has_ended(pid_t child) {
-    siginfo_t info = {};
-    return ::waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
-           info.si_pid == child;
-  }
-
-  TemporaryFolder folder_;
-};
 
 // Renders again and again to where a good picture is, and is killed after any time from none to a
 // whole render's.
@@ -209,6 +178,9 @@ TEST_F(NothingLost, a_folder_that_cannot_be_written_is_told_before_the_render) {
 TEST_F(NothingLost, what_is_no_file_is_an_error_at_once) {
   ASSERT_EQ(::mkfifo((folder_ / "pipe.json").c_str(), 0600), 0);
   ASSERT_EQ(::mkfifo((folder_ / "pipe.obj").c_str(), 0600), 0);
+  ASSERT_EQ(::mkfifo((folder_ / "pipe.png.checkpoint").c_str(), 0600), 0);
+  fs::create_directory(folder_ / "dir.png.checkpoint");
+  ASSERT_EQ(::mkfifo((folder_ / "f#.png.frames").c_str(), 0600), 0);
   std::ofstream(folder_ / "mesh.json") << R"({"version": 1,
     "camera": {"position": [0, -5, 1], "look_at": [0, 0, 0]}, "lights": [],
     "materials": [{"name": "matt", "type": "lambert", "color": [1, 1, 1]}],
@@ -223,6 +195,10 @@ TEST_F(NothingLost, what_is_no_file_is_an_error_at_once) {
       {"info .", ".: must be a file (got a directory)"},
       {"info huge.json", "huge.json: must not hold more than 268435456 bytes (got 2147483648)"},
       {"merge pipe.json -o a.png", "pipe.json: must be a file (got a pipe)"},
+      {"merge . -o a.png", ".: must be a file (got a directory)"},
+      {"render scene.json -o pipe.png --resume", "pipe.png.checkpoint: must be a file (got a pipe"},
+      {"render scene.json -o dir.png --resume", "dir.png.checkpoint: must be a file (got a dir"},
+      {"render scene.json -o f#.png --frames 0..1 --resume", "f#.png.frames: must be a file (got"},
       {"cast none.jsonl", "none.jsonl: cannot be read: No such file or directory"},
       {"cast .", ".: must be a file (got a directory)"},
   };
@@ -232,6 +208,51 @@ TEST_F(NothingLost, what_is_no_file_is_an_error_at_once) {
     EXPECT_EQ(outcome.exit_code, 3) << arguments << outcome.err;
     EXPECT_NE(outcome.err.find(message), std::string::npos) << arguments << ": " << outcome.err;
   }
+}
+
+// Files of 2 GB, without as much memory: what they begin with tells that they are no use.
+TEST_F(NothingLost, a_huge_file_is_looked_at_before_it_is_read) {
+  constexpr std::uintmax_t huge = std::uintmax_t{2} << 30;  // holes: they take no disk
+  ASSERT_EQ(shell("\"$MINKRAY\" render scene.json -s 1 -o a.exr").exit_code, 0);
+  std::ofstream(folder_ / "zeros.exr") << "";
+  fs::copy_file(folder_ / "a.exr", folder_ / "long.exr");
+  // A header that promises a large picture, and as large a file.
+  std::string bytes = text_of_file(folder_ / "a.exr");
+  const std::string window("dataWindow\0box2i", 16);
+  const std::size_t at = bytes.find(window);
+  ASSERT_NE(at, std::string::npos);
+  const std::int32_t corner = 19999;
+  for (const std::size_t entry : {2u, 3u})  // behind the name, the type and four bytes of size
+    std::memcpy(bytes.data() + at + window.size() + 1 + 4 + 4 * entry, &corner, sizeof corner);
+  std::ofstream(folder_ / "large.exr", std::ios::binary) << bytes;
+  for (const char* name : {"zeros.exr", "long.exr", "large.exr"})
+    fs::resize_file(folder_ / name, huge);
+  std::vector<std::pair<std::string, std::string>> cases = {
+      {"zeros.exr", ": cannot be used as an OpenEXR image: it does not begin like one"},
+      {"long.exr", ": cannot be used as an OpenEXR image: its 2147483648 bytes are far more"},
+  };
+  if (!limited_memory().empty())
+    cases.emplace_back("large.exr", ": there is not enough memory to read it");
+  for (const auto& [name, message] : cases) {
+    const ProgramOutcome merged =
+        shell(limited_memory() + "timeout 10 \"$MINKRAY\" merge " + name + " -o a.png");
+    EXPECT_EQ(merged.exit_code, 3) << merged.err;
+    EXPECT_NE(merged.err.find(name + message), std::string::npos) << merged.err;
+    fs::rename(folder_ / name, folder_ / "b.png.checkpoint");
+    const ProgramOutcome resumed = shell(
+        limited_memory() + "timeout 10 \"$MINKRAY\" render scene.json -s 1 -o b.png --resume");
+    EXPECT_EQ(resumed.exit_code, 3) << resumed.err;
+    EXPECT_NE(resumed.err.find("b.png.checkpoint" + message), std::string::npos) << resumed.err;
+  }
+}
+
+// A pipe in the checkpoint's place is not waited for either when the picture is written.
+TEST_F(NothingLost, what_is_no_checkpoint_stays) {
+  ASSERT_EQ(::mkfifo((folder_ / "a.png.checkpoint").c_str(), 0600), 0);
+  const ProgramOutcome done =
+      shell("timeout 10 \"$MINKRAY\" render scene.json -s 1 -o a.png --checkpoint 0");
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_TRUE(fs::is_fifo(folder_ / "a.png.checkpoint"));
 }
 
 // Ctrl-C ends a render that waits for a pipe's reader.
@@ -346,19 +367,72 @@ TEST_F(NothingLost, tiles_are_rendered_once_and_merged_to_the_same_picture) {
             std::string::npos);
 }
 
+// But for how long they took, on how many threads, and by which command. A render that is over
+// before it can be interrupted is begun anew with more samples.
+TEST_F(NothingLost, resumed_data_channels_are_the_same_on_any_number_of_threads) {
+  int samples = 600;
+  const auto render = [&](const std::string& output, const std::string& threads,
+                          const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"render", folder_ / "scene.json",
+                                          "-s",     std::to_string(samples),
+                                          "-o",     output,
+                                          "--aov",  "all",
+                                          "-t",     threads};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return start_minkray(arguments);
+  };
+  const std::string picture = folder_ / "a.exr", checkpoint = picture + ".checkpoint";
+  for (;; samples *= 4) {
+    ASSERT_LE(samples, 38400) << "however long it is, the render is over before it is interrupted";
+    const pid_t child = render(picture, "1", {"--checkpoint", "0.01"});
+    EXPECT_TRUE(wait_until([&] { return fs::exists(checkpoint) || has_ended(child); }));
+    ::kill(child, SIGTERM);
+    if (wait_for(child) != 0 && fs::exists(checkpoint) && !fs::exists(picture)) break;
+    fs::remove(picture);
+    fs::remove(checkpoint);
+  }
+  ASSERT_EQ(wait_for(render(folder_ / "whole.exr", "3", {})), 0);
+  ASSERT_EQ(wait_for(render(picture, "2", {"--resume"})), 0);
+  const auto read = [](const std::string& file) {
+    ExrImage exr = read_exr(file);
+    for (const char* name : {"command", "seconds", "cpu_seconds", "threads"})
+      EXPECT_EQ(exr.texts.erase(std::string("minkray.") + name), 1u) << name;
+    return exr;
+  };
+  const ExrImage resumed = read(picture), whole = read(folder_ / "whole.exr");
+  EXPECT_EQ(resumed.texts, whole.texts);
+  EXPECT_EQ(resumed.window, whole.window);
+  ASSERT_EQ(resumed.planes.size(), whole.planes.size());
+  EXPECT_GT(whole.planes.size(), 10u);
+  for (std::size_t i = 0; i < whole.planes.size(); ++i) {
+    EXPECT_EQ(resumed.planes[i].name, whole.planes[i].name);
+    EXPECT_TRUE(resumed.planes[i].values == whole.planes[i].values) << whole.planes[i].name;
+  }
+}
+
 TEST_F(NothingLost, other_programs_read_the_files) {
-  ASSERT_EQ(shell("\"$MINKRAY\" render scene.json -s 2 -o a.exr --aov all").exit_code, 0);
+  const std::string command = "render scene.json -s 2 --seed 7 -o a.exr --aov all";
+  ASSERT_EQ(shell("\"$MINKRAY\" " + command).exit_code, 0);
   if (!has_program("exrheader") && !has_program("iinfo"))
     GTEST_SKIP() << "needs exrheader (openexr) or iinfo (openimageio-tools)";
   if (has_program("exrheader")) {
     const std::string header = shell("exrheader a.exr").out;
-    for (const char* line :
-         {"dataWindow (type box2i): (0 0) - (63 47)", "id.object, 32-bit unsigned integer",
-          "gjk.gap, 32-bit floating-point", "minkray.seed (type string): \"0\"",
-          "minkray.samples (type string): \"2\"",
-          "minkray.scene (type string): ", "minkray render scene.json -s 2 -o a.exr --aov all",
-          "software (type string): \"minkray "})
-      EXPECT_NE(header.find(line), std::string::npos) << line;
+    std::string version = shell("\"$MINKRAY\" --version").out;
+    version.erase(version.find_last_not_of('\n') + 1);
+    const auto text = [](const std::string& name, const std::string& value) {
+      return "\n" + name + " (type string): \"" + value + "\"\n";
+    };
+    const std::string hash = load_scene(folder_ / "scene.json").hash;
+    EXPECT_EQ(hash.size(), 16u);
+    for (const std::string& line :
+         {std::string("dataWindow (type box2i): (0 0) - (63 47)"),
+          std::string("id.object, 32-bit unsigned integer"),
+          std::string("gjk.gap, 32-bit floating-point"), text("minkray.seed", "7"),
+          text("minkray.samples", "2"), text("minkray.resolution", "64x48"),
+          text("minkray.crop", "0,0,64,48"), text("minkray.bounces", "1"),
+          text("minkray.scene", hash), text("minkray.command", "minkray " + command),
+          text("software", version)})
+      EXPECT_NE(header.find(line), std::string::npos) << line << header;
   }
   if (has_program("iinfo")) {
     const std::string info = shell("iinfo -v --stats a.exr").out;

@@ -30,6 +30,9 @@ TEST(ParseJson, numbers_that_are_not_finite_are_told_where_they_stand_and_all_of
   };
   EXPECT_EQ(complaints(R"({"a": NaN, "b": [-Infinity, 1e999, {"c": -1e400}], "d": nan})"),
             expected);
+  // A byte order mark is no word.
+  EXPECT_EQ(complaints("\xef\xbb\xbf[1, NaN]"),
+            (std::vector<std::string>{"x: /1: must be a finite number (got NaN)"}));
 }
 
 TEST(ParseJson, keys_given_twice_are_told_with_their_place) {
@@ -43,10 +46,11 @@ TEST(ParseJson, text_that_is_not_json_is_told_with_its_line_and_column) {
     EXPECT_EQ(messages.size(), 1u);
     return messages.empty() ? "" : messages[0];
   };
-  EXPECT_EQ(only("{\n  \"a\": [1,\n  oops]\n}").find("x: /a/1: not valid JSON at line:column 3:"),
-            0u);
+  EXPECT_EQ(
+      only("{\n  \"a\": [1,\n  oops]\n}").find("x: /a/1: not valid JSON at line:column 3:3: "), 0u);
   EXPECT_EQ(only("").find("x: /: not valid JSON at line:column 1:1: "), 0u);
-  EXPECT_EQ(only("{} {}").find("x: /: not valid JSON at line:column 1:"), 0u);
+  EXPECT_EQ(only("{} {}").find("x: /: not valid JSON at line:column 1:4: "), 0u);
+  EXPECT_EQ(only("[1,\n2").find("x: /2: not valid JSON at line:column 2:2: "), 0u);
   EXPECT_EQ(only(std::string_view("{}\n\0", 4)),
             "x: /: not valid JSON at line:column 2:1: a zero byte");
   EXPECT_EQ(only("[1,]").find("x: /1: not valid JSON"), 0u);
@@ -64,7 +68,36 @@ TEST(ParseJson, paths_are_json_pointers) {
 TEST(ParseJson, endless_numbers_that_are_not_finite_end) {
   std::string text = "[NaN";
   for (int i = 0; i < 1000; ++i) text += ", NaN";
-  EXPECT_LT(complaints(text + "]").size(), 200u);
+  const std::vector<std::string> found = complaints(text + "]");
+  ASSERT_EQ(found.size(), 101u);
+  EXPECT_EQ(found[0], "x: /0: must be a finite number (got NaN)");
+  EXPECT_EQ(found[99], "x: /99: must be a finite number (got NaN)");
+  EXPECT_EQ(found[100].find("x: /100: not valid JSON at line:column 1:502: "), 0u) << found[100];
+}
+
+TEST(ParseJson, numbers_that_are_not_finite_move_nothing) {
+  // In texts, after escaped quotes and between nulls they are told from what only looks like them.
+  const std::vector<std::string> found = complaints(
+      "{\"NaN\": \"NaN, \\\" NaN\",\n \"a\": [null, NaN, 0, \"\\\\\", +Infinity, 1e-999],\n"
+      " \"b\": [true, -inf, {\"c\": 1e309, \"c\": nan}], \"d\": NaN, oops}");
+  ASSERT_EQ(found.size(), 6u);
+  EXPECT_EQ(found[0], "x: /a/1: must be a finite number (got NaN)");
+  EXPECT_EQ(found[1], "x: /a/4: must be a finite number (got +Infinity)");
+  EXPECT_EQ(found[2], "x: /b/1: must be a finite number (got -inf)");
+  EXPECT_EQ(found[3], "x: /b/2/c: must be a finite number (got 1e309)");
+  EXPECT_EQ(found[4], "x: /d: must be a finite number (got NaN)");
+  EXPECT_EQ(found[5].find("x: /: not valid JSON at line:column 3:55: "), 0u) << found[5];
+}
+
+TEST(ParseJson, mistakes_behind_numbers_that_are_not_finite_keep_their_lines_and_columns) {
+  const auto last = [](std::string_view text) { return complaints(text).back(); };
+  EXPECT_EQ(last("[NaN, oops]").find("x: /1: not valid JSON at line:column 1:7: "), 0u);
+  EXPECT_EQ(last("[-Infinity,\nNaN, NaN, ]").find("x: /3: not valid JSON at line:column 2:11: "),
+            0u);
+  EXPECT_EQ(last("[1e999,\n inf,\n  NaN nan]").find("x: /3: not valid JSON at line:column 3:"), 0u);
+  // What is no word of its own is no number either.
+  for (const std::string text : {"[--NaN]", "[1-NaN]", "[NaNs]", "[nan1]", "[1e999x]", "[1.NaN]"})
+    EXPECT_NE(last(text).find("not valid JSON at line:column 1:"), std::string::npos) << text;
 }
 
 }  // namespace

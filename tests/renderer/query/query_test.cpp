@@ -132,6 +132,11 @@ TEST(Queries, mistakes_name_line_key_and_what_was_expected) {
           R"({"query":"shape","moving":{"type":"point"},"obstacle":{"type":"point"},"direction":[1,0,0],"turn":[0,0,1]})")
           .find("/t_max"),
       std::string::npos);
+  EXPECT_NE(
+      mistakes_of(
+          R"({"query":"ray","shape":{"type":"hull","points":[[-1.7e308,0,0],[1.7e308,0,0]]},"ray":{"origin":[0,0,0],"direction":[1,0,0]}})")
+          .find("/shape/points: must not be wider than the largest number"),
+      std::string::npos);
 }
 
 /// o + t d is a difference of numbers as large as the origin is far.
@@ -174,6 +179,27 @@ TEST(Queries, numbers_of_answers_read_back_as_they_were_and_traces_bound_the_hit
       EXPECT_LE(step.at("case").get<int>(), 3);
     }
     EXPECT_NEAR(lower, result.facts.t, rounding);
+  }
+}
+
+TEST(Queries, steps_that_are_too_many_are_refused_and_never_wrap) {
+  for (const std::string steps : {"1000001", "4294967297", "18446744073709551617", "1e300"}) {
+    EXPECT_EQ(
+        mistakes_of(
+            R"({"query":"shape","moving":{"type":"point"},"obstacle":{"type":"point"},"direction":[1,0,0],"steps":)" +
+            steps + "}"),
+        "q.jsonl:7: /steps: must be a whole number from 1 to 1000000 (got " +
+            Json::parse(steps).dump() + ")");
+  }
+}
+
+TEST(Queries, text_that_is_not_utf_8_is_refused_and_not_shown) {
+  for (const std::string wild : {"\xff", "\xc3(", "\xe2\x82", "\xed\xa0\x80", "\xf5\x80\x80\x80"}) {
+    const std::string point = R"({"type":"point","position":[0,0,0]})";
+    const std::string found = mistakes_of(R"({"query":"distance","a":)" + point + R"(,"b":)" +
+                                          point + R"(,"name":")" + wild + "\"}");
+    EXPECT_EQ(found.find("q.jsonl:7: /name: not valid JSON at line:column 1:"), 0u) << found;
+    EXPECT_EQ(found, printable(found));
   }
 }
 

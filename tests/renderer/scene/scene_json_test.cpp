@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "renderer/json/json.h"
+
 namespace minkray {
 namespace {
 
@@ -104,6 +106,59 @@ TEST(SceneJson, a_file_that_cannot_be_read_says_why) {
   EXPECT_EQ(message("no-such-file.json"),
             "no-such-file.json: cannot be read: No such file or directory");
   EXPECT_EQ(message("/"), "/: must be a file (got a directory)");
+}
+
+/// Whole numbers that other types than double wrap or round.
+const std::vector<std::string> too_large = {
+    "2147483648",           "4294967297",  "9223372036854775808",   "18446744073709551616",
+    "18446744073709551617", "-4294967295", "-18446744073709551615", "1e300"};
+
+TEST(SceneJson, whole_numbers_that_are_too_large_are_refused_and_never_wrap) {
+  const std::string text(good_scene);
+  const auto with = [&](const std::string& before, const std::string& after) {
+    std::string changed = text;
+    changed.replace(changed.find(before), before.size(), after);
+    const std::vector<std::string> found = complaints(changed);
+    EXPECT_EQ(found.size(), 1u) << after;
+    return found.empty() ? "" : found[0];
+  };
+  for (const std::string& number : too_large) {
+    const std::string got = "(got " + Json::parse(number).dump() + ")";
+    EXPECT_EQ(with("\"version\": 1", "\"version\": " + number),
+              "x.json: /version: must be 1 " + got);
+    const std::string side =
+        "must be a whole number from 1 to " + std::to_string(most_pixels_a_side) + " " + got;
+    EXPECT_EQ(with("[320, 200]", "[" + number + ", 200]"), "x.json: /camera/resolution/0: " + side);
+    EXPECT_EQ(with("[320, 200]", "[320, " + number + "]"), "x.json: /camera/resolution/1: " + side);
+    const std::string start =
+        R"("particles": [{"name": "p", "shape": {"type": "sphere", "radius": 1}, )";
+    EXPECT_EQ(
+        with("\"background\"", start + R"("material": "red", "poses": [[0, 0, 0]], "count": )" +
+                                   number + "}], \"background\""),
+        "x.json: /particles/0/count: must be a whole number from 1 to 2147483647 " + got);
+    const std::string of_material = with(
+        "\"background\"", start + R"("materials": ["red"], "columns": ["position", "material"],)" +
+                              R"("poses": [[0, 0, 0, )" + number + "]]}], \"background\"");
+    EXPECT_EQ(of_material.find("x.json: /particles/0/poses/0: material must be an index of the "
+                               "block's materials (got "),
+              0u)
+        << of_material;
+  }
+}
+
+TEST(SceneJson, names_of_files_reach_no_terminal_as_they_are) {
+  Mistakes mistakes("c\x1b[31m\n\xff.json");
+  parse_scene(R"({"version": 1, "camera": {}, "lights": [], "materials": [], "objects": [
+                  {"name": "a", "material": "b",
+                   "shape": {"type": "hull", "file": "d\u001b[31m\u0085e.obj"}}]})",
+              "no\x9b-folder", mistakes);
+  EXPECT_FALSE(mistakes.none());
+  for (const std::string& message : mistakes.messages()) {
+    EXPECT_EQ(message.find("c?[31m??.json: /"), 0u) << message;
+    EXPECT_EQ(message, printable(message));
+  }
+  EXPECT_NE(mistakes.text().find("no?-folder/d?[31m?e.obj: cannot be read: "), std::string::npos)
+      << mistakes.text();
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 #include <random>
 
 #include "renderer/json/parse.h"
+#include "renderer/query/query_json.h"
+#include "renderer/scene/scene_json.h"
 
 namespace minkray {
 namespace {
@@ -134,6 +136,56 @@ TEST(ShapeJson, nesting_without_end_is_refused) {
   EXPECT_NE(message.find("must not be nested more than 256 levels deep"), std::string::npos);
   EXPECT_LT(message.size(), 300u);
   EXPECT_FALSE(complaint(std::string(1000000, '[')).empty());
+}
+
+/// Shapes within shapes, with a sphere at the bottom.
+std::string nested(const std::string& start, const std::string& end, int depth) {
+  std::string text;
+  for (int i = 0; i < depth; ++i) text += start;
+  text += R"({"type": "sphere", "radius": 1})";
+  for (int i = 0; i < depth; ++i) text += end;
+  return text;
+}
+
+const std::vector<std::pair<std::string, std::string>> operators = {
+    {R"({"type": "rounded", "radius": 0, "shape": )", "}"},
+    {R"({"type": "transform", "translate": [1, 0, 0], "shape": )", "}"},
+    {R"({"type": "minkowski_sum", "shapes": [)", "]}"},
+    {R"({"type": "hull_of", "a": {"type": "point", "position": [0, 0, 0]}, "b": )", "}"},
+};
+
+TEST(ShapeJson, ten_thousand_levels_of_any_operator_are_refused_in_scenes_and_queries) {
+  for (const auto& [start, end] : operators) {
+    const std::string shape = nested(start, end, 10000);
+    Mistakes in_scene("scene");
+    EXPECT_FALSE(parse_scene(
+        R"({"version": 1, "objects": [{"name": "a", "shape": )" + shape + "}]}", ".", in_scene));
+    Mistakes in_query("query");
+    MeshFiles meshes(".");
+    EXPECT_FALSE(parse_query(R"({"query": "ray", "shape": )" + shape + "}", meshes, in_query));
+    for (const Mistakes* mistakes : {&in_scene, &in_query}) {
+      ASSERT_EQ(mistakes->messages().size(), 1u);
+      const std::string& message = mistakes->messages()[0];
+      EXPECT_NE(message.find("must not be nested more than 256 levels deep"), std::string::npos);
+      EXPECT_LT(message.size(), 300u) << message;
+    }
+  }
+}
+
+TEST(ShapeJson, a_hundred_levels_of_any_operator_are_a_shape) {
+  for (const auto& [start, end] : operators)
+    EXPECT_TRUE(good_shape(nested(start, end, 100)).support<double>({1, 2, 3}).allFinite());
+}
+
+TEST(ShapeJson, hulls_of_nothing_are_refused) {
+  EXPECT_EQ(complaint(R"({"type": "hull", "points": []})"),
+            "shape: /points: must be a list of points, at least 1, each of 3 numbers "
+            "(got a list of 0)");
+  for (const std::string type : {"hull_of", "minkowski_sum"})
+    EXPECT_EQ(complaint(R"({"type": ")" + type + R"(", "shapes": []})"),
+              "shape: /shapes: must be a list of shapes, at least 1 (got a list of 0)");
+  EXPECT_EQ(complaint(R"({"type": "minkowski_difference", "shapes": []})"),
+            "shape: /shapes: must be a list of 2 shapes (got a list of 0)");
 }
 
 }  // namespace

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "bench/shapes.h"
+#include "tests/support/measured_shapes.h"
 
 #include "tests/support/random.h"
 
-namespace minkray::bench {
+namespace minkray::testing {
 
-std::vector<Subject> subjects() {
+std::vector<MeasuredShape> measured_shapes() {
   using S = Shape<double>;
   const auto hull = [](int points) -> S {
-    testing::Random random(16);
+    Random random(16);
     std::vector<Vec3<double>> cloud;
     for (int i = 0; i < points; ++i) cloud.push_back(random.direction());
     return Hull<double>{PointCloud<double>(cloud)};
@@ -41,4 +41,4 @@ Shape<double> scaled(const Shape<double>& shape, double scale) {
   return Transform<double>{shape, AffineMap<double>(Affine<double>{linear, {0, 0, 0}})};
 }
 
-}  // namespace minkray::bench
+}  // namespace minkray::testing

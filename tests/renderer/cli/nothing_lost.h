@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// The folder of the tests of faults from outside, with a small scene in it.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+
+#include <chrono>
+#include <string>
+#include <thread>
+
+#include "tests/support/program.h"
+
+namespace minkray {
+
+class NothingLost : public testing::Test {
+ protected:
+  NothingLost() { write_ball_scene(folder_ / "scene.json"); }
+
+  std::string quoted(const std::string& name) const { return "'" + (folder_ / name) + "'"; }
+  ProgramOutcome shell(const std::string& command) const {
+    return run_shell("cd '" + (folder_ / ".") + "' || exit 99\n" + command);
+  }
+
+  /// Whether it comes true within a minute; asked a thousand times a second.
+  template <class Condition>
+  static bool wait_until(const Condition& is_true) {
+    for (int i = 0; i < 60000; ++i) {
+      if (is_true()) return true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return false;
+  }
+  /// The file's number; 0 if there is none.
+  static ino_t inode_of(const std::string& file) {
+    struct stat status = {};
+    return ::stat(file.c_str(), &status) == 0 ? status.st_ino : 0;
+  }
+  /// It is still to be waited for.
+  static bool has_ended(pid_t child) {
+    siginfo_t info = {};
+    return ::waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+           info.si_pid == child;
+  }
+
+  TemporaryFolder folder_;
+};
+
+}  // namespace minkray

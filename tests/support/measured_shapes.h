@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// The shapes that benchmarks measure and millions of casts are tried on.
+#pragma once
+
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "core/shape/shape.h"
+
+namespace minkray::testing {
+
+struct MeasuredShape {
+  std::string name;
+  Shape<double> shape;
+};
+
+/// What GoogleTest prints in place of bytes.
+inline void PrintTo(const MeasuredShape& measured, std::ostream* out) {
+  *out << measured.name;
+}
+
+std::vector<MeasuredShape> measured_shapes();
+
+/// The same shape `scale` times as large.
+Shape<double> scaled(const Shape<double>& shape, double scale);
+
+}  // namespace minkray::testing
