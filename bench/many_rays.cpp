@@ -13,10 +13,8 @@
 
 #include "core/parallel/parallel.h"
 #include "core/shape/convert.h"
-#include "core/shape/shape_bounds.h"
 #include "core/solver/cast.h"
-#include "tests/oracle/line_entry.h"
-#include "tests/oracle/silhouette.h"
+#include "tests/support/cast_judge.h"
 #include "tests/support/measured_shapes.h"
 #include "tests/support/ray_families.h"
 #include "tests/support/rounded.h"
@@ -24,17 +22,10 @@
 namespace {
 
 using namespace minkray;
-using namespace minkray::bench;
-using testing::LineEntry;
-using Long = long double;
-
-/// How far from the silhouette an answer may be mistaken, in units of R.
-template <class T>
-constexpr double band = std::is_same_v<T, float> ? 1e-6 : 1e-12;
-
-/// The greatest error that is allowed, along the normal.
-template <class T>
-constexpr double allowed = std::is_same_v<T, float> ? 5e-7 : 1e-12;
+using testing::CastJudge;
+using testing::Judgement;
+using testing::TrueEntry;
+using testing::Verdict;
 
 struct Count {
   long hits = 0, exhausted = 0;
@@ -72,57 +63,23 @@ std::string told(const Ray<double>& ray) {
   return out.str();
 }
 
-/// The cosine between the ray and a normal, if that is one of the shape where the ray enters, to
-/// within float's rounding; else 1, which allows least.
-double cosine_at(const Shape<double>& shape, const Ray<double>& ray, Long t, double radius,
-                 const Vec3<double>& normal) {
-  const Vec3<double> n = normal.normalized();
-  const Vec3<Long> x = ray.origin.cast<Long>() + t * ray.direction.cast<Long>();
-  const auto beyond = static_cast<double>(n.cast<Long>().dot(shape.support(n).cast<Long>() - x));
-  if (!(std::abs(beyond) <= allowed<float> * radius)) return 1;
-  return std::abs(n.dot(ray.direction)) / ray.direction.norm();
-}
-
 template <class T>
-void judge_one(const Shape<double>& shape, const Ray<double>& ray, double radius,
-               const CastResult<T>& answer, const LineEntry& truth, double cosine_of_truth,
-               Count& count) {
-  if (answer.status == Status::exhausted) {
-    ++count.exhausted;
-    return;
-  }
-  if (truth.answer == LineEntry::Answer::undecided) {
-    ++count.undecided;
-    return;
-  }
-  const auto is_within_band = [&] {
-    return std::abs(testing::room_in_shadow(shape, ray)) <= band<T> * radius;
-  };
-  const bool is_hit = answer.status == Status::hit;
-  if (is_hit != (truth.answer == LineEntry::Answer::hit)) {
-    ++count.mistaken;
-    if (is_within_band()) return;
-    ++count.false_answers;
-    if (count.first_false.empty())
-      count.first_false = std::string(name_of(answer.status)) + " at " + told(ray);
-    return;
-  }
-  if (!is_hit) return;
-  const Long late = (Long(answer.t_base) - truth.t) + Long(answer.t_offset);
-  // Beside an edge or an apex the spot may be on either side.
-  const double cosine = std::min(cosine_of_truth, cosine_at(shape, ray, truth.t, radius,
-                                                            answer.normal.template cast<double>()));
-  const double error = std::abs(static_cast<double>(late)) * ray.direction.norm() * cosine / radius;
-  if (error > band<T> && is_within_band()) {  // along a side: entered anywhere, or not at all
-    ++count.mistaken;
-    return;
-  }
+void judge_one(const CastJudge& judge, const Ray<double>& ray, const CastResult<T>& answer,
+               const TrueEntry& truth, Count& count) {
+  const Judgement judged = judge(ray, answer, truth);
+  count.exhausted += judged.verdict == Verdict::exhausted;
+  count.undecided += judged.verdict == Verdict::undecided;
+  count.mistaken += judged.verdict == Verdict::at_silhouette || judged.verdict == Verdict::wrong;
+  count.false_answers += judged.verdict == Verdict::wrong;
+  if (judged.verdict == Verdict::wrong && count.first_false.empty())
+    count.first_false = std::string(name_of(answer.status)) + " at " + told(ray);
+  if (judged.verdict != Verdict::right || answer.status != Status::hit) return;
   ++count.hits;
-  count.coarse += !(error <= allowed<T>);
+  count.coarse += !(judged.error <= testing::allowed_error<T>);
   count.supports_of_hits += answer.supports;
   count.most_supports = std::max(count.most_supports, answer.supports);
-  if (!(error <= count.along_normal)) {
-    count.along_normal = error;
+  if (!(judged.error <= count.along_normal)) {
+    count.along_normal = judged.error;
     count.worst = told(ray);
   }
 }
@@ -134,13 +91,13 @@ struct Candidate {
         same(convert<double>(in_float)),
         for_float(in_float),
         for_double(same),
-        oracle(same) {}
+        judge(same) {}
 
   Shape<float> in_float;
   Shape<double> same;
   PreparedShape<float> for_float;
   PreparedShape<double> for_double;
-  testing::LineEntries oracle;
+  CastJudge judge;
 };
 
 struct Both {
@@ -150,25 +107,15 @@ struct Both {
 /// One part of a family's rays.
 Both cast_many(const Candidate& shape, testing::RayFamily family, long rays, std::uint64_t seed) {
   testing::FamilyRays source(shape.same, family, seed);
-  const Ball<double> ball = source.ball();
   Both both;
   for (long i = 0; i < rays; ++i) {
     const Ray<float> ray = testing::rounded_to<float>(source.next());
     const Ray<double> same_ray = testing::in_double(ray);
     const CastResult<double> fine = cast_ray(shape.for_double, same_ray);
     const CastResult<float> coarse = cast_ray(shape.for_float, ray);
-    // Moved near, by a step whose product is exact.
-    const auto base =
-        Long(static_cast<float>((ball.centre - same_ray.origin).dot(same_ray.direction) /
-                                same_ray.direction.squaredNorm()));
-    const Vec3<Long> d = same_ray.direction.cast<Long>();
-    LineEntry truth = shape.oracle(same_ray.origin.cast<Long>() + base * d, d, fine.normal);
-    truth.t += base;
-    const double cosine = truth.answer == LineEntry::Answer::hit
-                              ? cosine_at(shape.same, same_ray, truth.t, ball.radius, fine.normal)
-                              : 1;
-    judge_one(shape.same, same_ray, ball.radius, coarse, truth, cosine, both.in_float);
-    judge_one(shape.same, same_ray, ball.radius, fine, truth, cosine, both.in_double);
+    const TrueEntry truth = shape.judge.truth(same_ray, fine.normal);
+    judge_one(shape.judge, same_ray, coarse, truth, both.in_float);
+    judge_one(shape.judge, same_ray, fine, truth, both.in_double);
   }
   return both;
 }

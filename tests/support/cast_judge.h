@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// Answers of casts beside an oracle in long double: what is right, how far off it is, and what is
+// too near the silhouette to tell.
+#pragma once
+
+#include "core/math/ray.h"
+#include "core/shape/shape.h"
+#include "core/shape/shape_bounds.h"
+#include "core/solver/result.h"
+#include "tests/oracle/line_entry.h"
+
+namespace minkray::testing {
+
+/// How far from the silhouette hit and miss may be mistaken, in units of R, the radius of the ball
+/// around the shape's bounds.
+template <class T>
+constexpr double silhouette_band = std::is_same_v<T, float> ? 1e-6 : 1e-12;
+
+/// The greatest error of a hit that is allowed, along the normal, in units of R.
+template <class T>
+constexpr double allowed_error = std::is_same_v<T, float> ? 5e-7 : 1e-12;
+
+enum class Verdict : unsigned char {
+  right,
+  exhausted,      ///< the cast gave up
+  undecided,      ///< the oracle did
+  at_silhouette,  ///< a hit for a miss or the reverse, or entered elsewhere along a side
+  wrong           ///< a hit for a miss or the reverse, further from the silhouette than the band
+};
+
+struct Judgement {
+  Verdict verdict = Verdict::right;
+  double error = 0;  ///< of a right hit: |t - exact| along the normal, in units of R
+};
+
+/// Where a ray's whole line enters a shape.
+struct TrueEntry {
+  LineEntry entry;
+  double cosine = 1;  ///< between the ray and the normal of a hit
+};
+
+class CastJudge {
+ public:
+  /// For shapes that LineEntries knows (else std::invalid_argument).
+  explicit CastJudge(const Shape<double>& shape);
+
+  /// `normal`: what a cast in double says that it is where the ray enters. It is where the oracle
+  /// begins, and its cosine is used if a supporting plane says that it is one of the normals there.
+  TrueEntry truth(const Ray<double>& ray, const Vec3<double>& normal) const;
+
+  /// `ray`: as it was cast at, without an end, from outside. The answer's own normal, too, is
+  /// believed only if it is one where the ray enters: beside an edge it may be of either side.
+  template <class T>
+  Judgement operator()(const Ray<double>& ray, const CastResult<T>& answer,
+                       const TrueEntry& truth) const;
+
+ private:
+  double cosine_at(const Ray<double>& ray, long double t, const Vec3<double>& normal) const;
+
+  Shape<double> shape_;
+  Ball<double> ball_;
+  LineEntries entries_;
+};
+
+}  // namespace minkray::testing
