@@ -161,7 +161,11 @@ class HullCast {
   using T = Lane<W>;
 
   HullCast(const Body& body, const Vec3<W>& newest, const Translates<W>& others, const W& rounding)
-      : body_(body), newest_(newest), others_(others), rounding_(rounding) {}
+      : body_(body),
+        newest_(newest),
+        others_(others),
+        rounding_(rounding),
+        beaten_by_(rounding * W(T(1) / T(4))) {}
 
   /// The newest body is likely to be among the hit's carriers. A candidate that another body
   /// reaches beyond is joined by that body; should this not lead to the hit, all candidates are
@@ -204,11 +208,14 @@ class HullCast {
     return {others_.c[k], W(0), at, others_.valid[k]};
   }
 
+  /// What another body reaches beyond by hardly more than rounding may be all there is, after all.
   void try_all(const Furthest& newest) {
+    beaten_by_ = rounding_;
     for (std::size_t k = 0; k < 3; ++k) edge(newest, other(k));
     for (std::size_t j = 0; j < 3; ++j)
       for (std::size_t k = j + 1; k < 3; ++k) face(newest, other(j), other(k));
     if (all(hit_.found)) return;
+    alone(newest);
     for (std::size_t k = 0; k < 3; ++k) alone(other(k));
     for (std::size_t j = 0; j < 3; ++j)
       for (std::size_t k = j + 1; k < 3; ++k) edge(other(j), other(k));
@@ -237,7 +244,7 @@ class HullCast {
     using std::max;
     const Furthest furthest = furthest_in(m);
     const W reach = max(newest_.dot(m), furthest.reach);
-    const Mask<W> unbeaten = !(reach - carrier.dot(m) > rounding_);
+    const Mask<W> unbeaten = !(reach - carrier.dot(m) > beaten_by_);
     const W value = reach + body_.bend(m);
     const Mask<W> ahead = m.z() > W(0);
     const W out_of_reach = W(std::numeric_limits<T>::max());
@@ -305,6 +312,9 @@ class HullCast {
   Vec3<W> newest_;
   const Translates<W>& others_;
   W rounding_;
+  /// How much further another body may reach than a candidate's carrier: the candidate's plane is
+  /// moved out to it, which is as much too early along the normal.
+  W beaten_by_;
   HullCastHit<W> hit_;
 };
 
