@@ -113,7 +113,7 @@ LineHit<W> first_on_line(Model& model, const Vec3<Lane<W>>& half_extents, const 
       // where the model's own plane is so nearly along the line that the model is off by more than
       // the best plane's rounding, that plane is.
       const Mask<W> inner = met & model_hit.inner & !contradicts;
-      const Mask<W> closer = inner & (along * best_slope >= W(-16) * gap);
+      const Mask<W> closer = inner & (along * best_slope >= W(-4) * gap);
       const W above = select(closer, W(-model_hit.height), result.lambda);
       result.lambda_above = select(inner, above, result.lambda_above);
       result.lambda = select(closer, min(result.lambda, above), result.lambda);
