@@ -312,8 +312,8 @@ class HullCast {
   Vec3<W> newest_;
   const Translates<W>& others_;
   W rounding_;
-  /// How much further another body may reach than a candidate's carrier: the candidate's plane is
-  /// moved out to it, which is as much too early along the normal.
+  /// How much further another body may reach than a candidate's carrier, whose plane is moved out
+  /// to it: as much too early. At first what two reaches are rounded by, a quarter of rounding_.
   W beaten_by_;
   HullCastHit<W> hit_;
 };

@@ -85,13 +85,13 @@ std::string check_proof(const Shape<T>& shape, const Ray<T>& ray, const CastResu
   const Ray<double> same_ray{ray.origin.template cast<double>(),
                              ray.direction.template cast<double>(), double(ray.t_max)};
   const SupportFunction support = supports_of(same);
+  if (near_segment(support, same_ray).is_too_far) return "";
   const Bounds<double> bounds = bounds_of<double>(same);
   const double size = bounds.centre().norm() + bounds.half_extents().norm();
   Claim claim = claim_of(result);
   if (size > 0) claim.epsilon = std::max(claim.epsilon, rounding / (certificate_rounding * size));
   const Certificate certificate = certify(support, same_ray, claim);
   const CertificateVerdict verdict = check_certificate(support, same_ray, claim, certificate);
-  if (near_segment(support, same_ray).is_too_far) return "";
   if (!verdict.holds) return "the certificate: " + std::string(verdict.complaint);
   const double slope = -claim.normal.dot(same_ray.direction);
   if (result.status != Status::hit || !(slope > 0)) return "";

@@ -7,11 +7,8 @@
 #include "tests/oracle/silhouette.h"
 
 namespace minkray::testing {
-namespace {
 
 using Long = long double;
-
-}  // namespace
 
 CastJudge::CastJudge(const Shape<double>& shape)
     : shape_(shape), ball_(ball_around(bounds_of<double>(shape))), entries_(shape) {}
