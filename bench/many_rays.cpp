@@ -11,9 +11,9 @@
 #include <sstream>
 #include <string>
 
+#include "core/cast/cast.h"
+#include "core/derived/convert.h"
 #include "core/parallel/parallel.h"
-#include "core/shape/convert.h"
-#include "core/solver/cast.h"
 #include "tests/support/cast_judge.h"
 #include "tests/support/measured_shapes.h"
 #include "tests/support/ray_families.h"

@@ -17,8 +17,8 @@
 #include "bench/peers/others.h"
 #include "bench/peers/ours.h"
 #include "bench/truth.h"
-#include "core/shape/convert.h"
-#include "core/shape/shape_bounds.h"
+#include "core/derived/convert.h"
+#include "core/derived/shape_bounds.h"
 #include "tests/support/measured_shapes.h"
 
 namespace {

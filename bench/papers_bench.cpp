@@ -24,9 +24,9 @@
 #include <memory>
 #include <random>
 
-#include "core/shape/convert.h"
-#include "core/solver/distance.h"
-#include "core/solver/shape_cast.h"
+#include "core/contact/distance.h"
+#include "core/contact/shape_cast.h"
+#include "core/derived/convert.h"
 
 namespace minkray {
 namespace {

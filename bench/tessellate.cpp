@@ -3,8 +3,8 @@
 
 #include <numbers>
 
-#include "core/shape/convex_hull.h"
-#include "core/shape/shape_bounds.h"
+#include "core/derived/shape_bounds.h"
+#include "core/geometry/convex_hull.h"
 #include "core/shape/surface.h"
 
 namespace minkray::bench {

@@ -4,7 +4,7 @@
 #include <bit>
 #include <numbers>
 
-#include "core/shape/shape_bounds.h"
+#include "core/derived/shape_bounds.h"
 #include "tests/oracle/closed_form.h"
 #include "tests/oracle/portal.h"
 #include "tests/oracle/silhouette.h"

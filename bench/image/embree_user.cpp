@@ -8,7 +8,7 @@
 #include "bench/image/rounded_box_entry.h"
 #include "bench/image/subject.h"
 #include "bench/image/tracers.h"
-#include "core/solver/cast.h"
+#include "core/cast/cast.h"
 
 namespace minkray::bench {
 namespace {

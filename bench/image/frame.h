@@ -4,7 +4,7 @@
 #pragma once
 
 #include "bench/image/tracer.h"
-#include "renderer/image.h"
+#include "renderer/image/image.h"
 #include "renderer/scene/scene.h"
 
 namespace minkray::bench {

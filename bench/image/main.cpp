@@ -16,8 +16,8 @@
 #include "bench/image/report.h"
 #include "bench/image/statistics.h"
 #include "core/parallel/parallel.h"
-#include "renderer/errors.h"
-#include "renderer/output_file.h"
+#include "renderer/base/errors.h"
+#include "renderer/io/output_file.h"
 
 namespace {
 

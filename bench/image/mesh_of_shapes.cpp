@@ -4,8 +4,8 @@
 #include "bench/image/clock.h"
 #include "bench/image/rounded_mesh.h"
 #include "bench/image/subject.h"
+#include "core/derived/shape_bounds.h"
 #include "core/parallel/parallel.h"
-#include "core/shape/shape_bounds.h"
 
 namespace minkray::bench {
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "renderer/image.h"
+#include "renderer/image/image.h"
 #include "renderer/scene/scene.h"
 
 namespace minkray::bench {

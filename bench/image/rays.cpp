@@ -4,9 +4,9 @@
 #include <numbers>
 
 #include "bench/image/subject.h"
-#include "core/shape/shape_bounds.h"
-#include "renderer/reflection.h"
-#include "renderer/sampler.h"
+#include "core/derived/shape_bounds.h"
+#include "renderer/light/reflection.h"
+#include "renderer/light/sampler.h"
 
 namespace minkray::bench {
 

@@ -4,8 +4,8 @@
 #pragma once
 
 #include "bench/image/tracer.h"
-#include "renderer/camera.h"
-#include "renderer/image.h"
+#include "renderer/image/image.h"
+#include "renderer/light/camera.h"
 
 namespace minkray::bench {
 

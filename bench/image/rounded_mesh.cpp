@@ -6,7 +6,7 @@
 #include <map>
 #include <numbers>
 
-#include "core/shape/convex_hull.h"
+#include "core/geometry/convex_hull.h"
 
 namespace minkray::bench {
 namespace {

@@ -3,8 +3,8 @@
 
 #include "bench/image/clock.h"
 #include "bench/image/temporary_folder.h"
-#include "core/shape/convert.h"
-#include "core/shape/shape_bounds.h"
+#include "core/derived/convert.h"
+#include "core/derived/shape_bounds.h"
 #include "renderer/generate/generate.h"
 #include "renderer/scene/scene_instances.h"
 #include "renderer/scene/scene_json.h"

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "core/shape/convert.h"
-#include "core/solver/packet_cast.h"
+#include "core/cast/packet_cast.h"
+#include "core/derived/convert.h"
 
 namespace minkray::bench {
 namespace {

@@ -2,9 +2,9 @@
 // The convex hull of points, given inline or as a mesh file's vertices.
 #pragma once
 
+#include "core/geometry/point_cloud.h"
 #include "core/shape/field.h"
 #include "core/shape/jet.h"
-#include "core/shape/point_cloud.h"
 
 namespace minkray {
 

@@ -2,7 +2,7 @@
 #include "core/world/instances.h"
 
 #include "core/parallel/parallel.h"
-#include "core/solver/tolerances.h"
+#include "core/query/tolerances.h"
 
 namespace minkray {
 namespace {

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/solver/prepared_shape.h"
+#include "core/cast/prepared_shape.h"
 
 namespace minkray {
 

@@ -9,8 +9,8 @@
 #include <span>
 
 #include "core/bvh/bvh.h"
+#include "core/cast/cast.h"
 #include "core/math/ray.h"
-#include "core/solver/cast.h"
 #include "core/world/instances.h"
 
 namespace minkray {

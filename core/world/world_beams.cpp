@@ -4,7 +4,7 @@
 #include <array>
 
 #include "core/bvh/traverse.h"
-#include "core/solver/packet_cast.h"
+#include "core/cast/packet_cast.h"
 #include "core/world/world.h"
 
 namespace minkray {

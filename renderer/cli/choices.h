@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "core/solver/solver_kind.h"
-#include "core/solver/subalgorithm.h"
+#include "core/gjk/subalgorithm.h"
+#include "core/query/solver_kind.h"
 
 namespace minkray {
 

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "renderer/errors.h"
+#include "renderer/base/errors.h"
 
 namespace minkray {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "renderer/errors.h"
+#include "renderer/base/errors.h"
 
 namespace minkray {
 namespace {

@@ -6,10 +6,10 @@
 #include <iostream>
 #include <optional>
 
-#include "renderer/errors.h"
-#include "renderer/image_file.h"
-#include "renderer/interrupt.h"
-#include "renderer/output_file.h"
+#include "renderer/base/errors.h"
+#include "renderer/base/interrupt.h"
+#include "renderer/io/image_file.h"
+#include "renderer/io/output_file.h"
 
 namespace minkray {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "renderer/render.h"
+#include "renderer/film/render.h"
 
 namespace CLI {
 class App;

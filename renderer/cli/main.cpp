@@ -8,8 +8,8 @@
 #include <sstream>
 #include <string>
 
+#include "renderer/base/errors.h"
 #include "renderer/cli/verbs.h"
-#include "renderer/errors.h"
 #include "renderer/json/mistakes.h"
 
 namespace {

@@ -5,11 +5,11 @@
 #include <iostream>
 
 #include "core/parallel/parallel.h"
+#include "renderer/base/interrupt.h"
 #include "renderer/cli/progress_line.h"
-#include "renderer/data_channels.h"
-#include "renderer/interrupt.h"
+#include "renderer/film/data_channels.h"
 #include "renderer/json/mistakes.h"
-#include "renderer/part_file.h"
+#include "renderer/share/part_file.h"
 
 namespace minkray {
 namespace {

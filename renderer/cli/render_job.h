@@ -5,9 +5,9 @@
 
 #include <string_view>
 
-#include "renderer/checkpoint.h"
-#include "renderer/exr.h"
-#include "renderer/labels.h"
+#include "renderer/film/labels.h"
+#include "renderer/io/exr.h"
+#include "renderer/share/checkpoint.h"
 
 namespace minkray {
 

@@ -15,10 +15,10 @@
 #include <thread>
 
 #include "core/parallel/parallel.h"
-#include "renderer/errors.h"
-#include "renderer/interrupt.h"
+#include "renderer/base/errors.h"
+#include "renderer/base/interrupt.h"
+#include "renderer/io/output_file.h"
 #include "renderer/json/mistakes.h"
-#include "renderer/output_file.h"
 
 namespace minkray {
 namespace {

@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "renderer/cli/render_job.h"
-#include "renderer/merge.h"
-#include "renderer/ranks.h"
+#include "renderer/share/merge.h"
+#include "renderer/share/ranks.h"
 
 namespace minkray {
 

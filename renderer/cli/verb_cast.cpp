@@ -12,9 +12,9 @@
 
 #include "core/parallel/parallel.h"
 #include "core/parallel/stream.h"
+#include "renderer/base/errors.h"
 #include "renderer/cli/choices.h"
 #include "renderer/cli/verbs.h"
-#include "renderer/errors.h"
 #include "renderer/query/answer.h"
 #include "renderer/query/query_json.h"
 

@@ -5,11 +5,11 @@
 #include <memory>
 
 #include "core/parallel/parallel.h"
+#include "renderer/base/interrupt.h"
 #include "renderer/cli/image_arguments.h"
 #include "renderer/cli/progress_line.h"
 #include "renderer/cli/verbs.h"
 #include "renderer/compare/compare_scene.h"
-#include "renderer/interrupt.h"
 #include "renderer/scene/scene_instances.h"
 #include "renderer/scene/scene_json.h"
 

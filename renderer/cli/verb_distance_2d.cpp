@@ -7,9 +7,9 @@
 #include "renderer/cli/choices.h"
 #include "renderer/cli/file_ending.h"
 #include "renderer/cli/verbs.h"
+#include "renderer/io/output_file.h"
 #include "renderer/json/object_reader.h"
 #include "renderer/json/parse.h"
-#include "renderer/output_file.h"
 #include "renderer/paper/panels.h"
 #include "renderer/scene/shape_json.h"
 

@@ -7,12 +7,12 @@
 #include <sstream>
 
 #include "core/parallel/parallel.h"
+#include "renderer/base/errors.h"
+#include "renderer/base/interrupt.h"
 #include "renderer/cli/image_arguments.h"
 #include "renderer/cli/progress_line.h"
 #include "renderer/cli/verbs.h"
-#include "renderer/errors.h"
-#include "renderer/heatmap.h"
-#include "renderer/interrupt.h"
+#include "renderer/film/heatmap.h"
 #include "renderer/scene/scene_json.h"
 
 namespace minkray {

@@ -5,9 +5,9 @@
 #include <iostream>
 #include <memory>
 
+#include "renderer/base/errors.h"
 #include "renderer/cli/verbs.h"
-#include "renderer/errors.h"
-#include "renderer/scene/scene_info.h"
+#include "renderer/info/scene_info.h"
 #include "renderer/scene/scene_json.h"
 
 namespace minkray {

@@ -4,13 +4,13 @@
 #include <iostream>
 #include <memory>
 
+#include "renderer/base/errors.h"
+#include "renderer/base/interrupt.h"
 #include "renderer/cli/command_line.h"
 #include "renderer/cli/image_arguments.h"
 #include "renderer/cli/verbs.h"
 #include "renderer/cli/write_picture.h"
-#include "renderer/errors.h"
-#include "renderer/interrupt.h"
-#include "renderer/merge.h"
+#include "renderer/share/merge.h"
 
 namespace minkray {
 namespace {

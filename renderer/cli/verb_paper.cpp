@@ -6,9 +6,9 @@
 #include <memory>
 #include <span>
 
+#include "renderer/base/errors.h"
 #include "renderer/cli/verbs.h"
-#include "renderer/errors.h"
-#include "renderer/output_file.h"
+#include "renderer/io/output_file.h"
 #include "renderer/paper/claim.h"
 
 namespace minkray {

@@ -10,6 +10,10 @@
 #include <optional>
 
 #include "core/parallel/parallel.h"
+#include "renderer/audit/ray_audit.h"
+#include "renderer/base/errors.h"
+#include "renderer/base/hash.h"
+#include "renderer/base/interrupt.h"
 #include "renderer/cli/command_line.h"
 #include "renderer/cli/frames.h"
 #include "renderer/cli/image_arguments.h"
@@ -18,19 +22,15 @@
 #include "renderer/cli/shared_render.h"
 #include "renderer/cli/verbs.h"
 #include "renderer/cli/write_picture.h"
-#include "renderer/data_channels.h"
-#include "renderer/errors.h"
-#include "renderer/frames_record.h"
-#include "renderer/hash.h"
-#include "renderer/image_file.h"
-#include "renderer/interrupt.h"
+#include "renderer/film/data_channels.h"
+#include "renderer/film/labels.h"
+#include "renderer/io/image_file.h"
 #include "renderer/json/json.h"
 #include "renderer/json/mistakes.h"
-#include "renderer/labels.h"
-#include "renderer/merge.h"
-#include "renderer/ray_audit.h"
 #include "renderer/scene/scene_instances.h"
 #include "renderer/scene/scene_json.h"
+#include "renderer/share/frames_record.h"
+#include "renderer/share/merge.h"
 
 namespace minkray {
 namespace {

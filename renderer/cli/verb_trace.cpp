@@ -5,13 +5,13 @@
 #include <memory>
 #include <optional>
 
-#include "core/shape/convert.h"
-#include "renderer/camera.h"
+#include "core/derived/convert.h"
+#include "renderer/base/errors.h"
 #include "renderer/cli/choices.h"
 #include "renderer/cli/file_ending.h"
 #include "renderer/cli/verbs.h"
-#include "renderer/errors.h"
-#include "renderer/output_file.h"
+#include "renderer/io/output_file.h"
+#include "renderer/light/camera.h"
 #include "renderer/paper/trace_picture.h"
 #include "renderer/query/number_json.h"
 #include "renderer/scene/scene_instances.h"

@@ -2,7 +2,7 @@
 // A finished picture into the files that were asked for.
 #pragma once
 
-#include "renderer/part_file.h"
+#include "renderer/share/part_file.h"
 
 namespace minkray {
 

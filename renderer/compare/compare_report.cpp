@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "renderer/colour_map.h"
 #include "renderer/compare/compare_scene.h"
-#include "renderer/text.h"
+#include "renderer/image/colour_map.h"
+#include "renderer/image/text.h"
 
 namespace minkray {
 namespace {

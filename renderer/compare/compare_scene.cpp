@@ -5,7 +5,7 @@
 #include <mutex>
 
 #include "core/parallel/parallel.h"
-#include "renderer/camera.h"
+#include "renderer/light/camera.h"
 #include "renderer/scene/scene_instances.h"
 
 namespace minkray {

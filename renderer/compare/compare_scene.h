@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "renderer/compare/sandwich_check.h"
-#include "renderer/image.h"
+#include "renderer/image/image.h"
 #include "renderer/json/json.h"
 #include "renderer/scene/scene.h"
 

@@ -9,8 +9,8 @@
 #include <optional>
 #include <vector>
 
+#include "core/derived/sandwich.h"
 #include "core/math/ray.h"
-#include "core/shape/sandwich.h"
 
 namespace minkray {
 

@@ -11,8 +11,8 @@
 #include <optional>
 #include <string_view>
 
-#include "core/shape/sandwich.h"
-#include "core/solver/cast.h"
+#include "core/cast/cast.h"
+#include "core/derived/sandwich.h"
 #include "renderer/compare/embree_mesh.h"
 #include "renderer/compare/gap_histogram.h"
 

@@ -6,11 +6,11 @@
 #include <filesystem>
 #include <functional>
 
-#include "renderer/errors.h"
+#include "renderer/base/errors.h"
 #include "renderer/generate/packing.h"
 #include "renderer/generate/tumbling.h"
+#include "renderer/io/output_file.h"
 #include "renderer/json/json.h"
-#include "renderer/output_file.h"
 #include "renderer/scene/scene_json.h"
 #include "renderer/scene/write_member.h"
 

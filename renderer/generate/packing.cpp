@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <unordered_map>
 
-#include "core/solver/distance.h"
+#include "core/contact/distance.h"
 
 namespace minkray {
 namespace {

@@ -8,7 +8,7 @@
 #include <unordered_set>
 #include <vector>
 
-#include "renderer/errors.h"
+#include "renderer/base/errors.h"
 #include "renderer/json/path.h"
 
 namespace minkray {

@@ -7,10 +7,10 @@
 #include <ctime>
 #include <limits>
 
-#include "core/shape/shape_bounds.h"
-#include "core/solver/gjk_distance.h"
-#include "core/solver/gjk_ray_cast.h"
-#include "core/solver/shape_cast.h"
+#include "core/contact/shape_cast.h"
+#include "core/derived/shape_bounds.h"
+#include "core/gjk/gjk_distance.h"
+#include "core/gjk/gjk_ray_cast.h"
 #include "renderer/paper/claim.h"
 #include "renderer/paper/samples.h"
 

@@ -7,11 +7,11 @@
 // making the ball large.
 #include <cmath>
 
-#include "core/shape/convert.h"
-#include "core/shape/shape_bounds.h"
-#include "core/solver/first_solution.h"
-#include "core/solver/gjk_ray_cast.h"
-#include "core/solver/subalgorithm.h"
+#include "core/derived/convert.h"
+#include "core/derived/shape_bounds.h"
+#include "core/gjk/first_solution.h"
+#include "core/gjk/gjk_ray_cast.h"
+#include "core/gjk/subalgorithm.h"
 #include "renderer/paper/claim.h"
 #include "renderer/paper/samples.h"
 

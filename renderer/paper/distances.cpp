@@ -3,8 +3,8 @@
 #include <ctime>
 #include <limits>
 
-#include "core/shape/convert.h"
-#include "core/solver/distance.h"
+#include "core/contact/distance.h"
+#include "core/derived/convert.h"
 #include "renderer/paper/claim.h"
 #include "renderer/paper/samples.h"
 

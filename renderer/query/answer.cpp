@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/query/answer.h"
 
-#include "core/shape/convert.h"
-#include "core/solver/distance.h"
-#include "core/solver/rotating_cast.h"
-#include "core/solver/shape_cast.h"
+#include "core/contact/distance.h"
+#include "core/contact/rotating_cast.h"
+#include "core/contact/shape_cast.h"
+#include "core/derived/convert.h"
 #include "renderer/query/number_json.h"
 #include "renderer/query/trace.h"
 

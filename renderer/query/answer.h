@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "core/solver/cast.h"
-#include "core/solver/check_certificate.h"
-#include "core/solver/subalgorithm.h"
+#include "core/cast/cast.h"
+#include "core/gjk/subalgorithm.h"
+#include "core/proof/check_certificate.h"
 #include "renderer/json/json.h"
 #include "renderer/query/query.h"
 

@@ -2,9 +2,9 @@
 // --check: an answer beside what its case expects.
 #include <sstream>
 
-#include "core/shape/shape_bounds.h"
-#include "core/solver/distance.h"
-#include "core/solver/tolerances.h"
+#include "core/contact/distance.h"
+#include "core/derived/shape_bounds.h"
+#include "core/query/tolerances.h"
 #include "renderer/query/answer.h"
 
 namespace minkray {

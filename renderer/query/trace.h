@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "core/solver/cast.h"
-#include "core/solver/clipping.h"
+#include "core/cast/cast.h"
+#include "core/gjk/clipping.h"
 #include "renderer/json/json.h"
 
 namespace minkray {

@@ -3,7 +3,7 @@
 
 #include <exception>
 
-#include "core/shape/mesh_file.h"
+#include "core/files/mesh_file.h"
 
 namespace minkray {
 namespace {

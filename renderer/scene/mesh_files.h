@@ -7,8 +7,8 @@
 #include <optional>
 #include <string>
 
-#include "core/shape/point_cloud.h"
-#include "renderer/hash.h"
+#include "core/geometry/point_cloud.h"
+#include "renderer/base/hash.h"
 #include "renderer/json/mistakes.h"
 
 namespace minkray {

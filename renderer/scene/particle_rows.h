@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "renderer/hash.h"
+#include "renderer/base/hash.h"
 #include "renderer/scene/particles.h"
 
 namespace minkray {

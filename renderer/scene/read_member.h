@@ -5,10 +5,10 @@
 
 #include <array>
 
+#include "core/geometry/point_cloud.h"
 #include "core/shape/affine_map.h"
 #include "core/shape/field.h"
 #include "core/shape/nested.h"
-#include "core/shape/point_cloud.h"
 #include "renderer/json/object_reader.h"
 #include "renderer/scene/mesh_files.h"
 #include "renderer/scene/scene.h"

@@ -6,7 +6,7 @@
 #include <functional>
 #include <optional>
 
-#include "renderer/hash.h"
+#include "renderer/base/hash.h"
 #include "renderer/json/json.h"
 #include "renderer/json/mistakes.h"
 #include "renderer/scene/mesh_files.h"

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <type_traits>
 
+#include "core/derived/shape_bounds.h"
 #include "core/parallel/parallel.h"
-#include "core/shape/shape_bounds.h"
 
 namespace minkray {
 namespace {

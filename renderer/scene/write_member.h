@@ -5,10 +5,10 @@
 #include <array>
 #include <string_view>
 
+#include "core/geometry/point_cloud.h"
 #include "core/shape/affine_map.h"
 #include "core/shape/field.h"
 #include "core/shape/nested.h"
-#include "core/shape/point_cloud.h"
 #include "renderer/json/json.h"
 #include "renderer/scene/scene.h"
 

@@ -7,7 +7,7 @@ namespace minkray::fuzz {
 namespace {
 
 /// In epsilons of the largest number that occurs, times the condition of the maps: twice what
-/// tests/core/solver/cast_truths_test.cpp allows two casts.
+/// tests/core/cast/cast_truths_test.cpp allows two casts.
 constexpr Real allowed = 2048;
 /// Iterations of the search for a plane that keeps a claimed point off: a plane that it finds is
 /// proof, whatever it does not find.
@@ -15,8 +15,8 @@ constexpr int most_steps = 24;
 /// Of the nearest point among so few: between nearly equal points it may go round in circles.
 constexpr int most_turns = 100;
 /// The longest cast: each of the jet cast, towards and back, the GJK ray cast and the portal cast
-/// (core/solver/tolerances.h), and then those in turn with a proof of each answer, which is four
-/// searches of 400 support points at most (core/solver/certificate.cpp).
+/// (core/query/tolerances.h), and then those in turn with a proof of each answer, which is four
+/// searches of 400 support points at most (core/proof/certificate.cpp).
 constexpr int most_supports = 3 * (4 * 48 + 1000 + 4 * 256 + 4 * 400) + 32;
 
 std::string number(Real x) {

@@ -12,9 +12,9 @@
 #include <string_view>
 #include <vector>
 
+#include "core/derived/convert.h"
 #include "core/math/ray.h"
-#include "core/shape/convert.h"
-#include "core/solver/result.h"
+#include "core/query/result.h"
 #include "tests/fuzz/extent.h"
 
 namespace minkray::fuzz {

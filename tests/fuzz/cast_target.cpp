@@ -2,10 +2,10 @@
 #include <cstring>
 #include <sstream>
 
-#include "core/solver/cast.h"
-#include "core/solver/check_certificate.h"
-#include "core/solver/near_segment.h"
-#include "core/solver/packet_cast.h"
+#include "core/cast/cast.h"
+#include "core/cast/packet_cast.h"
+#include "core/proof/check_certificate.h"
+#include "core/query/near_segment.h"
 #include "renderer/query/query_json.h"
 #include "renderer/scene/shape_json.h"
 #include "tests/fuzz/cast_promises.h"

@@ -5,8 +5,8 @@
 
 #include <Eigen/LU>
 
+#include "core/derived/shape_bounds.h"
 #include "core/shape/shape.h"
-#include "core/shape/shape_bounds.h"
 
 namespace minkray::fuzz {
 

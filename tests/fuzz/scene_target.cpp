@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "renderer/scene/scene_info.h"
+#include "renderer/info/scene_info.h"
 #include "renderer/scene/scene_json.h"
 #include "renderer/scene/shape_json.h"
 #include "tests/fuzz/messages.h"

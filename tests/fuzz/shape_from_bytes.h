@@ -2,9 +2,9 @@
 // Shapes, nestings, poses and rays from bytes.
 #pragma once
 
+#include "core/derived/shape_bounds.h"
 #include "core/math/ray.h"
 #include "core/shape/shape.h"
-#include "core/shape/shape_bounds.h"
 #include "tests/fuzz/bytes.h"
 
 namespace minkray::fuzz {

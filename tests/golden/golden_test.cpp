@@ -8,8 +8,8 @@
 #include <map>
 #include <sstream>
 
-#include "renderer/exr.h"
-#include "renderer/hash.h"
+#include "renderer/base/hash.h"
+#include "renderer/io/exr.h"
 #include "tests/support/program.h"
 #include "tests/support/source_files.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/oracle/closed_form.h"
 
-#include "core/shape/convex_hull.h"
+#include "core/geometry/convex_hull.h"
 
 namespace minkray::testing {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <stdexcept>
 
-#include "core/solver/cast.h"
+#include "core/cast/cast.h"
 #include "tests/oracle/portal.h"
 #include "tests/support/ray_families.h"
 

@@ -11,8 +11,8 @@
 #include <array>
 #include <limits>
 
-#include "core/shape/convert.h"
-#include "core/shape/shape_bounds.h"
+#include "core/derived/convert.h"
+#include "core/derived/shape_bounds.h"
 
 namespace minkray::testing {
 

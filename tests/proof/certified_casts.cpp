@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tests/proof/certified_casts.h"
 
-#include "core/shape/convert.h"
-#include "core/solver/cast.h"
+#include "core/cast/cast.h"
+#include "core/derived/convert.h"
 #include "tests/support/rounded.h"
 
 namespace minkray::testing {

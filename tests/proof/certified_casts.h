@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "core/solver/check_certificate.h"
-#include "core/solver/solver_kind.h"
+#include "core/proof/check_certificate.h"
+#include "core/query/solver_kind.h"
 #include "tests/support/ray_families.h"
 
 namespace minkray::testing {

@@ -2,8 +2,8 @@
 // Random rays at a shape of which about half hit it.
 #pragma once
 
+#include "core/derived/shape_bounds.h"
 #include "core/math/ray.h"
-#include "core/shape/shape_bounds.h"
 #include "tests/support/random.h"
 
 namespace minkray::testing {

@@ -3,10 +3,10 @@
 // too near the silhouette to tell.
 #pragma once
 
+#include "core/derived/shape_bounds.h"
 #include "core/math/ray.h"
+#include "core/query/result.h"
 #include "core/shape/shape.h"
-#include "core/shape/shape_bounds.h"
-#include "core/solver/result.h"
 #include "tests/oracle/line_entry.h"
 
 namespace minkray::testing {

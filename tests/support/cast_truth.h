@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/solver/result.h"
+#include "core/query/result.h"
 
 namespace minkray::testing {
 

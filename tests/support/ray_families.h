@@ -5,9 +5,9 @@
 #include <array>
 #include <string_view>
 
+#include "core/derived/shape_bounds.h"
 #include "core/math/ray.h"
 #include "core/shape/shape.h"
-#include "core/shape/shape_bounds.h"
 #include "tests/support/random.h"
 
 namespace minkray::testing {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "core/solver/solver_kind.h"
+#include "core/query/solver_kind.h"
 
 namespace minkray::testing {
 

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/shape/convert.h"
+#include "core/derived/convert.h"
 #include "tests/support/random.h"
 
 namespace minkray::testing {

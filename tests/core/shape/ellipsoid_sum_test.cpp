@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/shape/convert.h"
-#include "core/shape/shape_bounds.h"
+#include "core/derived/convert.h"
+#include "core/derived/shape_bounds.h"
 #include "tests/support/random.h"
 #include "tests/support/sample_shapes.h"
 

@@ -2,8 +2,8 @@
 // What must be true of every shape's support mapping, checked on every kind and on random nestings.
 #include <gtest/gtest.h>
 
-#include "core/shape/convert.h"
-#include "core/shape/shape_bounds.h"
+#include "core/derived/convert.h"
+#include "core/derived/shape_bounds.h"
 #include "tests/support/random.h"
 #include "tests/support/sample_shapes.h"
 

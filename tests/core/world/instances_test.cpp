@@ -5,7 +5,7 @@
 
 #include <random>
 
-#include "core/solver/cast.h"
+#include "core/cast/cast.h"
 
 namespace minkray {
 namespace {

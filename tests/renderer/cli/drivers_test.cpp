@@ -15,7 +15,7 @@
 #include <sstream>
 #include <thread>
 
-#include "renderer/ranks.h"
+#include "renderer/share/ranks.h"
 #include "tests/support/program.h"
 #include "tests/support/source_files.h"
 

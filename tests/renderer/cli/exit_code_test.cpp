@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "renderer/info/scene_info.h"
 #include "renderer/json/mistakes.h"
-#include "renderer/scene/scene_info.h"
 #include "tests/support/program.h"
 #include "tests/support/source_files.h"
 

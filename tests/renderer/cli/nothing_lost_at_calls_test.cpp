@@ -9,7 +9,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "renderer/exr.h"
+#include "renderer/io/exr.h"
 #include "tests/renderer/cli/nothing_lost.h"
 #include "tests/support/source_files.h"
 

@@ -12,7 +12,7 @@
 #include <fstream>
 #include <thread>
 
-#include "renderer/exr.h"
+#include "renderer/io/exr.h"
 #include "renderer/scene/scene_json.h"
 #include "tests/renderer/cli/nothing_lost.h"
 #include "tests/support/source_files.h"

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/solver/distance.h"
-#include "renderer/errors.h"
+#include "core/contact/distance.h"
+#include "renderer/base/errors.h"
 #include "renderer/scene/scene_instances.h"
 #include "renderer/scene/scene_json.h"
 #include "renderer/scene/summary.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "core/solver/distance.h"
+#include "core/contact/distance.h"
 #include "renderer/paper/claim.h"
 #include "renderer/paper/panels.h"
 #include "renderer/paper/trace_picture.h"

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "renderer/render.h"
+#include "renderer/film/render.h"
 #include "renderer/scene/scene_instances.h"
 #include "renderer/scene/scene_json.h"
 #include "tests/support/program.h"

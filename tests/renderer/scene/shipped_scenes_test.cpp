@@ -2,7 +2,7 @@
 // The files in scenes/ and docs/ that are made of the descriptions in the sources.
 #include <gtest/gtest.h>
 
-#include "renderer/scene/scene_info.h"
+#include "renderer/info/scene_info.h"
 #include "renderer/scene/scene_json.h"
 #include "tests/support/source_files.h"
 

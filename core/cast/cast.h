@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// Casting a ray at a shape, with any of the solvers.
+#pragma once
+
+#include <functional>
+
+#include "core/cast/prepared_shape.h"
+#include "core/math/ray.h"
+#include "core/query/observer.h"
+#include "core/query/result.h"
+#include "core/query/solver_kind.h"
+#include "core/query/tolerances.h"
+
+namespace minkray {
+
+template <class T>
+struct CastOptions {
+  SolverKind solver = SolverKind::automatic;
+  /// The paper's eps_tol, for the solvers that have one: relative, of a squared length.
+  T eps_tol = tolerance::gjk_squared<T>;
+  int max_iterations = tolerance::gjk_max_iterations;
+  /// A normal to begin with, in the ray's frame, for the solvers that take one: the separating
+  /// plane's of the previous frame. Zero for none.
+  Vec3<T> v0 = Vec3<T>::Zero();
+};
+
+template <class T>
+using CastObserver = std::function<void(const CastIteration<T>&)>;
+
+/// Where the ray enters the shape: the least t in [0, t_max] at which origin + t * direction lies
+/// in it. Origin in the shape: status inside, t = 0. Numbers must be finite, t_max may be infinite.
+/// The observer, if any, sees every iteration, in the shape's inner frame.
+template <class T>
+CastResult<T> cast_ray(const PreparedShape<T>& shape, const Ray<T>& ray,
+                       const CastOptions<T>& options = {}, const CastObserver<T>& observer = {});
+
+/// Where the ray leaves the shape: the greatest t in [0, t_max] at which it lies in it. Status hit:
+/// it leaves at t. Inside: it ends at t = t_max still in the shape. Miss: it never meets the shape.
+template <class T>
+CastResult<T> cast_exit(const PreparedShape<T>& shape, const Ray<T>& ray,
+                        const CastOptions<T>& options = {});
+
+extern template CastResult<float> cast_ray(const PreparedShape<float>&, const Ray<float>&,
+                                           const CastOptions<float>&, const CastObserver<float>&);
+extern template CastResult<double> cast_ray(const PreparedShape<double>&, const Ray<double>&,
+                                            const CastOptions<double>&,
+                                            const CastObserver<double>&);
+extern template CastResult<float> cast_exit(const PreparedShape<float>&, const Ray<float>&,
+                                            const CastOptions<float>&);
+extern template CastResult<double> cast_exit(const PreparedShape<double>&, const Ray<double>&,
+                                             const CastOptions<double>&);
+
+}  // namespace minkray

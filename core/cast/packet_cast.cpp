@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#include "core/cast/packet_cast.h"
+
+#include "core/cast/packet_kernel.h"
+
+namespace minkray {
+
+template <class T>
+CastResult<T> CastPacket<T>::result(int lane) const {
+  const auto i = static_cast<std::size_t>(lane);
+  const LaneBits bit = LaneBits(1) << lane;
+  CastResult<T> result;
+  result.status = hit & bit      ? Status::hit
+                  : inside & bit ? Status::inside
+                  : miss & bit   ? Status::miss
+                                 : Status::exhausted;
+  result.offset_hi = T(0);
+  if (result.found()) {
+    result.t_base = t_base[i];
+    result.t_offset = t_offset[i];
+    result.offset_lo = offset_lo[i];
+    result.offset_hi = offset_hi[i];
+  }
+  result.normal = {normal[0][i], normal[1][i], normal[2][i]};
+  result.iterations = result.supports = static_cast<int>(supports[i]);
+  return result;
+}
+
+template <class T>
+void CastPacket<T>::set(int lane, const CastResult<T>& result) {
+  const auto i = static_cast<std::size_t>(lane);
+  const LaneBits bit = LaneBits(1) << lane;
+  hit = (hit & ~bit) | (result.status == Status::hit ? bit : 0);
+  inside = (inside & ~bit) | (result.status == Status::inside ? bit : 0);
+  miss = (miss & ~bit) | (result.status == Status::miss ? bit : 0);
+  t_base[i] = result.t_base;
+  t_offset[i] = result.t_offset;
+  offset_lo[i] = result.offset_lo;
+  offset_hi[i] = result.offset_hi;
+  for (int axis = 0; axis < 3; ++axis)
+    normal[static_cast<std::size_t>(axis)][i] = result.normal[axis];
+  supports[i] = static_cast<T>(result.supports);
+}
+
+InstructionSet best_instruction_set() {
+#if defined(__x86_64__)
+  static const bool has_avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  return has_avx2 ? InstructionSet::avx2 : InstructionSet::sse2;
+#else
+  return InstructionSet::sse2;
+#endif
+}
+
+template <class T>
+void cast_packet(const PreparedShape<T>& shape, const RayPacket<T>& rays, LaneBits lanes,
+                 CastPacket<T>& answers, InstructionSet set) {
+  answers.hit = answers.inside = answers.miss = 0;
+  if (shape.definition().has_packets()) {
+    if (set == InstructionSet::avx2)
+      packet_kernel_avx2(shape, rays, lanes, answers);
+    else
+      packet_kernel_sse2(shape, rays, lanes, answers);
+  }
+  // What is not cast at with a model, or exhausted it, goes one by one.
+  const LaneBits open = lanes & ~(answers.hit | answers.inside | answers.miss);
+  if (!open) return;
+  for (int lane = 0; lane < packet_lanes<T>; ++lane)
+    if (open & (LaneBits(1) << lane)) answers.set(lane, cast_ray(shape, rays.ray(lane)));
+}
+
+template struct CastPacket<float>;
+template struct CastPacket<double>;
+template void cast_packet(const PreparedShape<float>&, const RayPacket<float>&, LaneBits,
+                          CastPacket<float>&, InstructionSet);
+template void cast_packet(const PreparedShape<double>&, const RayPacket<double>&, LaneBits,
+                          CastPacket<double>&, InstructionSet);
+
+}  // namespace minkray

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+// The body of the packet casts. MINKRAY_PACKET_KERNEL is the function's name. Everything else here
+// has the type of the lanes, and so the instruction set, in its name: see core/math/wide.h.
+#include "core/math/wide.h"
+#include "core/model/model_of.h"
+#include "core/cast/packet_kernel.h"
+
+namespace minkray {
+namespace {
+
+template <class W>
+Vec3<W> load(const std::array<PacketNumbers<Lane<W>>, 3>& v, std::size_t from) {
+  return {W::load(v[0].data() + from), W::load(v[1].data() + from), W::load(v[2].data() + from)};
+}
+
+template <class W>
+Mask<W> mask_of(LaneBits bits) {
+  constexpr LaneBits every = (LaneBits(1) << LaneOf<W>::count) - 1;
+  if ((bits & every) == every) return Mask<W>(true);
+  W chosen(Lane<W>(0));
+  for (int i = 0; i < LaneOf<W>::count; ++i)
+    chosen.set_lane(i, bits & (LaneBits(1) << i) ? Lane<W>(1) : Lane<W>(0));
+  return chosen > W(Lane<W>(0));
+}
+
+/// As many lanes as W has, beginning with lane `from`.
+template <class W>
+void part(const PreparedShape<Lane<W>>& shape, const RayPacket<Lane<W>>& rays, LaneBits lanes,
+          std::size_t from, CastPacket<Lane<W>>& answers) {
+  using T = Lane<W>;
+  const Ray<W> ray{load<W>(rays.origin, from), load<W>(rays.direction, from),
+                   W::load(rays.t_max.data() + from)};
+  const auto keep_normal = [&](const Vec3<W>& normal) {
+    for (int axis = 0; axis < 3; ++axis)
+      normal[axis].store(answers.normal[static_cast<std::size_t>(axis)].data() + from);
+  };
+  const auto all_miss = [&](const BoundsCast<W>& bounds) {
+    const Vec3<W> normal = shape.template normal_to_outer<W>(bounds.normal);
+    const W squared = normal.squaredNorm(), zero(T(0));
+    answers.miss |= lane_bits(bounds.miss & (squared > zero) & (squared < W(T(2)))) << from;
+    keep_normal(normal);
+    zero.store(answers.supports.data() + from);
+  };
+
+  const Vec3<T>& half_extents = shape.inner_half_extents();
+  const Ball<T>& ball = shape.inner_ball();
+  BoundsCast<W> bounds = cast_at_box(shape.template line_to_inner<W>(ray), half_extents,
+                                     ball.radius, mask_of<W>(lanes >> from));
+  if (!any(bounds.open)) return all_miss(bounds);
+  const RayNearBall<W> near = shape.template to_inner<W>(ray);
+  bounds.open &= !near.is_from_afar(ball.radius);  // left to the single casts
+  cast_at_ball(near, ball.radius, bounds);
+  if (!any(bounds.open)) return all_miss(bounds);
+  CastLanes<W> result = with_model<W>(shape.definition(), [&](const auto& make_model) {
+    return model_cast<W>(make_model, near, ball, half_extents, bounds.open,
+                         tolerance::jet_max_iterations, NoObserver());
+  });
+  result.miss |= bounds.miss;
+  result.normal = select<W>(bounds.miss, bounds.normal, result.normal);
+  // No earlier than the ray's beginning, no later than its end.
+  using std::abs;
+  using std::max;
+  using std::min;
+  const Mask<W> beyond = result.t_base + result.t_offset > ray.t_max;  // by rounding
+  if (any(beyond)) {
+    const W last = ray.t_max - result.t_base;
+    const W before = last - W(std::numeric_limits<T>::epsilon()) * abs(last);
+    result.t_offset = select(beyond, before, result.t_offset);
+  }
+  result.t_offset = max(result.t_offset, -result.t_base);
+  result.offset_lo = min(result.offset_lo, result.t_offset);
+  result.offset_hi = max(result.offset_hi, result.t_offset);
+  const Vec3<W> normal = shape.template normal_to_outer<W>(result.normal);
+  const bool some_inside = any(result.inside);
+  const auto at_origin = [&](const W& x) {
+    return some_inside ? select(result.inside, W(T(0)), x) : x;
+  };
+  const Mask<W> in_range =
+      abs(result.t_base + result.t_offset) < W(std::numeric_limits<T>::infinity());
+  const Mask<W> has_numbers = (normal.squaredNorm() < W(T(2))) & (result.t_base == result.t_base) &
+                              (result.t_offset == result.t_offset) &
+                              (result.offset_lo == result.offset_lo) &
+                              (result.offset_hi == result.offset_hi);
+  // What is doubtful is left to the single casts.
+  Mask<W> hit = result.hit & in_range & has_numbers, inside = result.inside & has_numbers;
+  constexpr T doubtful = tolerance::doubtful_slope<T>;
+  if (doubtful != T(0) && !shape.definition().is_smooth()) {
+    hit &= -result.normal.dot(near.r) >= W(doubtful);
+    inside &= !result.doubtful;
+  }
+  answers.hit |= lane_bits(hit) << from;
+  answers.inside |= lane_bits(inside) << from;
+  const Mask<W> has_plane = normal.squaredNorm() > W(T(0));
+  answers.miss |= lane_bits(result.miss & has_numbers & has_plane) << from;
+  at_origin(result.t_base).store(answers.t_base.data() + from);
+  at_origin(result.t_offset).store(answers.t_offset.data() + from);
+  at_origin(result.offset_lo).store(answers.offset_lo.data() + from);
+  at_origin(result.offset_hi).store(answers.offset_hi.data() + from);
+  keep_normal(normal);
+  result.supports.store(answers.supports.data() + from);
+}
+
+/// In parts as wide as the instruction set's registers.
+template <class T>
+void kernel(const PreparedShape<T>& shape, const RayPacket<T>& rays, LaneBits lanes,
+            CastPacket<T>& answers) {
+  using W = Wide<T, static_cast<int>(IsaHere::register_bytes / sizeof(T)), IsaHere>;
+  for (int from = 0; from < packet_lanes<T>; from += LaneOf<W>::count)
+    part<W>(shape, rays, lanes, static_cast<std::size_t>(from), answers);
+}
+
+}  // namespace
+
+void MINKRAY_PACKET_KERNEL(const PreparedShape<float>& shape, const RayPacket<float>& rays,
+                           LaneBits lanes, CastPacket<float>& answers) {
+  kernel(shape, rays, lanes, answers);
+}
+
+void MINKRAY_PACKET_KERNEL(const PreparedShape<double>& shape, const RayPacket<double>& rays,
+                           LaneBits lanes, CastPacket<double>& answers) {
+  kernel(shape, rays, lanes, answers);
+}
+
+}  // namespace minkray

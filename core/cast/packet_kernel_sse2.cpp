@@ -1,0 +1,3 @@
+// SPDX-License-Identifier: MIT
+#define MINKRAY_PACKET_KERNEL packet_kernel_sse2
+#include "core/cast/packet_kernel.inl"

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+// A shape made ready to be cast at many times: affine maps around it are pulled out, so that the
+// solver works in the innermost frame with as few and as exact operations as possible, and the
+// bounding ball is computed once.
+#pragma once
+
+#include <memory>
+
+#include "core/model/shape_definition.h"
+#include "core/query/bounds_cast.h"
+#include "core/query/ray_near_ball.h"
+
+namespace minkray {
+
+/// A definition and a pose. "Inner" is the frame of the definition's inner shape, "outer" the frame
+/// the rays come in.
+template <class T>
+class PreparedShape {
+ public:
+  using Definition = ShapeDefinition<T>;
+
+  /// `pose` maps the frame of `shape` to the outer one; it must be invertible.
+  explicit PreparedShape(Shape<T> shape, const Affine<T>& pose = {})
+      : PreparedShape(std::make_shared<const Definition>(std::move(shape)), pose) {}
+
+  /// The same of a definition that others may share.
+  PreparedShape(std::shared_ptr<const Definition> definition, const Affine<T>& pose)
+      : definition_(std::move(definition)) {
+    const auto placement = definition_->placed(pose);
+    centre_ = placement.centre;
+    to_inner_ = placement.to_inner;
+    is_rigid_identity_ = placement.is_rigid_identity;
+  }
+
+  /// For a moment, of a definition that outlives it, without counting references: what worlds of
+  /// millions make for each cast. `to_inner` is null for the identity.
+  PreparedShape(const Definition& definition, const Vec3<T>& centre, const Mat3<T>* to_inner)
+      : definition_(std::shared_ptr<const Definition>(), &definition),
+        centre_(centre),
+        is_rigid_identity_(!to_inner) {
+    if (to_inner) to_inner_ = *to_inner;
+  }
+
+  const Definition& definition() const { return *definition_; }
+  const std::shared_ptr<const Definition>& shared_definition() const { return definition_; }
+  const Vec3<T>& centre() const { return centre_; }
+  /// Null for the identity.
+  const Mat3<T>* linear_to_inner() const { return is_rigid_identity_ ? nullptr : &to_inner_; }
+
+  const Shape<T>& inner_shape() const { return definition_->inner_shape(); }
+  const Ball<T>& inner_ball() const { return definition_->inner_ball(); }
+  /// Of the inner shape's axis-aligned bounds.
+  const Vec3<T>& inner_half_extents() const { return definition_->inner_half_extents(); }
+
+  /// What the solvers on jets model it as.
+  ModelKind model() const { return definition_->model(); }
+
+  /// The ray in the inner frame, relative to the ball's centre; W is T or a packet of it.
+  template <class W>
+  RayNearBall<W> to_inner(const Ray<W>& ray) const {
+    RayNearBall<W> near = ray_near(centre_, ray);
+    if (!is_rigid_identity_) near = near.mapped(to_inner_);
+    near.lambda_max += W(end_slack());
+    return near;  // not copied: a processor reads slowly what it has just written in parts
+  }
+
+  /// The same of one ray from anywhere.
+  RayNearBall<T> to_inner_from_afar(const Ray<T>& ray) const {
+    RayNearBall<T> near = ray_near_from_afar(centre_, ray);
+    if (!is_rigid_identity_) near = near.mapped(to_inner_);
+    near.lambda_max += end_slack();
+    return near;
+  }
+
+  /// The ray's line in the inner frame, from the centre of the inner bounds.
+  template <class W>
+  [[gnu::always_inline]] LineFromCentre<W> line_to_inner(const Ray<W>& ray) const {
+    using std::abs;
+    const auto sizes = [](const Vec3<W>& v) { return Vec3<W>(abs(v.x()), abs(v.y()), abs(v.z())); };
+    const auto line = [](const Vec3<W>& origin, const Vec3<W>& direction, const Vec3<W>& o,
+                         const Vec3<W>& d) -> LineFromCentre<W> {
+      return {origin, direction, W(o.x() + o.y() + o.z()), W(d.x() + d.y() + d.z())};
+    };
+    const Vec3<W> origin = ray.origin - widen<W>(centre_);
+    const Vec3<W> o = sizes(origin), d = sizes(ray.direction);
+    if (is_rigid_identity_) return line(origin, ray.direction, o, d);
+    const Mat3<T> map_sizes = to_inner_.cwiseAbs();
+    return line(times(to_inner_, origin), times(to_inner_, ray.direction), times(map_sizes, o),
+                times(map_sizes, d));
+  }
+
+  /// An inner normal in the outer frame, of unit length.
+  template <class W>
+  Vec3<W> normal_to_outer(const Vec3<W>& normal) const {
+    return is_rigid_identity_ ? normal : unit<W>(times<W, T>(to_inner_.transpose(), normal));
+  }
+
+  /// The other way, of any length; for hints, not for hot code.
+  Vec3<T> normal_to_inner(const Vec3<T>& normal) const {
+    return is_rigid_identity_ ? normal : Vec3<T>(to_inner_.transpose().inverse() * normal);
+  }
+
+ private:
+  /// A ray that ends on the surface hits it, however the two were rounded.
+  T end_slack() const { return tolerance::end_slack<T> * inner_ball().radius; }
+
+  std::shared_ptr<const Definition> definition_;
+  Vec3<T> centre_;
+  Mat3<T> to_inner_;
+  bool is_rigid_identity_;
+};
+
+}  // namespace minkray

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// The distance between two shapes, by the GJK distance algorithm with any of the subalgorithms.
+#pragma once
+
+#include <functional>
+
+#include "core/gjk/gjk_distance.h"
+#include "core/gjk/subalgorithm.h"
+#include "core/model/centred_shape.h"
+
+namespace minkray {
+
+template <class T>
+using DistanceObserver = std::function<void(const DistanceIteration<T, 3>&)>;
+
+/// Points and axis are in the world. The distance is exact to a few epsilon of itself and of the
+/// sizes, of curved shapes in double to 1e-9 at worst; `lower` bounds it. Touching counts as
+/// overlapping, unless it is exhausted. The observer sees every iteration but those of a retry.
+template <class T>
+DistanceResult<T, 3> distance_between(const CentredShape<T>& a, const CentredShape<T>& b,
+                                      const DistanceOptions<T, 3>& options = {},
+                                      SubalgorithmKind subalgorithm = SubalgorithmKind::projection,
+                                      const DistanceObserver<T>& observer = {});
+
+/// The same in the plane: of the shapes' shadows on z = 0.
+template <class T>
+DistanceResult<T, 2> distance_in_plane(
+    const CentredShape<T>& a, const CentredShape<T>& b, const DistanceOptions<T, 2>& options = {},
+    SubalgorithmKind subalgorithm = SubalgorithmKind::projection,
+    const std::function<void(const DistanceIteration<T, 2>&)>& observer = {});
+
+}  // namespace minkray

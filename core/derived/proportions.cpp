@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+#include "core/derived/proportions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "core/derived/shape_bounds.h"
+#include "core/math/principal_axes.h"
+
+namespace minkray {
+namespace {
+
+/// Longest to thinnest, of shapes that lie along the axes: their supports are products with each
+/// axis' own length, which rounding leaves as precise as that length.
+template <class T>
+constexpr double most_along_axes = std::is_same_v<T, float> ? 0x1p13 : 0x1p20;
+/// Of points that may lie askew: their coordinates are rounded to the longest.
+constexpr double most_askew = 0x1p12;
+
+/// The longest to what it is rounded by: what is hardly rounded is nearly a sharp edge.
+constexpr double most_to_rounding = 0x1p20;
+
+/// The longest over the thinnest; 1 if there is nothing but one length. `flat`: lengths up to it
+/// count as none.
+double ratio_of(Vec3<double> lengths, double flat) {
+  std::sort(lengths.begin(), lengths.end());
+  for (const double length : lengths)
+    if (length > flat) return lengths[2] / length;
+  return 1;
+}
+
+/// Exactly, up to the rounding of long double.
+template <class T>
+bool is_on_a_line(std::span<const Vec3<T>> points) {
+  using Long = long double;
+  const Vec3<Long> first = points[0].template cast<Long>();
+  Vec3<Long> along = Vec3<Long>::Zero();
+  for (const Vec3<T>& p : points) {
+    const Vec3<Long> edge = p.template cast<Long>() - first;
+    if (along.isZero(0)) along = edge;
+    if (!along.cross(edge).isZero(0)) return false;
+  }
+  return true;
+}
+
+/// Their lengths along their principal axes. They are scaled, lest squares leave the range.
+template <class T>
+double ratio_of_points(std::span<const Vec3<T>> points) {
+  Vec3<double> lower = points[0].template cast<double>(), upper = lower;
+  for (const Vec3<T>& p : points) {
+    lower = lower.cwiseMin(p.template cast<double>());
+    upper = upper.cwiseMax(p.template cast<double>());
+  }
+  const double size = (upper - lower).maxCoeff();
+  if (!(size > 0)) return 1;
+  if (!std::isfinite(size)) return size;
+  // About their mean, which lies in the plane if they all do.
+  Vec3<double> mean = Vec3<double>::Zero();
+  for (const Vec3<T>& p : points) mean += (p.template cast<double>() - lower) / size;
+  mean /= double(points.size());
+  const auto scaled = [&](const Vec3<T>& p) -> Vec3<double> {
+    return (p.template cast<double>() - lower) / size - mean;
+  };
+  Mat3<double> spread = Mat3<double>::Zero();
+  for (const Vec3<T>& p : points) spread += scaled(p) * scaled(p).transpose();
+  const Mat3<double> axes = principal_axes(spread / double(points.size())).axes;
+  Vec3<double> least = axes.transpose() * scaled(points[0]), most = least;
+  for (const Vec3<T>& p : points) {
+    const Vec3<double> along = axes.transpose() * scaled(p);
+    least = least.cwiseMin(along);
+    most = most.cwiseMax(along);
+  }
+  constexpr double roundings = 64;  // of coordinates, a turn, and axes that are rounded as well
+  const double coordinate = std::max(lower.cwiseAbs().maxCoeff(), upper.cwiseAbs().maxCoeff());
+  const double flat = roundings * double(std::numeric_limits<T>::epsilon()) * coordinate / size;
+  Vec3<double> lengths = most - least;
+  std::sort(lengths.begin(), lengths.end());
+  // A needle that is thinner than rounding both ways, but no segment. Not in float, whose rays are
+  // rounded as coarsely: in double, a cast would tell that they pass it by.
+  if (std::is_same_v<T, double> && lengths[1] <= flat &&
+      lengths[1] * most_along_axes<T> <= lengths[2] && !is_on_a_line(points))
+    return std::numeric_limits<double>::infinity();
+  return ratio_of(lengths, flat);
+}
+
+/// How much maps lengthen and shorten what they map, at most.
+struct Stretch {
+  double most = 1, least = 1;
+  double ratio() const { return most / least; }
+};
+
+template <class T>
+Stretch operator*(const Stretch& outer, const Mat3<T>& linear) {
+  const Mat3<double>& M = linear.template cast<double>();
+  const double size = M.cwiseAbs().maxCoeff();
+  const Vec3<double> squares =
+      principal_axes((M / size).transpose() * (M / size)).values.cwiseMax(0.0);
+  return {outer.most * size * std::sqrt(squares[2]), outer.least * size * std::sqrt(squares[0])};
+}
+
+/// What the walk over a shape's parts has seen.
+struct Seen {
+  bool extreme_part = false;
+  double longest = 0, shortest = std::numeric_limits<double>::infinity();
+  double least_rounding = std::numeric_limits<double>::infinity();
+
+  void add(double length, const Stretch& stretch) {
+    longest = std::max(longest, length * stretch.most);
+    if (length > 0) shortest = std::min(shortest, length * stretch.least);
+  }
+};
+
+template <class T>
+void look_at(const Shape<T>& shape, const Stretch& stretch, Seen& seen) {
+  const auto look_at_points = [&](const auto& kind, std::span<const Vec3<T>> points) {
+    seen.extreme_part |= ratio_of_points<T>(points) * stretch.ratio() > most_askew;
+    seen.add(double(bounds_of<T>(kind).half_extents().maxCoeff()), stretch);
+  };
+  std::visit(
+      [&]<class S>(const S& kind) {
+        if constexpr (std::is_same_v<S, Transform<T>>) {
+          look_at(*kind.shape, stretch * kind.map.affine().linear, seen);
+        } else if constexpr (std::is_same_v<S, Hull<T>>) {
+          look_at_points(kind, kind.points.points());
+        } else if constexpr (std::is_same_v<S, Triangle<T>> || std::is_same_v<S, Segment<T>>) {
+          look_at_points(kind, kind.points);
+        } else if constexpr (std::is_same_v<S, Rounded<T>>) {
+          // What is rounded that far is as thick as that, however thin its core.
+          const double radius = double(kind.radius);
+          const double size = double(bounds_of<T>(*kind.shape).half_extents().maxCoeff());
+          if (radius * most_askew > size) {
+            seen.add(size + radius, stretch);
+            seen.add(radius, stretch);
+          } else {
+            look_at(*kind.shape, stretch, seen);
+            if (radius > 0)
+              seen.least_rounding = std::min(seen.least_rounding, radius * stretch.least);
+          }
+        } else if constexpr (std::is_same_v<S, MinkowskiDifference<T>>) {
+          look_at(*kind.a, stretch, seen);
+          look_at(*kind.b, stretch, seen);
+        } else if constexpr (std::is_same_v<S, MinkowskiSum<T>> || std::is_same_v<S, HullOf<T>>) {
+          for (const Nested<T>& operand : kind.shapes) look_at(*operand, stretch, seen);
+        } else {
+          const Vec3<double> lengths = bounds_of<T>(kind).half_extents().template cast<double>();
+          seen.extreme_part |= ratio_of(lengths, 0) * stretch.ratio() > most_along_axes<T>;
+          for (const double length : lengths) seen.add(length, stretch);
+        }
+      },
+      shape.kind);
+}
+
+}  // namespace
+
+template <class T>
+bool has_extreme_proportions(const Shape<T>& shape) {
+  Seen seen;
+  look_at(shape, Stretch(), seen);
+  return seen.extreme_part || seen.longest > most_along_axes<T> * seen.shortest ||
+         seen.longest > most_to_rounding * seen.least_rounding;
+}
+
+template bool has_extreme_proportions(const Shape<float>&);
+template bool has_extreme_proportions(const Shape<double>&);
+
+}  // namespace minkray

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// Two meshes made from nothing but a shape's support mapping, one within the shape and one around
+// it: a ray meets the outer mesh no later than the shape, and the shape no later than the inner
+// one.
+//
+// Inner: the hull of support points. Outer: the intersection of the half-spaces that those supports
+// bound. Polytopes come out exactly: half of the directions are
+// the facet normals of the hull that the other half made.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/geometry/convex_hull.h"
+#include "core/shape/shape.h"
+
+namespace minkray {
+
+struct Mesh {
+  std::vector<Vec3<double>> vertices;
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise from outside
+};
+
+struct SandwichOptions {
+  /// How many quasi-uniform directions to begin with.
+  int directions = 500;
+  /// How far at least the outer mesh lies outside of the shape and the inner one within, in units
+  /// of the frame: room for the rounding of whoever reads the meshes.
+  double margin = 0x1p-20;
+  /// Shapes thinner than this, relative to their size, count as flat.
+  double flatness = 0x1p-20;
+};
+
+/// The meshes are in `frame`, where the shape spans about [-1, 1] along every axis of its rank, and
+/// a ray keeps its parameter (frames are affine).
+///
+/// frame.rank 3: closed surfaces. Rank 2 (disks, triangles, flat hulls): polygons in the shape's
+/// plane, `outer` not around the shape but around it within the plane, so that both halves apply,
+/// and both give the same parameter. Rank 1 and 0 (segments, points): no surface fits in, `inner`
+/// is empty; `outer` is a box that is `margin` wide, whose misses must be misses.
+struct Sandwich {
+  RoundFrame frame;
+  Vec3<double> centre;  ///< a point well inside, in the frame
+  Mesh inner, outer;
+
+  int rank() const { return frame.rank; }
+};
+
+/// Throws std::runtime_error if Qhull fails.
+Sandwich sandwich_of(const Shape<double>& shape, const SandwichOptions& options = {});
+
+/// n directions spread evenly over the unit sphere: a Fibonacci spiral.
+std::vector<Vec3<double>> even_directions(int n);
+
+}  // namespace minkray

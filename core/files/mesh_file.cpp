@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: MIT
+#include "core/files/mesh_file.h"
+
+#include <algorithm>
+#include <bit>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+#include "core/files/regular_file.h"
+
+namespace minkray {
+namespace {
+
+using Vertices = std::vector<Vec3<double>>;
+
+/// Binary STL: a header, the number of triangles, then for each a normal, three corners, and an
+/// attribute.
+constexpr std::size_t stl_header_bytes = 80;
+constexpr std::size_t stl_triangle_bytes = 50;
+constexpr std::size_t stl_corners_offset = 12;
+
+/// More than any mesh worth a convex hull; its vertices take about twice as much memory.
+constexpr std::size_t most_bytes = std::size_t{512} << 20;
+
+/// Editors on Windows begin UTF-8 with a mark.
+std::string_view without_byte_order_mark(std::string_view text) {
+  constexpr std::string_view mark = "\xef\xbb\xbf";
+  if (text.starts_with(mark)) text.remove_prefix(mark.size());
+  return text;
+}
+
+/// Cuts the next line off the front of the text. Lines end by \n, \r\n, or as on old Macs by \r.
+std::string_view next_line(std::string_view& text) {
+  const std::string_view line = text.substr(0, text.find_first_of("\r\n"));
+  text.remove_prefix(line.size());
+  text.remove_prefix(std::min<std::size_t>(text.starts_with("\r\n") ? 2 : 1, text.size()));
+  return line;
+}
+
+/// Cuts the next word off the front of the line.
+std::string_view next_word(std::string_view& line) {
+  const std::string_view blanks = " \t";
+  line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
+  const std::string_view word = line.substr(0, line.find_first_of(blanks));
+  line.remove_prefix(word.size());
+  return word;
+}
+
+std::string place(std::size_t line_number) {
+  return "line " + std::to_string(line_number) + ": ";
+}
+
+/// Whether the whole word is a number, which may have a plus sign.
+template <class Number>
+bool read_number(std::string_view word, Number& number) {
+  if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
+  const auto [end, error] = std::from_chars(word.begin(), word.end(), number);
+  return error == std::errc() && end == word.end();
+}
+
+/// The three coordinates at the front of the line.
+Vec3<double> coordinates(std::string_view line, std::size_t line_number) {
+  Vec3<double> vertex;
+  for (double& coordinate : vertex) {
+    if (!read_number(next_word(line), coordinate) || !std::isfinite(coordinate)) {
+      throw std::runtime_error(place(line_number) + "a vertex must be three finite numbers");
+    }
+  }
+  return vertex;
+}
+
+/// The vertices that the faces of an OBJ name. They may stand below the faces: only at the end is
+/// it known which are missing.
+class ObjFaces {
+ public:
+  /// Takes the words of a face ("7", "7/1", "7//2" or "-1/2/3"), above which `count` vertices
+  /// stand.
+  void add(std::string_view line, std::size_t count, std::size_t line_number) {
+    for (;;) {
+      const std::string_view word = next_word(line);
+      if (word.empty()) return;
+      long long index = 0;
+      if (!read_number(word.substr(0, word.find('/')), index) || index == 0) {
+        throw std::runtime_error(place(line_number) +
+                                 "a face must name its vertices by whole numbers, from 1 or -1 on");
+      }
+      if (index < 0 && count < std::size_t{0} - static_cast<std::size_t>(index)) {
+        throw std::runtime_error(place(line_number) + "a face names vertex " +
+                                 std::to_string(index) + ", but there are " +
+                                 std::to_string(count) + " vertices above it");
+      }
+      if (index > largest_) {
+        largest_ = index;
+        line_of_largest_ = line_number;
+      }
+    }
+  }
+
+  /// All faces must find theirs among `count` vertices.
+  void check(std::size_t count) const {
+    if (largest_ == 0 || static_cast<std::size_t>(largest_) <= count) return;
+    throw std::runtime_error(place(line_of_largest_) + "a face names vertex " +
+                             std::to_string(largest_) + ", but the file has " +
+                             std::to_string(count) + " vertices (is it cut off?)");
+  }
+
+ private:
+  long long largest_ = 0;
+  std::size_t line_of_largest_ = 0;
+};
+
+/// The next line of an OBJ without its comment and the blanks at its end.
+std::string_view next_obj_line(std::string_view& text) {
+  std::string_view line = next_line(text);
+  line = line.substr(0, line.find('#'));
+  return line.substr(0, line.find_last_not_of(" \t") + 1);
+}
+
+Vertices vertices_of_obj(std::string_view text) {
+  Vertices vertices;
+  ObjFaces faces;
+  std::string whole_line;
+  text = without_byte_order_mark(text);
+  for (std::size_t lines_read = 0; !text.empty();) {
+    const std::size_t line_number = ++lines_read;
+    std::string_view line = next_obj_line(text);
+    const std::string_view word = next_word(line);
+    if (word != "v" && word != "f") continue;
+
+    // A backslash at its end joins the next line. Only here: the path in "mtllib C:\a\" does not.
+    whole_line = line;
+    for (; whole_line.ends_with('\\') && !text.empty(); ++lines_read) {
+      whole_line.back() = ' ';
+      whole_line += next_obj_line(text);
+    }
+    if (whole_line.ends_with('\\')) {
+      throw std::runtime_error(place(line_number) + "is cut off: no line follows its \"\\\"");
+    }
+    if (word == "v") vertices.push_back(coordinates(whole_line, line_number));
+    if (word == "f") faces.add(whole_line, vertices.size(), line_number);
+  }
+  if (!vertices.empty()) faces.check(vertices.size());
+  return vertices;
+}
+
+/// Whether the word is the keyword, which is in small letters: "VERTEX" is "vertex", too.
+bool is_keyword(std::string_view word, std::string_view keyword) {
+  return std::equal(word.begin(), word.end(), keyword.begin(), keyword.end(),
+                    [](char a, char b) { return (a | 0x20) == b; });
+}
+
+constexpr std::string_view solid = "solid";
+constexpr std::string_view endsolid = "endsolid";
+
+/// Whether the words begin with "facet normal".
+bool begins_facet(std::string_view line) {
+  return is_keyword(next_word(line), "facet") && is_keyword(next_word(line), "normal");
+}
+
+/// Whether the words begin with "endsolid" or "end solid". A zero or a Ctrl-Z may stick to it.
+bool begins_endsolid(std::string_view line) {
+  const std::string_view word = next_word(line);
+  return is_keyword(word.substr(0, endsolid.size()), endsolid) ||
+         (is_keyword(word, "end") && is_keyword(next_word(line).substr(0, solid.size()), solid));
+}
+
+/// The facets behind a solid's name on the same line, if any. A name may be any words but "facet
+/// normal", keywords and # too.
+std::string_view behind_name(std::string_view line) {
+  while (!line.empty() && !begins_facet(line)) next_word(line);
+  return line;
+}
+
+/// Of one solid or several, each from its "solid" to its "endsolid". The first line that is neither
+/// blank nor a comment must begin with "solid"; between and behind solids all but facets may stand.
+Vertices vertices_of_text_stl(std::string_view text) {
+  Vertices vertices;
+  std::size_t line_of_solid = 0;  // 0 outside of solids
+  for (std::size_t line_number = 1; !text.empty(); ++line_number) {
+    std::string_view line = next_line(text);
+    if (line_of_solid == 0) {
+      if (begins_facet(line)) {
+        throw std::runtime_error(place(line_number) +
+                                 "a facet must be between \"solid\" and \"endsolid\"");
+      }
+      // At the end of the file even "sol" begins a solid: one that is cut off.
+      const std::string_view word = next_word(line);
+      const std::size_t length = text.empty() && line.empty() ? word.size() : solid.size();
+      if (word.empty() || !is_keyword(word.substr(0, solid.size()), solid.substr(0, length)))
+        continue;
+      line_of_solid = line_number;
+      line = behind_name(line);
+    }
+    // Word by word, for some files are a single line.
+    while (line_of_solid != 0) {
+      const bool ends = begins_endsolid(line);
+      const std::string_view word = next_word(line);
+      if (word.empty() || word[0] == '#') break;
+      if (is_keyword(word, "vertex")) vertices.push_back(coordinates(line, line_number));
+      if (!ends) continue;
+      // Facets on the line of an "endsolid" are the next solid's.
+      line = behind_name(line);
+      line_of_solid = line.empty() ? 0 : line_number;
+    }
+  }
+  if (line_of_solid != 0) {
+    throw std::runtime_error("is cut off: the solid of line " + std::to_string(line_of_solid) +
+                             " has no \"endsolid\"");
+  }
+  return vertices;
+}
+
+std::uint32_t little_endian(std::string_view bytes) {
+  std::uint32_t value = 0;
+  for (std::size_t i = 4; i-- > 0;) value = value << 8 | static_cast<unsigned char>(bytes[i]);
+  return value;
+}
+
+/// Whether an STL is text. Not whether it begins with "solid": binary files do so, too. But the
+/// highest byte of their number of triangles is zero, for larger ones are not read, and text with
+/// a facet has no zero that early.
+bool is_text_stl(std::string_view bytes) {
+  constexpr std::size_t highest_byte = stl_header_bytes + 3;
+  if (bytes.size() > highest_byte && bytes[highest_byte] == '\0') return false;
+  static_assert(most_bytes / stl_triangle_bytes < std::size_t{1} << 24);
+  for (std::string_view text = without_byte_order_mark(bytes); !text.empty();) {
+    std::string_view line = next_line(text);
+    const std::string_view word = next_word(line);
+    if (!word.empty() && word[0] != '#') return is_keyword(word.substr(0, solid.size()), solid);
+  }
+  return false;
+}
+
+Vertices vertices_of_binary_stl(std::string_view bytes) {
+  constexpr std::size_t least_bytes = stl_header_bytes + 4;
+  const std::string got = " (got " + std::to_string(bytes.size());
+  const std::size_t triangles =
+      bytes.size() < least_bytes ? 0 : little_endian(bytes.substr(stl_header_bytes));
+  if (bytes.size() < least_bytes || triangles > most_bytes / stl_triangle_bytes) {
+    throw std::runtime_error("must begin with \"solid\", or be a binary STL of at least " +
+                             std::to_string(least_bytes) + " bytes" + got +
+                             (triangles == 0 ? ")" : ", for triangles without number)"));
+  }
+  const std::size_t expected = least_bytes + stl_triangle_bytes * triangles;
+  if (bytes.size() < expected) {
+    throw std::runtime_error("a binary STL of " + std::to_string(triangles) +
+                             " triangles must have at least " + std::to_string(expected) +
+                             " bytes" + got + ")");
+  }
+  // Some programs fill up the file behind the triangles.
+  Vertices vertices;
+  for (std::size_t triangle = least_bytes; triangle < expected; triangle += stl_triangle_bytes) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      Vec3<double> corner;
+      for (int axis = 0; axis < 3; ++axis) {
+        const std::size_t offset =
+            triangle + stl_corners_offset + 12 * i + 4 * static_cast<std::size_t>(axis);
+        corner[axis] = std::bit_cast<float>(little_endian(bytes.substr(offset)));
+      }
+      if (!corner.allFinite()) {
+        throw std::runtime_error("triangle " + std::to_string(vertices.size() / 3 + 1) +
+                                 ": a vertex must be three finite numbers");
+      }
+      vertices.push_back(corner);
+    }
+  }
+  return vertices;
+}
+
+}  // namespace
+
+Vertices read_mesh_vertices(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (extension != ".obj" && extension != ".stl") {
+    throw std::runtime_error("must be a mesh file that ends in .obj or .stl");
+  }
+  return mesh_vertices(read_regular_file(path, most_bytes),
+                       extension == ".obj" ? MeshFormat::obj : MeshFormat::stl);
+}
+
+Vertices mesh_vertices(std::string_view contents, MeshFormat format) {
+  Vertices vertices = format == MeshFormat::obj ? vertices_of_obj(contents)
+                      : is_text_stl(contents)
+                          ? vertices_of_text_stl(without_byte_order_mark(contents))
+                          : vertices_of_binary_stl(contents);
+  if (vertices.empty()) throw std::runtime_error("has no vertices");
+  return vertices;
+}
+
+}  // namespace minkray

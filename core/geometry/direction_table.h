@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// Which of a polytope's vertices can be its support point, by direction: a cube map whose cells
+// list the vertices with a normal cone that meets the cell. A query reads one short list instead of
+// all vertices; unlike hill climbing it has no steps that wait for each other, cannot stall where
+// rounding has left the polytope dented, and needs no vertex adjacency.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/geometry/convex_hull.h"
+#include "core/geometry/cube_map.h"
+#include "core/math/vec.h"
+
+namespace minkray {
+
+class DirectionTable {
+ public:
+  /// Of a hull of rank 2 or 3; `vertices` are its vertices in order.
+  DirectionTable(const ConvexHull& hull, std::span<const Vec3<double>> vertices);
+
+  /// The index of the cell of n: a whole number. NaN gets some cell.
+  template <class W>
+  W cell_of(const Vec3<W>& n) const {
+    return directions_.cell_of(times<W>(Mat3<Lane<W>>(to_frame_.template cast<Lane<W>>()), n));
+  }
+
+  /// Indices of vertices, never empty, with one among them that maximises n.x for all directions n
+  /// of the cell.
+  std::span<const std::uint32_t> candidates(std::size_t cell) const {
+    return {lists_.data() + begin_[cell], lists_.data() + begin_[cell + 1]};
+  }
+
+  std::size_t memory_bytes() const {
+    return (begin_.capacity() + lists_.capacity()) * sizeof(std::uint32_t);
+  }
+  std::size_t cells() const { return begin_.size() - 1; }
+
+ private:
+  /// Of directions, to the hull's round frame, where the vertices' normal cones are of similar size
+  /// even if the hull is a needle: n.p = m.q + constant for m = extents * axes^T n.
+  Mat3<double> to_frame_;
+  CubeMap directions_;
+  std::vector<std::uint32_t> begin_;  ///< per cell, where its list begins in lists_
+  std::vector<std::uint32_t> lists_;
+};
+
+}  // namespace minkray

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+// The triangles of a polytope's surface and how they hang together, so that a line's way through
+// the polytope can be found by walking from triangle to triangle.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "core/geometry/convex_hull.h"
+#include "core/geometry/cube_map.h"
+#include "core/math/gather_rows.h"
+
+namespace minkray {
+
+/// Polygons are cut into fans of triangles. All that a step of a walk needs lies together, as
+/// numbers that packets of rays read a row at a time.
+template <class T>
+class FacetMesh {
+ public:
+  class Facet {
+   public:
+    /// Where the numbers begin: of three corners, three neighbours, the normal, and a 1 where the
+    /// facet is supported.
+    static constexpr std::size_t corners = 0, neighbours = 9, normals = 12, supported = 15;
+    static constexpr std::size_t size = 16;
+
+    Facet() = default;
+    explicit Facet(const std::array<Vec3<T>, 3>& counter_clockwise);
+
+    /// Counter-clockwise from outside.
+    Vec3<T> corner(std::size_t k) const { return vector_at(corners + 3 * k); }
+    /// Outward, of unit length; zero of a triangle without area.
+    Vec3<T> normal() const { return vector_at(normals); }
+    /// The facet beyond the edge from corner k to k + 1.
+    std::size_t neighbour(std::size_t k) const {
+      return static_cast<std::size_t>(numbers_[neighbours + k]);
+    }
+    /// No vertex of the hull reaches further along the normal than corner 0, nor do the other
+    /// corners reach less but for rounding, and the facet is thick enough for rounding to tell
+    /// whether a line passes through it.
+    bool is_supported() const { return numbers_[supported] != T(0); }
+
+    /// Rounded to U; whether it is supported is not known then. Where U is more precise, the normal
+    /// is found again, since this one is rounded to T.
+    template <class U>
+    typename FacetMesh<U>::Facet cast() const {
+      typename FacetMesh<U>::Facet converted;
+      std::transform(numbers_.begin(), numbers_.end(), converted.numbers_.begin(),
+                     [](T x) { return static_cast<U>(x); });
+      converted.numbers_[supported] = U(0);
+      if constexpr (std::numeric_limits<U>::digits > std::numeric_limits<T>::digits)
+        converted.find_normal();
+      return converted;
+    }
+
+   private:
+    template <class U>
+    friend class FacetMesh;
+    Vec3<T> vector_at(std::size_t i) const {
+      return {numbers_[i], numbers_[i + 1], numbers_[i + 2]};
+    }
+    /// By way of the shorter edges, whose rounding is least.
+    void find_normal();
+    /// The least height of the triangle.
+    T thickness() const;
+    /// Corner k becomes corner 0.
+    void turn(std::size_t k);
+
+    alignas(4 * sizeof(T)) std::array<T, size> numbers_ = {};
+  };
+
+  /// Of a hull of rank 3; `vertices` are its vertices in order.
+  FacetMesh(const ConvexHull& hull, std::span<const Vec3<double>> vertices);
+
+  template <class U>
+  FacetMesh<U> cast() const {
+    FacetMesh<U> converted;
+    converted.facets_.reserve(facets_.size());
+    for (const Facet& facet : facets_) converted.facets_.push_back(facet.template cast<U>());
+    converted.directions_ = directions_;
+    converted.facing_ = facing_;
+    return converted;
+  }
+
+  /// Finds out which facets are supported, and by which corner: furthest(n) is the hull's support
+  /// point in direction n.
+  template <class Furthest>
+  void find_supported(Furthest&& furthest) {
+    T largest(0);
+    for (const Facet& facet : facets_)
+      for (std::size_t k = 0; k < 3; ++k)
+        largest = std::max(largest, facet.corner(k).cwiseAbs().maxCoeff());
+    for (Facet& facet : facets_) {
+      const Vec3<T> normal = facet.normal();
+      const auto reach = [&](std::size_t k) { return normal.dot(facet.corner(k)); };
+      facet.turn(reach(1) > reach(0) ? (reach(2) > reach(1) ? 2 : 1)
+                                     : (reach(2) > reach(0) ? 2 : 0));
+      const bool fits = reach(0) - std::min(reach(1), reach(2)) <= uneven * largest;
+      const bool supported =
+          fits && facet.thickness() > thin * largest && reach(0) >= normal.dot(furthest(normal));
+      facet.numbers_[Facet::supported] = supported ? T(1) : T(0);
+    }
+  }
+
+  const Facet& operator[](std::size_t i) const { return facets_[i]; }
+  std::size_t size() const { return facets_.size(); }
+
+  /// The index of a facet whose normal is near the direction n, of any length. NaN gets some facet.
+  template <class W>
+  W facing(const Vec3<W>& n) const {
+    return lookup<W>(directions_.cell_of(n),
+                     [&](std::size_t cell) { return static_cast<T>(facing_[cell]); });
+  }
+
+  /// `count` numbers of each lane's facet, beginning with number `first`.
+  template <std::size_t first, std::size_t count, class W>
+  std::array<W, count> numbers(const W& facet) const {
+    static_assert(sizeof(Facet) == Facet::size * sizeof(T));
+    return gather_row<count>(facet, facets_.front().numbers_.data() + first, Facet::size);
+  }
+
+  std::size_t memory_bytes() const {
+    return facets_.capacity() * sizeof(Facet) + facing_.capacity() * sizeof(std::uint32_t);
+  }
+
+ private:
+  template <class U>
+  friend class FacetMesh;
+  FacetMesh() = default;
+
+  /// Of the largest coordinate: a few roundings of a reach, and many of a corner's place as a ray
+  /// sees it.
+  static constexpr T uneven = 16 * std::numeric_limits<T>::epsilon();
+  static constexpr T thin = 64 * std::numeric_limits<T>::epsilon();
+
+  void link_neighbours(std::span<const std::array<std::uint32_t, 3>> corners);
+  void fill_cube_map();
+
+  std::vector<Facet> facets_;
+  CubeMap directions_{1};
+  std::vector<std::uint32_t> facing_;  ///< by the direction's cell
+};
+
+extern template class FacetMesh<float>;
+extern template class FacetMesh<double>;
+extern template class FacetMesh<long double>;
+
+}  // namespace minkray

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// The ray cast seen as clipping, after van den Bergen's later account of casting a ray on the
+// configuration space obstacle: conservative advancement by supporting planes (Mirtich and Canny,
+// 1995). Every support point p along n tells what part of the ray cannot hold the hit spot:
+//   1. n.r < 0: nothing before lambda_clip, a lower bound;
+//   2. n.r > 0: nothing after lambda_clip, an upper bound; below the lower bound the ray is
+//   rejected;
+//   3. n.r = 0: nothing is clipped, or all of it if the ray runs in front of the plane.
+// Any solver's iterations can be read so, whatever it makes of them itself.
+#pragma once
+
+#include <limits>
+
+#include "core/query/ray_near_ball.h"
+
+namespace minkray {
+
+enum class ClipCase : unsigned char { lower_bound = 1, upper_bound = 2, parallel = 3 };
+
+template <class T>
+struct Clip {
+  ClipCase which;
+  T lambda;      ///< lambda_clip; NaN in case 3
+  bool rejects;  ///< no part of the ray is left
+};
+
+/// What is left of a ray. Numbers are RayNearBall's: lengths from the closest approach.
+template <class T>
+class ClippedRay {
+ public:
+  explicit ClippedRay(const RayNearBall<T>& ray)
+      : s_(ray.s), r_(ray.r), lower_(ray.lambda_min), upper_(ray.lambda_max) {}
+
+  /// The hit spot, if there is one, lies between the two.
+  T lower() const { return lower_; }
+  T upper() const { return upper_; }
+
+  /// Clips by the plane with normal n (of any length) through the support point p along n, which is
+  /// relative to the ball's centre.
+  Clip<T> clip(const Vec3<T>& n, const Vec3<T>& p) {
+    const T n_r = n.dot(r_), to_plane = n.dot(p - s_);
+    if (n_r < T(0)) {
+      const T lambda = to_plane / n_r;
+      if (lambda > lower_) lower_ = lambda;
+      return {ClipCase::lower_bound, lambda, lower_ > upper_};
+    }
+    if (n_r > T(0)) {
+      const T lambda = to_plane / n_r;
+      if (lambda < upper_) upper_ = lambda;
+      return {ClipCase::upper_bound, lambda, lower_ > upper_};
+    }
+    return {ClipCase::parallel, std::numeric_limits<T>::quiet_NaN(), to_plane < T(0)};
+  }
+
+ private:
+  Vec3<T> s_, r_;
+  T lower_, upper_;
+};
+
+}  // namespace minkray

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+// The point of a simplex closest to the origin, and the vertices that carry it: what Johnson's
+// distance subalgorithm answers, computed by projections instead of determinants, which stay
+// accurate for the small and sliver-like simplices near the end of a cast.
+#pragma once
+
+#include <array>
+#include <utility>
+
+#include "core/math/vec.h"
+#include "core/query/tolerances.h"
+
+namespace minkray {
+
+/// At most four vertices, in configuration space.
+template <class T>
+struct SimplexPoints {
+  std::array<Vec3<T>, 4> y;
+  int size = 0;
+};
+
+template <class T>
+struct ClosestPoint {
+  Vec3<T> v = Vec3<T>::Zero();    ///< the simplex' point closest to the origin
+  std::array<T, 4> weights = {};  ///< barycentric: v = sum of weights[i] * y[i]
+  unsigned kept = 0;              ///< bit i: vertex i is needed to carry v
+};
+
+namespace detail {
+
+template <class T>
+void keep_closer(ClosestPoint<T>& best, T& best_squared, const ClosestPoint<T>& candidate) {
+  const T squared = candidate.v.squaredNorm();
+  if (!(squared < best_squared)) return;
+  best = candidate;
+  best_squared = squared;
+}
+
+template <class T>
+ClosestPoint<T> closest_on_vertex(const SimplexPoints<T>& simplex, int i) {
+  ClosestPoint<T> result;
+  const auto a = static_cast<std::size_t>(i);
+  result.v = simplex.y[a];
+  result.weights[a] = T(1);
+  result.kept = 1u << i;
+  return result;
+}
+
+template <class T>
+ClosestPoint<T> closest_on_edge(const SimplexPoints<T>& simplex, int i, int j) {
+  const auto ia = static_cast<std::size_t>(i), ib = static_cast<std::size_t>(j);
+  const Vec3<T>&a = simplex.y[ia], &b = simplex.y[ib];
+  const Vec3<T> edge = b - a;
+  const T squared = edge.squaredNorm();
+  const T towards_b = -a.dot(edge), towards_a = b.dot(edge);
+  if (!(towards_b > T(0)) || !(squared > T(0))) return closest_on_vertex(simplex, i);
+  if (!(towards_a > T(0))) return closest_on_vertex(simplex, j);
+  ClosestPoint<T> result;
+  result.weights[ib] = towards_b / squared;
+  result.weights[ia] = towards_a / squared;
+  // From the nearer end, so that the product that is rounded is the smaller one.
+  result.v = towards_b < towards_a ? Vec3<T>(a + result.weights[ib] * edge)
+                                   : Vec3<T>(b - result.weights[ia] * edge);
+  // Square to the edge once more: where v is short its direction is rounding's, and a support
+  // mapping asked along it would answer with a vertex that is already here.
+  result.v -= (result.v.dot(edge) / squared) * edge;
+  result.kept = (1u << i) | (1u << j);
+  return result;
+}
+
+/// A normal of face abc, from its two shorter edges: the differences of neighbouring vertices are
+/// exact, and their product has lost no digits to cancellation.
+template <class T>
+Vec3<T> face_normal(const Vec3<T>& a, const Vec3<T>& b, const Vec3<T>& c) {
+  const Vec3<T> ab = b - a, bc = c - b, ca = a - c;
+  const T ab2 = ab.squaredNorm(), bc2 = bc.squaredNorm(), ca2 = ca.squaredNorm();
+  if (ab2 >= bc2 && ab2 >= ca2) return bc.cross(ca);
+  return bc2 >= ca2 ? ca.cross(ab) : ab.cross(bc);
+}
+
+/// Whichever of a, b and c is nearest to a point.
+template <class T>
+const Vec3<T>& nearest_of(const Vec3<T>& a, const Vec3<T>& b, const Vec3<T>& c,
+                          const Vec3<T>& point) {
+  const T to_a = (a - point).squaredNorm(), to_b = (b - point).squaredNorm(),
+          to_c = (c - point).squaredNorm();
+  return to_a <= to_b && to_a <= to_c ? a : (to_b <= to_c ? b : c);
+}
+
+/// The weights by Gram-Schmidt along the longest edge first: the triangles at the end of a cast on
+/// a cone or a cylinder are slivers, whose determinants have lost the digits that this order keeps.
+template <class T>
+ClosestPoint<T> closest_on_face(const SimplexPoints<T>& simplex, int i, int j, int k) {
+  // P and Q end the longest edge, P on the side of the shortest; S is the third vertex.
+  const auto y = [&](int index) -> const Vec3<T>& {
+    return simplex.y[static_cast<std::size_t>(index)];
+  };
+  const auto length = [&](int a, int b) { return (y(b) - y(a)).squaredNorm(); };
+  int P = i, Q = j, S = k;
+  if (length(j, k) > length(P, Q)) P = j, Q = k, S = i;
+  if (length(k, i) > length(P, Q)) P = k, Q = i, S = j;
+  if (length(Q, S) < length(P, S)) std::swap(P, Q);
+
+  const Vec3<T> e = y(Q) - y(P), f = y(S) - y(P);
+  const T e_squared = e.squaredNorm();
+  if (e_squared > T(0)) {
+    const T f_along_e = f.dot(e) / e_squared, origin_along_e = -y(P).dot(e) / e_squared;
+    const Vec3<T> across = f - f_along_e * e, from_origin = y(P) + origin_along_e * e;
+    const T across_squared = across.squaredNorm();
+    const T weight_S = -from_origin.dot(across) / across_squared;
+    const T weight_Q = origin_along_e - weight_S * f_along_e;
+    const T weight_P = T(1) - weight_Q - weight_S;
+    // Of vertices in a line, what is across is rounding's: the edges will do.
+    const Vec3<T> zero = Vec3<T>::Zero(), normal = face_normal(y(P), y(Q), y(S));
+    const bool is_flat =
+        !(normal.squaredNorm() >
+          tolerance::collinear<T> * tolerance::collinear<T> * e_squared * f.squaredNorm());
+    if (!is_flat && weight_P > T(0) && weight_Q > T(0) && weight_S > T(0)) {
+      ClosestPoint<T> result;
+      // Along the plane's normal, so that v keeps its direction however short it is.
+      const T height = normal.dot(nearest_of(y(P), y(Q), y(S), zero));
+      result.v = normal * (height / normal.squaredNorm());
+      result.weights[static_cast<std::size_t>(P)] = weight_P;
+      result.weights[static_cast<std::size_t>(Q)] = weight_Q;
+      result.weights[static_cast<std::size_t>(S)] = weight_S;
+      result.kept = (1u << i) | (1u << j) | (1u << k);
+      return result;
+    }
+  }
+  ClosestPoint<T> best = closest_on_edge(simplex, P, Q);
+  T best_squared = best.v.squaredNorm();
+  keep_closer(best, best_squared, closest_on_edge(simplex, Q, S));
+  keep_closer(best, best_squared, closest_on_edge(simplex, S, P));
+  return best;
+}
+
+/// The origin lies on the far side of face ijk from vertex l, or the tetrahedron is too flat to
+/// tell.
+template <class T>
+bool beyond_face(const SimplexPoints<T>& simplex, int i, int j, int k, int l) {
+  const auto y = [&](int index) -> const Vec3<T>& {
+    return simplex.y[static_cast<std::size_t>(index)];
+  };
+  const Vec3<T> normal = face_normal(y(i), y(j), y(k));
+  const Vec3<T> zero = Vec3<T>::Zero();
+  const T height_of_vertex = normal.dot(y(l) - nearest_of(y(i), y(j), y(k), y(l)));
+  const T height_of_origin = -normal.dot(nearest_of(y(i), y(j), y(k), zero));
+  // A height within the rounding of its vertex has no sign: the four points are in one plane (the
+  // support of an octahedron's face is its middle, say) and enclose nothing.
+  const T size = std::max({y(i).cwiseAbs().maxCoeff(), y(j).cwiseAbs().maxCoeff(),
+                           y(k).cwiseAbs().maxCoeff(), y(l).cwiseAbs().maxCoeff()});
+  const T rounding = tolerance::flat_simplex<T> * size * normal.norm();
+  return !(std::abs(height_of_vertex) > rounding) || !(height_of_vertex * height_of_origin > T(0));
+}
+
+template <class T>
+ClosestPoint<T> closest_on_tetrahedron(const SimplexPoints<T>& simplex) {
+  ClosestPoint<T> best;
+  T best_squared = std::numeric_limits<T>::infinity();
+  if (beyond_face(simplex, 0, 1, 2, 3))
+    keep_closer(best, best_squared, closest_on_face(simplex, 0, 1, 2));
+  if (beyond_face(simplex, 0, 2, 3, 1))
+    keep_closer(best, best_squared, closest_on_face(simplex, 0, 2, 3));
+  if (beyond_face(simplex, 0, 3, 1, 2))
+    keep_closer(best, best_squared, closest_on_face(simplex, 0, 3, 1));
+  if (beyond_face(simplex, 1, 2, 3, 0))
+    keep_closer(best, best_squared, closest_on_face(simplex, 1, 2, 3));
+  if (best.kept != 0) return best;
+
+  // Inside all four faces: the tetrahedron holds the origin.
+  const auto volume = [&](const Vec3<T>& a, const Vec3<T>& b, const Vec3<T>& c) {
+    return std::abs(a.dot(b.cross(c)));
+  };
+  const auto& y = simplex.y;
+  best.weights = {volume(y[1], y[2], y[3]), volume(y[0], y[2], y[3]), volume(y[0], y[1], y[3]),
+                  volume(y[0], y[1], y[2])};
+  const T sum = best.weights[0] + best.weights[1] + best.weights[2] + best.weights[3];
+  for (T& weight : best.weights) weight = sum > T(0) ? weight / sum : T(0.25);
+  best.kept = 0b1111;
+  return best;
+}
+
+}  // namespace detail
+
+/// The point of conv(y) closest to the origin and the smallest set of vertices that carries it.
+template <class T>
+ClosestPoint<T> closest_point(const SimplexPoints<T>& simplex) {
+  switch (simplex.size) {
+    case 1:
+      return detail::closest_on_vertex(simplex, 0);
+    case 2:
+      return detail::closest_on_edge(simplex, 0, 1);
+    case 3:
+      return detail::closest_on_face(simplex, 0, 1, 2);
+    default:
+      return detail::closest_on_tetrahedron(simplex);
+  }
+}
+
+}  // namespace minkray

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+// The "first solution" for casting a ray: Algorithm 1 of van den Bergen (2004), section 2. The ray
+// is clipped by the supporting plane at the object's point closest to x, again and again, and the
+// closest point is found by a GJK distance query nested in the loop: slow, and a reference for the
+// others.
+//
+// The paper's letters: c is the point of the object closest to x, n = x - c a normal at c.
+// Everything is relative to the centre of the shape's bounding ball, lambda counts from the closest
+// approach.
+#pragma once
+
+#include "core/gjk/gjk_distance.h"
+#include "core/math/bounds.h"
+#include "core/query/miss_plane.h"
+#include "core/query/observer.h"
+#include "core/query/ray_near_ball.h"
+#include "core/query/result.h"
+#include "core/query/tolerances.h"
+#include "core/shape/support_mapped.h"
+
+namespace minkray {
+
+/// The least parameter at which the ray lies in the shape, as gjk_ray_cast finds it. `iterations`
+/// counts the paper's, `supports` all that the nested queries made; so does `max_supports`.
+template <class T, class S, class Observer = NoObserver>
+requires SupportMapped<S, T> CastResult<T> first_solution(
+    const S& shape, const RayNearBall<T>& near, const Ball<T>& ball,
+    int max_supports = tolerance::first_solution_max_supports, Observer&& observer = {}) {
+  CastResult<T> result;
+  const Vec3<T>&s = near.s, &r = near.r;
+  result.t_base = near.t_base;
+  const auto miss = [&](const Vec3<T>& axis) {
+    result.status = Status::miss;
+    result.normal = unit(axis);
+    return result;
+  };
+
+  // The bounding ball, as in gjk_ray_cast.
+  const T nearest = std::clamp(T(0), near.lambda_min, near.lambda_max);
+  const Vec3<T> to_ray = s + nearest * r;
+  if (to_ray.norm() > ball.radius * (T(1) + tolerance::ball_padding<T>)) return miss(to_ray);
+  const T depth = std::sqrt(std::max(ball.radius * ball.radius - s.squaredNorm(), T(0)));
+  const bool from_origin = near.lambda_min >= -depth;
+  T lambda = std::max(near.lambda_min, -depth);
+  Vec3<T> n = Vec3<T>::Zero();
+  bool has_advanced = false;
+
+  const auto supports = [&](const Vec3<T>& v) {
+    return SupportPair<T, 3>{shape.support(v) - ball.centre, Vec3<T>::Zero()};
+  };
+  const auto finish = [&] {
+    result.t_offset = result.offset_lo = near.t_offset(lambda);
+    if (from_origin && !has_advanced) {
+      result.status = Status::inside;
+      result.offset_hi = result.t_offset;
+      return result;
+    }
+    result.status = Status::hit;
+    result.normal = unit(has_advanced ? n : Vec3<T>(s + lambda * r));
+    return result;
+  };
+
+  while (result.supports < max_supports) {
+    ++result.iterations;
+    const Vec3<T> x = s + lambda * r;
+    DistanceOptions<T, 3> nested;
+    nested.v0 = n;
+    const DistanceResult<T, 3> closest = gjk_distance<T, 3>(supports, x, ball.radius, nested);
+    result.supports += closest.supports;
+    const Vec3<T>& c = closest.point_a;
+    // x is close enough to c; this includes x inside, at the beginning.
+    const bool is_close = closest.status == DistanceStatus::overlapping ||
+                          closest.distance <= tolerance::gjk_rounding<T> * ball.radius;
+    // The nested query's best plane in place of |n|^2: it is never beyond the object.
+    const Vec3<T> axis = closest.axis;
+    observer(CastIteration<T>{lambda, x, axis, c, x - c, {}});
+    if (is_close) return finish();
+    if (!(closest.lower > T(0))) {
+      if (closest.distance <= tolerance::gjk_stalled<T> * ball.radius) return finish();
+      break;
+    }
+    const T axis_r = axis.dot(r);
+    const T clipped = lambda - closest.lower / axis_r;
+    if (!(axis_r < T(0))) {
+      // Behind x the plane that clipped last keeps off, or the ball's, where the cast began.
+      if (from_origin && !has_advanced) return miss(axis);
+      return miss(joined_plane(axis, has_advanced ? n : x, r));
+    }
+    if (clipped > near.lambda_max) return miss(axis);
+    // No advance that lambda can tell: as close as rounding lets it come.
+    if (!(clipped > lambda)) return finish();
+    lambda = clipped;
+    n = axis;
+    has_advanced = true;
+  }
+  result.t_offset = result.offset_lo = near.t_offset(lambda);
+  result.normal = unit(n);
+  return result;
+}
+
+}  // namespace minkray

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+// The GJK distance algorithm: Algorithm 2 of van den Bergen (2004), section 3, in 2D and 3D.
+//
+// The paper's letters: v is the point closest to the origin of a simplex in the configuration space
+// obstacle, w the support point s(-v), Y the simplex with w, W the smallest part of Y that carries
+// v. The obstacle is written C = {x} - (A - B) here, so that the same loop answers for two objects
+// whose centres are x apart and, with B a point, for the closest point of an object to x.
+#pragma once
+
+#include <array>
+#include <type_traits>
+
+#include "core/gjk/projection.h"
+#include "core/query/distance_result.h"
+#include "core/query/observer.h"
+#include "core/query/tolerances.h"
+
+namespace minkray {
+
+/// A support point of A along v and one of B along -v.
+template <class T, int Dim>
+struct SupportPair {
+  Vec<T, Dim> a, b;
+};
+
+template <class T, int Dim>
+struct DistanceOptions {
+  /// Relative; see tolerance::distance_gap.
+  T gap = tolerance::distance_gap<T>;
+  int max_iterations = tolerance::distance_max_iterations;
+  /// A direction from A to B to begin with, such as the previous frame's axis; zero for none.
+  Vec<T, Dim> v0 = Vec<T, Dim>::Zero();
+  /// Only whether the two are separated: ends at the first plane between them, and the distance is
+  /// then just a lower bound (the paper's "separating-axis variant").
+  bool only_separation = false;
+};
+
+/// `supports(v)` gives SupportPair<T, Dim>, A and B each about its own centre; x leads from A's
+/// centre to B's; `radius` bounds |a - b|. The answer's points are relative to A's centre.
+template <class T, int Dim, class Supports, class G = ProjectionSubalgorithm<T, Dim>,
+          class Observer = NoObserver>
+DistanceResult<T, Dim> gjk_distance(const Supports& supports, const Vec<T, Dim>& x, T radius,
+                                    const DistanceOptions<T, Dim>& options = {}, G Y = {},
+                                    Observer&& observer = {}) {
+  using Point = Vec<T, Dim>;
+  DistanceResult<T, Dim> result;
+  std::array<SupportPair<T, Dim>, G::slots> pairs;
+  SubalgorithmAnswer<T, Dim> closest;
+  T v_squared = std::numeric_limits<T>::infinity();
+  T gap = std::numeric_limits<T>::infinity();
+
+  Point v = options.v0;
+  if (!(v.squaredNorm() > T(0))) v = x;
+  if (!(v.squaredNorm() > T(0))) v = Point::UnitX();
+  Y.begin(x);
+
+  const auto finish = [&](DistanceStatus status) {
+    result.status = status;
+    // Divided by their sum: on a short edge the weights are rounded as coarsely as it is short,
+    // which moves a point along the edge but must not move it off.
+    T sum = T(0);
+    for (const T weight : closest.weights) sum += weight;
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      if (!(closest.kept & (1u << i))) continue;
+      result.point_a += closest.weights[i] / sum * pairs[i].a;
+      result.point_b += closest.weights[i] / sum * pairs[i].b;
+    }
+    result.point_b += x;
+    if (status == DistanceStatus::overlapping) {
+      result.lower = T(0);
+      result.axis.setZero();
+      return result;
+    }
+    result.distance = closest.v.norm();
+    result.lower = std::min(result.lower, result.distance);
+    result.certificate = std::max(gap, T(0));
+    return result;
+  };
+  // Rounding has the last word: w brought nothing new.
+  const auto stalled = [&] {
+    if (result.lower > tolerance::gjk_rounding<T> * radius)
+      return finish(DistanceStatus::separated);
+    const bool touches = !(std::sqrt(v_squared) > tolerance::gjk_stalled<T> * radius);
+    return finish(touches ? DistanceStatus::overlapping : DistanceStatus::exhausted);
+  };
+
+  while (result.iterations < options.max_iterations) {
+    ++result.iterations;
+    ++result.supports;
+    const SupportPair<T, Dim> pair = supports(v);
+    const Point p = pair.a - pair.b;
+    const Point w = x - p;
+    const Point v_asked = v;
+    const T v_w = v.dot(w), v_norm = v.norm();
+    if (const T bound = v_w / v_norm; bound > result.lower) {
+      result.lower = bound;
+      result.axis = v / v_norm;
+    }
+    if (options.only_separation && v_w > T(0)) {
+      result.status = DistanceStatus::separated;
+      result.distance = std::numeric_limits<T>::infinity();
+      return result;
+    }
+
+    // v is close enough to v(A - B). The first v need not be in the obstacle: no test.
+    const unsigned before = Y.used();
+    bool is_close_enough = false;
+    if (before != 0) {
+      gap = v_squared - v_w;
+      is_close_enough = gap <= options.gap * v_norm * (v_norm + radius);
+    }
+    const bool repeated = Y.holds(p);
+    int slot = -1;
+    if (!is_close_enough && !repeated) {
+      slot = Y.add(p);
+      pairs[static_cast<std::size_t>(slot)] = pair;
+      const SubalgorithmAnswer<T, Dim> answer = Y.closest();
+      if (!answer.proper) ++result.backups;
+      const T squared = answer.v.squaredNorm();
+      if (squared < v_squared) {
+        closest = answer;
+        v_squared = squared;
+        v = answer.v;
+        Y.keep(answer.kept);
+      } else {
+        slot = -1;  // No progress; the former answer's vertices are still in their slots.
+      }
+    }
+
+    if constexpr (!std::is_same_v<std::remove_cvref_t<Observer>, NoObserver>) {
+      std::array<Point, G::slots> was, is;
+      std::size_t n_was = 0, n_is = 0;
+      for (int i = 0; i < G::slots; ++i) {
+        const Point y = x - Y.p(i);
+        if (before & (1u << i)) was[n_was++] = y;
+        if (closest.kept & (1u << i)) is[n_is++] = y;
+      }
+      observer(DistanceIteration<T, Dim>{v_asked, w, v, result.lower, v.norm(),
+                                         std::span<const Point>(was.data(), n_was),
+                                         std::span<const Point>(is.data(), n_is)});
+    }
+
+    if (is_close_enough || slot < 0) return stalled();
+    if (Y.full() || std::sqrt(v_squared) <= tolerance::gjk_rounding<T> * radius)
+      return finish(DistanceStatus::overlapping);
+  }
+  return finish(DistanceStatus::exhausted);
+}
+
+}  // namespace minkray

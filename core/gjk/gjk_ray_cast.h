@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+// The GJK ray cast: Algorithm 3 of Gino van den Bergen, "Ray Casting against General Convex
+// Objects with Application to Continuous Collision Detection" (2004), section 4.
+//
+// The paper's letters: the ray is x = s + lambda r; p is a support point, w = x - p; P the support
+// points of the current simplex, Y = x - P; v is the simplex' point closest to the origin and the
+// direction of the next support; n is the last v that moved lambda. Everything is relative to the
+// centre of the shape's bounding ball, and lambda is a length counted from s, the ray's closest
+// approach to that centre.
+#pragma once
+
+#include <array>
+#include <span>
+#include <type_traits>
+
+#include "core/gjk/projection.h"
+#include "core/math/bounds.h"
+#include "core/query/miss_plane.h"
+#include "core/query/observer.h"
+#include "core/query/ray_near_ball.h"
+#include "core/query/result.h"
+#include "core/query/tolerances.h"
+#include "core/shape/support_mapped.h"
+
+namespace minkray {
+
+template <class T>
+struct GjkCastOptions {
+  /// Relative to max|x - p|^2; see tolerance::gjk_squared. At least the square of the machine
+  /// epsilon: below that the loop can only end by stalling.
+  T eps_tol = tolerance::gjk_squared<T>;
+  int max_iterations = tolerance::gjk_max_iterations;
+  /// A direction to begin with, such as the separating axis of the previous frame; zero for none.
+  Vec3<T> v0 = Vec3<T>::Zero();
+};
+
+namespace detail {
+
+/// Shows an iteration, with the support points that the simplex kept.
+template <class T, class Observer, class G>
+void observe(Observer& observer, const G& Y, CastIteration<T> iteration) {
+  if constexpr (!std::is_same_v<Observer, NoObserver> &&
+                !std::is_same_v<Observer, const NoObserver>) {
+    std::array<Vec3<T>, G::slots> P;
+    std::size_t size = 0;
+    for (int i = 0; i < G::slots; ++i)
+      if (Y.uses(i)) P[size++] = Y.p(i);
+    iteration.simplex = std::span<const Vec3<T>>(P.data(), size);
+    observer(iteration);
+  }
+}
+
+}  // namespace detail
+
+/// The least parameter at which the ray lies in the shape. `ball` must hold the shape, and the ray
+/// be given relative to the ball's centre. Inside: the parameter is that of the ray's beginning.
+/// `Y` is the distance subalgorithm (subalgorithm.h), which also keeps the simplex.
+template <class T, class S, class Observer = NoObserver, class G = ProjectionSubalgorithm<T, 3>>
+requires SupportMapped<S, T> CastResult<T> gjk_ray_cast(const S& shape, const RayNearBall<T>& near,
+                                                        const Ball<T>& ball,
+                                                        const GjkCastOptions<T>& options = {},
+                                                        Observer&& observer = {}, G Y = {}) {
+  CastResult<T> result;
+  const Vec3<T>&s = near.s, &r = near.r;
+  result.t_base = near.t_base;
+  const auto miss = [&](const Vec3<T>& axis) {
+    result.status = Status::miss;
+    result.normal = unit(axis);
+    return result;
+  };
+
+  // The bounding ball: its nearest point of the ray may separate; else the cast may begin at the
+  // ball's surface.
+  const T nearest = std::clamp(T(0), near.lambda_min, near.lambda_max);
+  const Vec3<T> to_ray = s + nearest * r;
+  if (to_ray.norm() > ball.radius * (T(1) + tolerance::ball_padding<T>)) return miss(to_ray);
+  const T depth = std::sqrt(std::max(ball.radius * ball.radius - s.squaredNorm(), T(0)));
+  const bool from_origin = near.lambda_min >= -depth;
+  T lambda = std::max(near.lambda_min, -depth);
+
+  Vec3<T> x = s + lambda * r;
+  Vec3<T> n = Vec3<T>::Zero();
+  Vec3<T> v = options.v0;
+  if (!(v.squaredNorm() > T(0))) v = x;
+  if (!(v.squaredNorm() > T(0))) v = -r;
+  if (!(v.squaredNorm() > T(0))) v = Vec3<T>::UnitX();
+  Y.begin(x);
+  bool has_advanced = false;
+  T v_squared = std::numeric_limits<T>::infinity();
+
+  const auto finish = [&] {
+    if (from_origin && !has_advanced) {
+      result.status = Status::inside;
+      result.t_offset = result.offset_lo = result.offset_hi = near.t_offset(near.lambda_min);
+      return result;
+    }
+    result.status = Status::hit;
+    result.t_offset = result.offset_lo = near.t_offset(lambda);
+    result.normal = unit(has_advanced ? n : x);
+    return result;
+  };
+
+  while (result.iterations < options.max_iterations) {
+    ++result.iterations;
+    ++result.supports;
+    const Vec3<T> p = shape.support(v) - ball.centre;
+    const Vec3<T> w = x - p;
+    const Vec3<T> v_asked = v;
+    const auto show = [&] {
+      detail::observe(observer, Y, CastIteration<T>{lambda, x, v_asked, p, w, {}});
+    };
+
+    // v is a normal at p, so the plane through p may clip the ray.
+    bool advanced = false;
+    if (const T v_w = v.dot(w); v_w > T(0)) {
+      const T v_r = v.dot(r);
+      if (!(v_r < T(0))) {
+        show();
+        // Behind x the plane that clipped last keeps off, or the ball's, where the cast began.
+        if (from_origin && !has_advanced) return miss(v);
+        return miss(joined_plane(v, has_advanced ? n : x, r));
+      }
+      const T clipped = lambda - v_w / v_r;
+      if (clipped > near.lambda_max) {
+        show();
+        return miss(v);
+      }
+      // Beyond the ball's far side, where the ball's own plane keeps off.
+      if (clipped > depth + tolerance::ball_padding<T> * ball.radius) {
+        show();
+        return miss(joined_plane(Vec3<T>(s + depth * r), v, r));
+      }
+      advanced = clipped > lambda;
+      if (advanced) {
+        lambda = clipped;
+        x = s + lambda * r;
+        Y.move(x);
+        n = v;
+        has_advanced = true;
+      }
+    }
+
+    // The simplex with p, which the paper allows to come back after a clip.
+    const bool repeated = Y.holds(p);
+    const int slot = repeated ? -1 : Y.add(p);
+    const T furthest = Y.furthest_squared();
+
+    // The closest point of the simplex, and the vertices that carry it.
+    const SubalgorithmAnswer<T, 3> closest = Y.closest();
+    Y.keep(closest.kept);
+    v = closest.v;
+    show();
+
+    const bool unchanged = repeated || !Y.uses(slot);
+
+    // Close enough, or as close as rounding lets it come.
+    const T previous = v_squared;
+    v_squared = v.squaredNorm();
+    const T v_size = std::sqrt(v_squared) / ball.radius;
+    if (v_squared <= options.eps_tol * furthest || v_size <= tolerance::gjk_rounding<T> || Y.full())
+      return finish();
+    if (!advanced && (unchanged || !(v_squared < previous))) {
+      if (v_size <= tolerance::gjk_stalled<T>) return finish();
+      if (unchanged) break;
+    }
+  }
+  result.t_offset = result.offset_lo = near.t_offset(lambda);
+  result.normal = unit(n);
+  return result;
+}
+
+}  // namespace minkray

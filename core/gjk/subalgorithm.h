@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// The list of distance subalgorithms, and what a solver asks of one.
+#pragma once
+
+#include <concepts>
+#include <string_view>
+
+#include "core/gjk/johnson.h"
+#include "core/gjk/projection.h"
+#include "core/gjk/signed_volumes.h"
+
+namespace minkray {
+
+/// begin(x), then add(p) and move(x) in any order, closest() and keep() after each; never more than
+/// `slots` vertices.
+template <class G>
+concept DistanceSubalgorithm = requires(G g, const G& c,
+                                        const Vec<typename G::Scalar, G::dimension>& p) {
+  g.begin(p);
+  g.move(p);
+  { g.add(p) } -> std::same_as<int>;
+  { c.closest() } -> std::same_as<SubalgorithmAnswer<typename G::Scalar, G::dimension>>;
+  { c.holds(p) } -> std::same_as<bool>;
+  g.keep(0u);
+};
+
+enum class SubalgorithmKind : unsigned char { projection, johnson, signed_volumes };
+
+struct SubalgorithmDescription {
+  SubalgorithmKind kind;
+  std::string_view name;
+  std::string_view doc;
+};
+
+inline constexpr std::array subalgorithm_descriptions = {
+    SubalgorithmDescription{SubalgorithmKind::projection, "projection",
+                            "projections on vertices, edges and faces, the most robust"},
+    SubalgorithmDescription{SubalgorithmKind::johnson, "johnson",
+                            "Johnson's determinants, cached, with the backup procedure"},
+    SubalgorithmDescription{SubalgorithmKind::signed_volumes, "signed-volumes",
+                            "signed volumes, Montanari et al. (2017)"},
+};
+
+/// visit(subalgorithm) with a fresh subalgorithm of the kind.
+template <class T, int Dim, class Visit>
+decltype(auto) with_subalgorithm(SubalgorithmKind kind, Visit&& visit) {
+  switch (kind) {
+    case SubalgorithmKind::johnson:
+      return visit(JohnsonSubalgorithm<T, Dim>());
+    case SubalgorithmKind::signed_volumes:
+      return visit(SignedVolumesSubalgorithm<T, Dim>());
+    case SubalgorithmKind::projection:
+      break;
+  }
+  return visit(ProjectionSubalgorithm<T, Dim>());
+}
+
+static_assert(DistanceSubalgorithm<JohnsonSubalgorithm<double, 2>>);
+static_assert(DistanceSubalgorithm<SignedVolumesSubalgorithm<float, 3>>);
+static_assert(DistanceSubalgorithm<ProjectionSubalgorithm<double, 3>>);
+
+}  // namespace minkray

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+// The loop that all solvers on jets share. A supporting plane in direction n clips the ray: a
+// rigorous lower bound of the hit. A model of the shape, made of the pieces that the support
+// mapping has shown so far, is hit later (where the pieces are parts of the shape, and else about
+// there), and its hit's normal is the next n. The two meet. docs/theory.md has the mathematics.
+//
+// W is a number, or a packet: then every lane is a ray of its own. Lanes that have ended go along
+// without effect.
+#pragma once
+
+#include "core/query/observer.h"
+#include "core/query/ray_near_ball.h"
+#include "core/query/tolerances.h"
+
+namespace minkray {
+
+/// What a model answers.
+template <class W>
+struct ModelHit {
+  Vec3<W> m = Vec3<W>::Zero();  ///< the normal, of unit length; zero or not finite: none was found
+  W height = W(0);              ///< where the ray enters the model: at lambda = -height
+  Mask<W> certain = Mask<W>(false);  ///< `height` is the model's, up to rounding
+  /// The carriers of the hit are parts of the shape, so that it bounds the shape's hit.
+  Mask<W> inner = Mask<W>(true);
+  Mask<W> repeated = Mask<W>(false);  ///< the newest piece had been seen before
+};
+
+/// Where the whole line s + lambda r meets the shape first.
+template <class W>
+struct LineHit {
+  Mask<W> hit = Mask<W>(false);
+  Mask<W> miss = Mask<W>(false);  ///< neither hit nor miss: exhausted
+  /// Exhausted because the line is tangent to the shape within rounding: `normal` is the plane's.
+  Mask<W> tangent = Mask<W>(false);
+  W lambda = W(-std::numeric_limits<Lane<W>>::infinity());       ///< a lower bound, rigorous
+  W lambda_above = W(std::numeric_limits<Lane<W>>::infinity());  ///< the model's hit
+  Vec3<W> normal = Vec3<W>::Zero();
+  W supports = W(0);
+};
+
+/// Lane by lane.
+template <class W>
+LineHit<W> pick(const Mask<W>& condition, const LineHit<W>& a, const LineHit<W>& b) {
+  const Mask<W> other = !condition;
+  return {Mask<W>((condition & a.hit) | (other & b.hit)),
+          Mask<W>((condition & a.miss) | (other & b.miss)),
+          Mask<W>((condition & a.tangent) | (other & b.tangent)),
+          select(condition, a.lambda, b.lambda),
+          select(condition, a.lambda_above, b.lambda_above),
+          select<W>(condition, a.normal, b.normal),
+          select(condition, a.supports, b.supports)};
+}
+
+/// A model may calculate in a frame of its own, in which all vectors here are; the answer's normal
+/// is in the shape's. It offers
+/// - `to_frame(n)`, `to_shape(n)`: a direction of the shape's frame in its own, and back;
+/// - `against_ray(n)`: the component of n against the ray's direction;
+/// - `begin(half_extents)`: what is known before the first support: a first direction, and a hit if
+///   the model knows pieces of the shape already; half_extents are the shape's;
+/// - `support(n, wanted)`: the shape's support in direction n of unit length, relative to the ray's
+///   closest approach s, as a piece with reach(n) and spot(n), its support point; in lanes that are
+///   not wanted, any piece;
+/// - `step(piece, n, iteration)`: the model's hit once the piece is a part of it.
+///
+/// The line is given up beyond lambda_end; R is the size that rounding refers to. Only `open` lanes
+/// count. `observer` may be NoObserver, or else is told of each plane.
+template <class W, class Model, class Observer>
+LineHit<W> first_on_line(Model& model, const Vec3<Lane<W>>& half_extents, const W& lambda_end,
+                         Lane<W> R, Mask<W> open, int max_iterations, Observer&& observer) {
+  using std::abs;
+  using std::max;
+  using std::min;
+  using T = Lane<W>;
+  constexpr T infinity = std::numeric_limits<T>::infinity();
+  const W gap = W(tolerance::jet_gap<T> * R), gap_along = W(tolerance::jet_gap_along<T> * R);
+  const W least_slope = W(tolerance::least_slope<T>);
+  LineHit<W> result;
+  ModelHit<W> model_hit = model.begin(half_extents);
+  Vec3<W> n = model_hit.m;
+  W best_slope(0);  // of result.normal's plane
+  for (int iteration = 0; iteration < max_iterations; ++iteration) {
+    // The supporting plane of direction n: it clips the line, or separates (where it leans away
+    // from the ray: all of the line in the bounding ball).
+    const auto piece = model.support(n, open);
+    result.supports += select(open, W(1), W(0));
+    const W h = piece.reach(n), z = model.against_ray(n);
+    const Mask<W> ahead = z > W(0), steep = z > least_slope, beyond = h < -gap;
+    // Where it is not steep, only what lies clearly beyond rounding counts.
+    const W clear = select(steep, h, W(h + gap));
+    const W lambda =
+        select(steep | (ahead & beyond), W(-clear / select(ahead, z, W(1))), W(-infinity));
+    if constexpr (!std::is_same_v<std::remove_cvref_t<Observer>, NoObserver>)
+      observer(lambda, model.to_shape(n), model.to_shape(piece.spot(n)));
+    const Mask<W> better = open & (lambda > result.lambda);
+    result.lambda = select(better, lambda, result.lambda);
+    result.normal = select<W>(better, n, result.normal);
+    best_slope = select(better, z, best_slope);
+    const Mask<W> misses = open & (((!ahead) & (h - z * W(R) < -gap)) | (lambda > lambda_end));
+    result.normal = select<W>(misses, n, result.normal);
+    result.miss |= misses;
+    open &= !misses;
+    if (!any(open)) break;
+
+    // Where the model, as it was, is hit no further than rounding beyond the best plane.
+    const auto meets = [&](const W& slope, const W& within) {
+      const W along = select(model_hit.certain, W(-model_hit.height - result.lambda), W(0));
+      const W missing = along * min(slope, max(best_slope, W(0)));
+      const Mask<W> met = open & model_hit.certain & (slope > least_slope) & (missing <= within) &
+                          (along <= gap_along);
+      const Mask<W> contradicts = missing < W(-16) * gap;
+      result.hit |= met & !contradicts;
+      // Where the plane is beyond it by rounding, the model is right: it lies between points. But
+      // where the model's own plane is so nearly along the line that the model is off by more than
+      // the best plane's rounding, that plane is.
+      const Mask<W> inner = met & model_hit.inner & !contradicts;
+      const Mask<W> closer = inner & (along * best_slope >= W(-4) * gap);
+      const W above = select(closer, W(-model_hit.height), result.lambda);
+      result.lambda_above = select(inner, above, result.lambda_above);
+      result.lambda = select(closer, min(result.lambda, above), result.lambda);
+      open &= !met;
+    };
+    meets(z, gap);
+    if (!any(open)) break;
+
+    // The hit on the model with the new piece.
+    model_hit = model.step(piece, n, iteration);
+    meets(model.against_ray(model_hit.m), select(model_hit.repeated, W(W(4) * gap), gap));
+    // A tangent line: where along it the shape is touched, no plane along it tells.
+    const Mask<W> touches = (!steep) & model_hit.repeated & (abs(h) <= gap);
+    const Mask<W> stuck = model_hit.repeated & ((model_hit.m - n).squaredNorm() == W(0));
+    const Mask<W> tangent = open & touches;
+    result.tangent |= tangent;
+    result.normal = select<W>(tangent, n, result.normal);
+    open &= model_hit.m.squaredNorm() > W(0);
+    open &= !(touches | stuck);
+    if (!any(open)) break;
+    n = select<W>(open, model_hit.m, n);
+  }
+  result.normal = model.to_shape(result.normal);
+  return result;
+}
+
+/// The normal where the line s + lambda r first meets the ellipsoid around the origin with these
+/// radii, all positive, or, if it passes by, the ellipsoid's normal towards it, at right angles to
+/// r. Of unit length. `meets` says which.
+template <class W>
+Vec3<W> normal_on_ellipsoid(const Vec3<Lane<W>>& radii, const Vec3<W>& s, const Vec3<W>& r,
+                            Mask<W>& meets) {
+  using std::max;
+  using std::sqrt;
+  const Vec3<W> to_ball = widen<W>(Vec3<Lane<W>>(radii.cwiseInverse()));
+  const Vec3<W> r_ball = unit<W>(r.cwiseProduct(to_ball));
+  const Vec3<W> s_ball = s.cwiseProduct(to_ball);
+  // By cross products, which keep the digits of components that are nothing beside others.
+  const Vec3<W> beside = r_ball.cross(s_ball.cross(r_ball));
+  const W den = W(1) - beside.squaredNorm();
+  meets = den > W(0);
+  const W depth = sqrt(max(den, W(0)));
+  Vec3<W> n = unit<W>(Vec3<W>((beside - r_ball * depth).cwiseProduct(to_ball)));
+  if (!all(meets)) n = select<W>(meets, n, unit<W>(Vec3<W>(n - r * n.dot(r))));
+  const Mask<W> some = n.squaredNorm() > W(0);
+  return all(some) ? n : select<W>(some, n, Vec3<W>(-r));
+}
+
+/// About the same for a shape with these half extents: a first direction to ask, of unit length.
+/// Extents that are nothing beside the largest are taken for a little more.
+template <class W>
+Vec3<W> normal_on_extents(const Vec3<Lane<W>>& half_extents, const Vec3<W>& s, const Vec3<W>& r) {
+  using std::max;
+  using std::sqrt;
+  using T = Lane<W>;
+  constexpr T least = T(1) / T(65536);
+  const Vec3<T> radii = half_extents.cwiseMax(Vec3<T>::Constant(least * half_extents.maxCoeff()));
+  const Vec3<W> to_ball = widen<W>(Vec3<T>(radii.cwiseInverse()));
+  const Vec3<W> r_ball = r.cwiseProduct(to_ball), s_ball = s.cwiseProduct(to_ball);
+  const W a = r_ball.squaredNorm(), b = s_ball.dot(r_ball);
+  const W den = b * b - a * (s_ball.squaredNorm() - W(1));
+  const Vec3<W> met = s_ball - r_ball * ((b + sqrt(max(den, W(0)))) / a);
+  Vec3<W> n = met.cwiseProduct(to_ball);
+  const Mask<W> meets = den > W(0);
+  if (!all(meets)) n = select<W>(meets, n, Vec3<W>(n - r * n.dot(r)));
+  n = unit<W>(n);
+  const Mask<W> some = n.squaredNorm() > W(0);
+  return all(some) ? n : select<W>(some, n, Vec3<W>(-r));
+}
+
+}  // namespace minkray

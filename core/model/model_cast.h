@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+// A ray cast with any of the models: from the line's first meeting with the shape to the answer for
+// a ray, which begins and ends somewhere. For one ray, or for a packet of them.
+#pragma once
+
+#include "core/model/line_cast.h"
+#include "core/query/result.h"
+
+namespace minkray {
+
+/// CastResult in lanes. A lane that is neither hit, inside nor miss is exhausted.
+template <class W>
+struct CastLanes {
+  Mask<W> hit = Mask<W>(false);
+  Mask<W> inside = Mask<W>(false);
+  Mask<W> miss = Mask<W>(false);
+  /// Inside, but between planes so steep that rounding decides, as where the line runs in a side.
+  Mask<W> doubtful = Mask<W>(false);
+  W t_base = W(0), t_offset = W(0), offset_lo = W(0), offset_hi = W(0);
+  Vec3<W> normal = Vec3<W>::Zero();
+  W supports = W(0);
+};
+
+/// Of a ray at a shape whose bounds it meets, as seen from the bounding ball's centre; half_extents
+/// are the bounding box's. make_model(s, r) makes a model of the shape seen from s
+/// along r. Only `castable` lanes are cast.
+template <class W, class MakeModel, class Observer>
+CastLanes<W> model_cast(const MakeModel& make_model, const RayNearBall<W>& near,
+                        const Ball<Lane<W>>& ball, const Vec3<Lane<W>>& half_extents,
+                        const Mask<W>& castable, int max_iterations, Observer&& observer) {
+  using std::max;
+  using std::min;
+  using std::sqrt;
+  using T = Lane<W>;
+  const T R = ball.radius;
+  CastLanes<W> result;
+  result.t_base = near.t_base;
+
+  // Where the line enters the shape.
+  const Vec3<W>& s = near.s;
+  const Vec3<W>& r = near.r;
+  const W depth =
+      sqrt(max(W(W(R) * W(R) - s.squaredNorm()), W(0))) + W(tolerance::ball_padding<T> * R);
+  const auto watch = [&](const W& direction) {
+    if constexpr (std::is_same_v<std::remove_cvref_t<Observer>, NoObserver>) {
+      return NoObserver();
+    } else {
+      return [&, direction](const W& lambda, const Vec3<W>& n, const Vec3<W>& p) {
+        const W at = direction * lambda;
+        const Vec3<W> x = s + r * at, point = s + p;
+        observer(CastIteration<T>{at, x, n, point, x - point, std::span<const Vec3<T>>()});
+      };
+    }
+  };
+  const W end = min(depth, near.lambda_max);
+  const auto first_along = [&](const Vec3<W>& from, const Vec3<W>& direction, const W& until,
+                               const Mask<W>& open, const W& sign) {
+    auto model = make_model(from, direction);
+    return first_on_line<W>(model, half_extents, until, R, open, max_iterations, watch(sign));
+  };
+  // Where a line is tangent within rounding, one that is no further away enters at a steeper angle.
+  const auto not_touching = [&](const LineHit<W>& found, const Vec3<W>& direction, const W& until,
+                                const W& sign) {
+    const Vec3<W> pushed = s - found.normal * W(tolerance::tangent_push<T> * R);
+    LineHit<W> again = first_along(pushed, direction, until, found.tangent, sign);
+    again.supports += found.supports;
+    // Thinner than the push: the line left through the other side, and nothing is known of it.
+    again.miss &= !(again.normal.dot(found.normal) < W(0));
+    // The plane found there, where the line itself crosses it: later, but not behind the shape's
+    // end or the ray's.
+    auto model = make_model(s, direction);
+    const Vec3<W> ahead = model.to_frame(direction);
+    const W last = model.support(ahead, found.tangent).reach(ahead);
+    again.supports += select(found.tangent, W(1), W(0));
+    const W slope = -again.normal.dot(direction);
+    const Mask<W> crosses = again.hit & (slope > W(tolerance::least_slope<T>));
+    const W push = again.normal.dot(found.normal) * W(tolerance::tangent_push<T> * R);
+    const W later = again.lambda + push / select(crosses, slope, W(1));
+    const W latest = max(again.lambda, min(last, until));
+    again.lambda = select(crosses & (later > again.lambda), min(later, latest), again.lambda);
+    again.lambda_above = max(again.lambda, again.lambda_above);
+    return again;
+  };
+  const auto first_of = [&](const Vec3<W>& direction, const W& until, const Mask<W>& open,
+                            const W& sign) {
+    LineHit<W> found = first_along(s, direction, until, open, sign);
+    if (any(found.tangent))
+      found = pick(found.tangent, not_touching(found, direction, until, sign), found);
+    return found;
+  };
+  const LineHit<W> entry = first_of(r, end, castable, W(1));
+  result.supports = entry.supports;
+  result.normal = entry.normal;
+  result.miss = entry.miss;
+  // Beyond the ball's far side: joined with the ball's own plane there, the two leave the line no
+  // room, and their sum runs along it.
+  const W z = -entry.normal.dot(r);
+  if (any(entry.miss)) {
+    const Vec3<W> out = s + r * depth;
+    const W along = out.dot(r);
+    const Mask<W> beyond_ball = entry.miss & (z > W(0)) & (end == depth) & (along > W(0));
+    const W weight = z / select(along > W(0), along, W(1));
+    result.normal =
+        select<W>(beyond_ball, unit<W>(Vec3<W>(entry.normal + out * weight)), result.normal);
+  }
+  const Mask<W> enters = entry.hit & (entry.lambda >= near.lambda_min);
+  result.hit = enters;
+  // Where planes are so steep that their rounding is long, the model's hit is the better answer: it
+  // lies between points of the shape. But not where the model is the steeper one.
+  Mask<W> bounded = entry.lambda_above < W(std::numeric_limits<T>::infinity());
+  const W apart = select(bounded, W(entry.lambda_above - entry.lambda), W(0));
+  bounded &= apart * z <= W(T(4) * tolerance::jet_gap<T> * R);
+  // Where the two are apart, the model had only a plane nearly along the ray, and nothing is known.
+  result.hit &= bounded | !(entry.lambda_above < W(std::numeric_limits<T>::infinity()));
+  result.offset_lo = near.t_offset(entry.lambda);
+  result.offset_hi = near.t_offset(entry.lambda_above);
+  result.t_offset = select(bounded, result.offset_hi, result.offset_lo);
+
+  // The line enters before the ray begins: where does it leave?
+  const Mask<W> began = entry.hit & !enters;
+  if (!any(began)) return result;
+  const Vec3<W> back = -r;
+  const LineHit<W> exit = first_of(back, W(-near.lambda_min), began, W(-1));
+  result.supports += exit.supports;
+  const Mask<W> left = began & (exit.miss | (exit.hit & (-exit.lambda < near.lambda_min)));
+  result.miss |= left;
+  result.normal = select<W>(left, exit.normal, result.normal);
+  result.inside = began & exit.hit & !left;
+  constexpr T doubtful = tolerance::doubtful_slope<T>;
+  if constexpr (doubtful != T(0))
+    result.doubtful = result.inside & !((z >= W(doubtful)) & (exit.normal.dot(r) >= W(doubtful)));
+  const W start = near.t_offset(near.lambda_min);
+  result.t_offset = select(result.inside, start, result.t_offset);
+  result.offset_lo = select(result.inside, start, result.offset_lo);
+  result.offset_hi = select(result.inside, start, result.offset_hi);
+  result.normal = select<W>(result.inside, Vec3<W>::Zero(), result.normal);
+  return result;
+}
+
+/// One ray's answer.
+template <class T>
+CastResult<T> result_of(const CastLanes<T>& lanes) {
+  CastResult<T> result;
+  result.status = lanes.hit      ? Status::hit
+                  : lanes.inside ? Status::inside
+                  : lanes.miss   ? Status::miss
+                                 : Status::exhausted;
+  result.t_base = lanes.t_base;
+  result.t_offset = lanes.t_offset;
+  result.offset_lo = lanes.offset_lo;
+  result.offset_hi = lanes.offset_hi;
+  result.normal = lanes.normal;
+  result.iterations = result.supports = static_cast<int>(lanes.supports);
+  return result;
+}
+
+}  // namespace minkray

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#include "core/model/model_kind.h"
+
+#include "core/model/model_of.h"
+#include "core/shape/ellipsoid_sum.h"
+#include "core/shape/surface.h"
+
+namespace minkray {
+namespace {
+
+template <class T>
+ModelKind kind_of_surface(const Shape<T>& shape) {
+  switch (surface_of<T>(shape)) {
+    case SurfaceKind::flat:
+      return ModelKind::points;
+    case SurfaceKind::translates:
+      return ModelKind::translates;
+    case SurfaceKind::ellipsoids:
+      return ModelKind::parts;
+    case SurfaceKind::smooth:
+      if (is_ellipsoid_sum(shape)) return ModelKind::ellipsoid_sum;
+      return has_exact_parts(shape) ? ModelKind::parts : ModelKind::smooth;
+    default:
+      return has_exact_parts(shape) ? ModelKind::parts : ModelKind::osculated_parts;
+  }
+}
+
+}  // namespace
+
+template <class T>
+ModelKind model_kind_of(const Shape<T>& shape) {
+  return std::visit(
+      [&]<class S>(const S& kind) {
+        if constexpr (detail::is_axial<S, T> || detail::is_ellipsoid<S, T> ||
+                      detail::is_polytope<S, T>) {
+          return ModelKind::closed_form;
+        } else {
+          const ModelKind model = kind_of_surface(shape);
+          if constexpr (std::is_same_v<S, Rounded<T>>)
+            if (model != ModelKind::points && surface_of<T>(*kind.shape) == SurfaceKind::flat)
+              return ModelKind::rounded_points;
+          return model;
+        }
+      },
+      shape.kind);
+}
+
+template ModelKind model_kind_of(const Shape<float>&);
+template ModelKind model_kind_of(const Shape<double>&);
+
+}  // namespace minkray

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#include "core/model/shape_definition.h"
+
+#include "core/derived/convert.h"
+#include "core/derived/proportions.h"
+#include "core/derived/shape_bounds.h"
+#include "core/shape/as_rounded_box.h"
+
+namespace minkray {
+namespace {
+
+/// Fourth powers of it, with room for the square of epsilon, are in the range of T.
+template <class T>
+constexpr T ordinary_size = std::is_same_v<T, float> ? T(0x1p16) : T(0x1p128);
+
+}  // namespace
+
+template <class T>
+ShapeDefinition<T>::ShapeDefinition(Shape<T> shape) : original_(shape), inner_(std::move(shape)) {
+  for (bool simpler = true; simpler;) {
+    std::optional<Shape<T>> next = as_rounded_box(inner_);
+    if (const auto* transform = std::get_if<Transform<T>>(&inner_.kind)) {
+      maps_.push_back(transform->map.affine());
+      next = *transform->shape;
+    }
+    simpler = next.has_value();
+    if (simpler) inner_ = *std::move(next);
+  }
+  Bounds<T> bounds = minkray::bounds_of<T>(inner_);
+  // Very small and very large shapes are brought to about unit size by a power of two, which is
+  // exact: solvers multiply up to four lengths, and must not leave the range of T.
+  const T size = bounds.half_extents().maxCoeff();
+  if (size > T(0) && !(size >= T(1) / ordinary_size<T> && size <= ordinary_size<T>)) {
+    down_ = std::ldexp(T(1), -std::ilogb(size));
+    up_ = std::ldexp(T(1), std::ilogb(size));
+    inner_ = Transform<T>{Nested<T>(inner_), Affine<T>{Mat3<T>::Identity() * down_, {0, 0, 0}}};
+    bounds = minkray::bounds_of<T>(inner_);
+  }
+  ball_ = ball_around(bounds);
+  half_extents_ = bounds.reach_of_centre();
+  model_ = model_kind_of<T>(inner_);
+  if (model_ == ModelKind::ellipsoid_sum)
+    ellipsoid_sum_ = part_of<T>(inner_, Vec3<T>(T(0), T(0), T(1)));
+  is_extreme_ = has_extreme_proportions(inner_);
+  if constexpr (std::is_same_v<T, float>)
+    if (is_extreme_)
+      in_double_ = std::make_shared<const ShapeDefinition<double>>(convert<double>(inner_));
+  if (is_extreme_)
+    in_long_double_ = std::make_shared<const Shape<long double>>(convert<long double>(inner_));
+}
+
+template <class T>
+Bounds<T> ShapeDefinition<T>::bounds_of(const Affine<T>& pose) const {
+  return minkray::bounds_of<T>(Transform<T>{original_, pose});
+}
+
+template <class T>
+typename ShapeDefinition<T>::Placement ShapeDefinition<T>::placed(const Affine<T>& pose) const {
+  Affine<T> to_outer = pose;
+  for (const Affine<T>& map : maps_) to_outer = to_outer * map;
+  Placement placement;
+  placement.to_inner = inverse_of(to_outer.linear);
+  to_outer.linear *= up_;
+  placement.to_inner *= down_;
+  placement.centre = to_outer(ball_.centre);
+  placement.is_rigid_identity = to_outer.linear == Mat3<T>::Identity();
+  return placement;
+}
+
+template class ShapeDefinition<double>;
+template class ShapeDefinition<float>;
+
+}  // namespace minkray

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// What all instances of one shape share: the innermost shape with its bounding ball and what the
+// solvers know of it. Instances refer to it, so that a hull is stored once however often it is
+// posed.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/math/affine.h"
+#include "core/math/bounds.h"
+#include "core/model/model_kind.h"
+#include "core/shape/ellipsoid_sum.h"
+#include "core/shape/shape.h"
+
+namespace minkray {
+
+/// Immutable once made. "Inner" is the frame of the shape after all outer transforms are taken off.
+template <class T>
+class ShapeDefinition {
+ public:
+  explicit ShapeDefinition(Shape<T> shape);
+
+  const Shape<T>& inner_shape() const { return inner_; }
+  const Ball<T>& inner_ball() const { return ball_; }
+  /// Of the inner shape's axis-aligned bounds, around the ball's centre.
+  const Vec3<T>& inner_half_extents() const { return half_extents_; }
+  ModelKind model() const { return model_; }
+  /// What the inner shape is, where model() says that it is a sum of ellipsoids.
+  const EllipsoidSum<T>& ellipsoid_sum() const { return ellipsoid_sum_; }
+  /// Casts at it are proven, one by one and in double, before they are answered.
+  bool is_extreme() const { return is_extreme_; }
+  /// Of extreme shapes in float: the inner shape in double. Null for others.
+  const ShapeDefinition<double>* in_double() const { return in_double_.get(); }
+  /// Of extreme shapes: the inner shape in long double. Null for others.
+  const Shape<long double>* in_long_double() const { return in_long_double_.get(); }
+  /// Known to have no corners, for hits that just touch; of other smooth shapes it is not asked.
+  bool is_smooth() const {
+    return model_ == ModelKind::smooth || model_ == ModelKind::ellipsoid_sum ||
+           model_ == ModelKind::rounded_points;
+  }
+  /// Whether packets of rays have a solver of their own.
+  bool has_packets() const { return !is_extreme_ && model_ != ModelKind::osculated_parts; }
+
+  /// Bounds of the whole shape (the transforms on) under a pose.
+  Bounds<T> bounds_of(const Affine<T>& pose) const;
+
+  /// Where an instance stands.
+  struct Placement {
+    Vec3<T> centre;    ///< the inner ball's, in the frame of the pose
+    Mat3<T> to_inner;  ///< of directions
+    bool is_rigid_identity;
+  };
+
+  /// `pose` maps the frame of the shape to the outer one; it must be invertible.
+  Placement placed(const Affine<T>& pose) const;
+
+ private:
+  Nested<T> original_;
+  Shape<T> inner_;
+  std::vector<Affine<T>> maps_;  ///< taken off, the outermost first
+  T up_ = T(1), down_ = T(1);
+  Ball<T> ball_;
+  Vec3<T> half_extents_;
+  ModelKind model_;
+  EllipsoidSum<T> ellipsoid_sum_;
+  bool is_extreme_;
+  std::shared_ptr<const ShapeDefinition<double>> in_double_;
+  std::shared_ptr<const Shape<long double>> in_long_double_;
+};
+
+extern template class ShapeDefinition<float>;
+extern template class ShapeDefinition<double>;
+
+}  // namespace minkray

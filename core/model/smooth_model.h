@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: MIT
+// The model for smooth shapes, which jets only osculate: the newest jet's ellipsoid, and, where
+// other patches of the surface were seen in nearly the same direction, translates of it that touch
+// their planes at their support points. Converges as Newton's method does; a step to a lower plane
+// is taken back by half, which helps since the planes' cuts are a concave function.
+//
+// The model's hit is the shape's only as far as support points prove it: see `settled`.
+#pragma once
+
+#include "core/model/hull_cast.h"
+#include "core/model/line_cast.h"
+#include "core/shape/jet.h"
+
+namespace minkray {
+
+template <class W, class S>
+class SmoothModel {
+ public:
+  using T = Lane<W>;
+
+  struct Piece {
+    Vec3<W> s;  ///< the support point, relative to the ray's s
+    Mat3<W> F;
+    Vec3<W> patch;  ///< the jet's centre, which tells the patches of the surface apart
+    W height;       ///< of the supporting plane over the origin
+    W reach(const Vec3<W>&) const { return height; }
+    const Vec3<W>& spot(const Vec3<W>&) const { return s; }
+  };
+
+  SmoothModel(const S& shape, const Vec3<T>& centre, const Vec3<W>& s, const Vec3<W>& r, T R)
+      : shape_(shape),
+        s_in_shape_(s),
+        from_(widen<W>(centre) + s),
+        frame_(r),
+        R_(R),
+        rounding_(tolerance::model_rounding<T> * R) {}
+
+  Vec3<W> to_frame(const Vec3<W>& n) const { return frame_.into(n); }
+  Vec3<W> to_shape(const Vec3<W>& n) const { return frame_.out_of(n); }
+  W against_ray(const Vec3<W>& n) const { return n.z(); }
+
+  ModelHit<W> begin(const Vec3<T>& half_extents) const {
+    ModelHit<W> hit;
+    hit.m = frame_.into(normal_on_extents<W>(half_extents, s_in_shape_, Vec3<W>(-frame_.z)));
+    return hit;
+  }
+
+  Piece support(const Vec3<W>& n, const Mask<W>&) const {
+    const Vec3<W> n_shape = frame_.out_of(n);
+    const Jet<W> jet = shape_.template jet<W>(n_shape);
+    Piece piece;
+    piece.s = frame_.into(jet.support(n_shape) - from_);
+    for (int k = 0; k < 3; ++k) piece.F.col(k) = frame_.into(jet.F.col(k));
+    piece.patch = jet.c;
+    piece.height = piece.s.dot(n);
+    return piece;
+  }
+
+  ModelHit<W> step(const Piece& piece, const Vec3<W>& n, int iteration) {
+    // A vertex has no curvature to go by: a small ball does.
+    const Mask<W> repeated = repeats(piece);
+    shrink_ = select(repeated, W(shrink_ * W(T(0.1))), shrink_);
+    if (iteration >= 3) shrink_ *= W(T(0.5));
+    EllipsoidBody<W> body{piece.F};
+    const Mask<W> is_point = piece.F.squaredNorm() == W(0);
+    if (any(is_point)) {
+      const W ball = select(is_point, W(shrink_ * W(R_)), W(0));
+      for (int k = 0; k < 3; ++k) body.F(k, k) += ball;
+    }
+    const Vec3<W> c = piece.s - body.spot(n);
+    Translates<W> others;
+    for (std::size_t k = 0; k < 3; ++k) {
+      others.c[k] = s_[k] - body.spot(n_[k]);
+      others.valid[k] = valid_[k] & ((patch_[k] - piece.patch).squaredNorm() > W(0)) &
+                        ((n_[k] - n).squaredNorm() <= W(near_squared));
+    }
+    const HullCastHit<W> on_hull =
+        HullCast<W, EllipsoidBody<W>>(body, c, others, rounding_).solve();
+
+    ModelHit<W> hit;
+    hit.m = on_hull.m;
+    const Mask<W> ahead = hit.m.z() > W(0);
+    hit.height = select(ahead, on_hull.rank, W(0));
+    hit.certain = on_hull.found & ahead & settled(piece, n, on_hull);
+    hit.inner = Mask<W>(false);
+    hit.repeated = repeated;
+    keep(piece, n, on_hull);
+
+    step_back(piece, n, hit);
+    stay_between(piece, n, hit);
+    return hit;
+  }
+
+ private:
+  /// A direction (x, y, 1), where the model wants to go from it, and where its support point lies
+  /// beside the ray.
+  struct Point {
+    W x = W(0), y = W(0), to_x = W(0), to_y = W(0), beside_x = W(0), beside_y = W(0);
+  };
+
+  static Point pick(const Mask<W>& condition, const Point& a, const Point& b) {
+    return {select(condition, a.x, b.x),
+            select(condition, a.y, b.y),
+            select(condition, a.to_x, b.to_x),
+            select(condition, a.to_y, b.to_y),
+            select(condition, a.beside_x, b.beside_x),
+            select(condition, a.beside_y, b.beside_y)};
+  }
+
+  Mask<W> repeats(const Piece& piece) {
+    Mask<W> repeated(false);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Mask<W> same = valid_[k] & (s_[k].x() == piece.s.x()) & (s_[k].y() == piece.s.y()) &
+                           (s_[k].z() == piece.s.z());
+      repeated |= same;
+      valid_[k] &= !same;
+    }
+    return repeated;
+  }
+
+  /// The support points of the carriers, joined by the hit's weights, are a point p of the shape:
+  /// hardly below the newest supporting plane and hardly beside the ray. What the iteration would
+  /// still gain is half the product of its step and the distance beside the ray.
+  Mask<W> settled(const Piece& piece, const Vec3<W>& n, const HullCastHit<W>& on_hull) const {
+    using std::sqrt;
+    Vec3<W> p = piece.s;
+    for (std::size_t k = 0; k < 3; ++k) p += (s_[k] - piece.s) * on_hull.weights[k];
+    const W beside = sqrt(p.x() * p.x() + p.y() * p.y());
+    const W below = piece.height - n.dot(p);
+    return (below + beside * (on_hull.m - n).norm() <= W(tolerance::jet_gap<T> * R_)) &
+           (beside <= W(model_reach * R_));
+  }
+
+  /// A step to a lower plane, or one that clearly overshoots, is taken back: to where, between the
+  /// two directions, the support point should lie beside the ray in no direction of the step. The
+  /// direction as a function of that distance is interpolated (Hermite), from both ends' values and
+  /// Newton steps: where curvature vanishes, it is smooth and its inverse is not.
+  void step_back(const Piece& piece, const Vec3<W>& n, ModelHit<W>& hit) {
+    using std::abs;
+    using std::max;
+    using std::min;
+    using std::sqrt;
+    const Mask<W> cuts = n.z() > W(along_ray);
+    const W z = select(cuts, n.z(), W(1));
+    const W lambda = select(cuts, W(-piece.height / z), W(-infinity));
+    const Mask<W> onto = hit.m.z() > W(along_ray);
+    const W m_z = select(onto, hit.m.z(), W(1)), x = n.x() / z, y = n.y() / z;
+    const Point here{x,
+                     y,
+                     select(onto, W(hit.m.x() / m_z), W(x + hit.m.x() * W(far_step))),
+                     select(onto, W(hit.m.y() / m_z), W(y + hit.m.y() * W(far_step))),
+                     piece.s.x(),
+                     piece.s.y()};
+    const Mask<W> worse = lambda < best_lambda_;
+
+    // Along the step that the model wants now.
+    W e_x = here.to_x - here.x, e_y = here.to_y - here.y;
+    const W length = sqrt(e_x * e_x + e_y * e_y);
+    e_x /= length;
+    e_y /= length;
+    const auto along = [&](const W& v_x, const W& v_y) { return v_x * e_x + v_y * e_y; };
+    const W before = along(best_.beside_x, best_.beside_y);
+    const W now = along(here.beside_x, here.beside_y);
+    const Mask<W> overshoots = cuts & onto & (before * now < W(0)) &
+                               (abs(now) > abs(before) * W(T(0.25))) & !(worse & was_back_);
+    const Mask<W> back = (!hit.certain) & (worse | overshoots) & (best_lambda_ > W(-infinity));
+    if (any(back)) {
+      const W from = along(best_.x, best_.y), to = along(here.x, here.y);
+      const W rise = now - before, u = -before / rise;
+      const W first = -along(best_.to_x - best_.x, best_.to_y - best_.y) / before * rise;
+      const W last = -length / now * rise;
+      const W there = from + (to - from) * u * u * (W(3) - W(2) * u) +
+                      u * (W(1) - u) * (W(1) - u) * first - u * u * (W(1) - u) * last;
+      const Mask<W> fits = overshoots & (there > min(from, to)) & (there < max(from, to));
+      // Across it as the model wants. Or else less of the best direction's own step.
+      const W aside = here.x * -e_y + here.y * e_x;
+      damping_ = select(back & worse, W(damping_ * W(T(0.5))), damping_);
+      const W to_x = select(fits, W(there * e_x - aside * e_y),
+                            W(best_.x + (best_.to_x - best_.x) * damping_));
+      const W to_y = select(fits, W(there * e_y + aside * e_x),
+                            W(best_.y + (best_.to_y - best_.y) * damping_));
+      hit.m = select<W>(back & (fits | worse), unit<W>({to_x, to_y, W(1)}), hit.m);
+    }
+    was_back_ = back;
+    damping_ = select(worse, damping_, W(1));
+    best_ = pick(worse, best_, here);
+    best_lambda_ = select(worse, best_lambda_, lambda);
+  }
+
+  /// Among directions along the ray (n.z = 0), where the model passes the ray by as well: the least
+  /// reach lies where its derivative along that circle changes sign. A step out of the arc between
+  /// two signs, or over half of it, is replaced by the secant's.
+  void stay_between(const Piece& piece, const Vec3<W>& n, ModelHit<W>& hit) {
+    using std::abs;
+    const Mask<W> on_circle = (abs(n.z()) <= W(along_ray)) & !(hit.m.z() > W(along_ray));
+    if (!any(on_circle)) return;
+    const W slope = n.x() * piece.s.y() - n.y() * piece.s.x();  // counter-clockwise
+    const Mask<W> falls = on_circle & (slope < W(0)), rises = on_circle & (slope > W(0));
+    // An end that stays for a second time counts half (the Illinois variant).
+    rising_.slope = select(falls & fell_, W(rising_.slope * W(T(0.5))), rising_.slope);
+    falling_.slope = select(rises & rose_, W(falling_.slope * W(T(0.5))), falling_.slope);
+    fell_ = falls;
+    rose_ = rises;
+    falling_.set(falls, n, slope);
+    rising_.set(rises, n, slope);
+
+    const W arc = (rising_.n - falling_.n).squaredNorm();
+    const Mask<W> outside =
+        !((cross_2d(falling_.n, hit.m) > W(0)) & (cross_2d(hit.m, rising_.n) > W(0)) &
+          ((hit.m - n).squaredNorm() <= W(T(0.25)) * arc));
+    const Mask<W> between = on_circle & falling_.there & rising_.there & outside &
+                            (cross_2d(falling_.n, rising_.n) > W(0));
+    const Vec3<W> secant = falling_.n * rising_.slope - rising_.n * falling_.slope;
+    if (any(between)) hit.m = select<W>(between, unit<W>({secant.x(), secant.y(), W(0)}), hit.m);
+  }
+
+  void keep(const Piece& piece, const Vec3<W>& n, const HullCastHit<W>& on_hull) {
+    Mask<W> placed(false);
+    for (std::size_t k = 0; k < 3; ++k) {
+      valid_[k] &= on_hull.weights[k] != W(0);
+      const Mask<W> here = (!valid_[k]) & (!placed);
+      s_[k] = select<W>(here, piece.s, s_[k]);
+      n_[k] = select<W>(here, n, n_[k]);
+      patch_[k] = select<W>(here, piece.patch, patch_[k]);
+      valid_[k] |= here;
+      placed |= here;
+    }
+  }
+
+  /// A direction along the ray.
+  struct OnCircle {
+    Vec3<W> n = Vec3<W>::Zero();
+    W slope = W(0);
+    Mask<W> there = Mask<W>(false);
+    void set(const Mask<W>& lanes, const Vec3<W>& direction, const W& its_slope) {
+      n = select<W>(lanes, direction, n);
+      slope = select(lanes, its_slope, slope);
+      there |= lanes;
+    }
+  };
+
+  /// The sine below which a direction counts as at right angles to the ray.
+  static constexpr T along_ray = T(64) * std::numeric_limits<T>::epsilon();
+  /// In units of R: how close to the ray an osculating ellipsoid is trusted (cbrt epsilon).
+  inline static const T model_reach = std::cbrt(tolerance::epsilon<T>);
+  /// Up to about 15 degrees between their directions, two patches go together.
+  static constexpr T near_squared = T(1) / T(16);
+  /// How far a step goes that the model would have lead past the shape.
+  static constexpr T far_step = T(4);
+  static constexpr T infinity = std::numeric_limits<T>::infinity();
+
+  const S& shape_;
+  Vec3<W> s_in_shape_, from_;
+  RayFrame<W> frame_;
+  T R_;
+  W rounding_;
+  W shrink_ = W(T(0.5));
+  std::array<Vec3<W>, 3> s_ = {Vec3<W>::Zero(), Vec3<W>::Zero(), Vec3<W>::Zero()};
+  std::array<Vec3<W>, 3> n_ = {Vec3<W>::Zero(), Vec3<W>::Zero(), Vec3<W>::Zero()};
+  std::array<Vec3<W>, 3> patch_ = {Vec3<W>::Zero(), Vec3<W>::Zero(), Vec3<W>::Zero()};
+  W best_lambda_ = W(-infinity);
+  Point best_;
+  Mask<W> was_back_ = Mask<W>(false);
+  W damping_ = W(1);
+  OnCircle falling_, rising_;
+  Mask<W> fell_ = Mask<W>(false), rose_ = Mask<W>(false);
+  std::array<Mask<W>, 3> valid_ = {Mask<W>(false), Mask<W>(false), Mask<W>(false)};
+};
+
+}  // namespace minkray

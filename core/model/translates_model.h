@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+// The model for shapes that are the hull of translates of one body: of a ball around the vertices
+// of a polytope, or of an ellipsoid. The hull of up to four of them.
+#pragma once
+
+#include "core/model/entered_facet.h"
+#include "core/model/hull_cast.h"
+#include "core/model/line_cast.h"
+#include "core/shape/jet.h"
+#include "core/shape/support_where.h"
+
+namespace minkray {
+
+/// One of the translates.
+template <class W, class Body>
+struct Translate {
+  Vec3<W> c;  ///< its centre
+  Body body;
+  W reach(const Vec3<W>& n) const { return c.dot(n) + body.bend(n); }
+  Vec3<W> spot(const Vec3<W>& n) const { return c + body.spot(n); }
+};
+
+/// A polytope and how far it is rounded.
+template <class W, class Polytope>
+struct RoundedPolytope {
+  using Core = Polytope;
+  using Body = RoundBody<W>;
+
+  const Polytope& core;
+  Lane<W> radius;
+
+  Body body(const RayFrame<W>&) const { return {W(radius)}; }
+  /// The one that reaches furthest along n, seen from a point, at least in the lanes that are
+  /// wanted. In the frame, but for the point.
+  Translate<W, Body> furthest(const Vec3<W>& n, const Mask<W>& wanted, const Vec3<W>& from,
+                              const RayFrame<W>& frame) const {
+    return {frame.into(support_where<W>(core, wanted, frame.out_of(n)) - from), {W(radius)}};
+  }
+  static Mask<W> alike(const Body&, const Body&) { return Mask<W>(true); }
+};
+
+/// A shape whose jets are, as far as is known, all exact and differ in their centres alone.
+template <class W, class S>
+struct JetTranslates {
+  using Core = void;
+  using Body = EllipsoidBody<W>;
+
+  const S& shape;
+
+  Body body(const RayFrame<W>& frame) const {
+    return turned(shape.template jet<W>(Vec3<W>(W(1), W(0), W(0))).F, frame);
+  }
+  Translate<W, Body> furthest(const Vec3<W>& n, const Mask<W>&, const Vec3<W>& from,
+                              const RayFrame<W>& frame) const {
+    const Jet<W> jet = shape.template jet<W>(frame.out_of(n));
+    Translate<W, Body> piece{frame.into(jet.c - from), turned(jet.F, frame)};
+    if (!all(jet.exact)) {  // the support point alone, which is unlike the others
+      piece.c = select<W>(jet.exact, piece.c, frame.into(jet.s - from));
+      for (int k = 0; k < 3; ++k)
+        piece.body.F.col(k) =
+            select<W>(jet.exact, Vec3<W>(piece.body.F.col(k)), Vec3<W>(Vec3<W>::Zero()));
+    }
+    return piece;
+  }
+  static Mask<W> alike(const Body& a, const Body& b) {
+    return (a.F - b.F).cwiseAbs().sum() == W(0);
+  }
+
+ private:
+  static Body turned(const Mat3<W>& F, const RayFrame<W>& frame) {
+    Body body;
+    for (int k = 0; k < 3; ++k) body.F.col(k) = frame.into(F.col(k));
+    return body;
+  }
+};
+
+/// `Bodies` says which translates there are.
+template <class W, class Bodies>
+class TranslatesModel {
+ public:
+  using T = Lane<W>;
+  using Body = typename Bodies::Body;
+
+  using Piece = Translate<W, Body>;  ///< relative to s
+
+  TranslatesModel(const Bodies& bodies, const Vec3<T>& centre, const Vec3<W>& s, const Vec3<W>& r,
+                  T R)
+      : bodies_(bodies),
+        s_(s),
+        from_(widen<W>(centre) + s),
+        frame_(r),
+        body_(bodies.body(frame_)),
+        rounding_(tolerance::model_rounding<T> * R) {}
+
+  Vec3<W> to_frame(const Vec3<W>& n) const { return frame_.into(n); }
+  Vec3<W> to_shape(const Vec3<W>& n) const {
+    if constexpr (Known::some)
+      return first_.to_shape(n, frame_);
+    else
+      return frame_.out_of(n);
+  }
+  W against_ray(const Vec3<W>& n) const { return n.z(); }
+
+  Piece support(const Vec3<W>& n, const Mask<W>& wanted) const {
+    if constexpr (Known::some) {
+      const Mask<W> known = first_.is_known(n), open = wanted & !known;
+      if (!any(open)) return {first_.corner(), body_};
+      Piece piece = bodies_.furthest(n, open, from_, frame_);
+      piece.c = select<W>(known, first_.corner(), piece.c);
+      return piece;
+    } else {
+      return bodies_.furthest(n, wanted, from_, frame_);
+    }
+  }
+
+  /// Around the facet that the ray enters, if facets are known.
+  ModelHit<W> begin(const Vec3<T>& half_extents) {
+    ModelHit<W> hit;
+    EnteredFacet<W> facet;
+    if constexpr (Known::some)
+      if (Known::known(bodies_.core))
+        facet = Known::around(bodies_.core, bodies_.radius, half_extents, s_, from_, frame_);
+    hit.m = facet.normal;
+    if (!all(facet.known))
+      hit.m = select<W>(facet.known, hit.m,
+                        frame_.into(normal_on_extents<W>(half_extents, s_, Vec3<W>(-frame_.z))));
+    const Mask<W> near = facet.there[0];
+    if (!any(near)) return hit;
+    first_ = FacetPlane<W>(facet);
+    kept_.c = facet.neighbours;
+    kept_.valid = facet.there;
+    HullCastHit<W> known;
+    known.found = facet.enters | !near;
+    known.m = select<W>(facet.enters, facet.normal, known.m);
+    known.rank = select(facet.enters, facet.height, known.rank);
+    for (std::size_t k = 0; k < 2; ++k)
+      known.weights[k] = select(facet.enters, W(1), known.weights[k]);
+    const Piece corner{facet.corner, body_};
+    const ModelHit<W> around =
+        keep(corner, HullCast<W, Body>(body_, corner.c, kept_, rounding_).solve_from(known));
+    for (Mask<W>& valid : kept_.valid) valid &= near;
+    const Mask<W> some = near & (around.m.squaredNorm() > W(0));
+    hit.m = select<W>(some, around.m, hit.m);
+    hit.height = around.height;
+    hit.certain = around.certain & some;
+    return hit;
+  }
+
+  ModelHit<W> step(const Piece& piece, const Vec3<W>&, int) {
+    // Forget an older copy of the newest piece; it will be kept in a free place.
+    Mask<W> repeated(false);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3<W>& c = kept_.c[k];
+      const Mask<W> same =
+          kept_.valid[k] & (c.x() == piece.c.x()) & (c.y() == piece.c.y()) & (c.z() == piece.c.z());
+      repeated |= same;
+      kept_.valid[k] &= !same;
+    }
+    ModelHit<W> hit = keep(piece, HullCast<W, Body>(body_, piece.c, kept_, rounding_).solve());
+    hit.repeated = repeated;
+    // A body of another kind: not a shape for this model after all.
+    const Mask<W> alike = Bodies::alike(piece.body, body_);
+    if (!all(alike)) hit.m = select<W>(alike, hit.m, Vec3<W>(Vec3<W>::Zero()));
+    hit.certain &= alike;
+    return hit;
+  }
+
+ private:
+  using Known = Facets<W, typename Bodies::Core>;
+
+  /// The hit on the hull of the pieces that are kept and this one, which is none of them; from now
+  /// on those that carry the hit are kept.
+  ModelHit<W> keep(const Piece& piece, const HullCastHit<W>& on_hull) {
+    ModelHit<W> hit;
+    hit.m = on_hull.m;
+    const Mask<W> ahead = hit.m.z() > W(0);
+    hit.certain = on_hull.found & ahead;
+    hit.height = select(ahead, on_hull.rank, W(0));
+
+    Mask<W> placed(false);
+    for (std::size_t k = 0; k < 3; ++k) {
+      kept_.valid[k] &= on_hull.weights[k] != W(0);
+      const Mask<W> here = (!kept_.valid[k]) & (!placed);
+      kept_.c[k] = select<W>(here, piece.c, kept_.c[k]);
+      kept_.valid[k] |= here;
+      placed |= here;
+    }
+    return hit;
+  }
+
+  Bodies bodies_;
+  Vec3<W> s_, from_;
+  RayFrame<W> frame_;
+  Body body_;
+  W rounding_;
+  Translates<W> kept_;
+  FacetPlane<W> first_;
+};
+
+}  // namespace minkray

@@ -1,0 +1,383 @@
+// SPDX-License-Identifier: MIT
+// Finding certificates, by the GJK ray cast and the GJK distance of van den Bergen (2004), both of
+// which end with a point that is spanned by support points. Points are relative to the shape's
+// middle.
+#include "core/proof/certificate.h"
+
+#include <numbers>
+#include <vector>
+
+#include "core/gjk/projection.h"
+#include "core/query/near_segment.h"
+
+namespace minkray {
+namespace {
+
+/// Touching ellipsoids of 1:1000 were seen to take 160.
+constexpr int most_supports = 400;
+
+/// A spanned point no further off than this, in machine epsilons of the size, is as good as one on
+/// the spot: the support points are rounded as coarsely.
+constexpr double close_enough = 2;
+
+/// What the search is content with, in machine epsilons of the size: a quarter of what the checker
+/// allows.
+constexpr double good_enough = 16;
+
+/// A hit found anew this near to the claimed one, along the normal in epsilons of the claim's
+/// precision, is taken for the same.
+constexpr double close_to_claim = 32;
+
+/// Angles: the first is the square root of a machine epsilon, the others reach further where the
+/// normal itself is less certain, or the spot further from a corner.
+constexpr std::array tilts = {0x1p-26, 0x1p-24, 0x1p-21, 0x1p-14};
+constexpr int tilt_directions = 6;
+constexpr int refinements = 24;
+
+/// They converge as fast as Newton's method once they are near.
+constexpr int secant_steps = 16;
+/// Where a step led nowhere, as within a corner's normals, the next one is so many times as long.
+constexpr double longer_step = 16;
+
+using Long = long double;
+
+/// A simplex of support points that remembers their directions.
+class Spanned {
+ public:
+  explicit Spanned(const Vec3<Long>& x) { simplex_.begin(x); }
+
+  void move(const Vec3<Long>& x) {
+    simplex_.move(x);
+    squared_ = std::numeric_limits<Long>::infinity();
+  }
+  /// With p, the support point along n (seen from x: the difference to it): false if it brought
+  /// nothing nearer.
+  bool add(const Vec3<Long>& p, const Vec3<double>& n) {
+    if (simplex_.full() || simplex_.holds(p)) return false;
+    directions_[static_cast<std::size_t>(simplex_.add(p))] = n;
+    const auto closest = simplex_.closest();
+    if (!(closest.v.squaredNorm() < squared_)) {
+      simplex_.keep(closest_.kept);
+      return false;
+    }
+    closest_ = closest;
+    squared_ = closest.v.squaredNorm();
+    simplex_.keep(closest.kept);
+    return true;
+  }
+  bool full() const { return simplex_.full(); }
+  /// From the spanned point to x.
+  const Vec3<Long>& v() const { return closest_.v; }
+
+  /// How far x is from the point that the weights span: v, but where the simplex is a tetrahedron,
+  /// which holds x and of which v is zero, the rounding of its volumes.
+  double off() const {
+    Vec3<Long> sum = Vec3<Long>::Zero();
+    Long weights = 0;
+    for (int i = 0; i < 4; ++i) {
+      if (!(closest_.kept & (1u << i))) continue;
+      const Long weight = std::max(closest_.weights[static_cast<std::size_t>(i)], Long(0));
+      sum += weight * simplex_.y(i);
+      weights += weight;
+    }
+    return static_cast<double>((sum / weights).norm());
+  }
+
+  /// Of a tetrahedron that holds x, the weights with which its corners span x, by elimination:
+  /// ratios of volumes lose the digits that a sliver's volume has lost.
+  void balance() {
+    if (!full()) return;
+    Mat3<Long> edges;
+    for (int i = 0; i < 3; ++i) edges.col(i) = simplex_.y(i + 1) - simplex_.y(0);
+    const Vec3<Long> weights = edges.fullPivLu().solve(-simplex_.y(0));
+    const Long first = 1 - weights.sum();
+    if (!weights.allFinite() || !(std::min(first, weights.minCoeff()) >= 0)) return;
+    closest_.weights = {first, weights[0], weights[1], weights[2]};
+  }
+
+  void write_to(Certificate& certificate) const {
+    for (std::size_t i = 0; i < directions_.size(); ++i) {
+      const bool kept = closest_.kept & (1u << i);
+      certificate.spanning[i] = {
+          directions_[i], kept ? static_cast<double>(std::max(closest_.weights[i], Long(0))) : 0};
+    }
+  }
+
+ private:
+  ProjectionSubalgorithm<Long, 3> simplex_;
+  SubalgorithmAnswer<Long, 3> closest_;
+  std::array<Vec3<double>, 4> directions_;
+  Long squared_ = std::numeric_limits<Long>::infinity();
+};
+
+/// Finds points of one shape near one ray.
+class Finder {
+ public:
+  Finder(const SupportFunction& support, const Ray<double>& ray)
+      : support_(support), near_(near_segment(support, ray)) {
+    rounding_ = std::numeric_limits<double>::epsilon() * near_.size;
+  }
+  const NearSegment& near() const { return near_; }
+  double rounding() const { return rounding_; }
+
+  Vec3<double> support(const Vec3<double>& n) {
+    ++certificate.supports;
+    return support_(n) - near_.centre;
+  }
+
+  /// The ray cast from lambda on: the first point of the ray that lies in the shape, spanned by
+  /// support points, and the last plane that clipped the ray. Answers how far the spanned point is
+  /// from it: infinite for a miss.
+  double enter(Vec3<double> n, double& lambda) {
+    Vec3<double> x = near_.at(lambda);
+    Spanned spanned(x.cast<Long>());
+    for (int i = 0; i < most_supports; ++i) {
+      const Vec3<double> p = support(n);
+      const double above = n.dot(x - p), slope = n.dot(near_.r);
+      bool moved = false;
+      if (above > 0) {
+        if (!(slope < 0)) return std::numeric_limits<double>::infinity();
+        const double clipped = lambda - above / slope;
+        if (clipped > near_.end) return std::numeric_limits<double>::infinity();
+        if (clipped > lambda) {
+          lambda = clipped;
+          certificate.plane = n;
+          x = near_.at(lambda);
+          spanned.move(x.cast<Long>());
+          moved = true;
+        }
+      }
+      if (!spanned.add(p.cast<Long>(), n) && !moved) break;
+      if (spanned.full() || spanned.v().norm() <= close_enough * rounding_) break;
+      n = spanned.v().cast<double>().normalized();
+    }
+    spanned.balance();
+    spanned.write_to(certificate);
+    return spanned.off();
+  }
+
+  /// The points of the shape and of the ray's part from a to b that are nearest to each other: the
+  /// shape's is spanned by support points. Answers their distance; the plane between them is
+  /// `separating`.
+  double nearest(double a, double b, Vec3<double> n, Vec3<double>& separating) {
+    Spanned spanned(Vec3<Long>::Zero());
+    double widest = -std::numeric_limits<double>::infinity();
+    for (int i = 0; i < most_supports; ++i) {
+      const Vec3<double> p = support(n);
+      const Vec3<Long> y = near_.at(n.dot(near_.r) > 0 ? a : b).cast<Long>() - p.cast<Long>();
+      if (const double margin = n.dot(y.cast<double>()); margin > widest) {
+        widest = margin;
+        separating = n;
+      }
+      if (!spanned.add(-y, n)) break;
+      const auto distance = static_cast<double>(spanned.v().norm());
+      if (spanned.full() || distance <= close_enough * rounding_) break;
+      if (distance - widest <= rounding_) break;
+      n = spanned.v().cast<double>() / distance;
+    }
+    spanned.balance();
+    spanned.write_to(certificate);
+    return spanned.off();
+  }
+
+  /// The point of the shape near x(lambda), where its normal is about n: found among the triangles
+  /// of support points in directions tilted a little from n. On a face with rounding around it, or
+  /// a patch of curvature radius rho, tilts by delta give points rho * delta around the spot and
+  /// only rho * delta^2 under it. Answers how far the best is from x(lambda). In long double, since
+  /// between the corners of a sliver a point is only known as well as the sliver is thin.
+  double refine(double lambda, const Vec3<double>& n) {
+    const Vec3<Long> x = near_.s.cast<Long>() + Long(lambda) * near_.r.cast<Long>();
+    std::vector<Seen> seen;
+    const auto see = [&](const Vec3<double>& direction) {
+      const Vec3<Long> y = x - support(direction).cast<Long>();
+      for (const Seen& other : seen)
+        if (other.y == y) return false;
+      seen.push_back({y, direction});
+      return true;
+    };
+    for (const WeightedSupport& part : certificate.spanning)
+      if (part.weight > 0) see(part.direction);
+    see(n);
+    const Vec3<double> a = n.unitOrthogonal(), b = n.cross(a);
+    for (const double delta : tilts) {
+      for (int i = 0; i < tilt_directions; ++i) {
+        const double angle = 2 * std::numbers::pi * i / tilt_directions;
+        see(n + delta * (std::cos(angle) * a + std::sin(angle) * b));
+      }
+    }
+    // The nearest triangle of all; then more support points where it is not near enough.
+    ClosestPoint<Long> best;
+    Long best_squared = std::numeric_limits<Long>::infinity();
+    std::array<std::size_t, 3> corners{};
+    const auto try_triangle = [&](std::size_t i, std::size_t j, std::size_t k) {
+      const SimplexPoints<Long> triangle{{seen[i].y, seen[j].y, seen[k].y}, 3};
+      const ClosestPoint<Long> closest = closest_point(triangle);
+      const Long squared = closest.v.squaredNorm();
+      if (!(squared < best_squared)) return;
+      best = closest;
+      best_squared = squared;
+      corners = {i, j, k};
+    };
+    const auto try_with_last = [&] {
+      const std::size_t k = seen.size() - 1;
+      for (std::size_t i = 0; i < k; ++i)
+        for (std::size_t j = i; j < k; ++j) try_triangle(i, j, k);
+    };
+    for (std::size_t k = 0; k < seen.size(); ++k)
+      for (std::size_t i = 0; i <= k; ++i)
+        for (std::size_t j = i; j <= k; ++j) try_triangle(i, j, k);
+    const auto is_near_enough = [&] {
+      return std::sqrt(best_squared) <= Long(close_enough * rounding_);
+    };
+    // From n, and from the direction in which x lies, which is one of the normals of most rims.
+    for (const Vec3<double>& from : {n, unit<double>(x.cast<double>())})
+      if (!is_near_enough() && !from.isZero(0) && see(towards(x, from))) try_with_last();
+    for (int round = 0; round < refinements && !is_near_enough(); ++round) {
+      // What lies beyond the triangle's side: n turned towards it, little and much.
+      const Vec3<double> v = (best.v / std::sqrt(best_squared)).cast<double>(),
+                         aside = unit<double>(v - n.dot(v) * n);
+      bool found = false;
+      const auto look = [&](const Vec3<double>& direction) {
+        if (!see(direction)) return;
+        found = true;
+        try_with_last();
+      };
+      for (const double delta : tilts) look(n + delta * aside);
+      look(v);
+      if (!found) break;
+    }
+    certificate.spanning = {};
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const bool kept = best.kept & (1u << i);
+      certificate.spanning[i] = {seen[corners[i]].direction,
+                                 kept ? double(std::max(best.weights[i], Long(0))) : 0};
+    }
+    return double(std::sqrt(best_squared));
+  }
+
+  Certificate certificate;
+
+ private:
+  struct Seen {
+    Vec3<Long> y;
+    Vec3<double> direction;
+  };
+
+  /// A direction whose support point is nearer to x than n's, where the surface bends, as along a
+  /// rim: the secant method, since the point wanders along with the direction.
+  Vec3<double> towards(const Vec3<Long>& x, Vec3<double> n) {
+    if (!(near_.size > 0)) return n;
+    double step = 1 / near_.size;
+    Vec3<Long> y = x - support(n).cast<Long>();
+    for (int i = 0; i < secant_steps && y.norm() > Long(close_enough * rounding_); ++i) {
+      const Vec3<double> turned = unit<double>(n + step * y.cast<double>());
+      if (!turned.allFinite() || turned.isZero(0)) break;
+      const Vec3<Long> left = x - support(turned).cast<Long>();
+      const auto share = static_cast<double>((y - left).dot(y) / y.squaredNorm());
+      step *= share > 0 ? 1 / share : longer_step;
+      if (!(left.squaredNorm() < y.squaredNorm())) continue;
+      n = turned;
+      y = left;
+    }
+    return n;
+  }
+
+  const SupportFunction& support_;
+  NearSegment near_;
+  double rounding_ = 0;
+};
+
+/// The best proof so far.
+struct Candidate {
+  double off =
+      std::numeric_limits<double>::infinity();  ///< how far its point is from where it should be
+  Certificate certificate;
+
+  /// Keeps what the finder holds if it is better; where that has no plane, n is one.
+  void take(double other_off, const Vec3<double>& n, Finder& finder) {
+    if (finder.certificate.plane.isZero(0)) finder.certificate.plane = n;
+    if (!(other_off < off)) return;
+    off = other_off;
+    certificate = finder.certificate;
+  }
+  void give(Finder& finder) const {
+    const int supports = finder.certificate.supports;
+    finder.certificate = certificate;
+    finder.certificate.supports = supports;
+  }
+};
+
+/// A unit direction to begin with.
+Vec3<double> first_direction(const Claim& claim, const Vec3<double>& towards) {
+  Vec3<double> normal = unit(claim.normal);
+  if (normal.allFinite() && normal.squaredNorm() > 0) return normal;
+  Vec3<double> other = unit(towards);
+  return other.squaredNorm() > 0 ? other : Vec3<double>::UnitX();
+}
+
+/// A hit with the normal n at lambda, as claimed. First the hit is found anew, which gives the
+/// tightest bounds. Where rounding decides what is hit (rays that just touch, or run in a face) it
+/// may be found elsewhere; then a point of the shape at the claimed spot is the proof, or on the
+/// ray as little beyond it as the plane's slope makes of rounding.
+void certify_hit(Finder& finder, const Claim& claim, const Vec3<double>& n) {
+  const NearSegment& near = finder.near();
+  const double claimed = near.lambda_of(claim.t_base, claim.t_offset);
+  const double tolerance =
+      finder.rounding() * claim.epsilon / std::numeric_limits<double>::epsilon();
+  const double slope = std::abs(n.dot(near.r));
+
+  Candidate best;
+  double lambda = near.begin;
+  best.take(finder.enter(n, lambda), n, finder);
+  if (std::abs(lambda - claimed) * slope <= close_to_claim * tolerance) {
+    if (best.off <= good_enough * finder.rounding()) return best.give(finder);
+    best.take(finder.refine(lambda, best.certificate.plane), n, finder);
+    if (best.off <= good_enough * finder.rounding()) return best.give(finder);
+  } else {
+    best.off = std::numeric_limits<double>::infinity();
+  }
+
+  Vec3<double> separating = n;
+  finder.certificate.plane = n;
+  best.take(finder.nearest(claimed, claimed, n, separating), n, finder);
+  if (best.off <= good_enough * tolerance) return best.give(finder);
+  finder.certificate.plane = n;
+  best.take(finder.refine(claimed, n), n, finder);
+  if (best.off <= good_enough * tolerance) return best.give(finder);
+  const double end = std::min(claimed + good_enough * tolerance / slope, near.end);
+  best.take(finder.nearest(claimed, end, n, separating), n, finder);
+  best.give(finder);
+}
+
+}  // namespace
+
+Certificate certify(const SupportFunction& support, const Ray<double>& ray, const Claim& claim) {
+  Finder finder(support, ray);
+  const NearSegment& near = finder.near();
+  const Vec3<double> n = first_direction(claim, near.s);
+  Vec3<double> separating = n;
+
+  if (claim.status == Status::hit) certify_hit(finder, claim, n);
+  if (claim.status == Status::inside) {
+    const double origin = near.lambda_of(0, 0);
+    Candidate best;
+    best.take(finder.nearest(origin, origin, n, separating), separating, finder);
+    // On the surface, where the search comes to a point of a rim or a seam but slowly.
+    if (!(best.off <= good_enough * finder.rounding()))
+      best.take(finder.refine(origin, separating), separating, finder);
+    best.give(finder);
+  }
+  if (claim.status == Status::miss && !(near.begin > near.end)) {
+    const double margin =
+        std::min(n.dot(near.at(near.begin)), n.dot(near.at(near.end))) - n.dot(finder.support(n));
+    finder.certificate.plane = n;
+    if (!(margin > 0)) {
+      finder.nearest(near.begin, near.end, n, separating);
+      finder.certificate.plane = separating;
+    }
+    finder.certificate.spanning = {};
+  }
+  return finder.certificate;
+}
+
+}  // namespace minkray

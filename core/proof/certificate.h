@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// Certificates: a short proof of what a ray cast claims, that anybody can check with the shape's
+// support mapping alone (core/proof/check_certificate.h). docs/certificates.md says what is
+// promised, and up to which rounding.
+//
+// A hit is enclosed: a supporting plane keeps the shape off the ray before t_lo, and at most four
+// support points span a point of the shape that lies on the ray at t_hi. An origin inside is such a
+// point itself. A miss has a plane between the shape and the ray.
+#pragma once
+
+#include <array>
+#include <functional>
+
+#include "core/math/ray.h"
+#include "core/query/result.h"
+#include "core/shape/shape.h"
+
+namespace minkray {
+
+/// All that is known of a shape here: the point furthest along a direction of any length.
+using SupportFunction = std::function<Vec3<double>(const Vec3<double>&)>;
+
+/// The shape must outlive the function.
+inline SupportFunction supports_of(const Shape<double>& shape) {
+  return [&shape](const Vec3<double>& n) { return shape.support(n); };
+}
+
+/// What a solver says of a ray, in the ray's frame.
+struct Claim {
+  Status status = Status::exhausted;
+  double t_base = 0, t_offset = 0;  ///< of hits: t is their sum
+  Vec3<double> normal = Vec3<double>::Zero();
+  double epsilon = std::numeric_limits<double>::epsilon();  ///< of the solver's precision
+};
+
+template <class T>
+Claim claim_of(const CastResult<T>& result) {
+  return {result.status, double(result.t_base), double(result.t_offset),
+          result.normal.template cast<double>(), double(std::numeric_limits<T>::epsilon())};
+}
+
+/// The support point along a direction, and its share of the point that is spanned.
+struct WeightedSupport {
+  Vec3<double> direction = Vec3<double>::Zero();
+  double weight = 0;
+};
+
+/// The proof: directions only, since the shape answers with the points.
+struct Certificate {
+  /// Hit: the normal of the plane that gives t_lo. Miss: of a plane between shape and ray. Zero if
+  /// none is needed or none was found.
+  Vec3<double> plane = Vec3<double>::Zero();
+  /// Hit: they span a point on the ray; inside: its origin.
+  std::array<WeightedSupport, 4> spanning;
+  int supports = 0;  ///< support calls that finding it took
+};
+
+/// A proof of the claim, as good as can be found; whether it holds the checker says. The claim's
+/// normal is what the search begins with. Nothing is proven of the status exhausted.
+Certificate certify(const SupportFunction& support, const Ray<double>& ray, const Claim& claim);
+
+}  // namespace minkray

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+#include "core/proof/check_certificate.h"
+
+#include "core/query/near_segment.h"
+
+namespace minkray {
+namespace {
+
+bool is_direction(const Vec3<double>& n) {
+  return n.allFinite() && n.squaredNorm() > 0;
+}
+
+/// Points are relative to the segment's centre.
+class Checker {
+ public:
+  Checker(const SupportFunction& support, const Ray<double>& ray, const Claim& claim,
+          const Certificate& certificate)
+      : support_(support),
+        ray_(ray),
+        claim_(claim),
+        certificate_(certificate),
+        near_(near_segment(support, ray)) {
+    verdict_.t_base = near_.t_base;
+    verdict_.allowed = certificate_rounding * claim.epsilon * near_.size;
+  }
+
+  CertificateVerdict run() {
+    if (near_.is_too_far) complain("the origin is too far away");
+    switch (claim_.status) {
+      case Status::hit:
+        check_hit();
+        break;
+      case Status::miss:
+        check_miss();
+        break;
+      case Status::inside:
+        check_inside();
+        break;
+      case Status::exhausted:
+        complain("the solver gave up");
+        break;
+    }
+    verdict_.holds = verdict_.complaint.empty();
+    return verdict_;
+  }
+
+ private:
+  void complain(std::string_view text) {
+    if (verdict_.complaint.empty()) verdict_.complaint = text;
+  }
+  /// NaN is not allowed either.
+  void expect_at_most(double value, std::string_view otherwise) {
+    if (!(value <= verdict_.allowed)) complain(otherwise);
+  }
+
+  /// How far the shape reaches along a unit direction.
+  double reach(const Vec3<double>& n) const { return n.dot(support_(n) - near_.centre); }
+
+  /// The point of the shape that the certificate's support points span.
+  bool spanned_point(Vec3<double>& q) const {
+    double sum = 0;
+    q.setZero();
+    for (const WeightedSupport& part : certificate_.spanning) {
+      if (!(part.weight >= 0) || !std::isfinite(part.weight)) return false;
+      if (part.weight == 0) continue;
+      q += part.weight * (support_(part.direction) - near_.centre);
+      sum += part.weight;
+    }
+    q /= sum;
+    return sum > 0 && q.allFinite();
+  }
+
+  void check_hit() {
+    const double lambda = near_.lambda_of(claim_.t_base, claim_.t_offset);
+    const Vec3<double> spot = near_.at(lambda);
+    double lower = std::max(near_.first, near_.lambda_of(0, 0));
+
+    // The claimed plane touches the shape and holds the claimed spot; the ray comes from outside.
+    if (!is_direction(claim_.normal)) return complain("a hit without a normal");
+    const Vec3<double> n = claim_.normal.normalized();
+    const double above = n.dot(spot) - reach(n), slope = n.dot(near_.r);
+    verdict_.claim_error = std::abs(above);
+    if (slope < 0) lower = std::max(lower, lambda - above / slope);
+    if (!(slope <= certificate_rounding * claim_.epsilon)) complain("the normal looks backwards");
+    if (!(near_.lambda_of(ray_.t_max, 0) - lambda >= -verdict_.allowed))
+      complain("the hit lies beyond t_max");
+    if (!(lambda - near_.lambda_of(0, 0) >= -verdict_.allowed))
+      complain("the hit lies before the ray");
+    expect_at_most(std::abs(above), "the hit spot is not on the plane of its normal");
+
+    // The proven plane: nothing of the shape lies before it.
+    double depth_above = -std::numeric_limits<double>::infinity();
+    Vec3<double> q;
+    const bool spans = spanned_point(q);
+    if (is_direction(certificate_.plane)) {
+      const Vec3<double> m = certificate_.plane.normalized();
+      const double h = reach(m);
+      depth_above = m.dot(spot) - h;
+      const double steep = m.dot(near_.r);
+      if (steep < 0) lower = std::max(lower, lambda - depth_above / steep);
+      if (spans) verdict_.gap = h - m.dot(q);
+    } else if (spans) {
+      verdict_.gap = (n.dot(spot) - above) - n.dot(q);
+    }
+    verdict_.claim_error = std::max(verdict_.claim_error, depth_above);
+    if (depth_above > verdict_.allowed) complain("the hit spot lies outside the shape");
+
+    // The spanned point: on the ray, and not deep under the plane.
+    if (!spans) return complain("no support points");
+    const double at_q = near_.r.dot(q - near_.s);
+    verdict_.lateral = (q - near_.at(at_q)).norm();
+    expect_at_most(verdict_.lateral, "the support points do not enclose the ray");
+    expect_at_most(verdict_.gap, "the bounds are apart");
+    if (!(at_q >= near_.lambda_of(0, 0) - verdict_.allowed) ||
+        !(at_q <= near_.lambda_of(ray_.t_max, 0) + verdict_.allowed))
+      complain("the support points span no point of the ray");
+    verdict_.offset_spanned = near_.t_offset(at_q);
+    verdict_.offset_lo = near_.t_offset(std::min(lower, at_q));
+    verdict_.offset_hi = near_.t_offset(std::max(lower, at_q));
+    verdict_.late = lambda - std::max(lower, at_q);
+  }
+
+  void check_inside() {
+    Vec3<double> q;
+    if (!spanned_point(q)) return complain("no support points");
+    verdict_.lateral = (q - (ray_.origin - near_.centre)).norm();
+    expect_at_most(verdict_.lateral, "the support points do not enclose the origin");
+    verdict_.offset_lo = verdict_.offset_hi = -near_.t_base;
+  }
+
+  void check_miss() {
+    verdict_.margin = near_.begin - near_.end;
+    if (verdict_.margin > 0) return;  // all of the ray lies outside the planes across it
+    if (!is_direction(certificate_.plane)) return complain("a miss without a plane");
+    const Vec3<double> n = certificate_.plane.normalized();
+    verdict_.margin = std::min(n.dot(near_.at(near_.begin)), n.dot(near_.at(near_.end))) - reach(n);
+    expect_at_most(-verdict_.margin, "the plane does not separate");
+  }
+
+  const SupportFunction& support_;
+  const Ray<double>& ray_;
+  const Claim& claim_;
+  const Certificate& certificate_;
+  NearSegment near_;
+  CertificateVerdict verdict_;
+};
+
+}  // namespace
+
+CertificateVerdict check_certificate(const SupportFunction& support, const Ray<double>& ray,
+                                     const Claim& claim, const Certificate& certificate) {
+  return Checker(support, ray, claim, certificate).run();
+}
+
+}  // namespace minkray

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include "core/proof/proven_cast.h"
+
+#include <algorithm>
+
+#include "core/proof/check_certificate.h"
+
+namespace minkray {
+namespace {
+
+/// In bounding radii from the ball's centre: nothing further along the ray matters.
+constexpr double reach_of_proof = 2;
+
+/// How much more rounding than double's a proof is allowed: the middle of a sliver is only known so
+/// much worse than its corners.
+constexpr double roundings_allowed = 16;
+
+}  // namespace
+
+ProvenCast proven(const Shape<double>& shape, const Ball<double>& ball,
+                  const RayNearBall<double>& near, const CastResult<double>& answer) {
+  ProvenCast proof{answer};
+  if (answer.status == Status::exhausted) return proof;
+  const double reach = reach_of_proof * ball.radius;
+  const double begin = std::clamp(near.lambda_min, -reach, reach);
+  const double end = std::clamp(near.lambda_max, -reach, reach);
+  const Ray<double> ray{ball.centre + near.s + begin * near.r, near.r, end - begin};
+
+  Claim claim = claim_of(answer);
+  claim.epsilon *= roundings_allowed;
+  claim.t_base = 0;
+  claim.t_offset = (answer.t_offset - near.t_shift) / near.t_per_length - begin;
+  const SupportFunction support = supports_of(shape);
+  const Certificate certificate = certify(support, ray, claim);
+  proof.answer.supports += certificate.supports;
+  CertificateVerdict verdict = check_certificate(support, ray, claim, certificate);
+  const bool is_bounded = verdict.lateral <= verdict.allowed && verdict.gap <= verdict.allowed;
+  if (answer.status == Status::hit && is_bounded) {
+    const double first = verdict.t_lo(), spanned = verdict.t_base + verdict.offset_spanned;
+    claim.t_offset = std::clamp(spanned, 0.0, ray.t_max);
+    verdict = check_certificate(support, ray, claim, certificate);
+    if (verdict.holds) {
+      proof.answer.t_offset = near.t_offset(begin + claim.t_offset);
+      proof.answer.offset_lo = near.t_offset(begin + std::min(first, claim.t_offset));
+      proof.answer.offset_hi = proof.answer.t_offset;
+    }
+  }
+  proof.holds = verdict.holds;
+  const double off = answer.status == Status::miss ? -verdict.margin : verdict.lateral;
+  proof.is_sharp = verdict.holds && roundings_allowed * off <= verdict.allowed;
+  return proof;
+}
+
+}  // namespace minkray

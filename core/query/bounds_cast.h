@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// What a shape's bounds tell of a cast before the shape itself is asked: first its box, of the line
+// as it was given, then its ball, of the ray as seen from nearby.
+#pragma once
+
+#include "core/math/bounds.h"
+#include "core/query/ray_near_ball.h"
+#include "core/query/tolerances.h"
+
+namespace minkray {
+
+/// A ray's line from the middle of a shape's bounds, in the shape's frame, and what its numbers
+/// were rounded by: sums of the sizes of what they are sums of.
+template <class W>
+struct LineFromCentre {
+  Vec3<W> origin, direction;
+  W origin_size, direction_size;
+};
+
+/// Lanes whose line meets the bounds are open; of the others `normal` is that of a plane between
+/// line and bounds, of unit length.
+template <class W>
+struct BoundsCast {
+  Mask<W> open = Mask<W>(false);
+  Mask<W> miss = Mask<W>(false);
+  Vec3<W> normal = Vec3<W>::Zero();
+};
+
+/// The line at the axis-aligned box with these half extents around the centre, which has a ball of
+/// radius R around it. Nothing is divided and the ray is not moved, so that what misses is told
+/// quickly; what passes by within rounding, which grows with the origin's distance, stays open.
+template <class W>
+[[gnu::always_inline]] inline BoundsCast<W> cast_at_box(const LineFromCentre<W>& line,
+                                                        const Vec3<Lane<W>>& half_extents,
+                                                        Lane<W> R, const Mask<W>& active) {
+  using std::abs;
+  using std::copysign;
+  using T = Lane<W>;
+  const Vec3<W>&o = line.origin, &d = line.direction;
+  // In the direction d x e_k, to either side, the line is o . (d x e_k) = (o x d)_k away.
+  const Vec3<W> beside = o.cross(d);
+  const Vec3<W> size(abs(d.x()), abs(d.y()), abs(d.z()));
+  const Vec3<W> h = widen<W>(half_extents);
+  const W largest_term = (W(R) + line.origin_size) * line.direction_size;
+  const W padding = W(tolerance::box_padding<T>) * largest_term;
+  const Mask<W> by_x = abs(beside.x()) > h.y() * size.z() + h.z() * size.y() + padding;
+  const Mask<W> by_y = abs(beside.y()) > h.z() * size.x() + h.x() * size.z() + padding;
+  const Mask<W> by_z = abs(beside.z()) > h.x() * size.y() + h.y() * size.x() + padding;
+  // Shorter directions may have lost digits, larger terms overflow.
+  const Mask<W> told = (line.direction_size > W(tolerance::shortest_told<T>)) &
+                       (largest_term < W(std::numeric_limits<T>::max() / T(8)));
+  BoundsCast<W> result;
+  result.miss = active & told & (by_x | by_y | by_z);
+  result.open = active & !result.miss;
+  if (any(result.miss)) {
+    const Vec3<W> axis(select(by_x, copysign(W(1), beside.x()), W(0)),
+                       select(by_y & !by_x, copysign(W(1), beside.y()), W(0)),
+                       select(by_x | by_y, W(0), copysign(W(1), beside.z())));
+    result.normal = select<W>(result.miss, unit<W>(Vec3<W>(d.cross(axis))), result.normal);
+  }
+  return result;
+}
+
+/// The lanes of `bounds` that are open at the bounding ball, which the ray must be given relative
+/// to: those that pass it by, or end before it, or begin behind it, miss. Rays without a direction
+/// and shapes without size are closed.
+template <class W>
+void cast_at_ball(const RayNearBall<W>& near, Lane<W> R, BoundsCast<W>& bounds) {
+  using std::max;
+  using std::min;
+  using T = Lane<W>;
+  const W nearest = min(max(W(0), near.lambda_min), near.lambda_max);
+  const Vec3<W> to_ray = near.s + near.r * nearest;
+  const W reached = W(R * (T(1) + tolerance::ball_padding<T>));
+  const Mask<W> passes = bounds.open & (to_ray.squaredNorm() > reached * reached);
+  if (any(passes)) bounds.normal = select<W>(passes, unit<W>(to_ray), bounds.normal);
+  bounds.miss |= passes;
+  bounds.open &= (!passes) & (near.r.squaredNorm() > W(0)) & (W(R) > W(0));
+}
+
+}  // namespace minkray

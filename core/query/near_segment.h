@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// The part of a ray that a shape can have anything to do with, seen from the shape's middle: so
+// that proofs about it are as precise for far origins and endless rays as for near ones.
+#pragma once
+
+#include <cmath>
+
+#include "core/derived/shape_bounds.h"
+#include "core/math/ray.h"
+
+namespace minkray {
+
+/// The points centre + s + lambda * r with begin <= lambda <= end, a length: those between the
+/// shape's two supporting planes at right angles to the ray. All other points of the ray lie
+/// outside one of the two. Empty if begin > end.
+struct NearSegment {
+  Vec3<double> centre, s, r;
+  double begin = 0, end = 0;
+  double first = 0;  ///< where the supporting plane is that the ray meets from outside
+  double t_base = 0, t_shift = 0;  ///< their sum is the ray's parameter at lambda = 0
+  bool is_too_far = false;         ///< the origin: the segment is not where it should be
+  double speed = 0;                ///< length of the ray's direction
+  double size = 0;  ///< of the largest coordinates that occur: the middle's distance + radius
+
+  Vec3<double> at(double lambda) const { return s + lambda * r; }
+  double lambda_of(double base, double offset) const {
+    return ((base - t_base) + (offset - t_shift)) * speed;
+  }
+  double t_offset(double lambda) const { return speed > 0 ? t_shift + lambda / speed : 0; }
+};
+
+/// Asks for eight support points. `support` is called with directions, Vec3<double>.
+template <class Support>
+NearSegment near_segment(const Support& support, const Ray<double>& ray) {
+  struct Named {
+    const Support& function;
+    // SupportMapped's name.
+    Vec3<double> support(const Vec3<double>& n) const { return function(n); }
+  };
+  const Bounds<double> bounds = bounds_of<double>(Named{support});
+  NearSegment near;
+  near.centre = bounds.centre();
+  near.size = near.centre.norm() + bounds.half_extents().norm();
+  const Vec3<double>& d = ray.direction;
+  near.speed = d.stableNorm();
+  near.r = unit(d);
+  if (!(near.speed > 0)) {
+    near.s = ray.origin - near.centre;
+    return near;
+  }
+  // Two steps, in long double: fma rounds once, to the size of the result, and the first step
+  // leaves as much of the way as its parameter was rounded by.
+  using Long = long double;
+  const Vec3<Long> centre = near.centre.cast<Long>();
+  Vec3<Long> s = ray.origin.cast<Long>();
+  const auto move = [&](double t) {
+    for (int axis = 0; axis < 3; ++axis) s[axis] = std::fma(Long(t), Long(d[axis]), s[axis]);
+  };
+  const auto parameter = [&] {
+    return -static_cast<double>((s - centre).dot(near.r.cast<Long>()) / near.speed);
+  };
+  near.t_base = parameter();
+  move(near.t_base);
+  const auto step = static_cast<double>((s - centre).norm());
+  near.t_shift = parameter();
+  move(near.t_shift);
+  near.s = (s - centre).cast<double>();
+  constexpr double most = 0x1p11;  // of which long double's epsilon is double's of one
+  near.is_too_far = !(step <= most * (near.size + near.s.norm()));
+  const double pad = 8 * std::numeric_limits<double>::epsilon() * near.size;
+  const double at_s = near.r.dot(near.s);
+  near.first = near.r.dot(support(-near.r) - near.centre) - at_s - pad;
+  const double last = near.r.dot(support(near.r) - near.centre) - at_s + pad;
+  near.begin = std::max(near.first, near.lambda_of(0, 0));
+  near.end = std::min(last, near.lambda_of(ray.t_max, 0));
+  return near;
+}
+
+}  // namespace minkray

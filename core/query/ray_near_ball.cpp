@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#include "core/query/ray_near_ball.h"
+
+#if defined(__x86_64__)
+
+namespace minkray::detail {
+
+[[gnu::target("fma")]] RayNearBall<float> ray_near_with_fma(const Vec3<float>& centre,
+                                                            const Ray<float>& ray) {
+  return ray_near_here<float>(centre, ray);
+}
+
+[[gnu::target("fma")]] RayNearBall<double> ray_near_with_fma(const Vec3<double>& centre,
+                                                             const Ray<double>& ray) {
+  return ray_near_here<double>(centre, ray);
+}
+
+}  // namespace minkray::detail
+
+#endif

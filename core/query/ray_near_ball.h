@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+// A ray seen from the shape's neighbourhood: precision must not depend on how far away its origin
+// is, so its parameter is split into a part that leads to the shape's centre and a part that is
+// counted from there.
+#pragma once
+
+#include "core/math/bounds.h"
+#include "core/math/ray.h"
+#include "core/query/tolerances.h"
+
+namespace minkray {
+
+/// The points centre + s + lambda * r, lambda_min <= lambda <= lambda_max: lambda is a length, r
+/// of unit length (or zero, for a ray without direction), s the ray's closest approach to centre.
+template <class W>
+struct RayNearBall {
+  Vec3<W> s;
+  Vec3<W> r;
+  W lambda_min;  ///< where the ray's origin is
+  W lambda_max;  ///< where the ray ends
+  W t_base;      ///< the ray's own parameter at s is t_base + t_shift
+  W t_shift;
+  W t_per_length;
+
+  W t_offset(W lambda) const { return t_shift + lambda * t_per_length; }
+
+  /// Whether s lost digits to the distance of the ray's origin, beside a shape of radius R: the
+  /// first step's parameter is rounded as coarsely as that, and its remainder must be small.
+  Mask<W> is_from_afar(Lane<W> R) const {
+    using std::abs;
+    return (abs(lambda_min) > W(tolerance::far_origin<Lane<W>> * R)) & (W(R) > W(0));
+  }
+
+  /// The same points, walked the other way.
+  RayNearBall reversed() const {
+    return {s, -r, -lambda_max, -lambda_min, t_base, t_shift, -t_per_length};
+  }
+
+  /// The ray's image under a linear map that takes the old centre to the new one; parameters stay.
+  RayNearBall mapped(const Mat3<Lane<W>>& linear) const {
+    const Vec3<W> direction = times(linear, r);
+    RayNearBall image = *this;
+    image.s = times(linear, s);
+    image.r = unit(direction);
+    const W length = image.r.dot(direction);
+    const Mask<W> has_direction = length > W(0);
+    const W safe_length = select(has_direction, length, W(1));
+    const W correction = -image.s.dot(image.r);
+    image.s += correction * image.r;
+    image.t_per_length = t_per_length / safe_length;
+    image.t_shift = t_shift + correction * image.t_per_length;
+    image.lambda_min = lambda_min * safe_length - correction;
+    image.lambda_max = lambda_max * safe_length - correction;
+    return image;
+  }
+};
+
+namespace detail {
+
+template <class W>
+[[gnu::always_inline]] inline RayNearBall<W> ray_near_here(const Vec3<Lane<W>>& centre_of_ball,
+                                                           const Ray<W>& ray) {
+  using std::abs;
+  using std::fma;
+  using std::max;
+  using std::sqrt;
+  using T = Lane<W>;
+  const Vec3<W> centre = widen<W>(centre_of_ball);
+
+  // Powers of two keep the scaled direction exact, and its square in range; tiny directions take
+  // two of them, since denormal numbers have no leading power.
+  constexpr T tiny = std::is_same_v<T, float> ? T(0x1p-60) : T(0x1p-500);
+  constexpr T up = std::is_same_v<T, float> ? T(0x1p100) : T(0x1p900);
+  const W longest =
+      max(abs(ray.direction.x()), max(abs(ray.direction.y()), abs(ray.direction.z())));
+  const Mask<W> has_direction = longest > W(0);
+  const W first = select(longest < W(tiny), W(up), W(1));
+  const W size = select(has_direction, leading_power_of_two(W(longest * first)), W(1));
+  const W second = W(1) / size;
+  const Vec3<W> direction = ray.direction * first * second;
+
+  const W squared = select(has_direction, direction.squaredNorm(), W(1));
+  const W length = sqrt(squared);
+  const auto along = [&](const Vec3<W>& from, const W& steps) -> Vec3<W> {
+    return {fma(steps, direction.x(), from.x()), fma(steps, direction.y(), from.y()),
+            fma(steps, direction.z(), from.z())};
+  };
+  const W steps = -(ray.origin - centre).dot(direction) / squared;
+  const Vec3<W> close = along(ray.origin, steps) - centre;
+  const W more_steps = -close.dot(direction) / squared;
+  RayNearBall<W> near;
+  near.s = along(close, more_steps);
+  const W per_length = W(1) / length;
+  near.r = direction * per_length;
+  near.t_base = steps * second * first;  // in this order, it is a number if the product is
+  near.t_shift = more_steps * second * first;
+  near.t_per_length = second * per_length * first;
+  near.lambda_min = -steps * length - more_steps * length;
+  // Counted from s, where the end keeps its digits if it is not far from the shape.
+  const W left = ray.t_max * (size * (W(1) / first)) - steps - more_steps;
+  near.lambda_max = select(has_direction, W(left * length), W(0));
+  return near;
+}
+
+#if defined(__x86_64__)
+/// The same with fma as an instruction, where the machine has it; elsewhere it is a function call,
+/// six times over. Compiled in one place, so that no other flags give other bits.
+RayNearBall<float> ray_near_with_fma(const Vec3<float>& centre, const Ray<float>& ray);
+RayNearBall<double> ray_near_with_fma(const Vec3<double>& centre, const Ray<double>& ray);
+#endif
+
+}  // namespace detail
+
+/// The ray moved to its closest approach to `centre`. Two steps, since the rounding of the first
+/// one's parameter is as coarse as the origin is far; s itself is rounded only as coarsely as
+/// centre and shape are large, because fma rounds once and walks along the direction as given, not
+/// along a rounded unit vector.
+template <class W>
+RayNearBall<W> ray_near(const Vec3<Lane<W>>& centre, const Ray<W>& ray) {
+#if defined(__x86_64__)
+  if constexpr (std::is_same_v<W, float> || std::is_same_v<W, double>)
+    if (__builtin_cpu_supports("fma")) return detail::ray_near_with_fma(centre, ray);
+#endif
+  return detail::ray_near_here<W>(centre, ray);
+}
+
+/// The same of one ray for origins further away than far_origin, with digits to spare; no better
+/// beyond farthest_origin.
+template <class T>
+RayNearBall<T> ray_near_from_afar(const Vec3<T>& centre, const Ray<T>& ray) {
+  using Finer = std::conditional_t<std::is_same_v<T, float>, double, long double>;
+  const Ray<Finer> same{ray.origin.template cast<Finer>(), ray.direction.template cast<Finer>(),
+                        Finer(ray.t_max)};
+  const RayNearBall<Finer> fine = detail::ray_near_here<Finer>(centre.template cast<Finer>(), same);
+  RayNearBall<T> near;
+  near.s = fine.s.template cast<T>();
+  near.r = fine.r.template cast<T>();
+  near.lambda_min = T(fine.lambda_min);
+  near.lambda_max = T(fine.lambda_max);
+  near.t_base = T(fine.t_base);
+  near.t_shift = T((fine.t_base - Finer(near.t_base)) + fine.t_shift);
+  near.t_per_length = T(fine.t_per_length);
+  return near;
+}
+
+}  // namespace minkray

@@ -1,3 +1,0 @@
-// SPDX-License-Identifier: MIT
-#define MINKRAY_PACKET_KERNEL packet_kernel_sse2
-#include "core/solver/packet_kernel.inl"

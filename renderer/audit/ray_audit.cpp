@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/audit/ray_audit.h"
+
+#include "core/derived/shape_bounds.h"
+#include "renderer/json/json.h"
+#include "renderer/query/number_json.h"
+#include "renderer/scene/scene_instances.h"
+#include "renderer/scene/shape_json.h"
+
+namespace minkray {
+namespace {
+
+/// Enough to see a pattern.
+constexpr std::size_t most_failures = 20;
+
+/// How much longer boxes are than what they hold, relative to their largest coordinate: they only
+/// spare proofs.
+constexpr double box_padding = 1e-9;
+
+/// Whether the ray passes the box; where in doubt it does.
+bool may_meet(const Bounds<double>& box, const Ray<double>& ray) {
+  double enter = 0, leave = ray.t_max;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double to_lower = box.lower[axis] - ray.origin[axis];
+    const double to_upper = box.upper[axis] - ray.origin[axis];
+    const double d = ray.direction[axis];
+    if (d == 0) {
+      if (to_lower > 0 || to_upper < 0) return false;
+      continue;
+    }
+    enter = std::max(enter, std::min(to_lower / d, to_upper / d));
+    leave = std::min(leave, std::max(to_lower / d, to_upper / d));
+  }
+  return !(enter > leave);
+}
+
+std::string query_line(const Object& object, const Shape<double>& in_world,
+                       const Ray<double>& ray) {
+  Json json;
+  json["name"] = object.name;
+  json["query"] = "ray";
+  json["shape"] = write_shape(in_world);
+  json["ray"] = {{"origin", point_json(ray.origin)}, {"direction", point_json(ray.direction)}};
+  if (std::isfinite(ray.t_max)) json["ray"]["t_max"] = ray.t_max;
+  return json.dump();
+}
+
+}  // namespace
+
+RayAudit::RayAudit(const Scene& scene, const RenderWorld& world) : scene_(scene), world_(world) {
+  for (std::size_t i = 0; i < instance_count(scene); ++i) {
+    const Object object = instance_object(scene, i);
+    const Shape<double> in_world = Transform<double>{object.shape, object.pose};
+    Bounds<double> bounds = bounds_of<double>(in_world);
+    const double padding = box_padding * std::max(bounds.lower.cwiseAbs().maxCoeff(),
+                                                  bounds.upper.cwiseAbs().maxCoeff());
+    bounds.lower.array() -= padding;
+    bounds.upper.array() += padding;
+    targets_.push_back({in_world, bounds});
+  }
+}
+
+CertificateVerdict RayAudit::verdict(std::uint32_t instance, const Ray<double>& ray,
+                                     const Claim& claim) {
+  ++certificates_;
+  const SupportFunction support = supports_of(targets_[instance].shape);
+  return check_certificate(support, ray, claim, certify(support, ray, claim));
+}
+
+void RayAudit::fail(RayKind kind, std::uint32_t instance, const Ray<double>& ray,
+                    std::string_view what) {
+  ++failed_[index(kind)];
+  const std::lock_guard lock(mutex_);
+  if (failures_.size() >= most_failures) return;
+  std::string message(ray_kind_names[index(kind)]);
+  message += " ray: ";
+  if (instance == no_instance) {
+    failures_.push_back({message + std::string(what), {}});
+    return;
+  }
+  const Object object = instance_object(scene_, instance);
+  message += object.name + ": " + std::string(what);
+  failures_.push_back({message, query_line(object, targets_[instance].shape, ray)});
+}
+
+/// All but two: the one that the ray leaves, and the one that it meets.
+bool RayAudit::all_missed(RayKind kind, const Ray<double>& ray, std::uint32_t skip,
+                          std::uint32_t met) {
+  Claim miss;
+  miss.status = Status::miss;
+  for (std::uint32_t i = 0; i < targets_.size(); ++i) {
+    if (i == skip || i == met || !may_meet(targets_[i].bounds, ray)) continue;
+    const CertificateVerdict answer = verdict(i, ray, miss);
+    if (answer.holds) continue;
+    fail(kind, i, ray, met == no_instance ? "not proven to be missed" : "is met before");
+    return false;
+  }
+  return true;
+}
+
+void RayAudit::closest(RayKind kind, const Ray<Real>& ray, std::uint32_t skip,
+                       const WorldHit<Real>& answer) {
+  ++rays_[index(kind)];
+  if (!answer.found()) {
+    all_missed(kind, ray, skip, no_instance);
+    return;
+  }
+  const CertificateVerdict hit = verdict(answer.instance, ray, claim_of(answer.cast));
+  if (!hit.holds) return fail(kind, answer.instance, ray, hit.complaint);
+  if (answer.cast.status == Status::inside) return;
+  // Where two objects touch, rounding decides which one is met first.
+  const double rounding = hit.allowed / ray.direction.norm();
+  all_missed(kind, {ray.origin, ray.direction, std::max(0.0, hit.t_lo() - rounding)}, skip,
+             answer.instance);
+}
+
+void RayAudit::occluded(RayKind kind, const Ray<Real>& ray, std::uint32_t skip, bool answer) {
+  ++rays_[index(kind)];
+  if (!answer) {
+    all_missed(kind, ray, skip, no_instance);
+    return;
+  }
+  for (std::uint32_t i = 0; i < targets_.size(); ++i) {
+    if (i == skip || !may_meet(targets_[i].bounds, ray)) continue;
+    const CastResult<Real> cast = cast_ray(world_.instances().at(i), ray, world_.options());
+    if (cast.found() && verdict(i, ray, claim_of(cast)).holds) return;
+  }
+  fail(kind, no_instance, ray, "nothing is proven to be in its way");
+}
+
+}  // namespace minkray

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// Proof of a picture: every answer that the world gives to a ray is proven by certificates
+// (core/proof/certificate.h), object by object and without the hierarchy, or counted as a failure.
+//
+// Of the first object that a ray meets the hit is proven, and of every other object that the ray
+// up to there misses it; of a ray that meets nothing that it misses all; of one whose way is
+// blocked that some object is met.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/proof/check_certificate.h"
+#include "renderer/base/real.h"
+#include "renderer/scene/scene.h"
+
+namespace minkray {
+
+enum class RayKind : unsigned char { camera, shadow, ambient, indirect };
+
+inline constexpr std::array<std::string_view, 4> ray_kind_names = {"camera", "shadow", "ambient",
+                                                                   "indirect"};
+
+/// One answer without proof.
+struct AuditFailure {
+  std::string message;
+  std::string query;  ///< a line for `minkray cast`
+};
+
+/// Refers to scene and world, object by object. Any number of threads may ask.
+class RayAudit {
+ public:
+  RayAudit(const Scene& scene, const RenderWorld& world);
+
+  /// The answers of World::closest_hit and World::occluded.
+  void closest(RayKind kind, const Ray<Real>& ray, std::uint32_t skip,
+               const WorldHit<Real>& answer);
+  void occluded(RayKind kind, const Ray<Real>& ray, std::uint32_t skip, bool answer);
+
+  std::uint64_t rays(RayKind kind) const { return rays_[index(kind)]; }
+  std::uint64_t failed(RayKind kind) const { return failed_[index(kind)]; }
+  std::uint64_t certificates() const { return certificates_; }
+  /// The first few.
+  const std::vector<AuditFailure>& failures() const { return failures_; }
+
+ private:
+  struct Target {
+    Shape<double> shape;  ///< in the world's frame
+    Bounds<double> bounds;
+  };
+  static std::size_t index(RayKind kind) { return static_cast<std::size_t>(kind); }
+  CertificateVerdict verdict(std::uint32_t instance, const Ray<double>& ray, const Claim& claim);
+  bool all_missed(RayKind kind, const Ray<double>& ray, std::uint32_t skip, std::uint32_t met);
+  void fail(RayKind kind, std::uint32_t instance, const Ray<double>& ray, std::string_view what);
+
+  const Scene& scene_;
+  const RenderWorld& world_;
+  std::vector<Target> targets_;
+  std::array<std::atomic<std::uint64_t>, 4> rays_{}, failed_{};
+  std::atomic<std::uint64_t> certificates_ = 0;
+  std::mutex mutex_;
+  std::vector<AuditFailure> failures_;
+};
+
+}  // namespace minkray

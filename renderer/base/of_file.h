@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// Whose mistake it is: a file's name before what is wrong with it.
+#pragma once
+
+#include <new>
+#include <stdexcept>
+#include <string>
+
+#include "renderer/base/errors.h"
+
+namespace minkray {
+
+/// Runs `work`, which reads the file. What is wrong is BadInput that begins with the file's name.
+template <class Work>
+auto of_file(const std::string& file, const Work& work) {
+  try {
+    return work();
+  } catch (const std::runtime_error& error) {
+    const std::string what = error.what();
+    throw BadInput(what.starts_with(file + ": ") ? what : file + ": " + what);
+  } catch (const std::bad_alloc&) {
+    throw BadInput(file + ": there is not enough memory to read it");
+  }
+}
+
+}  // namespace minkray

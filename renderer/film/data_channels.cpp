@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/film/data_channels.h"
+
+#include <algorithm>
+#include <limits>
+#include <sstream>
+
+#include "renderer/base/errors.h"
+#include "renderer/film/heatmap.h"
+#include "renderer/light/camera.h"
+
+namespace minkray {
+namespace {
+
+using Floats = std::vector<float>;
+using Integers = std::vector<std::uint32_t>;
+
+/// What the ray through a pixel's centre found.
+struct Found {
+  Ray<Real> ray;
+  WorldHit<Real> hit;
+  QueryCounts work;
+
+  bool any() const { return hit.found(); }
+  double distance() const {
+    return any() ? double(hit.cast.t()) : std::numeric_limits<double>::infinity();
+  }
+};
+
+std::uint32_t clamped(std::uint64_t count) {
+  constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
+  return static_cast<std::uint32_t>(std::min(count, most));
+}
+
+std::uint32_t status_of(const Found& found) {
+  const Status status = found.work.exhausted > 0 ? Status::exhausted : found.hit.cast.status;
+  const auto at = std::find(heat_statuses.begin(), heat_statuses.end(), status);
+  return static_cast<std::uint32_t>(at - heat_statuses.begin());
+}
+
+/// Puts one channel of one pixel into its planes, the first of which is `planes[0]`.
+using Put = void (*)(const Found& found, const Vec3<double>& forward, std::size_t pixel,
+                     ExrPlane* planes);
+
+void put(ExrPlane& plane, std::size_t pixel, double value) {
+  std::get<Floats>(plane.values)[pixel] = static_cast<float>(value);
+}
+void put(ExrPlane& plane, std::size_t pixel, std::uint32_t value) {
+  std::get<Integers>(plane.values)[pixel] = value;
+}
+void put(ExrPlane* planes, std::size_t pixel, const Vec3<double>& value) {
+  for (int i = 0; i < 3; ++i) put(planes[i], pixel, value[i]);
+}
+
+/// How each of `data_channels` is found, in the same order.
+struct Filling {
+  bool is_integer;
+  Put put;
+};
+constexpr std::array<Filling, data_channels.size()> fillings = {{
+    {false,
+     [](const Found& f, const Vec3<double>& forward, std::size_t i, ExrPlane* planes) {
+       const double along = f.ray.direction.template cast<double>().dot(forward);
+       put(planes[0], i, f.distance() * along);
+     }},
+    {false, [](const Found& f, const Vec3<double>&, std::size_t i,
+               ExrPlane* planes) { put(planes[0], i, f.distance()); }},
+    {false,
+     [](const Found& f, const Vec3<double>&, std::size_t i, ExrPlane* planes) {
+       const Vec3<double> none = Vec3<double>::Zero();
+       put(planes, i, f.any() ? Vec3<double>(f.hit.cast.normal.template cast<double>()) : none);
+     }},
+    {false,
+     [](const Found& f, const Vec3<double>&, std::size_t i, ExrPlane* planes) {
+       const Vec3<double> none = Vec3<double>::Zero();
+       put(planes, i,
+           f.any() ? Vec3<double>(f.ray.at(f.hit.cast.t()).template cast<double>()) : none);
+     }},
+    {true, [](const Found& f, const Vec3<double>&, std::size_t i,
+              ExrPlane* planes) { put(planes[0], i, f.any() ? f.hit.instance + 1 : 0u); }},
+    {true, [](const Found& f, const Vec3<double>&, std::size_t i,
+              ExrPlane* planes) { put(planes[0], i, clamped(f.work.iterations)); }},
+    {true, [](const Found& f, const Vec3<double>&, std::size_t i,
+              ExrPlane* planes) { put(planes[0], i, clamped(f.work.supports)); }},
+    {false,
+     [](const Found& f, const Vec3<double>&, std::size_t i, ExrPlane* planes) {
+       const bool is_hit = f.any() && f.hit.cast.status == Status::hit;
+       put(planes[0], i, is_hit ? double(f.hit.cast.offset_hi - f.hit.cast.offset_lo) : 0.0);
+     }},
+    {true, [](const Found& f, const Vec3<double>&, std::size_t i,
+              ExrPlane* planes) { put(planes[0], i, status_of(f)); }},
+}};
+
+std::size_t index_of(std::string_view name) {
+  const auto at =
+      std::find_if(data_channels.begin(), data_channels.end(),
+                   [&](const DataChannelDescription& channel) { return channel.name == name; });
+  return static_cast<std::size_t>(at - data_channels.begin());
+}
+
+}  // namespace
+
+std::vector<std::string_view> parse_data_channels(const std::string& list) {
+  std::vector<std::string_view> names;
+  const auto add = [&](std::string_view name) {
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  };
+  std::string known;
+  for (const DataChannelDescription& channel : data_channels)
+    known += std::string(channel.name) + ", ";
+  known += "all";
+  std::istringstream stream(list + ",");
+  for (std::string name; std::getline(stream, name, ',');) {
+    const std::size_t i = index_of(name);
+    if (name == "all") {
+      for (const DataChannelDescription& channel : data_channels) add(channel.name);
+    } else if (i < data_channels.size()) {
+      add(data_channels[i].name);
+    } else {
+      throw WrongUsage("--aov: must be some of " + known + ", between commas (got \"" + name +
+                       "\")");
+    }
+  }
+  return names;
+}
+
+std::vector<ExrPlane> measure_data_channels(const Scene& scene, const RenderWorld& world,
+                                            const std::vector<std::string_view>& channels,
+                                            const RenderOptions& options,
+                                            const RenderWatch& watch) {
+  const Camera camera(scene.camera, options.resolution);
+  const Vec3<double> forward =
+      camera.ray(0.5 * options.resolution.width, 0.5 * options.resolution.height).direction;
+  const PixelRect part = options.part();
+  const std::size_t pixels =
+      static_cast<std::size_t>(part.width()) * static_cast<std::size_t>(part.height());
+
+  struct Wanted {
+    Put put;
+    std::size_t first_plane;
+  };
+  std::vector<Wanted> wanted;
+  std::vector<ExrPlane> planes;
+  for (const std::string_view name : channels) {
+    const std::size_t i = index_of(name);
+    wanted.push_back({fillings[i].put, planes.size()});
+    const auto add = [&](const std::string& plane) {
+      if (fillings[i].is_integer)
+        planes.push_back({plane, Integers(pixels)});
+      else
+        planes.push_back({plane, Floats(pixels)});
+    };
+    if (data_channels[i].planes.empty()) add(std::string(name));
+    for (const char suffix : data_channels[i].planes) add(std::string(name) + "." + suffix);
+  }
+
+  RayCounts counts;
+  for_tiles(part, counts, watch, [&](const PixelRect& tile) {
+    RayCounts of_tile;
+    for (int y = tile.y0; y < tile.y1; ++y)
+      for (int x = tile.x0; x < tile.x1; ++x) {
+        Found found{camera.ray(x + 0.5, y + 0.5), {}, {}};
+        found.hit = world.closest_hit(found.ray, found.work);
+        ++of_tile.camera;
+        of_tile.work += found.work;
+        const std::size_t pixel =
+            static_cast<std::size_t>(y - part.y0) * static_cast<std::size_t>(part.width()) +
+            static_cast<std::size_t>(x - part.x0);
+        for (const Wanted& channel : wanted)
+          channel.put(found, forward, pixel, &planes[channel.first_plane]);
+      }
+    return of_tile;
+  });
+  return planes;
+}
+
+}  // namespace minkray

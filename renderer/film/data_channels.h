@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// What can be told of a pixel beside its colour: where its centre's ray meets the scene, and what
+// the solver did. These are numbers, not light: nothing is filtered, one ray through the pixel's
+// centre answers for all.
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "renderer/film/render.h"
+#include "renderer/io/exr.h"
+
+namespace minkray {
+
+/// A channel that may be asked for, and the planes of an OpenEXR file it becomes.
+struct DataChannelDescription {
+  std::string_view name;
+  std::string_view planes;  ///< after the name: "" for one plane, "XYZ" for .X, .Y and .Z
+  std::string_view doc;
+};
+
+/// The list of all there are.
+inline constexpr std::array data_channels = {
+    DataChannelDescription{"Z", "", "depth along the camera's axis; infinite where nothing is met"},
+    DataChannelDescription{"dist", "", "distance from the camera; infinite where nothing is met"},
+    DataChannelDescription{"N", "XYZ", "the surface's outward unit normal in the world, or 0"},
+    DataChannelDescription{"P", "XYZ", "the hit spot in the world, or 0"},
+    DataChannelDescription{"id.object", "", "1 + the object's place in the scene, or 0 (integer)"},
+    DataChannelDescription{"gjk.iterations", "", "solver iterations of all casts (integer)"},
+    DataChannelDescription{"gjk.supports", "", "support points of all casts (integer)"},
+    DataChannelDescription{"gjk.gap", "",
+                           "the width of the interval that encloses the hit; 0 where none is"},
+    DataChannelDescription{"status", "",
+                           "0 miss, 1 hit, 2 inside, 3 exhausted if any cast gave up (integer)"},
+};
+
+/// The names between commas, or "all". Throws WrongUsage, with the names there are, for any other;
+/// a name given twice counts once.
+std::vector<std::string_view> parse_data_channels(const std::string& list);
+
+/// The planes of the channels, of the part of the picture that `options` ask for; all threads.
+/// Of no use if the watch said stop.
+std::vector<ExrPlane> measure_data_channels(const Scene& scene, const RenderWorld& world,
+                                            const std::vector<std::string_view>& channels,
+                                            const RenderOptions& options,
+                                            const RenderWatch& watch = {});
+
+}  // namespace minkray

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// What each pixel cost: the work of its camera ray, as numbers and as a picture with a scale.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "renderer/film/render.h"
+#include "renderer/image/image.h"
+
+namespace minkray {
+
+/// What can be shown of a camera ray.
+enum class HeatChannel { iterations, supports, nodes, status };
+
+struct HeatChannelDescription {
+  HeatChannel channel;
+  std::string_view name;
+  std::string_view unit;
+  std::string_view doc;
+};
+
+inline constexpr std::array heat_channels = {
+    HeatChannelDescription{HeatChannel::iterations, "iterations", "solver iterations per ray",
+                           "iterations of all casts"},
+    HeatChannelDescription{HeatChannel::supports, "supports", "support points per ray",
+                           "support points of all casts"},
+    HeatChannelDescription{HeatChannel::nodes, "nodes", "nodes visited per ray",
+                           "nodes of the hierarchy that were visited, of up to 8 boxes each"},
+    HeatChannelDescription{HeatChannel::status, "status", "answer of the solver",
+                           "hit, miss, inside, or exhausted if any cast gave up"},
+};
+
+/// The answers that the status channel tells apart, in the order of its numbers.
+inline constexpr std::array heat_statuses = {Status::miss, Status::hit, Status::inside,
+                                             Status::exhausted};
+
+/// One number a pixel, rows from the top.
+struct HeatField {
+  int width = 0, height = 0;
+  std::vector<float> values;
+  QueryCounts work;  ///< of all rays together
+  bool complete = false;
+};
+
+/// Casts one ray through each pixel's centre (samples 1), or samples evenly spread over it, of
+/// which counts are averaged and statuses give way to the gravest.
+HeatField measure_heat(const Scene& scene, const RenderWorld& world, HeatChannel channel,
+                       const RenderOptions& options, const RenderWatch& watch = {});
+
+struct HeatSummary {
+  double least = 0, mean = 0, most = 0;
+};
+HeatSummary summary_of(const HeatField& field);
+
+/// The values as a table of the terminal: least, mean and most and a histogram, or for status how
+/// many pixels of each.
+std::string heat_report(const HeatField& field, HeatChannel channel);
+
+/// One panel of a heat picture.
+struct HeatPanel {
+  std::string title;
+  const HeatField* field;
+};
+
+/// The panels beside each other on one scale, above a colour bar with numbers and unit.
+Image heat_picture(const std::vector<HeatPanel>& panels, HeatChannel channel);
+
+/// The numbers in all three channels, panels beside each other, for formats that keep floats.
+Image heat_numbers(const std::vector<HeatPanel>& panels);
+
+}  // namespace minkray

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// The objects' names, each under the picture of its object.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "renderer/film/render.h"
+#include "renderer/image/image.h"
+
+namespace minkray {
+
+/// A name and where it is written: its upper left corner, in pixels of the whole picture.
+struct Label {
+  double x = 0, y = 0;
+  std::string text;
+};
+
+/// Of objects, not of particles. Names of objects that are behind the camera or have none are left
+/// out; so are all if the scene does not want them.
+std::vector<Label> labels_of(const Scene& scene, const Resolution& resolution);
+
+/// Draws labels onto `image`, the part of the picture of that resolution; those that are outside of
+/// the part are not seen.
+void draw_labels(Image& image, const std::vector<Label>& labels, const PixelRect& part,
+                 const Resolution& resolution);
+
+}  // namespace minkray

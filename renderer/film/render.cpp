@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/film/render.h"
+
+#include <array>
+
+#include "renderer/image/filter.h"
+#include "renderer/light/camera.h"
+#include "renderer/scene/scene_instances.h"
+
+namespace minkray {
+namespace {
+
+/// How so many rays are taken from pixels and samples.
+struct PacketShape {
+  int samples, width = 1, height = 1;
+
+  PacketShape(int rays, int samples_of_pixel) : samples(std::clamp(samples_of_pixel, 1, rays)) {
+    while (2 * samples * width * height <= rays && width < tile_size)
+      (height < width ? height : width) *= 2;
+  }
+};
+
+/// While the shutter is open.
+bool is_on_the_move(const Scene& scene) {
+  return std::any_of(scene.objects.begin(), scene.objects.end(),
+                     [](const Object& object) { return !object.shift.isZero(0); });
+}
+
+/// on_pixel(x, y, i) for all pixels, in rows.
+template <class OnPixel>
+void for_pixels(const PixelRect& pixels, const OnPixel& on_pixel) {
+  std::size_t i = 0;
+  for (int y = pixels.y0; y < pixels.y1; ++y)
+    for (int x = pixels.x0; x < pixels.x1; ++x) on_pixel(x, y, i++);
+}
+
+/// A pixel while its samples come in, in their order: the same additions however many come at once.
+struct PixelSum {
+  Colour block = Colour::Zero();
+  BlockTotal total;
+  std::uint32_t met = 0;
+
+  void add(const CameraRay& ray) {
+    block += ray.radiance;
+    met += ray.met ? 1 : 0;
+  }
+  Vec3<float> end_block() {
+    const Vec3<float> sum(block.cast<float>());
+    block.setZero();
+    total.add(sum);
+    return sum;
+  }
+};
+
+}  // namespace
+
+RenderWorld make_world(const Scene& scene, const CastOptions<Real>& options, BvhBuild build) {
+  Instances<Real> instances;
+  instances.reserve(instance_count(scene));
+  for (const Object& object : scene.objects) instances.add(object.shape, object.pose);
+  for (const ParticleSet& set : scene.particles)
+    instances.add_many(instances.define(set.shape), set.size(), set.linear_alike(),
+                       [&](std::size_t i) { return set.pose(i); });
+  RenderWorld world(std::move(instances), options, build);
+  if (is_on_the_move(scene)) follow(world, scene);
+  return world;
+}
+
+void follow(RenderWorld& world, const Scene& scene) {
+  const auto pose = [&](std::size_t i) { return instance_pose(scene, i); };
+  if (is_on_the_move(scene))
+    world.pose_all(pose, [&](std::size_t i) { return instance_shift(scene, i); });
+  else
+    world.pose_all(pose);
+}
+
+Rendering render(const Scene& scene, const RenderWorld& world, const RenderOptions& options,
+                 const RenderWatch& watch, RenderJournal journal) {
+  const Camera camera(scene.camera, options.resolution);
+  const PixelFilter filter;
+  const Integrator integrator(scene, world, options.integrator);
+  const PixelRect part = options.part();
+  const SampleBlocks blocks{options.samples};
+  const int first_block = blocks.first_of(options.sample_share);
+  const int end_block = blocks.end_of(options.sample_share);
+
+  Rendering rendering;
+  if (journal.done.empty()) {
+    const Image black(part.width(), part.height());
+    rendering.met.resize(black.pixels.size());
+    if (options.sample_share.is_all())
+      rendering.image = black;
+    else
+      rendering.block_sums.assign(static_cast<std::size_t>(end_block - first_block), black);
+  } else {
+    rendering = std::move(journal.begun);
+  }
+
+  // The rays of a packet: samples of one pixel first, they are the closest together; then pixels.
+  const PacketShape packet(options.integrator.packet,
+                           blocks.begin(end_block) - blocks.begin(first_block));
+  // When nothing moves no random numbers are spent on when.
+  const bool blurs = world.instances().move();
+  const auto render_pixels = [&](const PixelRect& pixels, RayCounts& counts) {
+    std::array<PixelSum, most_in_packet> sums;
+    std::array<CameraRay, most_in_packet> rays;
+    const int end = blocks.begin(end_block);
+    int next = 0;
+    for (int first = blocks.begin(first_block); first < end && !watch.stopped(); first = next) {
+      next = std::min(first + packet.samples, end);
+      std::size_t count = 0;
+      for_pixels(pixels, [&](int x, int y, std::size_t) {
+        for (int sample = first; sample < next; ++sample) {
+          CameraRay& ray = rays[count++];
+          ray.sampler = Sampler(options.seed, x, y, static_cast<std::uint32_t>(sample));
+          const std::array<double, 2> u = ray.sampler.next();
+          ray.ray = camera.ray(x + 0.5 + filter.offset(u[0]), y + 0.5 + filter.offset(u[1]));
+          ray.time = blurs ? ray.sampler.next()[0] : 0;
+        }
+      });
+      integrator.trace(std::span(rays).first(count), counts);
+      std::size_t ray = 0;
+      for_pixels(pixels, [&](int x, int y, std::size_t pixel) {
+        for (int sample = first; sample < next; ++sample, ++ray) {
+          sums[pixel].add(rays[ray]);
+          const int block = blocks.of(sample);
+          if (sample + 1 < blocks.begin(block + 1)) continue;
+          const Vec3<float> sum = sums[pixel].end_block();
+          if (!options.sample_share.is_all())
+            rendering.block_sums[static_cast<std::size_t>(block - first_block)].at(
+                x - part.x0, y - part.y0) = sum;
+        }
+      });
+    }
+    for_pixels(pixels, [&](int x, int y, std::size_t pixel) {
+      const int column = x - part.x0, row = y - part.y0;
+      if (options.sample_share.is_all())
+        rendering.image.at(column, row) = sums[pixel].total.mean(options.samples);
+      rendering.met[static_cast<std::size_t>(row) * static_cast<std::size_t>(part.width()) +
+                    static_cast<std::size_t>(column)] = sums[pixel].met;
+    });
+  };
+  TileJournal tiles{std::move(journal.done), {}};
+  if (journal.finished)
+    tiles.finished = [&](std::size_t tile) { journal.finished(rendering, tile); };
+  const auto render_tile = [&](const PixelRect& tile) {
+    RayCounts counts;
+    for (int y = tile.y0; y < tile.y1; y += packet.height)
+      for (int x = tile.x0; x < tile.x1; x += packet.width)
+        render_pixels(
+            {x, y, std::min(x + packet.width, tile.x1), std::min(y + packet.height, tile.y1)},
+            counts);
+    return counts;
+  };
+  rendering.complete = for_tiles(part, rendering.counts, watch, render_tile, tiles);
+  return rendering;
+}
+
+}  // namespace minkray

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// Whole pictures: tiles on all cores, each pixel by itself, so that the picture is equal bit for
+// bit for any number of threads and any crop.
+#pragma once
+
+#include "renderer/film/share.h"
+#include "renderer/film/tiles.h"
+#include "renderer/image/image.h"
+#include "renderer/light/integrator.h"
+
+namespace minkray {
+
+/// The scene's objects, then its particles, in order.
+RenderWorld make_world(const Scene& scene, const CastOptions<Real>& options = {},
+                       BvhBuild build = BvhBuild::quality);
+
+/// Moves a world's instances to where the scene, of which it was made, has them by now.
+void follow(RenderWorld& world, const Scene& scene);
+
+struct RenderOptions {
+  Resolution resolution;
+  PixelRect crop;      ///< the picture that is wanted; empty: all
+  Share tile;          ///< of the picture: which share of its pixels to render
+  Share sample_share;  ///< of each pixel: which share of its samples to render
+  int samples = 16;    ///< of a pixel, all shares together
+  std::uint64_t seed = 0;
+  IntegratorOptions integrator;
+
+  /// What all tiles make together.
+  PixelRect picture() const {
+    return crop.empty() ? PixelRect{0, 0, resolution.width, resolution.height} : crop;
+  }
+  /// What is to be rendered.
+  PixelRect part() const { return tile_of(picture(), tile); }
+};
+
+struct Rendering {
+  Image image;  ///< linear radiance, of the part asked for; empty for a share of the samples
+  std::vector<Image> block_sums;   ///< of a share of the samples: the sums of its blocks, in order
+  std::vector<std::uint32_t> met;  ///< by pixel: how many of the samples' rays met an object
+  RayCounts counts;
+  bool complete = false;  ///< false if the watch said stop
+};
+
+/// A rendering to go on with, and who hears how it grows.
+struct RenderJournal {
+  Rendering begun;         ///< if any tile is done
+  std::vector<bool> done;  ///< its tiles, as TileGrid counts them; empty: none
+  /// Told after each tile, one at a time; other tiles may be written to meanwhile.
+  std::function<void(const Rendering&, std::size_t tile)> finished;
+};
+
+/// Refers to `world` made of `scene`.
+Rendering render(const Scene& scene, const RenderWorld& world, const RenderOptions& options,
+                 const RenderWatch& watch = {}, RenderJournal journal = {});
+
+}  // namespace minkray

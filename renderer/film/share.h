@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// One of several shares of a picture: a rectangle of its pixels, or some of each pixel's samples.
+// Which pixels and samples belong to a share depends on the picture and on "i/n" alone.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+
+#include "renderer/image/image.h"
+
+namespace minkray {
+
+/// "3/8": the third of eight; counted from 1.
+struct Share {
+  int index = 1;
+  int count = 1;
+
+  bool is_all() const { return count == 1; }
+  std::string text() const { return std::to_string(index) + "/" + std::to_string(count); }
+  bool operator==(const Share&) const = default;
+};
+
+/// No picture is split into more.
+inline constexpr int most_shares = 1 << 20;
+
+/// The share that the text "i/n" says, nothing else around it. Throws WrongUsage that begins with
+/// `option`.
+Share parse_share(const std::string& text, const std::string& option);
+
+/// The rectangle of a share: the longer side is halved again and again (unequal counts get unequal
+/// pieces), so that all are about as large and about as wide as high. The shares cover the
+/// rectangle exactly once. Some are empty where there are not enough pixels for that many.
+PixelRect tile_of(const PixelRect& whole, const Share& share);
+
+/// Whether none of so many shares is empty.
+bool can_be_tiled(const PixelRect& whole, int count);
+
+/// The samples of a pixel in blocks. Each block is summed by itself and rounded to float; the
+/// blocks' sums are added in order. That order of additions is the same wherever the blocks were
+/// rendered: any split of the samples between blocks gives the same bits.
+struct SampleBlocks {
+  /// So many blocks keep the files of shares small, and let so many machines share one pixel.
+  static constexpr int most = 64;
+
+  int samples = 1;
+
+  int count() const { return std::min(samples, most); }
+  /// The first sample of a block; of block count(): how many samples there are.
+  int begin(int block) const { return static_cast<int>(std::int64_t{samples} * block / count()); }
+  /// The block that a sample belongs to.
+  int of(int sample) const {
+    auto block = static_cast<int>(std::int64_t{sample} * count() / samples);
+    while (begin(block + 1) <= sample) ++block;
+    return block;
+  }
+  /// The first block of a share; the share after it begins where it ends.
+  int first_of(const Share& share) const {
+    return static_cast<int>(std::int64_t{count()} * (share.index - 1) / share.count);
+  }
+  int end_of(const Share& share) const { return first_of({share.index + 1, share.count}); }
+};
+
+/// The colour of a pixel from its blocks.
+class BlockTotal {
+ public:
+  /// In a file of its own, for its argument must be floats: where GCC 12 sees a pair of doubles
+  /// that is rounded to floats and widened again, it leaves out the rounding.
+  void add(const Vec3<float>& block_sum);
+  Vec3<float> mean(int samples) const { return (total_ / samples).cast<float>(); }
+
+ private:
+  Vec3<double> total_ = Vec3<double>::Zero();
+};
+
+}  // namespace minkray

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+// The pixels of a picture in tiles, on all threads.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <vector>
+
+#include "core/parallel/parallel.h"
+#include "renderer/image/image.h"
+
+namespace minkray {
+
+/// What a rendering is watched by; either may be missing.
+struct RenderWatch {
+  /// Told after each tile, one at a time: the fraction done and the rays so far.
+  std::function<void(double fraction, std::uint64_t rays)> progress;
+  /// Asked often, by all threads: whether to end early. A single pixel may take minutes.
+  std::function<bool()> stop;
+
+  bool stopped() const { return stop && stop(); }
+};
+
+/// Small enough for even loads, large enough for coherent rays.
+inline constexpr int tile_size = 16;
+
+/// The tiles of a part of a picture, in rows.
+class TileGrid {
+ public:
+  explicit TileGrid(const PixelRect& part)
+      : part_(part), columns_(tiles_along(part.width())), rows_(tiles_along(part.height())) {}
+
+  std::size_t count() const { return columns_ * rows_; }
+  PixelRect operator[](std::size_t tile) const {
+    const int x = part_.x0 + static_cast<int>(tile % columns_) * tile_size;
+    const int y = part_.y0 + static_cast<int>(tile / columns_) * tile_size;
+    return {x, y, std::min(x + tile_size, part_.x1), std::min(y + tile_size, part_.y1)};
+  }
+
+ private:
+  static std::size_t tiles_along(int pixels) {
+    return static_cast<std::size_t>((pixels + tile_size - 1) / tile_size);
+  }
+  PixelRect part_;
+  std::size_t columns_, rows_;
+};
+
+/// Tiles that are there already, and who hears of those that are rendered.
+struct TileJournal {
+  std::vector<bool> done;  ///< by tile; empty: none
+  /// Told after each tile, one at a time.
+  std::function<void(std::size_t tile)> finished;
+};
+
+/// Calls render_tile(PixelRect) -> counts for the tiles of `part` that are not done yet, possibly
+/// at once, and joins the counts with +=; counts.total() are rays. Answers whether all tiles were
+/// done without being stopped. Of tiles that were stopped neither counts nor the journal hear.
+template <class Counts, class RenderTile>
+bool for_tiles(const PixelRect& part, Counts& counts, const RenderWatch& watch,
+               const RenderTile& render_tile, const TileJournal& journal = {}) {
+  const TileGrid tiles(part);
+  std::mutex mutex;
+  auto done = static_cast<std::size_t>(std::count(journal.done.begin(), journal.done.end(), true));
+  for_parts(tiles.count(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t tile = begin; tile < end && !watch.stopped(); ++tile) {
+      if (!journal.done.empty() && journal.done[tile]) continue;
+      const Counts more = render_tile(tiles[tile]);
+      const std::lock_guard lock(mutex);
+      if (watch.stopped()) return;
+      counts += more;
+      ++done;
+      if (journal.finished) journal.finished(tile);
+      if (watch.progress)
+        watch.progress(static_cast<double>(done) / static_cast<double>(tiles.count()),
+                       counts.total());
+    }
+  });
+  return done == tiles.count();
+}
+
+}  // namespace minkray

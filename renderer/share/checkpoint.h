@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// Checkpoints of long renders: from time to time the tiles that are done are put into a file beside
+// the picture, so that a render that was killed can go on. A pixel depends on nothing but itself,
+// so the picture is the same bit for bit however often it was interrupted.
+#pragma once
+
+#include <chrono>
+#include <future>
+#include <string>
+
+#include "renderer/share/picture_facts.h"
+
+namespace minkray {
+
+class Checkpoint {
+ public:
+  /// The file that belongs to a picture.
+  static std::string path_for(const std::string& output) { return output + ".checkpoint"; }
+
+  /// `facts` tell of what picture it is; a file is written every `seconds` at most, never if 0.
+  Checkpoint(std::string path, const RenderOptions& options, Facts facts, double seconds);
+  /// Waits for a file that is being written.
+  ~Checkpoint();
+  Checkpoint(const Checkpoint&) = delete;
+  Checkpoint& operator=(const Checkpoint&) = delete;
+
+  /// Whether there is a file.
+  bool exists() const;
+
+  /// Throws CannotWrite if there is something that is no checkpoint.
+  void check_replaceable() const;
+
+  /// The rendering to go on with, as the file has it. Throws BadInput if it cannot be used or is of
+  /// another picture, and says in what they differ.
+  RenderJournal load();
+
+  /// To be told of each tile, one at a time. Writes, on a thread of its own, when it is time.
+  void tile_finished(const Rendering& rendering, std::size_t tile);
+
+  /// After an interruption, when no thread renders any more: writes once more what is done. A
+  /// rendering that has not lasted for `seconds` yet leaves no file, and another's alone.
+  void interrupted(const Rendering& rendering);
+
+  /// The picture is kept: the file, if there is one, has served.
+  void remove();
+
+  /// What went wrong with writing, if anything; the rendering is not ended for it.
+  std::string complaint();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  bool is_due() const;
+  void write_later(const Rendering& rendering);
+  Rendering done_tiles_of(const Rendering& rendering) const;
+
+  std::string path_;
+  RenderOptions options_;
+  Facts facts_;
+  std::chrono::duration<double> pause_;
+  Clock::time_point last_ = Clock::now();
+  std::vector<bool> done_;
+  bool is_ours_ = false;              ///< whether the file, if any, was loaded or written here
+  std::future<std::string> writing_;  ///< gives the complaint
+  std::string complaint_;
+};
+
+}  // namespace minkray

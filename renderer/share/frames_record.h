@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// Which frames of an animation are there, in a small file beside them. Frames that are not in it
+// are rendered, whatever has their names: so frames of two scenes, or with two sets of options, are
+// never mixed when a render of frames goes on.
+#pragma once
+
+#include <set>
+#include <string>
+
+#include "renderer/share/picture_facts.h"
+
+namespace minkray {
+
+namespace fact {
+
+inline constexpr const char* rate = "minkray.rate";          ///< frames a second
+inline constexpr const char* exposure = "minkray.exposure";  ///< in stops
+
+}  // namespace fact
+
+class FramesRecord {
+ public:
+  /// The file that belongs to frames; `name` has # in the place of their numbers.
+  static std::string path_for(const std::string& name) { return name + ".frames"; }
+
+  /// `facts` are those that all frames have in common. Takes over the frames of a record that is
+  /// there; writes nothing yet. One of other frames is replaced; with `resume` it throws BadInput
+  /// that says in what they differ. Of something that is no record it throws BadInput with
+  /// `resume`, and CannotWrite without.
+  FramesRecord(std::string path, Facts facts, bool resume);
+
+  bool has(int frame) const { return frames_.contains(frame); }
+
+  /// The frame's file is written. Frames that others add meanwhile, on other machines, are kept.
+  void add(int frame);
+
+  void write() const;
+
+ private:
+  std::string path_;
+  Facts facts_;
+  std::set<int> frames_;
+};
+
+}  // namespace minkray

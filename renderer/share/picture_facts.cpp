@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/share/picture_facts.h"
+
+#include <charconv>
+
+#include "renderer/base/errors.h"
+
+namespace minkray {
+namespace {
+
+/// Whole numbers between separators, nothing else around them.
+std::vector<int> integers(const Facts& facts, const std::string& name, char separator,
+                          std::size_t count) {
+  const std::string text = text_of(facts, name);
+  std::vector<int> numbers;
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  while (numbers.size() < count) {
+    int number = 0;
+    const auto [next, error] = std::from_chars(at, end, number);
+    const bool is_last = numbers.size() + 1 == count;
+    if (error != std::errc() || (is_last ? next != end : next == end || *next != separator)) break;
+    numbers.push_back(number);
+    at = next + 1;
+  }
+  if (numbers.size() != count)
+    throw BadInput("its header has no usable " + name + " (got \"" + text + "\")");
+  return numbers;
+}
+
+}  // namespace
+
+Facts picture_facts(const Scene& scene, const RenderWorld& world, const RenderOptions& options) {
+  const PixelRect picture = options.picture();
+  std::string solver;
+  for (const SolverDescription& description : solver_descriptions)
+    if (description.kind == world.options().solver) solver = description.name;
+  const auto number = [](auto value) { return std::to_string(value); };
+  return {
+      {fact::software, "minkray " MINKRAY_VERSION},
+      {fact::scene, scene.hash},
+      {fact::resolution,
+       number(options.resolution.width) + "x" + number(options.resolution.height)},
+      {fact::crop, number(picture.x0) + "," + number(picture.y0) + "," + number(picture.x1) + "," +
+                       number(picture.y1)},
+      {fact::samples, number(options.samples)},
+      {fact::seed, number(options.seed)},
+      {fact::solver, solver},
+      {fact::bounces, number(options.integrator.bounces)},
+  };
+}
+
+std::vector<std::string> common_facts() {
+  return {fact::software, fact::scene,  fact::resolution, fact::crop, fact::samples,
+          fact::seed,     fact::solver, fact::bounces,    fact::aov};
+}
+
+std::string difference(const Facts& found, const Facts& wanted,
+                       const std::vector<std::string>& names) {
+  std::string differences;
+  for (const std::string& name : names) {
+    const std::string a = text_of(found, name), b = text_of(wanted, name);
+    if (a == b) continue;
+    differences += (differences.empty() ? "" : ", ") + name + " is " + (a.empty() ? "missing" : a) +
+                   ", not " + (b.empty() ? "missing" : b);
+  }
+  return differences;
+}
+
+Resolution resolution_of(const Facts& facts) {
+  const std::vector<int> numbers = integers(facts, fact::resolution, 'x', 2);
+  return {numbers[0], numbers[1]};
+}
+
+PixelRect crop_of(const Facts& facts) {
+  const std::vector<int> numbers = integers(facts, fact::crop, ',', 4);
+  return {numbers[0], numbers[1], numbers[2], numbers[3]};
+}
+
+int samples_of(const Facts& facts) {
+  const int samples = integers(facts, fact::samples, ' ', 1)[0];
+  if (samples < 1) throw BadInput(std::string("its header has no usable ") + fact::samples);
+  return samples;
+}
+
+std::string text_of(const Facts& facts, const std::string& name) {
+  const auto at = facts.find(name);
+  return at == facts.end() ? std::string() : at->second;
+}
+
+}  // namespace minkray

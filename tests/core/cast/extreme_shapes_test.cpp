@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: MIT
+// Shapes of proportions that no solver's rounding was made for: what is answered is right, by
+// closed forms in long double, and nearly everything is answered.
+#include <gtest/gtest.h>
+
+#include "core/cast/cast.h"
+#include "core/cast/packet_cast.h"
+#include "core/derived/convert.h"
+#include "core/proof/check_certificate.h"
+#include "tests/support/random.h"
+#include "tests/support/ray_families.h"
+
+namespace minkray::testing {
+namespace {
+
+using Long = long double;
+
+/// How often each was answered.
+struct Answered {
+  int hits = 0, misses = 0, exhausted = 0;
+  int compared = 0;  ///< with a truth that rounding leaves no doubt about
+};
+
+/// Through and past the shape as its radii are: rays aimed at the bounding ball would meet nothing
+/// of a needle.
+Ray<double> ray_at(const Vec3<double>& radii, Random& random) {
+  const auto spot = [&](double reach) -> Vec3<double> {
+    return random.in_cube().cwiseProduct(radii) * reach;
+  };
+  const Vec3<double> through = spot(1), from = through + 4 * spot(1) + spot(3);
+  return {from, through - from};
+}
+
+/// The first point of the line in the ellipsoid, by the quadratic formula of the ball it is mapped
+/// to; the discriminant relative to its terms says how far from touching it is.
+struct EllipsoidTruth {
+  bool hit, certain;
+  Long t;
+};
+template <class T>
+EllipsoidTruth truth_of(const Vec3<T>& radii, const Ray<T>& ray) {
+  Vec3<Long> o, d;
+  for (int i = 0; i < 3; ++i) {
+    o[i] = Long(ray.origin[i]) / Long(radii[i]);
+    d[i] = Long(ray.direction[i]) / Long(radii[i]);
+  }
+  const Vec3<Long> beside = d.cross(o) / d.norm();
+  const Long den = 1 - beside.squaredNorm();
+  const bool inside = o.norm() < 1;
+  const Long t =
+      inside ? 0 : (-o.dot(d) - std::sqrt(std::max(den, Long(0))) * d.norm()) / d.squaredNorm();
+  // Ray and shape are rounded to the longest radius.
+  const Long rounding = 128 * std::numeric_limits<T>::epsilon() * Long(radii.maxCoeff());
+  const Long nearest = std::min(std::abs(den), std::abs(o.norm() - 1)) * Long(radii.minCoeff());
+  return {inside || (den > 0 && t > 0), nearest > rounding, t};
+}
+
+template <class T>
+Answered check_ellipsoid(const Vec3<double>& wanted, int rays) {
+  Random random(7);
+  const Vec3<T> radii = wanted.cast<T>();
+  const PreparedShape<T> prepared{Shape<T>(Ellipsoid<T>{radii})};
+  EXPECT_TRUE(prepared.definition().is_extreme());
+  EXPECT_FALSE(prepared.definition().has_packets());
+  Answered answered;
+  for (int i = 0; i < rays; ++i) {
+    const Ray<double> exact = ray_at(radii.template cast<double>(), random);
+    const Ray<T> ray{exact.origin.cast<T>(), exact.direction.cast<T>()};
+    const EllipsoidTruth truth = truth_of(radii, ray);
+    const CastResult<T> result = cast_ray(prepared, ray);
+    if (result.status == Status::exhausted) {
+      ++answered.exhausted;
+      continue;
+    }
+    (result.status == Status::miss ? answered.misses : answered.hits) += 1;
+    if (!truth.certain) continue;
+    ++answered.compared;
+    EXPECT_EQ(result.found(), truth.hit) << wanted.transpose() << ", ray " << i;
+    if (result.status != Status::hit || !truth.hit) continue;
+    // Along the normal, in epsilons of the longest radius.
+    const Long off = (Long(result.t_base) + Long(result.t_offset) - truth.t) *
+                     Long(ray.direction.dot(result.normal));
+    EXPECT_LE(std::abs(off), 64 * std::numeric_limits<T>::epsilon() * radii.norm())
+        << wanted.transpose() << ", ray " << i;
+  }
+  return answered;
+}
+
+TEST(ExtremeShapes, ellipsoids_are_met_where_they_are) {
+  const auto check = [](const Answered& answered) {
+    EXPECT_GT(answered.hits, 300);
+    EXPECT_GT(answered.misses, 300);
+    EXPECT_LE(answered.exhausted, 20);
+    EXPECT_GT(answered.compared, 500);
+  };
+  for (const Vec3<double>& radii :
+       {Vec3<double>(1, 1, 1e-8), Vec3<double>(1, 1e-8, 1e-8), Vec3<double>(1, 1e-4, 1e-10)})
+    check(check_ellipsoid<double>(radii, 2000));
+  for (const Vec3<double>& radii : {Vec3<double>(1, 1, 1e-4), Vec3<double>(1, 1e-4, 1e-4)})
+    check(check_ellipsoid<float>(radii, 2000));
+}
+
+/// A sliver against its plane and its three edges, in long double.
+TEST(ExtremeShapes, slivers_are_met_where_they_are) {
+  Random random(8);
+  Answered answered;
+  for (int i = 0; i < 2000; ++i) {
+    const Mat3<double> turn = random.rotation();
+    const double thin = std::pow(10.0, random.uniform(-8, -4));
+    const std::array<Vec3<double>, 3> corners = {turn.col(0), Vec3<double>(-turn.col(0)),
+                                                 Vec3<double>(thin * turn.col(1))};
+    const PreparedShape<double> prepared{Shape<double>(Triangle<double>{corners})};
+    ASSERT_TRUE(prepared.definition().is_extreme());
+    const double u = random.uniform(-0.2, 1), v = random.uniform(-0.2, 1);
+    const Vec3<double> through =
+        corners[0] + u * (corners[1] - corners[0]) * 0.9 + v * (corners[2] - corners[0]);
+    const Vec3<double> direction = random.direction();
+    const Ray<double> ray{through - 3 * direction, direction};
+
+    const auto exact = [](const Vec3<double>& x) { return Vec3<Long>(x.cast<Long>()); };
+    const Vec3<Long> a = exact(corners[0]), ab = exact(corners[1]) - a, ac = exact(corners[2]) - a;
+    const Vec3<Long> d = exact(ray.direction), o = exact(ray.origin) - a;
+    const Vec3<Long> normal = ab.cross(ac);
+    const Long slope = normal.dot(d) / normal.norm();
+    if (std::abs(slope) < 0.01L) continue;
+    const Long t = -normal.dot(o) / normal.dot(d);
+    const Vec3<Long> at = o + t * d;
+    const Long beta = at.cross(ac).dot(normal) / normal.squaredNorm();
+    const Long gamma = ab.cross(at).dot(normal) / normal.squaredNorm();
+    const Long least = std::min({beta, gamma, 1 - beta - gamma});
+    if (std::abs(least) * thin < 1e-13L) continue;  // within rounding of an edge
+
+    const CastResult<double> result = cast_ray(prepared, ray);
+    if (result.status == Status::exhausted) {
+      ++answered.exhausted;
+      continue;
+    }
+    (result.status == Status::miss ? answered.misses : answered.hits) += 1;
+    EXPECT_EQ(result.status == Status::hit, least > 0) << i << ", thickness " << thin;
+    if (result.status == Status::hit && least > 0) {
+      const Long off = (Long(result.t_base) + Long(result.t_offset) - t) * slope;
+      EXPECT_NEAR(double(off), 0, 1e-12) << i << ", thickness " << thin;
+    }
+  }
+  EXPECT_GT(answered.hits, 300);
+  EXPECT_GT(answered.misses, 300);
+  // Where the sliver is so thin that even its middle is lost in rounding.
+  EXPECT_LE(answered.exhausted, 60);
+}
+
+/// The corners of a box that has been turned, and a spot within it.
+struct TurnedBox {
+  std::vector<Vec3<double>> corners;
+  Vec3<double> within;
+};
+TurnedBox turned_box(const Vec3<double>& half_extents, Random& random) {
+  const Vec3<double> x = random.direction();
+  const Vec3<double> y = x.cross(random.direction()).normalized();
+  const auto turned = [&](const Vec3<double>& at) -> Vec3<double> {
+    return x * at.x() + y * at.y() + x.cross(y) * at.z();
+  };
+  TurnedBox box;
+  for (int corner = 0; corner < 8; ++corner)
+    box.corners.push_back(turned({corner & 1 ? half_extents.x() : -half_extents.x(),
+                                  corner & 2 ? half_extents.y() : -half_extents.y(),
+                                  corner & 4 ? half_extents.z() : -half_extents.z()}));
+  box.within = turned(0.8 * random.in_cube().cwiseProduct(half_extents));
+  return box;
+}
+
+void expect_inside(const Shape<double>& shape, const Vec3<double>& origin, Random& random) {
+  const Ray<double> ray{origin, random.direction()};
+  const CastResult<double> result = cast_ray(PreparedShape<double>(shape), ray);
+  EXPECT_EQ(result.status, Status::inside) << origin.transpose();
+  const SupportFunction support = supports_of(shape);
+  const Claim claim = claim_of(result);
+  EXPECT_EQ(check_certificate(support, ray, claim, certify(support, ray, claim)).complaint, "");
+}
+
+TEST(ExtremeShapes, what_is_inside_can_be_proven) {
+  Random random(11);
+  for (const double thin : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-9})
+    for (const Vec3<double>& half_extents :
+         {Vec3<double>(1, thin, thin), Vec3<double>(1, 1, thin), Vec3<double>(1, 0.03, thin)})
+      for (int i = 0; i < 20; ++i) {
+        SCOPED_TRACE(half_extents.transpose());
+        const TurnedBox box = turned_box(half_extents, random);
+        expect_inside(Hull<double>{PointCloud<double>(box.corners)}, box.within, random);
+      }
+}
+
+TEST(ExtremeShapes, in_a_thin_skin_one_is_inside) {
+  Random random(12);
+  for (const double radius : {1e-3, 1e-5, 1e-7, 1e-9})
+    for (int i = 0; i < 20; ++i) {
+      const TurnedBox box = turned_box({1, 0.8, 0.6}, random);
+      const Vec3<double> middle = (box.corners[0] + box.corners[3]) / 2;  // of a face
+      const Vec3<double> out = middle.normalized() * radius * random.uniform(0.1, 0.9);
+      const Shape<double> hull = Hull<double>{PointCloud<double>(box.corners)};
+      expect_inside(Rounded<double>{radius, hull}, middle + out, random);
+    }
+}
+
+TEST(ExtremeShapes, packets_say_what_single_casts_say) {
+  const Shape<double> shape = Ellipsoid<double>{{1, 1e-5, 1e-9}};
+  const PreparedShape<float> prepared{convert<float>(shape)};
+  FamilyRays rays(shape, RayFamily::random, 5);
+  for (int i = 0; i < 50; ++i) {
+    RayPacket<float> packet{};
+    for (int lane = 0; lane < packet_lanes<float>; ++lane) {
+      const Ray<double> ray = rays.next();
+      packet.set(lane, {ray.origin.cast<float>(), ray.direction.cast<float>()});
+    }
+    CastPacket<float> answers{};
+    cast_packet(prepared, packet, all_lanes<float>, answers, best_instruction_set());
+    for (int lane = 0; lane < packet_lanes<float>; ++lane) {
+      const CastResult<float> one = cast_ray(prepared, packet.ray(lane));
+      const CastResult<float> other = answers.result(lane);
+      EXPECT_EQ(one.status, other.status);
+      if (one.status == Status::hit) {
+        EXPECT_EQ(one.t(), other.t());
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace minkray::testing

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+// A packet's answers are those of single casts, bit for bit, whatever the instruction set.
+#include "core/cast/packet_cast.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+
+#include "core/derived/convert.h"
+#include "tests/support/aimed_rays.h"
+#include "tests/support/sample_shapes.h"
+
+namespace minkray::testing {
+namespace {
+
+std::vector<InstructionSet> instruction_sets() {
+  std::vector<InstructionSet> sets = {InstructionSet::sse2};
+  if (best_instruction_set() == InstructionSet::avx2) sets.push_back(InstructionSet::avx2);
+  return sets;
+}
+
+std::vector<SampleShape> shapes() {
+  std::vector<SampleShape> all = sample_shapes();
+  for (std::uint64_t seed = 500; seed < 540; ++seed) {
+    const Shape<double> shape = random_nesting(seed);
+    all.push_back({"seed " + std::to_string(seed) + " " + name_of_nesting(shape), shape});
+  }
+  return all;
+}
+
+template <class T>
+bool same_bits(T a, T b) {
+  using Bits = std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>;
+  return std::bit_cast<Bits>(a) == std::bit_cast<Bits>(b);
+}
+
+template <class T>
+::testing::AssertionResult same(const CastResult<T>& a, const CastResult<T>& b) {
+  if (a.status != b.status)
+    return ::testing::AssertionFailure() << name_of(a.status) << " and " << name_of(b.status);
+  if (a.found() && !same_bits(a.t_base, b.t_base)) return ::testing::AssertionFailure() << "t_base";
+  if (a.found() && !(same_bits(a.t_offset, b.t_offset) && same_bits(a.offset_lo, b.offset_lo) &&
+                     same_bits(a.offset_hi, b.offset_hi)))
+    return ::testing::AssertionFailure()
+           << "t_offset " << a.t_offset << " and " << b.t_offset << ", [" << a.offset_lo << ", "
+           << a.offset_hi << "] and [" << b.offset_lo << ", " << b.offset_hi << "]";
+  if (a.normal != b.normal)
+    return ::testing::AssertionFailure()
+           << "normals " << a.normal.transpose() << " and " << b.normal.transpose();
+  if (a.supports != b.supports)
+    return ::testing::AssertionFailure() << "supports " << a.supports << " and " << b.supports;
+  return ::testing::AssertionSuccess();
+}
+
+/// Packets of rays of all kinds: near and far, that begin inside, end early, are points.
+template <class T>
+std::vector<RayPacket<T>> packets_at(const Shape<T>& shape, int count) {
+  const Bounds<double> bounds = bounds_of<double>(convert<double>(shape));
+  AimedRays near(bounds, 91, 3), far(bounds, 92, 1e4), inside(bounds, 93, 0.6);
+  Random random(94);
+  std::vector<RayPacket<T>> packets(static_cast<std::size_t>(count));
+  for (RayPacket<T>& packet : packets) {
+    for (int lane = 0; lane < packet_lanes<T>; ++lane) {
+      const double kind = random.uniform(0, 1);
+      Ray<double> ray = kind < 0.6 ? near.next(1.4) : kind < 0.8 ? far.next(1.4) : inside.next(0.7);
+      Ray<T> cast_at{ray.origin.cast<T>(), ray.direction.cast<T>()};
+      if (kind > 0.97) cast_at.direction.setZero();
+      if (kind > 0.5 && kind < 0.55) cast_at.t_max = T(random.uniform(0, 2));
+      packet.set(lane, cast_at);
+    }
+  }
+  return packets;
+}
+
+template <class T>
+void check_all() {
+  int hits = 0, rays = 0;
+  for (const SampleShape& sample : shapes()) {
+    const Shape<T> shape = convert<T>(sample.shape);
+    const PreparedShape<T> prepared(shape);
+    for (const RayPacket<T>& packet : packets_at(shape, 1000 / packet_lanes<T>)) {
+      for (const InstructionSet set : instruction_sets()) {
+        CastPacket<T> answers;
+        cast_packet(prepared, packet, all_lanes<T>, answers, set);
+        for (int lane = 0; lane < packet_lanes<T>; ++lane) {
+          const CastResult<T> alone = cast_ray(prepared, packet.ray(lane));
+          ASSERT_TRUE(same(alone, answers.result(lane)))
+              << sample.name << ", " << packet_lanes<T> << " lanes, set " << int(set) << ", origin "
+              << packet.ray(lane).origin.transpose() << ", direction "
+              << packet.ray(lane).direction.transpose();
+          ++rays;
+          hits += alone.found() ? 1 : 0;
+        }
+      }
+    }
+  }
+  EXPECT_GT(hits, 0.3 * rays);
+  EXPECT_LT(hits, 0.7 * rays);
+}
+
+TEST(PacketCast, answers_as_single_casts_do_in_float) {
+  check_all<float>();
+}
+
+TEST(PacketCast, answers_as_single_casts_do_in_double) {
+  check_all<double>();
+}
+
+TEST(PacketCast, lanes_that_are_not_asked_for_change_nothing) {
+  const PreparedShape<float> box(convert<float>(sample_shapes().front().shape));
+  for (const RayPacket<float>& packet : packets_at(box.inner_shape(), 50)) {
+    CastPacket<float> whole, half;
+    cast_packet(box, packet, all_lanes<float>, whole);
+    cast_packet(box, packet, LaneBits(0b01010101), half);
+    EXPECT_EQ(half.hit, whole.hit & 0b01010101u);
+    EXPECT_EQ(half.inside, whole.inside & 0b01010101u);
+    EXPECT_EQ(half.miss, whole.miss & 0b01010101u);
+    for (int lane = 0; lane < packet_lanes<float>; lane += 2)
+      EXPECT_TRUE(same(whole.result(lane), half.result(lane)));
+  }
+}
+
+}  // namespace
+}  // namespace minkray::testing

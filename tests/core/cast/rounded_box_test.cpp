@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: MIT
+// Casts at rounded boxes of all proportions, flat ones too, and at sums of boxes and ellipsoids,
+// against bisection in long double: the hit, what is missed, and how many support calls it takes.
+#include <gtest/gtest.h>
+
+#include "core/cast/cast.h"
+#include "core/derived/convert.h"
+#include "tests/support/cast_truth.h"
+#include "tests/support/ray_families.h"
+#include "tests/support/rounded.h"
+
+namespace minkray::testing {
+namespace {
+
+using Long = long double;
+
+/// A box's half extents and the radii of the ellipsoid that it is rounded by.
+struct Form {
+  Vec3<double> half_extents, radii;
+
+  Form(const Vec3<double>& box, double radius) : Form(box, Vec3<double>::Constant(radius)) {}
+  Form(const Vec3<double>& box, const Vec3<double>& ellipsoid)
+      : half_extents(box), radii(ellipsoid) {}
+
+  bool is_by_ball() const { return radii == Vec3<double>::Constant(radii.x()); }
+  Shape<double> shape() const {
+    const Shape<double> box = Box{half_extents};
+    if (is_by_ball()) return Rounded<double>{radii.x(), box};
+    return MinkowskiSum<double>{{box, Shape<double>(Ellipsoid<double>{radii})}};
+  }
+  /// What rounding that is relative to size grows by.
+  double slenderness() const { return radii.maxCoeff() / radii.minCoeff(); }
+};
+
+/// In units of the radii, the distance from the box is convex along the line: least where it no
+/// longer falls, and before that 1 at the hit.
+CastTruth truth_of(const Form& form, const Ray<double>& ray) {
+  const Vec3<Long> units = form.radii.cast<Long>();
+  const auto in_units = [&](const Vec3<double>& v) -> Vec3<Long> {
+    return v.cast<Long>().cwiseQuotient(units);
+  };
+  const Vec3<Long> h = in_units(form.half_extents), o = in_units(ray.origin),
+                   d = in_units(ray.direction);
+  const auto from_box = [&](Long t) -> Vec3<Long> {
+    const Vec3<Long> x = o + t * d;
+    return x - x.cwiseMax(-h).cwiseMin(h);
+  };
+  const Long around = 2 * (h.norm() + 1) / d.norm();
+  const Long middle = -o.dot(d) / d.squaredNorm();
+  const Long least =
+      bisected(middle - around, middle + around, [&](Long t) { return from_box(t).dot(d) < 0; });
+  const double beside = static_cast<double>((from_box(least).norm() - 1) * units.maxCoeff());
+  if (beside > 0) return {false, beside, 0, Vec3<Long>::Zero()};
+  const Long t = bisected(middle - around, least, [&](Long at) { return from_box(at).norm() > 1; });
+  return {true, beside, t, from_box(t).cwiseQuotient(units).normalized()};
+}
+
+/// The shape as T holds it.
+template <class T>
+Form held(const Form& form) {
+  return {form.half_extents.cast<T>().template cast<double>(),
+          form.radii.cast<T>().template cast<double>()};
+}
+
+template <class T>
+void add_cast(CastOutcome& outcome, const Form& form, double R, const PreparedShape<T>& prepared,
+              const Ray<T>& ray) {
+  const Ray<double> known = in_double(ray);
+  outcome.add(cast_ray(prepared, ray), truth_of(form, known), known.direction, R);
+}
+
+template <class T>
+CastOutcome cast_at(const Form& wanted, RayFamily family, int count) {
+  const Form form = held<T>(wanted);
+  const Shape<double> same = form.shape();
+  const PreparedShape<T> prepared(convert<T>(same));
+  FamilyRays rays(same, family, 83);
+  CastOutcome outcome;
+  for (int i = 0; i < count; ++i)
+    add_cast<T>(outcome, form, rays.ball().radius, prepared, rounded_to<T>(rays.next()));
+  return outcome;
+}
+
+std::vector<Form> forms() {
+  std::vector<Form> all;
+  for (const Vec3<double>& half_extents :
+       {Vec3<double>(1, 0.7, 0.5), Vec3<double>(0.5, 1, 0.7), Vec3<double>(1, 1, 1),
+        Vec3<double>(1, 0.01, 0.001), Vec3<double>(0.7, 1, 0), Vec3<double>(0, 0.7, 1),
+        Vec3<double>(0, 1, 0)})
+    for (const double radius : {1e-3, 0.2, 1.0, 50.0}) all.push_back({half_extents, radius});
+  all.push_back({{0, 0, 0}, 0.2});
+  all.push_back({{1, 0.7, 0.5}, 1e4});
+  all.push_back({{1, 1e-6, 1e-7}, 0.3});
+  for (const Vec3<double>& half_extents :
+       {Vec3<double>(1, 0.7, 0.5), Vec3<double>(0, 1, 0.7), Vec3<double>(1, 1, 1e-3)})
+    for (const Vec3<double>& radii :
+         {Vec3<double>(1, 0.5, 0.25), Vec3<double>(0.3, 0.2, 0.5), Vec3<double>(20, 30, 30)})
+      all.push_back({half_extents, radii});
+  return all;
+}
+
+std::string name_of(const Form& form) {
+  std::ostringstream text;
+  text << form.half_extents.transpose() << " rounded by " << form.radii.transpose();
+  return text.str();
+}
+
+/// What rounding leaves of a support plane: a few epsilon.
+template <class T>
+constexpr double exactness = 4 * std::numeric_limits<T>::epsilon();
+
+template <class T>
+void check_ordinary(RayFamily family) {
+  int misses = 0;
+  for (const Form& form : forms()) {
+    SCOPED_TRACE(name_of(form));
+    const int count = 200;
+    const CastOutcome outcome = cast_at<T>(form, family, count);
+    EXPECT_EQ(outcome.wrong, 0);
+    EXPECT_EQ(outcome.others, 0);
+    EXPECT_LE(outcome.worst, exactness<T> * form.slenderness());
+    EXPECT_LE(outcome.unproven, exactness<T> * form.slenderness());
+    // One proves, but where a ray is tangent within rounding.
+    EXPECT_LE(outcome.supports, 1.02 * count);
+    EXPECT_LE(outcome.most_supports, 8);
+    misses += outcome.misses;
+  }
+  EXPECT_GT(misses, 300);
+}
+
+TEST(RoundedBox, is_hit_to_rounding_by_one_support_call) {
+  check_ordinary<double>(RayFamily::random);
+  check_ordinary<float>(RayFamily::random);
+  check_ordinary<float>(RayFamily::far);
+}
+
+TEST(RoundedBox, is_grazed_to_rounding_by_one_support_call) {
+  check_ordinary<double>(RayFamily::grazing);
+  check_ordinary<float>(RayFamily::grazing);
+}
+
+/// Along axes, edges and in the planes of faces, which the ray touches within rounding.
+template <class T>
+void check_degenerate() {
+  int casts = 0, long_ones = 0;
+  for (const Form& form : forms()) {
+    SCOPED_TRACE(name_of(form));
+    const int count = 200;
+    const CastOutcome outcome = cast_at<T>(form, RayFamily::degenerate, count);
+    EXPECT_EQ(outcome.wrong, 0);
+    EXPECT_EQ(outcome.others, 0);
+    EXPECT_GT(outcome.hits, 0);
+    EXPECT_LE(outcome.worst, 2 * exactness<T> * form.slenderness());
+    casts += count;
+    long_ones += outcome.most_supports > 8;
+  }
+  EXPECT_LE(long_ones, casts / 1000);  // what the GJK ray cast had to answer
+}
+
+TEST(RoundedBox, is_hit_by_rays_along_its_edges_and_in_its_planes) {
+  check_degenerate<double>();
+  check_degenerate<float>();
+}
+
+/// Rounded by no more than a few roundings of the box's size, it is a box.
+template <class T>
+void check_hardly_rounded() {
+  for (const double roundings : {0.3, 1.0, 5.0, 100.0, 1e4}) {
+    SCOPED_TRACE(roundings);
+    const Form form{{1, 0.7, 0.5}, roundings * std::numeric_limits<T>::epsilon()};
+    for (const RayFamily family : {RayFamily::random, RayFamily::grazing, RayFamily::degenerate}) {
+      const CastOutcome outcome = cast_at<T>(form, family, 500);
+      EXPECT_EQ(outcome.wrong, 0);
+      EXPECT_EQ(outcome.others, 0);
+      if (family != RayFamily::degenerate) {
+        EXPECT_LE(outcome.worst, exactness<T>);
+      } else {
+        EXPECT_LE(outcome.worst, static_cast<double>(tolerance::gjk_stalled<T>));
+      }
+    }
+  }
+}
+
+TEST(RoundedBox, that_is_hardly_rounded_is_hit_and_missed) {
+  check_hardly_rounded<double>();
+  check_hardly_rounded<float>();
+}
+
+/// The ray falls towards the far edge's cylinder or corner's ball, whose normal leans with it:
+///
+///     ----___                  -> no face and no edge that faces the ray is hit
+///     ______ ----___
+///    |      \       ---
+///    |       |
+template <class T>
+void check_far_sides() {
+  const Form form = held<T>({{1, 0.7, 0.5}, 0.2});
+  const PreparedShape<T> prepared(convert<T>(form.shape()));
+  const double R = form.half_extents.norm() + form.radii.x();
+  Random random(17);
+  CastOutcome outcome;
+  const int count = 3000;
+  for (int i = 0; i < count; ++i) {
+    const Vec3<double> n = random.direction();
+    const Vec3<double> across = n.cross(random.direction()).normalized();
+    const double fall = std::pow(10.0, random.uniform(-2, -0.5));
+    const Vec3<double> r = (across - n * fall).normalized();
+    const Vec3<double> at = form.half_extents.cwiseProduct(n.cwiseSign()) + n * form.radii.x();
+    add_cast<T>(outcome, form, R, prepared, rounded_to<T>(Ray<double>{at - 5 * R * r, r}));
+  }
+  EXPECT_EQ(outcome.wrong, 0);
+  EXPECT_EQ(outcome.others, 0);
+  EXPECT_EQ(outcome.misses, 0);
+  EXPECT_LE(outcome.worst, exactness<T>);
+  EXPECT_LE(outcome.unproven, exactness<T>);
+  EXPECT_LE(outcome.supports, 1.01 * count);
+}
+
+TEST(RoundedBox, is_hit_on_sides_that_lean_with_the_ray) {
+  check_far_sides<double>();
+  check_far_sides<float>();
+}
+
+TEST(RoundedBox, is_hit_by_rays_parallel_to_an_edge_on_the_corners_ball) {
+  const Vec3<double> h(1, 0.7, 0.5);
+  const double radius = 0.2;
+  const PreparedShape<double> shape(Form{h, radius}.shape());
+  Random random(23);
+  for (int i = 0; i < 300; ++i) {
+    const int axis = random.below(3), x = (axis + 1) % 3, y = (axis + 2) % 3;
+    const double angle = random.uniform(0, std::acos(0.0)), part = random.uniform(0, 1.5);
+    Vec3<double> origin, direction = Vec3<double>::Zero();
+    origin[axis] = -4;
+    origin[x] = h[x] + part * radius * std::cos(angle);
+    origin[y] = -h[y] - part * radius * std::sin(angle);
+    direction[axis] = 2;
+    const CastResult<double> result = cast_ray(shape, Ray<double>{origin, direction});
+    ASSERT_EQ(result.status, part < 1 ? Status::hit : Status::miss) << part;
+    if (part >= 1) continue;
+    const double depth = std::sqrt(1 - part * part);
+    EXPECT_NEAR(result.t(), (4 - h[axis] - radius * depth) / 2, 1e-14 / depth);
+    EXPECT_NEAR(result.normal[axis], -depth, 1e-13 / depth);
+  }
+}
+
+TEST(RoundedBox, that_is_flat_in_all_or_two_directions_is_a_sphere_or_a_capsule) {
+  const PreparedShape<double> point(Form{{0, 0, 0}, 0.3}.shape()), ball(Sphere<double>{0.3});
+  const PreparedShape<double> rod(Form{{0, 0, 0.8}, 0.3}.shape()),
+      capsule(Shape<double>(Capsule<double>{0.3, 0.8}));
+  Random random(29);
+  int hits = 0;
+  const auto compare = [&](const PreparedShape<double>& a, const PreparedShape<double>& b) {
+    const Vec3<double> origin = random.direction() * 4;
+    const Ray<double> ray{origin, random.direction() * 0.6 - origin};
+    const CastResult<double> on_a = cast_ray(a, ray), on_b = cast_ray(b, ray);
+    ASSERT_EQ(on_a.status, on_b.status);
+    if (on_a.status != Status::hit) return;
+    ++hits;
+    const double across = -on_b.normal.dot(ray.direction);
+    EXPECT_NEAR(on_a.t() * across, on_b.t() * across, 1e-14);
+    EXPECT_LE((on_a.normal - on_b.normal).norm() * across, 1e-13);
+  };
+  for (int i = 0; i < 500; ++i) {
+    compare(point, ball);
+    compare(rod, capsule);
+  }
+  EXPECT_GT(hits, 250);
+  EXPECT_LT(hits, 900);
+}
+
+TEST(RoundedBox, mirrored_with_the_ray_has_the_same_hit_bit_for_bit) {
+  const Form form{{1, 0.7, 0.5}, 0.2};
+  const PreparedShape<float> prepared(convert<float>(form.shape()));
+  const Shape<double> shape = form.shape();
+  for (const RayFamily family : {RayFamily::random, RayFamily::grazing}) {
+    FamilyRays rays(shape, family, 31);
+    for (int i = 0; i < 200; ++i) {
+      const Ray<float> ray = rounded_to<float>(rays.next());
+      const CastResult<float> result = cast_ray(prepared, ray);
+      for (int mirrors = 1; mirrors < 8; ++mirrors) {
+        const Vec3<float> mirror(mirrors & 1 ? -1.f : 1.f, mirrors & 2 ? -1.f : 1.f,
+                                 mirrors & 4 ? -1.f : 1.f);
+        const CastResult<float> other = cast_ray(
+            prepared,
+            Ray<float>{ray.origin.cwiseProduct(mirror), ray.direction.cwiseProduct(mirror)});
+        ASSERT_EQ(other.status, result.status);
+        if (result.status != Status::hit) continue;
+        EXPECT_EQ(other.t_base, result.t_base);
+        EXPECT_EQ(other.t_offset, result.t_offset);
+        EXPECT_EQ(other.normal, result.normal.cwiseProduct(mirror));
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace minkray::testing

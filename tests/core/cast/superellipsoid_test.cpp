@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+// Casts at superellipsoids of all exponents against bisection in long double: the hit, what is
+// missed, and how many support calls it takes.
+#include <gtest/gtest.h>
+
+#include "core/cast/cast.h"
+#include "core/derived/convert.h"
+#include "tests/support/cast_truth.h"
+#include "tests/support/ray_families.h"
+#include "tests/support/rounded.h"
+
+namespace minkray::testing {
+namespace {
+
+using Long = long double;
+
+/// The gauge |x/a|_p along a line, by the C library's powers.
+struct Line {
+  Vec3<Long> radii, origin, direction;
+  Long p;
+
+  Vec3<Long> at(Long t) const { return (origin + t * direction).cwiseQuotient(radii); }
+  Long gauge(Long t) const {
+    const Vec3<Long> x = at(t).cwiseAbs();
+    const Long largest = x.maxCoeff();
+    if (!(largest > 0)) return 0;
+    Long sum = 0;
+    for (int i = 0; i < 3; ++i) sum += std::pow(x[i] / largest, p);
+    return largest * std::pow(sum, 1 / p);
+  }
+  /// In the shape's frame: the gradient of the gauge.
+  Vec3<Long> normal(Long t) const {
+    const Vec3<Long> x = at(t);
+    const Long largest = x.cwiseAbs().maxCoeff();
+    Vec3<Long> n;
+    Long sum = 0;
+    for (int i = 0; i < 3; ++i) {
+      n[i] = std::copysign(std::pow(std::abs(x[i]) / largest, p - 1), x[i]);
+      sum += std::pow(std::abs(x[i]) / largest, p);
+    }
+    return n.cwiseQuotient(radii) * std::pow(sum, 1 / p - 1);
+  }
+};
+
+CastTruth truth_of(const Line& line, Long R) {
+  const Long middle = -line.origin.dot(line.direction) / line.direction.squaredNorm();
+  const Long ball = 2 * R / line.direction.norm();
+  const Long least = bisected(middle - ball, middle + ball,
+                              [&](Long t) { return line.normal(t).dot(line.direction) < 0; });
+  const Long gauge = line.gauge(least);
+  const double beside = static_cast<double>((gauge - 1) / line.normal(least).norm());
+  if (gauge > 1) return {false, beside, 0, Vec3<Long>::Zero()};
+  const Long t = bisected(middle - ball, least, [&](Long at) { return line.gauge(at) > 1; });
+  return {true, beside, t, line.normal(t).normalized()};
+}
+
+template <class T>
+CastOutcome cast_at(const Superellipsoid<double>& wanted, RayFamily family, int count) {
+  const Shape<T> shape = convert<T>(Shape<double>(wanted));
+  const Shape<double> same = convert<double>(shape);
+  const auto& exact = std::get<Superellipsoid<double>>(same.kind);
+  const PreparedShape<T> prepared(shape);
+  FamilyRays rays(same, family, 83);
+  const double R = rays.ball().radius;
+  CastOutcome outcome;
+  for (int i = 0; i < count; ++i) {
+    const Ray<T> ray = rounded_to<T>(rays.next());
+    const Ray<double> known = in_double(ray);
+    const Line line{exact.radii.cast<Long>(), known.origin.cast<Long>(),
+                    known.direction.cast<Long>(), exact.exponent};
+    outcome.add(cast_ray(prepared, ray), truth_of(line, R), known.direction, R);
+  }
+  return outcome;
+}
+
+std::vector<Superellipsoid<double>> shapes() {
+  std::vector<Superellipsoid<double>> all;
+  for (const double p : {1.2, 1.5, 1.9, 2.001, 2.5, 3.0, 4.0, 5.5, 8.0, 12.0, 60.0})
+    for (const Vec3<double>& radii : {Vec3<double>(1, 1, 1), Vec3<double>(0.3, 2, 0.7)})
+      all.push_back({radii, p});
+  all.push_back({{1, 0.03, 0.001}, 4});
+  return all;
+}
+
+std::string name_of(const Superellipsoid<double>& shape) {
+  std::ostringstream text;
+  text << shape.radii.transpose() << ", p = " << shape.exponent;
+  return text.str();
+}
+
+/// What rounding leaves of a support plane, and of the gauge: a few epsilon.
+template <class T>
+constexpr double exactness = 6 * std::numeric_limits<T>::epsilon();
+
+template <class T>
+void check_ordinary(RayFamily family) {
+  int misses = 0;
+  for (const Superellipsoid<double>& shape : shapes()) {
+    SCOPED_TRACE(name_of(shape));
+    const int count = 100;
+    const CastOutcome outcome = cast_at<T>(shape, family, count);
+    EXPECT_EQ(outcome.wrong, 0);
+    EXPECT_EQ(outcome.others, 0);
+    EXPECT_LE(outcome.worst, exactness<T>);
+    EXPECT_LE(outcome.unproven, exactness<T>);
+    // One proves, but where a ray is tangent within rounding.
+    EXPECT_LE(outcome.supports, 1.05 * count);
+    EXPECT_LE(outcome.most_supports, 24);
+    EXPECT_GT(outcome.hits, 0);
+    misses += outcome.misses;
+  }
+  EXPECT_GT(misses, 300);
+}
+
+TEST(Superellipsoid, is_hit_to_rounding_by_one_support_call) {
+  check_ordinary<double>(RayFamily::random);
+  check_ordinary<float>(RayFamily::random);
+  check_ordinary<float>(RayFamily::far);
+}
+
+TEST(Superellipsoid, is_grazed_to_rounding_by_one_support_call) {
+  check_ordinary<double>(RayFamily::grazing);
+  check_ordinary<float>(RayFamily::grazing);
+}
+
+/// Along axes and in coordinate planes, where curvature vanishes or is infinite, at the middle of
+/// flat sides and tangential there.
+template <class T>
+void check_degenerate() {
+  for (const Superellipsoid<double>& shape : shapes()) {
+    SCOPED_TRACE(name_of(shape));
+    const CastOutcome outcome = cast_at<T>(shape, RayFamily::degenerate, 100);
+    EXPECT_EQ(outcome.wrong, 0);
+    EXPECT_EQ(outcome.others, 0);
+    // Casts that the GJK ray cast has finished are right to its own rounding.
+    EXPECT_LE(outcome.worst, static_cast<double>(tolerance::gjk_stalled<T>));
+    EXPECT_GT(outcome.hits, 0);
+  }
+}
+
+TEST(Superellipsoid, is_hit_by_rays_along_its_axes_and_in_its_planes) {
+  check_degenerate<double>();
+  check_degenerate<float>();
+}
+
+/// Next to the octahedron and next to the box, which the bands above would be too narrow for: the
+/// surface turns by a right angle within rounding.
+TEST(Superellipsoid, of_extreme_exponents_is_hit_and_missed) {
+  for (const double p : {1.0001, 1.01, 1e3, 1e6, 1e12}) {
+    SCOPED_TRACE(p);
+    const Superellipsoid<double> shape{{1, 0.7, 0.5}, p};
+    const CastOutcome outcome = cast_at<double>(shape, RayFamily::random, 300);
+    EXPECT_EQ(outcome.wrong, 0);
+    EXPECT_EQ(outcome.others, 0);
+    EXPECT_LE(outcome.worst, static_cast<double>(tolerance::gjk_stalled<double>));
+    EXPECT_GT(outcome.hits, 150);
+  }
+}
+
+}  // namespace
+}  // namespace minkray::testing

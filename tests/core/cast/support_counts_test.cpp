@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// How many support calls the default solver needs: what makes it fast, and what a change of a
+// solver must not lose unnoticed.
+#include <gtest/gtest.h>
+
+#include "core/cast/cast.h"
+#include "core/derived/convert.h"
+#include "tests/support/ray_families.h"
+#include "tests/support/rounded.h"
+
+namespace minkray::testing {
+namespace {
+
+using S = Shape<double>;
+
+struct Limit {
+  std::string name;
+  S shape;
+  double mean_of_hits;
+  int most_of_hits;
+  double mean_of_misses;
+};
+
+S hull(int points) {
+  Random random(16);
+  std::vector<Vec3<double>> cloud;
+  for (int i = 0; i < points; ++i) cloud.push_back(random.direction());
+  return Hull<double>{PointCloud<double>(cloud)};
+}
+
+std::vector<Limit> limits() {
+  const S box = Box<double>{{1, 0.7, 0.5}}, egg = Ellipsoid<double>{{1, 0.5, 0.25}};
+  return {
+      {"sphere", Sphere<double>{1}, 1, 1, 1},
+      {"ellipsoid", egg, 1, 1, 1},
+      {"capsule", Capsule<double>{1, 1}, 1.1, 3, 1.1},
+      {"cylinder", Cylinder<double>{1, 1}, 1.1, 3, 1.1},
+      {"cone", Cone<double>{1, 1}, 1.1, 3, 1.1},
+      {"frustum", Frustum<double>{{1, 0.3}, 1}, 1.1, 3, 1.1},
+      {"tapered capsule", TaperedCapsule<double>{{1, 0.3}, 1}, 1.1, 3, 1.1},
+      {"box", box, 1.1, 4, 1.1},
+      {"hull of 16", hull(16), 1.4, 12, 1.5},
+      {"hull of 256", hull(256), 1.2, 9, 1.2},
+      {"rounded box", Rounded<double>{0.2, box}, 1.1, 6, 1.2},
+      {"rounded hull of 16", Rounded<double>{0.1, hull(16)}, 1.2, 10, 1.5},
+      {"rounded hull of 256", Rounded<double>{0.1, hull(256)}, 1.3, 10, 1.6},
+      {"superellipsoid", Superellipsoid<double>{{1, 1, 1}, 4}, 1.1, 6, 1.1},
+      {"ellipsoid and box", MinkowskiSum<double>{{egg, box}}, 1.1, 6, 1.2},
+      {"slender ellipsoid and box",
+       MinkowskiSum<double>{{S(Ellipsoid<double>{{1, 0.5, 0.2}}), box}}, 5, 10, 4},
+      {"sum of ellipsoids", MinkowskiSum<double>{{egg, S(Ellipsoid<double>{{0.3, 0.5, 1}})}}, 5, 10,
+       4},
+  };
+}
+
+template <class T>
+void count(const Limit& limit, RayFamily family) {
+  SCOPED_TRACE(limit.name);
+  const PreparedShape<T> shape(convert<T>(limit.shape));
+  FamilyRays rays(limit.shape, family, 61);
+  int hits = 0, misses = 0, of_hits = 0, of_misses = 0, most = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const CastResult<T> result = cast_ray(shape, rounded_to<T>(rays.next()));
+    if (result.status == Status::hit) {
+      ++hits;
+      of_hits += result.supports;
+      most = std::max(most, result.supports);
+    } else if (result.status == Status::miss) {
+      ++misses;
+      of_misses += result.supports;
+    }
+  }
+  ASSERT_GT(hits, 100);
+  EXPECT_LE(of_hits, limit.mean_of_hits * hits) << "of hits, " << double(of_hits) / hits;
+  EXPECT_LE(most, limit.most_of_hits);
+  EXPECT_LE(of_misses, limit.mean_of_misses * misses)
+      << "of misses, " << double(of_misses) / misses;
+}
+
+TEST(SupportCounts, of_random_rays) {
+  for (const Limit& limit : limits()) {
+    count<double>(limit, RayFamily::random);
+    count<float>(limit, RayFamily::random);
+  }
+}
+
+TEST(SupportCounts, of_grazing_rays) {
+  for (const Limit& limit : limits()) {
+    count<double>(limit, RayFamily::grazing);
+    count<float>(limit, RayFamily::grazing);
+  }
+}
+
+}  // namespace
+}  // namespace minkray::testing

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+// Which shapes count as extreme.
+#include "core/derived/proportions.h"
+
+#include <gtest/gtest.h>
+
+#include "core/derived/convert.h"
+#include "tests/support/random.h"
+#include "tests/support/sample_shapes.h"
+
+namespace minkray::testing {
+namespace {
+
+using P = Vec3<double>;
+
+bool is_extreme(const Shape<double>& shape) {
+  return has_extreme_proportions(shape);
+}
+
+Shape<double> hull(std::vector<Vec3<double>> points) {
+  return Hull<double>{PointCloud<double>(std::move(points))};
+}
+
+TEST(Proportions, sample_shapes_are_ordinary_in_float_and_double) {
+  for (const SampleShape& sample : sample_shapes()) {
+    EXPECT_FALSE(has_extreme_proportions(sample.shape)) << sample.name;
+    EXPECT_FALSE(has_extreme_proportions(convert<float>(sample.shape))) << sample.name;
+  }
+}
+
+TEST(Proportions, do_not_depend_on_the_size) {
+  for (const double size : {1e-30, 1.0, 1e30}) {
+    EXPECT_FALSE(is_extreme(Box<double>{Vec3<double>(1, 1, 1e-5) * size})) << size;
+    EXPECT_TRUE(is_extreme(Box<double>{Vec3<double>(1, 1, 1e-7) * size})) << size;
+  }
+}
+
+TEST(Proportions, what_is_flat_is_not_thin) {
+  EXPECT_FALSE(is_extreme(Box<double>{{1, 2, 0}}));
+  EXPECT_FALSE(is_extreme(Disk<double>{1}));
+  EXPECT_FALSE(is_extreme(Segment<double>{{Vec3<double>(1, 2, 3), Vec3<double>(-4, 5, 0.1)}}));
+  EXPECT_FALSE(is_extreme(Point<double>{{1e-9, 1, 1e9}}));
+  Random random(1);
+  for (int i = 0; i < 100; ++i) {
+    const Vec3<double> a = random.direction(), b = a.unitOrthogonal();
+    EXPECT_FALSE(is_extreme(hull({a, b, -a, -b, 0.3 * a + 0.3 * b}))) << i;
+  }
+}
+
+TEST(Proportions, needles_thinner_than_rounding_are_no_segments) {
+  Random random(3);
+  for (int i = 0; i < 100; ++i) {
+    const Vec3<double> a = random.direction();
+    for (const double thickness : {1e-10, 1e-14}) {
+      const Vec3<double> beside = 0.3 * a + thickness * a.unitOrthogonal();
+      EXPECT_TRUE(is_extreme(Triangle<double>{{a, -a, beside}})) << i << ": " << thickness;
+    }
+    EXPECT_FALSE(is_extreme(Triangle<double>{{a, -a, a}})) << i;
+  }
+  EXPECT_FALSE(is_extreme(Triangle<double>{{P(0, 0, 0), P(1, 2, 3), P(2, 4, 6)}}));
+}
+
+/// Where coordinates are coarse beside the shape, it is rounded and not thin.
+TEST(Proportions, what_is_far_from_its_frames_origin_is_ordinary) {
+  for (const double distance : {1e4, 1e6, 1e8}) {
+    const P o(distance, -distance, distance);
+    const Shape<double> triangle = Triangle<double>{{o, P(o + P(1, 0, 0)), P(o + P(0, 0.05, 0.3))}};
+    EXPECT_FALSE(is_extreme(triangle)) << distance;
+    if (distance < 1e6) {
+      EXPECT_FALSE(has_extreme_proportions(convert<float>(triangle)));
+    }
+  }
+}
+
+TEST(Proportions, slivers_are_found_however_they_lie) {
+  Random random(2);
+  for (int i = 0; i < 100; ++i) {
+    const Mat3<double> turn = random.rotation();
+    const auto box = [&](double x, double y, double z) {
+      std::vector<Vec3<double>> points;
+      for (int corner = 0; corner < 8; ++corner)
+        points.push_back(
+            turn * Vec3<double>(corner & 1 ? x : -x, corner & 2 ? y : -y, corner & 4 ? z : -z));
+      return hull(points);
+    };
+    EXPECT_TRUE(is_extreme(box(1, 1, 1e-4))) << i;
+    EXPECT_TRUE(is_extreme(box(1, 1e-4, 1e-5))) << i;
+    EXPECT_FALSE(is_extreme(box(1, 1, 1e-3))) << i;
+    const Vec3<double> a = turn.col(0), b = turn.col(1);
+    EXPECT_TRUE(is_extreme(Triangle<double>{{a, -a, 1e-4 * b}})) << i;
+    EXPECT_FALSE(is_extreme(Triangle<double>{{a, -a, b}})) << i;
+  }
+}
+
+TEST(Proportions, parts_and_the_maps_around_them_count) {
+  const Nested<double> ball = Shape<double>(Sphere<double>{1});
+  const auto squeezed = [&](double by) -> Shape<double> {
+    return Transform<double>{ball, Affine<double>{Vec3<double>(1, by, 1).asDiagonal(), {0, 0, 0}}};
+  };
+  EXPECT_FALSE(is_extreme(squeezed(1e-5)));
+  EXPECT_TRUE(is_extreme(squeezed(1e-7)));
+  EXPECT_TRUE(is_extreme(MinkowskiSum<double>{{ball, squeezed(1e-7)}}));
+  EXPECT_TRUE(is_extreme(MinkowskiDifference<double>{ball, Shape<double>(Sphere<double>{1e-7})}));
+  EXPECT_TRUE(is_extreme(HullOf<double>{{ball, Shape<double>(Disk<double>{1e17})}}));
+  EXPECT_TRUE(is_extreme(Rounded<double>{1e-7, ball}));
+  EXPECT_FALSE(is_extreme(Rounded<double>{1e-5, ball}));
+  EXPECT_FALSE(is_extreme(Rounded<double>{0.1, squeezed(1e-7)}));
+}
+
+}  // namespace
+}  // namespace minkray::testing

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT
+#include "core/geometry/convex_hull.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <stdexcept>
+
+#include "core/geometry/point_cloud.h"
+
+namespace minkray {
+namespace {
+
+using Points = std::vector<Vec3<double>>;
+
+Points on_ellipsoid(int count, const Vec3<double>& radii, unsigned seed) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal;
+  Points points;
+  for (int i = 0; i < count; ++i)
+    points.push_back(Vec3<double>(normal(random), normal(random), normal(random))
+                         .normalized()
+                         .cwiseProduct(radii));
+  return points;
+}
+
+Points corners_of_a_box() {
+  Points points;
+  for (int i = 0; i < 8; ++i)
+    points.emplace_back(i & 1 ? 1.0 : -1.0, i & 2 ? 2.0 : -2.0, i & 4 ? 3.0 : -3.0);
+  return points;
+}
+
+/// How far the given points stand out of the hull's facets, relative to their size. The facets'
+/// planes come from three corners each, so slivers are measured in the round frame.
+double furthest_outside(const ConvexHull& hull, const Points& points) {
+  double worst = 0;
+  const double sense = hull.frame.axes.determinant() > 0 ? 1 : -1;
+  for (std::size_t f = 0; f < hull.facets.size(); ++f) {
+    const auto corners = hull.facets[f];
+    const auto q = [&](std::size_t i) {
+      return hull.frame.to_frame(points[hull.vertices[corners[i]]]);
+    };
+    Vec3<double> normal = Vec3<double>::Zero();
+    for (std::size_t i = 1; i + 1 < corners.size(); ++i)
+      normal += (q(i) - q(0)).cross(q(i + 1) - q(0));
+    // Area in place of length: the heights of slivers count for as little as they are wide.
+    for (const auto& p : points)
+      worst = std::max(worst, sense * normal.dot(hull.frame.to_frame(p) - q(0)));
+  }
+  return worst;
+}
+
+TEST(ConvexHull, every_point_lies_behind_every_facet) {
+  const double epsilon = std::numeric_limits<double>::epsilon();
+  for (const Vec3<double>& radii :
+       {Vec3<double>(1, 1, 1), Vec3<double>(1000, 1, 1), Vec3<double>(1, 1, 1e-3),
+        Vec3<double>(1, 1e-6, 1e-3), Vec3<double>(1, 1, 1e-10)}) {
+    const Points points = on_ellipsoid(300, radii, 1);
+    const ConvexHull hull = convex_hull(points);
+    EXPECT_EQ(hull.rank(), 3);
+    EXPECT_EQ(hull.vertices.size(), points.size()) << radii.transpose();
+    // Three roundings a coordinate in the frame, whose thinnest axis magnifies those of the input.
+    const double rounding = 16 * epsilon * radii.maxCoeff() / radii.minCoeff();
+    EXPECT_LE(furthest_outside(hull, points), rounding) << radii.transpose();
+  }
+}
+
+TEST(ConvexHull, a_closed_surface_of_triangles_obeys_euler) {
+  const ConvexHull hull = convex_hull(on_ellipsoid(500, {1, 2, 3}, 2));
+  EXPECT_EQ(hull.facets.size(), 2 * hull.vertices.size() - 4);
+}
+
+TEST(ConvexHull, coplanar_neighbours_are_one_facet_and_points_within_are_dropped) {
+  Points points = corners_of_a_box();
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (int i = 0; i < 200; ++i) {
+    Vec3<double> p(uniform(random), 2 * uniform(random), 3 * uniform(random));
+    if (i % 2 == 0) p[i % 3] = i % 4 == 0 ? double(i % 3 + 1) : -double(i % 3 + 1);
+    points.push_back(p);
+  }
+  const ConvexHull hull = convex_hull(points);
+  EXPECT_EQ(hull.vertices, (std::vector<std::uint32_t>{0, 1, 2, 3, 4, 5, 6, 7}));
+  EXPECT_EQ(hull.facets.size(), 6u);
+  for (std::size_t f = 0; f < hull.facets.size(); ++f) EXPECT_EQ(hull.facets[f].size(), 4u);
+}
+
+TEST(ConvexHull, facets_turn_counter_clockwise_seen_from_outside) {
+  for (const double mirror : {1.0, -1.0}) {
+    Points points = corners_of_a_box();
+    for (auto& p : points) p.x() *= mirror;
+    const ConvexHull hull = convex_hull(points);
+    for (std::size_t f = 0; f < hull.facets.size(); ++f) {
+      const auto p = [&](std::size_t i) { return points[hull.vertices[hull.facets[f][i]]]; };
+      EXPECT_GT((p(1) - p(0)).cross(p(2) - p(0)).dot(p(0)), 0);
+    }
+  }
+}
+
+TEST(ConvexHull, flat_sets_keep_their_rank_wherever_they_lie) {
+  const Vec3<double> u = Vec3<double>(1, 2, -0.5).normalized();
+  const Vec3<double> v = u.unitOrthogonal();
+  for (const double away : {0.0, 1.0, 1e5}) {
+    const Vec3<double> origin(away, -away, 0.3 * away);
+    Points line, square;
+    for (int i = 0; i <= 10; ++i) line.push_back(origin + (0.1 * i) * u);
+    for (int i = 0; i <= 10; ++i)
+      for (int j = 0; j <= 10; ++j) square.push_back(origin + (0.1 * i) * u + (0.1 * j) * v);
+    EXPECT_EQ(convex_hull(line).rank(), 1);
+    EXPECT_EQ(convex_hull(line).vertices, (std::vector<std::uint32_t>{0, 10}));
+    const ConvexHull hull = convex_hull(square);
+    EXPECT_EQ(hull.rank(), 2);
+    ASSERT_EQ(hull.facets.size(), 1u);
+    for (const std::uint32_t corner : {0u, 10u, 110u, 120u})
+      EXPECT_TRUE(std::ranges::count(hull.vertices, corner)) << away;
+    EXPECT_EQ(convex_hull(Points(7, origin)).rank(), 0);
+    EXPECT_EQ(convex_hull(Points(7, origin)).vertices.size(), 1u);
+  }
+}
+
+TEST(ConvexHull, repeated_points_are_kept_once) {
+  Points points = corners_of_a_box();
+  const Points once = points;
+  for (int i = 0; i < 3; ++i) points.insert(points.end(), once.begin(), once.end());
+  EXPECT_EQ(convex_hull(points).vertices.size(), 8u);
+}
+
+TEST(ConvexHull, nothing_depends_on_the_unit_of_length) {
+  const Points points = on_ellipsoid(100, {1, 0.5, 0.1}, 4);
+  const auto expected = convex_hull(points).vertices;
+  for (const double unit : {1e-30, 1e-3, 1e30}) {
+    Points scaled = points;
+    for (auto& p : scaled) p *= unit;
+    EXPECT_EQ(convex_hull(scaled).vertices, expected) << unit;
+  }
+  // By powers of two, nearly to the ends of the range, where squares overflow.
+  for (const int exponent : {-900, 900, 1021}) {
+    Points scaled = points;
+    for (auto& p : scaled)
+      for (double& x : p) x = std::ldexp(x, exponent);
+    EXPECT_EQ(convex_hull(scaled).vertices, expected) << exponent;
+    // The table of directions as well, which large hulls have.
+    const PointCloud<double> cloud(scaled), plain(points);
+    for (const Vec3<double>& n : on_ellipsoid(100, {1, 1, 1}, 5)) {
+      Vec3<double> support = plain.support(n);
+      for (double& x : support) x = std::ldexp(x, exponent);
+      EXPECT_EQ(cloud.support(n), support) << exponent;
+    }
+  }
+}
+
+TEST(ConvexHull, that_is_wider_than_the_largest_number_is_refused) {
+  const Points huge = {{-1e300, 1e300, -5e-324}, {1.7e308, -1.7e308, -1e-30},
+                       {-1e-45, 5e-324, 1e300},  {-5e-324, -1e-45, -1e-300},
+                       {1e300, 1e200, 3e-39},    {1e38, -1e200, 1e154}};
+  EXPECT_THROW(convex_hull(huge), std::runtime_error);
+  Points half = huge;
+  for (auto& p : half) p *= 0.25;
+  const ConvexHull hull = convex_hull(half);
+  for (const std::uint32_t v : {0u, 1u})
+    EXPECT_EQ(std::count(hull.vertices.begin(), hull.vertices.end(), v), 1) << v;
+}
+
+TEST(HalfSpaces, those_of_a_box_meet_in_its_corners) {
+  std::vector<HalfSpace> box;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double sign : {1.0, -1.0})
+      box.push_back({sign * Vec3<double>::Unit(axis), 10 * sign * (axis == 0) + axis + 1.0});
+  box.push_back({Vec3<double>(1, 1, 1), 100});  // touches nothing
+  const Points vertices = intersection_vertices(box, {10, 0.1, 0.2});
+  ASSERT_EQ(vertices.size(), 8u);
+  for (const auto& v : vertices) {
+    EXPECT_NEAR(std::abs(v.x() - 10), 1, 1e-14);
+    EXPECT_NEAR(std::abs(v.y()), 2, 1e-14);
+    EXPECT_NEAR(std::abs(v.z()), 3, 1e-14);
+  }
+}
+
+TEST(HalfSpaces, that_leave_a_direction_open_are_refused) {
+  std::vector<HalfSpace> open;
+  for (int axis = 0; axis < 3; ++axis) open.push_back({Vec3<double>::Unit(axis), 1});
+  EXPECT_THROW(intersection_vertices(open, Vec3<double>::Zero()), std::runtime_error);
+  open.push_back({-Vec3<double>::Ones(), -10});
+  EXPECT_THROW(intersection_vertices(open, Vec3<double>::Zero()), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace minkray

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+// The proof of a picture finds what is wrong, and nothing else.
+#include "renderer/audit/ray_audit.h"
+
+#include <gtest/gtest.h>
+
+#include "renderer/film/render.h"
+
+namespace minkray {
+namespace {
+
+/// Two balls on a plate, in a row along x.
+Scene row_of_balls() {
+  Scene scene;
+  const auto add = [&](const char* name, Shape<double> shape, const Vec3<double>& at) {
+    scene.objects.push_back({name, std::move(shape), {Mat3<double>::Identity(), at}, 0});
+  };
+  add("near", Sphere<double>{1}, {0, 0, 1});
+  add("far", Sphere<double>{1}, {5, 0, 1});
+  add("plate", Box<double>{{10, 10, 0.5}}, {0, 0, -0.5});
+  return scene;
+}
+
+struct Audited {
+  Scene scene = row_of_balls();
+  RenderWorld world = make_world(scene);
+  RayAudit audit{scene, world};
+
+  /// How many failures the answers to one ray make, as told by `lie`.
+  template <class Lie>
+  std::uint64_t failures(const Ray<Real>& ray, const Lie& lie) {
+    const std::uint64_t before = audit.failed(RayKind::camera);
+    QueryCounts counts;
+    WorldHit<Real> answer = world.closest_hit(ray, counts);
+    lie(answer);
+    audit.closest(RayKind::camera, ray, no_instance, answer);
+    return audit.failed(RayKind::camera) - before;
+  }
+};
+
+const Ray<Real> along_row{{-5, 0, 1}, {1, 0, 0}};
+const Ray<Real> above{{-5, 0, 3}, {1, 0, 0}};
+const auto no_lie = [](WorldHit<Real>&) {};
+
+TEST(RayAudit, true_answers_are_proven) {
+  Audited audited;
+  EXPECT_EQ(audited.failures(along_row, no_lie), 0u);
+  EXPECT_EQ(audited.failures(above, no_lie), 0u);
+  // Down to where the ball stands on the plate: both are met at once.
+  EXPECT_EQ(audited.failures({{-3, 0, 3}, {1, 0, -1}}, no_lie), 0u);
+  audited.audit.occluded(RayKind::shadow, along_row, no_instance, true);
+  audited.audit.occluded(RayKind::shadow, above, no_instance, false);
+  EXPECT_EQ(audited.audit.failed(RayKind::shadow), 0u);
+  EXPECT_EQ(audited.audit.rays(RayKind::shadow), 2u);
+}
+
+TEST(RayAudit, an_object_that_was_overlooked_is_named) {
+  Audited audited;
+  QueryCounts counts;
+  const WorldHit<Real> behind = audited.world.closest_hit(along_row, counts, 0);
+  ASSERT_EQ(behind.instance, 1u);
+  EXPECT_EQ(audited.failures(along_row, [&](WorldHit<Real>& answer) { answer = behind; }), 1u);
+  EXPECT_EQ(audited.failures(along_row, [](WorldHit<Real>& answer) { answer = {}; }), 1u);
+  ASSERT_EQ(audited.audit.failures().size(), 2u);
+  for (const AuditFailure& failure : audited.audit.failures()) {
+    EXPECT_NE(failure.message.find("near"), std::string::npos) << failure.message;
+    EXPECT_NE(failure.query.find("\"origin\":[-5.0,0.0,1.0]"), std::string::npos) << failure.query;
+  }
+}
+
+TEST(RayAudit, a_wrong_hit_is_found) {
+  Audited audited;
+  EXPECT_EQ(
+      audited.failures(along_row, [](WorldHit<Real>& answer) { answer.cast.t_offset += 1e-9; }),
+      1u);
+  EXPECT_EQ(audited.failures(along_row, [](WorldHit<Real>& answer) { answer.instance = 1; }), 1u);
+  audited.audit.occluded(RayKind::shadow, along_row, no_instance, false);
+  audited.audit.occluded(RayKind::shadow, above, no_instance, true);
+  EXPECT_EQ(audited.audit.failed(RayKind::shadow), 2u);
+}
+
+TEST(RayAudit, every_ray_of_a_picture_is_proven) {
+  Scene scene = row_of_balls();
+  scene.camera.position = {-6, 4, 4};
+  scene.camera.look_at = {1, 0, 0};
+  scene.materials.push_back({});
+  scene.lights.push_back(DirectionalLight{{0.3, 0.2, -1}, Colour::Constant(1)});
+  scene.lights.push_back(EnvironmentLight{Colour::Constant(1), Colour::Constant(1)});
+  const RenderWorld world = make_world(scene);
+  RayAudit audit(scene, world);
+  RenderOptions options;
+  options.resolution = {48, 27};
+  options.samples = 2;
+  options.integrator.audit = &audit;
+  const Rendering rendering = render(scene, world, options);
+  EXPECT_EQ(audit.rays(RayKind::camera), rendering.counts.camera);
+  EXPECT_EQ(audit.rays(RayKind::shadow), rendering.counts.shadow);
+  EXPECT_EQ(audit.rays(RayKind::ambient), rendering.counts.ambient);
+  EXPECT_EQ(audit.rays(RayKind::indirect), rendering.counts.scattered + rendering.counts.mirrored);
+  EXPECT_GT(audit.rays(RayKind::shadow), 500u);
+  EXPECT_TRUE(audit.failures().empty()) << audit.failures().front().message;
+}
+
+}  // namespace
+}  // namespace minkray

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/film/heatmap.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <sstream>
+
+#include "renderer/image/colour.h"
+
+namespace minkray {
+namespace {
+
+Scene two_balls() {
+  Scene scene;
+  scene.camera.position = {0, -5, 0};
+  scene.camera.look_at = {0, 0, 0};
+  scene.materials = {{"matt", LambertMaterial{}}};
+  for (const double x : {-0.8, 0.8})
+    scene.objects.push_back(
+        {"ball", Sphere<double>{0.7}, {Mat3<double>::Identity(), {x, 0, 0}}, 0});
+  return scene;
+}
+
+HeatField measure(const Scene& scene, HeatChannel channel, const CastOptions<Real>& cast = {},
+                  int samples = 1) {
+  RenderOptions options;
+  options.resolution = {60, 40};
+  options.samples = samples;
+  return measure_heat(scene, make_world(scene, cast), channel, options);
+}
+
+TEST(Heatmap, pixels_that_meet_no_box_cost_no_iteration) {
+  const HeatField iterations = measure(two_balls(), HeatChannel::iterations);
+  const HeatField nodes = measure(two_balls(), HeatChannel::nodes);
+  const HeatField status = measure(two_balls(), HeatChannel::status);
+  ASSERT_EQ(iterations.values.size(), 2400u);
+  EXPECT_EQ(iterations.values.front(), 0.0f);
+  EXPECT_EQ(nodes.values.front(), 1.0f);
+  EXPECT_EQ(status.values.front(), 0.0f);
+  const HeatSummary summary = summary_of(iterations);
+  EXPECT_EQ(summary.least, 0);
+  EXPECT_GE(summary.most, 1);
+  EXPECT_GT(summary.mean, 0);
+  EXPECT_LT(summary.mean, summary.most);
+  // Hits cost iterations.
+  for (std::size_t i = 0; i < status.values.size(); ++i)
+    EXPECT_GE(iterations.values[i], status.values[i]);
+  const HeatField averaged = measure(two_balls(), HeatChannel::nodes, {}, 16);
+  EXPECT_NEAR(summary_of(averaged).mean, summary_of(nodes).mean, 0.05);
+}
+
+TEST(Heatmap, status_tells_hit_inside_and_exhausted) {
+  const auto statuses = [](const HeatField& field) {
+    return std::set<float>(field.values.begin(), field.values.end());
+  };
+  EXPECT_EQ(statuses(measure(two_balls(), HeatChannel::status)), (std::set<float>{0, 1}));
+
+  Scene inside = two_balls();
+  inside.camera.position = {0.8, 0, 0};
+  EXPECT_EQ(statuses(measure(inside, HeatChannel::status)), std::set<float>{2});
+
+  CastOptions<Real> impatient;
+  impatient.solver = SolverKind::paper;
+  impatient.max_iterations = 2;
+  const HeatField field = measure(two_balls(), HeatChannel::status, impatient);
+  EXPECT_TRUE(statuses(field).contains(3));
+  EXPECT_GT(field.work.exhausted, 0u);
+  EXPECT_NE(heat_report(field, HeatChannel::status).find("exhausted"), std::string::npos);
+}
+
+TEST(Heatmap, the_picture_holds_every_panel_and_a_scale) {
+  const HeatField field = measure(two_balls(), HeatChannel::iterations);
+  const Image one = heat_picture({{"", &field}}, HeatChannel::iterations);
+  EXPECT_GE(one.width, field.width);
+  EXPECT_GT(one.height, field.height);
+  const Image two = heat_picture({{"a", &field}, {"b", &field}}, HeatChannel::iterations);
+  EXPECT_GT(two.height, one.height);
+  // Something bright is drawn below the panel: the bar's upper end.
+  float brightest = 0;
+  for (int y = field.height; y < one.height; ++y)
+    for (int x = 0; x < one.width; ++x) brightest = std::max(brightest, one.at(x, y).x());
+  EXPECT_GT(brightest, 0.9f);
+  const Image numbers = heat_numbers({{"a", &field}, {"b", &field}});
+  EXPECT_EQ(numbers.width, 2 * field.width);
+  EXPECT_EQ(numbers.at(20, 20).x(), field.values[20 * 60 + 20]);
+  EXPECT_EQ(numbers.at(60 + 20, 20).x(), field.values[20 * 60 + 20]);
+}
+
+TEST(Heatmap, the_histogram_counts_every_pixel) {
+  const HeatField field{4, 2, {0, 0, 3, 7, 7, 7, 120, 55}, {}, true};
+  const std::string report = heat_report(field, HeatChannel::nodes);
+  EXPECT_NE(report.find("min 0  mean 24.875  max 120"), std::string::npos) << report;
+  std::size_t total = 0;
+  std::istringstream lines(report.substr(report.find('\n') + 1));
+  for (std::string line; std::getline(lines, line);) total += std::stoul(line.substr(14));
+  EXPECT_EQ(total, 8u);
+}
+
+}  // namespace
+}  // namespace minkray

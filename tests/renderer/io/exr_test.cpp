@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/io/exr.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+
+#include "renderer/base/errors.h"
+#include "tests/support/program.h"
+
+namespace minkray {
+namespace {
+
+ExrImage small_image() {
+  const float infinity = std::numeric_limits<float>::infinity();
+  return {{0, 0, 100, 50},
+          {10, 20, 13, 22},
+          {{"B", std::vector<float>{1, -2, 3e-40f, infinity, 0, 1e38f}},
+           {"id", std::vector<std::uint32_t>{0, 1, 2, 4294967295u, 4, 5}}},
+          {{"minkray.command", "minkray render 'a b'"}, {"minkray.seed", "18446744073709551615"}}};
+}
+
+std::string_view text_of(const std::vector<unsigned char>& bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+TEST(Exr, there_and_back_to_the_last_bit) {
+  const ExrImage image = small_image();
+  const ExrImage again = decode_exr(text_of(encode_exr(image)), "x.exr");
+  EXPECT_EQ(again.display, image.display);
+  EXPECT_EQ(again.window, image.window);
+  ASSERT_EQ(again.planes.size(), image.planes.size());
+  for (const ExrPlane& plane : image.planes) {
+    ASSERT_NE(again.find(plane.name), nullptr) << plane.name;
+    EXPECT_EQ(again.find(plane.name)->values, plane.values) << plane.name;
+  }
+  for (const auto& [name, text] : image.texts) EXPECT_EQ(again.texts.at(name), text);
+  EXPECT_EQ(again.find("R"), nullptr);
+}
+
+TEST(Exr, the_same_image_gives_the_same_bytes) {
+  EXPECT_EQ(encode_exr(small_image()), encode_exr(small_image()));
+}
+
+// Whatever a disk or a network makes of a file: an error, never a crash or endless memory.
+TEST(Exr, damaged_files_are_errors_that_name_the_file) {
+  const std::vector<unsigned char> bytes = encode_exr(small_image());
+  for (std::size_t length = 0; length < bytes.size(); ++length) {
+    try {
+      decode_exr(text_of(bytes).substr(0, length), "x.exr");
+      FAIL() << "of " << bytes.size() << " bytes " << length << " are enough";
+    } catch (const BadInput& error) {
+      EXPECT_TRUE(std::string(error.what()).starts_with("x.exr: ")) << error.what();
+    }
+  }
+  int refused = 0;
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    std::vector<unsigned char> damaged = bytes;
+    damaged[i] ^= 0xff;
+    try {
+      decode_exr(text_of(damaged), "x.exr");
+    } catch (const BadInput&) {
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 100);  // texts, and a picture's numbers, may be anything
+}
+
+// Headers alone are read by another way, which looks at no more of the file.
+TEST(Exr, so_are_files_whose_header_is_damaged) {
+  const TemporaryFolder folder;
+  const std::string file = folder / "x.exr";
+  const std::vector<unsigned char> bytes = encode_exr(small_image());
+  const auto is_refused = [&](std::string_view damaged) {
+    std::ofstream(file, std::ios::binary) << damaged;
+    try {
+      read_exr_texts(file);
+      return false;
+    } catch (const BadInput& error) {
+      EXPECT_TRUE(std::string(error.what()).starts_with(file + ": ")) << error.what();
+      return true;
+    }
+  };
+  EXPECT_FALSE(is_refused(text_of(bytes)));
+  EXPECT_EQ(read_exr_texts(file).at("minkray.command"), "minkray render 'a b'");
+  for (std::size_t length = 0; length < 300; ++length)
+    EXPECT_TRUE(is_refused(text_of(bytes).substr(0, length))) << length;
+  int refused = 0;
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    std::vector<unsigned char> damaged = bytes;
+    damaged[i] ^= 0xff;
+    refused += is_refused(text_of(damaged));
+  }
+  EXPECT_GT(refused, 50);
+}
+
+}  // namespace
+}  // namespace minkray

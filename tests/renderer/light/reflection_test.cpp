@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/light/reflection.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "renderer/light/sampler.h"
+
+namespace minkray {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+Vec3<double> from_above(double cosine, double angle = 0.3) {
+  const double sine = std::sqrt(1 - cosine * cosine);
+  return {sine * std::cos(angle), sine * std::sin(angle), cosine};
+}
+
+/// The mean of f(u) over the unit square.
+template <class F>
+auto mean(const F& f, int count = 1 << 14) {
+  auto sum = f(Sampler(1, 0, 0, 0).next());
+  for (int i = 1; i < count; ++i) sum += f(Sampler(1, 0, 0, static_cast<std::uint32_t>(i)).next());
+  return decltype(sum)(sum / count);
+}
+
+TEST(Reflection, fresnel_where_it_is_known) {
+  EXPECT_NEAR(fresnel(1, 1.5), 0.04, 1e-15);
+  EXPECT_NEAR(fresnel(0, 1.5), 1, 1e-15);
+  EXPECT_NEAR(fresnel(0.5, 1), 0, 1e-15);
+  // Brewster's angle, tan = eta: the component along the plane of incidence vanishes.
+  const double cosine = 1 / std::sqrt(1 + 1.5 * 1.5), across = (1 - 2.25) / (1 + 2.25);
+  EXPECT_NEAR(fresnel(cosine, 1.5), across * across / 2, 1e-15);
+  // Egan and Hilgeman's table (1979) has 0.0918 for an index of 1.5.
+  EXPECT_NEAR(mean_fresnel(1.5), 0.0918, 1e-4);
+}
+
+TEST(Reflection, cosine_directions_have_the_density_they_claim) {
+  EXPECT_NEAR(mean([](const auto& u) { return cosine_direction(u).norm(); }), 1, 1e-12);
+  // E[z] = 2/3 and E[x^2] = 1/4 for density z / pi.
+  EXPECT_NEAR(mean([](const auto& u) { return cosine_direction(u).z(); }), 2.0 / 3, 1e-4);
+  EXPECT_NEAR(mean([](const auto& u) { return std::pow(cosine_direction(u).x(), 2); }), 0.25, 1e-4);
+}
+
+// With a white base nothing is absorbed: what the coat does not mirror comes back from the base,
+// seen from any side.
+TEST(Reflection, a_white_coated_surface_gives_back_all_light) {
+  for (const double eta : {1.0, 1.33, 1.5, 2.4}) {
+    const Surface surface({"", GlossyMaterial{Colour::Ones(), 0.0, eta}});
+    for (const double cosine : {0.05, 0.3, 0.7, 1.0}) {
+      const Vec3<double> w_out = from_above(cosine);
+      const Colour base =
+          mean([&](const auto& u) { return surface.base_weight(w_out, cosine_direction(u)); });
+      const double mirrored = surface.mirror(w_out, {0.5, 0.5}).weight;
+      EXPECT_NEAR(base.x() + mirrored, 1, 2e-3) << eta << " " << cosine;
+    }
+  }
+}
+
+/// An index of 1e20 made pixels that were no numbers.
+TEST(Reflection, any_index_of_refraction_gives_numbers) {
+  for (const double eta : {1.0, 1e3, 1e8, 1e16, 1e20, 1e200, 1e308}) {
+    const Surface surface({"", GlossyMaterial{Colour::Constant(0.7), 0.1, eta}});
+    const Vec3<double> w_out = from_above(0.4), w_in = from_above(0.8);
+    EXPECT_TRUE(surface.base_weight(w_out, w_in).allFinite()) << eta;
+    EXPECT_GE(surface.mirror(w_out, {0.5, 0.5}).weight, 0) << eta;
+    EXPECT_LE(surface.mirror(w_out, {0.5, 0.5}).weight, 1) << eta;
+  }
+}
+
+TEST(Reflection, light_may_go_either_way) {
+  const Surface surface({"", GlossyMaterial{{0.8, 0.5, 0.1}, 0.4, 1.5}});
+  const Vec3<double> a = from_above(0.3, 1.0), b = from_above(0.8, 4.0);
+  EXPECT_NEAR((surface.base(a, b) - surface.base(b, a)).norm(), 0, 1e-15);
+  EXPECT_NEAR(surface.highlight(a, b, 0), surface.highlight(b, a, 0), 1e-12);
+}
+
+// The directions drawn and the closed form of the highlight are two ways to the same integral: the
+// light mirrored out of an evenly lit hemisphere.
+TEST(Reflection, drawn_mirror_directions_agree_with_the_highlight) {
+  for (const double roughness : {0.5, 0.7, 1.0}) {
+    const Surface surface({"", GlossyMaterial{Colour::Zero(), roughness, 1.5}});
+    for (const double cosine : {0.3, 0.9}) {
+      const Vec3<double> w_out = from_above(cosine);
+      const double drawn = mean([&](const auto& u) { return surface.mirror(w_out, u).weight; });
+      const double summed = mean(
+          [&](const auto& u) {
+            const Vec3<double> w_in = cosine_direction(u);
+            return pi * surface.highlight(w_out, w_in, 0);
+          },
+          1 << 18);
+      EXPECT_NEAR(drawn / summed, 1, 0.01) << roughness << " " << cosine;
+      EXPECT_GT(drawn, 0.01);
+    }
+  }
+}
+
+TEST(Reflection, microfacets_cover_their_surface) {
+  // The facets' areas, projected, make up the surface: the integral of D(m) m.z is 1.
+  for (const double alpha : {0.2, 0.5, 1.0}) {
+    const RoughMirror rough{alpha};
+    const double projected =
+        mean([&](const auto& u) { return pi * rough.density(cosine_direction(u)); }, 1 << 16);
+    EXPECT_NEAR(projected, 1, 2e-3) << alpha;
+  }
+}
+
+}  // namespace
+}  // namespace minkray
