@@ -7,6 +7,7 @@
 #include "core/geometry/facet_mesh.h"
 #include "core/model/line_cast.h"
 #include "core/query/ray_frame.h"
+#include "core/shape/declared.h"
 
 namespace minkray {
 
@@ -69,10 +70,7 @@ struct Facets {
 };
 
 template <class W, class Core>
-requires requires(const Core& core) {
-  core.half_extents;
-}
-struct Facets<W, Core> {
+requires(declared_by<Core>.slabs) struct Facets<W, Core> {
   using T = Lane<W>;
   static constexpr bool some = true;
   static bool known(const Core&) { return true; }
@@ -131,10 +129,7 @@ struct Facets<W, Core> {
 };
 
 template <class W, class Core>
-requires requires(const Core& core) {
-  core.points.facets();
-}
-struct Facets<W, Core> {
+requires(declared_by<Core>.facets) struct Facets<W, Core> {
   using T = Lane<W>;
   static constexpr bool some = true;
   static bool known(const Core& hull) { return hull.points.facets() != nullptr; }

@@ -12,6 +12,7 @@
 #include "core/model/smooth_model.h"
 #include "core/model/superellipsoid_model.h"
 #include "core/model/translates_model.h"
+#include "core/shape/declared.h"
 #include "core/shape/shape.h"
 
 namespace minkray {
@@ -28,15 +29,6 @@ template <class S, class W>
 inline constexpr bool is_ellipsoid = std::is_same_v<JetOf<S, W>, AxialEllipsoidJet<W>>;
 template <class S, class W>
 inline constexpr bool is_polytope = std::is_same_v<JetOf<S, W>, PointJet<W>>;
-/// Of polytopes, those that are a box around the origin.
-template <class S>
-inline constexpr bool is_box = requires(const S& shape) {
-  shape.half_extents;
-};
-template <class S, class W>
-inline constexpr bool has_gauge = requires(const S& shape, const Vec3<W>& u, const W& lambda) {
-  shape.template gauge_along<W>(u, u, lambda);
-};
 
 }  // namespace detail
 
@@ -68,7 +60,7 @@ auto with_model(const ShapeDefinition<Lane<W>>& definition, Use&& use) {
   };
   const auto rounded = [&]<class S>(const S& core, T radius) {
     return use([&, radius](const Vec3<W>& s, const Vec3<W>& r) {
-      if constexpr (detail::is_box<S>)
+      if constexpr (declared_by<S>.slabs)
         return RoundedBoxModel<W, S>(core, radius, centre, s, r, R);
       else
         return TranslatesModel<W, RoundedPolytope<W, S>>({core, radius}, centre, s, r, R);
@@ -103,7 +95,7 @@ auto with_model(const ShapeDefinition<Lane<W>>& definition, Use&& use) {
               kind.shape->kind);
         } else {
           if (model == ModelKind::points) return polytope(shape);
-          if constexpr (detail::has_gauge<S, W>)
+          if constexpr (declared_by<S>.gauge)
             if (model == ModelKind::smooth)
               return simple(kind, std::type_identity<SuperellipsoidModel<W, S>>());
           if (model == ModelKind::ellipsoid_sum) return ellipsoid_sum();

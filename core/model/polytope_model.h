@@ -195,9 +195,7 @@ class PolytopeModel {
   using Known = Facets<W, Core>;
 
   /// Asking for a support point takes longer than knowing those in the directions of facets.
-  static constexpr bool looks_up = requires(const Core& core, const Vec3<W>& n) {
-    core.support_where(Mask<W>(true), n);
-  };
+  static constexpr bool looks_up = declared_by<Core>.support_where;
 
   const Core& core_;
   Vec3<W> s_, from_;

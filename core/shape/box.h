@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/math/vec.h"
+#include "core/shape/declared.h"
 #include "core/shape/field.h"
 #include "core/shape/jet.h"
 
@@ -15,6 +16,7 @@ struct Box {
 
   static constexpr std::string_view name = "box";
   static constexpr std::string_view doc = "A box around the origin.";
+  static constexpr Declared declared = {.slabs = true};
   static constexpr auto fields() {
     return std::tuple{Field{"half_extents", &Box::half_extents, Unit::length, Range::not_negative,
                             "half its size along x, y and z"}};

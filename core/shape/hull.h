@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/geometry/point_cloud.h"
+#include "core/shape/declared.h"
 #include "core/shape/field.h"
 #include "core/shape/jet.h"
 
@@ -15,6 +16,7 @@ struct Hull {
   static constexpr std::string_view name = "hull";
   static constexpr std::string_view doc =
       "The convex hull of points; coplanar, collinear and single points make flat shapes.";
+  static constexpr Declared declared = {.facets = true, .support_where = true};
   static constexpr auto fields() {
     return std::tuple{Field{"points", &Hull::points, Unit::length, Range::any,
                             "at least one point, or instead \"file\": an .obj or .stl mesh"}};

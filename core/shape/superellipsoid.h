@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/math/power.h"
+#include "core/shape/declared.h"
 #include "core/shape/field.h"
 #include "core/shape/jet.h"
 
@@ -16,6 +17,7 @@ struct Superellipsoid {
 
   static constexpr std::string_view name = "superellipsoid";
   static constexpr std::string_view doc = "All points with |x/a|^p + |y/b|^p + |z/c|^p <= 1.";
+  static constexpr Declared declared = {.gauge = true};
   static constexpr auto fields() {
     return std::tuple{Field{"radii", &Superellipsoid::radii, Unit::length, Range::positive,
                             "a, b and c: its radii along x, y and z"},
