@@ -11,7 +11,6 @@
 #include <iomanip>
 #include <iostream>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "bench/peers/others.h"
@@ -19,13 +18,13 @@
 #include "bench/truth.h"
 #include "core/derived/convert.h"
 #include "core/derived/shape_bounds.h"
+#include "renderer/json/json.h"
 #include "tests/support/measured_shapes.h"
 
 namespace {
 
 using namespace minkray;
 using namespace minkray::bench;
-using Json = nlohmann::ordered_json;
 
 /// The one that all times are divided by.
 constexpr std::string_view baseline = "minkray-auto/float";

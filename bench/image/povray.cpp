@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <iomanip>
+#include <iterator>
 #include <numbers>
 #include <sstream>
 #include <stdexcept>
@@ -34,7 +35,7 @@ std::string pov(const Vec3<double>& v) {
 void write_scenes(const std::string& generated, const std::string& ours, const std::string& povs,
                   const Resolution& resolution) {
   std::ifstream in(generated);
-  Json json = Json::parse(in);
+  Json json = Json::parse(std::string(std::istreambuf_iterator<char>(in), {}));
   json["lights"] = Json::array(
       {{{"type", "directional"}, {"direction", {-0.3, 1, -1.4}}, {"color", {2, 2, 2}}}});
   json["materials"] =

@@ -10,7 +10,7 @@
 #include <filesystem>
 #include <iostream>
 #include <mutex>
-#include <regex>
+#include <string_view>
 #include <system_error>
 #include <thread>
 
@@ -101,6 +101,38 @@ void tell_threads(const Ranks& ranks) {
   std::cerr << text;  // at once, so that the ranks' lines do not mix
 }
 
+/// Takes the first characters off a text, as long as they are of a kind and no more than `most`.
+template <class IsOfKind>
+std::size_t skip(std::string_view& text, IsOfKind&& is_of_kind,
+                 std::size_t most = std::string::npos) {
+  std::size_t count = 0;
+  while (count < std::min(most, text.size()) && is_of_kind(text[count])) ++count;
+  text.remove_prefix(count);
+  return count;
+}
+
+/// Takes a word off the beginning of a text, if it is there.
+bool skip_word(std::string_view& text, std::string_view word) {
+  if (!text.starts_with(word)) return false;
+  text.remove_prefix(word.size());
+  return true;
+}
+
+/// Whether a file's name is that of a tile of a picture of so many, of its checkpoint, or of a
+/// temporary file of either: what ranks that were killed left. 000007-of-000024.exr,
+/// .000007-of-000024.exr.checkpoint.1234.0123abcd.part
+bool is_of_part(std::string_view name, int tiles) {
+  const auto is_digit = [](char c) { return '0' <= c && c <= '9'; };
+  const auto is_hex_digit = [&](char c) { return is_digit(c) || ('a' <= c && c <= 'f'); };
+  skip_word(name, ".");
+  if (skip(name, is_digit, 6) != 6 || !skip_word(name, "-of-" + six_digits(tiles) + ".exr"))
+    return false;
+  skip_word(name, ".checkpoint");
+  if (name.empty()) return true;
+  return skip_word(name, ".") && skip(name, is_digit) > 0 && skip_word(name, ".") &&
+         skip(name, is_hex_digit, 8) == 8 && name == ".part";
+}
+
 }  // namespace
 
 std::string parts_folder(const std::string& output) {
@@ -163,14 +195,11 @@ std::optional<Merged> render_on(Ranks& ranks, const RenderJob& job, int tiles,
 }
 
 void remove_parts(const std::string& output, int tiles) {
-  // Checkpoints and temporary files are what ranks that were killed left.
-  const std::regex is_ours("\\.?[0-9]{6}-of-" + six_digits(tiles) +
-                           "\\.exr(\\.checkpoint)?(\\.[0-9]+\\.[0-9a-f]{8}\\.part)?");
   const std::string folder = parts_folder(output);
   std::error_code error, ignored;
   std::vector<fs::path> files;
   for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
-    if (at->is_regular_file(ignored) && std::regex_match(at->path().filename().string(), is_ours))
+    if (at->is_regular_file(ignored) && is_of_part(at->path().filename().string(), tiles))
       files.push_back(at->path());
   // The first error tells why the folder stays; that it is not empty would follow from it.
   for (const fs::path& file : files) fs::remove(file, error ? ignored : error);

@@ -57,7 +57,7 @@ void paper(const Options& options) {
   std::cout
       << "An iteration is one turn of the loop and one call of the support mapping, the last\n"
          "one counted. Rays, shapes and motions are random with a fixed seed.\n";
-  for (const Claim& claim : claims) {
+  for (const PaperClaim& claim : claims) {
     if (!options.only.empty() && claim.id != options.only) continue;
     const ClaimResult result = claim.run(options.claim);
     std::cout << "\n(" << claim.id << ") " << claim.title << '\n';
@@ -83,7 +83,7 @@ void add_paper(CLI::App& app, ExitCode&) {
   CLI::App* verb = app.add_subcommand("paper", "Rerun the claims of the papers (docs/papers.md)");
   const auto options = std::make_shared<Options>();
   std::vector<std::string> ids;
-  for (const Claim& claim : claims) ids.emplace_back(claim.id);
+  for (const PaperClaim& claim : claims) ids.emplace_back(claim.id);
   verb->add_option("--only", options->only, "One claim")->check(CLI::IsMember(ids));
   verb->add_option("--out", options->out, "A folder for the plots (SVG)");
   verb->add_option("--rays", options->claim.rays, "Random rays for each figure")

@@ -91,9 +91,11 @@ Json tumbling_scene(std::size_t count, std::uint64_t seed) {
   const double colours[shape_kinds][3] = {{0.85, 0.35, 0.2}, {0.2, 0.45, 0.7},  {0.9, 0.7, 0.25},
                                           {0.3, 0.6, 0.35},  {0.75, 0.75, 0.7}, {0.55, 0.3, 0.55}};
   scene["materials"] = Json::array();
-  for (std::size_t kind = 0; kind < shape_kinds; ++kind)
+  for (std::size_t kind = 0; kind < shape_kinds; ++kind) {
+    const auto& [red, green, blue] = colours[kind];
     scene["materials"].push_back(
-        {{"name", "m" + std::to_string(kind)}, {"type", "lambert"}, {"color", colours[kind]}});
+        {{"name", "m" + std::to_string(kind)}, {"type", "lambert"}, {"color", {red, green, blue}}});
+  }
   scene["background"] = {{"zenith", {0.75, 0.83, 0.95}}, {"nadir", {0.95, 0.94, 0.92}}};
 
   Random random(seed);

@@ -59,8 +59,7 @@ ObjectReader::ObjectReader(const Json& json, JsonPath path, Mistakes& mistakes)
 const Json* ObjectReader::find(std::string_view key) {
   allow({key});
   if (!is_object_) return nullptr;
-  const auto found_key = json_.find(std::string(key));
-  return found_key == json_.end() ? nullptr : &*found_key;
+  return json_.find(key);
 }
 
 const Json* ObjectReader::require(std::string_view key, std::string_view expected) {
@@ -80,9 +79,9 @@ void ObjectReader::allow(std::initializer_list<std::string_view> keys) {
 bool ObjectReader::finish() {
   if (!is_object_) return false;
   bool all_known = true;
-  for (const auto& item : json_.items()) {
-    if (std::find(known_.begin(), known_.end(), item.key()) == known_.end()) {
-      mistakes_.add(path_ / item.key(), "unknown key (" + suggestion(item.key(), known_) + ")");
+  for (const Json::Member& member : json_.members()) {
+    if (std::find(known_.begin(), known_.end(), member.key) == known_.end()) {
+      mistakes_.add(path_ / member.key, "unknown key (" + suggestion(member.key, known_) + ")");
       all_known = false;
     }
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
 #include <unordered_set>
@@ -78,7 +79,7 @@ std::vector<NotFinite> replace_not_finite(std::string& text) {
 }
 
 /// Builds the value while nlohmann-json reads the text, and knows the path it is at.
-class TreeBuilder : public nlohmann::json_sax<Json> {
+class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
  public:
   TreeBuilder(const std::vector<NotFinite>& not_finite, Mistakes& mistakes)
       : not_finite_(not_finite), mistakes_(mistakes) {}
@@ -128,7 +129,7 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
   }
 
   bool parse_error(std::size_t position, const std::string&,
-                   const Json::exception& error) override {
+                   const nlohmann::json::exception& error) override {
     error_position = position - 1;  // nlohmann-json has read that byte, or found the end there
     error_reason = error.what();
     return false;
@@ -166,7 +167,7 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
       level.filled.push_back(std::move(value));
     } else {
       if (!level.is_duplicate) {
-        level.filled.get_ptr<Json::object_t*>()->push_back({level.key, std::move(value)});
+        level.filled.add_new_member(level.key, std::move(value));
       }
       level.has_key = false;
     }
@@ -222,7 +223,7 @@ std::optional<Json> parse_json(std::string_view text, Mistakes& mistakes) {
   std::string repaired(text);
   const std::vector<NotFinite> not_finite = replace_not_finite(repaired);
   TreeBuilder tree(not_finite, mistakes);
-  if (Json::sax_parse(repaired, &tree)) {
+  if (nlohmann::json::sax_parse(repaired, &tree)) {
     // nlohmann-json takes a zero byte for the end of the text.
     const std::size_t zero = text.find('\0');
     if (zero != text.npos)
@@ -241,6 +242,13 @@ std::optional<Json> parse_json(std::string_view text, Mistakes& mistakes) {
                                   printable(reason(tree.error_reason), 200));
   }
   return std::nullopt;
+}
+
+Json Json::parse(std::string_view text) {
+  Mistakes mistakes("JSON");
+  std::optional<Json> json = parse_json(text, mistakes);
+  if (!json || !mistakes.none()) throw std::invalid_argument(mistakes.text());
+  return std::move(*json);
 }
 
 std::optional<std::string> read_text_file(const std::filesystem::path& path, Mistakes& mistakes) {

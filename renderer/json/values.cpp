@@ -20,13 +20,13 @@ std::string a_number(Range range) {
 }  // namespace
 
 std::string found(const Json& json) {
-  switch (json.type()) {
-    case Json::value_t::object:
+  switch (json.kind()) {
+    case Json::Kind::object:
       return "got an object";
-    case Json::value_t::array:
+    case Json::Kind::list:
       return "got a list of " + std::to_string(json.size());
-    case Json::value_t::string:
-      return "got \"" + printable(json.get_ref<const std::string&>(), 60) + "\"";
+    case Json::Kind::string:
+      return "got \"" + printable(json.text(), 60) + "\"";
     default:
       return "got " + json.dump();
   }

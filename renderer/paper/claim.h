@@ -22,7 +22,7 @@ struct ClaimResult {
   std::vector<Plot> plots;
 };
 
-struct Claim {
+struct PaperClaim {
   std::string_view id;  ///< what --only takes
   std::string_view title;
   std::string_view paper;  ///< the paper's statement
@@ -41,35 +41,37 @@ ClaimResult distance_decreases(const ClaimOptions& options);
 
 /// All of them; rows a to f are van den Bergen's (2004), sections 4 and 2.
 inline constexpr std::array claims = {
-    Claim{"a", "sphere: mean iterations against -log eps_tol",
-          "roughly proportional to -log(eps_tol); eight on average at 1e-6 for random rays with a "
-          "high hit probability",
-          sphere_iterations},
-    Claim{"b", "polytopes", "usually take fewer iterations", polytope_iterations},
-    Claim{
+    PaperClaim{
+        "a", "sphere: mean iterations against -log eps_tol",
+        "roughly proportional to -log(eps_tol); eight on average at 1e-6 for random rays with a "
+        "high hit probability",
+        sphere_iterations},
+    PaperClaim{"b", "polytopes", "usually take fewer iterations", polytope_iterations},
+    PaperClaim{
         "c", "finite rays",
         "with an early out the average number of iterations drops dramatically where the rays are "
         "short with respect to the environment",
         short_rays},
-    Claim{"d", "caching the separating axis",
-          "the number of iterations per frame can be reduced considerably", cached_axis},
-    Claim{"e", "the cached ray cast against separating-axis GJK",
-          "only slightly more expensive than the incremental separating-axis variant",
-          against_separating_axis},
-    Claim{"f", "single precision",
-          "with eps_tol an order of magnitude above the machine epsilon the support point check is "
-          "not needed; below the machine epsilon it loops for ever",
-          float_terminates},
-    Claim{"g", "Algorithm 1 against Algorithm 3",
-          "the nested first method has little practical value", first_solution_cost},
-    Claim{
+    PaperClaim{"d", "caching the separating axis",
+               "the number of iterations per frame can be reduced considerably", cached_axis},
+    PaperClaim{"e", "the cached ray cast against separating-axis GJK",
+               "only slightly more expensive than the incremental separating-axis variant",
+               against_separating_axis},
+    PaperClaim{
+        "f", "single precision",
+        "with eps_tol an order of magnitude above the machine epsilon the support point check is "
+        "not needed; below the machine epsilon it loops for ever",
+        float_terminates},
+    PaperClaim{"g", "Algorithm 1 against Algorithm 3",
+               "the nested first method has little practical value", first_solution_cost},
+    PaperClaim{
         "h", "distance subalgorithms",
         "Johnson's determinants may have wrong signs near affine dependence; signed volumes claim "
         "to be faster and more reliable (Montanari et al. 2017)",
         subalgorithm_comparison},
-    Claim{"i", "distance in 2D",
-          "the iterates decrease in length, and faceted objects need a finite number of steps",
-          distance_decreases},
+    PaperClaim{"i", "distance in 2D",
+               "the iterates decrease in length, and faceted objects need a finite number of steps",
+               distance_decreases},
 };
 
 }  // namespace minkray

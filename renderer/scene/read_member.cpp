@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/scene/read_member.h"
 
+#include <limits>
 #include <stdexcept>
 
 #include "renderer/json/values.h"
@@ -92,7 +93,8 @@ bool read_member(ObjectReader& object, const Parameter& parameter, PointCloud<do
     return read_key(
         object, parameter, member,
         [&](const Json& json, const JsonPath& path) -> std::optional<PointCloud<double>> {
-          auto points = read_points(json, path, mistakes, 1, json.max_size());
+          auto points =
+              read_points(json, path, mistakes, 1, std::numeric_limits<std::size_t>::max());
           if (!points) return std::nullopt;
           try {
             return PointCloud<double>(std::move(*points));

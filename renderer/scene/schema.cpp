@@ -23,8 +23,8 @@ Json object_schema(std::string_view doc) {
 template <class S>
 void add_members(Json& object) {
   for_each_description<S>([&](const Parameter&, const MemberDescription& member) {
-    for (const auto& property : member.properties.items()) {
-      object["properties"][property.key()] = property.value();
+    for (const Json::Member& property : member.properties.members()) {
+      object["properties"][property.key] = property.value;
     }
     for (const Json& condition : member.allowed) {
       if (condition.contains("required")) {
@@ -135,7 +135,8 @@ Json scene_schema() {
 
   Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"},
                  {"title", "Minkray scene"}};
-  schema.update(object_schema("Shapes, their materials, lights, and a camera."));
+  const Json of_object = object_schema("Shapes, their materials, lights, and a camera.");
+  for (const auto& [keyword, value] : of_object.members()) schema[keyword] = value;
   schema["properties"] = {
       {"$schema", text},
       {"version", {{"const", scene_version}}},

@@ -28,7 +28,7 @@ void write_member(Json& object, std::string_view name, double member) {
 }
 
 void write_member(Json& object, std::string_view name, const std::array<double, 2>& member) {
-  value_of(object, name) = member;
+  value_of(object, name) = {member[0], member[1]};
 }
 
 void write_member(Json& object, std::string_view name, const Vec3<double>& member) {

@@ -9,7 +9,7 @@
 #include "core/files/regular_file.h"
 #include "renderer/base/errors.h"
 #include "renderer/io/output_file.h"
-#include "renderer/json/json.h"
+#include "renderer/json/parse.h"
 
 namespace minkray {
 namespace {
@@ -35,14 +35,16 @@ Content read(const std::string& path) {
       throw BadInput(path + ": " + error.what());
     }
   }();
-  const Json json = Json::parse(text, nullptr, false);
-  if (!json.is_object() || !json.contains("facts") || !json["facts"].is_object() ||
-      !json.contains("frames") || !json["frames"].is_array())
+  Mistakes mistakes(path);
+  const std::optional<Json> json = parse_json(text, mistakes);
+  const Json* facts = json ? json->find("facts") : nullptr;
+  const Json* frames = json ? json->find("frames") : nullptr;
+  if (facts == nullptr || !facts->is_object() || frames == nullptr || !frames->is_array())
     throw BadInput(path + ": is no record of frames");
   Content content;
-  for (const auto& [name, value] : json["facts"].items())
-    if (value.is_string()) content.facts[name] = value.get<std::string>();
-  for (const Json& frame : json["frames"])
+  for (const auto& [name, value] : facts->members())
+    if (value.is_string()) content.facts[name] = value.text();
+  for (const Json& frame : *frames)
     if (is_frame(frame)) content.frames.insert(frame.get<int>());
   return content;
 }
@@ -88,7 +90,10 @@ void FramesRecord::add(int frame) {
 }
 
 void FramesRecord::write() const {
-  const std::string text = Json{{"facts", facts_}, {"frames", frames_}}.dump() + "\n";
+  Json json = {{"facts", Json::object()}, {"frames", Json::array()}};
+  for (const auto& [name, value] : facts_) json["facts"][name] = value;
+  for (const int frame : frames_) json["frames"].push_back(frame);
+  const std::string text = json.dump() + "\n";
   write_file(path_, std::span(reinterpret_cast<const unsigned char*>(text.data()), text.size()));
 }
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "renderer/base/errors.h"
-#include "renderer/json/json.h"
+#include "renderer/json/parse.h"
 
 namespace minkray {
 namespace {
@@ -95,11 +95,13 @@ std::string counts_text(const RayCounts& counts) {
 
 RayCounts counts_of(const Facts& facts) {
   RayCounts counts;
-  const Json json = Json::parse(text_of(facts, counts_fact), nullptr, false);
+  Mistakes mistakes(counts_fact);
+  const std::optional<Json> json = parse_json(text_of(facts, counts_fact), mistakes);
   const auto number = [&](const char* name) -> std::uint64_t {
-    if (!json.is_object() || !json.contains(name) || !json[name].is_number_unsigned())
+    const Json* value = json ? json->find(name) : nullptr;
+    if (value == nullptr || !value->is_number_unsigned())
       throw BadInput(std::string("its header has no usable ") + counts_fact);
-    return json[name].get<std::uint64_t>();
+    return value->get<std::uint64_t>();
   };
   for (const auto& [name, member] : ray_members) counts.*member = number(name);
   for (const auto& [name, member] : work_members) counts.work.*member = number(name);
@@ -114,9 +116,10 @@ std::string labels_text(const std::vector<Label>& labels) {
 
 std::vector<Label> labels_of(const Facts& facts) {
   std::vector<Label> labels;
-  const Json list = Json::parse(text_of(facts, labels_fact), nullptr, false);
-  if (!list.is_array()) return labels;
-  for (const Json& label : list) {
+  Mistakes mistakes(labels_fact);
+  const std::optional<Json> list = parse_json(text_of(facts, labels_fact), mistakes);
+  if (!list) return labels;
+  for (const Json& label : *list) {
     if (!label.is_array() || label.size() != 3 || !label[0].is_number() || !label[1].is_number() ||
         !label[2].is_string())
       throw BadInput(std::string("its header has no usable ") + labels_fact);

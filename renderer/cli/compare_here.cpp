@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <iostream>
+
+#include "renderer/base/interrupt.h"
+#include "renderer/cli/compare_options.h"
+#include "renderer/cli/progress_line.h"
+#include "renderer/compare/compare_scene.h"
+#include "renderer/scene/scene_instances.h"
+#include "renderer/scene/scene_json.h"
+
+namespace minkray {
+namespace {
+
+/// Unless told otherwise: as many rays and directions an object as a scene's objects leave time
+/// for.
+int rays_for(std::size_t objects) {
+  constexpr std::size_t in_all = 20'000'000, most = 100'000, least = 2'000;
+  return static_cast<int>(std::clamp(in_all / std::max<std::size_t>(objects, 1), least, most));
+}
+int directions_for(std::size_t objects) {
+  return objects > 500 ? 100 : 500;
+}
+
+}  // namespace
+
+void compare(const CompareArguments& options, ExitCode& exit_code) {
+  CompareSceneOptions compare_options;
+  compare_options.object.cast.solver = cast_options(options.image.solver).solver;
+  check_outputs(options.image.outputs);
+  const Scene scene = load_scene(options.image.scene);
+  if (!options.image.outputs.empty())
+    compare_options.picture = options.image.render_options(scene).resolution;
+  const std::size_t objects = instance_count(scene);
+  compare_options.object.rays = options.rays > 0 ? options.rays : rays_for(objects);
+  compare_options.object.sandwich.directions =
+      options.directions > 0 ? options.directions : directions_for(objects);
+  compare_options.object.seed = parse_seed(options.image.seed);
+
+  SceneComparison comparison;
+  {
+    const InterruptGuard guard;
+    {
+      ProgressLine line(!options.image.quiet);
+      comparison = compare_scene(scene, compare_options, [&](double fraction, std::uint64_t rays) {
+        line.show(fraction, rays);
+        return !InterruptGuard::interrupted();
+      });
+    }
+    InterruptGuard::end_if_interrupted();
+    if (!options.image.outputs.empty())
+      write_images(options.image.outputs, difference_image(comparison.difference),
+                   difference_numbers(comparison.difference));
+  }
+  if (options.json)
+    std::cout << comparison_json(comparison).dump(2) << '\n';
+  else
+    std::cout << comparison_table(comparison);
+  if (comparison.violations() > 0 || comparison.pixel_violations() > 0)
+    exit_code = ExitCode::comparison_failed;
+}
+
+}  // namespace minkray
