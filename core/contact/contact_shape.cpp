@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#include "core/contact/contact_shape.h"
+
+namespace minkray {
+
+PlacedCore placed(const ContactShape& shape, const Affine<double>& pose) {
+  return {pose.linear * shape.turn(), pose(shape.middle())};
+}
+
+CorePair pair_of(const ContactShape& a, const Affine<double>& pose_a, const ContactShape& b,
+                 const Affine<double>& pose_b) {
+  const Mat3<double> from_a = pose_a.linear * a.turn();
+  Vec3<double> between = pose_b.translation - pose_a.translation;
+  // Middles far from the bodies' origins lose what the bodies' places have gained.
+  constexpr double far = 4;
+  const bool is_far = a.middle().squaredNorm() > far * far * a.reach() * a.reach() ||
+                      b.middle().squaredNorm() > far * far * b.reach() * b.reach();
+  if (is_far) {
+    using Long = long double;
+    const auto moved = [](const Affine<double>& pose, const Vec3<double>& p) -> Vec3<Long> {
+      return pose.linear.cast<Long>() * p.cast<Long>() + pose.translation.cast<Long>();
+    };
+    between = (moved(pose_b, b.middle()) - moved(pose_a, a.middle())).cast<double>();
+  } else {
+    between += pose_b.linear * b.middle() - pose_a.linear * a.middle();
+  }
+  return {a.core(), b.core(), from_a.transpose() * (pose_b.linear * b.turn()),
+          from_a.transpose() * between};
+}
+
+}  // namespace minkray

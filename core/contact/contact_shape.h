@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// A shape made ready for queries on pairs, once: no pair needs to be prepared.
+#pragma once
+
+#include "core/contact/core_pair.h"
+#include "core/derived/convert.h"
+#include "core/math/affine.h"
+#include "core/shape/core_and_radius.h"
+
+namespace minkray {
+
+/// Immutable and cheap to copy. Its numbers are doubles, whatever the shape's are.
+class ContactShape {
+ public:
+  /// `map` leads from the shape's frame to the body's; any invertible map.
+  explicit ContactShape(const Shape<double>& shape, const Affine<double>& map = {})
+      : parts_(core_and_radius(shape, map)) {}
+  explicit ContactShape(const Shape<float>& shape) : ContactShape(convert<double>(shape)) {}
+
+  const ShapeCore& core() const { return parts_.core; }
+  /// From the core's frame to the body's; keeps lengths.
+  const Mat3<double>& turn() const { return parts_.turn; }
+  const Vec3<double>& middle() const { return parts_.middle; }
+  /// Of a ball around the middle that holds the shape.
+  double reach() const { return parts_.core.ball + parts_.core.radius; }
+
+ private:
+  CoreAndRadius parts_;
+};
+
+/// Where a core stands in the world.
+struct PlacedCore {
+  Mat3<double> turn;  ///< from the core's frame to the world
+  Vec3<double> middle;
+};
+
+/// `pose` is rigid: its linear part is a rotation, or a reflection, to rounding.
+PlacedCore placed(const ContactShape& shape, const Affine<double>& pose);
+
+/// B as A sees it. The difference of the two places is taken before anything is rounded, so that
+/// pairs far from the origin are as exact as their poses.
+CorePair pair_of(const ContactShape& a, const Affine<double>& pose_a, const ContactShape& b,
+                 const Affine<double>& pose_b);
+
+}  // namespace minkray

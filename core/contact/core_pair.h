@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// Two cores A and B in A's frame, and the questions that the solvers ask of C, all differences
+// b - a of a point of B and one of A: the distance of the shapes is that of C from the origin, and
+// where they overlap, their penetration depth is how deep the origin lies in C. Either way it is,
+// signed, the most that n.c can be kept above over all c of C, over all unit vectors n.
+#pragma once
+
+#include "core/contact/core_support.h"
+#include "core/query/tolerances.h"
+
+namespace minkray {
+
+struct CorePair {
+  const ShapeCore& a;
+  const ShapeCore& b;
+  Mat3<double> turn;  ///< from B's frame to A's
+  Vec3<double> x;     ///< B's middle in A's frame
+
+  /// Radii of balls around the middles: what roundings are relative to.
+  double size() const { return a.ball + b.ball; }
+  Vec3<double> to_b(const Vec3<double>& d) const { return turn.transpose() * d; }
+};
+
+/// A point c = b - a of C, in A's frame, and the pieces that a and b lie on.
+struct DifferencePoint {
+  Vec3<double> c;
+  Vec3<double> a;
+  int piece_a;
+  int piece_b;
+};
+
+/// The point of C least far along d: b is furthest along -d, a along d.
+template <CoreKind A, CoreKind B>
+inline DifferencePoint nearest_along(const CorePair& pair, const Vec3<double>& d) {
+  const CoreSupport a = support_of_core<A>(pair.a, d),
+                    b = support_of_core<B>(pair.b, pair.to_b(-d));
+  return {pair.x + pair.turn * b.point - a.point, a.point, a.piece, b.piece};
+}
+
+/// The same of kinds that are looked at each time.
+inline DifferencePoint nearest_along(const CorePair& pair, const Vec3<double>& d) {
+  return nearest_along<CoreKind::other, CoreKind::other>(pair, d);
+}
+
+enum class CoreStatus : unsigned char {
+  separated,    ///< the plane `axis` lies between the two
+  overlapping,  ///< a common point was found
+  unsettled,    ///< rounding ended the search: the bounds hold, but need not meet
+};
+
+/// The distance of two cores. The bounds do not allow for rounding.
+struct CoreDistance {
+  CoreStatus status = CoreStatus::unsettled;
+  double lower = -std::numeric_limits<double>::infinity();  ///< axis.c is no less
+  double upper = std::numeric_limits<double>::infinity();   ///< |c| of a point of C
+  Vec3<double> axis = Vec3<double>::Zero();                 ///< of unit length, from A to B
+  Vec3<double> a = Vec3<double>::Zero();                    ///< a point of A, in its frame,
+  Vec3<double> c = Vec3<double>::Zero();                    ///< and from it to a point of B
+  int supports = 0;                                         ///< of C
+
+  void raise_lower(double bound, const Vec3<double>& unit_axis) {
+    if (!(bound > lower)) return;
+    lower = bound;
+    axis = unit_axis;
+  }
+};
+
+/// When a search may end.
+struct CoreSearch {
+  double gap = 1e-12;  ///< upper - lower, relative to the size
+  /// Whether the distance is above `apart`: no more is asked. Infinite: all of it.
+  double apart = std::numeric_limits<double>::infinity();
+  int max_turns = 200;
+};
+
+}  // namespace minkray

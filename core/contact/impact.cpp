@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT
+#include "core/contact/impact.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace minkray {
+namespace {
+
+/// A body's own rounding, relative to its size and its pivot's way.
+constexpr double rounding = 32 * std::numeric_limits<double>::epsilon();
+
+/// How far a body reaches from its pivot along a direction of the world.
+double reach_along(const ContactShape& shape, const Mat3<double>& to_world, const Vec3<double>& n) {
+  const Mat3<double> turn = to_world * shape.turn();
+  const Vec3<double> d = turn.transpose() * n;
+  const CoreSupport support = support_of_core<CoreKind::other>(shape.core(), d);
+  return n.dot(to_world * shape.middle()) + d.dot(support.point) + shape.core().radius;
+}
+
+class Advance {
+ public:
+  Advance(const ContactShape& a, const RigidMotion& motion_a, const ContactShape& b,
+          const RigidMotion& motion_b, double t_max, const ImpactOptions& options)
+      : a_(a), b_(b), of_a_(motion_a), of_b_(motion_b), t_max_(t_max), options_(options) {
+    size_ = a.reach() + b.reach();
+    const double about_a = a.middle().norm() + a.reach(), about_b = b.middle().norm() + b.reach();
+    turning_a_ = motion_a.angular_velocity.norm();
+    turning_b_ = motion_b.angular_velocity.norm();
+    speed_ = (motion_b.velocity - motion_a.velocity).norm() + turning_a_ * about_a +
+             turning_b_ * about_b;
+    touching_ = options.touching * size_;
+  }
+
+  Impact run() {
+    SignedDistance now = at(0);
+    // The contact at the start counts unless the two part.
+    if (now.upper < 0 || (now.value <= touching_ && approach(now, 0) <= parting()))
+      return finish(ImpactStatus::inside, 0, 0, now);
+    double t = 0;
+    if (now.value <= touching_) {
+      t = leave(now);
+      if (t < 0) return finish(ImpactStatus::hit, 0, -t, now);
+      now = at(t);
+    }
+    double t_end = t_max_;
+    while (result_.steps < options_.max_steps) {
+      if (now.value <= touching_) return meet(t, t_end, now);
+      const double next = proven_until(t, t_end, now);
+      if (next >= t_end) return finish(ImpactStatus::miss, t_end, t_end, now);
+      if (!(next > t)) break;  // the time has no more digits
+      t = next;
+      now = at(t);
+    }
+    return finish(ImpactStatus::undecided, t, std::numeric_limits<double>::infinity(), now);
+  }
+
+ private:
+  SignedDistance at(double t, bool only_sign = false) {
+    ++result_.steps;
+    SignedDistanceOptions how;
+    how.only_sign = only_sign;
+    how.tolerance = std::min(1e-9, options_.touching);
+    return signed_distance(a_, of_a_.at(t), b_, of_b_.at(t), how);
+  }
+
+  bool touches(double t) {
+    const SignedDistance there = at(t, true);
+    return there.status == SignedStatus::overlapping || there.value <= touching_;
+  }
+
+  /// The speed at which the nearest points part, negative if they approach.
+  double approach(const SignedDistance& now, double t) const {
+    const auto velocity = [&](const RigidMotion& motion,
+                              const Vec3<double>& point) -> Vec3<double> {
+      const Vec3<double> arm = point - motion.pose.translation - t * motion.velocity;
+      return motion.velocity + motion.angular_velocity.cross(arm);
+    };
+    return now.normal.dot(velocity(of_b_, now.point_b) - velocity(of_a_, now.point_a));
+  }
+  /// Slower is rest.
+  double parting() const { return options_.touching * speed_; }
+
+  /// From a contact at time 0 that parts: a time at which they are apart, or less a time at which
+  /// they overlap.
+  double leave(const SignedDistance& now) {
+    const double speed = approach(now, 0);
+    for (double t = 4 * touching_ / speed; t < t_max_; t *= 2) {
+      const SignedDistance then = at(t);
+      if (then.upper < 0) return -t;
+      if (then.lower > 2 * touching_) return t;
+    }
+    return t_max_;
+  }
+
+  /// A fixed plane's gap at a time, and how far the two reach from their pivots to it.
+  struct Gap {
+    double gap, reach_a, reach_b;
+  };
+  Gap gap(double t, const Vec3<double>& n) const {
+    const Affine<double> a = of_a_.at(t), b = of_b_.at(t);
+    const double reach_a = reach_along(a_, a.linear, n), reach_b = reach_along(b_, b.linear, -n);
+    return {n.dot(b.translation - a.translation) - reach_a - reach_b, reach_a, reach_b};
+  }
+
+  /// No contact from t to the time returned, which is later unless digits are lacking.
+  double proven_until(double t, double t_end, const SignedDistance& now) {
+    constexpr double largest_turn = 1;  // radians in one step
+    const Vec3<double> n = now.normal;
+    const Gap first = gap(t, n);
+    double step = t_end - t;
+    if (speed_ > 0) step = std::min(step, 16 * (now.value + size_) / speed_);
+    const double turning = std::max(turning_a_, turning_b_);
+    if (turning > 0) step = std::min(step, largest_turn / turning);
+    const bool is_last = step == t_end - t;
+    const double allowed =
+        rounding * (size_ + (of_b_.pose.translation - of_a_.pose.translation).norm() + t * speed_);
+    const auto bulge = [](double angle, double at_first, double at_last) {
+      return (1 / std::cos(angle / 2) - 1) * std::max({at_first, at_last, 0.0});
+    };
+    for (int i = 0; i < 60; ++i) {
+      const Gap last = gap(t + step, n);
+      const double worst = last.gap - bulge(turning_a_ * step, first.reach_a, last.reach_a) -
+                           bulge(turning_b_ * step, first.reach_b, last.reach_b) - allowed;
+      if (worst > 0 && worst >= last.gap - first.gap) return i == 0 && is_last ? t_end : t + step;
+      // The line through the two gaps is 0 there, or a little before.
+      const double down = first.gap - worst;
+      step *= std::clamp(down > 0 ? 0.9999 * (first.gap - allowed) / down : 0.5, 0.0, 0.9);
+      if (!(t + step > t)) break;
+    }
+    return t;
+  }
+
+  /// They touch at t; when they do for sure.
+  Impact meet(double t, double t_end, const SignedDistance& now) {
+    double t_hi = t;
+    if (now.upper > touching_ || now.lower > 0) {
+      // Into each other, if they go on; if not, coming so near is a contact.
+      const double speed = -approach(now, t);
+      double later = std::max(2 * now.value / std::max(speed, 1e-6 * speed_), t * rounding);
+      for (int i = 0; i < 40 && t + later <= t_end; ++i, later *= 2) {
+        const SignedDistance then = at(t + later, true);
+        if (then.status == SignedStatus::overlapping || then.upper <= 0) {
+          t_hi = t + later;
+          break;
+        }
+        if (then.value > 4 * touching_) break;
+      }
+    }
+    return finish(ImpactStatus::hit, t, t_hi, now);
+  }
+
+  Impact finish(ImpactStatus status, double t_lo, double t_hi, const SignedDistance& now) {
+    result_.status = status;
+    result_.t_lo = t_lo;
+    result_.t_hi = t_hi;
+    result_.point_a = now.point_a;
+    result_.point_b = now.point_b;
+    result_.normal = now.normal;
+    result_.distance = now.value;
+    return result_;
+  }
+
+  const ContactShape &a_, &b_;
+  const RigidMotion &of_a_, &of_b_;
+  double t_max_;
+  const ImpactOptions& options_;
+  double size_ = 0, turning_a_ = 0, turning_b_ = 0, speed_ = 0, touching_ = 0;
+  Impact result_;
+};
+
+}  // namespace
+
+Affine<double> RigidMotion::at(double time) const {
+  Affine<double> moved = pose;
+  moved.translation += time * velocity;
+  const double speed = angular_velocity.norm();
+  if (speed > 0)
+    moved.linear =
+        Eigen::AngleAxis<double>(time * speed, angular_velocity / speed).toRotationMatrix() *
+        pose.linear;
+  return moved;
+}
+
+Impact first_impact(const ContactShape& a, const RigidMotion& motion_a, const ContactShape& b,
+                    const RigidMotion& motion_b, double t_max, const ImpactOptions& options) {
+  return Advance(a, motion_a, b, motion_b, t_max, options).run();
+}
+
+}  // namespace minkray

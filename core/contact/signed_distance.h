@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// How far apart two convex shapes are, or how deep in each other: one number, with its proof.
+//
+// Apart it is their distance. Overlapping it is less the length of the least translation that
+// separates them, their penetration depth (S. Cameron, R. Culley, "Determining the minimum
+// translational distance between two convex polyhedra", 1986). Either is the largest gap between
+// two parallel planes that have A on one side and B on the other, over all directions: so one
+// plane proves the lower bound. The upper one is proven by two points where they are apart, and
+// where they overlap by an inner approximation of B - A around the origin.
+#pragma once
+
+#include <limits>
+#include <string_view>
+
+#include "core/contact/contact_shape.h"
+
+namespace minkray {
+
+enum class SignedStatus : unsigned char {
+  separated,    ///< lower > 0
+  touching,     ///< the bounds are on both sides of 0, and as near to each other as was asked
+  overlapping,  ///< upper < 0
+  undecided,    ///< the bounds hold, but are not as near to each other as was asked
+};
+
+constexpr std::string_view name_of(SignedStatus status) {
+  switch (status) {
+    case SignedStatus::separated:
+      return "separated";
+    case SignedStatus::touching:
+      return "touching";
+    case SignedStatus::overlapping:
+      return "overlapping";
+    case SignedStatus::undecided:
+      break;
+  }
+  return "undecided";
+}
+
+struct SignedDistance {
+  SignedStatus status = SignedStatus::undecided;
+  double value = 0;  ///< in [lower, upper], which allow for rounding
+  double lower = -std::numeric_limits<double>::infinity();
+  double upper = std::numeric_limits<double>::infinity();
+  /// Of A and B, in the world, such that point_b - point_a = value * normal: the nearest points; or
+  /// where the two touch first when they are moved apart.
+  Vec3<double> point_a = Vec3<double>::Zero();
+  Vec3<double> point_b = Vec3<double>::Zero();
+  /// Of unit length, from A to B: of planes as far apart as `lower` says. Moving B by it separates.
+  Vec3<double> normal = Vec3<double>::Zero();
+  int supports = 0;  ///< of the difference B - A: each is one of A and one of B
+};
+
+struct SignedDistanceOptions {
+  /// How near the bounds shall be to each other, relative to the sum of the shapes' sizes.
+  double tolerance = 1e-10;
+  /// Beyond this distance it is enough to know that they are: value is `lower` then, and upper may
+  /// be infinite.
+  double at_most = std::numeric_limits<double>::infinity();
+  /// Whether they overlap is all that is asked: the depth is not, and lower is -infinity or what
+  /// was found in passing.
+  bool only_sign = false;
+};
+
+/// The poses are rigid. Their rounding, and that of all numbers here, is allowed for by 16 epsilons
+/// of the shapes' sizes and of the distance of their middles.
+SignedDistance signed_distance(const ContactShape& a, const Affine<double>& pose_a,
+                               const ContactShape& b, const Affine<double>& pose_b,
+                               const SignedDistanceOptions& options = {});
+
+/// The same of shapes that stand in the world.
+SignedDistance signed_distance(const ContactShape& a, const ContactShape& b,
+                               const SignedDistanceOptions& options = {});
+
+}  // namespace minkray
