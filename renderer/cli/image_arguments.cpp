@@ -8,8 +8,10 @@
 
 #include "renderer/base/errors.h"
 #include "renderer/base/interrupt.h"
+#include "renderer/cli/scene_file.h"
 #include "renderer/io/image_file.h"
 #include "renderer/io/output_file.h"
+#include "renderer/json/mistakes.h"
 
 namespace minkray {
 namespace {
@@ -75,9 +77,10 @@ std::uint64_t parse_seed(const std::string& text) {
   return seed;
 }
 
-void ImageArguments::add_to(CLI::App& verb) {
-  verb.add_option("scene", scene, "A scene file (JSON)")->required();
-  add_output_option(verb, outputs);
+void ImageArguments::add_to(CLI::App& verb, const std::string& suffix) {
+  add_scene_option(verb, scene);
+  add_output_option(verb, outputs, "the scene's name and " + suffix);
+  preview.add_to(verb);
   verb.add_option("-r,--resolution", resolution, "WxH in pixels, instead of the scene's");
   verb.add_option("-s,--spp", samples, "Samples a pixel")
       ->check(CLI::Range(1, 1 << 24))
@@ -94,11 +97,32 @@ void ImageArguments::add_to(CLI::App& verb) {
       ->excludes(quiet_flag);
 }
 
-void add_output_option(CLI::App& verb, std::vector<std::string>& outputs) {
-  verb.add_option("-o,--output", outputs,
-                  "Where to write the picture (" + image_extensions() + "); may be given again")
+void ImageArguments::choose_output(const std::string& suffix) {
+  if (!outputs.empty()) return;
+  outputs.push_back(default_output(scene, suffix));
+  if (!quiet) std::cerr << "the picture goes to " << printable(outputs.front()) << "\n";
+}
+
+CLI::Option* add_scene_option(CLI::App& verb, std::string& scene) {
+  return verb
+      .add_option("scene", scene,
+                  "A scene file (JSON), or the name of a scene that comes with Minkray")
       ->required()
-      ->allow_extra_args(false);
+      ->transform(CLI::Validator(
+          [](std::string& name) {
+            name = scene_file(name);
+            return std::string();
+          },
+          ""));
+}
+
+void add_output_option(CLI::App& verb, std::vector<std::string>& outputs,
+                       const std::string& otherwise) {
+  CLI::Option* option = verb.add_option("-o,--output", outputs,
+                                        "Where to write the picture (" + image_extensions() +
+                                            "); may be given again" +
+                                            (otherwise.empty() ? "" : "; by default " + otherwise));
+  option->required(otherwise.empty())->allow_extra_args(false);
 }
 
 void check_outputs(const std::vector<std::string>& outputs) {

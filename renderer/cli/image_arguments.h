@@ -6,11 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "renderer/cli/preview.h"
 #include "renderer/film/render.h"
 
 namespace CLI {
 class App;
-}
+class Option;
+}  // namespace CLI
 
 namespace minkray {
 
@@ -26,8 +28,14 @@ struct ImageArguments {
   bool quiet = false;
   bool verbose = false;
 
-  /// Adds the options; defaults shown are the members' values.
-  void add_to(CLI::App& verb);
+  PreviewArguments preview;
+
+  /// Adds the options; defaults shown are the members' values. Without -o the picture is to go to
+  /// the scene's name and `suffix`, see choose_output.
+  void add_to(CLI::App& verb, const std::string& suffix);
+
+  /// If there is no -o: chooses default_output of the scene and says so.
+  void choose_output(const std::string& suffix);
 
   /// The options for a scene, of which `panels` pictures come beside each other. Throws WrongUsage
   /// where a value is not usable.
@@ -37,8 +45,14 @@ struct ImageArguments {
 /// Throws WrongUsage for what is no whole number of 64 bits.
 std::uint64_t parse_seed(const std::string& text);
 
-/// Adds -o, of a list of image files.
-void add_output_option(CLI::App& verb, std::vector<std::string>& outputs);
+/// Adds the scene by its place: a file, or the name of one that comes with Minkray. It must be
+/// there unless the answer is told otherwise.
+CLI::Option* add_scene_option(CLI::App& verb, std::string& scene);
+
+/// Adds -o, of a list of image files. `otherwise` says where the picture goes without it; empty: -o
+/// must be there.
+void add_output_option(CLI::App& verb, std::vector<std::string>& outputs,
+                       const std::string& otherwise = "");
 
 /// Throws WrongUsage for an output whose format is unknown, CannotWrite for one that could not be
 /// written later.

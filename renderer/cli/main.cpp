@@ -16,6 +16,16 @@ namespace {
 
 using minkray::ExitCode;
 
+/// For someone who only typed the program's name.
+constexpr const char* first_page =
+    "Minkray casts rays at exact convex shapes. Three commands to try:\n"
+    "\n"
+    "  minkray render shape-zoo          a picture of every shape: shape-zoo.png\n"
+    "  minkray heatmap showcase          what each pixel of it costs: showcase-heatmap.png\n"
+    "  minkray info --shapes             what a scene's shapes may be\n"
+    "\n"
+    "minkray --help lists all verbs, minkray VERB --help tells what one of them takes.\n";
+
 /// CLI11 says of an unknown verb only that one is required.
 void check_verb(const CLI::App& app, const std::string& name) {
   std::string names;
@@ -31,6 +41,10 @@ ExitCode run(int argc, char** argv) {
   CLI::App app("Minkray casts rays at exact convex shapes.", "minkray");
   app.set_version_flag("--version", "minkray " MINKRAY_VERSION);
   app.require_subcommand(1);
+  if (argc <= 1) {
+    std::cout << first_page;
+    return ExitCode::done;
+  }
   app.footer(
       "Exit codes: 0 done, 1 a comparison or certificate failed, 2 wrong usage,\n"
       "3 bad scene or input, 4 could not write. Results are on stdout, everything else on stderr.");

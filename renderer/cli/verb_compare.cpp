@@ -15,7 +15,7 @@ void add_compare(CLI::App& app, ExitCode& exit_code) {
   const auto options = std::make_shared<CompareArguments>();
   ImageArguments& image = options->image;
   image.seed = "1";
-  verb->add_option("scene", image.scene, "A scene file (JSON)")->required();
+  add_scene_option(*verb, image.scene);
   verb->add_option("--rays", options->rays,
                    "Rays an object; by default 100000, less in scenes of over 200 objects")
       ->check(CLI::Range(1, 1 << 30));

@@ -41,7 +41,10 @@ std::vector<std::string> split(const std::string& text) {
   return parts;
 }
 
-void run(const Options& options) {
+constexpr const char* suffix = "-heatmap.png";
+
+void run(Options& options) {
+  options.image.choose_output(suffix);
   const HeatChannel channel = channel_of(options.channel);
   const std::vector<std::string> solvers =
       split(options.side_by_side.value_or(options.image.solver));
@@ -69,7 +72,9 @@ void run(const Options& options) {
       casts += fields.back().work.casts;
       panels.push_back({solvers.size() > 1 ? "solver " + solver : "", &fields.back()});
     }
-    write_images(options.image.outputs, heat_picture(panels, channel), heat_numbers(panels));
+    const Image picture = heat_picture(panels, channel);
+    write_images(options.image.outputs, picture, heat_numbers(panels));
+    show_preview(picture, options.image.preview);
   }
 
   if (!options.image.quiet)
@@ -84,7 +89,7 @@ void run(const Options& options) {
 void add_heatmap(CLI::App& app, ExitCode&) {
   CLI::App* verb = app.add_subcommand("heatmap", "Show what each pixel of a scene costs");
   const auto options = std::make_shared<Options>();
-  options->image.add_to(*verb);
+  options->image.add_to(*verb, suffix);
   std::string channels;
   for (const HeatChannelDescription& description : heat_channels)
     channels += "\n" + std::string(description.name) + ": " + std::string(description.doc);

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "renderer/base/errors.h"
+#include "renderer/cli/image_arguments.h"
 #include "renderer/cli/verbs.h"
 #include "renderer/info/scene_info.h"
 #include "renderer/scene/scene_json.h"
@@ -42,7 +43,7 @@ void info(const Options& options) {
 void add_info(CLI::App& app, ExitCode&) {
   CLI::App* verb = app.add_subcommand("info", "Tell what is in a scene, or what scenes may hold");
   const auto options = std::make_shared<Options>();
-  verb->add_option("scene", options->scene, "A scene file (JSON)");
+  add_scene_option(*verb, options->scene)->required(false);
   verb->add_flag("--shapes", options->shapes, "List all shapes and their parameters");
   verb->add_flag("--schema", options->schema, "Print the JSON Schema of scene files");
   verb->add_flag("--json", options->json, "Print JSON");

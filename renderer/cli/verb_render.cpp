@@ -241,6 +241,7 @@ Image render_and_write(const RenderJob& job, const Options& options,
   timed(options, "write", statistics.write_seconds,
         [&] { write_picture(outputs, picture, options.exposure); });
   checkpoint.remove();
+  show_preview(to_look_at(picture, options.exposure), options.image.preview);
   return picture.image;
 }
 
@@ -310,8 +311,13 @@ void render_frames(RenderJob& job, const Options& options, const FrameRange& fra
   write_picture({options.contact_sheet}, picture, options.exposure);
 }
 
-ExitCode run(const Options& options) {
+constexpr const char* suffix = ".png";
+
+ExitCode run(Options& options) {
   Ranks ranks;
+  if (options.image.outputs.empty() && (options.is_piece() || options.frames || ranks.count() > 1))
+    throw WrongUsage("--output: is needed with --tile, --sample-share, --frames and MPI");
+  options.image.choose_output(suffix);
   RenderJob job;
   const CastOptions<Real> cast = cast_options(options.image.solver);
   read_options(options, ranks, job);
@@ -376,7 +382,7 @@ void add_render(CLI::App& app, ExitCode& exit_code) {
   CLI::App* verb = app.add_subcommand("render", "Make a picture of a scene");
   const auto options = std::make_shared<Options>();
   options->image.samples = 16;
-  options->image.add_to(*verb);
+  options->image.add_to(*verb, suffix);
   verb->add_option("--solver", options->image.solver, "Of the ray casts")->capture_default_str();
   verb->add_option("--exposure", options->exposure, "Stops brighter; .pfm keeps the scene's light")
       ->capture_default_str();

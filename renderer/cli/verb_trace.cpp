@@ -9,6 +9,7 @@
 #include "renderer/base/errors.h"
 #include "renderer/cli/choices.h"
 #include "renderer/cli/file_ending.h"
+#include "renderer/cli/image_arguments.h"
 #include "renderer/cli/verbs.h"
 #include "renderer/io/output_file.h"
 #include "renderer/light/camera.h"
@@ -123,7 +124,7 @@ void trace(const Options& options) {
 void add_trace(CLI::App& app, ExitCode&) {
   CLI::App* verb = app.add_subcommand("trace", "Show every iteration of the cast for one pixel");
   const auto options = std::make_shared<Options>();
-  verb->add_option("scene", options->scene, "A scene file (JSON)")->required();
+  add_scene_option(*verb, options->scene);
   verb->add_option("--pixel", options->pixel, "x,y from the upper left corner; through its centre")
       ->required()
       ->expected(2)

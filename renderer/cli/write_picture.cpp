@@ -9,7 +9,6 @@
 #include "renderer/io/output_file.h"
 
 namespace minkray {
-namespace {
 
 Image to_look_at(const FinishedPicture& finished, double exposure) {
   const auto gain = static_cast<float>(std::exp2(exposure));
@@ -18,8 +17,6 @@ Image to_look_at(const FinishedPicture& finished, double exposure) {
   draw_labels(picture, finished.labels, finished.window, finished.resolution);
   return picture;
 }
-
-}  // namespace
 
 void write_picture(const std::vector<std::string>& outputs, const FinishedPicture& picture,
                    double exposure) {

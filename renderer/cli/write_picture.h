@@ -20,6 +20,9 @@ struct FinishedPicture {
 void write_picture(const std::vector<std::string>& outputs, const FinishedPicture& picture,
                    double exposure);
 
+/// What formats without floats show: after the exposure, with labels.
+Image to_look_at(const FinishedPicture& finished, double exposure);
+
 /// Throws WrongUsage if the exposure is no usable number of stops.
 void check_exposure(double exposure);
 

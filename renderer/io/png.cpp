@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/io/png.h"
 
+#include <fstream>
 #include <stdexcept>
+#include <string_view>
 
 #define STB_IMAGE_WRITE_STATIC
 #define STB_IMAGE_WRITE_IMPLEMENTATION
@@ -15,6 +17,31 @@
 #pragma GCC diagnostic pop
 
 namespace minkray {
+namespace {
+
+using namespace std::string_view_literals;
+
+/// A keyword, a zero, a text.
+constexpr std::string_view software_text = "Software\0Minkray"sv;
+
+/// The signature of 8 bytes and the chunk IHDR of 25 come first in every PNG file.
+constexpr std::size_t header_bytes = 33;
+
+/// The chunk tEXt that names the program which wrote the picture (PNG specification, 11.3.4.3),
+/// behind its length and before its checksum.
+std::string software_chunk() {
+  const auto number = [](std::uint32_t value) {
+    std::string bytes;
+    for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(value >> shift & 0xff);
+    return bytes;
+  };
+  std::string typed = "tEXt" + std::string(software_text);
+  const std::uint32_t checksum = stbiw__crc32(reinterpret_cast<unsigned char*>(typed.data()),
+                                              static_cast<int>(typed.size()));
+  return number(static_cast<std::uint32_t>(software_text.size())) + typed + number(checksum);
+}
+
+}  // namespace
 
 std::vector<unsigned char> png_of(int width, int height, std::span<const std::uint8_t> rgb) {
   std::vector<unsigned char> bytes;
@@ -24,7 +51,16 @@ std::vector<unsigned char> png_of(int width, int height, std::span<const std::ui
   };
   if (!stbi_write_png_to_func(append, &bytes, width, height, 3, rgb.data(), 3 * width))
     throw std::runtime_error("the PNG encoder ran out of memory");
-  return bytes;
+  std::string file(bytes.begin(), bytes.end());
+  file.insert(header_bytes, software_chunk());
+  return {file.begin(), file.end()};
+}
+
+bool is_own_png(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::string begin(header_bytes + 8 + software_text.size(), '\0');
+  if (!stream.read(begin.data(), static_cast<std::streamsize>(begin.size()))) return false;
+  return begin.starts_with("\x89PNG") && begin.ends_with(software_text);
 }
 
 }  // namespace minkray

@@ -4,11 +4,15 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace minkray {
 
-/// 8 bits a channel, red, green and blue, rows from the top.
+/// 8 bits a channel, red, green and blue, rows from the top. The file says that Minkray wrote it.
 std::vector<unsigned char> png_of(int width, int height, std::span<const std::uint8_t> rgb);
+
+/// Whether the file is a PNG file that says so.
+bool is_own_png(const std::string& file);
 
 }  // namespace minkray

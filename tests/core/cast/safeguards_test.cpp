@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Truths that no other test asked about: `./run mutate` changed the line of code that each of them
-// needs, and nothing noticed (docs/mutation.md).
+// needs, and nothing noticed (docs/records/mutation.md).
 #include <gtest/gtest.h>
 
 #include "core/cast/cast.h"

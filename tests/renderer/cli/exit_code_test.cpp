@@ -68,7 +68,7 @@ TEST(Cli, certificates_are_summed_up_on_stderr) {
 
 TEST(Cli, wrong_usage_is_2) {
   for (const std::string arguments :
-       {"", "no-such-verb", "info", "info --no-such-option", "info --shapes --schema",
+       {"no-such-verb", "info", "info --no-such-option", "info --shapes --schema",
         "info a.json --schema", "info a.json --markdown"}) {
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.exit_code, 2) << arguments;

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/cli/completion.h"
+
+namespace minkray {
+namespace {
+
+std::string joined(const std::vector<std::string>& words, const std::string& between) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : between) + word;
+  return text;
+}
+
+/// The first sentence or line, which is what fits beside a name.
+std::string first_line(const std::string& doc) {
+  return doc.substr(0, doc.find_first_of("\n;:"));
+}
+
+/// Within single quotes of a POSIX shell.
+std::string quoted(const std::string& text) {
+  std::string out = "'";
+  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
+std::vector<std::string> flags_of(const VerbDescription& verb) {
+  std::vector<std::string> flags;
+  for (const OptionDescription& option : verb.options)
+    flags.insert(flags.end(), option.flags.begin(), option.flags.end());
+  return flags;
+}
+
+/// Whether what it takes is likely a file's name.
+bool takes_file(const OptionDescription& option) {
+  return option.choices.empty() && option.value.starts_with("TEXT");
+}
+
+/// Text in the specifications of zsh's _arguments.
+std::string zsh_text(const std::string& text) {
+  std::string out;
+  for (const char c : first_line(text)) {
+    if (c == '[' || c == ']' || c == ':' || c == '\\') out += '\\';
+    out += c;
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string bash_completion(std::span<const VerbDescription> verbs) {
+  std::vector<std::string> names;
+  for (const VerbDescription& verb : verbs) names.push_back(verb.name);
+  std::string text =
+      "# bash completion of minkray; made by: minkray completion bash\n"
+      "_minkray() {\n"
+      "  local word=\"${COMP_WORDS[COMP_CWORD]}\" before=\"${COMP_WORDS[COMP_CWORD-1]}\" flags=\n"
+      "  COMPREPLY=()\n"
+      "  if ((COMP_CWORD == 1)); then\n"
+      "    COMPREPLY=($(compgen -W " +
+      quoted(joined(names, " ") + " --help --version") +
+      " -- \"$word\"))\n"
+      "    return\n"
+      "  fi\n"
+      "  case \"${COMP_WORDS[1]} $before\" in\n";
+  for (const VerbDescription& verb : verbs)
+    for (const OptionDescription& option : verb.options) {
+      if (option.choices.empty() || option.is_value_optional) continue;
+      std::vector<std::string> patterns;
+      for (const std::string& flag : option.flags)
+        patterns.push_back(quoted(verb.name + " " + flag));
+      if (patterns.empty()) continue;
+      text += "    " + joined(patterns, " | ") + ")\n      COMPREPLY=($(compgen -W " +
+              quoted(joined(option.choices, " ")) + " -- \"$word\"))\n      return ;;\n";
+    }
+  text += "  esac\n  case \"${COMP_WORDS[1]}\" in\n";
+  for (const VerbDescription& verb : verbs)
+    text += "    " + verb.name + ") flags=" + quoted(joined(flags_of(verb), " ")) + " ;;\n";
+  for (const VerbDescription& verb : verbs)
+    for (const OptionDescription& option : verb.options)
+      if (option.flags.empty() && !option.choices.empty())
+        text += "  esac\n  case \"${COMP_WORDS[1]}\" in\n    " + verb.name +
+                ") flags+=" + quoted(" " + joined(option.choices, " ")) + " ;;\n";
+  return text +
+         "  esac\n"
+         "  COMPREPLY=($(compgen -W \"$flags\" -- \"$word\"))\n"
+         "  ((${#COMPREPLY[@]})) || COMPREPLY=($(compgen -f -- \"$word\"))\n"
+         "}\n"
+         "complete -o filenames -F _minkray minkray\n";
+}
+
+std::string zsh_completion(std::span<const VerbDescription> verbs) {
+  std::string text =
+      "#compdef minkray\n"
+      "# zsh completion of minkray; made by: minkray completion zsh\n"
+      "_minkray() {\n"
+      "  if ((CURRENT == 2)); then\n"
+      "    local -a verbs=(\n";
+  for (const VerbDescription& verb : verbs)
+    text += "      " + quoted(verb.name + ":" + first_line(verb.doc)) + "\n";
+  text +=
+      "    )\n"
+      "    _describe verb verbs\n"
+      "    return\n"
+      "  fi\n"
+      "  local verb=\"$words[2]\"\n"
+      "  shift words\n"
+      "  ((CURRENT--))\n"
+      "  case \"$verb\" in\n";
+  for (const VerbDescription& verb : verbs) {
+    text += "    " + verb.name + ")\n      _arguments";
+    for (const OptionDescription& option : verb.options) {
+      std::string action;
+      if (!option.value.empty())
+        action = std::string(option.is_value_optional ? "::" : ":") + "value:" +
+                 (!option.choices.empty() ? "(" + joined(option.choices, " ") + ")"
+                  : takes_file(option)    ? "_files"
+                                          : " ");
+      if (option.flags.empty()) {
+        text +=
+            " \\\n        " +
+            quoted((option.is_repeated ? "*:" : ":") + option.place + ":" +
+                   (option.choices.empty() ? "_files" : "(" + joined(option.choices, " ") + ")"));
+        continue;
+      }
+      for (const std::string& flag : option.flags)
+        text += " \\\n        " + quoted((option.is_repeated ? "*" : "") + flag +
+                                         (option.is_value_optional ? "=-" : "") + "[" +
+                                         zsh_text(option.doc) + "]" + action);
+    }
+    text += " ;;\n";
+  }
+  return text +
+         "  esac\n"
+         "}\n"
+         "_minkray \"$@\"\n";
+}
+
+std::string fish_completion(std::span<const VerbDescription> verbs) {
+  std::string text = "# fish completion of minkray; made by: minkray completion fish\n";
+  for (const VerbDescription& verb : verbs)
+    text += "complete -c minkray -n __fish_use_subcommand -f -a " + verb.name + " -d " +
+            quoted(first_line(verb.doc)) + "\n";
+  for (const VerbDescription& verb : verbs)
+    for (const OptionDescription& option : verb.options) {
+      text += "complete -c minkray -n " + quoted("__fish_seen_subcommand_from " + verb.name);
+      for (const std::string& flag : option.flags)
+        text += flag.starts_with("--") ? " -l " + flag.substr(2) : " -s " + flag.substr(1);
+      if (!option.flags.empty() && !option.value.empty() && !option.is_value_optional)
+        text += " -r";
+      if (!option.choices.empty()) text += " -f -a " + quoted(joined(option.choices, " "));
+      text += " -d " + quoted(first_line(option.doc)) + "\n";
+    }
+  return text;
+}
+
+}  // namespace minkray

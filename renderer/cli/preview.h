@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// Showing a picture in the terminal that the program was started in.
+#pragma once
+
+#include <string>
+
+#include "renderer/image/image.h"
+
+namespace CLI {
+class App;
+}
+
+namespace minkray {
+
+struct PreviewArguments {
+  std::string preview;  ///< empty: none; else auto or one of the ways
+
+  /// Adds --preview.
+  void add_to(CLI::App& verb);
+};
+
+/// Writes the picture to stdout if the arguments ask for it: in the way they name, or in the best
+/// one that the terminal says that it has, which takes at most a fifth of a second to answer. Where
+/// stdout is no terminal it is half blocks.
+void show_preview(const Image& picture, const PreviewArguments& arguments);
+
+}  // namespace minkray

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// minkray man: the man page of a verb, or of all of them.
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+
+#include "renderer/base/errors.h"
+#include "renderer/cli/man_page.h"
+#include "renderer/cli/verbs.h"
+#include "renderer/json/mistakes.h"
+
+namespace minkray {
+namespace {
+
+std::string page_of(const std::vector<VerbDescription>& all, const std::string& name) {
+  if (name.empty()) return man_page(all);
+  std::string names;
+  for (const VerbDescription& verb : all) {
+    if (verb.name == name) return man_page(verb);
+    names += (names.empty() ? "" : ", ") + verb.name;
+  }
+  throw WrongUsage("man: must be one of " + names + " (got " + printable(name, 40) + ")");
+}
+
+}  // namespace
+
+void add_man(CLI::App& app, ExitCode&) {
+  CLI::App* verb = app.add_subcommand("man", "Print a man page, for man -l -");
+  const auto name = std::make_shared<std::string>();
+  verb->add_option("verb", *name, "Which verb's; by default the page of all verbs");
+  verb->callback([name, &app] { std::cout << page_of(describe_verbs(app), *name); });
+}
+
+}  // namespace minkray

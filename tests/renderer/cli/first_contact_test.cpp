@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+// What someone meets who has just installed Minkray: scenes by name, pictures without -o, previews,
+// completions and man pages.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include "tests/support/program.h"
+#include "tests/support/source_files.h"
+
+namespace minkray {
+namespace {
+
+std::string in(const TemporaryFolder& folder, const std::string& command) {
+  return "cd '" + folder / "." + "' && " + command;
+}
+
+TEST(FirstContact, the_program_alone_shows_three_commands_to_try) {
+  const ProgramOutcome page = run_shell("$MINKRAY");
+  EXPECT_EQ(page.exit_code, 0);
+  EXPECT_EQ(page.err, "");
+  std::istringstream lines(page.out);
+  int commands = 0;
+  for (std::string line; std::getline(lines, line);) commands += line.starts_with("  minkray ");
+  EXPECT_EQ(commands, 3);
+}
+
+TEST(FirstContact, a_scene_is_found_by_its_name_and_its_picture_goes_to_that_name) {
+  const TemporaryFolder folder;
+  const ProgramOutcome named = run_shell(in(folder, "$MINKRAY render shape-zoo -r 32x18 -s 1"));
+  EXPECT_EQ(named.exit_code, 0) << named.err;
+  EXPECT_NE(named.err.find("the picture goes to shape-zoo.png\n"), std::string::npos) << named.err;
+  EXPECT_EQ(folder.files(), std::vector<std::string>{"shape-zoo.png"});
+  const std::string picture = text_of_file(folder / "shape-zoo.png");
+  const std::string by_path = "'" + (source_folder() / "scenes/shape-zoo.json").string() + "'";
+  EXPECT_EQ(
+      run_shell(in(folder, "$MINKRAY render " + by_path + " -r 32x18 -s 1 -q -o b.png")).exit_code,
+      0);
+  EXPECT_EQ(text_of_file(folder / "b.png"), picture);
+  EXPECT_EQ(run_shell(in(folder, "$MINKRAY heatmap shape-zoo -r 32x18 -q")).exit_code, 0);
+  EXPECT_EQ(folder.files(),
+            (std::vector<std::string>{"b.png", "shape-zoo-heatmap.png", "shape-zoo.png"}));
+}
+
+TEST(FirstContact, an_unknown_name_is_told_with_the_names_there_are) {
+  const ProgramOutcome outcome = run_shell("$MINKRAY render showcsae -o /dev/null");
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_NE(outcome.err.find("showcsae: must be"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("shape-zoo, showcase"), std::string::npos) << outcome.err;
+}
+
+TEST(FirstContact, without_an_output_nobody_elses_file_is_replaced) {
+  const TemporaryFolder folder;
+  write_ball_scene(folder / "ball.json");
+  const std::string render = in(folder, "$MINKRAY render ball.json -q -r 16x9 -s 1");
+  EXPECT_EQ(run_shell(render).exit_code, 0);
+  EXPECT_EQ(run_shell(render).exit_code, 0);  // Minkray's own picture is
+  std::ofstream(folder / "ball.png") << "a photograph";
+  const ProgramOutcome refused = run_shell(render);
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("ball.png is there already"), std::string::npos) << refused.err;
+  EXPECT_EQ(text_of_file(folder / "ball.png"), "a photograph");
+  EXPECT_EQ(run_shell(in(folder, "$MINKRAY render ball.json --tile 1/2 -q")).exit_code, 2);
+}
+
+TEST(FirstContact, a_preview_is_drawn_with_half_blocks_where_there_is_no_terminal) {
+  const TemporaryFolder folder;
+  write_ball_scene(folder / "ball.json");
+  const std::string render = in(folder, "$MINKRAY render ball.json -q -r 160x90 -s 1 --preview");
+  const ProgramOutcome blocks = run_shell(render);
+  EXPECT_EQ(blocks.exit_code, 0) << blocks.err;
+  std::size_t halves = 0;
+  for (std::size_t at = 0; (at = blocks.out.find("\xe2\x96\x80", at)) != std::string::npos; ++at)
+    ++halves;
+  EXPECT_EQ(halves, 80u * 23u);  // 80 columns, 45 rows of pixels
+  EXPECT_TRUE(run_shell(render + "=kitty").out.starts_with("\x1b_Gf=100"));
+  EXPECT_TRUE(run_shell(render + "=sixel").out.starts_with("\x1bPq"));
+  EXPECT_EQ(run_shell(render + "=hologram").exit_code, 2);
+}
+
+/// The verbs that --help lists.
+std::vector<std::string> verbs() {
+  const std::string help = run_shell("$MINKRAY --help").out;
+  std::vector<std::string> names;
+  std::istringstream lines(help.substr(help.find("Subcommands:")));
+  std::string line;
+  std::getline(lines, line);
+  while (std::getline(lines, line) && line.starts_with("  "))
+    if (line[2] != ' ') names.push_back(line.substr(2, line.find(' ', 2) - 2));
+  return names;
+}
+
+/// The long options that a verb's --help lists, each where its entry begins.
+std::set<std::string> options_in_help(const std::string& verb) {
+  const std::string help = run_shell("$MINKRAY " + verb + " --help").out;
+  const std::regex entry("\n  (?:-\\w,)?(--[a-z][a-z0-9-]*)");
+  std::set<std::string> options;
+  for (std::sregex_iterator match(help.begin(), help.end(), entry), end; match != end; ++match)
+    options.insert((*match)[1]);
+  return options;
+}
+
+TEST(ManPages, every_verb_has_one_with_just_the_options_of_its_help) {
+  const std::vector<std::string> names = verbs();
+  ASSERT_GT(names.size(), 10u);
+  const std::string all = run_shell("$MINKRAY man").out;
+  for (const std::string& verb : names) {
+    std::string page = run_shell("$MINKRAY man " + verb).out;
+    page = std::regex_replace(page, std::regex("\\\\-"), "-");
+    EXPECT_TRUE(page.starts_with(".TH \"minkray-" + verb + "\"")) << page.substr(0, 80);
+    std::set<std::string> options;
+    const std::regex entry("\n\\.TP\n\\.BR? \"?(?:-\\w, )?(--[a-z][a-z0-9-]*)");
+    for (std::sregex_iterator match(page.begin(), page.end(), entry), end; match != end; ++match)
+      options.insert((*match)[1]);
+    EXPECT_EQ(options, options_in_help(verb)) << verb;
+    EXPECT_NE(all.find("minkray\\-" + std::regex_replace(verb, std::regex("-"), "\\-") + " (1)"),
+              std::string::npos)
+        << verb;
+  }
+  EXPECT_EQ(run_shell("$MINKRAY man no-such-verb").exit_code, 2);
+}
+
+TEST(Completion, bash_offers_the_options_of_each_verbs_help) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_shell("$MINKRAY completion bash > '" + folder / "minkray" + "'").exit_code, 0);
+  for (const std::string& verb : verbs()) {
+    const ProgramOutcome offered =
+        run_shell("bash -c 'source \"" + folder / "minkray" + "\"; COMP_WORDS=(minkray " + verb +
+                  " --); COMP_CWORD=2; _minkray; printf \"%s\\n\" \"${COMPREPLY[@]}\"'");
+    std::set<std::string> options;
+    std::istringstream lines(offered.out);
+    for (std::string line; std::getline(lines, line);) options.insert(line);
+    EXPECT_EQ(options, options_in_help(verb)) << verb << offered.err;
+  }
+}
+
+TEST(Completion, bash_offers_verbs_and_the_values_of_an_option) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_shell("$MINKRAY completion bash > '" + folder / "minkray" + "'").exit_code, 0);
+  const auto offered = [&](const std::string& words, int at) {
+    return run_shell("bash -c 'source \"" + folder / "minkray" + "\"; COMP_WORDS=(" + words +
+                     "); COMP_CWORD=" + std::to_string(at) +
+                     "; _minkray; echo \"${COMPREPLY[@]}\"'")
+        .out;
+  };
+  EXPECT_EQ(offered("minkray heat", 1), "heatmap\n");
+  EXPECT_EQ(offered("minkray render --build \"\"", 3), "quality speed\n");
+  EXPECT_EQ(offered("minkray completion z", 2), "zsh\n");
+}
+
+TEST(Completion, every_shell_knows_every_long_option) {
+  for (const std::string shell : {"bash", "zsh", "fish"}) {
+    const std::string text = run_shell("$MINKRAY completion " + shell).out;
+    for (const std::string& verb : verbs())
+      for (const std::string& option : options_in_help(verb))
+        EXPECT_NE(text.find(shell == "fish" ? " -l " + option.substr(2) : option),
+                  std::string::npos)
+            << shell << " " << verb << " " << option;
+    if (has_program(shell)) {
+      const TemporaryFolder folder;
+      std::ofstream(folder / "completion") << text;
+      EXPECT_EQ(run_shell(shell + " -n '" + folder / "completion" + "'").exit_code, 0) << shell;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace minkray

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// The documents: what they point at is there.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <regex>
+
+#include "tests/support/source_files.h"
+
+namespace minkray {
+namespace {
+
+TEST(Docs, every_link_to_a_file_leads_to_one) {
+  std::vector<SourceFile> pages = files_in("docs");
+  for (const char* name : {"README.md", "CHANGELOG.md"})
+    pages.push_back({name, text_of_file(source_folder() / name)});
+  const std::regex link(R"re(\]\(([^)#\s]+)[^)]*\))re");
+  std::size_t count = 0;
+  for (const SourceFile& page : pages) {
+    if (!page.name.ends_with(".md")) continue;
+    const std::filesystem::path folder = (source_folder() / page.name).parent_path();
+    for (std::sregex_iterator match(page.text.begin(), page.text.end(), link), end; match != end;
+         ++match) {
+      const std::string target = (*match)[1];
+      if (target.starts_with("http")) continue;
+      EXPECT_TRUE(std::filesystem::exists(folder / target)) << page.name << ": " << target;
+      ++count;
+    }
+  }
+  EXPECT_GT(count, 50u);  // the test has found the links
+}
+
+}  // namespace
+}  // namespace minkray
