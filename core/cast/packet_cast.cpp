@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/cast/packet_cast.h"
 
+#include "core/cast/filter_kernel.h"
+#include "core/cast/later_stages.h"
 #include "core/cast/packet_kernel.h"
 
 namespace minkray {
@@ -14,6 +16,7 @@ CastResult<T> CastPacket<T>::result(int lane) const {
                   : inside & bit ? Status::inside
                   : miss & bit   ? Status::miss
                                  : Status::exhausted;
+  result.path = path[i];
   result.offset_hi = T(0);
   if (result.found()) {
     result.t_base = t_base[i];
@@ -40,6 +43,7 @@ void CastPacket<T>::set(int lane, const CastResult<T>& result) {
   for (int axis = 0; axis < 3; ++axis)
     normal[static_cast<std::size_t>(axis)][i] = result.normal[axis];
   supports[i] = static_cast<T>(result.supports);
+  path[i] = result.path;
 }
 
 InstructionSet best_instruction_set() {
@@ -55,17 +59,24 @@ template <class T>
 void cast_packet(const PreparedShape<T>& shape, const RayPacket<T>& rays, LaneBits lanes,
                  CastPacket<T>& answers, InstructionSet set) {
   answers.hit = answers.inside = answers.miss = 0;
-  if (shape.definition().has_packets()) {
+  if (shape.definition().form().kind != FormKind::none) {
+    if (set == InstructionSet::avx2)
+      filter_kernel_avx2(shape, rays, lanes, answers);
+    else
+      filter_kernel_sse2(shape, rays, lanes, answers);
+  } else if (shape.definition().has_packets()) {
+    answers.path.fill(Path::model);
     if (set == InstructionSet::avx2)
       packet_kernel_avx2(shape, rays, lanes, answers);
     else
       packet_kernel_sse2(shape, rays, lanes, answers);
   }
-  // What is not cast at with a model, or exhausted it, goes one by one.
+  // What the filter is in doubt of, or a model was exhausted by, goes one by one.
   const LaneBits open = lanes & ~(answers.hit | answers.inside | answers.miss);
   if (!open) return;
   for (int lane = 0; lane < packet_lanes<T>; ++lane)
-    if (open & (LaneBits(1) << lane)) answers.set(lane, cast_ray(shape, rays.ray(lane)));
+    if (open & (LaneBits(1) << lane))
+      answers.set(lane, cast_by_later_stages<T>(shape, rays.ray(lane), {}, {}));
 }
 
 template struct CastPacket<float>;

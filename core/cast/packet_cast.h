@@ -53,6 +53,7 @@ struct alignas(32) CastPacket {
   PacketNumbers<T> t_base, t_offset, offset_lo, offset_hi;
   std::array<PacketNumbers<T>, 3> normal;
   PacketNumbers<T> supports;  ///< also the number of iterations
+  std::array<Path, static_cast<std::size_t>(packet_lanes<T>)> path;
 
   LaneBits found() const { return hit | inside; }
   T t(int lane) const {

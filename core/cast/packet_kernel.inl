@@ -4,24 +4,10 @@
 #include "core/math/wide.h"
 #include "core/model/model_of.h"
 #include "core/cast/packet_kernel.h"
+#include "core/cast/packet_lanes.h"
 
 namespace minkray {
 namespace {
-
-template <class W>
-Vec3<W> load(const std::array<PacketNumbers<Lane<W>>, 3>& v, std::size_t from) {
-  return {W::load(v[0].data() + from), W::load(v[1].data() + from), W::load(v[2].data() + from)};
-}
-
-template <class W>
-Mask<W> mask_of(LaneBits bits) {
-  constexpr LaneBits every = (LaneBits(1) << LaneOf<W>::count) - 1;
-  if ((bits & every) == every) return Mask<W>(true);
-  W chosen(Lane<W>(0));
-  for (int i = 0; i < LaneOf<W>::count; ++i)
-    chosen.set_lane(i, bits & (LaneBits(1) << i) ? Lane<W>(1) : Lane<W>(0));
-  return chosen > W(Lane<W>(0));
-}
 
 /// As many lanes as W has, beginning with lane `from`.
 template <class W>

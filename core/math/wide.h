@@ -240,6 +240,17 @@ struct LaneOf<Wide<T, N, Isa>> {
   static constexpr int count = N;
 };
 
+/// The same numbers with other digits, rounded to nearest.
+template <class To, class T, int N, class Isa>
+Wide<To, N, Isa> convert_lanes(const Wide<T, N, Isa>& from) {
+  return Wide<To, N, Isa>(__builtin_convertvector(from.lanes, typename Wide<To, N, Isa>::Lanes));
+}
+template <class To, class T, int N, class Isa>
+WideMask<To, N, Isa> convert_lanes(const WideMask<T, N, Isa>& from) {
+  return WideMask<To, N, Isa>(
+      __builtin_convertvector(from.bits, typename WideMask<To, N, Isa>::Bits));
+}
+
 /// The vectors that vector_of(lane) gives, lane by lane.
 template <class W, class VectorOf>
 Vec3<W> per_lane(VectorOf&& vector_of) {

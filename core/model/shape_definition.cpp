@@ -13,6 +13,22 @@ namespace {
 template <class T>
 constexpr T ordinary_size = std::is_same_v<T, float> ? T(0x1p16) : T(0x1p128);
 
+/// What an inner shape declares; of one brought to unit size, what the shape within does.
+template <class T>
+exact::Form exact_form_of(const Shape<T>& inner, const Vec3<double>& ball_centre) {
+  const auto* resized = std::get_if<Transform<T>>(&inner.kind);
+  const double down = resized ? double(resized->map.affine().linear(0, 0)) : 1;
+  const Shape<T>& shape = resized ? *resized->shape : inner;
+  return std::visit(
+      [&](const auto& kind) {
+        if constexpr (requires { kind.exact_form(); })
+          return exact::form_of(kind.exact_form(), ball_centre, down);
+        else
+          return exact::Form();
+      },
+      shape.kind);
+}
+
 }  // namespace
 
 template <class T>
@@ -42,6 +58,7 @@ ShapeDefinition<T>::ShapeDefinition(Shape<T> shape) : original_(shape), inner_(s
   if (model_ == ModelKind::ellipsoid_sum)
     ellipsoid_sum_ = part_of<T>(inner_, Vec3<T>(T(0), T(0), T(1)));
   is_extreme_ = has_extreme_proportions(inner_);
+  if (!is_extreme_) form_ = exact_form_of(inner_, ball_.centre.template cast<double>());
   if constexpr (std::is_same_v<T, float>)
     if (is_extreme_)
       in_double_ = std::make_shared<const ShapeDefinition<double>>(convert<double>(inner_));

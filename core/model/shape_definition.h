@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/exact/form.h"
 #include "core/math/affine.h"
 #include "core/math/bounds.h"
 #include "core/model/model_kind.h"
@@ -34,13 +35,17 @@ class ShapeDefinition {
   const ShapeDefinition<double>* in_double() const { return in_double_.get(); }
   /// Of extreme shapes: the inner shape in long double. Null for others.
   const Shape<long double>* in_long_double() const { return in_long_double_.get(); }
+  /// The inner shape's closed form, if it declares one; none of extreme shapes.
+  const exact::Form& form() const { return form_; }
   /// Known to have no corners, for hits that just touch; of other smooth shapes it is not asked.
   bool is_smooth() const {
     return model_ == ModelKind::smooth || model_ == ModelKind::ellipsoid_sum ||
            model_ == ModelKind::rounded_points;
   }
   /// Whether packets of rays have a solver of their own.
-  bool has_packets() const { return !is_extreme_ && model_ != ModelKind::osculated_parts; }
+  bool has_packets() const {
+    return !is_extreme_ && (form_.kind != FormKind::none || model_ != ModelKind::osculated_parts);
+  }
 
   /// Bounds of the whole shape (the transforms on) under a pose.
   Bounds<T> bounds_of(const Affine<T>& pose) const;
@@ -65,6 +70,7 @@ class ShapeDefinition {
   ModelKind model_;
   EllipsoidSum<T> ellipsoid_sum_;
   bool is_extreme_;
+  exact::Form form_;
   std::shared_ptr<const ShapeDefinition<double>> in_double_;
   std::shared_ptr<const Shape<long double>> in_long_double_;
 };

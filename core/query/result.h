@@ -29,10 +29,35 @@ constexpr std::string_view name_of(Status status) {
   return "unknown";
 }
 
+/// Which stage of a cast gave the answer (docs/one-ray.md).
+enum class Path : unsigned char {
+  filter,  ///< a closed form, whose error bound is its proof
+  model,   ///< bounds, or a model of the shape between its own planes
+  gjk,     ///< the GJK ray cast, by the support mapping alone
+  finer,   ///< looked at again with more digits, and proven
+};
+
+inline constexpr std::size_t path_count = 4;
+
+constexpr std::string_view name_of(Path path) {
+  switch (path) {
+    case Path::filter:
+      return "filter";
+    case Path::model:
+      return "model";
+    case Path::gjk:
+      return "gjk";
+    case Path::finer:
+      return "finer";
+  }
+  return "unknown";
+}
+
 /// The answer of every ray cast. All vectors are in the frame of the ray that was cast.
 template <class T>
 struct CastResult {
   Status status = Status::exhausted;
+  Path path = Path::model;
 
   /// The hit parameter is t_base + t_offset. The two are kept apart because their sum, for a far
   /// origin, loses the digits that tell where on the shape the ray arrived: t_base is the ray's
@@ -40,7 +65,8 @@ struct CastResult {
   T t_base = T(0);
   T t_offset = T(0);
 
-  /// The hit parameter lies in t_base + [offset_lo, offset_hi]. The lower end comes from a
+  /// The hit parameter lies in t_base + [offset_lo, offset_hi], at the shape where it was prepared
+  /// to be. Of the path `filter`: by the closed form's error bound. Else the lower end comes from a
   /// supporting plane, the upper end from support points that the ray passes between; infinite
   /// where the solver did not find such points.
   T offset_lo = T(0);

@@ -122,6 +122,35 @@ inline constexpr T box_padding = T(8) * epsilon<T>;
 template <class T>
 inline constexpr T shortest_told = std::is_same_v<T, float> ? T(0x1p-60) : T(0x1p-500);
 
+/// What closed forms take a position near the shape to be known to, in units of the form's radius:
+/// E / R of docs/theory.md ("Casts with an error bound"). Float rays, worked on in double: origins
+/// up to form_far away are moved with an error of 2^-33 R, and leave up to 5 times that along the
+/// ray. Double rays: the two steps' rounding and some twenty operations' after them, 2^-53 each.
+template <class T>
+inline constexpr double form_rounding = std::is_same_v<T, float> ? 0x1p-30 : 0x1p-49;
+
+/// The share of the squared direction below which the part of it across an axis moves the ray by
+/// less than E / 4 while it passes the shape: (E / R)^2 / 16.
+template <class T>
+inline constexpr double form_parallel = form_rounding<T>* form_rounding<T> / 16;
+
+/// Distances of origins, in units of the form's radius, up to which closed forms are asked: from
+/// there 2^-53 is form_rounding's 2^-33 for float rays.
+inline constexpr double form_far = 0x1p20;
+
+/// Squared lengths of float directions between which t and its bound are floats with all their
+/// digits, for shapes of ordinary size (ShapeDefinition).
+inline constexpr double form_shortest_squared = 1e-40, form_longest_squared = 1e30;
+
+/// What the rounding of t's bound and of t adds to the bound: a share of itself, and epsilons of
+/// the offset; for double rays also what the ray's length and its inverse were rounded by.
+inline constexpr double form_margin = 0x1p-20;
+template <class T>
+inline constexpr double form_digits = (std::is_same_v<T, float> ? 1 : 8) * double(epsilon<T>);
+
+/// The same for rays in double: lengths of directions, or their inverses.
+inline constexpr double form_longest_step = 1e250;
+
 /// The GJK distance ends when |v|^2 - v.w <= this * |v| (|v| + R): v.w is a difference of numbers
 /// of size |v| (|v| + R), each rounded to an epsilon of that. The distance is then known to a few
 /// epsilon of itself and of the objects' size.

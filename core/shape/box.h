@@ -5,6 +5,7 @@
 
 #include "core/math/vec.h"
 #include "core/shape/declared.h"
+#include "core/shape/exact_form.h"
 #include "core/shape/field.h"
 #include "core/shape/jet.h"
 
@@ -20,6 +21,11 @@ struct Box {
   static constexpr auto fields() {
     return std::tuple{Field{"half_extents", &Box::half_extents, Unit::length, Range::not_negative,
                             "half its size along x, y and z"}};
+  }
+
+  ExactForm exact_form() const {
+    const Vec3<T>& h = half_extents;
+    return {FormKind::box, {double(h[0]), double(h[1]), double(h[2])}};
   }
 
   template <class W>

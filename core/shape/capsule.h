@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/math/vec.h"
+#include "core/shape/exact_form.h"
 #include "core/shape/field.h"
 #include "core/shape/jet.h"
 
@@ -22,6 +23,10 @@ struct Capsule {
         Field{"half_height", &Capsule::half_height, Unit::length, Range::not_negative,
               "half its segment's length: the balls' centres are at z = -half_height and "
               "+half_height"}};
+  }
+
+  ExactForm exact_form() const {
+    return {FormKind::capsule, {double(radius), double(half_height)}};
   }
 
   template <class W>

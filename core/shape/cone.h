@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/shape/disk.h"
+#include "core/shape/exact_form.h"
 #include "core/shape/jet.h"
 
 namespace minkray {
@@ -19,6 +20,10 @@ struct Cone {
         Field{"radius", &Cone::radius, Unit::length, Range::positive, "the radius of its base"},
         Field{"half_height", &Cone::half_height, Unit::length, Range::not_negative,
               "half its height: apex at z = +half_height, base at z = -half_height"}};
+  }
+
+  ExactForm exact_form() const {
+    return {FormKind::frustum, {double(radius), 0, double(half_height)}};
   }
 
   template <class W>

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/math/vec.h"
+#include "core/shape/exact_form.h"
 #include "core/shape/field.h"
 #include "core/shape/jet.h"
 
@@ -17,6 +18,10 @@ struct Ellipsoid {
   static constexpr auto fields() {
     return std::tuple{Field{"radii", &Ellipsoid::radii, Unit::length, Range::positive,
                             "its radii along x, y and z"}};
+  }
+
+  ExactForm exact_form() const {
+    return {FormKind::ellipsoid, {double(radii[0]), double(radii[1]), double(radii[2])}};
   }
 
   template <class W>

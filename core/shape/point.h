@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/math/vec.h"
+#include "core/shape/exact_form.h"
 #include "core/shape/field.h"
 #include "core/shape/jet.h"
 
@@ -17,6 +18,12 @@ struct Point {
   static constexpr auto fields() {
     return std::tuple{
         Field{"position", &Point::position, Unit::length, Range::any, "where it is", true}};
+  }
+
+  /// Rounded, a ball.
+  ExactForm exact_form() const {
+    const Vec3<T>& p = position;
+    return {FormKind::ball, {0}, {double(p[0]), double(p[1]), double(p[2])}};
   }
 
   template <class W>

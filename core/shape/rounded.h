@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/math/vec.h"
+#include "core/shape/exact_form.h"
 #include "core/shape/field.h"
 #include "core/shape/jet.h"
 #include "core/shape/nested.h"
@@ -21,6 +22,17 @@ struct Rounded {
     return std::tuple{Field{"radius", &Rounded::radius, Unit::length, Range::not_negative,
                             "how far the shape grows"},
                       Field{"shape", &Rounded::shape, Unit::none, Range::any, "what is rounded"}};
+  }
+
+  ExactForm exact_form() const {
+    return std::visit(
+        [&](const auto& inner) -> ExactForm {
+          if constexpr (requires { inner.exact_form(); })
+            return minkray::rounded(inner.exact_form(), double(radius));
+          else
+            return {};
+        },
+        shape->kind);
   }
 
   template <class W>

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/math/vec.h"
+#include "core/shape/exact_form.h"
 #include "core/shape/field.h"
 #include "core/shape/jet.h"
 
@@ -18,6 +19,8 @@ struct Sphere {
     return std::tuple{
         Field{"radius", &Sphere::radius, Unit::length, Range::positive, "its radius"}};
   }
+
+  ExactForm exact_form() const { return {FormKind::ball, {double(radius)}}; }
 
   template <class W>
   Vec3<W> support(const Vec3<W>& n) const {

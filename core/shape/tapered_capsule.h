@@ -5,6 +5,7 @@
 #include <array>
 
 #include "core/math/vec.h"
+#include "core/shape/exact_form.h"
 #include "core/shape/field.h"
 #include "core/shape/jet.h"
 
@@ -23,6 +24,10 @@ struct TaperedCapsule {
                             "the balls' radii: at z = -half_height, at z = +half_height"},
                       Field{"half_height", &TaperedCapsule::half_height, Unit::length,
                             Range::not_negative, "half the distance of the balls' centres"}};
+  }
+
+  ExactForm exact_form() const {
+    return {FormKind::tapered_capsule, {double(radii[0]), double(radii[1]), double(half_height)}};
   }
 
   template <class W>

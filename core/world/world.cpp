@@ -15,6 +15,7 @@ CastResult<T> counted_cast(const PreparedShape<T>& shape, const Ray<T>& ray,
   ++counts.casts;
   counts.iterations += static_cast<std::uint64_t>(result.iterations);
   counts.supports += static_cast<std::uint64_t>(result.supports);
+  ++counts.by_path[static_cast<std::size_t>(result.path)];
   counts.exhausted += result.status == Status::exhausted ? 1 : 0;
   return result;
 }

@@ -3,6 +3,7 @@
 // solvers.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -26,13 +27,17 @@ struct QueryCounts {
   std::uint64_t casts = 0;  ///< shapes cast at
   std::uint64_t iterations = 0;
   std::uint64_t supports = 0;
+  std::array<std::uint64_t, path_count> by_path = {};  ///< of `casts`, those that a path answered
   std::uint64_t exhausted = 0;  ///< casts that neither hit nor missed; the shape was passed through
+
+  std::uint64_t answered_by(Path path) const { return by_path[static_cast<std::size_t>(path)]; }
 
   QueryCounts& operator+=(const QueryCounts& other) {
     nodes += other.nodes;
     casts += other.casts;
     iterations += other.iterations;
     supports += other.supports;
+    for (std::size_t i = 0; i < by_path.size(); ++i) by_path[i] += other.by_path[i];
     exhausted += other.exhausted;
     return *this;
   }

@@ -81,8 +81,10 @@ template <class T, class RayOf, class OnFound>
 void cast_all(const PreparedShape<T>& shape, BeamRays which, const RayOf& ray_of,
               const CastOptions<T>& options, bool in_packets, QueryCounts& counts,
               const OnFound& on_found) {
-  const auto count = [&](std::uint64_t supports, std::uint64_t iterations, bool exhausted) {
+  const auto count = [&](std::uint64_t supports, std::uint64_t iterations, Path path,
+                         bool exhausted) {
     ++counts.casts;
+    ++counts.by_path[static_cast<std::size_t>(path)];
     counts.iterations += iterations;
     counts.supports += supports;
     counts.exhausted += exhausted ? 1 : 0;
@@ -93,7 +95,8 @@ void cast_all(const PreparedShape<T>& shape, BeamRays which, const RayOf& ray_of
       const int lane = next_of(which);
       const CastResult<T> result = cast_ray(shape, ray_of(lane), options);
       count(static_cast<std::uint64_t>(result.supports),
-            static_cast<std::uint64_t>(result.iterations), result.status == Status::exhausted);
+            static_cast<std::uint64_t>(result.iterations), result.path,
+            result.status == Status::exhausted);
       if (result.found()) on_found(lane, result.t(), [&] { return result; });
       continue;
     }
@@ -112,7 +115,7 @@ void cast_all(const PreparedShape<T>& shape, BeamRays which, const RayOf& ray_of
     for (int i = 0; i < used; ++i) {
       const auto supports =
           static_cast<std::uint64_t>(answers.supports[static_cast<std::size_t>(i)]);
-      count(supports, supports, !(answered >> i & 1));
+      count(supports, supports, answers.path[static_cast<std::size_t>(i)], !(answered >> i & 1));
       if (answers.found() >> i & 1)
         on_found(lane_of[static_cast<std::size_t>(i)], answers.t(i),
                  [&] { return answers.result(i); });

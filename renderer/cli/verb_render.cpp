@@ -93,6 +93,11 @@ Json as_json(const Statistics& s) {
             {"casts", s.per_ray(c.work.casts)},
             {"iterations", s.per_ray(c.work.iterations)},
             {"supports", s.per_ray(c.work.supports)}}},
+          {"answered_by",
+           {{"filter", c.work.answered_by(Path::filter)},
+            {"model", c.work.answered_by(Path::model)},
+            {"gjk", c.work.answered_by(Path::gjk)},
+            {"finer", c.work.answered_by(Path::finer)}}},
           {"exhausted", c.work.exhausted},
           {"camera_rays_from_inside", c.from_inside},
           {"bytes",
@@ -121,6 +126,9 @@ void print(const Statistics& s) {
             << "per ray     " << s.per_ray(c.work.nodes) << " nodes, " << s.per_ray(c.work.casts)
             << " casts, " << s.per_ray(c.work.iterations) << " iterations, "
             << s.per_ray(c.work.supports) << " support points\n"
+            << "answered by filter " << c.work.answered_by(Path::filter) << ", model "
+            << c.work.answered_by(Path::model) << ", gjk " << c.work.answered_by(Path::gjk)
+            << ", finer " << c.work.answered_by(Path::finer) << "\n"
             << "exhausted   " << c.work.exhausted << " casts\n"
             << "memory      " << s.world_bytes << " bytes, of which the hierarchy " << s.bvh_bytes
             << "; " << s.per_object(s.world_bytes) << " an object, of which the hierarchy "

@@ -27,6 +27,11 @@ float heat_of_ray(const RenderWorld& world, const Ray<Real>& ray, HeatChannel ch
       return static_cast<float>(work.supports);
     case HeatChannel::nodes:
       return static_cast<float>(work.nodes);
+    case HeatChannel::path: {
+      std::size_t last = path_count - 1;
+      while (last > 0 && work.by_path[last] == 0) --last;
+      return static_cast<float>(last);
+    }
     case HeatChannel::status:
       break;
   }
@@ -74,7 +79,8 @@ HeatField measure_heat(const Scene& scene, const RenderWorld& world, HeatChannel
       sum += static_cast<double>(heat);
       gravest = std::max(gravest, heat);
     }
-    return channel == HeatChannel::status ? gravest : static_cast<float>(sum / options.samples);
+    const bool keeps_gravest = channel == HeatChannel::status || channel == HeatChannel::path;
+    return keeps_gravest ? gravest : static_cast<float>(sum / options.samples);
   };
   RayCounts counts;
   field.complete = for_tiles(part, counts, watch, [&](const PixelRect& tile) {

@@ -13,7 +13,7 @@
 namespace minkray {
 
 /// What can be shown of a camera ray.
-enum class HeatChannel { iterations, supports, nodes, status };
+enum class HeatChannel { iterations, supports, nodes, path, status };
 
 struct HeatChannelDescription {
   HeatChannel channel;
@@ -29,6 +29,8 @@ inline constexpr std::array heat_channels = {
                            "support points of all casts"},
     HeatChannelDescription{HeatChannel::nodes, "nodes", "nodes visited per ray",
                            "nodes of the hierarchy that were visited, of up to 8 boxes each"},
+    HeatChannelDescription{HeatChannel::path, "path", "last stage asked by any cast",
+                           "0 filter, 1 model, 2 gjk, 3 finer: the last that any cast needed"},
     HeatChannelDescription{HeatChannel::status, "status", "answer of the solver",
                            "hit, miss, inside, or exhausted if any cast gave up"},
 };

@@ -14,12 +14,12 @@ namespace {
 
 /// Every folder of the sources, from the ground up: each may include itself and those before it.
 const std::vector<std::string> rooms = {
-    "core/math",      "core/parallel",     "core/files",       "core/geometry",  "core/shape",
-    "core/derived",   "core/query",        "core/gjk",         "core/model",     "core/proof",
-    "core/cast",      "core/contact",      "core/bvh",         "core/world",     "renderer/base",
-    "renderer/image", "renderer/json",     "renderer/scene",   "renderer/io",    "renderer/query",
-    "renderer/audit", "renderer/light",    "renderer/film",    "renderer/share", "renderer/info",
-    "renderer/paper", "renderer/generate", "renderer/compare", "renderer/cli",
+    "core/math",      "core/parallel",  "core/files",        "core/geometry",    "core/shape",
+    "core/derived",   "core/query",     "core/exact",        "core/gjk",         "core/model",
+    "core/proof",     "core/cast",      "core/contact",      "core/bvh",         "core/world",
+    "renderer/base",  "renderer/image", "renderer/json",     "renderer/scene",   "renderer/io",
+    "renderer/query", "renderer/audit", "renderer/light",    "renderer/film",    "renderer/share",
+    "renderer/info",  "renderer/paper", "renderer/generate", "renderer/compare", "renderer/cli",
 };
 
 std::string folder_of(const std::string& file) {

@@ -132,7 +132,6 @@ TEST_F(RenderVerb, wrong_values_are_wrong_usage) {
   EXPECT_EQ(exit_code({"heatmap", path("scene.json"), "-o", path("a.png"), "--side-by-side",
                        "paper,magic"}),
             2);
-  EXPECT_EQ(exit_code({"render", path("scene.json")}), 2);
   EXPECT_EQ(files(), std::vector<std::string>{"scene.json"});
 }
 

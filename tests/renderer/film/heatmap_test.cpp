@@ -30,8 +30,26 @@ HeatField measure(const Scene& scene, HeatChannel channel, const CastOptions<Rea
   return measure_heat(scene, make_world(scene, cast), channel, options);
 }
 
+/// With the models: a ball's closed form costs no iteration.
+CastOptions<Real> by_models() {
+  CastOptions<Real> options;
+  options.solver = SolverKind::jet;
+  return options;
+}
+
+TEST(Heatmap, closed_forms_answer_balls_and_models_where_they_are_asked_for) {
+  EXPECT_EQ(summary_of(measure(two_balls(), HeatChannel::iterations)).most, 0);
+  const auto stages = [](const HeatField& field) {
+    return std::set<float>(field.values.begin(), field.values.end());
+  };
+  EXPECT_EQ(stages(measure(two_balls(), HeatChannel::path)), std::set<float>{0});
+  const HeatField models = measure(two_balls(), HeatChannel::path, by_models());
+  EXPECT_EQ(stages(models), (std::set<float>{0, 1}));  // 0: no shape was cast at
+  EXPECT_EQ(models.work.answered_by(Path::model), models.work.casts);
+}
+
 TEST(Heatmap, pixels_that_meet_no_box_cost_no_iteration) {
-  const HeatField iterations = measure(two_balls(), HeatChannel::iterations);
+  const HeatField iterations = measure(two_balls(), HeatChannel::iterations, by_models());
   const HeatField nodes = measure(two_balls(), HeatChannel::nodes);
   const HeatField status = measure(two_balls(), HeatChannel::status);
   ASSERT_EQ(iterations.values.size(), 2400u);
@@ -70,7 +88,7 @@ TEST(Heatmap, status_tells_hit_inside_and_exhausted) {
 }
 
 TEST(Heatmap, the_picture_holds_every_panel_and_a_scale) {
-  const HeatField field = measure(two_balls(), HeatChannel::iterations);
+  const HeatField field = measure(two_balls(), HeatChannel::iterations, by_models());
   const Image one = heat_picture({{"", &field}}, HeatChannel::iterations);
   EXPECT_GE(one.width, field.width);
   EXPECT_GT(one.height, field.height);

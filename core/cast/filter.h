@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+// The first stage of a cast, and for nearly all rays the last: the shape's closed form in double,
+// with an error bound. Where a decision is nearer than the bound the answer is "in doubt", and the
+// next stage is asked. After the filters of exact geometric computation (Fortune and Van Wyk 1996;
+// Shewchuk, "Adaptive Precision Floating-Point Arithmetic", 1997).
+//
+// One text for single rays and for packets of them, which therefore have the same bits.
+#pragma once
+
+#include "core/cast/form_line.h"
+#include "core/exact/enter.h"
+#include "core/query/result.h"
+
+namespace minkray {
+
+/// Lanes that neither hit, miss nor begin inside are in doubt. The other members are those of
+/// CastResult.
+template <class F>
+struct Filtered {
+  Mask<Work<F>> hit, inside, miss;
+  F t_base, t_offset, offset_lo, offset_hi;
+  Vec3<F> normal;
+};
+
+/// No earlier than the ray's beginning, no later than its end, where t was rounded beyond.
+template <class F>
+[[gnu::always_inline]] inline void keep_on_ray(const Ray<F>& ray, Filtered<F>& answer) {
+  using std::abs;
+  using std::max;
+  using std::min;
+  const auto beyond = answer.t_base + answer.t_offset > ray.t_max;
+  if (any(beyond)) {
+    const F end = ray.t_max - answer.t_base;
+    const F before = end - F(std::numeric_limits<Lane<F>>::epsilon()) * abs(end);
+    answer.t_offset = select(beyond, before, answer.t_offset);
+  }
+  answer.t_offset = max(answer.t_offset, F(-answer.t_base));
+  answer.offset_lo = min(answer.offset_lo, answer.t_offset);
+  answer.offset_hi = max(answer.offset_hi, answer.t_offset);
+}
+
+/// Where each ray enters the shape, or (`leaves`) where it leaves it for the last time. Only `open`
+/// lanes count. The shape's definition must have a form.
+template <bool leaves, class F>
+[[gnu::always_inline]] inline Filtered<F> filter(const PreparedShape<Lane<F>>& shape,
+                                                 const Ray<F>& ray, const Mask<Work<F>>& open) {
+  using std::abs;
+  using std::max;
+  using W = Work<F>;
+  using T = Lane<F>;
+  const exact::Form& form = shape.definition().form();
+  const FormLine<W> near = form_line(form, shape, ray);
+
+  // A ray that leaves enters on its way back.
+  const exact::Line<W> line = leaves ? near.line.reversed() : near.line;
+  const W first = leaves ? W(-near.end) : near.begin, last = leaves ? W(-near.begin) : near.end;
+  exact::Entry<W> entry = exact::enter<W>(form, line, open & near.told);
+
+  // A plane beside the line runs along it, to rounding of its own.
+  if (any(entry.miss)) {
+    const W towards = entry.normal.dot(line.d) * line.inv;
+    entry.normal = select<W>(entry.miss, Vec3<W>(entry.normal - line.d * towards), entry.normal);
+  }
+
+  // The line's answer is the ray's, if the ray has begun before and does not end before.
+  const W slack = near.slack;
+  const W lo = entry.t - entry.e - slack, hi = entry.t + entry.e + slack;
+  const W end_slack(double(tolerance::end_slack<T>) * form.inner_R * form.largest_scale);
+  const auto is_beyond_end = [&](const W& beyond) {
+    return (beyond > W(0)) & (beyond * beyond * line.dd > end_slack * end_slack);
+  };
+  Filtered<F> answer;
+  answer.hit = entry.hit & (lo >= first) & (hi <= last);
+  answer.miss = entry.miss | (entry.hit & (leaves ? lo > last : is_beyond_end(lo - last)));
+  answer.inside = Mask<W>(false);
+  const Mask<W> behind = entry.hit & (hi < first);
+  if (!leaves && any(behind)) {
+    const exact::Entry<W> exit = exact::enter<W>(form, line.reversed(), behind);
+    const W margin = exit.e + slack;
+    answer.inside = exit.hit & (-exit.t - margin > first);
+    const Mask<W> left = exit.hit & (-exit.t + margin < first);
+    answer.miss |= left;
+    entry.normal = select<W>(left, exit.normal, entry.normal);
+  }
+
+  // From the form's frame to the ray's.
+  Vec3<W> normal = entry.normal;
+  if (form.is_upside_down) normal.z() = -normal.z();
+  if (form.is_scaled) normal = normal.cwiseProduct(widen<W>(form.scale));
+  if (const Mat3<T>* map = shape.linear_to_inner())
+    normal = times<W, double>(map->template cast<double>().transpose(), normal);
+  // Forms' own normals are of unit length to their rounding, which is less than float's.
+  if (std::is_same_v<T, double> || form.is_scaled || shape.linear_to_inner())
+    normal = unit<W>(normal);
+  else if (any(answer.miss))
+    normal = select<W>(answer.miss, unit<W>(normal), normal);
+  if (any(answer.inside)) normal = select<W>(answer.inside, Vec3<W>::Zero(), normal);
+  answer.normal = {convert<T>(normal.x()), convert<T>(normal.y()), convert<T>(normal.z())};
+
+  // t in two numbers of the ray's kind; their rounding enters the bound.
+  const W zero(0);
+  answer.t_base = convert<T>(select(answer.inside, zero, near.base));
+  const W rest = near.base - convert<double>(answer.t_base);
+  const W tau = leaves ? W(-entry.t) : entry.t;
+  const W offset = select(answer.inside, zero, W((rest + near.shift) + tau * near.per));
+  const W bound = select(answer.inside, zero,
+                         W(entry.e * near.per * W(1 + tolerance::form_margin) +
+                           abs(offset) * W(tolerance::form_digits<T>)));
+  answer.t_offset = convert<T>(offset);
+  answer.offset_lo = convert<T>(W(offset - bound));
+  answer.offset_hi = convert<T>(W(offset + bound));
+  keep_on_ray(ray, answer);
+  return answer;
+}
+
+}  // namespace minkray

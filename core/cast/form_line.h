@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+// The ray as a shape's closed form sees it: a line in double in the form's frame, moved near, and
+// how exact that is. F is float or double, or a packet of them; W the same in double.
+//
+// Rays in float are moved in double in one step, without fused operations: their numbers' products
+// are exact there, and the bits are the same on every processor. Rays in double are moved by
+// ray_near's two steps. docs/theory.md ("Casts with an error bound") has the bounds.
+#pragma once
+
+#include "core/cast/prepared_shape.h"
+#include "core/exact/form.h"
+#include "core/exact/line.h"
+#include "core/math/wide.h"
+
+namespace minkray {
+
+namespace detail {
+template <class F>
+struct WorkOf {
+  using type = double;
+};
+template <class T, int N, class Isa>
+struct WorkOf<Wide<T, N, Isa>> {
+  using type = Wide<double, N, Isa>;
+};
+}  // namespace detail
+
+/// What closed forms work with, for rays of F.
+template <class F>
+using Work = typename detail::WorkOf<F>::type;
+
+template <class To, class F>
+auto convert(const F& x) {
+  if constexpr (std::is_arithmetic_v<F>)
+    return static_cast<To>(x);
+  else
+    return convert_lanes<To>(x);
+}
+
+/// The parameter of the ray where the line's is tau is base + (shift + tau * per).
+template <class W>
+struct FormLine {
+  exact::Line<W> line;
+  Mask<W> told;  ///< lanes in which line.E is what it says
+  W base, shift, per;
+  W begin, end;  ///< the ray's, as parameters of the line
+  W slack;       ///< how uncertain those are
+  W end_slack;   ///< up to how far beyond its end the ray may still count as meeting the shape
+};
+
+namespace detail {
+
+/// Of the squares of all entries: a bound of how much longer vectors become.
+template <class T>
+[[gnu::always_inline]] inline double squared_size(const Mat3<T>& m) {
+  return m.template cast<double>().squaredNorm();
+}
+
+/// In one step, in numbers of twice the digits.
+template <class F, class W>
+[[gnu::always_inline]] inline FormLine<W> line_in_wider(const exact::Form& form,
+                                                        const PreparedShape<Lane<F>>& shape,
+                                                        const Ray<F>& ray) {
+  const auto wider = [](const Vec3<F>& v) -> Vec3<W> {
+    return {convert<double>(v.x()), convert<double>(v.y()), convert<double>(v.z())};
+  };
+  const Vec3<double> centre = shape.centre().template cast<double>();
+  Vec3<W> p = wider(ray.origin) - widen<W>(centre), d = wider(ray.direction);
+  const W far(tolerance::form_far * tolerance::form_far * form.R * form.R);
+  // What a map with an error in the last digit of each product may add, of origin and direction.
+  W spread(0), spread_per(0);
+  if (const Mat3<Lane<F>>* map = shape.linear_to_inner()) {
+    const W size(squared_size(*map) * form.largest_scale * form.largest_scale);
+    spread = size * p.squaredNorm();
+    spread_per = size * d.squaredNorm();
+    const Mat3<double> to_inner = map->template cast<double>();
+    p = times(to_inner, p);
+    d = times(to_inner, d);
+  }
+  if (form.is_off_centre) p += widen<W>(form.offset);
+  if (form.is_upside_down) {
+    p.z() = -p.z();
+    d.z() = -d.z();
+  }
+  if (form.is_scaled) {
+    p = p.cwiseProduct(widen<W>(form.scale));
+    d = d.cwiseProduct(widen<W>(form.scale));
+  }
+  FormLine<W> near;
+  const W dd = d.squaredNorm(), inv = W(1) / dd, k = -p.dot(d) * inv;
+  near.line = {p + d * k,
+               d,
+               dd,
+               inv,
+               W(tolerance::form_rounding<float> * form.R),
+               W(tolerance::form_parallel<float>) * dd};
+  near.told = (k * k * dd <= far) & (dd > W(tolerance::form_shortest_squared)) &
+              (dd < W(tolerance::form_longest_squared));
+  if (shape.linear_to_inner())
+    near.told &= (spread <= far) & ((k * k + W(form.R * form.R) * inv) * spread_per <= far);
+  near.base = k;
+  near.shift = W(0);
+  near.per = W(1);
+  near.begin = -k;
+  near.end = convert<double>(ray.t_max) - k;
+  near.slack = W(0);
+  return near;
+}
+
+/// In two steps, each rounded once.
+template <class W>
+[[gnu::always_inline]] inline FormLine<W> line_in_two_steps(const exact::Form& form,
+                                                            const PreparedShape<double>& shape,
+                                                            const Ray<W>& ray) {
+  using std::abs;
+  using std::sqrt;
+  RayNearBall<W> seen = ray_near(shape.centre(), ray);
+  const Mat3<double>* map = shape.linear_to_inner();
+  // Rounding of the two steps is that of positions as large as the form and its centre.
+  W reach(form.inner_R + shape.centre().norm() / 4);
+  if (map) {
+    const double squared = squared_size(*map), size = std::sqrt(squared);
+    const RayNearBall<W> mapped = seen.mapped(*map);
+    // Sheared, the steps and the direction may be much longer before the map than after.
+    const W length = seen.t_per_length / mapped.t_per_length;
+    const W step = (mapped.t_shift - seen.t_shift) / seen.t_per_length;
+    const W across = W(form.inner_R) / length;
+    const W spread = seen.s.squaredNorm() + step * step + across * across;
+    reach = W(form.inner_R + size * shape.centre().norm() / 4) + W(size / 4) * sqrt(spread);
+    seen = mapped;
+  }
+  const W E = reach * W(tolerance::form_rounding<double> * form.largest_scale);
+  FormLine<W> near;
+  Vec3<W> s = seen.s, d = seen.r;
+  if (form.is_off_centre) s += widen<W>(form.offset);
+  if (form.is_upside_down) {
+    s.z() = -s.z();
+    d.z() = -d.z();
+  }
+  if (form.is_scaled) {
+    s = s.cwiseProduct(widen<W>(form.scale));
+    d = d.cwiseProduct(widen<W>(form.scale));
+  }
+  const W dd = d.squaredNorm(), inv = W(1) / dd;
+  near.base = seen.t_base;
+  near.shift = seen.t_shift;
+  near.per = seen.t_per_length;
+  near.begin = seen.lambda_min;
+  near.end = seen.lambda_max;
+  if (form.is_scaled || form.is_off_centre) {
+    const W k = -s.dot(d) * inv;
+    s += d * k;
+    near.shift += k * near.per;
+    near.begin -= k;
+    near.end -= k;
+  }
+  near.line = {s, d, dd, inv, E, W(tolerance::form_parallel<double>) * dd};
+  near.told = (abs(seen.lambda_min) <= W(tolerance::form_far * form.inner_R)) & (dd > W(0)) &
+              (seen.t_per_length > W(1 / tolerance::form_longest_step)) &
+              (seen.t_per_length < W(tolerance::form_longest_step));
+  near.slack = W(8 * std::numeric_limits<double>::epsilon()) * (abs(near.begin) + W(form.inner_R));
+  return near;
+}
+
+}  // namespace detail
+
+template <class F>
+[[gnu::always_inline]] inline FormLine<Work<F>> form_line(const exact::Form& form,
+                                                          const PreparedShape<Lane<F>>& shape,
+                                                          const Ray<F>& ray) {
+  if constexpr (std::is_same_v<Lane<F>, float>)
+    return detail::line_in_wider<F, Work<F>>(form, shape, ray);
+  else
+    return detail::line_in_two_steps<F>(form, shape, ray);
+}
+
+}  // namespace minkray

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// What a cast asks where the filter (core/cast/filter.h) is in doubt or has no form for a shape:
+// bounds, models, the GJK ray cast, and both with more digits.
+#pragma once
+
+#include "core/cast/cast.h"
+
+namespace minkray {
+
+/// cast_ray without the filter.
+template <class T>
+CastResult<T> cast_by_later_stages(const PreparedShape<T>& shape, const Ray<T>& ray,
+                                   const CastOptions<T>& options, const CastObserver<T>& observer);
+
+/// cast_exit without the filter.
+template <class T>
+CastResult<T> exit_by_later_stages(const PreparedShape<T>& shape, const Ray<T>& ray,
+                                   const CastOptions<T>& options);
+
+extern template CastResult<float> cast_by_later_stages(const PreparedShape<float>&,
+                                                       const Ray<float>&, const CastOptions<float>&,
+                                                       const CastObserver<float>&);
+extern template CastResult<double> cast_by_later_stages(const PreparedShape<double>&,
+                                                        const Ray<double>&,
+                                                        const CastOptions<double>&,
+                                                        const CastObserver<double>&);
+extern template CastResult<float> exit_by_later_stages(const PreparedShape<float>&,
+                                                       const Ray<float>&,
+                                                       const CastOptions<float>&);
+extern template CastResult<double> exit_by_later_stages(const PreparedShape<double>&,
+                                                        const Ray<double>&,
+                                                        const CastOptions<double>&);
+
+}  // namespace minkray

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// Where a line enters a box around the origin: after the last of its three slabs is entered, if
+// none has been left by then.
+#pragma once
+
+#include "core/exact/line.h"
+
+namespace minkray::exact {
+
+template <class W>
+Entry<W> enter_box(const std::array<double, 4>& h, const Line<W>& line, const Mask<W>& open) {
+  using std::max;
+  using std::min;
+  const Vec3<W>&s = line.s, &d = line.d;
+  const Slab<W> x(s.x(), d.x(), -h[0], h[0], line.E), y(s.y(), d.y(), -h[1], h[1], line.E),
+      z(s.z(), d.z(), -h[2], h[2], line.E);
+  const W t = max(max(x.in, y.in), z.in);
+  const W lo = max(max(W(x.in - x.e), W(y.in - y.e)), W(z.in - z.e));
+  const W hi = max(max(W(x.in + x.e), W(y.in + y.e)), W(z.in + z.e));
+  const W out_lo = min(min(W(x.out - x.e), W(y.out - y.e)), W(z.out - z.e));
+  const W out_hi = min(min(W(x.out + x.e), W(y.out + y.e)), W(z.out + z.e));
+  Entry<W> entry;
+  entry.hit = open & (hi <= out_lo);
+  entry.miss = open & (lo > out_hi);
+  entry.t = t;
+  entry.e = max(hi - t, t - lo);
+  const auto axis = [&](const Mask<W>& by_x, const Mask<W>& by_y) -> Vec3<W> {
+    const W other = select(by_x | by_y, W(0), z.facing);
+    return {select(by_x, x.facing, W(0)), select(by_y & !by_x, y.facing, W(0)), other};
+  };
+  entry.normal = -axis(x.in == t, y.in == t);
+  if (any(entry.miss)) {
+    // The planes that prove it, by their bounds.
+    const Vec3<W> entered = -axis(x.in - x.e == lo, y.in - y.e == lo);
+    const Vec3<W> left = axis(x.out + x.e == out_hi, y.out + y.e == out_hi);
+    entry.normal = select<W>(entry.miss, between(entered, left, d), entry.normal);
+  }
+  return entry;
+}
+
+}  // namespace minkray::exact

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// Where a line enters a capsule along the z axis: its mantle, or the ball at the end beyond which
+// the line would meet the mantle.
+#pragma once
+
+#include "core/exact/mantle.h"
+
+namespace minkray::exact {
+
+template <class W>
+Entry<W> enter_capsule(double r, double half_height, const Line<W>& line, const Mask<W>& open) {
+  using std::abs;
+  using std::copysign;
+  using std::max;
+  using std::sqrt;
+  const Vec3<W>&s = line.s, &d = line.d;
+  Entry<W> entry;
+  const Mantle<W> round(r, line, open);
+  entry.miss = round.miss;
+  entry.normal = {round.x, round.y, W(0)};
+  if (!any(round.hit)) return entry;
+  const W z = s.z() + round.in * d.z();
+  const W beyond = abs(z) - W(half_height);
+  const Mask<W> by_side = round.hit & (beyond <= W(0));
+  entry.hit = by_side;
+  entry.t = round.in;
+  entry.e = W(2) * round.e;
+  entry.normal = select<W>(by_side, round.normal(-1, r, line), entry.normal);
+  // The two formulas are apart by w^2 / 2r across the ray at a distance w from where they meet: no
+  // doubt about which of them holds, unless that is more than E and the line is as near as w.
+  const W w2 = entry.e * entry.e * line.dd;
+  const Mask<W> unsure = (w2 > W(r) * line.E) & (beyond * beyond < w2);
+
+  const Mask<W> by_end = round.hit & !by_side & !unsure;
+  if (any(by_end)) {
+    const Vec3<W> p(s.x(), s.y(), s.z() - copysign(W(half_height), z));
+    const W k = -p.dot(d) * line.inv;
+    const Vec3<W> x = p + d * k;
+    const W h2 = W(r * r) - x.squaredNorm(), margin = W(tangent_margin * r) * line.E;
+    const Mask<W> hit = by_end & (h2 > margin), miss = by_end & (h2 < -margin);
+    const W half = sqrt(max(h2, margin) * line.inv);
+    entry.hit |= hit;
+    entry.miss |= miss;
+    entry.t = select(hit, W(k - half), entry.t);
+    entry.e = select(hit, W(W(2 * r) * line.E * line.inv / half), entry.e);
+    const Vec3<W> outward = select<W>(hit, Vec3<W>((x - d * half) * W(1 / r)), x);
+    entry.normal = select<W>(hit | miss, outward, entry.normal);
+  }
+  entry.hit &= !unsure;
+  return entry;
+}
+
+}  // namespace minkray::exact

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// Where a line enters a form of any kind.
+#pragma once
+
+#include "core/exact/box.h"
+#include "core/exact/capsule.h"
+#include "core/exact/cylinder.h"
+#include "core/exact/form.h"
+#include "core/exact/frustum.h"
+#include "core/exact/rounded_box.h"
+#include "core/exact/tapered_capsule.h"
+
+namespace minkray::exact {
+
+/// The line is given in the form's frame; only `open` lanes count.
+template <class W>
+[[gnu::always_inline]] inline Entry<W> enter(const Form& form, const Line<W>& line,
+                                             const Mask<W>& open) {
+  const auto& a = form.sizes;
+  switch (form.kind) {
+    case FormKind::ball:
+      return enter_ball(a[0], line, open);
+    case FormKind::box:
+      return enter_box(a, line, open);
+    case FormKind::rounded_box:
+      return enter_rounded_box(a, line, open);
+    case FormKind::capsule:
+      return enter_capsule(a[0], a[1], line, open);
+    case FormKind::tapered_capsule:
+      return enter_tapered_capsule(a[0], a[1], a[2], form.slope, form.sine, a[3], form.R, line,
+                                   open);
+    case FormKind::cylinder:
+      return enter_cylinder(a[0], a[1], line, open);
+    case FormKind::frustum:
+      return enter_frustum(form.slope, form.sine, a[2], a[3], form.R, line, open);
+    default:
+      return {};
+  }
+}
+
+}  // namespace minkray::exact

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#include "core/exact/form.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace minkray::exact {
+
+namespace {
+
+/// Forms with a mantle that is part of a cone: their third size becomes the height of its apex, and
+/// they are turned so that it is above. None, where the apex is too far away or an end too small
+/// for the bounds that docs/theory.md derives.
+Form tapered(Form form) {
+  constexpr double farthest_apex = 8, least_ball = 0x1p-10, steepest = 0.99;
+  auto& [lower, upper, half_height, apex] = form.sizes;
+  if (upper > lower) {
+    std::swap(lower, upper);
+    form.is_upside_down = true;
+  }
+  const bool is_round = form.kind == FormKind::tapered_capsule;
+  if (lower == upper) {
+    form.kind = is_round ? FormKind::capsule : FormKind::cylinder;
+    form.sizes = {lower, half_height};
+    form.R = is_round ? lower + half_height : std::hypot(lower, half_height);
+    return form;
+  }
+  if (!(half_height > 0)) return {};
+  const double narrows = (lower - upper) / (2 * half_height);
+  if (is_round) {
+    if (!(narrows < steepest) || !(upper > least_ball * lower)) return {};
+    form.sine = narrows;
+    form.slope = narrows / std::sqrt(1 - narrows * narrows);
+  } else {
+    form.slope = narrows;
+    form.sine = narrows / std::sqrt(1 + narrows * narrows);
+  }
+  form.R = is_round ? half_height + lower : std::hypot(half_height, lower);
+  apex = half_height + upper / narrows;
+  if (!(apex < farthest_apex * form.R)) return {};
+  return form;
+}
+
+}  // namespace
+
+Form form_of(const ExactForm& declared, const Vec3<double>& ball_centre, double down) {
+  Form form;
+  form.kind = declared.kind;
+  const auto& middle = declared.middle;
+  form.offset = ball_centre - Vec3<double>(middle[0], middle[1], middle[2]) * down;
+  form.is_off_centre = !form.offset.isZero(0);
+  for (std::size_t i = 0; i < declared.sizes.size(); ++i) form.sizes[i] = declared.sizes[i] * down;
+  const auto& a = form.sizes;
+  switch (declared.kind) {
+    case FormKind::none:
+      return {};
+    case FormKind::ball:
+      form.R = a[0];
+      break;
+    case FormKind::ellipsoid:
+      form.scale = {1 / a[0], 1 / a[1], 1 / a[2]};
+      form.is_scaled = true;
+      form.largest_scale = form.scale.maxCoeff();
+      form.R = 1;
+      form.inner_R = std::max({a[0], a[1], a[2]});
+      form.sizes = {1};
+      form.kind = FormKind::ball;
+      break;
+    case FormKind::box:
+      form.R = Vec3<double>(a[0], a[1], a[2]).norm();
+      break;
+    case FormKind::capsule:
+      form.R = a[0] + a[1];
+      break;
+    case FormKind::rounded_box:
+      if (!(a[3] > 0)) return {};
+      form.R = Vec3<double>(a[0], a[1], a[2]).norm() + a[3];
+      break;
+    case FormKind::tapered_capsule:
+    case FormKind::frustum:
+      form = tapered(form);
+      break;
+    case FormKind::cylinder:
+      form.R = std::hypot(a[0], a[1]);
+      break;
+  }
+  if (!form.is_scaled) form.inner_R = form.R;
+  const bool has_size = form.R > 0 && std::isfinite(form.R) && std::isfinite(form.largest_scale);
+  return has_size ? form : Form();
+}
+
+}  // namespace minkray::exact

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// A shape's closed form made ready to be cast at: what it declares (core/shape/exact_form.h), as
+// seen from the middle of the shape's bounding ball.
+#pragma once
+
+#include "core/math/vec.h"
+#include "core/shape/exact_form.h"
+
+namespace minkray::exact {
+
+/// The form's frame is the shape's, moved to the form's middle and multiplied by `scale` along the
+/// axes (which makes ellipsoids balls).
+struct Form {
+  FormKind kind = FormKind::none;
+  bool is_scaled = false, is_off_centre = false, is_upside_down = false;
+  double R = 0;                     ///< of a ball around the form, in its frame
+  double inner_R = 0;               ///< the same before scaling
+  double largest_scale = 1;         ///< the greatest of `scale`
+  Vec3<double> offset = {0, 0, 0};  ///< from the form's middle to the ball's, before scaling
+  Vec3<double> scale = {1, 1, 1};
+  double slope = 0;  ///< of a cone's mantle: radius by height below the apex
+  double sine = 0;   ///< of the same angle
+  /// As declared, but of balls' frames; forms with a cone: radii below and above, half height,
+  /// apex.
+  std::array<double, 4> sizes = {};
+};
+
+/// Of a shape whose bounding ball has this centre; `down` is what lengths are multiplied by. None,
+/// where there is no closed form of those sizes.
+Form form_of(const ExactForm& declared, const Vec3<double>& ball_centre, double down);
+
+}  // namespace minkray::exact

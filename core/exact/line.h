@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// What closed forms are asked, and what they answer: a line seen from nearby and where it enters,
+// with a bound of its error. W is double, or a packet of doubles: a line in every lane. The same
+// operations in the same order, so that a packet's lanes have a single line's bits.
+//
+// docs/theory.md ("Casts with an error bound") derives the bounds.
+#pragma once
+
+#include "core/math/vec.h"
+
+namespace minkray::exact {
+
+/// The points s + t d; s is about as near to the form's middle as the line comes.
+template <class W>
+struct Line {
+  Vec3<W> s, d;
+  W dd, inv;  ///< d.d and 1 / d.d
+  /// How far each point with |t| |d| up to the form's size may lie beside where it should be, and
+  /// along the line: a length that bounds the rounding of s, and of what a form does with it.
+  W E;
+  /// A square of a component of d below this counts as zero: it moves the line by less than E / 4.
+  W parallel;
+
+  Line reversed() const { return {s, -d, dd, inv, E, parallel}; }
+};
+
+/// Where a line enters a form. A lane that neither hits nor misses is in doubt.
+template <class W>
+struct Entry {
+  Mask<W> hit = Mask<W>(false), miss = Mask<W>(false);
+  W t = W(0), e = W(0);  ///< hit: the parameter lies in [t - e, t + e]
+  /// Hit: outward, of unit length. Miss: of a plane between line and form, pointing to the line, of
+  /// any length.
+  Vec3<W> normal = Vec3<W>::Zero();
+};
+
+/// Below it a direction's component is taken for this: what runs so nearly along a slab leaves it
+/// beyond all numbers that count, and does not divide by zero. Directions' lengths are from 1e-20.
+inline constexpr double least_component = 1e-100;
+
+/// The normal of a plane along the line that separates it from what lies below both of two planes:
+/// one that the line crosses inwards, after it has left the other one.
+template <class W>
+Vec3<W> between(const Vec3<W>& entered, const Vec3<W>& left, const Vec3<W>& d) {
+  const W inwards = entered.dot(d), outwards = left.dot(d);
+  // Where the line runs along both, it is above either.
+  const Mask<W> is_along = (inwards == W(0)) & (outwards == W(0));
+  return entered * select(is_along, W(1), outwards) - left * inwards;
+}
+
+/// One pair of parallel planes, z = low and z = high, as a line with these components sees it.
+template <class W>
+struct Slab {
+  W in, out, e;  ///< the parameters of entry and exit, and their error
+  W facing;      ///< 1 or -1: the outward normal where the line leaves
+
+  Slab(const W& s, const W& d, double low, double high, const W& E) {
+    using std::abs;
+    using std::copysign;
+    using std::max;
+    const W inv = W(1) / max(abs(d), W(least_component));
+    facing = copysign(W(1), d);
+    const W at = facing * s;
+    const W first = low == -high ? W(low) : select(d < W(0), W(-high), W(low));
+    const W last = low == -high ? W(high) : select(d < W(0), W(-low), W(high));
+    in = (first - at) * inv;
+    out = (last - at) * inv;
+    e = E * inv;
+  }
+};
+
+}  // namespace minkray::exact

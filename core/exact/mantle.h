@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// Where a line enters and leaves an endless cylinder around the z axis: what cylinders and capsules
+// have in common.
+#pragma once
+
+#include "core/exact/ball.h"
+
+namespace minkray::exact {
+
+template <class W>
+struct Mantle {
+  Mask<W> hit, miss;  ///< neither: in doubt
+  W in, out, e;       ///< the parameters, and the error of both
+  W x, y;             ///< where the line is closest to the axis
+  W half;             ///< from there to either end, a parameter
+
+  Mantle(double r, const Line<W>& line, const Mask<W>& open) {
+    using std::max;
+    using std::sqrt;
+    const Vec3<W>&s = line.s, &d = line.d;
+    const W across = d.x() * d.x() + d.y() * d.y();
+    const Mask<W> along = across < line.parallel;
+    const W inv = W(1) / max(across, line.parallel);
+    const W k = select(along, W(0), W(-(s.x() * d.x() + s.y() * d.y()) * inv));
+    x = s.x() + k * d.x();
+    y = s.y() + k * d.y();
+    const W h2 = W(r * r) - (x * x + y * y), margin = W(tangent_margin * r) * line.E;
+    hit = open & (h2 > margin);
+    miss = open & (h2 < -margin);
+    half = sqrt(max(h2, margin) * inv);
+    in = k - half;
+    out = k + half;
+    e = line.E * W(r) * inv / half;
+  }
+  /// Outward, of unit length, where the line enters or (sign = 1) leaves.
+  Vec3<W> normal(double sign, double r, const Line<W>& line) const {
+    const W at = half * W(sign);
+    return {(x + line.d.x() * at) * W(1 / r), (y + line.d.y() * at) * W(1 / r), W(0)};
+  }
+};
+
+}  // namespace minkray::exact

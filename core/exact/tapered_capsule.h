@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// Where a line enters a tapered capsule along the z axis, its larger ball below: the mantle of the
+// cone that touches both balls, or the ball at the end beyond which the line would meet the cone.
+#pragma once
+
+#include "core/exact/ball.h"
+#include "core/exact/nappe.h"
+
+namespace minkray::exact {
+
+template <class W>
+Entry<W> enter_tapered_capsule(double lower, double upper, double half_height, double slope,
+                               double sine, double apex, double R, const Line<W>& line,
+                               const Mask<W>& open) {
+  using std::max;
+  using std::sqrt;
+  const Vec3<W>&s = line.s, &d = line.d;
+  Entry<W> entry;
+  const Nappe<W> round(slope, apex, R, line, open);
+  entry.miss = round.miss;
+  if (any(round.miss)) entry.normal = round.beside(line);
+  if (!any(round.hit)) return entry;
+  // The circles where the cone touches the balls.
+  const double low = -half_height + lower * sine, high = half_height + upper * sine;
+  const W z = s.z() + round.in * d.z();
+  const Mask<W> below = z<W(low), above = z> W(high);
+  const Mask<W> by_side = round.hit & !below & !above;
+  entry.hit = by_side;
+  entry.t = round.in;
+  entry.e = W(2) * round.in_e;
+  if (any(by_side))
+    entry.normal = select<W>(by_side, round.normal(round.in, sine, line), entry.normal);
+  // As at a capsule (core/exact/capsule.h).
+  const W w2 = entry.e * entry.e * line.dd;
+  const W from_low = z - W(low), from_high = z - W(high);
+  const Mask<W> unsure =
+      (w2 > W(upper) * line.E) & ((from_low * from_low < w2) | (from_high * from_high < w2));
+
+  const Mask<W> by_end = round.hit & !by_side & !unsure;
+  if (any(by_end)) {
+    const W r = select(above, W(upper), W(lower));
+    const W middle = select(above, W(half_height), W(-half_height));
+    const Vec3<W> p(s.x(), s.y(), s.z() - middle);
+    const W k = -p.dot(d) * line.inv;
+    const Vec3<W> x = p + d * k;
+    const W h2 = r * r - x.squaredNorm(), margin = W(tangent_margin) * r * line.E;
+    const Mask<W> hit = by_end & (h2 > margin), miss = by_end & (h2 < -margin);
+    const W half = sqrt(max(h2, margin) * line.inv);
+    entry.hit |= hit;
+    entry.miss |= miss;
+    entry.t = select(hit, W(k - half), entry.t);
+    entry.e = select(hit, W(W(2) * r * line.E * line.inv / half), entry.e);
+    const Vec3<W> outward = select<W>(hit, Vec3<W>((x - d * half) * (W(1) / r)), x);
+    entry.normal = select<W>(hit | miss, outward, entry.normal);
+    const Mask<W> passes = miss & round.is_above(apex, line);
+    if (any(passes)) entry.normal = select<W>(passes, round.beside(line), entry.normal);
+  }
+  entry.hit &= !unsure;
+  return entry;
+}
+
+}  // namespace minkray::exact

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// Answers that claim an error bound beside school geometry in more digits: whether the claim holds.
+#pragma once
+
+#include "core/cast/prepared_shape.h"
+#include "core/query/result.h"
+#include "tests/oracle/closed_form.h"
+
+namespace minkray::testing {
+
+struct FilterVerdict {
+  bool is_false = false;      ///< a hit, miss or inside that is none
+  double error_by_bound = 0;  ///< of hits; at most 1 if the bound holds
+};
+
+/// Of a shape as it was prepared, whose numbers are taken as exact, and which line_in_shape knows.
+/// `inner` is its inner shape. The ray is moved near in 113 bits, the rest is in long double.
+/// `leaves`: the answer is cast_exit's.
+template <class T>
+FilterVerdict judge_bound(const Shape<double>& inner, const PreparedShape<T>& prepared,
+                          const Ray<T>& ray, const CastResult<T>& answer, bool leaves = false) {
+  __extension__ using Quad = __float128;
+  std::array<Quad, 3> o, d;
+  for (int i = 0; i < 3; ++i) {
+    o[static_cast<std::size_t>(i)] = Quad(ray.origin[i]) - Quad(prepared.centre()[i]);
+    d[static_cast<std::size_t>(i)] = Quad(ray.direction[i]);
+  }
+  if (const Mat3<T>* map = prepared.linear_to_inner()) {
+    const auto times = [&](const std::array<Quad, 3>& v) {
+      std::array<Quad, 3> mapped;
+      for (int i = 0; i < 3; ++i)
+        mapped[static_cast<std::size_t>(i)] =
+            Quad((*map)(i, 0)) * v[0] + Quad((*map)(i, 1)) * v[1] + Quad((*map)(i, 2)) * v[2];
+      return mapped;
+    };
+    o = times(o);
+    d = times(d);
+  }
+  Quad od = 0, dd = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    od += o[i] * d[i];
+    dd += d[i] * d[i];
+  }
+  const Quad base = answer.status == Status::hit ? Quad(answer.t_base) : -od / dd;
+  Vec3<Long> at, along;
+  for (int i = 0; i < 3; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    at[i] = static_cast<Long>(o[k] + base * d[k] + Quad(prepared.inner_ball().centre[i]));
+    along[i] = static_cast<Long>(d[k]);
+  }
+  const Interval inside = *line_in_shape(inner, at, along);
+  const Quad begin = -base, end = Quad(ray.t_max) - base;
+  const bool meets = !inside.empty() && Quad(inside.upper) >= begin && Quad(inside.lower) <= end;
+  FilterVerdict verdict;
+  if (answer.status == Status::miss) {
+    verdict.is_false = meets;
+  } else if (answer.status == Status::inside) {
+    verdict.is_false =
+        !(meets && Quad(leaves ? -inside.upper : inside.lower) <= (leaves ? -end : begin));
+  } else if (answer.status == Status::hit) {
+    const Long truth = leaves ? inside.upper : inside.lower;
+    verdict.is_false = !(meets && Quad(truth) >= begin && Quad(truth) <= end);
+    const Long error = truth - Long(answer.t_offset);
+    const Long bound = error > 0 ? Long(answer.offset_hi) - Long(answer.t_offset)
+                                 : Long(answer.t_offset) - Long(answer.offset_lo);
+    verdict.error_by_bound = error == 0 ? 0 : static_cast<double>(std::abs(error) / bound);
+  }
+  return verdict;
+}
+
+}  // namespace minkray::testing
