@@ -36,6 +36,7 @@ struct Options {
   std::string precision = "double";
   std::string solver = "auto";
   std::string subalgorithm = "projection";
+  double tolerance = AnswerOptions{}.tolerance;
   int threads = 0;
   bool trace = false;
   bool check = false;
@@ -154,7 +155,10 @@ void answer_line(const Line& line, const std::string& place, MeshFiles& meshes,
 ExitCode cast(const Options& options) {
   const AnswerOptions answer_options{
       options.precision == "float" ? Precision::in_float : Precision::in_double,
-      solver_named(options.solver), subalgorithm_named(options.subalgorithm), options.trace,
+      solver_named(options.solver),
+      subalgorithm_named(options.subalgorithm),
+      options.tolerance,
+      options.trace,
       options.certify};
 
   std::ifstream file;
@@ -239,6 +243,10 @@ void add_cast(CLI::App& app, ExitCode& exit_code) {
       ->capture_default_str();
   verb->add_option("--subalgorithm", options->subalgorithm, "How distances' simplices are reduced")
       ->check(CLI::IsMember(subalgorithm_names()))
+      ->capture_default_str();
+  verb->add_option("--tolerance", options->tolerance,
+                   "How near the bounds of signed distances shall be, relative to the sizes")
+      ->check(CLI::Range(1e-14, 1.0))
       ->capture_default_str();
   verb->add_option("--threads", options->threads, "How many threads; 0 for all")
       ->check(CLI::Range(0, 1024))

@@ -19,6 +19,7 @@ using AddVerb = void (*)(CLI::App& app, ExitCode& exit_code);
 void add_cast(CLI::App& app, ExitCode& exit_code);
 void add_compare(CLI::App& app, ExitCode& exit_code);
 void add_completion(CLI::App& app, ExitCode& exit_code);
+void add_distance(CLI::App& app, ExitCode& exit_code);
 void add_distance_2d(CLI::App& app, ExitCode& exit_code);
 void add_generate(CLI::App& app, ExitCode& exit_code);
 void add_heatmap(CLI::App& app, ExitCode& exit_code);
@@ -31,7 +32,7 @@ void add_trace(CLI::App& app, ExitCode& exit_code);
 
 /// In the order in which --help shows them.
 inline constexpr AddVerb verbs[] = {
-    add_render, add_merge,       add_heatmap,  add_compare, add_cast,       add_trace,
+    add_render, add_merge,       add_heatmap,  add_compare, add_cast,       add_distance, add_trace,
     add_paper,  add_distance_2d, add_generate, add_info,    add_completion, add_man,
 };
 

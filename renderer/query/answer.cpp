@@ -2,8 +2,10 @@
 #include "renderer/query/answer.h"
 
 #include "core/contact/distance.h"
+#include "core/contact/impact.h"
 #include "core/contact/rotating_cast.h"
 #include "core/contact/shape_cast.h"
+#include "core/contact/signed_distance.h"
 #include "core/derived/convert.h"
 #include "renderer/query/number_json.h"
 #include "renderer/query/trace.h"
@@ -195,6 +197,70 @@ void solve(const DistanceQuery& query, const AnswerOptions& options, Answer& ans
   answer.json["point_b"] = point_json(result.point_b);
   add_costs<T>(answer, result.iterations, result.supports);
   if (options.trace) answer.json["trace"] = std::move(trace);
+}
+
+/// A length in the precision that was asked for; bounds are rounded outward.
+template <class T>
+Json bound_json(double value, T outward) {
+  T rounded = static_cast<T>(value);
+  if ((outward < 0 && double(rounded) > value) || (outward > 0 && double(rounded) < value))
+    rounded = std::nextafter(rounded, outward);
+  return number_json(rounded);
+}
+
+template <class T>
+void solve(const SignedDistanceQuery& query, const AnswerOptions& options, Answer& answer) {
+  SignedDistanceOptions how;
+  how.tolerance = options.tolerance;
+  how.at_most = query.at_most;
+  how.only_sign = query.only_sign;
+  constexpr T infinity = std::numeric_limits<T>::infinity();
+  const SignedDistance result =
+      signed_distance(ContactShape(convert<T>(query.a)), ContactShape(convert<T>(query.b)), how);
+  answer.facts.status = name_of(result.status);
+  answer.facts.hit = result.status == SignedStatus::overlapping;
+  answer.facts.distance = result.value;
+  answer.json["status"] = answer.facts.status;
+  answer.json["value"] = number_json(static_cast<T>(result.value));
+  answer.json["lower"] = bound_json<T>(result.lower, -infinity);
+  answer.json["upper"] = bound_json<T>(result.upper, infinity);
+  if (!result.normal.isZero(0)) {
+    answer.facts.normal = result.normal;
+    answer.json["normal"] = point_json(Vec3<T>(result.normal.cast<T>()));
+  }
+  answer.json["point_a"] = point_json(Vec3<T>(result.point_a.cast<T>()));
+  answer.json["point_b"] = point_json(Vec3<T>(result.point_b.cast<T>()));
+  answer.json["supports"] = result.supports;
+}
+
+/// The shape in a frame about its pivot, and that frame's motion.
+template <class T>
+std::pair<ContactShape, RigidMotion> body_of(const Shape<double>& shape,
+                                             const ImpactMotion& motion) {
+  const Shape<double> rounded = convert<double>(convert<T>(shape));
+  const Vec3<double> pivot = motion.pivot ? *motion.pivot : ContactShape(rounded).middle();
+  return {ContactShape(rounded, {Mat3<double>::Identity(), -pivot}),
+          RigidMotion{{Mat3<double>::Identity(), pivot}, motion.velocity, motion.turn}};
+}
+
+template <class T>
+void solve(const ImpactQuery& query, const AnswerOptions&, Answer& answer) {
+  const auto [a, motion_a] = body_of<T>(query.a, query.motion_a);
+  const auto [b, motion_b] = body_of<T>(query.b, query.motion_b);
+  constexpr T infinity = std::numeric_limits<T>::infinity();
+  const Impact result = first_impact(a, motion_a, b, motion_b, query.t_max);
+  answer.facts.status = name_of(result.status);
+  answer.facts.hit = result.status == ImpactStatus::hit || result.status == ImpactStatus::inside;
+  answer.facts.t = result.t_lo;
+  answer.json["status"] = answer.facts.status;
+  answer.json["t_lo"] = bound_json<T>(result.t_lo, -infinity);
+  if (answer.facts.hit) answer.json["t_hi"] = bound_json<T>(result.t_hi, infinity);
+  answer.json["distance"] = number_json(static_cast<T>(result.distance));
+  answer.facts.normal = result.normal;
+  answer.json["normal"] = point_json(Vec3<T>(result.normal.cast<T>()));
+  answer.json["point_a"] = point_json(Vec3<T>(result.point_a.cast<T>()));
+  answer.json["point_b"] = point_json(Vec3<T>(result.point_b.cast<T>()));
+  answer.json["steps"] = result.steps;
 }
 
 }  // namespace

@@ -20,6 +20,7 @@ struct AnswerOptions {
   Precision precision = Precision::in_double;
   SolverKind solver = SolverKind::automatic;
   SubalgorithmKind subalgorithm = SubalgorithmKind::projection;  ///< for distances
+  double tolerance = 1e-10;  ///< of signed distances, relative to the shapes' sizes
   bool trace = false;
   bool certify = false;  ///< prove the answers of casts
 };

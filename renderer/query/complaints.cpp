@@ -32,6 +32,13 @@ Extent extent(const ShapeQuery& query) {
 Extent extent(const DistanceQuery& query) {
   return {std::max(largest_coordinate(query.a), largest_coordinate(query.b))};
 }
+Extent extent(const SignedDistanceQuery& query) {
+  return {std::max(largest_coordinate(query.a), largest_coordinate(query.b))};
+}
+Extent extent(const ImpactQuery& query) {
+  return {std::max(largest_coordinate(query.a), largest_coordinate(query.b)),
+          query.motion_b.velocity - query.motion_a.velocity};
+}
 
 struct Allowance {
   double length = 0, t = 0, normal = 0;
@@ -77,6 +84,12 @@ double miss_distance(const ShapeQuery& query) {
 double miss_distance(const DistanceQuery&) {
   return 0;
 }
+double miss_distance(const SignedDistanceQuery&) {
+  return 0;
+}
+double miss_distance(const ImpactQuery&) {
+  return 0;
+}
 
 std::string number(double value) {
   std::ostringstream text;
@@ -99,8 +112,8 @@ std::vector<std::string> complaints(const Query& query, const AnswerFacts& facts
     found.push_back(what + " is " + number(is) + ", expected " + number(expected) + " (off by " +
                     number(std::abs(is - expected)) + ", allowed " + number(tolerance) + ")");
   };
-  const bool gave_up = facts.status == "exhausted";
-  if (gave_up) found.push_back("status is exhausted");
+  const bool gave_up = facts.status == "exhausted" || facts.status == "undecided";
+  if (gave_up) found.push_back("status is " + facts.status);
   if (expect.hit && !gave_up) {
     // In float a miss by less than the query's own rounding may be a hit.
     const bool is_within_rounding = precision == Precision::in_float && facts.hit && !*expect.hit &&

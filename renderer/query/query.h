@@ -39,6 +39,30 @@ struct DistanceQuery {
   Shape<double> b;
 };
 
+/// How far apart two shapes are, or how deep in each other (core/contact/signed_distance.h).
+struct SignedDistanceQuery {
+  Shape<double> a;
+  Shape<double> b;
+  double at_most = std::numeric_limits<double>::infinity();
+  bool only_sign = false;
+};
+
+/// How a shape of an impact moves: about `pivot`, which is part of it (by default its middle).
+struct ImpactMotion {
+  Vec3<double> velocity = Vec3<double>::Zero();
+  Vec3<double> turn = Vec3<double>::Zero();  ///< a rotation vector a unit of time, radians
+  std::optional<Vec3<double>> pivot;
+};
+
+/// When two shapes that move and turn first touch, with proof (core/contact/impact.h).
+struct ImpactQuery {
+  Shape<double> a;
+  Shape<double> b;
+  ImpactMotion motion_a;
+  ImpactMotion motion_b;
+  double t_max = 0;
+};
+
 /// What the answer must be: the part of a case that --check compares.
 struct Expectation {
   std::optional<bool> hit;
@@ -52,7 +76,7 @@ struct Expectation {
 
 struct Query {
   std::string name;
-  std::variant<RayQuery, ShapeQuery, DistanceQuery> kind;
+  std::variant<RayQuery, ShapeQuery, DistanceQuery, SignedDistanceQuery, ImpactQuery> kind;
   std::optional<Expectation> expect;
 };
 

@@ -75,6 +75,46 @@ class QueryReader {
     if (a && b) query->kind = DistanceQuery{*a, *b};
   }
 
+  void read_signed_distance(std::optional<Query>& query) {
+    const auto a = shape("a"), b = shape("b");
+    SignedDistanceQuery read{Point<double>{}, Point<double>{}};
+    if (const Json* json = object_.find("at_most"))
+      if (const auto number =
+              read_number(*json, object_.path("at_most"), object_.mistakes(), Range::any))
+        read.at_most = *number;
+    if (const Json* json = object_.find("only_sign"))
+      if (const auto flag = read_bool(*json, object_.path("only_sign"), object_.mistakes()))
+        read.only_sign = *flag;
+    if (!a || !b) return;
+    read.a = *a;
+    read.b = *b;
+    query->kind = std::move(read);
+  }
+
+  ImpactMotion motion(std::string_view key) {
+    ImpactMotion read;
+    const Json* json = object_.find(key);
+    if (!json) return read;
+    ObjectReader motion(*json, object_.path(key), object_.mistakes());
+    vector(motion, "velocity", read.velocity, false);
+    vector(motion, "turn", read.turn, false);
+    if (const Json* pivot = motion.find("pivot"))
+      if (const auto point = read_vector(*pivot, motion.path("pivot"), motion.mistakes()))
+        read.pivot = *point;
+    motion.finish();
+    return read;
+  }
+
+  void read_impact(std::optional<Query>& query) {
+    const auto a = shape("a"), b = shape("b");
+    ImpactQuery read{Point<double>{}, Point<double>{}, motion("motion_a"), motion("motion_b")};
+    if (object_.require("t_max", "a number")) t_max(object_, read.t_max);
+    if (!a || !b) return;
+    read.a = *a;
+    read.b = *b;
+    query->kind = std::move(read);
+  }
+
  private:
   ObjectReader& object_;
   MeshFiles& meshes_;
@@ -95,7 +135,7 @@ Expectation read_expectation(const Json& json, const JsonPath& path, Mistakes& m
   flag("either", expect.either);
   number("t", expect.t, Range::any);
   number("t_abs_tol", expect.t_abs_tol, Range::not_negative);
-  number("distance", expect.distance, Range::not_negative);
+  number("distance", expect.distance, Range::any);
   number("abs_tol", expect.abs_tol, Range::not_negative);
   if (const Json* normal = object.find("normal"))
     if (const auto read = read_vector(*normal, object.path("normal"), mistakes))
@@ -120,7 +160,8 @@ std::optional<Query> parse_query(std::string_view text, MeshFiles& meshes, Mista
     query->expect = read_expectation(*expect, object.path("expect"), mistakes);
 
   QueryReader reader(object, meshes);
-  const Json* kind = object.require("query", "\"ray\", \"shape\" or \"distance\"");
+  constexpr const char* kinds = R"("ray", "shape", "distance", "signed_distance" or "impact")";
+  const Json* kind = object.require("query", kinds);
   if (!kind) return std::nullopt;
   if (*kind == "ray") {
     reader.read_ray(query);
@@ -128,9 +169,12 @@ std::optional<Query> parse_query(std::string_view text, MeshFiles& meshes, Mista
     reader.read_shapes(query);
   } else if (*kind == "distance") {
     reader.read_distance(query);
+  } else if (*kind == "signed_distance") {
+    reader.read_signed_distance(query);
+  } else if (*kind == "impact") {
+    reader.read_impact(query);
   } else {
-    mistakes.add(object.path("query"),
-                 "must be \"ray\", \"shape\" or \"distance\" (" + found(*kind) + ")");
+    mistakes.add(object.path("query"), std::string("must be ") + kinds + " (" + found(*kind) + ")");
     return std::nullopt;
   }
   object.finish();

@@ -92,6 +92,32 @@ TEST(HardCases, distances_are_right_with_every_subalgorithm) {
   }
 }
 
+TEST(HardCases, signed_distances_are_right_in_double_and_in_float) {
+  for (const Precision precision : {Precision::in_double, Precision::in_float}) {
+    AnswerOptions options;
+    options.precision = precision;
+    int cases = 0;
+    EXPECT_EQ(all_complaints("signed-distances.jsonl", options, cases), std::vector<std::string>());
+    EXPECT_EQ(cases, 10);
+  }
+}
+
+TEST(Queries, impacts_say_between_which_times) {
+  Mistakes mistakes("q");
+  const auto query = parse(
+      R"({"query":"impact","a":{"type":"sphere","radius":1},"b":{"type":"transform","shape":{"type":"box","half_extents":[1,1,1]},"translate":[5,0,0]},"motion_b":{"velocity":[-1,0,0],"turn":[1,0,0]},"t_max":10})",
+      mistakes);
+  ASSERT_TRUE(query) << mistakes.text();
+  const Answer result = answer(*query, {});
+  EXPECT_EQ(result.facts.status, "hit");
+  EXPECT_LE(result.json.at("t_lo").get<double>(), 3);
+  EXPECT_NEAR(result.json.at("t_lo").get<double>(), 3, 1e-8);
+  EXPECT_GE(result.json.at("t_hi").get<double>(), 3 - 1e-9);
+  EXPECT_NE(
+      mistakes_of(R"({"query":"impact","a":{"type":"point"},"b":{"type":"point"}})").find("/t_max"),
+      std::string::npos);
+}
+
 constexpr const char* ball_query =
     R"({"query":"ray","shape":{"type":"sphere","radius":1},"ray":{"origin":[-3,0,0],"direction":[1,0,0]},"expect":{"hit":true,"t":2,"t_abs_tol":1e-12}})";
 

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// minkray distance: how far apart two shapes are, or how deep in each other, with its proof.
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+
+#include "renderer/cli/verbs.h"
+#include "renderer/io/output_file.h"
+#include "renderer/json/parse.h"
+#include "renderer/query/answer.h"
+#include "renderer/scene/shape_json.h"
+
+namespace minkray {
+namespace {
+
+struct Options {
+  std::string a, b;
+  double tolerance = AnswerOptions{}.tolerance;
+  double at_most = std::numeric_limits<double>::infinity();
+  bool only_sign = false;
+};
+
+Shape<double> shape_in(const std::string& file) {
+  Mistakes mistakes(file);
+  MeshFiles meshes(std::filesystem::path(file).parent_path());
+  std::optional<Shape<double>> shape;
+  if (const auto text = read_text_file(file, mistakes))
+    if (const auto json = parse_json(*text, mistakes))
+      shape = read_shape(*json, JsonPath(), mistakes, meshes);
+  throw_if_any(mistakes);
+  return *shape;
+}
+
+void distance(const Options& options) {
+  SignedDistanceQuery query{shape_in(options.a), shape_in(options.b)};
+  query.at_most = options.at_most;
+  query.only_sign = options.only_sign;
+  AnswerOptions how;
+  how.tolerance = options.tolerance;
+  std::cout << answer({{}, query, {}}, how).json.dump() << '\n';
+}
+
+}  // namespace
+
+void add_distance(CLI::App& app, ExitCode&) {
+  CLI::App* verb = app.add_subcommand(
+      "distance", "The signed distance of two shapes, with bounds (docs/contact.md)");
+  const auto options = std::make_shared<Options>();
+  verb->add_option("a", options->a, "A file with a shape, as scenes have them")->required();
+  verb->add_option("b", options->b, "Another")->required();
+  verb->add_option("--tolerance", options->tolerance,
+                   "How near the bounds shall be, relative to the sizes")
+      ->check(CLI::Range(1e-14, 1.0))
+      ->capture_default_str();
+  verb->add_option("--at-most", options->at_most,
+                   "Beyond this distance a lower bound of it is enough");
+  verb->add_flag("--only-sign", options->only_sign, "Whether they overlap is enough");
+  verb->callback([options] { distance(*options); });
+}
+
+}  // namespace minkray
