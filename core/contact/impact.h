@@ -60,9 +60,9 @@ struct Impact {
 };
 
 struct ImpactOptions {
-  /// Nearer than this times the sum of the sizes counts as touching: a grazing contact is one if
-  /// the bodies come so near. The truth may be a miss by as much, or a hit as deep be missed by
-  /// none: what is called a miss is one.
+  /// Bodies nearer to each other than this times the sum of their sizes count as touching, so
+  /// those that pass each other as near as that are a hit. The other way round nothing is given
+  /// away: what is called a miss is one.
   double touching = 1e-10;
   int max_steps = 2000;
 };

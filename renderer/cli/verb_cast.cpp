@@ -14,6 +14,7 @@
 #include "core/parallel/stream.h"
 #include "renderer/base/errors.h"
 #include "renderer/cli/choices.h"
+#include "renderer/cli/tolerance_option.h"
 #include "renderer/cli/verbs.h"
 #include "renderer/query/answer.h"
 #include "renderer/query/query_json.h"
@@ -153,6 +154,7 @@ void answer_line(const Line& line, const std::string& place, MeshFiles& meshes,
 }
 
 ExitCode cast(const Options& options) {
+  check_tolerance(options.tolerance);
   const AnswerOptions answer_options{
       options.precision == "float" ? Precision::in_float : Precision::in_double,
       solver_named(options.solver),
@@ -244,10 +246,7 @@ void add_cast(CLI::App& app, ExitCode& exit_code) {
   verb->add_option("--subalgorithm", options->subalgorithm, "How distances' simplices are reduced")
       ->check(CLI::IsMember(subalgorithm_names()))
       ->capture_default_str();
-  verb->add_option("--tolerance", options->tolerance,
-                   "How near the bounds of signed distances shall be, relative to the sizes")
-      ->check(CLI::Range(1e-14, 1.0))
-      ->capture_default_str();
+  add_tolerance(*verb, options->tolerance);
   verb->add_option("--threads", options->threads, "How many threads; 0 for all")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 // minkray distance: how far apart two shapes are, or how deep in each other, with its proof.
 #include <CLI/CLI.hpp>
+#include <cmath>
+#include <filesystem>
 #include <iostream>
+#include <limits>
 #include <memory>
 
+#include "renderer/cli/tolerance_option.h"
 #include "renderer/cli/verbs.h"
 #include "renderer/io/output_file.h"
 #include "renderer/json/parse.h"
@@ -32,6 +36,8 @@ Shape<double> shape_in(const std::string& file) {
 }
 
 void distance(const Options& options) {
+  check_tolerance(options.tolerance);
+  if (std::isnan(options.at_most)) throw WrongUsage("--at-most: must be a number");
   SignedDistanceQuery query{shape_in(options.a), shape_in(options.b)};
   query.at_most = options.at_most;
   query.only_sign = options.only_sign;
@@ -48,10 +54,7 @@ void add_distance(CLI::App& app, ExitCode&) {
   const auto options = std::make_shared<Options>();
   verb->add_option("a", options->a, "A file with a shape, as scenes have them")->required();
   verb->add_option("b", options->b, "Another")->required();
-  verb->add_option("--tolerance", options->tolerance,
-                   "How near the bounds shall be, relative to the sizes")
-      ->check(CLI::Range(1e-14, 1.0))
-      ->capture_default_str();
+  add_tolerance(*verb, options->tolerance);
   verb->add_option("--at-most", options->at_most,
                    "Beyond this distance a lower bound of it is enough");
   verb->add_flag("--only-sign", options->only_sign, "Whether they overlap is enough");

@@ -228,8 +228,10 @@ void solve(const SignedDistanceQuery& query, const AnswerOptions& options, Answe
     answer.facts.normal = result.normal;
     answer.json["normal"] = point_json(Vec3<T>(result.normal.cast<T>()));
   }
-  answer.json["point_a"] = point_json(Vec3<T>(result.point_a.cast<T>()));
-  answer.json["point_b"] = point_json(Vec3<T>(result.point_b.cast<T>()));
+  if (std::isfinite(result.upper)) {
+    answer.json["point_a"] = point_json(Vec3<T>(result.point_a.cast<T>()));
+    answer.json["point_b"] = point_json(Vec3<T>(result.point_b.cast<T>()));
+  }
   answer.json["supports"] = result.supports;
 }
 

@@ -38,8 +38,9 @@ std::string check_line(std::string_view line) {
     if (shapes->turns() && shapes->steps > most_steps) return "";
   for (const Precision precision : {Precision::in_float, Precision::in_double})
     for (const bool trace : {false, true})
-      if (const std::string bad = check_answer(
-              *query, {precision, SolverKind::automatic, SubalgorithmKind::projection, trace});
+      if (const std::string bad =
+              check_answer(*query, {precision, SolverKind::automatic, SubalgorithmKind::projection,
+                                    AnswerOptions{}.tolerance, trace});
           !bad.empty())
         return bad;
   return "";
