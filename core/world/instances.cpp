@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/world/instances.h"
 
+#include <utility>
+
 #include "core/parallel/parallel.h"
 #include "core/query/tolerances.h"
 
@@ -56,6 +58,29 @@ void Instances<T>::add(std::uint32_t definition, const Affine<T>& pose) {
 }
 
 template <class T>
+void Instances<T>::add(const HalfSpaceBody<T>& half_space, const Affine<T>& pose) {
+  half_spaces_.push_back(
+      {static_cast<std::uint32_t>(places_.size()), half_space, half_space.posed(pose)});
+  places_.push_back({Vec3<T>::Zero(), no_definition, identity});
+  boxes_.push_back({});
+}
+
+/// Half-spaces get a point of another box, which makes the hierarchy no larger.
+template <class T>
+std::vector<Bounds<float>> Instances<T>::take_boxes() {
+  if (!half_spaces_.empty()) {
+    Vec3<float> corner = Vec3<float>::Zero();
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      if (is_half_space(i)) continue;
+      corner = boxes_[i].lower;
+      break;
+    }
+    for (const PosedHalfSpace& one : half_spaces_) boxes_[one.instance] = {corner, corner};
+  }
+  return std::exchange(boxes_, {});
+}
+
+template <class T>
 void Instances<T>::add_many(std::uint32_t definition, std::size_t count, bool linear_alike,
                             const std::function<Affine<T>(std::size_t)>& pose_of) {
   if (count == 0) return;
@@ -81,11 +106,13 @@ void Instances<T>::pose_all(const std::function<Affine<T>(std::size_t)>& pose_of
   linear_.resize(places_.size());
   boxes_.resize(places_.size());
   shifts_.resize(shift_of ? places_.size() : 0);
+  for (PosedHalfSpace& one : half_spaces_) one.in_world = one.at_rest.posed(pose_of(one.instance));
   for_parts(places_.size(), poses_a_part, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
+      if (shift_of) shifts_[i] = shift_of(i);
+      if (is_half_space(i)) continue;
       place(i, places_[i].definition, pose_of(i), i, true);
       if (!shift_of) continue;
-      shifts_[i] = shift_of(i);
       const Bounds<T> before = definitions_[places_[i].definition]->bounds_of(pose_of(i));
       Bounds<T> all = before;
       all.extend(Bounds<T>{before.lower + shifts_[i], before.upper + shifts_[i]});
@@ -111,7 +138,8 @@ template <class T>
 std::size_t Instances<T>::bytes() const {
   return definitions_.size() * (sizeof(ShapeDefinition<T>) + sizeof(definitions_[0])) +
          places_.capacity() * sizeof(Place) + linear_.capacity() * sizeof(Linear) +
-         shifts_.capacity() * sizeof(shifts_[0]) + boxes_.capacity() * sizeof(boxes_[0]);
+         shifts_.capacity() * sizeof(shifts_[0]) +
+         half_spaces_.capacity() * sizeof(PosedHalfSpace) + boxes_.capacity() * sizeof(boxes_[0]);
 }
 
 template class Instances<float>;

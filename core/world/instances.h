@@ -7,10 +7,10 @@
 #include <functional>
 #include <limits>
 #include <memory>
-#include <utility>
 #include <vector>
 
 #include "core/cast/prepared_shape.h"
+#include "core/world/half_space.h"
 
 namespace minkray {
 
@@ -25,6 +25,10 @@ class Instances {
   /// `pose` maps the frame of the definition's shape to the world; it must be invertible.
   void add(std::uint32_t definition, const Affine<T>& pose);
   void add(Shape<T> shape, const Affine<T>& pose = {}) { add(define(std::move(shape)), pose); }
+
+  /// An instance that is a half-space under a pose. It has no definition: `at` is not to be asked
+  /// for it. The hierarchy holds a point in its place, which stands for nothing.
+  void add(const HalfSpaceBody<T>& half_space, const Affine<T>& pose = {});
 
   /// `count` instances, the i-th at pose_of(i), which is asked from several threads at once.
   /// `linear_alike`: the poses differ in their translation alone.
@@ -53,6 +57,14 @@ class Instances {
 
   std::size_t size() const { return places_.size(); }
 
+  /// One of the half-spaces: which instance it is, and where it lies in the world.
+  struct PosedHalfSpace {
+    std::uint32_t instance;
+    HalfSpaceBody<T> at_rest, in_world;
+  };
+  const std::vector<PosedHalfSpace>& half_spaces() const { return half_spaces_; }
+  bool is_half_space(std::size_t i) const { return places_[i].definition == no_definition; }
+
   /// Refers to this, which must outlive it.
   PreparedShape<T> at(std::size_t i) const {
     const Place& place = places_[i];
@@ -63,6 +75,7 @@ class Instances {
   /// Half the longest side of the instance's box in the world, but for rounding.
   T half_extent(std::size_t i) const {
     const Place& place = places_[i];
+    if (place.definition == no_definition) return T(0);
     return place.linear == identity
                ? definitions_[place.definition]->inner_half_extents().maxCoeff()
                : linear_[place.linear].half_extent;
@@ -70,7 +83,7 @@ class Instances {
 
   /// Boxes that hold the instances and what rounding makes of them; once after each change, since
   /// they are given away.
-  std::vector<Bounds<float>> take_boxes() { return std::exchange(boxes_, {}); }
+  std::vector<Bounds<float>> take_boxes();
 
   std::size_t definitions() const { return definitions_.size(); }
 
@@ -79,6 +92,7 @@ class Instances {
 
  private:
   static constexpr std::uint32_t identity = std::numeric_limits<std::uint32_t>::max();
+  static constexpr std::uint32_t no_definition = std::numeric_limits<std::uint32_t>::max();
   struct Place {
     Vec3<T> centre;
     std::uint32_t definition;
@@ -98,6 +112,7 @@ class Instances {
   std::vector<Linear> linear_;
   std::vector<Vec3<T>> shifts_;  ///< by instance; empty if all stand still
   std::vector<Bounds<float>> boxes_;
+  std::vector<PosedHalfSpace> half_spaces_;  ///< in the order of their instances
 };
 
 extern template class Instances<float>;

@@ -45,13 +45,37 @@ World<T>::World(Instances<T> instances, const CastOptions<T>& options, BvhBuild 
   bvh_ = build_bvh(boxes, build);
 }
 
+template <class T>
+bool World<T>::closer_half_space(const WorldRay<T>& ray, WorldHit<T>& closest,
+                                 QueryCounts& counts) const {
+  bool found = false;
+  for (const auto& [instance, at_rest, in_world] : instances_.half_spaces()) {
+    if (instance == ray.skip) continue;
+    ++counts.casts;
+    const CastResult<T> result =
+        cast_ray(in_world, instances_.seen_by(instance, ray.ray, ray.time));
+    if (!result.found() || !closest.yields_to(instance, result.t())) continue;
+    closest = {instance, result};
+    found = true;
+  }
+  return found;
+}
+
+template <class T>
+bool World<T>::blocked_by_half_space(const WorldRay<T>& ray, QueryCounts& counts) const {
+  WorldHit<T> any;
+  return closer_half_space(ray, any, counts);
+}
+
 // Casts see the ray's own t_max, not that of the nearest hit so far: so their answers, and which of
 // them is the nearest, do not depend on the order of the boxes.
 template <class T>
 void World<T>::closer_hit(const WorldRay<T>& ray, SlabRay& slabs, WorldHit<T>& closest,
                           QueryCounts& counts) const {
+  if (closer_half_space(ray, closest, counts))
+    slabs.numbers.t_max = slabs.limit(static_cast<double>(closest.cast.t()));
   counts.nodes += traverse(bvh_, slabs, [&](std::uint32_t instance) {
-    if (instance == ray.skip) return false;
+    if (instance == ray.skip || instances_.is_half_space(instance)) return false;
     const CastResult<T> result = counted_cast(
         instances_.at(instance), instances_.seen_by(instance, ray.ray, ray.time), options_, counts);
     if (!result.found() || !closest.yields_to(instance, result.t())) return false;
@@ -63,9 +87,10 @@ void World<T>::closer_hit(const WorldRay<T>& ray, SlabRay& slabs, WorldHit<T>& c
 
 template <class T>
 bool World<T>::is_blocked(const WorldRay<T>& ray, const SlabRay& slabs, QueryCounts& counts) const {
+  if (blocked_by_half_space(ray, counts)) return true;
   bool met = false;
   counts.nodes += traverse(bvh_, slabs, [&](std::uint32_t instance) {
-    if (instance == ray.skip) return false;
+    if (instance == ray.skip || instances_.is_half_space(instance)) return false;
     met = counted_cast(instances_.at(instance), instances_.seen_by(instance, ray.ray, ray.time),
                        options_, counts)
               .found();

@@ -116,6 +116,9 @@ class World {
   void closer_hit(const WorldRay<T>& ray, SlabRay& slabs, WorldHit<T>& closest,
                   QueryCounts& counts) const;
   bool is_blocked(const WorldRay<T>& ray, const SlabRay& slabs, QueryCounts& counts) const;
+  /// The same of half-spaces alone, which are in no hierarchy.
+  bool closer_half_space(const WorldRay<T>& ray, WorldHit<T>& closest, QueryCounts& counts) const;
+  bool blocked_by_half_space(const WorldRay<T>& ray, QueryCounts& counts) const;
 
   Instances<T> instances_;
   Bvh bvh_;

@@ -145,7 +145,18 @@ void World<T>::closest_hits(std::span<const WorldRay<T>> rays, std::span<WorldHi
   const auto on_single = [&](std::size_t i) { closer_hit(rays[i], slabs[i], hits[i], counts); };
   const auto on_group = [&](Group& group) {
     const auto index = [&](int lane) { return group.ray_of[static_cast<std::size_t>(lane)]; };
+    if (!instances_.half_spaces().empty()) {
+      for (int lane = 0; lane < group.beam.count; ++lane) {
+        WorldHit<T>& hit = hits[index(lane)];
+        if (!closer_half_space(rays[index(lane)], hit, counts)) continue;
+        SlabRay& slab = slabs[index(lane)];
+        slab.numbers.t_max = slab.limit(static_cast<double>(hit.cast.t()));
+        group.beam.set_t_max(lane, slab.numbers.t_max);
+      }
+      group.beam.narrow();
+    }
     const Walk walk = traverse(bvh_, group.beam, [&](std::uint32_t instance, BeamRays meeting) {
+      if (instances_.is_half_space(instance)) return false;
       const auto ray_of = [&](int lane) {
         const WorldRay<T>& asked = rays[index(lane)];
         return instances_.seen_by(instance, asked.ray, asked.time);
@@ -186,7 +197,18 @@ BeamRays World<T>::occluded(std::span<const WorldRay<T>> rays, QueryCounts& coun
   const auto on_group = [&](Group& group) {
     const auto index = [&](int lane) { return group.ray_of[static_cast<std::size_t>(lane)]; };
     int open = group.beam.count;
+    if (!instances_.half_spaces().empty()) {
+      for (int lane = 0; lane < group.beam.count; ++lane) {
+        if (!blocked_by_half_space(rays[index(lane)], counts)) continue;
+        met |= BeamRays(1) << index(lane);
+        group.beam.set_t_max(lane, -1);
+        --open;
+      }
+      if (open == 0) return;
+      group.beam.narrow();
+    }
     const Walk walk = traverse(bvh_, group.beam, [&](std::uint32_t instance, BeamRays meeting) {
+      if (instances_.is_half_space(instance)) return false;
       const auto ray_of = [&](int lane) {
         const WorldRay<T>& asked = rays[index(lane)];
         return instances_.seen_by(instance, asked.ray, asked.time);

@@ -2,6 +2,7 @@
 #include "renderer/audit/ray_audit.h"
 
 #include "core/derived/shape_bounds.h"
+#include "renderer/audit/half_space_verdict.h"
 #include "renderer/json/json.h"
 #include "renderer/query/number_json.h"
 #include "renderer/scene/scene_instances.h"
@@ -50,6 +51,13 @@ std::string query_line(const Object& object, const Shape<double>& in_world,
 RayAudit::RayAudit(const Scene& scene, const RenderWorld& world) : scene_(scene), world_(world) {
   for (std::size_t i = 0; i < instance_count(scene); ++i) {
     const Object object = instance_object(scene, i);
+    if (object.half_space) {
+      constexpr double end = std::numeric_limits<double>::infinity();
+      targets_.push_back({object.shape,
+                          {Vec3<double>::Constant(-end), Vec3<double>::Constant(end)},
+                          object.half_space->posed(object.pose)});
+      continue;
+    }
     const Shape<double> in_world = Transform<double>{object.shape, object.pose};
     Bounds<double> bounds = bounds_of<double>(in_world);
     const double padding = box_padding * std::max(bounds.lower.cwiseAbs().maxCoeff(),
@@ -63,6 +71,8 @@ RayAudit::RayAudit(const Scene& scene, const RenderWorld& world) : scene_(scene)
 CertificateVerdict RayAudit::verdict(std::uint32_t instance, const Ray<double>& ray,
                                      const Claim& claim) {
   ++certificates_;
+  if (const auto& half_space = targets_[instance].half_space)
+    return verdict_of(*half_space, ray, claim);
   const SupportFunction support = supports_of(targets_[instance].shape);
   return check_certificate(support, ray, claim, certify(support, ray, claim));
 }
@@ -80,7 +90,9 @@ void RayAudit::fail(RayKind kind, std::uint32_t instance, const Ray<double>& ray
   }
   const Object object = instance_object(scene_, instance);
   message += object.name + ": " + std::string(what);
-  failures_.push_back({message, query_line(object, targets_[instance].shape, ray)});
+  // Queries are about shapes.
+  failures_.push_back(
+      {message, object.half_space ? "" : query_line(object, targets_[instance].shape, ray)});
 }
 
 /// All but two: the one that the ray leaves, and the one that it meets.
@@ -122,7 +134,9 @@ void RayAudit::occluded(RayKind kind, const Ray<Real>& ray, std::uint32_t skip, 
   }
   for (std::uint32_t i = 0; i < targets_.size(); ++i) {
     if (i == skip || !may_meet(targets_[i].bounds, ray)) continue;
-    const CastResult<Real> cast = cast_ray(world_.instances().at(i), ray, world_.options());
+    const CastResult<Real> cast = targets_[i].half_space
+                                      ? cast_ray(*targets_[i].half_space, ray)
+                                      : cast_ray(world_.instances().at(i), ray, world_.options());
     if (cast.found() && verdict(i, ray, claim_of(cast)).holds) return;
   }
   fail(kind, no_instance, ray, "nothing is proven to be in its way");

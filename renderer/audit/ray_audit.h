@@ -10,6 +10,7 @@
 #include <array>
 #include <atomic>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -51,6 +52,7 @@ class RayAudit {
   struct Target {
     Shape<double> shape;  ///< in the world's frame
     Bounds<double> bounds;
+    std::optional<HalfSpaceBody<double>> half_space = {};  ///< if there is one, in the place of both
   };
   static std::size_t index(RayKind kind) { return static_cast<std::size_t>(kind); }
   CertificateVerdict verdict(std::uint32_t instance, const Ray<double>& ray, const Claim& claim);

@@ -8,6 +8,7 @@
 
 #include "renderer/base/errors.h"
 #include "renderer/base/interrupt.h"
+#include "renderer/cli/import_arguments.h"
 #include "renderer/cli/scene_file.h"
 #include "renderer/io/image_file.h"
 #include "renderer/io/output_file.h"
@@ -79,6 +80,7 @@ std::uint64_t parse_seed(const std::string& text) {
 
 void ImageArguments::add_to(CLI::App& verb, const std::string& suffix) {
   add_scene_option(verb, scene);
+  add_import_options(verb, import);
   add_output_option(verb, outputs, "the scene's name and " + suffix);
   preview.add_to(verb);
   verb.add_option("-r,--resolution", resolution, "WxH in pixels, instead of the scene's");
@@ -104,9 +106,7 @@ void ImageArguments::choose_output(const std::string& suffix) {
 }
 
 CLI::Option* add_scene_option(CLI::App& verb, std::string& scene) {
-  return verb
-      .add_option("scene", scene,
-                  "A scene file (JSON), or the name of a scene that comes with Minkray")
+  return verb.add_option("scene", scene, scene_argument)
       ->required()
       ->transform(CLI::Validator(
           [](std::string& name) {

@@ -8,6 +8,7 @@
 
 #include "renderer/cli/preview.h"
 #include "renderer/film/render.h"
+#include "renderer/import/import_options.h"
 
 namespace CLI {
 class App;
@@ -18,6 +19,7 @@ namespace minkray {
 
 struct ImageArguments {
   std::string scene;
+  ImportOptions import;
   std::vector<std::string> outputs;
   std::string resolution;  ///< empty: the scene's
   std::string crop;        ///< empty: all

@@ -14,6 +14,7 @@
 #include "core/parallel/stream.h"
 #include "renderer/base/errors.h"
 #include "renderer/cli/choices.h"
+#include "renderer/cli/scene_queries.h"
 #include "renderer/cli/tolerance_option.h"
 #include "renderer/cli/verbs.h"
 #include "renderer/query/answer.h"
@@ -114,6 +115,24 @@ bool is_blank(std::string_view line) {
   return line.find_first_not_of(" \t\r") == std::string_view::npos;
 }
 
+/// Of a query at a whole scene.
+void answer_at_scene(const Line& line, const std::string& place, SceneQueries& scenes,
+                     Batch& batch) {
+  Mistakes mistakes(place);
+  std::optional<Json> result;
+  try {
+    result = scenes.answer(line.text, mistakes);
+  } catch (const std::runtime_error& error) {
+    mistakes.add(std::string("cannot be answered: ") + error.what());
+  }
+  if (result) {
+    batch.out += result->dump() + "\n";
+    return;
+  }
+  batch.has_malformed = true;
+  batch.err += mistakes.text() + "\n";
+}
+
 void answer_line(const Line& line, const std::string& place, MeshFiles& meshes,
                  const AnswerOptions& options, bool check, Batch& batch) {
   Mistakes mistakes(place);
@@ -179,6 +198,7 @@ ExitCode cast(const Options& options) {
       options.file == "-" ? std::filesystem::path() : std::filesystem::path(name).parent_path();
 
   MeshPool pool(folder);
+  SceneQueries scenes(folder);
   std::size_t next_line = 1;
   bool has_malformed = false, has_wrong = false;
   CertificateCounts certificates;
@@ -207,7 +227,10 @@ ExitCode cast(const Options& options) {
     for (std::size_t i = 0; i < batch.lines.size(); ++i) {
       if (is_blank(batch.lines[i].text)) continue;
       const std::string place = name + ":" + std::to_string(batch.first_line + i);
-      answer_line(batch.lines[i], place, *meshes, answer_options, options.check, batch);
+      if (!batch.lines[i].is_too_long && SceneQueries::is_one(batch.lines[i].text))
+        answer_at_scene(batch.lines[i], place, scenes, batch);
+      else
+        answer_line(batch.lines[i], place, *meshes, answer_options, options.check, batch);
     }
     pool.give_back(std::move(meshes));
   };

@@ -5,6 +5,7 @@
 
 #include "core/parallel/parallel.h"
 #include "renderer/cli/compare_options.h"
+#include "renderer/cli/import_arguments.h"
 #include "renderer/cli/verbs.h"
 
 namespace minkray {
@@ -16,6 +17,7 @@ void add_compare(CLI::App& app, ExitCode& exit_code) {
   ImageArguments& image = options->image;
   image.seed = "1";
   add_scene_option(*verb, image.scene);
+  add_import_options(*verb, image.import);
   verb->add_option("--rays", options->rays,
                    "Rays an object; by default 100000, less in scenes of over 200 objects")
       ->check(CLI::Range(1, 1 << 30));

@@ -13,7 +13,7 @@
 #include "renderer/cli/progress_line.h"
 #include "renderer/cli/verbs.h"
 #include "renderer/film/heatmap.h"
-#include "renderer/scene/scene_json.h"
+#include "renderer/import/import.h"
 
 namespace minkray {
 namespace {
@@ -51,7 +51,7 @@ void run(Options& options) {
   const char* const solver_option = options.side_by_side ? "--side-by-side" : "--solver";
   for (const std::string& solver : solvers) cast_options(solver, solver_option);
   check_outputs(options.image.outputs);
-  const Scene scene = load_scene(options.image.scene);
+  const Scene scene = import_scene(options.image.scene, options.image.import).scene;
   const RenderOptions render_options = options.image.render_options(scene, solvers.size());
 
   std::vector<HeatField> fields;

@@ -7,15 +7,18 @@
 
 #include "renderer/base/errors.h"
 #include "renderer/cli/image_arguments.h"
+#include "renderer/cli/import_arguments.h"
 #include "renderer/cli/verbs.h"
+#include "renderer/import/import.h"
+#include "renderer/import/model_info.h"
 #include "renderer/info/scene_info.h"
-#include "renderer/scene/scene_json.h"
 
 namespace minkray {
 namespace {
 
 struct Options {
   std::string scene;
+  ImportOptions import;
   bool shapes = false;
   bool schema = false;
   bool json = false;
@@ -33,8 +36,14 @@ void info(const Options& options) {
                   : options.markdown ? shapes_as_markdown()
                                      : shapes_as_text());
   } else {
-    const Scene scene = load_scene(options.scene);
-    std::cout << (options.json ? info_as_json(scene) : info_as_text(scene));
+    const Imported imported = import_scene(options.scene, options.import);
+    const Scene& scene = imported.scene;
+    if (options.json) {
+      std::cout << info_as_json(scene);
+    } else {
+      if (imported.model) std::cout << model_as_text(*imported.model);
+      std::cout << info_as_text(scene);
+    }
   }
 }
 
@@ -44,6 +53,7 @@ void add_info(CLI::App& app, ExitCode&) {
   CLI::App* verb = app.add_subcommand("info", "Tell what is in a scene, or what scenes may hold");
   const auto options = std::make_shared<Options>();
   add_scene_option(*verb, options->scene)->required(false);
+  add_import_options(*verb, options->import);
   verb->add_flag("--shapes", options->shapes, "List all shapes and their parameters");
   verb->add_flag("--schema", options->schema, "Print the JSON Schema of scene files");
   verb->add_flag("--json", options->json, "Print JSON");

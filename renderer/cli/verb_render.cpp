@@ -24,11 +24,11 @@
 #include "renderer/cli/write_picture.h"
 #include "renderer/film/data_channels.h"
 #include "renderer/film/labels.h"
+#include "renderer/import/import.h"
 #include "renderer/io/image_file.h"
 #include "renderer/json/json.h"
 #include "renderer/json/mistakes.h"
 #include "renderer/scene/scene_instances.h"
-#include "renderer/scene/scene_json.h"
 #include "renderer/share/frames_record.h"
 #include "renderer/share/merge.h"
 
@@ -334,7 +334,7 @@ ExitCode run(Options& options) {
 
   Statistics statistics;
   timed(options, "load", statistics.load_seconds,
-        [&] { job.scene = load_scene(options.image.scene); });
+        [&] { job.scene = import_scene(options.image.scene, options.image.import).scene; });
   const RenderOptions shares = job.options;
   job.options = options.image.render_options(job.scene);
   job.options.tile = shares.tile;

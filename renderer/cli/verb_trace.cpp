@@ -11,12 +11,12 @@
 #include "renderer/cli/file_ending.h"
 #include "renderer/cli/image_arguments.h"
 #include "renderer/cli/verbs.h"
+#include "renderer/import/import.h"
 #include "renderer/io/output_file.h"
 #include "renderer/light/camera.h"
 #include "renderer/paper/trace_picture.h"
 #include "renderer/query/number_json.h"
 #include "renderer/scene/scene_instances.h"
-#include "renderer/scene/scene_json.h"
 
 namespace minkray {
 namespace {
@@ -38,13 +38,14 @@ constexpr std::size_t most_traced = 1000000;
 /// whose miss took most iterations. No object: the scene has none.
 template <class T>
 std::size_t choose(const std::vector<PreparedShape<T>>& shapes, const Scene& scene,
-                   const Ray<T>& ray, const CastOptions<T>& cast, const std::string& name) {
+                   const std::vector<std::size_t>& objects, const Ray<T>& ray,
+                   const CastOptions<T>& cast, const std::string& name) {
   std::size_t nearest = shapes.size(), hardest = shapes.size();
   T t = std::numeric_limits<T>::infinity();
   int iterations = -1;
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     if (!name.empty()) {
-      if (instance_object(scene, i).name == name) return i;
+      if (instance_object(scene, objects[i]).name == name) return i;
       continue;
     }
     const CastResult<T> result = cast_ray(shapes[i], ray, cast);
@@ -57,14 +58,15 @@ std::size_t choose(const std::vector<PreparedShape<T>>& shapes, const Scene& sce
       iterations = result.iterations;
     }
   }
-  if (!name.empty()) throw WrongUsage("trace: the scene has no object \"" + name + "\"");
+  if (!name.empty())
+    throw WrongUsage("trace: the scene has no object \"" + name + "\" that is a shape");
   return nearest < shapes.size() ? nearest : hardest;
 }
 
 template <class T>
 void trace(const Options& options) {
   if (options.svg) check_ending(*options.svg, ".svg", "--svg");
-  const Scene scene = load_scene(options.scene);
+  const Scene scene = import_scene(options.scene).scene;
   const Resolution& size = scene.camera.resolution;
   const int x = options.pixel[0], y = options.pixel[1];
   if (x < 0 || y < 0 || x >= size.width || y >= size.height)
@@ -76,6 +78,7 @@ void trace(const Options& options) {
   CastOptions<T> cast;
   cast.solver = solver_named(options.solver);
   std::vector<PreparedShape<T>> shapes;
+  std::vector<std::size_t> objects;  // which each of them is
   const std::size_t count = instance_count(scene);
   if (count > most_traced)
     throw BadInput(options.scene + ": has " + std::to_string(count) + " objects, trace takes " +
@@ -83,9 +86,11 @@ void trace(const Options& options) {
   shapes.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     const Object object = instance_object(scene, i);
+    if (object.half_space) continue;  // it is met in closed form: there are no iterations to show
+    objects.push_back(i);
     shapes.emplace_back(convert<T>(object.shape), object.pose.template cast<T>());
   }
-  const std::size_t chosen = choose(shapes, scene, ray, cast, options.object);
+  const std::size_t chosen = choose(shapes, scene, objects, ray, cast, options.object);
   if (chosen == shapes.size()) throw BadInput(options.scene + ": has no objects");
   const CastTrace<T> result = trace_ray(shapes[chosen], ray, cast);
 
@@ -97,7 +102,7 @@ void trace(const Options& options) {
   const double t = double(result.result.t_base) + double(result.result.t_offset);
   const bool found = result.result.found();
   if (options.json) {
-    Json json{{"object", instance_object(scene, chosen).name},
+    Json json{{"object", instance_object(scene, objects[chosen]).name},
               {"pixel", {x, y}},
               {"origin", point_json(ray.origin)},
               {"direction", point_json(ray.direction)},
@@ -111,7 +116,7 @@ void trace(const Options& options) {
     std::cout << json.dump() << '\n';
     return;
   }
-  std::cout << "object \"" << instance_object(scene, chosen).name
+  std::cout << "object \"" << instance_object(scene, objects[chosen]).name
             << "\": " << name_of(result.result.status);
   if (found) std::cout << ", t = " << number_json(t).dump();
   std::cout << ", " << result.result.iterations << " iterations, " << result.result.supports

@@ -23,17 +23,20 @@ void add_distance(CLI::App& app, ExitCode& exit_code);
 void add_distance_2d(CLI::App& app, ExitCode& exit_code);
 void add_generate(CLI::App& app, ExitCode& exit_code);
 void add_heatmap(CLI::App& app, ExitCode& exit_code);
+void add_import(CLI::App& app, ExitCode& exit_code);
 void add_info(CLI::App& app, ExitCode& exit_code);
 void add_man(CLI::App& app, ExitCode& exit_code);
 void add_merge(CLI::App& app, ExitCode& exit_code);
 void add_paper(CLI::App& app, ExitCode& exit_code);
 void add_render(CLI::App& app, ExitCode& exit_code);
+void add_scan(CLI::App& app, ExitCode& exit_code);
 void add_trace(CLI::App& app, ExitCode& exit_code);
 
 /// In the order in which --help shows them.
 inline constexpr AddVerb verbs[] = {
-    add_render, add_merge,       add_heatmap,  add_compare, add_cast,       add_distance, add_trace,
-    add_paper,  add_distance_2d, add_generate, add_info,    add_completion, add_man,
+    add_render,   add_merge,    add_heatmap, add_compare,    add_cast,
+    add_scan,     add_distance, add_trace,   add_paper,      add_distance_2d,
+    add_generate, add_import,   add_info,    add_completion, add_man,
 };
 
 }  // namespace minkray

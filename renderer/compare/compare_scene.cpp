@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "core/parallel/parallel.h"
+#include "renderer/compare/half_space_check.h"
 #include "renderer/light/camera.h"
 #include "renderer/scene/scene_instances.h"
 
@@ -67,6 +68,22 @@ void look_at(const SandwichedShape& shape, const Camera& camera, const CastOptio
   }
 }
 
+/// The same of a half-space, whose rays go through all pixels.
+void look_at(const HalfSpaceCheck& check, const Camera& camera, DifferencePicture& difference,
+             std::mutex& mutex) {
+  const std::lock_guard lock(mutex);
+  for (int y = 0; y < difference.height; ++y)
+    for (int x = 0; x < difference.width; ++x) {
+      const auto pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(difference.width) +
+                         static_cast<std::size_t>(x);
+      const Verdict verdict = check.judge(camera.ray(x + 0.5, y + 0.5));
+      if (verdict.violation) difference.violation[pixel] = true;
+      if (!verdict.result.found() || !(verdict.result.t() < difference.t[pixel])) continue;
+      difference.t[pixel] = verdict.result.t();
+      difference.gap[pixel] = static_cast<float>(verdict.t_inner - verdict.t_outer);
+    }
+}
+
 }  // namespace
 
 int SceneComparison::violations() const {
@@ -120,6 +137,18 @@ SceneComparison compare_scene(const Scene& scene, const CompareSceneOptions& opt
         if (stopped) return;
       }
       const Object object = instance_object(scene, i);
+      if (object.half_space) {
+        ObjectComparison& result = comparison.objects[i];
+        result.name = object.name;
+        result.shape = half_space_name;
+        const HalfSpaceCheck check(object.half_space->posed(object.pose));
+        result.report = check.compare(options.object);
+        if (camera) look_at(check, *camera, difference, picture_mutex);
+        const std::lock_guard lock(progress_mutex);
+        ++done;
+        rays += static_cast<std::uint64_t>(result.report.rays);
+        continue;
+      }
       const Shape<double> placed =
           Transform<double>{Nested<double>(object.shape), AffineMap<double>(object.pose)};
       const SandwichedShape shape(placed, options.object.sandwich);

@@ -36,6 +36,7 @@ std::vector<Label> labels_of(const Scene& scene, const Resolution& resolution) {
   const Camera camera(scene.camera, resolution);
   const double scale = label_scale(resolution);
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    if (scene.objects[i].half_space) continue;  // it has no middle
     const std::string& name = scene.objects[i].name;
     const auto seen = projected(camera, bounds_of(scene.objects[i]));
     if (name.empty() || !seen) continue;

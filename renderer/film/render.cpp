@@ -57,7 +57,12 @@ struct PixelSum {
 RenderWorld make_world(const Scene& scene, const CastOptions<Real>& options, BvhBuild build) {
   Instances<Real> instances;
   instances.reserve(instance_count(scene));
-  for (const Object& object : scene.objects) instances.add(object.shape, object.pose);
+  for (const Object& object : scene.objects) {
+    if (object.half_space)
+      instances.add(*object.half_space, object.pose);
+    else
+      instances.add(object.shape, object.pose);
+  }
   for (const ParticleSet& set : scene.particles)
     instances.add_many(instances.define(set.shape), set.size(), set.linear_alike(),
                        [&](std::size_t i) { return set.pose(i); });

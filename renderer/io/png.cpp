@@ -63,4 +63,55 @@ bool is_own_png(const std::string& file) {
   return begin.starts_with("\x89PNG") && begin.ends_with(software_text);
 }
 
+namespace {
+
+void append_word(std::vector<unsigned char>& bytes, std::uint32_t word) {
+  for (int shift = 24; shift >= 0; shift -= 8)
+    bytes.push_back(static_cast<unsigned char>(word >> shift));
+}
+
+/// A chunk: its length, name and data, and the CRC of both (PNG specification, 5.3).
+void append_chunk(std::vector<unsigned char>& bytes, const char* name,
+                  std::span<const unsigned char> data) {
+  append_word(bytes, static_cast<std::uint32_t>(data.size()));
+  const std::size_t begin = bytes.size();
+  bytes.insert(bytes.end(), name, name + 4);
+  bytes.insert(bytes.end(), data.begin(), data.end());
+  std::uint32_t crc = 0xffffffffu;
+  for (std::size_t i = begin; i < bytes.size(); ++i) {
+    crc ^= bytes[i];
+    for (int bit = 0; bit < 8; ++bit) crc = crc & 1 ? crc >> 1 ^ 0xedb88320u : crc >> 1;
+  }
+  append_word(bytes, ~crc);
+}
+
+}  // namespace
+
+std::vector<unsigned char> png_of_grey16(int width, int height,
+                                         std::span<const std::uint16_t> values) {
+  // Each row begins with its filter: 0, none.
+  std::vector<unsigned char> rows;
+  rows.reserve(2 * values.size() + static_cast<std::size_t>(height));
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (i % static_cast<std::size_t>(width) == 0) rows.push_back(0);
+    rows.push_back(static_cast<unsigned char>(values[i] >> 8));
+    rows.push_back(static_cast<unsigned char>(values[i] & 255));
+  }
+  int size = 0;
+  constexpr int quality = 8;
+  unsigned char* const packed =
+      stbi_zlib_compress(rows.data(), static_cast<int>(rows.size()), &size, quality);
+  if (!packed) throw std::runtime_error("the PNG encoder ran out of memory");
+  std::vector<unsigned char> bytes = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+  std::vector<unsigned char> header;
+  append_word(header, static_cast<std::uint32_t>(width));
+  append_word(header, static_cast<std::uint32_t>(height));
+  header.insert(header.end(), {16, 0, 0, 0, 0});  // 16 bits of grey
+  append_chunk(bytes, "IHDR", header);
+  append_chunk(bytes, "IDAT", {packed, static_cast<std::size_t>(size)});
+  append_chunk(bytes, "IEND", {});
+  STBIW_FREE(packed);
+  return bytes;
+}
+
 }  // namespace minkray

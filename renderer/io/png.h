@@ -15,4 +15,8 @@ std::vector<unsigned char> png_of(int width, int height, std::span<const std::ui
 /// Whether the file is a PNG file that says so.
 bool is_own_png(const std::string& file);
 
+/// Grey in 16 bits, rows from the top: numbers as they are, such as depths in millimetres.
+std::vector<unsigned char> png_of_grey16(int width, int height,
+                                         std::span<const std::uint16_t> values);
+
 }  // namespace minkray

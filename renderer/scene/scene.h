@@ -14,6 +14,7 @@
 #include "core/math/vec.h"
 #include "core/shape/field.h"
 #include "core/shape/shape.h"
+#include "core/world/half_space.h"
 #include "renderer/scene/motion.h"
 #include "renderer/scene/particles.h"
 
@@ -155,11 +156,15 @@ struct Material {
 struct Object {
   std::string name;
   Shape<double> shape = Point<double>();
-  Affine<double> pose;                        ///< from the shape's frame to the world
-  std::uint32_t material = 0;                 ///< index into Scene::materials
-  std::optional<Motion> motion = {};          ///< `pose` is what it is at the scene's time
-  Vec3<double> shift = Vec3<double>::Zero();  ///< how far it goes while the shutter is open
+  Affine<double> pose;                               ///< from the shape's frame to the world
+  std::uint32_t material = 0;                        ///< index into Scene::materials
+  std::optional<Motion> motion = {};                 ///< `pose` is what it is at the scene's time
+  Vec3<double> shift = Vec3<double>::Zero();         ///< how far it goes while the shutter is open
+  std::optional<HalfSpaceBody<double>> half_space = {};  ///< if there is one it is that, not `shape`
 };
+
+/// What "type" says in the place of a shape's name for a half-space, which is none.
+inline constexpr std::string_view half_space_name = "plane";
 
 /// What a ray sees that meets nothing: a vertical gradient.
 struct Background {

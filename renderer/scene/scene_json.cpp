@@ -6,6 +6,7 @@
 
 #include "renderer/json/parse.h"
 #include "renderer/json/values.h"
+#include "renderer/scene/half_space_json.h"
 #include "renderer/scene/read_particles.h"
 #include "renderer/scene/scene_instances.h"
 #include "renderer/scene/shape_json.h"
@@ -144,8 +145,12 @@ class SceneReader {
       name = read_name(*written, object.path("name"));
     }
     std::optional<Shape<double>> shape;
+    std::optional<HalfSpaceBody<double>> half_space;
     if (const Json* written = object.require("shape", "a shape")) {
-      shape = read_shape(*written, object.path("shape"), mistakes_, meshes_);
+      if (is_half_space(*written))
+        half_space = read_half_space(*written, object.path("shape"), mistakes_);
+      else
+        shape = read_shape(*written, object.path("shape"), mistakes_, meshes_);
     }
     std::uint32_t material = 0;
     if (const Json* written = object.require("material", "the name of a material")) {
@@ -161,9 +166,14 @@ class SceneReader {
     if (const Json* written = object.find("keys"))
       motion = Motion{read_keys(*written, object.path("keys"), mistakes_), pose};
     object.finish();
-    if (!shape) return;
-    scene_.objects.push_back({name, std::move(*shape), pose, material});
-    scene_.objects.back().motion = std::move(motion);
+    if (!shape && !half_space) return;
+    Object& made = scene_.objects.emplace_back();
+    made.name = name;
+    made.pose = pose;
+    made.material = material;
+    if (shape) made.shape = std::move(*shape);
+    made.half_space = half_space;
+    made.motion = std::move(motion);
   }
 
   void read_particle_block(const Json& json, const JsonPath& path) {

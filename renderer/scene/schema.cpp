@@ -85,15 +85,17 @@ Json scene_schema() {
       described_object(object_schema(Background::doc), [](Json& o) { add_members<Background>(o); });
 
   Json object = object_schema("A thing in the scene.");
-  object["properties"] = {{"name", name},
-                          {"shape", {{"$ref", "#/$defs/shape"}}},
-                          {"material", name},
-                          {"transform", {{"$ref", "#/$defs/transform"}}},
-                          {"keys",
-                           {{"type", "array"},
-                            {"description", "where it is when, with rising times"},
-                            {"items", {{"$ref", "#/$defs/key"}}},
-                            {"minItems", 1}}}};
+  object["properties"] = {
+      {"name", name},
+      {"shape",
+       {{"anyOf", Json::array({{{"$ref", "#/$defs/shape"}}, {{"$ref", "#/$defs/half_space"}}})}}},
+      {"material", name},
+      {"transform", {{"$ref", "#/$defs/transform"}}},
+      {"keys",
+       {{"type", "array"},
+        {"description", "where it is when, with rising times"},
+        {"items", {{"$ref", "#/$defs/key"}}},
+        {"minItems", 1}}}};
   object["required"] = {"name", "shape", "material"};
 
   Json key = object_schema("Where an object is at a time, after its transform.");
@@ -163,6 +165,15 @@ Json scene_schema() {
         material["required"].push_back("name");
       });
   definitions["object"] = std::move(object);
+  Json half_space = object_schema("All points x with normal . x <= offset: a plane, solid below.");
+  half_space["properties"] = {{"type", {{"const", std::string(half_space_name)}}},
+                              {"normal", schema_of_list({{"type", "number"}}, 3)},
+                              {"offset", {{"type", "number"}}}};
+  half_space["properties"]["normal"]["description"] =
+      "of any length but zero; [0, 0, 1] if left out";
+  half_space["properties"]["offset"]["description"] = "along the normal, as if that had length 1";
+  half_space["required"] = {"type"};
+  definitions["half_space"] = std::move(half_space);
   definitions["key"] = std::move(key);
   definitions["particles"] = std::move(particles);
   definitions["transform"] =

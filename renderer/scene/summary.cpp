@@ -81,10 +81,14 @@ Bounds<double> bounds_of(const ParticleSet& set) {
 SceneSummary summarise(const Scene& scene) {
   Counter counter;
   SceneSummary summary;
+  std::size_t half_spaces = 0;
   for (const Object& object : scene.objects) {
-    counter.add(object.shape, false);
+    if (object.half_space)
+      ++half_spaces;
+    else
+      counter.add(object.shape, false);
     counter.bytes += sizeof(Object) + object.name.capacity();
-    summary.bounds.extend(bounds_of(object));
+    if (!object.half_space) summary.bounds.extend(bounds_of(object));
   }
   for (const ParticleSet& set : scene.particles) {
     counter.add(set.shape, false, set.size());
@@ -94,6 +98,7 @@ SceneSummary summarise(const Scene& scene) {
   }
   summary.instances = scene.objects.size() + summary.particles;
   summary.kinds = counter.occurring();
+  if (half_spaces > 0) summary.kinds.push_back({half_space_name, half_spaces});
   summary.hull_points = counter.hull_points;
   summary.bytes = counter.bytes;
   return summary;

@@ -37,7 +37,8 @@ TEST_P(Replay, kept_inputs_keep_every_promise) {
 INSTANTIATE_TEST_SUITE_P(Targets, Replay,
                          ::testing::Values(Target{"scene", check_scene},
                                            Target{"query", check_queries},
-                                           Target{"mesh", check_mesh}, Target{"cast", check_cast}),
+                                           Target{"mesh", check_mesh}, Target{"robot", check_robot},
+                                           Target{"cast", check_cast}),
                          [](const auto& instance) { return std::string(instance.param.name); });
 
 TEST(CastQueries, that_were_answered_wrongly_once) {

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// All points on one side of a plane: the one thing in a world that has no end, and so no support
+// mapping, no box and no solver. A ray meets it in closed form.
+#pragma once
+
+#include "core/math/affine.h"
+#include "core/math/ray.h"
+#include "core/query/result.h"
+
+namespace minkray {
+
+/// The points x with normal . x <= offset.
+template <class T>
+struct HalfSpaceBody {
+  Vec3<T> normal = {T(0), T(0), T(1)};  ///< outward, of unit length
+  T offset = T(0);
+
+  /// Under an invertible map.
+  HalfSpaceBody posed(const Affine<T>& pose) const {
+    const Vec3<T> turned = unit<T>(inverse_of(pose.linear).transpose() * normal);
+    return {turned, turned.dot(pose(offset * normal))};
+  }
+
+  template <class U>
+  HalfSpaceBody<U> cast() const {
+    return {normal.template cast<U>(), static_cast<U>(offset)};
+  }
+};
+
+/// Where the ray enters: at the surface or below it, inside. The interval holds what the roundings
+/// of this division can have moved; a ray along the plane meets nothing, or begins inside.
+template <class T>
+CastResult<T> cast_ray(const HalfSpaceBody<T>& half_space, const Ray<T>& ray) {
+  using std::abs;
+  // Three products and their sums round by less than so many units of what they add.
+  constexpr T rounding = T(4) * std::numeric_limits<T>::epsilon();
+  const Vec3<T>& n = half_space.normal;
+  const T height = n.dot(ray.origin) - half_space.offset;
+  const T fall = -n.dot(ray.direction);
+  CastResult<T> result;
+  result.offset_lo = T(0);
+  if (height <= T(0)) {
+    result.status = Status::inside;
+    result.offset_hi = T(0);
+    return result;
+  }
+  const T t = height / fall;
+  if (!(fall > T(0)) || !(t <= ray.t_max)) {
+    result.status = Status::miss;
+    result.normal = n;
+    result.offset_hi = std::numeric_limits<T>::infinity();
+    return result;
+  }
+  const T height_error =
+      rounding * (n.cwiseAbs().dot(ray.origin.cwiseAbs()) + abs(half_space.offset));
+  const T fall_error = rounding * n.cwiseAbs().dot(ray.direction.cwiseAbs());
+  result.status = Status::hit;
+  result.t_offset = t;
+  result.normal = n;
+  result.offset_lo = (height - height_error) / (fall + fall_error) * (T(1) - rounding);
+  result.offset_lo = result.offset_lo > T(0) ? result.offset_lo : T(0);
+  result.offset_hi = fall > fall_error
+                         ? (height + height_error) / (fall - fall_error) * (T(1) + rounding)
+                         : std::numeric_limits<T>::infinity();
+  return result;
+}
+
+}  // namespace minkray

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// What all verbs take that take a scene: how a robot's file is made one.
+#pragma once
+
+#include "renderer/import/import_options.h"
+
+namespace CLI {
+class App;
+}
+
+namespace minkray {
+
+/// The help of the argument itself.
+inline constexpr const char* scene_argument =
+    "A scene file (JSON), the name of a scene that comes with Minkray, or a robot's file: MJCF "
+    "(.xml, .mjcf), URDF (.urdf), SDF (.sdf, .world)";
+
+void add_import_options(CLI::App& verb, ImportOptions& options);
+
+}  // namespace minkray

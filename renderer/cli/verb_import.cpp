@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// minkray import: a robot's file as a scene file.
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+
+#include "renderer/cli/file_ending.h"
+#include "renderer/cli/import_arguments.h"
+#include "renderer/cli/verbs.h"
+#include "renderer/import/import.h"
+#include "renderer/import/model_info.h"
+#include "renderer/io/output_file.h"
+#include "renderer/scene/write_scene.h"
+
+namespace minkray {
+namespace {
+
+struct Options {
+  std::string file, output;
+  ImportOptions import;
+  bool quiet = false;
+};
+
+void import(const Options& options) {
+  check_ending(options.output, ".json", "--output");
+  check_writable(options.output);
+  const Imported imported = import_scene(options.file, options.import);
+  const std::string text = scene_text(imported.scene);
+  write_file(options.output,
+             std::span(reinterpret_cast<const unsigned char*>(text.data()), text.size()));
+  if (imported.model && !options.quiet) std::cerr << model_as_text(*imported.model);
+}
+
+}  // namespace
+
+void add_import(CLI::App& app, ExitCode&) {
+  CLI::App* verb = app.add_subcommand("import", "Make a scene file of a robot's MJCF, URDF or SDF");
+  const auto options = std::make_shared<Options>();
+  verb->add_option("file", options->file, "MJCF (.xml, .mjcf), URDF (.urdf), SDF (.sdf, .world)")
+      ->required();
+  verb->add_option("-o,--output", options->output, "The scene file to write (.json)")->required();
+  add_import_options(*verb, options->import);
+  verb->add_flag("-q,--quiet", options->quiet, "Do not tell what was read and what passed over");
+  verb->callback([options] { import(*options); });
+}
+
+}  // namespace minkray

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+// minkray scan: the rays of a sensor at a scene.
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <optional>
+
+#include "core/parallel/parallel.h"
+#include "renderer/base/errors.h"
+#include "renderer/base/interrupt.h"
+#include "renderer/cli/file_ending.h"
+#include "renderer/cli/image_arguments.h"
+#include "renderer/cli/import_arguments.h"
+#include "renderer/cli/progress_line.h"
+#include "renderer/cli/verbs.h"
+#include "renderer/import/import.h"
+#include "renderer/io/output_file.h"
+#include "renderer/sensor/scan.h"
+#include "renderer/sensor/scan_files.h"
+
+namespace minkray {
+namespace {
+
+struct Options {
+  std::string scene;
+  ImportOptions import;
+  std::optional<std::string> rays, pattern, pinhole;
+  std::string pose, seed = "0", noise, table;
+  double sweep = 0.1;
+  ScanOptions scan;
+  std::vector<std::string> outputs;
+  int threads = 0;
+  bool quiet = false;
+};
+
+/// So many finite numbers between commas as one of the counts.
+std::vector<double> numbers_of(const std::string& text, const char* option,
+                               std::initializer_list<std::size_t> counts, const char* expected) {
+  std::vector<double> numbers;
+  const char *at = text.data(), *const end = at + text.size();
+  while (at != end) {
+    double number = 0;
+    const auto [next, error] = std::from_chars(at, end, number);
+    if (error != std::errc() || !std::isfinite(number) || (next != end && *next != ',')) break;
+    numbers.push_back(number);
+    at = next == end ? next : next + 1;
+  }
+  const bool fits = std::find(counts.begin(), counts.end(), numbers.size()) != counts.end();
+  if (at != end || !fits)
+    throw WrongUsage(std::string(option) + ": must be " + expected + " (got " + text + ")");
+  return numbers;
+}
+
+void read_options(Options& options) {
+  if (options.rays.has_value() + options.pattern.has_value() + options.pinhole.has_value() != 1)
+    throw WrongUsage("scan: give one of --rays, --pattern and --pinhole");
+  options.scan.seed = parse_seed(options.seed);
+  if (!options.pose.empty()) {
+    const auto v = numbers_of(options.pose, "--pose", {3, 7},
+                              "x,y,z, and the quaternion qx,qy,qz,qw if wanted");
+    options.scan.pose.translation = {v[0], v[1], v[2]};
+    if (v.size() == 7) {
+      if (v[3] == 0 && v[4] == 0 && v[5] == 0 && v[6] == 0)
+        throw WrongUsage("--pose: the quaternion must not be zero");
+      options.scan.pose.linear = rotation_matrix_of_any(v[3], v[4], v[5], v[6]);
+    }
+  }
+  if (!options.noise.empty()) {
+    const auto v = numbers_of(options.noise, "--noise", {1, 2},
+                              "the deviation of ranges, and of angles in radians if wanted");
+    if (v[0] < 0 || (v.size() > 1 && v[1] < 0)) throw WrongUsage("--noise: must be >= 0");
+    options.scan.range_noise = v[0];
+    if (v.size() > 1) options.scan.angle_noise = v[1];
+  }
+  if (!options.table.empty()) {
+    check_ending(options.table, ".json", "--ids");
+    check_writable(options.table);
+  }
+  for (const std::string& output : options.outputs) {
+    scan_format_of(output);
+    check_writable(output);
+  }
+}
+
+void run(Options& options) {
+  read_options(options);
+  const SensorRays rays = options.rays      ? rays_of_npy(*options.rays)
+                          : options.pattern ? rays_of_pattern(*options.pattern, options.sweep)
+                                            : rays_of_pinhole(*options.pinhole);
+  for (const std::string& output : options.outputs)
+    if (scan_format_of(output).is_image && rays.width == 0)
+      throw WrongUsage("--output: rays that are no image's cannot become one (got " + output + ")");
+  Scene scene = import_scene(options.scene, options.import).scene;
+  const InterruptGuard guard;
+  Scan result;
+  {
+    ProgressLine line(!options.quiet);
+    result = scan(scene, rays, options.scan, [&](double fraction, std::uint64_t count) {
+      line.show(fraction, count);
+      return !InterruptGuard::interrupted();
+    });
+  }
+  InterruptGuard::end_if_interrupted();
+  for (const std::string& output : options.outputs) {
+    const auto bytes = scan_format_of(output).encode(result, rays, options.scan.returns);
+    write_file(output, bytes);
+    InterruptGuard::end_if_interrupted();
+  }
+  if (!options.table.empty()) {
+    const std::string text = id_table(scene);
+    write_file(options.table,
+               std::span(reinterpret_cast<const unsigned char*>(text.data()), text.size()));
+  }
+  warn_of_exhausted(result.counts.exhausted, result.counts.casts);
+}
+
+}  // namespace
+
+void add_scan(CLI::App& app, ExitCode&) {
+  CLI::App* verb = app.add_subcommand("scan", "Cast a sensor's rays at a scene: lidars, depths");
+  const auto options = std::make_shared<Options>();
+  add_scene_option(*verb, options->scene);
+  verb->add_option("--rays", options->rays,
+                   "A .npy array of (N, 6), origin and direction, or (N, 7) with t_max; float32 or "
+                   "float64");
+  verb->add_option("--pattern", options->pattern,
+                   "spinning:CHANNELSxSTEPS[:LOWEST,HIGHEST degrees], or a CSV file with columns "
+                   "time (s), azimuth and zenith or elevation (degrees)");
+  verb->add_option("--pinhole", options->pinhole,
+                   "A JSON file of a camera: fx, fy, cx, cy, width, height in pixels; x right, y "
+                   "down, z ahead");
+  verb->add_option("--pose", options->pose, "x,y,z[,qx,qy,qz,qw] of the sensor");
+  verb->add_option("--on", options->scan.mount,
+                   "The object that the sensor is mounted on: the pose is in its frame");
+  verb->add_option("--start", options->scan.start, "When the sweep begins, in seconds")
+      ->check(CLI::Range(-1e9, 1e9));
+  verb->add_option("--sweep", options->sweep, "How many seconds a turn of spinning takes")
+      ->check(CLI::Range(0.0, 1e9))
+      ->capture_default_str();
+  verb->add_option("--noise", options->noise,
+                   "RANGE[,ANGLE]: standard deviations, in the scene's unit and in radians");
+  verb->add_option("--dropout", options->scan.dropout, "The chance that a ray answers nothing")
+      ->check(CLI::Range(0.0, 1.0));
+  verb->add_option("--seed", options->seed, "Of noise and dropout, from 0 to 2^64 - 1")
+      ->capture_default_str();
+  verb->add_option("--returns", options->scan.returns,
+                   "Echoes of a ray: the bodies that it enters behind each other")
+      ->check(CLI::Range(1, 64))
+      ->capture_default_str();
+  std::string endings;
+  for (const ScanFormat& format : scan_formats())
+    endings += (endings.empty() ? "" : ", ") + std::string(format.ending);
+  verb->add_option("-o,--output", options->outputs,
+                   "Where to write (" + endings + "); may be given again")
+      ->required()
+      ->allow_extra_args(false);
+  verb->add_option("--ids", options->table, "A JSON file for the objects' numbers and names");
+  verb->add_option("-t,--threads", options->threads, "How many threads; 0 for one a core")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  verb->add_flag("-q,--quiet", options->quiet, "No progress");
+  add_import_options(*verb, options->import);
+  verb->callback([options] { with_threads(options->threads, [&] { run(*options); }); });
+}
+
+}  // namespace minkray

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// Half-spaces in comparisons. Triangles have ends, so that there is no mesh for Embree: a second
+// way to the same answer, by bisection of the height along the ray in long double, judges the
+// closed form.
+#pragma once
+
+#include "core/world/half_space.h"
+#include "renderer/compare/sandwich_check.h"
+
+namespace minkray {
+
+class HalfSpaceCheck {
+ public:
+  explicit HalfSpaceCheck(const HalfSpaceBody<double>& in_world) : half_space_(in_world) {}
+
+  /// Whether the cast's answer is what bisection finds; t_outer and t_inner are its bracket.
+  Verdict judge(const Ray<double>& ray) const;
+
+  /// Rays in all directions from above the plane; about half of them hit.
+  CompareReport compare(const CompareOptions& options) const;
+
+ private:
+  HalfSpaceBody<double> half_space_;
+};
+
+}  // namespace minkray

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// Scenes from files of any format that is read: our own JSON, MJCF, URDF, SDF. The list of foreign
+// formats is in import.cpp and nowhere else.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "renderer/import/import_options.h"
+#include "renderer/import/model.h"
+#include "renderer/json/mistakes.h"
+#include "renderer/scene/scene.h"
+
+namespace minkray {
+
+/// A scene, and the model it was made of, unless it was a scene file.
+struct Imported {
+  Scene scene;
+  std::optional<Model> model;
+};
+
+/// Whether the file's ending is one of a robot's description.
+bool is_foreign(const std::filesystem::path& file);
+
+/// Throws BadInput with all mistakes, one a line; WrongUsage if a scene file is asked for what only
+/// robots have.
+Imported import_scene(const std::filesystem::path& file, const ImportOptions& options = {});
+
+/// The model that a text in one of the formats describes; nothing, and mistakes, if anything is
+/// wrong. `file` says where other files are looked for.
+std::optional<Model> parse_model(const std::string& text, const std::filesystem::path& file,
+                                 const ImportOptions& options, Mistakes& mistakes);
+
+/// The same of a file.
+std::optional<Model> load_model(const std::filesystem::path& file, const ImportOptions& options,
+                                Mistakes& mistakes);
+
+}  // namespace minkray

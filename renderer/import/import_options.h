@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// What a user may ask for when a robot's file is made a scene of.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace minkray {
+
+enum class GeometryChoice : unsigned char {
+  visual,     ///< what the file's own viewer shows; of a link without such, its collision shapes
+  collision,  ///< what collides
+  all,        ///< every shape there is
+};
+
+enum class MeshSplit : unsigned char { none, groups, components };
+
+struct ImportOptions {
+  GeometryChoice geometry = GeometryChoice::visual;
+  MeshSplit split = MeshSplit::none;
+  std::string keyframe;                   ///< empty: none
+  std::vector<std::string> joints;        ///< NAME=VALUE each
+  std::string joint_rows;                 ///< a CSV or JSON file of values; empty: none
+  std::vector<std::string> package_dirs;  ///< where package:// and model:// are looked for
+  bool skip_missing_meshes = false;
+
+  /// Whether anything is asked for that a scene file has no use of.
+  bool any() const {
+    return geometry != GeometryChoice::visual || split != MeshSplit::none || !keyframe.empty() ||
+           !joints.empty() || !joint_rows.empty() || !package_dirs.empty() || skip_missing_meshes;
+  }
+};
+
+}  // namespace minkray

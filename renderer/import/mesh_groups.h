@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// The parts of a mesh, so that each can have a hull of its own: as the file groups them, or as
+// they hang together.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "renderer/import/mesh_library.h"
+
+namespace minkray {
+
+/// OBJ and STL. Groups are what follows an "o" or "g" with another name, and STL's solids. Throws
+/// std::runtime_error without the file's name.
+MeshParts read_grouped_mesh(const std::filesystem::path& file, MeshSplit split);
+
+/// The vertices of each connected part, parts in the order of their first triangle. Vertices at the
+/// same place are one. Vertices of no triangle are left out.
+std::vector<std::vector<std::uint32_t>> components_of(
+    std::span<const Vec3<double>> vertices,
+    std::span<const std::array<std::uint32_t, 3>> triangles);
+
+}  // namespace minkray

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/import/mesh_library.h"
+
+#include <algorithm>
+#include <cctype>
+#include <exception>
+#include <stdexcept>
+
+#include "core/files/mesh_file.h"
+#include "renderer/base/hash.h"
+#include "renderer/import/collada.h"
+#include "renderer/import/mesh_groups.h"
+#include "renderer/import/msh.h"
+#include "renderer/json/mistakes.h"
+
+namespace minkray {
+namespace {
+
+std::string lower_ending(const std::filesystem::path& file) {
+  std::string ending = file.extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return ending;
+}
+
+const MeshFormatReader* format_of(const std::filesystem::path& file) {
+  for (const MeshFormatReader& format : mesh_formats())
+    if (format.ending == lower_ending(file)) return &format;
+  return nullptr;
+}
+
+std::string endings() {
+  std::string text;
+  for (const MeshFormatReader& format : mesh_formats())
+    text += (text.empty() ? "" : ", ") + std::string(format.ending);
+  return text;
+}
+
+/// How far vertices lie below the surface of their hull at most: of a convex mesh, 0 but for
+/// rounding.
+double deepest_below(const std::vector<Vec3<double>>& vertices, const PointCloud<double>& hull) {
+  const FacetMesh<double>* facets = hull.facets();
+  if (!facets) return 0;
+  // Of facets that are fans of one polygon, one plane is enough.
+  std::vector<std::pair<Vec3<double>, double>> planes;
+  for (std::size_t i = 0; i < facets->size(); ++i) {
+    const Vec3<double> normal = (*facets)[i].normal();
+    if (normal.isZero(0)) continue;
+    planes.emplace_back(normal, normal.dot((*facets)[i].corner(0)));
+  }
+  double deepest = 0;
+  for (const Vec3<double>& vertex : vertices) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& [normal, offset] : planes) {
+      least = std::min(least, offset - normal.dot(vertex));
+      if (least <= deepest) break;  // it cannot be deeper than the deepest so far
+    }
+    if (std::isfinite(least)) deepest = std::max(deepest, least);
+  }
+  return deepest;
+}
+
+}  // namespace
+
+const std::vector<MeshFormatReader>& mesh_formats() {
+  static const std::vector<MeshFormatReader> formats = {
+      {".obj", read_grouped_mesh},
+      {".stl", read_grouped_mesh},
+      {".msh", read_msh},
+  };
+  return formats;
+}
+
+std::optional<std::filesystem::path> MeshLibrary::find(
+    const std::string& uri, std::vector<std::filesystem::path>& looked_for) const {
+  std::vector<std::filesystem::path>& places = looked_for;
+  const auto begins = [&](std::string_view scheme) { return uri.starts_with(scheme); };
+  if (begins("package://") || begins("model://")) {
+    const std::string rest = uri.substr(uri.find("://") + 3);
+    const std::string in_package = rest.substr(std::min(rest.find('/') + 1, rest.size()));
+    for (const std::string& folder : options_->package_dirs) {
+      places.push_back(std::filesystem::path(folder) / rest);
+      places.push_back(std::filesystem::path(folder) / in_package);
+      places.push_back(std::filesystem::path(folder) / std::filesystem::path(rest).filename());
+    }
+    // Packages lie in a folder of their name, beside or above the file.
+    std::filesystem::path folder = std::filesystem::absolute(folder_).lexically_normal();
+    for (int i = 0; i < 8; ++i) {
+      places.push_back(folder / rest);
+      if (folder == folder.parent_path()) break;
+      folder = folder.parent_path();
+    }
+  } else if (begins("file://")) {
+    places.emplace_back(uri.substr(std::string_view("file://").size()));
+    places.push_back(folder_ / uri.substr(std::string_view("file://").size()));
+  } else {
+    places.push_back(folder_ / uri);
+    for (const std::string& folder : options_->package_dirs) {
+      places.push_back(std::filesystem::path(folder) / uri);
+      places.push_back(std::filesystem::path(folder) / std::filesystem::path(uri).filename());
+    }
+  }
+  std::error_code error;
+  for (const std::filesystem::path& place : places)
+    if (std::filesystem::is_regular_file(place, error)) return place;
+  return std::nullopt;
+}
+
+MeshLibrary::Answer MeshLibrary::hulls_of(const std::string& uri, const Vec3<double>& scale) {
+  std::string key = uri;
+  for (const double s : scale) key += " " + std::to_string(std::bit_cast<std::uint64_t>(s));
+  const auto made = made_.find(key);
+  if (made != made_.end()) return made->second;
+
+  Answer answer;
+  std::vector<std::filesystem::path> looked_for;
+  std::optional<std::filesystem::path> file = find(uri, looked_for);
+  if (!file) {
+    // Descriptions outlive their meshes' formats: the same name in another one will do.
+    for (const std::filesystem::path& place : looked_for) {
+      for (const MeshFormatReader& format : mesh_formats()) {
+        std::filesystem::path other = place;
+        other.replace_extension(format.ending);
+        std::error_code error;
+        if (!file && std::filesystem::is_regular_file(other, error)) file = other;
+      }
+    }
+  }
+  if (!file) {
+    answer.is_missing = true;
+    answer.complaint = "the mesh \"" + printable(uri, 100) + "\" is not there (looked for ";
+    for (std::size_t i = 0; i < looked_for.size(); ++i)
+      answer.complaint += (i > 0 ? ", " : "") + printable(looked_for[i].string(), 160);
+    answer.complaint += ")";
+    return made_[key] = answer;
+  }
+  const MeshFormatReader* format = format_of(*file);
+  if (!format) {
+    answer.complaint =
+        "the mesh " + printable(file->string(), 160) + " must end in one of " + endings();
+    return made_[key] = answer;
+  }
+  auto known = read_.find(file->string());
+  if (known == read_.end()) {
+    try {
+      MeshParts parts = format->read(*file, options_->split);
+      Hash hash;
+      hash.add({reinterpret_cast<const char*>(parts.vertices.data()),
+                parts.vertices.size() * sizeof parts.vertices[0]});
+      hash_text_ += hash.text();
+      known = read_.emplace(file->string(), std::move(parts)).first;
+    } catch (const std::exception& error) {
+      answer.complaint = "the mesh " + printable(file->string(), 160) + ": " + error.what();
+      return made_[key] = answer;
+    }
+  }
+  return made_[key] = add(known->second, scale, uri);
+}
+
+MeshLibrary::Answer MeshLibrary::hull_of_vertices(std::vector<Vec3<double>> vertices,
+                                                  const Vec3<double>& scale,
+                                                  const std::string& name) {
+  Hash hash;
+  hash.add({reinterpret_cast<const char*>(vertices.data()), vertices.size() * sizeof vertices[0]});
+  hash_text_ += hash.text();
+  return add({std::move(vertices)}, scale, name);
+}
+
+MeshLibrary::Answer MeshLibrary::add(const MeshParts& mesh, const Vec3<double>& scale,
+                                     const std::string& name) {
+  Answer answer;
+  ModelMesh facts;
+  facts.file = name;
+  facts.vertices = mesh.vertices.size();
+  facts.parts = std::max<std::size_t>(mesh.parts.size(), 1);
+  Vec3<double> lower = mesh.vertices[0].cwiseProduct(scale), upper = lower;
+  const auto add_part = [&](std::vector<Vec3<double>> vertices) {
+    for (Vec3<double>& vertex : vertices) {
+      vertex = vertex.cwiseProduct(scale);
+      lower = lower.cwiseMin(vertex);
+      upper = upper.cwiseMax(vertex);
+    }
+    PointCloud<double> hull(vertices);
+    facts.corners += hull.points().size();
+    facts.deepest = std::max(facts.deepest, deepest_below(vertices, hull));
+    answer.hulls.emplace_back(Hull<double>{std::move(hull)});
+  };
+  try {
+    if (mesh.parts.empty()) add_part(mesh.vertices);
+    for (const std::vector<std::uint32_t>& part : mesh.parts) {
+      std::vector<Vec3<double>> vertices;
+      vertices.reserve(part.size());
+      for (const std::uint32_t i : part) vertices.push_back(mesh.vertices[i]);
+      add_part(std::move(vertices));
+    }
+  } catch (const std::exception& error) {
+    answer.complaint = "the mesh \"" + printable(name, 100) + "\": " + error.what();
+    return answer;
+  }
+  facts.diameter = (upper - lower).maxCoeff();
+  answer.mesh = static_cast<int>(meshes_.size());
+  meshes_.push_back(facts);
+  return answer;
+}
+
+}  // namespace minkray

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// The meshes that a robot's file names: looked for where such files keep them, each read once, and
+// made convex hulls of. The list of formats that are read is mesh_formats, and nowhere else.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/shape/shape.h"
+#include "renderer/import/import_options.h"
+#include "renderer/import/model.h"
+
+namespace minkray {
+
+/// Vertices, and where the parts end that the file tells apart: at least one.
+struct MeshParts {
+  std::vector<Vec3<double>> vertices;
+  std::vector<std::vector<std::uint32_t>> parts = {};  ///< vertices of each; empty: all are one
+};
+
+/// A reader throws std::runtime_error that says what is wrong, without the file's name.
+struct MeshFormatReader {
+  std::string_view ending;
+  MeshParts (*read)(const std::filesystem::path& file, MeshSplit split);
+};
+const std::vector<MeshFormatReader>& mesh_formats();
+
+class MeshLibrary {
+ public:
+  /// `folder`: that of the file that names the meshes.
+  MeshLibrary(std::filesystem::path folder, const ImportOptions& options)
+      : folder_(std::move(folder)), options_(&options) {}
+
+  struct Answer {
+    std::vector<Shape<double>> hulls;  ///< one for each part
+    int mesh = -1;                     ///< into meshes()
+    std::string complaint;             ///< what is wrong; empty if nothing is
+    bool is_missing = false;
+  };
+  /// The hulls of a mesh file, its vertices scaled. Names may be paths, or begin with package://,
+  /// model:// or file://.
+  Answer hulls_of(const std::string& uri, const Vec3<double>& scale);
+
+  /// The same of vertices that stand in the file itself.
+  Answer hull_of_vertices(std::vector<Vec3<double>> vertices, const Vec3<double>& scale,
+                          const std::string& name);
+
+  /// The file that a name stands for, if there is one; `looked_for` gets all places.
+  std::optional<std::filesystem::path> find(const std::string& uri,
+                                            std::vector<std::filesystem::path>& looked_for) const;
+
+  std::vector<ModelMesh> take_meshes() { return std::move(meshes_); }
+  const std::string& hash_text() const { return hash_text_; }
+
+ private:
+  Answer add(const MeshParts& mesh, const Vec3<double>& scale, const std::string& name);
+
+  std::filesystem::path folder_;
+  const ImportOptions* options_;
+  std::map<std::string, MeshParts> read_;
+  std::map<std::string, Answer> made_;
+  std::vector<ModelMesh> meshes_;
+  std::string hash_text_;
+};
+
+}  // namespace minkray

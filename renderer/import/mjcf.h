@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// MJCF, MuJoCo's models (https://mujoco.readthedocs.io/en/2.2.2/XMLreference.html): bodies, joints
+// and geoms, with includes, defaults, composites and keyframes. What moves or senses but has no
+// shape is passed over and counted.
+#pragma once
+
+#include "renderer/import/import_options.h"
+#include "renderer/import/model.h"
+#include "renderer/import/xml.h"
+
+namespace minkray {
+
+Model read_mjcf(XmlElement root, XmlFiles& files, const ImportOptions& options);
+
+}  // namespace minkray

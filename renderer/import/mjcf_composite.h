@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// The bodies that an MJCF <composite> stands for: particles, grids, ropes, loops, cloths, and
+// boxes, cylinders and ellipsoids with a soft shell, as MuJoCo 2.2.2 has them.
+#pragma once
+
+#include <functional>
+#include <set>
+
+#include "renderer/import/model.h"
+#include "renderer/import/xml.h"
+
+namespace minkray {
+
+/// Adds links, joints and geoms. `body`: the link around it, -1 for the world. `material`: the
+/// colour of a material.
+void add_composite(Model& model, int body, const XmlElement& composite, XmlFiles& files,
+                   const std::function<std::array<double, 4>(const XmlElement& geom)>& colour_of);
+
+}  // namespace minkray

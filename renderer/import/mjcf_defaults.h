@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// MJCF before its bodies are read: included files put in their place, and classes of defaults.
+#pragma once
+
+#include <map>
+
+#include "renderer/import/xml.h"
+
+namespace minkray {
+
+/// Puts what other files hold in the place of each <include>. Files are looked for beside the first
+/// one; none may be included twice, as in MuJoCo.
+void expand_includes(XmlElement& root, XmlFiles& files);
+
+class MjcfDefaults {
+ public:
+  /// Reads a <default>, and those in it.
+  void read(const XmlElement& element, XmlFiles& files, const std::string& parent);
+
+  /// The element with the attributes that its class (or else that of the bodies around it) gives
+  /// it; of "size", which may be given in part, the numbers that are missing.
+  XmlElement with_defaults(const XmlElement& element, const std::string& child_class,
+                           XmlFiles& files) const;
+
+  bool has(const std::string& name) const { return name.empty() || classes_.contains(name); }
+
+ private:
+  /// By the element's name.
+  using Class = std::map<std::string, std::vector<XmlAttribute>>;
+  std::map<std::string, Class> classes_;
+};
+
+}  // namespace minkray

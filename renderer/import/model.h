@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// What robots' files have in common: a tree of links, joints between them, and shapes on them. Each
+// format is read into this, and this is made a scene of. Lengths as in the file (metres), angles in
+// radians.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/math/affine.h"
+#include "core/shape/shape.h"
+
+namespace minkray {
+
+enum class JointKind : unsigned char { fixed, hinge, slide, ball, free, planar };
+
+/// How many numbers place a joint: a ball's are a quaternion w, x, y, z; a free joint's a position
+/// and a quaternion; a planar joint's two lengths and an angle.
+std::size_t width_of(JointKind kind);
+std::string_view name_of(JointKind kind);
+
+struct Mimic {
+  std::string joint;
+  double multiplier = 1, offset = 0;
+};
+
+struct ModelJoint {
+  std::string name;
+  JointKind kind = JointKind::fixed;
+  Vec3<double> axis = {0, 0, 1};               ///< of unit length, in the link's frame
+  Vec3<double> anchor = Vec3<double>::Zero();  ///< a point of the axis, in the link's frame
+  double reference = 0;                        ///< the value at which the link stands at rest
+  std::optional<std::array<double, 2>> limits = {};
+  std::optional<Mimic> mimic = {};
+  std::vector<double> value = {};  ///< empty: at rest
+};
+
+struct ModelLink {
+  std::string name;
+  int parent = -1;      ///< its index, less than the link's own; -1: the world
+  Affine<double> rest;  ///< in the parent's frame, its joints at rest
+  std::vector<ModelJoint> joints = {};
+};
+
+struct ModelGeom {
+  std::string name;
+  std::string kind;  ///< in the format's words: "capsule", "mesh", "plane"
+  int link = -1;     ///< -1: the world
+  Affine<double> pose;
+  std::optional<Shape<double>> shape = {};  ///< none: the half-space under z = 0
+  std::array<double, 4> rgba = {0.7, 0.7, 0.7, 1};
+  bool collides = true, is_seen = true;
+  int mesh = -1;  ///< into Model::meshes
+};
+
+/// A mesh file as one of its hulls.
+struct ModelMesh {
+  std::string file;
+  std::size_t vertices = 0, corners = 0;
+  std::size_t parts = 1;
+  double diameter = 0;  ///< the longest side of its box
+  double deepest = 0;   ///< how far a vertex lies below the hull's surface at most
+};
+
+/// What a file holds that is not shown, and why.
+struct PassedOver {
+  std::string what, why;
+  std::size_t count = 1;
+};
+
+struct Model {
+  std::string format, name;
+  std::vector<ModelLink> links;
+  std::vector<ModelGeom> geoms;
+  std::vector<ModelMesh> meshes;
+  std::map<std::string, std::vector<double>> keyframes;  ///< values of all joints in their order
+  std::vector<PassedOver> passed_over;
+  std::string hash;  ///< of all that was read
+
+  void pass_over(const std::string& what, const std::string& why, std::size_t count = 1);
+};
+
+/// Where the links stand in the world, by the joints' values.
+std::vector<Affine<double>> link_poses(const Model& model);
+
+/// The joint of that name, or null.
+ModelJoint* find_joint(Model& model, const std::string& name);
+
+/// Gives all joints the values of a keyframe, as far as they reach.
+void set_values(Model& model, const std::vector<double>& values);
+
+/// Gives joints that mimic others their values. Answers the name of a joint that mimics itself,
+/// or one that is not there; "" if there is none.
+std::string follow_mimics(Model& model);
+
+}  // namespace minkray

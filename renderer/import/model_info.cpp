@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/import/model_info.h"
+
+#include <cstdio>
+#include <map>
+
+#include "renderer/json/mistakes.h"
+
+namespace minkray {
+namespace {
+
+/// Convex but for rounding: vertices lie no deeper below their hull than this, of its size.
+constexpr double convex_enough = 1e-6;
+
+std::string line(std::string_view title, const std::string& value) {
+  std::string text(title);
+  text.resize(std::max<std::size_t>(text.size(), 12), ' ');
+  return text + value + "\n";
+}
+
+std::string counted(const std::map<std::string, std::size_t>& counts) {
+  std::string text;
+  for (const auto& [name, count] : counts)
+    text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + printable(name, 40);
+  return text.empty() ? "none" : text;
+}
+
+}  // namespace
+
+std::string model_as_text(const Model& model) {
+  std::string text = line("model", model.format + " " + printable(model.name, 80));
+  std::map<std::string, std::size_t> joints, geoms;
+  for (const ModelLink& link : model.links)
+    for (const ModelJoint& joint : link.joints) ++joints[std::string(name_of(joint.kind))];
+  std::size_t colliding = 0, seen = 0;
+  for (const ModelGeom& geom : model.geoms) {
+    ++geoms[geom.kind];
+    colliding += geom.collides ? 1 : 0;
+    seen += geom.is_seen ? 1 : 0;
+  }
+  text += line("links", std::to_string(model.links.size()));
+  text += line("joints", counted(joints));
+  text += line("shapes", counted(geoms) + " (" + std::to_string(seen) + " seen, " +
+                             std::to_string(colliding) + " collide)");
+  if (!model.keyframes.empty()) {
+    std::string names;
+    for (const auto& [name, values] : model.keyframes)
+      names += (names.empty() ? "" : ", ") + printable(name, 40);
+    text += line("keyframes", names);
+  }
+  for (const ModelMesh& mesh : model.meshes) {
+    char depth[100];
+    const double share = mesh.diameter > 0 ? mesh.deepest / mesh.diameter : 0;
+    if (share <= convex_enough)
+      std::snprintf(depth, sizeof depth, "convex");
+    else
+      std::snprintf(depth, sizeof depth, "vertices up to %.3g under the hull (%.2g %% of its size)",
+                    mesh.deepest, 100 * share);
+    text += line("mesh", printable(mesh.file, 80) + ": " + std::to_string(mesh.vertices) +
+                             " vertices, " + std::to_string(mesh.corners) + " of " +
+                             (mesh.parts > 1 ? std::to_string(mesh.parts) + " hulls" : "the hull") +
+                             "; " + depth);
+  }
+  for (const PassedOver& one : model.passed_over)
+    text += line("passed over", std::to_string(one.count) + " " + one.what + ": " + one.why);
+  return text;
+}
+
+}  // namespace minkray

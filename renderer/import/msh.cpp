@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/import/msh.h"
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <stdexcept>
+
+#include "core/files/regular_file.h"
+#include "renderer/import/mesh_groups.h"
+
+namespace minkray {
+namespace {
+
+constexpr std::size_t most_bytes = std::size_t{512} << 20;
+
+std::uint32_t word(std::string_view bytes, std::size_t i) {
+  std::uint32_t value = 0;
+  for (std::size_t k = 4; k-- > 0;)
+    value = value << 8 | static_cast<unsigned char>(bytes[4 * i + k]);
+  return value;
+}
+
+}  // namespace
+
+MeshParts read_msh(const std::filesystem::path& file, MeshSplit split) {
+  const std::string bytes = read_regular_file(file, most_bytes);
+  if (bytes.size() < 16) throw std::runtime_error("a .msh must have at least 16 bytes");
+  std::array<std::uint64_t, 4> counts;
+  for (std::size_t i = 0; i < 4; ++i) counts[i] = word(bytes, i);
+  const auto [vertices, normals, texture, faces] = counts;
+  for (const std::uint64_t count : counts)
+    if (count > most_bytes / 4) throw std::runtime_error("a .msh with a count out of range");
+  const std::uint64_t expected = 4 * (4 + 3 * vertices + 3 * normals + 2 * texture + 3 * faces);
+  if (vertices == 0 || bytes.size() != expected)
+    throw std::runtime_error("a .msh of " + std::to_string(vertices) + " vertices and " +
+                             std::to_string(faces) + " faces must have " +
+                             std::to_string(expected) + " bytes (got " +
+                             std::to_string(bytes.size()) + ")");
+  MeshParts mesh;
+  for (std::size_t i = 0; i < vertices; ++i) {
+    Vec3<double> vertex;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      vertex[static_cast<int>(axis)] = std::bit_cast<float>(word(bytes, 4 + 3 * i + axis));
+    if (!vertex.allFinite())
+      throw std::runtime_error("vertex " + std::to_string(i) + ": must be three finite numbers");
+    mesh.vertices.push_back(vertex);
+  }
+  if (split == MeshSplit::components) {
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    const std::size_t first = 4 + 3 * vertices + 3 * normals + 2 * texture;
+    for (std::size_t i = 0; i < faces; ++i) {
+      std::array<std::uint32_t, 3> triangle;
+      for (std::size_t k = 0; k < 3; ++k) {
+        triangle[k] = word(bytes, first + 3 * i + k);
+        if (triangle[k] >= vertices)
+          throw std::runtime_error("face " + std::to_string(i) +
+                                   " names a vertex that is not there");
+      }
+      triangles.push_back(triangle);
+    }
+    mesh.parts = components_of(mesh.vertices, triangles);
+  }
+  return mesh;
+}
+
+}  // namespace minkray

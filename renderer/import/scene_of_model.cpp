@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/import/scene_of_model.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <map>
+
+#include "renderer/base/errors.h"
+#include "renderer/base/hash.h"
+#include "renderer/image/colour.h"
+#include "renderer/scene/summary.h"
+
+namespace minkray {
+namespace {
+
+std::array<double, 4> quaternion_of(const Mat3<double>& m) {
+  // The largest of the four is divided by, for digits (Shepperd 1978).
+  const double trace = m.trace();
+  std::array<double, 4> q;  // x, y, z, w
+  const double squares[4] = {m(0, 0), m(1, 1), m(2, 2), trace};
+  const auto largest = static_cast<std::size_t>(std::max_element(squares, squares + 4) - squares);
+  if (largest == 3) {
+    q = {m(2, 1) - m(1, 2), m(0, 2) - m(2, 0), m(1, 0) - m(0, 1), 1 + trace};
+  } else {
+    const int i = static_cast<int>(largest), j = (i + 1) % 3, k = (i + 2) % 3;
+    q[largest] = 1 + m(i, i) - m(j, j) - m(k, k);
+    q[static_cast<std::size_t>(j)] = m(j, i) + m(i, j);
+    q[static_cast<std::size_t>(k)] = m(k, i) + m(i, k);
+    q[3] = m(k, j) - m(j, k);
+  }
+  double length = 0;
+  for (const double entry : q) length += entry * entry;
+  for (double& entry : q) entry /= std::sqrt(length);
+  return q;
+}
+
+/// Which geoms are asked for. A link without visual shapes shows its collision shapes.
+std::vector<bool> chosen(const Model& model, GeometryChoice choice) {
+  std::vector<bool> link_is_seen(model.links.size() + 1);
+  for (const ModelGeom& geom : model.geoms)
+    if (geom.is_seen) link_is_seen[static_cast<std::size_t>(geom.link + 1)] = true;
+  std::vector<bool> wanted;
+  for (const ModelGeom& geom : model.geoms)
+    wanted.push_back(choice == GeometryChoice::all ? true
+                     : choice == GeometryChoice::collision
+                         ? geom.collides
+                         : geom.is_seen || !link_is_seen[static_cast<std::size_t>(geom.link + 1)]);
+  return wanted;
+}
+
+class Materials {
+ public:
+  explicit Materials(Scene& scene) : scene_(scene) {}
+
+  std::uint32_t of(const std::array<double, 4>& rgba) {
+    const auto next = static_cast<std::uint32_t>(scene_.materials.size());
+    const auto [at, is_new] = known_.emplace(rgba, next);
+    if (is_new) {
+      Colour colour;
+      for (int i = 0; i < 3; ++i)
+        colour[i] = from_srgb(std::clamp(rgba[static_cast<std::size_t>(i)], 0.0, 1.0));
+      scene_.materials.push_back({"colour " + std::to_string(next), LambertMaterial{colour}});
+    }
+    return at->second;
+  }
+
+ private:
+  Scene& scene_;
+  std::map<std::array<double, 4>, std::uint32_t> known_;
+};
+
+/// Sees the ball around the box from the front, the right and above.
+void frame_everything(Scene& scene, const Bounds<double>& bounds) {
+  CameraDescription& camera = scene.camera;
+  const Vec3<double> centre = bounds.empty() ? Vec3<double>::Zero() : bounds.centre();
+  const double size = bounds.empty() ? 1 : bounds.half_extents().norm();
+  const double radius = size > 0 ? size : 1;
+  camera.fov_y_degrees = 36;
+  camera.resolution = {960, 720};
+  camera.look_at = centre;
+  const double half_angle = camera.fov_y_degrees * 3.14159265358979 / 360;
+  camera.position =
+      centre + unit<double>({2.1, -1.7, 0.9}) * (0.92 * radius / std::sin(half_angle));
+}
+
+void light(Scene& scene) {
+  scene.lights.push_back(DirectionalLight{{-1.0, 0.45, -1.5}, Colour(2.3, 2.2, 2.05)});
+  scene.lights.push_back(EnvironmentLight{{0.62, 0.7, 0.82}, {0.3, 0.28, 0.26}});
+  scene.background = {{0.72, 0.8, 0.9}, {0.93, 0.93, 0.93}};
+}
+
+void apply(Model& model, const JointRow& row) {
+  for (const auto& [name, value] : row.values)
+    if (ModelJoint* joint = find_joint(model, name)) joint->value = value;
+  follow_mimics(model);
+}
+
+}  // namespace
+
+void pose_model(Model& model, const ImportOptions& options, Mistakes& mistakes) {
+  if (!options.keyframe.empty()) {
+    const auto found = model.keyframes.find(options.keyframe);
+    if (found != model.keyframes.end()) {
+      set_values(model, found->second);
+    } else {
+      std::string names;
+      for (const auto& [name, values] : model.keyframes)
+        names += (names.empty() ? "" : ", ") + printable(name, 40);
+      mistakes.add("--keyframe: there is none of the name \"" + printable(options.keyframe, 60) +
+                   "\" (" + (names.empty() ? "the file has none" : "known are " + names) + ")");
+    }
+  }
+  for (const std::string& text : options.joints) {
+    const std::size_t equals = text.rfind('=');
+    const std::string name = text.substr(0, equals);
+    ModelJoint* joint = equals == text.npos ? nullptr : find_joint(model, name);
+    if (!joint) {
+      std::string names;
+      std::size_t count = 0;
+      for (const ModelLink& link : model.links)
+        for (const ModelJoint& one : link.joints)
+          if (one.kind != JointKind::fixed && !one.name.empty() && ++count <= 40)
+            names += (names.empty() ? "" : ", ") + printable(one.name, 40);
+      mistakes.add("--joint: must be NAME=VALUE of a joint (got \"" + printable(text, 60) +
+                   "\"; joints are " + names + (count > 40 ? ", ..." : "") + ")");
+      continue;
+    }
+    std::vector<double> values;
+    const char *at = text.data() + equals + 1, *const end = text.data() + text.size();
+    while (at != end) {
+      double value = 0;
+      const auto [next, error] = std::from_chars(at, end, value);
+      if (error != std::errc() || !std::isfinite(value) || (next != end && *next != ',')) break;
+      values.push_back(value);
+      at = next == end ? next : next + 1;
+    }
+    if (at != end || values.size() != width_of(joint->kind)) {
+      mistakes.add("--joint: " + printable(name, 60) + " takes " +
+                   std::to_string(width_of(joint->kind)) +
+                   " numbers between commas, angles in radians (got \"" +
+                   printable(text.substr(equals + 1), 60) + "\")");
+      continue;
+    }
+    joint->value = values;
+  }
+  follow_mimics(model);
+}
+
+Scene scene_of(Model& model, const ImportOptions& options, const std::vector<JointRow>& rows) {
+  Scene scene;
+  scene.description = model.format + (model.name.empty() ? "" : " " + model.name);
+  Materials materials(scene);
+  const std::vector<bool> wanted = chosen(model, options.geometry);
+  std::size_t left_out = 0;
+  std::vector<std::size_t> geom_of_object;
+  std::map<std::string, int> names;
+  const std::vector<Affine<double>> poses = link_poses(model);
+  for (std::size_t i = 0; i < model.geoms.size(); ++i) {
+    const ModelGeom& geom = model.geoms[i];
+    if (!wanted[i]) {
+      ++left_out;
+      continue;
+    }
+    Object object;
+    const std::string link =
+        geom.link < 0 ? "world" : model.links[static_cast<std::size_t>(geom.link)].name;
+    object.name = !geom.name.empty() ? geom.name
+                                     : (link.empty() ? "link " + std::to_string(geom.link) : link) +
+                                           "/" + geom.kind;
+    const int again = names[object.name]++;
+    if (again > 0) object.name += " " + std::to_string(again + 1);
+    if (geom.shape)
+      object.shape = *geom.shape;
+    else
+      object.half_space = HalfSpaceBody<double>();
+    object.pose =
+        geom.link < 0 ? geom.pose : poses[static_cast<std::size_t>(geom.link)] * geom.pose;
+    object.material = materials.of(geom.rgba);
+    scene.objects.push_back(std::move(object));
+    geom_of_object.push_back(i);
+  }
+  if (left_out > 0) model.pass_over("shapes", "--geometry asks for others", left_out);
+  if (scene.materials.empty()) materials.of({0.7, 0.7, 0.7, 1});
+
+  for (const JointRow& row : rows) {
+    apply(model, row);
+    const std::vector<Affine<double>> at = link_poses(model);
+    for (std::size_t k = 0; k < scene.objects.size(); ++k) {
+      const ModelGeom& geom = model.geoms[geom_of_object[k]];
+      if (geom.link < 0) continue;
+      const Affine<double>& pose = at[static_cast<std::size_t>(geom.link)];
+      Object& object = scene.objects[k];
+      if (!object.motion) object.motion = Motion{{}, geom.pose};
+      object.motion->keys.push_back({row.time, pose.translation, quaternion_of(pose.linear)});
+    }
+  }
+  if (!rows.empty()) set_time(scene, 0);
+
+  Bounds<double> bounds;
+  for (const Object& object : scene.objects)
+    if (!object.half_space) bounds.extend(bounds_of(object));
+  frame_everything(scene, bounds);
+  light(scene);
+
+  Hash hash;
+  hash.add(model.hash);
+  hash.add(options.keyframe);
+  for (const std::string& joint : options.joints) hash.add(joint);
+  hash.add(std::to_string(static_cast<int>(options.geometry)) +
+           std::to_string(static_cast<int>(options.split)));
+  for (const JointRow& row : rows)
+    for (const auto& [name, values] : row.values)
+      for (const double value : values) hash.add(name + std::to_string(value));
+  scene.hash = hash.text();
+  return scene;
+}
+
+}  // namespace minkray

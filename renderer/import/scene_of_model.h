@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// A robot as a scene: one object for each of its shapes, and a camera, a sun and a sky where the
+// file has none.
+#pragma once
+
+#include "renderer/import/import_options.h"
+#include "renderer/import/model.h"
+#include "renderer/json/mistakes.h"
+#include "renderer/scene/scene.h"
+
+namespace minkray {
+
+/// The values of joints at a time, as one row of a file.
+struct JointRow {
+  double time = 0;
+  std::vector<std::pair<std::string, std::vector<double>>> values;
+};
+
+/// Keyframe and joints as the options ask.
+void pose_model(Model& model, const ImportOptions& options, Mistakes& mistakes);
+
+/// Rows of values from a CSV file with the joints' names in its first line (and "time", in
+/// seconds), or a JSON list of objects. Mistakes are added.
+std::vector<JointRow> read_joint_rows(const std::string& file, Model& model, Mistakes& mistakes);
+
+/// Shapes chosen by the options. With several rows, objects move from row to row.
+Scene scene_of(Model& model, const ImportOptions& options, const std::vector<JointRow>& rows);
+
+}  // namespace minkray

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/import/urdf.h"
+
+#include <map>
+
+#include "renderer/image/colour.h"
+#include "renderer/import/geometry_common.h"
+#include "renderer/import/mesh_library.h"
+#include "renderer/import/orientation.h"
+
+namespace minkray {
+namespace {
+
+using Rgba = std::array<double, 4>;
+
+class UrdfReader {
+ public:
+  UrdfReader(XmlFiles& files, const ImportOptions& options)
+      : files_(files), meshes_(files.files().front().parent_path(), options), options_(options) {}
+
+  Model read(const XmlElement& robot) {
+    model_.format = "URDF";
+    model_.name = robot.attribute_or("name");
+    for (const XmlElement& child : robot.children)
+      if (child.name == "material") read_material(child);
+    for (const XmlElement& child : robot.children) {
+      if (child.name == "link") {
+        const std::string name = child.attribute_or("name");
+        if (name.empty()) files_.wrong(child, "name: must be there");
+        if (!link_elements_.emplace(name, &child).second)
+          files_.wrong(child, "name: must not be the name of two links");
+        else
+          link_order_.push_back(name);
+      } else if (child.name == "joint") {
+        read_joint(child);
+      } else if (child.name != "material") {
+        model_.pass_over("<" + printable(child.name, 40) + ">", "is no geometry");
+      }
+    }
+    if (link_order_.empty()) files_.wrong(robot, "must have links");
+    check_joints();
+    add_links();
+    if (const std::string lost = follow_mimics(model_); !lost.empty())
+      files_.wrong(robot, "mimic: the joint \"" + printable(lost, 60) +
+                              "\" is not there, or joints mimic each other in a circle");
+    model_.meshes = meshes_.take_meshes();
+    model_.hash = files_.hash_text() + meshes_.hash_text();
+    return std::move(model_);
+  }
+
+ private:
+  struct Joint {
+    const XmlElement* element;
+    std::string parent;
+    Affine<double> origin;
+    ModelJoint joint;
+  };
+
+  std::optional<Rgba> read_material(const XmlElement& material) {
+    const std::string name = material.attribute_or("name");
+    if (const XmlElement* colour = material.child("color")) {
+      if (const auto v = files_.numbers(*colour, "rgba", 3, 4)) {
+        const Rgba rgba = {(*v)[0], (*v)[1], (*v)[2], v->size() > 3 ? (*v)[3] : 1};
+        if (!name.empty()) materials_.emplace(name, rgba);
+        return rgba;
+      }
+    }
+    const auto known = materials_.find(name);
+    return known == materials_.end() ? std::nullopt : std::optional(known->second);
+  }
+
+  Affine<double> origin_of(const XmlElement& element) {
+    Affine<double> pose;
+    const XmlElement* origin = element.child("origin");
+    if (!origin) return pose;
+    if (const auto xyz = files_.vector(*origin, "xyz")) pose.translation = *xyz;
+    if (const auto rpy = files_.vector(*origin, "rpy")) pose.linear = rotation_of_rpy(*rpy);
+    if (const auto q = files_.numbers(*origin, "quat_xyzw", 4, 4))
+      pose.linear = rotation_matrix_of_any((*q)[0], (*q)[1], (*q)[2], (*q)[3]);
+    return pose;
+  }
+
+  void read_joint(const XmlElement& element) {
+    static const std::map<std::string, JointKind> kinds = {
+        {"revolute", JointKind::hinge},  {"continuous", JointKind::hinge},
+        {"prismatic", JointKind::slide}, {"fixed", JointKind::fixed},
+        {"floating", JointKind::free},   {"planar", JointKind::planar}};
+    Joint read{&element, {}, origin_of(element), {}};
+    read.joint.name = element.attribute_or("name");
+    const std::string type = element.attribute_or("type");
+    const auto kind = kinds.find(type);
+    if (kind == kinds.end()) {
+      files_.wrong(element,
+                   "type: must be one of revolute, continuous, prismatic, fixed, floating "
+                   "and planar (got \"" +
+                       printable(type, 40) + "\")");
+    } else {
+      read.joint.kind = kind->second;
+    }
+    const auto link_of = [&](const char* end) {
+      const XmlElement* at = element.child(end);
+      const std::string name = at ? at->attribute_or("link") : "";
+      if (name.empty()) files_.wrong(element, std::string(end) + ": must name a link");
+      return name;
+    };
+    read.parent = link_of("parent");
+    const std::string child = link_of("child");
+    read.joint.axis = {1, 0, 0};
+    if (const XmlElement* axis = element.child("axis")) {
+      if (const auto xyz = files_.vector(*axis, "xyz")) {
+        const Vec3<double> direction = unit(*xyz);
+        if (direction.isZero(0) && read.joint.kind != JointKind::fixed &&
+            read.joint.kind != JointKind::free)
+          files_.wrong(*axis, "xyz: must not be zero");
+        read.joint.axis = direction;
+      }
+    }
+    if (const XmlElement* limit = element.child("limit"); limit && type != "continuous") {
+      const auto lower = files_.number(*limit, "lower"), upper = files_.number(*limit, "upper");
+      if (lower || upper) read.joint.limits = {lower.value_or(0), upper.value_or(0)};
+    }
+    if (const XmlElement* mimic = element.child("mimic")) {
+      read.joint.mimic =
+          Mimic{mimic->attribute_or("joint"), files_.number(*mimic, "multiplier").value_or(1),
+                files_.number(*mimic, "offset").value_or(0)};
+    }
+    if (child.empty()) return;
+    if (!joint_of_child_.emplace(child, read).second)
+      files_.wrong(element, "child: the link \"" + printable(child, 60) +
+                                "\" must not be the child of two joints");
+  }
+
+  void check_joints() {
+    for (const auto& [child, joint] : joint_of_child_)
+      for (const std::string& name : {child, joint.parent})
+        if (!name.empty() && !link_elements_.contains(name))
+          files_.wrong(*joint.element, "the link \"" + printable(name, 60) + "\" is not there");
+  }
+
+  /// Roots first, each link behind its parent.
+  void add_links() {
+    std::map<std::string, std::vector<std::string>> children;
+    std::vector<std::string> open;
+    for (const std::string& name : link_order_) {
+      const auto joint = joint_of_child_.find(name);
+      if (joint == joint_of_child_.end())
+        open.push_back(name);
+      else
+        children[joint->second.parent].push_back(name);
+    }
+    std::ranges::reverse(open);
+    std::map<std::string, int> index;
+    while (!open.empty()) {
+      const std::string name = open.back();
+      open.pop_back();
+      ModelLink link{name, -1, {}};
+      const auto joint = joint_of_child_.find(name);
+      if (joint != joint_of_child_.end()) {
+        link.parent = index[joint->second.parent];
+        link.rest = joint->second.origin;
+        link.joints.push_back(joint->second.joint);
+      }
+      index[name] = static_cast<int>(model_.links.size());
+      model_.links.push_back(std::move(link));
+      add_geoms(*link_elements_[name], index[name]);
+      const auto& next = children[name];
+      open.insert(open.end(), next.rbegin(), next.rend());
+    }
+    if (model_.links.size() == link_order_.size()) return;
+    for (const std::string& name : link_order_)
+      if (!index.contains(name)) {
+        files_.wrong(*joint_of_child_.at(name).element, "joints must not run in a circle");
+        return;
+      }
+  }
+
+  void add_geoms(const XmlElement& link, int index) {
+    for (const XmlElement& child : link.children) {
+      if (child.name == "visual" || child.name == "collision") {
+        add_geom(child, index);
+      } else if (child.name != "inertial" && child.name != "contact") {
+        model_.pass_over("<link><" + printable(child.name, 40) + ">", "is no geometry");
+      }
+    }
+  }
+
+  void add_geom(const XmlElement& element, int link) {
+    ModelGeom geom;
+    geom.link = link;
+    geom.name = element.attribute_or("name");
+    geom.is_seen = element.name == "visual";
+    geom.collides = !geom.is_seen;
+    geom.pose = origin_of(element);
+    if (const XmlElement* material = element.child("material"))
+      if (const auto rgba = read_material(*material)) geom.rgba = *rgba;
+    const XmlElement* geometry = element.child("geometry");
+    if (!geometry || geometry->children.empty()) {
+      files_.wrong(element, "geometry: must hold a shape");
+      return;
+    }
+    // One shape is legal; some files have several.
+    for (const XmlElement& shape : geometry->children) add_shape(shape, geom);
+  }
+
+  void add_shape(const XmlElement& shape, ModelGeom geom) {
+    geom.kind = shape.name;
+    ShapeNumbers numbers(files_, shape);
+    if (shape.name == "box") {
+      const Vec3<double> size = numbers.positive_vector("size");
+      geom.shape = box_of(size / 2);
+    } else if (shape.name == "sphere") {
+      geom.shape = sphere_of(numbers.positive("radius"));
+    } else if (shape.name == "cylinder") {
+      geom.shape = cylinder_of(numbers.positive("radius"), numbers.positive("length") / 2);
+    } else if (shape.name == "capsule") {
+      geom.shape = capsule_of(numbers.positive("radius"), numbers.positive("length") / 2);
+    } else if (shape.name == "mesh") {
+      const std::string* file = shape.attribute("filename");
+      if (!file) return files_.wrong(shape, "filename: must be there");
+      const Vec3<double> scale = files_.vector(shape, "scale").value_or(Vec3<double>::Ones());
+      add_mesh(model_, files_, shape, meshes_.hulls_of(*file, scale), std::move(geom), options_);
+      return;
+    } else {
+      return files_.wrong(shape, "must be one of box, sphere, cylinder, capsule and mesh");
+    }
+    if (numbers.all_good()) model_.geoms.push_back(std::move(geom));
+  }
+
+  XmlFiles& files_;
+  MeshLibrary meshes_;
+  const ImportOptions& options_;
+  Model model_;
+  std::map<std::string, Rgba> materials_;
+  std::map<std::string, const XmlElement*> link_elements_;
+  std::vector<std::string> link_order_;
+  std::map<std::string, Joint> joint_of_child_;
+};
+
+}  // namespace
+
+Model read_urdf(const XmlElement& robot, XmlFiles& files, const ImportOptions& options) {
+  return UrdfReader(files, options).read(robot);
+}
+
+}  // namespace minkray

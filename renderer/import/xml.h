@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// XML as a tree of our own, read by tinyxml2: elements with their line and file, and numbers in
+// their attributes. What is wrong is told with both, all at once.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/math/vec.h"
+#include "renderer/json/mistakes.h"
+
+namespace minkray {
+
+struct XmlAttribute {
+  std::string name, value;
+};
+
+struct XmlElement {
+  std::string name;
+  std::vector<XmlAttribute> attributes;
+  std::string text;  ///< of the element itself, not of its children
+  std::vector<XmlElement> children;
+  int line = 0;
+  std::uint32_t file = 0;  ///< into XmlFiles
+
+  /// Null if there is none of that name.
+  const std::string* attribute(std::string_view key) const;
+  /// Empty if there is none.
+  std::string attribute_or(std::string_view key, std::string_view otherwise = {}) const;
+  /// The first child of that name, or null.
+  const XmlElement* child(std::string_view key) const;
+};
+
+/// Robots' files are some 10 MiB at most; meshes as XML are mostly numbers.
+inline constexpr std::size_t most_xml_bytes = std::size_t{32} << 20;
+inline constexpr std::size_t most_collada_bytes = std::size_t{256} << 20;
+inline constexpr std::size_t most_xml_elements = 2'000'000;
+
+/// The files that one model was read from, and what is wrong with them.
+class XmlFiles {
+ public:
+  explicit XmlFiles(Mistakes& mistakes) : mistakes_(mistakes) {}
+
+  /// The root element of a file. Nothing, and a mistake, if it is no XML, too large, or declares
+  /// entities of its own.
+  std::optional<XmlElement> read(const std::filesystem::path& file,
+                                 std::size_t most_bytes = most_xml_bytes);
+
+  /// The same of text, for tests and fuzzing.
+  std::optional<XmlElement> parse(const std::string& text, const std::filesystem::path& file);
+
+  /// A mistake at an element: "line 12: <geom name="x">: size: must be ...". After many of them no
+  /// more are kept.
+  void wrong(const XmlElement& element, std::string_view message);
+
+  const std::vector<std::filesystem::path>& files() const { return files_; }
+  /// All text that was read.
+  const std::string& hash_text() const { return hash_text_; }
+  Mistakes& mistakes() { return mistakes_; }
+
+  /// Finite numbers between blanks, at least `least` and at most `most` of them; nothing if the
+  /// attribute is not there, or is wrong (a mistake).
+  std::optional<std::vector<double>> numbers(const XmlElement& element, std::string_view key,
+                                             std::size_t least, std::size_t most);
+  /// The same of a text that stands in an element; `what` names it in the mistake.
+  std::optional<std::vector<double>> numbers_in(const XmlElement& element, std::string_view text,
+                                                std::string_view what, std::size_t least,
+                                                std::size_t most);
+  std::optional<double> number(const XmlElement& element, std::string_view key);
+  std::optional<Vec3<double>> vector(const XmlElement& element, std::string_view key);
+
+ private:
+  Mistakes& mistakes_;
+  std::vector<std::filesystem::path> files_;
+  std::string hash_text_;
+  std::size_t told_ = 0;
+};
+
+/// "<geom name="x">": an element as messages name it.
+std::string name_of(const XmlElement& element);
+
+}  // namespace minkray

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/sensor/npy.h"
+
+#include <bit>
+#include <charconv>
+#include <cstdint>
+#include <cstring>
+
+#include "core/files/regular_file.h"
+#include "renderer/base/errors.h"
+#include "renderer/base/of_file.h"
+
+namespace minkray {
+namespace {
+
+constexpr std::size_t most_bytes = std::size_t{16} << 30;
+constexpr std::string_view magic = "\x93NUMPY";
+constexpr std::size_t longest_header = 65536;
+
+/// What follows "'key':" in the header, which is a Python dictionary.
+std::string_view after(std::string_view header, std::string_view key) {
+  const std::size_t at = header.find("'" + std::string(key) + "'");
+  if (at == header.npos) throw BadInput("its header lacks '" + std::string(key) + "'");
+  std::string_view rest = header.substr(header.find(':', at) + 1);
+  rest.remove_prefix(std::min(rest.find_first_not_of(' '), rest.size()));
+  return rest;
+}
+
+NpyArray parse(const std::string& bytes) {
+  if (!bytes.starts_with(magic) || bytes.size() < 12) throw BadInput("is no .npy file");
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(bytes[i]); };
+  const int major = byte(6);
+  const std::size_t start = major == 1 ? 10 : 12;
+  const std::size_t length = major == 1
+                                 ? byte(8) | std::size_t{byte(9)} << 8
+                                 : byte(8) | std::size_t{byte(9)} << 8 |
+                                       std::size_t{byte(10)} << 16 | std::size_t{byte(11)} << 24;
+  if (major > 3 || length > longest_header || start + length > bytes.size())
+    throw BadInput("is a .npy file of an unknown kind, or is cut off");
+  const std::string_view header(bytes.data() + start, length);
+  const std::string_view kind = after(header, "descr");
+  const bool is_double = kind.starts_with("'<f8'"), is_float = kind.starts_with("'<f4'");
+  if (!is_double && !is_float)
+    throw BadInput("must hold little-endian floats of 32 or 64 bits, '<f4' or '<f8'");
+  if (after(header, "fortran_order").starts_with("True"))
+    throw BadInput("must be in C order (numpy.ascontiguousarray)");
+  NpyArray array;
+  std::string_view shape = after(header, "shape");
+  shape = shape.substr(0, shape.find(')'));
+  std::size_t count = 1;
+  for (const char* at = shape.data() + 1; at < shape.data() + shape.size();) {
+    std::size_t size = 0;
+    const auto [next, error] = std::from_chars(at, shape.data() + shape.size(), size);
+    if (error == std::errc()) {
+      array.shape.push_back(size);
+      if (size != 0 && count > most_bytes / size) throw BadInput("is larger than can be read");
+      count *= size;
+    }
+    at = error == std::errc() ? next : at + 1;
+  }
+  const std::size_t width = is_double ? 8 : 4;
+  if (bytes.size() - start - length != count * width)
+    throw BadInput("must have " + std::to_string(count * width) + " bytes of numbers (got " +
+                   std::to_string(bytes.size() - start - length) + ")");
+  static_assert(std::endian::native == std::endian::little);
+  const char* const data = bytes.data() + start + length;
+  array.values.resize(count);
+  if (is_double) {
+    std::memcpy(array.values.data(), data, count * sizeof(double));
+  } else {
+    for (std::size_t i = 0; i < count; ++i) {
+      float value;
+      std::memcpy(&value, data + 4 * i, sizeof value);
+      array.values[i] = static_cast<double>(value);
+    }
+  }
+  return array;
+}
+
+}  // namespace
+
+std::string NpyArray::shape_text() const {
+  std::string text = "(";
+  for (std::size_t i = 0; i < shape.size(); ++i)
+    text += (i > 0 ? ", " : "") + std::to_string(shape[i]);
+  return text + ")";
+}
+
+NpyArray read_npy(const std::string& file) {
+  return of_file(file, [&] { return parse(read_regular_file(file, most_bytes)); });
+}
+
+std::string npy_header(const std::string& descr, std::size_t rows, std::size_t columns) {
+  const std::string shape = columns == 1
+                                ? "(" + std::to_string(rows) + ",)"
+                                : "(" + std::to_string(rows) + ", " + std::to_string(columns) + ")";
+  std::string text = "{'descr': " + descr + ", 'fortran_order': False, 'shape': " + shape + ", }";
+  // The data begin at a multiple of 64.
+  text.resize((text.size() + 1 + 10 + 63) / 64 * 64 - 10 - 1, ' ');
+  text += '\n';
+  std::string header(magic);
+  header += '\x01';
+  header += '\0';
+  header += static_cast<char>(text.size() & 255);
+  header += static_cast<char>(text.size() >> 8);
+  return header + text;
+}
+
+}  // namespace minkray

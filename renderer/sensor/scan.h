@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// Sweeps of a sensor over a scene: rays in, numbers out.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "core/math/affine.h"
+#include "renderer/base/real.h"
+#include "renderer/scene/scene.h"
+#include "renderer/sensor/sensor_rays.h"
+
+namespace minkray {
+
+/// What one ray met; `object` is the number of the instance, -1 for none.
+struct Echo {
+  double t = std::numeric_limits<double>::infinity();  ///< in lengths of the direction
+  double distance = std::numeric_limits<double>::infinity();
+  Vec3<double> point = Vec3<double>::Constant(std::numeric_limits<double>::quiet_NaN());
+  Vec3<double> normal = Vec3<double>::Zero();
+  std::int32_t object = -1;
+  double t_lo = std::numeric_limits<double>::infinity();
+  double t_hi = std::numeric_limits<double>::infinity();
+  std::uint8_t status = 1;  ///< 0 hit, 1 miss, 2 inside, 3 exhausted, 4 dropped out
+};
+
+struct ScanOptions {
+  Affine<double> pose;     ///< of the sensor, in the world or in the frame that it is mounted on
+  std::string mount;       ///< an object's name; empty: the world
+  double start = 0;        ///< when the sweep begins, in seconds
+  double range_noise = 0;  ///< standard deviation, of distances
+  double angle_noise = 0;  ///< standard deviation, in radians
+  double dropout = 0;      ///< the chance that a ray answers nothing
+  std::uint64_t seed = 0;  ///< of noise and dropout, which belong to the ray's number
+  int returns = 1;         ///< echoes of a ray: the bodies behind each other that it enters
+};
+
+struct Scan {
+  std::vector<Echo> echoes;  ///< ray by ray, `returns` of each
+  QueryCounts counts;
+  bool complete = true;
+};
+
+/// The same bits for any number of threads and any cut of the rays. Of a scene that moves, each ray
+/// is cast at its own time. `progress` may answer false to stop. Throws WrongUsage for a mount that
+/// is not there.
+Scan scan(Scene& scene, const SensorRays& rays, const ScanOptions& options,
+          const std::function<bool(double fraction, std::uint64_t rays)>& progress = {});
+
+}  // namespace minkray

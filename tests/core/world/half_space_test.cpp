@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+#include "core/world/half_space.h"
+
+#include <gtest/gtest.h>
+
+#include "core/world/world.h"
+#include "tests/support/random.h"
+
+namespace minkray {
+namespace {
+
+template <class T>
+class HalfSpaces : public ::testing::Test {};
+using Scalars = ::testing::Types<float, double>;
+TYPED_TEST_SUITE(HalfSpaces, Scalars);
+
+template <class T>
+Ray<T> random_ray(testing::Random& random) {
+  return {(5 * random.in_cube()).cast<T>(), random.direction().cast<T>()};
+}
+
+TYPED_TEST(HalfSpaces, where_a_ray_enters_its_height_is_zero_and_the_interval_holds_that) {
+  using T = TypeParam;
+  testing::Random random(1);
+  int hits = 0, inside = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const HalfSpaceBody<T> body{random.direction().template cast<T>(), T(random.uniform(-2, 2))};
+    const Ray<T> ray = random_ray<T>(random);
+    const CastResult<T> result = cast_ray(body, ray);
+    const auto height = [&](long double t) {
+      const Vec3<long double> at =
+          ray.origin.template cast<long double>() + t * ray.direction.template cast<long double>();
+      return body.normal.template cast<long double>().dot(at) - (long double)(body.offset);
+    };
+    if (result.status == Status::hit) {
+      ++hits;
+      EXPECT_GE(height(result.offset_lo), 0.0L);
+      if (std::isfinite(result.offset_hi)) EXPECT_LE(height(result.offset_hi), 0.0L);
+      EXPECT_LE(result.offset_lo, result.t_offset);
+      EXPECT_GE(result.offset_hi, result.t_offset);
+      EXPECT_EQ(result.normal, body.normal);
+    } else if (result.status == Status::inside) {
+      ++inside;
+      EXPECT_LE(height(0), 1e-5L);
+    } else {
+      EXPECT_GE(height(0), -1e-5L);
+      EXPECT_GE(height(1e3) - height(0), -1e-2L);
+    }
+  }
+  EXPECT_GT(hits, 4000);
+  EXPECT_GT(inside, 4000);
+}
+
+/// Some balls and half-spaces; the latter neither first nor last.
+template <class T>
+World<T> mixed_world(testing::Random& random) {
+  Instances<T> instances;
+  for (int i = 0; i < 40; ++i) {
+    if (i % 10 == 5) {
+      instances.add(HalfSpaceBody<T>{random.direction().template cast<T>(), T(-4 - i * 0.02)});
+      continue;
+    }
+    Sphere<T> ball;
+    ball.radius = T(0.4);
+    instances.add(Shape<T>(ball), {Mat3<T>::Identity(), (3 * random.in_cube()).template cast<T>()});
+  }
+  return World<T>(std::move(instances));
+}
+
+TYPED_TEST(HalfSpaces, a_world_answers_as_each_of_its_instances_alone_would) {
+  using T = TypeParam;
+  testing::Random random(2);
+  const World<T> world = mixed_world<T>(random);
+  int of_half_spaces = 0;
+  for (int i = 0; i < 5000; ++i) {
+    const Ray<T> ray = random_ray<T>(random);
+    const auto skip = i % 3 == 0 ? static_cast<std::uint32_t>(random.below(40)) : no_instance;
+    WorldHit<T> expected;
+    for (std::uint32_t k = 0; k < world.instances().size(); ++k) {
+      if (k == skip) continue;
+      CastResult<T> cast;
+      if (world.instances().is_half_space(k)) {
+        for (const auto& one : world.instances().half_spaces())
+          if (one.instance == k) cast = cast_ray(one.in_world, ray);
+      } else {
+        cast = cast_ray(world.instances().at(k), ray);
+      }
+      if (cast.found() && expected.yields_to(k, cast.t())) expected = {k, cast};
+    }
+    QueryCounts counts;
+    const WorldHit<T> hit = world.closest_hit(ray, counts, skip);
+    ASSERT_EQ(hit.instance, expected.instance);
+    if (hit.found()) ASSERT_EQ(hit.cast.t(), expected.cast.t());
+    EXPECT_EQ(world.occluded(ray, counts, skip), expected.found());
+    of_half_spaces += hit.found() && world.instances().is_half_space(hit.instance) ? 1 : 0;
+  }
+  EXPECT_GT(of_half_spaces, 500);
+}
+
+TYPED_TEST(HalfSpaces, rays_together_answer_as_rays_alone) {
+  using T = TypeParam;
+  testing::Random random(3);
+  const World<T> world = mixed_world<T>(random);
+  for (int i = 0; i < 300; ++i) {
+    const auto count = static_cast<std::size_t>(1 + random.below(most_rays_at_once));
+    const Vec3<double> from = 3 * random.in_cube(), along = random.direction();
+    std::vector<WorldRay<T>> rays;
+    for (std::size_t k = 0; k < count; ++k)
+      rays.push_back(
+          {{from.cast<T>(), unit<double>(along + 0.1 * random.in_cube()).template cast<T>()},
+           k % 7 == 0 ? static_cast<std::uint32_t>(random.below(40)) : no_instance});
+    std::vector<WorldHit<T>> hits(count);
+    QueryCounts counts;
+    world.closest_hits(rays, hits, counts);
+    const BeamRays met = world.occluded(rays, counts);
+    for (std::size_t k = 0; k < count; ++k) {
+      const WorldHit<T> alone = world.closest_hit(rays[k].ray, counts, rays[k].skip);
+      ASSERT_EQ(hits[k].instance, alone.instance);
+      ASSERT_EQ(hits[k].cast.t(), alone.cast.t());
+      ASSERT_EQ(met >> k & 1, alone.found() ? 1u : 0u);
+    }
+  }
+}
+
+TYPED_TEST(HalfSpaces, turning_and_moving_it_turns_and_moves_the_hit) {
+  using T = TypeParam;
+  testing::Random random(4);
+  for (int i = 0; i < 1000; ++i) {
+    const Affine<T> pose{random.rotation().cast<T>(), random.in_cube().cast<T>()};
+    const HalfSpaceBody<T> body{random.direction().template cast<T>(), T(random.uniform(-1, 1))};
+    const Ray<T> ray = random_ray<T>(random);
+    const CastResult<T> before = cast_ray(body, ray);
+    const CastResult<T> after =
+        cast_ray(body.posed(pose), Ray<T>{pose(ray.origin), Vec3<T>(pose.linear * ray.direction)});
+    if (before.status != after.status || before.status != Status::hit) continue;
+    const T slack = T(64) * std::numeric_limits<T>::epsilon() * (T(1) + before.t()) /
+                    std::abs(before.normal.dot(ray.direction));
+    EXPECT_NEAR(before.t(), after.t(), slack);
+    EXPECT_LT((pose.linear * before.normal - after.normal).norm(), T(1e-5));
+  }
+}
+
+TEST(HalfSpaces, they_move_with_their_world_and_while_the_shutter_is_open) {
+  Instances<double> instances;
+  instances.add(HalfSpaceBody<double>{{0, 0, 1}, 0});
+  World<double> world(std::move(instances));
+  const Ray<double> down{{0, 0, 5}, {0, 0, -1}};
+  QueryCounts counts;
+  EXPECT_EQ(world.closest_hit(down, counts).cast.t(), 5);
+  world.pose_all(
+      [](std::size_t) {
+        return Affine<double>{Mat3<double>::Identity(), {7, 0, 2}};
+      },
+      [](std::size_t) { return Vec3<double>(0, 0, 1); });
+  EXPECT_EQ(world.closest_hit(down, counts, no_instance, 0).cast.t(), 3);
+  EXPECT_EQ(world.closest_hit(down, counts, no_instance, 1).cast.t(), 2);
+}
+
+}  // namespace
+}  // namespace minkray
