@@ -95,7 +95,7 @@ class Scanner {
     for (int k = 0; k < options_.returns; ++k) {
       Echo& echo = echoes[k];
       if (is_dropped) {
-        echo.status = 4;
+        echo.status = 3;
         continue;
       }
       if (!hit.found()) return;
@@ -145,7 +145,7 @@ class Scanner {
   Scan& scan_;
 };
 
-/// The pose of what the sensor is mounted on, without what it scales.
+/// The pose of what the sensor is mounted on, with what it scales.
 Affine<double> mount_pose(const Scene& scene, std::size_t mount) {
   return mount < scene.objects.size() ? scene.objects[mount].pose : Affine<double>();
 }

@@ -24,7 +24,7 @@ struct Echo {
   std::int32_t object = -1;
   double t_lo = std::numeric_limits<double>::infinity();
   double t_hi = std::numeric_limits<double>::infinity();
-  std::uint8_t status = 1;  ///< 0 hit, 1 miss, 2 inside, 3 exhausted, 4 dropped out
+  std::uint8_t status = 1;  ///< 0 hit, 1 miss, 2 inside, 3 dropped out
 };
 
 struct ScanOptions {
