@@ -35,7 +35,9 @@ TYPED_TEST(HalfSpaces, where_a_ray_enters_its_height_is_zero_and_the_interval_ho
     if (result.status == Status::hit) {
       ++hits;
       EXPECT_GE(height(result.offset_lo), 0.0L);
-      if (std::isfinite(result.offset_hi)) EXPECT_LE(height(result.offset_hi), 0.0L);
+      if (std::isfinite(result.offset_hi)) {
+        EXPECT_LE(height(result.offset_hi), 0.0L);
+      }
       EXPECT_LE(result.offset_lo, result.t_offset);
       EXPECT_GE(result.offset_hi, result.t_offset);
       EXPECT_EQ(result.normal, body.normal);
@@ -90,7 +92,9 @@ TYPED_TEST(HalfSpaces, a_world_answers_as_each_of_its_instances_alone_would) {
     QueryCounts counts;
     const WorldHit<T> hit = world.closest_hit(ray, counts, skip);
     ASSERT_EQ(hit.instance, expected.instance);
-    if (hit.found()) ASSERT_EQ(hit.cast.t(), expected.cast.t());
+    if (hit.found()) {
+      ASSERT_EQ(hit.cast.t(), expected.cast.t());
+    }
     EXPECT_EQ(world.occluded(ray, counts, skip), expected.found());
     of_half_spaces += hit.found() && world.instances().is_half_space(hit.instance) ? 1 : 0;
   }

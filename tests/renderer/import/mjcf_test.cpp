@@ -179,7 +179,9 @@ TEST(Mjcf, rays_meet_what_mujocos_rays_meet) {
       // MuJoCo's rays pass surfaces from behind: they do not begin inside.
       if (hit.cast.status == Status::inside) continue;
       if (has_mesh) {  // a hull is met no later than its mesh
-        if (hit.found()) EXPECT_LE(hit.cast.t(), t + same_float * extent) << file;
+        if (hit.found()) {
+          EXPECT_LE(hit.cast.t(), t + same_float * extent) << file;
+        }
         EXPECT_TRUE(hit.found() || t > 1e6) << file;
         continue;
       }
@@ -191,7 +193,9 @@ TEST(Mjcf, rays_meet_what_mujocos_rays_meet) {
       // A tie: the other one is met there as well.
       EXPECT_GE(geom, 0);
     }
-    if (!has_mesh) EXPECT_GT(hits, rays / 20) << file;
+    if (!has_mesh) {
+      EXPECT_GT(hits, rays / 20) << file;
+    }
   }
 }
 

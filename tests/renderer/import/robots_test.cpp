@@ -147,8 +147,9 @@ TEST(Robots, every_description_of_the_packages_is_read_or_refused_with_a_reason)
     const std::optional<Model> model = load_model(file, without_meshes(), mistakes);
     EXPECT_EQ(model.has_value(), mistakes.none()) << file;
     read += model ? 1 : 0;
-    if (model)
+    if (model) {
       EXPECT_GT(model->links.size() + model->geoms.size() + model->passed_over.size(), 0u) << file;
+    }
   }
   EXPECT_GE(files.size(), 35u);
   EXPECT_GE(read, 30);
