@@ -83,7 +83,8 @@ std::optional<std::filesystem::path> MeshLibrary::find(
       places.push_back(std::filesystem::path(folder) / std::filesystem::path(rest).filename());
     }
     // Packages lie in a folder of their name, beside or above the file.
-    std::filesystem::path folder = std::filesystem::absolute(folder_).lexically_normal();
+    std::filesystem::path folder =
+        std::filesystem::absolute(folder_.empty() ? "." : folder_).lexically_normal();
     for (int i = 0; i < 8; ++i) {
       places.push_back(folder / rest);
       if (folder == folder.parent_path()) break;

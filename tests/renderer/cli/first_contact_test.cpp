@@ -96,10 +96,13 @@ std::vector<std::string> verbs() {
 /// The long options that a verb's --help lists, each where its entry begins.
 std::set<std::string> options_in_help(const std::string& verb) {
   const std::string help = run_shell("$MINKRAY " + verb + " --help").out;
-  const std::regex entry("\n  (?:-\\w,)?(--[a-z][a-z0-9-]*)");
+  const std::regex entry("\n  (-[a-z0-9,-]+)"), option("--[a-z][a-z0-9-]*");
   std::set<std::string> options;
-  for (std::sregex_iterator match(help.begin(), help.end(), entry), end; match != end; ++match)
-    options.insert((*match)[1]);
+  for (std::sregex_iterator match(help.begin(), help.end(), entry), end; match != end; ++match) {
+    const std::string names = (*match)[1];
+    for (std::sregex_iterator name(names.begin(), names.end(), option); name != end; ++name)
+      options.insert(name->str());
+  }
   return options;
 }
 
@@ -112,9 +115,12 @@ TEST(ManPages, every_verb_has_one_with_just_the_options_of_its_help) {
     page = std::regex_replace(page, std::regex("\\\\-"), "-");
     EXPECT_TRUE(page.starts_with(".TH \"minkray-" + verb + "\"")) << page.substr(0, 80);
     std::set<std::string> options;
-    const std::regex entry("\n\\.TP\n\\.BR? \"?(?:-\\w, )?(--[a-z][a-z0-9-]*)");
-    for (std::sregex_iterator match(page.begin(), page.end(), entry), end; match != end; ++match)
-      options.insert((*match)[1]);
+    const std::regex entry("\n\\.TP\n\\.BR? \"?(-[a-z0-9, -]+)"), option("--[a-z][a-z0-9-]*");
+    for (std::sregex_iterator match(page.begin(), page.end(), entry), end; match != end; ++match) {
+      const std::string list = (*match)[1];
+      for (std::sregex_iterator name(list.begin(), list.end(), option); name != end; ++name)
+        options.insert(name->str());
+    }
     EXPECT_EQ(options, options_in_help(verb)) << verb;
     EXPECT_NE(all.find("minkray\\-" + std::regex_replace(verb, std::regex("-"), "\\-") + " (1)"),
               std::string::npos)

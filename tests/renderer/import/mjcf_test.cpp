@@ -152,6 +152,7 @@ TEST(Mjcf, keyframes_are_mujocos) {
 }
 
 TEST(Mjcf, rays_meet_what_mujocos_rays_meet) {
+  int all_hits = 0, all_rays = 0;
   if (!has_robot_models()) GTEST_SKIP() << "run scenes/fetch-models";
   constexpr int rays = 2000;
   testing::Random random(21);
@@ -193,10 +194,12 @@ TEST(Mjcf, rays_meet_what_mujocos_rays_meet) {
       // A tie: the other one is met there as well.
       EXPECT_GE(geom, 0);
     }
-    if (!has_mesh) {
-      EXPECT_GT(hits, rays / 20) << file;
-    }
+    if (has_mesh) continue;
+    all_hits += hits;
+    all_rays += rays;
   }
+  // In single files all rays may begin behind a plane.
+  EXPECT_GT(all_hits, all_rays / 20);
 }
 
 #endif
