@@ -9,7 +9,7 @@
 namespace minkray {
 namespace {
 
-std::string quoted(const std::string& word) {
+std::string shell_quoted(const std::string& word) {
   const bool is_plain = !word.empty() && std::all_of(word.begin(), word.end(), [](unsigned char c) {
     return std::isalnum(c) != 0 ||
            std::string_view("_-+=./:,@%").find(static_cast<char>(c)) != std::string_view::npos;
@@ -28,9 +28,9 @@ std::string command_line() {
   for (std::string word; std::getline(arguments, word, '\0');) {
     // The program's own name, without the folder of one machine.
     if (line.empty())
-      line = quoted(word.substr(word.rfind('/') + 1));
+      line = shell_quoted(word.substr(word.rfind('/') + 1));
     else
-      line += " " + quoted(word);
+      line += " " + shell_quoted(word);
   }
   return line;
 }

@@ -16,7 +16,7 @@ std::string first_line(const std::string& doc) {
 }
 
 /// Within single quotes of a POSIX shell.
-std::string quoted(const std::string& text) {
+std::string shell_quoted(const std::string& text) {
   std::string out = "'";
   for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return out + "'";
@@ -56,7 +56,7 @@ std::string bash_completion(std::span<const VerbDescription> verbs) {
       "  COMPREPLY=()\n"
       "  if ((COMP_CWORD == 1)); then\n"
       "    COMPREPLY=($(compgen -W " +
-      quoted(joined(names, " ") + " --help --version") +
+      shell_quoted(joined(names, " ") + " --help --version") +
       " -- \"$word\"))\n"
       "    return\n"
       "  fi\n"
@@ -66,19 +66,19 @@ std::string bash_completion(std::span<const VerbDescription> verbs) {
       if (option.choices.empty() || option.is_value_optional) continue;
       std::vector<std::string> patterns;
       for (const std::string& flag : option.flags)
-        patterns.push_back(quoted(verb.name + " " + flag));
+        patterns.push_back(shell_quoted(verb.name + " " + flag));
       if (patterns.empty()) continue;
       text += "    " + joined(patterns, " | ") + ")\n      COMPREPLY=($(compgen -W " +
-              quoted(joined(option.choices, " ")) + " -- \"$word\"))\n      return ;;\n";
+              shell_quoted(joined(option.choices, " ")) + " -- \"$word\"))\n      return ;;\n";
     }
   text += "  esac\n  case \"${COMP_WORDS[1]}\" in\n";
   for (const VerbDescription& verb : verbs)
-    text += "    " + verb.name + ") flags=" + quoted(joined(flags_of(verb), " ")) + " ;;\n";
+    text += "    " + verb.name + ") flags=" + shell_quoted(joined(flags_of(verb), " ")) + " ;;\n";
   for (const VerbDescription& verb : verbs)
     for (const OptionDescription& option : verb.options)
       if (option.flags.empty() && !option.choices.empty())
         text += "  esac\n  case \"${COMP_WORDS[1]}\" in\n    " + verb.name +
-                ") flags+=" + quoted(" " + joined(option.choices, " ")) + " ;;\n";
+                ") flags+=" + shell_quoted(" " + joined(option.choices, " ")) + " ;;\n";
   return text +
          "  esac\n"
          "  COMPREPLY=($(compgen -W \"$flags\" -- \"$word\"))\n"
@@ -95,7 +95,7 @@ std::string zsh_completion(std::span<const VerbDescription> verbs) {
       "  if ((CURRENT == 2)); then\n"
       "    local -a verbs=(\n";
   for (const VerbDescription& verb : verbs)
-    text += "      " + quoted(verb.name + ":" + first_line(verb.doc)) + "\n";
+    text += "      " + shell_quoted(verb.name + ":" + first_line(verb.doc)) + "\n";
   text +=
       "    )\n"
       "    _describe verb verbs\n"
@@ -115,16 +115,16 @@ std::string zsh_completion(std::span<const VerbDescription> verbs) {
                   : takes_file(option)    ? "_files"
                                           : " ");
       if (option.flags.empty()) {
-        text +=
-            " \\\n        " +
-            quoted((option.is_repeated ? "*:" : ":") + option.place + ":" +
-                   (option.choices.empty() ? "_files" : "(" + joined(option.choices, " ") + ")"));
+        text += " \\\n        " +
+                shell_quoted(
+                    (option.is_repeated ? "*:" : ":") + option.place + ":" +
+                    (option.choices.empty() ? "_files" : "(" + joined(option.choices, " ") + ")"));
         continue;
       }
       for (const std::string& flag : option.flags)
-        text += " \\\n        " + quoted((option.is_repeated ? "*" : "") + flag +
-                                         (option.is_value_optional ? "=-" : "") + "[" +
-                                         zsh_text(option.doc) + "]" + action);
+        text += " \\\n        " + shell_quoted((option.is_repeated ? "*" : "") + flag +
+                                               (option.is_value_optional ? "=-" : "") + "[" +
+                                               zsh_text(option.doc) + "]" + action);
     }
     text += " ;;\n";
   }
@@ -138,16 +138,16 @@ std::string fish_completion(std::span<const VerbDescription> verbs) {
   std::string text = "# fish completion of minkray; made by: minkray completion fish\n";
   for (const VerbDescription& verb : verbs)
     text += "complete -c minkray -n __fish_use_subcommand -f -a " + verb.name + " -d " +
-            quoted(first_line(verb.doc)) + "\n";
+            shell_quoted(first_line(verb.doc)) + "\n";
   for (const VerbDescription& verb : verbs)
     for (const OptionDescription& option : verb.options) {
-      text += "complete -c minkray -n " + quoted("__fish_seen_subcommand_from " + verb.name);
+      text += "complete -c minkray -n " + shell_quoted("__fish_seen_subcommand_from " + verb.name);
       for (const std::string& flag : option.flags)
         text += flag.starts_with("--") ? " -l " + flag.substr(2) : " -s " + flag.substr(1);
       if (!option.flags.empty() && !option.value.empty() && !option.is_value_optional)
         text += " -r";
-      if (!option.choices.empty()) text += " -f -a " + quoted(joined(option.choices, " "));
-      text += " -d " + quoted(first_line(option.doc)) + "\n";
+      if (!option.choices.empty()) text += " -f -a " + shell_quoted(joined(option.choices, " "));
+      text += " -d " + shell_quoted(first_line(option.doc)) + "\n";
     }
   return text;
 }
