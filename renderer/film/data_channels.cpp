@@ -7,6 +7,7 @@
 
 #include "renderer/base/errors.h"
 #include "renderer/film/heatmap.h"
+#include "renderer/film/pixel_loop.h"
 #include "renderer/light/camera.h"
 
 namespace minkray {
@@ -132,8 +133,7 @@ std::vector<ExrPlane> measure_data_channels(const Scene& scene, const RenderWorl
   const Vec3<double> forward =
       camera.ray(0.5 * options.resolution.width, 0.5 * options.resolution.height).direction;
   const PixelRect part = options.part();
-  const std::size_t pixels =
-      static_cast<std::size_t>(part.width()) * static_cast<std::size_t>(part.height());
+  const std::size_t pixels = pixel_count(part);
 
   struct Wanted {
     Put put;
@@ -155,21 +155,13 @@ std::vector<ExrPlane> measure_data_channels(const Scene& scene, const RenderWorl
   }
 
   RayCounts counts;
-  for_tiles(part, counts, watch, [&](const PixelRect& tile) {
-    RayCounts of_tile;
-    for (int y = tile.y0; y < tile.y1; ++y)
-      for (int x = tile.x0; x < tile.x1; ++x) {
-        Found found{camera.ray(x + 0.5, y + 0.5), {}, {}};
-        found.hit = world.closest_hit(found.ray, found.work);
-        ++of_tile.camera;
-        of_tile.work += found.work;
-        const std::size_t pixel =
-            static_cast<std::size_t>(y - part.y0) * static_cast<std::size_t>(part.width()) +
-            static_cast<std::size_t>(x - part.x0);
-        for (const Wanted& channel : wanted)
-          channel.put(found, forward, pixel, &planes[channel.first_plane]);
-      }
-    return of_tile;
+  for_pixels(part, counts, watch, [&](const Pixel& pixel, RayCounts& of_tile) {
+    Found found{camera.ray(pixel.x + 0.5, pixel.y + 0.5), {}, {}};
+    found.hit = world.closest_hit(found.ray, found.work);
+    ++of_tile.camera;
+    of_tile.work += found.work;
+    for (const Wanted& channel : wanted)
+      channel.put(found, forward, pixel.index, &planes[channel.first_plane]);
   });
   return planes;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "renderer/film/pixel_loop.h"
 #include "renderer/light/camera.h"
 
 namespace minkray {
@@ -64,32 +65,24 @@ HeatField measure_heat(const Scene& scene, const RenderWorld& world, HeatChannel
   const Camera camera(scene.camera, options.resolution);
   const PixelRect part = options.part();
   HeatField field{part.width(), part.height(), {}, {}, false};
-  field.values.resize(static_cast<std::size_t>(field.width) *
-                      static_cast<std::size_t>(field.height));
+  field.values.resize(pixel_count(part));
 
-  const auto heat_of_pixel = [&](int x, int y, RayCounts& counts) {
+  const bool keeps_gravest = channel == HeatChannel::status || channel == HeatChannel::path;
+  RayCounts counts;
+  field.complete = for_pixels(part, counts, watch, [&](const Pixel& pixel, RayCounts& of_tile) {
     double sum = 0;
     float gravest = 0;
     for (int sample = 0; sample < options.samples && !watch.stopped(); ++sample) {
-      Sampler sampler(options.seed, x, y, static_cast<std::uint32_t>(sample));
+      Sampler sampler(options.seed, pixel.x, pixel.y, static_cast<std::uint32_t>(sample));
       const std::array<double, 2> at =
           options.samples == 1 ? std::array<double, 2>{0.5, 0.5} : sampler.next();
-      const float heat = heat_of_ray(world, camera.ray(x + at[0], y + at[1]), channel, counts.work);
-      ++counts.camera;
+      const Ray<Real> ray = camera.ray(pixel.x + at[0], pixel.y + at[1]);
+      const float heat = heat_of_ray(world, ray, channel, of_tile.work);
+      ++of_tile.camera;
       sum += static_cast<double>(heat);
       gravest = std::max(gravest, heat);
     }
-    const bool keeps_gravest = channel == HeatChannel::status || channel == HeatChannel::path;
-    return keeps_gravest ? gravest : static_cast<float>(sum / options.samples);
-  };
-  RayCounts counts;
-  field.complete = for_tiles(part, counts, watch, [&](const PixelRect& tile) {
-    RayCounts of_tile;
-    for (int y = tile.y0; y < tile.y1; ++y)
-      for (int x = tile.x0; x < tile.x1; ++x)
-        field.values[static_cast<std::size_t>(y - part.y0) * static_cast<std::size_t>(field.width) +
-                     static_cast<std::size_t>(x - part.x0)] = heat_of_pixel(x, y, of_tile);
-    return of_tile;
+    field.values[pixel.index] = keeps_gravest ? gravest : static_cast<float>(sum / options.samples);
   });
   field.work = counts.work;
   return field;

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "renderer/film/pixel_loop.h"
 #include "renderer/image/filter.h"
 #include "renderer/light/camera.h"
 #include "renderer/scene/scene_instances.h"
@@ -12,11 +13,12 @@ namespace {
 
 /// How so many rays are taken from pixels and samples.
 struct PacketShape {
-  int samples, width = 1, height = 1;
+  int samples;
+  BlockSize pixels;
 
   PacketShape(int rays, int samples_of_pixel) : samples(std::clamp(samples_of_pixel, 1, rays)) {
-    while (2 * samples * width * height <= rays && width < tile_size)
-      (height < width ? height : width) *= 2;
+    while (2 * samples * pixels.width * pixels.height <= rays && pixels.width < tile_size)
+      (pixels.height < pixels.width ? pixels.height : pixels.width) *= 2;
   }
 };
 
@@ -24,14 +26,6 @@ struct PacketShape {
 bool is_on_the_move(const Scene& scene) {
   return std::any_of(scene.objects.begin(), scene.objects.end(),
                      [](const Object& object) { return !object.shift.isZero(0); });
-}
-
-/// on_pixel(x, y, i) for all pixels, in rows.
-template <class OnPixel>
-void for_pixels(const PixelRect& pixels, const OnPixel& on_pixel) {
-  std::size_t i = 0;
-  for (int y = pixels.y0; y < pixels.y1; ++y)
-    for (int x = pixels.x0; x < pixels.x1; ++x) on_pixel(x, y, i++);
 }
 
 /// A pixel while its samples come in, in their order: the same additions however many come at once.
@@ -106,7 +100,7 @@ Rendering render(const Scene& scene, const RenderWorld& world, const RenderOptio
                            blocks.begin(end_block) - blocks.begin(first_block));
   // When nothing moves no random numbers are spent on when.
   const bool blurs = world.instances().move();
-  const auto render_pixels = [&](const PixelRect& pixels, RayCounts& counts) {
+  const auto render_block = [&](const PixelBlock& pixels, RayCounts& counts) {
     std::array<PixelSum, most_in_packet> sums;
     std::array<CameraRay, most_in_packet> rays;
     const int end = blocks.begin(end_block);
@@ -114,50 +108,45 @@ Rendering render(const Scene& scene, const RenderWorld& world, const RenderOptio
     for (int first = blocks.begin(first_block); first < end && !watch.stopped(); first = next) {
       next = std::min(first + packet.samples, end);
       std::size_t count = 0;
-      for_pixels(pixels, [&](int x, int y, std::size_t) {
+      pixels.for_each([&](const Pixel& pixel) {
         for (int sample = first; sample < next; ++sample) {
           CameraRay& ray = rays[count++];
-          ray.sampler = Sampler(options.seed, x, y, static_cast<std::uint32_t>(sample));
+          ray.sampler = Sampler(options.seed, pixel.x, pixel.y, static_cast<std::uint32_t>(sample));
           const std::array<double, 2> u = ray.sampler.next();
-          ray.ray = camera.ray(x + 0.5 + filter.offset(u[0]), y + 0.5 + filter.offset(u[1]));
+          ray.ray =
+              camera.ray(pixel.x + 0.5 + filter.offset(u[0]), pixel.y + 0.5 + filter.offset(u[1]));
           ray.time = blurs ? ray.sampler.next()[0] : 0;
         }
       });
       integrator.trace(std::span(rays).first(count), counts);
-      std::size_t ray = 0;
-      for_pixels(pixels, [&](int x, int y, std::size_t pixel) {
-        for (int sample = first; sample < next; ++sample, ++ray) {
-          sums[pixel].add(rays[ray]);
+      const CameraRay* ray = rays.data();
+      PixelSum* sum = sums.data();
+      pixels.for_each([&](const Pixel& pixel) {
+        for (int sample = first; sample < next; ++sample) {
+          sum->add(*ray++);
           const int block = blocks.of(sample);
           if (sample + 1 < blocks.begin(block + 1)) continue;
-          const Vec3<float> sum = sums[pixel].end_block();
+          const Vec3<float> of_block = sum->end_block();
           if (!options.sample_share.is_all())
-            rendering.block_sums[static_cast<std::size_t>(block - first_block)].at(
-                x - part.x0, y - part.y0) = sum;
+            rendering.block_sums[static_cast<std::size_t>(block - first_block)]
+                .pixels[pixel.index] = of_block;
         }
+        ++sum;
       });
     }
-    for_pixels(pixels, [&](int x, int y, std::size_t pixel) {
-      const int column = x - part.x0, row = y - part.y0;
+    const PixelSum* sum = sums.data();
+    pixels.for_each([&](const Pixel& pixel) {
       if (options.sample_share.is_all())
-        rendering.image.at(column, row) = sums[pixel].total.mean(options.samples);
-      rendering.met[static_cast<std::size_t>(row) * static_cast<std::size_t>(part.width()) +
-                    static_cast<std::size_t>(column)] = sums[pixel].met;
+        rendering.image.pixels[pixel.index] = sum->total.mean(options.samples);
+      rendering.met[pixel.index] = sum->met;
+      ++sum;
     });
   };
   TileJournal tiles{std::move(journal.done), {}};
   if (journal.finished)
     tiles.finished = [&](std::size_t tile) { journal.finished(rendering, tile); };
-  const auto render_tile = [&](const PixelRect& tile) {
-    RayCounts counts;
-    for (int y = tile.y0; y < tile.y1; y += packet.height)
-      for (int x = tile.x0; x < tile.x1; x += packet.width)
-        render_pixels(
-            {x, y, std::min(x + packet.width, tile.x1), std::min(y + packet.height, tile.y1)},
-            counts);
-    return counts;
-  };
-  rendering.complete = for_tiles(part, rendering.counts, watch, render_tile, tiles);
+  rendering.complete =
+      for_blocks(part, packet.pixels, rendering.counts, watch, render_block, tiles);
   return rendering;
 }
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "renderer/base/errors.h"
+#include "renderer/film/pixel_loop.h"
 #include "renderer/io/output_file.h"
 #include "renderer/share/part_file.h"
 
@@ -17,16 +18,11 @@ constexpr const char* done_plane = "done";
 /// A checkpoint keeps the counts of rays that met something as they are; the plane A is rounded.
 constexpr const char* alpha_plane = "A";
 
-std::size_t pixel_of(const PixelRect& part, int x, int y) {
-  return static_cast<std::size_t>(y - part.y0) * static_cast<std::size_t>(part.width()) +
-         static_cast<std::size_t>(x - part.x0);
-}
-
 /// Calls visit(first pixel, count) for each row of a tile of the part.
 template <class Visit>
 void for_rows(const PixelRect& part, const PixelRect& tile, const Visit& visit) {
   for (int y = tile.y0; y < tile.y1; ++y)
-    visit(pixel_of(part, tile.x0, y), static_cast<std::size_t>(tile.width()));
+    visit(pixel_of(part, tile.x0, y).index, static_cast<std::size_t>(tile.width()));
 }
 
 std::vector<unsigned char> encode(const Rendering& rendering, const RenderOptions& options,
@@ -119,7 +115,7 @@ RenderJournal Checkpoint::load() {
     const std::vector<std::uint32_t>& is_done = integers_of(exr, done_plane);
     const TileGrid tiles(part);
     for (std::size_t tile = 0; tile < tiles.count(); ++tile)
-      done_[tile] = is_done[pixel_of(part, tiles[tile].x0, tiles[tile].y0)] == 1;
+      done_[tile] = is_done[pixel_of(part, tiles[tile].x0, tiles[tile].y0).index] == 1;
   } catch (const BadInput& error) {
     throw BadInput(path_ + ": " + error.what());
   }

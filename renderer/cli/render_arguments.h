@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// What `minkray render` is told on the command line.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "renderer/cli/image_arguments.h"
+#include "renderer/share/ranks.h"
+
+namespace CLI {
+class App;
+}
+
+namespace minkray {
+
+struct RenderArguments {
+  ImageArguments image;
+  double exposure = 0;
+  int bounces = IntegratorOptions().bounces;
+  int packet = IntegratorOptions().packet;
+  BvhBuild build = BvhBuild::quality;
+  bool certify = false;
+  std::string stats;  ///< empty: none, "true": text, "json"
+  std::optional<std::string> aov;
+  std::optional<std::string> tile, sample_share;
+  std::optional<int> tiles;
+  double checkpoint_seconds = 60;
+  bool resume = false;
+  std::optional<std::string> frames;
+  double rate = 24;
+  std::string contact_sheet;  ///< empty: none
+
+  /// Adds the options, which are written to these members when the verb is called; defaults shown
+  /// are the members' values.
+  void add_to(CLI::App& verb);
+
+  /// Chooses an output if none is given. Throws WrongUsage where it must be given.
+  void choose_output(const Ranks& ranks);
+
+  bool is_piece() const { return tile || sample_share; }
+};
+
+}  // namespace minkray

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/cli/render_frames.h"
+
+#include <filesystem>
+
+#include "renderer/base/hash.h"
+#include "renderer/cli/render_picture.h"
+#include "renderer/cli/timed.h"
+#include "renderer/cli/write_picture.h"
+#include "renderer/json/json.h"
+#include "renderer/json/mistakes.h"
+#include "renderer/share/frames_record.h"
+
+namespace minkray {
+namespace {
+
+/// One record for each output.
+std::vector<FramesRecord> records_of(const RenderJob& job, const RenderArguments& options) {
+  Facts facts = facts_of(job);
+  facts[fact::rate] = Json(options.rate).dump();
+  facts[fact::exposure] = Json(options.exposure).dump();
+  std::vector<FramesRecord> records;
+  for (const std::string& name : options.image.outputs)
+    records.emplace_back(FramesRecord::path_for(name), facts, options.resume);
+  for (const FramesRecord& record : records) record.write();  // none before all are known to fit
+  return records;
+}
+
+}  // namespace
+
+void render_frames(RenderJob& job, const RenderArguments& options, const FrameRange& frames,
+                   RenderStatistics& statistics) {
+  const std::string scene_hash = job.scene.hash;
+  std::vector<FramesRecord> records = records_of(job, options);
+  ContactSheet sheet;
+  for (int frame = frames.first; frame <= frames.last; ++frame) {
+    std::vector<std::string> outputs;
+    bool is_there = true;
+    for (std::size_t i = 0; i < records.size(); ++i) {
+      outputs.push_back(file_of_frame(options.image.outputs[i], frame));
+      is_there = is_there && records[i].has(frame) && std::filesystem::exists(outputs[i]);
+    }
+    if (options.resume && is_there) continue;
+    if (!options.image.quiet) std::cerr << printable(outputs.front()) << "\n";
+    timed(options.image.verbose, "move", statistics.build_seconds, [&] {
+      set_time(job.scene, frame / options.rate);
+      follow(job.world, job.scene);
+    });
+    Hash hash;
+    hash.add(scene_hash);
+    hash.add(std::to_string(job.scene.time));
+    job.scene.hash = hash.text();
+    const Image image = render_picture(job, options, outputs, statistics);
+    for (FramesRecord& record : records) record.add(frame);
+    if (!options.contact_sheet.empty()) sheet.add(image);
+  }
+  if (options.contact_sheet.empty()) return;
+  const Image image = sheet.image();
+  const FinishedPicture picture{
+      image, {}, {0, 0, image.width, image.height}, {image.width, image.height}, {}};
+  write_picture({options.contact_sheet}, picture, options.exposure);
+}
+
+}  // namespace minkray

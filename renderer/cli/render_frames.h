@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// Pictures of a scene at several times, rendered and written one after another.
+#pragma once
+
+#include "renderer/cli/frames.h"
+#include "renderer/cli/render_arguments.h"
+#include "renderer/cli/render_job.h"
+#include "renderer/cli/render_statistics.h"
+
+namespace minkray {
+
+/// Renders the frames that are wanted, and the contact sheet if there is to be one. The job's scene
+/// and world move from frame to frame.
+void render_frames(RenderJob& job, const RenderArguments& options, const FrameRange& frames,
+                   RenderStatistics& statistics);
+
+}  // namespace minkray

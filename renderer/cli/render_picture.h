@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// One picture rendered and written into its files, by this process alone or by all ranks.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "renderer/cli/render_arguments.h"
+#include "renderer/cli/render_job.h"
+#include "renderer/cli/render_statistics.h"
+
+namespace minkray {
+
+/// Renders the job's picture or piece into `outputs`, and answers the light that was written.
+Image render_picture(const RenderJob& job, const RenderArguments& options,
+                     const std::vector<std::string>& outputs, RenderStatistics& statistics);
+
+/// All ranks of the MPI job render, rank 0 writes.
+void render_picture_on(Ranks& ranks, const RenderJob& job, const RenderArguments& options,
+                       RenderStatistics& statistics);
+
+}  // namespace minkray
