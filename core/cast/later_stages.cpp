@@ -368,7 +368,8 @@ void keep_result_on_ray(const Ray<T>& ray, CastResult<T>& result) {
 template <class T>
 RayNearBall<T> near_inner(const PreparedShape<T>& shape, const Ray<T>& ray) {
   RayNearBall<T> near = shape.to_inner(ray);
-  if (near.is_from_afar(shape.inner_ball().radius)) near = shape.to_inner_from_afar(ray);
+  if (near.is_from_afar(shape.inner_ball().radius) || shape.is_far_out())
+    near = shape.to_inner_from_afar(ray);
   return near;
 }
 

@@ -64,7 +64,7 @@ void cast_packet(const PreparedShape<T>& shape, const RayPacket<T>& rays, LaneBi
       filter_kernel_avx2(shape, rays, lanes, answers);
     else
       filter_kernel_sse2(shape, rays, lanes, answers);
-  } else if (shape.definition().has_packets()) {
+  } else if (shape.definition().has_packets() && !shape.is_far_out()) {
     answers.path.fill(Path::model);
     if (set == InstructionSet::avx2)
       packet_kernel_avx2(shape, rays, lanes, answers);

@@ -52,6 +52,15 @@ class PreparedShape {
   /// Of the inner shape's axis-aligned bounds.
   const Vec3<T>& inner_half_extents() const { return definition_->inner_half_extents(); }
 
+  /// Whether the centre is so many radii from the outer frame's origin that a float ray loses
+  /// digits which it has, where it is moved there in float.
+  bool is_far_out() const {
+    if constexpr (std::is_same_v<T, double>) return false;
+    const T size = is_rigid_identity_ ? T(1) : to_inner_.cwiseAbs().maxCoeff();
+    const T R = inner_ball().radius;
+    return R > T(0) && centre_.cwiseAbs().maxCoeff() * size > T(tolerance::far_out) * R;
+  }
+
   /// What the solvers on jets model it as.
   ModelKind model() const { return definition_->model(); }
 

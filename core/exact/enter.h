@@ -7,6 +7,7 @@
 #include "core/exact/cylinder.h"
 #include "core/exact/form.h"
 #include "core/exact/frustum.h"
+#include "core/exact/polytope.h"
 #include "core/exact/rounded_box.h"
 #include "core/exact/tapered_capsule.h"
 
@@ -33,6 +34,8 @@ template <class W>
       return enter_cylinder(a[0], a[1], line, open);
     case FormKind::frustum:
       return enter_frustum(form.slope, form.sine, a[2], a[3], form.R, line, open);
+    case FormKind::polytope:
+      return enter_polytope(*form.polytope, line, open);
     default:
       return {};
   }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/exact/polytope.h"
+
 namespace minkray::exact {
 
 namespace {
@@ -53,6 +55,7 @@ Form form_of(const ExactForm& declared, const Vec3<double>& ball_centre, double 
   const auto& a = form.sizes;
   switch (declared.kind) {
     case FormKind::none:
+    case FormKind::polytope:
       return {};
     case FormKind::ball:
       form.R = a[0];
@@ -87,6 +90,15 @@ Form form_of(const ExactForm& declared, const Vec3<double>& ball_centre, double 
   if (!form.is_scaled) form.inner_R = form.R;
   const bool has_size = form.R > 0 && std::isfinite(form.R) && std::isfinite(form.largest_scale);
   return has_size ? form : Form();
+}
+
+Form form_of(std::shared_ptr<const Polytope> polytope) {
+  Form form;
+  if (!polytope || !std::isfinite(polytope->radius())) return form;
+  form.kind = FormKind::polytope;
+  form.R = form.inner_R = polytope->radius();
+  form.polytope = std::move(polytope);
+  return form;
 }
 
 }  // namespace minkray::exact

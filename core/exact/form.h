@@ -3,10 +3,14 @@
 // seen from the middle of the shape's bounding ball.
 #pragma once
 
+#include <memory>
+
 #include "core/math/vec.h"
 #include "core/shape/exact_form.h"
 
 namespace minkray::exact {
+
+class Polytope;
 
 /// The form's frame is the shape's, moved to the form's middle and multiplied by `scale` along the
 /// axes (which makes ellipsoids balls).
@@ -23,10 +27,14 @@ struct Form {
   /// As declared, but of balls' frames; forms with a cone: radii below and above, half height,
   /// apex.
   std::array<double, 4> sizes = {};
+  std::shared_ptr<const Polytope> polytope;  ///< null for other kinds
 };
 
 /// Of a shape whose bounding ball has this centre; `down` is what lengths are multiplied by. None,
 /// where there is no closed form of those sizes.
 Form form_of(const ExactForm& declared, const Vec3<double>& ball_centre, double down);
+
+/// Of a polytope whose middle is the ball's centre; none of null.
+Form form_of(std::shared_ptr<const Polytope> polytope);
 
 }  // namespace minkray::exact

@@ -3,8 +3,11 @@
 
 #include "core/derived/convert.h"
 #include "core/derived/proportions.h"
+#include "core/derived/recentred.h"
 #include "core/derived/shape_bounds.h"
+#include "core/exact/polytope.h"
 #include "core/shape/as_rounded_box.h"
+#include "core/shape/declared.h"
 
 namespace minkray {
 namespace {
@@ -23,6 +26,8 @@ exact::Form exact_form_of(const Shape<T>& inner, const Vec3<double>& ball_centre
       [&](const auto& kind) {
         if constexpr (requires { kind.exact_form(); })
           return exact::form_of(kind.exact_form(), ball_centre, down);
+        else if constexpr (declared_by<std::remove_cvref_t<decltype(kind)>>.facets)
+          return exact::form_of(exact::Polytope::of(kind.points, ball_centre, down));
         else
           return exact::Form();
       },
@@ -42,6 +47,13 @@ ShapeDefinition<T>::ShapeDefinition(Shape<T> shape) : original_(shape), inner_(s
     simpler = next.has_value();
     if (simpler) inner_ = *std::move(next);
   }
+  Vec3<T> moved = Vec3<T>::Zero();
+  if (std::optional<Recentred<T>> nearer = recentred(inner_)) {
+    moved = nearer->moved;
+    inner_ = std::move(nearer->shape);
+    maps_.push_back({Mat3<T>::Identity(), moved});
+    is_recentred_ = true;
+  }
   Bounds<T> bounds = minkray::bounds_of<T>(inner_);
   // Very small and very large shapes are brought to about unit size by a power of two, which is
   // exact: solvers multiply up to four lengths, and must not leave the range of T.
@@ -51,6 +63,13 @@ ShapeDefinition<T>::ShapeDefinition(Shape<T> shape) : original_(shape), inner_(s
     up_ = std::ldexp(T(1), std::ilogb(size));
     inner_ = Transform<T>{Nested<T>(inner_), Affine<T>{Mat3<T>::Identity() * down_, {0, 0, 0}}};
     bounds = minkray::bounds_of<T>(inner_);
+  }
+  // The way back to where the shape was leads to the ball's centre, lest its sum with that were
+  // rounded to how far away it is.
+  for (int axis = 0; axis < 3; ++axis) {
+    if (moved[axis] == T(0)) continue;
+    bounds.upper[axis] = std::max(bounds.upper[axis], -bounds.lower[axis]);
+    bounds.lower[axis] = -bounds.upper[axis];
   }
   ball_ = ball_around(bounds);
   half_extents_ = bounds.reach_of_centre();
@@ -71,6 +90,15 @@ Bounds<T> ShapeDefinition<T>::bounds_of(const Affine<T>& pose) const {
   return minkray::bounds_of<T>(Transform<T>{original_, pose});
 }
 
+/// With more digits: parts of it may be far from each other.
+template <class T>
+Vec3<T> ShapeDefinition<T>::centre_under(const Affine<T>& pose) const {
+  using Finer = std::conditional_t<std::is_same_v<T, float>, double, long double>;
+  Affine<Finer> to_outer = pose.template cast<Finer>();
+  for (const Affine<T>& map : maps_) to_outer = to_outer * map.template cast<Finer>();
+  return to_outer(Vec3<Finer>(ball_.centre.template cast<Finer>() * Finer(up_))).template cast<T>();
+}
+
 template <class T>
 typename ShapeDefinition<T>::Placement ShapeDefinition<T>::placed(const Affine<T>& pose) const {
   Affine<T> to_outer = pose;
@@ -79,7 +107,7 @@ typename ShapeDefinition<T>::Placement ShapeDefinition<T>::placed(const Affine<T
   placement.to_inner = inverse_of(to_outer.linear);
   to_outer.linear *= up_;
   placement.to_inner *= down_;
-  placement.centre = to_outer(ball_.centre);
+  placement.centre = is_recentred_ ? centre_under(pose) : to_outer(ball_.centre);
   placement.is_rigid_identity = to_outer.linear == Mat3<T>::Identity();
   return placement;
 }

@@ -61,9 +61,12 @@ class ShapeDefinition {
   Placement placed(const Affine<T>& pose) const;
 
  private:
+  Vec3<T> centre_under(const Affine<T>& pose) const;
+
   Nested<T> original_;
   Shape<T> inner_;
   std::vector<Affine<T>> maps_;  ///< taken off, the outermost first
+  bool is_recentred_ = false;    ///< the last of them moves points that are far away
   T up_ = T(1), down_ = T(1);
   Ball<T> ball_;
   Vec3<T> half_extents_;

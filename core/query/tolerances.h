@@ -111,6 +111,10 @@ inline constexpr T far_origin = std::is_same_v<T, float> ? T(0x1p24) : T(0x1p53)
 template <class T>
 inline constexpr T farthest_origin = std::is_same_v<T, float> ? T(0x1p46) : T(0x1p62);
 
+/// Radii from the frame's origin beyond which a shape's neighbourhood is rounded too coarsely in
+/// float, whose steps there are 2^-24 of that: 3e-5 of the radius.
+inline constexpr double far_out = 0x1p9;
+
 /// How far beside a bounding box, relative to the sizes of what was added up, a line counts as
 /// meeting it: origin and direction, mapped, are sums of up to four rounded numbers, and their
 /// cross product and the box's reach round a few times more.
@@ -150,6 +154,16 @@ inline constexpr double form_digits = (std::is_same_v<T, float> ? 1 : 8) * doubl
 
 /// The same for rays in double: lengths of directions, or their inverses.
 inline constexpr double form_longest_step = 1e250;
+
+/// What a polytope's plane and a line round by where they cross, across the plane, in units of the
+/// polytope's radius: the plane's offset 1, the line's height 5 and its slope 3 (three products and
+/// their sum each), the way 2, 2^-53 each, and one more.
+inline constexpr double polytope_rounding = 12 * 0x1p-53;
+
+/// How far a polytope's corner, seen along a line that is known to E, may lie beside where it
+/// should be, in units of E: (1 + 2 sqrt(3)) E at the corner's height, (1 + sqrt(2)) times that
+/// across a sheared view, and rounding.
+inline constexpr double polytope_beside = 16;
 
 /// The GJK distance ends when |v|^2 - v.w <= this * |v| (|v| + R): v.w is a difference of numbers
 /// of size |v| (|v| + R), each rounded to an epsilon of that. The distance is then known to a few

@@ -13,12 +13,12 @@ struct FilterVerdict {
   double error_by_bound = 0;  ///< of hits; at most 1 if the bound holds
 };
 
-/// Of a shape as it was prepared, whose numbers are taken as exact, and which line_in_shape knows.
-/// `inner` is its inner shape. The ray is moved near in 113 bits, the rest is in long double.
-/// `leaves`: the answer is cast_exit's.
-template <class T>
-FilterVerdict judge_bound(const Shape<double>& inner, const PreparedShape<T>& prepared,
-                          const Ray<T>& ray, const CastResult<T>& answer, bool leaves = false) {
+/// Of a shape as it was prepared, whose numbers are taken as exact. `line_in(at, along)` is the
+/// interval of a line in the inner shape. The ray is moved near in 113 bits, the rest is in long
+/// double. `leaves`: the answer is cast_exit's.
+template <class T, class LineIn>
+FilterVerdict judge_bound_by(const LineIn& line_in, const PreparedShape<T>& prepared,
+                             const Ray<T>& ray, const CastResult<T>& answer, bool leaves = false) {
   __extension__ using Quad = __float128;
   std::array<Quad, 3> o, d;
   for (int i = 0; i < 3; ++i) {
@@ -48,7 +48,7 @@ FilterVerdict judge_bound(const Shape<double>& inner, const PreparedShape<T>& pr
     at[i] = static_cast<Long>(o[k] + base * d[k] + Quad(prepared.inner_ball().centre[i]));
     along[i] = static_cast<Long>(d[k]);
   }
-  const Interval inside = *line_in_shape(inner, at, along);
+  const Interval inside = line_in(at, along);
   const Quad begin = -base, end = Quad(ray.t_max) - base;
   const bool meets = !inside.empty() && Quad(inside.upper) >= begin && Quad(inside.lower) <= end;
   FilterVerdict verdict;
@@ -66,6 +66,16 @@ FilterVerdict judge_bound(const Shape<double>& inner, const PreparedShape<T>& pr
     verdict.error_by_bound = error == 0 ? 0 : static_cast<double>(std::abs(error) / bound);
   }
   return verdict;
+}
+
+/// The same of inner shapes that line_in_shape knows.
+template <class T>
+FilterVerdict judge_bound(const Shape<double>& inner, const PreparedShape<T>& prepared,
+                          const Ray<T>& ray, const CastResult<T>& answer, bool leaves = false) {
+  const auto line_in = [&](const Vec3<Long>& at, const Vec3<Long>& along) {
+    return *line_in_shape(inner, at, along);
+  };
+  return judge_bound_by(line_in, prepared, ray, answer, leaves);
 }
 
 }  // namespace minkray::testing

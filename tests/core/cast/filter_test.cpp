@@ -3,13 +3,11 @@
 // is false, wherever rays come from and however shapes are posed.
 #include <gtest/gtest.h>
 
-#include "core/cast/cast.h"
 #include "core/derived/convert.h"
 #include "core/proof/certificate.h"
 #include "core/proof/check_certificate.h"
-#include "tests/oracle/filter_truth.h"
+#include "tests/support/filter_cases.h"
 #include "tests/support/ray_families.h"
-#include "tests/support/rounded.h"
 
 namespace minkray::testing {
 namespace {
@@ -45,32 +43,6 @@ std::vector<Named> shapes() {
   };
 }
 
-struct Posed {
-  std::string name;
-  Affine<double> pose;
-};
-
-std::vector<Posed> poses() {
-  Affine<double> moved, turned, sheared;
-  moved.translation = {100, -50, 2};
-  turned.linear =
-      Eigen::AngleAxis<double>(0.7, Vec3<double>(1, 2, 3).normalized()).toRotationMatrix();
-  turned.translation = {0.3, -4, 7};
-  sheared.linear << 1, 2, 0.5, 0, 1.5, -1, 0.3, 0, 0.4;
-  sheared.translation = {1, 2, 3};
-  return {{"as it is", {}}, {"moved", moved}, {"turned", turned}, {"sheared", sheared}};
-}
-
-/// Begun and ended anywhere along it, in one case of four.
-template <class T>
-Ray<T> cut(Ray<double> ray, Random& random) {
-  const double way = 2 * ray.origin.norm() / ray.direction.norm();
-  const int kind = random.below(8);
-  if (kind == 0) ray.t_max = random.uniform() * way;
-  if (kind == 1) ray.origin += ray.direction * (random.uniform() * way);
-  return rounded_to<T>(ray);
-}
-
 /// Coordinates that tie: zeros of either sign, the shape's own sizes, halves; a surface's points.
 Ray<double> tied(const S& shape, double R, Random& random) {
   constexpr std::array numbers = {0.0, -0.0, 1.0, -1.0, 0.5, -0.5, 2.0, 0.25, 1e-30, -1e-20};
@@ -84,34 +56,12 @@ Ray<double> tied(const S& shape, double R, Random& random) {
   return ray;
 }
 
-struct Counted {
-  int answered = 0, in_doubt = 0, hits = 0, misses = 0, insides = 0;
-};
-
 template <class T>
 void judge(const S& inner, const PreparedShape<T>& prepared, const Ray<T>& ray, Counted& counted) {
-  for (const bool leaves : {false, true}) {
-    const CastResult<T> answer = leaves ? cast_exit(prepared, ray) : cast_ray(prepared, ray);
-    if (answer.path != Path::filter) {
-      counted.in_doubt += leaves ? 0 : 1;
-      continue;
-    }
-    if (!leaves) {
-      ++counted.answered;
-      counted.hits += answer.status == Status::hit;
-      counted.misses += answer.status == Status::miss;
-      counted.insides += answer.status == Status::inside;
-    }
-    const FilterVerdict verdict = judge_bound(inner, prepared, ray, answer, leaves);
-    ASSERT_FALSE(verdict.is_false) << name_of(answer.status) << (leaves ? " leaving" : "")
-                                   << " at origin " << ray.origin.transpose() << ", direction "
-                                   << ray.direction.transpose() << ", t_max " << ray.t_max;
-    ASSERT_LE(verdict.error_by_bound, 1)
-        << "origin " << ray.origin.transpose() << ", direction " << ray.direction.transpose();
-    if (answer.status != Status::inside) {
-      ASSERT_NEAR(double(answer.normal.norm()), 1, 1e-6);
-    }
-  }
+  const auto line_in = [&](const Vec3<Long>& at, const Vec3<Long>& along) {
+    return *line_in_shape(inner, at, along);
+  };
+  judge_by(line_in, prepared, ray, counted);
 }
 
 template <class T>

@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: MIT
+// Answers of the filter at convex hulls beside planes through every three of their points, in more
+// digits: no bound is broken, no hit or miss is false.
+#include "core/cast/packet_cast.h"
+#include "core/derived/convert.h"
+#include "core/exact/polytope.h"
+#include "core/proof/certificate.h"
+#include "core/proof/check_certificate.h"
+#include "tests/oracle/half_spaces.h"
+#include "tests/support/filter_cases.h"
+#include "tests/support/ray_families.h"
+
+namespace minkray::testing {
+namespace {
+
+using S = Shape<double>;
+using Points = std::vector<Vec3<double>>;
+
+Points on_a_sphere(int count, const Vec3<double>& extents) {
+  Random random(16);
+  Points points;
+  for (int i = 0; i < count; ++i) points.push_back(random.direction().cwiseProduct(extents));
+  return points;
+}
+
+/// Of sides in one plane: both ends are polygons of so many corners.
+Points prism(int sides, double half_height) {
+  Points points;
+  for (int i = 0; i < sides; ++i)
+    for (const double z : {-half_height, half_height})
+      points.push_back(
+          {std::cos(6.283185307179586 * i / sides), std::sin(6.283185307179586 * i / sides), z});
+  return points;
+}
+
+Points cube(const Mat3<double>& turned = Mat3<double>::Identity()) {
+  Points points;
+  for (int i = 0; i < 8; ++i)
+    points.push_back(turned * Vec3<double>(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1));
+  return points;
+}
+
+struct NamedPoints {
+  std::string name;
+  Points points;
+};
+
+std::vector<NamedPoints> hulls() {
+  const Mat3<double> turned =
+      Eigen::AngleAxis<double>(0.7, Vec3<double>(1, 2, 3).normalized()).toRotationMatrix();
+  const auto moved = [](Points points, const Vec3<double>& by) {
+    for (Vec3<double>& p : points) p += by;
+    return points;
+  };
+  return {
+      {"tetrahedron", {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}},
+      {"octahedron", {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}},
+      {"cube", cube()},
+      {"turned cube", cube(turned)},
+      {"prism", prism(12, 0.5)},
+      {"8 points", on_a_sphere(8, {1, 1, 1})},
+      {"16 points", on_a_sphere(16, {1, 1, 1})},
+      {"64 points", on_a_sphere(64, {1, 1, 1})},
+      {"cigar", on_a_sphere(32, {1, 0.05, 0.03})},
+      {"coin", on_a_sphere(32, {1, 1, 0.02})},
+      {"beside its origin", moved(on_a_sphere(16, {1, 1, 1}), {3, -2, 0.5})},
+      {"far from its origin", moved(on_a_sphere(16, {1, 1, 1}), {3000, -2, 700})},
+  };
+}
+
+/// The inner shape's own points, as they were rounded and moved.
+template <class T>
+HalfSpaces planes_of(const PreparedShape<T>& prepared) {
+  const Shape<T>& inner = prepared.inner_shape();
+  Points points;
+  for (const Vec3<T>& p : std::get<Hull<T>>(inner.kind).points.points())
+    points.push_back(p.template cast<double>());
+  return HalfSpaces(points);
+}
+
+/// Along edges, through vertices, in the planes of facets; as a ray of T can.
+class PointRays {
+ public:
+  PointRays(Points points, double R) : points_(std::move(points)), R_(R), random_(5) {}
+  Ray<double> next() {
+    const Vec3<double> a = any(), b = any(), c = any();
+    const Vec3<double> target = random_.below(2) ? a : Vec3<double>((a + b) / 2);
+    Vec3<double> along = random_.below(2) ? Vec3<double>(b - a) : Vec3<double>(c - target);
+    if (random_.below(3) == 0 || !(along.norm() > 1e-3 * R_)) along = R_ * random_.direction();
+    return {target - 3 * along, along};
+  }
+
+ private:
+  Vec3<double> any() {
+    return points_[static_cast<std::size_t>(random_.below(static_cast<int>(points_.size())))];
+  }
+  Points points_;
+  double R_;
+  Random random_;
+};
+
+template <class T>
+class PolytopeFilter : public ::testing::Test {};
+using Scalars = ::testing::Types<float, double>;
+TYPED_TEST_SUITE(PolytopeFilter, Scalars);
+
+template <class T, class Next>
+Counted judge_hulls(int count, const Next& make_next) {
+  Counted counted;
+  for (const NamedPoints& named : hulls()) {
+    for (const Posed& posed : poses()) {
+      SCOPED_TRACE(named.name + ", " + posed.name);
+      const S exact = Hull<double>{PointCloud<double>(named.points)};
+      const Shape<T> shape = convert<T>(exact);
+      const Affine<T> pose = posed.pose.cast<T>();
+      const PreparedShape<T> prepared(shape, pose);
+      EXPECT_EQ(prepared.definition().form().kind, FormKind::polytope);
+      const HalfSpaces planes = planes_of(prepared);
+      const auto line_in = [&](const Vec3<Long>& at, const Vec3<Long>& along) -> Interval {
+        const HalfSpaces::Part part = planes.clip(at, along);
+        return {part.lower, part.upper};
+      };
+      const S outer = convert<double>(Shape<T>(Transform<T>{Nested<T>(shape), pose}));
+      Points posed_points;
+      for (const Vec3<double>& p : named.points) posed_points.push_back(posed.pose(p));
+      Random random(81);
+      auto next = make_next(outer, posed_points);
+      for (int i = 0; i < count && !::testing::Test::HasFatalFailure(); ++i)
+        judge_by(line_in, prepared, cut<T>(next(), random), counted);
+    }
+  }
+  return counted;
+}
+
+template <class T>
+Counted judge_family(RayFamily family, int count) {
+  return judge_hulls<T>(count, [&](const S& shape, const Points&) {
+    auto rays = std::make_shared<FamilyRays>(shape, family, 82);
+    return [rays] { return rays->next(); };
+  });
+}
+
+TYPED_TEST(PolytopeFilter, random_rays_are_hardly_ever_in_doubt_and_no_bound_is_broken) {
+  const Counted counted = judge_family<TypeParam>(RayFamily::random, 400);
+  EXPECT_LE(counted.in_doubt, 0.001 * counted.answered);
+  EXPECT_GT(counted.hits, 0.2 * counted.answered);
+  EXPECT_GT(counted.misses, 0.2 * counted.answered);
+  EXPECT_GT(counted.insides, 0);
+}
+
+TYPED_TEST(PolytopeFilter, no_bound_of_a_grazing_ray_is_broken_and_few_are_in_doubt) {
+  const Counted counted = judge_family<TypeParam>(RayFamily::grazing, 400);
+  EXPECT_LT(counted.in_doubt, 0.05 * counted.answered);
+  EXPECT_GT(counted.hits, 0.2 * counted.answered);
+  EXPECT_GT(counted.misses, 0.3 * counted.answered);
+}
+
+TYPED_TEST(PolytopeFilter, no_bound_of_a_degenerate_ray_is_broken) {
+  const Counted counted = judge_family<TypeParam>(RayFamily::degenerate, 400);
+  // In double most of them are ties, which no bound tells apart.
+  EXPECT_GT(counted.answered, counted.in_doubt / 2);
+}
+
+TYPED_TEST(PolytopeFilter, no_bound_of_a_ray_from_afar_is_broken) {
+  const Counted counted = judge_family<TypeParam>(RayFamily::far, 400);
+  EXPECT_GT(counted.answered, counted.in_doubt);
+}
+
+TYPED_TEST(PolytopeFilter, no_bound_of_a_ray_through_points_or_along_edges_is_broken) {
+  const Counted counted = judge_hulls<TypeParam>(400, [](const S& shape, const Points& points) {
+    const double R = ball_around(bounds_of<double>(shape)).radius;
+    auto rays = std::make_shared<PointRays>(points, R);
+    return [rays] { return rays->next(); };
+  });
+  EXPECT_GT(counted.answered, counted.in_doubt);
+}
+
+/// The checker knows nothing but supports.
+TYPED_TEST(PolytopeFilter, answers_are_certified) {
+  using T = TypeParam;
+  for (const NamedPoints& named : hulls()) {
+    SCOPED_TRACE(named.name);
+    const Shape<T> shape = convert<T>(S(Hull<double>{PointCloud<double>(named.points)}));
+    const PreparedShape<T> prepared(shape);
+    // Both ends at the size of the shape: what is far away is rounded to that.
+    if (prepared.centre().norm() > 10) continue;
+    const S same = convert<double>(shape);
+    const SupportFunction support = supports_of(same);
+    for (const RayFamilyDescription& family : ray_families) {
+      FamilyRays rays(same, family.family, 83);
+      for (int i = 0; i < 60; ++i) {
+        const Ray<T> ray = rounded_to<T>(rays.next());
+        const CastResult<T> answer = cast_ray(prepared, ray);
+        if (answer.path != Path::filter) continue;
+        const Claim claim = claim_of(answer);
+        const Certificate proof = certify(support, in_double(ray), claim);
+        EXPECT_TRUE(check_certificate(support, in_double(ray), claim, proof).holds)
+            << family.name << ", " << name_of(answer.status) << ", origin "
+            << ray.origin.transpose() << ", direction " << ray.direction.transpose();
+      }
+    }
+  }
+}
+
+TYPED_TEST(PolytopeFilter, packets_have_the_bits_of_single_rays) {
+  using T = TypeParam;
+  for (const NamedPoints& named : hulls()) {
+    SCOPED_TRACE(named.name);
+    const Shape<T> shape = convert<T>(S(Hull<double>{PointCloud<double>(named.points)}));
+    const PreparedShape<T> prepared(shape);
+    const S same = convert<double>(shape);
+    for (const RayFamilyDescription& family : ray_families) {
+      FamilyRays rays(same, family.family, 84);
+      RayPacket<T> packet;
+      for (int i = 0; i < packet_lanes<T>; ++i) packet.set(i, rounded_to<T>(rays.next()));
+      for (const InstructionSet set : {InstructionSet::sse2, best_instruction_set()}) {
+        CastPacket<T> answers;
+        cast_packet(prepared, packet, all_lanes<T>, answers, set);
+        for (int i = 0; i < packet_lanes<T>; ++i) {
+          const CastResult<T> one = cast_ray(prepared, packet.ray(i)), other = answers.result(i);
+          EXPECT_EQ(one.status, other.status);
+          EXPECT_EQ(one.path, other.path);
+          if (!one.found()) continue;
+          EXPECT_EQ(one.t_base, other.t_base);
+          EXPECT_EQ(one.t_offset, other.t_offset);
+          EXPECT_EQ(one.offset_lo, other.offset_lo);
+          EXPECT_EQ(one.offset_hi, other.offset_hi);
+          EXPECT_EQ(one.normal, other.normal);
+        }
+      }
+    }
+  }
+}
+
+/// A facet of a cube is one plane, however it was cut into triangles.
+TEST(Polytope, triangles_in_one_plane_share_it) {
+  EXPECT_EQ(exact::Polytope::of(PointCloud<double>(cube()), {0, 0, 0}, 1)->planes(), 6u);
+  EXPECT_EQ(exact::Polytope::of(PointCloud<double>(prism(12, 0.5)), {0, 0, 0}, 1)->planes(), 14u);
+}
+
+TEST(Polytope, flat_hulls_have_no_form) {
+  EXPECT_EQ(exact::Polytope::of(PointCloud<double>({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}),
+                                {0, 0, 0}, 1),
+            nullptr);
+  EXPECT_EQ(exact::Polytope::of(PointCloud<double>({{1, 2, 3}}), {0, 0, 0}, 1), nullptr);
+}
+
+/// Hulls of floats that are 1e3 to 1e4 radii from their frame's origin were hit up to 9.5e-4 radii
+/// beside where they are, with rays whose numbers are floats as well: they were worked on where
+/// they stood, in steps of 2^-24 of the way there.
+TEST(Polytope, hulls_far_from_their_origin_are_hit_where_they_are) {
+  constexpr float step = 0x1p-10f;  // of floats from 8192 to 16384
+  for (const double distance : {1000.0, 9000.0}) {
+    for (const float radius : {0.0f, 0.25f}) {
+      Random random(9);
+      const Vec3<double> middle(distance, -distance, 0.5);
+      const auto near_middle = [&](double size) {
+        const Vec3<double> p = middle + size * random.in_cube();
+        return Vec3<float>((p / step).array().round().template cast<float>() * step);
+      };
+      std::vector<Vec3<float>> points;
+      for (int i = 0; i < 12; ++i) points.push_back(near_middle(1));
+      const Shape<float> hull = Hull<float>{PointCloud<float>(points)};
+      const Shape<float> shape = radius > 0 ? Shape<float>(Rounded<float>{radius, hull}) : hull;
+      Points exact;
+      for (const Vec3<float>& p : points) exact.push_back(p.cast<double>());
+      const PreparedShape<float> prepared(shape);
+      const PreparedShape<double> truth(convert<double>(shape));
+      const HalfSpaces planes(exact);
+      for (const SolverKind solver : {SolverKind::automatic, SolverKind::jet}) {
+        int hits = 0;
+        for (int i = 0; i < 2000; ++i) {
+          const Vec3<float> from = near_middle(4), to = near_middle(1);
+          const Ray<float> ray{from, to - from};
+          CastOptions<float> options;
+          options.solver = solver;
+          const CastResult<float> answer = cast_ray(prepared, ray, options);
+          if (answer.status != Status::hit) continue;
+          double t = 0;
+          if (radius > 0) {
+            const CastResult<double> other = cast_ray(truth, in_double(ray));
+            ASSERT_EQ(other.status, Status::hit);
+            t = other.t();
+          } else {
+            const auto part = planes.clip(ray.origin.cast<Long>(), ray.direction.cast<Long>());
+            ASSERT_FALSE(part.empty());
+            t = static_cast<double>(part.lower);
+          }
+          const double along = (double(answer.t_base) + double(answer.t_offset) - t) *
+                               ray.direction.cast<double>().dot(answer.normal.cast<double>());
+          EXPECT_LT(std::abs(along), 4e-6) << "at " << distance << ", radius " << radius;
+          ++hits;
+        }
+        EXPECT_GT(hits, 500);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace minkray::testing
