@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/cli/image_arguments.h"
 
-#include <CLI/CLI.hpp>
 #include <charconv>
+#include <filesystem>
 #include <iostream>
 #include <optional>
 
 #include "renderer/base/errors.h"
 #include "renderer/base/interrupt.h"
 #include "renderer/cli/import_arguments.h"
+#include "renderer/cli/options.h"
 #include "renderer/cli/scene_file.h"
 #include "renderer/io/image_file.h"
 #include "renderer/io/output_file.h"
@@ -78,25 +79,22 @@ std::uint64_t parse_seed(const std::string& text) {
   return seed;
 }
 
-void ImageArguments::add_to(CLI::App& verb, const std::string& suffix) {
+void ImageArguments::add_to(const Verb& verb, const std::string& suffix) {
   add_scene_option(verb, scene);
   add_import_options(verb, import);
   add_output_option(verb, outputs, "the scene's name and " + suffix);
   preview.add_to(verb);
   verb.add_option("-r,--resolution", resolution, "WxH in pixels, instead of the scene's");
-  verb.add_option("-s,--spp", samples, "Samples a pixel")
-      ->check(CLI::Range(1, 1 << 24))
-      ->capture_default_str();
+  verb.add_option("-s,--spp", samples, "Samples a pixel").between(1, 1 << 24).show_default();
   verb.add_option("-t,--threads", threads, "How many threads; 0 for one a core")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
+      .between(0, 1024)
+      .show_default();
   verb.add_option("--crop", crop, "x0,y0,x1,y1 in pixels: just that part of the picture");
   // As text: CLI11 takes what does not fit for the largest number.
-  verb.add_option("--seed", seed, "Of the random numbers, from 0 to 2^64 - 1")
-      ->capture_default_str();
-  auto* quiet_flag = verb.add_flag("-q,--quiet", quiet, "No progress, no report");
+  verb.add_option("--seed", seed, "Of the random numbers, from 0 to 2^64 - 1").show_default();
+  const Option quiet_flag = verb.add_flag("-q,--quiet", quiet, "No progress, no report");
   verb.add_flag("-v,--verbose", verbose, "Tell what is done and how long it takes")
-      ->excludes(quiet_flag);
+      .excludes(quiet_flag);
 }
 
 void ImageArguments::choose_output(const std::string& suffix) {
@@ -105,24 +103,17 @@ void ImageArguments::choose_output(const std::string& suffix) {
   if (!quiet) std::cerr << "the picture goes to " << printable(outputs.front()) << "\n";
 }
 
-CLI::Option* add_scene_option(CLI::App& verb, std::string& scene) {
-  return verb.add_option("scene", scene, scene_argument)
-      ->required()
-      ->transform(CLI::Validator(
-          [](std::string& name) {
-            name = scene_file(name);
-            return std::string();
-          },
-          ""));
+Option add_scene_option(const Verb& verb, std::string& scene) {
+  return verb.add_option("scene", scene, scene_argument).required().replace(scene_file);
 }
 
-void add_output_option(CLI::App& verb, std::vector<std::string>& outputs,
+void add_output_option(const Verb& verb, std::vector<std::string>& outputs,
                        const std::string& otherwise) {
-  CLI::Option* option = verb.add_option("-o,--output", outputs,
-                                        "Where to write the picture (" + image_extensions() +
-                                            "); may be given again" +
-                                            (otherwise.empty() ? "" : "; by default " + otherwise));
-  option->required(otherwise.empty())->allow_extra_args(false);
+  verb.add_option("-o,--output", outputs,
+                  "Where to write the picture (" + image_extensions() + "); may be given again" +
+                      (otherwise.empty() ? "" : "; by default " + otherwise))
+      .required(otherwise.empty())
+      .one_value_each();
 }
 
 void check_outputs(const std::vector<std::string>& outputs) {

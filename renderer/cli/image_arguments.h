@@ -10,12 +10,10 @@
 #include "renderer/film/render.h"
 #include "renderer/import/import_options.h"
 
-namespace CLI {
-class App;
-class Option;
-}  // namespace CLI
-
 namespace minkray {
+
+class Option;
+class Verb;
 
 struct ImageArguments {
   std::string scene;
@@ -34,7 +32,7 @@ struct ImageArguments {
 
   /// Adds the options; defaults shown are the members' values. Without -o the picture is to go to
   /// the scene's name and `suffix`, see choose_output.
-  void add_to(CLI::App& verb, const std::string& suffix);
+  void add_to(const Verb& verb, const std::string& suffix);
 
   /// If there is no -o: chooses default_output of the scene and says so.
   void choose_output(const std::string& suffix);
@@ -49,11 +47,11 @@ std::uint64_t parse_seed(const std::string& text);
 
 /// Adds the scene by its place: a file, or the name of one that comes with Minkray. It must be
 /// there unless the answer is told otherwise.
-CLI::Option* add_scene_option(CLI::App& verb, std::string& scene);
+Option add_scene_option(const Verb& verb, std::string& scene);
 
 /// Adds -o, of a list of image files. `otherwise` says where the picture goes without it; empty: -o
 /// must be there.
-void add_output_option(CLI::App& verb, std::vector<std::string>& outputs,
+void add_output_option(const Verb& verb, std::vector<std::string>& outputs,
                        const std::string& otherwise = "");
 
 /// Throws WrongUsage for an output whose format is unknown, CannotWrite for one that could not be

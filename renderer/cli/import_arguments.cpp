@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/cli/import_arguments.h"
 
-#include <CLI/CLI.hpp>
+#include "renderer/cli/options.h"
 
 namespace minkray {
 
-void add_import_options(CLI::App& verb, ImportOptions& options) {
+void add_import_options(const Verb& verb, ImportOptions& options) {
   constexpr const char* group = "Robots";
-  verb.add_option_function<std::string>(
+  verb.add_option(
           "--geometry",
           [&options](const std::string& name) {
             options.geometry = name == "collision" ? GeometryChoice::collision
@@ -15,9 +15,9 @@ void add_import_options(CLI::App& verb, ImportOptions& options) {
                                                    : GeometryChoice::visual;
           },
           "visual: what is seen, and what collides where nothing is (default); collision; all")
-      ->check(CLI::IsMember({"visual", "collision", "all"}))
-      ->group(group);
-  verb.add_option_function<std::string>(
+      .one_of({"visual", "collision", "all"})
+      .group(group);
+  verb.add_option(
           "--split",
           [&options](const std::string& name) {
             options.split = name == "groups"       ? MeshSplit::groups
@@ -26,26 +26,26 @@ void add_import_options(CLI::App& verb, ImportOptions& options) {
           },
           "A hull for each part of a mesh: groups (as its file names them) or components (as they "
           "hang together); none: one hull (default)")
-      ->check(CLI::IsMember({"none", "groups", "components"}))
-      ->group(group);
+      .one_of({"none", "groups", "components"})
+      .group(group);
   verb.add_option("--keyframe", options.keyframe, "MJCF: the name of a keyframe, or its number")
-      ->group(group);
+      .group(group);
   verb.add_option("--joint", options.joints,
                   "NAME=VALUE, may be given again; angles in radians, several numbers between "
                   "commas")
-      ->allow_extra_args(false)
-      ->group(group);
+      .one_value_each()
+      .group(group);
   verb.add_option("--joints", options.joint_rows,
                   "A CSV file: joints' names in its first line, values in the others; several rows "
                   "move the robot (for --frames), by a column \"time\" or 24 a second")
-      ->group(group);
+      .group(group);
   verb.add_option("--package-dir,--model-dir", options.package_dirs,
                   "Where package:// and model:// are looked for; may be given again")
-      ->allow_extra_args(false)
-      ->group(group);
+      .one_value_each()
+      .group(group);
   verb.add_flag("--skip-missing-meshes", options.skip_missing_meshes,
                 "Leave out meshes that are not there; info tells how many")
-      ->group(group);
+      .group(group);
 }
 
 }  // namespace minkray

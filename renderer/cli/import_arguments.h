@@ -4,17 +4,15 @@
 
 #include "renderer/import/import_options.h"
 
-namespace CLI {
-class App;
-}
-
 namespace minkray {
+
+class Verb;
 
 /// The help of the argument itself.
 inline constexpr const char* scene_argument =
     "A scene file (JSON), the name of a scene that comes with Minkray, or a robot's file: MJCF "
     "(.xml, .mjcf), URDF (.urdf), SDF (.sdf, .world)";
 
-void add_import_options(CLI::App& verb, ImportOptions& options);
+void add_import_options(const Verb& verb, ImportOptions& options);
 
 }  // namespace minkray

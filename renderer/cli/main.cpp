@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT
 // The command line: minkray VERB ARGS...
-#include <CLI/CLI.hpp>
 #include <csignal>
 #include <exception>
 #include <iostream>
 #include <new>
-#include <sstream>
 #include <string>
 
 #include "renderer/base/errors.h"
+#include "renderer/cli/options.h"
 #include "renderer/cli/verbs.h"
 #include "renderer/json/mistakes.h"
 
 namespace {
 
 using minkray::ExitCode;
+using minkray::Parser;
 
 /// For someone who only typed the program's name.
 constexpr const char* first_page =
@@ -26,40 +26,34 @@ constexpr const char* first_page =
     "\n"
     "minkray --help lists all verbs, minkray VERB --help tells what one of them takes.\n";
 
-/// CLI11 says of an unknown verb only that one is required.
-void check_verb(const CLI::App& app, const std::string& name) {
+/// The parser says of an unknown verb only that one is required.
+void check_verb(const Parser& parser, const std::string& name) {
   std::string names;
-  for (const CLI::App* verb : app.get_subcommands(nullptr)) {
-    if (verb->get_name() == name) return;
-    names += (names.empty() ? "" : ", ") + verb->get_name();
+  for (const std::string& verb : parser.verb_names()) {
+    if (verb == name) return;
+    names += (names.empty() ? "" : ", ") + verb;
   }
   throw minkray::WrongUsage("minkray: must be one of " + names + " (got " +
                             minkray::printable(name, 40) + ")");
 }
 
 ExitCode run(int argc, char** argv) {
-  CLI::App app("Minkray casts rays at exact convex shapes.", "minkray");
-  app.set_version_flag("--version", "minkray " MINKRAY_VERSION);
-  app.require_subcommand(1);
+  Parser parser("Minkray casts rays at exact convex shapes.", "minkray");
+  parser.set_version("minkray " MINKRAY_VERSION);
   if (argc <= 1) {
     std::cout << first_page;
     return ExitCode::done;
   }
-  app.footer(
+  parser.set_footer(
       "Exit codes: 0 done, 1 a comparison or certificate failed, 2 wrong usage,\n"
       "3 bad scene or input, 4 could not write. Results are on stdout, everything else on stderr.");
   ExitCode exit_code = ExitCode::done;
-  for (const minkray::AddVerb add : minkray::verbs) add(app, exit_code);
+  for (const minkray::AddVerb add : minkray::verbs) add(parser, exit_code);
 
-  if (argc > 1 && argv[1][0] != '-') check_verb(app, argv[1]);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    std::ostringstream complaints;
-    exit_code =
-        app.exit(error, std::cout, complaints) == 0 ? ExitCode::done : ExitCode::wrong_usage;
-    std::cerr << minkray::printable_lines(complaints.str());
-  }
+  if (argc > 1 && argv[1][0] != '-') check_verb(parser, argv[1]);
+  const std::string complaints = parser.parse(argc, argv);
+  if (!complaints.empty()) exit_code = ExitCode::wrong_usage;
+  std::cerr << minkray::printable_lines(complaints);
   std::cout.flush();
   if (!std::cout) throw minkray::CannotWrite("stdout: cannot be written");
   return exit_code;

@@ -6,11 +6,11 @@
 #include <termios.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdlib>
 #include <iostream>
 #include <string_view>
 
+#include "renderer/cli/options.h"
 #include "renderer/io/terminal_picture.h"
 
 namespace minkray {
@@ -76,14 +76,14 @@ TerminalGraphics best_way() {
 
 }  // namespace
 
-void PreviewArguments::add_to(CLI::App& verb) {
+void PreviewArguments::add_to(const Verb& verb) {
   std::vector<std::string> names{"auto"};
   for (const Way& way : ways) names.emplace_back(way.name);
   verb.add_flag(
           "--preview{auto}", preview,
           "Show the picture in the terminal as well; --preview=kitty, sixel or blocks chooses "
           "how")
-      ->check(CLI::IsMember(names));
+      .one_of(names);
 }
 
 void show_preview(const Image& picture, const PreviewArguments& arguments) {

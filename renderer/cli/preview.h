@@ -6,17 +6,15 @@
 
 #include "renderer/image/image.h"
 
-namespace CLI {
-class App;
-}
-
 namespace minkray {
+
+class Verb;
 
 struct PreviewArguments {
   std::string preview;  ///< empty: none; else auto or one of the ways
 
   /// Adds --preview.
-  void add_to(CLI::App& verb);
+  void add_to(const Verb& verb);
 };
 
 /// Writes the picture to stdout if the arguments ask for it: in the way they name, or in the best

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/cli/render_arguments.h"
 
-#include <CLI/CLI.hpp>
-
 #include "renderer/base/errors.h"
+#include "renderer/cli/options.h"
 #include "renderer/film/data_channels.h"
 
 namespace minkray {
@@ -19,27 +18,27 @@ void RenderArguments::choose_output(const Ranks& ranks) {
   image.choose_output(suffix);
 }
 
-void RenderArguments::add_to(CLI::App& verb) {
+void RenderArguments::add_to(const Verb& verb) {
   image.samples = 16;
   image.add_to(verb, suffix);
-  verb.add_option("--solver", image.solver, "Of the ray casts")->capture_default_str();
+  verb.add_option("--solver", image.solver, "Of the ray casts").show_default();
   verb.add_option("--exposure", exposure, "Stops brighter; .pfm keeps the scene's light")
-      ->capture_default_str();
+      .show_default();
   verb.add_option("--bounces", bounces,
                   "How often light is scattered between objects; 0 for ambient occlusion")
-      ->check(CLI::Range(0, 64))
-      ->capture_default_str();
+      .between(0, 64)
+      .show_default();
   verb.add_option("--packet", packet,
                   "Camera rays that are traced together; the picture is the same for any number")
-      ->check(CLI::Range(1, most_in_packet))
-      ->capture_default_str();
-  verb.add_option_function<std::string>(
+      .between(1, most_in_packet)
+      .show_default();
+  verb.add_option(
           "--build",
           [this](const std::string& name) {
             build = name == "speed" ? BvhBuild::speed : BvhBuild::quality;
           },
           "Of the hierarchy: quality, for fast rays, or speed, for a fast build")
-      ->check(CLI::IsMember({"quality", "speed"}));
+      .one_of({"quality", "speed"});
   std::string channels;
   for (const DataChannelDescription& channel : data_channels)
     channels += "\n" + std::string(channel.name) + ": " + std::string(channel.doc);
@@ -54,19 +53,17 @@ void RenderArguments::add_to(CLI::App& verb) {
   verb.add_option("--tiles", tiles,
                   "Under mpirun: into how many tiles the picture is split; by default each has "
                   "about 64 x 64 pixels")
-      ->check(CLI::Range(1, 999999));
+      .between(1, 999999);
   verb.add_option("--checkpoint", checkpoint_seconds,
                   "Seconds between checkpoints beside the first output; 0 for none")
-      ->check(CLI::Range(0.0, 1e9))
-      ->capture_default_str();
+      .between(0.0, 1e9)
+      .show_default();
   verb.add_flag("--resume", resume, "Go on from the checkpoint, if there is one");
   verb.add_option("--frames", frames,
                   "a..b: pictures of these frames, into files with the frame's number in the "
                   "place of #### in the output's name; frame 0 is at 0 s. A record beside them, "
                   "####.png.frames, tells which are there: with --resume they are left out");
-  verb.add_option("--rate", rate, "Frames a second")
-      ->check(CLI::Range(1e-6, 1e6))
-      ->capture_default_str();
+  verb.add_option("--rate", rate, "Frames a second").between(1e-6, 1e6).show_default();
   verb.add_option("--contact-sheet", contact_sheet,
                   "With --frames: all frames, small, in one more picture");
   verb.add_flag("--stats", stats, "Print rays, speed, work and memory; --stats=json");

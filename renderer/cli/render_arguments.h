@@ -8,11 +8,9 @@
 #include "renderer/cli/image_arguments.h"
 #include "renderer/share/ranks.h"
 
-namespace CLI {
-class App;
-}
-
 namespace minkray {
+
+class Verb;
 
 struct RenderArguments {
   ImageArguments image;
@@ -33,7 +31,7 @@ struct RenderArguments {
 
   /// Adds the options, which are written to these members when the verb is called; defaults shown
   /// are the members' values.
-  void add_to(CLI::App& verb);
+  void add_to(const Verb& verb);
 
   /// Chooses an output if none is given. Throws WrongUsage where it must be given.
   void choose_output(const Ranks& ranks);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // minkray cast: answers queries, one JSON object a line in and out, as they stream by.
-#include <CLI/CLI.hpp>
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
@@ -14,6 +13,7 @@
 #include "core/parallel/stream.h"
 #include "renderer/base/errors.h"
 #include "renderer/cli/choices.h"
+#include "renderer/cli/options.h"
 #include "renderer/cli/scene_queries.h"
 #include "renderer/cli/tolerance_option.h"
 #include "renderer/cli/verbs.h"
@@ -255,30 +255,30 @@ ExitCode cast(const Options& options) {
 
 }  // namespace
 
-void add_cast(CLI::App& app, ExitCode& exit_code) {
-  CLI::App* verb = app.add_subcommand(
+void add_cast(Parser& parser, ExitCode& exit_code) {
+  const Verb verb = parser.add_verb(
       "cast", "Answer ray, shape and distance queries, one JSON object a line (docs/cast.md)");
   const auto options = std::make_shared<Options>();
-  verb->add_option("file", options->file, "A file of queries, - for stdin")->required();
-  verb->add_option("--precision", options->precision, "float or double")
-      ->check(CLI::IsMember({"float", "double"}))
-      ->capture_default_str();
-  verb->add_option("--solver", options->solver, "How rays are cast")
-      ->check(CLI::IsMember(solver_names()))
-      ->capture_default_str();
-  verb->add_option("--subalgorithm", options->subalgorithm, "How distances' simplices are reduced")
-      ->check(CLI::IsMember(subalgorithm_names()))
-      ->capture_default_str();
-  add_tolerance(*verb, options->tolerance);
-  verb->add_option("--threads", options->threads, "How many threads; 0 for all")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
-  verb->add_flag("--trace", options->trace, "Add every iteration");
-  verb->add_flag("--certify", options->certify,
-                 "Prove every cast's answer (docs/certificates.md); exit 1 if a proof fails");
-  verb->add_flag("--check", options->check,
-                 "Compare with what each query expects; exit 1 if anything differs");
-  verb->callback([options, &exit_code] {
+  verb.add_option("file", options->file, "A file of queries, - for stdin").required();
+  verb.add_option("--precision", options->precision, "float or double")
+      .one_of({"float", "double"})
+      .show_default();
+  verb.add_option("--solver", options->solver, "How rays are cast")
+      .one_of(solver_names())
+      .show_default();
+  verb.add_option("--subalgorithm", options->subalgorithm, "How distances' simplices are reduced")
+      .one_of(subalgorithm_names())
+      .show_default();
+  add_tolerance(verb, options->tolerance);
+  verb.add_option("--threads", options->threads, "How many threads; 0 for all")
+      .between(0, 1024)
+      .show_default();
+  verb.add_flag("--trace", options->trace, "Add every iteration");
+  verb.add_flag("--certify", options->certify,
+                "Prove every cast's answer (docs/certificates.md); exit 1 if a proof fails");
+  verb.add_flag("--check", options->check,
+                "Compare with what each query expects; exit 1 if anything differs");
+  verb.on_call([options, &exit_code] {
     with_threads(options->threads, [&] { exit_code = cast(*options); });
   });
 }

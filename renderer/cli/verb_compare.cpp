@@ -1,42 +1,42 @@
 // SPDX-License-Identifier: MIT
 // minkray compare: every object of a scene against Embree.
-#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "core/parallel/parallel.h"
 #include "renderer/cli/compare_options.h"
 #include "renderer/cli/import_arguments.h"
+#include "renderer/cli/options.h"
 #include "renderer/cli/verbs.h"
 
 namespace minkray {
 
-void add_compare(CLI::App& app, ExitCode& exit_code) {
-  CLI::App* verb = app.add_subcommand(
-      "compare", "Check every object of a scene against triangle meshes in Embree");
+void add_compare(Parser& parser, ExitCode& exit_code) {
+  const Verb verb =
+      parser.add_verb("compare", "Check every object of a scene against triangle meshes in Embree");
   const auto options = std::make_shared<CompareArguments>();
   ImageArguments& image = options->image;
   image.seed = "1";
-  add_scene_option(*verb, image.scene);
-  add_import_options(*verb, image.import);
-  verb->add_option("--rays", options->rays,
-                   "Rays an object; by default 100000, less in scenes of over 200 objects")
-      ->check(CLI::Range(1, 1 << 30));
-  verb->add_option("--directions", options->directions,
-                   "Directions that the meshes begin with; by default 500, 100 in scenes of over "
-                   "500 objects")
-      ->check(CLI::Range(20, 1 << 20));
-  verb->add_option("-o,--output", image.outputs,
-                   "A picture of how far apart the meshes are, violations marked")
-      ->allow_extra_args(false);
-  verb->add_option("-r,--resolution", image.resolution, "WxH in pixels, instead of the scene's");
-  verb->add_option("-t,--threads", image.threads, "How many threads; 0 for one a core")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
-  verb->add_option("--seed", image.seed, "Of the random rays")->capture_default_str();
-  verb->add_option("--solver", image.solver, "Of the ray casts")->capture_default_str();
-  verb->add_flag("--json", options->json, "Print JSON, with histograms of the gaps");
-  verb->add_flag("-q,--quiet", image.quiet, "No progress");
-  verb->callback([options, &exit_code] {
+  add_scene_option(verb, image.scene);
+  add_import_options(verb, image.import);
+  verb.add_option("--rays", options->rays,
+                  "Rays an object; by default 100000, less in scenes of over 200 objects")
+      .between(1, 1 << 30);
+  verb.add_option("--directions", options->directions,
+                  "Directions that the meshes begin with; by default 500, 100 in scenes of over "
+                  "500 objects")
+      .between(20, 1 << 20);
+  verb.add_option("-o,--output", image.outputs,
+                  "A picture of how far apart the meshes are, violations marked")
+      .one_value_each();
+  verb.add_option("-r,--resolution", image.resolution, "WxH in pixels, instead of the scene's");
+  verb.add_option("-t,--threads", image.threads, "How many threads; 0 for one a core")
+      .between(0, 1024)
+      .show_default();
+  verb.add_option("--seed", image.seed, "Of the random rays").show_default();
+  verb.add_option("--solver", image.solver, "Of the ray casts").show_default();
+  verb.add_flag("--json", options->json, "Print JSON, with histograms of the gaps");
+  verb.add_flag("-q,--quiet", image.quiet, "No progress");
+  verb.on_call([options, &exit_code] {
     with_threads(options->image.threads, [&] { compare(*options, exit_code); });
   });
 }

@@ -5,10 +5,6 @@
 #include <string>
 #include <vector>
 
-namespace CLI {
-class App;
-}
-
 namespace minkray {
 
 struct OptionDescription {
@@ -28,8 +24,5 @@ struct VerbDescription {
   std::string doc;
   std::vector<OptionDescription> options;  ///< in the order of --help
 };
-
-/// All verbs of the app.
-std::vector<VerbDescription> describe_verbs(const CLI::App& app);
 
 }  // namespace minkray

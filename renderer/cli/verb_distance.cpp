@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // minkray distance: how far apart two shapes are, or how deep in each other, with its proof.
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <limits>
 #include <memory>
 
+#include "renderer/cli/options.h"
 #include "renderer/cli/tolerance_option.h"
 #include "renderer/cli/verbs.h"
 #include "renderer/io/output_file.h"
@@ -48,17 +48,17 @@ void distance(const Options& options) {
 
 }  // namespace
 
-void add_distance(CLI::App& app, ExitCode&) {
-  CLI::App* verb = app.add_subcommand(
+void add_distance(Parser& parser, ExitCode&) {
+  const Verb verb = parser.add_verb(
       "distance", "The signed distance of two shapes, with bounds (docs/contact.md)");
   const auto options = std::make_shared<Options>();
-  verb->add_option("a", options->a, "A file with a shape, as scenes have them")->required();
-  verb->add_option("b", options->b, "Another")->required();
-  add_tolerance(*verb, options->tolerance);
-  verb->add_option("--at-most", options->at_most,
-                   "Beyond this distance a lower bound of it is enough");
-  verb->add_flag("--only-sign", options->only_sign, "Whether they overlap is enough");
-  verb->callback([options] { distance(*options); });
+  verb.add_option("a", options->a, "A file with a shape, as scenes have them").required();
+  verb.add_option("b", options->b, "Another").required();
+  add_tolerance(verb, options->tolerance);
+  verb.add_option("--at-most", options->at_most,
+                  "Beyond this distance a lower bound of it is enough");
+  verb.add_flag("--only-sign", options->only_sign, "Whether they overlap is enough");
+  verb.on_call([options] { distance(*options); });
 }
 
 }  // namespace minkray

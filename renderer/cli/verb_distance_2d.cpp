@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 // minkray distance-2d: the distance algorithm in the plane, drawn step by step.
-#include <CLI/CLI.hpp>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 
 #include "renderer/cli/choices.h"
 #include "renderer/cli/file_ending.h"
+#include "renderer/cli/options.h"
 #include "renderer/cli/verbs.h"
 #include "renderer/io/output_file.h"
 #include "renderer/json/object_reader.h"
@@ -50,19 +51,19 @@ void distance_2d(const Options& options) {
 
 }  // namespace
 
-void add_distance_2d(CLI::App& app, ExitCode&) {
-  CLI::App* verb = app.add_subcommand(
+void add_distance_2d(Parser& parser, ExitCode&) {
+  const Verb verb = parser.add_verb(
       "distance-2d", "Draw the distance algorithm on two flat shapes, one panel an iteration");
   const auto options = std::make_shared<Options>();
-  verb->add_option("file", options->file,
-                   "JSON: {\"a\": shape, \"b\": shape}; of shapes that are not flat, their shadows "
-                   "on z = 0")
-      ->required();
-  verb->add_option("-o,--output", options->out, "The SVG file")->required();
-  verb->add_option("--subalgorithm", options->subalgorithm, "How simplices are reduced")
-      ->check(CLI::IsMember(subalgorithm_names()))
-      ->capture_default_str();
-  verb->callback([options] { distance_2d(*options); });
+  verb.add_option("file", options->file,
+                  "JSON: {\"a\": shape, \"b\": shape}; of shapes that are not flat, their shadows "
+                  "on z = 0")
+      .required();
+  verb.add_option("-o,--output", options->out, "The SVG file").required();
+  verb.add_option("--subalgorithm", options->subalgorithm, "How simplices are reduced")
+      .one_of(subalgorithm_names())
+      .show_default();
+  verb.on_call([options] { distance_2d(*options); });
 }
 
 }  // namespace minkray

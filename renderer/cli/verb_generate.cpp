@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // minkray generate: benchmark scenes of any size.
-#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "renderer/cli/file_ending.h"
 #include "renderer/cli/image_arguments.h"
+#include "renderer/cli/options.h"
 #include "renderer/cli/verbs.h"
 #include "renderer/generate/generate.h"
 #include "renderer/scene/scene_instances.h"
@@ -21,9 +21,9 @@ struct Options {
 
 }  // namespace
 
-void add_generate(CLI::App& app, ExitCode&) {
-  CLI::App* verb =
-      app.add_subcommand("generate", "Make a scene of many shapes, the same for the same seed");
+void add_generate(Parser& parser, ExitCode&) {
+  const Verb verb =
+      parser.add_verb("generate", "Make a scene of many shapes, the same for the same seed");
   const auto options = std::make_shared<Options>();
   std::vector<std::string> names;
   std::string docs;
@@ -31,17 +31,17 @@ void add_generate(CLI::App& app, ExitCode&) {
     names.emplace_back(kind.name);
     docs += (docs.empty() ? "" : "; ") + std::string(kind.name) + ": " + std::string(kind.doc);
   }
-  verb->add_option("kind", options->kind, docs)->required()->check(CLI::IsMember(names));
-  verb->add_option("-n,--count", options->count, "How many shapes")
-      ->check(CLI::Range(std::size_t{1}, most_instances))
-      ->capture_default_str();
-  verb->add_option("-o,--output", options->out,
-                   "The scene file (JSON); many poses go into a file beside it, with .f32 at the "
-                   "end of its name")
-      ->required();
-  verb->add_option("--seed", options->seed, "Another seed is another scene; from 0 to 2^64 - 1")
-      ->capture_default_str();
-  verb->callback([options] {
+  verb.add_option("kind", options->kind, docs).required().one_of(names);
+  verb.add_option("-n,--count", options->count, "How many shapes")
+      .between(std::size_t{1}, most_instances)
+      .show_default();
+  verb.add_option("-o,--output", options->out,
+                  "The scene file (JSON); many poses go into a file beside it, with .f32 at the "
+                  "end of its name")
+      .required();
+  verb.add_option("--seed", options->seed, "Another seed is another scene; from 0 to 2^64 - 1")
+      .show_default();
+  verb.on_call([options] {
     check_ending(options->out, ".json", "--output");
     generate_scene({options->kind, options->count, parse_seed(options->seed)}, options->out);
   });

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // minkray heatmap: a picture of what each pixel of a scene costs.
-#include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -10,6 +9,7 @@
 #include "renderer/base/errors.h"
 #include "renderer/base/interrupt.h"
 #include "renderer/cli/image_arguments.h"
+#include "renderer/cli/options.h"
 #include "renderer/cli/progress_line.h"
 #include "renderer/cli/verbs.h"
 #include "renderer/film/heatmap.h"
@@ -86,21 +86,20 @@ void run(Options& options) {
 
 }  // namespace
 
-void add_heatmap(CLI::App& app, ExitCode&) {
-  CLI::App* verb = app.add_subcommand("heatmap", "Show what each pixel of a scene costs");
+void add_heatmap(Parser& parser, ExitCode&) {
+  const Verb verb = parser.add_verb("heatmap", "Show what each pixel of a scene costs");
   const auto options = std::make_shared<Options>();
-  options->image.add_to(*verb, suffix);
+  options->image.add_to(verb, suffix);
   std::string channels;
   for (const HeatChannelDescription& description : heat_channels)
     channels += "\n" + std::string(description.name) + ": " + std::string(description.doc);
-  verb->add_option("--channel", options->channel, "What to show:" + channels)
-      ->capture_default_str();
-  auto* solver = verb->add_option("--solver", options->image.solver, "Of the ray casts")
-                     ->capture_default_str();
-  verb->add_option("--side-by-side", options->side_by_side,
-                   "Solvers to show beside each other on one scale, such as paper,auto")
-      ->excludes(solver);
-  verb->callback([options] { with_threads(options->image.threads, [&] { run(*options); }); });
+  verb.add_option("--channel", options->channel, "What to show:" + channels).show_default();
+  const Option solver =
+      verb.add_option("--solver", options->image.solver, "Of the ray casts").show_default();
+  verb.add_option("--side-by-side", options->side_by_side,
+                  "Solvers to show beside each other on one scale, such as paper,auto")
+      .excludes(solver);
+  verb.on_call([options] { with_threads(options->image.threads, [&] { run(*options); }); });
 }
 
 }  // namespace minkray

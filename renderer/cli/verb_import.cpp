@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // minkray import: a robot's file as a scene file.
-#include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 
 #include "renderer/cli/file_ending.h"
 #include "renderer/cli/import_arguments.h"
+#include "renderer/cli/options.h"
 #include "renderer/cli/verbs.h"
 #include "renderer/import/import.h"
 #include "renderer/import/model_info.h"
@@ -33,15 +33,15 @@ void import(const Options& options) {
 
 }  // namespace
 
-void add_import(CLI::App& app, ExitCode&) {
-  CLI::App* verb = app.add_subcommand("import", "Make a scene file of a robot's MJCF, URDF or SDF");
+void add_import(Parser& parser, ExitCode&) {
+  const Verb verb = parser.add_verb("import", "Make a scene file of a robot's MJCF, URDF or SDF");
   const auto options = std::make_shared<Options>();
-  verb->add_option("file", options->file, "MJCF (.xml, .mjcf), URDF (.urdf), SDF (.sdf, .world)")
-      ->required();
-  verb->add_option("-o,--output", options->output, "The scene file to write (.json)")->required();
-  add_import_options(*verb, options->import);
-  verb->add_flag("-q,--quiet", options->quiet, "Do not tell what was read and what passed over");
-  verb->callback([options] { import(*options); });
+  verb.add_option("file", options->file, "MJCF (.xml, .mjcf), URDF (.urdf), SDF (.sdf, .world)")
+      .required();
+  verb.add_option("-o,--output", options->output, "The scene file to write (.json)").required();
+  add_import_options(verb, options->import);
+  verb.add_flag("-q,--quiet", options->quiet, "Do not tell what was read and what passed over");
+  verb.on_call([options] { import(*options); });
 }
 
 }  // namespace minkray

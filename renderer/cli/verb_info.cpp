@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // minkray info: what is in a scene, and what scenes may hold.
-#include <CLI/CLI.hpp>
 #include <iomanip>
 #include <iostream>
 #include <memory>
@@ -8,6 +7,7 @@
 #include "renderer/base/errors.h"
 #include "renderer/cli/image_arguments.h"
 #include "renderer/cli/import_arguments.h"
+#include "renderer/cli/options.h"
 #include "renderer/cli/verbs.h"
 #include "renderer/import/import.h"
 #include "renderer/import/model_info.h"
@@ -49,16 +49,16 @@ void info(const Options& options) {
 
 }  // namespace
 
-void add_info(CLI::App& app, ExitCode&) {
-  CLI::App* verb = app.add_subcommand("info", "Tell what is in a scene, or what scenes may hold");
+void add_info(Parser& parser, ExitCode&) {
+  const Verb verb = parser.add_verb("info", "Tell what is in a scene, or what scenes may hold");
   const auto options = std::make_shared<Options>();
-  add_scene_option(*verb, options->scene)->required(false);
-  add_import_options(*verb, options->import);
-  verb->add_flag("--shapes", options->shapes, "List all shapes and their parameters");
-  verb->add_flag("--schema", options->schema, "Print the JSON Schema of scene files");
-  verb->add_flag("--json", options->json, "Print JSON");
-  verb->add_flag("--markdown", options->markdown, "With --shapes: print a Markdown table");
-  verb->callback([options] { info(*options); });
+  add_scene_option(verb, options->scene).required(false);
+  add_import_options(verb, options->import);
+  verb.add_flag("--shapes", options->shapes, "List all shapes and their parameters");
+  verb.add_flag("--schema", options->schema, "Print the JSON Schema of scene files");
+  verb.add_flag("--json", options->json, "Print JSON");
+  verb.add_flag("--markdown", options->markdown, "With --shapes: print a Markdown table");
+  verb.on_call([options] { info(*options); });
 }
 
 }  // namespace minkray

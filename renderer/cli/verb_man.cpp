@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // minkray man: the man page of a verb, or of all of them.
-#include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 
 #include "renderer/base/errors.h"
 #include "renderer/cli/man_page.h"
+#include "renderer/cli/options.h"
 #include "renderer/cli/verbs.h"
 #include "renderer/json/mistakes.h"
 
@@ -24,11 +24,11 @@ std::string page_of(const std::vector<VerbDescription>& all, const std::string& 
 
 }  // namespace
 
-void add_man(CLI::App& app, ExitCode&) {
-  CLI::App* verb = app.add_subcommand("man", "Print a man page, for man -l -");
+void add_man(Parser& parser, ExitCode&) {
+  const Verb verb = parser.add_verb("man", "Print a man page, for man -l -");
   const auto name = std::make_shared<std::string>();
-  verb->add_option("verb", *name, "Which verb's; by default the page of all verbs");
-  verb->callback([name, &app] { std::cout << page_of(describe_verbs(app), *name); });
+  verb.add_option("verb", *name, "Which verb's; by default the page of all verbs");
+  verb.on_call([name, &parser] { std::cout << page_of(parser.verbs(), *name); });
 }
 
 }  // namespace minkray

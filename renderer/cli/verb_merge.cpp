@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // minkray merge: one picture from the pieces that `render --tile` and `--sample-share` made.
-#include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 
@@ -8,6 +7,7 @@
 #include "renderer/base/interrupt.h"
 #include "renderer/cli/command_line.h"
 #include "renderer/cli/image_arguments.h"
+#include "renderer/cli/options.h"
 #include "renderer/cli/verbs.h"
 #include "renderer/cli/write_picture.h"
 #include "renderer/share/merge.h"
@@ -47,20 +47,19 @@ void run(const Options& options) {
 
 }  // namespace
 
-void add_merge(CLI::App& app, ExitCode&) {
-  CLI::App* verb = app.add_subcommand(
-      "merge", "Make a picture of the pieces by render --tile and --sample-share");
+void add_merge(Parser& parser, ExitCode&) {
+  const Verb verb =
+      parser.add_verb("merge", "Make a picture of the pieces by render --tile and --sample-share");
   const auto options = std::make_shared<Options>();
-  verb->add_option("parts", options->parts, "The pieces (.exr), in any order")->required();
-  add_output_option(*verb, options->outputs);
-  verb->add_option("--exposure", options->exposure, "Stops brighter, for .png")
-      ->capture_default_str();
-  verb->add_flag("--allow-partial", options->allow_partial,
-                 "Missing tiles are black, of missing samples the mean of the others is taken");
-  verb->add_flag("--times", options->times,
-                 "Print what each piece took: its name, seconds of all processors together, bytes "
-                 "of its file");
-  verb->callback([options] { run(*options); });
+  verb.add_option("parts", options->parts, "The pieces (.exr), in any order").required();
+  add_output_option(verb, options->outputs);
+  verb.add_option("--exposure", options->exposure, "Stops brighter, for .png").show_default();
+  verb.add_flag("--allow-partial", options->allow_partial,
+                "Missing tiles are black, of missing samples the mean of the others is taken");
+  verb.add_flag("--times", options->times,
+                "Print what each piece took: its name, seconds of all processors together, bytes "
+                "of its file");
+  verb.on_call([options] { run(*options); });
 }
 
 }  // namespace minkray

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 // minkray paper: reruns the claims of the papers and prints what they say beside what we find.
-#include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <span>
 
 #include "renderer/base/errors.h"
+#include "renderer/cli/options.h"
 #include "renderer/cli/verbs.h"
 #include "renderer/io/output_file.h"
 #include "renderer/paper/claim.h"
@@ -79,19 +80,18 @@ void paper(const Options& options) {
 
 }  // namespace
 
-void add_paper(CLI::App& app, ExitCode&) {
-  CLI::App* verb = app.add_subcommand("paper", "Rerun the claims of the papers (docs/papers.md)");
+void add_paper(Parser& parser, ExitCode&) {
+  const Verb verb = parser.add_verb("paper", "Rerun the claims of the papers (docs/papers.md)");
   const auto options = std::make_shared<Options>();
   std::vector<std::string> ids;
   for (const PaperClaim& claim : claims) ids.emplace_back(claim.id);
-  verb->add_option("--only", options->only, "One claim")->check(CLI::IsMember(ids));
-  verb->add_option("--out", options->out, "A folder for the plots (SVG)");
-  verb->add_option("--rays", options->claim.rays, "Random rays for each figure")
-      ->check(CLI::Range(100, 100000000))
-      ->capture_default_str();
-  verb->add_option("--seed", options->claim.seed, "Seed of all random numbers")
-      ->capture_default_str();
-  verb->callback([options] { paper(*options); });
+  verb.add_option("--only", options->only, "One claim").one_of(ids);
+  verb.add_option("--out", options->out, "A folder for the plots (SVG)");
+  verb.add_option("--rays", options->claim.rays, "Random rays for each figure")
+      .between(100, 100000000)
+      .show_default();
+  verb.add_option("--seed", options->claim.seed, "Seed of all random numbers").show_default();
+  verb.on_call([options] { paper(*options); });
 }
 
 }  // namespace minkray

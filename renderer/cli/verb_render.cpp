@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // minkray render: a picture of a scene.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
 #include <memory>
@@ -9,6 +8,7 @@
 #include "core/parallel/parallel.h"
 #include "renderer/base/errors.h"
 #include "renderer/cli/audit_report.h"
+#include "renderer/cli/options.h"
 #include "renderer/cli/render_frames.h"
 #include "renderer/cli/render_picture.h"
 #include "renderer/cli/render_request.h"
@@ -71,11 +71,11 @@ ExitCode run(RenderArguments& options) {
 
 }  // namespace
 
-void add_render(CLI::App& app, ExitCode& exit_code) {
-  CLI::App* verb = app.add_subcommand("render", "Make a picture of a scene");
+void add_render(Parser& parser, ExitCode& exit_code) {
+  const Verb verb = parser.add_verb("render", "Make a picture of a scene");
   const auto options = std::make_shared<RenderArguments>();
-  options->add_to(*verb);
-  verb->callback([options, &exit_code] {
+  options->add_to(verb);
+  verb.on_call([options, &exit_code] {
     with_threads(options->image.threads, [&] { exit_code = run(*options); });
   });
 }

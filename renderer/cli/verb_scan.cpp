@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // minkray scan: the rays of a sensor at a scene.
-#include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <iostream>
@@ -13,6 +13,7 @@
 #include "renderer/cli/file_ending.h"
 #include "renderer/cli/image_arguments.h"
 #include "renderer/cli/import_arguments.h"
+#include "renderer/cli/options.h"
 #include "renderer/cli/progress_line.h"
 #include "renderer/cli/verbs.h"
 #include "renderer/import/import.h"
@@ -118,51 +119,51 @@ void run(Options& options) {
 
 }  // namespace
 
-void add_scan(CLI::App& app, ExitCode&) {
-  CLI::App* verb = app.add_subcommand("scan", "Cast a sensor's rays at a scene: lidars, depths");
+void add_scan(Parser& parser, ExitCode&) {
+  const Verb verb = parser.add_verb("scan", "Cast a sensor's rays at a scene: lidars, depths");
   const auto options = std::make_shared<Options>();
-  add_scene_option(*verb, options->scene);
-  verb->add_option("--rays", options->rays,
-                   "A .npy array of (N, 6), origin and direction, or (N, 7) with t_max; float32 or "
-                   "float64");
-  verb->add_option("--pattern", options->pattern,
-                   "spinning:CHANNELSxSTEPS[:LOWEST,HIGHEST degrees], or a CSV file with columns "
-                   "time (s), azimuth and zenith or elevation (degrees)");
-  verb->add_option("--pinhole", options->pinhole,
-                   "A JSON file of a camera: fx, fy, cx, cy, width, height in pixels; x right, y "
-                   "down, z ahead");
-  verb->add_option("--pose", options->pose, "x,y,z[,qx,qy,qz,qw] of the sensor");
-  verb->add_option("--on", options->scan.mount,
-                   "The object that the sensor is mounted on: the pose is in its frame");
-  verb->add_option("--start", options->scan.start, "When the sweep begins, in seconds")
-      ->check(CLI::Range(-1e9, 1e9));
-  verb->add_option("--sweep", options->sweep, "How many seconds a turn of spinning takes")
-      ->check(CLI::Range(0.0, 1e9))
-      ->capture_default_str();
-  verb->add_option("--noise", options->noise,
-                   "RANGE[,ANGLE]: standard deviations, in the scene's unit and in radians");
-  verb->add_option("--dropout", options->scan.dropout, "The chance that a ray answers nothing")
-      ->check(CLI::Range(0.0, 1.0));
-  verb->add_option("--seed", options->seed, "Of noise and dropout, from 0 to 2^64 - 1")
-      ->capture_default_str();
-  verb->add_option("--returns", options->scan.returns,
-                   "Echoes of a ray: the bodies that it enters behind each other")
-      ->check(CLI::Range(1, 64))
-      ->capture_default_str();
+  add_scene_option(verb, options->scene);
+  verb.add_option("--rays", options->rays,
+                  "A .npy array of (N, 6), origin and direction, or (N, 7) with t_max; float32 or "
+                  "float64");
+  verb.add_option("--pattern", options->pattern,
+                  "spinning:CHANNELSxSTEPS[:LOWEST,HIGHEST degrees], or a CSV file with columns "
+                  "time (s), azimuth and zenith or elevation (degrees)");
+  verb.add_option("--pinhole", options->pinhole,
+                  "A JSON file of a camera: fx, fy, cx, cy, width, height in pixels; x right, y "
+                  "down, z ahead");
+  verb.add_option("--pose", options->pose, "x,y,z[,qx,qy,qz,qw] of the sensor");
+  verb.add_option("--on", options->scan.mount,
+                  "The object that the sensor is mounted on: the pose is in its frame");
+  verb.add_option("--start", options->scan.start, "When the sweep begins, in seconds")
+      .between(-1e9, 1e9);
+  verb.add_option("--sweep", options->sweep, "How many seconds a turn of spinning takes")
+      .between(0.0, 1e9)
+      .show_default();
+  verb.add_option("--noise", options->noise,
+                  "RANGE[,ANGLE]: standard deviations, in the scene's unit and in radians");
+  verb.add_option("--dropout", options->scan.dropout, "The chance that a ray answers nothing")
+      .between(0.0, 1.0);
+  verb.add_option("--seed", options->seed, "Of noise and dropout, from 0 to 2^64 - 1")
+      .show_default();
+  verb.add_option("--returns", options->scan.returns,
+                  "Echoes of a ray: the bodies that it enters behind each other")
+      .between(1, 64)
+      .show_default();
   std::string endings;
   for (const ScanFormat& format : scan_formats())
     endings += (endings.empty() ? "" : ", ") + std::string(format.ending);
-  verb->add_option("-o,--output", options->outputs,
-                   "Where to write (" + endings + "); may be given again")
-      ->required()
-      ->allow_extra_args(false);
-  verb->add_option("--ids", options->table, "A JSON file for the objects' numbers and names");
-  verb->add_option("-t,--threads", options->threads, "How many threads; 0 for one a core")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
-  verb->add_flag("-q,--quiet", options->quiet, "No progress");
-  add_import_options(*verb, options->import);
-  verb->callback([options] { with_threads(options->threads, [&] { run(*options); }); });
+  verb.add_option("-o,--output", options->outputs,
+                  "Where to write (" + endings + "); may be given again")
+      .required()
+      .one_value_each();
+  verb.add_option("--ids", options->table, "A JSON file for the objects' numbers and names");
+  verb.add_option("-t,--threads", options->threads, "How many threads; 0 for one a core")
+      .between(0, 1024)
+      .show_default();
+  verb.add_flag("-q,--quiet", options->quiet, "No progress");
+  add_import_options(verb, options->import);
+  verb.on_call([options] { with_threads(options->threads, [&] { run(*options); }); });
 }
 
 }  // namespace minkray

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // minkray trace: every iteration of the cast for one pixel's ray.
-#include <CLI/CLI.hpp>
 #include <iostream>
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -10,6 +10,7 @@
 #include "renderer/cli/choices.h"
 #include "renderer/cli/file_ending.h"
 #include "renderer/cli/image_arguments.h"
+#include "renderer/cli/options.h"
 #include "renderer/cli/verbs.h"
 #include "renderer/import/import.h"
 #include "renderer/io/output_file.h"
@@ -126,25 +127,23 @@ void trace(const Options& options) {
 
 }  // namespace
 
-void add_trace(CLI::App& app, ExitCode&) {
-  CLI::App* verb = app.add_subcommand("trace", "Show every iteration of the cast for one pixel");
+void add_trace(Parser& parser, ExitCode&) {
+  const Verb verb = parser.add_verb("trace", "Show every iteration of the cast for one pixel");
   const auto options = std::make_shared<Options>();
-  add_scene_option(*verb, options->scene);
-  verb->add_option("--pixel", options->pixel, "x,y from the upper left corner; through its centre")
-      ->required()
-      ->expected(2)
-      ->delimiter(',');
-  verb->add_option("--object", options->object,
-                   "The object's name; by default the one that is hit");
-  verb->add_option("--precision", options->precision, "float or double")
-      ->check(CLI::IsMember({"float", "double"}))
-      ->capture_default_str();
-  verb->add_option("--solver", options->solver, "How rays are cast")
-      ->check(CLI::IsMember(solver_names()))
-      ->capture_default_str();
-  verb->add_flag("--json", options->json, "Print JSON");
-  verb->add_option("--svg", options->svg, "Also draw it into this file");
-  verb->callback([options] {
+  add_scene_option(verb, options->scene);
+  verb.add_option("--pixel", options->pixel, "x,y from the upper left corner; through its centre")
+      .required()
+      .values(2, ',');
+  verb.add_option("--object", options->object, "The object's name; by default the one that is hit");
+  verb.add_option("--precision", options->precision, "float or double")
+      .one_of({"float", "double"})
+      .show_default();
+  verb.add_option("--solver", options->solver, "How rays are cast")
+      .one_of(solver_names())
+      .show_default();
+  verb.add_flag("--json", options->json, "Print JSON");
+  verb.add_option("--svg", options->svg, "Also draw it into this file");
+  verb.on_call([options] {
     if (options->precision == "float")
       trace<float>(*options);
     else

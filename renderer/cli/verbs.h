@@ -5,32 +5,30 @@
 
 #include "renderer/cli/exit_code.h"
 
-namespace CLI {
-class App;
-}
-
 namespace minkray {
 
-/// Adds a subcommand to the app. When the user calls it, it runs within App::parse, writes results
-/// to stdout and all else to stderr, and may set the exit code (done by default) or throw one of
-/// renderer/errors.h.
-using AddVerb = void (*)(CLI::App& app, ExitCode& exit_code);
+class Parser;
 
-void add_cast(CLI::App& app, ExitCode& exit_code);
-void add_compare(CLI::App& app, ExitCode& exit_code);
-void add_completion(CLI::App& app, ExitCode& exit_code);
-void add_distance(CLI::App& app, ExitCode& exit_code);
-void add_distance_2d(CLI::App& app, ExitCode& exit_code);
-void add_generate(CLI::App& app, ExitCode& exit_code);
-void add_heatmap(CLI::App& app, ExitCode& exit_code);
-void add_import(CLI::App& app, ExitCode& exit_code);
-void add_info(CLI::App& app, ExitCode& exit_code);
-void add_man(CLI::App& app, ExitCode& exit_code);
-void add_merge(CLI::App& app, ExitCode& exit_code);
-void add_paper(CLI::App& app, ExitCode& exit_code);
-void add_render(CLI::App& app, ExitCode& exit_code);
-void add_scan(CLI::App& app, ExitCode& exit_code);
-void add_trace(CLI::App& app, ExitCode& exit_code);
+/// Adds a subcommand to the parser. When the user calls it, it runs within Parser::parse, writes
+/// results to stdout and all else to stderr, and may set the exit code (done by default) or throw
+/// one of renderer/errors.h.
+using AddVerb = void (*)(Parser& parser, ExitCode& exit_code);
+
+void add_cast(Parser& parser, ExitCode& exit_code);
+void add_compare(Parser& parser, ExitCode& exit_code);
+void add_completion(Parser& parser, ExitCode& exit_code);
+void add_distance(Parser& parser, ExitCode& exit_code);
+void add_distance_2d(Parser& parser, ExitCode& exit_code);
+void add_generate(Parser& parser, ExitCode& exit_code);
+void add_heatmap(Parser& parser, ExitCode& exit_code);
+void add_import(Parser& parser, ExitCode& exit_code);
+void add_info(Parser& parser, ExitCode& exit_code);
+void add_man(Parser& parser, ExitCode& exit_code);
+void add_merge(Parser& parser, ExitCode& exit_code);
+void add_paper(Parser& parser, ExitCode& exit_code);
+void add_render(Parser& parser, ExitCode& exit_code);
+void add_scan(Parser& parser, ExitCode& exit_code);
+void add_trace(Parser& parser, ExitCode& exit_code);
 
 /// In the order in which --help shows them.
 inline constexpr AddVerb verbs[] = {

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+// The command line that verbs describe themselves to: options, what they accept, and what runs. The
+// library that reads it, CLI11, is seen by options.cpp alone, for its templates take seconds to
+// compile in each file that includes them (docs/decisions/build-time.md).
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "renderer/cli/verb_description.h"
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace minkray {
+
+/// An option that was added. Each function says more of it and answers the same option.
+class Option {
+ public:
+  explicit Option(CLI::Option& option) : option_(&option) {}
+
+  Option required(bool is_required = true) const;
+  /// Help shows the value that the variable has now.
+  Option show_default() const;
+  /// Both ends are allowed.
+  Option between(int least, int most) const;
+  Option between(double least, double most) const;
+  Option between(std::size_t least, std::size_t most) const;
+  Option one_of(const std::vector<std::string>& names) const;
+  /// So many values with the delimiter between them.
+  Option values(int count, char delimiter) const;
+  /// Each time it is given it takes one value, so that what is behind is given by its place.
+  Option one_value_each() const;
+  Option excludes(const Option& other) const;
+  /// The heading in help that it stands under.
+  Option group(const std::string& heading) const;
+  /// The variable gets what the function makes of what was given.
+  Option replace(const std::function<std::string(const std::string&)>& function) const;
+
+ private:
+  CLI::Option* option_;
+};
+
+/// A subcommand. The variables of its options must outlive the parser.
+class Verb {
+ public:
+  explicit Verb(CLI::App& verb) : verb_(&verb) {}
+
+  /// `names` is "-o,--output" for what is given by its name, "scene" for what is given by its
+  /// place. Lists take all words that follow, unless one_value_each.
+  Option add_option(const std::string& names, std::string& value, const std::string& doc) const;
+  Option add_option(const std::string& names, int& value, const std::string& doc) const;
+  Option add_option(const std::string& names, unsigned& value, const std::string& doc) const;
+  Option add_option(const std::string& names, std::size_t& value, const std::string& doc) const;
+  Option add_option(const std::string& names, double& value, const std::string& doc) const;
+  Option add_option(const std::string& names, std::optional<std::string>& value,
+                    const std::string& doc) const;
+  Option add_option(const std::string& names, std::optional<int>& value,
+                    const std::string& doc) const;
+  Option add_option(const std::string& names, std::vector<std::string>& values,
+                    const std::string& doc) const;
+  Option add_option(const std::string& names, std::vector<int>& values,
+                    const std::string& doc) const;
+  /// The function is called with the value that was given.
+  Option add_option(const std::string& names,
+                    const std::function<void(const std::string&)>& function,
+                    const std::string& doc) const;
+
+  Option add_flag(const std::string& names, bool& is_given, const std::string& doc) const;
+  /// A flag that may have a value behind a "="; "true" or what `names` has in braces if it has
+  /// none.
+  Option add_flag(const std::string& names, std::string& value, const std::string& doc) const;
+
+  /// What the verb does, once all of its options are read.
+  void on_call(const std::function<void()>& function) const;
+
+ private:
+  CLI::App* verb_;
+};
+
+/// The whole command line.
+class Parser {
+ public:
+  Parser(const std::string& doc, const std::string& program);
+  ~Parser();
+
+  /// What --version prints.
+  void set_version(const std::string& version);
+  /// What help ends with.
+  void set_footer(const std::string& text);
+  Verb add_verb(const std::string& name, const std::string& doc);
+
+  /// In the order in which they were added.
+  std::vector<std::string> verb_names() const;
+  std::vector<VerbDescription> verbs() const;
+
+  /// Reads the options and runs the verb; help and the version go to stdout. Answers what is wrong
+  /// with the words, for stderr; empty: nothing. Lets through what the verb throws.
+  std::string parse(int argc, char** argv);
+
+ private:
+  std::unique_ptr<CLI::App> app_;
+};
+
+}  // namespace minkray
