@@ -30,5 +30,16 @@ TEST(Docs, every_link_to_a_file_leads_to_one) {
   EXPECT_GT(count, 50u);  // the test has found the links
 }
 
+TEST(Docs, every_file_that_contributing_names_is_there) {
+  const std::string text = text_of_file(source_folder() / "docs/contributing.md");
+  const std::regex file(R"re(`([\w.-]+(/[\w.-]+)+)`)re");
+  std::size_t count = 0;
+  for (std::sregex_iterator match(text.begin(), text.end(), file), end; match != end; ++match) {
+    EXPECT_TRUE(std::filesystem::exists(source_folder() / (*match)[1].str())) << (*match)[1];
+    ++count;
+  }
+  EXPECT_GT(count, 50u);  // the test has found the names
+}
+
 }  // namespace
 }  // namespace minkray
