@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// Command lines that cannot be meant: wrong usage, and nothing is written over.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "tests/renderer/cli/nothing_lost.h"
+
+namespace minkray {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST_F(NothingLost, values_that_do_not_fit_are_wrong_usage) {
+  for (const std::string arguments : {"render scene.json -o a.png --seed 18446744073709551616",
+                                      "render scene.json -o a.png --seed 99999999999999999999999",
+                                      "render scene.json -o a.png --seed 1.5",
+                                      "heatmap scene.json -o a.png --side-by-side ''",
+                                      "render scene.json -o a.png --aov Z",
+                                      "render scene.json -o a.exr --aov depth",
+                                      "render scene.json -o a.exr --tile 3/2",
+                                      "render scene.json -o a.png --tile 1/2",
+                                      "render scene.json -o a.exr -r 2x2 --tile 1/5",
+                                      "render scene.json -o a.exr -s 2 --sample-share 1/3",
+                                      "render scene.json -o a.exr --sample-share 1/2 --aov Z",
+                                      "render scene.json -o a.png --checkpoint -1",
+                                      "render scene.json -o a.png --checkpoint nan",
+                                      "heatmap scene.json -o a.png --side-by-side auto,fast",
+                                      "render scene.json -o a.png --frames 0..1 --rate nan",
+                                      "render scene.json -o a.png -o ./a.png",
+                                      "generate spheres -o b.json --seed 18446744073709551616",
+                                      "generate spheres -o b.f32",
+                                      "trace scene.json --pixel 1,1 --svg scene.json",
+                                      "distance-2d scene.json -o scene.json",
+                                      "frobnicate",
+                                      "merge -o a.png"}) {
+    const ProgramOutcome outcome = shell("\"$MINKRAY\" " + arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << arguments;
+    EXPECT_NE(outcome.err, "") << arguments;
+  }
+  EXPECT_EQ(shell("\"$MINKRAY\" trace scene.json --pixel 1,1 --svg ''").exit_code, 4);
+  EXPECT_EQ(folder_.files(), std::vector<std::string>{"scene.json"});
+  EXPECT_EQ(
+      shell("\"$MINKRAY\" render scene.json -o a.png -s 1 --seed 18446744073709551615").exit_code,
+      0);
+}
+
+TEST_F(NothingLost, no_output_takes_the_place_of_an_input_or_another_output) {
+  const ProgramOutcome made = shell(R"(set -e
+    fails() { expected=$1; shift; if "$MINKRAY" "$@"; then exit 1; else test $? = $expected; fi; }
+    for i in 1 2; do "$MINKRAY" render scene.json -s 1 --tile $i/2 -o $i.exr; done
+    cp 1.exr kept1.exr; cp 2.exr kept2.exr
+    fails 2 merge 1.exr 2.exr -o 1.exr
+    fails 2 merge 1.exr 2.exr -o ./2.exr
+    cmp 1.exr kept1.exr; cmp 2.exr kept2.exr
+    fails 2 render scene.json -s 1 -o 'f#.png' --frames 1..2 --contact-sheet ./f2.png
+    fails 2 render scene.json -s 1 -o 'f#.png' --frames 0..1000000 --contact-sheet f1000000.png
+    test ! -e f1.png
+    echo notes > a.png.checkpoint
+    fails 4 render scene.json -s 1 -o a.png
+    "$MINKRAY" render scene.json -s 1 -o a.png --checkpoint 0
+    grep -q notes a.png.checkpoint
+    mkdir b.png.checkpoint
+    fails 4 render scene.json -s 1 -o b.png
+    test -d b.png.checkpoint)");
+  EXPECT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_NE(made.err.find("a.png.checkpoint: is no checkpoint"), std::string::npos) << made.err;
+}
+
+TEST_F(NothingLost, help_that_nobody_gets_is_no_success) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "needs /dev/full";
+  EXPECT_EQ(shell("\"$MINKRAY\" --help > /dev/full").exit_code, 4);
+  EXPECT_EQ(shell("\"$MINKRAY\" render --help > /dev/full").exit_code, 4);
+  EXPECT_EQ(shell("\"$MINKRAY\" --version > /dev/full").exit_code, 4);
+}
+
+}  // namespace
+}  // namespace minkray
