@@ -51,6 +51,7 @@ void in_groups(std::span<const WorldRay<T>> rays, std::array<SlabRay, capacity>&
                const OnGroup& on_group, const OnSingle& on_single) {
   if (rays.empty()) return;
   for (std::size_t i = 0; i < rays.size(); ++i) slabs[i] = SlabRay(rays[i].ray);
+  if (rays.size() == 1) return on_single(0);
   Group group;
   for (BeamRays open = ~BeamRays(0) >> (capacity - rays.size()); open != 0;) {
     const auto first = static_cast<std::size_t>(next_of(open));

@@ -16,15 +16,10 @@
 #include <vector>
 
 #include "core/proof/check_certificate.h"
-#include "renderer/base/real.h"
+#include "renderer/light/ray_observer.h"
 #include "renderer/scene/scene.h"
 
 namespace minkray {
-
-enum class RayKind : unsigned char { camera, shadow, ambient, indirect };
-
-inline constexpr std::array<std::string_view, 4> ray_kind_names = {"camera", "shadow", "ambient",
-                                                                   "indirect"};
 
 /// One answer without proof.
 struct AuditFailure {
@@ -33,14 +28,13 @@ struct AuditFailure {
 };
 
 /// Refers to scene and world, object by object. Any number of threads may ask.
-class RayAudit {
+class RayAudit final : public RayObserver {
  public:
   RayAudit(const Scene& scene, const RenderWorld& world);
 
-  /// The answers of World::closest_hit and World::occluded.
   void closest(RayKind kind, const Ray<Real>& ray, std::uint32_t skip,
-               const WorldHit<Real>& answer);
-  void occluded(RayKind kind, const Ray<Real>& ray, std::uint32_t skip, bool answer);
+               const WorldHit<Real>& answer) override;
+  void occluded(RayKind kind, const Ray<Real>& ray, std::uint32_t skip, bool answer) override;
 
   std::uint64_t rays(RayKind kind) const { return rays_[index(kind)]; }
   std::uint64_t failed(RayKind kind) const { return failed_[index(kind)]; }
@@ -52,7 +46,8 @@ class RayAudit {
   struct Target {
     Shape<double> shape;  ///< in the world's frame
     Bounds<double> bounds;
-    std::optional<HalfSpaceBody<double>> half_space = {};  ///< if there is one, in the place of both
+    std::optional<HalfSpaceBody<double>> half_space =
+        {};  ///< if there is one, in the place of both
   };
   static std::size_t index(RayKind kind) { return static_cast<std::size_t>(kind); }
   CertificateVerdict verdict(std::uint32_t instance, const Ray<double>& ray, const Claim& claim);

@@ -49,7 +49,7 @@ ExitCode run(RenderArguments& options) {
     throw WrongUsage(
         "--certify: proves what stands still; here objects move while the shutter is "
         "open");
-  if (options.certify) job.options.integrator.audit = &audit.emplace(job.scene, job.world);
+  if (options.certify) job.options.integrator.observer = &audit.emplace(job.scene, job.world);
 
   if (ranks.count() > 1) {
     render_picture_on(ranks, job, options, statistics);

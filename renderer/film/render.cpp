@@ -34,7 +34,7 @@ struct PixelSum {
   BlockTotal total;
   std::uint32_t met = 0;
 
-  void add(const CameraRay& ray) {
+  void add(const TracedRay& ray) {
     block += ray.radiance;
     met += ray.met ? 1 : 0;
   }
@@ -102,7 +102,7 @@ Rendering render(const Scene& scene, const RenderWorld& world, const RenderOptio
   const bool blurs = world.instances().move();
   const auto render_block = [&](const PixelBlock& pixels, RayCounts& counts) {
     std::array<PixelSum, most_in_packet> sums;
-    std::array<CameraRay, most_in_packet> rays;
+    std::array<TracedRay, most_in_packet> rays;
     const int end = blocks.begin(end_block);
     int next = 0;
     for (int first = blocks.begin(first_block); first < end && !watch.stopped(); first = next) {
@@ -110,7 +110,7 @@ Rendering render(const Scene& scene, const RenderWorld& world, const RenderOptio
       std::size_t count = 0;
       pixels.for_each([&](const Pixel& pixel) {
         for (int sample = first; sample < next; ++sample) {
-          CameraRay& ray = rays[count++];
+          TracedRay& ray = rays[count++];
           ray.sampler = Sampler(options.seed, pixel.x, pixel.y, static_cast<std::uint32_t>(sample));
           const std::array<double, 2> u = ray.sampler.next();
           ray.ray =
@@ -119,7 +119,7 @@ Rendering render(const Scene& scene, const RenderWorld& world, const RenderOptio
         }
       });
       integrator.trace(std::span(rays).first(count), counts);
-      const CameraRay* ray = rays.data();
+      const TracedRay* ray = rays.data();
       PixelSum* sum = sums.data();
       pixels.for_each([&](const Pixel& pixel) {
         for (int sample = first; sample < next; ++sample) {

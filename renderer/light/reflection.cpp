@@ -15,6 +15,26 @@ constexpr double smallest_alpha = 1e-3;
 /// Beyond this a coat mirrors all but 4e-6 of the light, and squares of it would lose what is left.
 constexpr double most_refraction = 1e6;
 
+/// The index of refraction that is reckoned with.
+double eta_of(const GlossyMaterial& glossy) {
+  return std::min(glossy.index_of_refraction, most_refraction);
+}
+
+DiffuseBase base_of(const Material& material) {
+  if (const auto* lambert = std::get_if<LambertMaterial>(&material.kind))
+    return DiffuseBase(lambert->colour);
+  const auto& glossy = std::get<GlossyMaterial>(material.kind);
+  return {glossy.colour, eta_of(glossy)};
+}
+
+std::optional<Coat> coat_of(const Material& material) {
+  const auto* glossy = std::get_if<GlossyMaterial>(&material.kind);
+  if (!glossy) return std::nullopt;
+  // The usual reading of roughness: alpha is its square.
+  const double alpha = glossy->roughness * glossy->roughness;
+  return Coat(eta_of(*glossy), alpha < smallest_alpha ? 0 : alpha);
+}
+
 }  // namespace
 
 double fresnel(double cosine, double eta) {
@@ -62,55 +82,79 @@ Vec3<double> RoughMirror::visible_normal(const Vec3<double>& w_out,
   return Vec3<double>(alpha * half.x(), alpha * half.y(), half.z()).normalized();
 }
 
-Surface::Surface(const Material& material) {
-  if (const auto* lambert = std::get_if<LambertMaterial>(&material.kind)) {
-    colour_ = lambert->colour;
-    return;
-  }
-  const auto& glossy = std::get<GlossyMaterial>(material.kind);
-  colour_ = glossy.colour;
-  has_coat_ = true;
-  eta_ = std::min(glossy.index_of_refraction, most_refraction);
-  // The usual reading of roughness: alpha is its square.
-  const double alpha = glossy.roughness * glossy.roughness;
-  alpha_ = alpha < smallest_alpha ? 0 : alpha;
-  base_scale_ = 1 / (1 - mean_fresnel(eta_));
-}
+DiffuseBase::DiffuseBase(const Colour& colour, double eta)
+    : colour_(colour), is_coated_(true), eta_(eta), scale_(1 / (1 - mean_fresnel(eta))) {}
 
 // Light that gets into the coat, is reflected evenly by the base, and gets out again; what does not
 // get out is reflected again and again. With a white base nothing is lost: the integral over all
 // w_in is 1 - fresnel(w_out).
-Colour Surface::base_weight(const Vec3<double>& w_out, const Vec3<double>& w_in) const {
-  if (!has_coat_) return colour_;
+Colour DiffuseBase::weight(const Vec3<double>& w_out, const Vec3<double>& w_in) const {
+  if (!is_coated_) return colour_;
   const double through = (1 - fresnel(w_out.z(), eta_)) * (1 - fresnel(w_in.z(), eta_));
   // The fraction mirrored back from within, by reciprocity (Egan and Hilgeman 1979).
-  const double kept = 1 - 1 / (base_scale_ * eta_ * eta_);
+  const double kept = 1 - 1 / (scale_ * eta_ * eta_);
   const Colour bounced = (colour_.array() * (1 - kept) / (1 - colour_.array() * kept)).matrix();
-  return bounced * through * base_scale_;
+  return bounced * through * scale_;
 }
 
-Colour Surface::base(const Vec3<double>& w_out, const Vec3<double>& w_in) const {
-  return base_weight(w_out, w_in) / pi;
+Colour DiffuseBase::eval(const Vec3<double>& w_out, const Vec3<double>& w_in) const {
+  return weight(w_out, w_in) / pi;
 }
 
-double Surface::highlight(const Vec3<double>& w_out, const Vec3<double>& w_in,
-                          double least_alpha) const {
-  if (!has_coat_ || std::max(alpha_, least_alpha) == 0) return 0;
-  const RoughMirror rough{std::max(alpha_, least_alpha)};
+SurfaceSample DiffuseBase::sample(const Vec3<double>& w_out, const std::array<double, 2>& u) const {
+  const Vec3<double> w_in = cosine_direction(u);
+  return {w_in, weight(w_out, w_in)};
+}
+
+double DiffuseBase::pdf(const Vec3<double>&, const Vec3<double>& w_in) const {
+  return std::max(w_in.z(), 0.0) / pi;
+}
+
+Coat::Coat(double eta, double alpha) : eta_(eta), alpha_(alpha) {}
+
+Colour Coat::eval(const Vec3<double>& w_out, const Vec3<double>& w_in) const {
+  if (is_smooth()) return Colour::Zero();
+  const RoughMirror rough{alpha_};
   const Vec3<double> m = (w_out + w_in).normalized();
-  return fresnel(m.dot(w_out), eta_) * rough.density(m) /
-         ((1 + rough.lambda(w_out) + rough.lambda(w_in)) * 4 * w_out.z() * w_in.z());
+  return Colour::Constant(
+      fresnel(m.dot(w_out), eta_) * rough.density(m) /
+      ((1 + rough.lambda(w_out) + rough.lambda(w_in)) * 4 * w_out.z() * w_in.z()));
 }
 
-Surface::Mirrored Surface::mirror(const Vec3<double>& w_out, const std::array<double, 2>& u) const {
-  if (!has_coat_) return {Vec3<double>::UnitZ(), 0};
-  if (alpha_ == 0) return {{-w_out.x(), -w_out.y(), w_out.z()}, fresnel(w_out.z(), eta_)};
+SurfaceSample Coat::sample(const Vec3<double>& w_out, const std::array<double, 2>& u) const {
+  if (is_smooth())
+    return {{-w_out.x(), -w_out.y(), w_out.z()}, Colour::Constant(fresnel(w_out.z(), eta_))};
   const RoughMirror rough{alpha_};
   const Vec3<double> m = rough.visible_normal(w_out, u);
   const Vec3<double> w_in = 2 * m.dot(w_out) * m - w_out;
-  if (!(w_in.z() > 0)) return {w_in, 0};
+  if (!(w_in.z() > 0)) return {w_in, Colour::Zero()};
   const double out = rough.lambda(w_out), in = rough.lambda(w_in);
-  return {w_in, fresnel(m.dot(w_out), eta_) * (1 + out) / (1 + out + in)};
+  return {w_in, Colour::Constant(fresnel(m.dot(w_out), eta_) * (1 + out) / (1 + out + in))};
+}
+
+// The density of the normals that are seen from w_out, (m . w_out) D(m) / ((1 + Lambda) w_out.z),
+// by that of directions around them, 1 / (4 m . w_out).
+double Coat::pdf(const Vec3<double>& w_out, const Vec3<double>& w_in) const {
+  if (is_smooth()) return 0;
+  const Vec3<double> m = (w_out + w_in).normalized();
+  if (!(m.z() > 0)) return 0;
+  const RoughMirror rough{alpha_};
+  return rough.density(m) / ((1 + rough.lambda(w_out)) * 4 * w_out.z());
+}
+
+Surface::Surface(const Material& material) : base_(base_of(material)), coat_(coat_of(material)) {}
+
+Colour Surface::eval(const Vec3<double>& w_out, const Vec3<double>& w_in,
+                     double least_alpha) const {
+  const Colour of_base = base_.eval(w_out, w_in);
+  return coat_ ? Colour(of_base + coat_->roughened(least_alpha).eval(w_out, w_in)) : of_base;
+}
+
+double Surface::chance_of_coat(const Vec3<double>& w_out) const {
+  if (!coat_) return 0;
+  const double mirrored = coat_->mirrored(w_out);
+  const double of_base = (1 - mirrored) * base_.colour().maxCoeff();
+  return mirrored / (mirrored + of_base);
 }
 
 }  // namespace minkray

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 // How surfaces reflect: Fresnel's equations, the rough mirror, and the diffuse base under a
-// dielectric coat. Directions point away from the surface, in a frame whose z is the normal.
+// dielectric coat. Each part of a surface is asked alike: eval is its value, sample draws a
+// direction that light comes from, pdf is the density of these draws over solid angle. Directions
+// point away from the surface, in a frame whose z is the normal.
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "renderer/scene/scene.h"
 
@@ -33,37 +36,78 @@ struct RoughMirror {
   Vec3<double> visible_normal(const Vec3<double>& w_out, const std::array<double, 2>& u) const;
 };
 
-/// A surface ready to be shaded.
+/// A direction that light comes from, drawn at random.
+struct SurfaceSample {
+  Vec3<double> w_in;
+  Colour weight;  ///< eval * cosine / pdf; zero where w_in does not count
+};
+
+/// Reflects evenly, by Lambert's law; under a coat what gets through it, there and back.
+class DiffuseBase {
+ public:
+  explicit DiffuseBase(const Colour& colour) : colour_(colour) {}
+  /// The base lies under a dielectric coat.
+  DiffuseBase(const Colour& colour, double eta);
+
+  const Colour& colour() const { return colour_; }
+
+  /// Reflected radiance per irradiance of light from w_in (z > 0).
+  Colour eval(const Vec3<double>& w_out, const Vec3<double>& w_in) const;
+  SurfaceSample sample(const Vec3<double>& w_out, const std::array<double, 2>& u) const;
+  /// The density of what `sample` draws, over all of the sphere.
+  double pdf(const Vec3<double>& w_out, const Vec3<double>& w_in) const;
+
+ private:
+  Colour weight(const Vec3<double>& w_out, const Vec3<double>& w_in) const;
+
+  Colour colour_;
+  bool is_coated_ = false;
+  double eta_ = 1;
+  double scale_ = 1;  ///< 1 / the mean of what gets through the coat
+};
+
+/// What a dielectric coat mirrors: in one direction if it is smooth, around it if it is rough.
+class Coat {
+ public:
+  Coat(double eta, double alpha);
+
+  /// The fraction of light from w_out that a smooth coat mirrors.
+  double mirrored(const Vec3<double>& w_out) const { return fresnel(w_out.z(), eta_); }
+  /// The same coat, but at least as rough as alpha.
+  Coat roughened(double alpha) const { return {eta_, std::max(alpha_, alpha)}; }
+
+  /// These mean what they do of DiffuseBase. A smooth coat is drawn surely in its only direction:
+  /// elsewhere nothing is mirrored, and there is no density. Some of what is drawn of a rough one
+  /// points into the surface and weighs nothing.
+  Colour eval(const Vec3<double>& w_out, const Vec3<double>& w_in) const;
+  SurfaceSample sample(const Vec3<double>& w_out, const std::array<double, 2>& u) const;
+  double pdf(const Vec3<double>& w_out, const Vec3<double>& w_in) const;
+
+ private:
+  bool is_smooth() const { return alpha_ == 0; }
+
+  double eta_;
+  double alpha_;  ///< 0: smooth
+};
+
+/// A surface ready to be shaded: a base, and a coat over it if there is one.
 class Surface {
  public:
   explicit Surface(const Material& material);
 
-  const Colour& colour() const { return colour_; }
-  bool has_coat() const { return has_coat_; }
-  double eta() const { return eta_; }
+  const DiffuseBase& base() const { return base_; }
+  const std::optional<Coat>& coat() const { return coat_; }
 
-  /// Reflected radiance per irradiance of light from w_in (z > 0) by the base.
-  Colour base(const Vec3<double>& w_out, const Vec3<double>& w_in) const;
-  /// The same by the rough coat, taken to be at least as rough as least_alpha. A smooth coat has no
-  /// highlight from point-like lights.
-  double highlight(const Vec3<double>& w_out, const Vec3<double>& w_in, double least_alpha) const;
-
-  /// The factor that remains when w_in is drawn with density cosine / pi for the base.
-  Colour base_weight(const Vec3<double>& w_out, const Vec3<double>& w_in) const;
-
-  /// Light mirrored by the coat: where it comes from, and its weight; weight 0: nowhere.
-  struct Mirrored {
-    Vec3<double> w_in;
-    double weight;
-  };
-  Mirrored mirror(const Vec3<double>& w_out, const std::array<double, 2>& u) const;
+  /// Reflected radiance per irradiance of light from w_in by both, the coat taken to be at least as
+  /// rough as least_alpha.
+  Colour eval(const Vec3<double>& w_out, const Vec3<double>& w_in, double least_alpha = 0) const;
+  /// The chance to go on with the coat where one of the two is drawn: its part of what both
+  /// reflect.
+  double chance_of_coat(const Vec3<double>& w_out) const;
 
  private:
-  Colour colour_;
-  bool has_coat_ = false;
-  double eta_ = 1;
-  double alpha_ = 0;       ///< 0: a smooth coat
-  double base_scale_ = 1;  ///< 1 / the mean of what gets through the coat
+  DiffuseBase base_;
+  std::optional<Coat> coat_;
 };
 
 }  // namespace minkray

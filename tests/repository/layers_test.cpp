@@ -18,7 +18,7 @@ const std::vector<std::string> rooms = {
     "core/derived",     "core/query",     "core/exact",     "core/gjk",       "core/model",
     "core/proof",       "core/cast",      "core/contact",   "core/bvh",       "core/world",
     "renderer/base",    "renderer/image", "renderer/json",  "renderer/scene", "renderer/io",
-    "renderer/import",  "renderer/query", "renderer/audit", "renderer/light", "renderer/film",
+    "renderer/import",  "renderer/query", "renderer/light", "renderer/audit", "renderer/film",
     "renderer/sensor",  "renderer/share", "renderer/info",  "renderer/paper", "renderer/generate",
     "renderer/compare", "renderer/cli",
 };

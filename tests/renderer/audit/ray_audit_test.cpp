@@ -91,7 +91,7 @@ TEST(RayAudit, every_ray_of_a_picture_is_proven) {
   RenderOptions options;
   options.resolution = {48, 27};
   options.samples = 2;
-  options.integrator.audit = &audit;
+  options.integrator.observer = &audit;
   const Rendering rendering = render(scene, world, options);
   EXPECT_EQ(audit.rays(RayKind::camera), rendering.counts.camera);
   EXPECT_EQ(audit.rays(RayKind::shadow), rendering.counts.shadow);

@@ -131,7 +131,7 @@ TEST(Motion, every_ray_of_a_blurred_picture_sees_the_scene_as_it_stands_at_its_m
     for (int y = 0; y < 48; ++y) {
       // Both alone and together with others.
       static_assert(64 % most_in_packet == 0);
-      std::array<CameraRay, 64> together;
+      std::array<TracedRay, 64> together;
       RayCounts counts, still_counts;
       for (int x = 0; x < 64; ++x) {
         auto& ray = together[static_cast<std::size_t>(x)];
@@ -143,13 +143,18 @@ TEST(Motion, every_ray_of_a_blurred_picture_sees_the_scene_as_it_stands_at_its_m
         integrator.trace(std::span(together).subspan(x, most_in_packet), counts);
       for (int x = 0; x < 64; ++x) {
         const Ray<Real> ray = camera.ray(x + 0.5, y + 0.5);
-        Sampler a(1, x, y, 0), b(1, x, y, 0), c(1, x, y, 0);
-        const Colour alone = integrator.radiance(ray, a, counts, moment);
-        const Colour expected = still_integrator.radiance(ray, b, still_counts);
+        const auto seen = [&](const Integrator& by, RayCounts& of, Real time) {
+          TracedRay one{ray, Sampler(1, x, y, 0)};
+          one.time = time;
+          by.trace(std::span(&one, 1), of);
+          return one.radiance;
+        };
+        const Colour alone = seen(integrator, counts, moment);
+        const Colour expected = seen(still_integrator, still_counts, 0);
         EXPECT_EQ(alone, together[static_cast<std::size_t>(x)].radiance);
         // The origin moves instead of the shape: the last bits of a hit are others.
         EXPECT_LT((alone - expected).cwiseAbs().maxCoeff(), 1e-9) << moment << " " << x << " " << y;
-        differ_from_open += integrator.radiance(ray, c, counts, 0) != alone ? 1 : 0;
+        differ_from_open += seen(integrator, counts, 0) != alone ? 1 : 0;
       }
       met += static_cast<int>(still_counts.camera - still_counts.background);
     }

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/parallel/parallel.h"
+#include "renderer/audit/ray_audit.h"
 #include "renderer/light/camera.h"
 
 namespace minkray {
@@ -128,7 +129,7 @@ TEST(Render, packets_are_audited) {
   for (const int packet : {1, 8}) {
     RayAudit audit(scene, world);
     options.integrator.packet = packet;
-    options.integrator.audit = &audit;
+    options.integrator.observer = &audit;
     render(scene, world, options);
     for (std::size_t kind = 0; kind < 4; ++kind) {
       EXPECT_EQ(audit.failed(static_cast<RayKind>(kind)), 0u);
@@ -207,8 +208,9 @@ Colour radiance(const Scene& scene, double x, double y, int samples = 1,
   Colour sum = Colour::Zero();
   RayCounts counts;
   for (int i = 0; i < samples; ++i) {
-    Sampler sampler(3, 0, 0, static_cast<std::uint32_t>(i));
-    sum += integrator.radiance(camera.ray(x, y), sampler, counts);
+    TracedRay ray{camera.ray(x, y), Sampler(3, 0, 0, static_cast<std::uint32_t>(i))};
+    integrator.trace(std::span(&ray, 1), counts);
+    sum += ray.radiance;
   }
   return sum / samples;
 }

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "renderer/light/sampler.h"
+#include "tests/support/density.h"
 
 namespace minkray {
 namespace {
@@ -51,9 +52,9 @@ TEST(Reflection, a_white_coated_surface_gives_back_all_light) {
     for (const double cosine : {0.05, 0.3, 0.7, 1.0}) {
       const Vec3<double> w_out = from_above(cosine);
       const Colour base =
-          mean([&](const auto& u) { return surface.base_weight(w_out, cosine_direction(u)); });
-      const double mirrored = surface.mirror(w_out, {0.5, 0.5}).weight;
-      EXPECT_NEAR(base.x() + mirrored, 1, 2e-3) << eta << " " << cosine;
+          mean([&](const auto& u) { return surface.base().sample(w_out, u).weight; });
+      const Colour mirrored = surface.coat()->sample(w_out, {0.5, 0.5}).weight;
+      EXPECT_NEAR(base.x() + mirrored.x(), 1, 2e-3) << eta << " " << cosine;
     }
   }
 }
@@ -63,17 +64,18 @@ TEST(Reflection, any_index_of_refraction_gives_numbers) {
   for (const double eta : {1.0, 1e3, 1e8, 1e16, 1e20, 1e200, 1e308}) {
     const Surface surface({"", GlossyMaterial{Colour::Constant(0.7), 0.1, eta}});
     const Vec3<double> w_out = from_above(0.4), w_in = from_above(0.8);
-    EXPECT_TRUE(surface.base_weight(w_out, w_in).allFinite()) << eta;
-    EXPECT_GE(surface.mirror(w_out, {0.5, 0.5}).weight, 0) << eta;
-    EXPECT_LE(surface.mirror(w_out, {0.5, 0.5}).weight, 1) << eta;
+    EXPECT_TRUE(surface.base().eval(w_out, w_in).allFinite()) << eta;
+    EXPECT_GE(surface.coat()->sample(w_out, {0.5, 0.5}).weight.minCoeff(), 0) << eta;
+    EXPECT_LE(surface.coat()->sample(w_out, {0.5, 0.5}).weight.maxCoeff(), 1) << eta;
   }
 }
 
 TEST(Reflection, light_may_go_either_way) {
   const Surface surface({"", GlossyMaterial{{0.8, 0.5, 0.1}, 0.4, 1.5}});
   const Vec3<double> a = from_above(0.3, 1.0), b = from_above(0.8, 4.0);
-  EXPECT_NEAR((surface.base(a, b) - surface.base(b, a)).norm(), 0, 1e-15);
-  EXPECT_NEAR(surface.highlight(a, b, 0), surface.highlight(b, a, 0), 1e-12);
+  EXPECT_NEAR((surface.base().eval(a, b) - surface.base().eval(b, a)).norm(), 0, 1e-15);
+  EXPECT_NEAR((surface.coat()->eval(a, b) - surface.coat()->eval(b, a)).norm(), 0, 1e-12);
+  EXPECT_EQ(surface.eval(a, b), surface.base().eval(a, b) + surface.coat()->eval(a, b));
 }
 
 // The directions drawn and the closed form of the highlight are two ways to the same integral: the
@@ -83,17 +85,80 @@ TEST(Reflection, drawn_mirror_directions_agree_with_the_highlight) {
     const Surface surface({"", GlossyMaterial{Colour::Zero(), roughness, 1.5}});
     for (const double cosine : {0.3, 0.9}) {
       const Vec3<double> w_out = from_above(cosine);
-      const double drawn = mean([&](const auto& u) { return surface.mirror(w_out, u).weight; });
+      const double drawn =
+          mean([&](const auto& u) { return surface.coat()->sample(w_out, u).weight.x(); });
       const double summed = mean(
           [&](const auto& u) {
             const Vec3<double> w_in = cosine_direction(u);
-            return pi * surface.highlight(w_out, w_in, 0);
+            return pi * surface.coat()->eval(w_out, w_in).x();
           },
           1 << 18);
       EXPECT_NEAR(drawn / summed, 1, 0.01) << roughness << " " << cosine;
       EXPECT_GT(drawn, 0.01);
     }
   }
+}
+
+/// Every part of a surface that has a density: bases with and without a coat, coats of every
+/// roughness that cells of the sphere can tell from a mirror.
+template <class Visit>
+void for_each_part(const Visit& visit) {
+  visit("matt", Surface({"", LambertMaterial{{0.8, 0.5, 0.1}}}).base());
+  visit("coated", Surface({"", GlossyMaterial{{0.8, 0.5, 0.1}, 0.5, 1.5}}).base());
+  for (const double roughness : {0.5, 0.7, 1.0})
+    visit("coat", *Surface({"", GlossyMaterial{Colour::Zero(), roughness, 1.5}}).coat());
+}
+
+TEST(Reflection, directions_have_the_density_they_claim) {
+  for (const double cosine : {0.1, 0.4, 0.9})
+    for_each_part([&](const char* name, const auto& part) {
+      SCOPED_TRACE(std::string(name) + " from " + std::to_string(cosine));
+      const Vec3<double> w_out = from_above(cosine);
+      expect_density(check_density(
+          [&](Sampler& sampler) -> std::optional<Vec3<double>> {
+            return part.sample(w_out, sampler.next()).w_in;
+          },
+          [&](const Vec3<double>& w_in) { return part.pdf(w_out, w_in); }));
+    });
+}
+
+TEST(Reflection, a_sample_weighs_the_value_times_the_cosine_over_the_density) {
+  int counted = 0, into_surface = 0;
+  for (const double cosine : {0.1, 0.4, 0.9})
+    for_each_part([&](const char* name, const auto& part) {
+      const Vec3<double> w_out = from_above(cosine);
+      for (std::uint32_t i = 0; i < 1000; ++i) {
+        const SurfaceSample sample = part.sample(w_out, Sampler(4, 0, 0, i).next());
+        EXPECT_NEAR(sample.w_in.norm(), 1, 1e-12);
+        if (!(sample.w_in.z() > 0)) {
+          EXPECT_EQ(sample.weight, Colour::Zero());
+          ++into_surface;
+          continue;
+        }
+        const Colour expected =
+            part.eval(w_out, sample.w_in) * sample.w_in.z() / part.pdf(w_out, sample.w_in);
+        EXPECT_NEAR((sample.weight - expected).norm(), 0, 1e-9 * (1e-3 + expected.norm()))
+            << name << " from " << cosine;
+        ++counted;
+      }
+    });
+  EXPECT_GT(counted, 10000);
+  EXPECT_GT(into_surface, 100);
+}
+
+TEST(Reflection, a_smooth_coat_mirrors_in_one_direction_only) {
+  const Coat coat(1.5, 0);
+  const Vec3<double> w_out = from_above(0.6);
+  const Vec3<double> mirrored(-w_out.x(), -w_out.y(), w_out.z());
+  const SurfaceSample sample = coat.sample(w_out, {0.2, 0.9});
+  EXPECT_EQ(sample.w_in, mirrored);
+  EXPECT_EQ(sample.weight, Colour::Constant(fresnel(0.6, 1.5)));
+  EXPECT_EQ(coat.eval(w_out, mirrored), Colour::Zero());
+  EXPECT_EQ(coat.pdf(w_out, mirrored), 0);
+  // Roughened, it has a highlight there; one that is rougher already stays as it is.
+  EXPECT_GT(coat.roughened(0.3).eval(w_out, mirrored).x(), 0.01);
+  EXPECT_EQ(Coat(1.5, 0.5).roughened(0.3).eval(w_out, mirrored),
+            Coat(1.5, 0.5).eval(w_out, mirrored));
 }
 
 TEST(Reflection, microfacets_cover_their_surface) {

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+// Where light comes from. Every light is asked alike: sample draws a direction that its light comes
+// from, pdf is the density of these draws over solid angle. A light that has but one direction is
+// drawn surely, and has no density.
+#pragma once
+
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "renderer/light/sampler.h"
+#include "renderer/scene/scene.h"
+
+namespace minkray {
+
+/// Light that comes to a point if nothing is in its way.
+struct LightSample {
+  Vec3<double> direction;  ///< towards the light, of unit length
+  double distance;         ///< infinite for lights that are infinitely far
+  Colour weight;           ///< the irradiance on a surface that faces it: radiance / pdf
+};
+
+class DirectionalSource {
+ public:
+  explicit DirectionalSource(const DirectionalLight& light);
+
+  std::optional<LightSample> sample(const Vec3<double>& point, Sampler& sampler) const;
+  double pdf(const Vec3<double>& point, const Vec3<double>& direction) const;
+
+ private:
+  Vec3<double> towards_;
+  Colour irradiance_;
+};
+
+class PointSource {
+ public:
+  explicit PointSource(const PointLight& light);
+
+  /// Nothing at the light's own position.
+  std::optional<LightSample> sample(const Vec3<double>& point, Sampler& sampler) const;
+  double pdf(const Vec3<double>& point, const Vec3<double>& direction) const;
+
+ private:
+  Vec3<double> position_;
+  Colour intensity_;
+};
+
+/// A vertical gradient all around.
+class EnvironmentSource {
+ public:
+  EnvironmentSource(const Colour& zenith, const Colour& nadir);
+
+  /// The radiance from a direction of unit length.
+  Colour eval(const Vec3<double>& direction) const;
+
+  /// Drawn as bright as the gradient is there, the mean of its colours; nothing if it is black.
+  std::optional<LightSample> sample(const Vec3<double>& point, Sampler& sampler) const;
+  double pdf(const Vec3<double>& point, const Vec3<double>& direction) const;
+
+ private:
+  Colour zenith_, nadir_;
+  double nadir_part_;  ///< of the brightness straight up and down together
+};
+
+/// The lights of a scene.
+class Lights {
+ public:
+  explicit Lights(const std::vector<Light>& lights);
+
+  /// How many shine from a single direction at each point: these are asked one by one with a ray
+  /// towards them, directional ones first.
+  std::size_t count() const { return narrow_.size(); }
+  std::optional<LightSample> sample(std::size_t light, const Vec3<double>& point,
+                                    Sampler& sampler) const;
+
+  /// What comes from all around is found by rays that leave the scene.
+  bool has_environment() const { return !environments_.empty(); }
+  Colour environment(const Vec3<double>& direction) const;
+
+ private:
+  std::vector<std::variant<DirectionalSource, PointSource>> narrow_;
+  std::vector<EnvironmentSource> environments_;
+};
+
+}  // namespace minkray

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+// What an observer is told while light is gathered. What is gathered is tested with pictures
+// (tests/renderer/film/render_test.cpp).
+#include "renderer/light/integrator.h"
+
+#include <gtest/gtest.h>
+
+#include "renderer/film/render.h"
+#include "renderer/light/camera.h"
+
+namespace minkray {
+namespace {
+
+/// Two balls, one of which mirrors, on a floor, in light of every kind.
+Scene two_balls() {
+  Scene scene;
+  scene.camera.position = {0, -6, 3};
+  scene.camera.resolution = {32, 32};
+  scene.lights = {DirectionalLight{{-1, 1, -2}, {2, 2, 2}}, PointLight{{1, -3, 4}, {9, 9, 9}},
+                  EnvironmentLight{{0.7, 0.8, 1.0}, {0.3, 0.3, 0.3}}};
+  scene.materials = {{"matt", LambertMaterial{{0.7, 0.6, 0.5}}},
+                     {"shiny", GlossyMaterial{{0.2, 0.3, 0.7}, 0.2, 1.5}}};
+  const auto add = [&](const char* name, Shape<double> shape, const Vec3<double>& at,
+                       std::uint32_t material) {
+    scene.objects.push_back({name, std::move(shape), {Mat3<double>::Identity(), at}, material});
+  };
+  add("floor", Box<double>{{5, 5, 1}}, {0, 0, -2}, 0);
+  add("near", Sphere<double>{0.7}, {-0.8, -1, 0}, 1);
+  add("far", Sphere<double>{1}, {1, 1, 0}, 0);
+  return scene;
+}
+
+/// Counts what it is told, and asks the world again.
+class Listener final : public RayObserver {
+ public:
+  explicit Listener(const RenderWorld& world) : world_(world) {}
+
+  void closest(RayKind kind, const Ray<Real>& ray, std::uint32_t skip,
+               const WorldHit<Real>& answer) override {
+    ++told_[static_cast<std::size_t>(kind)];
+    const WorldHit<Real> again = world_.closest_hit(ray, counts_, skip);
+    EXPECT_EQ(answer.instance, again.instance);
+    if (again.found()) {
+      EXPECT_EQ(answer.cast.t(), again.cast.t());
+    }
+  }
+  void occluded(RayKind kind, const Ray<Real>& ray, std::uint32_t skip, bool answer) override {
+    ++told_[static_cast<std::size_t>(kind)];
+    EXPECT_EQ(answer, world_.occluded(ray, counts_, skip));
+    blocked_ += answer ? 1 : 0;
+  }
+
+  std::uint64_t told(RayKind kind) const { return told_[static_cast<std::size_t>(kind)]; }
+  std::uint64_t blocked() const { return blocked_; }
+
+ private:
+  const RenderWorld& world_;
+  QueryCounts counts_;
+  std::array<std::uint64_t, 4> told_{};
+  std::uint64_t blocked_ = 0;
+};
+
+TEST(Integrator, an_observer_is_told_of_every_ray_and_its_own_answer) {
+  const Scene scene = two_balls();
+  const RenderWorld world = make_world(scene);
+  const Camera camera(scene.camera, scene.camera.resolution);
+  for (const std::size_t together : {1, 5, most_in_packet}) {
+    Listener listener(world);
+    const Integrator integrator(scene, world, {.bounces = 2, .observer = &listener});
+    const Integrator unobserved(scene, world, {.bounces = 2});
+    RayCounts counts, counts_unobserved;
+    for (int y = 0; y < 32; ++y) {
+      std::vector<TracedRay> rays, others;
+      for (int x = 0; x < 32; ++x)
+        rays.push_back({camera.ray(x + 0.5, y + 0.5), Sampler(2, x, y, 0)});
+      others = rays;
+      for (std::size_t first = 0; first < rays.size(); first += together) {
+        const std::size_t count = std::min(together, rays.size() - first);
+        integrator.trace(std::span(rays).subspan(first, count), counts);
+        unobserved.trace(std::span(others).subspan(first, count), counts_unobserved);
+      }
+      for (std::size_t x = 0; x < rays.size(); ++x) EXPECT_EQ(rays[x].radiance, others[x].radiance);
+    }
+    EXPECT_EQ(listener.told(RayKind::camera), counts.camera);
+    EXPECT_EQ(listener.told(RayKind::shadow), counts.shadow);
+    EXPECT_EQ(listener.told(RayKind::ambient), counts.ambient);
+    EXPECT_EQ(listener.told(RayKind::indirect), counts.scattered + counts.mirrored);
+    EXPECT_EQ(counts.total(), counts_unobserved.total());
+    for (const RayKind kind :
+         {RayKind::camera, RayKind::shadow, RayKind::ambient, RayKind::indirect})
+      EXPECT_GT(listener.told(kind), 50u);
+    EXPECT_GT(listener.blocked(), 50u);
+  }
+}
+
+}  // namespace
+}  // namespace minkray
