@@ -34,7 +34,7 @@ struct Form {
 /// where there is no closed form of those sizes.
 Form form_of(const ExactForm& declared, const Vec3<double>& ball_centre, double down);
 
-/// Of a polytope whose middle is the ball's centre; none of null.
-Form form_of(std::shared_ptr<const Polytope> polytope);
+/// Of a polytope whose middle is the ball's centre, grown by a radius; none of null.
+Form form_of(std::shared_ptr<const Polytope> polytope, double radius);
 
 }  // namespace minkray::exact

@@ -85,12 +85,13 @@ class Polytope::Maker {
     for (std::size_t f = 0; f < triangles.size(); ++f) made_.triangles_[f].plane = plane_of_[f];
   }
 
-  /// Whether the points' mean lies within all planes, moved in by their depths: else the proof has
-  /// nothing to begin with.
-  bool has_inside() const {
+  /// Finds the points' mean, and whether it lies within all planes, moved in by their depths: else
+  /// the proof has nothing to begin with.
+  bool find_inside() {
     Vec3<Long> mean = Vec3<Long>::Zero();
     for (const Vec3<double>& p : made_.vertices_) mean += p.cast<Long>();
     mean /= static_cast<Long>(made_.vertices_.size());
+    made_.inner_ = mean.cast<double>();
     for (std::size_t i = 0; i < planes_.size(); ++i)
       if (!(planes_[i].normal.cast<Long>().dot(mean) <
             planes_[i].offset - 2 * (depths_[i] + made_.rounding_)))
@@ -111,6 +112,28 @@ class Polytope::Maker {
       middle[(cell.axis + 2) % 3] = static_cast<T>(cell.v + cell.width / 2);
       made_.facing_[i] = static_cast<std::uint32_t>(mesh.template facing<T>(middle));
     }
+  }
+
+  /// What makes the polytope fit to be rounded (docs/theory.md).
+  void look_at_pieces() {
+    Long least = made_.radius_;
+    for (const Triangle& triangle : made_.triangles_) {
+      std::array<Vec3<Long>, 3> p;
+      for (std::size_t k = 0; k < 3; ++k) p[k] = made_.vertices_[triangle.corner[k]].cast<Long>();
+      const Vec3<Long> across = (p[1] - p[0]).cross(p[2] - p[0]);
+      Long longest = 0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        longest = std::max(longest, (p[(k + 1) % 3] - p[k]).norm());
+        const std::uint32_t beyond = triangle.beyond[k];
+        const Vec3<Long> other =
+            made_.vertices_[made_.triangles_[beyond / 4].corner[(beyond % 4 + 2) % 3]].cast<Long>();
+        if (across.dot(other - p[0]) > across.norm() * Long(made_.rounding_) / 2) return;
+      }
+      if (!(longest > 0)) return;
+      least = std::min(least, across.norm() / longest);
+    }
+    const double room = static_cast<double>(least) / made_.radius_;
+    if (room > tolerance::rounded_polytope_height) made_.room_for_rounding_ = room;
   }
 
  private:
@@ -210,8 +233,9 @@ std::shared_ptr<const Polytope> Polytope::of(const PointCloud<T>& points,
   Maker maker(*made);
   if (!maker.take_triangles(*mesh, points.points())) return nullptr;
   maker.find_planes();
-  if (!maker.has_inside()) return nullptr;
+  if (!maker.find_inside()) return nullptr;
   maker.fill_map(*mesh);
+  maker.look_at_pieces();
   return made;
 }
 

@@ -27,9 +27,19 @@ class Polytope {
 
   /// Of a ball around the middle that holds all points.
   double radius() const { return radius_; }
+  /// Of where a line crosses a plane, across it, or meets what is next to it in the polytope grown
+  /// by a radius: to be added to the line's E.
+  double rounding(double rounded_by) const;
   std::size_t planes() const { return planes_.size(); }
 
+  /// Of a line that meets the ball, and whose E has the rounding added.
   Entry<double> enter(const Line<double>& line) const;
+
+  /// Whether it is convex, and its triangles high, enough for rounding to tell which of its pieces
+  /// are next to a line.
+  bool can_be_rounded() const { return room_for_rounding_ > 0; }
+  /// The same of the polytope grown by a radius, whose ball is larger.
+  Entry<double> enter_rounded(double radius, const Line<double>& line) const;
 
  private:
   /// Corners counter-clockwise from outside. `beyond` is the triangle beyond the edge from corner k
@@ -38,13 +48,22 @@ class Polytope {
     std::array<std::uint32_t, 3> corner, beyond;
     std::uint32_t plane;
   };
+  /// Where a walk ended: in a triangle that the line passes through, clearly or not; or at an edge
+  /// of one beyond which it passes the polytope by.
+  struct WalkEnd {
+    enum Where : unsigned char { lost, in_triangle, past_edge } where = lost;
+    std::uint32_t triangle = 0, edge = 0;
+    bool is_clear = false;
+  };
   class Maker;
+  class RoundedWalk;
   struct Projection;
 
   Polytope() = default;
+  WalkEnd follow(const Line<double>& line) const;
   bool walk(const Line<double>& line, Entry<double>& entry) const;
   void scan(const Line<double>& line, Entry<double>& entry) const;
-  std::size_t first_triangle(const Line<double>& line) const;
+  std::uint32_t first_triangle(const Line<double>& line) const;
   bool settle_hit(std::size_t plane, const Line<double>& line, Entry<double>& entry) const;
   bool settle_miss(std::size_t entered, std::size_t left, const Line<double>& line,
                    Entry<double>& entry) const;
@@ -52,11 +71,13 @@ class Polytope {
   std::vector<Vec3<double>> vertices_;
   std::vector<Triangle> triangles_;
   PlaneRows planes_;
+  Vec3<double> inner_ = {0, 0, 0};  ///< a point well within
   double radius_ = 0;
-  double rounding_ = 0;                  ///< of where a line crosses a plane, across it
+  double rounding_ = 0;
   Vec3<double> by_extents_ = {1, 1, 1};  ///< one by the half extents
   CubeMap directions_{1};
   std::vector<std::uint32_t> facing_;  ///< a triangle for each cell of normals
+  double room_for_rounding_ = 0;       ///< the least height of a triangle by the radius; or 0
   bool has_avx2_ = false;
 };
 
@@ -65,22 +86,31 @@ extern template std::shared_ptr<const Polytope> Polytope::of(const PointCloud<fl
 extern template std::shared_ptr<const Polytope> Polytope::of(const PointCloud<double>&,
                                                              const Vec3<double>&, double);
 
-/// Lane by lane: lines side by side soon walk over different triangles.
+/// Lines that meet the ball go lane by lane: side by side they soon walk over different triangles.
 template <class W>
-Entry<W> enter_polytope(const Polytope& polytope, const Line<W>& line, const Mask<W>& open) {
+Entry<W> enter_polytope(const Polytope& polytope, double rounded_by, const Line<W>& line,
+                        const Mask<W>& open) {
   Entry<W> entry;
+  const W E = line.E + W(polytope.rounding(rounded_by));
+  const W reach = W(polytope.radius() + rounded_by) + W(2) * E;
+  entry.miss = open & (line.s.squaredNorm() > reach * reach);
+  entry.normal = line.s;
+  const Mask<W> near = open & !entry.miss;
+  if (!any(near)) return entry;
   if constexpr (std::is_same_v<W, double>) {
-    if (open) entry = polytope.enter(line);
+    const Line<double> same{line.s, line.d, line.dd, line.inv, E, line.parallel};
+    return rounded_by > 0 ? polytope.enter_rounded(rounded_by, same) : polytope.enter(same);
   } else {
-    W hit(0), miss(0);
+    W hit(0), miss = select(entry.miss, W(1), W(0));
     for (int i = 0; i < LaneOf<W>::count; ++i) {
-      if (!open.lane(i)) continue;
+      if (!near.lane(i)) continue;
       const auto lane = [i](const Vec3<W>& v) -> Vec3<double> {
         return {v.x().lane(i), v.y().lane(i), v.z().lane(i)};
       };
+      const Line<double> same{lane(line.s),     lane(line.d), line.dd.lane(i),
+                              line.inv.lane(i), E.lane(i),    line.parallel.lane(i)};
       const Entry<double> one =
-          polytope.enter({lane(line.s), lane(line.d), line.dd.lane(i), line.inv.lane(i),
-                          line.E.lane(i), line.parallel.lane(i)});
+          rounded_by > 0 ? polytope.enter_rounded(rounded_by, same) : polytope.enter(same);
       hit.set_lane(i, one.hit ? 1 : 0);
       miss.set_lane(i, one.miss ? 1 : 0);
       entry.t.set_lane(i, one.t);
@@ -89,8 +119,8 @@ Entry<W> enter_polytope(const Polytope& polytope, const Line<W>& line, const Mas
     }
     entry.hit = hit > W(0);
     entry.miss = miss > W(0);
+    return entry;
   }
-  return entry;
 }
 
 }  // namespace minkray::exact

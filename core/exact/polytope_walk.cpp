@@ -58,16 +58,8 @@ struct Polytope::Projection {
   }
 };
 
-Entry<double> Polytope::enter(const Line<double>& given) const {
-  Line<double> line = given;
-  line.E += rounding_;
+Entry<double> Polytope::enter(const Line<double>& line) const {
   Entry<double> entry;
-  const double reach = radius_ + 2 * line.E;
-  if (line.s.squaredNorm() > reach * reach) {
-    entry.miss = true;
-    entry.normal = line.s;
-    return entry;
-  }
   if (planes_.size() <= most_scanned || !walk(line, entry)) scan(line, entry);
   return entry;
 }
@@ -100,7 +92,7 @@ bool Polytope::settle_miss(std::size_t entered, std::size_t left, const Line<dou
 }
 
 /// One whose normal is near that of the ellipsoid of the same extents where the line enters it.
-std::size_t Polytope::first_triangle(const Line<double>& line) const {
+std::uint32_t Polytope::first_triangle(const Line<double>& line) const {
   const Vec3<double> d = line.d.cwiseProduct(by_extents_), s = line.s.cwiseProduct(by_extents_);
   const double inv = 1 / d.squaredNorm();
   const Vec3<double> x = s - d * (s.dot(d) * inv);
@@ -111,47 +103,54 @@ std::size_t Polytope::first_triangle(const Line<double>& line) const {
 
 /// Seen along the line, the triangles that face it are a triangulation: each is left by the edge
 /// that the line is furthest beyond. Where that leads to one that faces away, the line passes by.
-bool Polytope::walk(const Line<double>& line, Entry<double>& entry) const {
+Polytope::WalkEnd Polytope::follow(const Line<double>& line) const {
   const Projection seen(line);
-  const Triangle* at = &triangles_[first_triangle(line)];
+  std::uint32_t at = first_triangle(line);
   std::array<Point2, 3> p;
   // Twice the areas of the triangles of each edge and the line.
   std::array<double, 3> side;
   const auto look = [&] {
-    for (std::size_t k = 0; k < 3; ++k) p[k] = seen(vertices_[at->corner[k]]);
+    for (std::size_t k = 0; k < 3; ++k) p[k] = seen(vertices_[triangles_[at].corner[k]]);
     for (std::size_t k = 0; k < 3; ++k) side[k] = cross(p[k], p[(k + 1) % 3]);
     return side[0] + side[1] + side[2] > 0;
   };
   if (!look()) {
-    at = &triangles_[facing_[static_cast<std::size_t>(directions_.cell_of(Vec3<double>(-line.d)))]];
-    if (!look()) return false;
+    at = facing_[static_cast<std::size_t>(directions_.cell_of(Vec3<double>(-line.d)))];
+    if (!look()) return {};
   }
   // The number in the triangle of what is the first corner here.
   std::uint32_t first = 0;
   for (int step = 0; step < most_steps; ++step) {
-    const std::size_t k = side[1] < side[0]   ? (side[2] < side[1] ? 2 : 1)
-                          : side[2] < side[0] ? 2
-                                              : 0;
+    const std::uint32_t k = side[1] < side[0]   ? (side[2] < side[1] ? 2 : 1)
+                            : side[2] < side[0] ? 2
+                                                : 0;
     if (!(side[k] < 0)) {
-      // The line passes through it, if the corners' rounding is less than its way from the edges.
       const double beside = tolerance::polytope_beside * line.E;
       const double a = size(p[0]), b = size(p[1]), c = size(p[2]);
-      if (side[0] > beside * (a + b) && side[1] > beside * (b + c) && side[2] > beside * (c + a))
-        return settle_hit(at->plane, line, entry);
-      return false;
+      const bool is_clear =
+          side[0] > beside * (a + b) && side[1] > beside * (b + c) && side[2] > beside * (c + a);
+      return {WalkEnd::in_triangle, at, 0, is_clear};
     }
-    const std::uint32_t beyond = at->beyond[(first + k) % 3];
-    const Triangle* const next = &triangles_[beyond / 4];
-    const std::uint32_t edge = beyond % 4;
+    const std::uint32_t edge = (first + k) % 3, beyond = triangles_[at].beyond[edge];
+    const Triangle& next = triangles_[beyond / 4];
+    first = beyond % 4;
     const Point2 from = p[k], to = p[(k + 1) % 3],
-                 last = seen(vertices_[next->corner[(edge + 2) % 3]]);
+                 last = seen(vertices_[next.corner[(first + 2) % 3]]);
     p = {to, from, last};
     side = {-side[k], cross(from, last), cross(last, to)};
-    if (!(side[0] + side[1] + side[2] > 0)) return settle_miss(at->plane, next->plane, line, entry);
-    at = next;
-    first = edge;
+    if (!(side[0] + side[1] + side[2] > 0)) return {WalkEnd::past_edge, at, edge, false};
+    at = beyond / 4;
   }
-  return false;
+  return {};
+}
+
+bool Polytope::walk(const Line<double>& line, Entry<double>& entry) const {
+  const WalkEnd end = follow(line);
+  const Triangle& triangle = triangles_[end.triangle];
+  if (end.where == WalkEnd::in_triangle)
+    return end.is_clear && settle_hit(triangle.plane, line, entry);
+  const Triangle& beyond = triangles_[triangle.beyond[end.edge] / 4];
+  return end.where == WalkEnd::past_edge && settle_miss(triangle.plane, beyond.plane, line, entry);
 }
 
 void Polytope::scan(const Line<double>& line, Entry<double>& entry) const {

@@ -16,6 +16,20 @@ namespace {
 template <class T>
 constexpr T ordinary_size = std::is_same_v<T, float> ? T(0x1p16) : T(0x1p128);
 
+template <class T>
+exact::Form rounded_polytope(const Rounded<T>& shape, const Vec3<double>& ball_centre,
+                             double down) {
+  return std::visit(
+      [&]<class S>(const S& core) {
+        if constexpr (declared_by<S>.facets)
+          return exact::form_of(exact::Polytope::of(core.points, ball_centre, down),
+                                double(shape.radius) * down);
+        else
+          return exact::Form();
+      },
+      shape.shape->kind);
+}
+
 /// What an inner shape declares; of one brought to unit size, what the shape within does.
 template <class T>
 exact::Form exact_form_of(const Shape<T>& inner, const Vec3<double>& ball_centre) {
@@ -24,10 +38,15 @@ exact::Form exact_form_of(const Shape<T>& inner, const Vec3<double>& ball_centre
   const Shape<T>& shape = resized ? *resized->shape : inner;
   return std::visit(
       [&](const auto& kind) {
+        using S = std::remove_cvref_t<decltype(kind)>;
+        if constexpr (std::is_same_v<S, Rounded<T>>)
+          if (const exact::Form form = rounded_polytope(kind, ball_centre, down);
+              form.kind != FormKind::none)
+            return form;
         if constexpr (requires { kind.exact_form(); })
           return exact::form_of(kind.exact_form(), ball_centre, down);
-        else if constexpr (declared_by<std::remove_cvref_t<decltype(kind)>>.facets)
-          return exact::form_of(exact::Polytope::of(kind.points, ball_centre, down));
+        else if constexpr (declared_by<S>.facets)
+          return exact::form_of(exact::Polytope::of(kind.points, ball_centre, down), 0);
         else
           return exact::Form();
       },

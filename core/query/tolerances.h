@@ -160,6 +160,10 @@ inline constexpr double form_longest_step = 1e250;
 /// their sum each), the way 2, 2^-53 each, and one more.
 inline constexpr double polytope_rounding = 12 * 0x1p-53;
 
+/// The least height of a triangle, in radii of its polytope, at which rounded polytopes are
+/// answered by their pieces: what rounding hides of the pieces beside grows by its inverse.
+inline constexpr double rounded_polytope_height = 0x1p-12;
+
 /// How far a polytope's corner, seen along a line that is known to E, may lie beside where it
 /// should be, in units of E: (1 + 2 sqrt(3)) E at the corner's height, (1 + sqrt(2)) times that
 /// across a sheared view, and rounding.

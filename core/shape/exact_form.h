@@ -20,7 +20,7 @@ enum class FormKind : unsigned char {
   tapered_capsule,  ///< the balls' radii at -z and +z, half the distance of their centres
   cylinder,         ///< radius, half height: along z
   frustum,          ///< the disks' radii at -z and +z, half height
-  polytope,         ///< no numbers: of shapes that declare facets (core/shape/declared.h)
+  polytope,         ///< the radius it is grown by: of shapes that declare facets (declared.h)
 };
 
 struct ExactForm {
