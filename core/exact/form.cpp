@@ -15,7 +15,8 @@ namespace {
 /// for the bounds that docs/theory.md derives.
 Form tapered(Form form) {
   constexpr double farthest_apex = 8, least_ball = 0x1p-10, steepest = 0.99;
-  auto& [lower, upper, half_height, apex] = form.sizes;
+  double &lower = form.sizes[0], &upper = form.sizes[1], &half_height = form.sizes[2],
+         &apex = form.sizes[3];
   if (upper > lower) {
     std::swap(lower, upper);
     form.is_upside_down = true;

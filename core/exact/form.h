@@ -26,7 +26,7 @@ struct Form {
   double sine = 0;   ///< of the same angle
   /// As declared, but of balls' frames; forms with a cone: radii below and above, half height,
   /// apex.
-  std::array<double, 4> sizes = {};
+  FormSizes sizes = {};
   std::shared_ptr<const Polytope> polytope;  ///< null for other kinds
 };
 

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "core/math/vec.h"
+#include "core/shape/exact_form.h"
 
 namespace minkray::exact {
 

@@ -9,8 +9,7 @@
 namespace minkray::exact {
 
 template <class W>
-Entry<W> enter_rounded_box(const std::array<double, 4>& sizes, const Line<W>& line,
-                           const Mask<W>& open) {
+Entry<W> enter_rounded_box(const FormSizes& sizes, const Line<W>& line, const Mask<W>& open) {
   using std::abs;
   using std::copysign;
   using std::max;

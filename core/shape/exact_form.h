@@ -23,9 +23,12 @@ enum class FormKind : unsigned char {
   polytope,         ///< the radius it is grown by: of shapes that declare facets (declared.h)
 };
 
+/// As many numbers as the form with the most has.
+using FormSizes = std::array<double, 9>;
+
 struct ExactForm {
   FormKind kind = FormKind::none;
-  std::array<double, 4> sizes = {};
+  FormSizes sizes = {};
   std::array<double, 3> middle = {};
 };
 
