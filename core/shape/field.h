@@ -37,6 +37,14 @@ Field(std::string_view, M S::*, Unit, Range, std::string_view) -> Field<S, M>;
 template <class S, class M>
 Field(std::string_view, M S::*, Unit, Range, std::string_view, bool) -> Field<S, M>;
 
+/// A parameter that does not fit the others of its shape, and what it must be: a text that ends
+/// before a number. Shapes whose parameters must fit have a member misfit().
+struct Misfit {
+  std::string_view parameter;
+  std::string_view must_be;
+  double number;
+};
+
 /// Calls visit(field) for every parameter of shape S, in order.
 template <class S, class Visit>
 constexpr void for_each_field(Visit&& visit) {

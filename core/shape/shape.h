@@ -10,6 +10,7 @@
 #include "core/shape/box.h"
 #include "core/shape/capsule.h"
 #include "core/shape/cone.h"
+#include "core/shape/cut_cylinder.h"
 #include "core/shape/cylinder.h"
 #include "core/shape/disk.h"
 #include "core/shape/ellipsoid.h"
@@ -40,6 +41,7 @@ using ShapeVariant = std::variant<  //
     Box<T>,                         //
     Disk<T>,                        //
     Cylinder<T>,                    //
+    CutCylinder<T>,                 //
     Cone<T>,                        //
     Capsule<T>,                     //
     TaperedCapsule<T>,              //

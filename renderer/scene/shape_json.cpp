@@ -25,6 +25,16 @@ bool read_operands_from_list(ObjectReader& object, const Json& json, S& shape, M
   return true;
 }
 
+/// Whether the parameters fit each other.
+bool fits(ObjectReader& object, const std::optional<Misfit>& misfit) {
+  if (!misfit) return true;
+  const Json* const json = object.find(misfit->parameter);
+  object.mistakes().add(object.path(misfit->parameter), std::string(misfit->must_be) + " " +
+                                                            Json(misfit->number).dump() + " (got " +
+                                                            (json ? json->dump() : "none") + ")");
+  return false;
+}
+
 }  // namespace
 
 std::optional<Shape<double>> read_shape(const Json& json, const JsonPath& path, Mistakes& mistakes,
@@ -36,7 +46,9 @@ std::optional<Shape<double>> read_shape(const Json& json, const JsonPath& path, 
         return read_operands_from_list(object, *list, shape, meshes);
       }
     }
-    return read_members(object, shape, meshes);
+    if (!read_members(object, shape, meshes)) return false;
+    if constexpr (requires { shape.misfit(); }) return fits(object, shape.misfit());
+    return true;
   });
   if (!kind) return std::nullopt;
   return std::visit([](auto& shape) { return Shape<double>(std::move(shape)); }, *kind);

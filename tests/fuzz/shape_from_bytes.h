@@ -123,6 +123,8 @@ Shape<T> shape_from(Bytes& bytes, bool wild, int depth = 3) {
     for (int left = bytes.below(3); left >= 0; --left) shapes.push_back(nested());
     return shapes;
   };
+  const auto point_part = [&] { return bytes.point<T>(wild).z(); };
+  const auto slope = [&] { return T(4 * bytes.fraction() - 2); };
   switch (kind) {
     case 0: {
       const T radius = bytes.length<T>(wild);
@@ -140,6 +142,14 @@ Shape<T> shape_from(Bytes& bytes, bool wild, int depth = 3) {
     case 5: {
       const Affine<T> map = map_from<T>(bytes, wild);
       return Transform<T>{nested(), AffineMap<T>(map)};
+    }
+    case 6: {
+      const T radius = bytes.positive<T>(wild), lowest = point_part(),
+              height = bytes.length<T>(wild);
+      const T x = slope(), y = slope();
+      // Parallel planes, or such that touch or leave room at the rim.
+      const T turn = bytes.below(2) == 0 ? T(0) : height / (T(2) * radius);
+      return CutCylinder<T>{radius, {lowest, lowest + height}, {x, y}, {x + turn, y}};
     }
     default:
       return leaf_from<T>(bytes, wild);

@@ -129,6 +129,16 @@ Interval in(const Cylinder<double>& s, const V& o, const V& d) {
   return frustum(o, d, -Long(s.half_height), s.radius, s.half_height, s.radius);
 }
 
+Interval in(const CutCylinder<double>& s, const V& o, const V& d) {
+  const V below(s.lower_slope[0], s.lower_slope[1], -1),
+      above(-Long(s.upper_slope[0]), -Long(s.upper_slope[1]), 1);
+  const Long lowest = s.heights[0] - s.radius * std::hypot(below.x(), below.y());
+  const Long highest = s.heights[1] + s.radius * std::hypot(above.x(), above.y());
+  return both(
+      frustum(o, d, lowest, s.radius, highest, s.radius),
+      both(half_space(o, d, below, -Long(s.heights[0])), half_space(o, d, above, s.heights[1])));
+}
+
 Interval in(const Cone<double>& s, const V& o, const V& d) {
   return frustum(o, d, -Long(s.half_height), s.radius, s.half_height, 0);
 }

@@ -70,6 +70,9 @@ std::vector<SampleShape> sample_shapes() {
       {"cylinder", Cylinder<double>{0.7, 1}},
       {"cylinder, a coin", Cylinder<double>{1, 0.01}},
       {"cylinder, flat", Cylinder<double>{1, 0}},
+      {"cut_cylinder", CutCylinder<double>{0.7, {-0.5, 0.6}, {0.2, -0.3}, {-0.5, 0.4}}},
+      {"cut_cylinder, a wedge", CutCylinder<double>{1, {0, 0.5}, {0.25, 0}, {-0.25, 0}}},
+      {"cut_cylinder, beside its origin", CutCylinder<double>{0.5, {2, 3}, {1, 1}, {1, 1}}},
       {"cone", Cone<double>{1, 1}},
       {"cone, a needle", Cone<double>{0.01, 2}},
       {"cone, shallow", Cone<double>{1, 0.01}},
@@ -131,7 +134,7 @@ Shape<double> random_nesting(std::uint64_t seed, int depth) {
   Random random(seed * 2654435761u + static_cast<std::uint64_t>(depth));
   const std::function<S()> leaf = [&]() -> S {
     const auto size = [&] { return random.uniform(0.2, 1); };
-    switch (random.below(14)) {
+    switch (random.below(15)) {
       case 0:
         return Point<double>{random.in_cube()};
       case 1:
@@ -158,6 +161,9 @@ Shape<double> random_nesting(std::uint64_t seed, int depth) {
         return Frustum<double>{{size(), size()}, size()};
       case 12:
         return Superellipsoid<double>{{size(), size(), size()}, random.uniform(1.2, 6)};
+      case 13:
+        return CutCylinder<double>{
+            size(), {-1, 0.5 + size()}, {0.3 * size(), -0.2}, {-0.3, size()}};
       default:
         return Hull<double>{cloud(4 + random.below(60), {size(), size(), size()}, seed + 1000)};
     }

@@ -167,6 +167,12 @@ std::vector<Pair> pairs() {
   for (int i = 0; i < 8; ++i)
     corners.emplace_back(i & 1 ? 1 : -1, i & 2 ? 0.5 : -0.5, i & 4 ? 0.25 : -0.25);
   const S egg = Ellipsoid<double>{{1, 2, 3}};
+  const auto leaning = [&](double along_x, double along_y) {
+    Mat3<double> linear = identity;
+    linear(2, 0) = along_x;
+    linear(2, 1) = along_y;
+    return linear;
+  };
   return {
       {"a rounded shape is a sum with a ball", Rounded<double>{0.3, box},
        MinkowskiSum<double>{{box, ball}}},
@@ -181,6 +187,12 @@ std::vector<Pair> pairs() {
                        moved(Sphere<double>{0.3}, identity, P(0, 0, 1))}}},
       {"a cylinder is the sum of disk and segment", Cylinder<double>{0.6, 1},
        MinkowskiSum<double>{{S(Disk<double>{0.6}), axis}}},
+      {"a cut cylinder is the hull of two ellipses",
+       CutCylinder<double>{0.8, {-0.5, 1}, {0.2, -0.3}, {0.5, 0.4}},
+       HullOf<double>{{moved(Disk<double>{0.8}, leaning(0.2, -0.3), P(0, 0, -0.5)),
+                       moved(Disk<double>{0.8}, leaning(0.5, 0.4), P(0, 0, 1))}}},
+      {"a cylinder that is cut straight is a cylinder", CutCylinder<double>{0.6, {-1, 1}},
+       Cylinder<double>{0.6, 1}},
       {"a cone is a frustum without top", cone, Frustum<double>{{1, 0}, 0.7}},
       {"a frustum of equal radii is a cylinder", Frustum<double>{{0.6, 0.6}, 1},
        Cylinder<double>{0.6, 1}},

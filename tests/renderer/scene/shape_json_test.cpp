@@ -52,6 +52,7 @@ TEST(ShapeJson, what_is_written_reads_as_the_same_shape) {
       R"({"type": "box", "half_extents": [1, 2, 0]})",
       R"({"type": "disk", "radius": 2})",
       R"({"type": "cylinder", "radius": 2, "half_height": 0.1})",
+      R"({"type": "cut_cylinder", "radius": 2, "heights": [-1, 0.5], "upper_slope": [0.1, -0.7]})",
       R"({"type": "cone", "radius": 2, "half_height": 0.1})",
       R"({"type": "capsule", "radius": 2, "half_height": 0.1})",
       R"({"type": "tapered_capsule", "radii": [2, 1], "half_height": 3})",
@@ -186,6 +187,17 @@ TEST(ShapeJson, hulls_of_nothing_are_refused) {
               "shape: /shapes: must be a list of shapes, at least 1 (got a list of 0)");
   EXPECT_EQ(complaint(R"({"type": "minkowski_difference", "shapes": []})"),
             "shape: /shapes: must be a list of 2 shapes (got a list of 0)");
+}
+
+TEST(ShapeJson, planes_that_cross_within_their_cylinder_are_refused) {
+  const std::string start = R"({"type": "cut_cylinder", "radius": 2, "upper_slope": [0.5, 0], )";
+  good_shape(start + R"("heights": [-0.5, 0.5]})");
+  EXPECT_EQ(complaint(start + R"("heights": [-0.5, 0.25]})"),
+            "shape: /heights: must be rising, and so far apart that the planes do not cross within "
+            "the cylinder: by at least 1.0 (got [-0.5,0.25])");
+  EXPECT_EQ(complaint(start + R"("lower_slope": [0.5, 0], "heights": [1, 0.5]})"),
+            "shape: /heights: must be rising, and so far apart that the planes do not cross within "
+            "the cylinder: by at least 0.0 (got [1,0.5])");
 }
 
 }  // namespace

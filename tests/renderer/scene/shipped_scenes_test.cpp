@@ -39,8 +39,9 @@ TEST(ShippedScenes, all_can_be_read_and_say_what_they_show) {
   if (!has_meshes) GTEST_SKIP() << "scenes with meshes were not read: run scenes/fetch-meshes";
 }
 
-TEST(ShippedScenes, the_zoo_shows_every_shape) {
-  const std::string zoo = text_of_file(source_folder() / "scenes/shape-zoo.json");
+TEST(ShippedScenes, the_zoo_and_the_bent_pipe_show_every_shape) {
+  const std::string zoo = text_of_file(source_folder() / "scenes/shape-zoo.json") +
+                          text_of_file(source_folder() / "scenes/bent-pipe.json");
   for_each_shape_kind<double>([&]<class S>() {
     EXPECT_NE(zoo.find("\"type\": \"" + std::string(S::name) + "\""), std::string::npos) << S::name;
     EXPECT_NE(zoo.find("\"name\": \"" + std::string(S::name)), std::string::npos) << S::name;

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// A cylinder around the z axis, cut off by two planes that may be oblique.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "core/math/vec.h"
+#include "core/shape/field.h"
+#include "core/shape/jet.h"
+
+namespace minkray {
+
+/// The points with x^2 + y^2 <= radius^2 between the planes z = heights[k] + slope_k . (x, y), k =
+/// 0 below and 1 above.
+template <class T>
+struct CutCylinder {
+  T radius = T(1);
+  std::array<T, 2> heights = {T(-1), T(1)};
+  std::array<T, 2> lower_slope = {T(0), T(0)};
+  std::array<T, 2> upper_slope = {T(0), T(0)};
+
+  static constexpr std::string_view name = "cut_cylinder";
+  static constexpr std::string_view doc =
+      "A cylinder around the z axis, cut off by two planes at any angle.";
+  static constexpr auto fields() {
+    return std::tuple{
+        Field{"radius", &CutCylinder::radius, Unit::length, Range::positive, "its radius"},
+        Field{"heights", &CutCylinder::heights, Unit::length, Range::any,
+              "where the planes cross the z axis: the lower one, the upper one"},
+        Field{"lower_slope", &CutCylinder::lower_slope, Unit::none, Range::any,
+              "how much the lower plane rises by a step of one along x, along y", true},
+        Field{"upper_slope", &CutCylinder::upper_slope, Unit::none, Range::any,
+              "the same of the upper plane", true}};
+  }
+
+  /// The planes may touch where they leave the cylinder, but not cross in it.
+  std::optional<Misfit> misfit() const {
+    using std::hypot;
+    constexpr T rounding = T(8) * std::numeric_limits<T>::epsilon();
+    const T needed =
+        radius * hypot(upper_slope[0] - lower_slope[0], upper_slope[1] - lower_slope[1]);
+    if (heights[1] - heights[0] >= needed * (T(1) - rounding)) return {};
+    return Misfit{"heights",
+                  "must be rising, and so far apart that the planes do not cross within the "
+                  "cylinder: by at least",
+                  double(needed)};
+  }
+
+  template <class W>
+  Vec3<W> support(const Vec3<W>& n) const {
+    const Rims<W> rims(*this, n);
+    const Vec3<W> p = select<W>(rims.is_upper, rims.upper, rims.lower) * W(radius);
+    const auto height = [&](std::size_t k, const std::array<T, 2>& slope) -> W {
+      return W(heights[k]) + W(slope[0]) * p.x() + W(slope[1]) * p.y();
+    };
+    return {p.x(), p.y(), select(rims.is_upper, height(1, upper_slope), height(0, lower_slope))};
+  }
+
+  /// Of the ellipse in which one of the planes cuts the cylinder.
+  template <class W>
+  Jet<W> jet(const Vec3<W>& n) const {
+    const Mask<W> is_upper = Rims<W>(*this, n).is_upper;
+    const auto either = [&](T lower, T upper) { return select(is_upper, W(upper), W(lower)); };
+    Jet<W> jet;
+    jet.c.z() = either(heights[0], heights[1]);
+    jet.F(0, 0) = jet.F(1, 1) = W(radius);
+    jet.F(2, 0) = either(radius * lower_slope[0], radius * upper_slope[0]);
+    jet.F(2, 1) = either(radius * lower_slope[1], radius * upper_slope[1]);
+    return jet;
+  }
+
+ private:
+  /// Where above the unit disk each plane's ellipse reaches furthest along n, and whether the upper
+  /// one reaches further.
+  template <class W>
+  struct Rims {
+    Vec3<W> lower, upper;
+    Mask<W> is_upper;
+
+    Rims(const CutCylinder& shape, const Vec3<W>& n) {
+      const auto seen_along_axis = [&](const std::array<T, 2>& slope) -> Vec3<W> {
+        return {n.x() + n.z() * W(slope[0]), n.y() + n.z() * W(slope[1]), W(0)};
+      };
+      const Vec3<W> a = seen_along_axis(shape.lower_slope), b = seen_along_axis(shape.upper_slope);
+      lower = unit<W>(a);
+      upper = unit<W>(b);
+      is_upper = n.z() * W(shape.heights[1] - shape.heights[0]) +
+                     (b.dot(upper) - a.dot(lower)) * W(shape.radius) >
+                 W(0);
+    }
+  };
+};
+
+}  // namespace minkray
