@@ -4,6 +4,7 @@
 
 #include "core/exact/box.h"
 #include "core/exact/capsule.h"
+#include "core/exact/cut_cylinder.h"
 #include "core/exact/cylinder.h"
 #include "core/exact/form.h"
 #include "core/exact/frustum.h"
@@ -32,6 +33,8 @@ template <class W>
                                    open);
     case FormKind::cylinder:
       return enter_cylinder(a[0], a[1], line, open);
+    case FormKind::cut_cylinder:
+      return enter_cut_cylinder(a, form.R, line, open);
     case FormKind::frustum:
       return enter_frustum(form.slope, form.sine, a[2], a[3], form.R, line, open);
     case FormKind::polytope:

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/exact/cut_cylinder.h"
 #include "core/exact/polytope.h"
 
 namespace minkray::exact {
@@ -83,6 +84,9 @@ Form form_of(const ExactForm& declared, const Vec3<double>& ball_centre, double 
     case FormKind::tapered_capsule:
     case FormKind::frustum:
       form = tapered(form);
+      break;
+    case FormKind::cut_cylinder:
+      form = cut_cylinder_form(form, declared.sizes);
       break;
     case FormKind::cylinder:
       form.R = std::hypot(a[0], a[1]);

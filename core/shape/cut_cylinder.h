@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/math/vec.h"
+#include "core/shape/exact_form.h"
 #include "core/shape/field.h"
 #include "core/shape/jet.h"
 
@@ -45,6 +46,15 @@ struct CutCylinder {
                   "must be rising, and so far apart that the planes do not cross within the "
                   "cylinder: by at least",
                   double(needed)};
+  }
+
+  ExactForm exact_form() const {
+    const double below = double(heights[0]), above = double(heights[1]);
+    const double middle = below / 2 + above / 2;
+    return {FormKind::cut_cylinder,
+            {double(radius), below - middle, above - middle, double(lower_slope[0]),
+             double(lower_slope[1]), double(upper_slope[0]), double(upper_slope[1])},
+            {0, 0, middle}};
   }
 
   template <class W>

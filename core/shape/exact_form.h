@@ -20,6 +20,7 @@ enum class FormKind : unsigned char {
   tapered_capsule,  ///< the balls' radii at -z and +z, half the distance of their centres
   cylinder,         ///< radius, half height: along z
   frustum,          ///< the disks' radii at -z and +z, half height
+  cut_cylinder,     ///< radius, the planes' heights on the z axis, lower and upper slope along x, y
   polytope,         ///< the radius it is grown by: of shapes that declare facets (declared.h)
 };
 

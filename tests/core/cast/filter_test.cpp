@@ -31,6 +31,8 @@ std::vector<Named> shapes() {
       {"long capsule", Capsule<double>{0.2, 2}},
       {"cylinder", Cylinder<double>{1, 1}},
       {"coin", Cylinder<double>{2, 0.25}},
+      {"cut cylinder", CutCylinder<double>{0.7, {-0.5, 0.6}, {0.2, -0.3}, {-0.5, 0.4}}},
+      {"wedge", CutCylinder<double>{1, {0, 0.5}, {0.25, 0}, {-0.25, 0}}},
       {"cone", Cone<double>{1, 1}},
       {"flat cone", Cone<double>{2, 0.2}},
       {"frustum", Frustum<double>{{1, 0.3}, 1}},

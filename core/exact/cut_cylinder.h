@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// Where a line enters a cylinder around the z axis that two planes cut off at any angle.
+#pragma once
+
+#include "core/exact/form.h"
+#include "core/exact/mantle.h"
+#include "core/exact/nappe.h"
+
+namespace minkray::exact {
+
+/// What lies below the plane normal.x = offset.
+template <class W>
+struct Cut {
+  Vec3<W> normal;
+  W in, out, e;  ///< where the line enters and leaves it, and the error of both
+
+  Cut(const double* outward, double offset, const Line<W>& line)
+      : normal(W(outward[0]), W(outward[1]), W(outward[2])) {
+    using std::abs;
+    using std::max;
+    const W slope = normal.dot(line.d), room = W(offset) - normal.dot(line.s);
+    const W inv = W(1) / max(abs(slope), W(least_component)), t = room * inv;
+    const Mask<W> enters = slope < W(0);
+    in = select(enters, W(-t), W(-endless));
+    out = select(enters, W(endless), t);
+    e = line.E * inv;
+  }
+};
+
+/// Makes ready what is declared, whose lengths alone `form` has scaled. None, where the planes
+/// cross within the cylinder by more than rounding.
+inline Form cut_cylinder_form(Form form, const FormSizes& declared) {
+  constexpr double touching = 1 - 0x1p-50;
+  const double r = form.sizes[0], below = form.sizes[1], above = form.sizes[2];
+  const double *low = &declared[3], *high = &declared[5];
+  if (!(above - below >= r * std::hypot(high[0] - low[0], high[1] - low[1]) * touching)) return {};
+  const double steepest = std::max(std::hypot(low[0], low[1]), std::hypot(high[0], high[1]));
+  form.R = std::hypot(r, std::max(std::abs(below), std::abs(above)) + r * steepest);
+  const Vec3<double> l = Vec3<double>(low[0], low[1], -1).normalized();
+  const Vec3<double> u = Vec3<double>(-high[0], -high[1], 1).normalized();
+  form.sizes = {r, l.z() * below, u.z() * above, l.x(), l.y(), l.z(), u.x(), u.y(), u.z()};
+  return form;
+}
+
+/// Sizes: the radius; the offsets of the lower and the upper plane; their outward normals, of unit
+/// length. R is a ball's around it.
+template <class W>
+Entry<W> enter_cut_cylinder(const FormSizes& sizes, double R, const Line<W>& line,
+                            const Mask<W>& open) {
+  using std::max;
+  using std::min;
+  const double r = sizes[0];
+  Entry<W> entry;
+  // Far beside the ball, planes were rounded more than E says.
+  const W reach = W(R) + W(2) * line.E;
+  const Mask<W> beside = open & (line.s.squaredNorm() > reach * reach);
+  const Mantle<W> round(r, line, open & !beside);
+  entry.miss = round.miss | beside;
+  entry.normal = select<W>(beside, line.s, Vec3<W>(round.x, round.y, W(0)));
+  if (!any(round.hit)) return entry;
+  const Cut<W> low(&sizes[3], sizes[1], line), high(&sizes[6], sizes[2], line);
+  const W t = max(round.in, max(low.in, high.in));
+  const W lo = max(W(round.in - round.e), max(W(low.in - low.e), W(high.in - high.e)));
+  const W hi = max(W(round.in + round.e), max(W(low.in + low.e), W(high.in + high.e)));
+  const W out_lo = min(W(round.out - round.e), min(W(low.out - low.e), W(high.out - high.e)));
+  const W out_hi = min(W(round.out + round.e), min(W(low.out + low.e), W(high.out + high.e)));
+  entry.hit = round.hit & (hi <= out_lo);
+  entry.t = t;
+  entry.e = max(hi - t, t - lo);
+  const Vec3<W> side = round.normal(-1, r, line);
+  const auto either = [&](const Mask<W>& by_low, const Mask<W>& by_high, const Vec3<W>& by_side) {
+    return select<W>(by_low, low.normal, select<W>(by_high, high.normal, by_side));
+  };
+  entry.normal = select<W>(round.hit, either(low.in == t, high.in == t, side), entry.normal);
+  const Mask<W> passes = round.hit & (lo > out_hi);
+  if (any(passes)) {
+    // The surfaces that prove it, by their bounds.
+    const Vec3<W> entered = either(low.in - low.e == lo, high.in - high.e == lo, side);
+    const Vec3<W> left =
+        either(low.out + low.e == out_hi, high.out + high.e == out_hi, round.normal(1, r, line));
+    entry.normal = select<W>(passes, between(entered, left, line.d), entry.normal);
+    entry.miss |= passes;
+  }
+  return entry;
+}
+
+}  // namespace minkray::exact
