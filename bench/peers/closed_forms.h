@@ -70,4 +70,70 @@ T capsule_entry(T radius, T half_height, const Ray<T>& ray) {
   return ellipsoid_entry<T>(Vec3<T>::Constant(radius), {o - centre, d});
 }
 
+/// The cone below its apex, between two planes; the base is at z = -half_height.
+template <class T>
+T cone_entry(T radius, T half_height, const Ray<T>& ray) {
+  const auto& o = ray.origin;
+  const auto& d = ray.direction;
+  const T slope = radius / (T(2) * half_height), square = slope * slope;
+  const T z = o.z() - half_height;
+  const T a = d.x() * d.x() + d.y() * d.y() - square * d.z() * d.z();
+  const T b = o.x() * d.x() + o.y() * d.y() - square * z * d.z();
+  const T c = o.x() * o.x() + o.y() * o.y() - square * z * z;
+  const T discriminant = b * b - a * c;
+  if (discriminant < T(0)) return no_hit<T>;
+  const T q = -(b + std::copysign(std::sqrt(discriminant), b));
+  const T one = q / a, other = c / q;
+  // A steep line has an end in each nappe.
+  const bool is_flat = a > T(0), down = d.z() < T(0);
+  const T side_in = is_flat || !down ? std::min(one, other) : std::max(one, other);
+  const T side_out = is_flat ? std::max(one, other) : side_in;
+  const T inverse = T(1) / d.z();
+  const T low = (-half_height - o.z()) * inverse, high = (half_height - o.z()) * inverse;
+  const T enter = std::max(is_flat || down ? side_in : -no_hit<T>, std::min(low, high));
+  const T leave = std::min(is_flat || !down ? side_out : no_hit<T>, std::max(low, high));
+  return enter <= leave ? enter : no_hit<T>;
+}
+
+/// Past the slabs of the grown box, from one region beside the box within to the next: in each the
+/// distance to it is that to a face, an edge or a corner.
+template <class T>
+T rounded_box_entry(const Vec3<T>& half_extents, T radius, const Ray<T>& ray) {
+  Vec3<T> s, d, into, out;  // mirrored, so that the line runs towards positive coordinates
+  T enter = -no_hit<T>, leave = no_hit<T>;
+  for (int k = 0; k < 3; ++k) {
+    const T sign = std::copysign(T(1), ray.direction[k]);
+    s[k] = sign * ray.origin[k];
+    d[k] = sign * ray.direction[k];
+    const T inverse = T(1) / d[k];
+    enter = std::max(enter, (-half_extents[k] - radius - s[k]) * inverse);
+    leave = std::min(leave, (half_extents[k] + radius - s[k]) * inverse);
+    into[k] = (-half_extents[k] - s[k]) * inverse;
+    out[k] = (half_extents[k] - s[k]) * inverse;
+  }
+  if (enter > leave) return no_hit<T>;
+  constexpr int most_regions = 7;
+  T from = enter;
+  for (int region = 0; region < most_regions; ++region) {
+    T next = no_hit<T>, a = T(0), b = T(0), c = -radius * radius;
+    for (int k = 0; k < 3; ++k) {
+      const bool before = from < into[k];
+      if (!before && from < out[k]) {
+        next = std::min(next, out[k]);
+        continue;
+      }
+      if (before) next = std::min(next, into[k]);
+      const T p = s[k] + (before ? half_extents[k] : -half_extents[k]);
+      a += d[k] * d[k];
+      b += p * d[k];
+      c += p * p;
+    }
+    const T discriminant = b * b - a * c;
+    const T t = discriminant > T(0) ? (-b - std::sqrt(discriminant)) / a : -b / a;
+    if (!(t > next)) return discriminant > T(0) ? t : no_hit<T>;
+    from = next;
+  }
+  return no_hit<T>;
+}
+
 }  // namespace minkray::bench

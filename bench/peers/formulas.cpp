@@ -33,6 +33,15 @@ Peers closed_forms(const Shape<double>& shape) {
   if (const auto* s = std::get_if<Capsule<double>>(&shape.kind))
     return one([r = static_cast<float>(s->radius), h = static_cast<float>(s->half_height)](
                    const Ray<float>& ray) { return capsule_entry(r, h, ray); });
+  if (const auto* s = std::get_if<Cone<double>>(&shape.kind))
+    return one([r = static_cast<float>(s->radius), h = static_cast<float>(s->half_height)](
+                   const Ray<float>& ray) { return cone_entry(r, h, ray); });
+  if (const auto* s = std::get_if<Rounded<double>>(&shape.kind))
+    if (const auto* box = std::get_if<Box<double>>(&s->shape->kind))
+      return one([extents = Vec3<float>(box->half_extents.cast<float>()),
+                  r = static_cast<float>(s->radius)](const Ray<float>& ray) {
+        return rounded_box_entry(extents, r, ray);
+      });
   return {};
 }
 

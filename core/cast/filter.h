@@ -8,6 +8,7 @@
 #pragma once
 
 #include "core/cast/form_line.h"
+#include "core/cast/on_ray.h"
 #include "core/exact/enter.h"
 #include "core/query/result.h"
 
@@ -21,23 +22,6 @@ struct Filtered {
   F t_base, t_offset, offset_lo, offset_hi;
   Vec3<F> normal;
 };
-
-/// No earlier than the ray's beginning, no later than its end, where t was rounded beyond.
-template <class F>
-[[gnu::always_inline]] inline void keep_on_ray(const Ray<F>& ray, Filtered<F>& answer) {
-  using std::abs;
-  using std::max;
-  using std::min;
-  const auto beyond = answer.t_base + answer.t_offset > ray.t_max;
-  if (any(beyond)) {
-    const F end = ray.t_max - answer.t_base;
-    const F before = end - F(std::numeric_limits<Lane<F>>::epsilon()) * abs(end);
-    answer.t_offset = select(beyond, before, answer.t_offset);
-  }
-  answer.t_offset = max(answer.t_offset, F(-answer.t_base));
-  answer.offset_lo = min(answer.offset_lo, answer.t_offset);
-  answer.offset_hi = max(answer.offset_hi, answer.t_offset);
-}
 
 /// Where each ray enters the shape, or (`leaves`) where it leaves it for the last time. Only `open`
 /// lanes count. The shape's definition must have a form.

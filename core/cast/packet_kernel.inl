@@ -3,6 +3,7 @@
 // has the type of the lanes, and so the instruction set, in its name: see core/math/wide.h.
 #include "core/math/wide.h"
 #include "core/model/model_of.h"
+#include "core/cast/on_ray.h"
 #include "core/cast/packet_kernel.h"
 #include "core/cast/packet_lanes.h"
 
@@ -43,32 +44,18 @@ void part(const PreparedShape<Lane<W>>& shape, const RayPacket<Lane<W>>& rays, L
   });
   result.miss |= bounds.miss;
   result.normal = select<W>(bounds.miss, bounds.normal, result.normal);
-  // No earlier than the ray's beginning, no later than its end.
-  using std::abs;
-  using std::max;
-  using std::min;
-  const Mask<W> beyond = result.t_base + result.t_offset > ray.t_max;  // by rounding
-  if (any(beyond)) {
-    const W last = ray.t_max - result.t_base;
-    const W before = last - W(std::numeric_limits<T>::epsilon()) * abs(last);
-    result.t_offset = select(beyond, before, result.t_offset);
-  }
-  result.t_offset = max(result.t_offset, -result.t_base);
-  result.offset_lo = min(result.offset_lo, result.t_offset);
-  result.offset_hi = max(result.offset_hi, result.t_offset);
+  keep_on_ray(ray, result);
   const Vec3<W> normal = shape.template normal_to_outer<W>(result.normal);
   const bool some_inside = any(result.inside);
   const auto at_origin = [&](const W& x) {
     return some_inside ? select(result.inside, W(T(0)), x) : x;
   };
+  using std::abs;
   const Mask<W> in_range =
       abs(result.t_base + result.t_offset) < W(std::numeric_limits<T>::infinity());
-  const Mask<W> has_numbers = (normal.squaredNorm() < W(T(2))) & (result.t_base == result.t_base) &
-                              (result.t_offset == result.t_offset) &
-                              (result.offset_lo == result.offset_lo) &
-                              (result.offset_hi == result.offset_hi);
+  const Mask<W> numbers = has_numbers(result, normal);
   // What is doubtful is left to the single casts.
-  Mask<W> hit = result.hit & in_range & has_numbers, inside = result.inside & has_numbers;
+  Mask<W> hit = result.hit & in_range & numbers, inside = result.inside & numbers;
   constexpr T doubtful = tolerance::doubtful_slope<T>;
   if (doubtful != T(0) && !shape.definition().is_smooth()) {
     hit &= -result.normal.dot(near.r) >= W(doubtful);
@@ -77,7 +64,7 @@ void part(const PreparedShape<Lane<W>>& shape, const RayPacket<Lane<W>>& rays, L
   answers.hit |= lane_bits(hit) << from;
   answers.inside |= lane_bits(inside) << from;
   const Mask<W> has_plane = normal.squaredNorm() > W(T(0));
-  answers.miss |= lane_bits(result.miss & has_numbers & has_plane) << from;
+  answers.miss |= lane_bits(result.miss & numbers & has_plane) << from;
   at_origin(result.t_base).store(answers.t_base.data() + from);
   at_origin(result.t_offset).store(answers.t_offset.data() + from);
   at_origin(result.offset_lo).store(answers.offset_lo.data() + from);

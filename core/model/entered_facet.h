@@ -62,7 +62,7 @@ class FacetPlane {
 
 /// Of a polytope without any. Others have `known`, whether there is a facet for a line;
 /// `entered`, the facet of the polytope; and `around`, one that is near where the line meets the
-/// polytope rounded by a radius (but for boxes, which have a model of their own then). The line
+/// polytope rounded by a radius (but for boxes: closed forms answer them). The line
 /// passes `from`, which is s from the bounding ball's centre.
 template <class W, class Core>
 struct Facets {

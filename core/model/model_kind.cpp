@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/model_kind.h"
 
-#include "core/model/model_of.h"
+#include "core/shape/declared.h"
 #include "core/shape/ellipsoid_sum.h"
 #include "core/shape/surface.h"
 
@@ -31,16 +31,13 @@ template <class T>
 ModelKind model_kind_of(const Shape<T>& shape) {
   return std::visit(
       [&]<class S>(const S& kind) {
-        if constexpr (detail::is_axial<S, T> || detail::is_ellipsoid<S, T> ||
-                      detail::is_polytope<S, T>) {
-          return ModelKind::closed_form;
-        } else {
-          const ModelKind model = kind_of_surface(shape);
-          if constexpr (std::is_same_v<S, Rounded<T>>)
-            if (model != ModelKind::points && surface_of<T>(*kind.shape) == SurfaceKind::flat)
-              return ModelKind::rounded_points;
-          return model;
-        }
+        const ModelKind model = kind_of_surface(shape);
+        if constexpr (declared_by<S>.gauge)
+          if (model == ModelKind::smooth) return ModelKind::superellipsoid;
+        if constexpr (std::is_same_v<S, Rounded<T>>)
+          if (model != ModelKind::points && surface_of<T>(*kind.shape) == SurfaceKind::flat)
+            return ModelKind::rounded_points;
+        return model;
       },
       shape.kind);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which model suits a shape: told by the types of its jets where they say enough, else found out
-// when the shape is prepared.
+// Which model suits a shape: found out when the shape is prepared, by what its jets are in a few
+// directions.
 #pragma once
 
 #include "core/shape/shape.h"
@@ -8,10 +8,10 @@
 namespace minkray {
 
 enum class ModelKind : unsigned char {
-  closed_form,      ///< told by the type
-  points,           ///< a polytope made of other shapes
+  points,           ///< a polytope
   rounded_points,   ///< a rounded polytope
   translates,       ///< the hull of translates of one ellipsoid
+  superellipsoid,   ///< known by its gauge
   ellipsoid_sum,    ///< a sum of ellipsoids
   smooth,           ///< a smooth surface
   parts,            ///< the hull of finitely many sums of ellipsoids

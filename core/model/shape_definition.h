@@ -39,8 +39,8 @@ class ShapeDefinition {
   const exact::Form& form() const { return form_; }
   /// Known to have no corners, for hits that just touch; of other smooth shapes it is not asked.
   bool is_smooth() const {
-    return model_ == ModelKind::smooth || model_ == ModelKind::ellipsoid_sum ||
-           model_ == ModelKind::rounded_points;
+    return model_ == ModelKind::smooth || model_ == ModelKind::superellipsoid ||
+           model_ == ModelKind::ellipsoid_sum || model_ == ModelKind::rounded_points;
   }
   /// Whether packets of rays have a solver of their own.
   bool has_packets() const {

@@ -12,7 +12,7 @@
 
 namespace minkray::testing {
 
-enum class RayFamily : unsigned char { random, grazing, degenerate, far };
+enum class RayFamily : unsigned char { random, grazing, degenerate, far, camera };
 
 struct RayFamilyDescription {
   RayFamily family;
@@ -28,6 +28,8 @@ inline constexpr std::array ray_families = {
     RayFamilyDescription{RayFamily::degenerate, "degenerate",
                          "at vertices and edges, in face planes, tangential, along the axes"},
     RayFamilyDescription{RayFamily::far, "far", "as random, from 1e5 R"},
+    RayFamilyDescription{RayFamily::camera, "camera",
+                         "from one point 4 R away, through all of a picture of the shape"},
 };
 
 /// Rays at one shape, of which t_max is infinite. R is the radius of its bounding ball.
@@ -51,6 +53,8 @@ class FamilyRays {
         return degenerate();
       case RayFamily::far:
         return aimed(1e5);
+      case RayFamily::camera:
+        return through_picture();
       default:
         return aimed(5);
     }
@@ -63,6 +67,15 @@ class FamilyRays {
         ball_.centre + 0.6 * ball_.radius * std::cbrt(random_.uniform()) * random_.direction();
     const Vec3<double> origin = ball_.centre + distance * ball_.radius * random_.direction();
     return {origin, (target - origin) / distance};
+  }
+
+  /// The picture is as wide as the bounding ball; it is looked at from obliquely above.
+  Ray<double> through_picture() {
+    const Vec3<double> towards = Vec3<double>(-2, 3, -1).normalized();
+    const Vec3<double> right = towards.unitOrthogonal(), up = towards.cross(right);
+    const Vec3<double> at = right * random_.uniform(-1, 1) + up * random_.uniform(-1, 1);
+    const double R = ball_.radius;
+    return {ball_.centre - 4 * R * towards, unit<double>(4 * towards + at)};
   }
 
   /// Along r, past the support point of a direction at right angles to it.

@@ -123,21 +123,18 @@ void check_ordinary(RayFamily family) {
     EXPECT_EQ(outcome.others, 0);
     EXPECT_LE(outcome.worst, exactness<T> * form.slenderness());
     EXPECT_LE(outcome.unproven, exactness<T> * form.slenderness());
-    // One proves, but where a ray is tangent within rounding.
-    EXPECT_LE(outcome.supports, 1.02 * count);
-    EXPECT_LE(outcome.most_supports, 8);
     misses += outcome.misses;
   }
   EXPECT_GT(misses, 300);
 }
 
-TEST(RoundedBox, is_hit_to_rounding_by_one_support_call) {
+TEST(RoundedBox, is_hit_to_rounding) {
   check_ordinary<double>(RayFamily::random);
   check_ordinary<float>(RayFamily::random);
   check_ordinary<float>(RayFamily::far);
 }
 
-TEST(RoundedBox, is_grazed_to_rounding_by_one_support_call) {
+TEST(RoundedBox, is_grazed_to_rounding) {
   check_ordinary<double>(RayFamily::grazing);
   check_ordinary<float>(RayFamily::grazing);
 }
@@ -145,7 +142,6 @@ TEST(RoundedBox, is_grazed_to_rounding_by_one_support_call) {
 /// Along axes, edges and in the planes of faces, which the ray touches within rounding.
 template <class T>
 void check_degenerate() {
-  int casts = 0, long_ones = 0;
   for (const Form& form : forms()) {
     SCOPED_TRACE(name_of(form));
     const int count = 200;
@@ -154,10 +150,7 @@ void check_degenerate() {
     EXPECT_EQ(outcome.others, 0);
     EXPECT_GT(outcome.hits, 0);
     EXPECT_LE(outcome.worst, 2 * exactness<T> * form.slenderness());
-    casts += count;
-    long_ones += outcome.most_supports > 8;
   }
-  EXPECT_LE(long_ones, casts / 1000);  // what the GJK ray cast had to answer
 }
 
 TEST(RoundedBox, is_hit_by_rays_along_its_edges_and_in_its_planes) {
@@ -216,7 +209,6 @@ void check_far_sides() {
   EXPECT_EQ(outcome.misses, 0);
   EXPECT_LE(outcome.worst, exactness<T>);
   EXPECT_LE(outcome.unproven, exactness<T>);
-  EXPECT_LE(outcome.supports, 1.01 * count);
 }
 
 TEST(RoundedBox, is_hit_on_sides_that_lean_with_the_ray) {

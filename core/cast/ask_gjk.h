@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// The stages that cast with nothing but supports, for an observer of any type.
+#pragma once
+
+#include "core/cast/stages.h"
+#include "core/gjk/first_solution.h"
+#include "core/gjk/gjk_ray_cast.h"
+#include "core/gjk/subalgorithm.h"
+
+namespace minkray {
+
+/// The reference algorithms are not worth compiling for every shape, nor is the cast that is
+/// observed: they see Shape<T>.
+template <class T, class Observer>
+CastResult<T> cast_with_gjk(Stage stage, const StageQuestion<T>& question, Observer&& observer) {
+  const auto& [shape, near, options, unused] = question;
+  const Shape<T>& any = shape.inner_shape();
+  const Ball<T>& ball = shape.inner_ball();
+  GjkCastOptions<T> gjk{options.eps_tol, options.max_iterations, options.v0};
+  if (!gjk.v0.isZero(T(0))) gjk.v0 = shape.normal_to_inner(gjk.v0);
+  const auto answer = [&] {
+    switch (stage) {
+      case Stage::algorithm_1:
+        return first_solution(any, near, ball, tolerance::first_solution_max_supports, observer);
+      case Stage::johnson:
+        return gjk_ray_cast(any, near, ball, gjk, observer, JohnsonSubalgorithm<T, 3>());
+      case Stage::signed_volumes:
+        return gjk_ray_cast(any, near, ball, gjk, observer, SignedVolumesSubalgorithm<T, 3>());
+      default:
+        if constexpr (std::is_same_v<std::remove_cvref_t<Observer>, NoObserver>)
+          return std::visit(
+              [&](const auto& kind) { return gjk_ray_cast(kind, near, ball, gjk, observer); },
+              any.kind);
+        else
+          return gjk_ray_cast(any, near, ball, gjk, observer);
+    }
+  };
+  CastResult<T> result = answer();
+  result.path = Path::gjk;
+  return result;
+}
+
+}  // namespace minkray

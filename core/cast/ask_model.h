@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// The stage that casts with models, for an observer of any type.
+#pragma once
+
+#include "core/cast/stages.h"
+#include "core/model/model_of.h"
+
+namespace minkray {
+
+/// Exhausted where the model gives up, and where it is in doubt whether the ray begins inside.
+template <class T, class Observer>
+CastResult<T> cast_with_model(Stage stage, const StageQuestion<T>& question, Observer&& observer) {
+  const PreparedShape<T>& shape = question.shape;
+  const RayNearBall<T>& near = question.near;
+  const Ball<T>& ball = shape.inner_ball();
+  BoundsCast<T> bounds{true, false, Vec3<T>::Zero()};
+  cast_at_ball(near, ball.radius, bounds);
+  CastResult<T> result;
+  if (bounds.miss) {
+    result.status = Status::miss;
+    result.normal = bounds.normal;
+    result.offset_hi = T(0);
+    return result;
+  }
+  if (!bounds.open) return result;
+  const bool is_portal = stage == Stage::support_portal;
+  const int max_iterations =
+      is_portal ? tolerance::portal_max_iterations : tolerance::jet_max_iterations;
+  const auto cast = [&](const auto& make_model) {
+    CastLanes<T> lanes = model_cast<T>(make_model, near, ball, shape.inner_half_extents(), true,
+                                       max_iterations, observer);
+    if (lanes.doubtful && !shape.definition().is_smooth()) lanes.inside = false;
+    return result_of(lanes);
+  };
+  if (!is_portal) return with_model<T>(shape.definition(), cast);
+  return cast([&](const Vec3<T>& s, const Vec3<T>& r) {
+    return PolytopeModel<T, Shape<T>>(shape.inner_shape(), ball.centre, s, r, ball.radius);
+  });
+}
+
+}  // namespace minkray

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#include "core/cast/judge.h"
+
+#include "core/derived/convert.h"
+
+namespace minkray {
+namespace {
+
+template <class To, class From>
+CastResult<To> in_precision(const CastResult<From>& found) {
+  return {found.status,
+          found.path,
+          To(found.t_base),
+          To(found.t_offset),
+          To(found.offset_lo),
+          To(found.offset_hi),
+          found.normal.template cast<To>(),
+          found.iterations,
+          found.supports};
+}
+
+/// With the question's shape and ray in double.
+ProvenCast proven_in_double(const StageQuestion<double>& question,
+                            const CastResult<double>& answer) {
+  const PreparedShape<double>& shape = question.shape;
+  return proven(shape.inner_shape(), shape.inner_ball(), question.near, answer);
+}
+
+ProvenCast proven_in_double(const StageQuestion<float>& question,
+                            const CastResult<double>& answer) {
+  const Ball<float>& ball = question.shape.inner_ball();
+  const RayNearBall<float>& near = question.near;
+  return proven(convert<double>(question.shape.inner_shape()),
+                {ball.centre.cast<double>(), double(ball.radius)},
+                {near.s.cast<double>(), near.r.cast<double>(), double(near.lambda_min),
+                 double(near.lambda_max), double(near.t_base), double(near.t_shift),
+                 double(near.t_per_length)},
+                answer);
+}
+
+}  // namespace
+
+template <class T>
+bool Judge<T>::has_to_be_proven(const CastResult<T>& answer) const {
+  if (proof_ == Proof::all) return true;
+  return proof_ == Proof::steep_hits && answer.status == Status::hit &&
+         !question_.shape.definition().is_smooth() &&
+         -answer.normal.dot(question_.near.r) < tolerance::doubtful_slope<T>;
+}
+
+template <class T>
+bool Judge<T>::is_sharply_proven(const CastResult<double>& answer) {
+  const ProvenCast cast = proven_in_double(question_, answer);
+  iterations_ += cast.answer.iterations;
+  supports_ += cast.answer.supports;
+  if (!proven_ || cast.is_sharp || (cast.holds && !proven_->holds)) proven_ = cast;
+  return cast.is_sharp;
+}
+
+template <class T>
+bool Judge<T>::accepts(CastResult<T> answer) {
+  if (answer.status != Status::exhausted) {
+    // Of a point all directions are normals.
+    const bool is_point = !(question_.shape.inner_ball().radius > T(0));
+    if (answer.status == Status::hit && (is_point || answer.normal.isZero(T(0))))
+      answer.normal = -question_.near.r;
+    if constexpr (std::is_same_v<T, double>)
+      if (has_to_be_proven(answer)) {
+        if (!unproven_) unproven_ = answer;
+        return is_sharply_proven(answer);
+      }
+    accepted_ = answer;
+  }
+  iterations_ += answer.iterations;
+  supports_ += answer.supports;
+  return accepted_.has_value();
+}
+
+template <class T>
+bool Judge<T>::accepts_finer(const CastResult<double>& answer) {
+  if (answer.status != Status::exhausted) return is_sharply_proven(answer);
+  iterations_ += answer.iterations;
+  supports_ += answer.supports;
+  return false;
+}
+
+template <class T>
+CastResult<T> Judge<T>::verdict() const {
+  CastResult<T> result;
+  if (accepted_) {
+    result = *accepted_;
+  } else if (proven_) {
+    // What nearly touches an ordinary shape is answered as it is, if nothing better was found.
+    const bool is_answered = proven_->holds || (unproven_ && proof_ != Proof::all);
+    result = in_precision<T>(proven_->answer);
+    result.path = Path::finer;
+    if (!is_answered) result.status = Status::exhausted;
+  }
+  result.iterations = iterations_;
+  result.supports = supports_;
+  return result;
+}
+
+template class Judge<float>;
+template class Judge<double>;
+
+}  // namespace minkray

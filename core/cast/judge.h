@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// Which of the answers of a cast's stages to believe: the first that needs no proof, or has a sharp
+// one; else the first that has any.
+#pragma once
+
+#include <optional>
+
+#include "core/cast/stages.h"
+#include "core/proof/proven_cast.h"
+
+namespace minkray {
+
+template <class T>
+class Judge {
+ public:
+  Judge(const StageQuestion<T>& question, Proof proof) : question_(question), proof_(proof) {}
+
+  /// Whether no other stage has to be asked.
+  bool accepts(CastResult<T> answer);
+  /// The same of an answer in wider numbers, which always has to be proven.
+  bool accepts_finer(const CastResult<double>& answer);
+  /// What to answer once a stage was accepted, or there is none left; with the work of all stages.
+  CastResult<T> verdict() const;
+
+ private:
+  bool has_to_be_proven(const CastResult<T>& answer) const;
+  bool is_sharply_proven(const CastResult<double>& answer);
+
+  const StageQuestion<T>& question_;
+  Proof proof_;
+  std::optional<CastResult<T>> accepted_, unproven_;
+  std::optional<ProvenCast> proven_;
+  int iterations_ = 0, supports_ = 0;
+};
+
+extern template class Judge<float>;
+extern template class Judge<double>;
+
+}  // namespace minkray
