@@ -25,14 +25,22 @@ template <class T>
 CastResult<T> result_of(const Filtered<T>& answer) {
   const Status status = answer.hit ? Status::hit : answer.miss ? Status::miss : Status::inside;
   if (status == Status::miss)
-    return {status, Path::filter, T(0), T(0), T(0), T(0), answer.normal, 0, 0};
+    return {status,
+            Path::filter,
+            T(0),
+            T(0),
+            T(0),
+            T(0),
+            {answer.normal.x(), answer.normal.y(), answer.normal.z()},
+            0,
+            0};
   return {status,
           Path::filter,
           answer.t_base,
           answer.t_offset,
           answer.offset_lo,
           answer.offset_hi,
-          answer.normal,
+          {answer.normal.x(), answer.normal.y(), answer.normal.z()},
           0,
           0};
 }

@@ -23,6 +23,21 @@ struct Filtered {
   Vec3<F> normal;
 };
 
+/// A form's normals have ordinary lengths: nothing is rescaled.
+template <class W>
+[[gnu::always_inline]] inline Vec3<W> unit_of_ordinary(const Vec3<W>& v) {
+  using std::sqrt;
+  return v * (W(1) / sqrt(W(v.squaredNorm())));
+}
+
+/// The same as exact::enter, but not copied to where it is asked.
+template <class W>
+[[gnu::noinline, gnu::cold]] exact::Entry<W> enter_rarely(const exact::Form& form,
+                                                          const exact::Line<W>& line,
+                                                          const Mask<W>& open) {
+  return exact::enter<W>(form, line, open);
+}
+
 /// Where each ray enters the shape, or (`leaves`) where it leaves it for the last time. Only `open`
 /// lanes count. The shape's definition must have a form.
 template <bool leaves, class F>
@@ -33,10 +48,11 @@ template <bool leaves, class F>
   using W = Work<F>;
   using T = Lane<F>;
   const exact::Form& form = shape.definition().form();
-  const FormLine<W> near = form_line(form, shape, ray);
+  FormLine<W> near = form_line(form, shape, ray);
 
   // A ray that leaves enters on its way back.
-  const exact::Line<W> line = leaves ? near.line.reversed() : near.line;
+  exact::Line<W>& line = near.line;
+  if (leaves) line.d = -line.d;
   const W first = leaves ? W(-near.end) : near.begin, last = leaves ? W(-near.begin) : near.end;
   exact::Entry<W> entry = exact::enter<W>(form, line, open & near.told);
 
@@ -49,22 +65,26 @@ template <bool leaves, class F>
   // The line's answer is the ray's, if the ray has begun before and does not end before.
   const W slack = near.slack;
   const W lo = entry.t - entry.e - slack, hi = entry.t + entry.e + slack;
-  const W end_slack(double(tolerance::end_slack<T>) * form.inner_R * form.largest_scale);
-  const auto is_beyond_end = [&](const W& beyond) {
-    return (beyond > W(0)) & (beyond * beyond * line.dd > end_slack * end_slack);
-  };
   Filtered<F> answer;
   answer.hit = entry.hit & (lo >= first) & (hi <= last);
-  answer.miss = entry.miss | (entry.hit & (leaves ? lo > last : is_beyond_end(lo - last)));
+  answer.miss = entry.miss;
   answer.inside = Mask<W>(false);
-  const Mask<W> behind = entry.hit & (hi < first);
-  if (!leaves && any(behind)) {
-    const exact::Entry<W> exit = exact::enter<W>(form, line.reversed(), behind);
-    const W margin = exit.e + slack;
-    answer.inside = exit.hit & (-exit.t - margin > first);
-    const Mask<W> left = exit.hit & (-exit.t + margin < first);
-    answer.miss |= left;
-    entry.normal = select<W>(left, exit.normal, entry.normal);
+  if (any(entry.hit & !answer.hit)) {
+    const W end_slack(double(tolerance::end_slack<T>) * form.inner_R * form.largest_scale);
+    const W beyond = lo - last;
+    const Mask<W> is_beyond =
+        (beyond > W(0)) & (Mask<W>(leaves) | (beyond * beyond * line.dd > end_slack * end_slack));
+    answer.miss |= entry.hit & is_beyond;
+    const Mask<W> behind = entry.hit & (hi < first);
+    if (!leaves && any(behind)) {
+      const exact::Line<W> back = line.reversed();
+      const exact::Entry<W> exit = enter_rarely<W>(form, back, behind);
+      const W margin = exit.e + slack;
+      answer.inside = exit.hit & (-exit.t - margin > first);
+      const Mask<W> left = exit.hit & (-exit.t + margin < first);
+      answer.miss |= left;
+      entry.normal = select<W>(left, exit.normal, entry.normal);
+    }
   }
 
   // From the form's frame to the ray's.
@@ -75,21 +95,26 @@ template <bool leaves, class F>
     normal = times<W, double>(map->template cast<double>().transpose(), normal);
   // Forms' own normals are of unit length to their rounding, which is less than float's.
   if (std::is_same_v<T, double> || form.is_scaled || shape.linear_to_inner())
-    normal = unit<W>(normal);
+    normal = unit_of_ordinary<W>(normal);
   else if (any(answer.miss))
-    normal = select<W>(answer.miss, unit<W>(normal), normal);
+    normal = select<W>(answer.miss, unit_of_ordinary<W>(normal), normal);
   if (any(answer.inside)) normal = select<W>(answer.inside, Vec3<W>::Zero(), normal);
   answer.normal = {convert<T>(normal.x()), convert<T>(normal.y()), convert<T>(normal.z())};
 
+  answer.t_base = answer.t_offset = answer.offset_lo = answer.offset_hi = F(0);
+  if (!any(answer.hit)) return answer;
   // t in two numbers of the ray's kind; their rounding enters the bound.
-  const W zero(0);
-  answer.t_base = convert<T>(select(answer.inside, zero, near.base));
+  answer.t_base =
+      convert<T>(any(answer.inside) ? select(answer.inside, W(0), near.base) : near.base);
   const W rest = near.base - convert<double>(answer.t_base);
   const W tau = leaves ? W(-entry.t) : entry.t;
-  const W offset = select(answer.inside, zero, W((rest + near.shift) + tau * near.per));
-  const W bound = select(answer.inside, zero,
-                         W(entry.e * near.per * W(1 + tolerance::form_margin) +
-                           abs(offset) * W(tolerance::form_digits<T>)));
+  W offset = (rest + near.shift) + tau * near.per;
+  W bound = entry.e * near.per * W(1 + tolerance::form_margin) +
+            abs(offset) * W(tolerance::form_digits<T>);
+  if (any(answer.inside)) {  // some lanes of a packet
+    offset = select(answer.inside, W(0), offset);
+    bound = select(answer.inside, W(0), bound);
+  }
   answer.t_offset = convert<T>(offset);
   answer.offset_lo = convert<T>(W(offset - bound));
   answer.offset_hi = convert<T>(W(offset + bound));

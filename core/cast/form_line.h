@@ -56,6 +56,13 @@ template <class T>
   return m.template cast<double>().squaredNorm();
 }
 
+template <class W>
+[[gnu::always_inline]] inline void assign(Vec3<W>& to, const Vec3<W>& from) {
+  to.x() = from.x();
+  to.y() = from.y();
+  to.z() = from.z();
+}
+
 /// In one step, in numbers of twice the digits.
 template <class F, class W>
 [[gnu::always_inline]] inline FormLine<W> line_in_wider(const exact::Form& form,
@@ -88,12 +95,13 @@ template <class F, class W>
   }
   FormLine<W> near;
   const W dd = d.squaredNorm(), inv = W(1) / dd, k = -p.dot(d) * inv;
-  near.line = {p + d * k,
-               d,
-               dd,
-               inv,
-               W(tolerance::form_rounding<float> * form.R),
-               W(tolerance::form_parallel<float>) * dd};
+  // Component by component: a processor reads slowly, in whole, what it has just written in parts.
+  near.line.s = p + d * k;
+  assign(near.line.d, d);
+  near.line.dd = dd;
+  near.line.inv = inv;
+  near.line.E = W(tolerance::form_rounding<float> * form.R);
+  near.line.parallel = W(tolerance::form_parallel<float>) * dd;
   near.told = (k * k * dd <= far) & (dd > W(tolerance::form_shortest_squared)) &
               (dd < W(tolerance::form_longest_squared));
   if (shape.linear_to_inner())

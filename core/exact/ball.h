@@ -11,7 +11,8 @@ namespace minkray::exact {
 inline constexpr double tangent_margin = 4;
 
 template <class W>
-Entry<W> enter_ball(double r, const Line<W>& line, const Mask<W>& open) {
+[[gnu::always_inline]] inline Entry<W> enter_ball(double r, const Line<W>& line,
+                                                  const Mask<W>& open) {
   using std::max;
   using std::sqrt;
   Entry<W> entry;

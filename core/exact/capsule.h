@@ -8,7 +8,8 @@
 namespace minkray::exact {
 
 template <class W>
-Entry<W> enter_capsule(double r, double half_height, const Line<W>& line, const Mask<W>& open) {
+[[gnu::always_inline]] inline Entry<W> enter_capsule(double r, double half_height,
+                                                     const Line<W>& line, const Mask<W>& open) {
   using std::abs;
   using std::copysign;
   using std::max;

@@ -7,7 +7,8 @@
 namespace minkray::exact {
 
 template <class W>
-Entry<W> enter_cylinder(double r, double half_height, const Line<W>& line, const Mask<W>& open) {
+[[gnu::always_inline]] inline Entry<W> enter_cylinder(double r, double half_height,
+                                                      const Line<W>& line, const Mask<W>& open) {
   using std::max;
   using std::min;
   Entry<W> entry;

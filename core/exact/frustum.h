@@ -8,8 +8,9 @@
 namespace minkray::exact {
 
 template <class W>
-Entry<W> enter_frustum(double slope, double sine, double half_height, double apex, double R,
-                       const Line<W>& line, const Mask<W>& open) {
+[[gnu::always_inline]] inline Entry<W> enter_frustum(double slope, double sine, double half_height,
+                                                     double apex, double R, const Line<W>& line,
+                                                     const Mask<W>& open) {
   using std::max;
   using std::min;
   Entry<W> entry;

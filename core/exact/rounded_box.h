@@ -9,7 +9,8 @@
 namespace minkray::exact {
 
 template <class W>
-Entry<W> enter_rounded_box(const FormSizes& sizes, const Line<W>& line, const Mask<W>& open) {
+[[gnu::always_inline]] inline Entry<W> enter_rounded_box(const FormSizes& sizes,
+                                                         const Line<W>& line, const Mask<W>& open) {
   using std::abs;
   using std::copysign;
   using std::max;

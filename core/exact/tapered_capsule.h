@@ -9,9 +9,11 @@
 namespace minkray::exact {
 
 template <class W>
-Entry<W> enter_tapered_capsule(double lower, double upper, double half_height, double slope,
-                               double sine, double apex, double R, const Line<W>& line,
-                               const Mask<W>& open) {
+[[gnu::always_inline]] inline Entry<W> enter_tapered_capsule(double lower, double upper,
+                                                             double half_height, double slope,
+                                                             double sine, double apex, double R,
+                                                             const Line<W>& line,
+                                                             const Mask<W>& open) {
   using std::max;
   using std::sqrt;
   const Vec3<W>&s = line.s, &d = line.d;

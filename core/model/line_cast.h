@@ -111,12 +111,12 @@ LineHit<W> first_on_line(Model& model, const Vec3<Lane<W>>& half_extents, const 
       result.hit |= met & !contradicts;
       // Where the plane is beyond it by rounding, the model is right: it lies between points. But
       // where the model's own plane is so nearly along the line that the model is off by more than
-      // the best plane's rounding, that plane is.
+      // the best plane's rounding, that plane is, and the model bounds the hit from below.
       const Mask<W> inner = met & model_hit.inner & !contradicts;
       const Mask<W> closer = inner & (along * best_slope >= W(-4) * gap);
       const W above = select(closer, W(-model_hit.height), result.lambda);
       result.lambda_above = select(inner, above, result.lambda_above);
-      result.lambda = select(closer, min(result.lambda, above), result.lambda);
+      result.lambda = select(inner, min(result.lambda, W(-model_hit.height)), result.lambda);
       open &= !met;
     };
     meets(z, gap);
