@@ -37,6 +37,10 @@ CastResult<T> cast_with_gjk(Stage stage, const StageQuestion<T>& question, Obser
   };
   CastResult<T> result = answer();
   result.path = Path::gjk;
+  if (result.status == Status::hit) {  // known to the rounding of a plane's offset
+    const T slope = std::max(-result.normal.dot(near.r), tolerance::least_slope<T>);
+    result.offset_lo -= tolerance::jet_gap<T> * ball.radius / slope * near.t_per_length;
+  }
   return result;
 }
 

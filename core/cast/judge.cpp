@@ -70,6 +70,8 @@ bool Judge<T>::accepts(CastResult<T> answer) {
         return is_sharply_proven(answer);
       }
     accepted_ = answer;
+  } else if (!given_up_) {
+    given_up_ = answer;
   }
   iterations_ += answer.iterations;
   supports_ += answer.supports;
@@ -82,6 +84,16 @@ bool Judge<T>::accepts_finer(const CastResult<double>& answer) {
   iterations_ += answer.iterations;
   supports_ += answer.supports;
   return false;
+}
+
+template <class T>
+void Judge<T>::try_where_given_up() {
+  if (unproven_ || (proven_ && proven_->holds) || !given_up_ || given_up_->normal.isZero(T(0)))
+    return;
+  CastResult<double> claim = in_precision<double>(*given_up_);
+  claim.status = Status::hit;
+  claim.iterations = claim.supports = 0;
+  is_sharply_proven(claim);
 }
 
 template <class T>

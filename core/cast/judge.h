@@ -19,6 +19,9 @@ class Judge {
   bool accepts(CastResult<T> answer);
   /// The same of an answer in wider numbers, which always has to be proven.
   bool accepts_finer(const CastResult<double>& answer);
+  /// Last, for rims and edges that are just touched: whether the first stage that gave up did so at
+  /// a hit, which a proof tells.
+  void try_where_given_up();
   /// What to answer once a stage was accepted, or there is none left; with the work of all stages.
   CastResult<T> verdict() const;
 
@@ -28,7 +31,7 @@ class Judge {
 
   const StageQuestion<T>& question_;
   Proof proof_;
-  std::optional<CastResult<T>> accepted_, unproven_;
+  std::optional<CastResult<T>> accepted_, unproven_, given_up_;
   std::optional<ProvenCast> proven_;
   int iterations_ = 0, supports_ = 0;
 };

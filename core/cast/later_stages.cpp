@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <optional>
-#include <vector>
 
+#include "core/cast/in_double.h"
 #include "core/cast/judge.h"
 #include "core/cast/on_ray.h"
 
@@ -28,47 +28,9 @@ bool is_exact(const CastOptions<T>& options) {
 }
 
 template <class T>
-CastResult<T> ask_stages(const StageQuestion<T>& question);
-
-/// At a float shape of extreme proportions: the cast in double.
-CastResult<float> ask_in_double(const StageQuestion<float>& question) {
-  const PreparedShape<float>& shape = question.shape;
-  const RayNearBall<float>& near = question.near;
-  const ShapeDefinition<double>& definition = *shape.definition().in_double();
-  const auto placement = definition.placed({});
-  const PreparedShape<double> exact(definition, placement.centre,
-                                    placement.is_rigid_identity ? nullptr : &placement.to_inner);
-  RayNearBall<double> exact_near{near.s.cast<double>(),    near.r.cast<double>(),
-                                 double(near.lambda_min),  double(near.lambda_max),
-                                 double(near.t_base),      double(near.t_shift),
-                                 double(near.t_per_length)};
-  exact_near.s += shape.inner_ball().centre.cast<double>() - exact.centre();
-  exact_near = exact_near.mapped(exact.linear_to_inner() ? *exact.linear_to_inner()
-                                                         : Mat3<double>(Mat3<double>::Identity()));
-  CastOptions<double> options;
-  options.solver = question.options.solver;
-  options.max_iterations = question.options.max_iterations;
-  options.v0 = question.options.v0.cast<double>();
-  CastObserver<double> observer;
-  if (question.observer)
-    observer = [&](const CastIteration<double>& iteration) {
-      std::vector<Vec3<float>> simplex;
-      for (const Vec3<double>& p : iteration.simplex) simplex.push_back(p.cast<float>());
-      question.observer(CastIteration<float>{float(iteration.lambda), iteration.x.cast<float>(),
-                                             iteration.v.cast<float>(), iteration.p.cast<float>(),
-                                             iteration.w.cast<float>(), simplex});
-    };
-  const CastResult<double> found = ask_stages<double>({exact, exact_near, options, observer});
-  const Vec3<double> normal = exact.normal_to_outer(found.normal);
-  return {found.status,
-          Path::finer,
-          near.t_base,
-          float(found.t_offset),
-          float(found.offset_lo),
-          float(found.offset_hi),
-          normal.cast<float>(),
-          found.iterations,
-          found.supports};
+bool has_stage(const PreparedShape<T>& shape, const CastOptions<T>& options, Stage stage) {
+  const auto& stages = policy_of(options.solver, kind_of(shape.definition())).stages;
+  return std::find(stages.begin(), stages.end(), stage) != stages.end();
 }
 
 /// Answer, judge, next. The normal is in the inner frame.
@@ -81,19 +43,18 @@ CastResult<T> ask_stages(const StageQuestion<T>& question) {
     switch (stage) {
       case Stage::none:
         return judge.verdict();
-      case Stage::filter:  // was asked of the ray as it was given
-      case Stage::bounds:
-        continue;
+      case Stage::filter:  // were asked of the ray as it was given
       case Stage::in_double:
-        if constexpr (std::is_same_v<T, float>)
-          if (exact) return ask_in_double(question);
+      case Stage::bounds:
         continue;
       case Stage::model:
       case Stage::support_portal:
         if (judge.accepts(ask_model(stage, question))) return judge.verdict();
         continue;
       case Stage::finer:
-        if (exact && judge.accepts_finer(ask_finer(question))) return judge.verdict();
+        if (!exact) continue;
+        if (judge.accepts_finer(ask_finer(question))) return judge.verdict();
+        judge.try_where_given_up();
         continue;
       default:
         if (judge.accepts(ask_gjk(stage, question))) return judge.verdict();
@@ -146,9 +107,8 @@ void end_far_cast(const PreparedShape<T>& shape, const RayNearBall<T>& near,
 /// A miss that the shape's box tells, if the policy asks it.
 template <class T>
 std::optional<CastResult<T>> ask_bounds(const PreparedShape<T>& shape, const Ray<T>& ray,
-                                        SolverKind solver) {
-  const auto& stages = policy_of(solver, kind_of(shape.definition())).stages;
-  if (std::find(stages.begin(), stages.end(), Stage::bounds) == stages.end()) return {};
+                                        const CastOptions<T>& options) {
+  if (!has_stage(shape, options, Stage::bounds)) return {};
   const BoundsCast<T> bounds = cast_at_box(shape.line_to_inner(ray), shape.inner_half_extents(),
                                            shape.inner_ball().radius, true);
   if (!bounds.miss) return {};
@@ -157,12 +117,27 @@ std::optional<CastResult<T>> ask_bounds(const PreparedShape<T>& shape, const Ray
   return CastResult<T>{Status::miss, Path::model, T(0), T(0), T(0), T(0), normal, 0, 0};
 }
 
+/// Whether the policy asks in double, which rays in double are already.
+template <class T>
+bool asks_in_double(const PreparedShape<T>& shape, const CastOptions<T>& options) {
+  return std::is_same_v<T, float> && is_exact(options) &&
+         has_stage(shape, options, Stage::in_double) && shape.definition().in_double();
+}
+
 }  // namespace
 
 template <class T>
 CastResult<T> cast_by_later_stages(const PreparedShape<T>& shape, const Ray<T>& ray,
                                    const CastOptions<T>& options, const CastObserver<T>& observer) {
-  if (const auto miss = ask_bounds(shape, ray, options.solver)) return *miss;
+  if constexpr (std::is_same_v<T, float>)
+    if (asks_in_double(shape, options)) {
+      const auto cast = [&](const PreparedShape<double>& same, const Ray<double>& same_ray,
+                            const CastOptions<double>& same_options) {
+        return cast_ray(same, same_ray, same_options, in_double(observer));
+      };
+      return ask_in_double(shape, ray, options, cast);
+    }
+  if (const auto miss = ask_bounds(shape, ray, options)) return *miss;
   const RayNearBall<T> near = near_inner(shape, ray);
   CastResult<T> result = cast_near(shape, near, options, observer);
   end_far_cast(shape, near, result);
@@ -175,6 +150,9 @@ CastResult<T> cast_by_later_stages(const PreparedShape<T>& shape, const Ray<T>& 
 template <class T>
 CastResult<T> exit_by_later_stages(const PreparedShape<T>& shape, const Ray<T>& ray,
                                    const CastOptions<T>& options) {
+  if constexpr (std::is_same_v<T, float>)
+    if (asks_in_double(shape, options))
+      return ask_in_double(shape, ray, options, cast_exit<double>);
   const RayNearBall<T> near = near_inner(shape, ray);
   CastResult<T> result = cast_near(shape, near.reversed(), options, {});
   end_far_cast(shape, near, result);

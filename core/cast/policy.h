@@ -14,7 +14,7 @@ enum class Stage : unsigned char {
   none,
   filter,          ///< the closed form, in double, with an error bound (filter.h)
   bounds,          ///< the box of a miss
-  in_double,       ///< the same shape and policy for the ray in double; rays in double go on
+  in_double,       ///< the shape and the ray in double, which is final; rays in double go on
   model,           ///< the hull of the pieces that support calls have shown (core/model)
   gjk,             ///< the GJK ray cast
   support_portal,  ///< the model of a polytope, whatever the shape
@@ -46,20 +46,24 @@ struct Policy {
   SolverKind solver;
   ShapeKinds shapes;
   Proof proof;
-  std::array<Stage, 6> stages;  ///< up to the first `none`
+  std::array<Stage, 7> stages;  ///< up to the first `none`
 };
 
-namespace detail {
+namespace policy_rows {
 
 using enum Stage;
-using namespace shape_kind;
+using shape_kind::every, shape_kind::extreme, shape_kind::ordinary;
+using shape_kind::osculated, shape_kind::with_form, shape_kind::with_model;
 using Kind = SolverKind;
 inline constexpr auto never = Proof::none;
 inline constexpr auto steep = Proof::steep_hits;
 inline constexpr auto always = Proof::all;
 
 inline constexpr std::array policies = {
-    Policy{Kind::automatic, with_form, steep, {filter, bounds, model, gjk, support_portal, finer}},
+    Policy{Kind::automatic,
+           with_form,
+           steep,
+           {filter, in_double, bounds, model, gjk, support_portal, finer}},
     Policy{Kind::automatic, with_model, steep, {bounds, model, gjk, support_portal, finer}},
     Policy{Kind::automatic, osculated, steep, {gjk, model, support_portal, finer}},
     Policy{Kind::automatic, extreme, always, {in_double, model, gjk, finer}},
@@ -74,13 +78,13 @@ inline constexpr std::array policies = {
     Policy{Kind::first_solution, every, never, {algorithm_1}},
 };
 
-}  // namespace detail
+}  // namespace policy_rows
 
 /// The row of the table for a solver and a shape.
 constexpr const Policy& policy_of(SolverKind solver, ShapeKinds shape) {
-  for (const Policy& policy : detail::policies)
+  for (const Policy& policy : policy_rows::policies)
     if (policy.solver == solver && (policy.shapes & shape)) return policy;
-  return detail::policies.front();
+  return policy_rows::policies.front();
 }
 
 }  // namespace minkray

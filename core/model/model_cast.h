@@ -112,9 +112,11 @@ CastLanes<W> model_cast(const MakeModel& make_model, const RayNearBall<W>& near,
   bounded &= apart * z <= W(T(4) * tolerance::jet_gap<T> * R);
   // Where the two are apart, the model had only a plane nearly along the ray, and nothing is known.
   result.hit &= bounded | !(entry.lambda_above < W(std::numeric_limits<T>::infinity()));
-  result.offset_lo = near.t_offset(entry.lambda);
-  result.offset_hi = near.t_offset(entry.lambda_above);
-  result.t_offset = select(bounded, result.offset_hi, result.offset_lo);
+  result.t_offset = near.t_offset(select(bounded, entry.lambda_above, entry.lambda));
+  // Both ends are known to the rounding of a plane's offset, which is longer along a slanted ray.
+  const W rounding = W(tolerance::jet_gap<T> * R) / max(z, W(tolerance::least_slope<T>));
+  result.offset_lo = near.t_offset(entry.lambda - rounding);
+  result.offset_hi = near.t_offset(entry.lambda_above + rounding);
 
   // The line enters before the ray begins: where does it leave?
   const Mask<W> began = entry.hit & !enters;

@@ -33,7 +33,7 @@ ModelKind model_kind_of(const Shape<T>& shape) {
       [&]<class S>(const S& kind) {
         const ModelKind model = kind_of_surface(shape);
         if constexpr (declared_by<S>.gauge)
-          if (model == ModelKind::smooth) return ModelKind::superellipsoid;
+          if (model == ModelKind::smooth) return ModelKind::gauge;
         if constexpr (std::is_same_v<S, Rounded<T>>)
           if (model != ModelKind::points && surface_of<T>(*kind.shape) == SurfaceKind::flat)
             return ModelKind::rounded_points;

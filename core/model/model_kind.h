@@ -11,7 +11,7 @@ enum class ModelKind : unsigned char {
   points,           ///< a polytope
   rounded_points,   ///< a rounded polytope
   translates,       ///< the hull of translates of one ellipsoid
-  superellipsoid,   ///< known by its gauge
+  gauge,            ///< known by its gauge
   ellipsoid_sum,    ///< a sum of ellipsoids
   smooth,           ///< a smooth surface
   parts,            ///< the hull of finitely many sums of ellipsoids

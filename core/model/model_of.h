@@ -34,28 +34,47 @@ auto with_model(const ShapeDefinition<Lane<W>>& definition, Use&& use) {
   const auto rounded = [&]<class S>(const S& points, T radius) {
     return made_of(std::type_identity<TranslatesModel<W, RoundedPolytope<W, S>>>(), points, radius);
   };
+  const auto smooth = [&] {
+    return use([&](const Vec3<W>& s, const Vec3<W>& r) {
+      return SmoothModel<W, Shape<T>>(shape, centre, s, r, R);
+    });
+  };
   switch (definition.model()) {
-    case ModelKind::points:  // of hulls and boxes, the facet is known that a line enters
-      if (const auto* hull = std::get_if<Hull<T>>(&shape.kind)) return polytope(*hull);
-      if (const auto* box = std::get_if<Box<T>>(&shape.kind)) return polytope(*box);
-      return polytope(shape);
+    case ModelKind::points:
+      return std::visit(
+          [&]<class S>(const S& points) {
+            if constexpr (declared_by<S>.facets || declared_by<S>.slabs)
+              return polytope(points);  // the facet is known that a line enters
+            else
+              return polytope(shape);
+          },
+          shape.kind);
     case ModelKind::rounded_points: {
       const auto& [radius, core] = std::get<Rounded<T>>(shape.kind);
-      if (const auto* hull = std::get_if<Hull<T>>(&core->kind)) return rounded(*hull, radius);
-      return rounded(*core, radius);
+      return std::visit(
+          [&, r = radius, &any = *core]<class S>(const S& points) {
+            if constexpr (declared_by<S>.facets)
+              return rounded(points, r);
+            else
+              return rounded(any, r);
+          },
+          core->kind);
     }
     case ModelKind::translates:
       return made_of(std::type_identity<TranslatesModel<W, JetTranslates<W, Shape<T>>>>(), shape);
-    case ModelKind::superellipsoid:
-      if (const auto* kind = std::get_if<Superellipsoid<T>>(&shape.kind))
-        return use([&](const Vec3<W>& s, const Vec3<W>& r) {
-          return SuperellipsoidModel<W, Superellipsoid<T>>(*kind, centre, s, r, R);
-        });
-      [[fallthrough]];
+    case ModelKind::gauge:
+      return std::visit(
+          [&]<class S>(const S& kind) {
+            if constexpr (declared_by<S>.gauge)
+              return use([&](const Vec3<W>& s, const Vec3<W>& r) {
+                return SuperellipsoidModel<W, S>(kind, centre, s, r, R);
+              });
+            else
+              return smooth();
+          },
+          shape.kind);
     case ModelKind::smooth:
-      return use([&](const Vec3<W>& s, const Vec3<W>& r) {
-        return SmoothModel<W, Shape<T>>(shape, centre, s, r, R);
-      });
+      return smooth();
     case ModelKind::ellipsoid_sum:
       return use([&](const Vec3<W>& s, const Vec3<W>& r) {
         return EllipsoidSumModel<W, Shape<T>>(shape, definition.ellipsoid_sum(), centre, s, r, R);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/shape_definition.h"
 
+#include <mutex>
+#include <optional>
+
 #include "core/derived/convert.h"
 #include "core/derived/proportions.h"
 #include "core/derived/recentred.h"
@@ -55,6 +58,21 @@ exact::Form exact_form_of(const Shape<T>& inner, const Vec3<double>& ball_centre
 
 }  // namespace
 
+/// Made once, by whichever thread is first.
+template <class T>
+struct ShapeDefinition<T>::InDouble {
+  std::once_flag is_made;
+  std::optional<ShapeDefinition<double>> definition;
+};
+
+template <class T>
+const ShapeDefinition<double>* ShapeDefinition<T>::in_double() const {
+  if (!in_double_) return nullptr;
+  std::call_once(in_double_->is_made,
+                 [&] { in_double_->definition.emplace(convert<double>(inner_)); });
+  return &*in_double_->definition;
+}
+
 template <class T>
 ShapeDefinition<T>::ShapeDefinition(Shape<T> shape) : original_(shape), inner_(std::move(shape)) {
   for (bool simpler = true; simpler;) {
@@ -97,9 +115,9 @@ ShapeDefinition<T>::ShapeDefinition(Shape<T> shape) : original_(shape), inner_(s
     ellipsoid_sum_ = part_of<T>(inner_, Vec3<T>(T(0), T(0), T(1)));
   is_extreme_ = has_extreme_proportions(inner_);
   if (!is_extreme_) form_ = exact_form_of(inner_, ball_.centre.template cast<double>());
-  if constexpr (std::is_same_v<T, float>)
-    if (is_extreme_)
-      in_double_ = std::make_shared<const ShapeDefinition<double>>(convert<double>(inner_));
+  const bool has_small_form = form_.kind != FormKind::none && form_.kind != FormKind::polytope;
+  if (std::is_same_v<T, float> && (is_extreme_ || has_small_form))
+    in_double_ = std::make_shared<InDouble>();
   if (is_extreme_)
     in_long_double_ = std::make_shared<const Shape<long double>>(convert<long double>(inner_));
 }

@@ -31,15 +31,17 @@ class ShapeDefinition {
   const EllipsoidSum<T>& ellipsoid_sum() const { return ellipsoid_sum_; }
   /// Casts at it are proven, one by one and in double, before they are answered.
   bool is_extreme() const { return is_extreme_; }
-  /// Of extreme shapes in float: the inner shape in double. Null for others.
-  const ShapeDefinition<double>* in_double() const { return in_double_.get(); }
+  /// Of shapes in float of which some casts are asked in double: the inner shape there, made when
+  /// it is first asked for. Those are extreme ones, and those with a closed form but polytopes,
+  /// whose facets would take more memory than the doubtful few are worth. Null for others.
+  const ShapeDefinition<double>* in_double() const;
   /// Of extreme shapes: the inner shape in long double. Null for others.
   const Shape<long double>* in_long_double() const { return in_long_double_.get(); }
   /// The inner shape's closed form, if it declares one; none of extreme shapes.
   const exact::Form& form() const { return form_; }
   /// Known to have no corners, for hits that just touch; of other smooth shapes it is not asked.
   bool is_smooth() const {
-    return model_ == ModelKind::smooth || model_ == ModelKind::superellipsoid ||
+    return model_ == ModelKind::smooth || model_ == ModelKind::gauge ||
            model_ == ModelKind::ellipsoid_sum || model_ == ModelKind::rounded_points;
   }
   /// Whether packets of rays have a solver of their own.
@@ -74,7 +76,8 @@ class ShapeDefinition {
   EllipsoidSum<T> ellipsoid_sum_;
   bool is_extreme_;
   exact::Form form_;
-  std::shared_ptr<const ShapeDefinition<double>> in_double_;
+  struct InDouble;
+  std::shared_ptr<InDouble> in_double_;
   std::shared_ptr<const Shape<long double>> in_long_double_;
 };
 

@@ -18,6 +18,8 @@
 namespace minkray::testing {
 namespace {
 
+/// The closed form of these divides by what may be zero first and chooses afterwards.
+constexpr std::string_view divided_first[] = {"rounded", "rounded_box"};
 /// Of these the support mapping itself does: powers of zero to negative exponents.
 constexpr std::string_view with_powers[] = {"superellipsoid"};
 bool is_of(std::span<const std::string_view> kinds, const std::string& name) {
@@ -77,7 +79,7 @@ TYPED_TEST(Traps, none_fires_in_casts_of_the_paper) {
 }
 
 TYPED_TEST(Traps, none_fires_in_casts_in_closed_form) {
-  cast_with_traps<TypeParam>(SolverKind::automatic, {}, 34);
+  cast_with_traps<TypeParam>(SolverKind::automatic, divided_first, 34);
 }
 
 TYPED_TEST(Traps, none_fires_in_distances_between_shapes_apart_and_overlapping) {
