@@ -70,7 +70,7 @@ bool Judge<T>::accepts(CastResult<T> answer) {
         return is_sharply_proven(answer);
       }
     accepted_ = answer;
-  } else if (!given_up_) {
+  } else if (!answer.normal.isZero(T(0))) {
     given_up_ = answer;
   }
   iterations_ += answer.iterations;
@@ -88,8 +88,7 @@ bool Judge<T>::accepts_finer(const CastResult<double>& answer) {
 
 template <class T>
 void Judge<T>::try_where_given_up() {
-  if (unproven_ || (proven_ && proven_->holds) || !given_up_ || given_up_->normal.isZero(T(0)))
-    return;
+  if (unproven_ || (proven_ && proven_->holds) || !given_up_) return;
   CastResult<double> claim = in_precision<double>(*given_up_);
   claim.status = Status::hit;
   claim.iterations = claim.supports = 0;

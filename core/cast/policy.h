@@ -67,6 +67,8 @@ inline constexpr std::array policies = {
     Policy{Kind::automatic, with_model, steep, {bounds, model, gjk, support_portal, finer}},
     Policy{Kind::automatic, osculated, steep, {gjk, model, support_portal, finer}},
     Policy{Kind::automatic, extreme, always, {in_double, model, gjk, finer}},
+    // Hulls of two pieces need digits: their models are asked in double.
+    Policy{Kind::jet, with_form, steep, {in_double, bounds, model, gjk, support_portal, finer}},
     Policy{Kind::jet, ordinary, steep, {bounds, model, gjk, support_portal, finer}},
     Policy{Kind::jet, extreme, always, {in_double, model, gjk, finer}},
     Policy{Kind::portal, ordinary, steep, {bounds, support_portal, gjk}},

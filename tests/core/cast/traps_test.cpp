@@ -19,7 +19,7 @@ namespace minkray::testing {
 namespace {
 
 /// The closed form of these divides by what may be zero first and chooses afterwards.
-constexpr std::string_view divided_first[] = {"rounded", "rounded_box"};
+constexpr std::string_view divided_first[] = {"rounded", "minkowski_sum"};
 /// Of these the support mapping itself does: powers of zero to negative exponents.
 constexpr std::string_view with_powers[] = {"superellipsoid"};
 bool is_of(std::span<const std::string_view> kinds, const std::string& name) {
