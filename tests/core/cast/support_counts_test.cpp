@@ -36,9 +36,9 @@ std::vector<Limit> limits() {
       // Hulls of two pieces that have to be found; closed forms answer these but in doubt.
       {"capsule", Capsule<double>{1, 1}, 3, 10, 3},
       {"cylinder", Cylinder<double>{1, 1}, 3, 10, 3.1},
-      {"cone", Cone<double>{1, 1}, 4, 60, 3.1},
-      {"frustum", Frustum<double>{{1, 0.3}, 1}, 4, 60, 3.1},
-      {"tapered capsule", TaperedCapsule<double>{{1, 0.3}, 1}, 4, 60, 3.1},
+      {"cone", Cone<double>{1, 1}, 4.5, 60, 3.1},
+      {"frustum", Frustum<double>{{1, 0.3}, 1}, 4.5, 60, 3.1},
+      {"tapered capsule", TaperedCapsule<double>{{1, 0.3}, 1}, 4.5, 60, 3.1},
       {"box", box, 1.1, 4, 1.1},
       {"hull of 16", hull(16), 1.4, 12, 1.5},
       {"hull of 256", hull(256), 1.2, 9, 1.2},
