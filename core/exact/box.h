@@ -8,8 +8,8 @@
 namespace minkray::exact {
 
 template <class W>
-[[gnu::always_inline]] inline Entry<W> enter_box(const FormSizes& h,
-                                                 const Line<W>& line, const Mask<W>& open) {
+[[gnu::always_inline]] inline Entry<W> enter_box(const FormSizes& h, const Line<W>& line,
+                                                 const Mask<W>& open) {
   using std::max;
   using std::min;
   const Vec3<W>&s = line.s, &d = line.d;

@@ -45,8 +45,9 @@ inline Form cut_cylinder_form(Form form, const FormSizes& declared) {
 /// Sizes: the radius; the offsets of the lower and the upper plane; their outward normals, of unit
 /// length. R is a ball's around it.
 template <class W>
-Entry<W> enter_cut_cylinder(const FormSizes& sizes, double R, const Line<W>& line,
-                            const Mask<W>& open) {
+[[gnu::always_inline]] inline Entry<W> enter_cut_cylinder(const FormSizes& sizes, double R,
+                                                          const Line<W>& line,
+                                                          const Mask<W>& open) {
   using std::max;
   using std::min;
   const double r = sizes[0];
