@@ -67,8 +67,8 @@ struct CastResult {
 
   /// The hit parameter lies in t_base + [offset_lo, offset_hi], at the shape where it was prepared
   /// to be. Of the path `filter`: by the closed form's error bound. Else the lower end comes from a
-  /// supporting plane, the upper end from support points that the ray passes between; infinite
-  /// where the solver did not find such points.
+  /// supporting plane, the upper end from support points that the ray passes between, both with
+  /// what their rounding leaves; infinite where the solver did not find such points.
   T offset_lo = T(0);
   T offset_hi = std::numeric_limits<T>::infinity();
 
