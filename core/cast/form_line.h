@@ -45,7 +45,6 @@ struct FormLine {
   W base, shift, per;
   W begin, end;  ///< the ray's, as parameters of the line
   W slack;       ///< how uncertain those are
-  W end_slack;   ///< up to how far beyond its end the ray may still count as meeting the shape
 };
 
 namespace detail {

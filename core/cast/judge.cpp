@@ -1,23 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "core/cast/judge.h"
 
+#include "core/cast/in_precision.h"
 #include "core/derived/convert.h"
 
 namespace minkray {
 namespace {
-
-template <class To, class From>
-CastResult<To> in_precision(const CastResult<From>& found) {
-  return {found.status,
-          found.path,
-          To(found.t_base),
-          To(found.t_offset),
-          To(found.offset_lo),
-          To(found.offset_hi),
-          found.normal.template cast<To>(),
-          found.iterations,
-          found.supports};
-}
 
 /// With the question's shape and ray in double.
 ProvenCast proven_in_double(const StageQuestion<double>& question,
@@ -28,14 +16,9 @@ ProvenCast proven_in_double(const StageQuestion<double>& question,
 
 ProvenCast proven_in_double(const StageQuestion<float>& question,
                             const CastResult<double>& answer) {
-  const Ball<float>& ball = question.shape.inner_ball();
-  const RayNearBall<float>& near = question.near;
-  return proven(convert<double>(question.shape.inner_shape()),
-                {ball.centre.cast<double>(), double(ball.radius)},
-                {near.s.cast<double>(), near.r.cast<double>(), double(near.lambda_min),
-                 double(near.lambda_max), double(near.t_base), double(near.t_shift),
-                 double(near.t_per_length)},
-                answer);
+  const PreparedShape<float>& shape = question.shape;
+  return proven(convert<double>(shape.inner_shape()), in_precision<double>(shape.inner_ball()),
+                in_precision<double>(question.near), answer);
 }
 
 }  // namespace

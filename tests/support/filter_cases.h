@@ -6,8 +6,12 @@
 #include <gtest/gtest.h>
 
 #include "core/cast/cast.h"
+#include "core/derived/convert.h"
+#include "core/proof/certificate.h"
+#include "core/proof/check_certificate.h"
 #include "tests/oracle/filter_truth.h"
 #include "tests/support/random.h"
+#include "tests/support/ray_families.h"
 #include "tests/support/rounded.h"
 
 namespace minkray::testing {
@@ -69,6 +73,28 @@ void judge_by(const LineIn& line_in, const PreparedShape<T>& prepared, const Ray
         << "origin " << ray.origin.transpose() << ", direction " << ray.direction.transpose();
     if (answer.status != Status::inside) {
       ASSERT_NEAR(double(answer.normal.norm()), 1, 1e-6);
+    }
+  }
+}
+
+/// The filter's answers to so many rays of each family, by a checker that knows nothing but
+/// supports.
+template <class T>
+void expect_certified(const Shape<T>& shape, const PreparedShape<T>& prepared, std::uint64_t seed,
+                      int rays_each) {
+  const Shape<double> same = convert<double>(shape);
+  const SupportFunction support = supports_of(same);
+  for (const RayFamilyDescription& family : ray_families) {
+    FamilyRays rays(same, family.family, seed);
+    for (int i = 0; i < rays_each; ++i) {
+      const Ray<T> ray = rounded_to<T>(rays.next());
+      const CastResult<T> answer = cast_ray(prepared, ray);
+      if (answer.path != Path::filter) continue;
+      const Claim claim = claim_of(answer);
+      const Certificate proof = certify(support, in_double(ray), claim);
+      EXPECT_TRUE(check_certificate(support, in_double(ray), claim, proof).holds)
+          << family.name << ", " << name_of(answer.status) << ", origin " << ray.origin.transpose()
+          << ", direction " << ray.direction.transpose();
     }
   }
 }

@@ -4,8 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "core/derived/convert.h"
-#include "core/proof/certificate.h"
-#include "core/proof/check_certificate.h"
 #include "tests/support/filter_cases.h"
 #include "tests/support/ray_families.h"
 
@@ -143,21 +141,7 @@ TYPED_TEST(Filter, answers_are_certified) {
     SCOPED_TRACE(named.name);
     const Shape<T> shape = convert<T>(named.shape);
     const PreparedShape<T> prepared(shape);
-    const S same = convert<double>(shape);
-    const SupportFunction support = supports_of(same);
-    for (const RayFamilyDescription& family : ray_families) {
-      FamilyRays rays(same, family.family, 74);
-      for (int i = 0; i < 50; ++i) {
-        const Ray<T> ray = rounded_to<T>(rays.next());
-        const CastResult<T> answer = cast_ray(prepared, ray);
-        if (answer.path != Path::filter) continue;
-        const Claim claim = claim_of(answer);
-        const Certificate proof = certify(support, in_double(ray), claim);
-        EXPECT_TRUE(check_certificate(support, in_double(ray), claim, proof).holds)
-            << family.name << ", " << name_of(answer.status) << ", origin "
-            << ray.origin.transpose() << ", direction " << ray.direction.transpose();
-      }
-    }
+    expect_certified(shape, prepared, 74, 50);
   }
 }
 

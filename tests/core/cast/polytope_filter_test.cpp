@@ -4,8 +4,6 @@
 #include "core/cast/packet_cast.h"
 #include "core/derived/convert.h"
 #include "core/exact/polytope.h"
-#include "core/proof/certificate.h"
-#include "core/proof/check_certificate.h"
 #include "tests/oracle/half_spaces.h"
 #include "tests/support/filter_cases.h"
 #include "tests/support/hull_points.h"
@@ -110,21 +108,7 @@ TYPED_TEST(PolytopeFilter, answers_are_certified) {
     const PreparedShape<T> prepared(shape);
     // Both ends at the size of the shape: what is far away is rounded to that.
     if (prepared.centre().norm() > 10) continue;
-    const S same = convert<double>(shape);
-    const SupportFunction support = supports_of(same);
-    for (const RayFamilyDescription& family : ray_families) {
-      FamilyRays rays(same, family.family, 83);
-      for (int i = 0; i < 60; ++i) {
-        const Ray<T> ray = rounded_to<T>(rays.next());
-        const CastResult<T> answer = cast_ray(prepared, ray);
-        if (answer.path != Path::filter) continue;
-        const Claim claim = claim_of(answer);
-        const Certificate proof = certify(support, in_double(ray), claim);
-        EXPECT_TRUE(check_certificate(support, in_double(ray), claim, proof).holds)
-            << family.name << ", " << name_of(answer.status) << ", origin "
-            << ray.origin.transpose() << ", direction " << ray.direction.transpose();
-      }
-    }
+    expect_certified(shape, prepared, 83, 60);
   }
 }
 

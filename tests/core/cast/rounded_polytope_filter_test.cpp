@@ -2,8 +2,6 @@
 // Answers of the filter at rounded hulls beside the union of their facets' prisms and their edges'
 // capsules, in more digits: no bound is broken, no hit or miss is false.
 #include "core/derived/convert.h"
-#include "core/proof/certificate.h"
-#include "core/proof/check_certificate.h"
 #include "tests/oracle/rounded_hull.h"
 #include "tests/support/filter_cases.h"
 #include "tests/support/hull_points.h"
@@ -138,21 +136,7 @@ TYPED_TEST(RoundedPolytopeFilter, answers_are_certified) {
     const Shape<T> shape = convert<T>(rounded_hull(0.1, named.points));
     const PreparedShape<T> prepared(shape);
     if (prepared.centre().norm() > 10) continue;  // rounded to that
-    const S same = convert<double>(shape);
-    const SupportFunction support = supports_of(same);
-    for (const RayFamilyDescription& family : ray_families) {
-      FamilyRays rays(same, family.family, 93);
-      for (int i = 0; i < 60; ++i) {
-        const Ray<T> ray = rounded_to<T>(rays.next());
-        const CastResult<T> answer = cast_ray(prepared, ray);
-        if (answer.path != Path::filter) continue;
-        const Claim claim = claim_of(answer);
-        const Certificate proof = certify(support, in_double(ray), claim);
-        EXPECT_TRUE(check_certificate(support, in_double(ray), claim, proof).holds)
-            << family.name << ", " << name_of(answer.status) << ", origin "
-            << ray.origin.transpose() << ", direction " << ray.direction.transpose();
-      }
-    }
+    expect_certified(shape, prepared, 93, 60);
   }
 }
 
