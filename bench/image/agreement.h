@@ -8,7 +8,7 @@
 
 namespace minkray::bench {
 
-/// Of the answers to the same rays.
+/// It compares the answers to the same rays.
 struct Agreement {
   std::size_t rays = 0, hits = 0;  ///< hits: of the reference
   std::size_t only_one = 0;        ///< rays that only one of the two saw meet something

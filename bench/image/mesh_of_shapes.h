@@ -17,7 +17,7 @@ struct Meshes {
 
 Meshes meshes_of(const Scene& scene, double relative_error);
 
-/// Of one shape, with an error of that part of its bounding radius.
+/// The mesh is of one shape, with an error of that part of its bounding radius.
 TriangleMesh mesh_of_shape(const Shape<double>& shape, double relative_error);
 
 }  // namespace minkray::bench

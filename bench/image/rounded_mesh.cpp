@@ -92,8 +92,8 @@ class Builder {
     directions_.push_back(direction);
     return static_cast<Index>(mesh_.vertices.size() - 1);
   }
-  /// Of a facet or a strip, or, `on_sphere`, of a corner's patch. The deepest point of either is
-  /// what the error is.
+  /// The triangle is of a facet or a strip, or, `on_sphere`, of a corner's patch. The deepest point
+  /// of either is what the error is.
   void triangle(Index a, Index b, Index c, bool on_sphere = false) {
     mesh_.triangles.push_back({a, b, c});
     if (!on_sphere) return;

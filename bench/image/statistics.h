@@ -6,7 +6,7 @@
 
 namespace minkray::bench {
 
-/// Of at least one value; the upper one of two in the middle.
+/// There must be at least one value; of two in the middle it is the upper one.
 inline double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());

@@ -60,7 +60,7 @@ class Tracer {
   /// How it can be asked: "packets", "stream".
   virtual std::vector<std::string> entries() const = 0;
   virtual std::unique_ptr<RayQueue> queue(std::size_t entry) const = 0;
-  /// Of unit length, outwards.
+  /// The normal has unit length and points outwards.
   virtual Vec3<float> world_normal(const FirstHit& hit) const = 0;
 
   /// What it says of itself.

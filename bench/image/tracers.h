@@ -27,7 +27,7 @@ std::unique_ptr<Tracer> embree_with_our_cast(const Scene& scene, int threads);
 /// Whether all shapes of a scene are rounded boxes.
 bool has_closed_form(const Scene& scene);
 
-/// The same with the closed form of a ray and a rounded box.
+/// This one uses the closed form of a ray and a rounded box.
 std::unique_ptr<Tracer> embree_with_closed_form(const Scene& scene, int threads);
 
 }  // namespace minkray::bench

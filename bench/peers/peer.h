@@ -16,7 +16,7 @@
 
 namespace minkray::bench {
 
-/// The same rays twice: the numbers are floats. t_max is finite, beyond the shape.
+/// The rays are there twice: the numbers are floats. t_max is finite, beyond the shape.
 struct RayBatch {
   std::vector<Ray<float>> in_float;
   std::vector<Ray<double>> in_double;

@@ -23,7 +23,7 @@ struct Parts {
   std::array<BuildRange, bvh_width> ranges;
   std::size_t count = 0;
 
-  /// Of the ranges that may be chosen the one of the greatest weight; count if none may.
+  /// Finds the range of the greatest weight among those that may be chosen; count if none may.
   template <class MayBe, class Weight>
   std::size_t heaviest(const MayBe& may_be, const Weight& weight) const {
     std::size_t best = count;

@@ -66,7 +66,7 @@ enum class BvhBuild : unsigned char {
 /// threads. The boxes must not be empty; they may be flat, alike, or infinite.
 Bvh build_bvh(std::span<const Bounds<float>> boxes, BvhBuild build = BvhBuild::quality);
 
-/// The same hierarchy around other boxes: of things that have moved. The further they have moved
+/// Puts the hierarchy around other boxes: those of things that have moved. The further they moved
 /// against each other, the more rays visit too much; rays find the same as after a build anew.
 void refit(Bvh& bvh, std::span<const Bounds<float>> boxes);
 

@@ -33,7 +33,7 @@ class AreaSplitter {
   explicit AreaSplitter(std::span<Primitive> primitives) : primitives_(primitives) {}
   BuildRange whole() const;
   BuildHalves split(const BuildRange& range) const;
-  /// Of the ranges of a node, the largest by this is split next.
+  /// The largest of a node's ranges by this is split next.
   static double weight(const BuildRange& range) { return range.extent.box.area(); }
 
  private:

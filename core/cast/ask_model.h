@@ -29,7 +29,7 @@ CastResult<T> cast_with_model(Stage stage, const StageQuestion<T>& question, Obs
   const auto cast = [&](const auto& make_model) {
     CastLanes<T> lanes = model_cast<T>(make_model, near, ball, shape.inner_half_extents(), true,
                                        max_iterations, observer);
-    // Of a curved shape, the plane of a portal that is no more than a direction tells nothing.
+    // A portal's plane that is no more than a direction tells nothing about a curved shape.
     if (is_portal && !(lanes.offset_hi < std::numeric_limits<T>::infinity())) lanes.hit = false;
     if (lanes.doubtful && !shape.definition().is_smooth()) lanes.inside = false;
     return result_of(lanes);

@@ -30,7 +30,7 @@ template <class W>
   return v * (W(1) / sqrt(W(v.squaredNorm())));
 }
 
-/// The same as exact::enter, but not copied to where it is asked.
+/// Calls exact::enter, but is not copied to where it is asked.
 template <class W>
 [[gnu::noinline, gnu::cold]] exact::Entry<W> enter_rarely(const exact::Form& form,
                                                           const exact::Line<W>& line,

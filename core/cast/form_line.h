@@ -49,7 +49,7 @@ struct FormLine {
 
 namespace detail {
 
-/// Of the squares of all entries: a bound of how much longer vectors become.
+/// It sums the squares of all entries: a bound of how much longer vectors become.
 template <class T>
 [[gnu::always_inline]] inline double squared_size(const Mat3<T>& m) {
   return m.template cast<double>().squaredNorm();

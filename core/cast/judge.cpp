@@ -43,7 +43,7 @@ bool Judge<T>::is_sharply_proven(const CastResult<double>& answer) {
 template <class T>
 bool Judge<T>::accepts(CastResult<T> answer) {
   if (answer.status != Status::exhausted) {
-    // Of a point all directions are normals.
+    // All directions are normals of a point.
     const bool is_point = !(question_.shape.inner_ball().radius > T(0));
     if (answer.status == Status::hit && (is_point || answer.normal.isZero(T(0))))
       answer.normal = -question_.near.r;

@@ -17,7 +17,7 @@ class Judge {
 
   /// Whether no other stage has to be asked.
   bool accepts(CastResult<T> answer);
-  /// The same of an answer in wider numbers, which always has to be proven.
+  /// Does what accepts() does with an answer in wider numbers, which always has to be proven.
   bool accepts_finer(const CastResult<double>& answer);
   /// Last, for rims and edges that are just touched: whether the last stage that gave up with a
   /// plane did so at a hit, which a proof tells.

@@ -23,7 +23,7 @@ class PreparedShape {
   explicit PreparedShape(Shape<T> shape, const Affine<T>& pose = {})
       : PreparedShape(std::make_shared<const Definition>(std::move(shape)), pose) {}
 
-  /// The same of a definition that others may share.
+  /// Others may share the definition.
   PreparedShape(std::shared_ptr<const Definition> definition, const Affine<T>& pose)
       : definition_(std::move(definition)) {
     const auto placement = definition_->placed(pose);
@@ -49,7 +49,7 @@ class PreparedShape {
 
   const Shape<T>& inner_shape() const { return definition_->inner_shape(); }
   const Ball<T>& inner_ball() const { return definition_->inner_ball(); }
-  /// Of the inner shape's axis-aligned bounds.
+  /// They are those of the inner shape's axis-aligned bounds.
   const Vec3<T>& inner_half_extents() const { return definition_->inner_half_extents(); }
 
   /// Whether the centre is so many radii from the outer frame's origin that a float ray loses
@@ -73,7 +73,7 @@ class PreparedShape {
     return near;  // not copied: a processor reads slowly what it has just written in parts
   }
 
-  /// The same of one ray from anywhere.
+  /// Does what to_inner does for one ray from anywhere.
   RayNearBall<T> to_inner_from_afar(const Ray<T>& ray) const {
     RayNearBall<T> near = ray_near_from_afar(centre_, ray);
     if (!is_rigid_identity_) near = near.mapped(to_inner_);

@@ -21,7 +21,7 @@ class ContactShape {
   /// From the core's frame to the body's; keeps lengths.
   const Mat3<double>& turn() const { return parts_.turn; }
   const Vec3<double>& middle() const { return parts_.middle; }
-  /// Of a ball around the middle that holds the shape.
+  /// The ball of this radius around the middle holds the shape.
   double reach() const { return parts_.core.ball + parts_.core.radius; }
 
  private:

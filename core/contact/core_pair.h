@@ -37,7 +37,7 @@ inline DifferencePoint nearest_along(const CorePair& pair, const Vec3<double>& d
   return {pair.x + pair.turn * b.point - a.point, a.point, a.piece, b.piece};
 }
 
-/// The same of kinds that are looked at each time.
+/// Here the cores' kinds are looked at each time.
 inline DifferencePoint nearest_along(const CorePair& pair, const Vec3<double>& d) {
   return nearest_along<CoreKind::other, CoreKind::other>(pair, d);
 }

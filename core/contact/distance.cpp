@@ -17,7 +17,7 @@ Vec<T, Dim> support_in(const Shape<T>& shape, const Vec<T, Dim>& v) {
   return shape.support(direction).template head<Dim>();
 }
 
-/// The same iteration, of lengths in another unit.
+/// Tells the observer the iteration with lengths in another unit.
 template <class T, int Dim>
 void tell_in(T unit, const DistanceIteration<T, Dim>& iteration,
              const std::function<void(const DistanceIteration<T, Dim>&)>& observer) {

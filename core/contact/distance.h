@@ -22,7 +22,7 @@ DistanceResult<T, 3> distance_between(const CentredShape<T>& a, const CentredSha
                                       SubalgorithmKind subalgorithm = SubalgorithmKind::projection,
                                       const DistanceObserver<T>& observer = {});
 
-/// The same in the plane: of the shapes' shadows on z = 0.
+/// Measures in the plane: between the shapes' shadows on z = 0.
 template <class T>
 DistanceResult<T, 2> distance_in_plane(
     const CentredShape<T>& a, const CentredShape<T>& b, const DistanceOptions<T, 2>& options = {},

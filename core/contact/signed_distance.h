@@ -42,11 +42,11 @@ struct SignedDistance {
   double value = 0;  ///< in [lower, upper], which allow for rounding
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
-  /// Of A and B, in the world, such that point_b - point_a = value * normal: the nearest points; or
-  /// where the two touch first when they are moved apart.
+  /// They are points of A and B, in the world, such that point_b - point_a = value * normal: the
+  /// nearest ones; or where the two touch first when they are moved apart.
   Vec3<double> point_a = Vec3<double>::Zero();
   Vec3<double> point_b = Vec3<double>::Zero();
-  /// Of unit length, from A to B: of planes as far apart as `lower` says. Moving B by it separates.
+  /// It has unit length, from A to B, across planes `lower` apart. Moving B by it separates.
   Vec3<double> normal = Vec3<double>::Zero();
   int supports = 0;  ///< of the difference B - A: each is one of A and one of B
 };
@@ -68,7 +68,7 @@ SignedDistance signed_distance(const ContactShape& a, const Affine<double>& pose
                                const ContactShape& b, const Affine<double>& pose_b,
                                const SignedDistanceOptions& options = {});
 
-/// The same of shapes that stand in the world.
+/// Both shapes stand in the world.
 SignedDistance signed_distance(const ContactShape& a, const ContactShape& b,
                                const SignedDistanceOptions& options = {});
 

@@ -59,8 +59,8 @@ inline void try_edge(const Vec3<double>* y, int a, int b, SimplexPoint& best) {
   if (!newest_only && !(wc > 0)) try_edge(y, a, b, best);
 }
 
-/// Of y[0] to y[n - 1], n from 1 to 4. `newest_only`: the point lies on no face without y[n - 1].
-/// Nothing is kept if rounding leaves no face.
+/// The simplex is y[0] to y[n - 1], n from 1 to 4. `newest_only`: the point lies on no face without
+/// y[n - 1]. Nothing is kept if rounding leaves no face.
 [[gnu::noinline]] inline SimplexPoint closest_of_simplex(const Vec3<double>* y, int n,
                                                          bool newest_only) {
   SimplexPoint best;

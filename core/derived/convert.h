@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The same shape in another scalar type, by way of its described fields.
+// A shape is converted to another scalar type by way of its described fields.
 #pragma once
 
 #include <utility>

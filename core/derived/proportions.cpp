@@ -15,7 +15,7 @@ namespace {
 /// axis' own length, which rounding leaves as precise as that length.
 template <class T>
 constexpr double most_along_axes = std::is_same_v<T, float> ? 0x1p13 : 0x1p20;
-/// Of points that may lie askew: their coordinates are rounded to the longest.
+/// Points may lie askew: their coordinates are rounded to the longest.
 constexpr double most_askew = 0x1p12;
 
 /// The longest to what it is rounded by: what is hardly rounded is nearly a sharp edge.

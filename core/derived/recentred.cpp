@@ -8,8 +8,8 @@
 namespace minkray {
 namespace {
 
-/// Of the nearer end of an extent to its length. Nearer than that, the rounding to be avoided is
-/// little more than that of the shape itself. Above 2, differences to the middle are exact
+/// It is the nearer end of an extent over its length. Nearer than that, the rounding to be avoided
+/// is little more than that of the shape itself. Above 2, differences to the middle are exact
 /// (Sterbenz 1974).
 template <class T>
 constexpr T far_away = T(8);

@@ -16,8 +16,8 @@ struct Recentred {
   Vec3<T> moved;  ///< zero along axes on which the shape is about as large as it is far away
 };
 
-/// Of hulls, triangles and segments, and of those rounded, which lie further away than they are
-/// large; nothing for others.
+/// Moves hulls, triangles and segments, and those rounded, which lie further away than they are
+/// large; it returns nothing for others.
 template <class T>
 std::optional<Recentred<T>> recentred(const Shape<T>& shape);
 

@@ -30,11 +30,11 @@ struct Form {
   std::shared_ptr<const Polytope> polytope;  ///< null for other kinds
 };
 
-/// Of a shape whose bounding ball has this centre; `down` is what lengths are multiplied by. None,
-/// where there is no closed form of those sizes.
+/// The shape's bounding ball has this centre; `down` is what lengths are multiplied by. There is
+/// none, where no closed form holds for those sizes.
 Form form_of(const ExactForm& declared, const Vec3<double>& ball_centre, double down);
 
-/// Of a polytope whose middle is the ball's centre, grown by a radius; none of null.
+/// The polytope, whose middle is the ball's centre, is grown by a radius; null has no form.
 Form form_of(std::shared_ptr<const Polytope> polytope, double radius);
 
 }  // namespace minkray::exact

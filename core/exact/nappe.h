@@ -70,8 +70,8 @@ struct Nappe {
     return hit & (a_ > W(0)) & (line.s.z() + out * line.d.z() > W(apex));
   }
 
-  /// Of a line that misses both nappes, or crosses the upper one: of a plane along it that touches
-  /// the cone.
+  /// The line misses both nappes, or crosses the upper one: this is the normal of a plane along it
+  /// that touches the cone.
   Vec3<W> beside(const Line<W>& line) const {
     using std::copysign;
     using std::max;

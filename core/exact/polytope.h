@@ -25,20 +25,20 @@ class Polytope {
   static std::shared_ptr<const Polytope> of(const PointCloud<T>& points, const Vec3<double>& middle,
                                             double down);
 
-  /// Of a ball around the middle that holds all points.
+  /// The ball of this radius around the middle holds all points.
   double radius() const { return radius_; }
-  /// Of where a line crosses a plane, across it, or meets what is next to it in the polytope grown
-  /// by a radius: to be added to the line's E.
+  /// It bounds how far rounding moves where a line crosses a plane, across it, or meets what is
+  /// next to it in the polytope grown by a radius: it is to be added to the line's E.
   double rounding(double rounded_by) const;
   std::size_t planes() const { return planes_.size(); }
 
-  /// Of a line that meets the ball, and whose E has the rounding added.
+  /// The line must meet the ball, and its E have the rounding added.
   Entry<double> enter(const Line<double>& line) const;
 
   /// Whether it is convex, and its triangles high, enough for rounding to tell which of its pieces
   /// are next to a line.
   bool can_be_rounded() const { return room_for_rounding_ > 0; }
-  /// The same of the polytope grown by a radius, whose ball is larger.
+  /// Enters the polytope grown by a radius, whose ball is larger.
   Entry<double> enter_rounded(double radius, const Line<double>& line) const;
 
  private:

@@ -54,7 +54,7 @@ class Polytope::RoundedWalk {
     return next_ == Piece::none;
   }
 
-  /// Of flat and slender polytopes the way from piece to piece may lead round in circles: whichever
+  /// On flat and slender polytopes the way from piece to piece may lead round in circles: whichever
   /// supports is the one.
   Entry<double> of_any() {
     constexpr std::size_t most_triangles = 128;

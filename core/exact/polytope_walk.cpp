@@ -16,8 +16,8 @@ constexpr std::size_t most_scanned = 8;
 /// From a start that is near, walks are short. Those of more steps have lost their way by rounding.
 constexpr int most_steps = 64;
 
-/// Of the ball that stands for the polytope where a walk begins: how far a line that passes it by
-/// is taken to come into it, squared.
+/// A walk begins at a ball that stands for the polytope: a line that passes the ball by is taken to
+/// come into it by so much, squared.
 constexpr double least_depth = 1.0 / 64;
 
 struct Point2 {

@@ -177,7 +177,7 @@ std::string_view behind_name(std::string_view line) {
   return line;
 }
 
-/// Of one solid or several, each from its "solid" to its "endsolid". The first line that is neither
+/// There may be several solids, each from its "solid" to its "endsolid". The first line neither
 /// blank nor a comment must begin with "solid"; between and behind solids all but facets may stand.
 Vertices vertices_of_text_stl(std::string_view text) {
   Vertices vertices;

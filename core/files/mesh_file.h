@@ -20,7 +20,7 @@ std::vector<Vec3<double>> read_mesh_vertices(const std::filesystem::path& path);
 
 enum class MeshFormat : unsigned char { obj, stl };
 
-/// The same of a file's contents.
+/// Reads a file's contents.
 std::vector<Vec3<double>> mesh_vertices(std::string_view contents, MeshFormat format);
 
 }  // namespace minkray

@@ -183,7 +183,7 @@ RoundFrame round_frame(std::span<const Vec3<double>> points, double flatness) {
 
 namespace {
 
-/// Of coordinates whose differences and their squares are numbers.
+/// Differences of the coordinates and their squares must be numbers.
 ConvexHull hull_in_range(std::span<const Vec3<double>> points) {
   ConvexHull hull;
   hull.frame = round_frame(points);

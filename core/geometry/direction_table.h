@@ -17,7 +17,7 @@ namespace minkray {
 
 class DirectionTable {
  public:
-  /// Of a hull of rank 2 or 3; `vertices` are its vertices in order.
+  /// The hull has rank 2 or 3; `vertices` are its vertices in order.
   DirectionTable(const ConvexHull& hull, std::span<const Vec3<double>> vertices);
 
   /// The index of the cell of n: a whole number. NaN gets some cell.
@@ -38,8 +38,8 @@ class DirectionTable {
   std::size_t cells() const { return begin_.size() - 1; }
 
  private:
-  /// Of directions, to the hull's round frame, where the vertices' normal cones are of similar size
-  /// even if the hull is a needle: n.p = m.q + constant for m = extents * axes^T n.
+  /// It maps directions to the hull's round frame, where the vertices' normal cones are of similar
+  /// size even if the hull is a needle: n.p = m.q + constant for m = extents * axes^T n.
   Mat3<double> to_frame_;
   CubeMap directions_;
   std::vector<std::uint32_t> begin_;  ///< per cell, where its list begins in lists_

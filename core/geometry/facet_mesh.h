@@ -73,7 +73,7 @@ class FacetMesh {
     alignas(4 * sizeof(T)) std::array<T, size> numbers_ = {};
   };
 
-  /// Of a hull of rank 3; `vertices` are its vertices in order.
+  /// The hull has rank 3; `vertices` are its vertices in order.
   FacetMesh(const ConvexHull& hull, std::span<const Vec3<double>> vertices);
 
   template <class U>
@@ -132,8 +132,8 @@ class FacetMesh {
   friend class FacetMesh;
   FacetMesh() = default;
 
-  /// Of the largest coordinate: a few roundings of a reach, and many of a corner's place as a ray
-  /// sees it.
+  /// They multiply the largest coordinate: a few roundings of a reach, and many of a corner's place
+  /// as a ray sees it.
   static constexpr T uneven = 16 * std::numeric_limits<T>::epsilon();
   static constexpr T thin = 64 * std::numeric_limits<T>::epsilon();
 

@@ -110,7 +110,7 @@ ClosestPoint<T> closest_on_face(const SimplexPoints<T>& simplex, int i, int j, i
     const T weight_S = -from_origin.dot(across) / across_squared;
     const T weight_Q = origin_along_e - weight_S * f_along_e;
     const T weight_P = T(1) - weight_Q - weight_S;
-    // Of vertices in a line, what is across is rounding's: the edges will do.
+    // Where vertices lie in a line, what is across is rounding's: the edges will do.
     const Vec3<T> zero = Vec3<T>::Zero(), normal = face_normal(y(P), y(Q), y(S));
     const bool is_flat =
         !(normal.squaredNorm() >

@@ -90,7 +90,7 @@ std::array<W, count> gather_row(W index, const W* table, std::size_t row_size) {
   return columns;
 }
 
-/// The same for each lane.
+/// Each lane has a row of its own.
 template <std::size_t count, class W>
 requires(LaneOf<W>::count > 1) std::array<W, count> gather_row(const W& index, const Lane<W>* table,
                                                                std::size_t row_size) {

@@ -47,7 +47,7 @@ struct WideMask {
 
   WideMask() : bits{} {}
   explicit WideMask(Bits b) : bits(b) {}
-  /// The same for all lanes.
+  /// All lanes are equal.
   explicit WideMask(bool all) : bits(all ? Lanes() == Lanes() : Bits()) {}
 
   bool lane(int i) const { return bits[i] != 0; }
@@ -106,7 +106,7 @@ struct Wide {
 
   Wide() : lanes{} {}
   explicit Wide(Lanes l) : lanes(l) {}
-  /// The same number in all lanes.
+  /// All lanes hold x.
   explicit Wide(T x) : lanes(x - Lanes()) {}
 
   static Wide load(const T* from) {
@@ -240,7 +240,7 @@ struct LaneOf<Wide<T, N, Isa>> {
   static constexpr int count = N;
 };
 
-/// The same numbers with other digits, rounded to nearest.
+/// Gives the numbers other digits, rounded to nearest.
 template <class To, class T, int N, class Isa>
 Wide<To, N, Isa> convert_lanes(const Wide<T, N, Isa>& from) {
   return Wide<To, N, Isa>(__builtin_convertvector(from.lanes, typename Wide<To, N, Isa>::Lanes));

@@ -60,10 +60,10 @@ class FacetPlane {
   Mask<W> supported_ = Mask<W>(false);
 };
 
-/// Of a polytope without any. Others have `known`, whether there is a facet for a line;
+/// This one is for polytopes without any. Others have `known`, whether there is a facet for a line;
 /// `entered`, the facet of the polytope; and `around`, one that is near where the line meets the
-/// polytope rounded by a radius (but for boxes: closed forms answer them). The line
-/// passes `from`, which is s from the bounding ball's centre.
+/// polytope rounded by a radius (but for boxes: closed forms answer them). The line passes `from`,
+/// which is s from the bounding ball's centre.
 template <class W, class Core>
 struct Facets {
   static constexpr bool some = false;
@@ -144,7 +144,7 @@ requires(declared_by<Core>.facets) struct Facets<W, Core> {
     using std::min;
     const FacetMesh<T>& mesh = *hull.points.facets();
     const Vec3<W> guess = normal_on_extents<W>(half_extents, s, Vec3<W>(-frame.z));
-    // Of corners as the ray sees them; hulls may be far from their own origin.
+    // Corners are rounded as the ray sees them; hulls may be far from their own origin.
     const T R = half_extents.norm();
     const W rounding =
         W(T(2) * tolerance::epsilon<T>) * (W(R) + Vec3<W>(from - s).cwiseAbs().sum());
@@ -223,7 +223,7 @@ requires(declared_by<Core>.facets) struct Facets<W, Core> {
     facet.normal = Vec3<W>(W(0), W(0), W(1));
     W at = start(mesh, guess, frame, 0), last = W(-1);
     Mask<W> open = Mask<W>(true), stepped = Mask<W>(false);
-    // Of the last step: the edge crossed, the corner of the facet left behind, the foot there.
+    // The last step crossed this edge, left this corner behind, and has its foot there.
     Vec3<W> begin = Vec3<W>::Zero(), end = begin, behind = begin, foot = begin;
     const auto answer = [&](const Mask<W>& lanes, const Vec3<W>& a, const Vec3<W>& b,
                             const Vec3<W>& c, const Vec3<W>& d, const Mask<W>& has_d) {

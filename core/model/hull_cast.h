@@ -31,7 +31,7 @@ struct RoundBody {
     return unit<W>({-c.x(), -c.y(), sqrt(max(den, W(0)))});
   }
 
-  /// The same for the cylinder that the body sweeps along e. `touch` is where, seen from the body's
+  /// Answers for the cylinder that the body sweeps along e. `touch` is where, seen from the body's
   /// centre, the cylinder is met; if it is passed by, where one grown to be touched would be.
   Vec3<W> swept(const Vec3<W>& c, const Vec3<W>& e, const W& length, Vec3<W>& touch) const {
     using std::abs;
@@ -182,8 +182,8 @@ class HullCast {
     return hit_;
   }
 
-  /// The same where the hit is known in some lanes, and likely to be between the newest body and
-  /// the first of the others in the rest.
+  /// Does what solve() does where the hit is known in some lanes, and likely to be between the
+  /// newest body and the first of the others in the rest.
   HullCastHit<W> solve_from(const HullCastHit<W>& known) {
     hit_ = known;
     if (!all(hit_.found)) edge({newest_, W(0), nowhere(), Mask<W>(true)}, other(0));

@@ -21,8 +21,8 @@ struct CastLanes {
   W supports = W(0);
 };
 
-/// Of a ray at a shape whose bounds it meets, as seen from the bounding ball's centre; half_extents
-/// are the bounding box's. make_model(s, r) makes a model of the shape seen from s
+/// Casts a ray at a shape whose bounds it meets; the ray is seen from the bounding ball's centre,
+/// and half_extents are the bounding box's. make_model(s, r) makes a model of the shape seen from s
 /// along r. Only `castable` lanes are cast.
 template <class W, class MakeModel, class Observer>
 CastLanes<W> model_cast(const MakeModel& make_model, const RayNearBall<W>& near,

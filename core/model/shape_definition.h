@@ -24,18 +24,18 @@ class ShapeDefinition {
 
   const Shape<T>& inner_shape() const { return inner_; }
   const Ball<T>& inner_ball() const { return ball_; }
-  /// Of the inner shape's axis-aligned bounds, around the ball's centre.
+  /// They are those of the inner shape's axis-aligned bounds, around the ball's centre.
   const Vec3<T>& inner_half_extents() const { return half_extents_; }
   ModelKind model() const { return model_; }
   /// What the inner shape is, where model() says that it is a sum of ellipsoids.
   const EllipsoidSum<T>& ellipsoid_sum() const { return ellipsoid_sum_; }
   /// Casts at it are proven, one by one and in double, before they are answered.
   bool is_extreme() const { return is_extreme_; }
-  /// Of shapes in float of which some casts are asked in double: the inner shape there, made when
-  /// it is first asked for. Those are extreme ones, and those with a closed form but polytopes,
-  /// whose facets would take more memory than the doubtful few are worth. Null for others.
+  /// It is the inner shape in double, made when it is first asked for, of float shapes of which
+  /// some casts are asked there: extreme ones, and those with a closed form but polytopes, whose
+  /// facets would take more memory than the doubtful few are worth. It is null for others.
   const ShapeDefinition<double>* in_double() const;
-  /// Of extreme shapes: the inner shape in long double. Null for others.
+  /// It is the inner shape of extreme shapes in long double; it is null for others.
   const Shape<long double>* in_long_double() const { return in_long_double_.get(); }
   /// The inner shape's closed form, if it declares one; none of extreme shapes.
   const exact::Form& form() const { return form_; }

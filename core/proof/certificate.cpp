@@ -83,7 +83,7 @@ class Spanned {
     return static_cast<double>((sum / weights).norm());
   }
 
-  /// Of a tetrahedron that holds x, the weights with which its corners span x, by elimination:
+  /// Finds by elimination the weights with which the corners of a tetrahedron that holds x span x:
   /// ratios of volumes lose the digits that a sliver's volume has lost.
   void balance() {
     if (!full()) return;

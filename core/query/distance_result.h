@@ -28,7 +28,7 @@ constexpr std::string_view name_of(DistanceStatus status) {
   return "unknown";
 }
 
-/// Of objects A and B. Points and the axis are in the frame of the query.
+/// It tells about objects A and B. Points and the axis are in the frame of the query.
 template <class T, int Dim>
 struct DistanceResult {
   DistanceStatus status = DistanceStatus::exhausted;

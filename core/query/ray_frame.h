@@ -25,7 +25,7 @@ struct RayFrame {
   Vec3<W> out_of(const Vec3<W>& v) const { return x * v.x() + y * v.y() + z * v.z(); }
 };
 
-/// Of the projections along the ray.
+/// It is the cross product of the projections along the ray.
 template <class W>
 W cross_2d(const Vec3<W>& a, const Vec3<W>& b) {
   return a.x() * b.y() - a.y() * b.x();

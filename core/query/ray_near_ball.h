@@ -31,7 +31,7 @@ struct RayNearBall {
     return (abs(lambda_min) > W(tolerance::far_origin<Lane<W>> * R)) & (W(R) > W(0));
   }
 
-  /// The same points, walked the other way.
+  /// Walks through these points the other way.
   RayNearBall reversed() const {
     return {s, -r, -lambda_max, -lambda_min, t_base, t_shift, -t_per_length};
   }
@@ -103,8 +103,8 @@ template <class W>
 }
 
 #if defined(__x86_64__)
-/// The same with fma as an instruction, where the machine has it; elsewhere it is a function call,
-/// six times over. Compiled in one place, so that no other flags give other bits.
+/// Uses fma as an instruction, where the machine has it; elsewhere it is a function call, six times
+/// over. It is compiled in one place, so that no other flags give other bits.
 RayNearBall<float> ray_near_with_fma(const Vec3<float>& centre, const Ray<float>& ray);
 RayNearBall<double> ray_near_with_fma(const Vec3<double>& centre, const Ray<double>& ray);
 #endif
@@ -124,8 +124,8 @@ RayNearBall<W> ray_near(const Vec3<Lane<W>>& centre, const Ray<W>& ray) {
   return detail::ray_near_here<W>(centre, ray);
 }
 
-/// The same of one ray for origins further away than far_origin, with digits to spare; no better
-/// beyond farthest_origin.
+/// Moves one ray whose origin is further away than far_origin, with digits to spare; it is no
+/// better beyond farthest_origin.
 template <class T>
 RayNearBall<T> ray_near_from_afar(const Vec3<T>& centre, const Ray<T>& ray) {
   using Finer = std::conditional_t<std::is_same_v<T, float>, double, long double>;

@@ -152,7 +152,7 @@ inline constexpr double form_margin = 0x1p-20;
 template <class T>
 inline constexpr double form_digits = (std::is_same_v<T, float> ? 1 : 8) * double(epsilon<T>);
 
-/// The same for rays in double: lengths of directions, or their inverses.
+/// Rays in double have this limit for lengths of directions and for their inverses.
 inline constexpr double form_longest_step = 1e250;
 
 /// What a polytope's plane and a line round by where they cross, across the plane, in units of the

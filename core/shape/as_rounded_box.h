@@ -11,7 +11,7 @@ namespace minkray {
 
 namespace detail {
 
-/// Of ellipsoids along the axes; zero of other shapes.
+/// The radii are those of ellipsoids along the axes; they are zero of other shapes.
 template <class T>
 Vec3<T> radii_of(const Shape<T>& shape) {
   if (const auto* ball = std::get_if<Sphere<T>>(&shape.kind))

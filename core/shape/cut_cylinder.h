@@ -67,7 +67,7 @@ struct CutCylinder {
     return {p.x(), p.y(), select(rims.is_upper, height(1, upper_slope), height(0, lower_slope))};
   }
 
-  /// Of the ellipse in which one of the planes cuts the cylinder.
+  /// It is the jet of the ellipse in which one of the planes cuts the cylinder.
   template <class W>
   Jet<W> jet(const Vec3<W>& n) const {
     const Mask<W> is_upper = Rims<W>(*this, n).is_upper;

@@ -91,7 +91,7 @@ EllipsoidSum<W> part_of(const Shape<T>& shape, const Vec3<W>& n);
 
 namespace detail {
 
-/// Of a shape whose jets are ellipsoids. Those that only osculate are moved to touch the shape.
+/// The shape's jets are ellipsoids. Those that only osculate are moved to touch the shape.
 template <class W, class S>
 EllipsoidSum<W> part_of_kind(const S& shape, const Vec3<W>& n) {
   const Jet<W> jet = shape.jet(n);

@@ -36,7 +36,7 @@ struct Transform {
     return {map(inner.c), mapped_factor<W>(inner.F), inner.exact, map(inner.s)};
   }
 
-  /// Of an ellipsoid's factor; a ball stays one where lengths are scaled alike.
+  /// F is an ellipsoid's factor; a ball stays one where lengths are scaled alike.
   template <class W>
   Mat3<W> mapped_factor(const Mat3<W>& F) const {
     Mat3<W> mapped = widen<W, T>(map.affine().linear) * F;

@@ -46,7 +46,7 @@ void Instances<T>::add(std::uint32_t definition, const Affine<T>& pose) {
   std::uint32_t linear = identity;
   if (!placement.is_rigid_identity) {
     const Linear own{placement.to_inner, bounds.half_extents().maxCoeff()};
-    // Of one shape with one linear part, boxes are of one size but for rounding.
+    // Boxes of one shape with one linear part are of one size but for rounding.
     const bool as_before = !places_.empty() && places_.back().definition == definition &&
                            places_.back().linear != identity &&
                            linear_[places_.back().linear].to_inner == own.to_inner;

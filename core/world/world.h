@@ -88,8 +88,8 @@ class World {
   bool occluded(const Ray<T>& ray, QueryCounts& counts, std::uint32_t skip = no_instance,
                 T time = T(0)) const;
 
-  /// The same for up to most_rays_at_once rays, faster the closer together they run. hits[i]
-  /// answers rays[i].
+  /// Answers up to most_rays_at_once rays, faster the closer together they run. hits[i] answers
+  /// rays[i].
   void closest_hits(std::span<const WorldRay<T>> rays, std::span<WorldHit<T>> hits,
                     QueryCounts& counts) const;
 
@@ -111,12 +111,12 @@ class World {
   std::size_t bytes() const { return bvh_.bytes() + instances_.bytes(); }
 
  private:
-  /// Of a ray that is made ready: what comes before the closest hit so far, if any; whether
+  /// The ray is made ready. They tell what comes before the closest hit so far, if any; and whether
   /// anything is met.
   void closer_hit(const WorldRay<T>& ray, SlabRay& slabs, WorldHit<T>& closest,
                   QueryCounts& counts) const;
   bool is_blocked(const WorldRay<T>& ray, const SlabRay& slabs, QueryCounts& counts) const;
-  /// The same of half-spaces alone, which are in no hierarchy.
+  /// They look at half-spaces alone, which are in no hierarchy.
   bool closer_half_space(const WorldRay<T>& ray, WorldHit<T>& closest, QueryCounts& counts) const;
   bool blocked_by_half_space(const WorldRay<T>& ray, QueryCounts& counts) const;
 

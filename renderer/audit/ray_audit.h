@@ -2,9 +2,9 @@
 // Proof of a picture: every answer that the world gives to a ray is proven by certificates
 // (core/proof/certificate.h), object by object and without the hierarchy, or counted as a failure.
 //
-// Of the first object that a ray meets the hit is proven, and of every other object that the ray
-// up to there misses it; of a ray that meets nothing that it misses all; of one whose way is
-// blocked that some object is met.
+// The hit of the first object that a ray meets is proven, and that the ray up to there misses every
+// other object; where a ray meets nothing, that it misses all; where its way is blocked, that some
+// object is met.
 #pragma once
 
 #include <array>

@@ -17,7 +17,7 @@ std::string roff(const std::string& text) {
   return out;
 }
 
-/// The same with each line on a line of its own.
+/// Each line gets a line of its own.
 std::string roff_lines(const std::string& text) {
   std::string out;
   for (const char c : roff(text)) out += c == '\n' ? std::string("\n.br\n") : std::string(1, c);

@@ -115,7 +115,7 @@ bool is_blank(std::string_view line) {
   return line.find_first_not_of(" \t\r") == std::string_view::npos;
 }
 
-/// Of a query at a whole scene.
+/// Answers a query at a whole scene.
 void answer_at_scene(const Line& line, const std::string& place, SceneQueries& scenes,
                      Batch& batch) {
   Mistakes mistakes(place);

@@ -68,7 +68,7 @@ void look_at(const SandwichedShape& shape, const Camera& camera, const CastOptio
   }
 }
 
-/// The same of a half-space, whose rays go through all pixels.
+/// A half-space's rays go through all pixels.
 void look_at(const HalfSpaceCheck& check, const Camera& camera, DifferencePicture& difference,
              std::mutex& mutex) {
   const std::lock_guard lock(mutex);

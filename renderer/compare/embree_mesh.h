@@ -43,9 +43,9 @@ class EmbreeMesh {
   ///     |error of t| |D| c <= gamma_12 (d + L^3 / |N|)
   std::optional<MeshHit> cast(const Ray<float>& ray) const;
 
-  /// The same question asked of every triangle, in double, where edges are off by 1e-15: the
-  /// parameter at which the ray first meets the mesh, if it does. The referee where Embree and a
-  /// solver disagree: a ray may slip through between two slivers in float.
+  /// Asks every triangle, in double, where edges are off by 1e-15: the parameter at which the ray
+  /// first meets the mesh, if it does. It is the referee where Embree and a solver disagree: a ray
+  /// may slip through between two slivers in float.
   std::optional<double> nearest(const Ray<float>& ray) const;
 
  private:

@@ -95,7 +95,7 @@ class SandwichedShape {
   /// Casts a ray of the frame at meshes and shape.
   Verdict judge(const Ray<float>& ray, const CastOptions<double>& options = {}) const;
 
-  /// The same ray for the solver, in the shape's own frame; t stays.
+  /// Gives the ray to the solver, in the shape's own frame; t stays.
   Ray<double> to_shape(const Ray<float>& ray) const;
 
   /// A ray of the shape's frame from outside of the shape, up to rounding to float.

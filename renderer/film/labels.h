@@ -16,8 +16,8 @@ struct Label {
   std::string text;
 };
 
-/// Of objects, not of particles. Names of objects that are behind the camera or have none are left
-/// out; so are all if the scene does not want them.
+/// Objects are labelled, particles are not. Names of objects that are behind the camera or have
+/// none are left out; so are all if the scene does not want them.
 std::vector<Label> labels_of(const Scene& scene, const Resolution& resolution);
 
 /// Draws labels onto `image`, the part of the picture of that resolution; those that are outside of

@@ -67,7 +67,7 @@ bool for_blocks(const PixelRect& part, const BlockSize& size, Counts& counts,
   return for_tiles(part, counts, watch, do_tile, journal);
 }
 
-/// The same of single pixels: on_pixel(pixel, counts).
+/// Calls for single pixels: on_pixel(pixel, counts).
 template <class Counts, class OnPixel>
 bool for_pixels(const PixelRect& part, Counts& counts, const RenderWatch& watch,
                 const OnPixel& on_pixel) {

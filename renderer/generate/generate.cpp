@@ -65,7 +65,7 @@ Posed posed(std::string_view kind) {
                    ")");
 }
 
-/// Of a cube that holds the shapes.
+/// A cube of that half size holds the shapes.
 double half_size_for(const Posed& kind, std::size_t count) {
   return std::cbrt(static_cast<double>(count) * kind.volume / kind.fill) / 2;
 }

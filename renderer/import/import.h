@@ -31,7 +31,7 @@ Imported import_scene(const std::filesystem::path& file, const ImportOptions& op
 std::optional<Model> parse_model(const std::string& text, const std::filesystem::path& file,
                                  const ImportOptions& options, Mistakes& mistakes);
 
-/// The same of a file.
+/// Reads the text from a file.
 std::optional<Model> load_model(const std::filesystem::path& file, const ImportOptions& options,
                                 Mistakes& mistakes);
 

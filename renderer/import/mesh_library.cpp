@@ -40,7 +40,7 @@ std::string endings() {
 double deepest_below(const std::vector<Vec3<double>>& vertices, const PointCloud<double>& hull) {
   const FacetMesh<double>* facets = hull.facets();
   if (!facets) return 0;
-  // Of facets that are fans of one polygon, one plane is enough.
+  // One plane is enough for facets that are fans of one polygon.
   std::vector<std::pair<Vec3<double>, double>> planes;
   for (std::size_t i = 0; i < facets->size(); ++i) {
     const Vec3<double> normal = (*facets)[i].normal();

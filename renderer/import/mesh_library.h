@@ -44,7 +44,7 @@ class MeshLibrary {
   /// model:// or file://.
   Answer hulls_of(const std::string& uri, const Vec3<double>& scale);
 
-  /// The same of vertices that stand in the file itself.
+  /// The vertices stand in the file itself.
   Answer hull_of_vertices(std::vector<Vec3<double>> vertices, const Vec3<double>& scale,
                           const std::string& name);
 

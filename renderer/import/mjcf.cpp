@@ -147,7 +147,7 @@ class MjcfReader {
     return Rgba{(*v)[0], (*v)[1], (*v)[2], v->size() > 3 ? (*v)[3] : 1};
   }
 
-  /// Of a geom: its own if it has one, or its material's.
+  /// A geom has its own colour, if it says one, or its material's.
   Rgba colour_of(const XmlElement& geom) {
     const Rgba own = read_rgba(geom).value_or(default_rgba);
     const auto material = materials_.find(geom.attribute_or("material"));

@@ -50,7 +50,7 @@ class XmlFiles {
   std::optional<XmlElement> read(const std::filesystem::path& file,
                                  std::size_t most_bytes = most_xml_bytes);
 
-  /// The same of text, for tests and fuzzing.
+  /// Parses a text, for tests and fuzzing.
   std::optional<XmlElement> parse(const std::string& text, const std::filesystem::path& file);
 
   /// A mistake at an element: "line 12: <geom name="x">: size: must be ...". After many of them no
@@ -66,7 +66,7 @@ class XmlFiles {
   /// attribute is not there, or is wrong (a mistake).
   std::optional<std::vector<double>> numbers(const XmlElement& element, std::string_view key,
                                              std::size_t least, std::size_t most);
-  /// The same of a text that stands in an element; `what` names it in the mistake.
+  /// The text stands in an element; `what` names it in the mistake.
   std::optional<std::vector<double>> numbers_in(const XmlElement& element, std::string_view text,
                                                 std::string_view what, std::size_t least,
                                                 std::size_t most);

@@ -124,7 +124,7 @@ void check_writable(const std::string& path) {
 void write_file(const std::string& path, std::span<const unsigned char> bytes) {
   const Target target = find_target(path);
   if (!target.is_regular) {
-    // Of a pipe without a reader this waits for one, or for a signal.
+    // If a pipe has no reader, this waits for one, or for a signal.
     const int descriptor = ::open(target.path.c_str(), O_WRONLY | O_CLOEXEC);
     if (descriptor < 0) fail(path, errno);
     try {

@@ -20,8 +20,8 @@ void check_writable(const std::string& path);
 /// it. Whoever writes the same file at the same time has a temporary file of his own.
 void write_file(const std::string& path, std::span<const unsigned char> bytes);
 
-/// The same piece by piece, for regular files: more than fits in memory. The file is there when
-/// `finish` has returned; without it, nothing is left.
+/// Writes a regular file piece by piece: more than fits in memory. The file is there when `finish`
+/// has returned; without it, nothing is left.
 class OutputFile {
  public:
   explicit OutputFile(const std::string& path);

@@ -46,7 +46,7 @@ void throw_if_any(const Mistakes& mistakes);
 std::string printable(std::string_view text,
                       std::size_t limit = std::numeric_limits<std::size_t>::max());
 
-/// The same of a text of several lines, whose ends stay.
+/// Lets the ends of lines stay, in a text of several.
 std::string printable_lines(std::string_view text);
 
 }  // namespace minkray

@@ -15,7 +15,7 @@ class JsonPath {
 
   JsonPath operator/(std::string_view key) const& { return JsonPath(*this) / key; }
   JsonPath operator/(std::size_t index) const& { return JsonPath(*this) / index; }
-  /// Of a path that is not needed any more: in time of the key alone.
+  /// A path that is not needed any more takes time for the key alone.
   JsonPath operator/(std::string_view key) &&;
   JsonPath operator/(std::size_t index) &&;
 

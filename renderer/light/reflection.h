@@ -73,7 +73,7 @@ class Coat {
 
   /// The fraction of light from w_out that a smooth coat mirrors.
   double mirrored(const Vec3<double>& w_out) const { return fresnel(w_out.z(), eta_); }
-  /// The same coat, but at least as rough as alpha.
+  /// This is the coat, but at least as rough as alpha.
   Coat roughened(double alpha) const { return {eta_, std::max(alpha_, alpha)}; }
 
   /// These mean what they do of DiffuseBase. A smooth coat is drawn surely in its only direction:

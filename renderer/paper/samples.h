@@ -16,7 +16,7 @@ class Samples {
  public:
   explicit Samples(unsigned seed) : engine_(seed) {}
 
-  /// The same numbers on every machine, which std::uniform_real_distribution does not promise.
+  /// It draws the same on every machine, which std::uniform_real_distribution does not promise.
   double in(double low, double high) {
     constexpr double scale = 1.0 / 18446744073709551616.0;
     return low + (high - low) * (static_cast<double>(engine_()) * scale);

@@ -22,7 +22,7 @@ class MeshFiles {
   std::optional<PointCloud<double>> read(const std::string& name, const JsonPath& path,
                                          Mistakes& mistakes);
 
-  /// Of what was read: the names, and all vertices.
+  /// Adds what was read: the names, and all vertices.
   void add_to(Hash& hash) const;
 
  private:

@@ -7,8 +7,8 @@
 namespace minkray {
 namespace {
 
-/// Of any length but zero to unit length; divided by the largest entry first, so that squares stay
-/// in range.
+/// Scales any length but zero to unit length; divides by the largest entry first, so that squares
+/// stay in range.
 std::array<double, 4> unit_quaternion(std::array<double, 4> q) {
   double largest = 0, squares = 0;
   for (const double entry : q) largest = std::max(largest, std::abs(entry));

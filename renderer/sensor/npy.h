@@ -16,7 +16,7 @@ struct NpyArray {
   std::string shape_text() const;
 };
 
-/// Of little-endian floats of 32 or 64 bits. Throws BadInput with the file's name.
+/// Reads little-endian floats of 32 or 64 bits. Throws BadInput with the file's name.
 NpyArray read_npy(const std::string& file);
 
 /// The bytes in front of the data of a structured array of one dimension (or two, if the second

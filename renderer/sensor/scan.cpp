@@ -32,7 +32,7 @@ class RayRandom {
     state_ += 0x9e3779b97f4a7c15u;
     return (static_cast<double>(mixed(state_) >> 11) + 1) * 0x1p-53;
   }
-  /// Of mean 0 and deviation 1 (Box and Muller 1958).
+  /// They have mean 0 and deviation 1 (Box and Muller 1958).
   std::array<double, 2> normals() {
     const double radius = std::sqrt(-2 * std::log(uniform()));
     const double angle = 2 * std::numbers::pi * uniform();

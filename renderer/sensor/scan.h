@@ -44,9 +44,9 @@ struct Scan {
   bool complete = true;
 };
 
-/// The same bits for any number of threads and any cut of the rays. Of a scene that moves, each ray
-/// is cast at its own time. `progress` may answer false to stop. Throws WrongUsage for a mount that
-/// is not there.
+/// Gives the same bits for any number of threads and any cut of the rays. If the scene moves, each
+/// ray is cast at its own time. `progress` may answer false to stop. Throws WrongUsage for a mount
+/// that is not there.
 Scan scan(Scene& scene, const SensorRays& rays, const ScanOptions& options,
           const std::function<bool(double fraction, std::uint64_t rays)>& progress = {});
 

@@ -128,7 +128,7 @@ bool Checkpoint::is_due() const {
   return pause_.count() > 0 && Clock::now() - last_ >= pause_;
 }
 
-/// Of tiles that other threads may be writing to just now nothing is read.
+/// Nothing is read of tiles that other threads may be writing to just now.
 Rendering Checkpoint::done_tiles_of(const Rendering& rendering) const {
   Rendering copy;
   copy.counts = rendering.counts;

@@ -12,7 +12,7 @@ constexpr Real allowed = 2048;
 /// Iterations of the search for a plane that keeps a claimed point off: a plane that it finds is
 /// proof, whatever it does not find.
 constexpr int most_steps = 24;
-/// Of the nearest point among so few: between nearly equal points it may go round in circles.
+/// The search for the nearest point among so few may go round in circles between nearly equal ones.
 constexpr int most_turns = 100;
 /// The longest cast: each of the jet cast, towards and back, the GJK ray cast and the portal cast
 /// (core/query/tolerances.h), and then those in turn with a proof of each answer, which is four

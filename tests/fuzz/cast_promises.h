@@ -50,7 +50,7 @@ class CastReferee {
     std::string by;
   };
 
-  /// Of o + t d: how far beyond the shape's furthest point along n, relative to the centre.
+  /// It tells how far o + t d is beyond the shape's furthest point along n, relative to the centre.
   Real height(const Vec3<Real>& n) const { return n.dot(shape_.support(n) - centre_); }
   Vec3<Real> at(Real t_base, Real t_offset) const;
   std::string check_miss(const Vec3<Real>& n) const;

@@ -60,7 +60,7 @@ Extent extent_of(const Shape<T>& shape) {
           const Bounds<T> bounds = bounds_of<T>(kind);
           const T reach =
               std::max(bounds.lower.cwiseAbs().maxCoeff(), bounds.upper.cwiseAbs().maxCoeff());
-          // Of an operator also its own lengths: all that its bounds have beyond its operands'.
+          // An operator also has its own lengths: all that its bounds have beyond its operands'.
           extent.size =
               has_operands ? std::max(extent.size, 2 * (long double)(reach)) : (long double)(reach);
           return extent;

@@ -20,15 +20,15 @@ std::string check_queries(std::string_view bytes);
 /// refused with a message.
 std::string check_mesh(std::string_view bytes);
 
-/// A robot's file, MJCF, URDF or SDF by its root element: read into a model whose links are in order
-/// and a scene, or refused with messages.
+/// A robot's file, MJCF, URDF or SDF by its root element: read into a model whose links are in
+/// order and a scene, or refused with messages.
 std::string check_robot(std::string_view bytes);
 
 /// Shapes, nestings and rays made of the bytes (tests/fuzz/shape_from_bytes.h), cast by all
 /// accurate solvers and in packets; the answers checked by tests/fuzz/cast_promises.h.
 std::string check_cast(std::string_view bytes);
 
-/// The same of one cast, given as a line for `minkray cast`, in float and in double.
+/// Checks one cast, given as a line for `minkray cast`, in float and in double.
 std::string check_cast_query(std::string_view line);
 
 }  // namespace minkray::fuzz

@@ -18,7 +18,7 @@ Interval both(const Interval& a, const Interval& b) {
   return {std::max(a.lower, b.lower), std::min(a.upper, b.upper)};
 }
 
-/// Of two pieces of a convex shape.
+/// The two are pieces of a convex shape.
 Interval either(const Interval& a, const Interval& b) {
   if (a.empty()) return b;
   if (b.empty()) return a;
@@ -197,7 +197,7 @@ std::optional<Interval> in(const Hull<double>& s, const V& o, const V& d) {
   return inside;
 }
 
-/// Of a base that is not negative; by multiplications if p is a small whole number.
+/// The base must not be negative; a small whole p is answered by multiplications.
 Long power(Long base, Long p) {
   if (p != std::floor(p) || p > 16) return std::pow(base, p);
   Long product = 1;

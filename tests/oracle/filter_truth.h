@@ -13,7 +13,7 @@ struct FilterVerdict {
   double error_by_bound = 0;  ///< of hits; at most 1 if the bound holds
 };
 
-/// Of a shape as it was prepared, whose numbers are taken as exact. `line_in(at, along)` is the
+/// Judges a shape as it was prepared, whose numbers are taken as exact. `line_in(at, along)` is the
 /// interval of a line in the inner shape. The ray is moved near in 113 bits, the rest is in long
 /// double. `leaves`: the answer is cast_exit's.
 template <class T, class LineIn>
@@ -68,7 +68,7 @@ FilterVerdict judge_bound_by(const LineIn& line_in, const PreparedShape<T>& prep
   return verdict;
 }
 
-/// The same of inner shapes that line_in_shape knows.
+/// line_in_shape must know the inner shape.
 template <class T>
 FilterVerdict judge_bound(const Shape<double>& inner, const PreparedShape<T>& prepared,
                           const Ray<T>& ray, const CastResult<T>& answer, bool leaves = false) {

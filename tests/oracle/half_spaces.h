@@ -16,7 +16,7 @@ class HalfSpaces {
  public:
   using Long = long double;
 
-  /// Of points that span space; a plane through three of them belongs to the hull if no point lies
+  /// The points must span space; a plane through three of them belongs to the hull if no point lies
   /// further beyond it than rounding explains.
   explicit HalfSpaces(std::span<const Vec3<double>> points) {
     Long size = 0;

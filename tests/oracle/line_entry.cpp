@@ -81,7 +81,7 @@ class RoundedHull {
 
   Facet facet_of(const V& plane_normal, const std::array<std::size_t, 3>& corners) const {
     const V &a = points_[corners[0]], &b = points_[corners[1]], &c = points_[corners[2]];
-    // Of the points as they are here, which may be scaled: only the plane's side is taken over.
+    // The points are as they are here, maybe scaled: only the plane's side is taken over.
     V normal = (b - a).cross(c - a).normalized();
     if (normal.dot(plane_normal) < 0) normal = -normal;
     Facet facet{normal, a + radius_ * normal, {}, {}};

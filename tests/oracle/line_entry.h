@@ -33,9 +33,9 @@ class LineEntries {
   /// std::invalid_argument for shapes that are none of these.
   explicit LineEntries(const Shape<double>& shape);
 
-  /// Of the whole line, t of any sign, for origins outside and near the shape. `normal` is where
-  /// to begin with sums of ellipsoids: a guess at the outward normal of the hit, or of a plane that
-  /// separates. The better, the faster.
+  /// Enters by the whole line, t of any sign, for origins outside and near the shape. `normal` is
+  /// where to begin with sums of ellipsoids: a guess at the outward normal of the hit, or of a
+  /// plane that separates. The better, the faster.
   LineEntry operator()(const Vec3<Long>& origin, const Vec3<Long>& direction,
                        const Vec3<double>& normal) const {
     return enter_(origin, direction, normal);

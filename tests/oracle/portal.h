@@ -41,7 +41,7 @@ class PortalCast {
 
   Long radius() const { return radius_; }
 
-  /// Of the whole line, t of any sign. Until the two bounds are closer than `gap` radii, as a
+  /// Casts the whole line, t of any sign, until the two bounds are closer than `gap` radii, as a
   /// distance between planes.
   PortalHit operator()(const Vec3<Long>& origin, const Vec3<Long>& direction, Long gap) const {
     Search search{shape_, direction.normalized(), origin, {}, {}, 0};
@@ -160,7 +160,7 @@ class PortalCast {
           hit.answer = PortalHit::Answer::hit;
           return hit;
         }
-        // Of p and two of the corners: where the line is furthest inside.
+        // The line is furthest inside the triangle of p and two of the corners.
         std::size_t replaced = 0;
         Long most_room = -std::numeric_limits<Long>::infinity();
         for (std::size_t k = 0; k < 3; ++k) {

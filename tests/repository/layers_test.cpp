@@ -61,7 +61,7 @@ TEST(Layers, no_include_points_up) {
   EXPECT_EQ(found.size(), rooms.size());  // and the list names no room that is not there
 }
 
-/// Of the rooms that can be reached from themselves, the first; "" if there is none.
+/// Finds the first of the rooms that can be reached from themselves; "" if there is none.
 std::string room_in_a_cycle(const std::map<std::string, std::set<std::string>>& includes) {
   for (const auto& [room, others] : includes) {
     std::set<std::string> reached;

@@ -19,7 +19,7 @@ inline Points on_a_sphere(int count, const Vec3<double>& extents) {
   return points;
 }
 
-/// Of sides in one plane: both ends are polygons of so many corners.
+/// Both ends are polygons of so many corners, each in one plane.
 inline Points prism(int sides, double half_height) {
   Points points;
   for (int i = 0; i < sides; ++i)

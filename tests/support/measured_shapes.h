@@ -22,7 +22,7 @@ inline void PrintTo(const MeasuredShape& measured, std::ostream* out) {
 
 std::vector<MeasuredShape> measured_shapes();
 
-/// The same shape `scale` times as large.
+/// Makes the shape `scale` times as large.
 Shape<double> scaled(const Shape<double>& shape, double scale);
 
 }  // namespace minkray::testing

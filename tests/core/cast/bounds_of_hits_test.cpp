@@ -16,7 +16,7 @@ struct Beside {
   double worst = 0;  ///< |t - exact| along the normal, in units of R
 };
 
-/// Of one shape's rays that hit in float and in double.
+/// It casts one shape's rays that hit in float and in double.
 Beside beside_double(const Shape<double>& shape, SolverKind solver, RayFamily family) {
   const Shape<float> in_float = convert<float>(shape);
   const PreparedShape<float> prepared(in_float);

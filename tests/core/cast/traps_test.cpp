@@ -20,7 +20,7 @@ namespace {
 
 /// The closed form of these divides by what may be zero first and chooses afterwards.
 constexpr std::string_view divided_first[] = {"rounded", "minkowski_sum"};
-/// Of these the support mapping itself does: powers of zero to negative exponents.
+/// The support mapping itself of these takes powers of zero to negative exponents.
 constexpr std::string_view with_powers[] = {"superellipsoid"};
 bool is_of(std::span<const std::string_view> kinds, const std::string& name) {
   const std::string kind = name.substr(0, name.find_first_of(", "));

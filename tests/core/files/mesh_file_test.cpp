@@ -133,7 +133,7 @@ TEST(MeshFile, an_obj_cut_off_anywhere_is_refused_or_the_vertices_that_are_there
       continue;
     }
     ASSERT_LE(found.size(), all.size()) << length;
-    // Of the last one a digit may be missing.
+    // A digit of the last one may be missing.
     for (std::size_t i = 0; i + 1 < found.size(); ++i) EXPECT_EQ(found[i], all[i]) << length;
   }
   EXPECT_GT(refused, 30);

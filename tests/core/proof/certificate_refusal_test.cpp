@@ -40,7 +40,7 @@ TEST(Certificate, of_an_origin_within_a_shape_is_that_shapes_wherever_it_is) {
   }
 }
 
-// Of a flat shape the plane touches with both normals.
+// The plane touches a flat shape with both normals.
 TEST(Certificate, of_a_flat_shape_hit_from_behind_its_normal_is_refused) {
   const Shape<double> disk = Disk<double>{1};
   const SupportFunction support = supports_of(disk);

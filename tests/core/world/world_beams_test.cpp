@@ -187,7 +187,7 @@ TYPED_TEST(WorldBeamsOf, the_build_of_the_hierarchy_does_not_show) {
   }
 }
 
-// The same tree around what has moved, and a tree built of it anew.
+// One world is the tree around what has moved, the other a tree built of it anew.
 TYPED_TEST(WorldBeamsOf, moved_instances_answer_as_if_built_where_they_are) {
   using T = TypeParam;
   Random<T> random;

@@ -95,8 +95,8 @@ TEST_F(DataChannels, are_those_of_the_ray_through_the_pixels_centre) {
   EXPECT_GT(of_nothing, 100);
 }
 
-/// Of one object, seen by the paper's solver, which has work to tell and bounds that are apart:
-/// what a cast from the pixel's centre says, number by number.
+/// One object is seen by the paper's solver, which has work to tell and bounds that are apart: the
+/// channels are what a cast from the pixel's centre says, number by number.
 TEST(DataChannelsOfOneCast, are_its_iterations_supports_gap_and_status) {
   Scene scene;
   scene.camera.position = {1, -6, 2};

@@ -18,7 +18,7 @@ namespace {
 
 using testing::MujocoModel;
 
-/// Of sizes, positions and directions: what both programs round on the way through a chain of
+/// Sizes, positions and directions differ by what both programs round on the way through a chain of
 /// bodies, of numbers up to some metres.
 constexpr double same = 1e-12;
 
