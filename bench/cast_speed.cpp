@@ -25,7 +25,8 @@ namespace {
 
 using namespace minkray;
 
-/// From 5 R, at points of the ball of 0.6 R around the middle; none is moved beforehand.
+/// They start 5 R away and aim at points of the ball of 0.6 R around the middle; none is moved
+/// beforehand.
 std::vector<Ray<float>> random_rays(const Ball<double>& ball, std::size_t count) {
   testing::Random random(2004);
   std::vector<Ray<float>> rays;

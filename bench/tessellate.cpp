@@ -87,7 +87,7 @@ std::vector<Vec3<double>> support_points(const Shape<double>& shape, const Grid&
   return points;
 }
 
-/// Without the triangles that have no area, outwards, and with the error measured.
+/// Leaves out triangles that have no area, turns the others outwards, and measures the error.
 TriangleMesh mesh_of(const Shape<double>& shape, const std::vector<Vec3<double>>& points,
                      const std::vector<std::array<Index, 3>>& triangles, double wanted_error) {
   const Vec3<double> centre = bounds_of<double>(shape).centre();
@@ -122,7 +122,7 @@ TriangleMesh hull_mesh(const Shape<double>& shape, const Grid& grid, double want
   return mesh_of(shape, corners, triangles, wanted_error);
 }
 
-/// As fine as it takes: the error falls with the square of the fineness.
+/// Makes it as fine as it takes: the error falls with the square of the fineness.
 template <class Make>
 TriangleMesh fine_enough(const Make& make, double error, std::size_t most_triangles) {
   int fineness = 48;

@@ -13,7 +13,7 @@
 namespace minkray::bench {
 namespace {
 
-/// As many as a tile has.
+/// A batch has as many rays as a tile has.
 constexpr std::size_t batch_size = tile_side * tile_side;
 
 /// Rays in batches, each with a queue that they are prepared in.

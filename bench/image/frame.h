@@ -16,7 +16,7 @@ struct Frame {
   std::size_t rays() const { return camera_rays + shadow_rays + ambient_rays; }
 };
 
-/// On the threads there are. The scene needs a directional light, and gets its first.
+/// Runs on the threads there are. The scene needs a directional light, and gets its first.
 Frame trace_frame(const Tracer& tracer, std::size_t entry, const Scene& scene,
                   const Resolution& resolution, int samples);
 

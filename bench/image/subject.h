@@ -31,7 +31,7 @@ std::vector<Shape<double>> shapes_of(const Scene& scene);
 void for_each_instance(const Scene& scene,
                        const std::function<void(std::uint32_t, const Affine<double>&)>& take);
 
-/// For a world in T.
+/// The world is in T.
 template <class T>
 Instances<T> instances_of(const Scene& scene);
 

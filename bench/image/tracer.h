@@ -19,8 +19,8 @@ namespace minkray::bench {
 /// The numbers are floats, whatever the tracer casts in.
 struct RaySpan {
   std::span<const Ray<float>> rays;
-  /// By ray: the instance that it leaves; empty: none. Those who can, leave it out; the rays begin
-  /// above its surface, so that nobody must.
+  /// It names for each ray the instance that it leaves; if it is empty, none leaves one. Those who
+  /// can, leave it out; the rays begin above its surface, so that nobody must.
   std::span<const std::uint32_t> leaves = {};
   bool coherent = false;  ///< neighbours start close to each other and go nearly the same way
 

@@ -91,7 +91,7 @@ std::unique_ptr<Peer> single_rays(std::string name, Entry entry, ToHit to_hit = 
                                                        std::move(to_hit));
 }
 
-/// For those who answer with one number, infinite for a miss.
+/// This serves those who answer with one number, infinite for a miss.
 inline Hit hit_at(double t) {
   Hit hit;
   if (!(t < std::numeric_limits<double>::infinity())) return hit;

@@ -115,7 +115,7 @@ struct Beam {
 
   void add(const SlabNumbers& ray);
 
-  /// To be called behind the last ray.
+  /// It must be called behind the last ray.
   void fill_up();
 
   /// Boxes beyond that are of no interest to a ray any more. Call `narrow` behind such calls.

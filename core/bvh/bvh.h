@@ -18,8 +18,8 @@ inline constexpr int bvh_width = 8;
 struct alignas(32) BvhNode {
   /// No such child: the box is empty, and so are all that follow.
   static constexpr std::uint32_t none = ~std::uint32_t{0};
-  /// In a child: it is one of the boxes that the hierarchy was built of, the rest is its index;
-  /// otherwise it is a node.
+  /// A child with this bit is one of the boxes that the hierarchy was built of, the rest is its
+  /// index; otherwise it is a node.
   static constexpr std::uint32_t leaf = std::uint32_t{1} << 31;
 
   float planes[2][3][bvh_width];  ///< lower corners, upper corners

@@ -26,8 +26,8 @@ struct BuildHalves {
 /// From this depth on ranges are split into halves, which takes at most 32 levels more.
 inline constexpr int free_split_depth = 46;
 
-/// By the surface area heuristic in bins on each axis (Wald, "On fast Construction of SAH-based
-/// Bounding Volume Hierarchies", 2007). Reorders the primitives.
+/// Splits by the surface area heuristic in bins on each axis (Wald, "On fast Construction of
+/// SAH-based Bounding Volume Hierarchies", 2007). Reorders the primitives.
 class AreaSplitter {
  public:
   explicit AreaSplitter(std::span<Primitive> primitives) : primitives_(primitives) {}

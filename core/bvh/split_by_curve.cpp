@@ -23,7 +23,7 @@ std::uint32_t spread(std::uint32_t x) {
   return (x | (x << 2)) & 0x09249249u;
 }
 
-/// By the upper halves; stable.
+/// Sorts by the upper halves and is stable.
 void sort_by_place(std::vector<Keyed>& keys) {
   constexpr std::size_t buckets = std::size_t{1} << bits_a_pass;
   std::vector<Keyed> other(keys.size());

@@ -8,7 +8,7 @@
 namespace minkray {
 namespace {
 
-/// As many lanes as F has, beginning with lane `from`.
+/// Takes as many lanes as F has, beginning with lane `from`.
 template <class F>
 void filter_part(const PreparedShape<Lane<F>>& shape, const RayPacket<Lane<F>>& rays,
                  LaneBits lanes, std::size_t from, CastPacket<Lane<F>>& answers) {
@@ -26,7 +26,7 @@ void filter_part(const PreparedShape<Lane<F>>& shape, const RayPacket<Lane<F>>& 
     answer.normal[axis].store(answers.normal[static_cast<std::size_t>(axis)].data() + from);
 }
 
-/// In parts of which the instruction set's registers hold the doubles, whatever T is.
+/// Casts in parts of which the instruction set's registers hold the doubles, whatever T is.
 template <class T>
 void kernel(const PreparedShape<T>& shape, const RayPacket<T>& rays, LaneBits lanes,
             CastPacket<T>& answers) {

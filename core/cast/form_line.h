@@ -62,7 +62,7 @@ template <class W>
   to.z() = from.z();
 }
 
-/// In one step, in numbers of twice the digits.
+/// Moves in one step, in numbers of twice the digits.
 template <class F, class W>
 [[gnu::always_inline]] inline FormLine<W> line_in_wider(const exact::Form& form,
                                                         const PreparedShape<Lane<F>>& shape,
@@ -114,7 +114,7 @@ template <class F, class W>
   return near;
 }
 
-/// In two steps, each rounded once.
+/// Moves in two steps, each rounded once.
 template <class W>
 [[gnu::always_inline]] inline FormLine<W> line_in_two_steps(const exact::Form& form,
                                                             const PreparedShape<double>& shape,

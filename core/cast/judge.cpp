@@ -7,7 +7,7 @@
 namespace minkray {
 namespace {
 
-/// With the question's shape and ray in double.
+/// Proves with the question's shape and ray in double.
 ProvenCast proven_in_double(const StageQuestion<double>& question,
                             const CastResult<double>& answer) {
   const PreparedShape<double>& shape = question.shape;

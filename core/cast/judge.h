@@ -19,8 +19,8 @@ class Judge {
   bool accepts(CastResult<T> answer);
   /// Does what accepts() does with an answer in wider numbers, which always has to be proven.
   bool accepts_finer(const CastResult<double>& answer);
-  /// Last, for rims and edges that are just touched: whether the last stage that gave up with a
-  /// plane did so at a hit, which a proof tells.
+  /// It comes last, for rims and edges that are just touched: a proof tells whether the last stage
+  /// that gave up with a plane did so at a hit.
   void try_where_given_up();
   /// What to answer once a stage was accepted, or there is none left; with the work of all stages.
   CastResult<T> verdict() const;

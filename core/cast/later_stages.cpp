@@ -63,7 +63,7 @@ CastResult<T> ask_stages(const StageQuestion<T>& question) {
   return judge.verdict();
 }
 
-/// In the outer frame; exhausted, where the numbers' range was left.
+/// Answers in the outer frame; it is exhausted where the numbers' range was left.
 template <class T>
 CastResult<T> cast_near(const PreparedShape<T>& shape, const RayNearBall<T>& near,
                         const CastOptions<T>& options, const CastObserver<T>& observer) {

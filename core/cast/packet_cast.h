@@ -10,7 +10,7 @@
 
 namespace minkray {
 
-/// As many as fill 32 bytes.
+/// A packet has as many as fill 32 bytes.
 template <class T>
 inline constexpr int packet_lanes = static_cast<int>(32 / sizeof(T));
 

@@ -10,7 +10,7 @@
 namespace minkray {
 namespace {
 
-/// As many lanes as W has, beginning with lane `from`.
+/// Takes as many lanes as W has, beginning with lane `from`.
 template <class W>
 void part(const PreparedShape<Lane<W>>& shape, const RayPacket<Lane<W>>& rays, LaneBits lanes,
           std::size_t from, CastPacket<Lane<W>>& answers) {
@@ -73,7 +73,7 @@ void part(const PreparedShape<Lane<W>>& shape, const RayPacket<Lane<W>>& rays, L
   result.supports.store(answers.supports.data() + from);
 }
 
-/// In parts as wide as the instruction set's registers.
+/// Casts in parts as wide as the instruction set's registers.
 template <class T>
 void kernel(const PreparedShape<T>& shape, const RayPacket<T>& rays, LaneBits lanes,
             CastPacket<T>& answers) {

@@ -32,8 +32,8 @@ class PreparedShape {
     is_rigid_identity_ = placement.is_rigid_identity;
   }
 
-  /// For a moment, of a definition that outlives it, without counting references: what worlds of
-  /// millions make for each cast. `to_inner` is null for the identity.
+  /// This lasts for a moment, and the definition outlives it; no references are counted: it is what
+  /// worlds of millions make for each cast. `to_inner` is null for the identity.
   PreparedShape(const Definition& definition, const Vec3<T>& centre, const Mat3<T>* to_inner)
       : definition_(std::shared_ptr<const Definition>(), &definition),
         centre_(centre),
@@ -44,7 +44,7 @@ class PreparedShape {
   const Definition& definition() const { return *definition_; }
   const std::shared_ptr<const Definition>& shared_definition() const { return definition_; }
   const Vec3<T>& centre() const { return centre_; }
-  /// Null for the identity.
+  /// It is null for the identity.
   const Mat3<T>* linear_to_inner() const { return is_rigid_identity_ ? nullptr : &to_inner_; }
 
   const Shape<T>& inner_shape() const { return definition_->inner_shape(); }

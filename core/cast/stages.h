@@ -29,7 +29,7 @@ CastResult<T> ask_gjk(Stage stage, const StageQuestion<T>& question);
 CastResult<double> ask_finer(const StageQuestion<float>& question);
 CastResult<double> ask_finer(const StageQuestion<double>& question);
 
-/// Not for casts: the two above with an observer, which are compiled by themselves.
+/// These are the two above with an observer, not for casts; they are compiled by themselves.
 template <class T>
 CastResult<T> ask_model_observed(Stage stage, const StageQuestion<T>& question);
 template <class T>

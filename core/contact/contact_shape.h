@@ -18,7 +18,7 @@ class ContactShape {
   explicit ContactShape(const Shape<float>& shape) : ContactShape(convert<double>(shape)) {}
 
   const ShapeCore& core() const { return parts_.core; }
-  /// From the core's frame to the body's; keeps lengths.
+  /// It leads from the core's frame to the body's, and keeps lengths.
   const Mat3<double>& turn() const { return parts_.turn; }
   const Vec3<double>& middle() const { return parts_.middle; }
   /// The ball of this radius around the middle holds the shape.

@@ -38,7 +38,7 @@ T unit_for(T largest) {
   return largest < least ? least : leading_power_of_two(largest);
 }
 
-/// In numbers of type F, of which the shapes' supports are T.
+/// Works in numbers of type F, of which the shapes' supports are T.
 template <class F, class T, int Dim>
 DistanceResult<T, Dim> solve(
     const CentredShape<T>& a, const CentredShape<T>& b, const DistanceOptions<T, Dim>& options,

@@ -81,8 +81,8 @@ class Advance {
   /// Slower is rest.
   double parting() const { return options_.touching * speed_; }
 
-  /// From a contact at time 0 that parts: a time at which they are apart, or less a time at which
-  /// they overlap.
+  /// After a contact at time 0 that parts, it finds a time at which they are apart, or less a time
+  /// at which they overlap.
   double leave(const SignedDistance& now) {
     const double speed = approach(now, 0);
     for (double t = 4 * touching_ / speed; t < t_max_; t *= 2) {

@@ -51,7 +51,7 @@ struct Impact {
   ImpactStatus status = ImpactStatus::undecided;
   double t_lo = 0;  ///< they are apart before this; from where they touch at 0 and part, after 0
   double t_hi = std::numeric_limits<double>::infinity();  ///< they touch or overlap here
-  /// At t_lo: the nearest points, and the normal from A to B, in the world.
+  /// These are at t_lo: the nearest points, and the normal from A to B, in the world.
   Vec3<double> point_a = Vec3<double>::Zero();
   Vec3<double> point_b = Vec3<double>::Zero();
   Vec3<double> normal = Vec3<double>::Zero();

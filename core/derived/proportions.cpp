@@ -11,8 +11,8 @@
 namespace minkray {
 namespace {
 
-/// Longest to thinnest, of shapes that lie along the axes: their supports are products with each
-/// axis' own length, which rounding leaves as precise as that length.
+/// It limits longest to thinnest for shapes that lie along the axes: their supports are products
+/// with each axis' own length, which rounding leaves as precise as that length.
 template <class T>
 constexpr double most_along_axes = std::is_same_v<T, float> ? 0x1p13 : 0x1p20;
 /// Points may lie askew: their coordinates are rounded to the longest.

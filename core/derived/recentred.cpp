@@ -14,7 +14,7 @@ namespace {
 template <class T>
 constexpr T far_away = T(8);
 
-/// By how much; zero if there is nothing to gain.
+/// Tells by how much to move them; zero if there is nothing to gain.
 template <class T>
 Vec3<T> way_to(std::span<const Vec3<T>> points) {
   Bounds<T> bounds;

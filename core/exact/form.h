@@ -24,8 +24,8 @@ struct Form {
   Vec3<double> scale = {1, 1, 1};
   double slope = 0;  ///< of a cone's mantle: radius by height below the apex
   double sine = 0;   ///< of the same angle
-  /// As declared, but of balls' frames; forms with a cone: radii below and above, half height,
-  /// apex.
+  /// They are as declared, but in balls' frames; forms with a cone have radii below and above, half
+  /// height, apex.
   FormSizes sizes = {};
   std::shared_ptr<const Polytope> polytope;  ///< null for other kinds
 };

@@ -148,7 +148,7 @@ class Polytope::Maker {
     return false;
   }
 
-  /// By way of the shorter edges, whose rounding is least.
+  /// Goes by way of the shorter edges, whose rounding is least.
   Vec3<double> normal_of(const Triangle& triangle) const {
     const Vec3<double>&a = made_.vertices_[triangle.corner[0]],
           &b = made_.vertices_[triangle.corner[1]], &c = made_.vertices_[triangle.corner[2]];

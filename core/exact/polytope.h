@@ -19,8 +19,8 @@ namespace minkray::exact {
 /// Immutable once made; all lengths are counted from the middle that was given.
 class Polytope {
  public:
-  /// Null where the points' hull is flat, or so thin that its planes' depths use it up, or has more
-  /// points than planes are looked for. Points are multiplied by `down` first.
+  /// It is null where the points' hull is flat, or so thin that its planes' depths use it up, or
+  /// has more points than planes are looked for. Points are multiplied by `down` first.
   template <class T>
   static std::shared_ptr<const Polytope> of(const PointCloud<T>& points, const Vec3<double>& middle,
                                             double down);

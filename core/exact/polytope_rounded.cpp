@@ -24,7 +24,7 @@ class Polytope::RoundedWalk {
   RoundedWalk(const Polytope& polytope, double radius, const Line<double>& line)
       : polytope_(polytope), r_(radius), line_(line) {}
 
-  /// From where the line passes the polytope itself, piece by piece to the one that supports.
+  /// Goes from where the line passes the polytope itself, piece by piece, to the one that supports.
   Entry<double> from(const WalkEnd& end) {
     constexpr int most_pieces = 24;
     if (end.where != WalkEnd::lost) {
@@ -44,7 +44,7 @@ class Polytope::RoundedWalk {
     Vec3<double> out;  ///< from the axis or centre to the line there
   };
 
-  /// At the next piece; false, if it leads to another one.
+  /// Looks at the next piece; false, if it leads to another one.
   bool look() {
     const Piece piece = next_;
     next_ = Piece::none;
@@ -80,7 +80,7 @@ class Polytope::RoundedWalk {
     return polytope_.vertices_[polytope_.triangles_[triangle].corner[k % 3]];
   }
 
-  /// To a triangle from its edge k. Of one that faces away, to its other edge that is nearer.
+  /// Goes to a triangle from its edge k; if it faces away, to its other edge that is nearer.
   void go_over(std::size_t triangle, std::size_t k) {
     const std::size_t plane = polytope_.triangles_[triangle].plane;
     if (polytope_.planes_.normal(plane).dot(line_.d) < -least_component)
@@ -93,7 +93,7 @@ class Polytope::RoundedWalk {
     go_to(Piece::edge, triangle, (k + (distance(k + 1) < distance(k + 2) ? 1 : 2)) % 3);
   }
 
-  /// As `from` and `way` to the line, both at right angles to the axis, whose square is `across`.
+  /// `from` and `way` lead to the line, both at right angles to the axis, whose square is `across`.
   Contact contact(const Vec3<double>& from, const Vec3<double>& way, double across) const {
     Contact found;
     const double inv = 1 / across, k = -from.dot(way) * inv;

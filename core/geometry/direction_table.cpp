@@ -17,7 +17,7 @@ constexpr double cells_per_vertex = 4;
 /// of double: cells and cones are widened by this, relative to the cube map's half width 1.
 constexpr double widening = 16 * std::numeric_limits<float>::epsilon();
 
-/// For each vertex the vertices at the other end of its edges, one list after the other.
+/// Lists for each vertex the vertices at the other end of its edges, one list after the other.
 Polygons neighbours_of(const ConvexHull& hull) {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
   edges.reserve(hull.facets.corners.size() * 2);

@@ -63,7 +63,7 @@ class FacetMesh {
     Vec3<T> vector_at(std::size_t i) const {
       return {numbers_[i], numbers_[i + 1], numbers_[i + 2]};
     }
-    /// By way of the shorter edges, whose rounding is least.
+    /// Goes by way of the shorter edges, whose rounding is least.
     void find_normal();
     /// The least height of the triangle.
     T thickness() const;

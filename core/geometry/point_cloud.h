@@ -18,14 +18,14 @@ template <class T>
 class PointCloud {
  public:
   PointCloud() = default;
-  /// At least one point, all of them finite; `source` names the mesh file they came from, if any.
+  /// All points are finite, and there is one; `source` names the mesh file they came from, if any.
   explicit PointCloud(std::vector<Vec3<T>> points, std::string source = {});
 
   /// The extreme points, in the order in which they were given.
   const std::vector<Vec3<T>>& points() const { return *points_; }
   const std::string& source() const { return source_; }
 
-  /// Null if the hull is flat. Its normals are the points' before they were rounded to T.
+  /// It is null if the hull is flat. Its normals are the points' before they were rounded to T.
   const FacetMesh<T>* facets() const { return facets_.get(); }
 
   /// Rounded to U. What was found out about the points is shared rather than found out again: the
@@ -48,7 +48,7 @@ class PointCloud {
     return support_where(Mask<W>(true), n);
   }
 
-  /// In the lanes that `wanted` names; in others any of the points.
+  /// Answers in the lanes that `wanted` names; in others with any of the points.
   template <class W>
   Vec3<W> support_where(const Mask<W>& wanted, const Vec3<W>& n) const {
     if constexpr (std::floating_point<W>)
@@ -83,7 +83,7 @@ class PointCloud {
     });
   }
 
-  /// For few points: the scan of one lane is that of all.
+  /// This is for few points: the scan of one lane is that of all.
   template <class W>
   Vec3<W> furthest_of_all(const Vec3<W>& n) const {
     Vec3<W> best = widen<W>(points_->front());

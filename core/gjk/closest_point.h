@@ -12,7 +12,7 @@
 
 namespace minkray {
 
-/// At most four vertices, in configuration space.
+/// It has at most four vertices, in configuration space.
 template <class T>
 struct SimplexPoints {
   std::array<Vec3<T>, 4> y;

@@ -25,7 +25,7 @@ namespace minkray {
 struct IsaSse2 {
   static constexpr std::size_t register_bytes = 16;
 };
-/// With FMA.
+/// It has FMA.
 struct IsaAvx2 {
   static constexpr std::size_t register_bytes = 32;
 };
@@ -138,8 +138,8 @@ struct Wide {
   friend Wide select(const Mask& condition, const Wide& a, const Wide& b) {
     return Wide(condition.bits ? a.lanes : b.lanes);
   }
-  /// As std::min and std::max: where a comparison with NaN fails, a. The machine's own answer its
-  /// second argument there, and for zeros of either sign.
+  /// They do as std::min and std::max: where a comparison with NaN fails, they answer a. The
+  /// machine's own answer their second argument there, and for zeros of either sign.
   friend Wide min(const Wide& a, const Wide& b) {
 #if defined(__AVX2__)
     if constexpr (sizeof(Lanes) == 32 && sizeof(T) == 4)

@@ -120,8 +120,8 @@ class EllipsoidSumModel {
                     select(meets, W(a_y * root - y * volume), W(-y)), det * root});
   }
 
-  /// In the ray's frame. What is not certain is a direction across the ray in which the sum hardly
-  /// reaches to it, or else the best that is known.
+  /// The hit is in the ray's frame. What is not certain is a direction across the ray in which the
+  /// sum hardly reaches to it, or else the best that is known.
   ModelHit<W> find() const {
     using std::sqrt;
     const W rounding = W(tolerance::epsilon<T> * R_);
@@ -215,7 +215,7 @@ class EllipsoidSumModel {
   static constexpr int max_across = 6;
   /// The sine below which a direction counts as at right angles to the ray.
   static constexpr T along_ray = T(64) * std::numeric_limits<T>::epsilon();
-  /// In units of R: how close to the ray an osculating ellipsoid is trusted (cbrt epsilon).
+  /// It is in units of R: how close to the ray an osculating ellipsoid is trusted (cbrt epsilon).
   inline static const T model_reach = std::cbrt(tolerance::epsilon<T>);
 
   const S& shape_;

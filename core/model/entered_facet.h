@@ -11,7 +11,7 @@
 
 namespace minkray {
 
-/// In the ray's frame: the ray runs down the z axis.
+/// It is in the ray's frame: the ray runs down the z axis.
 template <class W>
 struct EnteredFacet {
   Mask<W> known = Mask<W>(false);  ///< there is an answer
@@ -338,7 +338,7 @@ requires(declared_by<Core>.facets) struct Facets<W, Core> {
     return {row[Row::normals], row[Row::normals + 1], row[Row::normals + 2]};
   }
 
-  /// In the frame, as seen from a point.
+  /// It is in the frame, as seen from a point.
   template <class Numbers>
   static std::array<Vec3<W>, 3> corners_of(const Numbers& row, const Vec3<W>& from,
                                            const RayFrame<W>& frame) {

@@ -58,8 +58,8 @@ struct EllipsoidBody {
   Mat3<W> F;
 
   W bend(const Vec3<W>& m) const { return (F.transpose() * m).norm(); }
-  /// By way of a unit vector, so that it is a point of the ellipsoid even where F^T m is nothing
-  /// but rounding. A disk's along its axis: the centre.
+  /// Goes by way of a unit vector, so that it is a point of the ellipsoid even where F^T m is
+  /// nothing but rounding. A disk's along its axis: the centre.
   Vec3<W> spot(const Vec3<W>& m) const {
     const Vec3<W> u = F.transpose() * m;
     const Vec3<W> spot = F * unit<W>(u);

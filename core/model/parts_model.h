@@ -15,7 +15,7 @@ class PartsModel {
   using T = Lane<W>;
   using Part = EllipsoidSum<W>;
 
-  /// In the ray's frame, relative to s.
+  /// It is in the ray's frame, relative to s.
   struct Piece {
     Part part;
     Vec3<W> n;  ///< the direction, of unit length, in which it was found
@@ -469,12 +469,12 @@ class PartsModel {
   static constexpr T flat = tolerance::flat_disk<T>;
   /// How far beside a kink the iteration goes on, relative to the step that was wanted.
   static constexpr T beside_kink = T(1) / T(8);
-  /// In units of the bounding radius: rounding of a value.
+  /// It is the rounding of a value, in units of the bounding radius.
   static constexpr T agreed = T(4) * tolerance::epsilon<T>;
   /// How far beside its point the ray may cross the tangent plane, in units of the bounding radius,
   /// squared: the surface is lower there by half of it over the radius of curvature.
   static constexpr T on_the_ray_squared = T(0.36) * tolerance::epsilon<T>;
-  /// In units of the bounding radius: how close to the ray an osculating ellipsoid is trusted.
+  /// An osculating ellipsoid is trusted so close to the ray, in units of the bounding radius.
   inline static const T model_reach = std::cbrt(tolerance::epsilon<T>);
 
   const Shape<T>& shape_;

@@ -49,7 +49,7 @@ class PolytopeModel {
     }
   }
 
-  /// On the facet that the ray enters, if facets are known.
+  /// Begins on the facet that the ray enters, if facets are known.
   ModelHit<W> begin(const Vec3<T>& half_extents) {
     ModelHit<W> hit;
     EnteredFacet<W> facet;
@@ -189,7 +189,7 @@ class PolytopeModel {
     }
   }
 
-  /// In units of R. Balls smaller than the least are as good as points.
+  /// They are in units of R. Balls smaller than the least are as good as points.
   static constexpr T first_ball = T(1) / T(2), least_ball = T(1) / T(1024);
 
   using Known = Facets<W, Core>;

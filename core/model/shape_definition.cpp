@@ -127,7 +127,7 @@ Bounds<T> ShapeDefinition<T>::bounds_of(const Affine<T>& pose) const {
   return minkray::bounds_of<T>(Transform<T>{original_, pose});
 }
 
-/// With more digits: parts of it may be far from each other.
+/// Takes more digits: the maps' shifts may be far larger than the shape.
 template <class T>
 Vec3<T> ShapeDefinition<T>::centre_under(const Affine<T>& pose) const {
   using Finer = std::conditional_t<std::is_same_v<T, float>, double, long double>;

@@ -39,7 +39,7 @@ class ShapeDefinition {
   const Shape<long double>* in_long_double() const { return in_long_double_.get(); }
   /// The inner shape's closed form, if it declares one; none of extreme shapes.
   const exact::Form& form() const { return form_; }
-  /// Known to have no corners, for hits that just touch; of other smooth shapes it is not asked.
+  /// Whether it is known to have no corners, for hits that just touch; not all such are known.
   bool is_smooth() const {
     return model_ == ModelKind::smooth || model_ == ModelKind::gauge ||
            model_ == ModelKind::ellipsoid_sum || model_ == ModelKind::rounded_points;

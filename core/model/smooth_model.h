@@ -241,7 +241,7 @@ class SmoothModel {
 
   /// The sine below which a direction counts as at right angles to the ray.
   static constexpr T along_ray = T(64) * std::numeric_limits<T>::epsilon();
-  /// In units of R: how close to the ray an osculating ellipsoid is trusted (cbrt epsilon).
+  /// It is in units of R: how close to the ray an osculating ellipsoid is trusted (cbrt epsilon).
   inline static const T model_reach = std::cbrt(tolerance::epsilon<T>);
   /// Up to about 15 degrees between their directions, two patches go together.
   static constexpr T near_squared = T(1) / T(16);

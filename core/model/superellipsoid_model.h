@@ -104,13 +104,13 @@ class SuperellipsoidModel {
             Vec3<W>((left.gradient * right.slope + right.gradient * fall) / sum)};
   }
 
-  /// At right angles to the ray; the ray's own direction if nothing is left.
+  /// It is at right angles to the ray; the ray's own direction if nothing is left.
   Vec3<W> across(const Vec3<W>& n) const {
     const Vec3<W> beside = unit<W>(Vec3<W>(n - r_ * n.dot(r_)));
     return select<W>(beside.squaredNorm() > W(0), beside, Vec3<W>(-r_));
   }
 
-  /// On the line u_ + lambda v_, in units of the radii. The tangent's zero of (gauge - 1) is a
+  /// The line is u_ + lambda v_, in units of the radii. The tangent's zero of (gauge - 1) is a
   /// lower bound of the first hit, since the gauge is convex. The square of the gauge is nearly a
   /// parabola (for p = 2 it is one), whose zero comes next; where that leaves what is known, the
   /// middle of it.

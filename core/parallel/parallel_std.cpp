@@ -51,14 +51,14 @@ class InTeam {
 /// Keeps the first of several threads' exceptions.
 class FirstException {
  public:
-  /// To be called in a catch block.
+  /// It must be called in a catch block.
   void take() {
     failed_.store(true, std::memory_order_relaxed);
     const std::lock_guard lock(mutex_);
     if (!exception_) exception_ = std::current_exception();
   }
   bool failed() const { return failed_.load(std::memory_order_relaxed); }
-  /// After all threads were joined.
+  /// It must be called after all threads were joined.
   void pass_on() const {
     if (exception_) std::rethrow_exception(exception_);
   }

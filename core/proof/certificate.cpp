@@ -50,7 +50,7 @@ class Spanned {
     simplex_.move(x);
     squared_ = std::numeric_limits<Long>::infinity();
   }
-  /// With p, the support point along n (seen from x: the difference to it): false if it brought
+  /// Adds p, the support point along n (seen from x: the difference to it); false if it brought
   /// nothing nearer.
   bool add(const Vec3<Long>& p, const Vec3<double>& n) {
     if (simplex_.full() || simplex_.holds(p)) return false;
@@ -66,7 +66,7 @@ class Spanned {
     return true;
   }
   bool full() const { return simplex_.full(); }
-  /// From the spanned point to x.
+  /// It leads from the spanned point to x.
   const Vec3<Long>& v() const { return closest_.v; }
 
   /// How far x is from the point that the weights span: v, but where the simplex is a tetrahedron,

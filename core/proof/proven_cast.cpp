@@ -8,7 +8,7 @@
 namespace minkray {
 namespace {
 
-/// In bounding radii from the ball's centre: nothing further along the ray matters.
+/// It is in bounding radii from the ball's centre: nothing further along the ray matters.
 constexpr double reach_of_proof = 2;
 
 /// How much more rounding than double's a proof is allowed: the middle of a sliver is only known so

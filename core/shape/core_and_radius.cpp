@@ -65,7 +65,7 @@ CoreAndRadius of_points(const Points& points, double radius) {
   return {core, Mat3<double>::Identity(), middle, std::move(numbers)};
 }
 
-/// By its support mapping. A box of it is asked for, about whose middle it then stands.
+/// Goes by the support mapping. A box of it is asked for, about whose middle it then stands.
 CoreAndRadius of_other(const Shape<double>& shape, const Affine<double>& map, double radius) {
   const Shape<double> in_place =
       map == Affine<double>{} ? shape : Shape<double>(Transform<double>{shape, map});

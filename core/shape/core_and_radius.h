@@ -39,7 +39,7 @@ struct ShapeCore {
 /// Immutable and shared: copies are cheap.
 struct CoreAndRadius {
   ShapeCore core;
-  /// From the core's frame to the shape's, which keeps lengths: scales are in the core's numbers.
+  /// It leads from the core's frame to the shape's; it keeps lengths: the core has the scales.
   Mat3<double> turn = Mat3<double>::Identity();
   Vec3<double> middle = Vec3<double>::Zero();
   std::shared_ptr<const void> storage;  ///< of what the core points to

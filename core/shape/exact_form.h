@@ -24,7 +24,7 @@ enum class FormKind : unsigned char {
   polytope,         ///< the radius it is grown by: of shapes that declare facets (declared.h)
 };
 
-/// As many numbers as the form with the most has.
+/// It has as many numbers as the form with the most.
 using FormSizes = std::array<double, 9>;
 
 struct ExactForm {

@@ -25,9 +25,9 @@ struct Superellipsoid {
                             "p: 1 an octahedron, 2 an ellipsoid, the larger the boxier"}};
   }
 
-  /// By Hoelder's inequality with 1/p + 1/q = 1, s_i = a_i sign(n_i) (m_i/|m|_q)^(q-1) with
-  /// m_i = |a_i n_i|. m is scaled by its largest component, so that no power overflows and p = 1
-  /// (q infinite) comes out as a vertex, or the mean of the vertices that tie.
+  /// Hoelder's inequality with 1/p + 1/q = 1 gives s_i = a_i sign(n_i) (m_i/|m|_q)^(q-1) with m_i =
+  /// |a_i n_i|. m is scaled by its largest component, so that no power overflows and p = 1 (q
+  /// infinite) comes out as a vertex, or the mean of the vertices that tie.
   template <class W>
   Vec3<W> support(const Vec3<W>& n) const {
     using std::abs;
@@ -75,9 +75,9 @@ struct Superellipsoid {
   template <class W>
   struct Gauge {
     W value;
-    /// By x/a: in the dual norm of length 1, so that gradient/a is the normal of the supporting
-    /// plane where a line from the middle to x meets the surface, and the gauge of x never less
-    /// than gradient.(x/a).
+    /// It is that by x/a: it has length 1 in the dual norm, so that gradient/a is the normal of the
+    /// supporting plane where a line from the middle to x meets the surface, and the gauge of x
+    /// never less than gradient.(x/a).
     Vec3<W> gradient;
     W slope;  ///< by lambda
     W bend;   ///< half of the second derivative of the gauge's square

@@ -87,7 +87,7 @@ class Instances {
 
   std::size_t definitions() const { return definitions_.size(); }
 
-  /// Without the points of hulls, which shapes share.
+  /// Leaves out the points of hulls, which shapes share.
   std::size_t bytes() const;
 
  private:

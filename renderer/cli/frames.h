@@ -17,7 +17,7 @@ struct FrameRange {
   int count() const { return last - first + 1; }
 };
 
-/// From "a..b". Throws WrongUsage.
+/// Reads "a..b". Throws WrongUsage.
 FrameRange parse_frames(const std::string& text);
 
 /// The file of a frame: the run of # in the name becomes the frame's number, with zeros in front up

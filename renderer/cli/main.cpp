@@ -16,7 +16,7 @@ namespace {
 using minkray::ExitCode;
 using minkray::Parser;
 
-/// For someone who only typed the program's name.
+/// It is for someone who only typed the program's name.
 constexpr const char* first_page =
     "Minkray casts rays at exact convex shapes. Three commands to try:\n"
     "\n"

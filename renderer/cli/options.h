@@ -96,7 +96,7 @@ class Parser {
   void set_footer(const std::string& text);
   Verb add_verb(const std::string& name, const std::string& doc);
 
-  /// In the order in which they were added.
+  /// They come in the order in which they were added.
   std::vector<std::string> verb_names() const;
   std::vector<VerbDescription> verbs() const;
 

@@ -30,7 +30,7 @@ void add_render(Parser& parser, ExitCode& exit_code);
 void add_scan(Parser& parser, ExitCode& exit_code);
 void add_trace(Parser& parser, ExitCode& exit_code);
 
-/// In the order in which --help shows them.
+/// They stand in the order in which --help shows them.
 inline constexpr AddVerb verbs[] = {
     add_render,   add_merge,    add_heatmap, add_compare,    add_cast,
     add_scan,     add_distance, add_trace,   add_paper,      add_distance_2d,

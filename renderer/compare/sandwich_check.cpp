@@ -7,7 +7,7 @@
 namespace minkray {
 namespace {
 
-/// From where rays start, in the frame: the shape lies within about 2 of its centre.
+/// Rays start so far away, in the frame: the shape lies within about 2 of its centre.
 constexpr double start_distance = 3;
 
 /// Rays in the sandwich's frame, in float so that Embree and the solver are given the same ones.
@@ -16,8 +16,8 @@ class RandomRays {
   RandomRays(const Sandwich& sandwich, std::uint64_t seed)
       : rank_(sandwich.rank()), centre_(sandwich.centre), random_(seed) {}
 
-  /// From a sphere around the shape towards a point within `spread` of its centre (a segment's: of
-  /// a point of the segment).
+  /// It runs from a sphere around the shape towards a point within `spread` of its centre (a
+  /// segment's: of a point of the segment).
   Ray<float> next(double spread) {
     const Vec3<double> origin = centre_ + start_distance * direction();
     Vec3<double> target = centre_ + spread * std::cbrt(uniform()) * direction();

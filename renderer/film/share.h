@@ -64,8 +64,8 @@ struct SampleBlocks {
 /// The colour of a pixel from its blocks.
 class BlockTotal {
  public:
-  /// In a file of its own, for its argument must be floats: where GCC 12 sees a pair of doubles
-  /// that is rounded to floats and widened again, it leaves out the rounding.
+  /// It stands in a file of its own, for its argument must be floats: where GCC 12 sees a pair of
+  /// doubles that is rounded to floats and widened again, it leaves out the rounding.
   void add(const Vec3<float>& block_sum);
   Vec3<float> mean(int samples) const { return (total_ / samples).cast<float>(); }
 

@@ -18,7 +18,7 @@ Affine<double> pose_of(const PackedPose& pose) {
   return {rotation_matrix_of_any(q[0], q[1], q[2], q[3]), pose.position};
 }
 
-/// Those put so far, by the cells of a grid; what meets stands in neighbouring cells.
+/// It keeps those put so far, by the cells of a grid; what meets stands in neighbouring cells.
 class Packing {
  public:
   explicit Packing(const Vec3<double>& radii)

@@ -8,12 +8,12 @@
 
 namespace minkray {
 
-/// From linear light to the encoded value; [0, 1] to [0, 1].
+/// Maps linear light to the encoded value, [0, 1] to [0, 1].
 inline double to_srgb(double linear) {
   return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
 }
 
-/// From the encoded value to linear light.
+/// Maps the encoded value to linear light.
 inline double from_srgb(double encoded) {
   return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
 }

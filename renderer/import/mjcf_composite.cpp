@@ -295,7 +295,7 @@ class Composite {
     return link;
   }
 
-  /// From the cube with corners at +-1 to the surface of the shape.
+  /// Maps the cube with corners at +-1 to the surface of the shape.
   Vec3<double> projected(Vec3<double> at) const {
     const Vec3<double> half =
         0.5 * spacing_ * Vec3<double>(count_[0] - 1, count_[1] - 1, count_[2] - 1);

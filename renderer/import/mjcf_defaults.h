@@ -25,7 +25,7 @@ class MjcfDefaults {
   bool has(const std::string& name) const { return name.empty() || classes_.contains(name); }
 
  private:
-  /// By the element's name.
+  /// The keys are elements' names.
   using Class = std::map<std::string, std::vector<XmlAttribute>>;
   std::map<std::string, Class> classes_;
 };

@@ -27,7 +27,7 @@ struct XmlElement {
   int line = 0;
   std::uint32_t file = 0;  ///< into XmlFiles
 
-  /// Null if there is none of that name.
+  /// It is null if there is none of that name.
   const std::string* attribute(std::string_view key) const;
   /// Empty if there is none.
   std::string attribute_or(std::string_view key, std::string_view otherwise = {}) const;

@@ -25,7 +25,7 @@ class ObjectReader {
   /// The value of a key; null if it is not there. The key counts as known from now on.
   const Json* find(std::string_view key);
 
-  /// As find, but a missing key is a mistake: "missing: must be <expected>".
+  /// Does as find, but a missing key is a mistake: "missing: must be <expected>".
   const Json* require(std::string_view key, std::string_view expected);
 
   /// Names keys that are known without being asked for.

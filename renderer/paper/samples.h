@@ -40,7 +40,8 @@ class Samples {
     }
   }
 
-  /// From 2 to 5 radii away towards a point within 1.05 radii: nine of ten meet the ball.
+  /// It comes from 2 to 5 radii away and goes towards a point within 1.05 radii: nine of ten meet
+  /// the ball.
   Ray<double> ray_at_ball(double radius) {
     const Vec3<double> origin = unit(in_ball(1)) * (radius * in(2, 5));
     const Vec3<double> target = in_ball(1.05 * radius);

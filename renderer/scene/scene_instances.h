@@ -32,8 +32,8 @@ inline Vec3<double> instance_shift(const Scene& scene, std::size_t i) {
   return i < scene.objects.size() ? scene.objects[i].shift : Vec3<double>::Zero();
 }
 
-/// As an object of its own; a particle's name is that of its set with its number: "grains[12]".
-/// For single ones, not for millions.
+/// Makes it an object of its own; a particle's name is that of its set with its number:
+/// "grains[12]". It is for single ones, not for millions.
 inline Object instance_object(const Scene& scene, std::size_t i) {
   if (i < scene.objects.size()) return scene.objects[i];
   i -= scene.objects.size();

@@ -63,7 +63,7 @@ Bounds<double> bounds_of(const Object& object) {
   return bounds_of<double>(Transform<double>{Nested<double>(object.shape), object.pose});
 }
 
-/// In parts, which several threads take.
+/// Several threads take index ranges of them.
 Bounds<double> bounds_of(const ParticleSet& set) {
   constexpr std::size_t part_size = 65536;
   std::vector<Bounds<double>> parts((set.size() + part_size - 1) / part_size);

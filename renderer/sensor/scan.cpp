@@ -27,7 +27,7 @@ class RayRandom {
   RayRandom(std::uint64_t seed, std::uint64_t ray)
       : state_(mixed(seed) ^ (ray * 0x9e3779b97f4a7c15u)) {}
 
-  /// In (0, 1].
+  /// It is in (0, 1].
   double uniform() {
     state_ += 0x9e3779b97f4a7c15u;
     return (static_cast<double>(mixed(state_) >> 11) + 1) * 0x1p-53;

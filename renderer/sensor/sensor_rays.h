@@ -22,8 +22,8 @@ struct SensorRays {
   int width = 0, height = 0;  ///< of an image in rows from the top; 0 if the rays are none
 };
 
-/// From a .npy array of (N, 6) numbers, origin and direction, or (N, 7) with t_max; of 32 or 64
-/// bits.
+/// Reads them from a .npy array of (N, 6) numbers, origin and direction, or (N, 7) with t_max; of
+/// 32 or 64 bits.
 SensorRays rays_of_npy(const std::string& file);
 
 /// "spinning:CHANNELSxSTEPS" with, if wanted, ":LOWEST,HIGHEST" elevations in degrees (else -15,

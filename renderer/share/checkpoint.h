@@ -34,11 +34,12 @@ class Checkpoint {
   /// another picture, and says in what they differ.
   RenderJournal load();
 
-  /// To be told of each tile, one at a time. Writes, on a thread of its own, when it is time.
+  /// It must be told of each tile, one at a time. It writes, on a thread of its own, when it is
+  /// time.
   void tile_finished(const Rendering& rendering, std::size_t tile);
 
-  /// After an interruption, when no thread renders any more: writes once more what is done. A
-  /// rendering that has not lasted for `seconds` yet leaves no file, and another's alone.
+  /// It follows an interruption, when no thread renders any more, and writes once more what is
+  /// done. A rendering that has not lasted for `seconds` yet leaves no file, and another's alone.
   void interrupted(const Rendering& rendering);
 
   /// The picture is kept: the file, if there is one, has served.

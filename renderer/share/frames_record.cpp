@@ -49,7 +49,7 @@ Content read(const std::string& path) {
   return content;
 }
 
-/// In what the facts of two renders of frames differ; empty if in nothing.
+/// Tells in what the facts of two renders of frames differ; empty if in nothing.
 std::string differences(const Facts& found, const Facts& wanted) {
   std::vector<std::string> names = common_facts();
   names.insert(names.end(), {fact::rate, fact::exposure});

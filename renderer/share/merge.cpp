@@ -16,7 +16,7 @@ namespace {
 struct Piece {
   Share tile, sample_share;
 
-  /// By tile, then by samples, in order.
+  /// It orders by tile, then by samples.
   std::pair<int, int> place() const { return {tile.index, sample_share.index}; }
 };
 

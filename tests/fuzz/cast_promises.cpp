@@ -6,7 +6,7 @@
 namespace minkray::fuzz {
 namespace {
 
-/// In epsilons of the largest number that occurs, times the condition of the maps: twice what
+/// It is in epsilons of the largest number that occurs, times the condition of the maps: twice what
 /// tests/core/cast/cast_truths_test.cpp allows two casts.
 constexpr Real allowed = 2048;
 /// Iterations of the search for a plane that keeps a claimed point off: a plane that it finds is

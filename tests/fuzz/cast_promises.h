@@ -20,7 +20,7 @@
 namespace minkray::fuzz {
 
 using Real = long double;
-/// For what cancels: a ray's far origin against the shape's own position.
+/// It is for what cancels: a ray's far origin against the shape's own position.
 __extension__ using Quad = __float128;
 
 /// One shape and one ray; what all solvers answer to it is checked against the same facts.

@@ -47,7 +47,7 @@ std::optional<Interval> roots(Long a, Long b, Long c) {
   return Interval{std::min(first, second), std::max(first, second)};
 }
 
-/// From the line's point nearest to the centre, where the quadratic's linear term is small.
+/// Starts from the line's point nearest to the centre, where the quadratic's linear term is small.
 Interval ball(const V& o, const V& d, const V& centre, Long radius) {
   const Long nearest = -(o - centre).dot(d) / d.squaredNorm();
   const V close = o + nearest * d - centre;

@@ -14,7 +14,7 @@ namespace minkray::testing {
 
 class MujocoModel {
  public:
-  /// Null if MuJoCo refuses the file; `why` gets what it says.
+  /// It is null if MuJoCo refuses the file; `why` gets what it says.
   static std::unique_ptr<MujocoModel> load(const std::string& file, std::string& why);
   ~MujocoModel();
 

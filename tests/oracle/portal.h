@@ -125,7 +125,7 @@ class PortalCast {
       return PortalHit::Answer::undecided;
     }
 
-    /// From the two shorter edges: slivers lose digits to the product of the long ones.
+    /// Takes the two shorter edges: slivers lose digits to the product of the long ones.
     static Vec3<Long> normal_of(const std::array<Vec3<Long>, 3>& v) {
       const Vec3<Long> ab = v[1] - v[0], bc = v[2] - v[1], ca = v[0] - v[2];
       const Long ab2 = ab.squaredNorm(), bc2 = bc.squaredNorm(), ca2 = ca.squaredNorm();

@@ -27,7 +27,7 @@ std::string folder_of(const std::string& file) {
   return file.substr(0, file.rfind('/'));
 }
 
-/// Its place in `rooms`; their number if it is not there.
+/// Tells a room's place in `rooms`; their number if it is not there.
 std::size_t floor_of(const std::string& room) {
   return static_cast<std::size_t>(std::find(rooms.begin(), rooms.end(), room) - rooms.begin());
 }

@@ -41,7 +41,7 @@ struct TrueEntry {
 
 class CastJudge {
  public:
-  /// For shapes that LineEntries knows (else std::invalid_argument).
+  /// LineEntries must know the shape (else std::invalid_argument).
   explicit CastJudge(const Shape<double>& shape);
 
   /// `normal`: what a cast in double says that it is where the ray enters. It is where the oracle

@@ -28,7 +28,7 @@ long double bisected(long double low, long double high, const auto& is_before) {
   return high;
 }
 
-/// In units of R: how near to the silhouette either answer is right.
+/// It tells in units of R how near to the silhouette either answer is right.
 template <class T>
 constexpr double silhouette_band = std::is_same_v<T, float> ? 1e-6 : 1e-14;
 

@@ -36,7 +36,7 @@ long number_from(const char* variable) {
   return text == nullptr ? 0 : std::atol(text);
 }
 
-/// By the system call itself: it is not to be counted.
+/// Asks the system call itself: it is not to be counted.
 void log(const std::string& line) {
   const char* file = std::getenv("MINKRAY_FAULT_LOG");
   if (file == nullptr) return;

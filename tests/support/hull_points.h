@@ -64,7 +64,7 @@ inline std::vector<NamedPoints> hulls() {
   };
 }
 
-/// Along edges, through vertices, in the planes of facets; as a ray of T can.
+/// They run along edges, through vertices, in the planes of facets; as a ray of T can.
 class PointRays {
  public:
   PointRays(Points points, double R) : points_(std::move(points)), R_(R), random_(5) {}

@@ -44,8 +44,8 @@ struct ProgramOutcome {
 /// Runs a shell's command in which $MINKRAY is the program.
 ProgramOutcome run_shell(const std::string& command);
 
-/// For a shell: what follows may have 1 GiB of address space. Nothing under AddressSanitizer, which
-/// needs terabytes of it.
+/// Tells a shell that what follows may have 1 GiB of address space. It says nothing under
+/// AddressSanitizer, which needs terabytes of it.
 std::string limited_memory();
 
 /// Writes a small scene: a ball under an even sky; `radius` makes another one.

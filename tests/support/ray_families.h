@@ -78,7 +78,7 @@ class FamilyRays {
     return {ball_.centre - 4 * R * towards, unit<double>(4 * towards + at)};
   }
 
-  /// Along r, past the support point of a direction at right angles to it.
+  /// It runs along r, past the support point of a direction at right angles to it.
   Ray<double> grazing() {
     const Vec3<double> r = random_.direction();
     const Vec3<double> n = unit<double>(r.cross(random_.direction()));

@@ -22,7 +22,7 @@ inline void PrintTo(const SampleShape& sample, std::ostream* out) {
   *out << sample.name;
 }
 
-/// At least one of every kind.
+/// There is at least one of every kind.
 std::vector<SampleShape> sample_shapes();
 
 /// A shape of up to `depth` operators inside each other, of sizes near 1, solid or flat.

@@ -8,9 +8,9 @@
 
 namespace minkray::testing {
 
-/// Without those that are there to be compared with, slow or inaccurate as their authors describe
-/// them: Johnson's and the signed volumes' determinants lose half of the digits, and Algorithm 1
-/// stops where it stalls.
+/// Leaves out those that are there to be compared with, slow or inaccurate as their authors
+/// describe them: Johnson's and the signed volumes' determinants lose half of the digits, and
+/// Algorithm 1 stops where it stalls.
 inline std::vector<SolverDescription> accurate_solvers() {
   std::vector<SolverDescription> solvers;
   for (const SolverDescription& solver : solver_descriptions)

@@ -58,7 +58,7 @@ inline std::vector<WalkSet> walk_sets() {
   return sets;
 }
 
-/// By the hierarchy.
+/// It asks the hierarchy.
 template <class T>
 BoxSet boxes_found(const Bvh& bvh, const Ray<T>& ray, WalkSet set = best_walk_set()) {
   BoxSet found;

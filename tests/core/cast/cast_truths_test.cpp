@@ -21,7 +21,7 @@ std::vector<SampleShape> shapes() {
   return all;
 }
 
-/// In epsilons of the shape's radius, as a distance between planes: what closed_form_test.cpp
+/// It is in epsilons of the shape's radius, as a distance between planes: what closed_form_test.cpp
 /// allows a cast, for each of the two casts that are compared.
 constexpr double allowed = 2 * 512;
 
@@ -236,8 +236,8 @@ TYPED_TEST(CastTruths, a_ray_from_within_says_inside) {
   }
 }
 
-/// On faces, edges, corners and along them: any answer that is not given up, and if a hit, a right
-/// one.
+/// Rays on faces, edges, corners and along them get any answer that is not given up, and if a hit,
+/// a right one.
 TYPED_TEST(CastTruths, rays_at_the_corners_and_along_the_faces_of_a_box_are_answered) {
   using T = TypeParam;
   const double epsilon = double(std::numeric_limits<T>::epsilon());

@@ -41,8 +41,8 @@ CastResult<T> cast(const Case& query) {
                   Ray<T>{ray.origin.cast<T>(), ray.direction.cast<T>(), T(ray.t_max)});
 }
 
-/// As a distance: the rounding of two casts (tests/core/cast/cast_truths_test.cpp), relative to
-/// the largest numbers that occur.
+/// It allows, as a distance, the rounding of two casts (tests/core/cast/cast_truths_test.cpp),
+/// relative to the largest numbers that occur.
 template <class T>
 double rounding(const Case& a) {
   constexpr double allowed = 2048;

@@ -145,7 +145,7 @@ TYPED_TEST(Filter, answers_are_certified) {
   }
 }
 
-/// In the frame of the ray: it keeps off the shape, and the ray off it.
+/// The plane is in the frame of the ray: it keeps off the shape, and the ray off it.
 TYPED_TEST(Filter, misses_have_a_separating_plane) {
   using T = TypeParam;
   constexpr double epsilon = std::numeric_limits<T>::epsilon();

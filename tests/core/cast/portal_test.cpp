@@ -12,7 +12,7 @@
 namespace minkray::testing {
 namespace {
 
-/// In radii, as a distance between planes.
+/// It is in radii, as a distance between planes.
 constexpr Long gap = 1e-15L;
 
 using S = Shape<double>;

@@ -139,7 +139,7 @@ TEST(RoundedBox, is_grazed_to_rounding) {
   check_ordinary<float>(RayFamily::grazing);
 }
 
-/// Along axes, edges and in the planes of faces, which the ray touches within rounding.
+/// They run along axes, edges and in the planes of faces, which the ray touches within rounding.
 template <class T>
 void check_degenerate() {
   for (const Form& form : forms()) {

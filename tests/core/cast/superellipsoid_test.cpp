@@ -28,7 +28,7 @@ struct Line {
     for (int i = 0; i < 3; ++i) sum += std::pow(x[i] / largest, p);
     return largest * std::pow(sum, 1 / p);
   }
-  /// In the shape's frame: the gradient of the gauge.
+  /// It is the gradient of the gauge, in the shape's frame.
   Vec3<Long> normal(Long t) const {
     const Vec3<Long> x = at(t);
     const Long largest = x.cwiseAbs().maxCoeff();
@@ -123,8 +123,8 @@ TEST(Superellipsoid, is_grazed_to_rounding_by_one_support_call) {
   check_ordinary<float>(RayFamily::grazing);
 }
 
-/// Along axes and in coordinate planes, where curvature vanishes or is infinite, at the middle of
-/// flat sides and tangential there.
+/// They run along axes and in coordinate planes, where curvature vanishes or is infinite, at the
+/// middle of flat sides and tangential there.
 template <class T>
 void check_degenerate() {
   for (const Superellipsoid<double>& shape : shapes()) {

@@ -36,7 +36,7 @@ TEST(RotatingCast, approaches_the_truth_as_steps_shrink_and_never_claims_more) {
   }
 }
 
-/// Also where the orientation's change at once has put them into each other.
+/// It has one also where the orientation's change at once has put them into each other.
 TEST(RotatingCast, every_hit_has_a_normal_between_the_two) {
   testing::Random random(4);
   int hits = 0;

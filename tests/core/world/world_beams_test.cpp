@@ -27,7 +27,7 @@ struct Random {
   }
 };
 
-/// With and without models for packets; some stand in the same place twice.
+/// Shapes have models for packets or none; some stand in the same place twice.
 template <class T>
 Instances<T> scattered_shapes(int count, Random<T>& random) {
   const std::vector<Shape<T>> kinds = {

@@ -24,14 +24,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// For a shell: the name of a picture with what means something to shells, to printf and to sbatch.
+/// It is, for a shell, the name of a picture with what means something to shells, to printf and to
+/// sbatch.
 constexpr const char* strange_name = R"('it'\''s "100%A", %d $HOME	a\b&ö;.pfm')";
 
 class Drivers : public testing::Test {
  protected:
   Drivers() { write_ball_scene(folder_ / "scene.json"); }
 
-  /// In the folder, with the drivers' folder as $DRIVERS.
+  /// Runs in the folder, with the drivers' folder as $DRIVERS.
   ProgramOutcome shell(const std::string& command) const {
     return run_shell("cd '" + (folder_ / ".") + "'; DRIVERS='" +
                      (source_folder() / "renderer/drivers").string() +

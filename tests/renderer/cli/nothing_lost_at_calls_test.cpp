@@ -38,8 +38,8 @@ const std::vector<Command> commands = {
     {"generate hulls -n 2", "g.json"},
 };
 
-/// For a shell: the program is killed before that call, or the call fails with the error. Its calls
-/// are listed in the file "calls".
+/// Tells a shell that the program is killed before that call, or the call fails with the error. Its
+/// calls are listed in the file "calls".
 std::string with_fault(const std::string& program, int at, int error = 0) {
   return "rm -f calls; MINKRAY_FAULT_LOG=calls MINKRAY_FAULT_AT=" + std::to_string(at) +
          " MINKRAY_FAULT=" + std::to_string(error) + " LD_PRELOAD='" MINKRAY_FAULT_AT_CALL "' " +
@@ -63,7 +63,7 @@ bool are_same(const std::string& a, const std::string& b) {
                     });
 }
 
-/// Without what SIGKILL leaves no time to remove.
+/// Leaves out what SIGKILL leaves no time to remove.
 std::vector<std::string> without_temporary_files(std::vector<std::string> files) {
   std::erase_if(files, [](const std::string& name) {
     return name.starts_with(".") && name.ends_with(".part");
@@ -71,12 +71,12 @@ std::vector<std::string> without_temporary_files(std::vector<std::string> files)
   return files;
 }
 
-/// For a shell: the pieces that `merge` needs.
+/// Tells a shell how to make the part files that `merge` needs.
 constexpr const char* make_pieces =
     "for i in 1 2; do \"$MINKRAY\" render scene.json -r 8x6 -s 1 --tile $i/2 -o $i.exr || exit; "
     "done";
 
-/// For a shell: what the command writes when nothing happens, beside where it writes.
+/// Tells a shell how to make what the command writes when nothing happens, beside where it writes.
 std::string make_whole(const Command& command) {
   return command.line() + " && mv " + command.output + " new-" + command.output;
 }

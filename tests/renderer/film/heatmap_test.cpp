@@ -30,7 +30,7 @@ HeatField measure(const Scene& scene, HeatChannel channel, const CastOptions<Rea
   return measure_heat(scene, make_world(scene, cast), channel, options);
 }
 
-/// With the models: a ball's closed form costs no iteration.
+/// Asks the models: a ball's closed form costs no iteration.
 CastOptions<Real> by_models() {
   CastOptions<Real> options;
   options.solver = SolverKind::jet;
