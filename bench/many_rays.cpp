@@ -131,7 +131,7 @@ struct Both {
   Count in_float, in_double;
 };
 
-/// One part of a family's rays.
+/// An index range of a family's rays is cast by one call.
 Both cast_many(const Candidate& shape, testing::RayFamily family, long rays, std::uint64_t seed) {
   testing::FamilyRays source(shape.same, family, seed);
   Both both;
@@ -169,7 +169,7 @@ void print(const std::string& name, std::string_view family, std::string_view pr
 int main(int argc, char** argv) {
   const long rays = argc > 1 ? std::stol(argv[1]) : 100000;
   const std::string wanted = argc > 2 ? argv[2] : "";
-  constexpr long part = 65536;
+  constexpr long range_size = 65536;
   std::cout << std::left << std::setw(22) << "shape" << std::setw(11) << "rays" << std::setw(7)
             << "in" << std::right << std::setw(10) << "count" << std::setw(10) << "hits"
             << std::setw(6) << "exh." << std::setw(7) << "undec." << std::setw(9) << "mistaken"
@@ -187,16 +187,17 @@ int main(int argc, char** argv) {
       const long count = std::max(is_random ? rays : rays / 10, 1L);
       Both all;
       std::mutex mutex;
-      for_parts(static_cast<std::size_t>((count + part - 1) / part), 1,
-                [&](std::size_t begin, std::size_t end) {
-                  for (std::size_t i = begin; i < end; ++i) {
-                    const long here = std::min(part, count - static_cast<long>(i) * part);
-                    const Both counted = cast_many(candidate, family.family, here, 1000 + i);
-                    const std::lock_guard lock(mutex);
-                    all.in_float += counted.in_float;
-                    all.in_double += counted.in_double;
-                  }
-                });
+      parallel_for(static_cast<std::size_t>((count + range_size - 1) / range_size), 1,
+                   [&](std::size_t begin, std::size_t end) {
+                     for (std::size_t i = begin; i < end; ++i) {
+                       const long here =
+                           std::min(range_size, count - static_cast<long>(i) * range_size);
+                       const Both counted = cast_many(candidate, family.family, here, 1000 + i);
+                       const std::lock_guard lock(mutex);
+                       all.in_float += counted.in_float;
+                       all.in_double += counted.in_double;
+                     }
+                   });
       print(subject.name, family.name, "float", count, all.in_float);
       print(subject.name, family.name, "double", count, all.in_double);
       const bool is_ordinary = family.family != testing::RayFamily::degenerate;

@@ -76,7 +76,7 @@ class ExactShapes : public Tracer {
         return;
       }
       for_groups([&](std::size_t begin, std::span<const WorldRay<T>> rays) {
-        const BeamRays dark = world_.occluded(rays, counts);
+        const RayGroupMask dark = world_.occluded(rays, counts);
         for (std::size_t i = 0; i < rays.size(); ++i)
           answers[begin + i] = static_cast<unsigned char>(dark >> i & 1);
       });

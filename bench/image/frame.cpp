@@ -88,7 +88,7 @@ Frame trace_frame(const Tracer& tracer, std::size_t entry, const Scene& scene,
   };
 
   // A few tiles at a time, so that queues are made seldom.
-  for_parts(tiles.size(), 8, [&](std::size_t begin, std::size_t end) {
+  parallel_for(tiles.size(), 8, [&](std::size_t begin, std::size_t end) {
     const std::unique_ptr<RayQueue> queue = tracer.queue(entry);
     Workshop workshop;
     for (std::size_t i = begin; i < end; ++i) render_tile(tiles[i], *queue, workshop);

@@ -27,7 +27,7 @@ Meshes meshes_of(const Scene& scene, double relative_error) {
   Meshes meshes;
   meshes.relative_error = relative_error;
   meshes.meshes.resize(shapes.size());
-  for_parts(shapes.size(), 1, [&](std::size_t begin, std::size_t end) {
+  parallel_for(shapes.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       meshes.meshes[i] = mesh_of_shape(shapes[i], relative_error);
   });

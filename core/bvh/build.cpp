@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The builder: from the root down, each node at once with all of its children (Wald, Benthin and
-// Boulos, "Getting Rid of Packets", 2008): its range is split in two, the heaviest part again,
+// Boulos, "Getting Rid of Packets", 2008): its range is split in two, the heaviest range again,
 // until all places are taken. Large subtrees are built at once on several threads, each into nodes
 // of its own, which are put together in the order of the tree: the result does not depend on who
 // came first.
@@ -18,8 +18,8 @@ namespace {
 /// Ranges at least as large are worth a second thread.
 constexpr std::size_t parallel_size = 4096;
 
-/// The parts that a node's range is split into.
-struct Parts {
+/// The ranges of a node's children, into which its own is split.
+struct ChildRanges {
   std::array<BuildRange, bvh_width> ranges;
   std::size_t count = 0;
 
@@ -34,17 +34,17 @@ struct Parts {
   }
 };
 
-/// A piece of the hierarchy that one thread has built: nodes[0] is its root, and children are
-/// counted from there. In a large piece the root stands alone, and its children are pieces.
-struct Piece {
+/// A subtree that one thread has built: nodes[0] is its root, and children are counted from there.
+/// In a large one the root stands alone, and its children are subtrees.
+struct Subtree {
   std::vector<BvhNode> nodes;
-  std::vector<std::pair<int, std::unique_ptr<Piece>>>
+  std::vector<std::pair<int, std::unique_ptr<Subtree>>>
       below;  ///< with the child's place in the root
   BuildBox box;
 
   std::size_t node_count() const {
     std::size_t count = nodes.size();
-    for (const auto& [child, piece] : below) count += piece->node_count();
+    for (const auto& [child, subtree] : below) count += subtree->node_count();
     return count;
   }
 };
@@ -55,29 +55,29 @@ class Builder {
   Builder(std::span<const Primitive> primitives, const Splitter& splitter)
       : primitives_(primitives), splitter_(splitter) {}
 
-  std::unique_ptr<Piece> build(const BuildRange& range) const {
-    auto piece = std::make_unique<Piece>();
+  std::unique_ptr<Subtree> build(const BuildRange& range) const {
+    auto subtree = std::make_unique<Subtree>();
     if (range.count() < parallel_size) {
-      piece->nodes.reserve(range.count() / 3 + 1);
-      piece->box = append(range, piece->nodes);
-      return piece;
+      subtree->nodes.reserve(range.count() / 3 + 1);
+      subtree->box = append(range, subtree->nodes);
+      return subtree;
     }
-    const Parts parts = parts_of(range);
-    std::array<std::unique_ptr<Piece>, bvh_width> built;
-    for_parts(parts.count, 1, [&](std::size_t begin, std::size_t end) {
+    const ChildRanges children = children_of(range);
+    std::array<std::unique_ptr<Subtree>, bvh_width> built;
+    parallel_for(children.count, 1, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i)
-        if (parts.ranges[i].count() > 1) built[i] = build(parts.ranges[i]);
+        if (children.ranges[i].count() > 1) built[i] = build(children.ranges[i]);
     });
     BvhNode root = empty_node();
-    for (std::size_t i = 0; i < parts.count; ++i) {
+    for (std::size_t i = 0; i < children.count; ++i) {
       const int child = static_cast<int>(i);
-      const BuildBox box = built[i] ? built[i]->box : primitives_[parts.ranges[i].begin].box;
-      root.set(child, box.bounds(), leaf_of(parts.ranges[i].begin));
-      piece->box.extend(box);
-      if (built[i]) piece->below.emplace_back(child, std::move(built[i]));
+      const BuildBox box = built[i] ? built[i]->box : primitives_[children.ranges[i].begin].box;
+      root.set(child, box.bounds(), leaf_of(children.ranges[i].begin));
+      subtree->box.extend(box);
+      if (built[i]) subtree->below.emplace_back(child, std::move(built[i]));
     }
-    piece->nodes.push_back(root);
-    return piece;
+    subtree->nodes.push_back(root);
+    return subtree;
   }
 
  private:
@@ -85,15 +85,15 @@ class Builder {
   BuildBox append(const BuildRange& range, std::vector<BvhNode>& nodes) const {
     const std::size_t at = nodes.size();
     nodes.push_back(empty_node());
-    const Parts parts = parts_of(range);
+    const ChildRanges children = children_of(range);
     BuildBox whole;
-    for (std::size_t i = 0; i < parts.count; ++i) {
-      const BuildRange& part = parts.ranges[i];
-      std::uint32_t what = leaf_of(part.begin);
-      BuildBox box = primitives_[part.begin].box;
-      if (part.count() > 1) {
+    for (std::size_t i = 0; i < children.count; ++i) {
+      const BuildRange& child = children.ranges[i];
+      std::uint32_t what = leaf_of(child.begin);
+      BuildBox box = primitives_[child.begin].box;
+      if (child.count() > 1) {
         what = static_cast<std::uint32_t>(nodes.size());
-        box = append(part, nodes);
+        box = append(child, nodes);
       }
       nodes[at].set(static_cast<int>(i), box.bounds(), what);
       whole.extend(box);
@@ -101,36 +101,36 @@ class Builder {
     return whole;
   }
 
-  Parts parts_of(const BuildRange& range) const {
+  ChildRanges children_of(const BuildRange& range) const {
     constexpr std::size_t width = bvh_width;
-    Parts parts;
+    ChildRanges children;
     const auto add_all = [&](const BuildRange& of) {
       for (std::size_t i = of.begin; i < of.end; ++i)
-        parts.ranges[parts.count++] = {i, i + 1, of.depth + 1, {}};
+        children.ranges[children.count++] = {i, i + 1, of.depth + 1, {}};
     };
     if (range.count() <= width) {
       add_all(range);
-      return parts;
+      return children;
     }
-    parts.ranges[parts.count++] = range;
-    while (parts.count < width) {
+    children.ranges[children.count++] = range;
+    while (children.count < width) {
       // Ranges that fill no more than a node stay together.
-      const std::size_t i =
-          parts.heaviest([](const BuildRange& r) { return r.count() > width; }, Splitter::weight);
-      if (i == parts.count) break;
-      const BuildHalves halves = splitter_.split(parts.ranges[i]);
-      parts.ranges[i] = halves.left;
-      parts.ranges[parts.count++] = halves.right;
+      const std::size_t i = children.heaviest([](const BuildRange& r) { return r.count() > width; },
+                                              Splitter::weight);
+      if (i == children.count) break;
+      const BuildHalves halves = splitter_.split(children.ranges[i]);
+      children.ranges[i] = halves.left;
+      children.ranges[children.count++] = halves.right;
     }
     // What would be a node of its own, but finds room here.
     for (;;) {
-      const std::size_t free = width - parts.count;
-      const std::size_t i = parts.heaviest(
+      const std::size_t free = width - children.count;
+      const std::size_t i = children.heaviest(
           [&](const BuildRange& r) { return r.count() > 1 && r.count() <= free + 1; },
           Splitter::weight);
-      if (i == parts.count) return parts;
-      const BuildRange inlined = parts.ranges[i];
-      parts.ranges[i] = parts.ranges[--parts.count];
+      if (i == children.count) return children;
+      const BuildRange inlined = children.ranges[i];
+      children.ranges[i] = children.ranges[--children.count];
       add_all(inlined);
     }
   }
@@ -149,27 +149,27 @@ class Builder {
   const Splitter& splitter_;
 };
 
-/// Puts the nodes of a piece to `begin` and behind, and frees the piece.
-void put(std::unique_ptr<Piece> piece, std::vector<BvhNode>& nodes, std::size_t begin) {
-  for (std::size_t i = 0; i < piece->nodes.size(); ++i) {
-    BvhNode& node = nodes[begin + i] = piece->nodes[i];
+/// Puts the nodes of a subtree to `begin` and behind, and frees the subtree.
+void put(std::unique_ptr<Subtree> subtree, std::vector<BvhNode>& nodes, std::size_t begin) {
+  for (std::size_t i = 0; i < subtree->nodes.size(); ++i) {
+    BvhNode& node = nodes[begin + i] = subtree->nodes[i];
     for (std::uint32_t& child : node.children)
       if (!(child & BvhNode::leaf)) child += static_cast<std::uint32_t>(begin);
   }
   std::vector<std::size_t> begins;
-  std::size_t next = begin + piece->nodes.size();
-  for (const auto& [child, below] : piece->below) {
+  std::size_t next = begin + subtree->nodes.size();
+  for (const auto& [child, below] : subtree->below) {
     nodes[begin].children[child] = static_cast<std::uint32_t>(next);
     begins.push_back(next);
     next += below->node_count();
   }
-  for_parts(piece->below.size(), 1, [&](std::size_t first, std::size_t last) {
+  parallel_for(subtree->below.size(), 1, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i)
-      put(std::move(piece->below[i].second), nodes, begins[i]);
+      put(std::move(subtree->below[i].second), nodes, begins[i]);
   });
 }
 
-std::unique_ptr<Piece> built(std::vector<Primitive>& primitives, BvhBuild build) {
+std::unique_ptr<Subtree> built(std::vector<Primitive>& primitives, BvhBuild build) {
   if (build == BvhBuild::speed) {
     const CurveSplitter splitter(primitives);
     return Builder<CurveSplitter>(primitives, splitter).build(splitter.whole());
@@ -184,11 +184,11 @@ Bvh build_bvh(std::span<const Bounds<float>> boxes, BvhBuild build) {
   Bvh bvh;
   if (boxes.empty()) return bvh;
   std::vector<Primitive> primitives(boxes.size());
-  for_parts(boxes.size(), parallel_size, [&](std::size_t begin, std::size_t end) {
+  parallel_for(boxes.size(), parallel_size, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       primitives[i] = Primitive(boxes[i], static_cast<std::uint32_t>(i));
   });
-  std::unique_ptr<Piece> whole = built(primitives, build);
+  std::unique_ptr<Subtree> whole = built(primitives, build);
   // Before the nodes are there twice: of millions of primitives, memory is at its highest here.
   primitives = {};
   bvh.nodes.resize(whole->node_count());

@@ -2,8 +2,8 @@
 #include <array>
 #include <utility>
 
-#include "core/bvh/folded.h"
 #include "core/bvh/split.h"
+#include "core/parallel/parallel_reduce.h"
 
 namespace minkray {
 namespace {
@@ -84,7 +84,7 @@ void join(Extent& extent, const Extent& other) {
 }
 
 Extent extent_of(std::span<const Primitive> primitives, std::size_t begin, std::size_t end) {
-  return folded<Extent>(
+  return parallel_reduce<Extent>(
       begin, end, [&](Extent& extent, std::size_t i) { extent.add(primitives[i]); }, join);
 }
 
@@ -109,8 +109,9 @@ BuildHalves AreaSplitter::split(const BuildRange& range) const {
         ++bins.counts[axis][bin];
       }
     };
-    const auto bins = folded<Bins>(range.begin, range.end, fill,
-                                   [](Bins& into, const Bins& part) { into.extend(part); });
+    const auto bins =
+        parallel_reduce<Bins>(range.begin, range.end, fill,
+                              [](Bins& into, const Bins& of_range) { into.extend(of_range); });
     const Split best = best_split(bins, bin_count, range.count());
 
     // In place, from both ends; what goes to a side is added to its extent on the way.

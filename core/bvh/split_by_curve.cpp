@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <bit>
 
-#include "core/bvh/folded.h"
 #include "core/bvh/split.h"
+#include "core/parallel/parallel_reduce.h"
 
 namespace minkray {
 namespace {
@@ -42,10 +42,10 @@ void sort_by_place(std::vector<Keyed>& keys) {
 }  // namespace
 
 CurveSplitter::CurveSplitter(std::span<Primitive> primitives) {
-  const auto middles = folded<BuildBox>(
+  const auto middles = parallel_reduce<BuildBox>(
       0, primitives.size(),
       [&](BuildBox& box, std::size_t i) { box.extend(primitives[i].middle()); },
-      [](BuildBox& box, const BuildBox& part) { box.extend(part); });
+      [](BuildBox& box, const BuildBox& of_range) { box.extend(of_range); });
   constexpr float cells = 1 << bits_an_axis;
   const Float4 scale = Float4(cells) / (middles.upper - middles.lower);
   const auto place = [&](const Primitive& primitive) {
@@ -56,9 +56,9 @@ CurveSplitter::CurveSplitter(std::span<Primitive> primitives) {
     return bits(0) << 2 | bits(1) << 1 | bits(2);
   };
   std::vector<Keyed> keys(primitives.size());
-  constexpr std::size_t part_size = 8192;
+  constexpr std::size_t range_size = 8192;
   const auto for_all = [&](const auto& body) {
-    for_parts(primitives.size(), part_size, [&](std::size_t begin, std::size_t end) {
+    parallel_for(primitives.size(), range_size, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) body(i);
     });
   };

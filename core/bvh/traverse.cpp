@@ -4,8 +4,8 @@
 namespace minkray {
 namespace {
 
-template <class RayOrBeam>
-Walk walk_with(const Bvh& bvh, const RayOrBeam& rays, const BoxVisitor& visitor, WalkSet set) {
+template <class RayOrGroup>
+Walk walk_with(const Bvh& bvh, const RayOrGroup& rays, const BoxVisitor& visitor, WalkSet set) {
   if (bvh.nodes.empty()) return {};
   return set == WalkSet::avx2 ? walk_avx2(bvh.nodes.data(), rays, visitor)
                               : walk_sse2(bvh.nodes.data(), rays, visitor);
@@ -26,8 +26,8 @@ Walk walk(const Bvh& bvh, const SlabNumbers& ray, const BoxVisitor& visitor, Wal
   return walk_with(bvh, ray, visitor, set);
 }
 
-Walk walk(const Bvh& bvh, const Beam& beam, const BoxVisitor& visitor, WalkSet set) {
-  return walk_with(bvh, beam, visitor, set);
+Walk walk(const Bvh& bvh, const RayGroup& group, const BoxVisitor& visitor, WalkSet set) {
+  return walk_with(bvh, group, visitor, set);
 }
 
 }  // namespace minkray

@@ -4,8 +4,8 @@
 
 #include <type_traits>
 
-#include "core/bvh/beam.h"
 #include "core/bvh/bvh.h"
+#include "core/bvh/ray_group.h"
 #include "core/bvh/traverse_kernel.h"
 
 namespace minkray {
@@ -16,7 +16,7 @@ WalkSet best_walk_set();
 
 Walk walk(const Bvh& bvh, const SlabNumbers& ray, const BoxVisitor& visitor,
           WalkSet set = best_walk_set());
-Walk walk(const Bvh& bvh, const Beam& beam, const BoxVisitor& visitor,
+Walk walk(const Bvh& bvh, const RayGroup& group, const BoxVisitor& visitor,
           WalkSet set = best_walk_set());
 
 /// Calls on_box(index) for the boxes that the ray meets with 0 <= t <= t_max, and rounding may add
@@ -26,22 +26,23 @@ template <class OnBox>
 std::uint32_t traverse(const Bvh& bvh, const SlabRay& ray, OnBox&& on_box,
                        WalkSet set = best_walk_set()) {
   using Function = std::remove_reference_t<OnBox>;
-  const auto visit = [](void* context, std::uint32_t box, BeamRays) -> bool {
+  const auto visit = [](void* context, std::uint32_t box, RayGroupMask) -> bool {
     return (*static_cast<Function*>(context))(box);
   };
   return walk(bvh, ray.numbers, {visit, &on_box}, set).visited;
 }
 
-/// Calls on_box(index, rays) for the boxes that rays of the beam meet: to each ray happens what
+/// Calls on_box(index, rays) for the boxes that rays of the group meet: to each ray happens what
 /// would happen to it alone, but for the order of boxes, if the walk is complete. It may lower
 /// t_max of rays.
 template <class OnBox>
-Walk traverse(const Bvh& bvh, const Beam& beam, OnBox&& on_box, WalkSet set = best_walk_set()) {
+Walk traverse(const Bvh& bvh, const RayGroup& group, OnBox&& on_box,
+              WalkSet set = best_walk_set()) {
   using Function = std::remove_reference_t<OnBox>;
-  const auto visit = [](void* context, std::uint32_t box, BeamRays rays) -> bool {
+  const auto visit = [](void* context, std::uint32_t box, RayGroupMask rays) -> bool {
     return (*static_cast<Function*>(context))(box, rays);
   };
-  return walk(bvh, beam, {visit, &on_box}, set);
+  return walk(bvh, group, {visit, &on_box}, set);
 }
 
 }  // namespace minkray

@@ -3,20 +3,20 @@
 // set's flags (core/CMakeLists.txt).
 #pragma once
 
-#include "core/bvh/beam.h"
 #include "core/bvh/bvh.h"
+#include "core/bvh/ray_group.h"
 
 namespace minkray {
 
 /// Told of the boxes that are met. A plain function, so that kernels share no code.
 struct BoxVisitor {
-  /// `rays`: those of a beam that meet the box; of a single ray no more than bit 0. Answers
+  /// `rays`: those of a group that meet the box; of a single ray no more than bit 0. Answers
   /// whether to end the walk.
-  bool (*visit)(void* context, std::uint32_t box, BeamRays rays);
+  bool (*visit)(void* context, std::uint32_t box, RayGroupMask rays);
   void* context;
 };
 
-/// How many nodes were visited, and whether that was all: a beam may have lost its patience, and
+/// How many nodes were visited, and whether that was all: a group may have lost its patience, and
 /// met just a part of the boxes.
 struct Walk {
   std::uint32_t visited = 0;
@@ -24,12 +24,12 @@ struct Walk {
 };
 
 /// The visitor may lower t_max of the ray, or of rays and
-/// the whole of the beam.
+/// the whole of the group.
 Walk walk_sse2(const BvhNode* nodes, const SlabNumbers& ray, const BoxVisitor& visitor);
-Walk walk_sse2(const BvhNode* nodes, const Beam& beam, const BoxVisitor& visitor);
+Walk walk_sse2(const BvhNode* nodes, const RayGroup& group, const BoxVisitor& visitor);
 
 /// Only on machines that have AVX2 and FMA.
 Walk walk_avx2(const BvhNode* nodes, const SlabNumbers& ray, const BoxVisitor& visitor);
-Walk walk_avx2(const BvhNode* nodes, const Beam& beam, const BoxVisitor& visitor);
+Walk walk_avx2(const BvhNode* nodes, const RayGroup& group, const BoxVisitor& visitor);
 
 }  // namespace minkray

@@ -22,7 +22,7 @@ struct Interval {
     enter = max(enter, Lanes((near_plane - origin_near) * inverse_near));
     leave = min(leave, Lanes((far_plane - origin_far) * inverse_far));
   }
-  Mask<Lanes> is_met() const { return enter <= leave * Lanes(beam_padding) + Lanes(beam_tiny); }
+  Mask<Lanes> is_met() const { return enter <= leave * Lanes(slab_padding) + Lanes(slab_tiny); }
 };
 
 /// Which of a node's boxes are met, and where.
@@ -41,22 +41,22 @@ std::uint32_t boxes_met(const BvhNode& node, const SlabNumbers& ray, float (&ent
   return met;
 }
 
-/// Which of a beam's rays meet one of a node's boxes: the same test.
-BeamRays rays_met(const BvhNode& node, int child, const Beam& beam) {
-  BeamRays met = 0;
-  for (int from = 0; from < beam.count; from += lane_count) {
-    const Lanes t_max = Lanes::load(&beam.t_max[0] + from);
+/// Which of a group's rays meet one of a node's boxes: the same test.
+RayGroupMask rays_met(const BvhNode& node, int child, const RayGroup& group) {
+  RayGroupMask met = 0;
+  for (int from = 0; from < group.count; from += lane_count) {
+    const Lanes t_max = Lanes::load(&group.t_max[0] + from);
     Interval t{Lanes(0.0f), t_max};
     for (int axis = 0; axis < 3; ++axis) {
-      const int near = beam.whole.near[axis];
+      const int near = group.whole.near[axis];
       const auto lanes = [&](const auto& numbers) {
-        return Lanes::load(&numbers[0][0] + axis * beam_capacity + from);
+        return Lanes::load(&numbers[0][0] + axis * ray_group_capacity + from);
       };
       t.meet(Lanes(node.planes[near][axis][child]), Lanes(node.planes[1 - near][axis][child]),
-             lanes(beam.origin_near), lanes(beam.origin_far), lanes(beam.inverse_near),
-             lanes(beam.inverse_far));
+             lanes(group.origin_near), lanes(group.origin_far), lanes(group.inverse_near),
+             lanes(group.inverse_far));
     }
-    met |= static_cast<BeamRays>(lane_bits(t.is_met() & (t.enter <= t_max))) << from;
+    met |= static_cast<RayGroupMask>(lane_bits(t.is_met() & (t.enter <= t_max))) << from;
   }
   return met;
 }
@@ -64,23 +64,23 @@ BeamRays rays_met(const BvhNode& node, int child, const Beam& beam) {
 const SlabNumbers& whole_of(const SlabNumbers& ray) {
   return ray;
 }
-const SlabNumbers& whole_of(const Beam& beam) {
-  return beam.whole;
+const SlabNumbers& whole_of(const RayGroup& group) {
+  return group.whole;
 }
 /// A single ray meets the boxes that are on its stack.
-BeamRays rays_met(const BvhNode&, int, const SlabNumbers&) {
+RayGroupMask rays_met(const BvhNode&, int, const SlabNumbers&) {
   return 1;
 }
 
 int patience_of(const SlabNumbers&) {
   return 1;
 }
-int patience_of(const Beam& beam) {
-  return beam.patience;
+int patience_of(const RayGroup& group) {
+  return group.patience;
 }
 
-template <class RayOrBeam>
-Walk walk(const BvhNode* nodes, const RayOrBeam& rays, const BoxVisitor& visitor) {
+template <class RayOrGroup>
+Walk walk(const BvhNode* nodes, const RayOrGroup& rays, const BoxVisitor& visitor) {
   struct Waiting {
     std::uint32_t node;
     int child;
@@ -115,7 +115,7 @@ Walk walk(const BvhNode* nodes, const RayOrBeam& rays, const BoxVisitor& visitor
         node = what;
         break;
       }
-      const BeamRays meeting = rays_met(parent, next.child, rays);
+      const RayGroupMask meeting = rays_met(parent, next.child, rays);
       if (meeting != 0) {
         if (visitor.visit(visitor.context, what & ~BvhNode::leaf, meeting)) return done;
       } else if (--patience < 0) {
@@ -132,8 +132,8 @@ Walk MINKRAY_WALK_KERNEL(const BvhNode* nodes, const SlabNumbers& ray, const Box
   return walk(nodes, ray, visitor);
 }
 
-Walk MINKRAY_WALK_KERNEL(const BvhNode* nodes, const Beam& beam, const BoxVisitor& visitor) {
-  return walk(nodes, beam, visitor);
+Walk MINKRAY_WALK_KERNEL(const BvhNode* nodes, const RayGroup& group, const BoxVisitor& visitor) {
+  return walk(nodes, group, visitor);
 }
 
 }  // namespace minkray

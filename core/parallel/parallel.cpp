@@ -7,15 +7,15 @@
 #include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
 
-#include "core/parallel/stream.h"
+#include "core/parallel/parallel_pipeline.h"
 
 namespace minkray {
 
-void for_parts(std::size_t count, std::size_t grain,
-               const std::function<void(std::size_t, std::size_t)>& body) {
+void parallel_for(std::size_t count, std::size_t grain,
+                  const std::function<void(std::size_t, std::size_t)>& body) {
   tbb::parallel_for(
       tbb::blocked_range<std::size_t>(0, count, grain),
-      [&](const tbb::blocked_range<std::size_t>& part) { body(part.begin(), part.end()); },
+      [&](const tbb::blocked_range<std::size_t>& range) { body(range.begin(), range.end()); },
       tbb::simple_partitioner());
 }
 
@@ -31,9 +31,9 @@ int thread_count() {
   return tbb::this_task_arena::max_concurrency();
 }
 
-void stream_of_any(std::size_t most, const std::function<std::shared_ptr<void>()>& read,
-                   const std::function<void(void*)>& work,
-                   const std::function<void(void*)>& write) {
+void pipeline_of_any(std::size_t most, const std::function<std::shared_ptr<void>()>& read,
+                     const std::function<void(void*)>& work,
+                     const std::function<void(void*)>& write) {
   using Item = std::shared_ptr<void>;
   tbb::parallel_pipeline(
       most,

@@ -8,15 +8,15 @@
 
 namespace minkray {
 
-/// Calls body(begin, end) for consecutive parts of [0, count) of at most `grain` items, possibly at
-/// once. An exception of a body is passed on.
-void for_parts(std::size_t count, std::size_t grain,
-               const std::function<void(std::size_t begin, std::size_t end)>& body);
+/// Calls body(begin, end) for consecutive index ranges of [0, count) of at most `grain` items,
+/// possibly at once. An exception of a body is passed on.
+void parallel_for(std::size_t count, std::size_t grain,
+                  const std::function<void(std::size_t begin, std::size_t end)>& body);
 
-/// Calls `work` where for_parts uses at most `threads` threads; 0: one per core.
+/// Calls `work` where parallel_for uses at most `threads` threads; 0: one per core.
 void with_threads(int threads, const std::function<void()>& work);
 
-/// How many threads for_parts may use here.
+/// How many threads parallel_for may use here.
 int thread_count();
 
 }  // namespace minkray

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // parallel.h without oneTBB, for ThreadSanitizer, which does not see what Debian's library does:
-// here it sees all of it. Threads are started for each for_parts, which costs too much for other
+// here it sees all of it. Threads are started for each parallel_for, which costs too much for other
 // builds.
 #include <algorithm>
 #include <atomic>
@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/parallel/parallel.h"
-#include "core/parallel/stream.h"
+#include "core/parallel/parallel_pipeline.h"
 
 namespace minkray {
 namespace {
@@ -34,7 +34,7 @@ struct Team {
   }
 };
 
-/// The team of this thread; none outside with_threads and for_parts.
+/// The team of this thread; none outside with_threads and parallel_for.
 thread_local Team* team_here = nullptr;
 
 class InTeam {
@@ -86,12 +86,12 @@ int one_per_core() {
   return std::max(fewest_threads, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
-/// The parts of one for_parts, taken by whoever is free. Every atomic is relaxed: parts of
-/// different threads must not look ordered, for oneTBB does not promise that.
-class Parts {
+/// The index ranges of one parallel_for, taken by whoever is free. Every atomic is relaxed: ranges
+/// of different threads must not look ordered, for oneTBB does not promise that.
+class Ranges {
  public:
-  Parts(std::size_t count, std::size_t grain,
-        const std::function<void(std::size_t, std::size_t)>& body)
+  Ranges(std::size_t count, std::size_t grain,
+         const std::function<void(std::size_t, std::size_t)>& body)
       : count_(count), grain_(grain), body_(body) {}
 
   void take_all() {
@@ -116,13 +116,13 @@ class Parts {
 
 }  // namespace
 
-void for_parts(std::size_t count, std::size_t grain,
-               const std::function<void(std::size_t, std::size_t)>& body) {
-  if (!team_here) return with_threads(one_per_core(), [&] { for_parts(count, grain, body); });
-  Parts parts(count, grain, body);
-  const std::size_t part_count = (count + grain - 1) / grain;
-  if (part_count > 0) on_team(*team_here, part_count - 1, [&] { parts.take_all(); });
-  parts.pass_exception_on();
+void parallel_for(std::size_t count, std::size_t grain,
+                  const std::function<void(std::size_t, std::size_t)>& body) {
+  if (!team_here) return with_threads(one_per_core(), [&] { parallel_for(count, grain, body); });
+  Ranges ranges(count, grain, body);
+  const std::size_t range_count = (count + grain - 1) / grain;
+  if (range_count > 0) on_team(*team_here, range_count - 1, [&] { ranges.take_all(); });
+  ranges.pass_exception_on();
 }
 
 void with_threads(int threads, const std::function<void()>& work) {
@@ -136,11 +136,11 @@ int thread_count() {
   return team_here ? team_here->count : one_per_core();
 }
 
-void stream_of_any(std::size_t most, const std::function<std::shared_ptr<void>()>& read,
-                   const std::function<void(void*)>& work,
-                   const std::function<void(void*)>& write) {
+void pipeline_of_any(std::size_t most, const std::function<std::shared_ptr<void>()>& read,
+                     const std::function<void(void*)>& work,
+                     const std::function<void(void*)>& write) {
   if (!team_here)
-    return with_threads(one_per_core(), [&] { stream_of_any(most, read, work, write); });
+    return with_threads(one_per_core(), [&] { pipeline_of_any(most, read, work, write); });
   std::mutex reading, writing;
   std::condition_variable written;
   bool at_end = false;  // both by `reading`

@@ -15,7 +15,7 @@ namespace {
 constexpr int bounds_padding = 32;
 
 /// Poses that one thread takes at a time: some hundred microseconds of work.
-constexpr std::size_t poses_a_part = 4096;
+constexpr std::size_t poses_a_range = 4096;
 
 template <class T>
 Bounds<T> padded(const Bounds<T>& bounds) {
@@ -93,7 +93,7 @@ void Instances<T>::add_many(std::uint32_t definition, std::size_t count, bool li
   if (linear_alike && !placement.is_rigid_identity)
     linear_.push_back({placement.to_inner, shape.bounds_of(pose_of(0)).half_extents().maxCoeff()});
   if (!linear_alike) linear_.resize(first_linear + count);
-  for_parts(count, poses_a_part, [&](std::size_t begin, std::size_t end) {
+  parallel_for(count, poses_a_range, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       place(first + i, definition, pose_of(i), first_linear + (linear_alike ? 0 : i),
             !linear_alike);
@@ -107,7 +107,7 @@ void Instances<T>::pose_all(const std::function<Affine<T>(std::size_t)>& pose_of
   boxes_.resize(places_.size());
   shifts_.resize(shift_of ? places_.size() : 0);
   for (PosedHalfSpace& one : half_spaces_) one.in_world = one.at_rest.posed(pose_of(one.instance));
-  for_parts(places_.size(), poses_a_part, [&](std::size_t begin, std::size_t end) {
+  parallel_for(places_.size(), poses_a_range, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       if (shift_of) shifts_[i] = shift_of(i);
       if (is_half_space(i)) continue;

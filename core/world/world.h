@@ -65,7 +65,7 @@ struct WorldRay {
 };
 
 /// So many rays can be asked for at once.
-inline constexpr int most_rays_at_once = beam_capacity;
+inline constexpr int most_rays_at_once = ray_group_capacity;
 
 /// Immutable but for pose_all, so any number of threads may ask. An answer depends on nothing but
 /// the ray: the same bit for bit whether it is asked for alone or with others, and for whatever
@@ -94,7 +94,7 @@ class World {
                     QueryCounts& counts) const;
 
   /// Bit i answers rays[i].
-  BeamRays occluded(std::span<const WorldRay<T>> rays, QueryCounts& counts) const;
+  RayGroupMask occluded(std::span<const WorldRay<T>> rays, QueryCounts& counts) const;
 
   /// Moves all instances: the i-th to pose_of(i), which is asked from several threads at once, and
   /// if there is a shift_of, from there along shift_of(i) while time goes from 0 to 1. The

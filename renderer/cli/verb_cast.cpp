@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/parallel/parallel.h"
-#include "core/parallel/stream.h"
+#include "core/parallel/parallel_pipeline.h"
 #include "renderer/base/errors.h"
 #include "renderer/cli/choices.h"
 #include "renderer/cli/options.h"
@@ -243,7 +243,8 @@ ExitCode cast(const Options& options) {
     has_wrong |= batch.has_wrong;
     certificates += batch.certificates;
   };
-  stream<Batch>(static_cast<std::size_t>(thread_count()) * batches_a_thread, read, solve, write);
+  parallel_pipeline<Batch>(static_cast<std::size_t>(thread_count()) * batches_a_thread, read, solve,
+                           write);
   if (in.bad()) throw BadInput(name + ": cannot be read");
   if (options.certify)
     std::cerr << "certificates: " << certificates.holding << " hold, " << certificates.failing

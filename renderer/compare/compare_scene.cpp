@@ -130,7 +130,7 @@ SceneComparison compare_scene(const Scene& scene, const CompareSceneOptions& opt
   std::size_t done = 0;
   std::uint64_t rays = 0;
   bool stopped = false;
-  for_parts(count, 1, [&](std::size_t begin, std::size_t end) {
+  parallel_for(count, 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       {
         const std::lock_guard lock(progress_mutex);

@@ -5,7 +5,7 @@
 #include <type_traits>
 
 #include "core/derived/shape_bounds.h"
-#include "core/parallel/parallel.h"
+#include "core/parallel/parallel_reduce.h"
 
 namespace minkray {
 namespace {
@@ -63,19 +63,13 @@ Bounds<double> bounds_of(const Object& object) {
   return bounds_of<double>(Transform<double>{Nested<double>(object.shape), object.pose});
 }
 
-/// Several threads take index ranges of them.
 Bounds<double> bounds_of(const ParticleSet& set) {
-  constexpr std::size_t part_size = 65536;
-  std::vector<Bounds<double>> parts((set.size() + part_size - 1) / part_size);
-  for_parts(parts.size(), 1, [&](std::size_t first, std::size_t last) {
-    for (std::size_t part = first; part < last; ++part)
-      for (std::size_t i = part * part_size; i < std::min((part + 1) * part_size, set.size()); ++i)
-        parts[part].extend(
-            bounds_of<double>(Transform<double>{Nested<double>(set.shape), set.pose(i)}));
-  });
-  Bounds<double> bounds;
-  for (const Bounds<double>& part : parts) bounds.extend(part);
-  return bounds;
+  return parallel_reduce<Bounds<double>>(
+      0, set.size(),
+      [&](Bounds<double>& bounds, std::size_t i) {
+        bounds.extend(bounds_of<double>(Transform<double>{Nested<double>(set.shape), set.pose(i)}));
+      },
+      [](Bounds<double>& bounds, const Bounds<double>& of_range) { bounds.extend(of_range); });
 }
 
 SceneSummary summarise(const Scene& scene) {

@@ -17,8 +17,8 @@
 namespace minkray {
 namespace {
 
-/// Rays of one thread's part: some hundred microseconds of work.
-constexpr std::size_t rays_a_part = 2048;
+/// Rays of one index range: some hundred microseconds of work.
+constexpr std::size_t rays_a_range = 2048;
 constexpr auto together = static_cast<std::size_t>(most_rays_at_once);
 
 /// Random numbers of one ray, whatever else is cast (Steele, Lea and Flood 2014: SplitMix).
@@ -181,7 +181,7 @@ Scan scan(Scene& scene, const SensorRays& rays, const ScanOptions& options,
   };
   const auto cast_all = [&](std::span<const std::uint32_t> some) {
     const Affine<double> pose = mount_pose(scene, mount) * options.pose;
-    for_parts(some.size(), rays_a_part, [&](std::size_t begin, std::size_t end) {
+    parallel_for(some.size(), rays_a_range, [&](std::size_t begin, std::size_t end) {
       {
         const std::lock_guard lock(mutex);
         if (!result.complete) return;

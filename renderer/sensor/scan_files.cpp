@@ -40,8 +40,8 @@ Bytes npy_of(const Scan& scan, const SensorRays& rays, int returns) {
       npy_header(record_fields, rays.rays.size(), static_cast<std::size_t>(returns));
   Bytes bytes(header.size() + record_bytes * scan.echoes.size());
   std::memcpy(bytes.data(), header.data(), header.size());
-  constexpr std::size_t records_a_part = 16384;
-  for_parts(scan.echoes.size(), records_a_part, [&](std::size_t begin, std::size_t end) {
+  constexpr std::size_t records_a_range = 16384;
+  parallel_for(scan.echoes.size(), records_a_range, [&](std::size_t begin, std::size_t end) {
     unsigned char* at = bytes.data() + header.size() + record_bytes * begin;
     for (std::size_t i = begin; i < end; ++i) {
       const Echo& echo = scan.echoes[i];

@@ -75,7 +75,7 @@ int main(int argc, char** argv) {
             << "\n";
   std::mutex mutex;
   CertifiedCasts all;
-  for_parts(samples.size(), 1, [&](std::size_t begin, std::size_t end) {
+  parallel_for(samples.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       std::ostringstream out;
       CertifiedCasts here;

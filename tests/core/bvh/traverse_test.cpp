@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Walks through hierarchies: no box that a ray meets is missed, by whatever instruction set, alone
-// or in a beam.
+// or in a group.
 #include "core/bvh/traverse.h"
 
 #include <gtest/gtest.h>
@@ -196,7 +196,7 @@ TEST(Traverse, loses_nothing_at_shared_faces_and_edges) {
 
 /// Rays of one octant: from about one point, or from anywhere.
 template <class T>
-std::vector<Ray<T>> rays_of_a_beam(BoxRandom& random, int count, double spread) {
+std::vector<Ray<T>> rays_of_a_group(BoxRandom& random, int count, double spread) {
   const Vec3<double> from = random.point(12);
   Vec3<double> towards = random.point(6) - from;
   std::vector<Ray<T>> rays;
@@ -213,25 +213,25 @@ std::vector<Ray<T>> rays_of_a_beam(BoxRandom& random, int count, double spread) 
   return rays;
 }
 
-// To each ray of a beam happens what happens to it alone.
-TYPED_TEST(TraverseOf, beams_find_for_each_ray_what_it_finds_alone) {
+// To each ray of a group happens what happens to it alone.
+TYPED_TEST(TraverseOf, ray_groups_find_for_each_ray_what_it_finds_alone) {
   using T = TypeParam;
   BoxRandom random;
   const Boxes boxes = scattered_boxes(3000, random);
   const Bvh bvh = built(boxes);
   std::size_t found = 0;
   for (const double spread : {0.0, 0.1, 4.0})
-    for (const int count : {2, 7, 8, 9, 21, beam_capacity})
+    for (const int count : {2, 7, 8, 9, 21, ray_group_capacity})
       for (int i = 0; i < 10; ++i) {
-        const auto rays = rays_of_a_beam<T>(random, count, spread);
-        Beam beam;
-        for (const Ray<T>& ray : rays) beam.add(SlabRay(ray).numbers);
-        beam.fill_up();
+        const auto rays = rays_of_a_group<T>(random, count, spread);
+        RayGroup group;
+        for (const Ray<T>& ray : rays) group.add(SlabRay(ray).numbers);
+        group.fill_up();
         for (const WalkSet set : walk_sets()) {
           std::vector<BoxSet> together(rays.size());
           traverse(
-              bvh, beam,
-              [&](std::uint32_t index, BeamRays which) {
+              bvh, group,
+              [&](std::uint32_t index, RayGroupMask which) {
                 for (std::size_t k = 0; k < rays.size(); ++k)
                   if (which >> k & 1) together[k].insert(index);
                 return false;

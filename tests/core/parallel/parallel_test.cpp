@@ -15,7 +15,7 @@
 #include <thread>
 #include <vector>
 
-#include "core/parallel/stream.h"
+#include "core/parallel/parallel_pipeline.h"
 
 using namespace minkray;
 
@@ -39,14 +39,14 @@ class Crowd {
 
 }  // namespace
 
-TEST(Parallel, every_item_is_in_one_part_of_at_most_the_grain) {
+TEST(Parallel, every_item_is_in_one_range_of_at_most_the_grain) {
   for (const int threads : {0, 1, 3})
     for (const std::size_t count : {0u, 1u, 7u, 64u, 1000u})
       for (const std::size_t grain : {1u, 7u, 2000u}) {
-        std::vector<int> times(count, 0);  // written by parts without a lock, read after them
+        std::vector<int> times(count, 0);  // written by ranges without a lock, read after them
         std::atomic<bool> fits = true;
         with_threads(threads, [&] {
-          for_parts(count, grain, [&](std::size_t begin, std::size_t end) {
+          parallel_for(count, grain, [&](std::size_t begin, std::size_t end) {
             if (begin >= end || end - begin > grain) fits = false;
             for (std::size_t i = begin; i < end; ++i) ++times[i];
           });
@@ -56,14 +56,14 @@ TEST(Parallel, every_item_is_in_one_part_of_at_most_the_grain) {
       }
 }
 
-TEST(Parallel, parts_within_parts_keep_to_the_number_of_threads) {
+TEST(Parallel, loops_within_loops_keep_to_the_number_of_threads) {
   for (const int threads : {1, 2, 3}) {
     Crowd crowd;
     std::atomic<int> inner = 0;
     with_threads(threads, [&] {
       EXPECT_EQ(thread_count(), threads);
-      for_parts(8, 1, [&](std::size_t, std::size_t) {
-        for_parts(8, 1, [&](std::size_t, std::size_t) {
+      parallel_for(8, 1, [&](std::size_t, std::size_t) {
+        parallel_for(8, 1, [&](std::size_t, std::size_t) {
           crowd.come();
           std::this_thread::sleep_for(std::chrono::microseconds(200));
           ++inner;
@@ -76,15 +76,15 @@ TEST(Parallel, parts_within_parts_keep_to_the_number_of_threads) {
   }
 }
 
-// Two parts that wait for one another: on one thread they never would meet. (oneTBB was seen to
+// Two ranges that wait for one another: on one thread they never would meet. (oneTBB was seen to
 // take five seconds for the second thread on a busy machine.)
-TEST(Parallel, parts_run_at_once) {
+TEST(Parallel, ranges_run_at_once) {
   std::mutex mutex;
   std::condition_variable arrived;
   int here = 0;
   std::atomic<int> met = 0;
   with_threads(2, [&] {
-    for_parts(2, 1, [&](std::size_t, std::size_t) {
+    parallel_for(2, 1, [&](std::size_t, std::size_t) {
       std::unique_lock lock(mutex);
       ++here;
       arrived.notify_all();
@@ -94,22 +94,22 @@ TEST(Parallel, parts_run_at_once) {
   EXPECT_EQ(met, 2);
 }
 
-TEST(Parallel, an_exception_of_a_part_is_passed_on) {
+TEST(Parallel, an_exception_of_a_range_is_passed_on) {
   for (const int threads : {1, 4}) {
     with_threads(threads, [&] {
-      EXPECT_THROW(for_parts(100, 1,
-                             [&](std::size_t begin, std::size_t) {
-                               if (begin == 41) throw std::runtime_error("of part 41");
-                             }),
+      EXPECT_THROW(parallel_for(100, 1,
+                                [&](std::size_t begin, std::size_t) {
+                                  if (begin == 41) throw std::runtime_error("of range 41");
+                                }),
                    std::runtime_error);
-      std::atomic<int> parts = 0;
-      for_parts(100, 1, [&](std::size_t, std::size_t) { ++parts; });
-      EXPECT_EQ(parts, 100) << "after an exception";
+      std::atomic<int> ranges = 0;
+      parallel_for(100, 1, [&](std::size_t, std::size_t) { ++ranges; });
+      EXPECT_EQ(ranges, 100) << "after an exception";
     });
   }
 }
 
-TEST(Stream, takes_things_in_the_order_they_were_made_in) {
+TEST(ParallelPipeline, takes_things_in_the_order_they_were_made_in) {
   struct Item {
     int number, square;
   };
@@ -134,7 +134,7 @@ TEST(Stream, takes_things_in_the_order_they_were_made_in) {
         taken.push_back(item.square);
         on_their_way.go();
       };
-      with_threads(threads, [&] { stream<Item>(4, read, work, write); });
+      with_threads(threads, [&] { parallel_pipeline<Item>(4, read, work, write); });
       ASSERT_EQ(taken.size(), static_cast<std::size_t>(count));
       for (int i = 0; i < count; ++i) ASSERT_EQ(taken[static_cast<std::size_t>(i)], i * i);
       EXPECT_LE(on_their_way.most(), 4);
@@ -142,7 +142,7 @@ TEST(Stream, takes_things_in_the_order_they_were_made_in) {
     }
 }
 
-TEST(Stream, ends_with_the_first_exception) {
+TEST(ParallelPipeline, ends_with_the_first_exception) {
   for (const int threads : {1, 4})
     for (const int where : {0, 1, 2}) {  // in read, work, write
       int made = 0;
@@ -154,7 +154,7 @@ TEST(Stream, ends_with_the_first_exception) {
         return std::make_shared<int>(made++);
       };
       with_threads(threads, [&] {
-        EXPECT_THROW(stream<int>(
+        EXPECT_THROW(parallel_pipeline<int>(
                          8, read, [&](int& item) { fail_at(1, item); },
                          [&](int& item) { fail_at(2, item); }),
                      std::runtime_error);
@@ -163,7 +163,7 @@ TEST(Stream, ends_with_the_first_exception) {
     }
 }
 
-// That the suite passes under ThreadSanitizer means something only if a race between parts would
+// That the suite passes under ThreadSanitizer means something only if a race between ranges would
 // not.
 #if defined(__SANITIZE_THREAD__)
 TEST(ParallelDeathTest, thread_sanitizer_sees_a_race_between_parts) {
@@ -171,7 +171,7 @@ TEST(ParallelDeathTest, thread_sanitizer_sees_a_race_between_parts) {
   const auto race = [] {
     int sum = 0;
     std::atomic<int> here = 0;
-    for_parts(2, 1, [&](std::size_t, std::size_t) {
+    parallel_for(2, 1, [&](std::size_t, std::size_t) {
       // Both have begun; relaxed, so that nothing looks ordered by this.
       here.fetch_add(1, std::memory_order_relaxed);
       while (here.load(std::memory_order_relaxed) < 2) std::this_thread::yield();

@@ -116,7 +116,7 @@ TYPED_TEST(HalfSpaces, rays_together_answer_as_rays_alone) {
     std::vector<WorldHit<T>> hits(count);
     QueryCounts counts;
     world.closest_hits(rays, hits, counts);
-    const BeamRays met = world.occluded(rays, counts);
+    const RayGroupMask met = world.occluded(rays, counts);
     for (std::size_t k = 0; k < count; ++k) {
       const WorldHit<T> alone = world.closest_hit(rays[k].ray, counts, rays[k].skip);
       ASSERT_EQ(hits[k].instance, alone.instance);

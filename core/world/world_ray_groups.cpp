@@ -10,30 +10,30 @@
 namespace minkray {
 namespace {
 
-constexpr auto capacity = static_cast<std::size_t>(beam_capacity);
+constexpr auto capacity = static_cast<std::size_t>(ray_group_capacity);
 
-/// Rays of one octant out of several, as a beam.
+/// Rays of one octant out of several.
 struct Group {
-  Beam beam;
-  std::array<std::uint8_t, capacity> ray_of;  ///< by the beam's ray: which of all rays
+  RayGroup rays;
+  std::array<std::uint8_t, capacity> ray_of;  ///< by the group's ray: which of all rays
 
   void add(const SlabNumbers& numbers, std::size_t ray) {
-    ray_of[static_cast<std::size_t>(beam.count)] = static_cast<std::uint8_t>(ray);
-    beam.add(numbers);
+    ray_of[static_cast<std::size_t>(rays.count)] = static_cast<std::uint8_t>(ray);
+    rays.add(numbers);
   }
 };
 
 /// Takes the lowest of the rays out.
-int next_of(BeamRays& rays) {
+int next_of(RayGroupMask& rays) {
   const int ray = std::countr_zero(rays);
   rays &= rays - 1;
   return ray;
 }
 
-/// Directions further apart than this (their largest component is about 1) cannot gain by a beam.
-constexpr double widest_beam = 0.25;
+/// Directions further apart than this (their largest component is about 1) gain nothing together.
+constexpr double widest_ray_group = 0.25;
 
-/// Leaves that a beam may test in vain, for each of its rays: about as many as cost what a ray
+/// Leaves that a group may test in vain, for each of its rays: about as many as cost what a ray
 /// costs alone. By measurement, see docs/decisions/rays-together.md.
 constexpr int patience_a_ray = 2;
 
@@ -41,7 +41,7 @@ template <class T>
 bool runs_apart(const Ray<T>& a, const SlabRay& slabs_a, const Ray<T>& b, const SlabRay& slabs_b) {
   const Vec3<double> difference = a.direction.template cast<double>() / slabs_a.steps -
                                   b.direction.template cast<double>() / slabs_b.steps;
-  return difference.cwiseAbs().maxCoeff() > widest_beam;
+  return difference.cwiseAbs().maxCoeff() > widest_ray_group;
 }
 
 /// on_group(group) for all rays that run along with others, on_single(i) for the rest. `slabs` gets
@@ -53,24 +53,24 @@ void in_groups(std::span<const WorldRay<T>> rays, std::array<SlabRay, capacity>&
   for (std::size_t i = 0; i < rays.size(); ++i) slabs[i] = SlabRay(rays[i].ray);
   if (rays.size() == 1) return on_single(0);
   Group group;
-  for (BeamRays open = ~BeamRays(0) >> (capacity - rays.size()); open != 0;) {
+  for (RayGroupMask open = ~RayGroupMask(0) >> (capacity - rays.size()); open != 0;) {
     const auto first = static_cast<std::size_t>(next_of(open));
-    group.beam.count = 0;
+    group.rays.count = 0;
     group.add(slabs[first].numbers, first);
-    for (BeamRays others = open; others != 0;) {
+    for (RayGroupMask others = open; others != 0;) {
       const auto i = static_cast<std::size_t>(next_of(others));
       if (slabs[i].octant() != slabs[first].octant() ||
           runs_apart(rays[i].ray, slabs[i], rays[first].ray, slabs[first]))
         continue;
       group.add(slabs[i].numbers, i);
-      open &= ~(BeamRays(1) << i);
+      open &= ~(RayGroupMask(1) << i);
     }
-    if (group.beam.count == 1) {
+    if (group.rays.count == 1) {
       on_single(first);
       continue;
     }
-    group.beam.fill_up();
-    group.beam.patience = patience_a_ray * group.beam.count;
+    group.rays.fill_up();
+    group.rays.patience = patience_a_ray * group.rays.count;
     on_group(group);
   }
 }
@@ -79,7 +79,7 @@ void in_groups(std::span<const WorldRay<T>> rays, std::array<SlabRay, capacity>&
 /// full as can be, and what is left over alone. on_found(lane, t, result) for those that meet it;
 /// result() makes the CastResult.
 template <class T, class RayOf, class OnFound>
-void cast_all(const PreparedShape<T>& shape, BeamRays which, const RayOf& ray_of,
+void cast_all(const PreparedShape<T>& shape, RayGroupMask which, const RayOf& ray_of,
               const CastOptions<T>& options, bool in_packets, QueryCounts& counts,
               const OnFound& on_found) {
   const auto count = [&](std::uint64_t supports, std::uint64_t iterations, Path path,
@@ -124,15 +124,15 @@ void cast_all(const PreparedShape<T>& shape, BeamRays which, const RayOf& ray_of
   }
 }
 
-/// The beam's rays of the set `which` that do not leave the instance.
+/// The group's rays of the set `which` that do not leave the instance.
 template <class T>
-BeamRays without_leaving(BeamRays which, std::uint32_t instance, std::span<const WorldRay<T>> rays,
-                         const Group& group) {
-  BeamRays rest = which;
-  for (BeamRays left = which; left != 0;) {
+RayGroupMask without_leaving(RayGroupMask which, std::uint32_t instance,
+                             std::span<const WorldRay<T>> rays, const Group& group) {
+  RayGroupMask rest = which;
+  for (RayGroupMask left = which; left != 0;) {
     const int lane = next_of(left);
     if (rays[group.ray_of[static_cast<std::size_t>(lane)]].skip == instance)
-      rest &= ~(BeamRays(1) << lane);
+      rest &= ~(RayGroupMask(1) << lane);
   }
   return rest;
 }
@@ -147,16 +147,16 @@ void World<T>::closest_hits(std::span<const WorldRay<T>> rays, std::span<WorldHi
   const auto on_group = [&](Group& group) {
     const auto index = [&](int lane) { return group.ray_of[static_cast<std::size_t>(lane)]; };
     if (!instances_.half_spaces().empty()) {
-      for (int lane = 0; lane < group.beam.count; ++lane) {
+      for (int lane = 0; lane < group.rays.count; ++lane) {
         WorldHit<T>& hit = hits[index(lane)];
         if (!closer_half_space(rays[index(lane)], hit, counts)) continue;
         SlabRay& slab = slabs[index(lane)];
         slab.numbers.t_max = slab.limit(static_cast<double>(hit.cast.t()));
-        group.beam.set_t_max(lane, slab.numbers.t_max);
+        group.rays.set_t_max(lane, slab.numbers.t_max);
       }
-      group.beam.narrow();
+      group.rays.narrow();
     }
-    const Walk walk = traverse(bvh_, group.beam, [&](std::uint32_t instance, BeamRays meeting) {
+    const Walk walk = traverse(bvh_, group.rays, [&](std::uint32_t instance, RayGroupMask meeting) {
       if (instances_.is_half_space(instance)) return false;
       const auto ray_of = [&](int lane) {
         const WorldRay<T>& asked = rays[index(lane)];
@@ -171,15 +171,15 @@ void World<T>::closest_hits(std::span<const WorldRay<T>> rays, std::span<WorldHi
                     hit = {instance, result()};
                     SlabRay& slab = slabs[index(lane)];
                     slab.numbers.t_max = slab.limit(static_cast<double>(t));
-                    group.beam.set_t_max(lane, slab.numbers.t_max);
+                    group.rays.set_t_max(lane, slab.numbers.t_max);
                     nearer = true;
                   });
-      if (nearer) group.beam.narrow();
+      if (nearer) group.rays.narrow();
       return false;
     });
     counts.nodes += walk.visited;
     if (walk.complete) return;
-    for (int lane = 0; lane < group.beam.count; ++lane) on_single(index(lane));
+    for (int lane = 0; lane < group.rays.count; ++lane) on_single(index(lane));
   };
   for (std::size_t i = 0; i < rays.size(); ++i) {
     hits[i] = {};
@@ -189,26 +189,26 @@ void World<T>::closest_hits(std::span<const WorldRay<T>> rays, std::span<WorldHi
 }
 
 template <class T>
-BeamRays World<T>::occluded(std::span<const WorldRay<T>> rays, QueryCounts& counts) const {
-  BeamRays met = 0;
+RayGroupMask World<T>::occluded(std::span<const WorldRay<T>> rays, QueryCounts& counts) const {
+  RayGroupMask met = 0;
   std::array<SlabRay, capacity> slabs;
   const auto on_single = [&](std::size_t i) {
-    if (is_blocked(rays[i], slabs[i], counts)) met |= BeamRays(1) << i;
+    if (is_blocked(rays[i], slabs[i], counts)) met |= RayGroupMask(1) << i;
   };
   const auto on_group = [&](Group& group) {
     const auto index = [&](int lane) { return group.ray_of[static_cast<std::size_t>(lane)]; };
-    int open = group.beam.count;
+    int open = group.rays.count;
     if (!instances_.half_spaces().empty()) {
-      for (int lane = 0; lane < group.beam.count; ++lane) {
+      for (int lane = 0; lane < group.rays.count; ++lane) {
         if (!blocked_by_half_space(rays[index(lane)], counts)) continue;
-        met |= BeamRays(1) << index(lane);
-        group.beam.set_t_max(lane, -1);
+        met |= RayGroupMask(1) << index(lane);
+        group.rays.set_t_max(lane, -1);
         --open;
       }
       if (open == 0) return;
-      group.beam.narrow();
+      group.rays.narrow();
     }
-    const Walk walk = traverse(bvh_, group.beam, [&](std::uint32_t instance, BeamRays meeting) {
+    const Walk walk = traverse(bvh_, group.rays, [&](std::uint32_t instance, RayGroupMask meeting) {
       if (instances_.is_half_space(instance)) return false;
       const auto ray_of = [&](int lane) {
         const WorldRay<T>& asked = rays[index(lane)];
@@ -218,16 +218,16 @@ BeamRays World<T>::occluded(std::span<const WorldRay<T>> rays, QueryCounts& coun
       const int before = open;
       cast_all<T>(instances_.at(instance), meeting, ray_of, options_, in_packets_, counts,
                   [&](int lane, T, const auto&) {
-                    met |= BeamRays(1) << index(lane);
-                    group.beam.set_t_max(lane, -1);
+                    met |= RayGroupMask(1) << index(lane);
+                    group.rays.set_t_max(lane, -1);
                     --open;
                   });
-      if (open < before) group.beam.narrow();
+      if (open < before) group.rays.narrow();
       return open == 0;
     });
     counts.nodes += walk.visited;
     if (walk.complete) return;
-    for (int lane = 0; lane < group.beam.count; ++lane)
+    for (int lane = 0; lane < group.rays.count; ++lane)
       if (!(met >> index(lane) & 1)) on_single(index(lane));
   };
   in_groups(rays, slabs, on_group, on_single);
@@ -238,7 +238,8 @@ template void World<float>::closest_hits(std::span<const WorldRay<float>>,
                                          std::span<WorldHit<float>>, QueryCounts&) const;
 template void World<double>::closest_hits(std::span<const WorldRay<double>>,
                                           std::span<WorldHit<double>>, QueryCounts&) const;
-template BeamRays World<float>::occluded(std::span<const WorldRay<float>>, QueryCounts&) const;
-template BeamRays World<double>::occluded(std::span<const WorldRay<double>>, QueryCounts&) const;
+template RayGroupMask World<float>::occluded(std::span<const WorldRay<float>>, QueryCounts&) const;
+template RayGroupMask World<double>::occluded(std::span<const WorldRay<double>>,
+                                              QueryCounts&) const;
 
 }  // namespace minkray

@@ -12,9 +12,9 @@ namespace minkray {
 namespace {
 
 template <class T>
-class WorldBeamsOf : public testing::Test {};
+class WorldRayGroupsOf : public testing::Test {};
 using Scalars = testing::Types<float, double>;
-TYPED_TEST_SUITE(WorldBeamsOf, Scalars);
+TYPED_TEST_SUITE(WorldRayGroupsOf, Scalars);
 
 template <class T>
 struct Random {
@@ -79,7 +79,7 @@ testing::AssertionResult same(const WorldHit<T>& a, const WorldHit<T>& b) {
   return testing::AssertionSuccess();
 }
 
-TYPED_TEST(WorldBeamsOf, answers_are_those_of_single_rays) {
+TYPED_TEST(WorldRayGroupsOf, answers_are_those_of_single_rays) {
   using T = TypeParam;
   Random<T> random;
   const World<T> world(scattered_shapes(300, random));
@@ -91,7 +91,7 @@ TYPED_TEST(WorldBeamsOf, answers_are_those_of_single_rays) {
         const auto asked = bundle(random, kind, count, world.instances().size());
         std::vector<WorldHit<T>> answers(count);
         world.closest_hits(asked, answers, together);
-        const BeamRays met = world.occluded(asked, together);
+        const RayGroupMask met = world.occluded(asked, together);
         EXPECT_TRUE(count == 32 || met >> count == 0);
         for (std::size_t k = 0; k < count; ++k, ++rays) {
           const WorldHit<T> hit = world.closest_hit(asked[k].ray, alone, asked[k].skip);
@@ -108,7 +108,7 @@ TYPED_TEST(WorldBeamsOf, answers_are_those_of_single_rays) {
   EXPECT_LT(together.nodes, alone.nodes);
 }
 
-TYPED_TEST(WorldBeamsOf, no_rays_and_no_world) {
+TYPED_TEST(WorldRayGroupsOf, no_rays_and_no_world) {
   using T = TypeParam;
   Random<T> random;
   const World<T> world(scattered_shapes(20, random)), empty;
@@ -126,7 +126,7 @@ TYPED_TEST(WorldBeamsOf, no_rays_and_no_world) {
   }
 }
 
-TYPED_TEST(WorldBeamsOf, of_instances_at_the_same_t_the_first_is_met) {
+TYPED_TEST(WorldRayGroupsOf, of_instances_at_the_same_t_the_first_is_met) {
   using T = TypeParam;
   Random<T> random;
   for (const bool backwards : {false, true}) {
@@ -156,7 +156,7 @@ TYPED_TEST(WorldBeamsOf, of_instances_at_the_same_t_the_first_is_met) {
 }
 
 // Rays that come together find what is exhausted, too.
-TYPED_TEST(WorldBeamsOf, other_solvers_are_asked_one_by_one) {
+TYPED_TEST(WorldRayGroupsOf, other_solvers_are_asked_one_by_one) {
   using T = TypeParam;
   Random<T> random;
   CastOptions<T> impatient;
@@ -174,7 +174,7 @@ TYPED_TEST(WorldBeamsOf, other_solvers_are_asked_one_by_one) {
   EXPECT_GT(together.exhausted, 0u);
 }
 
-TYPED_TEST(WorldBeamsOf, the_build_of_the_hierarchy_does_not_show) {
+TYPED_TEST(WorldRayGroupsOf, the_build_of_the_hierarchy_does_not_show) {
   using T = TypeParam;
   Random<T> random, again;
   const World<T> quality(scattered_shapes(300, random)),
@@ -188,7 +188,7 @@ TYPED_TEST(WorldBeamsOf, the_build_of_the_hierarchy_does_not_show) {
 }
 
 // One world is the tree around what has moved, the other a tree built of it anew.
-TYPED_TEST(WorldBeamsOf, moved_instances_answer_as_if_built_where_they_are) {
+TYPED_TEST(WorldRayGroupsOf, moved_instances_answer_as_if_built_where_they_are) {
   using T = TypeParam;
   Random<T> random;
   std::vector<Affine<T>> poses(400);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Rays made ready for slab tests against boxes of floats, eight boxes or eight rays at a time. The
 // tests are padded after Ize, "Robust BVH Ray Traversal" (2013), so that rounding never loses a box
-// that the exact ray meets; a beam holds several rays and is tested once for all of them.
+// that the exact ray meets; a group holds several rays and is tested once for all of them.
 //
 // Rays of any scalar are tested in float. What float cannot hold is rounded to the safe side: the
 // origin towards where the first planes come earlier and the last ones later. Along the ray, t is
@@ -20,8 +20,8 @@
 
 namespace minkray {
 
-/// What a slab test needs to know of a ray, or of a beam. Planes are met first (near) or last
-/// (far); which of a box's planes is the near one is the same for all rays of a beam.
+/// What a slab test needs to know of a ray, or of a group. Planes are met first (near) or last
+/// (far); which of a box's planes is the near one is the same for all rays of a group.
 struct SlabNumbers {
   float origin_near[3], origin_far[3];
   float inverse_near[3], inverse_far[3];  ///< 1 / direction: infinite where there is no component
@@ -32,14 +32,14 @@ struct SlabNumbers {
 /// (plane - origin) * inverse is rounded three times: relative error gamma = 3u / (1 - 3u), u half
 /// the machine epsilon. Twice that, for two planes compared with each other, and one more rounding
 /// for the product: 1 + 2 gamma + u < 1 + 4 epsilon.
-inline constexpr float beam_padding = 1 + 4 * std::numeric_limits<float>::epsilon();
+inline constexpr float slab_padding = 1 + 4 * std::numeric_limits<float>::epsilon();
 
 /// Hit parameters are rounded when they are found and when they are brought to steps: boxes are
 /// still entered so much behind a hit.
 inline constexpr float hit_padding = 1 + 32 * std::numeric_limits<float>::epsilon();
 
 /// What is lost where numbers are too small to have all digits.
-inline constexpr float beam_tiny = std::numeric_limits<float>::min();
+inline constexpr float slab_tiny = std::numeric_limits<float>::min();
 
 namespace detail {
 
@@ -95,23 +95,23 @@ struct SlabRay {
   }
 
   /// The steps beyond which boxes cannot hold anything that is met up to t.
-  float limit(double t) const { return static_cast<float>(t * steps) * hit_padding + beam_tiny; }
+  float limit(double t) const { return static_cast<float>(t * steps) * hit_padding + slab_tiny; }
 
-  /// Rays with the same octant can share a beam.
+  /// Rays with the same octant can share a group.
   int octant() const { return numbers.near[0] | numbers.near[1] << 1 | numbers.near[2] << 2; }
 };
 
 /// Rays of one octant.
-struct Beam {
+struct RayGroup {
   SlabNumbers whole;  ///< t_max included: the greatest
   int count = 0;
-  /// How many leaves that no ray meets may be tested: a beam of rays that run apart costs more than
-  /// its rays alone.
+  /// How many leaves that no ray meets may be tested: a group of rays that run apart costs more
+  /// than its rays alone.
   int patience = std::numeric_limits<int>::max();
   // Ray by ray; filled up to a multiple of 8.
-  alignas(32) std::array<std::array<float, beam_capacity>, 3> origin_near, origin_far, inverse_near,
-      inverse_far;
-  alignas(32) std::array<float, beam_capacity> t_max;
+  alignas(32) std::array<std::array<float, ray_group_capacity>, 3> origin_near, origin_far,
+      inverse_near, inverse_far;
+  alignas(32) std::array<float, ray_group_capacity> t_max;
 
   void add(const SlabNumbers& ray);
 
@@ -129,7 +129,7 @@ struct Beam {
   }
 };
 
-inline void Beam::add(const SlabNumbers& ray) {
+inline void RayGroup::add(const SlabNumbers& ray) {
   const auto at = static_cast<std::size_t>(count);
   const bool first = count++ == 0;
   if (first) whole = ray;
@@ -154,7 +154,7 @@ inline void Beam::add(const SlabNumbers& ray) {
   whole.t_max = std::max(whole.t_max, ray.t_max);
 }
 
-inline void Beam::fill_up() {
+inline void RayGroup::fill_up() {
   for (auto at = static_cast<std::size_t>(count); at % 8 != 0; ++at) {
     for (std::size_t i = 0; i < 3; ++i)
       for (auto* numbers : {&origin_near, &origin_far, &inverse_near, &inverse_far})
