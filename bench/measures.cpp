@@ -307,7 +307,7 @@ void run(const Options& options) {
   json["hash"] = text.str();
   std::cout << "\nhash of all answers " << text.str() << "\n";
   if (options.json.empty()) return;
-  const std::string temporary = options.json + ".part";
+  const std::string temporary = options.json + ".tmp";
   std::ofstream file(temporary);
   file << json.dump(1) << "\n";
   file.close();

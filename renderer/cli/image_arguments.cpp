@@ -89,7 +89,7 @@ void ImageArguments::add_to(const Verb& verb, const std::string& suffix) {
   verb.add_option("-t,--threads", threads, "How many threads; 0 for one a core")
       .between(0, 1024)
       .show_default();
-  verb.add_option("--crop", crop, "x0,y0,x1,y1 in pixels: just that part of the picture");
+  verb.add_option("--crop", crop, "x0,y0,x1,y1 in pixels: just that region of the picture");
   // As text: CLI11 takes what does not fit for the largest number.
   verb.add_option("--seed", seed, "Of the random numbers, from 0 to 2^64 - 1").show_default();
   const Option quiet_flag = verb.add_flag("-q,--quiet", quiet, "No progress, no report");
@@ -143,11 +143,12 @@ RenderOptions ImageArguments::render_options(const Scene& loaded, std::size_t pa
   RenderOptions options;
   options.resolution = resolution.empty() ? loaded.camera.resolution : parse_resolution(resolution);
   if (!crop.empty()) options.crop = parse_crop(crop, options.resolution);
-  const PixelRect part = options.part();
-  if (std::int64_t{part.width()} * part.height() > max_pixels / static_cast<std::int64_t>(panels))
+  const PixelRect region = options.region();
+  if (std::int64_t{region.width()} * region.height() >
+      max_pixels / static_cast<std::int64_t>(panels))
     throw WrongUsage("--resolution: at most " + std::to_string(max_pixels) +
-                     " pixels at once; use --crop (got " + std::to_string(part.width()) + "x" +
-                     std::to_string(part.height()) + ")");
+                     " pixels at once; use --crop (got " + std::to_string(region.width()) + "x" +
+                     std::to_string(region.height()) + ")");
   options.samples = samples;
   options.seed = parse_seed(seed);
   return options;

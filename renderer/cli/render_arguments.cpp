@@ -13,7 +13,7 @@ constexpr const char* suffix = ".png";
 }  // namespace
 
 void RenderArguments::choose_output(const Ranks& ranks) {
-  if (image.outputs.empty() && (is_piece() || frames || ranks.count() > 1))
+  if (image.outputs.empty() && (is_share() || frames || ranks.count() > 1))
     throw WrongUsage("--output: is needed with --tile, --sample-share, --frames and MPI");
   image.choose_output(suffix);
 }
@@ -47,7 +47,7 @@ void RenderArguments::add_to(const Verb& verb) {
                   "centre, not filtered:" +
                       channels);
   verb.add_option("--tile", tile,
-                  "i/n: just the i-th of n pieces of the picture, for minkray merge");
+                  "i/n: just the i-th of n tiles of the picture, for minkray merge");
   verb.add_option("--sample-share", sample_share,
                   "i/n: just the i-th of n shares of each pixel's samples, for minkray merge");
   verb.add_option("--tiles", tiles,

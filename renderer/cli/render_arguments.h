@@ -36,7 +36,7 @@ struct RenderArguments {
   /// Chooses an output if none is given. Throws WrongUsage where it must be given.
   void choose_output(const Ranks& ranks);
 
-  bool is_piece() const { return tile || sample_share; }
+  bool is_share() const { return tile || sample_share; }
 };
 
 }  // namespace minkray

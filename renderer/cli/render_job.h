@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rendering a picture or a piece of one such that nothing is lost: with checkpoints, going on where
+// Rendering a picture or a share of one such that nothing is lost: with checkpoints, going on where
 // an earlier run ended, and in the OpenEXR form that is written.
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace minkray {
 
-/// What is the same for all pieces of a picture.
+/// What is the same for all shares of a picture.
 struct RenderJob {
   Scene scene;
   RenderWorld world;
@@ -26,13 +26,13 @@ struct RenderJob {
 
 struct RenderedJob {
   Rendering rendering;
-  ExrImage exr;  ///< without planes if they are not wanted; with facts: the picture's, the piece's,
+  ExrImage exr;  ///< without planes if they are not wanted; with facts: the picture's, the share's,
                  ///< what it cost
   std::vector<Label> labels;
   double seconds = 0;
 };
 
-/// The facts of the job's picture and of which piece of it it is.
+/// The facts of the job's picture and of which share of it it is.
 Facts facts_of(const RenderJob& job);
 
 /// The checkpoint beside the first of a job's outputs.

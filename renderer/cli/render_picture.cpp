@@ -18,7 +18,7 @@ Image render_picture(const RenderJob& job, const RenderArguments& options,
         [&] { done = run(job, checkpoint); });
   statistics.counts += done.rendering.counts;
   const FinishedPicture picture{std::move(done.rendering.image), std::move(done.labels),
-                                job.options.part(), job.options.resolution, std::move(done.exr)};
+                                job.options.region(), job.options.resolution, std::move(done.exr)};
   timed(options.image.verbose, "write", statistics.write_seconds,
         [&] { write_picture(outputs, picture, options.exposure); });
   checkpoint.remove();

@@ -11,7 +11,7 @@
 
 namespace minkray {
 
-/// Renders the job's picture or piece into `outputs`, and answers the light that was written.
+/// Renders the job's picture or share into `outputs`, and answers the light that was written.
 Image render_picture(const RenderJob& job, const RenderArguments& options,
                      const std::vector<std::string>& outputs, RenderStatistics& statistics);
 

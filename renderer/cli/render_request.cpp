@@ -41,14 +41,14 @@ RenderJob job_of(const RenderArguments& options, const Ranks& ranks) {
   if (options.aov && std::none_of(outputs.begin(), outputs.end(), keeps_planes))
     throw WrongUsage("--aov: needs an output that ends in .exr (got " + outputs.front() + ")");
   for (const std::string& output : outputs)
-    if (options.is_piece() && !keeps_planes(output))
-      throw WrongUsage("--output: a piece of a picture must end in .exr (got " + output + ")");
+    if (options.is_share() && !keeps_planes(output))
+      throw WrongUsage("--output: a share of a picture must end in .exr (got " + output + ")");
   if (options.tile) job.options.tile = parse_share(*options.tile, "--tile");
   if (options.sample_share)
     job.options.sample_share = parse_share(*options.sample_share, "--sample-share");
   if (options.sample_share && options.aov)
     throw WrongUsage("--aov: goes with --tile, but not with --sample-share");
-  if (ranks.count() > 1 && options.is_piece())
+  if (ranks.count() > 1 && options.is_share())
     throw WrongUsage(
         "--tile, --sample-share: the ranks of an MPI job share the picture themselves");
   if (options.certify && (ranks.count() > 1 || options.resume))
@@ -72,7 +72,7 @@ FrameRange frames_of(const RenderArguments& options, const Ranks& ranks) {
   }
   const FrameRange frames = parse_frames(*options.frames);
   for (const std::string& output : options.image.outputs) check_frame_name(output);
-  if (options.is_piece() || ranks.count() > 1)
+  if (options.is_share() || ranks.count() > 1)
     throw WrongUsage("--frames: not with --tile, --sample-share or MPI; share the frames instead");
   if (options.certify) throw WrongUsage("--frames: not with --certify, which proves one picture");
   if (options.contact_sheet.empty()) return frames;

@@ -120,8 +120,8 @@ bool skip_word(std::string_view& text, std::string_view word) {
 
 /// Whether a file's name is that of a tile of a picture of so many, of its checkpoint, or of a
 /// temporary file of either: what ranks that were killed left. 000007-of-000024.exr,
-/// .000007-of-000024.exr.checkpoint.1234.0123abcd.part
-bool is_of_part(std::string_view name, int tiles) {
+/// .000007-of-000024.exr.checkpoint.1234.0123abcd.tmp
+bool is_of_part_file(std::string_view name, int tiles) {
   const auto is_digit = [](char c) { return '0' <= c && c <= '9'; };
   const auto is_hex_digit = [&](char c) { return is_digit(c) || ('a' <= c && c <= 'f'); };
   skip_word(name, ".");
@@ -130,7 +130,7 @@ bool is_of_part(std::string_view name, int tiles) {
   skip_word(name, ".checkpoint");
   if (name.empty()) return true;
   return skip_word(name, ".") && skip(name, is_digit) > 0 && skip_word(name, ".") &&
-         skip(name, is_hex_digit, 8) == 8 && name == ".part";
+         skip(name, is_hex_digit, 8) == 8 && name == ".tmp";
 }
 
 }  // namespace
@@ -162,7 +162,7 @@ std::optional<Merged> render_on(Ranks& ranks, const RenderJob& job, int tiles,
   const auto render_tile = [&](int tile) {
     tile_job.options.tile = {tile, tiles};
     const std::string file = part_file(output, tile, tiles);
-    if (job.resume && is_part_of(file, facts_of(tile_job))) return;
+    if (job.resume && is_part_file_of(file, facts_of(tile_job))) return;
     Checkpoint checkpoint = checkpoint_of(tile_job, file);
     write_file(file, encode_exr(run(tile_job, checkpoint).exr));
     checkpoint.remove();
@@ -191,7 +191,7 @@ std::optional<Merged> render_on(Ranks& ranks, const RenderJob& job, int tiles,
   InterruptGuard::end_if_interrupted();
   std::vector<std::string> files;
   for (int tile = 1; tile <= tiles; ++tile) files.push_back(part_file(output, tile, tiles));
-  return merge_parts(files, false);
+  return merge_part_files(files, false);
 }
 
 void remove_parts(const std::string& output, int tiles) {
@@ -199,7 +199,7 @@ void remove_parts(const std::string& output, int tiles) {
   std::error_code error, ignored;
   std::vector<fs::path> files;
   for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
-    if (at->is_regular_file(ignored) && is_of_part(at->path().filename().string(), tiles))
+    if (at->is_regular_file(ignored) && is_of_part_file(at->path().filename().string(), tiles))
       files.push_back(at->path());
   // The first error tells why the folder stays; that it is not empty would follow from it.
   for (const fs::path& file : files) fs::remove(file, error ? ignored : error);

@@ -34,11 +34,11 @@ HeatChannel channel_of(const std::string& name) {
 }
 
 std::vector<std::string> split(const std::string& text) {
-  std::vector<std::string> parts;
+  std::vector<std::string> words;
   std::istringstream stream(text);
-  for (std::string part; std::getline(stream, part, ',');) parts.push_back(part);
-  if (parts.empty()) parts.push_back(text);
-  return parts;
+  for (std::string word; std::getline(stream, word, ',');) words.push_back(word);
+  if (words.empty()) words.push_back(text);
+  return words;
 }
 
 constexpr const char* suffix = "-heatmap.png";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// minkray merge: one picture from the pieces that `render --tile` and `--sample-share` made.
+// minkray merge: one picture from the part files that `render --tile` and `--sample-share` made.
 #include <iostream>
 #include <memory>
 
@@ -16,7 +16,7 @@ namespace minkray {
 namespace {
 
 struct Options {
-  std::vector<std::string> parts;
+  std::vector<std::string> part_files;
   std::vector<std::string> outputs;
   double exposure = 0;
   bool allow_partial = false;
@@ -27,10 +27,10 @@ void run(const Options& options) {
   check_exposure(options.exposure);
   check_outputs(options.outputs);
   for (const std::string& output : options.outputs)
-    for (const std::string& part : options.parts)
-      if (is_same_file(output, part))
-        throw WrongUsage("--output: must be none of the pieces (got " + output + ")");
-  Merged merged = merge_parts(options.parts, options.allow_partial);
+    for (const std::string& file : options.part_files)
+      if (is_same_file(output, file))
+        throw WrongUsage("--output: must be none of the part files (got " + output + ")");
+  Merged merged = merge_part_files(options.part_files, options.allow_partial);
   for (const std::string& missing : merged.missing)
     std::cerr << "warning: missing: " << missing << "\n";
   merged.exr.texts[fact::command] = command_line();
@@ -41,23 +41,23 @@ void run(const Options& options) {
                 options.exposure);
   warn_of_counts(merged.counts);
   if (options.times)
-    for (const PieceCost& cost : merged.costs)
+    for (const ShareCost& cost : merged.costs)
       std::cout << cost.name << " " << cost.cpu_seconds << " " << cost.bytes << "\n";
 }
 
 }  // namespace
 
 void add_merge(Parser& parser, ExitCode&) {
-  const Verb verb =
-      parser.add_verb("merge", "Make a picture of the pieces by render --tile and --sample-share");
+  const Verb verb = parser.add_verb(
+      "merge", "Make a picture of the part files by render --tile and --sample-share");
   const auto options = std::make_shared<Options>();
-  verb.add_option("parts", options->parts, "The pieces (.exr), in any order").required();
+  verb.add_option("parts", options->part_files, "The part files (.exr), in any order").required();
   add_output_option(verb, options->outputs);
   verb.add_option("--exposure", options->exposure, "Stops brighter, for .png").show_default();
   verb.add_flag("--allow-partial", options->allow_partial,
                 "Missing tiles are black, of missing samples the mean of the others is taken");
   verb.add_flag("--times", options->times,
-                "Print what each piece took: its name, seconds of all processors together, bytes "
+                "Print what each share took: its name, seconds of all processors together, bytes "
                 "of its file");
   verb.on_call([options] { run(*options); });
 }

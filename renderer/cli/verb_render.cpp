@@ -21,11 +21,11 @@
 namespace minkray {
 namespace {
 
-/// Whether all outputs are files of this very piece. Of pieces many are rendered, over and over
+/// Whether all outputs are files of this very share. Of shares many are rendered, over and over
 /// where machines fail.
 bool is_there(const RenderJob& job, const std::vector<std::string>& outputs) {
   return std::all_of(outputs.begin(), outputs.end(),
-                     [&](const std::string& file) { return is_part_of(file, facts_of(job)); });
+                     [&](const std::string& file) { return is_part_file_of(file, facts_of(job)); });
 }
 
 ExitCode run(RenderArguments& options) {
@@ -56,7 +56,7 @@ ExitCode run(RenderArguments& options) {
     if (ranks.rank() != 0) return ExitCode::done;
   } else if (options.frames) {
     render_frames(job, options, frames, statistics);
-  } else if (options.resume && options.is_piece() && is_there(job, options.image.outputs)) {
+  } else if (options.resume && options.is_share() && is_there(job, options.image.outputs)) {
     if (!options.image.quiet)
       std::cerr << printable(options.image.outputs.front()) << ": is there already\n";
     return ExitCode::done;

@@ -9,7 +9,7 @@ namespace minkray {
 struct FinishedPicture {
   Image image;                ///< linear, as the scene is lit
   std::vector<Label> labels;  ///< for formats that are to be looked at
-  PixelRect window;           ///< which part of the picture the image is
+  PixelRect window;           ///< which region of the picture the image is
   Resolution resolution;
   ExrImage exr;  ///< the same with all channels and facts
 };

@@ -132,8 +132,8 @@ std::vector<ExrPlane> measure_data_channels(const Scene& scene, const RenderWorl
   const Camera camera(scene.camera, options.resolution);
   const Vec3<double> forward =
       camera.ray(0.5 * options.resolution.width, 0.5 * options.resolution.height).direction;
-  const PixelRect part = options.part();
-  const std::size_t pixels = pixel_count(part);
+  const PixelRect region = options.region();
+  const std::size_t pixels = pixel_count(region);
 
   struct Wanted {
     Put put;
@@ -155,7 +155,7 @@ std::vector<ExrPlane> measure_data_channels(const Scene& scene, const RenderWorl
   }
 
   RayCounts counts;
-  for_pixels(part, counts, watch, [&](const Pixel& pixel, RayCounts& of_tile) {
+  for_pixels(region, counts, watch, [&](const Pixel& pixel, RayCounts& of_tile) {
     Found found{camera.ray(pixel.x + 0.5, pixel.y + 0.5), {}, {}};
     found.hit = world.closest_hit(found.ray, found.work);
     ++of_tile.camera;

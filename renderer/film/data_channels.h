@@ -40,7 +40,7 @@ inline constexpr std::array data_channels = {
 /// a name given twice counts once.
 std::vector<std::string_view> parse_data_channels(const std::string& list);
 
-/// The planes of the channels, of the part of the picture that `options` ask for; all threads.
+/// The planes of the channels, of the region that `options` ask for; all threads.
 /// They are of no use if the watch said stop.
 std::vector<ExrPlane> measure_data_channels(const Scene& scene, const RenderWorld& world,
                                             const std::vector<std::string_view>& channels,

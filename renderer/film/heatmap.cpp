@@ -63,13 +63,13 @@ std::string bar(double fraction, int width) {
 HeatField measure_heat(const Scene& scene, const RenderWorld& world, HeatChannel channel,
                        const RenderOptions& options, const RenderWatch& watch) {
   const Camera camera(scene.camera, options.resolution);
-  const PixelRect part = options.part();
-  HeatField field{part.width(), part.height(), {}, {}, false};
-  field.values.resize(pixel_count(part));
+  const PixelRect region = options.region();
+  HeatField field{region.width(), region.height(), {}, {}, false};
+  field.values.resize(pixel_count(region));
 
   const bool keeps_gravest = channel == HeatChannel::status || channel == HeatChannel::path;
   RayCounts counts;
-  field.complete = for_pixels(part, counts, watch, [&](const Pixel& pixel, RayCounts& of_tile) {
+  field.complete = for_pixels(region, counts, watch, [&](const Pixel& pixel, RayCounts& of_tile) {
     double sum = 0;
     float gravest = 0;
     for (int sample = 0; sample < options.samples && !watch.stopped(); ++sample) {

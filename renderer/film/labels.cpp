@@ -47,12 +47,12 @@ std::vector<Label> labels_of(const Scene& scene, const Resolution& resolution) {
   return labels;
 }
 
-void draw_labels(Image& image, const std::vector<Label>& labels, const PixelRect& part,
+void draw_labels(Image& image, const std::vector<Label>& labels, const PixelRect& region,
                  const Resolution& resolution) {
   const double scale = label_scale(resolution);
   for (const Label& label : labels) {
     const TextSize size = text_size(label.text, scale);
-    const double x = label.x - part.x0, y = label.y - part.y0;
+    const double x = label.x - region.x0, y = label.y - region.y0;
     fill_rectangle(image, x - 2 * scale, y - 2 * scale, x + size.width + 2 * scale, y + size.height,
                    Vec3<float>::Zero(), 0.85f);
     draw_text(image, x, y, label.text, Vec3<float>::Ones(), scale);

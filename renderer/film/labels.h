@@ -20,9 +20,9 @@ struct Label {
 /// none are left out; so are all if the scene does not want them.
 std::vector<Label> labels_of(const Scene& scene, const Resolution& resolution);
 
-/// Draws labels onto `image`, the part of the picture of that resolution; those that are outside of
-/// the part are not seen.
-void draw_labels(Image& image, const std::vector<Label>& labels, const PixelRect& part,
+/// Draws labels onto `image`, the region of the picture of that resolution; those that are outside
+/// of the region are not seen.
+void draw_labels(Image& image, const std::vector<Label>& labels, const PixelRect& region,
                  const Resolution& resolution);
 
 }  // namespace minkray

@@ -78,14 +78,14 @@ Rendering render(const Scene& scene, const RenderWorld& world, const RenderOptio
   const Camera camera(scene.camera, options.resolution);
   const PixelFilter filter;
   const Integrator integrator(scene, world, options.integrator);
-  const PixelRect part = options.part();
+  const PixelRect region = options.region();
   const SampleBlocks blocks{options.samples};
   const int first_block = blocks.first_of(options.sample_share);
   const int end_block = blocks.end_of(options.sample_share);
 
   Rendering rendering;
   if (journal.done.empty()) {
-    const Image black(part.width(), part.height());
+    const Image black(region.width(), region.height());
     rendering.met.resize(black.pixels.size());
     if (options.sample_share.is_all())
       rendering.image = black;
@@ -146,7 +146,7 @@ Rendering render(const Scene& scene, const RenderWorld& world, const RenderOptio
   if (journal.finished)
     tiles.finished = [&](std::size_t tile) { journal.finished(rendering, tile); };
   rendering.complete =
-      for_blocks(part, packet.pixels, rendering.counts, watch, render_block, tiles);
+      for_blocks(region, packet.pixels, rendering.counts, watch, render_block, tiles);
   return rendering;
 }
 

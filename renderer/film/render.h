@@ -31,11 +31,11 @@ struct RenderOptions {
     return crop.empty() ? PixelRect{0, 0, resolution.width, resolution.height} : crop;
   }
   /// What is to be rendered.
-  PixelRect part() const { return tile_of(picture(), tile); }
+  PixelRect region() const { return tile_of(picture(), tile); }
 };
 
 struct Rendering {
-  Image image;  ///< linear radiance, of the part asked for; empty for a share of the samples
+  Image image;  ///< linear radiance, of the region asked for; empty for a share of the samples
   std::vector<Image> block_sums;   ///< of a share of the samples: the sums of its blocks, in order
   std::vector<std::uint32_t> met;  ///< by pixel: how many of the samples' rays met an object
   RayCounts counts;

@@ -29,7 +29,7 @@ inline constexpr int most_shares = 1 << 20;
 Share parse_share(const std::string& text, const std::string& option);
 
 /// The rectangle of a share: the longer side is halved again and again (unequal counts get unequal
-/// pieces), so that all are about as large and about as wide as high. The shares cover the
+/// halves), so that all are about as large and about as wide as high. The shares cover the
 /// rectangle exactly once. Some are empty where there are not enough pixels for that many.
 PixelRect tile_of(const PixelRect& whole, const Share& share);
 

@@ -26,24 +26,26 @@ struct RenderWatch {
 /// Small enough for even loads, large enough for coherent rays.
 inline constexpr int tile_size = 16;
 
-/// The tiles of a part of a picture, in rows.
+/// The tiles of a region of a picture, in rows.
 class TileGrid {
  public:
-  explicit TileGrid(const PixelRect& part)
-      : part_(part), columns_(tiles_along(part.width())), rows_(tiles_along(part.height())) {}
+  explicit TileGrid(const PixelRect& region)
+      : region_(region),
+        columns_(tiles_along(region.width())),
+        rows_(tiles_along(region.height())) {}
 
   std::size_t count() const { return columns_ * rows_; }
   PixelRect operator[](std::size_t tile) const {
-    const int x = part_.x0 + static_cast<int>(tile % columns_) * tile_size;
-    const int y = part_.y0 + static_cast<int>(tile / columns_) * tile_size;
-    return {x, y, std::min(x + tile_size, part_.x1), std::min(y + tile_size, part_.y1)};
+    const int x = region_.x0 + static_cast<int>(tile % columns_) * tile_size;
+    const int y = region_.y0 + static_cast<int>(tile / columns_) * tile_size;
+    return {x, y, std::min(x + tile_size, region_.x1), std::min(y + tile_size, region_.y1)};
   }
 
  private:
   static std::size_t tiles_along(int pixels) {
     return static_cast<std::size_t>((pixels + tile_size - 1) / tile_size);
   }
-  PixelRect part_;
+  PixelRect region_;
   std::size_t columns_, rows_;
 };
 
@@ -54,16 +56,16 @@ struct TileJournal {
   std::function<void(std::size_t tile)> finished;
 };
 
-/// Calls render_tile(PixelRect) -> counts for the tiles of `part` that are not done yet, possibly
+/// Calls render_tile(PixelRect) -> counts for the tiles of `region` that are not done yet, possibly
 /// at once, and joins the counts with +=; counts.total() are rays. Answers whether all tiles were
 /// done without being stopped. Of tiles that were stopped neither counts nor the journal hear.
 template <class Counts, class RenderTile>
-bool for_tiles(const PixelRect& part, Counts& counts, const RenderWatch& watch,
+bool for_tiles(const PixelRect& region, Counts& counts, const RenderWatch& watch,
                const RenderTile& render_tile, const TileJournal& journal = {}) {
-  const TileGrid tiles(part);
+  const TileGrid tiles(region);
   std::mutex mutex;
   auto done = static_cast<std::size_t>(std::count(journal.done.begin(), journal.done.end(), true));
-  for_parts(tiles.count(), 1, [&](std::size_t begin, std::size_t end) {
+  parallel_for(tiles.count(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t tile = begin; tile < end && !watch.stopped(); ++tile) {
       if (!journal.done.empty() && journal.done[tile]) continue;
       const Counts more = render_tile(tiles[tile]);

@@ -22,7 +22,7 @@ struct ExrPlane {
 
 struct ExrImage {
   PixelRect display;  ///< the whole picture
-  PixelRect window;   ///< the part that is here
+  PixelRect window;   ///< the region that is here
   std::vector<ExrPlane> planes;
   std::map<std::string, std::string> texts;  ///< string attributes of the header, by name
 

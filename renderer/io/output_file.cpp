@@ -27,13 +27,13 @@ namespace fs = std::filesystem;
   throw CannotWrite("cannot write " + path + ": " + std::strerror(error));
 }
 
-/// ".NAME.PROCESS.RANDOM.part": processes in two containers, or on two machines that share the
+/// ".NAME.PROCESS.RANDOM.tmp": processes in two containers, or on two machines that share the
 /// folder, may have one number.
 std::string temporary_name(const std::string& path, const fs::path& target) {
   std::uint32_t random = 0;
   if (::getrandom(&random, sizeof random, 0) != sizeof random) fail(path, errno);
   std::array<char, 64> end;
-  std::snprintf(end.data(), end.size(), ".%ld.%08x.part", static_cast<long>(::getpid()), random);
+  std::snprintf(end.data(), end.size(), ".%ld.%08x.tmp", static_cast<long>(::getpid()), random);
   return "." + target.filename().string() + end.data();
 }
 
@@ -146,7 +146,7 @@ struct OutputFile::Parts {
   explicit Parts(const std::string& named)
       : path(named), target(find_target(named)), file(named, target.path) {}
 
-  /// Few large pieces are written sooner than many small ones.
+  /// Few large blocks are written sooner than many small ones.
   static constexpr std::size_t buffer_bytes = std::size_t{1} << 20;
 
   void flush() {

@@ -16,11 +16,11 @@ void check_writable(const std::string& path);
 /// Writes the bytes; an existing file is replaced in one step and keeps its rights. Devices and
 /// pipes are written to as they are. Throws CannotWrite; the existing file, if any, is then as it
 /// was and nothing is left beside it, nor if a signal that may be noted (renderer/base/interrupt.h)
-/// comes; SIGKILL or a crash of the machine may leave ".NAME.PROCESS.RANDOM.part" beside
+/// comes; SIGKILL or a crash of the machine may leave ".NAME.PROCESS.RANDOM.tmp" beside
 /// it. Whoever writes the same file at the same time has a temporary file of his own.
 void write_file(const std::string& path, std::span<const unsigned char> bytes);
 
-/// Writes a regular file piece by piece: more than fits in memory. The file is there when `finish`
+/// Writes a regular file block by block: more than fits in memory. The file is there when `finish`
 /// has returned; without it, nothing is left.
 class OutputFile {
  public:

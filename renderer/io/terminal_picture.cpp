@@ -58,18 +58,18 @@ std::string base64(const std::vector<unsigned char>& bytes) {
   return text;
 }
 
-/// A PNG file in pieces of at most 4096 characters; the terminal fits it into the columns.
+/// A PNG file in chunks of at most 4096 characters; the terminal fits it into the columns.
 std::string kitty_picture(const Image& image, int columns) {
   std::vector<std::uint8_t> rgb;
   for (const Vec3<float>& pixel : image.pixels)
     for (const std::uint8_t channel : to_rgb8(pixel)) rgb.push_back(channel);
   const std::string text = base64(png_of(image.width, image.height, rgb));
-  constexpr std::size_t piece = 4096;
+  constexpr std::size_t chunk = 4096;
   std::string out;
-  for (std::size_t i = 0; i < text.size(); i += piece) {
-    const bool is_last = i + piece >= text.size();
+  for (std::size_t i = 0; i < text.size(); i += chunk) {
+    const bool is_last = i + chunk >= text.size();
     out += i == 0 ? "\x1b_Gf=100,a=T,q=2,c=" + std::to_string(columns) + ",m=" : "\x1b_Gm=";
-    out += (is_last ? "0;" : "1;") + text.substr(i, piece) + "\x1b\\";
+    out += (is_last ? "0;" : "1;") + text.substr(i, chunk) + "\x1b\\";
   }
   return out + "\n";
 }

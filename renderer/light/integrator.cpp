@@ -137,9 +137,9 @@ Integrator::HitPoint Integrator::hit_point(const TracedRay& ray, const WorldHit<
 }
 
 /// Bit i answers rays[i].
-BeamRays Integrator::blocked(RayKind kind, std::span<const WorldRay<Real>> rays,
-                             RayCounts& counts) const {
-  const BeamRays answers = world_.occluded(rays, counts.work);
+RayGroupMask Integrator::blocked(RayKind kind, std::span<const WorldRay<Real>> rays,
+                                 RayCounts& counts) const {
+  const RayGroupMask answers = world_.occluded(rays, counts.work);
   if (options_.observer)
     for (std::size_t i = 0; i < rays.size(); ++i)
       options_.observer->occluded(kind, rays[i].ray, rays[i].skip, answers >> i & 1);
@@ -175,7 +175,7 @@ void Integrator::add_direct(std::span<TracedRay> rays,
       arriving[count++] = {i, w_in, sample->weight};
     }
     counts.shadow += count;
-    const BeamRays answers = blocked(RayKind::shadow, std::span(asked).first(count), counts);
+    const RayGroupMask answers = blocked(RayKind::shadow, std::span(asked).first(count), counts);
     for (std::size_t k = 0; k < count; ++k) {
       if (answers >> k & 1) continue;
       const auto& [i, w_in, irradiance] = arriving[k];

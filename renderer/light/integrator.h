@@ -71,7 +71,7 @@ class Integrator {
                    RayCounts& counts) const;
   Colour mirrored(const HitPoint& point, const Coat& coat, const Path& path, Sampler& sampler,
                   RayCounts& counts) const;
-  BeamRays blocked(RayKind kind, std::span<const WorldRay<Real>> rays, RayCounts& counts) const;
+  RayGroupMask blocked(RayKind kind, std::span<const WorldRay<Real>> rays, RayCounts& counts) const;
 
   const RenderWorld& world_;
   IntegratorOptions options_;

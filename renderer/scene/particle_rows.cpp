@@ -14,8 +14,8 @@
 namespace minkray {
 namespace {
 
-/// Files are read in pieces of this many bytes.
-constexpr std::size_t piece_bytes = std::size_t{1} << 20;
+/// Files are read in blocks of this many bytes.
+constexpr std::size_t block_bytes = std::size_t{1} << 20;
 
 /// A line of text is no longer: eleven numbers of 17 digits take 300 bytes.
 constexpr std::size_t longest_line = std::size_t{1} << 16;
@@ -92,16 +92,16 @@ void read_binary(RegularFile& file, std::optional<std::size_t> count, std::size_
              " bytes)");
   check_count(expected, count, most_rows);
   rows.reserve(expected);
-  std::vector<char> piece(std::max<std::size_t>(piece_bytes / row_bytes, 1) * row_bytes);
+  std::vector<char> block(std::max<std::size_t>(block_bytes / row_bytes, 1) * row_bytes);
   std::vector<double> row(rows.row_numbers());
-  for (std::size_t got = piece.size(); got == piece.size();) {
-    got = file.read(piece);
-    hash.add({piece.data(), got});
+  for (std::size_t got = block.size(); got == block.size();) {
+    got = file.read(block);
+    hash.add({block.data(), got});
     if (got % row_bytes != 0) fail("row", rows.count() + got / row_bytes + 1, "is cut off");
     for (std::size_t at = 0; at < got; at += row_bytes) {
       for (std::size_t i = 0; i < row.size(); ++i) {
         Number number;
-        std::memcpy(&number, piece.data() + at + i * sizeof(Number), sizeof number);
+        std::memcpy(&number, block.data() + at + i * sizeof(Number), sizeof number);
         row[i] = static_cast<double>(number);
       }
       if (rows.count() == expected) throw std::runtime_error("grew while it was read");
@@ -158,7 +158,7 @@ void read_csv(RegularFile& file, std::optional<std::size_t> count, std::size_t m
               ParticleRows& rows, Hash& hash) {
   // A number and what follows it take two bytes at least: no file makes room for rows it has not.
   if (count) rows.reserve(std::min(*count, file.size() / (2 * rows.row_numbers()) + 1));
-  std::vector<char> piece(piece_bytes + longest_line);
+  std::vector<char> block(block_bytes + longest_line);
   std::vector<double> row;
   std::size_t line_number = 0, kept = 0;  // kept: bytes of a line that is not complete
   const auto take = [&](std::string_view line) {
@@ -174,10 +174,10 @@ void read_csv(RegularFile& file, std::optional<std::size_t> count, std::size_t m
     if (const auto wrong = rows.add(row)) fail("line", line_number, *wrong);
   };
   for (bool more = true; more;) {
-    const std::size_t got = file.read(std::span(piece).subspan(kept, piece_bytes));
-    more = got == piece_bytes;
-    hash.add({piece.data() + kept, got});
-    std::string_view text(piece.data(), kept + got);
+    const std::size_t got = file.read(std::span(block).subspan(kept, block_bytes));
+    more = got == block_bytes;
+    hash.add({block.data() + kept, got});
+    std::string_view text(block.data(), kept + got);
     for (std::size_t end; (end = text.find('\n')) != text.npos; text.remove_prefix(end + 1))
       take(text.substr(0, end));
     if (!more && !text.empty()) take(text);
@@ -185,7 +185,7 @@ void read_csv(RegularFile& file, std::optional<std::size_t> count, std::size_t m
       fail("line", line_number + 1,
            "must not be longer than " + std::to_string(longest_line) + " bytes");
     kept = text.size();
-    if (more) std::memmove(piece.data(), text.data(), kept);
+    if (more) std::memmove(block.data(), text.data(), kept);
   }
   check_count(rows.count(), count, most_rows);
 }

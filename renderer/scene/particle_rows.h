@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Rows of numbers into the poses of particles: each is checked as it comes, and kept in as little
-// room as it takes. Files are read piece by piece.
+// room as it takes. Files are read block by block.
 #pragma once
 
 #include <filesystem>

@@ -18,11 +18,11 @@ constexpr const char* done_plane = "done";
 /// A checkpoint keeps the counts of rays that met something as they are; the plane A is rounded.
 constexpr const char* alpha_plane = "A";
 
-/// Calls visit(first pixel, count) for each row of a tile of the part.
+/// Calls visit(first pixel, count) for each row of a tile of the region.
 template <class Visit>
-void for_rows(const PixelRect& part, const PixelRect& tile, const Visit& visit) {
+void for_rows(const PixelRect& region, const PixelRect& tile, const Visit& visit) {
   for (int y = tile.y0; y < tile.y1; ++y)
-    visit(pixel_of(part, tile.x0, y).index, static_cast<std::size_t>(tile.width()));
+    visit(pixel_of(region, tile.x0, y).index, static_cast<std::size_t>(tile.width()));
 }
 
 std::vector<unsigned char> encode(const Rendering& rendering, const RenderOptions& options,
@@ -34,11 +34,11 @@ std::vector<unsigned char> encode(const Rendering& rendering, const RenderOption
     exr.planes.push_back({met_plane, rendering.met});
   }
   std::vector<std::uint32_t> is_done(rendering.met.size());
-  const PixelRect part = options.part();
-  const TileGrid tiles(part);
+  const PixelRect region = options.region();
+  const TileGrid tiles(region);
   for (std::size_t tile = 0; tile < tiles.count(); ++tile)
     if (done[tile])
-      for_rows(part, tiles[tile], [&](std::size_t first, std::size_t count) {
+      for_rows(region, tiles[tile], [&](std::size_t first, std::size_t count) {
         std::fill_n(is_done.begin() + static_cast<std::ptrdiff_t>(first), count, 1u);
       });
   exr.planes.push_back({done_plane, std::move(is_done)});
@@ -59,7 +59,7 @@ Checkpoint::Checkpoint(std::string path, const RenderOptions& options, Facts fac
       options_(options),
       facts_(std::move(facts)),
       pause_(seconds),
-      done_(TileGrid(options.part()).count()) {
+      done_(TileGrid(options.region()).count()) {
   facts_[fact::tile] = options.tile.text();
   facts_[fact::sample_share] = options.sample_share.text();
 }
@@ -94,8 +94,8 @@ RenderJournal Checkpoint::load() {
       !differs.empty())
     throw BadInput(path_ + ": is the checkpoint of another picture: " + differs +
                    "; remove it, or render without --resume");
-  const PixelRect part = options_.part();
-  if (exr.window != part) throw BadInput(path_ + ": has not the pixels that its header says");
+  const PixelRect region = options_.region();
+  if (exr.window != region) throw BadInput(path_ + ": has not the pixels that its header says");
 
   RenderJournal journal;
   try {
@@ -113,9 +113,9 @@ RenderJournal Checkpoint::load() {
                                             block_plane_name(block, 'B')));
     }
     const std::vector<std::uint32_t>& is_done = integers_of(exr, done_plane);
-    const TileGrid tiles(part);
+    const TileGrid tiles(region);
     for (std::size_t tile = 0; tile < tiles.count(); ++tile)
-      done_[tile] = is_done[pixel_of(part, tiles[tile].x0, tiles[tile].y0).index] == 1;
+      done_[tile] = is_done[pixel_of(region, tiles[tile].x0, tiles[tile].y0).index] == 1;
   } catch (const BadInput& error) {
     throw BadInput(path_ + ": " + error.what());
   }
@@ -136,11 +136,11 @@ Rendering Checkpoint::done_tiles_of(const Rendering& rendering) const {
   copy.image = Image(rendering.image.width, rendering.image.height);
   for (const Image& sums : rendering.block_sums)
     copy.block_sums.emplace_back(sums.width, sums.height);
-  const PixelRect part = options_.part();
-  const TileGrid tiles(part);
+  const PixelRect region = options_.region();
+  const TileGrid tiles(region);
   for (std::size_t tile = 0; tile < tiles.count(); ++tile) {
     if (!done_[tile]) continue;
-    for_rows(part, tiles[tile], [&](std::size_t first, std::size_t count) {
+    for_rows(region, tiles[tile], [&](std::size_t first, std::size_t count) {
       const auto copy_row = [&](const auto& from, auto& to) {
         std::copy_n(from.begin() + static_cast<std::ptrdiff_t>(first), count,
                     to.begin() + static_cast<std::ptrdiff_t>(first));

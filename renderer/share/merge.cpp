@@ -12,22 +12,22 @@
 namespace minkray {
 namespace {
 
-/// Which piece a file holds.
-struct Piece {
+/// Which share of the picture a file holds.
+struct PictureShare {
   Share tile, sample_share;
 
   /// It orders by tile, then by samples.
   std::pair<int, int> place() const { return {tile.index, sample_share.index}; }
 };
 
-std::string name_of(const Piece& piece) {
-  const std::string tile = "tile " + piece.tile.text();
-  const std::string samples = "samples " + piece.sample_share.text();
-  if (piece.sample_share.is_all()) return tile;
-  return piece.tile.is_all() ? samples : samples + " of " + tile;
+std::string name_of(const PictureShare& held) {
+  const std::string tile = "tile " + held.tile.text();
+  const std::string samples = "samples " + held.sample_share.text();
+  if (held.sample_share.is_all()) return tile;
+  return held.tile.is_all() ? samples : samples + " of " + tile;
 }
 
-Piece piece_of(const Facts& facts) {
+PictureShare picture_share_of(const Facts& facts) {
   const auto share = [&](const char* name) {
     const std::string text = text_of(facts, name);
     if (text.empty()) throw BadInput("is no tile or share of a picture (minkray render --tile)");
@@ -50,9 +50,9 @@ Facts whole_facts(const Facts& facts) {
   return whole;
 }
 
-/// The share's file as it should be: `picture` are the pixels of all pieces together.
-void check(const ExrImage& exr, const Piece& piece, const PixelRect& picture) {
-  if (exr.window.empty() || exr.window != tile_of(picture, piece.tile))
+/// The share's file as it should be: `picture` are the pixels of all shares together.
+void check(const ExrImage& exr, const PictureShare& held, const PixelRect& picture) {
+  if (exr.window.empty() || exr.window != tile_of(picture, held.tile))
     throw BadInput("has not the pixels that its header says");
 }
 
@@ -78,7 +78,7 @@ class Picture {
     };
     if (!std::equal(tile.planes.begin(), tile.planes.end(), exr_.planes.begin(), exr_.planes.end(),
                     same))
-      throw BadInput("has other channels than the first piece");
+      throw BadInput("has other channels than the first part file");
     for (std::size_t i = 0; i < tile.planes.size(); ++i)
       std::visit(
           [&](const auto& from) {
@@ -153,33 +153,33 @@ std::string listed(const std::vector<std::string>& names) {
 
 }  // namespace
 
-Merged merge_parts(const std::vector<std::string>& files, bool allow_partial) {
-  if (files.empty()) throw WrongUsage("merge: needs the files of the pieces");
+Merged merge_part_files(const std::vector<std::string>& files, bool allow_partial) {
+  if (files.empty()) throw WrongUsage("merge: needs part files");
 
   // What there is, from the headers.
   Merged merged;
   Facts facts;
-  Piece first_piece;
+  PictureShare first_share;
   std::map<std::pair<int, int>, std::string> file_of;
   for (const std::string& file : files)
     of_file(file, [&] {
       const Facts found = read_exr_texts(file);
-      const Piece piece = piece_of(found);
+      const PictureShare held = picture_share_of(found);
       if (file_of.empty()) {
         facts = whole_facts(found);
-        first_piece = piece;
+        first_share = held;
       }
       if (const std::string differs = difference(found, facts, common_facts()); !differs.empty())
-        throw BadInput("is a piece of another picture than " + files.front() + ": " + differs);
-      if (piece.tile.count != first_piece.tile.count ||
-          piece.sample_share.count != first_piece.sample_share.count)
-        throw BadInput("is a piece of another split than " + files.front() + ": " + name_of(piece) +
-                       " and " + name_of(first_piece));
-      const auto [at, is_new] = file_of.emplace(piece.place(), file);
-      if (!is_new) throw BadInput("holds the same piece as " + at->second + ": " + name_of(piece));
+        throw BadInput("is a part file of another picture than " + files.front() + ": " + differs);
+      if (held.tile.count != first_share.tile.count ||
+          held.sample_share.count != first_share.sample_share.count)
+        throw BadInput("is a part file of another split than " + files.front() + ": " +
+                       name_of(held) + " and " + name_of(first_share));
+      const auto [at, is_new] = file_of.emplace(held.place(), file);
+      if (!is_new) throw BadInput("holds the same share as " + at->second + ": " + name_of(held));
       merged.counts += counts_of(found);
       std::error_code error;
-      merged.costs.push_back({name_of(piece),
+      merged.costs.push_back({name_of(held),
                               std::strtod(text_of(found, cpu_seconds_fact).c_str(), nullptr),
                               std::filesystem::file_size(file, error)});
     });
@@ -192,33 +192,33 @@ Merged merge_parts(const std::vector<std::string>& files, bool allow_partial) {
     display = {0, 0, size.width, size.height};
     samples = samples_of(facts);
   });
-  const Share& split = first_piece.sample_share;
+  const Share& split = first_share.sample_share;
   if (picture.empty() || split.count > SampleBlocks{samples}.count())
     throw BadInput(files.front() + ": its header contradicts itself");
-  for (int tile = 1; tile <= first_piece.tile.count; ++tile)
+  for (int tile = 1; tile <= first_share.tile.count; ++tile)
     for (int share = 1; share <= split.count; ++share)
       if (!file_of.contains({tile, share}))
-        merged.missing.push_back(name_of({{tile, first_piece.tile.count}, {share, split.count}}));
+        merged.missing.push_back(name_of({{tile, first_share.tile.count}, {share, split.count}}));
   if (!merged.missing.empty() && !allow_partial)
     throw BadInput("merge: missing: " + listed(merged.missing) +
                    "; --allow-partial makes a picture without them");
 
-  // One piece in memory at a time.
+  // One part file in memory at a time.
   Picture whole(display, picture);
   std::optional<SampleSum> sum;
   for (auto at = file_of.begin(); at != file_of.end(); ++at) {
     const auto& place = at->first;
     const std::string& file = at->second;
-    const Piece piece{{place.first, first_piece.tile.count}, {place.second, split.count}};
+    const PictureShare held{{place.first, first_share.tile.count}, {place.second, split.count}};
     of_file(file, [&] {
       const ExrImage exr = read_exr(file);
       if (const std::string differs = difference(exr.texts, facts, common_facts());
           !differs.empty())
         throw BadInput("changed while it was read");
-      check(exr, piece, picture);
+      check(exr, held, picture);
       if (split.is_all()) return whole.put(exr);
       if (!sum) sum.emplace(exr, samples);
-      sum->add(exr, piece.sample_share);
+      sum->add(exr, held.sample_share);
       const auto next = std::next(at);
       if (next != file_of.end() && next->first.first == place.first) return;
       whole.put(std::move(*sum).mean());
@@ -231,7 +231,7 @@ Merged merge_parts(const std::vector<std::string>& files, bool allow_partial) {
   return merged;
 }
 
-bool is_part_of(const std::string& file, const Facts& facts) {
+bool is_part_file_of(const std::string& file, const Facts& facts) {
   std::error_code error;
   if (!std::filesystem::exists(file, error)) return false;
   const Facts found = read_exr_texts(file);

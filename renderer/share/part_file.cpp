@@ -51,7 +51,7 @@ std::vector<float> coverage(const std::vector<std::uint32_t>& met, int samples) 
 
 ExrImage exr_of(const Rendering& rendering, const RenderOptions& options, Facts facts) {
   ExrImage exr{{0, 0, options.resolution.width, options.resolution.height},
-               options.part(),
+               options.region(),
                {},
                std::move(facts)};
   if (options.sample_share.is_all()) {

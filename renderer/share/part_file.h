@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures and pieces of pictures as OpenEXR images. What holds all samples of its pixels has the
+// Pictures and shares of pictures as OpenEXR images. What holds all samples of its pixels has the
 // planes R, G, B and A as any picture; a share of the samples has the sums of its blocks, which are
 // only added where all shares are (renderer/film/share.h).
 #pragma once
@@ -26,7 +26,7 @@ const std::vector<std::uint32_t>& integers_of(const ExrImage& exr, const std::st
 /// How many of the samples' rays met an object: the plane that shares of the samples have.
 inline constexpr const char* met_plane = "met";
 
-/// The part of the samples that met an object, as the plane A has it.
+/// The fraction of the samples that met an object, as the plane A has it.
 std::vector<float> coverage(const std::vector<std::uint32_t>& met, int samples);
 
 /// What a rendering cost, and the labels of its picture, as texts for the header.

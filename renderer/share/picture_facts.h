@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // All that decides what a picture looks like, as texts: written into the headers of OpenEXR files,
-// and compared where the pieces of one picture are put together.
+// and compared where the shares of one picture are put together.
 #pragma once
 
 #include <map>
@@ -33,7 +33,7 @@ inline constexpr const char* sample_share = "minkray.sample_share";
 /// The facts of a picture, without command, data channels, tile and share of the samples.
 Facts picture_facts(const Scene& scene, const RenderWorld& world, const RenderOptions& options);
 
-/// The names of the facts that all pieces of one picture have in common.
+/// The names of the facts that all shares of one picture have in common.
 std::vector<std::string> common_facts();
 
 /// What differs in the named facts, for a message: "minkray.seed is 3, not 4"; empty if nothing.

@@ -149,8 +149,8 @@ TEST_F(Mpi, files_of_others_beside_the_tiles_stay) {
   const std::string parts = folder_ / "a.pfm.parts/";
   fs::create_directory(parts);
   for (const char* name : {"notes.txt", "000001-of-000010.exr", "000001-of-000009.exr.checkpoint",
-                           ".000002-of-000009.exr.123.0123abcd.part",
-                           ".000002-of-000009.exr.checkpoint.1.0123abcd.part"})
+                           ".000002-of-000009.exr.123.0123abcd.tmp",
+                           ".000002-of-000009.exr.checkpoint.1.0123abcd.tmp"})
     std::ofstream(parts + name) << "\x76\x2f\x31\x01";
   const ProgramOutcome made = shell(render);
   EXPECT_EQ(made.exit_code, 0) << made.err;
@@ -221,7 +221,7 @@ TEST_F(Drivers, gnu_parallel) {
   EXPECT_FALSE(fs::exists(folder_ / "b.pfm.parts"));
   // What is not the picture's stays.
   const ProgramOutcome noted = shell(
-      "mkdir b.pfm.parts; cd b.pfm.parts; echo x > notes.txt; touch .1-of-3.exr.7.0123abcd.part; "
+      "mkdir b.pfm.parts; cd b.pfm.parts; echo x > notes.txt; touch .1-of-3.exr.7.0123abcd.tmp; "
       "cd ..; \"$DRIVERS/render-parallel\" scene.json b.pfm 3 -s 8 && ls -A b.pfm.parts");
   EXPECT_EQ(noted.exit_code, 0) << noted.err;
   EXPECT_EQ(noted.out, "notes.txt\n");

@@ -66,13 +66,13 @@ bool are_same(const std::string& a, const std::string& b) {
 /// Leaves out what SIGKILL leaves no time to remove.
 std::vector<std::string> without_temporary_files(std::vector<std::string> files) {
   std::erase_if(files, [](const std::string& name) {
-    return name.starts_with(".") && name.ends_with(".part");
+    return name.starts_with(".") && name.ends_with(".tmp");
   });
   return files;
 }
 
 /// Tells a shell how to make the part files that `merge` needs.
-constexpr const char* make_pieces =
+constexpr const char* make_part_files =
     "for i in 1 2; do \"$MINKRAY\" render scene.json -r 8x6 -s 1 --tile $i/2 -o $i.exr || exit; "
     "done";
 
@@ -82,7 +82,7 @@ std::string make_whole(const Command& command) {
 }
 
 TEST_F(NothingLost, killed_before_any_call_the_old_file_is_there_or_the_new_one) {
-  ASSERT_EQ(shell(make_pieces).exit_code, 0);
+  ASSERT_EQ(shell(make_part_files).exit_code, 0);
   for (const Command& command : commands) {
     const std::string target = folder_ / command.output, whole = folder_ / "new-" + command.output;
     ASSERT_EQ(shell(make_whole(command)).exit_code, 0);
@@ -107,7 +107,7 @@ TEST_F(NothingLost, killed_before_any_call_the_old_file_is_there_or_the_new_one)
 }
 
 TEST_F(NothingLost, whichever_call_fails_the_old_file_is_there_and_the_user_is_told) {
-  ASSERT_EQ(shell(make_pieces).exit_code, 0);
+  ASSERT_EQ(shell(make_part_files).exit_code, 0);
   std::ofstream(folder_ / "calls");
   for (const Command& command : commands) {
     const std::string target = folder_ / command.output, whole = folder_ / "new-" + command.output;
@@ -125,7 +125,7 @@ TEST_F(NothingLost, whichever_call_fails_the_old_file_is_there_and_the_user_is_t
         if (line.ends_with(" fails")) failed = line;
       // Closing what nothing was written to may fail, and putting a folder on the disk.
       const bool matters = failed.starts_with("rename ") ||
-                           (failed.ends_with(".part fails") && !failed.starts_with("close "));
+                           (failed.ends_with(".tmp fails") && !failed.starts_with("close "));
       if (outcome.exit_code == 0) {
         EXPECT_FALSE(matters) << command.line() << ": " << failed;
         EXPECT_TRUE(are_same(target, whole)) << command.line() << ": " << failed;
@@ -155,7 +155,7 @@ TEST_F(NothingLost, a_file_is_on_the_disk_before_it_is_renamed_and_its_name_afte
         if (calls[i - 1].starts_with(begin) && calls[i - 1].ends_with(end)) return i;
       return std::size_t{0};
     };
-    const std::size_t written = last("write ", ".part"), synced = last("fsync ", ".part");
+    const std::size_t written = last("write ", ".tmp"), synced = last("fsync ", ".tmp");
     const std::size_t renamed = last("rename ", command.output);
     EXPECT_GT(written, 0u) << command.line();
     EXPECT_GT(synced, written) << command.line();

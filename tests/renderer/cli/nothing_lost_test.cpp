@@ -60,7 +60,7 @@ TEST_F(NothingLost, killed_at_any_moment_the_old_picture_is_there_or_the_new_one
     // SIGKILL leaves no time to tidy up.
     std::vector<std::string> files = folder_.files();
     std::erase_if(files, [](const std::string& name) {
-      return name.starts_with(".a.exr.") && name.ends_with(".part");
+      return name.starts_with(".a.exr.") && name.ends_with(".tmp");
     });
     EXPECT_EQ(files, (std::vector<std::string>{"a.exr", "scene.json"})) << i;
     if (signal != SIGKILL) {

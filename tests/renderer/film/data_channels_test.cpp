@@ -156,7 +156,7 @@ TEST(DataChannelsOfOneCast, are_its_iterations_supports_gap_and_status) {
 TEST_F(DataChannels, of_a_tile_are_a_part_of_the_whole) {
   options_.tile = {3, 5};
   const auto planes = measure_data_channels(scene_, world_, parse_data_channels("Z"), options_);
-  const PixelRect tile = options_.part();
+  const PixelRect tile = options_.region();
   const auto& values = std::get<std::vector<float>>(planes.at(0).values);
   for (int y = tile.y0; y < tile.y1; ++y)
     for (int x = tile.x0; x < tile.x1; ++x)

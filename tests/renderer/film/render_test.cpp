@@ -147,11 +147,11 @@ TEST(Render, a_crop_is_a_part_of_the_whole_picture) {
   RenderOptions options = small_picture();
   const Image whole = render(scene, world, options).image;
   options.crop = {13, 7, 60, 41};
-  const Image part = render(scene, world, options).image;
-  ASSERT_EQ(part.width, 47);
-  ASSERT_EQ(part.height, 34);
-  for (int y = 0; y < part.height; ++y)
-    for (int x = 0; x < part.width; ++x) EXPECT_EQ(part.at(x, y), whole.at(x + 13, y + 7));
+  const Image region = render(scene, world, options).image;
+  ASSERT_EQ(region.width, 47);
+  ASSERT_EQ(region.height, 34);
+  for (int y = 0; y < region.height; ++y)
+    for (int x = 0; x < region.width; ++x) EXPECT_EQ(region.at(x, y), whole.at(x + 13, y + 7));
 }
 
 TEST(Render, another_seed_gives_another_picture_of_the_same_thing) {

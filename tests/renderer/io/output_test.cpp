@@ -114,7 +114,7 @@ TEST_F(Output, replaces_files_and_leaves_nothing_beside_them) {
 
 // Processes in two containers may have one number: until now each removed the other's file.
 TEST_F(Output, nobody_elses_file_is_touched) {
-  const std::string foreign = path(".a." + std::to_string(::getpid()) + ".part");
+  const std::string foreign = path(".a." + std::to_string(::getpid()) + ".tmp");
   std::ofstream(foreign) << "another's";
   write_file(path("a"), bytes("ours"));
   check_writable(path("a"));

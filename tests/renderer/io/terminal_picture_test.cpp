@@ -36,7 +36,7 @@ TEST(TerminalPicture, sixels_of_one_colour_are_one_run_a_band) {
   EXPECT_TRUE(shown.ends_with("#180!5~$-\x1b\\\n")) << shown.substr(shown.size() - 20);
 }
 
-TEST(TerminalPicture, kitty_gets_a_png_file_in_pieces) {
+TEST(TerminalPicture, kitty_gets_a_png_file_in_chunks) {
   Image noise(96, 96);
   std::uint32_t state = 1;
   for (Vec3<float>& pixel : noise.pixels)

@@ -110,7 +110,7 @@ TEST_F(Particles, all_kinds_of_files_say_the_same) {
   }
 }
 
-// Pieces of files end anywhere: in numbers, in lines, between "\r" and "\n".
+// Blocks of files end anywhere: in numbers, in lines, between "\r" and "\n".
 TEST_F(Particles, long_files_are_read_as_short_ones) {
   std::string text;
   std::vector<double> numbers;
@@ -199,7 +199,7 @@ TEST_F(Particles, mistakes_in_the_block_are_told_with_their_places) {
             "of 1)");
 }
 
-// Pictures in pieces are of one scene only if they are of the same poses.
+// Pictures in shares are of one scene only if they are of the same poses.
 TEST_F(Particles, the_scenes_hash_is_also_that_of_its_files) {
   const std::string block = std::string(box) + R"(, "material": "red", "file": "p.f64")";
   write_numbers("p.f64", std::vector<double>{1, 2, 3});

@@ -23,8 +23,8 @@ class Merge : public testing::Test {
     options_.samples = 7;  // no power of two: every division rounds
   }
 
-  /// Renders a piece into a file, and answers its name.
-  std::string piece(const Share& tile, const Share& samples, std::uint64_t seed = 0) {
+  /// Renders a share into a file, and answers its name.
+  std::string part_file(const Share& tile, const Share& samples, std::uint64_t seed = 0) {
     RenderOptions options = options_;
     options.tile = tile;
     options.sample_share = samples;
@@ -39,19 +39,19 @@ class Merge : public testing::Test {
     return file;
   }
 
-  /// All pieces, the last first.
-  std::vector<std::string> pieces(int tiles, int shares) {
+  /// All part files, the last first.
+  std::vector<std::string> part_files(int tiles, int shares) {
     std::vector<std::string> files;
     for (int tile = tiles; tile > 0; --tile)
       for (int share = shares; share > 0; --share)
-        files.push_back(piece({tile, tiles}, {share, shares}));
+        files.push_back(part_file({tile, tiles}, {share, shares}));
     return files;
   }
 
   /// What merging says is wrong.
   static std::string complaint(const std::vector<std::string>& files) {
     try {
-      merge_parts(files, false);
+      merge_part_files(files, false);
     } catch (const BadInput& error) {
       return error.what();
     }
@@ -69,7 +69,7 @@ TEST_F(Merge, any_split_gives_the_same_bits) {
   const Rendering whole = render(scene_, world_, options_);
   for (const auto& [tiles, shares] :
        {std::pair{1, 1}, {2, 1}, {7, 1}, {1, 2}, {1, 3}, {1, 7}, {4, 3}}) {
-    const Merged merged = merge_parts(pieces(tiles, shares), false);
+    const Merged merged = merge_part_files(part_files(tiles, shares), false);
     EXPECT_EQ(merged.image().pixels, whole.image.pixels) << tiles << " " << shares;
     EXPECT_EQ(std::get<std::vector<float>>(merged.exr.find("A")->values),
               coverage(whole.met, options_.samples));
@@ -82,16 +82,16 @@ TEST_F(Merge, any_split_gives_the_same_bits) {
 TEST_F(Merge, a_crop_may_be_split_too) {
   options_.crop = {11, 5, 40, 30};
   const Rendering whole = render(scene_, world_, options_);
-  const Merged merged = merge_parts(pieces(3, 2), false);
+  const Merged merged = merge_part_files(part_files(3, 2), false);
   EXPECT_EQ(merged.exr.window, options_.crop);
   EXPECT_EQ(merged.image().pixels, whole.image.pixels);
 }
 
-TEST_F(Merge, missing_pieces_are_named) {
-  std::vector<std::string> files = pieces(3, 1);
+TEST_F(Merge, missing_shares_are_named) {
+  std::vector<std::string> files = part_files(3, 1);
   files.erase(files.begin() + 1);
   EXPECT_NE(complaint(files).find("missing: tile 2/3"), std::string::npos) << complaint(files);
-  const Merged partial = merge_parts(files, true);
+  const Merged partial = merge_part_files(files, true);
   EXPECT_EQ(partial.missing, std::vector<std::string>{"tile 2/3"});
   const PixelRect gap = tile_of(options_.picture(), {2, 3});
   const Rendering whole = render(scene_, world_, options_);
@@ -109,9 +109,9 @@ TEST_F(Merge, missing_pieces_are_named) {
 }
 
 TEST_F(Merge, of_missing_samples_the_others_take_the_place) {
-  const std::vector<std::string> files = {piece({1, 1}, {2, 2})};
+  const std::vector<std::string> files = {part_file({1, 1}, {2, 2})};
   EXPECT_NE(complaint(files).find("missing: samples 1/2"), std::string::npos) << complaint(files);
-  const Merged partial = merge_parts(files, true);
+  const Merged partial = merge_part_files(files, true);
   const Rendering whole = render(scene_, world_, options_);
   double sum = 0, sum_of_whole = 0;
   for (std::size_t i = 0; i < whole.image.pixels.size(); ++i) {
@@ -122,27 +122,28 @@ TEST_F(Merge, of_missing_samples_the_others_take_the_place) {
   EXPECT_NE(partial.image().pixels, whole.image.pixels);
 }
 
-TEST_F(Merge, pieces_of_different_pictures_are_refused) {
-  const std::string first = piece({1, 2}, {1, 1});
-  EXPECT_NE(complaint({first, piece({2, 2}, {1, 1}, 4)}).find("minkray.seed is 4, not 0"),
+TEST_F(Merge, part_files_of_different_pictures_are_refused) {
+  const std::string first = part_file({1, 2}, {1, 1});
+  EXPECT_NE(complaint({first, part_file({2, 2}, {1, 1}, 4)}).find("minkray.seed is 4, not 0"),
             std::string::npos);
-  EXPECT_NE(complaint({first, piece({2, 3}, {1, 1})}).find("another split"), std::string::npos);
-  EXPECT_NE(complaint({first, piece({1, 2}, {1, 1})}).find("the same piece"), std::string::npos);
+  EXPECT_NE(complaint({first, part_file({2, 3}, {1, 1})}).find("another split"), std::string::npos);
+  EXPECT_NE(complaint({first, part_file({1, 2}, {1, 1})}).find("the same share"),
+            std::string::npos);
   options_.samples = 8;
-  EXPECT_NE(complaint({first, piece({2, 2}, {1, 1})}).find("minkray.samples is 8, not 7"),
+  EXPECT_NE(complaint({first, part_file({2, 2}, {1, 1})}).find("minkray.samples is 8, not 7"),
             std::string::npos);
   options_.samples = 7;
   write_ball_scene(folder_ / "scene.json", 1.25);
   scene_ = load_scene(folder_ / "scene.json");
   world_ = make_world(scene_);
-  const std::string other = piece({2, 2}, {1, 1});
+  const std::string other = part_file({2, 2}, {1, 1});
   const std::string said = complaint({first, other});
   EXPECT_TRUE(said.starts_with(other + ": ")) << said;
   EXPECT_NE(said.find("minkray.scene is " + scene_.hash), std::string::npos) << said;
 }
 
-TEST_F(Merge, damaged_pieces_are_refused_by_name) {
-  const std::string good = piece({1, 2}, {1, 1}), damaged = piece({2, 2}, {1, 1});
+TEST_F(Merge, damaged_part_files_are_refused_by_name) {
+  const std::string good = part_file({1, 2}, {1, 1}), damaged = part_file({2, 2}, {1, 1});
   std::filesystem::resize_file(damaged, std::filesystem::file_size(damaged) - 100);
   EXPECT_TRUE(complaint({good, damaged}).starts_with(damaged + ": ")) << complaint({good, damaged});
   std::ofstream(folder_ / "text.exr") << "no image";
