@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A whole picture: camera rays, a shadow ray to the light and one ray of ambient occlusion from
-// each spot that they meet. The same code for every tracer.
+// each point that they meet. The same code for every tracer.
 #pragma once
 
 #include "bench/image/tracer.h"

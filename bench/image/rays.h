@@ -9,7 +9,7 @@
 
 namespace minkray::bench {
 
-/// Rays from the spots where other rays arrived.
+/// Rays from the points where other rays arrived.
 struct SecondaryRays {
   std::vector<Ray<float>> rays;
   std::vector<std::uint32_t> leaves;

@@ -14,18 +14,18 @@ class ContactShape {
  public:
   /// `map` leads from the shape's frame to the body's; any invertible map.
   explicit ContactShape(const Shape<double>& shape, const Affine<double>& map = {})
-      : parts_(core_and_radius(shape, map)) {}
+      : core_and_radius_(core_and_radius(shape, map)) {}
   explicit ContactShape(const Shape<float>& shape) : ContactShape(convert<double>(shape)) {}
 
-  const ShapeCore& core() const { return parts_.core; }
+  const ShapeCore& core() const { return core_and_radius_.core; }
   /// It leads from the core's frame to the body's, and keeps lengths.
-  const Mat3<double>& turn() const { return parts_.turn; }
-  const Vec3<double>& middle() const { return parts_.middle; }
+  const Mat3<double>& turn() const { return core_and_radius_.turn; }
+  const Vec3<double>& middle() const { return core_and_radius_.middle; }
   /// The ball of this radius around the middle holds the shape.
-  double reach() const { return parts_.core.ball + parts_.core.radius; }
+  double reach() const { return core_and_radius_.core.ball + core_and_radius_.core.radius; }
 
  private:
-  CoreAndRadius parts_;
+  CoreAndRadius core_and_radius_;
 };
 
 /// Where a core stands in the world.

@@ -21,12 +21,12 @@ struct CorePair {
   Vec3<double> to_b(const Vec3<double>& d) const { return turn.transpose() * d; }
 };
 
-/// A point c = b - a of C, in A's frame, and the pieces that a and b lie on.
+/// A point c = b - a of C, in A's frame, and the features that a and b lie on.
 struct DifferencePoint {
   Vec3<double> c;
   Vec3<double> a;
-  int piece_a;
-  int piece_b;
+  int feature_a;
+  int feature_b;
 };
 
 /// The point of C least far along d: b is furthest along -d, a along d.
@@ -34,7 +34,7 @@ template <CoreKind A, CoreKind B>
 inline DifferencePoint nearest_along(const CorePair& pair, const Vec3<double>& d) {
   const CoreSupport a = support_of_core<A>(pair.a, d),
                     b = support_of_core<B>(pair.b, pair.to_b(-d));
-  return {pair.x + pair.turn * b.point - a.point, a.point, a.piece, b.piece};
+  return {pair.x + pair.turn * b.point - a.point, a.point, a.feature, b.feature};
 }
 
 /// Here the cores' kinds are looked at each time.

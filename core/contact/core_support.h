@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What the solvers ask of a core: its support points, each with the piece of the surface that it
-// lies on (a vertex, a rim, an ellipsoid); where a piece's support point slides when the direction
-// turns; and how fast. Written once for every kind, so that the kinds of a pair may be known when
-// it is compiled; `CoreKind::other` there stands for a kind that is looked at each time.
+// What the solvers ask of a core: its support points, each with the feature of the surface that it
+// lies on (a vertex, a rim, an ellipsoid); where a feature's support point slides when the
+// direction turns; and how fast. Written once for every kind, so that the kinds of a pair may be
+// known when it is compiled; `CoreKind::other` there stands for a kind that is looked at each time.
 #pragma once
 
 #include "core/contact/hull_scan.h"
@@ -11,7 +11,7 @@ namespace minkray {
 
 struct CoreSupport {
   Vec3<double> point;
-  int piece;
+  int feature;
 };
 
 /// Calls f.template operator()<K>() for the core's kind K.
@@ -36,26 +36,26 @@ auto with_core_kind(CoreKind kind, F&& f) {
   return f.template operator()<CoreKind::other>();
 }
 
-/// Whether pieces of such a core slide, in a way that `add_curvature` knows.
+/// Whether features of such a core slide, in a way that `add_curvature` knows.
 constexpr bool slides(CoreKind kind) {
   return kind == CoreKind::disks || kind == CoreKind::ellipsoid;
 }
 
-/// The piece's point furthest along d, of any length but zero.
+/// The feature's point furthest along d, of any length but zero.
 template <CoreKind K>
-inline Vec3<double> point_of_piece(const ShapeCore& core, int piece, const Vec3<double>& d) {
+inline Vec3<double> point_of_feature(const ShapeCore& core, int feature, const Vec3<double>& d) {
   const Vec3<double>& size = core.size;
   if constexpr (K == CoreKind::point) {
     return {0, 0, 0};
   } else if constexpr (K == CoreKind::segment) {
-    return {0, 0, piece != 0 ? size.z() : -size.z()};
+    return {0, 0, feature != 0 ? size.z() : -size.z()};
   } else if constexpr (K == CoreKind::box) {
-    return {(piece & 1) != 0 ? -size.x() : size.x(), (piece & 2) != 0 ? -size.y() : size.y(),
-            (piece & 4) != 0 ? -size.z() : size.z()};
+    return {(feature & 1) != 0 ? -size.x() : size.x(), (feature & 2) != 0 ? -size.y() : size.y(),
+            (feature & 4) != 0 ? -size.z() : size.z()};
   } else if constexpr (K == CoreKind::hull) {
-    return {core.x[piece], core.y[piece], core.z[piece]};
+    return {core.x[feature], core.y[feature], core.z[feature]};
   } else if constexpr (K == CoreKind::disks) {
-    const double rim = piece != 0 ? size.y() : size.x(), z = piece != 0 ? size.z() : -size.z();
+    const double rim = feature != 0 ? size.y() : size.x(), z = feature != 0 ? size.z() : -size.z();
     const double across = d.x() * d.x() + d.y() * d.y();
     if (!(across > 0)) return {rim, 0, z};
     const double k = rim / std::sqrt(across);
@@ -70,7 +70,7 @@ inline Vec3<double> point_of_piece(const ShapeCore& core, int piece, const Vec3<
       if constexpr (Known == CoreKind::other)
         return core.shape->support(d);
       else
-        return point_of_piece<Known>(core, piece, d);
+        return point_of_feature<Known>(core, feature, d);
     });
   }
 }
@@ -79,19 +79,19 @@ inline Vec3<double> point_of_piece(const ShapeCore& core, int piece, const Vec3<
 template <CoreKind K>
 inline CoreSupport support_of_core(const ShapeCore& core, const Vec3<double>& d) {
   if constexpr (K == CoreKind::point || K == CoreKind::ellipsoid) {
-    return {point_of_piece<K>(core, 0, d), 0};
+    return {point_of_feature<K>(core, 0, d), 0};
   } else if constexpr (K == CoreKind::segment) {
-    const int piece = d.z() > 0 ? 1 : 0;
-    return {point_of_piece<K>(core, piece, d), piece};
+    const int feature = d.z() > 0 ? 1 : 0;
+    return {point_of_feature<K>(core, feature, d), feature};
   } else if constexpr (K == CoreKind::box) {
     const Vec3<double>& h = core.size;
-    const int piece = (std::signbit(d.x()) ? 1 : 0) | (std::signbit(d.y()) ? 2 : 0) |
-                      (std::signbit(d.z()) ? 4 : 0);
+    const int feature = (std::signbit(d.x()) ? 1 : 0) | (std::signbit(d.y()) ? 2 : 0) |
+                        (std::signbit(d.z()) ? 4 : 0);
     return {{std::copysign(h.x(), d.x()), std::copysign(h.y(), d.y()), std::copysign(h.z(), d.z())},
-            piece};
+            feature};
   } else if constexpr (K == CoreKind::hull) {
-    const int piece = furthest_of_hull(core, d.x(), d.y(), d.z());
-    return {{core.x[piece], core.y[piece], core.z[piece]}, piece};
+    const int feature = furthest_of_hull(core, d.x(), d.y(), d.z());
+    return {{core.x[feature], core.y[feature], core.z[feature]}, feature};
   } else if constexpr (K == CoreKind::disks) {
     const Vec3<double>& size = core.size;
     const double across = std::sqrt(d.x() * d.x() + d.y() * d.y());
@@ -130,14 +130,14 @@ struct Symmetric {
   }
 };
 
-/// Adds `weight` times the derivative of the piece's point by the direction d, in the frame that
-/// `turn` leads to. `point` is the piece's point.
+/// Adds `weight` times the derivative of the feature's point by the direction d, in the frame that
+/// `turn` leads to. `point` is the feature's point.
 template <CoreKind K>
 inline void add_curvature(Symmetric& S, double weight, const ShapeCore& core,
-                          const Mat3<double>& turn, int piece, const Vec3<double>& d,
+                          const Mat3<double>& turn, int feature, const Vec3<double>& d,
                           const Vec3<double>& point) {
   if constexpr (K == CoreKind::disks) {
-    const double rim = piece != 0 ? core.size.y() : core.size.x();
+    const double rim = feature != 0 ? core.size.y() : core.size.x();
     const double across = d.x() * d.x() + d.y() * d.y();
     if (!(across > 0) || !(rim > 0)) return;
     S.add(weight * rim / (across * std::sqrt(across)), d.x() * turn.col(1) - d.y() * turn.col(0));
@@ -148,9 +148,9 @@ inline void add_curvature(Symmetric& S, double weight, const ShapeCore& core,
     S.add(-k, turn * point);
   } else if constexpr (K == CoreKind::other) {
     if (core.kind == CoreKind::disks)
-      add_curvature<CoreKind::disks>(S, weight, core, turn, piece, d, point);
+      add_curvature<CoreKind::disks>(S, weight, core, turn, feature, d, point);
     if (core.kind == CoreKind::ellipsoid)
-      add_curvature<CoreKind::ellipsoid>(S, weight, core, turn, piece, d, point);
+      add_curvature<CoreKind::ellipsoid>(S, weight, core, turn, feature, d, point);
   }
 }
 

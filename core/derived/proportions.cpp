@@ -99,9 +99,9 @@ Stretch operator*(const Stretch& outer, const Mat3<T>& linear) {
   return {outer.most * size * std::sqrt(squares[2]), outer.least * size * std::sqrt(squares[0])};
 }
 
-/// What the walk over a shape's parts has seen.
+/// What the walk over a shape's operands has seen.
 struct Seen {
-  bool extreme_part = false;
+  bool extreme_operand = false;
   double longest = 0, shortest = std::numeric_limits<double>::infinity();
   double least_rounding = std::numeric_limits<double>::infinity();
 
@@ -114,7 +114,7 @@ struct Seen {
 template <class T>
 void look_at(const Shape<T>& shape, const Stretch& stretch, Seen& seen) {
   const auto look_at_points = [&](const auto& kind, std::span<const Vec3<T>> points) {
-    seen.extreme_part |= ratio_of_points<T>(points) * stretch.ratio() > most_askew;
+    seen.extreme_operand |= ratio_of_points<T>(points) * stretch.ratio() > most_askew;
     seen.add(double(bounds_of<T>(kind).half_extents().maxCoeff()), stretch);
   };
   std::visit(
@@ -144,7 +144,7 @@ void look_at(const Shape<T>& shape, const Stretch& stretch, Seen& seen) {
           for (const Nested<T>& operand : kind.shapes) look_at(*operand, stretch, seen);
         } else {
           const Vec3<double> lengths = bounds_of<T>(kind).half_extents().template cast<double>();
-          seen.extreme_part |= ratio_of(lengths, 0) * stretch.ratio() > most_along_axes<T>;
+          seen.extreme_operand |= ratio_of(lengths, 0) * stretch.ratio() > most_along_axes<T>;
           for (const double length : lengths) seen.add(length, stretch);
         }
       },
@@ -157,7 +157,7 @@ template <class T>
 bool has_extreme_proportions(const Shape<T>& shape) {
   Seen seen;
   look_at(shape, Stretch(), seen);
-  return seen.extreme_part || seen.longest > most_along_axes<T> * seen.shortest ||
+  return seen.extreme_operand || seen.longest > most_along_axes<T> * seen.shortest ||
          seen.longest > most_to_rounding * seen.least_rounding;
 }
 

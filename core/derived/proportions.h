@@ -8,9 +8,8 @@
 namespace minkray {
 
 /// Whether any of the shapes it is made of is so much longer than it is thick, the maps around it
-/// included, or so much larger than another of them. Parts without any thickness (disks, segments,
-/// flat hulls) are not thin;
-/// points in double that lie on a line but for rounding are.
+/// included, or so much larger than another of them. Operands without any thickness (disks,
+/// segments, flat hulls) are not thin; points in double that lie on a line but for rounding are.
 template <class T>
 bool has_extreme_proportions(const Shape<T>& shape);
 

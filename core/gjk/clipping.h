@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The ray cast seen as clipping, after van den Bergen's later account of casting a ray on the
 // configuration space obstacle: conservative advancement by supporting planes (Mirtich and Canny,
-// 1995). Every support point p along n tells what part of the ray cannot hold the hit spot:
+// 1995). Every support point p along n tells what part of the ray cannot hold the hit point:
 //   1. n.r < 0: nothing before lambda_clip, a lower bound;
 //   2. n.r > 0: nothing after lambda_clip, an upper bound; below the lower bound the ray is
 //   rejected;
@@ -31,7 +31,7 @@ class ClippedRay {
   explicit ClippedRay(const RayNearBall<T>& ray)
       : s_(ray.s), r_(ray.r), lower_(ray.lambda_min), upper_(ray.lambda_max) {}
 
-  /// The hit spot, if there is one, lies between the two.
+  /// The hit point, if there is one, lies between the two.
   T lower() const { return lower_; }
   T upper() const { return upper_; }
 

@@ -17,7 +17,7 @@ namespace {
 constexpr int most_supports = 400;
 
 /// A spanned point no further off than this, in machine epsilons of the size, is as good as one on
-/// the spot: the support points are rounded as coarsely.
+/// the hit point: the support points are rounded as coarsely.
 constexpr double close_enough = 2;
 
 /// What the search is content with, in machine epsilons of the size: a quarter of what the checker
@@ -29,7 +29,7 @@ constexpr double good_enough = 16;
 constexpr double close_to_claim = 32;
 
 /// Angles: the first is the square root of a machine epsilon, the others reach further where the
-/// normal itself is less certain, or the spot further from a corner.
+/// normal itself is less certain, or the hit point further from a corner.
 constexpr std::array tilts = {0x1p-26, 0x1p-24, 0x1p-21, 0x1p-14};
 constexpr int tilt_directions = 6;
 constexpr int refinements = 24;
@@ -182,9 +182,9 @@ class Finder {
 
   /// The point of the shape near x(lambda), where its normal is about n: found among the triangles
   /// of support points in directions tilted a little from n. On a face with rounding around it, or
-  /// a patch of curvature radius rho, tilts by delta give points rho * delta around the spot and
-  /// only rho * delta^2 under it. Answers how far the best is from x(lambda). In long double, since
-  /// between the corners of a sliver a point is only known as well as the sliver is thin.
+  /// a patch of curvature radius rho, tilts by delta give points rho * delta around the hit point
+  /// and only rho * delta^2 under it. Answers how far the best is from x(lambda). In long double,
+  /// since between the corners of a sliver a point is only known as well as the sliver is thin.
   double refine(double lambda, const Vec3<double>& n) {
     const Vec3<Long> x = near_.s.cast<Long>() + Long(lambda) * near_.r.cast<Long>();
     std::vector<Seen> seen;
@@ -195,8 +195,8 @@ class Finder {
       seen.push_back({y, direction});
       return true;
     };
-    for (const WeightedSupport& part : certificate.spanning)
-      if (part.weight > 0) see(part.direction);
+    for (const WeightedSupport& term : certificate.spanning)
+      if (term.weight > 0) see(term.direction);
     see(n);
     const Vec3<double> a = n.unitOrthogonal(), b = n.cross(a);
     for (const double delta : tilts) {
@@ -317,7 +317,7 @@ Vec3<double> first_direction(const Claim& claim, const Vec3<double>& towards) {
 
 /// A hit with the normal n at lambda, as claimed. First the hit is found anew, which gives the
 /// tightest bounds. Where rounding decides what is hit (rays that just touch, or run in a face) it
-/// may be found elsewhere; then a point of the shape at the claimed spot is the proof, or on the
+/// may be found elsewhere; then a point of the shape at the claimed point is the proof, or on the
 /// ray as little beyond it as the plane's slope makes of rounding.
 void certify_hit(Finder& finder, const Claim& claim, const Vec3<double>& n) {
   const NearSegment& near = finder.near();

@@ -60,11 +60,11 @@ class Checker {
   bool spanned_point(Vec3<double>& q) const {
     double sum = 0;
     q.setZero();
-    for (const WeightedSupport& part : certificate_.spanning) {
-      if (!(part.weight >= 0) || !std::isfinite(part.weight)) return false;
-      if (part.weight == 0) continue;
-      q += part.weight * (support_(part.direction) - near_.centre);
-      sum += part.weight;
+    for (const WeightedSupport& term : certificate_.spanning) {
+      if (!(term.weight >= 0) || !std::isfinite(term.weight)) return false;
+      if (term.weight == 0) continue;
+      q += term.weight * (support_(term.direction) - near_.centre);
+      sum += term.weight;
     }
     q /= sum;
     return sum > 0 && q.allFinite();
@@ -72,13 +72,13 @@ class Checker {
 
   void check_hit() {
     const double lambda = near_.lambda_of(claim_.t_base, claim_.t_offset);
-    const Vec3<double> spot = near_.at(lambda);
+    const Vec3<double> hit_point = near_.at(lambda);
     double lower = std::max(near_.first, near_.lambda_of(0, 0));
 
-    // The claimed plane touches the shape and holds the claimed spot; the ray comes from outside.
+    // The claimed plane touches the shape and holds the claimed point; the ray comes from outside.
     if (!is_direction(claim_.normal)) return complain("a hit without a normal");
     const Vec3<double> n = claim_.normal.normalized();
-    const double above = n.dot(spot) - reach(n), slope = n.dot(near_.r);
+    const double above = n.dot(hit_point) - reach(n), slope = n.dot(near_.r);
     verdict_.claim_error = std::abs(above);
     if (slope < 0) lower = std::max(lower, lambda - above / slope);
     if (!(slope <= certificate_rounding * claim_.epsilon)) complain("the normal looks backwards");
@@ -86,7 +86,7 @@ class Checker {
       complain("the hit lies beyond t_max");
     if (!(lambda - near_.lambda_of(0, 0) >= -verdict_.allowed))
       complain("the hit lies before the ray");
-    expect_at_most(std::abs(above), "the hit spot is not on the plane of its normal");
+    expect_at_most(std::abs(above), "the hit point is not on the plane of its normal");
 
     // The proven plane: nothing of the shape lies before it.
     double depth_above = -std::numeric_limits<double>::infinity();
@@ -95,15 +95,15 @@ class Checker {
     if (is_direction(certificate_.plane)) {
       const Vec3<double> m = certificate_.plane.normalized();
       const double h = reach(m);
-      depth_above = m.dot(spot) - h;
+      depth_above = m.dot(hit_point) - h;
       const double steep = m.dot(near_.r);
       if (steep < 0) lower = std::max(lower, lambda - depth_above / steep);
       if (spans) verdict_.gap = h - m.dot(q);
     } else if (spans) {
-      verdict_.gap = (n.dot(spot) - above) - n.dot(q);
+      verdict_.gap = (n.dot(hit_point) - above) - n.dot(q);
     }
     verdict_.claim_error = std::max(verdict_.claim_error, depth_above);
-    if (depth_above > verdict_.allowed) complain("the hit spot lies outside the shape");
+    if (depth_above > verdict_.allowed) complain("the hit point lies outside the shape");
 
     // The spanned point: on the ray, and not deep under the plane.
     if (!spans) return complain("no support points");

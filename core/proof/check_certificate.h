@@ -27,7 +27,7 @@ struct CertificateVerdict {
   double gap = 0;      ///< hit: how deep that point lies under the plane: (t_hi - t_lo) * cosine
   double lateral = 0;  ///< hit, inside: the distance of the spanned point from ray or origin
   double margin = 0;   ///< miss: from the plane to the ray; negative if the ray crosses it
-  /// Hit: how far the claimed spot lies off the claimed plane or above the proven one.
+  /// Hit: how far the claimed point lies off the claimed plane or above the proven one.
   double claim_error = 0;
   double late = 0;     ///< hit: how far beyond the proven t_hi the claimed t is, along the ray
   double allowed = 0;  ///< what gap, lateral, -margin and claim_error may be

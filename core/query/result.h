@@ -72,7 +72,7 @@ struct CastResult {
   T offset_lo = T(0);
   T offset_hi = std::numeric_limits<T>::infinity();
 
-  /// Hit: the outward unit normal at the hit spot (where edges leave it free, one of the normals).
+  /// Hit: the outward unit normal at the hit point (where edges leave it free, one of the normals).
   /// Miss: the normal of a plane between ray and shape. Inside: zero.
   Vec3<T> normal = Vec3<T>::Zero();
 

@@ -26,7 +26,7 @@ inline constexpr std::array data_channels = {
     DataChannelDescription{"Z", "", "depth along the camera's axis; infinite where nothing is met"},
     DataChannelDescription{"dist", "", "distance from the camera; infinite where nothing is met"},
     DataChannelDescription{"N", "XYZ", "the surface's outward unit normal in the world, or 0"},
-    DataChannelDescription{"P", "XYZ", "the hit spot in the world, or 0"},
+    DataChannelDescription{"P", "XYZ", "the hit point in the world, or 0"},
     DataChannelDescription{"id.object", "", "1 + the object's place in the scene, or 0 (integer)"},
     DataChannelDescription{"gjk.iterations", "", "solver iterations of all casts (integer)"},
     DataChannelDescription{"gjk.supports", "", "support points of all casts (integer)"},

@@ -50,8 +50,8 @@ TEST(Cast, no_ray_is_too_far_away_to_be_told_of) {
       // o + t d with the digits of both.
       const long double at =
           std::fma((long double)(fine.t_base), (long double)(speed), (long double)(ray.origin.z()));
-      const long double spot = at + (long double)(fine.t_offset) * speed;
-      EXPECT_NEAR(static_cast<double>(spot), -1, 1e-15 + std::pow(10.0, power - 31)) << power;
+      const long double hit_point = at + (long double)(fine.t_offset) * speed;
+      EXPECT_NEAR(static_cast<double>(hit_point), -1, 1e-15 + std::pow(10.0, power - 31)) << power;
     }
   }
 }
@@ -209,10 +209,10 @@ void check_spots_near_edges(double least_slope) {
     const CastResult<T> result = cast_ray(hull, ray);
     if (result.status != Status::hit) continue;
     ++hits;
-    const Vec3<double> spot =
+    const Vec3<double> hit_point =
         ray.origin.template cast<double>() +
         ray.direction.template cast<double>() * (double(result.t_base) + double(result.t_offset));
-    worst = std::max(worst, (spot.cwiseAbs() - half.template cast<double>()).maxCoeff());
+    worst = std::max(worst, (hit_point.cwiseAbs() - half.template cast<double>()).maxCoeff());
   }
   EXPECT_GT(hits, 3000);
   EXPECT_LE(worst, 16 * std::numeric_limits<T>::epsilon());

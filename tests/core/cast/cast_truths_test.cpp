@@ -87,7 +87,7 @@ double radius_of(const PreparedShape<T>& shape) {
   return double(shape.definition().bounds_of(Affine<T>{}).half_extents().norm());
 }
 
-/// The certificate of a hit: its plane touches the shape, and the hit spot lies on it. Of a miss:
+/// The certificate of a hit: its plane touches the shape, and the hit point lies on it. Of a miss:
 /// no point of the shape lies on the ray's side of the plane. Checked with supports alone.
 TYPED_TEST(CastTruths, planes_of_hits_touch_and_planes_of_misses_separate) {
   using T = TypeParam;

@@ -24,7 +24,7 @@ struct Outcome {
   int rays = 0, hits = 0, undecided = 0, exhausted = 0, wrong = 0;
   double worst = 0;  ///< error of t times cosine, in epsilons of the radius
   double worst_normal =
-      0;  ///< how far the hit spot lies from the normal's supporting plane, likewise
+      0;  ///< how far the hit point lies from the normal's supporting plane, likewise
   std::string first_wrong, worst_ray;
 };
 

@@ -82,7 +82,7 @@ TYPED_TEST(WorldOf, occlusion_agrees_with_the_closest_hit) {
     const WorldHit<T> hit = world.closest_hit(ray, counts);
     EXPECT_EQ(world.occluded(ray, counts), hit.found());
     if (hit.cast.status != Status::hit) continue;
-    // Just before and just behind the hit spot.
+    // Just before and just behind the hit point.
     const T step = T(64) * std::numeric_limits<T>::epsilon();
     ray.t_max = hit.cast.t() * (T(1) - step) - step;
     EXPECT_FALSE(world.occluded(ray, counts));

@@ -76,14 +76,14 @@ TEST_F(DataChannels, are_those_of_the_ray_through_the_pixels_centre) {
     EXPECT_EQ(status, 1u);
     ++(id == 1 ? of_box : of_ball);
     // Numbers are rounded to floats: 1e-6 of coordinates of up to 11.
-    const Vec3<double> spot = vector("P", i);
-    EXPECT_LT((spot - ray.at(real("dist", i))).norm(), 1e-5);
-    EXPECT_NEAR(real("Z", i), (spot - scene_.camera.position).dot(forward), 1e-5);
+    const Vec3<double> hit_point = vector("P", i);
+    EXPECT_LT((hit_point - ray.at(real("dist", i))).norm(), 1e-5);
+    EXPECT_NEAR(real("Z", i), (hit_point - scene_.camera.position).dot(forward), 1e-5);
     EXPECT_NEAR(vector("N", i).norm(), 1, 1e-6);
     EXPECT_LT(vector("N", i).dot(ray.direction), 1e-6);
     if (id == 2) {
-      EXPECT_NEAR(spot.norm(), radius, 1e-5);
-      EXPECT_LT((vector("N", i) - spot / radius).norm(), 1e-5);
+      EXPECT_NEAR(hit_point.norm(), radius, 1e-5);
+      EXPECT_LT((vector("N", i) - hit_point / radius).norm(), 1e-5);
     }
     EXPECT_GE(real("gjk.gap", i), 0);
     // Closed forms answer for both, and cost neither.

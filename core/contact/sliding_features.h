@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT
+// The distance of two curved cores to second order. Each point that GJK has lies on a feature of
+// the surface that slides when the direction d turns. With S the weighted sum of the features'
+// derivatives, the closest point of the sliding features is, to second order, that of points in the
+// metric H = I + S |d| / gap, by GJK's own simplex code. With S = 0 this is GJK, with one feature
+// it is Newton's method.
+#pragma once
+
+#include <algorithm>
+
+#include "core/contact/core_query.h"
+#include "core/contact/simplex_point.h"
+
+namespace minkray {
+
+template <CoreKind A, CoreKind B>
+class SlidingFeatures {
+ public:
+  explicit SlidingFeatures(CoreQuery<A, B>& query) : query_(query) {}
+
+  /// Adds a point that GJK has, by the features that it lies on: points of the same ones are one.
+  void add(int feature_a, int feature_b, double weight) {
+    for (int i = 0; i < count_; ++i)
+      if (feature_a_[i] == feature_a && feature_b_[i] == feature_b) {
+        weight_[i] += weight;
+        return;
+      }
+    append(feature_a, feature_b, weight);
+  }
+
+  /// Searches from the direction d. Returns whether it came to an answer.
+  bool run(const Vec3<double>& d);
+
+ private:
+  static constexpr int most_turns = 12;
+
+  /// H = I + scale S = L L^T.
+  struct Metric {
+    double l10, l20, l21, i0, i1, i2;
+
+    Metric(const Symmetric& S, double scale) {
+      const double l00 = std::sqrt(1 + scale * S.xx);
+      i0 = 1 / l00;
+      l10 = scale * S.xy * i0;
+      l20 = scale * S.xz * i0;
+      i1 = 1 / std::sqrt(1 + scale * S.yy - l10 * l10);
+      l21 = (scale * S.yz - l20 * l10) * i1;
+      i2 = 1 / std::sqrt(1 + scale * S.zz - l20 * l20 - l21 * l21);
+    }
+    /// L^-1 p.
+    Vec3<double> into(const Vec3<double>& p) const {
+      const double x = p.x() * i0, y = (p.y() - l10 * x) * i1;
+      return {x, y, (p.z() - l20 * x - l21 * y) * i2};
+    }
+    /// L^-T v: the direction in space of a closest point in the metric.
+    Vec3<double> out_of(const Vec3<double>& v) const {
+      const double z = v.z() * i2, y = (v.y() - l21 * z) * i1;
+      return {(v.x() - l10 * y - l20 * z) * i0, y, z};
+    }
+  };
+
+  void append(int feature_a, int feature_b, double weight) {
+    feature_a_[count_] = feature_a;
+    feature_b_[count_] = feature_b;
+    weight_[count_++] = weight;
+  }
+
+  /// Keeps the features that carry the closest point.
+  void keep(const SimplexPoint& closest) {
+    int kept = 0;
+    for (int i = 0; i < count_; ++i) {
+      if ((closest.kept >> i & 1u) == 0) continue;
+      feature_a_[kept] = feature_a_[i];
+      feature_b_[kept] = feature_b_[i];
+      weight_[kept++] = closest.weight[i];
+    }
+    count_ = kept;
+  }
+
+  bool is_inside(const Vec3<double>& n, double depth, const Vec3<double>* z, Vec3<double>& common);
+
+  CoreQuery<A, B>& query_;
+  int count_ = 0;
+  int feature_a_[4], feature_b_[4];
+  double weight_[4];
+};
+
+/// Whether the origin is within a tetrahedron of C's middle and three points around n, in whose
+/// direction C ends at -depth; `common` is where its weights lead to.
+template <CoreKind A, CoreKind B>
+bool SlidingFeatures<A, B>::is_inside(const Vec3<double>& n, double depth, const Vec3<double>* z,
+                                      Vec3<double>& common) {
+  const Vec3<double> e0 = n.unitOrthogonal(), e1 = n.cross(e0);
+  const auto holds = [&](const Vec3<double>& p, const Vec3<double>& q, const Vec3<double>& r) {
+    const Vec3<double> corners[4] = {p, q, r, query_.pair.x};
+    const SimplexPoint closest = closest_of_simplex(corners, 4, false);
+    // Rounding may tell wrongly: what it is worth is how near to the origin the weights come.
+    common = Vec3<double>::Zero();
+    for (int i = 0; i < 4; ++i) common += closest.weight[i] * corners[i];
+    return closest.is_inside();
+  };
+  const auto on_feature = [&](int i, const Vec3<double>& d) -> Vec3<double> {
+    return query_.pair.x +
+           query_.pair.turn *
+               point_of_feature<B>(query_.pair.b, feature_b_[i], query_.pair.to_b(-d)) -
+           point_of_feature<A>(query_.pair.a, feature_a_[i], d);
+  };
+  const double turned = std::sqrt(depth / query_.size) + 1e-9;
+  for (const double angle : {0.5 * turned, 5 * turned}) {
+    const double c = -0.5 * angle, s = 0.8660254037844386 * angle;
+    const Vec3<double> p = query_.nearest(n + angle * e0).c,
+                       q = query_.nearest(n + c * e0 + s * e1).c,
+                       r = query_.nearest(n + c * e0 - s * e1).c;
+    if (holds(p, q, r)) return true;
+    if (count_ == 2) {
+      const Vec3<double> across = n.cross(z[1] - z[0]);
+      const double length = across.norm();
+      if (!(length > 0)) continue;
+      const Vec3<double> t = across * (angle / length);
+      const Vec3<double> f[4] = {on_feature(0, n - t), on_feature(1, n - t), on_feature(0, n + t),
+                                 on_feature(1, n + t)};
+      if (holds(f[0], f[1], f[2]) || holds(f[0], f[1], f[3]) || holds(f[0], f[2], f[3]) ||
+          holds(f[1], f[2], f[3]))
+        return true;
+    }
+    if (count_ >= 3 && holds(z[0], z[1], z[2])) return true;
+    if (count_ == 4 &&
+        (holds(z[0], z[1], z[3]) || holds(z[0], z[2], z[3]) || holds(z[1], z[2], z[3])))
+      return true;
+  }
+  return false;
+}
+
+template <CoreKind A, CoreKind B>
+bool SlidingFeatures<A, B>::run(const Vec3<double>& d) {
+  Vec3<double> nd = d;
+  double damping = 0.1;  // of the first step, in sizes: mixed faces and rims need it
+  for (int step = 0; step < most_turns; ++step, damping = step < 7 ? damping * 0.1 : 0) {
+    const DifferencePoint w = query_.nearest(nd);
+    const double length = nd.norm(), gap = nd.dot(w.c) / length;
+    const Vec3<double> n = nd / length;
+    query_.result.raise_lower(gap, n);
+    if (query_.result.lower > query_.search.apart) {
+      query_.result.status = CoreStatus::separated;
+      return true;
+    }
+    Vec3<double> z[5], v = Vec3<double>::Zero(), on_a = Vec3<double>::Zero();
+    Symmetric S;
+    bool is_known = false;
+    const Vec3<double> of_b = query_.pair.to_b(-nd);
+    for (int i = 0; i < count_; ++i) {
+      const Vec3<double> a = point_of_feature<A>(query_.pair.a, feature_a_[i], nd),
+                         b = point_of_feature<B>(query_.pair.b, feature_b_[i], of_b);
+      z[i] = query_.pair.x + query_.pair.turn * b - a;
+      v += weight_[i] * z[i];
+      on_a += weight_[i] * a;
+      is_known |= feature_a_[i] == w.feature_a && feature_b_[i] == w.feature_b;
+      add_curvature<A>(S, weight_[i], query_.pair.a, Mat3<double>::Identity(), feature_a_[i], nd,
+                       a);
+      add_curvature<B>(S, weight_[i], query_.pair.b, query_.pair.turn, feature_b_[i], of_b, b);
+    }
+    if (v.norm() - query_.result.lower <= query_.gap)
+      return query_.end_at(CoreStatus::separated, on_a, v);
+    // Where the gap is small or negative, C is moved on until there is one.
+    const double least = query_.size * std::max(1e-4, damping);
+    const double shift = gap > least ? 0 : least - gap;
+    if (shift > 0 && gap <= 0 && is_known) {
+      constexpr double stationary = 1e-7;
+      const Vec3<double> aside = v - v.dot(n) * n;
+      if (aside.squaredNorm() < stationary * stationary * query_.size * query_.size) {
+        Vec3<double> common;
+        if (!is_inside(n, -gap, z, common)) return false;
+        return query_.end_at(CoreStatus::overlapping, on_a, common);
+      }
+    }
+    const double scale = length / (gap > least ? gap : least);
+    if (!is_known) {
+      if (count_ == 4) return false;
+      z[count_] = w.c;
+      append(w.feature_a, w.feature_b, 0);
+    }
+    const Metric metric(S, scale);
+    Vec3<double> mapped[4];
+    for (int i = 0; i < count_; ++i) mapped[i] = metric.into(z[i] + shift * n);
+    const SimplexPoint closest = closest_of_simplex(mapped, count_, false);
+    if (closest.kept == 0 || closest.is_inside()) return false;
+    nd = metric.out_of(closest.v);
+    if (!(nd.squaredNorm() > 0)) return false;
+    keep(closest);
+  }
+  return false;
+}
+
+}  // namespace minkray
