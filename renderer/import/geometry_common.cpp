@@ -64,7 +64,6 @@ void add_mesh(Model& model, XmlFiles& files, const XmlElement& element,
   }
   if (!answer.complaint.empty()) return files.wrong(element, answer.complaint);
   geom.kind = "mesh";
-  geom.mesh = answer.mesh;
   const std::string name = geom.name;
   for (std::size_t i = 0; i < answer.hulls.size(); ++i) {
     geom.shape = answer.hulls[i];

@@ -198,7 +198,6 @@ MeshLibrary::Answer MeshLibrary::add(const MeshParts& mesh, const Vec3<double>& 
     return answer;
   }
   facts.diameter = (upper - lower).maxCoeff();
-  answer.mesh = static_cast<int>(meshes_.size());
   meshes_.push_back(facts);
   return answer;
 }

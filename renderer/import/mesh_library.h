@@ -36,7 +36,6 @@ class MeshLibrary {
 
   struct Answer {
     std::vector<Shape<double>> hulls;  ///< one for each part
-    int mesh = -1;                     ///< into meshes()
     std::string complaint;             ///< what is wrong; empty if nothing is
     bool is_missing = false;
   };

@@ -3,8 +3,8 @@
 // boxes, cylinders and ellipsoids with a soft shell, as MuJoCo 2.2.2 has them.
 #pragma once
 
+#include <array>
 #include <functional>
-#include <set>
 
 #include "renderer/import/model.h"
 #include "renderer/import/xml.h"

@@ -54,7 +54,6 @@ struct ModelGeom {
   std::optional<Shape<double>> shape = {};  ///< none: the half-space under z = 0
   std::array<double, 4> rgba = {0.7, 0.7, 0.7, 1};
   bool collides = true, is_seen = true;
-  int mesh = -1;  ///< into Model::meshes
 };
 
 /// A mesh file as one of its hulls.

@@ -15,7 +15,7 @@ namespace minkray {
 namespace {
 
 /// Whoever has more has one mistake many times.
-constexpr std::size_t most_told = 100;
+constexpr std::size_t most_reported = 100;
 
 /// A piece of what was found, for messages.
 constexpr std::size_t longest_quote = 60;
@@ -111,8 +111,8 @@ std::optional<XmlElement> XmlFiles::parse(const std::string& text,
 }
 
 void XmlFiles::wrong(const XmlElement& element, std::string_view message) {
-  if (++told_ > most_told) {
-    if (told_ == most_told + 1) mistakes_.add("and more mistakes, which are not told");
+  if (++reported_ > most_reported) {
+    if (reported_ == most_reported + 1) mistakes_.add("and more mistakes, which are not told");
     return;
   }
   const std::string where =

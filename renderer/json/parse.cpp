@@ -87,7 +87,7 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
   Json take_root() { return std::move(root_); }
 
   /// Whether each number that is not finite has been told.
-  bool has_told_all() const { return told_ == not_finite_.size(); }
+  bool has_reported_all() const { return reported_ == not_finite_.size(); }
 
   /// Where reading stopped, if it did: the bytes before the last one read, and the reason.
   std::size_t error_position = 0;
@@ -146,11 +146,11 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
 
   /// Puts null, and adds a mistake, where a number is not finite.
   bool put_word(Json value) {
-    if (told_ < not_finite_.size() && not_finite_[told_].ordinal == words_) {
+    if (reported_ < not_finite_.size() && not_finite_[reported_].ordinal == words_) {
       mistakes_.add(path(), "must be a finite number (got " +
-                                printable(not_finite_[told_].written, 40) + ")");
+                                printable(not_finite_[reported_].written, 40) + ")");
       value = nullptr;
-      ++told_;
+      ++reported_;
     }
     ++words_;
     return put(std::move(value));
@@ -192,8 +192,8 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
 
   const std::vector<NotFinite>& not_finite_;
   Mistakes& mistakes_;
-  std::size_t words_ = 0;  ///< numbers, trues, falses and nulls so far
-  std::size_t told_ = 0;   ///< of those that are not finite
+  std::size_t words_ = 0;     ///< numbers, trues, falses and nulls so far
+  std::size_t reported_ = 0;  ///< of those that are not finite
   Json root_;
   std::vector<Level> levels_;
 };
@@ -229,7 +229,7 @@ std::optional<Json> parse_json(std::string_view text, Mistakes& mistakes) {
     if (zero != text.npos)
       mistakes.add(
           {}, "not valid JSON at line:column " + line_and_column(text, zero) + ": a zero byte");
-    else if (!tree.has_told_all())
+    else if (!tree.has_reported_all())
       mistakes.add({}, "must hold finite numbers only");
     else
       return tree.take_root();

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/import/mjcf_assets.h"
+
+#include "renderer/import/geometry_common.h"
+
+namespace minkray {
+namespace {
+
+constexpr MjcfAssets::Rgba default_rgba = {0.5, 0.5, 0.5, 1};
+
+}  // namespace
+
+void MjcfAssets::look_in(const std::filesystem::path& folder, bool strips_path) {
+  meshes_ = MeshLibrary(folder, options_);
+  strips_path_ = strips_path;
+}
+
+void MjcfAssets::read(const XmlElement& assets, const MjcfDefaults& defaults) {
+  std::map<std::string, Rgba> textures;
+  for (const XmlElement& asset : assets.children) {
+    if (asset.name != "texture" || !asset.attribute("builtin")) continue;
+    const auto one = files_.vector(asset, "rgb1"), two = files_.vector(asset, "rgb2");
+    const Vec3<double> a = one.value_or(Vec3<double>::Constant(0.8)),
+                       b = two.value_or(Vec3<double>::Constant(0.5));
+    const bool is_flat = asset.attribute_or("builtin") == "flat";
+    const Vec3<double> mean = is_flat ? a : Vec3<double>((a + b) / 2);
+    textures[asset.attribute_or("name")] = {mean.x(), mean.y(), mean.z(), 1};
+  }
+  for (const XmlElement& written : assets.children) {
+    const XmlElement asset = defaults.with_defaults(written, "", files_);
+    if (asset.name == "mesh") {
+      std::string name = asset.attribute_or("name");
+      if (name.empty()) name = std::filesystem::path(asset.attribute_or("file")).stem().string();
+      if (name.empty()) files_.wrong(written, "must have a name or a file");
+      if (!mesh_assets_.emplace(name, asset).second)
+        files_.wrong(written, "name: must not be the name of two meshes");
+    } else if (asset.name == "material") {
+      Rgba rgba = {1, 1, 1, 1};
+      if (const auto given = read_rgba(asset)) rgba = *given;
+      const auto texture = textures.find(asset.attribute_or("texture"));
+      if (texture != textures.end())
+        for (std::size_t i = 0; i < 3; ++i) rgba[i] *= texture->second[i];
+      materials_[asset.attribute_or("name")] = rgba;
+    } else {
+      model_.pass_over("<" + printable(asset.name, 40) + ">",
+                       asset.name == "texture" ? "surfaces have one colour" : "is no convex shape");
+    }
+  }
+}
+
+std::optional<MjcfAssets::Rgba> MjcfAssets::read_rgba(const XmlElement& element) const {
+  const auto v = files_.numbers(element, "rgba", 3, 4);
+  if (!v) return std::nullopt;
+  return Rgba{(*v)[0], (*v)[1], (*v)[2], v->size() > 3 ? (*v)[3] : 1};
+}
+
+MjcfAssets::Rgba MjcfAssets::colour_of(const XmlElement& geom) const {
+  const Rgba own = read_rgba(geom).value_or(default_rgba);
+  const auto material = materials_.find(geom.attribute_or("material"));
+  return own == default_rgba && material != materials_.end() ? material->second : own;
+}
+
+void MjcfAssets::add_mesh_geom(const XmlElement& written, const XmlElement& e, ModelGeom geom) {
+  const std::string name = e.attribute_or("mesh");
+  const auto found = mesh_assets_.find(name);
+  if (found == mesh_assets_.end())
+    return files_.wrong(written,
+                        "mesh: there is no <mesh> of the name \"" + printable(name, 60) + "\"");
+  const XmlElement& asset = found->second;
+  const Vec3<double> scale = files_.vector(asset, "scale").value_or(Vec3<double>::Ones());
+  MeshLibrary::Answer answer;
+  // Vertices are moved and turned before they are scaled.
+  Affine<double> before;
+  if (const auto q = files_.numbers(asset, "refquat", 4, 4))
+    before.linear = rotation_matrix_of_any((*q)[1], (*q)[2], (*q)[3], (*q)[0]).transpose();
+  if (const auto p = files_.vector(asset, "refpos")) before.translation = -(before.linear * *p);
+  const bool moves = !(before == Affine<double>());
+  const Vec3<double> scale_of_vertices = moves ? Vec3<double>::Ones() : scale;
+  if (asset.attribute("vertex")) {
+    const auto numbers = files_.numbers(asset, "vertex", 12, 3'000'000);
+    if (!numbers) return;
+    std::vector<Vec3<double>> vertices;
+    for (std::size_t i = 0; i + 2 < numbers->size(); i += 3)
+      vertices.emplace_back((*numbers)[i], (*numbers)[i + 1], (*numbers)[i + 2]);
+    answer = meshes_.hull_of_vertices(std::move(vertices), scale_of_vertices, name);
+  } else {
+    std::string file = asset.attribute_or("file");
+    if (strips_path_) file = std::filesystem::path(file).filename().string();
+    answer = meshes_.hulls_of(file, scale_of_vertices);
+  }
+  if (moves)
+    for (Shape<double>& hull : answer.hulls)
+      hull = Transform<double>{hull, Affine<double>{scale.asDiagonal(), {0, 0, 0}} * before};
+  add_mesh(model_, files_, written, answer, std::move(geom), options_);
+}
+
+void MjcfAssets::hand_over_meshes() {
+  model_.meshes = meshes_.take_meshes();
+  model_.hash += meshes_.hash_text();
+}
+
+}  // namespace minkray

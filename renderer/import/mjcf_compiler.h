@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// What MJCF's <compiler> says of the rest of a file: the units of angles, how Euler angles go,
+// where meshes are; and the poses, which are read by it.
+#pragma once
+
+#include <string>
+
+#include "core/math/affine.h"
+#include "renderer/import/xml.h"
+
+namespace minkray {
+
+class MjcfCompiler {
+ public:
+  explicit MjcfCompiler(XmlFiles& files) : files_(files) {}
+
+  /// Reads a <compiler>; later ones add to it.
+  void read(const XmlElement& e);
+
+  bool is_global() const { return is_global_; }
+  bool auto_limits() const { return auto_limits_; }
+  bool discards_visual() const { return discards_visual_; }
+  bool strips_path() const { return strips_path_; }
+  const std::string& mesh_folder() const { return mesh_folder_; }
+
+  /// An angle of the file in radians.
+  double angle(double given) const;
+
+  /// The pose that an element's attributes say.
+  Affine<double> pose_in(const XmlElement& e) const;
+
+ private:
+  bool flag(const XmlElement& element, std::string_view key, bool otherwise) const;
+  Vec3<double> direction(const XmlElement& element, std::string_view key,
+                         const std::vector<double>& v, std::size_t first) const;
+  Mat3<double> rotation_in(const XmlElement& e) const;
+
+  XmlFiles& files_;
+  bool is_degree_ = true, is_global_ = false, auto_limits_ = false, discards_visual_ = false;
+  bool strips_path_ = false;
+  std::string mesh_folder_, euler_ = "xyz";
+};
+
+}  // namespace minkray

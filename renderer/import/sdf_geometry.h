@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// The shapes of SDF: what a link's <visual> and <collision> hold.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+
+#include "renderer/import/import_options.h"
+#include "renderer/import/mesh_library.h"
+#include "renderer/import/model.h"
+#include "renderer/import/xml.h"
+
+namespace minkray {
+
+class SdfGeometry {
+ public:
+  SdfGeometry(Model& model, XmlFiles& files, const ImportOptions& options)
+      : model_(model), files_(files), options_(options) {}
+
+  /// Adds the shapes of a <visual> or <collision> to a link.
+  void add(const XmlElement& element, int link);
+
+  /// Gives the model the meshes that were read, and their hashes.
+  void hand_over_meshes();
+
+ private:
+  void add_shape(const XmlElement& shape, ModelGeom geom);
+  MeshLibrary& library_of(const XmlElement& element);
+
+  Model& model_;
+  XmlFiles& files_;
+  const ImportOptions& options_;
+  std::map<std::uint32_t, std::unique_ptr<MeshLibrary>> libraries_;  ///< by file
+};
+
+}  // namespace minkray
