@@ -1,18 +1,10 @@
 // SPDX-License-Identifier: MIT
 // minkray-bench: rays at single shapes, ours beside other people's casters, on one thread.
-//
-// All casters of a shape answer the same batch of rays in turn, round after round, so that a noisy
-// moment hits all of them; a caster's speed is the median over the rounds of its time divided by
-// that of the default solver in float in the same round. Answers are judged by exact ones.
-#include <Eigen/Core>
-#include <algorithm>
-#include <chrono>
 #include <fstream>
-#include <iomanip>
 #include <iostream>
-#include <map>
 #include <sstream>
 
+#include "bench/measured.h"
 #include "bench/peers/others.h"
 #include "bench/peers/ours.h"
 #include "bench/truth.h"
@@ -26,9 +18,6 @@ namespace {
 using namespace minkray;
 using namespace minkray::bench;
 
-/// The one that all times are divided by.
-constexpr std::string_view baseline = "minkray-auto/float";
-
 struct Options {
   std::string json;
   std::string shape;   ///< only shapes whose names contain this
@@ -41,145 +30,19 @@ struct Options {
   bool sweep = true;
 };
 
-struct Measured {
-  std::string name;
-  std::size_t triangles = 0;
-  double nanoseconds = 0;  ///< a ray
-  double ratio = 0;        ///< to the baseline
-  Judgement judgement;
-};
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-/// Mistakes nearer to the silhouette than this are rounding's.
-double band_of(const std::string& name) {
-  return name.ends_with("/double") ? 1e-12 : 1e-6;
-}
-
-std::vector<Measured> measure(const Peers& peers, const Shape<double>& shape,
-                              const RaysWithTruth& rays, int rounds) {
-  using Clock = std::chrono::steady_clock;
-  const std::size_t count = rays.batch.size();
-  std::vector<Measured> all(peers.size());
-  std::vector<std::vector<double>> times(peers.size());
-  std::vector<Hit> hits(count);
-  std::size_t base = 0;
-  for (std::size_t p = 0; p < peers.size(); ++p) {
-    // The first answers are judged; they also warm the caches.
-    peers[p]->prepare(rays.batch);
-    peers[p]->cast();
-    peers[p]->read(hits);
-    all[p].name = peers[p]->name();
-    all[p].triangles = peers[p]->triangles();
-    all[p].judgement = judge(shape, rays, hits, band_of(all[p].name));
-    if (all[p].name == baseline) base = p;
-  }
-  for (int round = 0; round < rounds; ++round) {
-    for (std::size_t p = 0; p < peers.size(); ++p) {
-      peers[p]->prepare(rays.batch);
-      const auto begin = Clock::now();
-      peers[p]->cast();
-      const std::chrono::duration<double, std::nano> time = Clock::now() - begin;
-      times[p].push_back(time.count() / static_cast<double>(count));
-    }
-  }
-  for (std::size_t p = 0; p < peers.size(); ++p) {
-    std::vector<double> ratios;
-    for (std::size_t r = 0; r < times[p].size(); ++r)
-      ratios.push_back(times[p][r] / times[base][r]);
-    all[p].nanoseconds = median(times[p]);
-    all[p].ratio = median(ratios);
-  }
-  return all;
-}
-
-Json as_json(const Spread& spread) {
-  return {{"mean", spread.mean}, {"p999", spread.most_of_all}, {"max", spread.max}};
-}
-
-Json as_json(const Measured& m) {
-  const Judgement& j = m.judgement;
-  std::ostringstream hash;
-  hash << std::hex << j.hash;
-  Json json = {{"name", m.name},
-               {"ns_per_ray", m.nanoseconds},
-               {"ratio", m.ratio},
-               {"rays", j.rays},
-               {"hits", j.hits},
-               {"unknown", j.unknown},
-               {"exhausted", j.exhausted},
-               {"wrong", j.wrong},
-               {"false_hits", j.false_hits},
-               {"false_misses", j.false_misses},
-               {"band", j.band},
-               {"t_error_along_normal", as_json(j.along_normal)},
-               {"t_error_along_ray", as_json(j.along_ray)},
-               {"normal_angle", as_json(j.normal_angle)},
-               {"hash", hash.str()}};
-  if (m.triangles > 0) json["triangles"] = m.triangles;
-  if (j.supports_of_hits.max > 0) {
-    json["supports_per_hit"] = as_json(j.supports_of_hits);
-    json["supports_per_miss"] = as_json(j.supports_of_misses);
-  }
-  return json;
-}
-
-std::string short_number(double value, int digits) {
-  std::ostringstream text;
-  text << std::setprecision(digits) << value;
-  return text.str();
-}
-
-/// One line a caster.
-void print(const std::string& subject, const std::string& family,
-           const std::vector<Measured>& measured) {
-  std::cout << "\n"
-            << subject << ", " << family << "\n"
-            << std::left << std::setw(40) << "" << std::right << std::setw(9) << "ns"
-            << std::setw(8) << "ratio" << std::setw(21) << "supports a hit" << std::setw(8)
-            << "a miss" << std::setw(9) << "dt*cos" << std::setw(9) << "dt" << std::setw(9)
-            << "normal" << std::setw(7) << "wrong" << std::setw(7) << "false" << std::setw(6)
-            << "exh."
-            << "\n";
-  for (const Measured& m : measured) {
-    const Judgement& j = m.judgement;
-    std::string supports, of_misses;
-    if (j.supports_of_hits.max > 0) {
-      supports = short_number(j.supports_of_hits.mean, 3) + "/" +
-                 short_number(j.supports_of_hits.most_of_all, 4) + "/" +
-                 short_number(j.supports_of_hits.max, 4);
-      of_misses = short_number(j.supports_of_misses.mean, 3);
-    }
-    std::string name = m.name;
-    if (m.triangles > 0) name += " (" + std::to_string(m.triangles) + ")";
-    std::cout << std::left << std::setw(40) << name << std::right << std::setw(9)
-              << short_number(m.nanoseconds, 3) << std::setw(8) << short_number(m.ratio, 3)
-              << std::setw(21) << supports << std::setw(8) << of_misses << std::setw(9)
-              << short_number(j.along_normal.max, 2) << std::setw(9)
-              << short_number(j.along_ray.max, 2) << std::setw(9)
-              << short_number(j.normal_angle.max, 2) << std::setw(7) << j.wrong << std::setw(7)
-              << j.false_hits + j.false_misses << std::setw(6) << j.exhausted << "\n";
-  }
-  std::cout << std::flush;
-}
-
 void append(Peers& peers, Peers more) {
   for (auto& peer : more) peers.push_back(std::move(peer));
 }
 
-/// What is measured at one shape: which families, and whether beside others.
-struct Part {
+/// What is measured at one shape in one size: which families, and whether beside others.
+struct Size {
   std::string label;
   double scale = 1;
   std::vector<std::string> families;
   bool with_others = true;
 };
 
-std::vector<Part> parts(const Options& options) {
+std::vector<Size> sizes(const Options& options) {
   const auto chosen = [&](std::vector<std::string> families) {
     if (!options.family.empty())
       std::erase_if(families, [&](const std::string& name) { return name != options.family; });
@@ -272,23 +135,23 @@ void run(const Options& options) {
             << " rounds; ratio: time by that of " << baseline << "; errors in bounding radii\n";
   for (const testing::MeasuredShape& subject : testing::measured_shapes()) {
     if (subject.name.find(options.shape) == std::string::npos) continue;
-    for (const Part& part : parts(options)) {
+    for (const Size& size : sizes(options)) {
       // All numbers that a float can hold, so that every precision has the same shape.
       const Shape<double> wished =
-          part.scale == 1 ? subject.shape : testing::scaled(subject.shape, part.scale);
+          size.scale == 1 ? subject.shape : testing::scaled(subject.shape, size.scale);
       const Shape<double> shape = convert<double>(convert<float>(wished));
       const double radius = ball_around(bounds_of<double>(shape)).radius;
-      if (part.families.empty()) continue;
-      Peers peers = make_peers(shape, radius, part.with_others && options.only.empty(), options);
+      if (size.families.empty()) continue;
+      Peers peers = make_peers(shape, radius, size.with_others && options.only.empty(), options);
       if (!options.only.empty())
         std::erase_if(peers, [&](const auto& peer) {
           return peer->name() != baseline && !peer->name().starts_with(options.only);
         });
       Json families = Json::array();
-      for (const std::string& family : part.families) {
+      for (const std::string& family : size.families) {
         const RaysWithTruth rays = make_rays(shape, family, options.rays);
         const std::vector<Measured> measured = measure(peers, shape, rays, options.rounds);
-        print(subject.name + part.label, family, measured);
+        print(subject.name + size.label, family, measured);
         Json list = Json::array();
         for (const Measured& m : measured) {
           list.push_back(as_json(m));
@@ -297,7 +160,7 @@ void run(const Options& options) {
         families.push_back({{"family", family}, {"peers", std::move(list)}});
       }
       json["shapes"].push_back({{"name", subject.name},
-                                {"scale", part.scale},
+                                {"scale", size.scale},
                                 {"radius", radius},
                                 {"families", std::move(families)}});
     }
