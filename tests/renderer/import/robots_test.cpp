@@ -1,139 +1,18 @@
 // SPDX-License-Identifier: MIT
-// URDF and SDF: kinematics beside a second way to them, real models, and hostile files.
+// URDF and SDF: real models, what small files say, and what is wrong with them.
 #include <gtest/gtest.h>
 
 #include <fstream>
 #include <map>
-#include <regex>
-#include <sstream>
 
-#include "renderer/import/import.h"
-#include "renderer/import/xml.h"
 #include "renderer/scene/scene_json.h"
 #include "renderer/scene/write_scene.h"
+#include "tests/renderer/import/imports.h"
 #include "tests/support/program.h"
-#include "tests/support/random.h"
 #include "tests/support/robot_models.h"
 
 namespace minkray {
 namespace {
-
-using Number = long double;
-using Quaternion = Eigen::Quaternion<Number>;
-using Vector = Eigen::Matrix<Number, 3, 1>;
-
-/// A URDF's joints as regular expressions find them, and the links' frames by quaternions in long
-/// double: shares nothing with the reader.
-class SecondKinematics {
- public:
-  explicit SecondKinematics(const std::string& file) {
-    std::string text = text_of_file(file);
-    text = std::regex_replace(text, std::regex("<!--[^]*?-->"), "");
-    const std::regex joint("<joint\\s([^>]*[^/])>([^]*?)</joint>");
-    for (std::sregex_iterator at(text.begin(), text.end(), joint), end; at != end; ++at) {
-      const std::string head = " " + at->str(1), body = at->str(2);
-      if (attribute(head, "type").empty()) continue;  // of a transmission
-      Joint read;
-      read.name = attribute(head, "name");
-      read.type = attribute(head, "type");
-      read.parent = attribute(element(body, "parent"), "link");
-      const std::string child = attribute(element(body, "child"), "link");
-      const std::string origin = element(body, "origin");
-      read.xyz = vector(attribute(origin, "xyz"), Vector(0, 0, 0));
-      read.rpy = vector(attribute(origin, "rpy"), Vector(0, 0, 0));
-      read.axis = vector(attribute(element(body, "axis"), "xyz"), Vector(1, 0, 0)).normalized();
-      if (!child.empty()) joints_[child] = read;
-    }
-  }
-
-  std::size_t size() const { return joints_.size(); }
-
-  void frame(const std::string& link, const std::map<std::string, double>& values, Vector& at,
-             Quaternion& turned) const {
-    const auto found = joints_.find(link);
-    if (found == joints_.end()) {
-      at.setZero();
-      turned.setIdentity();
-      return;
-    }
-    const Joint& joint = found->second;
-    frame(joint.parent, values, at, turned);
-    at += turned * joint.xyz;
-    for (const int axis : {2, 1, 0})
-      turned = turned * Quaternion(Eigen::AngleAxis<Number>(joint.rpy[axis], Vector::Unit(axis)));
-    const auto value = values.find(joint.name);
-    if (value == values.end()) return;
-    if (joint.type == "prismatic")
-      at += turned * Vector(Number(value->second) * joint.axis);
-    else
-      turned = turned * Quaternion(Eigen::AngleAxis<Number>(Number(value->second), joint.axis));
-  }
-
- private:
-  struct Joint {
-    std::string name, type, parent;
-    Vector xyz, rpy, axis;
-  };
-  static std::string element(const std::string& body, const std::string& name) {
-    std::smatch match;
-    return std::regex_search(body, match, std::regex("<" + name + "(\\s[^>]*)>")) ? match.str(1)
-                                                                                  : "";
-  }
-  static std::string attribute(const std::string& text, const std::string& name) {
-    std::smatch match;
-    return std::regex_search(text, match, std::regex("\\s" + name + "\\s*=\\s*[\"']([^\"']*)"))
-               ? match.str(1)
-               : "";
-  }
-  static Vector vector(const std::string& text, const Vector& otherwise) {
-    std::istringstream stream(text);
-    double x = 0, y = 0, z = 0;
-    return stream >> x >> y >> z ? Vector(x, y, z) : otherwise;
-  }
-  std::map<std::string, Joint> joints_;
-};
-
-ImportOptions without_meshes() {
-  ImportOptions options;
-  options.skip_missing_meshes = true;
-  return options;
-}
-
-TEST(Urdf, links_stand_where_a_second_way_in_long_double_puts_them) {
-  if (!has_robot_models()) GTEST_SKIP() << "run scenes/fetch-models";
-  const std::string atlas = "simbody/TaskSpaceControl-Atlas/models/atlas_v4.urdf";
-  for (const std::string& name : {atlas, std::string("dart/urdf/wam/wam.urdf"),
-                                  std::string("dart/urdf/KR5/KR5 sixx R650.urdf"),
-                                  std::string("dart/urdf/drchubo/drchubo.urdf")}) {
-    const std::string file = (robot_models() / name).string();
-    Mistakes mistakes(file);
-    std::optional<Model> model = load_model(file, without_meshes(), mistakes);
-    ASSERT_TRUE(model) << mistakes.text();
-    const SecondKinematics second(file);
-    ASSERT_GT(second.size(), 5u) << name;
-    testing::Random random(5);
-    double worst = 0;
-    for (int state = 0; state < 100; ++state) {
-      std::map<std::string, double> values;
-      for (ModelLink& link : model->links)
-        for (ModelJoint& joint : link.joints)
-          if (width_of(joint.kind) == 1) {
-            values[joint.name] = random.uniform(-3, 3);
-            joint.value = {values[joint.name]};
-          }
-      const std::vector<Affine<double>> poses = link_poses(*model);
-      for (std::size_t i = 0; i < poses.size(); ++i) {
-        Vector at;
-        Quaternion turned;
-        second.frame(model->links[i].name, values, at, turned);
-        const Mat3<double> rotation = turned.toRotationMatrix().cast<double>();
-        worst = std::max({worst, (poses[i].translation - at.cast<double>()).norm(),
-                          (poses[i].linear - rotation).cwiseAbs().maxCoeff()});
-      }
-    }
-    EXPECT_LT(worst, 1e-12) << name;
-  }
-}
 
 TEST(Robots, every_description_of_the_packages_is_read_or_refused_with_a_reason) {
   if (!has_robot_models()) GTEST_SKIP() << "run scenes/fetch-models";
@@ -178,12 +57,6 @@ TEST(Robots, a_scene_file_written_from_a_robot_is_the_same_scene) {
   }
 }
 
-std::string told_of(const std::string& text, const std::string& file = "robot.urdf") {
-  Mistakes mistakes(file);
-  EXPECT_FALSE(parse_model(text, file, {}, mistakes));
-  return mistakes.text();
-}
-
 TEST(Urdf, mimics_follow_and_capsules_are_read) {
   const std::string text = R"(<robot name="two"><link name="a"/>
     <link name="b"><visual><geometry><capsule radius="0.1" length="0.4"/></geometry></visual></link>
@@ -202,7 +75,7 @@ TEST(Urdf, mimics_follow_and_capsules_are_read) {
 }
 
 TEST(Urdf, mistakes_are_told_all_at_once_with_their_lines) {
-  const std::string told = told_of(R"(<robot name="bad">
+  const std::string mistakes = mistakes_of(R"(<robot name="bad">
 <link name="a"><visual><geometry><box size="1 -1 1"/></geometry></visual></link>
 <link name="a"/>
 <link name="b"><collision><geometry><wedge/></geometry></collision>
@@ -213,7 +86,7 @@ TEST(Urdf, mistakes_are_told_all_at_once_with_their_lines) {
        {"line 2: <box>: size", "line 3: <link name=\"a\">: name: must not be the name of two",
         "line 4: <wedge>: must be one of box", "looked for", "line 6: <joint name=\"j\">: type",
         "the link \"nobody\" is not there"})
-    EXPECT_NE(told.find(expected), told.npos) << expected << " in\n" << told;
+    EXPECT_NE(mistakes.find(expected), mistakes.npos) << expected << " in\n" << mistakes;
 }
 
 TEST(Sdf, poses_are_relative_to_frames_links_and_joints) {
@@ -235,56 +108,6 @@ TEST(Sdf, poses_are_relative_to_frames_links_and_joints) {
   EXPECT_LT((at["m::base"] - Vec3<double>(1, 2, 0)).norm(), 1e-15);
   EXPECT_LT((at["m::tip"] - Vec3<double>(1, 2, 1.5)).norm(), 1e-15);
   EXPECT_LT((at["m::inner::x"] - Vec3<double>(1, 3, 1.5)).norm(), 1e-15);
-}
-
-TEST(HostileXml, is_refused_with_a_reason) {
-  const std::string bomb = R"(<!DOCTYPE x [<!ENTITY a "aaaaaaaaaa"><!ENTITY b "&a;&a;&a;">]>
-    <robot name="&b;"/>)";
-  EXPECT_NE(told_of(bomb).find("declares entities"), std::string::npos);
-  EXPECT_NE(told_of("<robot").find("no XML"), std::string::npos);
-  EXPECT_NE(told_of("").find("no XML"), std::string::npos);
-  EXPECT_NE(told_of("<house/>").find("must be <mujoco>"), std::string::npos);
-  std::string many(3'000'000, '<');
-  EXPECT_NE(told_of(many).find("elements"), std::string::npos);
-  std::string deep = "<mujoco><worldbody>";
-  for (int i = 0; i < 100000; ++i) deep += "<body>";
-  EXPECT_NE(told_of(deep).find("nested too deeply"), std::string::npos);
-  EXPECT_NE(told_of("<robot><link name='a'/><link name='b'/><joint name='1' type='fixed'><parent "
-                    "link='a'/><child link='b'/></joint><joint name='2' type='fixed'><parent "
-                    "link='b'/><child link='a'/></joint></robot>")
-                .find("in a circle"),
-            std::string::npos);
-}
-
-TEST(HostileXml, a_chain_of_a_hundred_thousand_joints_is_read) {
-  constexpr int count = 100000;
-  std::string text = "<robot name='chain'><link name='0'/>";
-  for (int i = 1; i <= count; ++i) {
-    const std::string here = std::to_string(i), before = std::to_string(i - 1);
-    text += "<link name='" + here + "'/><joint name='j" + here +
-            "' type='revolute'><origin xyz='1 0 0'/><parent link='" + before + "'/><child link='" +
-            here + "'/></joint>";
-  }
-  text += "</robot>";
-  Mistakes mistakes("chain.urdf");
-  const std::optional<Model> model = parse_model(text, "chain.urdf", {}, mistakes);
-  ASSERT_TRUE(model) << mistakes.text();
-  EXPECT_EQ(link_poses(*model).back().translation, Vec3<double>(count, 0, 0));
-}
-
-TEST(HostileXml, files_that_include_each_other_and_large_files_are_refused) {
-  const TemporaryFolder folder;
-  const auto write = [&](const std::string& name, const std::string& text) {
-    std::ofstream(folder / name) << text;
-  };
-  write("a.xml", "<mujoco><include file='b.xml'/></mujoco>");
-  write("b.xml", "<mujoco><include file='a.xml'/></mujoco>");
-  Mistakes circle(folder / "a.xml");
-  EXPECT_FALSE(load_model(folder / "a.xml", {}, circle));
-  EXPECT_NE(circle.text().find("included twice"), std::string::npos) << circle.text();
-  write("large.xml", std::string(most_xml_bytes + 1, ' '));
-  Mistakes large(folder / "large.xml");
-  EXPECT_FALSE(load_model(folder / "large.xml", {}, large));
 }
 
 TEST(Meshes, parts_have_hulls_of_their_own) {

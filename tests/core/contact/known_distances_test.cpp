@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+// Signed distances that are known otherwise: by closed forms, by Wolfe's method and by the facets
+// of the shapes' difference.
+#include <gtest/gtest.h>
+
+#include "tests/core/contact/random_bodies.h"
+#include "tests/oracle/wolfe.h"
+
+namespace minkray {
+namespace {
+
+using Long = long double;
+using testing::Body;
+using testing::random_shape;
+using testing::RandomShapes;
+
+/// The distance of two segments in long double.
+double distance_of_segments(const std::array<Vec3<double>, 2>& a,
+                            const std::array<Vec3<double>, 2>& b) {
+  std::vector<oracle::Column<3>> differences;
+  for (const Vec3<double>& p : a)
+    for (const Vec3<double>& q : b) differences.push_back(q.cast<Long>() - p.cast<Long>());
+  return static_cast<double>(oracle::nearest_to_origin<3>(differences).norm());
+}
+
+TEST(SignedDistance, spheres_capsules_and_boxes_have_closed_forms) {
+  RandomShapes random(7);
+  for (int k = 0; k < 20000; ++k) {
+    const double size = std::pow(10, random.in(-3, 3));
+    const Vec3<double> p = size * random.direction(), q = size * random.direction(),
+                       r = size * random.direction() * random.in(0, 2),
+                       s = size * random.direction();
+    const double r1 = size * random.in(0.01, 1), r2 = size * random.in(0.01, 1);
+    const auto round = [](double radius, const Shape<double>& core) {
+      return ContactShape(Rounded<double>{radius, Nested<double>(core)});
+    };
+    const SignedDistance capsules =
+        signed_distance(round(r1, Segment<double>{{p, q}}), round(r2, Segment<double>{{r, s}}));
+    const double exact = distance_of_segments({p, q}, {r, s}) - r1 - r2;
+    ASSERT_NEAR(capsules.value, exact, 1e-14 * 4 * size) << k;
+    ASSERT_LE(capsules.lower, exact);
+    ASSERT_GE(capsules.upper, exact);
+
+    const SignedDistance balls = signed_distance(
+        ContactShape(Transform<double>{Nested<double>(Shape<double>(Sphere<double>{r1})),
+                                       Affine<double>{Mat3<double>::Identity(), p}}),
+        round(r2, Point<double>{q}));
+    ASSERT_NEAR(balls.value, double((q.cast<Long>() - p.cast<Long>()).norm() - Long(r1) - Long(r2)),
+                1e-14 * 4 * size);
+
+    const Vec3<double> h = size * Vec3<double>(random.in(0, 1), random.in(0, 1), random.in(0, 1));
+    const Vec3<Long> beyond = r.cast<Long>().cwiseAbs() - h.cast<Long>();
+    const Long deepest = std::min(beyond.maxCoeff(), Long(0));
+    const Vec3<Long> aside = beyond.cwiseMax(Vec3<Long>::Zero());
+    const SignedDistance box =
+        signed_distance(ContactShape(Box<double>{h}), round(r1, Point<double>{r}));
+    ASSERT_NEAR(box.value, double(aside.norm() + deepest - Long(r1)), 1e-14 * 4 * size) << k;
+  }
+}
+
+TEST(SignedDistance, hulls_are_as_deep_in_each_other_as_the_nearest_facet_of_their_difference) {
+  RandomShapes random(5);
+  int overlapping = 0;
+  for (int k = 0; k < 1000; ++k) {
+    const bool are_boxes = k % 4 == 0;
+    const Body a(are_boxes ? random_shape(5, 1, random) : random.hull(4 + k % 20, 1),
+                 {random.turn(), Vec3<double>::Zero()});
+    const Body b(are_boxes ? random_shape(5, 1, random) : random.hull(4 + k % 13, 1),
+                 {random.turn(), random.in(0, 1) * random.direction()});
+    const SignedDistance result = signed_distance(a.ready, a.pose, b.ready, b.pose);
+    if (result.status != SignedStatus::overlapping) continue;
+    ++overlapping;
+    const auto corners = [](const Body& body) {
+      std::vector<Vec3<double>> points;
+      if (const auto* hull = std::get_if<Hull<double>>(&body.shape.kind)) {
+        for (const Vec3<double>& p : hull->points.points()) points.push_back(body.pose(p));
+      } else {
+        for (int i = 0; i < 8; ++i)
+          points.push_back(body.pose(body.shape.support(
+              Vec3<double>((i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1, (i & 4) != 0 ? 1 : -1))));
+      }
+      return points;
+    };
+    std::vector<Vec3<double>> differences;
+    for (const Vec3<double>& p : corners(a))
+      for (const Vec3<double>& q : corners(b)) differences.push_back(q - p);
+    const PointCloud<double> difference(differences);
+    ASSERT_NE(difference.facets(), nullptr);
+    double depth = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < difference.facets()->size(); ++i) {
+      const auto& facet = (*difference.facets())[i];
+      if (facet.normal().isZero(0)) continue;
+      depth = std::min(depth, facet.normal().dot(difference.support(facet.normal())));
+    }
+    ASSERT_NEAR(result.value, -depth, 1e-13) << k;
+    ASSERT_LE(result.upper - result.lower, 1e-9 * (a.ready.reach() + b.ready.reach())) << k;
+  }
+  EXPECT_GT(overlapping, 500);
+}
+
+TEST(SignedDistance, shapes_in_the_middle_of_each_other_are_as_deep_as_their_thinnest_sum) {
+  // Every direction is as good as any other here, or a circle of them is.
+  const ContactShape ball(Sphere<double>{2}), inner(Sphere<double>{1});
+  EXPECT_NEAR(signed_distance(ball, inner).value, -3, 1e-14);
+  const ContactShape rod(Cylinder<double>{1, 5}), thin(Cylinder<double>{0.25, 5});
+  SignedDistanceOptions coarse;
+  coarse.tolerance = 1e-5;
+  const SignedDistance coaxial = signed_distance(rod, {}, thin, {}, coarse);
+  EXPECT_NEAR(coaxial.value, -1.25, 1e-4);
+  EXPECT_LE(coaxial.lower, -1.25);
+  EXPECT_GE(coaxial.upper, -1.25);
+  const ContactShape cube(Box<double>{{1, 1, 1}});
+  EXPECT_NEAR(signed_distance(cube, cube).value, -2, 1e-14);
+}
+
+}  // namespace
+}  // namespace minkray
