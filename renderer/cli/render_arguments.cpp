@@ -28,7 +28,7 @@ void RenderArguments::add_to(const Verb& verb) {
                   "How often light is scattered between objects; 0 for ambient occlusion")
       .between(0, 64)
       .show_default();
-  verb.add_option("--packet", packet,
+  verb.add_option("--ray-group", ray_group,
                   "Camera rays that are traced together; the picture is the same for any number")
       .between(1, most_in_packet)
       .show_default();

@@ -16,7 +16,7 @@ struct RenderArguments {
   ImageArguments image;
   double exposure = 0;
   int bounces = IntegratorOptions().bounces;
-  int packet = IntegratorOptions().packet;
+  int ray_group = IntegratorOptions().packet;
   BvhBuild build = BvhBuild::quality;
   bool certify = false;
   std::string stats;  ///< empty: none, "true": text, "json"

@@ -92,7 +92,7 @@ void set_options(RenderJob& job, const RenderArguments& options) {
   job.options.tile = shares.tile;
   job.options.sample_share = shares.sample_share;
   job.options.integrator.bounces = options.bounces;
-  job.options.integrator.packet = options.packet;
+  job.options.integrator.packet = options.ray_group;
   check_shares(job.options);
 }
 

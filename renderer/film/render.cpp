@@ -12,11 +12,11 @@ namespace minkray {
 namespace {
 
 /// How so many rays are taken from pixels and samples.
-struct PacketShape {
+struct RayGroupShape {
   int samples;
   BlockSize pixels;
 
-  PacketShape(int rays, int samples_of_pixel) : samples(std::clamp(samples_of_pixel, 1, rays)) {
+  RayGroupShape(int rays, int samples_of_pixel) : samples(std::clamp(samples_of_pixel, 1, rays)) {
     while (2 * samples * pixels.width * pixels.height <= rays && pixels.width < tile_size)
       (pixels.height < pixels.width ? pixels.height : pixels.width) *= 2;
   }
@@ -95,9 +95,9 @@ Rendering render(const Scene& scene, const RenderWorld& world, const RenderOptio
     rendering = std::move(journal.begun);
   }
 
-  // The rays of a packet: samples of one pixel first, they are the closest together; then pixels.
-  const PacketShape packet(options.integrator.packet,
-                           blocks.begin(end_block) - blocks.begin(first_block));
+  // The rays of a group: samples of one pixel first, they are the closest together; then pixels.
+  const RayGroupShape group(options.integrator.packet,
+                            blocks.begin(end_block) - blocks.begin(first_block));
   // When nothing moves no random numbers are spent on when.
   const bool blurs = world.instances().move();
   const auto render_block = [&](const PixelBlock& pixels, RayCounts& counts) {
@@ -106,7 +106,7 @@ Rendering render(const Scene& scene, const RenderWorld& world, const RenderOptio
     const int end = blocks.begin(end_block);
     int next = 0;
     for (int first = blocks.begin(first_block); first < end && !watch.stopped(); first = next) {
-      next = std::min(first + packet.samples, end);
+      next = std::min(first + group.samples, end);
       std::size_t count = 0;
       pixels.for_each([&](const Pixel& pixel) {
         for (int sample = first; sample < next; ++sample) {
@@ -146,7 +146,7 @@ Rendering render(const Scene& scene, const RenderWorld& world, const RenderOptio
   if (journal.finished)
     tiles.finished = [&](std::size_t tile) { journal.finished(rendering, tile); };
   rendering.complete =
-      for_blocks(region, packet.pixels, rendering.counts, watch, render_block, tiles);
+      for_blocks(region, group.pixels, rendering.counts, watch, render_block, tiles);
   return rendering;
 }
 

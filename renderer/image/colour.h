@@ -21,7 +21,7 @@ inline double from_srgb(double encoded) {
 /// The nearest 8-bit code of linear light, clipped to what a screen can show. NaN becomes 0.
 inline std::uint8_t to_srgb8(double linear) {
   const double clipped = linear > 0 ? std::min(linear, 1.0) : 0.0;
-  return static_cast<std::uint8_t>(255 * to_srgb(clipped) + 0.5);
+  return static_cast<std::uint8_t>(std::lround(255 * to_srgb(clipped)));
 }
 
 }  // namespace minkray

@@ -36,8 +36,8 @@ std::string software_chunk() {
     return bytes;
   };
   std::string typed = "tEXt" + std::string(software_text);
-  const std::uint32_t checksum = stbiw__crc32(reinterpret_cast<unsigned char*>(typed.data()),
-                                              static_cast<int>(typed.size()));
+  const std::uint32_t checksum =
+      stbiw__crc32(reinterpret_cast<unsigned char*>(typed.data()), static_cast<int>(typed.size()));
   return number(static_cast<std::uint32_t>(software_text.size())) + typed + number(checksum);
 }
 

@@ -14,7 +14,7 @@ bool is_half_space(const Json& shape) {
 }
 
 std::optional<HalfSpaceBody<double>> read_half_space(const Json& json, const JsonPath& path,
-                                                 Mistakes& mistakes) {
+                                                     Mistakes& mistakes) {
   ObjectReader object(json, path, mistakes);
   object.allow({"type"});
   HalfSpaceBody<double> half_space;

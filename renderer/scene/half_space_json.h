@@ -16,7 +16,7 @@ bool is_half_space(const Json& shape);
 /// Nothing, and mistakes, if anything in it is wrong. The normal may have any length but zero;
 /// "offset" is along it.
 std::optional<HalfSpaceBody<double>> read_half_space(const Json& json, const JsonPath& path,
-                                                 Mistakes& mistakes);
+                                                     Mistakes& mistakes);
 
 Json write_half_space(const HalfSpaceBody<double>& half_space);
 

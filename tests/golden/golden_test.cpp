@@ -92,9 +92,9 @@ struct Way {
 constexpr Way ways[] = {
     {"2 threads", "\"$MINKRAY\" render \"$scene\" -q -o \"$out\" -t 2 $options"},
     {"7 threads", "\"$MINKRAY\" render \"$scene\" -q -o \"$out\" -t 7 $options"},
-    {"rays one by one", "\"$MINKRAY\" render \"$scene\" -q -o \"$out\" --packet 1 $options"},
-    {"packets of 4", "\"$MINKRAY\" render \"$scene\" -q -o \"$out\" --packet 4 $options"},
-    {"packets of 8", "\"$MINKRAY\" render \"$scene\" -q -o \"$out\" --packet 8 $options"},
+    {"rays one by one", "\"$MINKRAY\" render \"$scene\" -q -o \"$out\" --ray-group 1 $options"},
+    {"groups of 4 rays", "\"$MINKRAY\" render \"$scene\" -q -o \"$out\" --ray-group 4 $options"},
+    {"groups of 8 rays", "\"$MINKRAY\" render \"$scene\" -q -o \"$out\" --ray-group 8 $options"},
     {"5 tiles",
      "for i in 1 2 3 4 5; do \"$MINKRAY\" render \"$scene\" -q -o tile-$i.exr --tile $i/5 $options "
      "|| exit 1; done; \"$MINKRAY\" merge tile-?.exr -o \"$out\"; code=$?; rm tile-?.exr; exit "
