@@ -24,8 +24,21 @@ void RenderArguments::add_to(const Verb& verb) {
   verb.add_option("--solver", image.solver, "Of the ray casts").show_default();
   verb.add_option("--exposure", exposure, "Stops brighter; .pfm keeps the scene's light")
       .show_default();
+  std::string kinds = "Which light the picture is made of:";
+  std::vector<std::string> names;
+  for (const IntegratorDescription& kind : integrators) {
+    kinds += "\n" + std::string(kind.name) + ": " + std::string(kind.doc);
+    names.emplace_back(kind.name);
+  }
+  verb.add_option("--integrator", integrator, kinds).one_of(names).show_default();
+  verb.add_option("--max-depth", max_depth,
+                  "With --integrator path: how often light is scattered, mirrored or refracted on "
+                  "its way; 0 for shining bodies alone")
+      .between(0, 1000)
+      .show_default();
   verb.add_option("--bounces", bounces,
-                  "How often light is scattered between objects; 0 for ambient occlusion")
+                  "With --integrator ambient: how often light is scattered between objects; 0 for "
+                  "ambient occlusion")
       .between(0, 64)
       .show_default();
   verb.add_option("--ray-group", ray_group,

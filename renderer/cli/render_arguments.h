@@ -17,6 +17,8 @@ struct RenderArguments {
   double exposure = 0;
   int bounces = IntegratorOptions().bounces;
   int ray_group = IntegratorOptions().packet;
+  int max_depth = IntegratorOptions().max_depth;
+  std::string integrator = "auto";
   BvhBuild build = BvhBuild::quality;
   bool certify = false;
   std::string stats;  ///< empty: none, "true": text, "json"

@@ -93,6 +93,10 @@ void set_options(RenderJob& job, const RenderArguments& options) {
   job.options.sample_share = shares.sample_share;
   job.options.integrator.bounces = options.bounces;
   job.options.integrator.packet = options.ray_group;
+  job.options.integrator.max_depth = options.max_depth;
+  for (const IntegratorDescription& kind : integrators)
+    if (kind.name == options.integrator)
+      job.options.integrator.kind = settled(kind.kind, job.scene);
   check_shares(job.options);
 }
 

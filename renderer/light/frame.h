@@ -18,6 +18,13 @@ struct Frame {
     x = {1 + sign * z.x() * z.x() * a, sign * b, -sign * z.x()};
     y = {b, sign + z.y() * z.y() * a, -z.y()};
   }
+  /// With y along circles around an axis; where the normal is along the axis, any.
+  Frame(const Vec3<double>& normal, const Vec3<double>& axis) : Frame(normal) {
+    const Vec3<double> around = axis.cross(normal);
+    if (!(around.norm() > 1e-9)) return;
+    y = around.normalized();
+    x = y.cross(z);
+  }
   Vec3<double> to_local(const Vec3<double>& v) const { return {v.dot(x), v.dot(y), v.dot(z)}; }
   Vec3<double> to_world(const Vec3<double>& v) const { return v.x() * x + v.y() * y + v.z() * z; }
 };

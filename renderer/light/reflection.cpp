@@ -20,12 +20,20 @@ double eta_of(const GlossyMaterial& glossy) {
   return std::min(glossy.index_of_refraction, most_refraction);
 }
 
-DiffuseBase base_of(const Material& material) {
-  if (const auto* lambert = std::get_if<LambertMaterial>(&material.kind))
-    return DiffuseBase(lambert->colour);
-  const auto& glossy = std::get<GlossyMaterial>(material.kind);
-  return {glossy.colour, eta_of(glossy)};
-}
+/// The bases of all kinds of materials.
+struct BaseOf {
+  DiffuseBase operator()(const LambertMaterial& matt) const { return DiffuseBase(matt.colour); }
+  DiffuseBase operator()(const GlossyMaterial& glossy) const {
+    return {glossy.colour, eta_of(glossy)};
+  }
+  DiffuseBase operator()(const EmissiveMaterial&) const { return DiffuseBase(Colour::Zero()); }
+  DiffuseBase operator()(const DielectricMaterial&) const {
+    return DiffuseBase(Colour::Constant(0.9));
+  }
+  DiffuseBase operator()(const ConductorMaterial& metal) const {
+    return DiffuseBase(metal.colour.value_or(Colour::Constant(0.6)));
+  }
+};
 
 std::optional<Coat> coat_of(const Material& material) {
   const auto* glossy = std::get_if<GlossyMaterial>(&material.kind);
@@ -142,7 +150,8 @@ double Coat::pdf(const Vec3<double>& w_out, const Vec3<double>& w_in) const {
   return rough.density(m) / ((1 + rough.lambda(w_out)) * 4 * w_out.z());
 }
 
-Surface::Surface(const Material& material) : base_(base_of(material)), coat_(coat_of(material)) {}
+Surface::Surface(const Material& material)
+    : base_(std::visit(BaseOf(), material.kind)), coat_(coat_of(material)) {}
 
 Colour Surface::eval(const Vec3<double>& w_out, const Vec3<double>& w_in,
                      double least_alpha) const {

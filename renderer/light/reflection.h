@@ -83,14 +83,15 @@ class Coat {
   SurfaceSample sample(const Vec3<double>& w_out, const std::array<double, 2>& u) const;
   double pdf(const Vec3<double>& w_out, const Vec3<double>& w_in) const;
 
- private:
   bool is_smooth() const { return alpha_ == 0; }
 
+ private:
   double eta_;
   double alpha_;  ///< 0: smooth
 };
 
-/// A surface ready to be shaded: a base, and a coat over it if there is one.
+/// A surface ready to be shaded: a base, and a coat over it if there is one. Materials of other
+/// kinds are taken for matt ones of about their colour.
 class Surface {
  public:
   explicit Surface(const Material& material);

@@ -152,4 +152,14 @@ MemberDescription describe(const Parameter& parameter, Member<Resolution>) {
   return one_key(parameter, "2 whole numbers", schema_of_list(side, 2));
 }
 
+MemberDescription describe(const Parameter& parameter, Member<std::optional<Vec3<double>>>) {
+  return describe(parameter, Member<Vec3<double>>());
+}
+
+MemberDescription describe(const Parameter& parameter, Member<MetalName>) {
+  Json names = Json::array();
+  for (const Metal& metal : metals) names.push_back(std::string(metal.name));
+  return one_key(parameter, "a metal's name", {{"enum", std::move(names)}});
+}
+
 }  // namespace minkray

@@ -33,6 +33,8 @@ MemberDescription describe(const Parameter&, Member<Nested<double>>);
 MemberDescription describe(const Parameter&, Member<ShapeList<double>>);
 MemberDescription describe(const Parameter&, Member<AffineMap<double>>);
 MemberDescription describe(const Parameter&, Member<Resolution>);
+MemberDescription describe(const Parameter&, Member<std::optional<Vec3<double>>>);
+MemberDescription describe(const Parameter&, Member<MetalName>);
 
 /// Calls visit(parameter, description) for each parameter of a described struct.
 template <class S, class Visit>

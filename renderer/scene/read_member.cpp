@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/scene/read_member.h"
 
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
 
@@ -150,6 +151,28 @@ bool read_member(ObjectReader& object, const Parameter&, AffineMap<double>& memb
   const auto map = read_affine(object);
   if (map) member = AffineMap<double>(*map);
   return map.has_value();
+}
+
+bool read_member(ObjectReader& object, const Parameter& parameter,
+                 std::optional<Vec3<double>>& member, MeshFiles&) {
+  return read_key(object, parameter, member, [&](const Json& json, const JsonPath& path) {
+    return read_vector(json, path, object.mistakes(), parameter.range);
+  });
+}
+
+bool read_member(ObjectReader& object, const Parameter& parameter, MetalName& member, MeshFiles&) {
+  return read_key(object, parameter, member,
+                  [&](const Json& json, const JsonPath& path) -> std::optional<MetalName> {
+                    const auto name = read_string(json, path, object.mistakes());
+                    if (!name) return std::nullopt;
+                    std::vector<std::string> names;
+                    for (const Metal& metal : metals) names.emplace_back(metal.name);
+                    if (std::find(names.begin(), names.end(), *name) != names.end())
+                      return MetalName{*name};
+                    object.mistakes().add(path, "must be the name of a metal (" + found(json) +
+                                                    "; " + suggestion(*name, names) + ")");
+                    return std::nullopt;
+                  });
 }
 
 bool read_member(ObjectReader& object, const Parameter& parameter, Resolution& member, MeshFiles&) {

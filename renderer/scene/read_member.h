@@ -41,6 +41,8 @@ bool read_member(ObjectReader&, const Parameter&, Nested<double>& member, MeshFi
 bool read_member(ObjectReader&, const Parameter&, ShapeList<double>& member, MeshFiles&);
 bool read_member(ObjectReader&, const Parameter&, AffineMap<double>& member, MeshFiles&);
 bool read_member(ObjectReader&, const Parameter&, Resolution& member, MeshFiles&);
+bool read_member(ObjectReader&, const Parameter&, std::optional<Vec3<double>>& member, MeshFiles&);
+bool read_member(ObjectReader&, const Parameter&, MetalName& member, MeshFiles&);
 
 /// The keys "translate", "rotate" and "scale", each optional, or "matrix".
 std::optional<Affine<double>> read_affine(ObjectReader& object);

@@ -15,12 +15,11 @@
 #include "core/shape/field.h"
 #include "core/shape/shape.h"
 #include "core/world/half_space.h"
+#include "renderer/scene/materials.h"
 #include "renderer/scene/motion.h"
 #include "renderer/scene/particles.h"
 
 namespace minkray {
-
-using Colour = Vec3<double>;
 
 /// The largest width and height of a picture, so that its number of pixels fits an int.
 inline constexpr int most_pixels_a_side = 32768;
@@ -116,51 +115,15 @@ struct EnvironmentLight {
 
 using Light = std::variant<DirectionalLight, PointLight, EnvironmentLight>;
 
-/// Diffuse reflection.
-struct LambertMaterial {
-  Colour colour = Colour::Constant(0.7);
-
-  static constexpr std::string_view name = "lambert";
-  static constexpr std::string_view doc = "Matt: diffuse reflection.";
-  static constexpr auto fields() {
-    return std::tuple{Field{"color", &LambertMaterial::colour, Unit::none, Range::zero_to_one,
-                            "the part of the light it reflects (linear RGB)"}};
-  }
-};
-
-/// A diffuse base under a dielectric coat that mirrors by Fresnel's law; `roughness` 0 is a mirror.
-struct GlossyMaterial {
-  Colour colour = Colour::Constant(0.7);
-  double roughness = 0.1;
-  double index_of_refraction = 1.5;
-
-  static constexpr std::string_view name = "glossy";
-  static constexpr std::string_view doc = "A diffuse base under a coat that mirrors.";
-  static constexpr auto fields() {
-    using M = GlossyMaterial;
-    return std::tuple{
-        Field{"color", &M::colour, Unit::none, Range::zero_to_one,
-              "the part of the light that the base reflects (linear RGB)"},
-        Field{"roughness", &M::roughness, Unit::none, Range::zero_to_one, "0 for a perfect mirror",
-              true},
-        Field{"index_of_refraction", &M::index_of_refraction, Unit::none, Range::at_least_one,
-              "the coat's: the larger, the more it mirrors", true}};
-  }
-};
-
-struct Material {
-  std::string name;
-  std::variant<LambertMaterial, GlossyMaterial> kind;
-};
-
 struct Object {
   std::string name;
   Shape<double> shape = Point<double>();
-  Affine<double> pose;                               ///< from the shape's frame to the world
-  std::uint32_t material = 0;                        ///< index into Scene::materials
-  std::optional<Motion> motion = {};                 ///< `pose` is what it is at the scene's time
-  Vec3<double> shift = Vec3<double>::Zero();         ///< how far it goes while the shutter is open
-  std::optional<HalfSpaceBody<double>> half_space = {};  ///< if there is one it is that, not `shape`
+  Affine<double> pose;                        ///< from the shape's frame to the world
+  std::uint32_t material = 0;                 ///< index into Scene::materials
+  std::optional<Motion> motion = {};          ///< `pose` is what it is at the scene's time
+  Vec3<double> shift = Vec3<double>::Zero();  ///< how far it goes while the shutter is open
+  std::optional<HalfSpaceBody<double>> half_space =
+      {};  ///< if there is one it is that, not `shape`
 };
 
 /// What "type" says in the place of a shape's name for a half-space, which is none.

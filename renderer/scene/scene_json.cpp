@@ -123,8 +123,9 @@ class SceneReader {
     if (const Json* written = object.require("name", "the material's name")) {
       name = read_name(*written, object.path("name"));
     }
-    auto kind = read_tagged<decltype(Material::kind)>(
+    auto kind = read_tagged<MaterialKind>(
         object, "a material", [&](auto& made) { return read_members(object, made, meshes_); });
+    if (kind) check_metal(*kind, path);
     if (name.empty()) return;
     // A material with mistakes still takes its name and place, so that objects of it are no
     // mistakes, too.
@@ -135,6 +136,13 @@ class SceneReader {
       return;
     }
     scene_.materials.push_back({name, kind.value_or(LambertMaterial())});
+  }
+
+  void check_metal(const MaterialKind& kind, const JsonPath& path) {
+    const auto* conductor = std::get_if<ConductorMaterial>(&kind);
+    if (conductor && conductor->metal.name.empty() != conductor->colour.has_value())
+      mistakes_.add(path, std::string("must have either \"metal\" or \"color\" (got ") +
+                              (conductor->colour ? "both)" : "neither)"));
   }
 
   void read_object(const Json& json, const JsonPath& path) {

@@ -160,7 +160,7 @@ Json scene_schema() {
     light["properties"]["intensity"]["description"] = "multiplies its colours";
   });
   definitions["material"] =
-      tagged_schema<decltype(Material::kind)>("A material.", [&]<class S>(Json& material) {
+      tagged_schema<MaterialKind>("A material.", [&]<class S>(Json& material) {
         material["properties"]["name"] = name;
         material["required"].push_back("name");
       });

@@ -74,4 +74,12 @@ void write_member(Json& object, std::string_view name, const Resolution& member)
   value_of(object, name) = {member.width, member.height};
 }
 
+void write_member(Json& object, std::string_view name, const std::optional<Vec3<double>>& member) {
+  if (member) write_member(object, name, *member);
+}
+
+void write_member(Json& object, std::string_view name, const MetalName& member) {
+  if (!member.name.empty()) value_of(object, name) = member.name;
+}
+
 }  // namespace minkray

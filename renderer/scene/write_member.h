@@ -28,6 +28,9 @@ void write_member(Json& object, std::string_view name, const Nested<double>& mem
 void write_member(Json& object, std::string_view name, const ShapeList<double>& member);
 void write_member(Json& object, std::string_view name, const AffineMap<double>& member);
 void write_member(Json& object, std::string_view name, const Resolution& member);
+/// These are left out where there is none.
+void write_member(Json& object, std::string_view name, const std::optional<Vec3<double>>& member);
+void write_member(Json& object, std::string_view name, const MetalName& member);
 
 /// All parameters of a described struct.
 template <class S>

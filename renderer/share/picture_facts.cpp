@@ -28,6 +28,15 @@ std::vector<int> integers(const Facts& facts, const std::string& name, char sepa
   return numbers;
 }
 
+/// "ambient", "path 16": its depth counts for paths alone.
+std::string integrator_text(const Scene& scene, const IntegratorOptions& options) {
+  const IntegratorKind kind = settled(options.kind, scene);
+  std::string text;
+  for (const IntegratorDescription& description : integrators)
+    if (description.kind == kind) text = description.name;
+  return kind == IntegratorKind::path ? text + " " + std::to_string(options.max_depth) : text;
+}
+
 }  // namespace
 
 Facts picture_facts(const Scene& scene, const RenderWorld& world, const RenderOptions& options) {
@@ -47,12 +56,13 @@ Facts picture_facts(const Scene& scene, const RenderWorld& world, const RenderOp
       {fact::seed, number(options.seed)},
       {fact::solver, solver},
       {fact::bounces, number(options.integrator.bounces)},
+      {fact::integrator, integrator_text(scene, options.integrator)},
   };
 }
 
 std::vector<std::string> common_facts() {
-  return {fact::software, fact::scene,  fact::resolution, fact::crop, fact::samples,
-          fact::seed,     fact::solver, fact::bounces,    fact::aov};
+  return {fact::software, fact::scene,  fact::resolution, fact::crop,       fact::samples,
+          fact::seed,     fact::solver, fact::bounces,    fact::integrator, fact::aov};
 }
 
 std::string difference(const Facts& found, const Facts& wanted,

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/light/bsdf.h"
+
+#include "renderer/light/coated_bsdf.h"
+#include "renderer/light/conductor_bsdf.h"
+#include "renderer/light/dielectric_bsdf.h"
+
+namespace minkray {
+namespace {
+
+/// Absorbs all light, as bodies do that only shine.
+class BlackBsdf final : public Bsdf {
+ public:
+  Colour eval(const Shading&, const Vec3<double>&) const override { return Colour::Zero(); }
+  double pdf(const Shading&, const Vec3<double>&) const override { return 0; }
+  std::optional<BsdfSample> sample(const Shading&, const BsdfChoice&) const override {
+    return std::nullopt;
+  }
+  bool is_sharp() const override { return true; }
+};
+
+/// One for each kind of material.
+struct Maker {
+  using Made = std::unique_ptr<const Bsdf>;
+
+  const Material& material;
+
+  Made operator()(const LambertMaterial&) const {
+    return std::make_unique<CoatedBsdf>(Surface(material));
+  }
+  Made operator()(const GlossyMaterial&) const {
+    return std::make_unique<CoatedBsdf>(Surface(material));
+  }
+  Made operator()(const EmissiveMaterial&) const { return std::make_unique<BlackBsdf>(); }
+  Made operator()(const DielectricMaterial& glass) const {
+    return std::make_unique<DielectricBsdf>(glass.roughness, glass.index_of_refraction);
+  }
+  Made operator()(const ConductorMaterial& metal) const { return make_conductor(metal); }
+};
+
+}  // namespace
+
+std::unique_ptr<const Bsdf> make_bsdf(const Material& material) {
+  return std::visit(Maker{material}, material.kind);
+}
+
+}  // namespace minkray

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// How a surface scatters light, for the path tracer: eval is its value times the cosine of w_in,
+// sample draws a direction that light comes from, pdf is the density of these draws over solid
+// angle. Directions point away from the surface, in a frame whose z is the body's outward normal:
+// w_in may lie on the other side, where light comes through.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+
+#include "renderer/light/frame.h"
+#include "renderer/light/reflection.h"
+
+namespace minkray {
+
+/// What a surface is asked about.
+struct Shading {
+  Vec3<double> w_out;                   ///< towards where the light goes; z != 0
+  double eta_above = 1, eta_below = 1;  ///< indices of refraction outside and inside of the body
+};
+
+struct BsdfSample {
+  Vec3<double> w_in;
+  Colour weight;  ///< eval / pdf
+  double pdf;     ///< of w_in, where it has one
+  /// The only direction of its kind, as of a smooth mirror: drawn with a chance, not a density.
+  bool is_sharp = false;
+};
+
+/// Three numbers in [0, 1): a pair, and one to choose by.
+struct BsdfChoice {
+  std::array<double, 2> u;
+  double which;
+};
+
+class Bsdf {
+ public:
+  virtual ~Bsdf() = default;
+
+  virtual Colour eval(const Shading& at, const Vec3<double>& w_in) const = 0;
+  virtual double pdf(const Shading& at, const Vec3<double>& w_in) const = 0;
+  /// Nothing where the light is absorbed.
+  virtual std::optional<BsdfSample> sample(const Shading& at, const BsdfChoice& choice) const = 0;
+
+  /// Whether any light comes from a light's direction: not where all directions are sharp.
+  virtual bool is_sharp() const { return false; }
+  /// Whether light gets into the body.
+  virtual bool lets_through() const { return false; }
+  /// Whether it matters which way x points across the normal: then along circles around the
+  /// object's z axis.
+  virtual bool has_grain() const { return false; }
+};
+
+std::unique_ptr<const Bsdf> make_bsdf(const Material& material);
+
+}  // namespace minkray

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// The boundary of two clear media, smooth or rough (Walter et al., "Microfacet Models for
+// Refraction through Rough Surfaces", 2007). Of a rough one the light that facets throw onto other
+// facets is put back, in proportion (Turquin, "Practical multiple scattering compensation for
+// microfacet models", 2019).
+#pragma once
+
+#include "renderer/light/bsdf.h"
+#include "renderer/light/kept_energy.h"
+#include "renderer/light/microfacets.h"
+
+namespace minkray {
+
+/// The fraction of unpolarised light that is mirrored, by the cosine of incidence >= 0 and the
+/// index of refraction beyond over that before; 1 where all is.
+double fresnel_either_way(double cosine, double eta);
+
+class DielectricBsdf final : public Bsdf {
+ public:
+  DielectricBsdf(double roughness, double index_of_refraction);
+
+  Colour eval(const Shading& at, const Vec3<double>& w_in) const override;
+  double pdf(const Shading& at, const Vec3<double>& w_in) const override;
+  std::optional<BsdfSample> sample(const Shading& at, const BsdfChoice& choice) const override;
+  bool is_sharp() const override { return !rough_; }
+  bool lets_through() const override { return true; }
+
+ private:
+  struct Parts;
+  std::optional<Parts> parts(const Shading& at, const Vec3<double>& w_in) const;
+
+  std::optional<Microfacets> rough_;
+  std::optional<KeptEnergy> kept_;
+};
+
+}  // namespace minkray

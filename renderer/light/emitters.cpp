@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/light/emitters.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "renderer/light/frame.h"
+
+namespace minkray {
+namespace {
+
+constexpr std::uint32_t no_emitter = std::numeric_limits<std::uint32_t>::max();
+
+/// So many emitters are weighed one by one at each point, by brightness, size and distance; more
+/// are chosen among by brightness and size alone.
+constexpr std::size_t most_weighed = 16;
+
+/// A flat body's ellipsoid is so thick, over its largest radius: directions from where the body is
+/// seen edge-on must still be told apart from those that pass it.
+constexpr double least_thickness = 1e-6;
+
+/// 1 - cos of the half angle under which the unit ball is seen from squared distance d2 > 1, in the
+/// form that does not cancel.
+double cone_height(double d2) {
+  return (1 / d2) / (1 + std::sqrt(1 - 1 / d2));
+}
+
+/// The half axes of an ellipsoid around the shape, in its inner frame.
+Vec3<double> half_axes(const ShapeDefinition<Real>& shape) {
+  const exact::Form& form = shape.form();
+  if (form.kind == FormKind::ball && form.is_scaled && !form.is_off_centre)
+    return form.R * form.scale.cwiseInverse();
+  // A ball around it, or the least ellipsoid around its box: whichever is smaller.
+  const Vec3<double> box = shape.inner_half_extents();
+  const double radius = shape.inner_ball().radius;
+  const double largest = box.maxCoeff();
+  const bool is_flat = !(box.minCoeff() > least_thickness * largest);
+  const double spread = is_flat ? std::sqrt(2.0) : std::sqrt(3.0);
+  const Vec3<double> least = Vec3<double>::Constant(least_thickness * largest);
+  const Vec3<double> around_box = (spread * box).cwiseMax(least);
+  if (is_flat) {
+    // Both are cut by the body's plane; what lies outside of it does not count.
+    const Vec3<double> of_ball = Vec3<double>::Constant(radius);
+    const Vec3<double> flat_ball = (box.array() > least_thickness * largest).select(of_ball, least);
+    return flat_ball.prod() < around_box.prod() ? flat_ball : around_box;
+  }
+  if (radius * radius * radius <= around_box.prod()) return Vec3<double>::Constant(radius);
+  return around_box;
+}
+
+}  // namespace
+
+std::optional<Vec3<double>> AroundBody::sample(const Vec3<double>& point,
+                                               const std::array<double, 2>& u) const {
+  const Vec3<double> towards = map * (centre - point);
+  const double d2 = towards.squaredNorm();
+  if (!(d2 > 1)) return std::nullopt;
+  const double below = u[0] * cone_height(d2);  // 1 - cosine
+  const double sine = std::sqrt(below * (2 - below)), angle = 2 * std::numbers::pi * u[1];
+  const Frame frame(towards / std::sqrt(d2));
+  const Vec3<double> drawn =
+      frame.to_world({sine * std::cos(angle), sine * std::sin(angle), 1 - below});
+  return Vec3<double>((map.inverse() * drawn).normalized());
+}
+
+double AroundBody::pdf(const Vec3<double>& point, const Vec3<double>& direction) const {
+  const double d2 = (map * (centre - point)).squaredNorm();
+  if (!(d2 > 1)) return 0;
+  const double stretched = (map * direction).norm();
+  return determinant / (2 * std::numbers::pi * cone_height(d2) * stretched * stretched * stretched);
+}
+
+AroundBody around(const PreparedShape<Real>& body) {
+  const Vec3<double> axes = half_axes(body.definition());
+  AroundBody result;
+  result.centre = body.centre();
+  result.map = axes.cwiseInverse().asDiagonal();
+  const Mat3<double>* linear = body.linear_to_inner();
+  if (linear) result.map = result.map * *linear;
+  result.determinant = std::abs(result.map.determinant());
+  // The two larger half axes in the world, as if it were not sheared.
+  const double scale = linear ? std::cbrt(1 / std::abs(linear->determinant())) : 1;
+  result.size2 = scale * scale * axes.prod() / axes.minCoeff();
+  return result;
+}
+
+Emitters::Emitters(const RenderWorld& world, const std::vector<Colour>& radiance_of_instance)
+    : world_(world) {
+  double power = 0;
+  for (std::size_t i = 0; i < radiance_of_instance.size(); ++i) {
+    const Colour& radiance = radiance_of_instance[i];
+    // What has no end, or no size, is found by chance alone.
+    if (!(radiance.maxCoeff() > 0) || world.instances().is_half_space(i)) continue;
+    const PreparedShape<Real> body = world.instances().at(i);
+    if (!(body.inner_ball().radius > 0)) continue;
+    Emitter& emitter =
+        emitters_.emplace_back(Emitter{static_cast<std::uint32_t>(i), radiance, around(body), 0});
+    emitter.power = radiance.mean() * emitter.body.size2;
+    power += emitter.power;
+    power_up_to_.push_back(power);
+    of_instance_.resize(radiance_of_instance.size(), no_emitter);
+    of_instance_[i] = static_cast<std::uint32_t>(emitters_.size() - 1);
+  }
+}
+
+/// The point as the emitter sees it, from where that stands at time 0.
+Vec3<double> Emitters::seen_from(const Emitter& emitter, const Vec3<double>& point,
+                                 double time) const {
+  return world_.instances().seen_by(emitter.instance, {point, point}, time).origin;
+}
+
+double Emitters::weight(const Emitter& emitter, const Vec3<double>& point, double time) const {
+  const double d2 = (emitter.body.centre - seen_from(emitter, point, time)).squaredNorm();
+  return emitter.power / std::max(d2, emitter.body.size2);
+}
+
+std::optional<EmitterSample> Emitters::sample(const Vec3<double>& point, double time,
+                                              Sampler& sampler) const {
+  const double which = sampler.next()[0];
+  const std::array<double, 2> u = sampler.next();
+  std::size_t chosen = 0;
+  if (emitters_.size() > most_weighed) {
+    const auto at =
+        std::upper_bound(power_up_to_.begin(), power_up_to_.end(), which * power_up_to_.back());
+    chosen = std::min(static_cast<std::size_t>(at - power_up_to_.begin()), emitters_.size() - 1);
+  } else if (emitters_.size() > 1) {
+    std::array<double, most_weighed> up_to;
+    double sum = 0;
+    for (std::size_t i = 0; i < emitters_.size(); ++i)
+      up_to[i] = sum += weight(emitters_[i], point, time);
+    while (chosen + 1 < emitters_.size() && up_to[chosen] <= which * sum) ++chosen;
+  }
+  const Emitter& emitter = emitters_[chosen];
+  const auto direction = emitter.body.sample(seen_from(emitter, point, time), u);
+  if (!direction) return std::nullopt;
+  const double density = pdf(point, time, *direction, emitter.instance);
+  if (!(density > 0)) return std::nullopt;
+  return EmitterSample{chosen, *direction, density};
+}
+
+double Emitters::pdf(const Vec3<double>& point, double time, const Vec3<double>& direction,
+                     std::uint32_t instance) const {
+  if (of_instance_.empty() || of_instance_[instance] == no_emitter) return 0;
+  const Emitter& emitter = emitters_[of_instance_[instance]];
+  double chance = 1;
+  if (emitters_.size() > most_weighed) {
+    chance = emitter.power / power_up_to_.back();
+  } else if (emitters_.size() > 1) {
+    double sum = 0;
+    for (const Emitter& other : emitters_) sum += weight(other, point, time);
+    chance = weight(emitter, point, time) / sum;
+  }
+  return chance * emitter.body.pdf(seen_from(emitter, point, time), direction);
+}
+
+}  // namespace minkray

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// Bodies that shine, of any shape. Directions towards one are drawn within the cone under which an
+// ellipsoid around it is seen: the body itself if it is a ball, an ellipsoid or a disk, so that
+// every direction meets it. The cone is that of a unit ball, drawn evenly there; the map from the
+// ellipsoid to the ball changes solid angles by |det A| / |A d|^3 for unit directions d. Whether a
+// direction meets the body, and where, is asked by casting at it.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "renderer/base/real.h"
+#include "renderer/light/sampler.h"
+#include "renderer/scene/materials.h"
+
+namespace minkray {
+
+/// An ellipsoid around a body: |map (x - centre)| <= 1.
+struct AroundBody {
+  Vec3<double> centre;
+  Mat3<double> map;
+  double determinant;  ///< of the map, positive
+  double size2;        ///< about its shadow's area over pi
+
+  /// A direction of unit length from the point; nothing from within the ellipsoid.
+  std::optional<Vec3<double>> sample(const Vec3<double>& point,
+                                     const std::array<double, 2>& u) const;
+  /// The density over solid angle of a direction that meets the ellipsoid; 0 from within.
+  double pdf(const Vec3<double>& point, const Vec3<double>& direction) const;
+};
+
+/// The least of those that are known around an instance of a world.
+AroundBody around(const PreparedShape<Real>& body);
+
+/// A direction towards an emitter.
+struct EmitterSample {
+  std::size_t emitter;
+  Vec3<double> direction;
+  double pdf;  ///< over solid angle, with the chance of this emitter
+};
+
+/// The instances of a world that shine.
+class Emitters {
+ public:
+  /// By instance: the radiance; none where it is zero. Refers to the world.
+  Emitters(const RenderWorld& world, const std::vector<Colour>& radiance_of_instance);
+
+  bool none() const { return emitters_.empty(); }
+  std::uint32_t instance(std::size_t emitter) const { return emitters_[emitter].instance; }
+  const Colour& radiance(std::size_t emitter) const { return emitters_[emitter].radiance; }
+
+  /// Where the emitters are at that time, while the shutter is open.
+  std::optional<EmitterSample> sample(const Vec3<double>& point, double time,
+                                      Sampler& sampler) const;
+  /// The density with which `sample` draws a direction that meets the instance.
+  double pdf(const Vec3<double>& point, double time, const Vec3<double>& direction,
+             std::uint32_t instance) const;
+
+ private:
+  struct Emitter {
+    std::uint32_t instance;
+    Colour radiance;
+    AroundBody body;
+    double power;  ///< brightness times size
+  };
+
+  Vec3<double> seen_from(const Emitter& emitter, const Vec3<double>& point, double time) const;
+  /// In proportion to the chance to draw it, as long as there are few.
+  double weight(const Emitter& emitter, const Vec3<double>& point, double time) const;
+
+  const RenderWorld& world_;
+  std::vector<Emitter> emitters_;           ///< in the order of their instances
+  std::vector<std::uint32_t> of_instance_;  ///< an index into them, or none
+  std::vector<double> power_up_to_;         ///< the sum of their powers, each included
+};
+
+}  // namespace minkray

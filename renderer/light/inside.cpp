@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/light/inside.h"
+
+#include <algorithm>
+
+#include "core/bvh/traverse.h"
+
+namespace minkray {
+namespace {
+
+/// Hit points are off by a few dozen units of rounding (docs/decisions/leaving-a-surface.md).
+constexpr Real surface_offset = 256;
+
+/// Where the ray leaves a body that it is in.
+Boundary exit_of(const RenderWorld& world, const WorldRay<Real>& ray, std::uint32_t body,
+                 QueryCounts& counts) {
+  const Instances<Real>& instances = world.instances();
+  const Ray<Real> seen = instances.seen_by(body, ray.ray, ray.time);
+  Boundary exit;
+  exit.instance = body;
+  exit.leaves = true;
+  ++counts.casts;
+  if (instances.is_half_space(body)) {
+    for (const auto& half_space : instances.half_spaces()) {
+      if (half_space.instance != body) continue;
+      exit.normal = half_space.in_world.normal;
+      const Real rise = exit.normal.dot(seen.direction);
+      const Real depth = half_space.in_world.offset - exit.normal.dot(seen.origin);
+      exit.t = rise > 0 ? std::max(depth / rise, Real(0)) : std::numeric_limits<Real>::infinity();
+    }
+    return exit;
+  }
+  const CastResult<Real> cast = cast_exit(instances.at(body), seen, world.options());
+  counts.iterations += static_cast<std::uint64_t>(cast.iterations);
+  counts.supports += static_cast<std::uint64_t>(cast.supports);
+  ++counts.by_path[static_cast<std::size_t>(cast.path)];
+  if (cast.status == Status::hit) {
+    exit.t = std::max(cast.t(), Real(0));
+    exit.normal = cast.normal;
+  } else if (cast.status == Status::miss) {
+    // On the surface and going along it: by rounding, out of it at once.
+    exit.normal = cast.normal.dot(seen.direction) > 0 && cast.normal.allFinite()
+                      ? unit<Real>(cast.normal)
+                      : unit<Real>(seen.direction);
+  } else {
+    ++counts.exhausted;
+    exit.is_lost = true;
+  }
+  return exit;
+}
+
+/// The closest hit but of some instances.
+WorldHit<Real> closest_but(const RenderWorld& world, const WorldRay<Real>& ray,
+                           std::span<const std::uint32_t> but, QueryCounts& counts) {
+  const Instances<Real>& instances = world.instances();
+  WorldHit<Real> closest;
+  closest.cast.status = Status::miss;
+  const auto is_left_out = [&](std::uint32_t instance) {
+    return instance == ray.skip || std::find(but.begin(), but.end(), instance) != but.end();
+  };
+  const auto meet = [&](std::uint32_t instance, const CastResult<Real>& cast) {
+    ++counts.casts;
+    counts.iterations += static_cast<std::uint64_t>(cast.iterations);
+    counts.supports += static_cast<std::uint64_t>(cast.supports);
+    ++counts.by_path[static_cast<std::size_t>(cast.path)];
+    counts.exhausted += cast.status == Status::exhausted ? 1 : 0;
+    if (!cast.found() || !closest.yields_to(instance, cast.t())) return false;
+    closest = {instance, cast};
+    return true;
+  };
+  for (const auto& half_space : instances.half_spaces())
+    if (!is_left_out(half_space.instance))
+      meet(
+          half_space.instance,
+          cast_ray(half_space.in_world, instances.seen_by(half_space.instance, ray.ray, ray.time)));
+  SlabRay slabs(ray.ray);
+  if (closest.found()) slabs.numbers.t_max = slabs.limit(closest.cast.t());
+  counts.nodes += traverse(world.bvh(), slabs, [&](std::uint32_t instance) {
+    if (is_left_out(instance) || instances.is_half_space(instance)) return false;
+    if (meet(instance, cast_ray(instances.at(instance),
+                                instances.seen_by(instance, ray.ray, ray.time), world.options())))
+      slabs.numbers.t_max = slabs.limit(closest.cast.t());
+    return false;
+  });
+  return closest;
+}
+
+}  // namespace
+
+bool Inside::holds(std::uint32_t body) const {
+  const auto all = bodies();
+  return std::find(all.begin(), all.end(), body) != all.end();
+}
+
+bool Inside::enter(std::uint32_t body) {
+  if (count_ == most) return false;
+  bodies_[count_++] = body;
+  return true;
+}
+
+void Inside::leave(std::uint32_t body) {
+  const auto end = bodies_.begin() + static_cast<std::ptrdiff_t>(count_);
+  count_ = static_cast<std::size_t>(std::remove(bodies_.begin(), end, body) - bodies_.begin());
+}
+
+Boundary boundary_of(const WorldHit<Real>& hit) {
+  Boundary boundary;
+  if (!hit.found()) return boundary;
+  boundary.instance = hit.instance;
+  boundary.is_within = hit.cast.status == Status::inside;
+  boundary.t = hit.cast.t();
+  boundary.normal = hit.cast.normal;
+  return boundary;
+}
+
+Real rounding_at(const RenderWorld& world, std::uint32_t instance, const Vec3<Real>& point,
+                 Real t) {
+  const Real largest =
+      std::max({point.cwiseAbs().maxCoeff(), t, world.instances().half_extent(instance)});
+  return surface_offset * tolerance::epsilon<Real> * largest;
+}
+
+Boundary next_boundary(const RenderWorld& world, const WorldRay<Real>& ray, const Inside& inside,
+                       QueryCounts& counts) {
+  Boundary next;
+  next.t = ray.ray.t_max;
+  for (const std::uint32_t body : inside.bodies()) {
+    const Boundary exit = exit_of(world, ray, body, counts);
+    if (exit.is_lost) return exit;
+    if (exit.t < next.t) next = exit;
+  }
+  WorldRay<Real> ahead = ray;
+  if (next.leaves)
+    ahead.ray.t_max = next.t + rounding_at(world, next.instance, ray.ray.at(next.t), next.t);
+  const WorldHit<Real> entered = closest_but(world, ahead, inside.bodies(), counts);
+  if (entered.found()) return boundary_of(entered);
+  return next;
+}
+
+}  // namespace minkray

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// Where a ray goes on within clear bodies. Which bodies hold the ray is known, not measured: it
+// enters and leaves them one by one, each at a place that is cast for, so that rounding cannot put
+// it on the wrong side and no distance has to be guessed. A ray that goes out of a convex body does
+// not meet it again, one that goes in leaves it at the exit that cast_exit finds.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "renderer/base/real.h"
+
+namespace minkray {
+
+/// The bodies that hold a place, in the order in which they were entered.
+class Inside {
+ public:
+  /// No place is held by more.
+  static constexpr std::size_t most = 16;
+
+  bool none() const { return count_ == 0; }
+  std::span<const std::uint32_t> bodies() const { return std::span(bodies_).first(count_); }
+  bool holds(std::uint32_t body) const;
+
+  /// False if there is no room.
+  bool enter(std::uint32_t body);
+  void leave(std::uint32_t body);
+
+ private:
+  std::array<std::uint32_t, most> bodies_;
+  std::size_t count_ = 0;
+};
+
+/// What comes next along a ray.
+struct Boundary {
+  std::uint32_t instance = no_instance;  ///< none: the ray goes on for ever
+  bool leaves = false;                   ///< goes out of the body, not in
+  bool is_within = false;  ///< the ray begins in a body that it was not known to be in
+  bool is_lost = false;    ///< the solver gave up
+  Real t = 0;
+  Vec3<Real> normal = Vec3<Real>::Zero();  ///< outward
+};
+
+/// The first body entered or left. `left` is the instance whose surface the ray begins on. Where a
+/// body is entered within rounding of where another is left, it is entered: what stands on glass is
+/// seen through it.
+Boundary next_boundary(const RenderWorld& world, const WorldRay<Real>& ray, const Inside& inside,
+                       QueryCounts& counts);
+
+/// A hit of the world as the boundary that it is.
+Boundary boundary_of(const WorldHit<Real>& hit);
+
+/// How far hit points may be off, in lengths: a few hundred roundings of the largest number that
+/// went into it.
+Real rounding_at(const RenderWorld& world, std::uint32_t instance, const Vec3<Real>& point, Real t);
+
+}  // namespace minkray

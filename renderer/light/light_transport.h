@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// What all ways to gather light have in common.
+#pragma once
+
+#include <span>
+
+#include "renderer/light/traced_ray.h"
+
+namespace minkray {
+
+/// Any number of threads may ask.
+class LightTransport {
+ public:
+  virtual ~LightTransport() = default;
+
+  /// Fills in what camera rays see, at most most_in_packet at once: one ray is a span of one. What
+  /// a ray sees does not depend on the others.
+  virtual void trace(std::span<TracedRay> rays, RayCounts& counts) const = 0;
+};
+
+}  // namespace minkray

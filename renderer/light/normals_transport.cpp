@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/light/normals_transport.h"
+
+namespace minkray {
+
+void NormalsTransport::trace(std::span<TracedRay> rays, RayCounts& counts) const {
+  std::array<WorldRay<Real>, most_in_packet> asked;
+  std::array<WorldHit<Real>, most_in_packet> hits;
+  counts.camera += rays.size();
+  for (std::size_t i = 0; i < rays.size(); ++i)
+    asked[i] = {rays[i].ray, rays[i].left, rays[i].time};
+  world_.closest_hits(std::span(asked).first(rays.size()), hits, counts.work);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const WorldHit<Real>& hit = hits[i];
+    if (observer_) observer_->closest(RayKind::camera, rays[i].ray, rays[i].left, hit);
+    rays[i].met = hit.found();
+    rays[i].radiance = Colour::Ones();
+    if (hit.cast.status == Status::hit)
+      rays[i].radiance = 0.5 * (Colour::Ones() + hit.cast.normal.cast<double>());
+    else if (hit.found())
+      rays[i].radiance.setZero();
+    counts.background += hit.found() ? 0 : 1;
+    counts.from_inside += hit.cast.status == Status::inside ? 1 : 0;
+  }
+}
+
+}  // namespace minkray

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// Normals as colours: (1 + n) / 2, white where nothing is. For a first look at shapes.
+#pragma once
+
+#include "renderer/light/light_transport.h"
+
+namespace minkray {
+
+class NormalsTransport final : public LightTransport {
+ public:
+  NormalsTransport(const RenderWorld& world, const IntegratorOptions& options)
+      : world_(world), observer_(options.observer) {}
+
+  void trace(std::span<TracedRay> rays, RayCounts& counts) const override;
+
+ private:
+  const RenderWorld& world_;
+  RayObserver* observer_;
+};
+
+}  // namespace minkray

@@ -1,0 +1,382 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/light/path_transport.h"
+
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "renderer/light/inside.h"
+
+namespace minkray {
+namespace {
+
+/// Paths are not ended by chance before they were scattered so often.
+constexpr int sure_depth = 4;
+
+/// A path goes through no more boundaries that do not count: of bodies within others.
+constexpr int most_passages = 256;
+
+/// The balance heuristic.
+double share(double mine, double other) {
+  return mine / (mine + other);
+}
+
+}  // namespace
+
+/// A path, and the ray that goes on from its end.
+struct PathTransport::Path {
+  Ray<Real> ray;
+  Sampler sampler;
+  Real time = 0;
+  std::uint32_t left = no_instance;
+  Inside inside;
+
+  Colour throughput = Colour::Ones();
+  Colour radiance = Colour::Zero();
+  int depth = 0, passages = 0;
+  bool is_sharp = true;         ///< the ray's direction had no density
+  bool is_straight = true;      ///< nothing was passed since the last scattering
+  bool only_sharp = true;       ///< all directions so far had none
+  double pdf = 0;               ///< of the ray's direction
+  Vec3<Real> from = {0, 0, 0};  ///< where it was scattered last
+  double gathered = 1;          ///< eta^2 of where the path is: dense media gather radiance
+  bool goes_on = true;
+};
+
+/// Where a path met a surface that scatters light.
+struct PathTransport::Point {
+  Vec3<Real> position;
+  Real rounding;
+  Frame frame;
+  Shading shading;
+  const Bsdf* bsdf;
+  std::uint32_t instance;
+  Inside above, below;  ///< what holds the places beside the surface
+
+  /// A ray that goes from here; what holds it is `inside(w)`.
+  Ray<Real> ray(const Vec3<double>& w, const Vec3<double>& direction) const {
+    return {w.z() > 0 ? Vec3<Real>(position + rounding * frame.z) : position, direction};
+  }
+  const Inside& inside(const Vec3<double>& w) const { return w.z() > 0 ? above : below; }
+};
+
+/// What a light sends to a path's end, if nothing is in its way.
+struct PathTransport::Arriving {
+  std::size_t path;
+  Colour light;
+  std::uint32_t emitter = no_instance;  ///< that must be met
+};
+
+/// Rays towards lights, asked together. Whatever order they are asked in, a path's sum is the same:
+/// it takes one ray of each of these.
+struct PathTransport::ShadowRays {
+  std::array<WorldRay<Real>, most_in_packet> rays;
+  std::array<Arriving, most_in_packet> arriving;
+  std::size_t count = 0;
+
+  void add(const WorldRay<Real>& ray, const Arriving& light) {
+    rays[count] = ray;
+    arriving[count++] = light;
+  }
+  std::span<const WorldRay<Real>> asked() const { return std::span(rays).first(count); }
+};
+
+/// Paths that go on together.
+class PathTransport::Packet {
+ public:
+  Packet(const PathTransport& of, std::span<TracedRay> rays, RayCounts& counts)
+      : of_(of), rays_(rays), counts_(counts) {
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      Path& path = paths_[i];
+      path.ray = rays[i].ray;
+      path.sampler = rays[i].sampler;
+      path.time = rays[i].time;
+      path.left = rays[i].left;
+    }
+  }
+
+  void run() {
+    while (find_boundaries()) {
+      for (std::size_t i = 0; i < rays_.size(); ++i) {
+        points_[i].reset();
+        if (paths_[i].goes_on) arrive(i);
+      }
+      for (std::size_t light = 0; light < of_.lights_.count(); ++light) ask_light(light);
+      if (!of_.emitters_.none()) ask_emitters();
+      for (std::size_t i = 0; i < rays_.size(); ++i)
+        if (points_[i]) scatter(paths_[i], *points_[i]);
+    }
+    for (std::size_t i = 0; i < rays_.size(); ++i) rays_[i].radiance = paths_[i].radiance;
+  }
+
+ private:
+  RayKind kind(const Path& path) const {
+    return path.depth == 0 ? RayKind::camera : RayKind::indirect;
+  }
+
+  /// False if no path goes on.
+  bool find_boundaries() {
+    std::array<WorldRay<Real>, most_in_packet> asked;
+    std::array<std::size_t, most_in_packet> whose;
+    std::array<WorldHit<Real>, most_in_packet> hits;
+    std::size_t count = 0;
+    bool any = false;
+    for (std::size_t i = 0; i < rays_.size(); ++i) {
+      const Path& path = paths_[i];
+      if (!path.goes_on) continue;
+      any = true;
+      const WorldRay<Real> ray{path.ray, path.left, path.time};
+      if (path.inside.none()) {
+        asked[count] = ray;
+        whose[count++] = i;
+      } else {
+        boundaries_[i] = next_boundary(of_.world_, ray, path.inside, counts_.work);
+      }
+    }
+    if (count > 0) of_.world_.closest_hits(std::span(asked).first(count), hits, counts_.work);
+    for (std::size_t k = 0; k < count; ++k) {
+      boundaries_[whose[k]] = boundary_of(hits[k]);
+      if (of_.options_.observer)
+        of_.options_.observer->closest(kind(paths_[whose[k]]), asked[k].ray, asked[k].skip,
+                                       hits[k]);
+    }
+    return any;
+  }
+
+  /// The clear body that counts where bodies overlap: of the greatest priority, of equals that
+  /// which was entered last.
+  const Medium& medium(const Inside& inside, std::uint32_t* which = nullptr) const {
+    static constexpr std::uint32_t none = no_instance;
+    const Medium* found = &air_;
+    std::uint32_t body = none;
+    for (const std::uint32_t other : inside.bodies()) {
+      const Medium& candidate = of_.surfaces_.of(other).inside;
+      if (body != none && candidate.priority < found->priority) continue;
+      found = &candidate;
+      body = other;
+    }
+    if (which) *which = body;
+    return *found;
+  }
+
+  static Colour left_after(const Medium& medium, Real length) {
+    if (medium.absorption.isZero(0)) return Colour::Ones();
+    return (-medium.absorption * length).array().exp();
+  }
+
+  /// Light that the ray finds by itself, and the point where it is to be scattered.
+  void arrive(std::size_t i) {
+    Path& path = paths_[i];
+    const Boundary& at = boundaries_[i];
+    const bool is_first = path.depth == 0 && path.passages == 0;
+    if (is_first) rays_[i].met = at.instance != no_instance;
+    if (at.is_lost || at.instance == no_instance) {
+      if (!at.is_lost && path.inside.none()) path.radiance += off_surface(path);
+      path.goes_on = false;
+      return;
+    }
+    const PreparedMaterial& material = of_.surfaces_.of(at.instance);
+    if (at.is_within) {
+      counts_.from_inside += is_first && !material.bsdf->lets_through() ? 1 : 0;
+      pass(path, material.bsdf->lets_through() && path.inside.enter(at.instance));
+      return;
+    }
+    std::uint32_t holder = no_instance;
+    const Medium& before = medium(path.inside, &holder);
+    if (holder != no_instance) path.throughput.array() *= left_after(before, at.t).array();
+    if (!at.leaves) add_emission(path, at, material);
+
+    Inside beyond = path.inside;
+    Shading shading;
+    if (material.bsdf->lets_through()) {
+      const bool has_room = at.leaves || beyond.enter(at.instance);
+      if (at.leaves) beyond.leave(at.instance);
+      const bool counts =
+          at.leaves ? holder == at.instance
+                    : holder == no_instance || material.inside.priority >= before.priority;
+      if (!counts || !has_room) {
+        path.inside = beyond;
+        path.ray.origin = path.ray.at(at.t);
+        path.left = at.instance;
+        pass(path, has_room);
+        return;
+      }
+      shading.eta_below = material.inside.eta;
+      shading.eta_above = at.leaves ? medium(beyond).eta : before.eta;
+    }
+    if (path.depth >= of_.options_.max_depth) {
+      path.goes_on = false;
+      return;
+    }
+    const Vec3<Real> position = path.ray.at(at.t);
+    const Frame frame = material.bsdf->has_grain()
+                            ? Frame(at.normal, of_.surfaces_.axis(at.instance))
+                            : Frame(at.normal);
+    shading.w_out = frame.to_local(-path.ray.direction);
+    // A grazing normal may be rounded to the far side.
+    constexpr double least = std::numeric_limits<double>::epsilon();
+    double& z = shading.w_out.z();
+    z = at.leaves ? std::min(z, -least) : std::max(z, least);
+    points_[i].emplace(Point{position, rounding_at(of_.world_, at.instance, position, at.t), frame,
+                             shading, material.bsdf.get(), at.instance,
+                             at.leaves ? beyond : path.inside, at.leaves ? path.inside : beyond});
+  }
+
+  /// Goes on through a boundary that does not count, if it can.
+  void pass(Path& path, bool can) const {
+    path.is_straight = false;
+    path.goes_on = can && ++path.passages < most_passages;
+  }
+
+  /// What a path sees that meets nothing. Surfaces are lit by the environment and mirror it;
+  /// without one they still mirror the background that cameras see.
+  Colour off_surface(const Path& path) {
+    counts_.background += path.depth == 0 ? 1 : 0;
+    const bool sees_background =
+        path.only_sharp && (path.depth == 0 || !of_.lights_.has_environment());
+    const Colour light = sees_background ? of_.background_.eval(path.ray.direction)
+                                         : of_.lights_.environment(path.ray.direction);
+    return path.throughput.cwiseProduct(light);
+  }
+
+  void add_emission(Path& path, const Boundary& at, const PreparedMaterial& material) const {
+    if (!(material.radiance.maxCoeff() > 0)) return;
+    double part = 1;
+    if (!path.is_sharp && path.is_straight)
+      part =
+          share(path.pdf, of_.emitters_.pdf(path.from, path.time, path.ray.direction, at.instance));
+    path.radiance += part * path.throughput.cwiseProduct(material.radiance);
+  }
+
+  /// Light from the only direction of a light, to all paths' ends.
+  void ask_light(std::size_t light) {
+    ShadowRays shadows;
+    for (std::size_t i = 0; i < rays_.size(); ++i) {
+      if (!points_[i] || points_[i]->bsdf->is_sharp()) continue;
+      const Point& point = *points_[i];
+      const auto sample = of_.lights_.sample(light, point.position, paths_[i].sampler);
+      if (!sample) continue;
+      const Vec3<double> w = point.frame.to_local(sample->direction);
+      if (!point.inside(w).none()) continue;
+      const Colour reflected = point.bsdf->eval(point.shading, w);
+      if (!(reflected.maxCoeff() > 0)) continue;
+      Ray<Real> ray = point.ray(w, sample->direction);
+      ray.t_max = sample->distance;
+      shadows.add({ray, point.instance, paths_[i].time},
+                  {i, sample->weight.cwiseProduct(reflected), no_instance});
+    }
+    counts_.shadow += shadows.count;
+    const RayGroupMask blocked = of_.world_.occluded(shadows.asked(), counts_.work);
+    for (std::size_t k = 0; k < shadows.count; ++k) {
+      const bool answer = blocked >> k & 1;
+      if (of_.options_.observer)
+        of_.options_.observer->occluded(RayKind::shadow, shadows.rays[k].ray, shadows.rays[k].skip,
+                                        answer);
+      if (!answer) add(shadows.arriving[k]);
+    }
+  }
+
+  /// Light from one shining body for each path's end, drawn at random. Whether the body is met, and
+  /// before anything else, is one question.
+  void ask_emitters() {
+    ShadowRays shadows;
+    for (std::size_t i = 0; i < rays_.size(); ++i) {
+      if (!points_[i] || points_[i]->bsdf->is_sharp()) continue;
+      const Point& point = *points_[i];
+      Path& path = paths_[i];
+      const auto sample = of_.emitters_.sample(point.position, path.time, path.sampler);
+      if (!sample) continue;
+      const Vec3<double> w = point.frame.to_local(sample->direction);
+      const Colour reflected = point.bsdf->eval(point.shading, w);
+      if (!(reflected.maxCoeff() > 0)) continue;
+      const double part = share(sample->pdf, point.bsdf->pdf(point.shading, w)) / sample->pdf;
+      const Arriving light{i,
+                           part * of_.emitters_.radiance(sample->emitter).cwiseProduct(reflected),
+                           of_.emitters_.instance(sample->emitter)};
+      const WorldRay<Real> ray{point.ray(w, sample->direction), point.instance, path.time};
+      if (point.inside(w).none())
+        shadows.add(ray, light);
+      else
+        ask_within(ray, point.inside(w), light);
+    }
+    counts_.shadow += shadows.count;
+    std::array<WorldHit<Real>, most_in_packet> hits;
+    if (shadows.count > 0) of_.world_.closest_hits(shadows.asked(), hits, counts_.work);
+    for (std::size_t k = 0; k < shadows.count; ++k) {
+      if (of_.options_.observer)
+        of_.options_.observer->closest(RayKind::shadow, shadows.rays[k].ray, shadows.rays[k].skip,
+                                       hits[k]);
+      if (hits[k].instance == shadows.arriving[k].emitter && hits[k].cast.status == Status::hit)
+        add(shadows.arriving[k]);
+    }
+  }
+
+  /// The same within clear bodies.
+  void ask_within(const WorldRay<Real>& ray, const Inside& inside, Arriving light) {
+    ++counts_.shadow;
+    const Boundary met = next_boundary(of_.world_, ray, inside, counts_.work);
+    if (met.instance != light.emitter || met.leaves || met.is_within || met.is_lost) return;
+    light.light.array() *= left_after(medium(inside), met.t).array();
+    add(light);
+  }
+
+  void add(const Arriving& arriving) {
+    Path& path = paths_[arriving.path];
+    path.radiance += path.throughput.cwiseProduct(arriving.light);
+  }
+
+  /// Draws the direction in which the path goes on, or ends it.
+  void scatter(Path& path, const Point& point) {
+    const std::array<double, 2> u = path.sampler.next();
+    const double which = path.sampler.next()[0];
+    const auto sample = point.bsdf->sample(point.shading, {u, which});
+    path.goes_on = sample && (sample->weight.array() > 0).any();
+    if (!path.goes_on) return;
+    const bool goes_through = (sample->w_in.z() > 0) != (point.shading.w_out.z() > 0);
+    if (goes_through) {
+      const double eta = point.shading.eta_below / point.shading.eta_above;
+      path.gathered *= sample->w_in.z() > 0 ? 1 / (eta * eta) : eta * eta;
+    }
+    path.throughput = path.throughput.cwiseProduct(sample->weight);
+    const Vec3<double> direction = unit(point.frame.to_world(sample->w_in));
+    path.ray = point.ray(sample->w_in, direction);
+    path.inside = point.inside(sample->w_in);
+    path.left = point.instance;
+    path.from = point.position;
+    path.is_sharp = sample->is_sharp;
+    path.only_sharp = path.only_sharp && sample->is_sharp;
+    path.is_straight = true;
+    path.pdf = sample->pdf;
+    ++path.depth;
+    ++(sample->is_sharp ? counts_.mirrored : counts_.scattered);
+    if (path.depth < sure_depth) return;
+    const double chance = std::min(path.throughput.maxCoeff() * path.gathered, 1.0);
+    if (chance >= 1) return;
+    path.goes_on = path.sampler.next()[0] < chance;
+    path.throughput /= chance;
+  }
+
+  const PathTransport& of_;
+  std::span<TracedRay> rays_;
+  RayCounts& counts_;
+  const Medium air_;
+  std::array<Path, most_in_packet> paths_;
+  std::array<Boundary, most_in_packet> boundaries_;
+  std::array<std::optional<Point>, most_in_packet> points_;
+};
+
+PathTransport::PathTransport(const Scene& scene, const RenderWorld& world,
+                             const IntegratorOptions& options)
+    : world_(world),
+      options_(options),
+      surfaces_(scene),
+      emitters_(world, surfaces_.radiances()),
+      lights_(scene.lights),
+      background_(scene.background.zenith, scene.background.nadir) {}
+
+void PathTransport::trace(std::span<TracedRay> rays, RayCounts& counts) const {
+  counts.camera += rays.size();
+  Packet(*this, rays, counts).run();
+}
+
+}  // namespace minkray

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// What is known of each instance's material, made ready for the path tracer.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "renderer/light/bsdf.h"
+#include "renderer/scene/scene.h"
+
+namespace minkray {
+
+/// The inside of a clear body.
+struct Medium {
+  double eta = 1;
+  Colour absorption = Colour::Zero();
+  double priority = 0;
+};
+
+/// By instance: the index of its material.
+std::vector<std::uint32_t> material_of_instance(const Scene& scene);
+
+/// What a material shines; zero if it does not.
+Colour radiance_of(const Material& material);
+
+struct PreparedMaterial {
+  std::unique_ptr<const Bsdf> bsdf;
+  Colour radiance;
+  Medium inside;
+};
+
+class SceneSurfaces {
+ public:
+  explicit SceneSurfaces(const Scene& scene);
+
+  const PreparedMaterial& of(std::uint32_t instance) const {
+    return materials_[of_instance_[instance]];
+  }
+  /// The direction of the object's z axis, around which brushed metal has its grain.
+  Vec3<double> axis(std::uint32_t instance) const {
+    return instance < axes_.size() ? axes_[instance] : Vec3<double>(Vec3<double>::UnitZ());
+  }
+  /// By instance.
+  std::vector<Colour> radiances() const;
+
+ private:
+  std::vector<PreparedMaterial> materials_;
+  std::vector<std::uint32_t> of_instance_;
+  std::vector<Vec3<double>> axes_;  ///< of objects; particles have the world's
+};
+
+}  // namespace minkray

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// What integrators are asked: a ray, and how far to follow its light.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "renderer/light/ray_counts.h"
+#include "renderer/light/ray_observer.h"
+#include "renderer/light/sampler.h"
+#include "renderer/scene/materials.h"
+
+namespace minkray {
+
+/// Which light a picture is made of.
+enum class IntegratorKind : unsigned char { automatic, path, direct, ambient, normals };
+
+struct IntegratorDescription {
+  IntegratorKind kind;
+  std::string_view name, doc;
+};
+
+/// The list of all there are.
+inline constexpr std::array integrators = {
+    IntegratorDescription{IntegratorKind::automatic, "auto",
+                          "path where the scene has what only that shows, else ambient"},
+    IntegratorDescription{IntegratorKind::path, "path",
+                          "all light, by paths of any length; unbiased"},
+    IntegratorDescription{IntegratorKind::direct, "direct",
+                          "light that comes straight from lights and shining bodies"},
+    IntegratorDescription{IntegratorKind::ambient, "ambient",
+                          "direct light, --bounces, and then ambient occlusion"},
+    IntegratorDescription{IntegratorKind::normals, "normals", "the normals' directions as colours"},
+};
+
+struct IntegratorOptions {
+  /// How often light may be scattered between surfaces before the environment's light is the last
+  /// word; 0 is ambient occlusion.
+  int bounces = 1;
+  /// How many mirrors in a row are followed; behind the last, the environment is seen.
+  int mirrors = 4;
+  /// How many camera rays are traced together, with the shadow rays of what they meet; 1: each by
+  /// itself. The picture is the same bit for bit.
+  int packet = 16;
+  /// Told of every ray and its answer, if it is there.
+  RayObserver* observer = nullptr;
+  IntegratorKind kind = IntegratorKind::automatic;
+  /// How often a path may be scattered, mirrored or refracted.
+  int max_depth = 16;
+};
+
+/// A ray and where its light comes to.
+struct TracedRay {
+  Ray<Real> ray;  ///< of unit direction
+  Sampler sampler;
+  Colour radiance = Colour::Zero();
+  bool met = false;                  ///< whether it met an object
+  Real time = 0;                     ///< while the shutter is open: from 0 to 1
+  std::uint32_t left = no_instance;  ///< the instance that it leaves
+};
+
+/// No more rays can be traced together.
+inline constexpr int most_in_packet = most_rays_at_once;
+
+}  // namespace minkray

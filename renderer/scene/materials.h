@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+// What things are made of, as scene files say it: one struct a material, the list of all at the
+// end.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "core/math/vec.h"
+#include "core/shape/field.h"
+
+namespace minkray {
+
+/// Linear RGB.
+using Colour = Vec3<double>;
+
+/// Diffuse reflection.
+struct LambertMaterial {
+  Colour colour = Colour::Constant(0.7);
+
+  static constexpr std::string_view name = "lambert";
+  static constexpr std::string_view doc = "Matt: diffuse reflection.";
+  static constexpr auto fields() {
+    return std::tuple{Field{"color", &LambertMaterial::colour, Unit::none, Range::zero_to_one,
+                            "the part of the light it reflects (linear RGB)"}};
+  }
+};
+
+/// A diffuse base under a dielectric coat that mirrors by Fresnel's law; `roughness` 0 is a mirror.
+struct GlossyMaterial {
+  Colour colour = Colour::Constant(0.7);
+  double roughness = 0.1;
+  double index_of_refraction = 1.5;
+
+  static constexpr std::string_view name = "glossy";
+  static constexpr std::string_view doc = "A diffuse base under a coat that mirrors.";
+  static constexpr auto fields() {
+    using M = GlossyMaterial;
+    return std::tuple{
+        Field{"color", &M::colour, Unit::none, Range::zero_to_one,
+              "the part of the light that the base reflects (linear RGB)"},
+        Field{"roughness", &M::roughness, Unit::none, Range::zero_to_one, "0 for a perfect mirror",
+              true},
+        Field{"index_of_refraction", &M::index_of_refraction, Unit::none, Range::at_least_one,
+              "the coat's: the larger, the more it mirrors", true}};
+  }
+};
+
+/// A body that shines and reflects nothing.
+struct EmissiveMaterial {
+  Colour radiance = Colour::Ones();
+
+  static constexpr std::string_view name = "emissive";
+  static constexpr std::string_view doc = "Shines, the same to all sides: any shape as a light.";
+  static constexpr auto fields() {
+    return std::tuple{Field{"radiance", &EmissiveMaterial::radiance, Unit::none,
+                            Range::not_negative, "how bright it is seen (linear RGB)"}};
+  }
+};
+
+/// Glass, water: mirrors and lets through, by Fresnel's law; `absorption` dims what goes through by
+/// exp(-absorption * length).
+struct DielectricMaterial {
+  double index_of_refraction = 1.5;
+  double roughness = 0;
+  Colour absorption = Colour::Zero();
+  double priority = 0;
+
+  static constexpr std::string_view name = "dielectric";
+  static constexpr std::string_view doc = "Glass, water: mirrors and lets through.";
+  static constexpr auto fields() {
+    using M = DielectricMaterial;
+    return std::tuple{
+        Field{"index_of_refraction", &M::index_of_refraction, Unit::none, Range::at_least_one,
+              "of its inside; air has 1", true},
+        Field{"roughness", &M::roughness, Unit::none, Range::zero_to_one, "0 for clear glass",
+              true},
+        Field{"absorption", &M::absorption, Unit::none, Range::not_negative,
+              "how much light is lost a length (linear RGB): exp(-absorption * length) is left",
+              true},
+        Field{"priority", &M::priority, Unit::none, Range::any,
+              "where bodies overlap the greatest one counts; of equal ones, what was entered last",
+              true}};
+  }
+};
+
+/// The name of a metal in the list below; empty: none.
+struct MetalName {
+  std::string name;
+  bool operator==(const MetalName&) const = default;
+};
+
+/// A metal's complex index of refraction for red, green and blue light, about 650, 550 and 450 nm.
+struct Metal {
+  std::string_view name;
+  std::array<double, 3> eta, k;
+};
+
+/// From tables of measured indices (Palik's handbook and refractiveindex.info, as renderers list
+/// them).
+inline constexpr std::array metals = {
+    Metal{"aluminium", {1.657, 0.880, 0.521}, {9.224, 6.269, 4.837}},
+    Metal{"chromium", {3.180, 3.180, 2.010}, {3.300, 3.330, 3.060}},
+    Metal{"copper", {0.200, 0.924, 1.102}, {3.912, 2.452, 2.142}},
+    Metal{"gold", {0.143, 0.375, 1.442}, {3.983, 2.386, 1.603}},
+    Metal{"iron", {2.9114, 2.9497, 2.5845}, {3.0893, 2.9318, 2.7670}},
+    Metal{"silver", {0.155, 0.117, 0.138}, {4.828, 3.122, 2.147}},
+    Metal{"titanium", {2.7407, 2.5418, 2.2370}, {3.8143, 3.4345, 3.0385}},
+};
+
+/// A metal, by its name or by the colour that it mirrors straight ahead.
+struct ConductorMaterial {
+  MetalName metal;
+  std::optional<Colour> colour;
+  double roughness = 0.1;
+  double anisotropy = 0;
+
+  static constexpr std::string_view name = "conductor";
+  static constexpr std::string_view doc = "A metal: mirrors, and lets nothing through.";
+  static constexpr auto fields() {
+    using M = ConductorMaterial;
+    return std::tuple{
+        Field{"metal", &M::metal, Unit::none, Range::any, "which metal it is", true},
+        Field{"color", &M::colour, Unit::none, Range::zero_to_one,
+              "instead of the metal: the part of the light that it mirrors straight ahead "
+              "(linear RGB)",
+              true},
+        Field{"roughness", &M::roughness, Unit::none, Range::zero_to_one, "0 for a perfect mirror",
+              true},
+        Field{
+            "anisotropy", &M::anisotropy, Unit::none, Range::zero_to_one,
+            "how much rougher it is across circles around the object's z axis than along them, as "
+            "turned on a lathe",
+            true}};
+  }
+};
+
+/// What "type" may say of a material.
+using MaterialKind = std::variant<LambertMaterial, GlossyMaterial, EmissiveMaterial,
+                                  DielectricMaterial, ConductorMaterial>;
+
+struct Material {
+  std::string name;
+  MaterialKind kind;
+};
+
+}  // namespace minkray

@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: MIT
+// Light by paths, where it is known: under lamps of simple shapes, within glass, and by the two
+// ways in which it is found.
+#include "renderer/light/path_transport.h"
+
+#include <gtest/gtest.h>
+
+#include "renderer/film/render.h"
+#include "renderer/light/camera.h"
+#include "renderer/light/dielectric_bsdf.h"
+#include "renderer/light/inside.h"
+#include "renderer/light/integrator.h"
+
+namespace minkray {
+namespace {
+
+constexpr double albedo = 0.8;
+
+Object object(Shape<double> shape, const Vec3<double>& at, std::uint32_t material) {
+  return {"", std::move(shape), {Mat3<double>::Identity(), at}, material};
+}
+
+/// A matt floor, its top at z = 0, and a lamp of radiance 1 above it.
+Scene floor_and_lamp() {
+  Scene scene;
+  scene.materials = {{"matt", LambertMaterial{Colour::Constant(albedo)}},
+                     {"lamp", EmissiveMaterial{Colour::Ones()}}};
+  scene.objects.push_back(object(Box<double>{{50, 50, 1}}, {0, 0, -1}, 0));
+  return scene;
+}
+
+struct Seen {
+  Colour mean = Colour::Zero();
+  double variance = 0;  ///< of one sample's red
+};
+
+/// What a ray sees, by so many samples.
+Seen look(const Scene& scene, const Ray<Real>& ray, int samples, IntegratorOptions options = {}) {
+  options.kind = IntegratorKind::path;
+  const RenderWorld world = make_world(scene);
+  const Integrator integrator(scene, world, options);
+  RayCounts counts;
+  Seen seen;
+  double squares = 0;
+  for (int i = 0; i < samples; ++i) {
+    TracedRay traced{ray, Sampler(8, 0, 0, static_cast<std::uint32_t>(i))};
+    integrator.trace(std::span(&traced, 1), counts);
+    seen.mean += traced.radiance / samples;
+    squares += traced.radiance.x() * traced.radiance.x() / samples;
+  }
+  seen.variance = squares - seen.mean.x() * seen.mean.x();
+  return seen;
+}
+
+/// From the side to the middle of the floor.
+Ray<Real> to_floor() {
+  return {{-3, 0, 0.5}, unit<double>({3, 0, -0.5})};
+}
+
+/// The irradiance in the middle of the floor, of a lamp with radiance 1.
+double irradiance(const Scene& scene, int samples = 1 << 12) {
+  return look(scene, to_floor(), samples, {.max_depth = 1}).mean.x() * std::numbers::pi / albedo;
+}
+
+TEST(PathTransport, a_shining_ball_lights_as_the_square_of_its_radius_over_its_height) {
+  for (const auto& [radius, height] : {std::pair{1.0, 3.0}, {0.01, 2.0}, {1.9, 2.0}}) {
+    Scene scene = floor_and_lamp();
+    scene.objects.push_back(object(Sphere<double>{radius}, {0, 0, height}, 1));
+    const double expected = std::numbers::pi * radius * radius / (height * height);
+    EXPECT_NEAR(irradiance(scene) / expected, 1, 1e-3) << radius << " " << height;
+  }
+}
+
+TEST(PathTransport, a_shining_disk_lights_as_its_formula_says) {
+  for (const auto& [radius, height] : {std::pair{1.0, 1.5}, {0.05, 2.0}, {3.0, 1.0}}) {
+    Scene scene = floor_and_lamp();
+    scene.objects.push_back(object(Disk<double>{radius}, {0, 0, height}, 1));
+    const double expected =
+        std::numbers::pi * radius * radius / (height * height + radius * radius);
+    EXPECT_NEAR(irradiance(scene, 1 << 14) / expected, 1, 1e-3) << radius << " " << height;
+  }
+}
+
+TEST(PathTransport, half_a_sky_and_a_plane_above_light_with_pi) {
+  Scene scene = floor_and_lamp();
+  scene.lights = {EnvironmentLight{}};
+  EXPECT_NEAR(irradiance(scene) / std::numbers::pi, 1, 1e-3);
+  Scene planes = floor_and_lamp();
+  Object above = object(Point<double>(), Vec3<double>::Zero(), 1);
+  above.half_space = HalfSpaceBody<double>{{0, 0, -1}, -2};
+  planes.objects.push_back(above);
+  EXPECT_NEAR(irradiance(planes) / std::numbers::pi, 1, 1e-3);
+}
+
+/// Lamps of which no closed form is known, somewhere above the floor.
+std::vector<Shape<double>> odd_lamps() {
+  const std::vector<Vec3<double>> points = {{0.3, 0, 0},  {-0.3, 0.1, 0}, {0, 0.5, 0.1},
+                                            {0, -0.2, 0}, {0.1, 0, 0.4},  {0, 0.1, -0.3}};
+  return {Cone<double>{0.4, 0.5}, Superellipsoid<double>{{0.5, 0.3, 0.4}, 4},
+          Rounded<double>{0.1, Shape<double>(Hull<double>{PointCloud<double>(points)})},
+          Capsule<double>{0.05, 0.6}, Box<double>{{0.6, 0.1, 0.2}}};
+}
+
+// Brute force: directions by the cosine alone, and whether they meet the lamp.
+TEST(PathTransport, lamps_of_any_shape_light_as_brute_force_says_with_a_20th_of_the_samples) {
+  for (const Shape<double>& shape : odd_lamps()) {
+    Scene scene = floor_and_lamp();
+    scene.objects.push_back(object(shape, {0.4, 0.7, 2.5}, 1));
+    const RenderWorld world = make_world(scene);
+    QueryCounts counts;
+    constexpr int samples = 1 << 18;
+    int met = 0;
+    for (int i = 0; i < samples; ++i) {
+      Sampler sampler(4, 0, 0, static_cast<std::uint32_t>(i));
+      const Ray<Real> ray{{0, 0, 0}, cosine_direction(sampler.next())};
+      met += world.closest_hit(ray, counts, 0).instance == 1 ? 1 : 0;
+    }
+    const double part = static_cast<double>(met) / samples;
+    const double of_one = albedo * albedo * part * (1 - part);
+    ASSERT_GT(met, 500);
+    const Seen seen = look(scene, to_floor(), 1 << 14, {.max_depth = 1});
+    const double sigma = std::sqrt(of_one / samples + seen.variance / (1 << 14));
+    EXPECT_NEAR(seen.mean.x(), albedo * part, 3 * sigma);
+    EXPECT_LT(seen.variance, of_one / 20) << shape.kind.index();
+  }
+}
+
+// Shining bodies among others that shine, and one that is rough and sees them: what both ways find
+// is not counted twice.
+TEST(PathTransport, a_furnace_of_lamps_is_even) {
+  for (const MaterialKind& kind :
+       {MaterialKind(LambertMaterial{Colour::Ones()}),
+        MaterialKind(GlossyMaterial{Colour::Ones(), 0.4, 1.5}),
+        MaterialKind(ConductorMaterial{{}, Colour::Ones(), 0.5, 0.3}),
+        MaterialKind(DielectricMaterial{1.5, 0}), MaterialKind(DielectricMaterial{1.4, 0.5})}) {
+    Scene scene;
+    scene.materials = {{"white", kind}, {"lamp", EmissiveMaterial{Colour::Ones()}}};
+    scene.objects.push_back(object(Sphere<double>{1}, {0, 0, 0}, 0));
+    // Six plates around it, which meet at their edges.
+    for (int axis = 0; axis < 3; ++axis)
+      for (const double side : {-1.0, 1.0}) {
+        Vec3<double> half = Vec3<double>::Constant(3), at = Vec3<double>::Zero();
+        half[axis] = 0.5;
+        at[axis] = 3 * side;
+        scene.objects.push_back(object(Box<double>{half}, at, 1));
+      }
+    const Ray<Real> ray{{0, -2, 0.3}, unit<double>({0.1, 2, 0.2})};
+    EXPECT_NEAR(look(scene, ray, 1 << 12, {.max_depth = 200}).mean.x(), 1, 0.012) << kind.index();
+  }
+}
+
+/// A ball of glass with a core, in blue light, at a scale.
+Scene shell(double scale, const MaterialKind& core) {
+  Scene scene;
+  scene.materials = {{"glass", DielectricMaterial{1.5}}, {"core", core}};
+  scene.lights = {EnvironmentLight{{0, 0, 1}, {0, 0, 1}}};
+  scene.background = {{0, 0, 1}, {0, 0, 1}};
+  scene.objects = {object(Sphere<double>{scale}, {0, 0, 0}, 0),
+                   object(Sphere<double>{scale * (1 - 4e-5)}, {0, 0, 0}, 1)};
+  return scene;
+}
+
+/// Rays from a camera to all places of a ball, and just beside it.
+template <class Visit>
+void for_rays_at_ball(double scale, const Visit& visit) {
+  for (int y = -64; y <= 64; ++y)
+    for (int x = -64; x <= 64; ++x) {
+      const Vec3<double> at(x / 63.5 * scale, y / 63.5 * scale, 0);
+      const Vec3<double> eye(0.1 * scale, 0.2 * scale, 7 * scale);
+      visit(Ray<Real>{eye, unit<double>(at - eye)});
+    }
+}
+
+// Two balls of glass, of radius 1 and 1 - 4e-5, leaked (mitsuba3, issue 1871). What gets into this
+// one must meet its core, which shines red: with one event a path that leaks is black.
+TEST(PathTransport, a_shell_of_glass_4e_5_thick_does_not_leak_at_any_scale) {
+  for (const double scale : {1e-3, 1.0, 1e6}) {
+    const Scene scene = shell(scale, EmissiveMaterial{{1, 0, 0}});
+    const RenderWorld world = make_world(scene);
+    const Integrator integrator(scene, world, {.kind = IntegratorKind::path, .max_depth = 1});
+    RayCounts counts;
+    int red = 0, blue = 0, leaks = 0;
+    std::uint32_t i = 0;
+    for_rays_at_ball(scale, [&](const Ray<Real>& ray) {
+      TracedRay traced{ray, Sampler(1, 0, 0, i++)};
+      integrator.trace(std::span(&traced, 1), counts);
+      const Colour& c = traced.radiance;
+      const bool is_red = std::abs(c.x() - 1 / 2.25) < 1e-12 && c.z() == 0;
+      const bool is_blue = c.x() == 0 && std::abs(c.z() - 1) < 1e-12;
+      (is_red ? red : is_blue ? blue : leaks) += 1;
+    });
+    EXPECT_EQ(leaks, 0) << scale;
+    EXPECT_GT(red, 8000);
+    EXPECT_GT(blue, 3000);
+    EXPECT_EQ(counts.work.exhausted, 0u);
+  }
+}
+
+TEST(PathTransport, an_empty_shell_of_glass_loses_nothing_at_any_scale) {
+  for (const double scale : {1e-3, 1.0, 1e6}) {
+    const Scene scene = shell(scale, DielectricMaterial{1.0});
+    const RenderWorld world = make_world(scene);
+    const Integrator integrator(scene, world, {.kind = IntegratorKind::path, .max_depth = 1000});
+    RayCounts counts;
+    std::uint32_t i = 0;
+    for_rays_at_ball(scale, [&](const Ray<Real>& ray) {
+      TracedRay traced{ray, Sampler(1, 0, 0, i++)};
+      integrator.trace(std::span(&traced, 1), counts);
+      EXPECT_NEAR(traced.radiance.z(), 1, 1e-9);
+    });
+  }
+}
+
+TEST(PathTransport, a_ball_lens_focuses_where_its_formula_says) {
+  for (const double eta : {1.33, 1.5, 1.8}) {
+    Scene scene;
+    scene.materials = {{"glass", DielectricMaterial{eta}}};
+    scene.objects = {object(Sphere<double>{2}, {0, 0, 0}, 0)};
+    const RenderWorld world = make_world(scene);
+    const auto glass = make_bsdf(scene.materials[0]);
+    WorldRay<Real> ray{{{0.01, 0, -9}, {0, 0, 1}}};
+    Inside inside;
+    QueryCounts counts;
+    for (const bool leaves : {false, true}) {
+      const Boundary at = next_boundary(world, ray, inside, counts);
+      ASSERT_EQ(at.instance, 0u);
+      ASSERT_EQ(at.leaves, leaves);
+      const Frame frame(at.normal);
+      const auto through =
+          glass->sample({frame.to_local(-ray.ray.direction), 1, eta}, {{0.5, 0.5}, 0.999});
+      ASSERT_TRUE(through);
+      ray.ray = {ray.ray.at(at.t), frame.to_world(through->w_in)};
+      ray.skip = 0;
+      leaves ? inside.leave(0) : static_cast<void>(inside.enter(0));
+    }
+    const double crossing =
+        ray.ray.origin.z() - ray.ray.origin.x() / ray.ray.direction.x() * ray.ray.direction.z();
+    EXPECT_NEAR(crossing / (eta * 2 / (2 * (eta - 1))), 1, 1e-3);
+  }
+}
+
+TEST(PathTransport, glass_dims_by_the_exact_length_of_the_way_through_it) {
+  Scene scene;
+  scene.materials = {{"smoke", DielectricMaterial{1.0, 0, {0.3, 0.7, 1.1}}}};
+  scene.objects = {object(Superellipsoid<double>{{1, 1, 1}, 5}, {0, 0, 0}, 0)};
+  scene.background = {Colour::Ones(), Colour::Ones()};
+  const Ray<Real> ray{{0.2, -4, 0.1}, {0, 1, 0}};
+  const double half = std::pow(1 - std::pow(0.2, 5) - std::pow(0.1, 5), 0.2);
+  const Colour seen = look(scene, ray, 16).mean;
+  EXPECT_NEAR(seen.x(), std::exp(-0.3 * 2 * half), 1e-12);
+  EXPECT_NEAR(seen.z(), std::exp(-1.1 * 2 * half), 1e-12);
+}
+
+// A body of greater priority is there where two overlap, whichever was entered first.
+TEST(PathTransport, where_bodies_overlap_the_greater_priority_counts) {
+  for (const double priority : {-1.0, 1.0}) {
+    Scene scene;
+    scene.materials = {{"red", DielectricMaterial{1.0, 0, {0, 1, 1}, priority}},
+                       {"blue", DielectricMaterial{1.0, 0, {1, 1, 0}, 0}}};
+    scene.objects = {object(Box<double>{{1, 1, 1}}, {0, 0, 0}, 0),
+                     object(Box<double>{{1, 1, 1}}, {0, 1, 0}, 1)};
+    scene.background = {Colour::Ones(), Colour::Ones()};
+    // One unit of the first alone, one of both, one of the second alone.
+    const Colour seen = look(scene, {{0.1, -4, 0.2}, {0, 1, 0}}, 1).mean;
+    EXPECT_NEAR(seen.x(), std::exp(priority > 0 ? -1.0 : -2.0), 1e-12);
+    EXPECT_NEAR(seen.z(), std::exp(priority > 0 ? -2.0 : -1.0), 1e-12);
+  }
+}
+
+TEST(PathTransport, a_ray_sees_the_same_bits_alone_and_with_others) {
+  Scene scene = floor_and_lamp();
+  scene.materials.push_back({"glass", DielectricMaterial{1.5, 0.3, {0.1, 0.2, 0.3}}});
+  scene.materials.push_back({"gold", ConductorMaterial{{"gold"}, std::nullopt, 0.3, 0.5}});
+  scene.objects.push_back(object(Sphere<double>{0.3}, {0.5, 1, 2}, 1));
+  scene.objects.push_back(object(Sphere<double>{0.5}, {-0.6, 0, 0.5}, 2));
+  scene.objects.push_back(object(Box<double>{{0.2, 0.4, 0.3}}, {0.7, 0, 0.3}, 3));
+  scene.lights = {PointLight{{0, -2, 3}, {2, 2, 2}}, EnvironmentLight{{0.2, 0.3, 0.4}, {0, 0, 0}}};
+  scene.camera.position = {0, -4, 2};
+  scene.camera.resolution = {32, 32};
+  const RenderWorld world = make_world(scene);
+  const Camera camera(scene.camera, scene.camera.resolution);
+  const Integrator integrator(scene, world);
+  RayCounts counts, counts_together;
+  int lit = 0;
+  for (int y = 0; y < 32; ++y) {
+    std::vector<TracedRay> alone;
+    for (int x = 0; x < 32; ++x)
+      alone.push_back({camera.ray(x + 0.5, y + 0.5), Sampler(2, x, y, 0)});
+    std::vector<TracedRay> together = alone;
+    for (TracedRay& ray : alone) integrator.trace(std::span(&ray, 1), counts);
+    integrator.trace(together, counts_together);
+    for (std::size_t i = 0; i < alone.size(); ++i) {
+      EXPECT_EQ(alone[i].radiance, together[i].radiance);
+      lit += alone[i].radiance.maxCoeff() > 0.01 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(lit, 500);
+  EXPECT_EQ(counts.total(), counts_together.total());
+}
+
+}  // namespace
+}  // namespace minkray
