@@ -27,27 +27,41 @@ double cone_height(double d2) {
   return (1 / d2) / (1 + std::sqrt(1 - 1 / d2));
 }
 
-/// The half axes of an ellipsoid around the shape, in its inner frame.
+/// How much an ellipsoid with these half axes, around the middle of the shape's bounding ball, is
+/// to grow to hold the support points of many directions, and a little more.
+double growth_to_hold(const ShapeDefinition<Real>& shape, const Vec3<double>& axes) {
+  constexpr int directions = 512;
+  constexpr double golden_turn = 2.399963229728653, margin = 1.01;
+  double farthest = 0;
+  for (int i = 0; i < directions; ++i) {
+    const double z = 1 - (2 * i + 1.0) / directions, radius = std::sqrt(1 - z * z);
+    const Vec3<double> m(radius * std::cos(golden_turn * i), radius * std::sin(golden_turn * i), z);
+    const Vec3<double> point = shape.inner_shape().support(Vec3<double>(m.cwiseQuotient(axes))) -
+                               shape.inner_ball().centre;
+    farthest = std::max(farthest, point.cwiseQuotient(axes).norm());
+  }
+  return margin * farthest;
+}
+
+/// The half axes of an ellipsoid about the shape, in its inner frame: what little may look out of
+/// it is found by other rays.
 Vec3<double> half_axes(const ShapeDefinition<Real>& shape) {
   const exact::Form& form = shape.form();
-  if (form.kind == FormKind::ball && form.is_scaled && !form.is_off_centre)
-    return form.R * form.scale.cwiseInverse();
-  // A ball around it, or the least ellipsoid around its box: whichever is smaller.
+  if (form.kind == FormKind::ball && !form.is_off_centre)
+    return form.is_scaled ? Vec3<double>(form.R * form.scale.cwiseInverse())
+                          : Vec3<double>::Constant(shape.inner_ball().radius);
+  // As long as its box, flat where that is flat.
   const Vec3<double> box = shape.inner_half_extents();
-  const double radius = shape.inner_ball().radius;
-  const double largest = box.maxCoeff();
-  const bool is_flat = !(box.minCoeff() > least_thickness * largest);
-  const double spread = is_flat ? std::sqrt(2.0) : std::sqrt(3.0);
-  const Vec3<double> least = Vec3<double>::Constant(least_thickness * largest);
-  const Vec3<double> around_box = (spread * box).cwiseMax(least);
-  if (is_flat) {
-    // Both are cut by the body's plane; what lies outside of it does not count.
-    const Vec3<double> of_ball = Vec3<double>::Constant(radius);
-    const Vec3<double> flat_ball = (box.array() > least_thickness * largest).select(of_ball, least);
-    return flat_ball.prod() < around_box.prod() ? flat_ball : around_box;
-  }
-  if (radius * radius * radius <= around_box.prod()) return Vec3<double>::Constant(radius);
-  return around_box;
+  const double least = least_thickness * box.maxCoeff();
+  Vec3<double> axes = box.cwiseMax(least);
+  const double growth = growth_to_hold(shape, axes);
+  for (int i = 0; i < 3; ++i)
+    if (axes[i] > least) axes[i] *= growth;
+  // Or as wide as its ball.
+  Vec3<double> ball = Vec3<double>::Constant(shape.inner_ball().radius);
+  for (int i = 0; i < 3; ++i)
+    if (!(axes[i] > least)) ball[i] = least;
+  return ball.prod() < axes.prod() ? ball : axes;
 }
 
 }  // namespace
@@ -66,9 +80,11 @@ std::optional<Vec3<double>> AroundBody::sample(const Vec3<double>& point,
 }
 
 double AroundBody::pdf(const Vec3<double>& point, const Vec3<double>& direction) const {
-  const double d2 = (map * (centre - point)).squaredNorm();
+  const Vec3<double> towards = map * (centre - point), along = map * direction;
+  const double d2 = towards.squaredNorm();
   if (!(d2 > 1)) return 0;
-  const double stretched = (map * direction).norm();
+  const double stretched = along.norm();
+  if (!(towards.cross(along).norm() <= stretched) || !(towards.dot(along) > 0)) return 0;
   return determinant / (2 * std::numbers::pi * cone_height(d2) * stretched * stretched * stretched);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Bodies that shine, of any shape. Directions towards one are drawn within the cone under which an
-// ellipsoid around it is seen: the body itself if it is a ball, an ellipsoid or a disk, so that
+// ellipsoid about it is seen: the body itself if it is a ball, an ellipsoid or a disk, so that
 // every direction meets it. The cone is that of a unit ball, drawn evenly there; the map from the
 // ellipsoid to the ball changes solid angles by |det A| / |A d|^3 for unit directions d. Whether a
 // direction meets the body, and where, is asked by casting at it.
@@ -15,7 +15,7 @@
 
 namespace minkray {
 
-/// An ellipsoid around a body: |map (x - centre)| <= 1.
+/// An ellipsoid about a body: |map (x - centre)| <= 1. What looks out of it is not drawn.
 struct AroundBody {
   Vec3<double> centre;
   Mat3<double> map;
@@ -25,11 +25,11 @@ struct AroundBody {
   /// A direction of unit length from the point; nothing from within the ellipsoid.
   std::optional<Vec3<double>> sample(const Vec3<double>& point,
                                      const std::array<double, 2>& u) const;
-  /// The density over solid angle of a direction that meets the ellipsoid; 0 from within.
+  /// The density over solid angle; 0 from within, and where the ellipsoid is not met.
   double pdf(const Vec3<double>& point, const Vec3<double>& direction) const;
 };
 
-/// The least of those that are known around an instance of a world.
+/// The least of those that are known about an instance of a world.
 AroundBody around(const PreparedShape<Real>& body);
 
 /// A direction towards an emitter.
