@@ -13,8 +13,8 @@ CorePair pair_of(const ContactShape& a, const Affine<double>& pose_a, const Cont
   Vec3<double> between = pose_b.translation - pose_a.translation;
   // Middles far from the bodies' origins lose what the bodies' places have gained.
   constexpr double far = 4;
-  const bool is_far = a.middle().squaredNorm() > far * far * a.reach() * a.reach() ||
-                      b.middle().squaredNorm() > far * far * b.reach() * b.reach();
+  const bool is_far = a.middle().squaredNorm() > far * far * a.ball_radius() * a.ball_radius() ||
+                      b.middle().squaredNorm() > far * far * b.ball_radius() * b.ball_radius();
   if (is_far) {
     using Long = long double;
     const auto moved = [](const Affine<double>& pose, const Vec3<double>& p) -> Vec3<Long> {

@@ -22,7 +22,7 @@ class ContactShape {
   const Mat3<double>& turn() const { return core_and_radius_.turn; }
   const Vec3<double>& middle() const { return core_and_radius_.middle; }
   /// The ball of this radius around the middle holds the shape.
-  double reach() const { return core_and_radius_.core.ball + core_and_radius_.core.radius; }
+  double ball_radius() const { return core_and_radius_.core.ball + core_and_radius_.core.radius; }
 
  private:
   CoreAndRadius core_and_radius_;

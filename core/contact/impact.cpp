@@ -10,8 +10,9 @@ namespace {
 /// A body's own rounding, relative to its size and its pivot's way.
 constexpr double rounding = 32 * std::numeric_limits<double>::epsilon();
 
-/// How far a body reaches from its pivot along a direction of the world.
-double reach_along(const ContactShape& shape, const Mat3<double>& to_world, const Vec3<double>& n) {
+/// The support function of a body, seen from its pivot, in a direction of the world.
+double support_function(const ContactShape& shape, const Mat3<double>& to_world,
+                        const Vec3<double>& n) {
   const Mat3<double> turn = to_world * shape.turn();
   const Vec3<double> d = turn.transpose() * n;
   const CoreSupport support = support_of_core<CoreKind::other>(shape.core(), d);
@@ -23,8 +24,9 @@ class Advance {
   Advance(const ContactShape& a, const RigidMotion& motion_a, const ContactShape& b,
           const RigidMotion& motion_b, double t_max, const ImpactOptions& options)
       : a_(a), b_(b), of_a_(motion_a), of_b_(motion_b), t_max_(t_max), options_(options) {
-    size_ = a.reach() + b.reach();
-    const double about_a = a.middle().norm() + a.reach(), about_b = b.middle().norm() + b.reach();
+    size_ = a.ball_radius() + b.ball_radius();
+    const double about_a = a.middle().norm() + a.ball_radius(),
+                 about_b = b.middle().norm() + b.ball_radius();
     turning_a_ = motion_a.angular_velocity.norm();
     turning_b_ = motion_b.angular_velocity.norm();
     speed_ = (motion_b.velocity - motion_a.velocity).norm() + turning_a_ * about_a +
@@ -93,14 +95,14 @@ class Advance {
     return t_max_;
   }
 
-  /// A fixed plane's gap at a time, and how far the two reach from their pivots to it.
+  /// A fixed plane's gap at a time, and the two support functions along its normal.
   struct Gap {
-    double gap, reach_a, reach_b;
+    double gap, h_a, h_b;
   };
   Gap gap(double t, const Vec3<double>& n) const {
     const Affine<double> a = of_a_.at(t), b = of_b_.at(t);
-    const double reach_a = reach_along(a_, a.linear, n), reach_b = reach_along(b_, b.linear, -n);
-    return {n.dot(b.translation - a.translation) - reach_a - reach_b, reach_a, reach_b};
+    const double h_a = support_function(a_, a.linear, n), h_b = support_function(b_, b.linear, -n);
+    return {n.dot(b.translation - a.translation) - h_a - h_b, h_a, h_b};
   }
 
   /// No contact from t to the time returned, which is later unless digits are lacking.
@@ -120,8 +122,8 @@ class Advance {
     };
     for (int i = 0; i < 60; ++i) {
       const Gap last = gap(t + step, n);
-      const double worst = last.gap - bulge(turning_a_ * step, first.reach_a, last.reach_a) -
-                           bulge(turning_b_ * step, first.reach_b, last.reach_b) - allowed;
+      const double worst = last.gap - bulge(turning_a_ * step, first.h_a, last.h_a) -
+                           bulge(turning_b_ * step, first.h_b, last.h_b) - allowed;
       if (worst > 0 && worst >= last.gap - first.gap) return i == 0 && is_last ? t_end : t + step;
       // The line through the two gaps is 0 there, or a little before.
       const double down = first.gap - worst;

@@ -16,7 +16,7 @@ CentredShape<T> frozen(const MovingBody<T>& body, T begin, T middle) {
 
 /// The distance from the pivot to the body's furthest point, or a little more.
 template <class T>
-T reach(const MovingBody<T>& body) {
+T radius_about_pivot(const MovingBody<T>& body) {
   const CentredShape<T> placed = centred(body.shape, body.pose);
   return (placed.centre - body.pose.translation).norm() + placed.radius;
 }
@@ -40,8 +40,9 @@ RotatingCastResult<T> cast_rotating(const MovingBody<T>& a, const MovingBody<T>&
                                     int steps, const CastOptions<T>& options) {
   RotatingCastResult<T> result;
   const T step = duration / T(steps);
-  result.position_error =
-      (reach(a) * a.angular_velocity.norm() + reach(b) * b.angular_velocity.norm()) * step / T(2);
+  result.position_error = (radius_about_pivot(a) * a.angular_velocity.norm() +
+                           radius_about_pivot(b) * b.angular_velocity.norm()) *
+                          step / T(2);
   const Vec3<T> relative = b.velocity - a.velocity;
   bool lower_found = false;
 

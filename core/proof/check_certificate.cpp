@@ -53,8 +53,8 @@ class Checker {
     if (!(value <= verdict_.allowed)) complain(otherwise);
   }
 
-  /// How far the shape reaches along a unit direction.
-  double reach(const Vec3<double>& n) const { return n.dot(support_(n) - near_.centre); }
+  /// The support function in a unit direction, seen from the centre.
+  double support_function(const Vec3<double>& n) const { return n.dot(support_(n) - near_.centre); }
 
   /// The point of the shape that the certificate's support points span.
   bool spanned_point(Vec3<double>& q) const {
@@ -78,7 +78,7 @@ class Checker {
     // The claimed plane touches the shape and holds the claimed point; the ray comes from outside.
     if (!is_direction(claim_.normal)) return complain("a hit without a normal");
     const Vec3<double> n = claim_.normal.normalized();
-    const double above = n.dot(hit_point) - reach(n), slope = n.dot(near_.r);
+    const double above = n.dot(hit_point) - support_function(n), slope = n.dot(near_.r);
     verdict_.claim_error = std::abs(above);
     if (slope < 0) lower = std::max(lower, lambda - above / slope);
     if (!(slope <= certificate_rounding * claim_.epsilon)) complain("the normal looks backwards");
@@ -94,7 +94,7 @@ class Checker {
     const bool spans = spanned_point(q);
     if (is_direction(certificate_.plane)) {
       const Vec3<double> m = certificate_.plane.normalized();
-      const double h = reach(m);
+      const double h = support_function(m);
       depth_above = m.dot(hit_point) - h;
       const double steep = m.dot(near_.r);
       if (steep < 0) lower = std::max(lower, lambda - depth_above / steep);
@@ -133,7 +133,8 @@ class Checker {
     if (verdict_.margin > 0) return;  // all of the ray lies outside the planes across it
     if (!is_direction(certificate_.plane)) return complain("a miss without a plane");
     const Vec3<double> n = certificate_.plane.normalized();
-    verdict_.margin = std::min(n.dot(near_.at(near_.begin)), n.dot(near_.at(near_.end))) - reach(n);
+    verdict_.margin =
+        std::min(n.dot(near_.at(near_.begin)), n.dot(near_.at(near_.end))) - support_function(n);
     expect_at_most(-verdict_.margin, "the plane does not separate");
   }
 

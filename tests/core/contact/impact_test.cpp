@@ -123,7 +123,7 @@ struct Seen {
 void expect_true(const Pair& pair, int samples, Seen& seen) {
   const Impact impact = first_impact(pair.a, pair.of_a, pair.b, pair.of_b, pair.t_max);
   const Long truth = first_contact(pair, samples);
-  const double size = pair.a.reach() + pair.b.reach();
+  const double size = pair.a.ball_radius() + pair.b.ball_radius();
   ASSERT_NE(impact.status, ImpactStatus::undecided);
   if (impact.status == ImpactStatus::miss) {
     ++seen.misses;

@@ -93,7 +93,8 @@ TEST(SignedDistance, hulls_are_as_deep_in_each_other_as_the_nearest_facet_of_the
       depth = std::min(depth, facet.normal().dot(difference.support(facet.normal())));
     }
     ASSERT_NEAR(result.value, -depth, 1e-13) << k;
-    ASSERT_LE(result.upper - result.lower, 1e-9 * (a.ready.reach() + b.ready.reach())) << k;
+    ASSERT_LE(result.upper - result.lower, 1e-9 * (a.ready.ball_radius() + b.ready.ball_radius()))
+        << k;
   }
   EXPECT_GT(overlapping, 500);
 }

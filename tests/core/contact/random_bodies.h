@@ -85,8 +85,8 @@ struct Body {
 
   Body(Shape<double> of, const Affine<double>& at) : shape(of), ready(of), pose(at) {}
   Vec3<double> in_body(const Vec3<double>& n) const { return pose.linear.transpose() * n; }
-  /// How far it reaches along n from a point in the world that is near it.
-  long double reach(const Vec3<double>& n, const Vec3<double>& from) const {
+  /// The support function along n, seen from a point in the world that is near the body.
+  long double support_function(const Vec3<double>& n, const Vec3<double>& from) const {
     const Vec3<double> s = shape.support(in_body(n));
     return n.cast<long double>().dot(
                pose.linear.cast<long double>() * s.cast<long double>() +

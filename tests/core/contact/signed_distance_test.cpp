@@ -18,7 +18,7 @@ using testing::RandomShapes;
 /// The gap between planes with normal n.
 double gap(const Body& a, const Body& b, const Vec3<double>& n) {
   const Vec3<double> from = a.pose.translation;
-  return static_cast<double>(-b.reach(-n, from) - a.reach(n, from));
+  return static_cast<double>(-b.support_function(-n, from) - a.support_function(n, from));
 }
 
 /// The largest gap that a search at random finds.
@@ -47,7 +47,7 @@ double outside(const Body& body, const Vec3<double>& point, const Vec3<double>& 
     Vec3<double> n = normal;
     if (i >= 8) n = random.direction();
     if (i > 0 && i < 8) n += 1e-3 * random.direction();
-    most = std::max(most, static_cast<double>(-body.reach(n, point)));
+    most = std::max(most, static_cast<double>(-body.support_function(n, point)));
   }
   return most;
 }
@@ -58,7 +58,7 @@ struct Seen {
 
 void expect_proven(const Body& a, const Body& b, const SignedDistance& result, RandomShapes& random,
                    Seen& seen) {
-  const double size = a.ready.reach() + b.ready.reach();
+  const double size = a.ready.ball_radius() + b.ready.ball_radius();
   const double reaches = size + a.ready.middle().norm() + b.ready.middle().norm() +
                          (b.pose.translation - a.pose.translation).norm();
   const double rounding = 16 * tolerance::epsilon<double> * reaches;
@@ -96,7 +96,7 @@ TEST(SignedDistance, random_pairs_of_all_kinds_are_proven_by_planes_and_points) 
             k % 5 == 4 ? 1e4 * scale * random.direction() : Vec3<double>(Vec3<double>::Zero());
         const Body a(random_shape(i, scale, random), {random.turn(), origin});
         Body b(random_shape(j, other, random), {random.turn(), origin});
-        const double size = a.ready.reach() + b.ready.reach() + scale;
+        const double size = a.ready.ball_radius() + b.ready.ball_radius() + scale;
         b.pose.translation += random.in(0, 1.3) * size * random.direction();
         if (k % 3 == 2) {
           // To touching, or nearly.
@@ -126,7 +126,7 @@ TEST(SignedDistance, the_order_of_the_two_turns_the_normal_and_nothing_else) {
                          two = signed_distance(b.ready, b.pose, a.ready, a.pose);
     ASSERT_LE(one.lower, two.upper) << k;
     ASSERT_LE(two.lower, one.upper) << k;
-    const double size = a.ready.reach() + b.ready.reach();
+    const double size = a.ready.ball_radius() + b.ready.ball_radius();
     ASSERT_NEAR(one.value, two.value, 1e-9 * size + 1e-14) << k;
   }
 }
