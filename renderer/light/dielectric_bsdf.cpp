@@ -6,7 +6,7 @@
 namespace minkray {
 namespace {
 
-/// The same surface seen from the side of w_out, which is then above.
+/// It is the surface as seen from the side of w_out, which is then above.
 struct Seen {
   Vec3<double> w_out;
   double sign;  ///< of z
@@ -50,7 +50,7 @@ DielectricBsdf::DielectricBsdf(double roughness, double index_of_refraction) {
   kept_ = KeptEnergy::of_boundary(*rough_, index_of_refraction);
 }
 
-/// Of one pair of directions.
+/// They belong to one pair of directions.
 struct DielectricBsdf::Parts {
   double value;    ///< eval
   double density;  ///< pdf

@@ -14,7 +14,7 @@ namespace minkray {
 class KeptEnergy {
  public:
   static KeptEnergy of_mirror(const Microfacets& rough);
-  /// Of a boundary that is the same for all angles; exact for this index of refraction and its
+  /// The boundary is the same for all angles; this is exact for this index of refraction and its
   /// inverse.
   static KeptEnergy of_boundary(const Microfacets& rough, double eta);
 

@@ -311,7 +311,7 @@ class PathTransport::Packet {
     }
   }
 
-  /// The same within clear bodies.
+  /// Asks within clear bodies.
   void ask_within(const WorldRay<Real>& ray, const Inside& inside, Arriving light) {
     ++counts_.shadow;
     const Boundary met = next_boundary(of_.world_, ray, inside, counts_.work);
