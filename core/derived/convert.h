@@ -65,8 +65,14 @@ S<U> convert_fields(const S<T>& shape) {
 /// The shape with its numbers rounded to U.
 template <class U, class T>
 Shape<U> convert(const Shape<T>& shape) {
-  return std::visit([](const auto& kind) -> Shape<U> { return detail::convert_fields<U>(kind); },
-                    shape.kind);
+  return std::visit(
+      []<class S>(const S& kind) -> Shape<U> {
+        if constexpr (declared_by<S>.by_program)
+          return kind.template cast<U>();
+        else
+          return detail::convert_fields<U>(kind);
+      },
+      shape.kind);
 }
 
 }  // namespace minkray

@@ -18,6 +18,8 @@ struct Declared {
   bool gauge = false;
   /// support_where(wanted, n) is support(n) where it is wanted, and cheaper where it is not.
   bool support_where = false;
+  /// A program gives it: no file can hold one.
+  bool by_program = false;
 };
 
 /// What S declares, as `static constexpr Declared declared = {...};`.

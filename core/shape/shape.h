@@ -10,6 +10,7 @@
 #include "core/shape/box.h"
 #include "core/shape/capsule.h"
 #include "core/shape/cone.h"
+#include "core/shape/custom.h"
 #include "core/shape/cut_cylinder.h"
 #include "core/shape/cylinder.h"
 #include "core/shape/disk.h"
@@ -52,7 +53,8 @@ using ShapeVariant = std::variant<  //
     MinkowskiSum<T>,                //
     MinkowskiDifference<T>,         //
     HullOf<T>,                      //
-    Transform<T>>;
+    Transform<T>,                   //
+    Custom<T>>;
 
 namespace detail {
 template <class S, class Variant>

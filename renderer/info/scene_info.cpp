@@ -9,6 +9,7 @@
 #include "renderer/scene/describe_member.h"
 #include "renderer/scene/schema.h"
 #include "renderer/scene/summary.h"
+#include "renderer/scene/tagged_json.h"
 #include "renderer/scene/write_member.h"
 
 namespace minkray {
@@ -157,7 +158,7 @@ std::string info_as_text(const Scene& scene) {
 
 std::string shapes_as_json() {
   Json shapes = Json::array();
-  for_each_shape_kind<double>([&]<class S>() {
+  for_each_alternative(std::type_identity<ShapeVariant<double>>(), [&]<class S>() {
     Json parameters = Json::array();
     for_each_description<S>([&](const Parameter& parameter, const MemberDescription& member) {
       parameters.push_back({{"keys", member.keys},
@@ -176,7 +177,7 @@ std::string shapes_as_json() {
 
 std::string shapes_as_text() {
   std::string text;
-  for_each_shape_kind<double>([&]<class S>() {
+  for_each_alternative(std::type_identity<ShapeVariant<double>>(), [&]<class S>() {
     text += std::string(S::name) + ": " + std::string(S::doc) + "\n";
     for_each_description<S>([&](const Parameter& parameter, const MemberDescription& member) {
       text += "    " + member.keys + ": " + member.value;
@@ -193,7 +194,7 @@ std::string shapes_as_markdown() {
   std::string text =
       "| shape | parameter | value | unit | constraint | meaning |\n"
       "| --- | --- | --- | --- | --- | --- |\n";
-  for_each_shape_kind<double>([&]<class S>() {
+  for_each_alternative(std::type_identity<ShapeVariant<double>>(), [&]<class S>() {
     text += "| `" + std::string(S::name) + "` | | | | | " + cell(S::doc) + " |\n";
     for_each_description<S>([&](const Parameter& parameter, const MemberDescription& member) {
       text += "| | " + member.keys + (parameter.optional ? " (optional)" : "") + " | " +

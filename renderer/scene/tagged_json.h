@@ -7,15 +7,20 @@
 #include <variant>
 #include <vector>
 
+#include "core/shape/declared.h"
 #include "renderer/json/values.h"
 #include "renderer/scene/read_member.h"
 
 namespace minkray {
 
-/// Calls visit.template operator()<S>() for each alternative of a variant, in order.
+/// Calls visit.template operator()<S>() for each alternative of a variant that a file can hold, in
+/// order.
 template <class... S, class Visit>
 void for_each_alternative(std::type_identity<std::variant<S...>>, Visit&& visit) {
-  (visit.template operator()<S>(), ...);
+  const auto visit_one = [&]<class One>() {
+    if constexpr (!declared_by<One>.by_program) visit.template operator()<One>();
+  };
+  (visit_one.template operator()<S>(), ...);
 }
 
 /// The names of a variant's alternatives: what "type" may say.

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "tests/support/random.h"
+#include "tests/support/support_of.h"
 
 namespace minkray::testing {
 namespace {
@@ -127,6 +128,11 @@ std::vector<SampleShape> sample_shapes() {
              P(0, 0, 0))},
       {"transform in a transform", moved(moved(egg, shear(), P(1, 0, 0)), turn, P(-4, 0, 2))},
       {"transform, a turned disk", moved(Disk<double>{1}, turn, P(1, 2, 3))},
+      {"custom, a box", as_custom(box)},
+      {"custom, an ellipsoid", as_custom(egg)},
+      {"custom, a cut cylinder",
+       as_custom(CutCylinder<double>{0.7, {-0.5, 0.6}, {0.2, -0.3}, {-0.5, 0.4}})},
+      {"custom in a sum", MinkowskiSum<double>{{as_custom(egg), S(Sphere<double>{0.3})}}},
   };
 }
 

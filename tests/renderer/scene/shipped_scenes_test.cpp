@@ -43,6 +43,7 @@ TEST(ShippedScenes, the_zoo_and_the_bent_pipe_show_every_shape) {
   const std::string zoo = text_of_file(source_folder() / "scenes/shape-zoo.json") +
                           text_of_file(source_folder() / "scenes/bent-pipe.json");
   for_each_shape_kind<double>([&]<class S>() {
+    if (declared_by<S>.by_program) return;
     EXPECT_NE(zoo.find("\"type\": \"" + std::string(S::name) + "\""), std::string::npos) << S::name;
     EXPECT_NE(zoo.find("\"name\": \"" + std::string(S::name)), std::string::npos) << S::name;
   });

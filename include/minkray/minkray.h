@@ -1,0 +1,670 @@
+// SPDX-License-Identifier: MIT
+// Minkray for C++: convex shapes, scenes of them, rays cast at them, proofs of the answers,
+// distances and times of impact. Header-only over minkray_c.h, whose comments say what is promised
+// of threads, frames and units; docs/library.md has examples.
+//
+//   namespace mk = minkray;
+//   mk::Scene scene;
+//   scene.add(mk::rounded(mk::box({.5, .2, .1}), .05), mk::translation({1, 0, 0}), "bumper");
+//   scene.commit();
+//   mk::Hit hit = scene.cast({{-9, 0, 0}, {1, 0, 0}});
+//   if (hit.status == mk::hit) use(hit.t, hit.t_lo, hit.t_hi, hit.normal);
+//
+// Whatever goes wrong is a minkray::Error, which says what, and where.
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <initializer_list>
+#include <limits>
+#include <utility>
+
+#include "minkray/minkray_c.h"
+
+namespace minkray {
+// The version is part of the names, so that programs made of parts that use different ones still
+// link.
+inline namespace v0 {
+
+struct Vec3 {
+  double x = 0, y = 0, z = 0;
+  friend bool operator==(const Vec3&, const Vec3&) = default;
+};
+static_assert(sizeof(Vec3) == 3 * sizeof(double));
+
+/// Things that lie one behind the other and belong to somebody else: a std::vector, std::span,
+/// std::array.
+template <class T>
+class View {
+ public:
+  constexpr View() = default;
+  constexpr View(T* data, std::size_t size) : data_(data), size_(size) {}
+  template <class Range>
+  requires requires(Range& range) {
+    { range.data() } -> std::convertible_to<T*>;
+    range.size();
+  }
+  constexpr View(Range&& range) : data_(range.data()), size_(range.size()) {}
+  template <std::size_t N>
+  constexpr View(T (&array)[N]) : data_(array), size_(N) {}
+
+  constexpr T* data() const { return data_; }
+  constexpr std::size_t size() const { return size_; }
+  constexpr T* begin() const { return data_; }
+  constexpr T* end() const { return data_ + size_; }
+  constexpr T& operator[](std::size_t i) const { return data_[i]; }
+
+ private:
+  T* data_ = nullptr;
+  std::size_t size_ = 0;
+};
+
+/// A text that ends with 0: a literal, a std::string.
+class Text {
+ public:
+  constexpr Text() = default;
+  constexpr Text(const char* text) : text_(text) {}
+  template <class String>
+  requires requires(const String& string) {
+    { string.c_str() } -> std::convertible_to<const char*>;
+  }
+  constexpr Text(const String& string) : text_(string.c_str()) {}
+  constexpr const char* c_str() const { return text_; }
+
+ private:
+  const char* text_ = nullptr;
+};
+
+/// What went wrong: what() names the function, the argument and what it must be.
+class Error : public std::exception {
+ public:
+  explicit Error(int code) : code_(static_cast<minkray_code>(code)) {
+    const char* from = minkray_last_error();
+    std::size_t i = 0;
+    for (; i + 1 < sizeof text_ && from[i]; ++i) text_[i] = from[i];
+    text_[i] = '\0';
+  }
+  const char* what() const noexcept override { return text_; }
+  minkray_code code() const { return code_; }
+
+ private:
+  minkray_code code_;
+  char text_[2048];
+};
+
+namespace detail {
+inline void check(int code) {
+  if (code != MINKRAY_OK) throw Error(code);
+}
+}  // namespace detail
+
+/// "0.1.0": of the library that is running.
+inline const char* version() {
+  return minkray_version();
+}
+
+// ---- poses ----
+
+/// x -> linear x + translation, as three rows of four numbers.
+struct Pose {
+  double rows[3][4];
+};
+static_assert(sizeof(Pose) == sizeof(minkray_pose));
+
+namespace detail {
+inline const minkray_pose* plain(const Pose* pose) {
+  return reinterpret_cast<const minkray_pose*>(pose);
+}
+}  // namespace detail
+
+struct Quaternion {
+  double x = 0, y = 0, z = 0, w = 1;
+};
+
+inline Pose identity() {
+  return {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+}
+inline Pose translation(const Vec3& by) {
+  return {{{1, 0, 0, by.x}, {0, 1, 0, by.y}, {0, 0, 1, by.z}}};
+}
+/// The quaternion may have any length but zero.
+inline Pose pose(const Vec3& by, const Quaternion& q) {
+  const double s = 2 / (q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
+  const double xx = s * q.x * q.x, yy = s * q.y * q.y, zz = s * q.z * q.z;
+  const double xy = s * q.x * q.y, xz = s * q.x * q.z, yz = s * q.y * q.z;
+  const double xw = s * q.x * q.w, yw = s * q.y * q.w, zw = s * q.z * q.w;
+  return {{{1 - (yy + zz), xy - zw, xz + yw, by.x},
+           {xy + zw, 1 - (xx + zz), yz - xw, by.y},
+           {xz - yw, yz + xw, 1 - (xx + yy), by.z}}};
+}
+/// First `inner`, then `outer`.
+inline Pose operator*(const Pose& outer, const Pose& inner) {
+  Pose both;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 4; ++j) {
+      both.rows[i][j] = j == 3 ? outer.rows[i][3] : 0;
+      for (int k = 0; k < 3; ++k) both.rows[i][j] += outer.rows[i][k] * inner.rows[k][j];
+    }
+  return both;
+}
+
+// ---- shapes ----
+
+/// A convex shape, which never changes; copies are cheap. One that was moved from, or made of
+/// nothing, is none.
+class Shape {
+ public:
+  Shape() = default;
+  /// Takes over one of minkray_c.h, with its owner.
+  explicit Shape(minkray_shape handle) : handle_(handle) {}
+  Shape(const Shape& other) : handle_(other.handle_) {
+    if (handle_.id != 0) detail::check(minkray_shape_retain(handle_));
+  }
+  Shape(Shape&& other) noexcept : handle_(std::exchange(other.handle_, minkray_shape{0})) {}
+  Shape& operator=(Shape other) noexcept {
+    std::swap(handle_, other.handle_);
+    return *this;
+  }
+  ~Shape() {
+    if (handle_.id != 0) minkray_shape_release(handle_);
+  }
+
+  minkray_shape handle() const { return handle_; }
+
+  /// Such as "rounded".
+  const char* kind() const {
+    const char* name = nullptr;
+    detail::check(minkray_shape_kind(handle_, &name));
+    return name;
+  }
+  /// The point of it furthest along a direction.
+  Vec3 support(const Vec3& direction) const {
+    const double n[1][3] = {{direction.x, direction.y, direction.z}};
+    double p[1][3];
+    detail::check(minkray_shape_support(handle_, 1, n, p));
+    return {p[0][0], p[0][1], p[0][2]};
+  }
+  struct Bounds {
+    Vec3 lower, upper;
+  };
+  Bounds bounds() const {
+    Bounds found;
+    detail::check(minkray_shape_bounds(handle_, &found.lower.x, &found.upper.x));
+    return found;
+  }
+  /// As scene files have it; String is std::string or alike.
+  template <class String>
+  String json() const {
+    std::size_t needed = 0;
+    detail::check(minkray_shape_write(handle_, nullptr, 0, &needed));
+    String text(needed, '\0');
+    detail::check(minkray_shape_write(handle_, text.data(), needed, &needed));
+    text.resize(needed - 1);
+    return text;
+  }
+
+ private:
+  minkray_shape handle_ = {0};
+};
+
+/// One parameter of a shape, by its name in scene files.
+struct Parameter {
+  const char* name;
+  View<const double> numbers = {};
+  View<const Shape> shapes = {};
+};
+
+/// A shape of any kind that scene files know (`minkray info --shapes` lists them).
+inline Shape make(Text kind, std::initializer_list<Parameter> parameters) {
+  constexpr std::size_t most = 8;
+  minkray_parameter plain[most] = {};
+  std::size_t count = 0, shapes = 0;
+  for (const Parameter& one : parameters) shapes += one.shapes.size();
+  struct Handles {
+    explicit Handles(std::size_t n) : at(new minkray_shape[n + 1]) {}
+    ~Handles() { delete[] at; }
+    Handles(const Handles&) = delete;
+    Handles& operator=(const Handles&) = delete;
+    minkray_shape* at;
+  } handles(shapes);
+  minkray_shape* next = handles.at;
+  for (const Parameter& one : parameters) {
+    if (count == most) break;
+    plain[count++] = {one.name, one.numbers.data(), one.numbers.size(), next, one.shapes.size()};
+    for (const Shape& shape : one.shapes) *next++ = shape.handle();
+  }
+  minkray_shape made;
+  detail::check(minkray_shape_make(kind.c_str(), plain, count, &made));
+  return Shape(made);
+}
+
+namespace detail {
+inline View<const double> as_numbers(View<const Vec3> points) {
+  return {points.size() > 0 ? &points.data()->x : nullptr, 3 * points.size()};
+}
+inline Shape with_shapes(Text kind, View<const Shape> shapes) {
+  return make(kind, {{"shapes", {}, shapes}});
+}
+}  // namespace detail
+
+inline Shape point(const Vec3& position) {
+  return make("point", {{"position", {&position.x, 3}}});
+}
+inline Shape segment(const Vec3& a, const Vec3& b) {
+  const Vec3 ends[] = {a, b};
+  return make("segment", {{"points", detail::as_numbers(ends)}});
+}
+inline Shape triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 corners[] = {a, b, c};
+  return make("triangle", {{"points", detail::as_numbers(corners)}});
+}
+inline Shape sphere(double radius) {
+  return make("sphere", {{"radius", {&radius, 1}}});
+}
+inline Shape ellipsoid(const Vec3& radii) {
+  return make("ellipsoid", {{"radii", {&radii.x, 3}}});
+}
+inline Shape box(const Vec3& half_extents) {
+  return make("box", {{"half_extents", {&half_extents.x, 3}}});
+}
+// Around the z axis, from -half_height to half_height.
+inline Shape disk(double radius) {
+  return make("disk", {{"radius", {&radius, 1}}});
+}
+inline Shape cylinder(double radius, double half_height) {
+  return make("cylinder", {{"radius", {&radius, 1}}, {"half_height", {&half_height, 1}}});
+}
+inline Shape cone(double radius, double half_height) {
+  return make("cone", {{"radius", {&radius, 1}}, {"half_height", {&half_height, 1}}});
+}
+inline Shape capsule(double radius, double half_height) {
+  return make("capsule", {{"radius", {&radius, 1}}, {"half_height", {&half_height, 1}}});
+}
+inline Shape tapered_capsule(double radius_below, double radius_above, double half_height) {
+  const double radii[] = {radius_below, radius_above};
+  return make("tapered_capsule", {{"radii", radii}, {"half_height", {&half_height, 1}}});
+}
+inline Shape frustum(double radius_below, double radius_above, double half_height) {
+  const double radii[] = {radius_below, radius_above};
+  return make("frustum", {{"radii", radii}, {"half_height", {&half_height, 1}}});
+}
+/// A cylinder between the planes z = height + slope . (x, y).
+struct CutPlanes {
+  double lower_height = -1, upper_height = 1;
+  double lower_slope[2] = {0, 0}, upper_slope[2] = {0, 0};
+};
+inline Shape cut_cylinder(double radius, const CutPlanes& planes) {
+  const double heights[] = {planes.lower_height, planes.upper_height};
+  return make("cut_cylinder", {{"radius", {&radius, 1}},
+                               {"heights", heights},
+                               {"lower_slope", planes.lower_slope},
+                               {"upper_slope", planes.upper_slope}});
+}
+inline Shape superellipsoid(const Vec3& radii, double exponent) {
+  return make("superellipsoid", {{"radii", {&radii.x, 3}}, {"exponent", {&exponent, 1}}});
+}
+/// The convex hull of points.
+inline Shape hull(View<const Vec3> points) {
+  return make("hull", {{"points", detail::as_numbers(points)}});
+}
+inline Shape hull(std::initializer_list<Vec3> points) {
+  return hull(View<const Vec3>(points.begin(), points.size()));
+}
+
+// The algebra: shapes made of shapes.
+
+/// Grown by a radius.
+inline Shape rounded(const Shape& shape, double radius) {
+  return make("rounded", {{"radius", {&radius, 1}}, {"shape", {}, {&shape, 1}}});
+}
+/// All sums of a point of each.
+inline Shape sum(View<const Shape> shapes) {
+  return detail::with_shapes("minkowski_sum", shapes);
+}
+inline Shape sum(std::initializer_list<Shape> shapes) {
+  return sum(View<const Shape>(shapes.begin(), shapes.size()));
+}
+inline Shape sum(const Shape& a, const Shape& b) {
+  return sum({a, b});
+}
+/// All differences of a point of a and one of b: the configuration space obstacle.
+inline Shape difference(const Shape& a, const Shape& b) {
+  return make("minkowski_difference", {{"a", {}, {&a, 1}}, {"b", {}, {&b, 1}}});
+}
+/// The convex hull of shapes.
+inline Shape hull_of(View<const Shape> shapes) {
+  return detail::with_shapes("hull_of", shapes);
+}
+inline Shape hull_of(std::initializer_list<Shape> shapes) {
+  return hull_of(View<const Shape>(shapes.begin(), shapes.size()));
+}
+/// Under any invertible map.
+inline Shape transformed(const Shape& shape, const Pose& map) {
+  return make("transform", {{"map", {&map.rows[0][0], 12}}, {"shape", {}, {&shape, 1}}});
+}
+inline Shape translated(const Shape& shape, const Vec3& by) {
+  return transformed(shape, translation(by));
+}
+inline Shape scaled(const Shape& shape, const Vec3& by) {
+  return transformed(shape, {{{by.x, 0, 0, 0}, {0, by.y, 0, 0}, {0, 0, by.z, 0}}});
+}
+inline Shape scaled(const Shape& shape, double by) {
+  return scaled(shape, Vec3{by, by, by});
+}
+/// All that a shape which moves without turning comes through.
+inline Shape swept(const Shape& shape, const Vec3& way) {
+  return sum(shape, segment({0, 0, 0}, way));
+}
+
+/// As scene files have it.
+inline Shape read_shape(Text json, Text folder = {}) {
+  minkray_shape made;
+  detail::check(minkray_shape_read(json.c_str(), folder.c_str(), &made));
+  return Shape(made);
+}
+
+namespace detail {
+template <class Support>
+Shape custom_within(Support support, const double* lower, const double* upper) {
+  minkray_support given = {};
+  given.user = new Support(std::move(support));
+  given.lower = lower;
+  given.upper = upper;
+  given.function = [](void* user, std::size_t count, const double(*n)[3], double(*p)[3]) -> int {
+    try {
+      const Support& function = *static_cast<const Support*>(user);
+      for (std::size_t i = 0; i < count; ++i) {
+        const Vec3 at = function(Vec3{n[i][0], n[i][1], n[i][2]});
+        p[i][0] = at.x;
+        p[i][1] = at.y;
+        p[i][2] = at.z;
+      }
+      return 0;
+    } catch (...) {
+      return 1;
+    }
+  };
+  given.release = [](void* user) { delete static_cast<Support*>(user); };
+  minkray_shape made;
+  check(minkray_shape_custom(&given, &made));
+  return Shape(made);
+}
+}  // namespace detail
+
+/// Your own shape: `support(const Vec3& n)` is to answer the point furthest along n, which has
+/// length 1. It is called by several threads at once. What it throws ends the query with an Error,
+/// and so does any answer that no convex shape can have.
+template <class Support>
+Shape custom(Support support) {
+  return detail::custom_within(std::move(support), nullptr, nullptr);
+}
+/// A box that holds the shape may be given with it: answers out of it are found.
+template <class Support>
+Shape custom(Support support, const Vec3& lower, const Vec3& upper) {
+  return detail::custom_within(std::move(support), &lower.x, &upper.x);
+}
+
+// ---- rays ----
+
+enum Status : std::int32_t {
+  hit = MINKRAY_HIT,
+  miss = MINKRAY_MISS,
+  inside = MINKRAY_INSIDE,       ///< the ray begins in the object
+  exhausted = MINKRAY_EXHAUSTED  ///< gave up: neither a hit nor a miss
+};
+
+/// The points origin + t direction, 0 <= t <= t_max.
+struct Ray {
+  Vec3 origin, direction;
+  double t_max = std::numeric_limits<double>::infinity();
+};
+static_assert(sizeof(Ray) == sizeof(minkray_ray));
+
+inline constexpr std::uint32_t no_object = MINKRAY_NO_OBJECT;
+
+struct Hit {
+  double t = std::numeric_limits<double>::infinity();  ///< in lengths of the direction
+  double t_lo = t, t_hi = t;                           ///< the true t is between them
+  double t_base = 0, t_offset = 0;                     ///< t is their sum, which has fewer digits
+  Vec3 point, normal;
+  std::uint32_t object = no_object;
+  Status status = exhausted;
+  std::int32_t supports = 0, reserved = 0;
+
+  bool found() const { return status == hit || status == inside; }
+};
+static_assert(sizeof(Hit) == sizeof(minkray_hit));
+
+/// What takes long may be told of, and stopped.
+struct Options {
+  int threads = 0;                                     ///< 0: one a core
+  int (*progress)(void* user, double done) = nullptr;  ///< answers anything but 0 to stop
+  void* user = nullptr;
+};
+
+namespace detail {
+inline minkray_options plain(const Options& options) {
+  return {sizeof(minkray_options), options.threads, 0, options.progress, options.user};
+}
+inline const minkray_ray* plain(View<const Ray> rays) {
+  return reinterpret_cast<const minkray_ray*>(rays.data());
+}
+inline minkray_hit* plain(View<Hit> hits) {
+  return reinterpret_cast<minkray_hit*>(hits.data());
+}
+/// Throws unless there is an answer for each ray.
+inline void check_sizes(std::size_t rays, std::size_t answers) {
+  struct SizesDiffer : std::exception {
+    const char* what() const noexcept override {
+      return "minkray: as many answers are needed as there are rays";
+    }
+  };
+  if (rays != answers) throw SizesDiffer();
+}
+}  // namespace detail
+
+using Proof = minkray_proof;
+
+/// What is met of one shape alone.
+inline Hit cast(const Shape& shape, const Ray& ray, const Pose& pose = identity()) {
+  Hit found;
+  detail::check(minkray_shape_cast(shape.handle(), detail::plain(&pose), detail::plain({&ray, 1}),
+                                   1, detail::plain({&found, 1}), nullptr));
+  return found;
+}
+
+// ---- scenes ----
+
+/// How a file is read.
+struct FileOptions {
+  const Pose* pose = nullptr;  ///< of all that is in it
+  Text geometry = {};          ///< of robots: "visual", "collision" or "all"
+  Text keyframe = {};
+  View<const char* const> package_dirs = {};
+  bool skip_missing_meshes = false;
+};
+
+/// Shapes with poses. Any number of threads may ask one; only one may change it, while none asks.
+class Scene {
+ public:
+  /// What came from a file: objects with numbers that follow each other.
+  class Group {
+   public:
+    std::uint32_t first() const { return first_; }
+    std::uint32_t size() const { return size_; }
+    std::uint32_t joints() const { return joints_; }
+    const char* joint(std::uint32_t i) const {
+      const char* name = nullptr;
+      detail::check(minkray_scene_joint(scene_, group_, i, &name, nullptr));
+      return name;
+    }
+    /// Sets a joint that has one number: radians or a length. The next commit moves the robot.
+    void set(Text joint, double value) {
+      detail::check(minkray_scene_set_joint(scene_, group_, joint.c_str(), &value, 1));
+    }
+    void set(Text joint, View<const double> values) {
+      detail::check(
+          minkray_scene_set_joint(scene_, group_, joint.c_str(), values.data(), values.size()));
+    }
+    void set_pose(const Pose& pose) {
+      detail::check(minkray_scene_set_group_pose(scene_, group_, detail::plain(&pose)));
+    }
+
+   private:
+    friend class Scene;
+    Group(minkray_scene scene, std::uint32_t group) : scene_(scene), group_(group) {
+      detail::check(minkray_scene_group(scene, group, &first_, &size_, &joints_));
+    }
+    minkray_scene scene_;
+    std::uint32_t group_, first_ = 0, size_ = 0, joints_ = 0;
+  };
+
+  Scene() { detail::check(minkray_scene_make(&handle_)); }
+  Scene(Scene&& other) noexcept : handle_(std::exchange(other.handle_, minkray_scene{0})) {}
+  Scene& operator=(Scene&& other) noexcept {
+    std::swap(handle_, other.handle_);
+    return *this;
+  }
+  ~Scene() {
+    if (handle_.id != 0) minkray_scene_release(handle_);
+  }
+
+  minkray_scene handle() const { return handle_; }
+
+  /// The number of what is added.
+  std::uint32_t add(const Shape& shape, const Pose& pose = identity(), Text name = {}) {
+    std::uint32_t object = 0;
+    detail::check(
+        minkray_scene_add(handle_, shape.handle(), detail::plain(&pose), name.c_str(), &object));
+    return object;
+  }
+  /// All points x with normal . x <= offset |normal|.
+  std::uint32_t add_half_space(const Vec3& normal, double offset, Text name = {}) {
+    std::uint32_t object = 0;
+    detail::check(minkray_scene_add_half_space(handle_, &normal.x, offset, name.c_str(), &object));
+    return object;
+  }
+  /// A scene file (.json) or a robot's (URDF, MJCF, SDF).
+  Group add_file(Text file, const FileOptions& options = {}) {
+    const minkray_file_options plain = {sizeof plain,
+                                        detail::plain(options.pose),
+                                        options.geometry.c_str(),
+                                        options.keyframe.c_str(),
+                                        options.package_dirs.data(),
+                                        options.package_dirs.size(),
+                                        options.skip_missing_meshes};
+    std::uint32_t group = 0;
+    detail::check(minkray_scene_add_file(handle_, file.c_str(), &plain, &group));
+    return Group(handle_, group);
+  }
+  void set_pose(std::uint32_t object, const Pose& pose) {
+    detail::check(minkray_scene_set_pose(handle_, object, detail::plain(&pose)));
+  }
+  /// Builds or refits, whichever is due.
+  void commit() { detail::check(minkray_scene_commit(handle_)); }
+
+  std::uint32_t size() const {
+    std::uint32_t objects = 0;
+    detail::check(minkray_scene_size(handle_, &objects, nullptr));
+    return objects;
+  }
+  /// Valid until the scene is changed.
+  const char* name(std::uint32_t object) const {
+    const char* found = nullptr;
+    detail::check(minkray_scene_name(handle_, object, &found));
+    return found;
+  }
+  Pose pose(std::uint32_t object) const {
+    Pose found;
+    detail::check(minkray_scene_pose(handle_, object, reinterpret_cast<minkray_pose*>(&found)));
+    return found;
+  }
+
+  Hit cast(const Ray& ray) const {
+    Hit found;
+    detail::check(minkray_scene_cast(handle_, detail::plain({&ray, 1}), 1,
+                                     detail::plain({&found, 1}), nullptr));
+    return found;
+  }
+  /// The answers are the same bits for any cut of the rays and any number of threads.
+  void cast(View<const Ray> rays, View<Hit> hits, const Options& options = {}) const {
+    detail::check_sizes(rays.size(), hits.size());
+    const minkray_options how = detail::plain(options);
+    detail::check(
+        minkray_scene_cast(handle_, detail::plain(rays), rays.size(), detail::plain(hits), &how));
+  }
+  /// Whether anything is met: hit, miss, or exhausted.
+  Status occluded(const Ray& ray) const {
+    std::uint8_t answer = 0;
+    occluded({&ray, 1}, {&answer, 1});
+    return static_cast<Status>(answer);
+  }
+  void occluded(View<const Ray> rays, View<std::uint8_t> answers,
+                const Options& options = {}) const {
+    detail::check_sizes(rays.size(), answers.size());
+    const minkray_options how = detail::plain(options);
+    const Ray* first = rays.data();
+    constexpr std::ptrdiff_t stride = sizeof(Ray);
+    const Ray none;
+    if (!first) first = &none;
+    const minkray_ray_arrays arrays = {sizeof arrays, &first->origin.x, stride, &first->direction.x,
+                                       stride,        &first->t_max,    stride};
+    detail::check(minkray_scene_occluded(handle_, &arrays, rays.size(), answers.data(), &how));
+  }
+  /// Where a ray leaves an object.
+  Hit exit(std::uint32_t object, const Ray& ray) const {
+    Hit found;
+    detail::check(minkray_scene_exit(handle_, object, detail::plain({&ray, 1}), 1,
+                                     detail::plain({&found, 1}), nullptr));
+    return found;
+  }
+  /// Proves answers of `cast`.
+  void prove(View<const Ray> rays, View<const Hit> hits, View<Proof> proofs,
+             const Options& options = {}) const {
+    detail::check_sizes(rays.size(), hits.size());
+    detail::check_sizes(rays.size(), proofs.size());
+    const minkray_options how = detail::plain(options);
+    detail::check(minkray_scene_prove(handle_, detail::plain(rays),
+                                      reinterpret_cast<const minkray_hit*>(hits.data()),
+                                      rays.size(), proofs.data(), &how));
+  }
+  Proof prove(const Ray& ray, const Hit& hit) const {
+    Proof proof;
+    prove({&ray, 1}, {&hit, 1}, {&proof, 1});
+    return proof;
+  }
+
+ private:
+  minkray_scene handle_ = {0};
+};
+
+// ---- pairs of shapes ----
+
+using Distance = minkray_distance;
+using Impact = minkray_impact;
+using Twist = minkray_twist;
+
+/// How far apart, or how deep in each other (less than zero): lower <= value <= upper, proven.
+inline Distance signed_distance(const Shape& a, const Pose& pose_a, const Shape& b,
+                                const Pose& pose_b, double tolerance = 0) {
+  const minkray_distance_options options = {sizeof options, tolerance, 0, 0, 0};
+  Distance found;
+  detail::check(minkray_signed_distance(a.handle(), detail::plain(&pose_a), b.handle(),
+                                        detail::plain(&pose_b), &options, &found));
+  return found;
+}
+
+/// The first contact of two that move and turn, at times from 0 to t_max.
+inline Impact time_of_impact(const Shape& a, const Pose& pose_a, const Twist& twist_a,
+                             const Shape& b, const Pose& pose_b, const Twist& twist_b,
+                             double t_max) {
+  Impact found;
+  detail::check(minkray_time_of_impact(a.handle(), detail::plain(&pose_a), &twist_a, b.handle(),
+                                       detail::plain(&pose_b), &twist_b, t_max, &found));
+  return found;
+}
+
+}  // namespace v0
+}  // namespace minkray

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// The function of the C interface that proves answers.
+#include "renderer/library/call.h"
+#include "renderer/library/prover.h"
+#include "renderer/library/ray_source.h"
+#include "renderer/library/work_on_rays.h"
+
+using namespace minkray;
+
+extern "C" int minkray_scene_prove(minkray_scene scene, const minkray_ray* rays,
+                                   const minkray_hit* hits, size_t count, minkray_proof* proofs,
+                                   const minkray_options* options) {
+  return call("minkray_scene_prove", [&] {
+    const HeldScene& held = scene_of(scene);
+    if (count > 0) {
+      require(hits, "hits");
+      require(proofs, "proofs");
+    }
+    const RaySource source(rays, count);
+    const Prover prover(held);
+    work_on_rays(count, options, [&](size_t begin, size_t end) {
+      for (size_t i = begin; i < end; ++i) proofs[i] = prover.prove(source[i], hits[i]);
+    });
+    throw_if_lied(held.customs());
+  });
+}

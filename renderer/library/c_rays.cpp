@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+// The functions of the C interface that cast rays.
+#include <algorithm>
+#include <array>
+
+#include "renderer/library/call.h"
+#include "renderer/library/held_scene.h"
+#include "renderer/library/held_shape.h"
+#include "renderer/library/poses.h"
+#include "renderer/library/ray_source.h"
+#include "renderer/library/work_on_rays.h"
+
+namespace minkray {
+namespace {
+
+constexpr std::size_t at_once = most_rays_at_once;
+
+/// Calls tell(i, ray, hit) for each ray. Those that go together are asked for together; if a solver
+/// gave up for any of them, each is asked for again to know whose.
+template <class Tell>
+void cast_rays(const HeldScene& scene, const RaySource& rays, const minkray_options* options,
+               Tell&& tell) {
+  const RenderWorld& world = scene.world();
+  const auto one = [&](std::size_t i, const Ray<double>& ray) {
+    QueryCounts counts;
+    const WorldHit<double> hit = world.closest_hit(ray, counts);
+    tell(i, ray, plain_hit(ray, hit, counts.exhausted > 0));
+  };
+  work_on_rays(rays.size(), options, [&](std::size_t begin, std::size_t end) {
+    std::array<WorldRay<double>, at_once> asked;
+    std::array<WorldHit<double>, at_once> hits;
+    for (std::size_t first = begin; first < end; first += at_once) {
+      const std::size_t count = std::min(at_once, end - first);
+      if (count == 1) {
+        one(first, rays[first]);
+        continue;
+      }
+      for (std::size_t i = 0; i < count; ++i) asked[i] = {rays[first + i]};
+      QueryCounts counts;
+      world.closest_hits(std::span(asked).first(count), std::span(hits).first(count), counts);
+      for (std::size_t i = 0; i < count; ++i) {
+        if (counts.exhausted > 0)
+          one(first + i, asked[i].ray);
+        else
+          tell(first + i, asked[i].ray, plain_hit(asked[i].ray, hits[i], false));
+      }
+    }
+  });
+  throw_if_lied(scene.customs());
+}
+
+void find_occluded(const HeldScene& scene, const RaySource& rays, std::uint8_t* blocked,
+                   const minkray_options* options) {
+  const RenderWorld& world = scene.world();
+  work_on_rays(rays.size(), options, [&](std::size_t begin, std::size_t end) {
+    std::array<WorldRay<double>, at_once> asked;
+    for (std::size_t first = begin; first < end; first += at_once) {
+      const std::size_t count = std::min(at_once, end - first);
+      for (std::size_t i = 0; i < count; ++i) asked[i] = {rays[first + i]};
+      QueryCounts counts;
+      const RayGroupMask met = world.occluded(std::span(asked).first(count), counts);
+      for (std::size_t i = 0; i < count; ++i) {
+        const bool is_met = (met >> i & 1u) != 0;
+        bool gave_up = !is_met && counts.exhausted > 0;
+        if (gave_up) {
+          QueryCounts alone;
+          world.occluded(asked[i].ray, alone);
+          gave_up = alone.exhausted > 0;
+        }
+        blocked[first + i] = is_met ? MINKRAY_HIT : gave_up ? MINKRAY_EXHAUSTED : MINKRAY_MISS;
+      }
+    }
+  });
+  throw_if_lied(scene.customs());
+}
+
+/// Casts at one shape, one way or the other.
+template <class Cast>
+void cast_at_one(const PreparedShape<double>& shape, std::uint32_t object, const RaySource& rays,
+                 minkray_hit* hits, const minkray_options* options, Cast&& cast) {
+  work_on_rays(rays.size(), options, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Ray<double> ray = rays[i];
+      WorldHit<double> hit{no_instance, cast(shape, ray)};
+      if (hit.cast.found()) hit.instance = object;
+      hits[i] = plain_hit(ray, hit, hit.cast.status == Status::exhausted);
+    }
+  });
+}
+
+}  // namespace
+}  // namespace minkray
+
+using namespace minkray;
+
+extern "C" {
+
+int minkray_scene_cast(minkray_scene scene, const minkray_ray* rays, size_t count,
+                       minkray_hit* hits, const minkray_options* options) {
+  return call("minkray_scene_cast", [&] {
+    const HeldScene& held = scene_of(scene);
+    if (count > 0) require(hits, "hits");
+    cast_rays(held, RaySource(rays, count), options,
+              [&](size_t i, const Ray<double>&, const minkray_hit& hit) { hits[i] = hit; });
+  });
+}
+
+int minkray_scene_cast_arrays(minkray_scene scene, const minkray_ray_arrays* rays, size_t count,
+                              const minkray_hit_arrays* hits, const minkray_options* options) {
+  return call("minkray_scene_cast_arrays", [&] {
+    const HeldScene& held = scene_of(scene);
+    require(hits, "hits");
+    if (hits->size < sizeof(minkray_hit_arrays))
+      wrong_use("hits.size: must be sizeof(minkray_hit_arrays)");
+    cast_rays(held, RaySource(rays, count), options,
+              [&](size_t i, const Ray<double>& ray, const minkray_hit& hit) {
+                store(*hits, i, ray, hit);
+              });
+  });
+}
+
+int minkray_scene_occluded(minkray_scene scene, const minkray_ray_arrays* rays, size_t count,
+                           uint8_t* blocked, const minkray_options* options) {
+  return call("minkray_scene_occluded", [&] {
+    const HeldScene& held = scene_of(scene);
+    if (count > 0) require(blocked, "blocked");
+    find_occluded(held, RaySource(rays, count), blocked, options);
+  });
+}
+
+int minkray_scene_exit(minkray_scene scene, uint32_t object, const minkray_ray* rays, size_t count,
+                       minkray_hit* hits, const minkray_options* options) {
+  return call("minkray_scene_exit", [&] {
+    const HeldScene& held = scene_of(scene);
+    if (count > 0) require(hits, "hits");
+    const Instances<double>& instances = held.world().instances();
+    if (object >= instances.size())
+      wrong_use("object: must be less than " + std::to_string(instances.size()) + " (got " +
+                std::to_string(object) + ")");
+    if (instances.is_half_space(object))
+      wrong_use("object: must not be a half-space, which rays never leave");
+    cast_at_one(instances.at(object), object, RaySource(rays, count), hits, options,
+                [](const PreparedShape<double>& shape, const Ray<double>& ray) {
+                  return cast_exit(shape, ray);
+                });
+    throw_if_lied(held.customs());
+  });
+}
+
+int minkray_shape_cast(minkray_shape shape, const minkray_pose* pose, const minkray_ray* rays,
+                       size_t count, minkray_hit* hits, const minkray_options* options) {
+  return call("minkray_shape_cast", [&] {
+    const HeldShape& held = shape_of(shape, "shape");
+    if (count > 0) require(hits, "hits");
+    const PreparedShape<double> prepared(held.definition(), pose_of(pose, "pose"));
+    cast_at_one(prepared, 0, RaySource(rays, count), hits, options,
+                [](const PreparedShape<double>& one, const Ray<double>& ray) {
+                  return cast_ray(one, ray);
+                });
+    throw_if_lied(held.customs());
+  });
+}
+
+}  // extern "C"

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+// The functions of the C interface that make shapes and ask them.
+#include <cstring>
+
+#include "core/derived/shape_bounds.h"
+#include "renderer/json/parse.h"
+#include "renderer/library/call.h"
+#include "renderer/library/held_shape.h"
+#include "renderer/library/make_shape.h"
+#include "renderer/scene/shape_json.h"
+
+namespace minkray {
+
+Handles<HeldShape>& held_shapes() {
+  // Never destroyed: what a program still holds when it ends may call back into what has ended.
+  static Handles<HeldShape>& shapes = *new Handles<HeldShape>(1);
+  return shapes;
+}
+
+const HeldShape& shape_of(minkray_shape shape, const char* argument) {
+  const HeldShape* held = held_shapes().find(shape.id);
+  if (!held)
+    wrong_use(std::string(argument) + ": must be a shape (got " +
+              (shape.id == 0 ? "none" : "one that was released, or none") + ")");
+  return *held;
+}
+
+namespace {
+
+minkray_shape hold(Shape<double> shape) {
+  return {held_shapes().add(std::make_unique<HeldShape>(std::move(shape)))};
+}
+
+}  // namespace
+}  // namespace minkray
+
+using namespace minkray;
+
+extern "C" {
+
+const char* minkray_version(void) {
+  return MINKRAY_VERSION;
+}
+
+const char* minkray_last_error(void) {
+  return last_error();
+}
+
+int minkray_shape_make(const char* kind, const minkray_parameter* parameters, size_t count,
+                       minkray_shape* shape) {
+  return call("minkray_shape_make", [&] {
+    require(kind, "kind");
+    require(shape, "shape");
+    if (count > 0) require(parameters, "parameters");
+    *shape = hold(make_shape(kind, {parameters, count}));
+  });
+}
+
+int minkray_shape_read(const char* json, const char* folder, minkray_shape* shape) {
+  return call("minkray_shape_read", [&] {
+    require(json, "json");
+    require(shape, "shape");
+    Mistakes mistakes("shape");
+    MeshFiles meshes(folder ? folder : "");
+    const auto value = parse_json(json, mistakes);
+    const auto read = value ? read_shape(*value, JsonPath(), mistakes, meshes) : std::nullopt;
+    throw_if_any(mistakes);
+    *shape = hold(*read);
+  });
+}
+
+int minkray_shape_custom(const minkray_support* support, minkray_shape* shape) {
+  return call("minkray_shape_custom", [&] {
+    require(support, "support");
+    require(shape, "shape");
+    *shape = hold(Custom<double>{std::make_shared<const CustomSupport>(*support)});
+  });
+}
+
+int minkray_shape_retain(minkray_shape shape) {
+  return call("minkray_shape_retain", [&] {
+    if (!held_shapes().retain(shape.id)) shape_of(shape, "shape");
+  });
+}
+
+int minkray_shape_release(minkray_shape shape) {
+  return call("minkray_shape_release", [&] {
+    if (!held_shapes().release(shape.id)) shape_of(shape, "shape");
+  });
+}
+
+int minkray_shape_write(minkray_shape shape, char* text, size_t size, size_t* needed) {
+  return call("minkray_shape_write", [&] {
+    const HeldShape& held = shape_of(shape, "shape");
+    if (!held.customs().empty())
+      wrong_use("shape: cannot be written, since a program gives its support function");
+    const std::string json = write_shape(*held.shape()).dump();
+    if (needed) *needed = json.size() + 1;
+    if (size == 0) return;
+    require(text, "text");
+    const std::size_t count = std::min(size - 1, json.size());
+    std::memcpy(text, json.data(), count);
+    text[count] = '\0';
+  });
+}
+
+int minkray_shape_kind(minkray_shape shape, const char** kind) {
+  return call("minkray_shape_kind", [&] {
+    require(kind, "kind");
+    *kind = std::visit([]<class S>(const S&) { return S::name.data(); },
+                       shape_of(shape, "shape").shape()->kind);
+  });
+}
+
+int minkray_shape_support(minkray_shape shape, size_t count, const double (*directions)[3],
+                          double (*points)[3]) {
+  return call("minkray_shape_support", [&] {
+    const HeldShape& held = shape_of(shape, "shape");
+    if (count > 0) {
+      require(directions, "directions");
+      require(points, "points");
+    }
+    for (size_t i = 0; i < count; ++i) {
+      const Vec3<double> n(directions[i][0], directions[i][1], directions[i][2]);
+      if (!n.allFinite())
+        wrong_use("directions[" + std::to_string(i) + "]: must be three finite numbers");
+      const Vec3<double> point = held.shape()->support(n);
+      for (int k = 0; k < 3; ++k) points[i][k] = point[k];
+    }
+    throw_if_lied(held.customs());
+  });
+}
+
+int minkray_shape_bounds(minkray_shape shape, double lower[3], double upper[3]) {
+  return call("minkray_shape_bounds", [&] {
+    const HeldShape& held = shape_of(shape, "shape");
+    require(lower, "lower");
+    require(upper, "upper");
+    const Bounds<double> bounds = bounds_of<double>(*held.shape());
+    throw_if_lied(held.customs());
+    for (int k = 0; k < 3; ++k) {
+      lower[k] = bounds.lower[k];
+      upper[k] = bounds.upper[k];
+    }
+  });
+}
+
+}  // extern "C"

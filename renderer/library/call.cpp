@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/library/call.h"
+
+#include <exception>
+#include <new>
+
+#include "renderer/base/errors.h"
+
+namespace minkray {
+namespace {
+
+/// What the last call of this thread that failed says: the one thing that calls leave behind, since
+/// C has no better place for a text.
+std::string& kept_error() {
+  thread_local std::string text;
+  return text;
+}
+
+int keep(minkray_code code, const char* function, const char* what) {
+  kept_error() = std::string(function) + ": " + what;
+  return code;
+}
+
+}  // namespace
+
+void wrong_use(const std::string& what) {
+  throw CallError(MINKRAY_WRONG_USE, what);
+}
+
+void require(const void* pointer, const char* argument) {
+  if (!pointer) wrong_use(std::string(argument) + ": must not be NULL");
+}
+
+int keep_error(const char* function) noexcept {
+  try {
+    try {
+      throw;
+    } catch (const CallError& error) {
+      return keep(error.code(), function, error.what());
+    } catch (const BadInput& error) {
+      return keep(MINKRAY_BAD_INPUT, function, error.what());
+    } catch (const WrongUsage& error) {
+      return keep(MINKRAY_WRONG_USE, function, error.what());
+    } catch (const CannotWrite& error) {
+      return keep(MINKRAY_BAD_INPUT, function, error.what());
+    } catch (const std::bad_alloc&) {
+      return keep(MINKRAY_NO_MEMORY, function, "there is not enough memory");
+    } catch (const std::exception& error) {
+      return keep(MINKRAY_DEFECT, function, error.what());
+    } catch (...) {
+      return keep(MINKRAY_DEFECT, function, "an unknown error");
+    }
+  } catch (...) {  // not even memory for the text
+    return MINKRAY_NO_MEMORY;
+  }
+}
+
+const char* last_error() noexcept {
+  try {
+    return kept_error().c_str();
+  } catch (...) {
+    return "";
+  }
+}
+
+}  // namespace minkray

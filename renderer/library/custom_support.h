@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// A support function of the user's, watched: what it answers is finite and never contradicts what
+// it has answered before, or it is told.
+//
+// Support points s_i along unit directions n_i belong to a convex shape if and only if no s_j lies
+// beyond any of the planes through s_i with normal n_i: the hull of the points is such a shape
+// then. So as long as no two answers contradict each other, there is a shape that has them, and
+// what was proven by them is true of it.
+#pragma once
+
+#include <atomic>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "core/math/bounds.h"
+#include "core/shape/custom.h"
+#include "core/shape/shape.h"
+#include "renderer/library/c_header.h"
+
+namespace minkray {
+
+/// How far a support point may lie beyond the plane of another, in sizes of the shape: some
+/// thousand roundings of double, but less than any float would make.
+inline constexpr double support_contradiction = 1e-12;
+
+/// Any number of threads may ask. After the first lie it answers the same point for ever.
+class CustomSupport final : public SupportSource {
+ public:
+  /// Asks the function in some hundred directions. Throws CallError if it fails or lies.
+  explicit CustomSupport(const minkray_support& function);
+  ~CustomSupport() override;
+
+  /// What was wrong with an answer; empty if nothing was.
+  std::string complaint() const;
+  bool has_lied() const { return lied_.load(std::memory_order_acquire); }
+
+  /// Two answers of it; tells if they contradict each other.
+  void compare(const Vec3<double>& n, const Vec3<double>& along_n, const Vec3<double>& m,
+               const Vec3<double>& along_m) const;
+
+ private:
+  /// What was asked when it was made, number by number, for loops without branches.
+  struct Probes {
+    std::vector<double> nx, ny, nz;  ///< directions
+    std::vector<double> x, y, z;     ///< their points
+    std::vector<double> h;           ///< how far the shape reaches along them
+  };
+
+  void support(std::size_t count, const Coordinates* directions,
+               Coordinates* points) const override;
+  void probe();
+  void check(const Coordinates& n, const Coordinates& point) const;
+  void complain(const std::string& what) const;
+
+  minkray_support function_;
+  bool has_bounds_;
+  Bounds<double> bounds_;
+  double allowed_ = 0;  ///< beyond planes and bounds, in lengths
+  Coordinates fallback_ = {0, 0, 0};
+  Probes probes_;
+  mutable std::atomic<bool> lied_ = false;
+  mutable std::mutex mutex_;
+  mutable std::string complaint_;
+};
+
+/// The custom shapes that a shape is made of.
+std::vector<std::shared_ptr<const CustomSupport>> customs_of(const Shape<double>& shape);
+
+/// Throws CallError if one of them has lied.
+void throw_if_lied(const std::vector<std::shared_ptr<const CustomSupport>>& customs);
+
+}  // namespace minkray

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+// Things that programs in other languages hold by number. A number is never used twice, so that one
+// which was released, or never given out, is found.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <bit>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+namespace minkray {
+
+/// Any number of threads may use it. Only the last owner's release must not be at once with a use
+/// of the same thing.
+template <class Thing>
+class Handles {
+ public:
+  /// `kind` tells the numbers of one kind of thing from those of another: less than 256.
+  explicit Handles(std::uint64_t kind) : kind_(kind << 56) {}
+
+  /// Lives as long as the program.
+  ~Handles() = delete;
+  Handles(const Handles&) = delete;
+  Handles& operator=(const Handles&) = delete;
+
+  /// The number of a new thing, with one owner.
+  std::uint64_t add(std::unique_ptr<Thing> thing) {
+    const std::lock_guard lock(mutex_);
+    if (free_.empty()) grow();
+    const std::uint32_t index = free_.back();
+    free_.pop_back();
+    Slot& slot = slot_at(index);
+    slot.thing = std::move(thing);
+    slot.owners = 1;
+    const std::uint64_t id = kind_ | (std::uint64_t{++slot.uses} << 32 & use_bits) | (index + 1u);
+    slot.id.store(id, std::memory_order_release);
+    return id;
+  }
+
+  /// Null if there is none of that number, or none any more.
+  Thing* find(std::uint64_t id) const {
+    const Slot* slot = slot_of(id);
+    return slot ? slot->thing.get() : nullptr;
+  }
+
+  /// One more owner; false if there is no such thing.
+  bool retain(std::uint64_t id) {
+    const std::lock_guard lock(mutex_);
+    Slot* slot = slot_of(id);
+    if (slot) ++slot->owners;
+    return slot != nullptr;
+  }
+
+  /// One owner less, with the last of whom the thing goes; false if there is no such thing.
+  bool release(std::uint64_t id) {
+    std::unique_ptr<Thing> last;  // goes when the lock is open: it may call a program back
+    const std::lock_guard lock(mutex_);
+    Slot* slot = slot_of(id);
+    if (!slot) return false;
+    if (--slot->owners > 0) return true;
+    slot->id.store(0, std::memory_order_release);
+    last = std::move(slot->thing);
+    // Numbers are not used again: a slot whose uses are used up stays empty.
+    if ((std::uint64_t{slot->uses} << 32 & use_bits) != use_bits)
+      free_.push_back(static_cast<std::uint32_t>(id) - 1u);
+    return true;
+  }
+
+ private:
+  static constexpr std::uint64_t use_bits = 0x00ffffff00000000u;
+  static constexpr std::uint32_t first_chunk = 256;
+
+  struct Slot {
+    std::atomic<std::uint64_t> id = 0;
+    std::unique_ptr<Thing> thing;
+    std::uint32_t owners = 0, uses = 0;
+  };
+
+  /// Chunks double in size, and stay where they are.
+  Slot& slot_at(std::uint32_t index) const {
+    const std::uint32_t place = index + first_chunk;
+    const auto chunk = static_cast<std::size_t>(std::bit_width(place / first_chunk) - 1);
+    return chunks_[chunk].load(std::memory_order_acquire)[place - (first_chunk << chunk)];
+  }
+
+  Slot* slot_of(std::uint64_t id) const {
+    const auto index = static_cast<std::uint32_t>(id) - 1u;
+    if (id == 0 || index >= size_.load(std::memory_order_acquire)) return nullptr;
+    Slot& slot = slot_at(index);
+    return slot.id.load(std::memory_order_acquire) == id ? &slot : nullptr;
+  }
+
+  void grow() {
+    const std::uint32_t size = size_.load();
+    const auto chunk = static_cast<std::size_t>(std::bit_width(size / first_chunk + 1) - 1);
+    const std::uint32_t more = first_chunk << chunk;
+    chunks_[chunk].store(new Slot[more], std::memory_order_release);
+    size_.store(size + more, std::memory_order_release);
+    for (std::uint32_t i = more; i-- > 0;) free_.push_back(size + i);
+  }
+
+  const std::uint64_t kind_;
+  std::mutex mutex_;
+  std::array<std::atomic<Slot*>, 24> chunks_ = {};
+  std::atomic<std::uint32_t> size_ = 0;
+  std::vector<std::uint32_t> free_;
+};
+
+}  // namespace minkray

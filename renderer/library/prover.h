@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// Proofs of what was answered about whole scenes: that an object is met where it is said to be, and
+// that no other is met before.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/math/bounds.h"
+#include "core/proof/check_certificate.h"
+#include "renderer/library/held_scene.h"
+
+namespace minkray {
+
+/// Refers to the scene, which must be committed. Any number of threads may ask.
+class Prover {
+ public:
+  explicit Prover(const HeldScene& scene);
+
+  minkray_proof prove(const Ray<double>& ray, const minkray_hit& hit) const;
+
+ private:
+  /// One instance in the world.
+  struct Body {
+    std::optional<Shape<double>> shape;  ///< none: a half-space
+    HalfSpaceBody<double> half_space;
+    Bounds<double> bounds;
+    std::vector<std::shared_ptr<const CustomSupport>> customs;
+  };
+
+  CertificateVerdict verdict(const Body& body, const Ray<double>& ray, const Claim& claim,
+                             Certificate* certificate) const;
+  /// Whether it is proven that the ray does not meet the body before t_lo.
+  bool keeps_off(std::uint32_t index, const Ray<double>& ray, double t_lo) const;
+
+  const RenderWorld& world_;
+  std::vector<Body> bodies_;
+};
+
+}  // namespace minkray

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/library/ray_source.h"
+
+#include <cmath>
+#include <string>
+
+#include "renderer/library/call.h"
+
+namespace minkray {
+
+RaySource::RaySource(const minkray_ray* rays, std::size_t count) : count_(count) {
+  if (count == 0) return;
+  require(rays, "rays");
+  origins_ = rays->origin;
+  directions_ = rays->direction;
+  t_max_ = &rays->t_max;
+  origin_stride_ = direction_stride_ = t_max_stride_ = sizeof(minkray_ray);
+  check();
+}
+
+RaySource::RaySource(const minkray_ray_arrays* rays, std::size_t count) : count_(count) {
+  require(rays, "rays");
+  if (rays->size < sizeof(minkray_ray_arrays))
+    wrong_use("rays.size: must be sizeof(minkray_ray_arrays)");
+  if (count == 0) return;
+  require(rays->origins, "rays.origins");
+  require(rays->directions, "rays.directions");
+  origins_ = rays->origins;
+  directions_ = rays->directions;
+  t_max_ = rays->t_max;
+  origin_stride_ = rays->origin_stride;
+  direction_stride_ = rays->direction_stride;
+  t_max_stride_ = rays->t_max_stride;
+  check();
+}
+
+void RaySource::check() const {
+  for (std::size_t i = 0; i < count_; ++i) {
+    const Ray<double> ray = (*this)[i];
+    if (ray.origin.allFinite() && ray.direction.allFinite() && ray.t_max >= 0) continue;
+    const std::string place = "rays[" + std::to_string(i) + "].";
+    if (!(ray.t_max >= 0))
+      wrong_use(place + "t_max: must be >= 0 (got " + std::to_string(ray.t_max) + ")");
+    const bool is_origin = !ray.origin.allFinite();
+    const Vec3<double>& v = is_origin ? ray.origin : ray.direction;
+    for (int k = 0; k < 3; ++k)
+      if (!std::isfinite(v[k]))
+        wrong_use(place + (is_origin ? "origin[" : "direction[") + std::to_string(k) +
+                  "]: must be a finite number (got " + std::to_string(v[k]) + ")");
+  }
+}
+
+minkray_hit plain_hit(const Ray<double>& ray, const WorldHit<double>& hit, bool gave_up) {
+  minkray_hit plain = {};
+  const CastResult<double>& cast = hit.cast;
+  // What a solver gave up on may have been in front of anything.
+  plain.status = gave_up ? MINKRAY_EXHAUSTED : static_cast<int>(cast.status);
+  plain.object = hit.instance;
+  plain.supports = cast.supports;
+  if (!hit.found()) {
+    plain.t = plain.t_lo = plain.t_hi = plain.t_base = std::numeric_limits<double>::infinity();
+    for (double& x : plain.point) x = std::numeric_limits<double>::quiet_NaN();
+    return plain;
+  }
+  plain.t = cast.t();
+  plain.t_lo = cast.t_base + cast.offset_lo;
+  plain.t_hi = cast.t_base + cast.offset_hi;
+  plain.t_base = cast.t_base;
+  plain.t_offset = cast.t_offset;
+  for (int k = 0; k < 3; ++k) {
+    plain.normal[k] = cast.normal[k];
+    // In this order: from far away the first two nearly cancel.
+    plain.point[k] =
+        (ray.origin[k] + cast.t_base * ray.direction[k]) + cast.t_offset * ray.direction[k];
+  }
+  return plain;
+}
+
+void store(const minkray_hit_arrays& arrays, std::size_t i, const Ray<double>& ray,
+           const minkray_hit& hit) {
+  if (arrays.t) arrays.t[i] = hit.t;
+  if (arrays.t_lo) arrays.t_lo[i] = hit.t_lo;
+  if (arrays.t_hi) arrays.t_hi[i] = hit.t_hi;
+  if (arrays.distance) arrays.distance[i] = hit.t > 0 ? hit.t * ray.direction.norm() : hit.t;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (arrays.points) arrays.points[3 * i + k] = hit.point[k];
+    if (arrays.normals) arrays.normals[3 * i + k] = hit.normal[k];
+  }
+  if (arrays.objects) arrays.objects[i] = hit.object;
+  if (arrays.status) arrays.status[i] = static_cast<std::uint8_t>(hit.status);
+  if (arrays.supports) arrays.supports[i] = hit.supports;
+}
+
+}  // namespace minkray

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// Rays and answers as callers have them: in structs or in arrays, one behind the other or apart.
+#pragma once
+
+#include <cstddef>
+
+#include "core/world/world.h"
+#include "renderer/library/c_header.h"
+
+namespace minkray {
+
+/// Rays that lie anywhere: strides are in bytes.
+class RaySource {
+ public:
+  RaySource(const minkray_ray* rays, std::size_t count);
+  RaySource(const minkray_ray_arrays* rays, std::size_t count);
+
+  std::size_t size() const { return count_; }
+  Ray<double> operator[](std::size_t i) const {
+    const double* o = at(origins_, origin_stride_, i);
+    const double* d = at(directions_, direction_stride_, i);
+    Ray<double> ray{{o[0], o[1], o[2]}, {d[0], d[1], d[2]}};
+    if (t_max_) ray.t_max = *at(t_max_, t_max_stride_, i);
+    return ray;
+  }
+
+  /// Throws CallError that names the first ray which is none.
+  void check() const;
+
+ private:
+  static const double* at(const double* first, std::ptrdiff_t stride, std::size_t i) {
+    return reinterpret_cast<const double*>(reinterpret_cast<const char*>(first) +
+                                           stride * static_cast<std::ptrdiff_t>(i));
+  }
+
+  std::size_t count_;
+  const double *origins_ = nullptr, *directions_ = nullptr, *t_max_ = nullptr;
+  std::ptrdiff_t origin_stride_ = 0, direction_stride_ = 0, t_max_stride_ = 0;
+};
+
+/// The answer to one ray. `gave_up`: a solver did, at any object.
+minkray_hit plain_hit(const Ray<double>& ray, const WorldHit<double>& hit, bool gave_up);
+
+/// Writes one answer into the arrays that there are.
+void store(const minkray_hit_arrays& arrays, std::size_t i, const Ray<double>& ray,
+           const minkray_hit& hit);
+
+}  // namespace minkray

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/library/work_on_rays.h"
+
+#include <algorithm>
+#include <atomic>
+#include <mutex>
+
+#include "core/parallel/parallel.h"
+#include "renderer/library/call.h"
+
+namespace minkray {
+namespace {
+
+constexpr int most_threads = 1024;
+
+/// What the caller hears, by whichever thread has done a part while no other tells him.
+class Progress {
+ public:
+  Progress(const minkray_options* options, std::size_t count) : options_(options), count_(count) {}
+
+  bool stopped() const { return stopped_.load(std::memory_order_relaxed); }
+
+  void add(std::size_t rays) {
+    const std::size_t done = done_ += rays;
+    if (!options_ || !options_->progress) return;
+    const std::unique_lock lock(mutex_, std::try_to_lock);
+    if (!lock || stopped()) return;
+    if (options_->progress(options_->user,
+                           static_cast<double>(done) / static_cast<double>(count_)) != 0)
+      stopped_ = true;
+  }
+
+ private:
+  const minkray_options* options_;
+  std::size_t count_;
+  std::atomic<std::size_t> done_ = 0;
+  std::atomic<bool> stopped_ = false;
+  std::mutex mutex_;
+};
+
+}  // namespace
+
+void work_on_rays(std::size_t count, const minkray_options* options,
+                  const std::function<void(std::size_t begin, std::size_t end)>& body) {
+  int threads = 0;
+  if (options) {
+    if (options->size < sizeof(minkray_options))
+      wrong_use("options.size: must be sizeof(minkray_options)");
+    threads = options->threads;
+    if (threads < 0 || threads > most_threads)
+      wrong_use("options.threads: must be between 0 and 1024 (got " + std::to_string(threads) +
+                ")");
+  }
+  Progress progress(options, count);
+  const auto part = [&](std::size_t begin, std::size_t end) {
+    if (progress.stopped()) return;
+    body(begin, end);
+    progress.add(end - begin);
+  };
+  const std::size_t parts = (count + rays_a_part - 1) / rays_a_part;
+  const auto some_parts = [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+      part(i * rays_a_part, std::min((i + 1) * rays_a_part, count));
+  };
+  // One thread is the caller's own.
+  if (threads == 1 || parts <= 1)
+    some_parts(0, parts);
+  else
+    with_threads(threads, [&] { parallel_for(parts, 1, some_parts); });
+  if (progress.stopped()) throw CallError(MINKRAY_STOPPED, "stopped by the caller");
+}
+
+}  // namespace minkray

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT
+// A shape that is given by its support function is cast at, proven and measured as one of ours; a
+// function that is no support function is found, and told.
+#include <gtest/gtest.h>
+#include <minkray/minkray.h>
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "tests/renderer/library/rays.h"
+
+namespace {
+
+namespace mk = minkray;
+using mk::Vec3;
+
+Vec3 box_support(const Vec3& n) {
+  return {std::copysign(0.5, n.x), std::copysign(0.3, n.y), std::copysign(0.2, n.z)};
+}
+
+/// The cylinder that FCL's issue 642 asks for: x^2 + y^2 <= 0.49, cut by two oblique planes.
+constexpr mk::CutPlanes cuts = {-0.5, 0.6, {0.2, -0.3}, {-0.5, 0.4}};
+Vec3 cut_cylinder_support(const Vec3& n) {
+  constexpr double radius = 0.7;
+  const auto rim = [&](double height, const double(&slope)[2]) -> Vec3 {
+    const double x = n.x + n.z * slope[0], y = n.y + n.z * slope[1], length = std::hypot(x, y);
+    const double px = length > 0 ? radius * x / length : radius;
+    const double py = length > 0 ? radius * y / length : 0;
+    return {px, py, height + slope[0] * px + slope[1] * py};
+  };
+  const Vec3 lower = rim(cuts.lower_height, cuts.lower_slope);
+  const Vec3 upper = rim(cuts.upper_height, cuts.upper_slope);
+  const auto along = [&](const Vec3& p) { return n.x * p.x + n.y * p.y + n.z * p.z; };
+  return along(upper) > along(lower) ? upper : lower;
+}
+
+/// Answers of both agree: the intervals of hits meet, and statuses are equal but for rays that just
+/// touch. Every answer is certified.
+void expect_same_answers(const mk::Shape& ours, const mk::Shape& custom, double size,
+                         std::size_t count) {
+  mk::Scene a, b;
+  a.add(ours, mk::translation({1, 2, 3}));
+  b.add(custom, mk::translation({1, 2, 3}));
+  a.commit();
+  b.commit();
+  const std::vector<mk::Ray> rays = rays_around({1, 2, 3}, size, count);
+  std::vector<mk::Hit> hits_a(count), hits_b(count);
+  a.cast(rays, hits_a);
+  b.cast(rays, hits_b);
+  std::vector<mk::Proof> proofs(count);
+  b.prove(rays, hits_b, proofs);
+  std::size_t hits = 0, differ = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    ASSERT_NE(hits_b[i].status, mk::exhausted) << i;
+    ASSERT_TRUE(proofs[i].holds) << i << ": " << proofs[i].complaint;
+    if (hits_a[i].status != hits_b[i].status) {
+      ++differ;
+      continue;
+    }
+    if (hits_a[i].status != mk::hit) continue;
+    ++hits;
+    // Each encloses the truth, so they meet, but for the last bit of their ends.
+    const double bit = 4e-16 * std::abs(hits_a[i].t);
+    EXPECT_LE(hits_a[i].t_lo, hits_b[i].t_hi + bit) << i;
+    EXPECT_LE(hits_b[i].t_lo, hits_a[i].t_hi + bit) << i;
+  }
+  EXPECT_GT(hits, count * 3 / 10);
+  EXPECT_LT(hits, count * 8 / 10);
+  EXPECT_LE(differ, count / 10000);
+}
+
+TEST(CustomShape, of_a_box_is_met_where_the_box_is) {
+  expect_same_answers(mk::box({0.5, 0.3, 0.2}), mk::custom(box_support), 0.8, 20000);
+}
+
+TEST(CustomShape, of_a_cylinder_cut_by_oblique_planes_is_met_where_ours_is) {
+  expect_same_answers(mk::cut_cylinder(0.7, cuts), mk::custom(cut_cylinder_support), 2, 20000);
+}
+
+TEST(CustomShape, may_stand_wherever_a_shape_may) {
+  const mk::Shape box = mk::box({0.5, 0.3, 0.2}), custom = mk::custom(box_support);
+  const mk::Pose turned = mk::pose({0.1, 0.2, 0.3}, {0.1, 0.2, 0.3, 0.9});
+  const auto nest = [&](const mk::Shape& shape) {
+    return mk::hull_of({mk::sum(mk::transformed(shape, turned), mk::sphere(0.1)),
+                        mk::rounded(mk::scaled(shape, Vec3{1, 0.5, 0.5}), 0.05),
+                        mk::difference(mk::point({0.2, 0, 0}), shape)});
+  };
+  expect_same_answers(nest(box), nest(custom), 1.2, 4000);
+}
+
+TEST(CustomShape, is_as_far_from_others_as_ours_is) {
+  const mk::Shape box = mk::box({0.5, 0.3, 0.2}), custom = mk::custom(box_support);
+  const mk::Shape other = mk::capsule(0.2, 0.5);
+  const mk::Pose turned = mk::pose({0, 0, 0}, {0.1, 0.2, 0.3, 0.9});
+  for (const double x : {0.4, 0.6, 0.9, 2.0}) {
+    const mk::Pose pose = mk::pose({x, 0.1, 0.2}, {0.3, -0.1, 0.2, 0.8});
+    const mk::Distance a = mk::signed_distance(box, turned, other, pose);
+    const mk::Distance b = mk::signed_distance(custom, turned, other, pose);
+    EXPECT_LE(a.lower, b.upper) << x;
+    EXPECT_LE(b.lower, a.upper) << x;
+    EXPECT_NEAR(a.value, b.value, 1e-9) << x;
+  }
+  const mk::Twist twist = {{-1, 0, 0}, {0, 0.5, 1}};
+  const mk::Impact a =
+      mk::time_of_impact(box, turned, {}, other, mk::translation({3, 0, 0}), twist, 5);
+  const mk::Impact b =
+      mk::time_of_impact(custom, turned, {}, other, mk::translation({3, 0, 0}), twist, 5);
+  ASSERT_EQ(a.status, MINKRAY_IMPACT);
+  ASSERT_EQ(b.status, MINKRAY_IMPACT);
+  EXPECT_NEAR(a.t_lo, b.t_lo, 1e-8);
+}
+
+TEST(CustomShape, keeps_its_function_as_long_as_a_scene_needs_it) {
+  struct Counted {
+    int* alive;
+    explicit Counted(int* count) : alive(count) { ++*alive; }
+    Counted(const Counted& other) : alive(other.alive) { ++*alive; }
+    ~Counted() { --*alive; }
+    Vec3 operator()(const Vec3& n) const { return box_support(n); }
+  };
+  int alive = 0;
+  {
+    mk::Scene scene;
+    scene.add(mk::custom(Counted(&alive)));
+    EXPECT_EQ(alive, 1);
+    scene.commit();
+    EXPECT_EQ(scene.cast({{-5, 0, 0}, {1, 0, 0}}).t, 4.5);
+  }
+  EXPECT_EQ(alive, 0);
+}
+
+/// What making a custom shape of the function says; empty if it is taken.
+template <class Support>
+std::string refusal(Support support) {
+  try {
+    mk::custom(support);
+  } catch (const mk::Error& error) {
+    EXPECT_EQ(error.code(), MINKRAY_BAD_SUPPORT);
+    return error.what();
+  }
+  return {};
+}
+
+TEST(CustomShape, of_a_function_that_lies_is_refused) {
+  EXPECT_NE(refusal([](const Vec3& n) {
+              return Vec3{-n.x, -n.y, -n.z};
+            }).find("not maximal"),
+            std::string::npos);
+  EXPECT_NE(refusal([](const Vec3& n) {
+              return Vec3{n.x, NAN, n.z};
+            }).find("not finite"),
+            std::string::npos);
+  EXPECT_NE(refusal([](const Vec3& n) {
+              return Vec3{n.x, INFINITY, n.z};
+            }).find("not finite"),
+            std::string::npos);
+  EXPECT_NE(refusal([](const Vec3&) -> Vec3 { throw std::runtime_error("no"); }).find("failed"),
+            std::string::npos);
+  // A box whose corners are rounded to float but for some: the error is 1e-8.
+  EXPECT_NE(refusal([](const Vec3& n) {
+              const double x = n.y > 0.3 ? 0.3 : double(0.3f);
+              return Vec3{std::copysign(x, n.x), std::copysign(0.3, n.y), std::copysign(1, n.z)};
+            }).find("not maximal"),
+            std::string::npos);
+  int calls = 0;
+  EXPECT_NE(refusal([&calls](const Vec3& n) {
+              const double wander = 1e-14 * (++calls % 7);
+              return Vec3{n.x + wander, n.y, n.z};
+            }).find("once"),
+            std::string::npos);
+  EXPECT_EQ(refusal(box_support), "");
+  EXPECT_EQ(refusal([](const Vec3&) { return Vec3{3, 4, 5}; }), "");  // a point is a shape
+}
+
+TEST(CustomShape, out_of_its_bounds_is_refused) {
+  EXPECT_NO_THROW(mk::custom(box_support, {-0.5, -0.3, -0.2}, {0.5, 0.3, 0.2}));
+  EXPECT_THROW(mk::custom(box_support, {-0.5, -0.3, -0.2}, {0.5, 0.3, 0.1}), mk::Error);
+  EXPECT_THROW(mk::custom(box_support, {0.5, -0.3, -0.2}, {-0.5, 0.3, 0.1}), mk::Error);
+}
+
+/// A box that says so where it was first asked, and lies in a narrow cone: a point within the box.
+Vec3 sly_support(const Vec3& n) {
+  const double cosine = (n.x * 0.83 + n.y * 0.41 + n.z * 0.37) / std::hypot(0.83, 0.41, 0.37);
+  return cosine > 0.9995 ? Vec3{0.1, 0.1, 0.1} : box_support(n);
+}
+
+TEST(CustomShape, that_lies_later_on_ends_the_query_with_an_error) {
+  const mk::Shape sly = mk::custom(sly_support);
+  try {
+    sly.support({0.83, 0.41, 0.37});
+    FAIL() << "the lie was taken";
+  } catch (const mk::Error& error) {
+    EXPECT_EQ(error.code(), MINKRAY_BAD_SUPPORT);
+    EXPECT_NE(std::string(error.what()).find("not maximal"), std::string::npos);
+  }
+  EXPECT_THROW(sly.support({1, 0, 0}), mk::Error);  // and is not forgotten
+}
+
+TEST(CustomShape, that_throws_in_the_middle_of_a_cast_ends_the_cast_with_an_error) {
+  bool throws = false;
+  mk::Scene scene;
+  scene.add(mk::custom([&throws](const Vec3& n) {
+    if (throws) throw std::runtime_error("no more");
+    return box_support(n);
+  }));
+  scene.commit();
+  const std::vector<mk::Ray> rays = rays_around({0, 0, 0}, 1, 100);
+  std::vector<mk::Hit> hits(rays.size());
+  scene.cast(rays, hits);
+  throws = true;
+  EXPECT_THROW(scene.cast(rays, hits), mk::Error);
+  std::vector<mk::Proof> proofs(rays.size());
+  EXPECT_THROW(scene.prove(rays, hits, proofs), mk::Error);
+}
+
+}  // namespace

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// The library answers what `minkray cast` answers, bit for bit.
+#include <gtest/gtest.h>
+#include <minkray/minkray.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <limits>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/renderer/library/rays.h"
+#include "tests/support/program.h"
+#include "tests/support/source_files.h"
+
+namespace {
+
+namespace mk = minkray;
+
+/// The number after a key; the first of a list. Null is a bound that there is none of.
+double number_after(const std::string& line, const std::string& key) {
+  const std::size_t at = line.find("\"" + key + "\":");
+  if (at == std::string::npos) return std::numeric_limits<double>::quiet_NaN();
+  const char* text = line.c_str() + at + key.size() + 3;
+  if (*text == 'n') return std::numeric_limits<double>::infinity();
+  return std::strtod(text + (*text == '['), nullptr);
+}
+
+TEST(Library, answers_what_the_command_line_answers) {
+  const minkray::TemporaryFolder folder;
+  const std::string scene_file = (minkray::source_folder() / "scenes/shape-zoo.json").string();
+  mk::Scene scene;
+  scene.add_file(scene_file);
+  scene.commit();
+  const std::vector<mk::Ray> rays = rays_around({0, 0, 1}, 6, 3000);
+  std::vector<mk::Hit> hits(rays.size());
+  scene.cast(rays, hits);
+
+  std::ofstream queries(folder / "queries.jsonl");
+  for (const mk::Ray& ray : rays) {
+    char line[1024];
+    std::snprintf(line, sizeof line,
+                  R"({"scene": "%s", "ray": {"origin": [%.17g, %.17g, %.17g], )"
+                  R"("direction": [%.17g, %.17g, %.17g]}})"
+                  "\n",
+                  scene_file.c_str(), ray.origin.x, ray.origin.y, ray.origin.z, ray.direction.x,
+                  ray.direction.y, ray.direction.z);
+    queries << line;
+  }
+  queries.close();
+  const minkray::ProgramOutcome outcome =
+      minkray::run_shell("$MINKRAY cast " + folder / "queries.jsonl");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  std::istringstream answers(outcome.out);
+  std::string line;
+  std::size_t met = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    ASSERT_TRUE(std::getline(answers, line));
+    const char* names[] = {"hit", "miss", "inside", "exhausted"};
+    ASSERT_NE(line.find("\"status\":\"" + std::string(names[hits[i].status]) + "\""),
+              std::string::npos)
+        << line;
+    if (!hits[i].found()) continue;
+    ++met;
+    EXPECT_EQ(hits[i].t, number_after(line, "t")) << line;
+    EXPECT_EQ(hits[i].t_lo, number_after(line, "t_lo")) << line;
+    EXPECT_EQ(hits[i].t_hi, number_after(line, "t_hi")) << line;
+    EXPECT_EQ(hits[i].normal.x, number_after(line, "normal")) << line;
+    EXPECT_EQ(double(hits[i].object), number_after(line, "object")) << line;
+  }
+  EXPECT_GT(met, 500u);
+}
+
+}  // namespace

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: MIT
+// Scenes by the C++ header: what is added is met, answers are the same bits however they are asked
+// for, and what moves is met where it moved to.
+#include <gtest/gtest.h>
+#include <minkray/minkray.h>
+
+#include <cstring>
+#include <fstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "tests/renderer/library/rays.h"
+
+namespace {
+
+namespace mk = minkray;
+
+/// Every shape there is, in rows.
+mk::Scene every_shape() {
+  mk::Scene scene;
+  const mk::Shape shapes[] = {
+      mk::sphere(0.5),
+      mk::ellipsoid({0.5, 0.3, 0.2}),
+      mk::box({0.3, 0.2, 0.4}),
+      mk::disk(0.5),
+      mk::cylinder(0.3, 0.4),
+      mk::cut_cylinder(0.3, {-0.4, 0.4, {0.2, 0.1}, {-0.3, 0.2}}),
+      mk::cone(0.4, 0.4),
+      mk::capsule(0.2, 0.3),
+      mk::tapered_capsule(0.3, 0.1, 0.3),
+      mk::frustum(0.4, 0.2, 0.3),
+      mk::superellipsoid({0.5, 0.4, 0.3}, 3),
+      mk::hull({{0, 0, 0}, {0.5, 0, 0}, {0, 0.5, 0}, {0.1, 0.1, 0.6}, {0.4, 0.4, 0.3}}),
+      mk::triangle({0, 0, 0}, {0.6, 0, 0.1}, {0, 0.5, 0.3}),
+      mk::rounded(mk::segment({-0.3, 0, 0}, {0.3, 0.1, 0.2}), 0.1),
+      mk::sum(mk::box({0.2, 0.1, 0.2}), mk::ellipsoid({0.2, 0.3, 0.1})),
+      mk::difference(mk::cone(0.3, 0.3), mk::cylinder(0.1, 0.2)),
+      mk::hull_of({mk::sphere(0.2), mk::translated(mk::disk(0.3), {0, 0, 0.4})}),
+      mk::scaled(mk::cone(0.4, 0.4), mk::Vec3{1, 0.5, 1.2}),
+      mk::swept(mk::sphere(0.15), {0.4, 0.2, 0.1}),
+  };
+  int i = 0;
+  for (const mk::Shape& shape : shapes) {
+    const double x = i % 5 - 2, y = i / 5 - 2;
+    scene.add(shape, mk::pose({x, y, 0.1 * i}, {0.1 * i, 0.3, -0.2, 0.9}));
+    ++i;
+  }
+  scene.add_half_space({0.1, 0, 1}, -1, "ground");
+  scene.commit();
+  return scene;
+}
+
+bool same_bits(const mk::Hit& a, const mk::Hit& b) {
+  return std::memcmp(&a, &b, sizeof a) == 0;
+}
+
+TEST(LibraryScene, answers_are_the_same_bits_for_any_cut_and_any_number_of_threads) {
+  const mk::Scene scene = every_shape();
+  const std::vector<mk::Ray> rays = rays_around({0, 0, 0.5}, 3, 10000);
+  std::vector<mk::Hit> one_by_one(rays.size());
+  std::vector<bool> met(scene.size());
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    one_by_one[i] = scene.cast(rays[i]);
+    if (one_by_one[i].found()) met[one_by_one[i].object] = true;
+    EXPECT_NE(one_by_one[i].status, mk::exhausted);
+  }
+  for (std::size_t i = 0; i < met.size(); ++i) EXPECT_TRUE(met[i]) << scene.name(std::uint32_t(i));
+  for (const int threads : {0, 1, 2, 3}) {
+    for (const std::size_t cut : {rays.size(), std::size_t{1000}, std::size_t{33}}) {
+      std::vector<mk::Hit> hits(rays.size());
+      for (std::size_t first = 0; first < rays.size(); first += cut) {
+        const std::size_t count = std::min(cut, rays.size() - first);
+        scene.cast(mk::View<const mk::Ray>(&rays[first], count),
+                   mk::View<mk::Hit>(&hits[first], count), {.threads = threads});
+      }
+      std::size_t different = 0;
+      for (std::size_t i = 0; i < rays.size(); ++i) different += !same_bits(hits[i], one_by_one[i]);
+      EXPECT_EQ(different, 0u) << threads << " threads, cut " << cut;
+    }
+  }
+}
+
+TEST(LibraryScene, answers_threads_of_its_own) {
+  const mk::Scene scene = every_shape();
+  const std::vector<mk::Ray> rays = rays_around({0, 0, 0.5}, 3, 4000);
+  std::vector<mk::Hit> hits(rays.size());
+  scene.cast(rays, hits);
+  std::vector<std::thread> threads;
+  std::vector<std::size_t> different(4);
+  for (std::size_t t = 0; t < different.size(); ++t)
+    threads.emplace_back([&, t] {
+      for (std::size_t i = t; i < rays.size(); i += 4)
+        different[t] += !same_bits(scene.cast(rays[i]), hits[i]);
+    });
+  for (std::thread& thread : threads) thread.join();
+  for (const std::size_t count : different) EXPECT_EQ(count, 0u);
+}
+
+TEST(LibraryScene, occlusion_and_exits_agree_with_hits) {
+  const mk::Scene scene = every_shape();
+  const std::vector<mk::Ray> rays = rays_around({0, 0, 0.5}, 3, 2000);
+  std::vector<mk::Hit> hits(rays.size());
+  std::vector<std::uint8_t> blocked(rays.size());
+  scene.cast(rays, hits);
+  scene.occluded(rays, blocked);
+  std::size_t exits = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    EXPECT_EQ(blocked[i] == mk::hit, hits[i].found()) << i;
+    EXPECT_EQ(scene.occluded(rays[i]), mk::Status(blocked[i])) << i;
+    if (!hits[i].found() || hits[i].object + 1 == scene.size()) continue;
+    const mk::Hit exit = scene.exit(hits[i].object, rays[i]);
+    ASSERT_TRUE(exit.found());
+    EXPECT_GE(exit.t_hi, hits[i].t_lo) << i;
+    ++exits;
+  }
+  EXPECT_GT(exits, 200u);
+  EXPECT_THROW(scene.exit(scene.size() - 1, rays[0]), mk::Error);  // a half-space has no end
+}
+
+TEST(LibraryScene, hits_are_proven_and_false_ones_are_not) {
+  const mk::Scene scene = every_shape();
+  const std::vector<mk::Ray> rays = rays_around({0, 0, 0.5}, 3, 1000);
+  std::vector<mk::Hit> hits(rays.size());
+  std::vector<mk::Proof> proofs(rays.size());
+  scene.cast(rays, hits);
+  scene.prove(rays, hits, proofs);
+  std::vector<mk::Ray> rays_of_lies;
+  std::vector<mk::Hit> lies;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    EXPECT_TRUE(proofs[i].holds) << i << ": " << proofs[i].complaint << ", object "
+                                 << proofs[i].against;
+    if (hits[i].status != mk::hit) continue;
+    EXPECT_LE(proofs[i].t_lo, proofs[i].t_hi);
+    // Three lies: a little further, a miss, and another object.
+    mk::Hit later = hits[i], missed = hits[i], other = hits[i];
+    later.t_offset += 1e-6 * (1 + hits[i].t);
+    later.t += 1e-6 * (1 + hits[i].t);
+    missed.status = mk::miss;
+    other.object = (other.object + 1) % scene.size();
+    for (const mk::Hit& lie : {later, missed, other}) {
+      rays_of_lies.push_back(rays[i]);
+      lies.push_back(lie);
+    }
+  }
+  EXPECT_GT(lies.size(), 1000u);
+  proofs.resize(lies.size());
+  scene.prove(rays_of_lies, lies, proofs);
+  for (std::size_t i = 0; i < lies.size(); ++i) EXPECT_FALSE(proofs[i].holds) << i;
+}
+
+TEST(LibraryScene, what_moved_is_met_where_a_new_scene_has_it) {
+  mk::Scene moved = every_shape(), fresh;
+  const mk::Pose shift = mk::pose({0.3, -0.2, 0.5}, {0, 0.1, 0, 1});
+  for (std::uint32_t i = 0; i + 1 < moved.size(); ++i) moved.set_pose(i, shift * moved.pose(i));
+  moved.commit();
+  const mk::Shape shape = mk::sphere(0.5);
+  fresh.add(shape, moved.pose(0));
+  fresh.commit();
+  const std::vector<mk::Ray> rays = rays_around({-2, -2, 0}, 1, 2000);
+  std::size_t hits = 0;
+  for (const mk::Ray& ray : rays) {
+    const mk::Hit a = moved.cast(ray), b = fresh.cast(ray);
+    if (a.object != 0 || b.object != 0) continue;
+    EXPECT_TRUE(same_bits(a, b));
+    ++hits;
+  }
+  EXPECT_GT(hits, 100u);
+}
+
+TEST(LibraryScene, tells_inside_and_miss_apart) {
+  mk::Scene scene;
+  scene.add(mk::box({1, 1, 1}));
+  scene.commit();
+  const mk::Hit in = scene.cast({{0.5, 0, 0}, {1, 0, 0}});
+  EXPECT_EQ(in.status, mk::inside);
+  EXPECT_EQ(in.t, 0);
+  const mk::Hit past = scene.cast({{-5, 3, 0}, {1, 0, 0}});
+  EXPECT_EQ(past.status, mk::miss);
+  EXPECT_EQ(past.t, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(past.object, mk::no_object);
+  EXPECT_EQ(scene.cast({{-5, 0, 0}, {2, 0, 0}, 1.9}).status, mk::miss);
+  const mk::Hit half = scene.cast({{-5, 0, 0}, {2, 0, 0}, 2.1});
+  EXPECT_EQ(half.status, mk::hit);
+  EXPECT_EQ(half.t, 2);
+  EXPECT_EQ(half.point, (mk::Vec3{-1, 0, 0}));
+  EXPECT_EQ(half.normal, (mk::Vec3{-1, 0, 0}));
+  EXPECT_EQ(scene.exit(0, {{-5, 0, 0}, {2, 0, 0}}).t, 3);
+}
+
+TEST(LibraryScene, robots_move_by_their_joints) {
+  const std::string file = testing::TempDir() + "minkray_library_robot.urdf";
+  std::ofstream(file) << R"(<robot name="arm">
+    <link name="base"><visual><geometry><sphere radius="0.1"/></geometry></visual></link>
+    <link name="hand"><visual><origin xyz="1 0 0"/><geometry><sphere radius="0.2"/></geometry></visual></link>
+    <joint name="elbow" type="revolute"><parent link="base"/><child link="hand"/><axis xyz="0 0 1"/>
+      <limit lower="-3" upper="3" effort="1" velocity="1"/></joint></robot>)";
+  mk::Scene scene;
+  scene.add(mk::sphere(0.01), mk::translation({9, 9, 9}));
+  auto robot = scene.add_file(file);
+  EXPECT_EQ(robot.first(), 1u);
+  EXPECT_EQ(robot.size(), 2u);
+  ASSERT_EQ(robot.joints(), 1u);
+  EXPECT_STREQ(robot.joint(0), "elbow");
+  scene.commit();
+  EXPECT_NEAR(scene.cast({{5, 0, 0}, {-1, 0, 0}}).t, 3.8, 1e-12);
+  robot.set("elbow", 1.5707963267948966);
+  scene.commit();
+  EXPECT_NEAR(scene.cast({{0, 5, 0}, {0, -1, 0}}).t, 3.8, 1e-12);
+  robot.set_pose(mk::translation({0, 1, 0}));
+  scene.commit();
+  EXPECT_NEAR(scene.cast({{0, 5, 0}, {0, -1, 0}}).t, 2.8, 1e-12);
+  try {
+    robot.set("elbo", 0);
+    FAIL();
+  } catch (const mk::Error& error) {
+    EXPECT_NE(std::string(error.what()).find("known are elbow"), std::string::npos);
+  }
+}
+
+TEST(LibraryScene, shapes_go_through_text_and_stay_the_same) {
+  const mk::Shape shape = mk::hull_of(
+      {mk::rounded(mk::box({0.1, 0.2, 0.3}), 1.0 / 3), mk::translated(mk::cone(1, 2), {0, 0, 1})});
+  const auto text = shape.json<std::string>();
+  const mk::Shape again = mk::read_shape(text);
+  EXPECT_EQ(again.json<std::string>(), text);
+  for (const mk::Ray& ray : rays_around({0, 0, 0}, 2, 200))
+    EXPECT_EQ(shape.support(ray.direction), again.support(ray.direction));
+}
+
+TEST(LibraryScene, what_takes_long_is_told_of_and_can_be_stopped) {
+  const mk::Scene scene = every_shape();
+  const std::vector<mk::Ray> rays = rays_around({0, 0, 0.5}, 3, 20000);
+  std::vector<mk::Hit> hits(rays.size());
+  struct Told {
+    int calls = 0;
+    double last = 0;
+  } told;
+  mk::Options options;
+  options.user = &told;
+  options.progress = [](void* user, double done) {
+    auto& heard = *static_cast<Told*>(user);
+    EXPECT_GE(done, 0);
+    EXPECT_LE(done, 1);
+    ++heard.calls;
+    return heard.calls == 3 ? 1 : 0;
+  };
+  try {
+    scene.cast(rays, hits, options);
+    FAIL();
+  } catch (const mk::Error& error) {
+    EXPECT_EQ(error.code(), MINKRAY_STOPPED);
+  }
+  EXPECT_EQ(told.calls, 3);
+}
+
+}  // namespace

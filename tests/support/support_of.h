@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// A shape of ours as if a program gave it: by its support mapping alone.
+#pragma once
+
+#include "core/shape/shape.h"
+
+namespace minkray::testing {
+
+class SupportOf final : public SupportSource {
+ public:
+  explicit SupportOf(Shape<double> shape) : shape_(std::move(shape)) {}
+
+ private:
+  void support(std::size_t count, const Coordinates* n, Coordinates* points) const override {
+    for (std::size_t i = 0; i < count; ++i) {
+      const Vec3<double> p = shape_.support(Vec3<double>(n[i][0], n[i][1], n[i][2]));
+      points[i] = {p.x(), p.y(), p.z()};
+    }
+  }
+  Shape<double> shape_;
+};
+
+inline Shape<double> as_custom(Shape<double> shape) {
+  return Custom<double>{std::make_shared<const SupportOf>(std::move(shape))};
+}
+
+}  // namespace minkray::testing
