@@ -8,7 +8,7 @@
 
 namespace minkray {
 
-/// Told of the boxes that are met. A plain function, so that kernels share no code.
+/// It is told of the boxes that are met. It is a plain function, so that kernels share no code.
 struct BoxVisitor {
   /// `rays`: those of a group that meet the box; of a single ray no more than bit 0. Answers
   /// whether to end the walk.

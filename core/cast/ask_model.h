@@ -7,7 +7,7 @@
 
 namespace minkray {
 
-/// Exhausted where the model gives up, and where it is in doubt whether the ray begins inside.
+/// It is exhausted where the model gives up, and where a beginning inside is in doubt.
 template <class T, class Observer>
 CastResult<T> cast_with_model(Stage stage, const StageQuestion<T>& question, Observer&& observer) {
   const PreparedShape<T>& shape = question.shape;

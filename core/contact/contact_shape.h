@@ -9,7 +9,7 @@
 
 namespace minkray {
 
-/// Immutable and cheap to copy. Its numbers are doubles, whatever the shape's are.
+/// It is immutable and cheap to copy. Its numbers are doubles, whatever the shape's are.
 class ContactShape {
  public:
   /// `map` leads from the shape's frame to the body's; any invertible map.

@@ -33,7 +33,7 @@ class FacetMesh {
 
     /// Counter-clockwise from outside.
     Vec3<T> corner(std::size_t k) const { return vector_at(corners + 3 * k); }
-    /// Outward, of unit length; zero of a triangle without area.
+    /// It points outward and has unit length; it is zero of a triangle without area.
     Vec3<T> normal() const { return vector_at(normals); }
     /// The facet beyond the edge from corner k to k + 1.
     std::size_t neighbour(std::size_t k) const {
@@ -44,8 +44,8 @@ class FacetMesh {
     /// whether a line passes through it.
     bool is_supported() const { return numbers_[supported] != T(0); }
 
-    /// Rounded to U; whether it is supported is not known then. Where U is more precise, the normal
-    /// is found again, since this one is rounded to T.
+    /// The facet is rounded to U; whether it is supported is not known then. Where U is more
+    /// precise, the normal is found again, since this one is rounded to T.
     template <class U>
     typename FacetMesh<U>::Facet cast() const {
       typename FacetMesh<U>::Facet converted;

@@ -13,7 +13,7 @@
 
 namespace minkray {
 
-/// Immutable and shared: copies are cheap. Coplanar, collinear and single points are legal.
+/// It is immutable and shared: copies are cheap. Coplanar, collinear and single points are legal.
 template <class T>
 class PointCloud {
  public:
@@ -28,8 +28,8 @@ class PointCloud {
   /// It is null if the hull is flat. Its normals are the points' before they were rounded to T.
   const FacetMesh<T>* facets() const { return facets_.get(); }
 
-  /// Rounded to U. What was found out about the points is shared rather than found out again: the
-  /// support stays a maximum up to the rounding of the points.
+  /// The points are rounded to U. What was found out about the points is shared rather than found
+  /// out again: the support stays a maximum up to the rounding of the points.
   template <class U>
   PointCloud<U> cast() const {
     PointCloud<U> converted;

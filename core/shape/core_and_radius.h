@@ -36,7 +36,7 @@ struct ShapeCore {
   const Shape<double>* shape = nullptr;  ///< of `other`
 };
 
-/// Immutable and shared: copies are cheap.
+/// It is immutable and shared: copies are cheap.
 struct CoreAndRadius {
   ShapeCore core;
   /// It leads from the core's frame to the shape's; it keeps lengths: the core has the scales.

@@ -67,8 +67,8 @@ struct WorldRay {
 /// So many rays can be asked for at once.
 inline constexpr int most_rays_at_once = ray_group_capacity;
 
-/// Immutable but for pose_all, so any number of threads may ask. An answer depends on nothing but
-/// the ray: the same bit for bit whether it is asked for alone or with others, and for whatever
+/// It is immutable but for pose_all, so any number of threads may ask. An answer depends on nothing
+/// but the ray: the same bit for bit whether it is asked for alone or with others, and for whatever
 /// hierarchy.
 template <class T>
 class World {

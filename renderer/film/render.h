@@ -46,7 +46,7 @@ struct Rendering {
 struct RenderJournal {
   Rendering begun;         ///< if any tile is done
   std::vector<bool> done;  ///< its tiles, as TileGrid counts them; empty: none
-  /// Told after each tile, one at a time; other tiles may be written to meanwhile.
+  /// It is told after each tile, one at a time; other tiles may be written to meanwhile.
   std::function<void(const Rendering&, std::size_t tile)> finished;
 };
 

@@ -15,9 +15,9 @@ namespace minkray {
 
 /// What a rendering is watched by; either may be missing.
 struct RenderWatch {
-  /// Told after each tile, one at a time: the fraction done and the rays so far.
+  /// It is told after each tile, one at a time: the fraction done and the rays so far.
   std::function<void(double fraction, std::uint64_t rays)> progress;
-  /// Asked often, by all threads: whether to end early. A single pixel may take minutes.
+  /// It is asked often, by all threads: whether to end early. A single pixel may take minutes.
   std::function<bool()> stop;
 
   bool stopped() const { return stop && stop(); }
@@ -52,7 +52,7 @@ class TileGrid {
 /// Tiles that are there already, and who hears of those that are rendered.
 struct TileJournal {
   std::vector<bool> done;  ///< by tile; empty: none
-  /// Told after each tile, one at a time.
+  /// It is told after each tile, one at a time.
   std::function<void(std::size_t tile)> finished;
 };
 

@@ -29,7 +29,7 @@ struct XmlElement {
 
   /// It is null if there is none of that name.
   const std::string* attribute(std::string_view key) const;
-  /// Empty if there is none.
+  /// It is empty if there is none.
   std::string attribute_or(std::string_view key, std::string_view otherwise = {}) const;
   /// The first child of that name, or null.
   const XmlElement* child(std::string_view key) const;
