@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// NumPy's arrays as the C interface wants them: rows of so many doubles, without a copy where they
+// are such already.
+#pragma once
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include <string>
+
+#include "renderer/library/python/public_header.h"
+
+namespace minkray_python {
+
+namespace py = pybind11;
+
+/// Any array of doubles, with any strides; others are converted.
+using AnyDoubles = py::array_t<double, py::array::forcecast>;
+/// Arrays that lie one row behind the other.
+using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+/// Rows of `width` numbers each of which lies in one piece; a copy is made of others.
+struct Rows {
+  AnyDoubles array;
+  std::size_t count;
+  const double* first;
+  py::ssize_t stride;  ///< bytes from row to row
+};
+
+/// Throws ValueError, which names the argument, unless it has the shape (N, width).
+inline Rows rows_of(const py::object& object, py::ssize_t width, const char* argument) {
+  AnyDoubles array = AnyDoubles::ensure(object);
+  if (!array) {
+    PyErr_Clear();
+    throw py::value_error(std::string(argument) + ": must be an array of numbers");
+  }
+  if (array.ndim() != 2 || array.shape(1) != width) {
+    std::string shape = "(";
+    for (py::ssize_t i = 0; i < array.ndim(); ++i)
+      shape += (i > 0 ? ", " : "") + std::to_string(array.shape(i));
+    throw py::value_error(std::string(argument) + ": must have the shape (N, " +
+                          std::to_string(width) + ") (got " + shape + "))");
+  }
+  if (array.shape(0) > 0 && array.strides(1) != static_cast<py::ssize_t>(sizeof(double)))
+    array = Doubles(array);
+  return {array, static_cast<std::size_t>(array.shape(0)), array.data(), array.strides(0)};
+}
+
+/// A (3, 4) or (4, 4) matrix; the identity for None. A last row must be (0, 0, 0, 1).
+inline minkray::Pose pose_of(const py::object& object, const char* argument) {
+  minkray::Pose pose = minkray::identity();
+  if (object.is_none()) return pose;
+  const Doubles matrix = Doubles::ensure(object);
+  if (!matrix) PyErr_Clear();
+  if (!matrix || matrix.ndim() != 2 || matrix.shape(1) != 4 ||
+      (matrix.shape(0) != 3 && matrix.shape(0) != 4))
+    throw py::value_error(std::string(argument) + ": must be a (4, 4) matrix");
+  for (py::ssize_t i = 0; i < matrix.shape(0); ++i)
+    for (py::ssize_t j = 0; j < 4; ++j) {
+      if (i < 3)
+        pose.rows[i][j] = matrix.at(i, j);
+      else if (matrix.at(i, j) != (j == 3 ? 1 : 0))
+        throw py::value_error(std::string(argument) + ": the last row must be (0, 0, 0, 1)");
+    }
+  return pose;
+}
+
+}  // namespace minkray_python

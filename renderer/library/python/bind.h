@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+// The parts of the module.
+#pragma once
+
+#include "renderer/library/python/arrays.h"
+
+namespace minkray_python {
+
+void bind_shapes(py::module_& module);
+void bind_scenes(py::module_& module);
+
+}  // namespace minkray_python

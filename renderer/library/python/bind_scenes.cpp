@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: MIT
+// Scenes and rays, for __init__.py to build on.
+#include <pybind11/stl.h>
+
+#include <memory>
+#include <thread>
+#include <vector>
+
+#include "renderer/library/python/bind.h"
+
+namespace minkray_python {
+namespace {
+
+using minkray::Scene;
+
+void check(int code) {
+  if (code != MINKRAY_OK) throw minkray::Error(code);
+}
+
+/// Lets Ctrl-C stop what takes long: signals are looked at by the thread that called.
+class Interruptible {
+ public:
+  explicit Interruptible(int threads) {
+    options_ = {sizeof options_, threads, 0, &Interruptible::look, this};
+  }
+  const minkray_options* options() const { return &options_; }
+
+  /// Runs the work without the interpreter's lock; answers its code.
+  template <class Work>
+  void run(Work&& work) {
+    int code = MINKRAY_OK;
+    {
+      const py::gil_scoped_release unlock;
+      code = work(options());
+    }
+    if (code == MINKRAY_STOPPED && PyErr_Occurred()) throw py::error_already_set();
+    check(code);
+  }
+
+ private:
+  static int look(void* user, double) {
+    auto* self = static_cast<Interruptible*>(user);
+    if (std::this_thread::get_id() != self->caller_) return 0;
+    const py::gil_scoped_acquire lock;
+    return PyErr_CheckSignals() != 0 ? 1 : 0;
+  }
+  std::thread::id caller_ = std::this_thread::get_id();
+  minkray_options options_;
+};
+
+/// Rays (N, 6) and their ends: a number, or (N,).
+struct RayRows {
+  Rows rows;
+  Doubles t_max;
+  minkray_ray_arrays arrays = {};
+
+  RayRows(const py::object& rays, const py::object& ends) : rows(rows_of(rays, 6, "rays")) {
+    arrays = {
+        sizeof arrays, rows.first, rows.stride, rows.first ? rows.first + 3 : nullptr, rows.stride,
+        nullptr,       0};
+    if (ends.is_none()) return;
+    t_max = Doubles::ensure(ends);
+    if (!t_max) PyErr_Clear();
+    const bool is_one = t_max && t_max.ndim() == 0;
+    if (!t_max || (!is_one && static_cast<std::size_t>(t_max.size()) != rows.count))
+      throw py::value_error("t_max: must be a number, or one for each ray");
+    arrays.t_max = t_max.data();
+    arrays.t_max_stride = is_one ? 0 : static_cast<std::ptrdiff_t>(sizeof(double));
+  }
+};
+
+py::dict cast(const Scene& scene, const py::object& rays, const py::object& t_max, int threads) {
+  const RayRows source(rays, t_max);
+  const auto n = static_cast<py::ssize_t>(source.rows.count);
+  py::array_t<double> t(n), t_lo(n), t_hi(n), distance(n), point({n, py::ssize_t{3}}),
+      normal({n, py::ssize_t{3}});
+  py::array_t<std::uint32_t> object(n);
+  py::array_t<std::uint8_t> status(n);
+  py::array_t<std::int32_t> supports(n);
+  const minkray_hit_arrays hits = {sizeof hits,
+                                   t.mutable_data(),
+                                   t_lo.mutable_data(),
+                                   t_hi.mutable_data(),
+                                   distance.mutable_data(),
+                                   point.mutable_data(),
+                                   normal.mutable_data(),
+                                   object.mutable_data(),
+                                   status.mutable_data(),
+                                   supports.mutable_data()};
+  Interruptible(threads).run([&](const minkray_options* options) {
+    return minkray_scene_cast_arrays(scene.handle(), &source.arrays, source.rows.count, &hits,
+                                     options);
+  });
+  py::dict result;
+  result["t"] = t;
+  result["t_lo"] = t_lo;
+  result["t_hi"] = t_hi;
+  result["distance"] = distance;
+  result["point"] = point;
+  result["normal"] = normal;
+  result["object"] = object;
+  result["status"] = status;
+  result["supports"] = supports;
+  return result;
+}
+
+py::array_t<std::uint8_t> occluded(const Scene& scene, const py::object& rays,
+                                   const py::object& t_max, int threads) {
+  const RayRows source(rays, t_max);
+  py::array_t<std::uint8_t> blocked(static_cast<py::ssize_t>(source.rows.count));
+  std::uint8_t* first = blocked.mutable_data();
+  Interruptible(threads).run([&](const minkray_options* options) {
+    return minkray_scene_occluded(scene.handle(), &source.arrays, source.rows.count, first,
+                                  options);
+  });
+  return blocked;
+}
+
+/// Casts and proves: answers are proven with all of their digits.
+py::dict certify(const Scene& scene, const py::object& rays, const py::object& t_max, int threads) {
+  const RayRows source(rays, t_max);
+  const std::size_t count = source.rows.count;
+  std::vector<minkray_ray> plain(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto* row =
+        reinterpret_cast<const double*>(reinterpret_cast<const char*>(source.rows.first) +
+                                        source.rows.stride * static_cast<py::ssize_t>(i));
+    for (int k = 0; k < 3; ++k) {
+      plain[i].origin[k] = row[k];
+      plain[i].direction[k] = row[3 + k];
+    }
+    plain[i].t_max = !source.arrays.t_max              ? std::numeric_limits<double>::infinity()
+                     : source.arrays.t_max_stride == 0 ? *source.arrays.t_max
+                                                       : source.arrays.t_max[i];
+  }
+  std::vector<minkray_hit> hits(count);
+  std::vector<minkray_proof> proofs(count);
+  Interruptible(threads).run([&](const minkray_options* options) {
+    const int code = minkray_scene_cast(scene.handle(), plain.data(), count, hits.data(), options);
+    if (code != MINKRAY_OK) return code;
+    return minkray_scene_prove(scene.handle(), plain.data(), hits.data(), count, proofs.data(),
+                               options);
+  });
+  const auto n = static_cast<py::ssize_t>(count);
+  py::array_t<bool> holds(n);
+  py::array_t<double> t_lo(n), t_hi(n), plane({n, py::ssize_t{3}});
+  py::array_t<std::uint32_t> checked(n);
+  py::list complaints;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto k = static_cast<py::ssize_t>(i);
+    holds.mutable_at(k) = proofs[i].holds != 0;
+    t_lo.mutable_at(k) = proofs[i].t_lo;
+    t_hi.mutable_at(k) = proofs[i].t_hi;
+    for (py::ssize_t axis = 0; axis < 3; ++axis) plane.mutable_at(k, axis) = proofs[i].plane[axis];
+    checked.mutable_at(k) = proofs[i].checked;
+    complaints.append(py::str(proofs[i].complaint));
+  }
+  py::dict result;
+  result["holds"] = holds;
+  result["t_lo"] = t_lo;
+  result["t_hi"] = t_hi;
+  result["plane"] = plane;
+  result["checked"] = checked;
+  result["complaint"] = complaints;
+  return result;
+}
+
+Scene::Group add_file(Scene& scene, const std::string& file, const py::object& pose,
+                      const std::string& geometry, const std::string& keyframe,
+                      const std::vector<std::string>& package_dirs, bool skip_missing_meshes) {
+  minkray::FileOptions options;
+  const minkray::Pose map = pose_of(pose, "pose");
+  if (!pose.is_none()) options.pose = &map;
+  options.geometry = geometry;
+  options.keyframe = keyframe;
+  options.skip_missing_meshes = skip_missing_meshes;
+  std::vector<const char*> folders;
+  for (const std::string& folder : package_dirs) folders.push_back(folder.c_str());
+  options.package_dirs = {folders.data(), folders.size()};
+  const py::gil_scoped_release unlock;
+  return scene.add_file(file, options);
+}
+
+}  // namespace
+
+void bind_scenes(py::module_& module) {
+  py::class_<Scene::Group>(module, "Group")
+      .def_property_readonly("first", &Scene::Group::first)
+      .def_property_readonly("size", &Scene::Group::size)
+      .def_property_readonly("joints",
+                             [](const Scene::Group& group) {
+                               std::vector<std::string> names;
+                               for (std::uint32_t i = 0; i < group.joints(); ++i)
+                                 names.emplace_back(group.joint(i));
+                               return names;
+                             })
+      .def("set",
+           [](Scene::Group& group, const std::string& joint, const Doubles& values) {
+             group.set(joint, {values.data(), static_cast<std::size_t>(values.size())});
+           })
+      .def("set_pose", [](Scene::Group& group, const py::object& pose) {
+        group.set_pose(pose_of(pose, "pose"));
+      });
+  py::class_<Scene>(module, "Scene")
+      .def(py::init())
+      .def("add",
+           [](Scene& scene, const minkray::Shape& shape, const py::object& pose,
+              const py::object& name) {
+             const minkray::Pose map = pose_of(pose, "pose");
+             const std::string text = name.is_none() ? "" : py::cast<std::string>(name);
+             return scene.add(shape, map, name.is_none() ? minkray::Text() : minkray::Text(text));
+           })
+      .def("add_half_space",
+           [](Scene& scene, const std::array<double, 3>& normal, double offset,
+              const py::object& name) {
+             const std::string text = name.is_none() ? "" : py::cast<std::string>(name);
+             return scene.add_half_space({normal[0], normal[1], normal[2]}, offset,
+                                         name.is_none() ? minkray::Text() : minkray::Text(text));
+           })
+      .def("add_file", &add_file, py::keep_alive<0, 1>())
+      .def("set_pose",
+           [](Scene& scene, std::uint32_t object, const py::object& pose) {
+             scene.set_pose(object, pose_of(pose, "pose"));
+           })
+      .def("pose",
+           [](const Scene& scene, std::uint32_t object) {
+             const minkray::Pose pose = scene.pose(object);
+             py::array_t<double> matrix({py::ssize_t{4}, py::ssize_t{4}});
+             for (py::ssize_t i = 0; i < 4; ++i)
+               for (py::ssize_t j = 0; j < 4; ++j)
+                 matrix.mutable_at(i, j) = i < 3 ? pose.rows[i][j] : j == 3;
+             return matrix;
+           })
+      .def("name", &Scene::name)
+      .def("__len__", &Scene::size)
+      .def("commit", &Scene::commit, py::call_guard<py::gil_scoped_release>())
+      .def("cast", &cast)
+      .def("occluded", &occluded)
+      .def("certify", &certify);
+}
+
+}  // namespace minkray_python

@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: MIT
+"""Rays, proofs and distances of exact convex shapes.
+
+>>> import minkray as mk
+>>> scene = mk.Scene()
+>>> scene.add(mk.rounded(mk.box([0.5, 0.2, 0.1]), 0.05), name="bumper")
+0
+>>> hit = scene.cast_rays([[-9, 0, 0, 1, 0, 0]])
+>>> float(hit.t[0]), scene.names[hit.object[0]]
+(8.45, 'bumper')
+
+Points, directions and poses are in the frame of the world, in one unit of length. Arrays are of
+float64; others are converted. What is wrong is a `minkray.Error`, which is a `ValueError`.
+"""
+from . import _minkray
+from ._minkray import Error, Shape
+from .scene import (EXHAUSTED, HIT, INSIDE, MISS, NO_OBJECT, Hits, Proofs, Robot, Scene)
+from .rays import lidar, pinhole
+from .shapes import (box, capsule, cone, custom, cut_cylinder, cylinder, difference, disk, ellipsoid,
+                     frustum, hull, hull_of, make, point, read_shape, rounded, scaled, segment, sphere,
+                     sum, superellipsoid, swept, tapered_capsule, transformed, translated, triangle)
+from .pairs import (BEGINS_INSIDE, IMPACT, NO_IMPACT, OVERLAPPING, SEPARATED, TOUCHING, UNDECIDED,
+                    Distance, Impact, signed_distance, time_of_impact)
+from .files import write
+
+__version__ = _minkray.version
+__all__ = [name for name in dir() if not name.startswith("_")]

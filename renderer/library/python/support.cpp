@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/library/python/support.h"
+
+#include <cstring>
+#include <utility>
+
+namespace minkray_python {
+namespace {
+
+/// Guarded by the interpreter's lock.
+std::string& last_raised() {
+  static std::string text;
+  return text;
+}
+
+int ask(void* user, std::size_t count, const double (*directions)[3], double (*points)[3]) {
+  const py::gil_scoped_acquire lock;
+  try {
+    const auto rows = static_cast<py::ssize_t>(count);
+    py::array_t<double> asked({rows, py::ssize_t{3}});
+    std::memcpy(asked.mutable_data(), directions, count * sizeof *directions);
+    const py::object answer = (*static_cast<const py::function*>(user))(asked);
+    const Doubles array = Doubles::ensure(answer);
+    if (!array) throw py::error_already_set();
+    if (array.ndim() != 2 || array.shape(0) != rows || array.shape(1) != 3) {
+      last_raised() = "it must answer an array of the shape (" + std::to_string(count) + ", 3)";
+      return 1;
+    }
+    std::memcpy(points, array.data(), count * sizeof *points);
+    return 0;
+  } catch (const std::exception& error) {
+    last_raised() = error.what();
+    return 1;
+  }
+}
+
+}  // namespace
+
+minkray::Shape custom(const py::function& support, const py::object& bounds) {
+  minkray_support given = {};
+  Doubles box;
+  if (!bounds.is_none()) {
+    box = Doubles::ensure(bounds);
+    if (!box) PyErr_Clear();
+    if (!box || box.ndim() != 2 || box.shape(0) != 2 || box.shape(1) != 3)
+      throw py::value_error("bounds: must be two corners of a box, of the shape (2, 3)");
+    given.lower = box.data();
+    given.upper = box.data() + 3;
+  }
+  given.user = new py::function(support);
+  given.function = ask;
+  given.release = [](void* user) {
+    const py::gil_scoped_acquire lock;
+    delete static_cast<py::function*>(user);
+  };
+  minkray_shape shape;
+  int code = MINKRAY_OK;
+  {
+    const py::gil_scoped_release unlock;
+    code = minkray_shape_custom(&given, &shape);
+  }
+  if (code != MINKRAY_OK) throw minkray::Error(code);
+  return minkray::Shape(shape);
+}
+
+std::string raised_by_support() {
+  return std::exchange(last_raised(), std::string());
+}
+
+}  // namespace minkray_python
