@@ -21,7 +21,7 @@ class Ranks {
   /// would render the whole picture.
   Ranks();
   /// Waits until all ranks are here; not if an exception is under way, which ends the whole job.
-  ~Ranks();
+  ~Ranks();  // NOLINT(performance-trivially-destructible): MPI's waits
   Ranks(const Ranks&) = delete;
   Ranks& operator=(const Ranks&) = delete;
 
