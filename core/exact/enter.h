@@ -38,7 +38,7 @@ template <class W>
     case FormKind::frustum:
       return enter_frustum(form.slope, form.sine, a[2], a[3], form.R, line, open);
     case FormKind::polytope:
-      return enter_polytope(*form.polytope, a[0], line, open);
+      return enter_polytope(*form.polytope, line, open);
     default:
       return {};
   }

@@ -97,13 +97,11 @@ Form form_of(const ExactForm& declared, const Vec3<double>& ball_centre, double 
   return has_size ? form : Form();
 }
 
-Form form_of(std::shared_ptr<const Polytope> polytope, double radius) {
+Form form_of(std::shared_ptr<const Polytope> polytope) {
   Form form;
-  if (!polytope || !std::isfinite(polytope->radius() + radius)) return form;
-  if (radius > 0 && !polytope->can_be_rounded()) return form;
+  if (!polytope) return form;
   form.kind = FormKind::polytope;
-  form.R = form.inner_R = polytope->radius() + radius;
-  form.sizes = {radius};
+  form.R = form.inner_R = polytope->radius();
   form.polytope = std::move(polytope);
   return form;
 }

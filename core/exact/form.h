@@ -34,7 +34,7 @@ struct Form {
 /// none, where no closed form holds for those sizes.
 Form form_of(const ExactForm& declared, const Vec3<double>& ball_centre, double down);
 
-/// The polytope, whose middle is the ball's centre, is grown by a radius; null has no form.
-Form form_of(std::shared_ptr<const Polytope> polytope, double radius);
+/// The polytope's middle is the ball's centre; null has no form.
+Form form_of(std::shared_ptr<const Polytope> polytope);
 
 }  // namespace minkray::exact

@@ -34,7 +34,8 @@ bool is_before(const Vec3<double>& a, const Vec3<double>& b) {
 /// Fills in a polytope.
 class Polytope::Maker {
  public:
-  explicit Maker(Polytope& made) : made_(made) {}
+  Maker(Polytope& made, std::vector<Vec3<double>> vertices)
+      : made_(made), vertices_(std::move(vertices)) {}
 
   /// False, if triangles are not each other's neighbours.
   template <class T>
@@ -52,10 +53,9 @@ class Polytope::Maker {
           [&](std::uint32_t i, const Vec3<double>& p) { return is_before(at(i), p); });
       return found == order.end() ? order.front() : *found;
     };
-    made_.triangles_.resize(mesh.size());
+    triangles_.resize(mesh.size());
     for (std::size_t f = 0; f < mesh.size(); ++f)
-      for (std::size_t k = 0; k < 3; ++k)
-        made_.triangles_[f].corner[k] = index_of(mesh[f].corner(k));
+      for (std::size_t k = 0; k < 3; ++k) triangles_[f].corner[k] = index_of(mesh[f].corner(k));
     for (std::size_t f = 0; f < mesh.size(); ++f)
       for (std::size_t k = 0; k < 3; ++k)
         if (!link(f, k, mesh[f].neighbour(k))) return false;
@@ -64,34 +64,28 @@ class Polytope::Maker {
 
   /// The planes, first of the largest triangles, so that slivers have others' planes.
   void find_planes() {
-    const auto& triangles = made_.triangles_;
-    own_.resize(triangles.size());
-    std::vector<double> areas(triangles.size());
-    for (std::size_t f = 0; f < triangles.size(); ++f) {
-      const Vec3<double> across = normal_of(triangles[f]);
+    own_.resize(triangles_.size());
+    std::vector<double> areas(triangles_.size());
+    for (std::size_t f = 0; f < triangles_.size(); ++f) {
+      const Vec3<double> across = normal_of(triangles_[f]);
       areas[f] = across.norm();
       own_[f] = supporting(unit<double>(across));
     }
-    std::vector<std::size_t> order(triangles.size());
+    std::vector<std::size_t> order(triangles_.size());
     std::iota(order.begin(), order.end(), std::size_t(0));
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t a, std::size_t b) { return areas[a] > areas[b]; });
-    plane_of_.assign(triangles.size(), none);
+    plane_of_.assign(triangles_.size(), none);
     for (const std::size_t f : order) choose_plane(f);
-    for (std::size_t i = 0; i < planes_.size(); ++i) {
-      const double offset = static_cast<double>(planes_[i].offset);
-      made_.planes_.add(planes_[i].normal, offset, static_cast<double>(depths_[i]));
-    }
-    for (std::size_t f = 0; f < triangles.size(); ++f) made_.triangles_[f].plane = plane_of_[f];
   }
 
   /// Finds the points' mean, and whether it lies within all planes, moved in by their depths: else
   /// the proof has nothing to begin with.
   bool find_inside() {
     Vec3<Long> mean = Vec3<Long>::Zero();
-    for (const Vec3<double>& p : made_.vertices_) mean += p.cast<Long>();
-    mean /= static_cast<Long>(made_.vertices_.size());
-    made_.inner_ = mean.cast<double>();
+    for (const Vec3<double>& p : vertices_) mean += p.cast<Long>();
+    mean /= static_cast<Long>(vertices_.size());
+    made_.tables_.inner = mean.cast<double>();
     for (std::size_t i = 0; i < planes_.size(); ++i)
       if (!(planes_[i].normal.cast<Long>().dot(mean) <
             planes_[i].offset - 2 * (depths_[i] + made_.rounding_)))
@@ -99,59 +93,119 @@ class Polytope::Maker {
     return true;
   }
 
+  void fill_tables() {
+    PolytopeTables& tables = made_.tables_;
+    for (const Vec3<double>& p : vertices_) append(tables.vertices, {p.x(), p.y(), p.z(), 0});
+    for (std::size_t i = 0; i < planes_.size(); ++i) {
+      const Vec3<double>& n = planes_[i].normal;
+      const double offset = static_cast<double>(planes_[i].offset);
+      const double depth = static_cast<double>(depths_[i]);
+      tables.scanned.add(n, offset, depth);
+      append(tables.planes, {n.x(), n.y(), n.z(), offset, depth, 0, 0, 0});
+    }
+    for (std::size_t f = 0; f < triangles_.size(); ++f)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t twin = triangles_[f].twin[k], after = next(twin);
+        const Vec3<double>& far = vertices_[origin(next(after))];
+        const double link = after % 3 == 2 ? -static_cast<double>(after) : after;
+        append(tables.walk, {far.x(), far.y(), far.z(), link});
+        tables.links.push_back(static_cast<std::int32_t>(link));
+        tables.origin.push_back(triangles_[f].corner[k]);
+        tables.plane_of.push_back(plane_of_[f]);
+        if (tables.rounded_by > 0) fill_piece(static_cast<std::uint32_t>(3 * f + k), twin);
+      }
+  }
+
   template <class T>
   void fill_map(const FacetMesh<T>& mesh) {
-    made_.directions_ = CubeMap(
-        std::min(cells_a_triangle * static_cast<double>(made_.triangles_.size()), most_cells));
-    made_.facing_.resize(made_.directions_.cells());
-    for (std::size_t i = 0; i < made_.facing_.size(); ++i) {
-      const CubeMap::Cell cell = made_.directions_[i];
+    PolytopeTables& tables = made_.tables_;
+    tables.directions =
+        CubeMap(std::min(cells_a_triangle * static_cast<double>(triangles_.size()), most_cells));
+    tables.facing.resize(tables.directions.cells());
+    for (std::size_t i = 0; i < tables.facing.size(); ++i) {
+      const CubeMap::Cell cell = tables.directions[i];
       Vec3<T> middle;
       middle[cell.axis] = static_cast<T>(cell.sign);
       middle[(cell.axis + 1) % 3] = static_cast<T>(cell.u + cell.width / 2);
       middle[(cell.axis + 2) % 3] = static_cast<T>(cell.v + cell.width / 2);
-      made_.facing_[i] = static_cast<std::uint32_t>(mesh.template facing<T>(middle));
+      tables.facing[i] = static_cast<std::uint32_t>(3 * mesh.template facing<T>(middle));
     }
   }
 
-  /// What makes the polytope fit to be rounded (docs/theory.md).
-  void look_at_pieces() {
+  /// Adds the radius, and what rounding hides of the pieces beside (docs/theory.md). False if the
+  /// polytope is not fit for it.
+  bool make_room_for_rounding() {
     Long least = made_.radius_;
-    for (const Triangle& triangle : made_.triangles_) {
+    for (const Triangle& triangle : triangles_) {
       std::array<Vec3<Long>, 3> p;
-      for (std::size_t k = 0; k < 3; ++k) p[k] = made_.vertices_[triangle.corner[k]].cast<Long>();
+      for (std::size_t k = 0; k < 3; ++k) p[k] = vertices_[triangle.corner[k]].cast<Long>();
       const Vec3<Long> across = (p[1] - p[0]).cross(p[2] - p[0]);
       Long longest = 0;
       for (std::size_t k = 0; k < 3; ++k) {
         longest = std::max(longest, (p[(k + 1) % 3] - p[k]).norm());
-        const std::uint32_t beyond = triangle.beyond[k];
-        const Vec3<Long> other =
-            made_.vertices_[made_.triangles_[beyond / 4].corner[(beyond % 4 + 2) % 3]].cast<Long>();
-        if (across.dot(other - p[0]) > across.norm() * Long(made_.rounding_) / 2) return;
+        const Vec3<Long> other = vertices_[origin(next(next(triangle.twin[k])))].cast<Long>();
+        if (across.dot(other - p[0]) > across.norm() * Long(made_.rounding_) / 2) return false;
       }
-      if (!(longest > 0)) return;
+      if (!(longest > 0)) return false;
       least = std::min(least, across.norm() / longest);
     }
     const double room = static_cast<double>(least) / made_.radius_;
-    if (room > tolerance::rounded_polytope_height) made_.room_for_rounding_ = room;
+    if (!(room > tolerance::rounded_polytope_height)) return false;
+    // What is beside a piece rises by no more than rounding where it seems to fall, and what is
+    // further away by so many times more.
+    made_.radius_ += made_.tables_.rounded_by;
+    made_.rounding_ = tolerance::polytope_rounding * made_.radius_ + 2 * made_.rounding_ / room;
+    return true;
   }
 
  private:
+  /// Corners counter-clockwise from outside, and the twin of each half-edge from corner k to k + 1.
+  struct Triangle {
+    std::array<std::uint32_t, 3> corner, twin;
+  };
+
+  static void append(std::vector<double>& table, std::initializer_list<double> row) {
+    table.insert(table.end(), row);
+  }
+  /// The half-edge after this one in its triangle.
+  static std::uint32_t next(std::uint32_t half_edge) {
+    return half_edge % 3 == 2 ? half_edge - 2 : half_edge + 1;
+  }
+  std::uint32_t origin(std::uint32_t half_edge) const {
+    return triangles_[half_edge / 3].corner[half_edge % 3];
+  }
+
   bool link(std::size_t f, std::size_t k, std::size_t other) {
-    const auto& corner = made_.triangles_[f].corner;
-    const auto& beyond = made_.triangles_[other].corner;
+    const auto& corner = triangles_[f].corner;
+    const auto& beyond = triangles_[other].corner;
     for (std::size_t edge = 0; edge < 3; ++edge) {
       if (beyond[edge] != corner[(k + 1) % 3] || beyond[(edge + 1) % 3] != corner[k]) continue;
-      made_.triangles_[f].beyond[k] = static_cast<std::uint32_t>(4 * other + edge);
+      triangles_[f].twin[k] = static_cast<std::uint32_t>(3 * other + edge);
       return other != f;
     }
     return false;
   }
 
+  /// Vectors of unit length are rounded once: slender triangles keep their digits.
+  void fill_piece(std::uint32_t half_edge, std::uint32_t twin) {
+    const std::uint32_t after = next(half_edge);
+    const Vec3<double>& a = vertices_[origin(half_edge)];
+    const Vec3<Long> from = a.cast<Long>();
+    const Vec3<Long> along = vertices_[origin(after)].cast<Long>() - from;
+    const Vec3<Long> beside = vertices_[origin(next(after))].cast<Long>() - from;
+    const Long length = along.norm();
+    const Vec3<double> u = (along / length).cast<double>();
+    const Vec3<double> inwards =
+        (beside - along * (beside.dot(along) / along.squaredNorm())).normalized().cast<double>();
+    append(made_.tables_.pieces,
+           {a.x(), a.y(), a.z(), static_cast<double>(after), inwards.x(), inwards.y(), inwards.z(),
+            static_cast<double>(twin), u.x(), u.y(), u.z(), static_cast<double>(length)});
+  }
+
   /// Goes by way of the shorter edges, whose rounding is least.
   Vec3<double> normal_of(const Triangle& triangle) const {
-    const Vec3<double>&a = made_.vertices_[triangle.corner[0]],
-          &b = made_.vertices_[triangle.corner[1]], &c = made_.vertices_[triangle.corner[2]];
+    const Vec3<double>&a = vertices_[triangle.corner[0]], &b = vertices_[triangle.corner[1]],
+          &c = vertices_[triangle.corner[2]];
     const Vec3<double> ab = b - a, bc = c - b, ac = c - a;
     return ab.squaredNorm() < bc.squaredNorm() ? ab.cross(ac) : ac.cross(bc);
   }
@@ -161,7 +215,7 @@ class Polytope::Maker {
     // What is clearly less in double need not be known better.
     double furthest = -std::numeric_limits<double>::infinity();
     const double unsure = 2 * made_.rounding_;
-    for (const Vec3<double>& p : made_.vertices_) {
+    for (const Vec3<double>& p : vertices_) {
       const double along = normal.dot(p);
       if (along < furthest - unsure) continue;
       furthest = std::max(furthest, along);
@@ -178,18 +232,18 @@ class Polytope::Maker {
   Long depth_of(const Plane& plane, const Triangle& triangle) const {
     Long lowest = plane.offset;
     for (const std::uint32_t corner : triangle.corner)
-      lowest = std::min(lowest, height(plane.normal, made_.vertices_[corner]));
+      lowest = std::min(lowest, height(plane.normal, vertices_[corner]));
     return plane.offset - lowest;
   }
 
   /// A neighbour's, if its corners lie as near to that as rounding or as to the triangle's own.
   void choose_plane(std::size_t f) {
-    const Triangle& triangle = made_.triangles_[f];
+    const Triangle& triangle = triangles_[f];
     const bool has_normal = own_[f].normal.squaredNorm() > 0;
     Long least = has_normal ? std::max(depth_of(own_[f], triangle), Long(made_.rounding_))
                             : std::numeric_limits<Long>::infinity();
-    for (const std::uint32_t beyond : triangle.beyond) {
-      const std::uint32_t plane = plane_of_[beyond / 4];
+    for (const std::uint32_t twin : triangle.twin) {
+      const std::uint32_t plane = plane_of_[twin / 3];
       if (plane == none) continue;
       const Long depth = depth_of(planes_[plane], triangle);
       if (!(depth <= least)) continue;
@@ -206,6 +260,8 @@ class Polytope::Maker {
   }
 
   Polytope& made_;
+  std::vector<Vec3<double>> vertices_;
+  std::vector<Triangle> triangles_;
   std::vector<Plane> own_, planes_;  ///< of each triangle; those that are kept
   std::vector<Long> depths_;
   std::vector<std::uint32_t> plane_of_;
@@ -213,35 +269,40 @@ class Polytope::Maker {
 
 template <class T>
 std::shared_ptr<const Polytope> Polytope::of(const PointCloud<T>& points,
-                                             const Vec3<double>& middle, double down) {
+                                             const Vec3<double>& middle, double down,
+                                             double rounded_by) {
   const FacetMesh<T>* mesh = points.facets();
   if (!mesh || points.points().size() > most_points) return nullptr;
   const std::shared_ptr<Polytope> made(new Polytope());
+  std::vector<Vec3<double>> vertices;
   Vec3<double> extents = Vec3<double>::Zero();
   for (const Vec3<T>& point : points.points()) {
-    made->vertices_.push_back(point.template cast<double>() * down - middle);
-    made->radius_ = std::max(made->radius_, made->vertices_.back().norm());
-    extents = extents.cwiseMax(made->vertices_.back().cwiseAbs());
+    vertices.push_back(point.template cast<double>() * down - middle);
+    made->radius_ = std::max(made->radius_, vertices.back().norm());
+    extents = extents.cwiseMax(vertices.back().cwiseAbs());
   }
   made->radius_ *= 1 + 4 * std::numeric_limits<double>::epsilon();
   made->rounding_ = tolerance::polytope_rounding * made->radius_;
-  made->by_extents_ =
-      extents.cwiseMax(Vec3<double>::Constant(extents.maxCoeff() / 65536)).cwiseInverse();
+  if (!std::isfinite(made->radius_ + rounded_by)) return nullptr;
+  extents = extents.cwiseMax(Vec3<double>::Constant(extents.maxCoeff() / 65536));
+  made->tables_.by_extents = (extents + Vec3<double>::Constant(rounded_by)).cwiseInverse();
+  made->tables_.rounded_by = rounded_by;
 #if defined(__x86_64__)
-  made->has_avx2_ = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  made->tables_.has_avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
 #endif
-  Maker maker(*made);
+  Maker maker(*made, std::move(vertices));
   if (!maker.take_triangles(*mesh, points.points())) return nullptr;
   maker.find_planes();
   if (!maker.find_inside()) return nullptr;
+  if (rounded_by > 0 && !maker.make_room_for_rounding()) return nullptr;
+  maker.fill_tables();
   maker.fill_map(*mesh);
-  maker.look_at_pieces();
   return made;
 }
 
 template std::shared_ptr<const Polytope> Polytope::of(const PointCloud<float>&, const Vec3<double>&,
-                                                      double);
+                                                      double, double);
 template std::shared_ptr<const Polytope> Polytope::of(const PointCloud<double>&,
-                                                      const Vec3<double>&, double);
+                                                      const Vec3<double>&, double, double);
 
 }  // namespace minkray::exact

@@ -25,8 +25,8 @@ exact::Form rounded_polytope(const Rounded<T>& shape, const Vec3<double>& ball_c
   return std::visit(
       [&]<class S>(const S& core) {
         if constexpr (declared_by<S>.facets)
-          return exact::form_of(exact::Polytope::of(core.points, ball_centre, down),
-                                double(shape.radius) * down);
+          return exact::form_of(
+              exact::Polytope::of(core.points, ball_centre, down, double(shape.radius) * down));
         else
           return exact::Form();
       },
@@ -49,7 +49,7 @@ exact::Form exact_form_of(const Shape<T>& inner, const Vec3<double>& ball_centre
         if constexpr (requires { kind.exact_form(); })
           return exact::form_of(kind.exact_form(), ball_centre, down);
         else if constexpr (declared_by<S>.facets)
-          return exact::form_of(exact::Polytope::of(kind.points, ball_centre, down), 0);
+          return exact::form_of(exact::Polytope::of(kind.points, ball_centre, down));
         else
           return exact::Form();
       },

@@ -165,9 +165,9 @@ inline constexpr double polytope_rounding = 12 * 0x1p-53;
 inline constexpr double rounded_polytope_height = 0x1p-12;
 
 /// How far a polytope's corner, seen along a line that is known to E, may lie beside where it
-/// should be, in units of E: (1 + 2 sqrt(3)) E at the corner's height, (1 + sqrt(2)) times that
-/// across a sheared view, and rounding.
-inline constexpr double polytope_beside = 16;
+/// should be, in units of E: E of the line, and 20 * 2^-53 of the radius for the view's axes and
+/// its products, of which E holds 12.
+inline constexpr double polytope_beside = 4;
 
 /// The GJK distance ends when |v|^2 - v.w <= this * |v| (|v| + R): v.w is a difference of numbers
 /// of size |v| (|v| + R), each rounded to an epsilon of that. The distance is then known to a few

@@ -1,0 +1,2 @@
+// SPDX-License-Identifier: MIT
+#include "core/exact/polytope_lanes.inl"

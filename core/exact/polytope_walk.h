@@ -1,0 +1,339 @@
+// SPDX-License-Identifier: MIT
+// The line's way over a polytope's triangles (Devillers, Pion and Teillaud, "Walking in a
+// Triangulation", 2002), and between its planes. One text for a line and for one in each lane,
+// which go on side by side until the last has arrived.
+#pragma once
+
+#include "core/exact/line.h"
+#include "core/exact/polytope_tables.h"
+#include "core/math/gather_rows.h"
+#include "core/query/tolerances.h"
+
+namespace minkray::exact {
+
+/// Where a walk ended: in a triangle that the line passes through, clearly or not, or at an edge
+/// beyond which it passes the polytope by. Or nowhere, if it has lost its way.
+template <class W>
+struct WalkEnd {
+  Mask<W> in_triangle = Mask<W>(false), is_clear = Mask<W>(false), past_edge = Mask<W>(false);
+  W edge = W(0);    ///< a half-edge of the triangle; or that which the line is beyond
+  W beyond = W(0);  ///< a half-edge of the triangle beyond that
+};
+
+/// A point seen along the line, which is the origin.
+template <class W>
+struct Seen {
+  W x, y;
+};
+
+template <class W>
+W cross(const Seen<W>& a, const Seen<W>& b) {
+  return a.x * b.y - a.y * b.x;
+}
+
+/// The view along a line, which is the origin. Outward triangles that face the line are
+/// counter-clockwise.
+template <class W>
+class View {
+ public:
+  /// Axes by Duff and others, "Building an Orthonormal Basis, Revisited", 2017.
+  explicit View(const Line<W>& line) {
+    using std::copysign;
+    using std::sqrt;
+    const W back = W(-1) / sqrt(line.dd);
+    const W nx = line.d.x() * back, ny = line.d.y() * back, nz = line.d.z() * back;
+    const W sign = copysign(W(1), nz), a = W(-1) / (sign + nz), b = nx * ny * a;
+    x_ = {W(1) + sign * nx * nx * a, sign * b, -sign * nx};
+    y_ = {b, sign + ny * ny * a, -ny};
+    at_ = {x_.dot(line.s), y_.dot(line.s)};
+  }
+  Seen<W> operator()(const W& x, const W& y, const W& z) const {
+    return {(x_.x() * x + x_.y() * y) + x_.z() * z - at_.x,
+            (y_.x() * x + y_.y() * y) + y_.z() * z - at_.y};
+  }
+
+ private:
+  Vec3<W> x_, y_;
+  Seen<W> at_;
+};
+
+/// Whether the line passes a triangle's edges, as seen along it, by more than its error.
+template <class W>
+Mask<W> is_clear(const std::array<Seen<W>, 3>& p, const std::array<W, 3>& side, const W& E) {
+  using std::abs;
+  const W beside = W(tolerance::polytope_beside) * E;
+  const auto size = [&](std::size_t k) { return abs(p[k].x) + abs(p[k].y); };
+  const W a = size(0), b = size(1), c = size(2);
+  return (side[0] > beside * (a + b)) & (side[1] > beside * (b + c)) & (side[2] > beside * (c + a));
+}
+
+/// A half-edge of a triangle whose normal is near that of the ellipsoid of the same extents where
+/// the line enters it.
+template <class W>
+W first_edge(const PolytopeTables& of, const Line<W>& line) {
+  using std::max;
+  using std::sqrt;
+  // How far a line that passes the ellipsoid's ball by is taken to come into it, squared.
+  constexpr double least_depth = 1.0 / 64;
+  const Vec3<W> by_extents = widen<W>(of.by_extents);
+  const Vec3<W> d = line.d.cwiseProduct(by_extents), s = line.s.cwiseProduct(by_extents);
+  const W inv = W(1) / d.squaredNorm();
+  const Vec3<W> x = s - d * (s.dot(d) * inv);
+  const W half = sqrt(max(W(1) - x.squaredNorm(), W(least_depth)) * inv);
+  const Vec3<W> normal = (x - d * half).cwiseProduct(by_extents);
+  return lookup(of.directions.cell_of(normal),
+                [&](std::size_t cell) { return static_cast<double>(of.facing[cell]); });
+}
+
+/// A half-edge of a triangle that faces the line, whatever the line is.
+template <class W>
+W facing_edge(const PolytopeTables& of, const Line<W>& line) {
+  return lookup(of.directions.cell_of(Vec3<W>(-line.d)),
+                [&](std::size_t cell) { return static_cast<double>(of.facing[cell]); });
+}
+
+/// From a start that is near, walks are short. Those of more steps have lost their way by rounding.
+inline constexpr int most_steps = 64;
+
+/// Seen along the line, the triangles that face it are a triangulation: each is left by the edge
+/// that the line is furthest beyond. Where that leads to one that faces away, the line passes by.
+template <class W>
+WalkEnd<W> follow(const PolytopeTables& of, const Line<W>& line, Mask<W> open) {
+  using std::abs;
+  const View<W> view(line);
+  std::array<Seen<W>, 3> p;
+  // The triangle's half-edges, and twice the areas of the triangles of each and the line.
+  std::array<W, 3> edge, side;
+  const auto begin_at = [&](const W& first) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      edge[k] = first + W(static_cast<double>(k));
+      const W vertex =
+          lookup(edge[k], [&](std::size_t e) { return static_cast<double>(of.origin[e]); });
+      const std::array<W, 4> place = gather_row<4>(vertex, of.vertices.data(), of.vertex_row);
+      p[k] = view(place[0], place[1], place[2]);
+    }
+    for (std::size_t k = 0; k < 3; ++k) side[k] = cross(p[k], p[(k + 1) % 3]);
+    return side[0] + side[1] + side[2] > W(0);
+  };
+  const W first = first_edge(of, line);
+  const Mask<W> faces = begin_at(first);
+  if (any(open & !faces)) open &= begin_at(select(faces, first, facing_edge(of, line)));
+  // Lanes that have arrived go on to wherever it is.
+  WalkEnd<W> end;
+  for (int step = 0; step < most_steps && any(open); ++step) {
+    const Mask<W> second = side[1] < side[0];
+    const W lesser = select(second, side[1], side[0]);
+    const Mask<W> third = side[2] < lesser;
+    const W least = select(third, side[2], lesser);
+    const auto of_least = [&](const W& a, const W& b, const W& c) {
+      return select(third, c, select(second, b, a));
+    };
+    const Mask<W> within = open & !(least < W(0));
+    if (any(within)) {
+      end.in_triangle |= within;
+      end.is_clear |= within & is_clear(p, side, line.E);
+      end.edge = select(within, edge[1], end.edge);
+      open &= !within;
+      if (!any(open)) break;
+    }
+    const Seen<W> from{of_least(p[0].x, p[1].x, p[2].x), of_least(p[0].y, p[1].y, p[2].y)};
+    const Seen<W> to{of_least(p[1].x, p[2].x, p[0].x), of_least(p[1].y, p[2].y, p[0].y)};
+    const W crossed = of_least(edge[0], edge[1], edge[2]);
+    const std::array<W, 4> row = gather_row<4>(crossed, of.walk.data(), of.walk_row);
+    const W after = abs(row[3]);
+    const Seen<W> last = view(row[0], row[1], row[2]);
+    const W right = cross(from, last), left = cross(last, to);
+    const Mask<W> past = open & !(-least + right + left > W(0));
+    if (any(past)) {
+      end.past_edge |= past;
+      end.edge = select(past, crossed, end.edge);
+      end.beyond = select(past, after, end.beyond);
+      open &= !past;
+    }
+    p = {to, from, last};
+    side = {-least, right, left};
+    // The edge that was crossed is not crossed again.
+    edge = {after, after, after + select(row[3] < W(0), W(-2), W(1))};
+  }
+  return end;
+}
+
+/// A single line goes by the same operations; its half-edges are whole numbers, and its choices
+/// pick by place instead of waiting for guesses of comparisons.
+template <>
+inline WalkEnd<double> follow(const PolytopeTables& of, const Line<double>& line, bool /*open*/) {
+  const View<double> view(line);
+  std::array<Seen<double>, 3> p;
+  std::array<double, 3> side;
+  auto edge = static_cast<std::size_t>(first_edge(of, line));
+  const auto faces = [&] {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double* const place = &of.vertices[of.origin[edge + k] * of.vertex_row];
+      p[k] = view(place[0], place[1], place[2]);
+    }
+    for (std::size_t k = 0; k < 3; ++k) side[k] = cross(p[k], p[(k + 1) % 3]);
+    return side[0] + side[1] + side[2] > 0;
+  };
+  WalkEnd<double> end;
+  if (!faces()) {
+    edge = static_cast<std::size_t>(facing_edge(of, line));
+    if (!faces()) return end;
+  }
+  std::array<std::size_t, 3> edges = {edge, edge + 1, edge + 2};
+  for (int step = 0; step < most_steps; ++step) {
+    const std::size_t k = side[1] < side[0]   ? (side[2] < side[1] ? 2 : 1)
+                          : side[2] < side[0] ? 2
+                                              : 0;
+    if (!(side[k] < 0)) {
+      end.in_triangle = true;
+      end.is_clear = is_clear(p, side, line.E);
+      end.edge = static_cast<double>(edges[1]);
+      return end;
+    }
+    const std::size_t crossed = edges[k];
+    const double* const row = &of.walk[crossed * of.walk_row];
+    const std::int32_t link = of.links[crossed];
+    const auto after = static_cast<std::size_t>(std::abs(link));
+    const Seen<double> from = p[k], to = p[(k + 1) % 3], last = view(row[0], row[1], row[2]);
+    p = {to, from, last};
+    side = {-side[k], cross(from, last), cross(last, to)};
+    if (!(side[0] + side[1] + side[2] > 0)) {
+      end.past_edge = true;
+      end.edge = static_cast<double>(crossed);
+      end.beyond = static_cast<double>(after);
+      return end;
+    }
+    edges = {after, after, link < 0 ? after - 2 : after + 1};
+  }
+  return end;
+}
+
+template <class W>
+W plane_of(const PolytopeTables& of, const W& edge) {
+  return lookup(edge, [&](std::size_t e) { return static_cast<double>(of.plane_of[e]); });
+}
+
+/// A row of the table of planes.
+template <class W>
+struct PlaneRow {
+  Vec3<W> normal;
+  W offset, depth;
+
+  PlaneRow(const PolytopeTables& of, const W& plane) {
+    const std::array<W, 8> row = gather_row<8>(plane, of.planes.data(), of.plane_row);
+    normal = {row[0], row[1], row[2]};
+    offset = row[3];
+    depth = row[4];
+  }
+};
+
+/// Where the line enters a plane that is entered last.
+template <class W>
+void settle_hit(const PolytopeTables& of, const W& plane, const Line<W>& line, const Mask<W>& open,
+                Entry<W>& entry) {
+  const PlaneRow<W> at(of, plane);
+  const W slope = at.normal.dot(line.d);
+  const Mask<W> hit = open & (slope < W(-least_component));
+  const W inv = W(-1) / slope;
+  if (all(hit)) {
+    entry = {hit, Mask<W>(false), -(at.offset - at.normal.dot(line.s)) * inv,
+             (line.E + at.depth) * inv, at.normal};
+    return;
+  }
+  entry.hit |= hit;
+  entry.t = select(hit, -(at.offset - at.normal.dot(line.s)) * inv, entry.t);
+  entry.e = select(hit, (line.E + at.depth) * inv, entry.e);
+  entry.normal = select<W>(hit, at.normal, entry.normal);
+}
+
+/// A miss, if one plane is entered after another one is left.
+template <class W>
+void settle_miss(const PolytopeTables& of, const W& entered, const W& left, const Line<W>& line,
+                 const Mask<W>& open, Entry<W>& entry) {
+  using std::max;
+  const PlaneRow<W> in(of, entered), out(of, left);
+  const W slope_in = in.normal.dot(line.d), slope_out = out.normal.dot(line.d);
+  const W inv_in = W(1) / max(W(-slope_in), W(least_component));
+  const W inv_out = W(1) / max(slope_out, W(least_component));
+  const W first = -(in.offset - in.normal.dot(line.s)) * inv_in - line.E * inv_in;
+  const W last = (out.offset - out.normal.dot(line.s)) * inv_out + line.E * inv_out;
+  const Mask<W> miss = open & (slope_in < W(0)) & (slope_out >= W(0)) & (first > last);
+  entry.miss |= miss;
+  entry.normal = select<W>(miss, between(in.normal, out.normal, line.d), entry.normal);
+}
+
+/// PlaneScan in lanes.
+template <class W>
+struct PlanesPassed {
+  W in = W(-std::numeric_limits<double>::infinity()), in_hi = in;
+  W out = -in, out_lo = out;
+  W entered = W(0), left = W(0);
+};
+
+/// Between all planes: the operations of plane_scan.inl, whose lanes are planes.
+template <class W>
+PlanesPassed<W> pass_planes(const PolytopeTables& of, const Line<W>& line) {
+  using std::abs;
+  using std::max;
+  using std::min;
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  if constexpr (std::is_same_v<W, double>) {
+    PlaneScan scan;
+    (of.has_avx2 ? scan_planes_avx2 : scan_planes_sse2)(of.scanned, line, scan);
+    return {scan.in,
+            scan.in_hi,
+            scan.out,
+            scan.out_lo,
+            static_cast<double>(scan.entered),
+            static_cast<double>(scan.left)};
+  } else {
+    PlanesPassed<W> found;
+    for (std::size_t i = 0; i < of.plane_count(); ++i) {
+      const double* const row = of.planes.data() + i * of.plane_row;
+      const W x(row[0]), y(row[1]), z(row[2]), index(static_cast<double>(i));
+      const W slope = x * line.d.x() + y * line.d.y() + z * line.d.z();
+      const W room = W(row[3]) - (x * line.s.x() + y * line.s.y() + z * line.s.z());
+      const W inv = W(1) / max(abs(slope), W(least_component));
+      const W t = room * inv, e = (line.E + W(row[4])) * inv;
+      const Mask<W> enters = slope < W(0);
+      const W t_in = select(enters, -t, W(-infinity)), t_out = select(enters, W(infinity), t);
+      found.entered = select(t_in > found.in, index, found.entered);
+      found.left = select(t_out < found.out, index, found.left);
+      found.in = max(found.in, t_in);
+      found.out = min(found.out, t_out);
+      found.in_hi = max(found.in_hi, t_in + e);
+      found.out_lo = min(found.out_lo, t_out - e);
+    }
+    return found;
+  }
+}
+
+/// Where lines enter the polytope as it is, those that meet its ball.
+template <class W>
+Entry<W> enter_planes(const PolytopeTables& of, const Line<W>& line, const Mask<W>& open) {
+  using std::max;
+  // Up to so many planes are looked at without a walk.
+  constexpr std::size_t most_scanned = 8;
+  Entry<W> entry;
+  Mask<W> unsure = open;
+  if (of.plane_count() > most_scanned) {
+    const WalkEnd<W> end = follow(of, line, open);
+    const Mask<W> through = end.in_triangle & end.is_clear;
+    const W plane = plane_of(of, end.edge);
+    if (any(through)) settle_hit(of, plane, line, through, entry);
+    if (any(end.past_edge))
+      settle_miss(of, plane, plane_of(of, end.beyond), line, end.past_edge, entry);
+    unsure &= !(entry.hit | entry.miss);
+  }
+  if (!any(unsure)) return entry;
+  const PlanesPassed<W> passed = pass_planes(of, line);
+  const Mask<W> through = unsure & (passed.in_hi <= passed.out_lo), past = unsure & !through;
+  if (any(through)) {
+    settle_hit(of, passed.entered, line, through, entry);
+    entry.e = select(through, max(entry.e, W(passed.in_hi - entry.t)), entry.e);
+  }
+  if (any(past)) settle_miss(of, passed.entered, passed.left, line, past, entry);
+  return entry;
+}
+
+}  // namespace minkray::exact
