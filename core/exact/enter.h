@@ -11,6 +11,7 @@
 #include "core/exact/polytope.h"
 #include "core/exact/rounded_box.h"
 #include "core/exact/tapered_capsule.h"
+#include "core/exact/turned_capsule.h"
 
 namespace minkray::exact {
 
@@ -37,6 +38,8 @@ template <class W>
       return enter_cut_cylinder(a, form.R, line, open);
     case FormKind::frustum:
       return enter_frustum(form.slope, form.sine, a[2], a[3], form.R, line, open);
+    case FormKind::segment:
+      return enter_turned_capsule(a, line, open);
     case FormKind::polytope:
       return enter_polytope(*form.polytope, line, open);
     default:

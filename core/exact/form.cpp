@@ -6,6 +6,7 @@
 
 #include "core/exact/cut_cylinder.h"
 #include "core/exact/polytope.h"
+#include "core/exact/turned_capsule.h"
 
 namespace minkray::exact {
 
@@ -47,6 +48,25 @@ Form tapered(Form form) {
 
 }  // namespace
 
+Form turned_capsule_form(Form form) {
+  const double radius = form.sizes[3];
+  if (!(radius > 0)) return {};
+  using Long = Vec3<long double>;
+  const Vec3<double> half(form.sizes[0], form.sizes[1], form.sizes[2]);
+  const Long along = half.cast<long double>();
+  const double length = static_cast<double>(along.norm());
+  form.R = length + radius;
+  if (!(length > 0)) {
+    form.kind = FormKind::ball;
+    form.sizes = {radius};
+    return form;
+  }
+  const Vec3<double> z = along.normalized().cast<double>();
+  const Vec3<double> x = along.unitOrthogonal().cast<double>();
+  form.sizes = {radius, length, z.x(), z.y(), z.z(), x.x(), x.y(), x.z()};
+  return form;
+}
+
 Form form_of(const ExactForm& declared, const Vec3<double>& ball_centre, double down) {
   Form form;
   form.kind = declared.kind;
@@ -59,6 +79,15 @@ Form form_of(const ExactForm& declared, const Vec3<double>& ball_centre, double 
     case FormKind::none:
     case FormKind::polytope:
       return {};
+    case FormKind::segment:
+      form = turned_capsule_form(form);
+      break;
+    case FormKind::triangle: {
+      std::array<Vec3<double>, 3> corners;
+      for (std::size_t i = 0; i < 3; ++i)
+        corners[i] = Vec3<double>(a[3 * i], a[3 * i + 1], a[3 * i + 2]) - ball_centre;
+      return form_of(Polytope::of(corners, a[9]));
+    }
     case FormKind::ball:
       form.R = a[0];
       break;

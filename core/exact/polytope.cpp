@@ -62,6 +62,17 @@ class Polytope::Maker {
     return true;
   }
 
+  /// Those of a single triangle, each with a plane of its own.
+  void take_two_sides() {
+    triangles_ = {{{0, 1, 2}, {5, 4, 3}}, {{0, 2, 1}, {2, 1, 0}}};
+    for (std::uint32_t side = 0; side < 2; ++side) {
+      planes_.push_back(supporting(unit<double>(normal_of(triangles_[side]))));
+      depths_.push_back(depth_of(planes_[side], triangles_[side]));
+      plane_of_.push_back(side);
+    }
+    made_.tables_.inner = (vertices_[0] + vertices_[1] + vertices_[2]) / 3;
+  }
+
   /// The planes, first of the largest triangles, so that slivers have others' planes.
   void find_planes() {
     own_.resize(triangles_.size());
@@ -116,19 +127,20 @@ class Polytope::Maker {
       }
   }
 
-  template <class T>
-  void fill_map(const FacetMesh<T>& mesh) {
+  /// facing(n) is a triangle whose normal is near n.
+  template <class Facing>
+  void fill_map(const Facing& facing) {
     PolytopeTables& tables = made_.tables_;
     tables.directions =
         CubeMap(std::min(cells_a_triangle * static_cast<double>(triangles_.size()), most_cells));
     tables.facing.resize(tables.directions.cells());
     for (std::size_t i = 0; i < tables.facing.size(); ++i) {
       const CubeMap::Cell cell = tables.directions[i];
-      Vec3<T> middle;
-      middle[cell.axis] = static_cast<T>(cell.sign);
-      middle[(cell.axis + 1) % 3] = static_cast<T>(cell.u + cell.width / 2);
-      middle[(cell.axis + 2) % 3] = static_cast<T>(cell.v + cell.width / 2);
-      tables.facing[i] = static_cast<std::uint32_t>(3 * mesh.template facing<T>(middle));
+      Vec3<double> middle;
+      middle[cell.axis] = cell.sign;
+      middle[(cell.axis + 1) % 3] = cell.u + cell.width / 2;
+      middle[(cell.axis + 2) % 3] = cell.v + cell.width / 2;
+      tables.facing[i] = static_cast<std::uint32_t>(3 * facing(middle));
     }
   }
 
@@ -267,36 +279,57 @@ class Polytope::Maker {
   std::vector<std::uint32_t> plane_of_;
 };
 
+Polytope::Polytope(const std::vector<Vec3<double>>& vertices, double rounded_by) {
+  Vec3<double> extents = Vec3<double>::Zero();
+  for (const Vec3<double>& vertex : vertices) {
+    radius_ = std::max(radius_, vertex.norm());
+    extents = extents.cwiseMax(vertex.cwiseAbs());
+  }
+  radius_ *= 1 + 4 * std::numeric_limits<double>::epsilon();
+  rounding_ = tolerance::polytope_rounding * radius_;
+  extents = extents.cwiseMax(Vec3<double>::Constant(extents.maxCoeff() / 65536));
+  tables_.by_extents = (extents + Vec3<double>::Constant(rounded_by)).cwiseInverse();
+  tables_.rounded_by = rounded_by;
+#if defined(__x86_64__)
+  tables_.has_avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+#endif
+}
+
 template <class T>
 std::shared_ptr<const Polytope> Polytope::of(const PointCloud<T>& points,
                                              const Vec3<double>& middle, double down,
                                              double rounded_by) {
   const FacetMesh<T>* mesh = points.facets();
   if (!mesh || points.points().size() > most_points) return nullptr;
-  const std::shared_ptr<Polytope> made(new Polytope());
   std::vector<Vec3<double>> vertices;
-  Vec3<double> extents = Vec3<double>::Zero();
-  for (const Vec3<T>& point : points.points()) {
+  for (const Vec3<T>& point : points.points())
     vertices.push_back(point.template cast<double>() * down - middle);
-    made->radius_ = std::max(made->radius_, vertices.back().norm());
-    extents = extents.cwiseMax(vertices.back().cwiseAbs());
-  }
-  made->radius_ *= 1 + 4 * std::numeric_limits<double>::epsilon();
-  made->rounding_ = tolerance::polytope_rounding * made->radius_;
+  const std::shared_ptr<Polytope> made(new Polytope(vertices, rounded_by));
   if (!std::isfinite(made->radius_ + rounded_by)) return nullptr;
-  extents = extents.cwiseMax(Vec3<double>::Constant(extents.maxCoeff() / 65536));
-  made->tables_.by_extents = (extents + Vec3<double>::Constant(rounded_by)).cwiseInverse();
-  made->tables_.rounded_by = rounded_by;
-#if defined(__x86_64__)
-  made->tables_.has_avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-#endif
   Maker maker(*made, std::move(vertices));
   if (!maker.take_triangles(*mesh, points.points())) return nullptr;
   maker.find_planes();
   if (!maker.find_inside()) return nullptr;
   if (rounded_by > 0 && !maker.make_room_for_rounding()) return nullptr;
   maker.fill_tables();
-  maker.fill_map(*mesh);
+  maker.fill_map([&](const Vec3<double>& direction) {
+    return mesh->template facing<T>(direction.template cast<T>());
+  });
+  return made;
+}
+
+std::shared_ptr<const Polytope> Polytope::of(const std::array<Vec3<double>, 3>& corners,
+                                             double rounded_by) {
+  std::vector<Vec3<double>> vertices(corners.begin(), corners.end());
+  const std::shared_ptr<Polytope> made(new Polytope(vertices, rounded_by));
+  if (!(rounded_by > 0) || !std::isfinite(made->radius_ + rounded_by)) return nullptr;
+  Maker maker(*made, std::move(vertices));
+  maker.take_two_sides();
+  if (!maker.make_room_for_rounding()) return nullptr;
+  maker.fill_tables();
+  const Vec3<double> normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+  maker.fill_map(
+      [&](const Vec3<double>& direction) { return direction.dot(normal) > 0 ? 0u : 1u; });
   return made;
 }
 

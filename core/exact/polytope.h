@@ -25,6 +25,11 @@ class Polytope {
   static std::shared_ptr<const Polytope> of(const PointCloud<T>& points, const Vec3<double>& middle,
                                             double down, double rounded_by = 0);
 
+  /// A triangle grown by a radius, which counts from the middle and has two sides. It is null where
+  /// the radius is 0 or the triangle not high enough.
+  static std::shared_ptr<const Polytope> of(const std::array<Vec3<double>, 3>& corners,
+                                            double rounded_by);
+
   /// The ball of this radius around the middle holds it.
   double radius() const { return radius_; }
   /// It bounds how far rounding moves where a line crosses a plane, across it, or meets what is
@@ -36,7 +41,8 @@ class Polytope {
  private:
   class Maker;
 
-  Polytope() = default;
+  /// The ball around the vertices, and what is told by their extents.
+  Polytope(const std::vector<Vec3<double>>& vertices, double rounded_by);
 
   PolytopeTables tables_;
   double radius_ = 0;

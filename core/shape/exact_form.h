@@ -21,11 +21,13 @@ enum class FormKind : unsigned char {
   cylinder,         ///< radius, half height: along z
   frustum,          ///< the disks' radii at -z and +z, half height
   cut_cylinder,     ///< radius, the planes' heights on the z axis, lower and upper slope along x, y
-  polytope,         ///< the radius it is grown by: of shapes that declare facets (declared.h)
+  segment,          ///< half the way from end to end, along x, y, z; the radius it is grown by
+  triangle,         ///< three corners; the radius it is grown by
+  polytope,         ///< none: shapes declare its facets (declared.h)
 };
 
 /// It has as many numbers as the form with the most.
-using FormSizes = std::array<double, 9>;
+using FormSizes = std::array<double, 10>;
 
 struct ExactForm {
   FormKind kind = FormKind::none;
@@ -51,7 +53,11 @@ inline ExactForm rounded(const ExactForm& form, double radius) {
       sum.sizes[3] = radius;
       return sum;
     case FormKind::rounded_box:
+    case FormKind::segment:
       sum.sizes[3] += radius;
+      return sum;
+    case FormKind::triangle:
+      sum.sizes[9] += radius;
       return sum;
     default:
       return {};

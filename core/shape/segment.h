@@ -5,6 +5,7 @@
 #include <array>
 
 #include "core/math/vec.h"
+#include "core/shape/exact_form.h"
 #include "core/shape/field.h"
 #include "core/shape/jet.h"
 
@@ -19,6 +20,14 @@ struct Segment {
   static constexpr auto fields() {
     return std::tuple{
         Field{"points", &Segment::points, Unit::length, Range::any, "its two end points"}};
+  }
+
+  /// Only what is rounded has one.
+  ExactForm exact_form() const {
+    const Vec3<double> a = points[0].template cast<double>(), b = points[1].template cast<double>();
+    const Vec3<double> half = (b - a) / 2, middle = a + half;
+    return {
+        FormKind::segment, {half.x(), half.y(), half.z(), 0}, {middle.x(), middle.y(), middle.z()}};
   }
 
   template <class W>

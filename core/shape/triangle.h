@@ -5,6 +5,7 @@
 #include <array>
 
 #include "core/math/vec.h"
+#include "core/shape/exact_form.h"
 #include "core/shape/field.h"
 #include "core/shape/jet.h"
 
@@ -19,6 +20,14 @@ struct Triangle {
   static constexpr auto fields() {
     return std::tuple{
         Field{"points", &Triangle::points, Unit::length, Range::any, "its three corners"}};
+  }
+
+  /// Only what is rounded has one.
+  ExactForm exact_form() const {
+    ExactForm form{FormKind::triangle, {}, {}};
+    for (std::size_t i = 0; i < 9; ++i)
+      form.sizes[i] = static_cast<double>(points[i / 3][static_cast<int>(i % 3)]);
+    return form;
   }
 
   template <class W>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Where a line meets the hull of few points grown by a radius: the union of the hull, of its
-// facets' prisms, and of the capsules around its edges, in long double.
+// facets' prisms, and of the capsules around its edges, in long double. Three points are a triangle
+// with two facets, two are a segment.
 #pragma once
 
 #include "tests/oracle/closed_form.h"
@@ -37,6 +38,7 @@ class RoundedHull {
       }
       add(prism);
     }
+    if (points_.size() == 2) add(capsule(o, d, points_[0], points_[1]));
     return inside;
   }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Answers of the filter at rounded hulls beside the union of their facets' prisms and their edges'
-// capsules, in more digits: no bound is broken, no hit or miss is false.
+// Answers of the filter at rounded hulls, triangles and segments beside the union of their facets'
+// prisms and their edges' capsules, in more digits: no bound is broken, no hit or miss is false.
 #include "core/derived/convert.h"
 #include "tests/oracle/rounded_hull.h"
 #include "tests/support/filter_cases.h"
@@ -12,13 +12,31 @@ namespace {
 
 using S = Shape<double>;
 
+/// Two points are a segment, three a triangle.
 S rounded_hull(double radius, const Points& points) {
+  if (points.size() == 2)
+    return Rounded<double>{radius, Nested<double>(S(Segment<double>{{points[0], points[1]}}))};
+  if (points.size() == 3)
+    return Rounded<double>{radius,
+                           Nested<double>(S(Triangle<double>{{points[0], points[1], points[2]}}))};
   return Rounded<double>{radius, Nested<double>(S(Hull<double>{PointCloud<double>(points)}))};
+}
+
+std::vector<NamedPoints> cores() {
+  std::vector<NamedPoints> named = hulls();
+  named.push_back({"segment", {{-1, 0.2, 0}, {0.7, 1, -0.4}}});
+  named.push_back({"segment of no length", {{0.5, 0.25, 1}, {0.5, 0.25, 1}}});
+  named.push_back({"segment along x", {{-1, 0, 0}, {1, 0, 0}}});
+  named.push_back({"segment off centre", {{3, 2, 1}, {4, 2.5, 0}}});
+  named.push_back({"triangle", {{-1, -0.5, 0.1}, {1, -0.3, 0}, {0.2, 1, -0.4}}});
+  named.push_back({"triangle along the axes", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}});
+  named.push_back({"slender triangle", {{0, 0, 0}, {1, 0, 0}, {0.4, 0.02, 0.01}}});
+  return named;
 }
 
 template <class T>
 bool has_form(const PreparedShape<T>& prepared) {
-  return prepared.definition().form().kind == FormKind::polytope;
+  return prepared.definition().form().kind != FormKind::none;
 }
 
 template <class T>
@@ -26,8 +44,14 @@ RoundedHull oracle_of(const PreparedShape<T>& prepared) {
   const Shape<T>& inner = prepared.inner_shape();
   const auto& shape = std::get<Rounded<T>>(inner.kind);
   Points points;
-  for (const Vec3<T>& p : std::get<Hull<T>>(shape.shape->kind).points.points())
-    points.push_back(p.template cast<double>());
+  std::visit(
+      [&]<class Core>(const Core& core) {
+        if constexpr (std::is_same_v<Core, Hull<T>>)
+          for (const Vec3<T>& p : core.points.points()) points.push_back(p.template cast<double>());
+        else if constexpr (std::is_same_v<Core, Segment<T>> || std::is_same_v<Core, Triangle<T>>)
+          for (const Vec3<T>& p : core.points) points.push_back(p.template cast<double>());
+      },
+      shape.shape->kind);
   return RoundedHull(points, Long(shape.radius));
 }
 
@@ -43,7 +67,7 @@ template <class T, class Next>
 Counted judge_rounded(int count, const Next& make_next) {
   Counted counted;
   int without_form = 0;
-  for (const NamedPoints& named : hulls()) {
+  for (const NamedPoints& named : cores()) {
     if (named.points.size() > most_points) continue;
     for (const double radius : {0.01, 0.1, 2.0}) {
       for (const Posed& posed : poses()) {
@@ -131,7 +155,7 @@ TEST(RoundedPolytope, a_line_in_a_faces_plane_is_no_miss) {
 /// The checker knows nothing but supports.
 TYPED_TEST(RoundedPolytopeFilter, answers_are_certified) {
   using T = TypeParam;
-  for (const NamedPoints& named : hulls()) {
+  for (const NamedPoints& named : cores()) {
     SCOPED_TRACE(named.name);
     const Shape<T> shape = convert<T>(rounded_hull(0.1, named.points));
     const PreparedShape<T> prepared(shape);
