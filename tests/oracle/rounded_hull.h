@@ -23,7 +23,7 @@ class RoundedHull {
       inside.upper = std::max(inside.upper, piece.upper);
     };
     const HalfSpaces::Part hull = planes_.clip(o, d);
-    if (!hull.empty()) add({hull.lower, hull.upper});
+    if (points_.size() > 3 && !hull.empty()) add({hull.lower, hull.upper});
     for (const HalfSpaces::Plane& plane : planes_.planes()) {
       const auto corner = [&](std::size_t k) { return points_[plane.through[k % 3]]; };
       const bool turns = (corner(1) - corner(0)).cross(corner(2) - corner(0)).dot(plane.normal) > 0;
