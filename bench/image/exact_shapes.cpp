@@ -22,10 +22,10 @@ class ExactShapes : public Tracer {
   }
 
   std::vector<std::string> entries() const override {
-    return {"single", "16 together", std::to_string(most_rays_at_once) + " together"};
+    return {"single", "16 together", std::to_string(most_rays_at_once) + " together", "stream"};
   }
   std::unique_ptr<RayQueue> queue(std::size_t entry) const override {
-    constexpr std::array<std::size_t, 3> groups = {1, 16, most_rays_at_once};
+    constexpr std::array<std::size_t, 4> groups = {1, 16, most_rays_at_once, as_stream};
     return std::make_unique<Queue>(world_, groups[entry]);
   }
   Vec3<float> world_normal(const FirstHit& hit) const override { return hit.normal; }
@@ -33,12 +33,15 @@ class ExactShapes : public Tracer {
   double hierarchy_seconds() const override { return hierarchy_seconds_; }
 
  private:
+  static constexpr std::size_t as_stream = 0;
+
   static FirstHit as_first_hit(const WorldHit<T>& hit) {
     if (!hit.found()) return {};
     return {static_cast<float>(hit.cast.t()), hit.instance, hit.cast.normal.template cast<float>()};
   }
 
-  /// One by one, or `group` rays together; as in the renderer, only those that are coherent.
+  /// One by one, as a stream, or `group` rays together; as in the renderer, only those that are
+  /// coherent.
   class Queue : public RayQueue {
    public:
     Queue(const World<T>& world, std::size_t group) : world_(world), group_(group) {}
@@ -55,13 +58,20 @@ class ExactShapes : public Tracer {
 
     void first_hits(std::span<FirstHit> hits) override {
       QueryCounts counts;
+      if (group_ == as_stream) {
+        answers_.resize(rays_.size());
+        world_.closest_hits_in_stream(rays_, answers_, counts);
+        std::transform(answers_.begin(), answers_.end(), hits.begin(), as_first_hit);
+        return;
+      }
       if (!together_) {
         for (std::size_t i = 0; i < rays_.size(); ++i)
           hits[i] = as_first_hit(world_.closest_hit(rays_[i].ray, counts, rays_[i].skip));
         return;
       }
       for_groups([&](std::size_t begin, std::span<const WorldRay<T>> rays) {
-        const std::span<WorldHit<T>> answers = std::span(answers_).first(rays.size());
+        answers_.resize(rays.size());
+        const std::span<WorldHit<T>> answers(answers_);
         world_.closest_hits(rays, answers, counts);
         std::transform(answers.begin(), answers.end(),
                        hits.begin() + static_cast<std::ptrdiff_t>(begin), as_first_hit);
@@ -70,6 +80,7 @@ class ExactShapes : public Tracer {
 
     void occluded(std::span<unsigned char> answers) override {
       QueryCounts counts;
+      if (group_ == as_stream) return world_.occluded_in_stream(rays_, answers, counts);
       if (!together_) {
         for (std::size_t i = 0; i < rays_.size(); ++i)
           answers[i] = world_.occluded(rays_[i].ray, counts, rays_[i].skip) ? 1 : 0;
@@ -93,7 +104,7 @@ class ExactShapes : public Tracer {
     std::size_t group_;
     bool together_ = false;
     std::vector<WorldRay<T>> rays_;
-    std::array<WorldHit<T>, static_cast<std::size_t>(most_rays_at_once)> answers_;
+    std::vector<WorldHit<T>> answers_;
   };
 
   World<T> world_;

@@ -2,44 +2,15 @@
 // The body of the walks, near boxes first. MINKRAY_WALK_KERNEL is the functions' name. Everything
 // else here has the type of the lanes, and so the instruction set, in its name: see
 // core/math/wide.h.
+#include "core/bvh/slab_test.h"
 #include "core/bvh/traverse_kernel.h"
-#include "core/math/wide.h"
 
 namespace minkray {
 namespace {
 
 using Lanes = Wide<float, static_cast<int>(IsaHere::register_bytes / sizeof(float)), IsaHere>;
 constexpr int lane_count = LaneOf<Lanes>::count;
-
-/// Where the near and far planes of an axis are met, in lanes. A ray within a plane gives
-/// 0 * infinity = NaN: max and min are such that it falls through, and the plane does not limit the
-/// ray.
-struct Interval {
-  Lanes enter, leave;
-
-  void meet(const Lanes& near_plane, const Lanes& far_plane, const Lanes& origin_near,
-            const Lanes& origin_far, const Lanes& inverse_near, const Lanes& inverse_far) {
-    enter = max(enter, Lanes((near_plane - origin_near) * inverse_near));
-    leave = min(leave, Lanes((far_plane - origin_far) * inverse_far));
-  }
-  Mask<Lanes> is_met() const { return enter <= leave * Lanes(slab_padding) + Lanes(slab_tiny); }
-};
-
-/// Which of a node's boxes are met, and where.
-std::uint32_t boxes_met(const BvhNode& node, const SlabNumbers& ray, float (&enters)[bvh_width]) {
-  std::uint32_t met = 0;
-  for (int from = 0; from < bvh_width; from += lane_count) {
-    Interval t{Lanes(0.0f), Lanes(ray.t_max)};
-    for (int axis = 0; axis < 3; ++axis)
-      t.meet(Lanes::load(node.planes[ray.near[axis]][axis] + from),
-             Lanes::load(node.planes[1 - ray.near[axis]][axis] + from),
-             Lanes(ray.origin_near[axis]), Lanes(ray.origin_far[axis]),
-             Lanes(ray.inverse_near[axis]), Lanes(ray.inverse_far[axis]));
-    t.enter.store(enters + from);
-    met |= lane_bits(t.is_met()) << from;
-  }
-  return met;
-}
+using Interval = SlabInterval<Lanes>;
 
 /// Which of a group's rays meet one of a node's boxes: the same test.
 RayGroupMask rays_met(const BvhNode& node, int child, const RayGroup& group) {
@@ -95,7 +66,7 @@ Walk walk(const BvhNode* nodes, const RayOrGroup& rays, const BoxVisitor& visito
   for (;;) {
     ++done.visited;
     float enters[bvh_width];
-    std::uint32_t met = boxes_met(nodes[node], whole, enters);
+    std::uint32_t met = boxes_met<Lanes>(nodes[node], whole, whole.t_max, enters);
     // The nearest on top.
     for (const int bottom = top; met != 0; met &= met - 1) {
       const int child = __builtin_ctz(met);

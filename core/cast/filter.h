@@ -40,9 +40,10 @@ template <class W>
 
 /// Where each ray enters the shape, or (`leaves`) where it leaves it for the last time. Only `open`
 /// lanes count. The shape's definition must have a form.
-template <bool leaves, class F>
-[[gnu::always_inline]] inline Filtered<F> filter(const PreparedShape<Lane<F>>& shape,
-                                                 const Ray<F>& ray, const Mask<Work<F>>& open) {
+/// The shape is a PreparedShape, or PosedInLanes.
+template <bool leaves, class F, class Placed>
+[[gnu::always_inline]] inline Filtered<F> filter(const Placed& shape, const Ray<F>& ray,
+                                                 const Mask<Work<F>>& open) {
   using std::abs;
   using std::max;
   using W = Work<F>;
@@ -91,8 +92,11 @@ template <bool leaves, class F>
   Vec3<W> normal = entry.normal;
   if (form.is_upside_down) normal.z() = -normal.z();
   if (form.is_scaled) normal = normal.cwiseProduct(widen<W>(form.scale));
-  if (const Mat3<T>* map = shape.linear_to_inner())
-    normal = times<W, double>(map->template cast<double>().transpose(), normal);
+  if (const auto* map = shape.linear_to_inner()) {
+    const auto to_inner = detail::wider(*map);
+    using P = std::remove_cvref_t<decltype(to_inner(0, 0))>;
+    normal = times<W, P>(to_inner.transpose(), normal);
+  }
   // Forms' own normals are of unit length to their rounding, which is less than float's.
   if (std::is_same_v<T, double> || form.is_scaled || shape.linear_to_inner())
     normal = unit_of_ordinary<W>(normal);

@@ -4,14 +4,15 @@
 #include "core/cast/filter.h"
 #include "core/cast/filter_kernel.h"
 #include "core/cast/packet_lanes.h"
+#include "core/cast/posed_in_lanes.h"
 
 namespace minkray {
 namespace {
 
-/// Takes as many lanes as F has, beginning with lane `from`.
-template <class F>
-void filter_part(const PreparedShape<Lane<F>>& shape, const RayPacket<Lane<F>>& rays,
-                 LaneBits lanes, std::size_t from, CastPacket<Lane<F>>& answers) {
+/// It takes as many lanes as F has, beginning with lane `from`.
+template <class F, class Placed>
+void filter_part(const Placed& shape, const RayPacket<Lane<F>>& rays, LaneBits lanes,
+                 std::size_t from, CastPacket<Lane<F>>& answers) {
   const Ray<F> ray{load<F>(rays.origin, from), load<F>(rays.direction, from),
                    F::load(rays.t_max.data() + from)};
   const Filtered<F> answer = filter<false>(shape, ray, mask_of<Work<F>>(lanes >> from));
@@ -26,29 +27,59 @@ void filter_part(const PreparedShape<Lane<F>>& shape, const RayPacket<Lane<F>>& 
     answer.normal[axis].store(answers.normal[static_cast<std::size_t>(axis)].data() + from);
 }
 
-/// Casts in parts of which the instruction set's registers hold the doubles, whatever T is.
-template <class T>
-void kernel(const PreparedShape<T>& shape, const RayPacket<T>& rays, LaneBits lanes,
-            CastPacket<T>& answers) {
-  using F = Wide<T, static_cast<int>(IsaHere::register_bytes / sizeof(double)), IsaHere>;
+/// It goes in parts of which the instruction set's registers hold the doubles, whatever T is.
+/// placed(from) is the shape as the lanes from there see it.
+template <class F, class PlacedAt>
+void kernel(const PlacedAt& placed, const RayPacket<Lane<F>>& rays, LaneBits lanes,
+            CastPacket<Lane<F>>& answers) {
   constexpr LaneBits every = (LaneBits(1) << LaneOf<F>::count) - 1;
-  for (int from = 0; from < packet_lanes<T>; from += LaneOf<F>::count)
-    if (lanes >> from & every)
-      filter_part<F>(shape, rays, lanes, static_cast<std::size_t>(from), answers);
-  answers.supports.fill(T(0));
+  for (int at = 0; at < packet_lanes<Lane<F>>; at += LaneOf<F>::count) {
+    const auto from = static_cast<std::size_t>(at);
+    if (lanes >> from & every) filter_part<F>(placed(from), rays, lanes, from, answers);
+  }
+  answers.supports.fill(Lane<F>(0));
   answers.path.fill(Path::filter);
+}
+
+template <class T>
+using PartOf = Wide<T, static_cast<int>(IsaHere::register_bytes / sizeof(double)), IsaHere>;
+
+template <class F>
+void at_one(const PreparedShape<Lane<F>>& shape, const RayPacket<Lane<F>>& rays, LaneBits lanes,
+            CastPacket<Lane<F>>& answers) {
+  kernel<F>(
+      [&](std::size_t) -> const auto& { return shape; }, rays, lanes, answers);
+}
+
+template <class F>
+void at_poses(const ShapeDefinition<Lane<F>>& definition, const PosePacket<Lane<F>>& poses,
+              const RayPacket<Lane<F>>& rays, LaneBits lanes, CastPacket<Lane<F>>& answers) {
+  kernel<F>([&](std::size_t from) { return PosedInLanes<F>(definition, poses, from); }, rays, lanes,
+            answers);
 }
 
 }  // namespace
 
 void MINKRAY_FILTER_KERNEL(const PreparedShape<float>& shape, const RayPacket<float>& rays,
                            LaneBits lanes, CastPacket<float>& answers) {
-  kernel(shape, rays, lanes, answers);
+  at_one<PartOf<float>>(shape, rays, lanes, answers);
 }
 
 void MINKRAY_FILTER_KERNEL(const PreparedShape<double>& shape, const RayPacket<double>& rays,
                            LaneBits lanes, CastPacket<double>& answers) {
-  kernel(shape, rays, lanes, answers);
+  at_one<PartOf<double>>(shape, rays, lanes, answers);
+}
+
+void MINKRAY_FILTER_KERNEL(const ShapeDefinition<float>& definition, const PosePacket<float>& poses,
+                           const RayPacket<float>& rays, LaneBits lanes,
+                           CastPacket<float>& answers) {
+  at_poses<PartOf<float>>(definition, poses, rays, lanes, answers);
+}
+
+void MINKRAY_FILTER_KERNEL(const ShapeDefinition<double>& definition,
+                           const PosePacket<double>& poses, const RayPacket<double>& rays,
+                           LaneBits lanes, CastPacket<double>& answers) {
+  at_poses<PartOf<double>>(definition, poses, rays, lanes, answers);
 }
 
 }  // namespace minkray

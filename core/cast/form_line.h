@@ -49,10 +49,27 @@ struct FormLine {
 
 namespace detail {
 
+/// A pose's numbers in double: one pose for all lanes, or one in each.
+template <class P>
+[[gnu::always_inline]] inline Vec3<Work<P>> wider(const Vec3<P>& v) {
+  return {convert<double>(v.x()), convert<double>(v.y()), convert<double>(v.z())};
+}
+template <class P>
+[[gnu::always_inline]] inline Mat3<Work<P>> wider(const Mat3<P>& m) {
+  if constexpr (std::is_arithmetic_v<P>) {
+    return m.template cast<double>();
+  } else {
+    Mat3<Work<P>> wide;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) wide(i, j) = convert<double>(m(i, j));
+    return wide;
+  }
+}
+
 /// It sums the squares of all entries: a bound of how much longer vectors become.
-template <class T>
-[[gnu::always_inline]] inline double squared_size(const Mat3<T>& m) {
-  return m.template cast<double>().squaredNorm();
+template <class P>
+[[gnu::always_inline]] inline Work<P> squared_size(const Mat3<P>& m) {
+  return wider(m).squaredNorm();
 }
 
 template <class W>
@@ -63,23 +80,21 @@ template <class W>
 }
 
 /// Moves in one step, in numbers of twice the digits.
-template <class F, class W>
+template <class F, class W, class Placed>
 [[gnu::always_inline]] inline FormLine<W> line_in_wider(const exact::Form& form,
-                                                        const PreparedShape<Lane<F>>& shape,
-                                                        const Ray<F>& ray) {
-  const auto wider = [](const Vec3<F>& v) -> Vec3<W> {
-    return {convert<double>(v.x()), convert<double>(v.y()), convert<double>(v.z())};
-  };
-  const Vec3<double> centre = shape.centre().template cast<double>();
+                                                        const Placed& shape, const Ray<F>& ray) {
+  const auto centre = wider(shape.centre());
   Vec3<W> p = wider(ray.origin) - widen<W>(centre), d = wider(ray.direction);
   const W far(tolerance::form_far * tolerance::form_far * form.R * form.R);
   // What a map with an error in the last digit of each product may add, of origin and direction.
   W spread(0), spread_per(0);
-  if (const Mat3<Lane<F>>* map = shape.linear_to_inner()) {
-    const W size(squared_size(*map) * form.largest_scale * form.largest_scale);
+  if (const auto* map = shape.linear_to_inner()) {
+    const auto squared = squared_size(*map);
+    const W size(squared * decltype(squared)(form.largest_scale) *
+                 decltype(squared)(form.largest_scale));
     spread = size * p.squaredNorm();
     spread_per = size * d.squaredNorm();
-    const Mat3<double> to_inner = map->template cast<double>();
+    const auto to_inner = wider(*map);
     p = times(to_inner, p);
     d = times(to_inner, d);
   }
@@ -115,25 +130,27 @@ template <class F, class W>
 }
 
 /// Moves in two steps, each rounded once.
-template <class W>
+template <class W, class Placed>
 [[gnu::always_inline]] inline FormLine<W> line_in_two_steps(const exact::Form& form,
-                                                            const PreparedShape<double>& shape,
+                                                            const Placed& shape,
                                                             const Ray<W>& ray) {
   using std::abs;
   using std::sqrt;
+  using P = std::remove_cvref_t<decltype(shape.centre().x())>;
   RayNearBall<W> seen = ray_near(shape.centre(), ray);
-  const Mat3<double>* map = shape.linear_to_inner();
+  const Mat3<P>* map = shape.linear_to_inner();
+  const P inner_R(form.inner_R), distance = sqrt(P(shape.centre().squaredNorm()));
   // Rounding of the two steps is that of positions as large as the form and its centre.
-  W reach(form.inner_R + shape.centre().norm() / 4);
+  W reach(inner_R + distance / P(4));
   if (map) {
-    const double squared = squared_size(*map), size = std::sqrt(squared);
+    const P squared = squared_size(*map), size = sqrt(squared);
     const RayNearBall<W> mapped = seen.mapped(*map);
     // Sheared, the steps and the direction may be much longer before the map than after.
     const W length = seen.t_per_length / mapped.t_per_length;
     const W step = (mapped.t_shift - seen.t_shift) / seen.t_per_length;
     const W across = W(form.inner_R) / length;
     const W spread = seen.s.squaredNorm() + step * step + across * across;
-    reach = W(form.inner_R + size * shape.centre().norm() / 4) + W(size / 4) * sqrt(spread);
+    reach = W(inner_R + size * distance / P(4)) + W(size / P(4)) * sqrt(spread);
     seen = mapped;
   }
   const W E = reach * W(tolerance::form_rounding<double> * form.largest_scale);
@@ -171,10 +188,10 @@ template <class W>
 
 }  // namespace detail
 
-template <class F>
+/// The shape is a PreparedShape, or PosedInLanes.
+template <class F, class Placed>
 [[gnu::always_inline]] inline FormLine<Work<F>> form_line(const exact::Form& form,
-                                                          const PreparedShape<Lane<F>>& shape,
-                                                          const Ray<F>& ray) {
+                                                          const Placed& shape, const Ray<F>& ray) {
   if constexpr (std::is_same_v<Lane<F>, float>)
     return detail::line_in_wider<F, Work<F>>(form, shape, ray);
   else

@@ -79,11 +79,39 @@ void cast_packet(const PreparedShape<T>& shape, const RayPacket<T>& rays, LaneBi
       answers.set(lane, cast_by_later_stages<T>(shape, rays.ray(lane), {}, {}));
 }
 
+template <class T>
+void cast_packet(const ShapeDefinition<T>& definition, const PosePacket<T>& poses,
+                 const RayPacket<T>& rays, LaneBits lanes, CastPacket<T>& answers,
+                 InstructionSet set) {
+  answers.hit = answers.inside = answers.miss = 0;
+  if (set == InstructionSet::avx2)
+    filter_kernel_avx2(definition, poses, rays, lanes, answers);
+  else
+    filter_kernel_sse2(definition, poses, rays, lanes, answers);
+  const LaneBits open = lanes & ~(answers.hit | answers.inside | answers.miss);
+  for (std::size_t i = 0; i < packet_lanes<T>; ++i) {
+    if (!(open >> i & 1)) continue;
+    Mat3<T> to_inner;
+    for (std::size_t k = 0; k < 9; ++k)
+      to_inner(static_cast<int>(k / 3), static_cast<int>(k % 3)) = poses.to_inner[k][i];
+    const PreparedShape<T> shape(definition,
+                                 {poses.centre[0][i], poses.centre[1][i], poses.centre[2][i]},
+                                 poses.are_turned ? &to_inner : nullptr);
+    const int lane = static_cast<int>(i);
+    answers.set(lane, cast_by_later_stages<T>(shape, rays.ray(lane), {}, {}));
+  }
+}
+
 template struct CastPacket<float>;
 template struct CastPacket<double>;
 template void cast_packet(const PreparedShape<float>&, const RayPacket<float>&, LaneBits,
                           CastPacket<float>&, InstructionSet);
 template void cast_packet(const PreparedShape<double>&, const RayPacket<double>&, LaneBits,
                           CastPacket<double>&, InstructionSet);
+
+template void cast_packet(const ShapeDefinition<float>&, const PosePacket<float>&,
+                          const RayPacket<float>&, LaneBits, CastPacket<float>&, InstructionSet);
+template void cast_packet(const ShapeDefinition<double>&, const PosePacket<double>&,
+                          const RayPacket<double>&, LaneBits, CastPacket<double>&, InstructionSet);
 
 }  // namespace minkray

@@ -37,7 +37,15 @@ struct RayNearBall {
   }
 
   /// The ray's image under a linear map that takes the old centre to the new one; parameters stay.
-  RayNearBall mapped(const Mat3<Lane<W>>& linear) const {
+  RayNearBall mapped(const Mat3<Lane<W>>& linear) const { return mapped_by(linear); }
+  /// Each lane has a map of its own.
+  RayNearBall mapped(const Mat3<W>& linear) const requires(LaneOf<W>::count > 1) {
+    return mapped_by(linear);
+  }
+
+ private:
+  template <class M>
+  RayNearBall mapped_by(const Mat3<M>& linear) const {
     const Vec3<W> direction = times(linear, r);
     RayNearBall image = *this;
     image.s = times(linear, s);
@@ -57,8 +65,9 @@ struct RayNearBall {
 
 namespace detail {
 
-template <class W>
-[[gnu::always_inline]] inline RayNearBall<W> ray_near_here(const Vec3<Lane<W>>& centre_of_ball,
+/// One centre for all lanes, or one in each.
+template <class W, class C>
+[[gnu::always_inline]] inline RayNearBall<W> ray_near_here(const Vec3<C>& centre_of_ball,
                                                            const Ray<W>& ray) {
   using std::abs;
   using std::fma;
@@ -124,6 +133,12 @@ RayNearBall<W> ray_near(const Vec3<Lane<W>>& centre, const Ray<W>& ray) {
   return detail::ray_near_here<W>(centre, ray);
 }
 
+/// Each lane has a centre of its own.
+template <class W>
+requires(LaneOf<W>::count > 1) RayNearBall<W> ray_near(const Vec3<W>& centre, const Ray<W>& ray) {
+  return detail::ray_near_here<W>(centre, ray);
+}
+
 /// Moves one ray whose origin is further away than far_origin, with digits to spare; it is no
 /// better beyond farthest_origin.
 template <class T>
@@ -131,7 +146,8 @@ RayNearBall<T> ray_near_from_afar(const Vec3<T>& centre, const Ray<T>& ray) {
   using Finer = std::conditional_t<std::is_same_v<T, float>, double, long double>;
   const Ray<Finer> same{ray.origin.template cast<Finer>(), ray.direction.template cast<Finer>(),
                         Finer(ray.t_max)};
-  const RayNearBall<Finer> fine = detail::ray_near_here<Finer>(centre.template cast<Finer>(), same);
+  const RayNearBall<Finer> fine =
+      detail::ray_near_here<Finer>(Vec3<Finer>(centre.template cast<Finer>()), same);
   RayNearBall<T> near;
   near.s = fine.s.template cast<T>();
   near.r = fine.r.template cast<T>();

@@ -72,6 +72,9 @@ class Instances {
             place.linear == identity ? nullptr : &linear_[place.linear].to_inner};
   }
 
+  /// The number of the i-th instance's definition, which is not a half-space.
+  std::uint32_t definition_of(std::size_t i) const { return places_[i].definition; }
+
   /// Half the longest side of the instance's box in the world, but for rounding.
   T half_extent(std::size_t i) const {
     const Place& place = places_[i];

@@ -96,6 +96,13 @@ class World {
   /// Bit i answers rays[i].
   RayGroupMask occluded(std::span<const WorldRay<T>> rays, QueryCounts& counts) const;
 
+  /// Answer any number of rays that go each their own way: the more, the faster, from a hundred on.
+  void closest_hits_in_stream(std::span<const WorldRay<T>> rays, std::span<WorldHit<T>> hits,
+                              QueryCounts& counts) const;
+  /// met[i] becomes 1 if rays[i] is occluded, 0 if not.
+  void occluded_in_stream(std::span<const WorldRay<T>> rays, std::span<std::uint8_t> met,
+                          QueryCounts& counts) const;
+
   /// Moves all instances: the i-th to pose_of(i), which is asked from several threads at once, and
   /// if there is a shift_of, from there along shift_of(i) while time goes from 0 to 1. The
   /// hierarchy stays the same tree around other boxes, unless these make rays visit half as much

@@ -4,84 +4,22 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
-#include <random>
 
-#include "core/world/world.h"
+#include "tests/support/scattered_world.h"
 
 namespace minkray {
 namespace {
 
+using namespace testing;
+
 template <class T>
-class WorldRayGroupsOf : public testing::Test {};
-using Scalars = testing::Types<float, double>;
+class WorldRayGroupsOf : public ::testing::Test {};
+using Scalars = ::testing::Types<float, double>;
 TYPED_TEST_SUITE(WorldRayGroupsOf, Scalars);
-
-template <class T>
-struct Random {
-  std::mt19937 generator{5};
-  T within(T low, T high) { return std::uniform_real_distribution<T>(low, high)(generator); }
-  Vec3<T> point(T size) { return {within(-size, size), within(-size, size), within(-size, size)}; }
-  Affine<T> pose(T size) {
-    const Vec3<T> axis = point(1);
-    return {rotation_matrix(axis.x(), axis.y(), axis.z(), within(-1, 1)), point(size)};
-  }
-};
-
-/// Shapes have models for packets or none; some stand in the same place twice.
-template <class T>
-Instances<T> scattered_shapes(int count, Random<T>& random) {
-  const std::vector<Shape<T>> kinds = {
-      Sphere<T>{T(0.7)},
-      Rounded<T>{T(0.1), Shape<T>(Box<T>{{T(0.6), T(0.5), T(0.3)}})},
-      Ellipsoid<T>{{T(1), T(0.5), T(0.2)}},
-      Cylinder<T>{T(0.3), T(0.8)},
-      MinkowskiSum<T>{{Shape<T>(Ellipsoid<T>{{T(0.4), T(0.3), T(0.2)}}),
-                       Shape<T>(Box<T>{{T(0.3), T(0.3), T(0.1)}})}},
-      Triangle<T>{{Vec3<T>(0, 0, 0), Vec3<T>(1, 0, 0), Vec3<T>(0, 1, 0)}}};
-  Instances<T> shapes;
-  for (int i = 0; i < count; ++i) {
-    const Shape<T>& kind = kinds[static_cast<std::size_t>(i) % kinds.size()];
-    const Affine<T> pose = random.pose(6);
-    for (int twice = 0; twice < (i % 10 == 0 ? 2 : 1); ++twice) shapes.add(kind, pose);
-  }
-  return shapes;
-}
-
-/// Rays as a camera's, as towards a far light, or as they come.
-template <class T>
-std::vector<WorldRay<T>> bundle(Random<T>& random, int kind, std::size_t count,
-                                std::size_t instances) {
-  const Vec3<T> from = random.point(12), towards = random.point(5) - from;
-  std::vector<WorldRay<T>> rays;
-  for (std::size_t i = 0; i < count; ++i) {
-    Ray<T> ray{from, towards + random.point(T(0.3))};
-    if (kind == 1) ray = {from + random.point(1), towards};
-    if (kind == 2) ray = {random.point(7), random.point(1)};
-    if (i % 5 == 0) ray.t_max = random.within(T(0.3), T(1.2));
-    const auto skip = static_cast<std::uint32_t>(random.within(0, static_cast<T>(instances)));
-    rays.push_back({ray, i % 4 == 0 ? skip : no_instance});
-  }
-  return rays;
-}
-
-template <class T>
-testing::AssertionResult same(const WorldHit<T>& a, const WorldHit<T>& b) {
-  const CastResult<T>&x = a.cast, &y = b.cast;
-  if (a.instance != b.instance)
-    return testing::AssertionFailure()
-           << a.instance << " and " << b.instance << " at " << x.t() << " and " << y.t();
-  if (x.status != y.status) return testing::AssertionFailure() << "status";
-  if (!a.found()) return testing::AssertionSuccess();
-  if (x.t_base != y.t_base || x.t_offset != y.t_offset || x.offset_lo != y.offset_lo ||
-      x.offset_hi != y.offset_hi)
-    return testing::AssertionFailure() << "t " << x.t() << " and " << y.t();
-  if (x.normal != y.normal) return testing::AssertionFailure() << "normal";
-  return testing::AssertionSuccess();
-}
 
 TYPED_TEST(WorldRayGroupsOf, answers_are_those_of_single_rays) {
   using T = TypeParam;
-  Random<T> random;
+  Scatter<T> random;
   const World<T> world(scattered_shapes(300, random));
   std::size_t rays = 0, hits = 0, blocked = 0;
   QueryCounts alone, together;
@@ -110,7 +48,7 @@ TYPED_TEST(WorldRayGroupsOf, answers_are_those_of_single_rays) {
 
 TYPED_TEST(WorldRayGroupsOf, no_rays_and_no_world) {
   using T = TypeParam;
-  Random<T> random;
+  Scatter<T> random;
   const World<T> world(scattered_shapes(20, random)), empty;
   QueryCounts counts;
   EXPECT_EQ(world.occluded(std::span<const WorldRay<T>>(), counts), 0u);
@@ -128,7 +66,7 @@ TYPED_TEST(WorldRayGroupsOf, no_rays_and_no_world) {
 
 TYPED_TEST(WorldRayGroupsOf, of_instances_at_the_same_t_the_first_is_met) {
   using T = TypeParam;
-  Random<T> random;
+  Scatter<T> random;
   for (const bool backwards : {false, true}) {
     Instances<T> pairs;
     std::vector<Affine<T>> poses;
@@ -158,7 +96,7 @@ TYPED_TEST(WorldRayGroupsOf, of_instances_at_the_same_t_the_first_is_met) {
 // Rays that come together find what is exhausted, too.
 TYPED_TEST(WorldRayGroupsOf, other_solvers_are_asked_one_by_one) {
   using T = TypeParam;
-  Random<T> random;
+  Scatter<T> random;
   CastOptions<T> impatient;
   impatient.solver = SolverKind::paper;
   impatient.max_iterations = 3;
@@ -176,7 +114,7 @@ TYPED_TEST(WorldRayGroupsOf, other_solvers_are_asked_one_by_one) {
 
 TYPED_TEST(WorldRayGroupsOf, the_build_of_the_hierarchy_does_not_show) {
   using T = TypeParam;
-  Random<T> random, again;
+  Scatter<T> random, again;
   const World<T> quality(scattered_shapes(300, random)),
       speed(scattered_shapes(300, again), {}, BvhBuild::speed);
   QueryCounts counts;
@@ -190,7 +128,7 @@ TYPED_TEST(WorldRayGroupsOf, the_build_of_the_hierarchy_does_not_show) {
 // One world is the tree around what has moved, the other a tree built of it anew.
 TYPED_TEST(WorldRayGroupsOf, moved_instances_answer_as_if_built_where_they_are) {
   using T = TypeParam;
-  Random<T> random;
+  Scatter<T> random;
   std::vector<Affine<T>> poses(400);
   const Shape<T> shape = Rounded<T>{T(0.1), Shape<T>(Box<T>{{T(0.6), T(0.5), T(0.3)}})};
   const auto pose_of = [&](std::size_t i) { return poses[i]; };

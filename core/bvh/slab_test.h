@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// The padded slab tests of core/bvh/ray_group.h in lanes: boxes or rays side by side. All names
+// have the type of the lanes in them, and so the instruction set: see core/math/wide.h.
+#pragma once
+
+#include "core/bvh/bvh.h"
+#include "core/bvh/ray_group.h"
+#include "core/math/wide.h"
+
+namespace minkray {
+
+/// Where the near and far planes of an axis are met, in lanes. A ray within a plane gives
+/// 0 * infinity = NaN: max and min are such that it falls through, and the plane does not limit the
+/// ray.
+template <class Lanes>
+struct SlabInterval {
+  Lanes enter, leave;
+
+  void meet(const Lanes& near_plane, const Lanes& far_plane, const Lanes& origin_near,
+            const Lanes& origin_far, const Lanes& inverse_near, const Lanes& inverse_far) {
+    enter = max(enter, Lanes((near_plane - origin_near) * inverse_near));
+    leave = min(leave, Lanes((far_plane - origin_far) * inverse_far));
+  }
+  Mask<Lanes> is_met() const { return enter <= leave * Lanes(slab_padding) + Lanes(slab_tiny); }
+};
+
+/// Which of a node's boxes are met up to t_max, and where.
+template <class Lanes>
+std::uint32_t boxes_met(const BvhNode& node, const SlabNumbers& ray, float t_max,
+                        float (&enters)[bvh_width]) {
+  std::uint32_t met = 0;
+  for (int from = 0; from < bvh_width; from += LaneOf<Lanes>::count) {
+    SlabInterval<Lanes> t{Lanes(0.0f), Lanes(t_max)};
+    for (int axis = 0; axis < 3; ++axis)
+      t.meet(Lanes::load(node.planes[ray.near[axis]][axis] + from),
+             Lanes::load(node.planes[1 - ray.near[axis]][axis] + from),
+             Lanes(ray.origin_near[axis]), Lanes(ray.origin_far[axis]),
+             Lanes(ray.inverse_near[axis]), Lanes(ray.inverse_far[axis]));
+    t.enter.store(enters + from);
+    met |= lane_bits(t.is_met()) << from;
+  }
+  return met;
+}
+
+}  // namespace minkray

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#include "core/bvh/stream.h"
+
+namespace minkray {
+
+std::uint64_t walk_stream(const Bvh& bvh, std::span<SlabRay> rays, const PairVisitor& visitor,
+                          WalkSet set) {
+  if (bvh.nodes.empty() || rays.empty()) return 0;
+  if (set == WalkSet::avx2)
+    return walk_stream_avx2(bvh.nodes.data(), rays.data(), rays.size(), visitor);
+  // Steps that wait for each other gain nothing from taking turns without lanes for eight boxes.
+  std::uint64_t visited = 0;
+  for (std::uint32_t ray = 0; ray < rays.size(); ++ray) {
+    SlabRay& slabs = rays[ray];
+    visited += traverse(
+        bvh, slabs,
+        [&](std::uint32_t box) {
+          visitor.visit(visitor.context, &ray, &box, 1);
+          return slabs.numbers.t_max < 0;
+        },
+        set);
+  }
+  return visited;
+}
+
+}  // namespace minkray

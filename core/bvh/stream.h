@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// Walking many rays through a hierarchy that go each their own way: some of them take turns, a node
+// each, so that the processor works on all of their steps at once (docs/decisions/streams.md).
+#pragma once
+
+#include <span>
+
+#include "core/bvh/traverse.h"
+
+namespace minkray {
+
+/// Told which rays meet which boxes, pair by pair. Rounding may add some. A plain function, so that
+/// kernels share no code.
+struct PairVisitor {
+  /// It may lower numbers.t_max of any ray; a negative one ends the ray's walk.
+  void (*visit)(void* context, const std::uint32_t* rays, const std::uint32_t* boxes,
+                std::size_t pairs);
+  void* context;
+};
+
+/// Visits the boxes that each ray meets with 0 <= t <= t_max, at least. A ray's boxes come in no
+/// particular order. Answers how many nodes were visited.
+std::uint64_t walk_stream(const Bvh& bvh, std::span<SlabRay> rays, const PairVisitor& visitor,
+                          WalkSet set = best_walk_set());
+
+/// Only on machines that have AVX2 and FMA.
+std::uint64_t walk_stream_avx2(const BvhNode* nodes, SlabRay* rays, std::size_t count,
+                               const PairVisitor& visitor);
+
+}  // namespace minkray

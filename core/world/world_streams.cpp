@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: MIT
+// Any number of rays that go each their own way: the hierarchy finds pairs of ray and instance, and
+// as soon as there are enough of them at one definition these are cast in a packet, a ray and a
+// pose in each lane.
+#include "core/bvh/stream.h"
+#include "core/cast/posed_packet.h"
+#include "core/world/world.h"
+
+namespace minkray {
+namespace {
+
+/// Rays whose numbers stay in the cache while they are under way.
+constexpr std::size_t rays_at_once = 1024;
+
+/// Pairs of ray and instance that wait for a packet: all of one definition, all turned or none.
+template <class T>
+class PairQueue {
+ public:
+  static constexpr int capacity = packet_lanes<T>;
+
+  /// True when it is full.
+  bool add(std::uint32_t ray, std::uint32_t instance) {
+    const auto i = static_cast<std::size_t>(count_++);
+    ray_[i] = ray;
+    instance_[i] = instance;
+    return count_ == capacity;
+  }
+  int size() const { return count_; }
+  std::uint32_t ray(int i) const { return ray_[static_cast<std::size_t>(i)]; }
+  std::uint32_t instance(int i) const { return instance_[static_cast<std::size_t>(i)]; }
+  void clear() { count_ = 0; }
+
+ private:
+  int count_ = 0;
+  std::array<std::uint32_t, static_cast<std::size_t>(capacity)> ray_, instance_;
+};
+
+/// Casts at pairs, alone or in packets. on_found(ray, instance, t, result) is told of those that
+/// meet; result() makes the CastResult.
+template <class T, class OnFound>
+class PairCaster {
+ public:
+  PairCaster(const Instances<T>& instances, const CastOptions<T>& options, bool in_packets,
+             std::span<const WorldRay<T>> rays, QueryCounts& counts, OnFound on_found)
+      : instances_(instances),
+        options_(options),
+        in_packets_(in_packets),
+        rays_(rays),
+        counts_(counts),
+        on_found_(std::move(on_found)) {
+    // Few rays would fill no queue.
+    if (in_packets && 2 * instances.definitions() <= rays.size())
+      queues_.resize(2 * instances.definitions());
+  }
+
+  void add(std::uint32_t ray, std::uint32_t instance) {
+    if (rays_[ray].skip == instance || instances_.is_half_space(instance)) return;
+    const PreparedShape<T> shape = instances_.at(instance);
+    if (queues_.empty() || shape.definition().form().kind == FormKind::none)
+      return cast_alone(shape, ray, instance);
+    const bool is_turned = shape.linear_to_inner() != nullptr;
+    PairQueue<T>& queue = queues_[2 * instances_.definition_of(instance) + (is_turned ? 1 : 0)];
+    if (queue.add(ray, instance)) cast_together(queue, is_turned);
+  }
+
+  /// Casts at all that still wait.
+  void finish() {
+    for (std::size_t i = 0; i < queues_.size(); ++i)
+      if (queues_[i].size() != 0) cast_together(queues_[i], i % 2 == 1);
+  }
+
+ private:
+  Ray<T> seen(std::uint32_t ray, std::uint32_t instance) const {
+    return instances_.seen_by(instance, rays_[ray].ray, rays_[ray].time);
+  }
+
+  void count(int supports, int iterations, Path path, bool exhausted) {
+    ++counts_.casts;
+    ++counts_.by_path[static_cast<std::size_t>(path)];
+    counts_.iterations += static_cast<std::uint64_t>(iterations);
+    counts_.supports += static_cast<std::uint64_t>(supports);
+    counts_.exhausted += exhausted ? 1 : 0;
+  }
+
+  void cast_alone(const PreparedShape<T>& shape, std::uint32_t ray, std::uint32_t instance) {
+    const CastResult<T> result = cast_ray(shape, seen(ray, instance), options_);
+    count(result.supports, result.iterations, result.path, result.status == Status::exhausted);
+    if (result.found()) on_found_(ray, instance, result.t(), [&] { return result; });
+  }
+
+  void cast_together(PairQueue<T>& queue, bool are_turned) {
+    RayPacket<T> packet;
+    PosePacket<T> poses;
+    poses.are_turned = are_turned;
+    const int used = queue.size();
+    for (int i = 0; i < queue.capacity; ++i) {
+      const int pair = i < used ? i : 0;
+      packet.set(i, seen(queue.ray(pair), queue.instance(pair)));
+      poses.set(i, instances_.at(queue.instance(pair)));
+    }
+    CastPacket<T> answers;
+    cast_packet(instances_.at(queue.instance(0)).definition(), poses, packet,
+                (LaneBits(1) << used) - 1, answers);
+    const LaneBits answered = answers.found() | answers.miss;
+    for (int i = 0; i < used; ++i) {
+      const auto lane = static_cast<std::size_t>(i);
+      const int supports = static_cast<int>(answers.supports[lane]);
+      count(supports, supports, answers.path[lane], !(answered >> i & 1));
+      if (answers.found() >> i & 1)
+        on_found_(queue.ray(i), queue.instance(i), answers.t(i), [&] { return answers.result(i); });
+    }
+    queue.clear();
+  }
+
+  const Instances<T>& instances_;
+  const CastOptions<T>& options_;
+  bool in_packets_;
+  std::span<const WorldRay<T>> rays_;
+  QueryCounts& counts_;
+  OnFound on_found_;
+  std::vector<PairQueue<T>> queues_;  ///< two for each definition; none if there are too few rays
+};
+
+/// Walks the rays through the hierarchy and casts at what they meet.
+template <class T, class Caster>
+void walk_pairs(const Bvh& bvh, std::span<SlabRay> slabs, Caster& caster, QueryCounts& counts) {
+  const auto visit = [](void* context, const std::uint32_t* rays, const std::uint32_t* boxes,
+                        std::size_t pairs) {
+    for (std::size_t i = 0; i < pairs; ++i) static_cast<Caster*>(context)->add(rays[i], boxes[i]);
+  };
+  counts.nodes += walk_stream(bvh, slabs, {visit, &caster});
+  caster.finish();
+}
+
+}  // namespace
+
+template <class T>
+void World<T>::closest_hits_in_stream(std::span<const WorldRay<T>> rays,
+                                      std::span<WorldHit<T>> hits, QueryCounts& counts) const {
+  std::vector<SlabRay> slabs(std::min(rays.size(), rays_at_once));
+  for (; !rays.empty(); rays = rays.subspan(slabs.size()), hits = hits.subspan(slabs.size())) {
+    slabs.resize(std::min(rays.size(), rays_at_once));
+    const auto keep = [&](std::uint32_t ray, std::uint32_t instance, T t, const auto& result) {
+      WorldHit<T>& hit = hits[ray];
+      if (!hit.yields_to(instance, t)) return;
+      hit = {instance, result()};
+      slabs[ray].numbers.t_max = slabs[ray].limit(static_cast<double>(t));
+    };
+    for (std::size_t i = 0; i < slabs.size(); ++i) {
+      slabs[i] = SlabRay(rays[i].ray);
+      hits[i] = {};
+      hits[i].cast.status = Status::miss;
+      if (closer_half_space(rays[i], hits[i], counts))
+        slabs[i].numbers.t_max = slabs[i].limit(static_cast<double>(hits[i].cast.t()));
+    }
+    PairCaster<T, decltype(keep)> caster(instances_, options_, in_packets_,
+                                         rays.first(slabs.size()), counts, keep);
+    walk_pairs<T>(bvh_, slabs, caster, counts);
+  }
+}
+
+template <class T>
+void World<T>::occluded_in_stream(std::span<const WorldRay<T>> rays, std::span<std::uint8_t> met,
+                                  QueryCounts& counts) const {
+  std::vector<SlabRay> slabs(std::min(rays.size(), rays_at_once));
+  for (; !rays.empty(); rays = rays.subspan(slabs.size()), met = met.subspan(slabs.size())) {
+    slabs.resize(std::min(rays.size(), rays_at_once));
+    const auto end = [&](std::uint32_t ray, std::uint32_t, T, const auto&) {
+      met[ray] = 1;
+      slabs[ray].numbers.t_max = -1;
+    };
+    for (std::size_t i = 0; i < slabs.size(); ++i) {
+      slabs[i] = SlabRay(rays[i].ray);
+      met[i] = blocked_by_half_space(rays[i], counts) ? 1 : 0;
+      if (met[i]) slabs[i].numbers.t_max = -1;
+    }
+    PairCaster<T, decltype(end)> caster(instances_, options_, in_packets_, rays.first(slabs.size()),
+                                        counts, end);
+    walk_pairs<T>(bvh_, slabs, caster, counts);
+  }
+}
+
+template void World<float>::closest_hits_in_stream(std::span<const WorldRay<float>>,
+                                                   std::span<WorldHit<float>>, QueryCounts&) const;
+template void World<double>::closest_hits_in_stream(std::span<const WorldRay<double>>,
+                                                    std::span<WorldHit<double>>,
+                                                    QueryCounts&) const;
+template void World<float>::occluded_in_stream(std::span<const WorldRay<float>>,
+                                               std::span<std::uint8_t>, QueryCounts&) const;
+template void World<double>::occluded_in_stream(std::span<const WorldRay<double>>,
+                                                std::span<std::uint8_t>, QueryCounts&) const;
+
+}  // namespace minkray
