@@ -9,6 +9,9 @@
 
 namespace minkray {
 
+/// So many pairs are told at once, or fewer.
+inline constexpr std::size_t most_pairs_at_once = 2 * bvh_width;
+
 /// Told which rays meet which boxes, pair by pair. Rounding may add some. A plain function, so that
 /// kernels share no code.
 struct PairVisitor {

@@ -21,6 +21,7 @@ constexpr int stack_size = sentinels + bvh_max_depth * (bvh_width - 1) + 1 + bvh
 
 /// Pairs wait until there are so many; a step adds up to eight.
 constexpr std::uint32_t pairs_at_once = 8, queue_size = pairs_at_once + 2 * bvh_width;
+static_assert(pairs_at_once - 1 + bvh_width <= most_pairs_at_once);
 
 /// The nodes that a ray has yet to visit, the nearest on top, and where it enters their boxes.
 struct Turn {

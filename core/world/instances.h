@@ -72,8 +72,20 @@ class Instances {
             place.linear == identity ? nullptr : &linear_[place.linear].to_inner};
   }
 
-  /// The number of the i-th instance's definition, which is not a half-space.
+  /// Which definition the i-th instance has, which is not a half-space, and whether it is more than
+  /// moved.
   std::uint32_t definition_of(std::size_t i) const { return places_[i].definition; }
+  bool is_turned(std::size_t i) const { return places_[i].linear != identity; }
+  const ShapeDefinition<T>& definition(std::uint32_t k) const { return *definitions_[k]; }
+
+  /// Brings near what `at` will read: first the place, and, when that has come, the map.
+  void prefetch_place(std::size_t i) const { __builtin_prefetch(&places_[i]); }
+  void prefetch_map(std::size_t i) const {
+    if (!is_turned(i)) return;
+    const auto* const map = reinterpret_cast<const char*>(&linear_[places_[i].linear]);
+    __builtin_prefetch(map);
+    __builtin_prefetch(map + sizeof(Linear) - 1);
+  }
 
   /// Half the longest side of the instance's box in the world, but for rounding.
   T half_extent(std::size_t i) const {

@@ -44,7 +44,6 @@ class PairCaster {
              std::span<const WorldRay<T>> rays, QueryCounts& counts, OnFound on_found)
       : instances_(instances),
         options_(options),
-        in_packets_(in_packets),
         rays_(rays),
         counts_(counts),
         on_found_(std::move(on_found)) {
@@ -53,23 +52,46 @@ class PairCaster {
       queues_.resize(2 * instances.definitions());
   }
 
-  void add(std::uint32_t ray, std::uint32_t instance) {
-    if (rays_[ray].skip == instance || instances_.is_half_space(instance)) return;
-    const PreparedShape<T> shape = instances_.at(instance);
-    if (queues_.empty() || shape.definition().form().kind == FormKind::none)
-      return cast_alone(shape, ray, instance);
-    const bool is_turned = shape.linear_to_inner() != nullptr;
-    PairQueue<T>& queue = queues_[2 * instances_.definition_of(instance) + (is_turned ? 1 : 0)];
-    if (queue.add(ray, instance)) cast_together(queue, is_turned);
+  /// Pairs wait until the next ones come, and their instances' places with them.
+  void take(const std::uint32_t* rays, const std::uint32_t* instances, std::size_t pairs) {
+    sort_waiting();
+    for (std::size_t i = 0; i < pairs; ++i) {
+      if (rays_[rays[i]].skip == instances[i]) continue;
+      instances_.prefetch_place(instances[i]);
+      waiting_[waiting_count_++] = {rays[i], instances[i]};
+    }
   }
 
   /// Casts at all that still wait.
   void finish() {
+    sort_waiting();
     for (std::size_t i = 0; i < queues_.size(); ++i)
       if (queues_[i].size() != 0) cast_together(queues_[i], i % 2 == 1);
   }
 
  private:
+  struct Pair {
+    std::uint32_t ray, instance;
+  };
+
+  /// To the queues of their definitions.
+  void sort_waiting() {
+    for (std::size_t i = 0; i < waiting_count_; ++i) {
+      const auto [ray, instance] = waiting_[i];
+      if (instances_.is_half_space(instance)) continue;
+      const std::uint32_t definition = instances_.definition_of(instance);
+      if (queues_.empty() || instances_.definition(definition).form().kind == FormKind::none) {
+        cast_alone(ray, instance);
+        continue;
+      }
+      instances_.prefetch_map(instance);
+      const bool is_turned = instances_.is_turned(instance);
+      PairQueue<T>& queue = queues_[2 * definition + (is_turned ? 1 : 0)];
+      if (queue.add(ray, instance)) cast_together(queue, is_turned);
+    }
+    waiting_count_ = 0;
+  }
+
   Ray<T> seen(std::uint32_t ray, std::uint32_t instance) const {
     return instances_.seen_by(instance, rays_[ray].ray, rays_[ray].time);
   }
@@ -82,8 +104,8 @@ class PairCaster {
     counts_.exhausted += exhausted ? 1 : 0;
   }
 
-  void cast_alone(const PreparedShape<T>& shape, std::uint32_t ray, std::uint32_t instance) {
-    const CastResult<T> result = cast_ray(shape, seen(ray, instance), options_);
+  void cast_alone(std::uint32_t ray, std::uint32_t instance) {
+    const CastResult<T> result = cast_ray(instances_.at(instance), seen(ray, instance), options_);
     count(result.supports, result.iterations, result.path, result.status == Status::exhausted);
     if (result.found()) on_found_(ray, instance, result.t(), [&] { return result; });
   }
@@ -99,7 +121,7 @@ class PairCaster {
       poses.set(i, instances_.at(queue.instance(pair)));
     }
     CastPacket<T> answers;
-    cast_packet(instances_.at(queue.instance(0)).definition(), poses, packet,
+    cast_packet(instances_.definition(instances_.definition_of(queue.instance(0))), poses, packet,
                 (LaneBits(1) << used) - 1, answers);
     const LaneBits answered = answers.found() | answers.miss;
     for (int i = 0; i < used; ++i) {
@@ -114,10 +136,11 @@ class PairCaster {
 
   const Instances<T>& instances_;
   const CastOptions<T>& options_;
-  bool in_packets_;
   std::span<const WorldRay<T>> rays_;
   QueryCounts& counts_;
   OnFound on_found_;
+  std::array<Pair, most_pairs_at_once> waiting_;
+  std::size_t waiting_count_ = 0;
   std::vector<PairQueue<T>> queues_;  ///< two for each definition; none if there are too few rays
 };
 
@@ -126,7 +149,7 @@ template <class T, class Caster>
 void walk_pairs(const Bvh& bvh, std::span<SlabRay> slabs, Caster& caster, QueryCounts& counts) {
   const auto visit = [](void* context, const std::uint32_t* rays, const std::uint32_t* boxes,
                         std::size_t pairs) {
-    for (std::size_t i = 0; i < pairs; ++i) static_cast<Caster*>(context)->add(rays[i], boxes[i]);
+    static_cast<Caster*>(context)->take(rays, boxes, pairs);
   };
   counts.nodes += walk_stream(bvh, slabs, {visit, &caster});
   caster.finish();

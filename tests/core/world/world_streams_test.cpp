@@ -46,11 +46,11 @@ void expect_answers_of_single_rays(const World<T>& world, std::span<const WorldR
   EXPECT_EQ(in_stream.exhausted, 2 * alone.exhausted);
 }
 
-TYPED_TEST(WorldStreamsOf, half_a_million_rays_at_all_kinds_of_shapes) {
+TYPED_TEST(WorldStreamsOf, a_million_rays_at_all_kinds_of_shapes) {
   using T = TypeParam;
   Scatter<T> random;
   const World<T> world(scattered_instances(3000, random));
-  const auto rays = mixed_rays(random, 500000, world.instances().size());
+  const auto rays = mixed_rays(random, 1000000, world.instances().size());
   expect_answers_of_single_rays<T>(world, rays, 5000);
 }
 
