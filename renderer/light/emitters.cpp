@@ -47,9 +47,7 @@ double growth_to_hold(const ShapeDefinition<Real>& shape, const Vec3<double>& ax
 /// it is found by other rays.
 Vec3<double> half_axes(const ShapeDefinition<Real>& shape) {
   const exact::Form& form = shape.form();
-  if (form.kind == FormKind::ball && !form.is_off_centre)
-    return form.is_scaled ? Vec3<double>(form.R * form.scale.cwiseInverse())
-                          : Vec3<double>::Constant(shape.inner_ball().radius);
+  if (form.kind == FormKind::ball && !form.is_off_centre) return form.R * form.scale.cwiseInverse();
   // As long as its box, flat where that is flat.
   const Vec3<double> box = shape.inner_half_extents();
   const double least = least_thickness * box.maxCoeff();
@@ -57,11 +55,67 @@ Vec3<double> half_axes(const ShapeDefinition<Real>& shape) {
   const double growth = growth_to_hold(shape, axes);
   for (int i = 0; i < 3; ++i)
     if (axes[i] > least) axes[i] *= growth;
-  // Or as wide as its ball.
-  Vec3<double> ball = Vec3<double>::Constant(shape.inner_ball().radius);
+  // Or as wide as a ball.
+  Vec3<double> ball = Vec3<double>::Ones();
+  ball *= growth_to_hold(shape, ball);
   for (int i = 0; i < 3; ++i)
     if (!(axes[i] > least)) ball[i] = least;
   return ball.prod() < axes.prod() ? ball : axes;
+}
+
+/// The mean area of an ellipsoid's shadow over pi (Thomsen's approximation, within 1.1 %).
+double shadow_of_ellipsoid(const Vec3<double>& axes) {
+  constexpr double p = 1.6075;
+  const auto power = [](double x) { return std::pow(x, p); };
+  const double a = power(axes.x()), b = power(axes.y()), c = power(axes.z());
+  return std::pow((a * b + b * c + c * a) / 3, 1 / p);
+}
+
+/// The same of a box: a quarter of its surface.
+double shadow_of_box(const Vec3<double>& half) {
+  return 2 * (half.x() * half.y() + half.y() * half.z() + half.z() * half.x()) / std::numbers::pi;
+}
+
+/// The faces of a box that are seen from a point, by the axis they lie across: which they are, and
+/// with which chance each is drawn.
+struct FacesSeen {
+  Vec3<double> chance = Vec3<double>::Zero();
+
+  FacesSeen(const Vec3<double>& half, const Vec3<double>& point) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const double above = std::abs(point[axis]) - half[axis];
+      if (!(above > 0)) continue;
+      // About its solid angle: of the point of the face that is nearest, softened by its size.
+      const double area = face_area(half, axis);
+      Vec3<double> to_face = point.cwiseAbs() - half;
+      to_face = to_face.cwiseMax(0.0);
+      const double d2 = to_face.squaredNorm() + 0.25 * area;
+      chance[axis] = area * (above + 0.1 * std::sqrt(area)) / (d2 * std::sqrt(d2));
+    }
+    const double sum = chance.sum();
+    if (sum > 0) chance /= sum;
+  }
+
+  static double face_area(const Vec3<double>& half, int axis) {
+    return 4 * half[(axis + 1) % 3] * half[(axis + 2) % 3];
+  }
+  bool any() const { return chance.maxCoeff() > 0; }
+};
+
+/// The face through which a line from outside enters a box, and how far away that is; -1: none.
+std::pair<int, double> entered_face(const Vec3<double>& half, const Vec3<double>& origin,
+                                    const Vec3<double>& direction) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const double side = origin[axis] > 0 ? 1 : -1;
+    const double above = side * origin[axis] - half[axis], fall = -side * direction[axis];
+    if (!(above > 0) || !(fall > 0)) continue;
+    const double t = above / fall;
+    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    if (std::abs(origin[u] + t * direction[u]) <= half[u] &&
+        std::abs(origin[v] + t * direction[v]) <= half[v])
+      return {axis, t};
+  }
+  return {-1, 0};
 }
 
 }  // namespace
@@ -69,6 +123,23 @@ Vec3<double> half_axes(const ShapeDefinition<Real>& shape) {
 std::optional<Vec3<double>> AroundBody::sample(const Vec3<double>& point,
                                                const std::array<double, 2>& u) const {
   const Vec3<double> towards = map * (centre - point);
+  if (is_box()) {
+    const FacesSeen faces(half_extents, -towards);
+    if (!faces.any()) return std::nullopt;
+    // The first number chooses the face, and what is left of it a place on it.
+    int axis = 0;
+    double left = u[0];
+    while (axis < 2 && left >= faces.chance[axis]) left -= faces.chance[axis++];
+    if (!(faces.chance[axis] > 0)) return std::nullopt;
+    const std::array<double, 2> on_face = {2 * std::min(left / faces.chance[axis], 1.0) - 1,
+                                           2 * u[1] - 1};
+    const int x = (axis + 1) % 3, y = (axis + 2) % 3;
+    Vec3<double> place;
+    place[axis] = towards[axis] < 0 ? half_extents[axis] : -half_extents[axis];
+    place[x] = on_face[0] * half_extents[x];
+    place[y] = on_face[1] * half_extents[y];
+    return Vec3<double>((map.inverse() * (place + towards)).normalized());
+  }
   const double d2 = towards.squaredNorm();
   if (!(d2 > 1)) return std::nullopt;
   const double below = u[0] * cone_height(d2);  // 1 - cosine
@@ -81,9 +152,20 @@ std::optional<Vec3<double>> AroundBody::sample(const Vec3<double>& point,
 
 double AroundBody::pdf(const Vec3<double>& point, const Vec3<double>& direction) const {
   const Vec3<double> towards = map * (centre - point), along = map * direction;
+  const double stretched = along.norm();
+  if (is_box()) {
+    const auto [axis, t] = entered_face(half_extents, -towards, along);
+    if (axis < 0) return 0;
+    const FacesSeen faces(half_extents, -towards);
+    const double area = FacesSeen::face_area(half_extents, axis);
+    // Solid angle is area * cosine / distance^2, where `along` has the length `stretched`.
+    const double per_solid_angle =
+        t * t * stretched * stretched * stretched / std::abs(along[axis]);
+    return faces.chance[axis] / area * per_solid_angle * determinant /
+           (stretched * stretched * stretched);
+  }
   const double d2 = towards.squaredNorm();
   if (!(d2 > 1)) return 0;
-  const double stretched = along.norm();
   if (!(towards.cross(along).norm() <= stretched) || !(towards.dot(along) > 0)) return 0;
   return determinant / (2 * std::numbers::pi * cone_height(d2) * stretched * stretched * stretched);
 }
@@ -92,7 +174,11 @@ AroundBody around(const PreparedShape<Real>& body) {
   const Vec3<double> axes = half_axes(body.definition());
   AroundBody result;
   result.centre = body.centre();
-  result.map = axes.cwiseInverse().asDiagonal();
+  const Vec3<double> box = body.definition().inner_half_extents();
+  const bool is_thick = box.minCoeff() > least_thickness * box.maxCoeff();
+  if (is_thick && shadow_of_box(box) < shadow_of_ellipsoid(axes)) result.half_extents = box;
+  result.map = Mat3<double>::Identity();
+  if (!result.is_box()) result.map = axes.cwiseInverse().asDiagonal();
   const Mat3<double>* linear = body.linear_to_inner();
   if (linear) result.map = result.map * *linear;
   result.determinant = std::abs(result.map.determinant());

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Bodies that shine, of any shape. Directions towards one are drawn within the cone under which an
-// ellipsoid about it is seen: the body itself if it is a ball, an ellipsoid or a disk, so that
-// every direction meets it. The cone is that of a unit ball, drawn evenly there; the map from the
-// ellipsoid to the ball changes solid angles by |det A| / |A d|^3 for unit directions d. Whether a
-// direction meets the body, and where, is asked by casting at it.
+// Bodies that shine, of any shape. Directions towards one are drawn towards a simple body about it,
+// whichever has the smaller shadow:
+// - an ellipsoid: within the cone under which it is seen, which is that of a unit ball, drawn
+// evenly
+//   there. This is the body itself if it is a ball, an ellipsoid or a disk: every direction meets
+//   it;
+// - its box: evenly over one of the faces that are seen.
+// The map A from the world to the frame in which that is done changes solid angles by
+// |det A| / |A d|^3 for unit directions d. Whether a direction meets the body, and where, is asked
+// by casting at it.
 #pragma once
 
 #include <optional>
@@ -15,17 +20,20 @@
 
 namespace minkray {
 
-/// An ellipsoid about a body: |map (x - centre)| <= 1. What looks out of it is not drawn.
+/// An ellipsoid about a body, |map (x - centre)| <= 1, or its box, |map (x - centre)| <=
+/// half_extents. What looks out of the ellipsoid is not drawn.
 struct AroundBody {
   Vec3<double> centre;
   Mat3<double> map;
-  double determinant;  ///< of the map, positive
-  double size2;        ///< about its shadow's area over pi
+  Vec3<double> half_extents = Vec3<double>::Zero();  ///< zero: an ellipsoid
+  double determinant;                                ///< of the map, positive
+  double size2;                                      ///< about its shadow's area over pi
 
-  /// A direction of unit length from the point; nothing from within the ellipsoid.
+  bool is_box() const { return !half_extents.isZero(0); }
+  /// A direction of unit length from the point; nothing from within.
   std::optional<Vec3<double>> sample(const Vec3<double>& point,
                                      const std::array<double, 2>& u) const;
-  /// The density over solid angle; 0 from within, and where the ellipsoid is not met.
+  /// The density over solid angle; 0 from within, and of directions that are not drawn.
   double pdf(const Vec3<double>& point, const Vec3<double>& direction) const;
 };
 

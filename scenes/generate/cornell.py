@@ -28,7 +28,7 @@ stone = {"type": "rounded", "radius": 0.045,
 pillar = {"type": "minkowski_sum", "shapes": [
     {"type": "box", "half_extents": [0.14, 0.14, 0.42]},
     {"type": "disk", "radius": 0.09}, {"type": "sphere", "radius": 0.03}]}
-lens = {"type": "superellipsoid", "radii": [0.3, 0.3, 0.3], "exponent": 3}
+lens = {"type": "superellipsoid", "radii": [0.26, 0.26, 0.26], "exponent": 3}
 top = {"type": "hull_of", "shapes": [
     {"type": "sphere", "radius": 0.17},
     {"type": "transform", "shape": {"type": "sphere", "radius": 0.03}, "translate": [0, 0, 0.36]},
@@ -60,12 +60,12 @@ scene = {
         slab("right", [wall, tall, tall], "green", [tall + wall, 0, 0]),
         body("lamp", {"type": "rounded", "radius": 0.02,
                       "shape": {"type": "box", "half_extents": [0.26, 0.2, 0]}},
-             "lamp", [0, 0, 0.975]),
-        body("pillar", pillar, "copper", [-0.42, 0.38, -tall + 0.45], turn([0, 0, 1], 22)),
-        body("dodecahedron", stone, "stone", [0.4, 0.42, -tall + 0.308],
+             "lamp", [0, 0, 1]),
+        body("pillar", pillar, "copper", [-0.5, 0.42, -tall + 0.45], turn([0, 0, 1], 22)),
+        body("dodecahedron", stone, "stone", [0.46, 0.4, -tall + 0.308],
              after(turn([0, 0, 1], 15), turn([1, 0, 0], 31.7175))),
-        body("superellipsoid", lens, "glass", [0.33, -0.42, -tall + 0.3], turn([0, 0, 1], 30)),
-        body("top", top, "gold", [-0.36, -0.4, -tall + 0.16])],
+        body("superellipsoid", lens, "glass", [0.02, -0.36, -tall + 0.26], turn([0, 0, 1], 30)),
+        body("top", top, "gold", [0.62, -0.34, -tall + 0.16])],
     "background": [0, 0, 0],
 }
 write("cornell.json", scene)

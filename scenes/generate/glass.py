@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Writes scenes/glass.json: a glass with wine, a lens and a prism, by the light of three lamps."""
+"""Writes scenes/glass.json: a glass with wine, a lens and a prism, by the light of four lamps."""
 from scene_file import after, rounded, turn, write
 
 
@@ -20,14 +20,14 @@ wine = {"type": "frustum", "radii": [0.273, 0.3222], "half_height": 0.24}
 scene = {
     "$schema": "scene.schema.json",
     "version": 1,
-    "description": "Nested dielectrics: a tumbler of glass, hollow, with wine that reaches into its wall; a block of amber with an air bubble and a ball of gold in it; a prism; a frosted ball. Three shining bodies light them.",
-    "camera": {"position": [0.1, -5.2, 2.0], "look_at": [0.02, 0, 0.42], "fov_y_degrees": 24,
+    "description": "Nested dielectrics: a tumbler of glass, hollow, with wine that reaches into its wall; a block of amber with an air bubble and a ball of gold in it; a prism; a frosted ball. Four shining bodies light them.",
+    "camera": {"position": [0.1, -5.2, 2.0], "look_at": [0.02, 0, 0.42], "fov_y_degrees": 21.5,
                "resolution": [1280, 720]},
     "lights": [],
     "materials": [
-        {"name": "table", "type": "glossy", "color": [0.34, 0.3, 0.27], "roughness": 0.35},
-        {"name": "wall", "type": "lambert", "color": [0.45, 0.5, 0.56]},
-        {"name": "soft", "type": "emissive", "radiance": [7, 6.6, 6]},
+        {"name": "table", "type": "glossy", "color": [0.5, 0.45, 0.4], "roughness": 0.35},
+        {"name": "wall", "type": "lambert", "color": [0.6, 0.64, 0.68]},
+        {"name": "soft", "type": "emissive", "radiance": [15, 14.2, 13]},
         {"name": "warm", "type": "emissive", "radiance": [26, 17, 8]},
         {"name": "cool", "type": "emissive", "radiance": [5, 8, 14]},
         {"name": "glass", "type": "dielectric", "index_of_refraction": 1.52,
@@ -47,6 +47,8 @@ scene = {
              turn([0, 1, 0], 25)),
         body("tube", {"type": "capsule", "radius": 0.05, "half_height": 0.9}, "cool", [2.5, 0.9, 1.7],
              turn([1, 0, 0], 90)),
+        body("softbox", {"type": "rounded", "radius": 0.05, "shape": {"type": "box", "half_extents": [0.9, 0.6, 0]}},
+             "soft", [1.2, -2.2, 4.2], turn([1, 0, 0], 25)),
         body("bulb", {"type": "sphere", "radius": 0.16}, "warm", [1.4, 1.6, 2.3]),
         body("tumbler", tumbler, "glass", [-0.75, 0.1, 0.5]),
         body("hollow", hollow, "air", [-0.75, 0.1, 0.591]),

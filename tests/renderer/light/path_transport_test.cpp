@@ -96,9 +96,12 @@ TEST(PathTransport, half_a_sky_and_a_plane_above_light_with_pi) {
 std::vector<Shape<double>> odd_lamps() {
   const std::vector<Vec3<double>> points = {{0.3, 0, 0},  {-0.3, 0.1, 0}, {0, 0.5, 0.1},
                                             {0, -0.2, 0}, {0.1, 0, 0.4},  {0, 0.1, -0.3}};
-  return {Cone<double>{0.4, 0.5}, Superellipsoid<double>{{0.5, 0.3, 0.4}, 4},
+  return {Cone<double>{0.4, 0.5},
+          Superellipsoid<double>{{0.5, 0.3, 0.4}, 4},
           Rounded<double>{0.1, Shape<double>(Hull<double>{PointCloud<double>(points)})},
-          Capsule<double>{0.05, 0.6}, Box<double>{{0.6, 0.1, 0.2}}};
+          Capsule<double>{0.05, 0.6},
+          Box<double>{{0.6, 0.1, 0.2}},
+          Box<double>{{0.5, 0.3, 0.001}}};
 }
 
 // Brute force: directions by the cosine alone, and whether they meet the lamp.
