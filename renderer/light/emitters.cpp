@@ -71,7 +71,7 @@ double shadow_of_ellipsoid(const Vec3<double>& axes) {
   return std::pow((a * b + b * c + c * a) / 3, 1 / p);
 }
 
-/// The same of a box: a quarter of its surface.
+/// A box casts a shadow of a quarter of its surface, on average; over pi again.
 double shadow_of_box(const Vec3<double>& half) {
   return 2 * (half.x() * half.y() + half.y() * half.z() + half.z() * half.x()) / std::numbers::pi;
 }

@@ -46,7 +46,6 @@ const std::vector<std::string> rooms = {
     "renderer/generate",
     "renderer/library",
     "renderer/library/python",
-    "renderer/library/python",
     "renderer/compare",
     "renderer/cli",
 };
