@@ -15,6 +15,23 @@
 
 namespace minkray::exact {
 
+/// The forms that would cost the others registers if all were in one function: a second capsule and
+/// a call made spheres a fifth slower (docs/decisions/filter.md).
+template <class W>
+[[gnu::noinline]] Entry<W> enter_out_of_line(const Form& form, const Line<W>& line,
+                                             const Mask<W>& open) {
+  switch (form.kind) {
+    case FormKind::cut_cylinder:
+      return enter_cut_cylinder(form.sizes, form.R, line, open);
+    case FormKind::segment:
+      return enter_turned_capsule(form.sizes, line, open);
+    case FormKind::polytope:
+      return enter_polytope(*form.polytope, line, open);
+    default:
+      return {};
+  }
+}
+
 /// The line is given in the form's frame; only `open` lanes count.
 template <class W>
 [[gnu::always_inline]] inline Entry<W> enter(const Form& form, const Line<W>& line,
@@ -34,16 +51,10 @@ template <class W>
                                    open);
     case FormKind::cylinder:
       return enter_cylinder(a[0], a[1], line, open);
-    case FormKind::cut_cylinder:
-      return enter_cut_cylinder(a, form.R, line, open);
     case FormKind::frustum:
       return enter_frustum(form.slope, form.sine, a[2], a[3], form.R, line, open);
-    case FormKind::segment:
-      return enter_turned_capsule(a, line, open);
-    case FormKind::polytope:
-      return enter_polytope(*form.polytope, line, open);
     default:
-      return {};
+      return enter_out_of_line(form, line, open);
   }
 }
 
