@@ -41,6 +41,21 @@ void RenderArguments::add_to(const Verb& verb) {
                   "ambient occlusion")
       .between(0, 64)
       .show_default();
+  verb.add_option(
+          "--clamp", clamp,
+          "With --integrator path: light by way of several surfaces counts for no more than "
+          "this; fewer bright specks, and less light. 0: no limit")
+      .between(0.0, 1e30)
+      .show_default();
+  verb.add_option("--noise", noise,
+                  "A pixel takes no more samples when its standard error, over its brightness, is "
+                  "below this. 0: all samples")
+      .between(0.0, 1.0)
+      .show_default();
+  std::string maps = "How bright light is shown by .png:";
+  for (const ToneMapDescription& map : tone_maps)
+    maps += "\n" + std::string(map.name) + ": " + std::string(map.doc);
+  verb.add_option("--tonemap", tone_map, maps).one_of(tone_map_names()).show_default();
   verb.add_option("--ray-group", ray_group,
                   "Camera rays that are traced together; the picture is the same for any number")
       .between(1, most_in_packet)

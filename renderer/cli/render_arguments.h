@@ -6,6 +6,7 @@
 #include <string>
 
 #include "renderer/cli/image_arguments.h"
+#include "renderer/cli/write_picture.h"
 #include "renderer/share/ranks.h"
 
 namespace minkray {
@@ -15,6 +16,9 @@ class Verb;
 struct RenderArguments {
   ImageArguments image;
   double exposure = 0;
+  std::string tone_map = "srgb";
+  double clamp = 0;
+  double noise = 0;
   int bounces = IntegratorOptions().bounces;
   int ray_group = IntegratorOptions().packet;
   int max_depth = IntegratorOptions().max_depth;
@@ -38,6 +42,7 @@ struct RenderArguments {
   /// Chooses an output if none is given. Throws WrongUsage where it must be given.
   void choose_output(const Ranks& ranks);
 
+  Display display() const { return {exposure, tone_map_named(tone_map)}; }
   bool is_share() const { return tile || sample_share; }
 };
 

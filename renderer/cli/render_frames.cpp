@@ -58,7 +58,7 @@ void render_frames(RenderJob& job, const RenderArguments& options, const FrameRa
   const Image image = sheet.image();
   const FinishedPicture picture{
       image, {}, {0, 0, image.width, image.height}, {image.width, image.height}, {}};
-  write_picture({options.contact_sheet}, picture, options.exposure);
+  write_picture({options.contact_sheet}, picture, options.display());
 }
 
 }  // namespace minkray

@@ -20,9 +20,9 @@ Image render_picture(const RenderJob& job, const RenderArguments& options,
   const FinishedPicture picture{std::move(done.rendering.image), std::move(done.labels),
                                 job.options.region(), job.options.resolution, std::move(done.exr)};
   timed(options.image.verbose, "write", statistics.write_seconds,
-        [&] { write_picture(outputs, picture, options.exposure); });
+        [&] { write_picture(outputs, picture, options.display()); });
   checkpoint.remove();
-  show_preview(to_look_at(picture, options.exposure), options.image.preview);
+  show_preview(to_look_at(picture, options.display()), options.image.preview);
   return picture.image;
 }
 
@@ -43,7 +43,7 @@ void render_picture_on(Ranks& ranks, const RenderJob& job, const RenderArguments
   write_picture(options.image.outputs,
                 {merged->image(), labels_of(merged->exr.texts), merged->exr.window,
                  job.options.resolution, merged->exr},
-                options.exposure);
+                options.display());
   statistics.write_seconds = write_watch.seconds();
   remove_parts(output, tiles);
 }

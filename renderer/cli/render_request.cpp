@@ -46,6 +46,8 @@ RenderJob job_of(const RenderArguments& options, const Ranks& ranks) {
   if (options.tile) job.options.tile = parse_share(*options.tile, "--tile");
   if (options.sample_share)
     job.options.sample_share = parse_share(*options.sample_share, "--sample-share");
+  if (options.sample_share && options.noise > 0)
+    throw WrongUsage("--noise: looks at all samples of a pixel: not with --sample-share");
   if (options.sample_share && options.aov)
     throw WrongUsage("--aov: goes with --tile, but not with --sample-share");
   if (ranks.count() > 1 && options.is_share())
@@ -94,6 +96,8 @@ void set_options(RenderJob& job, const RenderArguments& options) {
   job.options.integrator.bounces = options.bounces;
   job.options.integrator.packet = options.ray_group;
   job.options.integrator.max_depth = options.max_depth;
+  job.options.integrator.clamp = options.clamp;
+  job.options.noise = options.noise;
   for (const IntegratorDescription& kind : integrators)
     if (kind.name == options.integrator)
       job.options.integrator.kind = settled(kind.kind, job.scene);

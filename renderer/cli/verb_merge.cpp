@@ -19,6 +19,7 @@ struct Options {
   std::vector<std::string> part_files;
   std::vector<std::string> outputs;
   double exposure = 0;
+  std::string tone_map = "srgb";
   bool allow_partial = false;
   bool times = false;
 };
@@ -38,7 +39,7 @@ void run(const Options& options) {
   write_picture(options.outputs,
                 {merged.image(), labels_of(merged.exr.texts), merged.exr.window,
                  resolution_of(merged.exr.texts), merged.exr},
-                options.exposure);
+                {options.exposure, tone_map_named(options.tone_map)});
   warn_of_counts(merged.counts);
   if (options.times)
     for (const ShareCost& cost : merged.costs)
@@ -54,6 +55,9 @@ void add_merge(Parser& parser, ExitCode&) {
   verb.add_option("parts", options->part_files, "The part files (.exr), in any order").required();
   add_output_option(verb, options->outputs);
   verb.add_option("--exposure", options->exposure, "Stops brighter, for .png").show_default();
+  verb.add_option("--tonemap", options->tone_map, "How bright light is shown, for .png")
+      .one_of(tone_map_names())
+      .show_default();
   verb.add_flag("--allow-partial", options->allow_partial,
                 "Missing tiles are black, of missing samples the mean of the others is taken");
   verb.add_flag("--times", options->times,

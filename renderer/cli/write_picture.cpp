@@ -10,20 +10,35 @@
 
 namespace minkray {
 
-Image to_look_at(const FinishedPicture& finished, double exposure) {
-  const auto gain = static_cast<float>(std::exp2(exposure));
+ToneMap tone_map_named(const std::string& name) {
+  for (const ToneMapDescription& description : tone_maps)
+    if (description.name == name) return description.kind;
+  return ToneMap::srgb;
+}
+
+std::vector<std::string> tone_map_names() {
+  std::vector<std::string> names;
+  for (const ToneMapDescription& description : tone_maps) names.emplace_back(description.name);
+  return names;
+}
+
+Image to_look_at(const FinishedPicture& finished, const Display& display) {
+  const auto gain = static_cast<float>(std::exp2(display.exposure));
   Image picture = finished.image;
   for (Vec3<float>& pixel : picture.pixels) pixel *= gain;
+  if (display.tone_map != ToneMap::srgb)
+    for (Vec3<float>& pixel : picture.pixels)
+      pixel = tone_mapped(display.tone_map, pixel.cast<double>()).cast<float>();
   draw_labels(picture, finished.labels, finished.window, finished.resolution);
   return picture;
 }
 
 void write_picture(const std::vector<std::string>& outputs, const FinishedPicture& picture,
-                   double exposure) {
+                   const Display& display) {
   for (const std::string& output : outputs) {
     const auto bytes = keeps_planes(output)   ? encode_exr(picture.exr)
                        : keeps_floats(output) ? encode_image(picture.image, output)
-                                              : encode_image(to_look_at(picture, exposure), output);
+                                              : encode_image(to_look_at(picture, display), output);
     InterruptGuard::end_if_interrupted();
     write_file(output, bytes);
     InterruptGuard::end_if_interrupted();

@@ -2,9 +2,16 @@
 // A finished picture into the files that were asked for.
 #pragma once
 
+#include "renderer/image/tone_map.h"
 #include "renderer/share/part_file.h"
 
 namespace minkray {
+
+/// How light is shown by formats that keep no floats.
+struct Display {
+  double exposure = 0;  ///< in stops
+  ToneMap tone_map = ToneMap::srgb;
+};
 
 struct FinishedPicture {
   Image image;                ///< linear, as the scene is lit
@@ -15,13 +22,17 @@ struct FinishedPicture {
 };
 
 /// Encodes and writes to each of the paths: all there is to OpenEXR, the light to other formats
-/// that keep floats, and after `exposure` (in stops) and with labels to the rest. Ends the process
-/// early if it was interrupted.
+/// that keep floats, and as it is displayed, with labels, to the rest. Ends the process early if
+/// it was interrupted.
 void write_picture(const std::vector<std::string>& outputs, const FinishedPicture& picture,
-                   double exposure);
+                   const Display& display);
 
-/// What formats without floats show: after the exposure, with labels.
-Image to_look_at(const FinishedPicture& finished, double exposure);
+/// What formats without floats show, with labels.
+Image to_look_at(const FinishedPicture& finished, const Display& display);
+
+/// Of the list of tone maps that of this name.
+ToneMap tone_map_named(const std::string& name);
+std::vector<std::string> tone_map_names();
 
 /// Throws WrongUsage if the exposure is no usable number of stops.
 void check_exposure(double exposure);

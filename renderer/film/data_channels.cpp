@@ -9,6 +9,8 @@
 #include "renderer/film/heatmap.h"
 #include "renderer/film/pixel_loop.h"
 #include "renderer/light/camera.h"
+#include "renderer/light/inside.h"
+#include "renderer/light/scene_surfaces.h"
 
 namespace minkray {
 namespace {
@@ -21,6 +23,8 @@ struct Found {
   Ray<Real> ray;
   WorldHit<Real> hit;
   QueryCounts work;
+  Colour albedo = Colour::Zero(), emission = Colour::Zero();
+  double thickness = 0;
 
   bool any() const { return hit.found(); }
   double distance() const {
@@ -88,6 +92,12 @@ constexpr std::array<Filling, data_channels.size()> fillings = {{
        const bool is_hit = f.any() && f.hit.cast.status == Status::hit;
        put(planes[0], i, is_hit ? double(f.hit.cast.offset_hi - f.hit.cast.offset_lo) : 0.0);
      }},
+    {false, [](const Found& f, const Vec3<double>&, std::size_t i,
+               ExrPlane* planes) { put(planes, i, f.albedo); }},
+    {false, [](const Found& f, const Vec3<double>&, std::size_t i,
+               ExrPlane* planes) { put(planes, i, f.emission); }},
+    {false, [](const Found& f, const Vec3<double>&, std::size_t i,
+               ExrPlane* planes) { put(planes[0], i, f.thickness); }},
     {true, [](const Found& f, const Vec3<double>&, std::size_t i,
               ExrPlane* planes) { put(planes[0], i, status_of(f)); }},
 }};
@@ -154,12 +164,19 @@ std::vector<ExrPlane> measure_data_channels(const Scene& scene, const RenderWorl
     for (const char suffix : data_channels[i].planes) add(std::string(name) + "." + suffix);
   }
 
+  const auto is_wanted = [&](std::string_view name) {
+    return std::find(channels.begin(), channels.end(), name) != channels.end();
+  };
+  const bool wants_colours = is_wanted("albedo") || is_wanted("emission");
+  const SceneSurfaces surfaces(scene);
   RayCounts counts;
   for_pixels(region, counts, watch, [&](const Pixel& pixel, RayCounts& of_tile) {
     Found found{camera.ray(pixel.x + 0.5, pixel.y + 0.5), {}, {}};
     found.hit = world.closest_hit(found.ray, found.work);
     ++of_tile.camera;
     of_tile.work += found.work;
+    if (wants_colours) surfaces.describe(world, found.ray, found.hit, found.albedo, found.emission);
+    if (is_wanted("thickness")) found.thickness = length_within(world, found.ray, found.hit);
     for (const Wanted& channel : wanted)
       channel.put(found, forward, pixel.index, &planes[channel.first_plane]);
   });

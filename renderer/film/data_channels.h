@@ -32,6 +32,10 @@ inline constexpr std::array data_channels = {
     DataChannelDescription{"gjk.supports", "", "support points of all casts (integer)"},
     DataChannelDescription{"gjk.gap", "",
                            "the width of the interval that encloses the hit; 0 where none is"},
+    DataChannelDescription{"albedo", "RGB", "the colour of the surface's material, or 0"},
+    DataChannelDescription{"emission", "RGB", "what the surface shines by itself, or 0"},
+    DataChannelDescription{"thickness", "",
+                           "how far the ray would go on within the object; 0 where none is"},
     DataChannelDescription{"status", "",
                            "0 miss, 1 hit, 2 inside, 3 exhausted if any cast gave up (integer)"},
 };

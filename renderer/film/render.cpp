@@ -2,6 +2,7 @@
 #include "renderer/film/render.h"
 
 #include <array>
+#include <cmath>
 
 #include "renderer/film/pixel_loop.h"
 #include "renderer/image/filter.h"
@@ -28,15 +29,34 @@ bool is_on_the_move(const Scene& scene) {
                      [](const Object& object) { return !object.shift.isZero(0); });
 }
 
+/// With a limit to the noise a pixel is looked at after so many samples, and again and again: at
+/// the same samples however many rays go together.
+constexpr int samples_between_looks = 16;
+
+/// What is darker than this counts as noisy as this: a part of white.
+constexpr double least_brightness = 0.02;
+
 /// A pixel while its samples come in, in their order: the same additions however many come at once.
 struct PixelSum {
   Colour block = Colour::Zero();
   BlockTotal total;
   std::uint32_t met = 0;
+  int samples = 0;
+  bool is_done = false;
+  double mean = 0, deviations = 0;  ///< of the brightness (Welford 1962)
 
   void add(const TracedRay& ray) {
     block += ray.radiance;
     met += ray.met ? 1 : 0;
+    ++samples;
+    const double brightness = ray.radiance.mean(), off = brightness - mean;
+    mean += off / samples;
+    deviations += off * (brightness - mean);
+  }
+  /// Whether the standard error of its mean is small enough.
+  bool is_quiet(double noise) const {
+    const double n = samples;
+    return std::sqrt(deviations / (n * (n - 1))) <= noise * std::max(mean, least_brightness);
   }
   Vec3<float> end_block() {
     const Vec3<float> sum(block.cast<float>());
@@ -100,6 +120,7 @@ Rendering render(const Scene& scene, const RenderWorld& world, const RenderOptio
                             blocks.begin(end_block) - blocks.begin(first_block));
   // When nothing moves no random numbers are spent on when.
   const bool blurs = world.instances().move();
+  const int begin_sample = blocks.begin(first_block), end_sample = blocks.begin(end_block);
   const auto render_block = [&](const PixelBlock& pixels, RayCounts& counts) {
     std::array<PixelSum, most_in_packet> sums;
     std::array<TracedRay, most_in_packet> rays;
@@ -107,25 +128,37 @@ Rendering render(const Scene& scene, const RenderWorld& world, const RenderOptio
     int next = 0;
     for (int first = blocks.begin(first_block); first < end && !watch.stopped(); first = next) {
       next = std::min(first + group.samples, end);
+      if (options.noise > 0)
+        next = std::min(next, (first / samples_between_looks + 1) * samples_between_looks);
       std::size_t count = 0;
+      const PixelSum* asked = sums.data();
       pixels.for_each([&](const Pixel& pixel) {
+        if (asked++->is_done) return;
         for (int sample = first; sample < next; ++sample) {
           TracedRay& ray = rays[count++];
           ray.sampler = Sampler(options.seed, pixel.x, pixel.y, static_cast<std::uint32_t>(sample));
           const std::array<double, 2> u = ray.sampler.next();
           ray.ray =
               camera.ray(pixel.x + 0.5 + filter.offset(u[0]), pixel.y + 0.5 + filter.offset(u[1]));
+          if (camera.has_lens()) ray.ray = camera.through_lens(ray.ray, ray.sampler.next());
           ray.time = blurs ? ray.sampler.next()[0] : 0;
         }
       });
+      if (count == 0) break;
       integrator.trace(std::span(rays).first(count), counts);
       const TracedRay* ray = rays.data();
       PixelSum* sum = sums.data();
       pixels.for_each([&](const Pixel& pixel) {
+        if (sum->is_done) {
+          ++sum;
+          return;
+        }
+        const bool is_looked_at = options.noise > 0 && next % samples_between_looks == 0;
         for (int sample = first; sample < next; ++sample) {
           sum->add(*ray++);
+          if (is_looked_at && sample + 1 == next) sum->is_done = sum->is_quiet(options.noise);
           const int block = blocks.of(sample);
-          if (sample + 1 < blocks.begin(block + 1)) continue;
+          if (sample + 1 < blocks.begin(block + 1) && !sum->is_done) continue;
           const Vec3<float> of_block = sum->end_block();
           if (!options.sample_share.is_all())
             rendering.block_sums[static_cast<std::size_t>(block - first_block)]
@@ -137,8 +170,13 @@ Rendering render(const Scene& scene, const RenderWorld& world, const RenderOptio
     const PixelSum* sum = sums.data();
     pixels.for_each([&](const Pixel& pixel) {
       if (options.sample_share.is_all())
-        rendering.image.pixels[pixel.index] = sum->total.mean(options.samples);
-      rendering.met[pixel.index] = sum->met;
+        rendering.image.pixels[pixel.index] = sum->total.mean(std::max(sum->samples, 1));
+      // As if it had taken all samples.
+      rendering.met[pixel.index] =
+          sum->samples == 0
+              ? 0
+              : static_cast<std::uint32_t>(std::int64_t{sum->met} * (end_sample - begin_sample) /
+                                           sum->samples);
       ++sum;
     });
   };

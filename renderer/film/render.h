@@ -24,6 +24,9 @@ struct RenderOptions {
   Share sample_share;  ///< of each pixel: which share of its samples to render
   int samples = 16;    ///< of a pixel, all shares together
   std::uint64_t seed = 0;
+  /// A pixel takes no more samples when its standard error, over its brightness, is below this; 0:
+  /// all of them. Not with shares of the samples.
+  double noise = 0;
   IntegratorOptions integrator;
 
   /// What all tiles make together.

@@ -52,7 +52,7 @@ AmbientTransport::AmbientTransport(const Scene& scene, const RenderWorld& world,
       background_(scene.background.zenith, scene.background.nadir) {
   for (const Material& material : scene.materials) {
     surfaces_.emplace_back(material);
-    radiance_.push_back(radiance_of(material));
+    radiance_.push_back(radiance_of(scene, material));
   }
 }
 

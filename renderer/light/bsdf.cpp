@@ -4,6 +4,7 @@
 #include "renderer/light/coated_bsdf.h"
 #include "renderer/light/conductor_bsdf.h"
 #include "renderer/light/dielectric_bsdf.h"
+#include "renderer/light/principled_bsdf.h"
 
 namespace minkray {
 namespace {
@@ -25,17 +26,21 @@ struct Maker {
 
   const Material& material;
 
-  Made operator()(const LambertMaterial&) const {
-    return std::make_unique<CoatedBsdf>(Surface(material));
+  Made operator()(const LambertMaterial& matt) const {
+    return std::make_unique<CoatedBsdf>(Surface(material), matt.colour);
   }
-  Made operator()(const GlossyMaterial&) const {
-    return std::make_unique<CoatedBsdf>(Surface(material));
+  Made operator()(const GlossyMaterial& glossy) const {
+    return std::make_unique<CoatedBsdf>(Surface(material), glossy.colour);
   }
   Made operator()(const EmissiveMaterial&) const { return std::make_unique<BlackBsdf>(); }
   Made operator()(const DielectricMaterial& glass) const {
     return std::make_unique<DielectricBsdf>(glass.roughness, glass.index_of_refraction);
   }
   Made operator()(const ConductorMaterial& metal) const { return make_conductor(metal); }
+  Made operator()(const PrincipledMaterial& layers) const {
+    return std::make_unique<PrincipledBsdf>(layers);
+  }
+  Made operator()(const MixMaterial&) const { return std::make_unique<BlackBsdf>(); }
 };
 
 }  // namespace

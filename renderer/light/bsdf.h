@@ -11,6 +11,7 @@
 
 #include "renderer/light/frame.h"
 #include "renderer/light/reflection.h"
+#include "renderer/light/texture.h"
 
 namespace minkray {
 
@@ -18,7 +19,13 @@ namespace minkray {
 struct Shading {
   Vec3<double> w_out;                   ///< towards where the light goes; z != 0
   double eta_above = 1, eta_below = 1;  ///< indices of refraction outside and inside of the body
+  const TexturePoint* place = nullptr;  ///< for textures; none: their mean colours
 };
+
+/// The paint's colour there.
+inline Colour colour_of(const Paint& paint, const Shading& at) {
+  return at.place && paint.texture() ? paint_at(paint, *at.place) : paint.colour();
+}
 
 struct BsdfSample {
   Vec3<double> w_in;
@@ -52,6 +59,7 @@ class Bsdf {
   virtual bool has_grain() const { return false; }
 };
 
+/// Of a material by itself, which is no mixture.
 std::unique_ptr<const Bsdf> make_bsdf(const Material& material);
 
 }  // namespace minkray

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/light/camera.h"
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 
 namespace minkray {
@@ -34,10 +36,54 @@ Camera::Camera(const CameraDescription& description, const Resolution& resolutio
   const double pixel = 2 * half_height / resolution.height;
   right_ = pixel * right;
   down_ = pixel * down;
+
+  for (std::size_t i = 0; i < CameraTypes::names.size(); ++i)
+    if (CameraTypes::names[i] == description.type.name) type_ = static_cast<Type>(i);
+  unit_right_ = right;
+  unit_down_ = down;
+  const double to_look_at = (description.look_at - description.position).norm();
+  lens_radius_ = description.aperture / 2;
+  focus_ = description.focus > 0 ? description.focus : to_look_at;
+  const double field = description.fov_y_degrees * std::numbers::pi / 180;
+  if (type_ == Type::orthographic) scale_ = pixel * to_look_at;
+  if (type_ == Type::fisheye) scale_ = field / resolution.height;
+  if (type_ == Type::equisolid) scale_ = 2 * std::sin(field / 4) / resolution.height;
+}
+
+// Fisheyes: the angle to the axis is proportional to the distance from the middle (equidistant), or
+// twice its sine of half is (equisolid angle). Beyond all directions the last one is seen.
+Ray<double> Camera::other_ray(double x, double y) const {
+  constexpr double pi = std::numbers::pi;
+  const double right = x - centre_.x(), down = y - centre_.y();
+  if (type_ == Type::orthographic)
+    return {position_ + scale_ * (right * unit_right_ + down * unit_down_), forward_};
+  if (type_ == Type::panorama) {
+    const double longitude = pi * right / centre_.x(), latitude = pi / 2 * down / centre_.y();
+    const Vec3<double> level = std::cos(longitude) * forward_ + std::sin(longitude) * unit_right_;
+    return {position_, unit<double>(std::cos(latitude) * level + std::sin(latitude) * unit_down_)};
+  }
+  const double distance = std::hypot(right, down);
+  if (!(distance > 0)) return {position_, forward_};
+  const double angle = type_ == Type::fisheye ? std::min(scale_ * distance, pi)
+                                              : 2 * std::asin(std::min(scale_ * distance, 1.0));
+  const Vec3<double> outwards = (right * unit_right_ + down * unit_down_) / distance;
+  return {position_, unit<double>(std::cos(angle) * forward_ + std::sin(angle) * outwards)};
+}
+
+Ray<double> Camera::through_lens(const Ray<double>& ray, const std::array<double, 2>& u) const {
+  const double radius = lens_radius_ * std::sqrt(u[0]), angle = 2 * std::numbers::pi * u[1];
+  const Vec3<double> sharp = ray.at(focus_ / ray.direction.dot(forward_));
+  const Vec3<double> origin =
+      ray.origin + radius * (std::cos(angle) * unit_right_ + std::sin(angle) * unit_down_);
+  return {origin, unit<double>(sharp - origin)};
 }
 
 std::optional<Eigen::Vector2d> Camera::project(const Vec3<double>& point) const {
   const Vec3<double> offset = point - position_;
+  if (type_ == Type::orthographic)
+    return Eigen::Vector2d(
+        centre_ + Eigen::Vector2d(offset.dot(unit_right_), offset.dot(unit_down_)) / scale_);
+  if (type_ != Type::perspective) return std::nullopt;
   const double depth = offset.dot(forward_);
   if (!(depth > 0)) return std::nullopt;
   const double pixel_squared = right_.squaredNorm();

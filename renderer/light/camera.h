@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The perspective camera: pixels to rays, and points of the world back to pixels.
+// Cameras: pixels to rays, and points of the world back to pixels.
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "core/math/ray.h"
@@ -15,16 +16,33 @@ class Camera {
  public:
   Camera(const CameraDescription& description, const Resolution& resolution);
 
-  /// The ray of unit direction through a point of the image.
+  /// The ray of unit direction through a point of the image, and the middle of the lens.
   Ray<double> ray(double x, double y) const {
-    return {position_,
-            unit<double>(forward_ + (x - centre_.x()) * right_ + (y - centre_.y()) * down_)};
+    if (type_ == Type::perspective)
+      return {position_,
+              unit<double>(forward_ + (x - centre_.x()) * right_ + (y - centre_.y()) * down_)};
+    return other_ray(x, y);
   }
 
-  /// Where a point is seen; nothing if it lies behind the camera.
+  /// Whether rays through other places of the lens differ: it has a size.
+  bool has_lens() const { return lens_radius_ > 0; }
+  /// The ray to where a ray through the lens's middle is in focus, through a place of the lens
+  /// drawn by two numbers.
+  Ray<double> through_lens(const Ray<double>& ray, const std::array<double, 2>& u) const;
+
+  /// Where a point is seen; nothing if it lies behind the camera, or of cameras that are neither
+  /// perspective nor orthographic.
   std::optional<Eigen::Vector2d> project(const Vec3<double>& point) const;
 
  private:
+  enum class Type : unsigned char { perspective, orthographic, fisheye, equisolid, panorama };
+
+  Ray<double> other_ray(double x, double y) const;
+
+  Type type_ = Type::perspective;
+  double lens_radius_ = 0, focus_ = 1;
+  double scale_ = 1;  ///< a pixel: orthographic, in lengths; fisheyes, in radians
+  Vec3<double> unit_right_, unit_down_;
   Vec3<double> position_;
   Vec3<double> forward_;  ///< of unit length
   Vec3<double> right_;    ///< a step of one pixel on the plane at distance 1

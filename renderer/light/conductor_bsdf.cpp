@@ -51,11 +51,20 @@ ConductorBsdf::ConductorBsdf(const MetalFresnel& fresnel, double roughness, doub
   kept_ = KeptEnergy::of_mirror(*rough_);
 }
 
-Colour ConductorBsdf::weight(const Vec3<double>& w_out, const Vec3<double>& w_in,
-                             double cosine) const {
-  const double kept = (*kept_)(w_out);
-  const Colour put_back = Colour::Ones() + (1 / kept - 1) * fresnel_.straight_ahead();
-  return rough_->shadowing(w_out, w_in) * fresnel_(cosine).cwiseProduct(put_back);
+ConductorBsdf::ConductorBsdf(const Paint& colour, double roughness, double anisotropy)
+    : ConductorBsdf(MetalFresnel(colour.colour()), roughness, anisotropy) {
+  colour_ = colour;
+}
+
+MetalFresnel ConductorBsdf::fresnel(const Shading& at) const {
+  return colour_ ? MetalFresnel(colour_of(*colour_, at)) : fresnel_;
+}
+
+Colour ConductorBsdf::weight(const Shading& at, const Vec3<double>& w_in, double cosine) const {
+  const MetalFresnel fresnel = this->fresnel(at);
+  const double kept = (*kept_)(at.w_out);
+  const Colour put_back = Colour::Ones() + (1 / kept - 1) * fresnel.straight_ahead();
+  return rough_->shadowing(at.w_out, w_in) * fresnel(cosine).cwiseProduct(put_back);
 }
 
 double ConductorBsdf::pdf(const Shading& at, const Vec3<double>& w_in) const {
@@ -68,28 +77,30 @@ Colour ConductorBsdf::eval(const Shading& at, const Vec3<double>& w_in) const {
   const double density = pdf(at, w_in);
   if (!(density > 0)) return Colour::Zero();
   const Vec3<double> m = (at.w_out + w_in).normalized();
-  return density * weight(at.w_out, w_in, m.dot(w_in));
+  return density * weight(at, w_in, m.dot(w_in));
 }
 
 std::optional<BsdfSample> ConductorBsdf::sample(const Shading& at, const BsdfChoice& choice) const {
   const Vec3<double>& w_out = at.w_out;
   if (!(w_out.z() > 0)) return std::nullopt;
-  if (!rough_) return BsdfSample{{-w_out.x(), -w_out.y(), w_out.z()}, fresnel_(w_out.z()), 0, true};
+  if (!rough_)
+    return BsdfSample{{-w_out.x(), -w_out.y(), w_out.z()}, fresnel(at)(w_out.z()), 0, true};
   const Vec3<double> m = rough_->visible_normal(w_out, choice.u);
   const Vec3<double> w_in = 2 * m.dot(w_out) * m - w_out;
   const double density = pdf(at, w_in);
   if (!(w_in.z() > 0) || !(density > 0)) return std::nullopt;
-  return BsdfSample{w_in, weight(w_out, w_in, m.dot(w_in)), density, false};
+  return BsdfSample{w_in, weight(at, w_in, m.dot(w_in)), density, false};
 }
 
 std::unique_ptr<const Bsdf> make_conductor(const ConductorMaterial& material) {
   const auto metal = std::find_if(metals.begin(), metals.end(), [&](const Metal& known) {
     return known.name == material.metal.name;
   });
-  const MetalFresnel fresnel = metal != metals.end()
-                                   ? MetalFresnel(*metal)
-                                   : MetalFresnel(material.colour.value_or(Colour::Ones()));
-  return std::make_unique<ConductorBsdf>(fresnel, material.roughness, material.anisotropy);
+  if (metal != metals.end())
+    return std::make_unique<ConductorBsdf>(MetalFresnel(*metal), material.roughness,
+                                           material.anisotropy);
+  return std::make_unique<ConductorBsdf>(material.colour.value_or(Colour::Ones()),
+                                         material.roughness, material.anisotropy);
 }
 
 }  // namespace minkray

@@ -28,7 +28,9 @@ class MetalFresnel {
 
 class ConductorBsdf final : public Bsdf {
  public:
+  /// Of a metal by its table, or of a colour.
   ConductorBsdf(const MetalFresnel& fresnel, double roughness, double anisotropy);
+  ConductorBsdf(const Paint& colour, double roughness, double anisotropy);
 
   Colour eval(const Shading& at, const Vec3<double>& w_in) const override;
   double pdf(const Shading& at, const Vec3<double>& w_in) const override;
@@ -37,9 +39,11 @@ class ConductorBsdf final : public Bsdf {
   bool has_grain() const override { return rough_ && rough_->alpha_x != rough_->alpha_y; }
 
  private:
-  Colour weight(const Vec3<double>& w_out, const Vec3<double>& w_in, double cosine) const;
+  Colour weight(const Shading& at, const Vec3<double>& w_in, double cosine) const;
+  MetalFresnel fresnel(const Shading& at) const;
 
   MetalFresnel fresnel_;
+  std::optional<Paint> colour_;
   std::optional<Microfacets> rough_;
   std::optional<KeptEnergy> kept_;
 };

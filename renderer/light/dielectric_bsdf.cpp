@@ -43,7 +43,8 @@ double fresnel_either_way(double cosine, double eta) {
   return (across * across + along * along) / 2;
 }
 
-DielectricBsdf::DielectricBsdf(double roughness, double index_of_refraction) {
+DielectricBsdf::DielectricBsdf(double roughness, double index_of_refraction, const Paint& tint)
+    : tint_(tint) {
   const double alpha = Microfacets::alpha_of(roughness);
   if (alpha < Microfacets::smallest_alpha) return;
   rough_ = Microfacets{alpha, alpha};
@@ -88,7 +89,9 @@ std::optional<DielectricBsdf::Parts> DielectricBsdf::parts(const Shading& at,
 
 Colour DielectricBsdf::eval(const Shading& at, const Vec3<double>& w_in) const {
   const auto p = parts(at, w_in);
-  return Colour::Constant(p ? p->value : 0);
+  if (!p) return Colour::Zero();
+  const bool mirrors = (at.w_out.z() > 0) == (w_in.z() > 0);
+  return mirrors ? Colour(Colour::Constant(p->value)) : Colour(p->value * through(at));
 }
 
 double DielectricBsdf::pdf(const Shading& at, const Vec3<double>& w_in) const {
@@ -100,7 +103,7 @@ std::optional<BsdfSample> DielectricBsdf::sample(const Shading& at,
                                                  const BsdfChoice& choice) const {
   const Seen seen(at);
   // Between equal media there is no boundary, however rough.
-  if (seen.eta == 1) return BsdfSample{-at.w_out, Colour::Ones(), 0, true};
+  if (seen.eta == 1) return BsdfSample{-at.w_out, through(at), 0, true};
   const Vec3<double> m =
       rough_ ? rough_->visible_normal(seen.w_out, choice.u) : Vec3<double>(Vec3<double>::UnitZ());
   const double c = m.dot(seen.w_out);
@@ -110,12 +113,13 @@ std::optional<BsdfSample> DielectricBsdf::sample(const Shading& at,
                                 ? Vec3<double>(2 * c * m - seen.w_out)
                                 : refracted(seen.w_out, m, seen.eta, cosine_beyond(c, seen.eta));
   if ((w_in.z() > 0) != mirrors || w_in.z() == 0) return std::nullopt;
-  const double gathered = mirrors ? 1 : 1 / (seen.eta * seen.eta);
-  if (!rough_) return BsdfSample{seen.back(w_in), Colour::Constant(gathered), 0, true};
+  const Colour gathered =
+      mirrors ? Colour(Colour::Ones()) : Colour(through(at) / (seen.eta * seen.eta));
+  if (!rough_) return BsdfSample{seen.back(w_in), gathered, 0, true};
   const double shown = rough_->shadowing(seen.w_out, w_in) / (*kept_)(seen.w_out, seen.eta);
   const double density = pdf(at, seen.back(w_in));
   if (!(density > 0)) return std::nullopt;
-  return BsdfSample{seen.back(w_in), Colour::Constant(gathered * shown), density, false};
+  return BsdfSample{seen.back(w_in), gathered * shown, density, false};
 }
 
 }  // namespace minkray

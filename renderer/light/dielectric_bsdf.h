@@ -17,7 +17,8 @@ double fresnel_either_way(double cosine, double eta);
 
 class DielectricBsdf final : public Bsdf {
  public:
-  DielectricBsdf(double roughness, double index_of_refraction);
+  /// What is let through at each boundary is dimmed to the root of `tint`: twice, to its colour.
+  DielectricBsdf(double roughness, double index_of_refraction, const Paint& tint = Colour::Ones());
 
   Colour eval(const Shading& at, const Vec3<double>& w_in) const override;
   double pdf(const Shading& at, const Vec3<double>& w_in) const override;
@@ -29,6 +30,9 @@ class DielectricBsdf final : public Bsdf {
   struct Parts;
   std::optional<Parts> parts(const Shading& at, const Vec3<double>& w_in) const;
 
+  Colour through(const Shading& at) const { return colour_of(tint_, at).cwiseSqrt(); }
+
+  Paint tint_;
   std::optional<Microfacets> rough_;
   std::optional<KeptEnergy> kept_;
 };

@@ -120,6 +120,14 @@ Real rounding_at(const RenderWorld& world, std::uint32_t instance, const Vec3<Re
   return surface_offset * tolerance::epsilon<Real> * largest;
 }
 
+Real length_within(const RenderWorld& world, const Ray<Real>& ray, const WorldHit<Real>& hit) {
+  if (!hit.found()) return 0;
+  QueryCounts counts;
+  const Boundary exit = exit_of(world, {ray}, hit.instance, counts);
+  const Real entry = hit.cast.status == Status::hit ? hit.cast.t() : Real(0);
+  return exit.is_lost ? Real(0) : std::max(exit.t - entry, Real(0));
+}
+
 Boundary next_boundary(const RenderWorld& world, const WorldRay<Real>& ray, const Inside& inside,
                        QueryCounts& counts) {
   Boundary next;

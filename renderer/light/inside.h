@@ -47,6 +47,9 @@ struct Boundary {
 Boundary next_boundary(const RenderWorld& world, const WorldRay<Real>& ray, const Inside& inside,
                        QueryCounts& counts);
 
+/// How far a ray goes within the body that it has met, or begins in; 0 where it met none.
+Real length_within(const RenderWorld& world, const Ray<Real>& ray, const WorldHit<Real>& hit);
+
 /// A hit of the world as the boundary that it is.
 Boundary boundary_of(const WorldHit<Real>& hit);
 

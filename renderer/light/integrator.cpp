@@ -32,9 +32,15 @@ std::unique_ptr<const LightTransport> transport(const Scene& scene, const Render
 IntegratorKind settled(IntegratorKind kind, const Scene& scene) {
   if (kind != IntegratorKind::automatic) return kind;
   const bool wants_paths =
-      std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& material) {
-        return !std::holds_alternative<LambertMaterial>(material.kind) &&
-               !std::holds_alternative<GlossyMaterial>(material.kind);
+      std::any_of(scene.materials.begin(), scene.materials.end(),
+                  [](const Material& material) {
+                    return has_texture(material) ||
+                           (!std::holds_alternative<LambertMaterial>(material.kind) &&
+                            !std::holds_alternative<GlossyMaterial>(material.kind));
+                  }) ||
+      std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
+        return std::holds_alternative<ImageSkyLight>(light) ||
+               std::holds_alternative<SunSkyLight>(light);
       });
   return wants_paths ? IntegratorKind::path : IntegratorKind::ambient;
 }

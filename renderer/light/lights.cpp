@@ -4,6 +4,9 @@
 #include <limits>
 #include <numbers>
 
+#include "renderer/light/sky_image.h"
+#include "renderer/light/sun_sky.h"
+
 namespace minkray {
 
 DirectionalSource::DirectionalSource(const DirectionalLight& light)
@@ -70,7 +73,16 @@ Lights::Lights(const std::vector<Light>& lights) {
       narrow_.emplace_back(PointSource(*lamp));
   for (const Light& light : lights)
     if (const auto* sky = std::get_if<EnvironmentLight>(&light))
-      environments_.emplace_back(sky->zenith, sky->nadir);
+      environments_.push_back(std::make_unique<EnvironmentSource>(sky->zenith, sky->nadir));
+  for (const Light& light : lights) {
+    if (const auto* sky = std::get_if<ImageSkyLight>(&light))
+      environments_.push_back(std::make_unique<SkyImage>(
+          sky->picture.image, sky->strength, sky->rotate_degrees * std::numbers::pi / 180));
+    if (const auto* day = std::get_if<SunSkyLight>(&light)) {
+      environments_.push_back(std::make_unique<SkyImage>(sky_of(*day), day->strength, 0.0));
+      environments_.push_back(std::make_unique<SunDisk>(*day));
+    }
+  }
 }
 
 std::optional<LightSample> Lights::sample(std::size_t light, const Vec3<double>& point,
@@ -81,7 +93,7 @@ std::optional<LightSample> Lights::sample(std::size_t light, const Vec3<double>&
 
 Colour Lights::environment(const Vec3<double>& direction) const {
   Colour sum = Colour::Zero();
-  for (const EnvironmentSource& source : environments_) sum += source.eval(direction);
+  for (const auto& source : environments_) sum += source->eval(direction);
   return sum;
 }
 

@@ -4,6 +4,7 @@
 // drawn surely, and has no density.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <variant>
 #include <vector>
@@ -18,6 +19,20 @@ struct LightSample {
   Vec3<double> direction;  ///< towards the light, of unit length
   double distance;         ///< infinite for lights that are infinitely far
   Colour weight;           ///< the irradiance on a surface that faces it: radiance / pdf
+};
+
+/// Light from all around, of any kind.
+class SkySource {
+ public:
+  virtual ~SkySource() = default;
+
+  /// The radiance from a direction of unit length.
+  virtual Colour eval(const Vec3<double>& direction) const = 0;
+  virtual std::optional<LightSample> sample(const Vec3<double>& point, Sampler& sampler) const = 0;
+  virtual double pdf(const Vec3<double>& point, const Vec3<double>& direction) const = 0;
+  /// Whether it is worth a ray of its own: not if it is about as bright everywhere, when what
+  /// surfaces draw finds it as well.
+  virtual bool is_asked() const = 0;
 };
 
 class DirectionalSource {
@@ -46,16 +61,17 @@ class PointSource {
 };
 
 /// A vertical gradient all around.
-class EnvironmentSource {
+class EnvironmentSource final : public SkySource {
  public:
   EnvironmentSource(const Colour& zenith, const Colour& nadir);
 
   /// The radiance from a direction of unit length.
-  Colour eval(const Vec3<double>& direction) const;
+  Colour eval(const Vec3<double>& direction) const override;
 
   /// Drawn as bright as the gradient is there, the mean of its colours; nothing if it is black.
-  std::optional<LightSample> sample(const Vec3<double>& point, Sampler& sampler) const;
-  double pdf(const Vec3<double>& point, const Vec3<double>& direction) const;
+  std::optional<LightSample> sample(const Vec3<double>& point, Sampler& sampler) const override;
+  double pdf(const Vec3<double>& point, const Vec3<double>& direction) const override;
+  bool is_asked() const override { return false; }
 
  private:
   Colour zenith_, nadir_;
@@ -73,13 +89,14 @@ class Lights {
   std::optional<LightSample> sample(std::size_t light, const Vec3<double>& point,
                                     Sampler& sampler) const;
 
-  /// What comes from all around is found by rays that leave the scene.
+  /// What comes from all around is found by rays that leave the scene, and some of it is asked for.
+  const std::vector<std::unique_ptr<const SkySource>>& skies() const { return environments_; }
   bool has_environment() const { return !environments_.empty(); }
   Colour environment(const Vec3<double>& direction) const;
 
  private:
   std::vector<std::variant<DirectionalSource, PointSource>> narrow_;
-  std::vector<EnvironmentSource> environments_;
+  std::vector<std::unique_ptr<const SkySource>> environments_;
 };
 
 }  // namespace minkray

@@ -52,6 +52,7 @@ struct PathTransport::Point {
   const Bsdf* bsdf;
   std::uint32_t instance;
   Inside above, below;  ///< what holds the places beside the surface
+  TexturePoint place;   ///< which `shading` refers to
 
   /// A ray that goes from here; what holds it is `inside(w)`.
   Ray<Real> ray(const Vec3<double>& w, const Vec3<double>& direction) const {
@@ -102,6 +103,7 @@ class PathTransport::Packet {
         if (paths_[i].goes_on) arrive(i);
       }
       for (std::size_t light = 0; light < of_.lights_.count(); ++light) ask_light(light);
+      for (const auto& sky : of_.lights_.skies()) ask_sky(*sky);
       if (!of_.emitters_.none()) ask_emitters();
       for (std::size_t i = 0; i < rays_.size(); ++i)
         if (points_[i]) scatter(paths_[i], *points_[i]);
@@ -171,7 +173,7 @@ class PathTransport::Packet {
     const bool is_first = path.depth == 0 && path.passages == 0;
     if (is_first) rays_[i].met = at.instance != no_instance;
     if (at.is_lost || at.instance == no_instance) {
-      if (!at.is_lost && path.inside.none()) path.radiance += off_surface(path);
+      if (!at.is_lost && path.inside.none()) gather(path, off_surface(path), path.depth);
       path.goes_on = false;
       return;
     }
@@ -219,7 +221,22 @@ class PathTransport::Packet {
     z = at.leaves ? std::min(z, -least) : std::max(z, least);
     points_[i].emplace(Point{position, rounding_at(of_.world_, at.instance, position, at.t), frame,
                              shading, material.bsdf.get(), at.instance,
-                             at.leaves ? beyond : path.inside, at.leaves ? path.inside : beyond});
+                             at.leaves ? beyond : path.inside, at.leaves ? path.inside : beyond,
+                             TexturePoint()});
+    if (!of_.surfaces_.has_textures()) return;
+    points_[i]->place =
+        of_.surfaces_.place(of_.world_, at.instance, position, at.normal, path.time);
+    points_[i]->shading.place = &points_[i]->place;
+  }
+
+  /// Adds light that was scattered so often; what the camera sees directly and what is lit directly
+  /// is never limited.
+  void gather(Path& path, const Colour& light, int depth) const {
+    const double most = of_.options_.clamp, brightest = light.maxCoeff();
+    if (most > 0 && depth > 1 && !path.only_sharp && brightest > most)
+      path.radiance += most / brightest * light;
+    else
+      path.radiance += light;
   }
 
   /// Goes on through a boundary that does not count, if it can.
@@ -234,8 +251,16 @@ class PathTransport::Packet {
     counts_.background += path.depth == 0 ? 1 : 0;
     const bool sees_background =
         path.only_sharp && (path.depth == 0 || !of_.lights_.has_environment());
-    const Colour light = sees_background ? of_.background_.eval(path.ray.direction)
-                                         : of_.lights_.environment(path.ray.direction);
+    if (sees_background && !of_.background_is_sky_)
+      return path.throughput.cwiseProduct(of_.background_.eval(path.ray.direction));
+    Colour light = Colour::Zero();
+    for (const auto& sky : of_.lights_.skies()) {
+      const Colour radiance = sky->eval(path.ray.direction);
+      const bool was_asked = sky->is_asked() && !path.is_sharp && path.is_straight;
+      const double part =
+          was_asked ? share(path.pdf, sky->pdf(path.from, path.ray.direction)) : 1.0;
+      light += part * radiance;
+    }
     return path.throughput.cwiseProduct(light);
   }
 
@@ -245,7 +270,7 @@ class PathTransport::Packet {
     if (!path.is_sharp && path.is_straight)
       part =
           share(path.pdf, of_.emitters_.pdf(path.from, path.time, path.ray.direction, at.instance));
-    path.radiance += part * path.throughput.cwiseProduct(material.radiance);
+    gather(path, part * path.throughput.cwiseProduct(material.radiance), path.depth);
   }
 
   /// Light from the only direction of a light, to all paths' ends.
@@ -265,6 +290,11 @@ class PathTransport::Packet {
       shadows.add({ray, point.instance, paths_[i].time},
                   {i, sample->weight.cwiseProduct(reflected), no_instance});
     }
+    ask(shadows);
+  }
+
+  /// Adds what arrives where nothing is in the way.
+  void ask(const ShadowRays& shadows) {
     counts_.shadow += shadows.count;
     const RayGroupMask blocked = of_.world_.occluded(shadows.asked(), counts_.work);
     for (std::size_t k = 0; k < shadows.count; ++k) {
@@ -274,6 +304,27 @@ class PathTransport::Packet {
                                         answer);
       if (!answer) add(shadows.arriving[k]);
     }
+  }
+
+  /// Light from all around, where it is bright.
+  void ask_sky(const SkySource& sky) {
+    if (!sky.is_asked()) return;
+    ShadowRays shadows;
+    for (std::size_t i = 0; i < rays_.size(); ++i) {
+      if (!points_[i] || points_[i]->bsdf->is_sharp()) continue;
+      const Point& point = *points_[i];
+      const auto sample = sky.sample(point.position, paths_[i].sampler);
+      if (!sample) continue;
+      const Vec3<double> w = point.frame.to_local(sample->direction);
+      if (!point.inside(w).none()) continue;
+      const Colour reflected = point.bsdf->eval(point.shading, w);
+      const double density = sky.pdf(point.position, sample->direction);
+      if (!(reflected.maxCoeff() > 0) || !(density > 0)) continue;
+      const double part = share(density, point.bsdf->pdf(point.shading, w));
+      shadows.add({point.ray(w, sample->direction), point.instance, paths_[i].time},
+                  {i, part * sample->weight.cwiseProduct(reflected), no_instance});
+    }
+    ask(shadows);
   }
 
   /// Light from one shining body for each path's end, drawn at random. Whether the body is met, and
@@ -322,7 +373,7 @@ class PathTransport::Packet {
 
   void add(const Arriving& arriving) {
     Path& path = paths_[arriving.path];
-    path.radiance += path.throughput.cwiseProduct(arriving.light);
+    gather(path, path.throughput.cwiseProduct(arriving.light), path.depth + 1);
   }
 
   /// Draws the direction in which the path goes on, or ends it.
@@ -372,7 +423,8 @@ PathTransport::PathTransport(const Scene& scene, const RenderWorld& world,
       surfaces_(scene),
       emitters_(world, surfaces_.radiances()),
       lights_(scene.lights),
-      background_(scene.background.zenith, scene.background.nadir) {}
+      background_(scene.background.zenith, scene.background.nadir),
+      background_is_sky_(scene.background_is_sky) {}
 
 void PathTransport::trace(std::span<TracedRay> rays, RayCounts& counts) const {
   counts.camera += rays.size();

@@ -34,6 +34,7 @@ class PathTransport final : public LightTransport {
   Emitters emitters_;
   Lights lights_;
   EnvironmentSource background_;
+  bool background_is_sky_;
 };
 
 }  // namespace minkray

@@ -22,17 +22,23 @@ double eta_of(const GlossyMaterial& glossy) {
 
 /// The bases of all kinds of materials.
 struct BaseOf {
-  DiffuseBase operator()(const LambertMaterial& matt) const { return DiffuseBase(matt.colour); }
+  DiffuseBase operator()(const LambertMaterial& matt) const {
+    return DiffuseBase(matt.colour.colour());
+  }
   DiffuseBase operator()(const GlossyMaterial& glossy) const {
-    return {glossy.colour, eta_of(glossy)};
+    return {glossy.colour.colour(), eta_of(glossy)};
   }
   DiffuseBase operator()(const EmissiveMaterial&) const { return DiffuseBase(Colour::Zero()); }
   DiffuseBase operator()(const DielectricMaterial&) const {
     return DiffuseBase(Colour::Constant(0.9));
   }
   DiffuseBase operator()(const ConductorMaterial& metal) const {
-    return DiffuseBase(metal.colour.value_or(Colour::Constant(0.6)));
+    return DiffuseBase(metal.colour.value_or(Colour::Constant(0.6)).colour());
   }
+  DiffuseBase operator()(const PrincipledMaterial& layers) const {
+    return DiffuseBase(layers.colour.colour());
+  }
+  DiffuseBase operator()(const MixMaterial&) const { return DiffuseBase(Colour::Constant(0.5)); }
 };
 
 std::optional<Coat> coat_of(const Material& material) {

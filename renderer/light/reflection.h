@@ -50,6 +50,11 @@ class DiffuseBase {
   DiffuseBase(const Colour& colour, double eta);
 
   const Colour& colour() const { return colour_; }
+  DiffuseBase recoloured(const Colour& colour) const {
+    DiffuseBase other = *this;
+    other.colour_ = colour;
+    return other;
+  }
 
   /// Reflected radiance per irradiance of light from w_in (z > 0).
   Colour eval(const Vec3<double>& w_out, const Vec3<double>& w_in) const;
@@ -102,6 +107,12 @@ class Surface {
   /// Reflected radiance per irradiance of light from w_in by both, the coat taken to be at least as
   /// rough as least_alpha.
   Colour eval(const Vec3<double>& w_out, const Vec3<double>& w_in, double least_alpha = 0) const;
+  /// The same with another colour of its base.
+  Surface recoloured(const Colour& colour) const {
+    Surface other = *this;
+    other.base_ = base_.recoloured(colour);
+    return other;
+  }
   /// The chance to go on with the coat where one of the two is drawn: its part of what both
   /// reflect.
   double chance_of_coat(const Vec3<double>& w_out) const;

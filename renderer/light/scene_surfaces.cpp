@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/light/scene_surfaces.h"
 
+#include "renderer/light/conductor_bsdf.h"
+#include "renderer/light/mix_bsdf.h"
 #include "renderer/scene/scene_instances.h"
 
 namespace minkray {
@@ -14,21 +16,100 @@ std::vector<std::uint32_t> material_of_instance(const Scene& scene) {
   return of_instance;
 }
 
-Colour radiance_of(const Material& material) {
-  const auto* emissive = std::get_if<EmissiveMaterial>(&material.kind);
-  return emissive ? emissive->radiance : Colour(Colour::Zero());
+Colour radiance_of(const Scene& scene, const Material& material) {
+  if (const auto* emissive = std::get_if<EmissiveMaterial>(&material.kind))
+    return emissive->radiance;
+  if (const auto* mix = std::get_if<MixMaterial>(&material.kind)) {
+    const auto of = [&](std::size_t i) -> Colour {
+      return radiance_of(scene, scene.materials[mix->materials[i].index]);
+    };
+    return (1 - mix->amount) * of(0) + mix->amount * of(1);
+  }
+  return Colour::Zero();
 }
+
+namespace {
+
+/// What fills a body of the material; of a mixture its second part's, if that lets light through.
+Medium medium_of(const Scene& scene, const Material& material) {
+  if (const auto* glass = std::get_if<DielectricMaterial>(&material.kind))
+    return {glass->index_of_refraction, glass->absorption, glass->priority};
+  if (const auto* layers = std::get_if<PrincipledMaterial>(&material.kind))
+    return {layers->index_of_refraction, Colour::Zero(), 0};
+  if (const auto* mix = std::get_if<MixMaterial>(&material.kind)) {
+    const Medium second = medium_of(scene, scene.materials[mix->materials[1].index]);
+    return second.eta != 1 ? second : medium_of(scene, scene.materials[mix->materials[0].index]);
+  }
+  return {};
+}
+
+/// What a material is told by: metals have what they mirror straight ahead, glass is white.
+Paint paint_of(const Scene& scene, const Material& material) {
+  if (const auto* metal = std::get_if<ConductorMaterial>(&material.kind)) {
+    for (const Metal& known : metals)
+      if (known.name == metal->metal.name) return MetalFresnel(known).straight_ahead();
+    return metal->colour.value_or(Colour::Ones());
+  }
+  if (const auto* mix = std::get_if<MixMaterial>(&material.kind)) {
+    const auto of = [&](std::size_t i) {
+      return paint_of(scene, scene.materials[mix->materials[i].index]).colour();
+    };
+    return (1 - mix->amount) * of(0) + mix->amount * of(1);
+  }
+  if (std::holds_alternative<DielectricMaterial>(material.kind)) return Colour::Ones();
+  return std::visit(
+      []<class M>(const M& kind) -> Paint {
+        if constexpr (!std::is_same_v<M, ConductorMaterial> && requires { Paint(kind.colour); })
+          return kind.colour;
+        else
+          return Colour::Zero();
+      },
+      material.kind);
+}
+
+}  // namespace
 
 SceneSurfaces::SceneSurfaces(const Scene& scene) : of_instance_(material_of_instance(scene)) {
   for (const Material& material : scene.materials) {
-    PreparedMaterial& made = materials_.emplace_back();
-    made.bsdf = make_bsdf(material);
-    made.radiance = radiance_of(material);
-    if (const auto* glass = std::get_if<DielectricMaterial>(&material.kind))
-      made.inside = {glass->index_of_refraction, glass->absorption, glass->priority};
+    PreparedMaterial made;
+    if (const auto* mix = std::get_if<MixMaterial>(&material.kind))
+      made.bsdf = std::make_unique<MixBsdf>(*materials_[mix->materials[0].index].bsdf,
+                                            *materials_[mix->materials[1].index].bsdf, mix->amount);
+    else
+      made.bsdf = make_bsdf(material);
+    made.radiance = radiance_of(scene, material);
+    made.colour = paint_of(scene, material);
+    made.inside = medium_of(scene, material);
+    materials_.push_back(std::move(made));
+    has_textures_ = has_textures_ || has_texture(material);
   }
-  for (const Object& object : scene.objects)
+  for (const Object& object : scene.objects) {
     axes_.push_back(unit<double>(object.pose.linear * Vec3<double>::UnitZ()));
+    const Mat3<double> linear = inverse_of(object.pose.linear);
+    to_object_.push_back({linear, -(linear * object.pose.translation)});
+  }
+}
+
+TexturePoint SceneSurfaces::place(const RenderWorld& world, std::uint32_t instance,
+                                  const Vec3<Real>& point, const Vec3<Real>& normal,
+                                  Real time) const {
+  const Instances<Real>& instances = world.instances();
+  const Vec3<Real> at_rest = instances.seen_by(instance, {point, normal}, time).origin;
+  if (instance >= to_object_.size()) return {at_rest - instances.at(instance).centre(), normal};
+  const Affine<double>& to_object = to_object_[instance];
+  // Normals go by the transposed inverse of the map.
+  return {to_object(at_rest), unit<double>(inverse_of(to_object.linear).transpose() * normal)};
+}
+
+void SceneSurfaces::describe(const RenderWorld& world, const Ray<Real>& ray,
+                             const WorldHit<Real>& hit, Colour& albedo, Colour& emission) const {
+  if (hit.cast.status != Status::hit) return;
+  const PreparedMaterial& material = of(hit.instance);
+  emission = material.radiance;
+  albedo = material.colour.colour();
+  if (material.colour.texture())
+    albedo = paint_at(material.colour,
+                      place(world, hit.instance, ray.at(hit.cast.t()), hit.cast.normal, 0));
 }
 
 std::vector<Colour> SceneSurfaces::radiances() const {

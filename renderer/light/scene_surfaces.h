@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "renderer/base/real.h"
 #include "renderer/light/bsdf.h"
 #include "renderer/scene/scene.h"
 
@@ -21,10 +22,11 @@ struct Medium {
 std::vector<std::uint32_t> material_of_instance(const Scene& scene);
 
 /// What a material shines; zero if it does not.
-Colour radiance_of(const Material& material);
+Colour radiance_of(const Scene& scene, const Material& material);
 
 struct PreparedMaterial {
   std::unique_ptr<const Bsdf> bsdf;
+  Paint colour = Colour::Zero();
   Colour radiance;
   Medium inside;
 };
@@ -36,6 +38,13 @@ class SceneSurfaces {
   const PreparedMaterial& of(std::uint32_t instance) const {
     return materials_[of_instance_[instance]];
   }
+  /// The place in the object's frame; for particles it is not turned.
+  TexturePoint place(const RenderWorld& world, std::uint32_t instance, const Vec3<Real>& point,
+                     const Vec3<Real>& normal, Real time) const;
+  /// The colour of what a ray has met, and what it shines; nothing is changed where it met nothing.
+  void describe(const RenderWorld& world, const Ray<Real>& ray, const WorldHit<Real>& hit,
+                Colour& albedo, Colour& emission) const;
+  bool has_textures() const { return has_textures_; }
   /// The direction of the object's z axis, around which brushed metal has its grain.
   Vec3<double> axis(std::uint32_t instance) const {
     return instance < axes_.size() ? axes_[instance] : Vec3<double>(Vec3<double>::UnitZ());
@@ -46,6 +55,8 @@ class SceneSurfaces {
  private:
   std::vector<PreparedMaterial> materials_;
   std::vector<std::uint32_t> of_instance_;
+  std::vector<Affine<double>> to_object_;  ///< of objects
+  bool has_textures_ = false;
   std::vector<Vec3<double>> axes_;  ///< of objects; particles have the world's
 };
 

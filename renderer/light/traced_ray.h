@@ -47,6 +47,9 @@ struct IntegratorOptions {
   IntegratorKind kind = IntegratorKind::automatic;
   /// How often a path may be scattered, mirrored or refracted.
   int max_depth = 16;
+  /// Light that comes by way of more than one surface counts for no more than this: fewer bright
+  /// specks, and less light. 0: no limit.
+  double clamp = 0;
 };
 
 /// A ray and where its light comes to.

@@ -152,14 +152,36 @@ MemberDescription describe(const Parameter& parameter, Member<Resolution>) {
   return one_key(parameter, "2 whole numbers", schema_of_list(side, 2));
 }
 
-MemberDescription describe(const Parameter& parameter, Member<std::optional<Vec3<double>>>) {
-  return describe(parameter, Member<Vec3<double>>());
+MemberDescription describe(const Parameter& parameter, Member<std::optional<double>>) {
+  return describe(parameter, Member<double>());
 }
 
-MemberDescription describe(const Parameter& parameter, Member<MetalName>) {
-  Json names = Json::array();
-  for (const Metal& metal : metals) names.push_back(std::string(metal.name));
-  return one_key(parameter, "a metal's name", {{"enum", std::move(names)}});
+MemberDescription describe(const Parameter& parameter, Member<std::string>) {
+  return one_key(parameter, "a name", {{"type", "string"}});
+}
+
+MemberDescription describe(const Parameter& parameter, Member<Paint>) {
+  const Json colour = schema_of_list(schema_of_number(parameter.range), 3);
+  return one_key(parameter, "3 numbers, or a texture", either(colour, reference("texture")));
+}
+
+MemberDescription describe(const Parameter& parameter, Member<std::optional<Paint>>) {
+  return describe(parameter, Member<Paint>());
+}
+
+MemberDescription describe(const Parameter& parameter, Member<PictureFile>) {
+  return one_key(parameter, "a file's name", {{"type", "string"}});
+}
+
+MemberDescription describe(const Parameter& parameter, Member<std::array<MaterialName, 2>>) {
+  return one_key(parameter, "2 names", schema_of_list({{"type", "string"}, {"minLength", 1}}, 2));
+}
+
+MemberDescription describe_name(const Parameter& parameter, std::span<const std::string_view> names,
+                                std::string_view what) {
+  Json known = Json::array();
+  for (const std::string_view name : names) known.push_back(std::string(name));
+  return one_key(parameter, "the name of " + std::string(what), {{"enum", std::move(known)}});
 }
 
 }  // namespace minkray

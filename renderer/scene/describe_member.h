@@ -33,8 +33,18 @@ MemberDescription describe(const Parameter&, Member<Nested<double>>);
 MemberDescription describe(const Parameter&, Member<ShapeList<double>>);
 MemberDescription describe(const Parameter&, Member<AffineMap<double>>);
 MemberDescription describe(const Parameter&, Member<Resolution>);
-MemberDescription describe(const Parameter&, Member<std::optional<Vec3<double>>>);
-MemberDescription describe(const Parameter&, Member<MetalName>);
+MemberDescription describe(const Parameter&, Member<std::optional<double>>);
+MemberDescription describe(const Parameter&, Member<std::string>);
+MemberDescription describe(const Parameter&, Member<Paint>);
+MemberDescription describe(const Parameter&, Member<std::optional<Paint>>);
+MemberDescription describe(const Parameter&, Member<PictureFile>);
+MemberDescription describe(const Parameter&, Member<std::array<MaterialName, 2>>);
+MemberDescription describe_name(const Parameter&, std::span<const std::string_view> names,
+                                std::string_view what);
+template <class List>
+MemberDescription describe(const Parameter& parameter, Member<NameOf<List>>) {
+  return describe_name(parameter, List::names, List::what);
+}
 
 /// Calls visit(parameter, description) for each parameter of a described struct.
 template <class S, class Visit>

@@ -12,15 +12,13 @@
 
 #include "core/math/vec.h"
 #include "core/shape/field.h"
+#include "renderer/scene/textures.h"
 
 namespace minkray {
 
-/// Linear RGB.
-using Colour = Vec3<double>;
-
 /// Diffuse reflection.
 struct LambertMaterial {
-  Colour colour = Colour::Constant(0.7);
+  Paint colour = Colour::Constant(0.7);
 
   static constexpr std::string_view name = "lambert";
   static constexpr std::string_view doc = "Matt: diffuse reflection.";
@@ -32,7 +30,7 @@ struct LambertMaterial {
 
 /// A diffuse base under a dielectric coat that mirrors by Fresnel's law; `roughness` 0 is a mirror.
 struct GlossyMaterial {
-  Colour colour = Colour::Constant(0.7);
+  Paint colour = Colour::Constant(0.7);
   double roughness = 0.1;
   double index_of_refraction = 1.5;
 
@@ -88,12 +86,6 @@ struct DielectricMaterial {
   }
 };
 
-/// The name of a metal in the list below; empty: none.
-struct MetalName {
-  std::string name;
-  bool operator==(const MetalName&) const = default;
-};
-
 /// A metal's complex index of refraction for red, green and blue light, about 650, 550 and 450 nm.
 struct Metal {
   std::string_view name;
@@ -112,10 +104,20 @@ inline constexpr std::array metals = {
     Metal{"titanium", {2.7407, 2.5418, 2.2370}, {3.8143, 3.4345, 3.0385}},
 };
 
+struct MetalNames {
+  static constexpr std::string_view what = "a metal";
+  static constexpr auto names = [] {
+    std::array<std::string_view, metals.size()> of_metals;
+    for (std::size_t i = 0; i < metals.size(); ++i) of_metals[i] = metals[i].name;
+    return of_metals;
+  }();
+};
+using MetalName = NameOf<MetalNames>;
+
 /// A metal, by its name or by the colour that it mirrors straight ahead.
 struct ConductorMaterial {
   MetalName metal;
-  std::optional<Colour> colour;
+  std::optional<Paint> colour;
   double roughness = 0.1;
   double anisotropy = 0;
 
@@ -139,13 +141,93 @@ struct ConductorMaterial {
   }
 };
 
+/// Most things, in layers: what glTF's and robots' materials are made of.
+struct PrincipledMaterial {
+  Paint colour = Colour::Constant(0.7);
+  double metallic = 0;
+  double roughness = 0.5;
+  double anisotropy = 0;
+  double specular = 1;
+  double index_of_refraction = 1.5;
+  double transmission = 0;
+  double coat = 0;
+  double coat_roughness = 0;
+  double sheen = 0;
+
+  static constexpr std::string_view name = "principled";
+  static constexpr std::string_view doc =
+      "Most things: a clear coat over sheen over a mixture of metal, glass and a matt base that "
+      "mirrors.";
+  static constexpr auto fields() {
+    using M = PrincipledMaterial;
+    return std::tuple{
+        Field{"base_color", &M::colour, Unit::none, Range::zero_to_one,
+              "of the matt base, of metal, and of what glass lets through (linear RGB)"},
+        Field{"metallic", &M::metallic, Unit::none, Range::zero_to_one, "how much of it is metal",
+              true},
+        Field{"roughness", &M::roughness, Unit::none, Range::zero_to_one, "0 for a perfect mirror",
+              true},
+        Field{"anisotropy", &M::anisotropy, Unit::none, Range::zero_to_one,
+              "of metal: as of a conductor", true},
+        Field{"specular", &M::specular, Unit::none, Range::zero_to_one,
+              "how much the matt base mirrors of what its index of refraction says", true},
+        Field{"index_of_refraction", &M::index_of_refraction, Unit::none, Range::at_least_one,
+              "of the base and of glass", true},
+        Field{"transmission", &M::transmission, Unit::none, Range::zero_to_one,
+              "how much of what is no metal is glass", true},
+        Field{"coat", &M::coat, Unit::none, Range::zero_to_one, "how much clear coat there is",
+              true},
+        Field{"coat_roughness", &M::coat_roughness, Unit::none, Range::zero_to_one, "the coat's",
+              true},
+        Field{"sheen", &M::sheen, Unit::none, Range::zero_to_one,
+              "how much it gleams at grazing angles, as cloth does", true}};
+  }
+};
+
+/// The name of a material that comes before.
+struct MaterialName {
+  std::string name;
+  std::uint32_t index = 0;  ///< into Scene::materials
+};
+
+/// Two materials in one place.
+struct MixMaterial {
+  std::array<MaterialName, 2> materials;
+  double amount = 0.5;
+
+  static constexpr std::string_view name = "mix";
+  static constexpr std::string_view doc = "So much of one material, the rest of another one.";
+  static constexpr auto fields() {
+    using M = MixMaterial;
+    return std::tuple{
+        Field{"materials", &M::materials, Unit::none, Range::any,
+              "the names of two materials that come before this one"},
+        Field{"amount", &M::amount, Unit::none, Range::zero_to_one, "the second one's part", true}};
+  }
+};
+
 /// What "type" may say of a material.
-using MaterialKind = std::variant<LambertMaterial, GlossyMaterial, EmissiveMaterial,
-                                  DielectricMaterial, ConductorMaterial>;
+using MaterialKind =
+    std::variant<LambertMaterial, GlossyMaterial, EmissiveMaterial, DielectricMaterial,
+                 ConductorMaterial, PrincipledMaterial, MixMaterial>;
 
 struct Material {
   std::string name;
   MaterialKind kind;
 };
+
+/// Whether a colour of it changes from place to place; not of what a mixture is made of.
+inline bool has_texture(const Material& material) {
+  return std::visit(
+      []<class M>(const M& kind) {
+        if constexpr (std::is_same_v<M, ConductorMaterial>)
+          return kind.colour && kind.colour->texture();
+        else if constexpr (requires { kind.colour.texture(); })
+          return kind.colour.texture() != nullptr;
+        else
+          return false;
+      },
+      material.kind);
+}
 
 }  // namespace minkray

@@ -4,6 +4,7 @@
 #include <exception>
 
 #include "core/files/mesh_file.h"
+#include "renderer/io/read_image.h"
 
 namespace minkray {
 namespace {
@@ -41,7 +42,30 @@ std::optional<PointCloud<double>> MeshFiles::read(const std::string& name, const
   }
 }
 
+std::shared_ptr<const Image> MeshFiles::read_picture(const std::string& name, const JsonPath& path,
+                                                     Mistakes& mistakes) {
+  const auto known = pictures_.find(name);
+  if (known != pictures_.end()) return known->second.image;
+  const std::filesystem::path file = folder_ / name;
+  try {
+    const auto image = std::make_shared<const Image>(read_image(file));
+    Hash hash;
+    hash.add(std::to_string(image->width));
+    hash.add({reinterpret_cast<const char*>(image->pixels.data()),
+              image->pixels.size() * sizeof image->pixels[0]});
+    pictures_.emplace(name, Picture{image, hash.text()});
+    return image;
+  } catch (const std::exception& error) {
+    mistakes.add(path, printable(file.string(), 200) + ": " + error.what());
+    return nullptr;
+  }
+}
+
 void MeshFiles::add_to(Hash& hash) const {
+  for (const auto& [name, picture] : pictures_) {
+    hash.add(name);
+    hash.add(picture.hash);
+  }
   for (const auto& [name, mesh] : read_) {
     hash.add(name);
     hash.add(mesh.hash);

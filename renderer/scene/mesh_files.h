@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
-// The mesh files that a scene or a query names, each read once.
+// The files of meshes and pictures that a scene or a query names, each read once.
 #pragma once
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "core/geometry/point_cloud.h"
 #include "renderer/base/hash.h"
+#include "renderer/image/image.h"
 #include "renderer/json/mistakes.h"
 
 namespace minkray {
@@ -25,6 +27,10 @@ class MeshFiles {
   /// Adds what was read: the names, and all vertices.
   void add_to(Hash& hash) const;
 
+  /// The picture of a file; null, and a mistake at `path`, if it cannot be used.
+  std::shared_ptr<const Image> read_picture(const std::string& name, const JsonPath& path,
+                                            Mistakes& mistakes);
+
  private:
   struct Mesh {
     PointCloud<double> points;
@@ -32,6 +38,11 @@ class MeshFiles {
   };
   std::filesystem::path folder_;
   std::map<std::string, Mesh> read_;
+  struct Picture {
+    std::shared_ptr<const Image> image;
+    std::string hash;  ///< of all pixels
+  };
+  std::map<std::string, Picture> pictures_;
 };
 
 }  // namespace minkray

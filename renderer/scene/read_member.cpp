@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "renderer/json/values.h"
+#include "renderer/scene/read_paint.h"
 #include "renderer/scene/shape_json.h"
 
 namespace minkray {
@@ -153,24 +154,72 @@ bool read_member(ObjectReader& object, const Parameter&, AffineMap<double>& memb
   return map.has_value();
 }
 
-bool read_member(ObjectReader& object, const Parameter& parameter,
-                 std::optional<Vec3<double>>& member, MeshFiles&) {
+bool read_member(ObjectReader& object, const Parameter& parameter, std::optional<double>& member,
+                 MeshFiles&) {
   return read_key(object, parameter, member, [&](const Json& json, const JsonPath& path) {
-    return read_vector(json, path, object.mistakes(), parameter.range);
+    return read_number(json, path, object.mistakes(), parameter.range);
   });
 }
 
-bool read_member(ObjectReader& object, const Parameter& parameter, MetalName& member, MeshFiles&) {
+bool read_member(ObjectReader& object, const Parameter& parameter, std::string& member,
+                 MeshFiles&) {
+  return read_key(object, parameter, member, [&](const Json& json, const JsonPath& path) {
+    return read_string(json, path, object.mistakes());
+  });
+}
+
+bool read_member(ObjectReader& object, const Parameter& parameter, Paint& member,
+                 MeshFiles& files) {
+  return read_key(object, parameter, member, [&](const Json& json, const JsonPath& path) {
+    return read_paint(json, path, object.mistakes(), parameter.range, files);
+  });
+}
+
+bool read_member(ObjectReader& object, const Parameter& parameter, std::optional<Paint>& member,
+                 MeshFiles& files) {
+  return read_key(object, parameter, member, [&](const Json& json, const JsonPath& path) {
+    return read_paint(json, path, object.mistakes(), parameter.range, files);
+  });
+}
+
+bool read_member(ObjectReader& object, const Parameter& parameter, PictureFile& member,
+                 MeshFiles& files) {
   return read_key(object, parameter, member,
-                  [&](const Json& json, const JsonPath& path) -> std::optional<MetalName> {
+                  [&](const Json& json, const JsonPath& path) -> std::optional<PictureFile> {
                     const auto name = read_string(json, path, object.mistakes());
                     if (!name) return std::nullopt;
-                    std::vector<std::string> names;
-                    for (const Metal& metal : metals) names.emplace_back(metal.name);
-                    if (std::find(names.begin(), names.end(), *name) != names.end())
-                      return MetalName{*name};
-                    object.mistakes().add(path, "must be the name of a metal (" + found(json) +
-                                                    "; " + suggestion(*name, names) + ")");
+                    auto image = files.read_picture(*name, path, object.mistakes());
+                    if (!image) return std::nullopt;
+                    return PictureFile{*name, std::move(image)};
+                  });
+}
+
+bool read_member(ObjectReader& object, const Parameter& parameter,
+                 std::array<MaterialName, 2>& member, MeshFiles&) {
+  return read_key(
+      object, parameter, member,
+      [&](const Json& json, const JsonPath& path) -> std::optional<std::array<MaterialName, 2>> {
+        if (!json.is_array() || json.size() != 2) {
+          object.mistakes().add(path, "must be a list of 2 names (" + found(json) + ")");
+          return std::nullopt;
+        }
+        const auto first = read_string(json[0], path / std::size_t{0}, object.mistakes());
+        const auto second = read_string(json[1], path / std::size_t{1}, object.mistakes());
+        if (!first || !second) return std::nullopt;
+        return std::array{MaterialName{*first}, MaterialName{*second}};
+      });
+}
+
+bool read_name(ObjectReader& object, const Parameter& parameter, std::string& member,
+               std::span<const std::string_view> names, std::string_view what) {
+  return read_key(object, parameter, member,
+                  [&](const Json& json, const JsonPath& path) -> std::optional<std::string> {
+                    const auto name = read_string(json, path, object.mistakes());
+                    if (!name) return std::nullopt;
+                    if (std::find(names.begin(), names.end(), *name) != names.end()) return *name;
+                    object.mistakes().add(
+                        path, "must be the name of " + std::string(what) + " (" + found(json) +
+                                  "; " + suggestion(*name, {names.begin(), names.end()}) + ")");
                     return std::nullopt;
                   });
 }

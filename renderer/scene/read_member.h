@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "core/geometry/point_cloud.h"
 #include "core/shape/affine_map.h"
@@ -41,8 +42,21 @@ bool read_member(ObjectReader&, const Parameter&, Nested<double>& member, MeshFi
 bool read_member(ObjectReader&, const Parameter&, ShapeList<double>& member, MeshFiles&);
 bool read_member(ObjectReader&, const Parameter&, AffineMap<double>& member, MeshFiles&);
 bool read_member(ObjectReader&, const Parameter&, Resolution& member, MeshFiles&);
-bool read_member(ObjectReader&, const Parameter&, std::optional<Vec3<double>>& member, MeshFiles&);
-bool read_member(ObjectReader&, const Parameter&, MetalName& member, MeshFiles&);
+bool read_member(ObjectReader&, const Parameter&, std::optional<double>& member, MeshFiles&);
+bool read_member(ObjectReader&, const Parameter&, std::string& member, MeshFiles&);
+bool read_member(ObjectReader&, const Parameter&, Paint& member, MeshFiles&);
+bool read_member(ObjectReader&, const Parameter&, std::optional<Paint>& member, MeshFiles&);
+bool read_member(ObjectReader&, const Parameter&, PictureFile& member, MeshFiles&);
+/// The names alone: who knows all materials finds their indices.
+bool read_member(ObjectReader&, const Parameter&, std::array<MaterialName, 2>& member, MeshFiles&);
+/// One of the names; `what` they are names of.
+bool read_name(ObjectReader&, const Parameter&, std::string& member,
+               std::span<const std::string_view> names, std::string_view what);
+template <class List>
+bool read_member(ObjectReader& object, const Parameter& parameter, NameOf<List>& member,
+                 MeshFiles&) {
+  return read_name(object, parameter, member.name, List::names, List::what);
+}
 
 /// The keys "translate", "rotate" and "scale", each optional, or "matrix".
 std::optional<Affine<double>> read_affine(ObjectReader& object);

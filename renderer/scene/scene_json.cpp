@@ -64,7 +64,14 @@ class SceneReader {
     }
     if (const Json* background = file.find("background")) {
       read_background(*background, file.path("background"));
+    } else {
+      scene_.background_is_sky =
+          std::any_of(scene_.lights.begin(), scene_.lights.end(), [](const Light& light) {
+            return std::holds_alternative<ImageSkyLight>(light) ||
+                   std::holds_alternative<SunSkyLight>(light);
+          });
     }
+    find_focus(file.path("camera"));
     file.finish();
   }
 
@@ -114,6 +121,9 @@ class SceneReader {
     if (directional && directional->direction.isZero(0)) {
       mistakes_.add(path / "direction", "must not be zero");
     }
+    const auto* day = std::get_if<SunSkyLight>(&*light);
+    if (day && !(day->sun.z() > 0))
+      mistakes_.add(path / "sun", "must be above the horizon: its third number > 0");
     scene_.lights.push_back(std::move(*light));
   }
 
@@ -126,6 +136,7 @@ class SceneReader {
     auto kind = read_tagged<MaterialKind>(
         object, "a material", [&](auto& made) { return read_members(object, made, meshes_); });
     if (kind) check_metal(*kind, path);
+    if (kind) find_mixed(*kind, path);
     if (name.empty()) return;
     // A material with mistakes still takes its name and place, so that objects of it are no
     // mistakes, too.
@@ -143,6 +154,39 @@ class SceneReader {
     if (conductor && conductor->metal.name.empty() != conductor->colour.has_value())
       mistakes_.add(path, std::string("must have either \"metal\" or \"color\" (got ") +
                               (conductor->colour ? "both)" : "neither)"));
+  }
+
+  void find_mixed(MaterialKind& kind, const JsonPath& path) {
+    auto* mix = std::get_if<MixMaterial>(&kind);
+    for (std::size_t i = 0; mix && i < 2; ++i)
+      mix->materials[i].index =
+          read_material_name(Json(mix->materials[i].name), path / "materials" / i);
+  }
+
+  /// Settles how far away it is sharp.
+  void find_focus(const JsonPath& path) {
+    CameraDescription& camera = scene_.camera;
+    if (camera.aperture > 0 && camera.type.name != "perspective")
+      mistakes_.add(path / "aperture", "must be 0 for other cameras than perspective");
+    if (camera.focus_distance && !camera.focus_on.empty())
+      mistakes_.add(path, "must have either \"focus_distance\" or \"focus_on\" (got both)");
+    camera.focus = camera.focus_distance.value_or(0);
+    if (camera.focus_on.empty()) return;
+    std::vector<std::string> names;
+    for (const Object& object : scene_.objects) {
+      if (object.name != camera.focus_on) {
+        names.push_back(printable(object.name, 60));
+        continue;
+      }
+      const Vec3<double> view = unit<double>(camera.look_at - camera.position);
+      camera.focus = view.dot(object.pose.translation - camera.position);
+      if (!(camera.focus > 0))
+        mistakes_.add(path / "focus_on", "must be an object in front of the camera");
+      return;
+    }
+    mistakes_.add(path / "focus_on", "must be the name of an object (got \"" +
+                                         printable(camera.focus_on, 60) + "\"; " +
+                                         suggestion(camera.focus_on, names) + ")");
   }
 
   void read_object(const Json& json, const JsonPath& path) {

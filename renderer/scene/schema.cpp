@@ -164,6 +164,7 @@ Json scene_schema() {
         material["properties"]["name"] = name;
         material["required"].push_back("name");
       });
+  definitions["texture"] = tagged_schema<TextureKind>("A texture.", []<class S>(Json&) {});
   definitions["object"] = std::move(object);
   Json half_space = object_schema("All points x with normal . x <= offset: a plane, solid below.");
   half_space["properties"] = {{"type", {{"const", std::string(half_space_name)}}},

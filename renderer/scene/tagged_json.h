@@ -2,6 +2,7 @@
 // Reading one of several described structs, chosen by the key "type": a shape, a light, a material.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <variant>
@@ -27,8 +28,9 @@ void for_each_alternative(std::type_identity<std::variant<S...>>, Visit&& visit)
 template <class Variant>
 std::vector<std::string> type_names() {
   std::vector<std::string> names;
-  for_each_alternative(std::type_identity<Variant>(),
-                       [&]<class S>() { names.emplace_back(S::name); });
+  for_each_alternative(std::type_identity<Variant>(), [&]<class S>() {
+    if (std::find(names.begin(), names.end(), S::name) == names.end()) names.emplace_back(S::name);
+  });
   return names;
 }
 
@@ -64,6 +66,9 @@ std::optional<Variant> read_tagged(ObjectReader& object, std::string_view what, 
   bool known = false;
   for_each_alternative(std::type_identity<Variant>(), [&]<class S>() {
     if (known || S::name != *name) return;
+    // Two may share a name, if one of them is told by a key that the other has not.
+    if constexpr (requires { S::told_by; })
+      if (!object.find(S::told_by)) return;
     known = true;
     S made;
     const bool all_read = read(made);

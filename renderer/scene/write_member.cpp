@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/scene/write_member.h"
 
+#include "renderer/scene/read_paint.h"
 #include "renderer/scene/shape_json.h"
 
 namespace minkray {
@@ -74,12 +75,28 @@ void write_member(Json& object, std::string_view name, const Resolution& member)
   value_of(object, name) = {member.width, member.height};
 }
 
-void write_member(Json& object, std::string_view name, const std::optional<Vec3<double>>& member) {
+void write_member(Json& object, std::string_view name, const std::optional<double>& member) {
   if (member) write_member(object, name, *member);
 }
 
-void write_member(Json& object, std::string_view name, const MetalName& member) {
-  if (!member.name.empty()) value_of(object, name) = member.name;
+void write_member(Json& object, std::string_view name, const std::optional<Paint>& member) {
+  if (member) write_member(object, name, *member);
+}
+
+void write_member(Json& object, std::string_view name, const std::string& member) {
+  if (!member.empty()) value_of(object, name) = member;
+}
+
+void write_member(Json& object, std::string_view name, const Paint& member) {
+  value_of(object, name) = write_paint(member);
+}
+
+void write_member(Json& object, std::string_view name, const PictureFile& member) {
+  value_of(object, name) = member.file;
+}
+
+void write_member(Json& object, std::string_view name, const std::array<MaterialName, 2>& member) {
+  value_of(object, name) = Json::array({member[0].name, member[1].name});
 }
 
 }  // namespace minkray

@@ -29,8 +29,16 @@ void write_member(Json& object, std::string_view name, const ShapeList<double>& 
 void write_member(Json& object, std::string_view name, const AffineMap<double>& member);
 void write_member(Json& object, std::string_view name, const Resolution& member);
 /// These are left out where there is none.
-void write_member(Json& object, std::string_view name, const std::optional<Vec3<double>>& member);
-void write_member(Json& object, std::string_view name, const MetalName& member);
+void write_member(Json& object, std::string_view name, const std::optional<double>& member);
+void write_member(Json& object, std::string_view name, const std::optional<Paint>& member);
+void write_member(Json& object, std::string_view name, const std::string& member);
+void write_member(Json& object, std::string_view name, const Paint& member);
+void write_member(Json& object, std::string_view name, const PictureFile& member);
+void write_member(Json& object, std::string_view name, const std::array<MaterialName, 2>& member);
+template <class List>
+void write_member(Json& object, std::string_view name, const NameOf<List>& member) {
+  write_member(object, name, member.name);
+}
 
 /// All parameters of a described struct.
 template <class S>

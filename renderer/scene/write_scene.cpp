@@ -55,7 +55,13 @@ std::string scene_text(const Scene& scene) {
   write_members(json["camera"], scene.camera);
   json["lights"] = Json::array();
   for (const Light& light : scene.lights)
-    json["lights"].push_back(std::visit([](const auto& kind) { return tagged(kind); }, light));
+    json["lights"].push_back(std::visit(
+        [](const auto& kind) {
+          Json written = tagged(kind);
+          if constexpr (requires { kind.strength; }) written["intensity"] = kind.strength;
+          return written;
+        },
+        light));
   json["materials"] = Json::array();
   for (const Material& material : scene.materials) {
     Json written = std::visit([](const auto& kind) { return tagged(kind); }, material.kind);
@@ -64,6 +70,7 @@ std::string scene_text(const Scene& scene) {
   }
   json["objects"] = Json::array();
   for (const Object& object : scene.objects) json["objects"].push_back(object_json(object, scene));
+  if (scene.background_is_sky) return json.dump(1) + "\n";
   json["background"] = Json::object();
   write_members(json["background"], scene.background);
   return json.dump(1) + "\n";

@@ -4,6 +4,7 @@
 #include <charconv>
 
 #include "renderer/base/errors.h"
+#include "renderer/json/json.h"
 
 namespace minkray {
 namespace {
@@ -57,12 +58,14 @@ Facts picture_facts(const Scene& scene, const RenderWorld& world, const RenderOp
       {fact::solver, solver},
       {fact::bounces, number(options.integrator.bounces)},
       {fact::integrator, integrator_text(scene, options.integrator)},
+      {fact::limits,
+       "clamp " + Json(options.integrator.clamp).dump() + " noise " + Json(options.noise).dump()},
   };
 }
 
 std::vector<std::string> common_facts() {
-  return {fact::software, fact::scene,  fact::resolution, fact::crop,       fact::samples,
-          fact::seed,     fact::solver, fact::bounces,    fact::integrator, fact::aov};
+  return {fact::software, fact::scene,   fact::resolution, fact::crop,   fact::samples, fact::seed,
+          fact::solver,   fact::bounces, fact::integrator, fact::limits, fact::aov};
 }
 
 std::string difference(const Facts& found, const Facts& wanted,

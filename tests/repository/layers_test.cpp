@@ -32,8 +32,8 @@ const std::vector<std::string> rooms = {
     "renderer/base",
     "renderer/image",
     "renderer/json",
-    "renderer/scene",
     "renderer/io",
+    "renderer/scene",
     "renderer/import",
     "renderer/query",
     "renderer/light",
@@ -134,6 +134,7 @@ TEST(Layers, each_library_is_seen_in_one_place) {
       {"tinyxml2.h", "renderer/import/xml.cpp"},
       {"mpi.h", "renderer/share/ranks_mpi.cpp"},
       {"stb/stb_image_write", "renderer/io/png.cpp"},
+      {"stb/stb_image.h", "renderer/io/read_image.cpp"},
       {"stb/stb_easy_font", "renderer/image/text.cpp"},
   };
   // What only tests see; there may be one line for each of several places.

@@ -37,7 +37,16 @@ std::vector<Case> white_surfaces() {
           {"mirror", white_metal(0)},
           {"metal", white_metal(0.5)},
           {"rough metal", white_metal(1)},
-          {"brushed metal", white_metal(0.6, 0.8)}};
+          {"brushed metal", white_metal(0.6, 0.8)},
+          {"principled", PrincipledMaterial{Colour::Ones()}},
+          {"principled glass",
+           PrincipledMaterial{.colour = Colour::Ones(), .roughness = 0.4, .transmission = 1}, 1.5},
+          {"lacquered cloth and metal", PrincipledMaterial{.colour = Colour::Ones(),
+                                                           .metallic = 0.4,
+                                                           .roughness = 0.3,
+                                                           .coat = 0.7,
+                                                           .coat_roughness = 0.2,
+                                                           .sheen = 0.5}}};
 }
 
 /// What is drawn weighs 1 on average, where radiance from a denser medium counts by its eta^2.
@@ -73,7 +82,16 @@ TEST(Bsdf, directions_have_the_density_they_claim) {
   const std::vector<Case> rough = {{"frosted glass", DielectricMaterial{1.5, 0.7}, 1.5},
                                    {"rough diamond", DielectricMaterial{2.4, 1.0}, 2.4},
                                    {"metal", white_metal(0.6)},
-                                   {"brushed metal", white_metal(0.8, 0.7)}};
+                                   {"brushed metal", white_metal(0.8, 0.7)},
+                                   {"principled",
+                                    PrincipledMaterial{.colour = Colour::Constant(0.6),
+                                                       .metallic = 0.3,
+                                                       .roughness = 0.6,
+                                                       .transmission = 0.4,
+                                                       .coat = 0.5,
+                                                       .coat_roughness = 0.7,
+                                                       .sheen = 0.5},
+                                    1.5}};
   for (const Case& c : rough) {
     const auto bsdf = make_bsdf({"", c.material});
     for (const double cosine : {0.4, 0.9, -0.5}) {

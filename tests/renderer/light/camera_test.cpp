@@ -71,5 +71,63 @@ TEST(Camera, a_useless_up_or_target_still_gives_rays) {
   }
 }
 
+CameraDescription camera_of(const char* type) {
+  CameraDescription camera;
+  camera.position = {1, -4, 2};
+  camera.look_at = {1, 0, 2};
+  camera.fov_y_degrees = 90;
+  camera.type.name = type;
+  return camera;
+}
+
+TEST(Camera, an_orthographic_one_shows_what_it_looks_at_as_large_as_perspective_does) {
+  const Resolution size{200, 100};
+  const Camera parallel(camera_of("orthographic"), size), central(camera_of("perspective"), size);
+  const Ray<double> ray = parallel.ray(100, 0);
+  EXPECT_NEAR((ray.direction - Vec3<double>(0, 1, 0)).norm(), 0, 1e-12);
+  EXPECT_NEAR((ray.origin - Vec3<double>(1, -4, 6)).norm(), 0, 1e-12);
+  const Vec3<double> point(3, 0, 1);
+  EXPECT_NEAR((*parallel.project(point) - *central.project(point)).norm(), 0, 1e-9);
+}
+
+TEST(Camera, fisheyes_spread_angles_or_solid_angles_evenly) {
+  const Resolution size{200, 100};
+  const auto angle = [&](const char* type, double y) {
+    return std::acos(Camera(camera_of(type), size).ray(100, y).direction.y());
+  };
+  constexpr double pi = std::numbers::pi;
+  EXPECT_NEAR(angle("fisheye", 0), pi / 4, 1e-9);
+  EXPECT_NEAR(angle("fisheye", 25), pi / 8, 1e-9);
+  EXPECT_NEAR(angle("equisolid", 0), pi / 4, 1e-9);
+  // A cap's solid angle goes with the square of the sine of half its angle.
+  EXPECT_NEAR(std::pow(std::sin(angle("equisolid", 25) / 2) / std::sin(pi / 8), 2), 0.25, 1e-9);
+}
+
+TEST(Camera, a_panorama_shows_all_around) {
+  const Camera camera(camera_of("panorama"), {200, 100});
+  EXPECT_NEAR((camera.ray(100, 50).direction - Vec3<double>(0, 1, 0)).norm(), 0, 1e-12);
+  EXPECT_NEAR((camera.ray(150, 50).direction - Vec3<double>(1, 0, 0)).norm(), 0, 1e-12);
+  EXPECT_NEAR((camera.ray(0, 50).direction - Vec3<double>(0, -1, 0)).norm(), 0, 1e-12);
+  EXPECT_NEAR((camera.ray(30, 0).direction - Vec3<double>(0, 0, 1)).norm(), 0, 1e-12);
+}
+
+TEST(Camera, rays_through_a_lens_meet_where_it_is_in_focus) {
+  CameraDescription description = camera_of("perspective");
+  description.aperture = 0.6;
+  description.focus = 3;
+  const Camera camera(description, {200, 100});
+  ASSERT_TRUE(camera.has_lens());
+  EXPECT_FALSE(Camera(camera_of("perspective"), {200, 100}).has_lens());
+  const Ray<double> middle = camera.ray(31, 77);
+  const Vec3<double> sharp = middle.at(3 / middle.direction.y());
+  double farthest = 0;
+  for (int i = 0; i < 64; ++i) {
+    const Ray<double> ray = camera.through_lens(middle, {i / 64.0, std::fmod(0.618 * i, 1.0)});
+    EXPECT_NEAR((ray.at(3 / ray.direction.y()) - sharp).norm(), 0, 1e-9);
+    farthest = std::max(farthest, (ray.origin - middle.origin).norm());
+  }
+  EXPECT_NEAR(farthest, 0.3, 0.01);
+}
+
 }  // namespace
 }  // namespace minkray

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// How scenes' light becomes what a screen shows: linear numbers of any size to linear ones up to 1.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "core/math/vec.h"
+
+namespace minkray {
+
+enum class ToneMap : unsigned char { srgb, filmic, agx };
+
+struct ToneMapDescription {
+  ToneMap kind;
+  std::string_view name, doc;
+};
+
+/// The list of all there are.
+inline constexpr std::array tone_maps = {
+    ToneMapDescription{ToneMap::srgb, "srgb", "as it is, cut off at white"},
+    ToneMapDescription{ToneMap::filmic, "filmic",
+                       "bright light is rolled off as by film (ACES, after Narkowicz 2015)"},
+    ToneMapDescription{ToneMap::agx, "agx",
+                       "bright colours fade to white (AgX by Sobotka, after Wrensch 2023)"},
+};
+
+Vec3<double> tone_mapped(ToneMap kind, const Vec3<double>& light);
+
+}  // namespace minkray

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/io/read_image.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <stdexcept>
+
+#include "core/files/regular_file.h"
+#include "renderer/image/colour.h"
+#include "renderer/io/exr.h"
+
+#define STB_IMAGE_STATIC
+#define STB_IMAGE_IMPLEMENTATION
+#define STBI_NO_STDIO
+#define STBI_ONLY_PNG
+#define STBI_ONLY_JPEG
+#define STBI_ONLY_HDR
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wconversion"
+#pragma GCC diagnostic ignored "-Wsign-conversion"
+#pragma GCC diagnostic ignored "-Wshadow"
+#pragma GCC diagnostic ignored "-Wunused-function"
+#pragma GCC diagnostic ignored "-Wunused-but-set-variable"
+#include <stb/stb_image.h>
+#pragma GCC diagnostic pop
+
+namespace minkray {
+namespace {
+
+constexpr std::size_t most_file_bytes = std::size_t{1} << 30;
+/// As many as the largest picture has that can be rendered at once.
+constexpr std::int64_t most_image_pixels = std::int64_t{1} << 27;
+
+struct Free {
+  void operator()(void* pixels) const { stbi_image_free(pixels); }
+};
+
+void check_size(std::int64_t width, std::int64_t height) {
+  if (width * height > most_image_pixels)
+    throw std::runtime_error("must have at most 2^27 pixels (got " + std::to_string(width) + " x " +
+                             std::to_string(height) + ")");
+}
+
+Image image_of_exr(const std::filesystem::path& file) {
+  const ExrImage exr = read_exr(file.string());
+  const auto floats = [&](std::string_view name) -> const std::vector<float>* {
+    const ExrPlane* plane = exr.find(name);
+    return plane ? std::get_if<std::vector<float>>(&plane->values) : nullptr;
+  };
+  const auto* grey = floats("Y");
+  const std::vector<float>* planes[3] = {floats("R"), floats("G"), floats("B")};
+  for (const auto*& plane : planes) plane = plane ? plane : grey;
+  if (!planes[0] || !planes[1] || !planes[2])
+    throw std::runtime_error("must have the channels R, G and B, or Y");
+  check_size(exr.window.width(), exr.window.height());
+  Image image(exr.window.width(), exr.window.height());
+  for (std::size_t i = 0; i < image.pixels.size(); ++i)
+    image.pixels[i] = {(*planes[0])[i], (*planes[1])[i], (*planes[2])[i]};
+  return image;
+}
+
+/// What stb_image reads, each number made linear by from(code).
+template <class T, class Load, class From>
+Image image_of_stb(std::string_view bytes, Load load, From from) {
+  int width = 0, height = 0, channels = 0;
+  const auto* begin = reinterpret_cast<const stbi_uc*>(bytes.data());
+  const int size = static_cast<int>(bytes.size());
+  if (!stbi_info_from_memory(begin, size, &width, &height, &channels))
+    throw std::runtime_error(std::string("cannot be read: ") + stbi_failure_reason());
+  check_size(width, height);
+  const std::unique_ptr<T, Free> codes(load(begin, size, &width, &height, &channels, 3));
+  if (!codes) throw std::runtime_error(std::string("cannot be read: ") + stbi_failure_reason());
+  Image image(width, height);
+  for (std::size_t i = 0; i < image.pixels.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k)
+      image.pixels[i][static_cast<int>(k)] = from(codes.get()[3 * i + k]);
+  return image;
+}
+
+}  // namespace
+
+Image read_image(const std::filesystem::path& file) {
+  std::string ending = file.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  Image image;
+  if (ending == ".exr") {
+    image = image_of_exr(file);
+  } else if (ending == ".hdr" || ending == ".png" || ending == ".jpg" || ending == ".jpeg") {
+    const std::string bytes = read_regular_file(file, most_file_bytes);
+    const auto* begin = reinterpret_cast<const stbi_uc*>(bytes.data());
+    if (ending == ".hdr")
+      image = image_of_stb<float>(bytes, stbi_loadf_from_memory, [](float x) { return x; });
+    else if (stbi_is_16_bit_from_memory(begin, static_cast<int>(bytes.size())))
+      image = image_of_stb<stbi_us>(bytes, stbi_load_16_from_memory, [](stbi_us x) {
+        return static_cast<float>(from_srgb(x / 65535.0));
+      });
+    else
+      image = image_of_stb<stbi_uc>(bytes, stbi_load_from_memory, [](stbi_uc x) {
+        return static_cast<float>(from_srgb(x / 255.0));
+      });
+  } else {
+    throw std::runtime_error(std::string("must be one of ") + readable_images);
+  }
+  for (const Vec3<float>& pixel : image.pixels)
+    if (!pixel.allFinite() || pixel.minCoeff() < 0)
+      throw std::runtime_error("must hold finite numbers >= 0");
+  return image;
+}
+
+}  // namespace minkray

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// Pictures from files, as linear RGB: OpenEXR, Radiance's .hdr, PNG (8 and 16 bits) and JPEG, grey
+// ones too. stb_image is seen by read_image.cpp alone.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "renderer/image/image.h"
+
+namespace minkray {
+
+/// The extensions, for messages.
+inline constexpr const char* readable_images = ".exr, .hdr, .png, .jpg";
+
+/// Throws std::runtime_error, which says what is wrong, for a file that cannot be used: also one
+/// with numbers that are negative or none.
+Image read_image(const std::filesystem::path& file);
+
+}  // namespace minkray

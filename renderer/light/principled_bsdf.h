@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// One surface for most things, after Burley ("Physically Based Shading at Disney", 2012, and
+// "Extending the Disney BRDF", 2015), in layers: a clear coat over cloth's sheen over a mixture of
+// metal, clear glass and a matt base with a sheet of dielectric on it. What a layer mirrors the
+// ones below it do not get, by its albedo for light that leaves along w_out (as in glTF's and
+// OpenPBR's layering): white surfaces lose nothing.
+#pragma once
+
+#include "renderer/light/conductor_bsdf.h"
+#include "renderer/light/dielectric_bsdf.h"
+#include "renderer/light/lobes.h"
+
+namespace minkray {
+
+/// How much of an even light a surface throws back along w_out, a table over its cosine.
+class Albedo {
+ public:
+  explicit Albedo(const Bsdf& bsdf);
+  double operator()(double cosine) const;
+
+ private:
+  static constexpr int cosines = 64;
+  std::array<double, cosines> table_;  ///< by the cosine's square root, evenly
+};
+
+class PrincipledBsdf final : public Bsdf {
+ public:
+  explicit PrincipledBsdf(const PrincipledMaterial& material);
+
+  Colour eval(const Shading& at, const Vec3<double>& w_in) const override;
+  double pdf(const Shading& at, const Vec3<double>& w_in) const override;
+  std::optional<BsdfSample> sample(const Shading& at, const BsdfChoice& choice) const override;
+  bool lets_through() const override { return material_.transmission > 0; }
+  bool has_grain() const override { return metal_.has_grain(); }
+
+ private:
+  using Lobes = std::array<Lobe, 6>;
+  Lobes lobes(const Shading& at) const;
+
+  PrincipledMaterial material_;
+  std::unique_ptr<const Bsdf> coat_, sheen_, sheet_, matt_;
+  ConductorBsdf metal_;
+  DielectricBsdf glass_;
+  Albedo of_coat_, of_sheen_, of_sheet_;
+};
+
+}  // namespace minkray

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// The colour of a paint at a place.
+#pragma once
+
+#include "renderer/scene/textures.h"
+
+namespace minkray {
+
+/// A place on a surface, in the object's frame.
+struct TexturePoint {
+  Vec3<double> position;
+  Vec3<double> normal;  ///< outward, of unit length
+};
+
+/// Pictures are interpolated between pixels, and repeat.
+Colour paint_at(const Paint& paint, const TexturePoint& at);
+
+/// Perlin's gradient noise ("Improving Noise", 2002), in about [-1, 1]; 0 at whole numbers.
+double gradient_noise(const Vec3<double>& at);
+
+/// The sum of six octaves of it, each half as strong as the one before, in about [-1, 1].
+double fractal_noise(const Vec3<double>& at);
+
+}  // namespace minkray

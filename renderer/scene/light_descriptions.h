@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+// Lights, as scene files say them: one struct a light, the list of all at the end.
+#pragma once
+
+#include <string_view>
+#include <variant>
+
+#include "core/math/vec.h"
+#include "core/shape/field.h"
+#include "renderer/scene/textures.h"
+
+namespace minkray {
+
+/// Light that travels along `direction`, as from the sun; `colour` is the irradiance on a surface
+/// that faces it.
+struct DirectionalLight {
+  Vec3<double> direction = {0, 0, -1};
+  Colour colour = Colour::Ones();
+
+  void scale(double intensity) { colour *= intensity; }
+
+  static constexpr std::string_view name = "directional";
+  static constexpr std::string_view doc = "Parallel light, as from the sun.";
+  static constexpr auto fields() {
+    using L = DirectionalLight;
+    return std::tuple{
+        Field{"direction", &L::direction, Unit::none, Range::any, "where the light travels to"},
+        Field{"color", &L::colour, Unit::none, Range::not_negative,
+              "the irradiance (linear RGB) on a surface that faces it", true}};
+  }
+};
+
+/// Light from a point; `colour` is its radiant intensity, so that the irradiance falls off as
+/// colour / distance^2.
+struct PointLight {
+  Vec3<double> position = Vec3<double>::Zero();
+  Colour colour = Colour::Ones();
+
+  void scale(double intensity) { colour *= intensity; }
+
+  static constexpr std::string_view name = "point";
+  static constexpr std::string_view doc = "Light from a point.";
+  static constexpr auto fields() {
+    using L = PointLight;
+    return std::tuple{
+        Field{"position", &L::position, Unit::length, Range::any, "where the light is"},
+        Field{"color", &L::colour, Unit::none, Range::not_negative,
+              "its radiant intensity (linear RGB): the irradiance at distance 1", true}};
+  }
+};
+
+/// Light from all around: the radiance from straight up and from straight down, blended by height.
+struct EnvironmentLight {
+  Colour zenith = Colour::Ones();
+  Colour nadir = Colour::Ones();
+
+  void scale(double intensity) {
+    zenith *= intensity;
+    nadir *= intensity;
+  }
+
+  static constexpr std::string_view name = "environment";
+  static constexpr std::string_view doc = "Light from all around, as from the sky.";
+  static constexpr auto fields() {
+    using L = EnvironmentLight;
+    return std::tuple{Field{"zenith", &L::zenith, Unit::none, Range::not_negative,
+                            "the radiance (linear RGB) from straight up"},
+                      Field{"nadir", &L::nadir, Unit::none, Range::not_negative,
+                            "the radiance from straight down"}};
+  }
+};
+
+/// Light from all around, by a picture of the whole sphere. It shares its name with the plain one:
+/// a file tells them apart.
+struct ImageSkyLight {
+  PictureFile picture;
+  double rotate_degrees = 0;
+  double strength = 1;  ///< not a key of its own: the light's intensity
+
+  void scale(double intensity) { strength *= intensity; }
+
+  static constexpr std::string_view name = "environment";
+  static constexpr std::string_view told_by = "file";
+  static constexpr std::string_view doc = "Light from all around, by a picture.";
+  static constexpr auto fields() {
+    using L = ImageSkyLight;
+    return std::tuple{Field{"file", &L::picture, Unit::none, Range::any,
+                            "a picture of the whole sphere: longitude by latitude, its middle "
+                            "towards +y, +x on its right"},
+                      Field{"rotate_degrees", &L::rotate_degrees, Unit::degrees, Range::any,
+                            "turned so far against the clock, seen from above", true}};
+  }
+};
+
+/// The sky of a clear day and the sun in it.
+struct SunSkyLight {
+  Vec3<double> sun = {0, -1, 1};
+  double turbidity = 3;
+  Colour ground = Colour::Constant(0.1);
+  double strength = 1;
+
+  void scale(double intensity) { strength *= intensity; }
+
+  static constexpr std::string_view name = "sun_sky";
+  static constexpr std::string_view doc = "A clear day's sky and its sun (Preetham et al. 1999).";
+  static constexpr auto fields() {
+    using L = SunSkyLight;
+    return std::tuple{Field{"sun", &L::sun, Unit::none, Range::any,
+                            "the direction towards the sun, above the horizon"},
+                      Field{"turbidity", &L::turbidity, Unit::none, Range::at_least_one,
+                            "how hazy it is: 2 very clear, 10 misty", true},
+                      Field{"ground", &L::ground, Unit::none, Range::not_negative,
+                            "the radiance (linear RGB) from below the horizon", true}};
+  }
+};
+
+/// What "type" may say of a light; where two share a name that which is told by a key comes first.
+using Light =
+    std::variant<DirectionalLight, PointLight, ImageSkyLight, EnvironmentLight, SunSkyLight>;
+
+}  // namespace minkray
