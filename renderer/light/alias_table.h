@@ -3,6 +3,7 @@
 // "A Linear Algorithm for Generating Random Numbers with a Given Distribution", 1991).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>

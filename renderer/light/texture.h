@@ -8,8 +8,8 @@ namespace minkray {
 
 /// A place on a surface, in the object's frame.
 struct TexturePoint {
-  Vec3<double> position;
-  Vec3<double> normal;  ///< outward, of unit length
+  Vec3<double> position = Vec3<double>::Zero();
+  Vec3<double> normal = Vec3<double>::UnitZ();  ///< outward, of unit length
 };
 
 /// Pictures are interpolated between pixels, and repeat.

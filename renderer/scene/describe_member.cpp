@@ -165,7 +165,7 @@ MemberDescription describe(const Parameter& parameter, Member<Paint>) {
   return one_key(parameter, "3 numbers, or a texture", either(colour, reference("texture")));
 }
 
-MemberDescription describe(const Parameter& parameter, Member<std::optional<Paint>>) {
+MemberDescription describe(const Parameter& parameter, Member<PaintIfAny>) {
   return describe(parameter, Member<Paint>());
 }
 

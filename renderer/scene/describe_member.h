@@ -36,7 +36,7 @@ MemberDescription describe(const Parameter&, Member<Resolution>);
 MemberDescription describe(const Parameter&, Member<std::optional<double>>);
 MemberDescription describe(const Parameter&, Member<std::string>);
 MemberDescription describe(const Parameter&, Member<Paint>);
-MemberDescription describe(const Parameter&, Member<std::optional<Paint>>);
+MemberDescription describe(const Parameter&, Member<PaintIfAny>);
 MemberDescription describe(const Parameter&, Member<PictureFile>);
 MemberDescription describe(const Parameter&, Member<std::array<MaterialName, 2>>);
 MemberDescription describe_name(const Parameter&, std::span<const std::string_view> names,

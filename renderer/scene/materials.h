@@ -117,7 +117,7 @@ using MetalName = NameOf<MetalNames>;
 /// A metal, by its name or by the colour that it mirrors straight ahead.
 struct ConductorMaterial {
   MetalName metal;
-  std::optional<Paint> colour;
+  PaintIfAny colour;
   double roughness = 0.1;
   double anisotropy = 0;
 

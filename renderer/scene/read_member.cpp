@@ -175,7 +175,7 @@ bool read_member(ObjectReader& object, const Parameter& parameter, Paint& member
   });
 }
 
-bool read_member(ObjectReader& object, const Parameter& parameter, std::optional<Paint>& member,
+bool read_member(ObjectReader& object, const Parameter& parameter, PaintIfAny& member,
                  MeshFiles& files) {
   return read_key(object, parameter, member, [&](const Json& json, const JsonPath& path) {
     return read_paint(json, path, object.mistakes(), parameter.range, files);

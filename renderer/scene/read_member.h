@@ -45,7 +45,7 @@ bool read_member(ObjectReader&, const Parameter&, Resolution& member, MeshFiles&
 bool read_member(ObjectReader&, const Parameter&, std::optional<double>& member, MeshFiles&);
 bool read_member(ObjectReader&, const Parameter&, std::string& member, MeshFiles&);
 bool read_member(ObjectReader&, const Parameter&, Paint& member, MeshFiles&);
-bool read_member(ObjectReader&, const Parameter&, std::optional<Paint>& member, MeshFiles&);
+bool read_member(ObjectReader&, const Parameter&, PaintIfAny& member, MeshFiles&);
 bool read_member(ObjectReader&, const Parameter&, PictureFile& member, MeshFiles&);
 /// The names alone: who knows all materials finds their indices.
 bool read_member(ObjectReader&, const Parameter&, std::array<MaterialName, 2>& member, MeshFiles&);

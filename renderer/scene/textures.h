@@ -6,6 +6,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <variant>
 
 #include "core/math/vec.h"
@@ -138,6 +139,25 @@ class Paint {
  private:
   Colour colour_;
   std::shared_ptr<const TextureKind> texture_;
+};
+
+/// A colour, or none.
+class PaintIfAny {
+ public:
+  PaintIfAny() = default;
+  PaintIfAny(std::nullopt_t) {}
+  template <class P>
+  requires std::is_convertible_v<const P&, Paint> PaintIfAny(const P& paint)
+      : paint_(std::make_shared<const Paint>(paint)) {}
+
+  bool has_value() const { return paint_ != nullptr; }
+  explicit operator bool() const { return has_value(); }
+  const Paint& operator*() const { return *paint_; }
+  const Paint* operator->() const { return paint_.get(); }
+  Paint value_or(const Paint& other) const { return paint_ ? *paint_ : other; }
+
+ private:
+  std::shared_ptr<const Paint> paint_;
 };
 
 }  // namespace minkray

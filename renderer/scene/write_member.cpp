@@ -79,7 +79,7 @@ void write_member(Json& object, std::string_view name, const std::optional<doubl
   if (member) write_member(object, name, *member);
 }
 
-void write_member(Json& object, std::string_view name, const std::optional<Paint>& member) {
+void write_member(Json& object, std::string_view name, const PaintIfAny& member) {
   if (member) write_member(object, name, *member);
 }
 

@@ -30,7 +30,7 @@ void write_member(Json& object, std::string_view name, const AffineMap<double>& 
 void write_member(Json& object, std::string_view name, const Resolution& member);
 /// These are left out where there is none.
 void write_member(Json& object, std::string_view name, const std::optional<double>& member);
-void write_member(Json& object, std::string_view name, const std::optional<Paint>& member);
+void write_member(Json& object, std::string_view name, const PaintIfAny& member);
 void write_member(Json& object, std::string_view name, const std::string& member);
 void write_member(Json& object, std::string_view name, const Paint& member);
 void write_member(Json& object, std::string_view name, const PictureFile& member);

@@ -19,9 +19,9 @@ sample = {"type": "hull_of", "shapes": [
      "shape": {"type": "rounded", "radius": 0.04, "shape": {"type": "box", "half_extents": [0.3, 0.3, 0]}}}]}
 
 materials = [
-    {"name": "floor", "type": "glossy", "color": [0.42, 0.42, 0.43], "roughness": 0.4},
-    {"name": "softbox", "type": "emissive", "radiance": [6.5, 6.3, 6.0]},
-    {"name": "strip", "type": "emissive", "radiance": [4, 5.5, 8]},
+    {"name": "floor", "type": "glossy", "color": [0.3, 0.3, 0.31], "roughness": 0.45},
+    {"name": "softbox", "type": "emissive", "radiance": [15, 14.4, 13.6]},
+    {"name": "strip", "type": "emissive", "radiance": [9, 12, 17]},
     {"name": "matt", "type": "lambert", "color": [0.75, 0.3, 0.22]},
     {"name": "plastic", "type": "glossy", "color": [0.05, 0.22, 0.5], "roughness": 0.15},
     {"name": "gold", "type": "conductor", "metal": "gold", "roughness": 0.2},
@@ -60,11 +60,11 @@ scene = {
     "$schema": "scene.schema.json",
     "version": 1,
     "description": "Materials and textures, each on the hull of a ball and a rounded square: matt, plastic, velvet, lacquer, rusty and brushed aluminium, clear and frosted glass, a checkerboard, marble, wood, gold.",
-    "camera": {"position": [0.3, -7.6, 3.6], "look_at": [0.1, 0.1, 0.35], "fov_y_degrees": 23,
+    "camera": {"position": [0.3, -7.6, 3.6], "look_at": [0.14, 0.1, 0.3], "fov_y_degrees": 22.5,
                "resolution": [1280, 720], "aperture": 0.1, "focus_on": "checker"},
-    "lights": [{"type": "environment", "zenith": [0.2, 0.22, 0.26], "nadir": [0.1, 0.1, 0.1]}],
+    "lights": [{"type": "environment", "zenith": [0.16, 0.18, 0.22], "nadir": [0.06, 0.06, 0.06]}],
     "materials": materials,
     "objects": objects,
-    "background": {"zenith": [0.2, 0.22, 0.26], "nadir": [0.1, 0.1, 0.1]},
+    "background": {"zenith": [0.03, 0.035, 0.045], "nadir": [0.05, 0.05, 0.05]},
 }
 write("studio.json", scene)

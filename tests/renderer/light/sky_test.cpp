@@ -5,6 +5,7 @@
 
 #include "renderer/film/render.h"
 #include "renderer/light/integrator.h"
+#include "renderer/light/reflection.h"
 #include "renderer/light/sky_image.h"
 #include "renderer/light/sun_sky.h"
 #include "tests/support/density.h"

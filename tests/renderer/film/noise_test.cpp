@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// Pixels that stop when they are quiet: they do, they are about as noisy as was asked for, and they
+// stop at the same samples whatever goes together.
+#include <gtest/gtest.h>
+
+#include "renderer/film/render.h"
+
+namespace minkray {
+namespace {
+
+/// A matt ball and floor, a lamp, and much background.
+Scene lit_ball() {
+  Scene scene;
+  scene.camera.position = {0, -6, 2};
+  scene.camera.resolution = {40, 30};
+  scene.materials = {{"matt", LambertMaterial{Colour::Constant(0.7)}},
+                     {"lamp", EmissiveMaterial{Colour::Constant(8)}}};
+  scene.background = {Colour::Constant(0.3), Colour::Constant(0.3)};
+  const auto add = [&](Shape<double> shape, const Vec3<double>& at, std::uint32_t material) {
+    scene.objects.push_back({"", std::move(shape), {Mat3<double>::Identity(), at}, material});
+  };
+  add(Box<double>{{3, 3, 0.5}}, {0, 0, -1.5}, 0);
+  add(Sphere<double>{1}, {0, 0, 0}, 0);
+  add(Sphere<double>{0.4}, {2, -1, 3}, 1);
+  return scene;
+}
+
+Rendering rendering(const Scene& scene, int samples, double noise, std::uint64_t seed, int packet) {
+  RenderOptions options;
+  options.resolution = scene.camera.resolution;
+  options.samples = samples;
+  options.noise = noise;
+  options.seed = seed;
+  options.integrator.packet = packet;
+  const RenderWorld world = make_world(scene);
+  return render(scene, world, options);
+}
+
+TEST(Noise, pixels_stop_when_they_are_quiet_and_not_before) {
+  const Scene scene = lit_ball();
+  constexpr double noise = 0.04;
+  const Rendering all = rendering(scene, 1024, 0, 1, 16);
+  const Rendering quiet = rendering(scene, 1024, noise, 2, 16);
+  EXPECT_LT(quiet.counts.camera, all.counts.camera / 2);
+  EXPECT_GT(quiet.counts.camera, all.counts.camera / 100);
+  double squares = 0;
+  for (std::size_t i = 0; i < all.image.pixels.size(); ++i) {
+    const double a = quiet.image.pixels[i].mean(), b = all.image.pixels[i].mean();
+    squares +=
+        std::pow((a - b) / std::max(b, 0.02), 2) / static_cast<double>(all.image.pixels.size());
+  }
+  EXPECT_LT(std::sqrt(squares), 1.5 * noise);
+}
+
+TEST(Noise, pixels_stop_at_the_same_samples_whatever_rays_go_together) {
+  const Scene scene = lit_ball();
+  const Rendering one = rendering(scene, 200, 0.1, 3, 1);
+  for (const int packet : {5, 16, 32}) {
+    const Rendering many = rendering(scene, 200, 0.1, 3, packet);
+    EXPECT_EQ(one.image.pixels, many.image.pixels);
+    EXPECT_EQ(one.met, many.met);
+    EXPECT_EQ(one.counts.camera, many.counts.camera);
+  }
+}
+
+}  // namespace
+}  // namespace minkray
