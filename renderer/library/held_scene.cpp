@@ -62,7 +62,11 @@ std::uint32_t HeldScene::add(const HalfSpaceBody<double>& half_space, const char
 
 void HeldScene::append(Scene&& from) {
   const auto shift = static_cast<std::uint32_t>(scene_.materials.size());
-  for (Material& material : from.materials) scene_.materials.push_back(std::move(material));
+  for (Material& material : from.materials) {
+    if (auto* mix = std::get_if<MixMaterial>(&material.kind))
+      for (std::uint32_t& index : mix->materials.indices) index += shift;
+    scene_.materials.push_back(std::move(material));
+  }
   for (Object& object : from.objects) {
     object.material += shift;
     scene_.objects.push_back(std::move(object));
@@ -75,6 +79,7 @@ void HeldScene::append(Scene&& from) {
     scene_.camera = from.camera;
     scene_.lights = std::move(from.lights);
     scene_.background = from.background;
+    scene_.background_is_sky = from.background_is_sky;
     has_camera_ = true;
   }
   due_ = Due::build;

@@ -21,7 +21,7 @@ Colour radiance_of(const Scene& scene, const Material& material) {
     return emissive->radiance;
   if (const auto* mix = std::get_if<MixMaterial>(&material.kind)) {
     const auto of = [&](std::size_t i) -> Colour {
-      return radiance_of(scene, scene.materials[mix->materials[i].index]);
+      return radiance_of(scene, scene.materials[mix->materials.indices[i]]);
     };
     return (1 - mix->amount) * of(0) + mix->amount * of(1);
   }
@@ -37,8 +37,8 @@ Medium medium_of(const Scene& scene, const Material& material) {
   if (const auto* layers = std::get_if<PrincipledMaterial>(&material.kind))
     return {layers->index_of_refraction, Colour::Zero(), 0};
   if (const auto* mix = std::get_if<MixMaterial>(&material.kind)) {
-    const Medium second = medium_of(scene, scene.materials[mix->materials[1].index]);
-    return second.eta != 1 ? second : medium_of(scene, scene.materials[mix->materials[0].index]);
+    const Medium second = medium_of(scene, scene.materials[mix->materials.indices[1]]);
+    return second.eta != 1 ? second : medium_of(scene, scene.materials[mix->materials.indices[0]]);
   }
   return {};
 }
@@ -52,7 +52,7 @@ Paint paint_of(const Scene& scene, const Material& material) {
   }
   if (const auto* mix = std::get_if<MixMaterial>(&material.kind)) {
     const auto of = [&](std::size_t i) {
-      return paint_of(scene, scene.materials[mix->materials[i].index]).colour();
+      return paint_of(scene, scene.materials[mix->materials.indices[i]]).colour();
     };
     return (1 - mix->amount) * of(0) + mix->amount * of(1);
   }
@@ -73,8 +73,9 @@ SceneSurfaces::SceneSurfaces(const Scene& scene) : of_instance_(material_of_inst
   for (const Material& material : scene.materials) {
     PreparedMaterial made;
     if (const auto* mix = std::get_if<MixMaterial>(&material.kind))
-      made.bsdf = std::make_unique<MixBsdf>(*materials_[mix->materials[0].index].bsdf,
-                                            *materials_[mix->materials[1].index].bsdf, mix->amount);
+      made.bsdf =
+          std::make_unique<MixBsdf>(*materials_[mix->materials.indices[0]].bsdf,
+                                    *materials_[mix->materials.indices[1]].bsdf, mix->amount);
     else
       made.bsdf = make_bsdf(material);
     made.radiance = radiance_of(scene, material);

@@ -173,7 +173,7 @@ MemberDescription describe(const Parameter& parameter, Member<PictureFile>) {
   return one_key(parameter, "a file's name", {{"type", "string"}});
 }
 
-MemberDescription describe(const Parameter& parameter, Member<std::array<MaterialName, 2>>) {
+MemberDescription describe(const Parameter& parameter, Member<TwoMaterials>) {
   return one_key(parameter, "2 names", schema_of_list({{"type", "string"}, {"minLength", 1}}, 2));
 }
 

@@ -38,7 +38,7 @@ MemberDescription describe(const Parameter&, Member<std::string>);
 MemberDescription describe(const Parameter&, Member<Paint>);
 MemberDescription describe(const Parameter&, Member<PaintIfAny>);
 MemberDescription describe(const Parameter&, Member<PictureFile>);
-MemberDescription describe(const Parameter&, Member<std::array<MaterialName, 2>>);
+MemberDescription describe(const Parameter&, Member<TwoMaterials>);
 MemberDescription describe_name(const Parameter&, std::span<const std::string_view> names,
                                 std::string_view what);
 template <class List>

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -184,15 +185,15 @@ struct PrincipledMaterial {
   }
 };
 
-/// The name of a material that comes before.
-struct MaterialName {
-  std::string name;
-  std::uint32_t index = 0;  ///< into Scene::materials
+/// Two materials that come before, by their names and their places in Scene::materials.
+struct TwoMaterials {
+  std::shared_ptr<const std::array<std::string, 2>> names;
+  std::array<std::uint32_t, 2> indices = {};
 };
 
 /// Two materials in one place.
 struct MixMaterial {
-  std::array<MaterialName, 2> materials;
+  TwoMaterials materials;
   double amount = 0.5;
 
   static constexpr std::string_view name = "mix";

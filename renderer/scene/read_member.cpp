@@ -194,11 +194,11 @@ bool read_member(ObjectReader& object, const Parameter& parameter, PictureFile& 
                   });
 }
 
-bool read_member(ObjectReader& object, const Parameter& parameter,
-                 std::array<MaterialName, 2>& member, MeshFiles&) {
+bool read_member(ObjectReader& object, const Parameter& parameter, TwoMaterials& member,
+                 MeshFiles&) {
   return read_key(
       object, parameter, member,
-      [&](const Json& json, const JsonPath& path) -> std::optional<std::array<MaterialName, 2>> {
+      [&](const Json& json, const JsonPath& path) -> std::optional<TwoMaterials> {
         if (!json.is_array() || json.size() != 2) {
           object.mistakes().add(path, "must be a list of 2 names (" + found(json) + ")");
           return std::nullopt;
@@ -206,7 +206,8 @@ bool read_member(ObjectReader& object, const Parameter& parameter,
         const auto first = read_string(json[0], path / std::size_t{0}, object.mistakes());
         const auto second = read_string(json[1], path / std::size_t{1}, object.mistakes());
         if (!first || !second) return std::nullopt;
-        return std::array{MaterialName{*first}, MaterialName{*second}};
+        return TwoMaterials{std::make_shared<const std::array<std::string, 2>>(
+            std::array<std::string, 2>{*first, *second})};
       });
 }
 

@@ -48,7 +48,7 @@ bool read_member(ObjectReader&, const Parameter&, Paint& member, MeshFiles&);
 bool read_member(ObjectReader&, const Parameter&, PaintIfAny& member, MeshFiles&);
 bool read_member(ObjectReader&, const Parameter&, PictureFile& member, MeshFiles&);
 /// The names alone: who knows all materials finds their indices.
-bool read_member(ObjectReader&, const Parameter&, std::array<MaterialName, 2>& member, MeshFiles&);
+bool read_member(ObjectReader&, const Parameter&, TwoMaterials& member, MeshFiles&);
 /// One of the names; `what` they are names of.
 bool read_name(ObjectReader&, const Parameter&, std::string& member,
                std::span<const std::string_view> names, std::string_view what);

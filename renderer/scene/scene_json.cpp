@@ -159,8 +159,8 @@ class SceneReader {
   void find_mixed(MaterialKind& kind, const JsonPath& path) {
     auto* mix = std::get_if<MixMaterial>(&kind);
     for (std::size_t i = 0; mix && i < 2; ++i)
-      mix->materials[i].index =
-          read_material_name(Json(mix->materials[i].name), path / "materials" / i);
+      mix->materials.indices[i] =
+          read_material_name(Json((*mix->materials.names)[i]), path / "materials" / i);
   }
 
   /// Settles how far away it is sharp.

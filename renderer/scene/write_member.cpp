@@ -95,8 +95,8 @@ void write_member(Json& object, std::string_view name, const PictureFile& member
   value_of(object, name) = member.file;
 }
 
-void write_member(Json& object, std::string_view name, const std::array<MaterialName, 2>& member) {
-  value_of(object, name) = Json::array({member[0].name, member[1].name});
+void write_member(Json& object, std::string_view name, const TwoMaterials& member) {
+  value_of(object, name) = Json::array({(*member.names)[0], (*member.names)[1]});
 }
 
 }  // namespace minkray

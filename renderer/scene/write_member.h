@@ -34,7 +34,7 @@ void write_member(Json& object, std::string_view name, const PaintIfAny& member)
 void write_member(Json& object, std::string_view name, const std::string& member);
 void write_member(Json& object, std::string_view name, const Paint& member);
 void write_member(Json& object, std::string_view name, const PictureFile& member);
-void write_member(Json& object, std::string_view name, const std::array<MaterialName, 2>& member);
+void write_member(Json& object, std::string_view name, const TwoMaterials& member);
 template <class List>
 void write_member(Json& object, std::string_view name, const NameOf<List>& member) {
   write_member(object, name, member.name);

@@ -24,13 +24,13 @@ std::shared_ptr<const Image> patches() {
 
 TEST(SkyImage, directions_have_the_density_they_claim) {
   const SkyImage sky(patches(), 2, 0.7);
-  expect_density(check_density(
+  const DensityCheck check = check_density(
       [&](Sampler& sampler) -> std::optional<Vec3<double>> {
-        const auto sample = sky.sample({0, 0, 0}, sampler);
-        return sample ? std::optional(sample->direction) : std::nullopt;
+    const auto sample = sky.sample({0, 0, 0}, sampler);
+    return sample ? std::optional(sample->direction) : std::nullopt;
       },
       [&](const Vec3<double>& w) {
-        return sky.pdf({0, 0, 0}, w);
+    return sky.pdf({0, 0, 0}, w);
       }));
 }
 

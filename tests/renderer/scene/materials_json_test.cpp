@@ -70,7 +70,7 @@ TEST_F(Pictures, all_mistakes_of_materials_are_told_at_once) {
     {"name": "dots", "type": "lambert", "color": {"type": "dots"}},
     {"name": "turn", "type": "lambert", "color": {"type": "checker", "mapping": "around", "scale": 0}})"));
   const std::vector<std::string> places = {
-      "/materials/0/roughness: must be from 0 to 1 (got -0.1)",
+      "/materials/0/roughness: must be >= 0 and <= 1 (got -0.1)",
       "/materials/0/index_of_refraction: must be >= 1 (got 0.5)",
       "/materials/0/absorption/1: must be >= 0 (got -1)",
       "/materials/0/priority: must be a number",
@@ -155,9 +155,9 @@ TEST_F(Pictures, what_is_written_is_read_as_the_same) {
   const auto first = parse_scene(text, folder_, mistakes);
   ASSERT_TRUE(first) << mistakes.text();
   EXPECT_TRUE(first->background_is_sky);
-  EXPECT_NEAR(first->camera.focus, 5 * 4 / std::sqrt(20.0), 1e-12);
+  EXPECT_NEAR(first->camera.focus, (5 * 4 + 2 * 2) / std::sqrt(20.0), 1e-12);
   EXPECT_EQ(std::get<ImageSkyLight>(first->lights[0]).strength, 2);
-  EXPECT_EQ(std::get<MixMaterial>(first->materials[3].kind).materials[1].index, 1u);
+  EXPECT_EQ(std::get<MixMaterial>(first->materials[3].kind).materials.indices[1], 1u);
   const auto second = parse_scene(scene_text(*first), folder_, mistakes);
   ASSERT_TRUE(second) << mistakes.text();
   EXPECT_EQ(scene_text(*first), scene_text(*second));
