@@ -30,7 +30,7 @@ void write_picture(const std::vector<std::string>& outputs, const FinishedPictur
 /// What formats without floats show, with labels.
 Image to_look_at(const FinishedPicture& finished, const Display& display);
 
-/// Of the list of tone maps that of this name.
+/// The tone map of this name in the list of them.
 ToneMap tone_map_named(const std::string& name);
 std::vector<std::string> tone_map_names();
 

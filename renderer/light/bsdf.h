@@ -59,7 +59,7 @@ class Bsdf {
   virtual bool has_grain() const { return false; }
 };
 
-/// Of a material by itself, which is no mixture.
+/// The material stands by itself; it is no mixture.
 std::unique_ptr<const Bsdf> make_bsdf(const Material& material);
 
 }  // namespace minkray

@@ -28,7 +28,7 @@ class MetalFresnel {
 
 class ConductorBsdf final : public Bsdf {
  public:
-  /// Of a metal by its table, or of a colour.
+  /// It is a metal by its table, or a colour.
   ConductorBsdf(const MetalFresnel& fresnel, double roughness, double anisotropy);
   ConductorBsdf(const Paint& colour, double roughness, double anisotropy);
 

@@ -107,7 +107,7 @@ class Surface {
   /// Reflected radiance per irradiance of light from w_in by both, the coat taken to be at least as
   /// rough as least_alpha.
   Colour eval(const Vec3<double>& w_out, const Vec3<double>& w_in, double least_alpha = 0) const;
-  /// The same with another colour of its base.
+  /// It differs in the colour of its base alone.
   Surface recoloured(const Colour& colour) const {
     Surface other = *this;
     other.base_ = base_.recoloured(colour);

@@ -131,7 +131,7 @@ class Paint {
   Paint(double red, double green, double blue) : colour_(red, green, blue) {}
   explicit Paint(TextureKind texture);
 
-  /// Of a texture the mean of its colours, about.
+  /// About the mean of a texture's colours.
   const Colour& colour() const { return colour_; }
   /// Null if it is the same everywhere.
   const TextureKind* texture() const { return texture_.get(); }

@@ -12,6 +12,7 @@
 #include "renderer/io/read_image.h"
 #include "renderer/scene/scene_json.h"
 #include "renderer/scene/write_scene.h"
+#include "tests/support/program.h"
 
 namespace minkray {
 namespace {
@@ -19,8 +20,7 @@ namespace {
 /// A folder with a few pictures in it.
 class Pictures : public testing::Test {
  protected:
-  Pictures() : folder_(testing::TempDir() + "minkray-pictures") {
-    std::filesystem::create_directories(folder_);
+  Pictures() {
     Image sky(8, 4, Vec3<float>(0.5F, 2, 8));
     write("sky.exr", encode_image(sky, "sky.exr"));
     write("board.png", encode_image(Image(2, 2, Vec3<float>(0.5F, 0.25F, 1)), "board.png"));
@@ -29,7 +29,6 @@ class Pictures : public testing::Test {
     write("broken.png", {'n', 'o', 'n', 'e'});
     write("text.txt", {'n', 'o', 'n', 'e'});
   }
-  ~Pictures() override { std::filesystem::remove_all(folder_); }
 
   void write(const std::string& name, const std::vector<unsigned char>& bytes) const {
     std::ofstream(folder_ / name, std::ios::binary)
@@ -47,12 +46,12 @@ class Pictures : public testing::Test {
   }
   std::vector<std::string> complaints(const std::string& text) const {
     Mistakes mistakes("x.json");
-    const auto read = parse_scene(text, folder_, mistakes);
+    const auto read = parse_scene(text, folder_ / "", mistakes);
     EXPECT_EQ(read.has_value(), mistakes.none());
     return mistakes.messages();
   }
 
-  std::filesystem::path folder_;
+  TemporaryFolder folder_;
 };
 
 constexpr const char* matt = R"({"name": "m", "type": "lambert", "color": [1, 1, 1]})";
@@ -152,13 +151,13 @@ TEST_F(Pictures, what_is_written_is_read_as_the_same) {
          {"type": "sun_sky", "sun": [1, 0, 1]})",
       R"(, "aperture": 0.1, "focus_on": "ball")");
   Mistakes mistakes("x.json");
-  const auto first = parse_scene(text, folder_, mistakes);
+  const auto first = parse_scene(text, folder_ / "", mistakes);
   ASSERT_TRUE(first) << mistakes.text();
   EXPECT_TRUE(first->background_is_sky);
   EXPECT_NEAR(first->camera.focus, (5 * 4 + 2 * 2) / std::sqrt(20.0), 1e-12);
   EXPECT_EQ(std::get<ImageSkyLight>(first->lights[0]).strength, 2);
   EXPECT_EQ(std::get<MixMaterial>(first->materials[3].kind).materials.indices[1], 1u);
-  const auto second = parse_scene(scene_text(*first), folder_, mistakes);
+  const auto second = parse_scene(scene_text(*first), folder_ / "", mistakes);
   ASSERT_TRUE(second) << mistakes.text();
   EXPECT_EQ(scene_text(*first), scene_text(*second));
 }
