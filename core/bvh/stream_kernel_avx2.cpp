@@ -154,8 +154,8 @@ std::uint64_t walk_stream_avx2(const BvhNode* nodes, SlabRay* rays, std::size_t 
                        _mm256_castsi256_ps(_mm256_and_si256(keys, without_lane)));
       store(turn.node + turn.top, _mm256_permutevar8x32_epi32(children, keys));
       turn.top += __builtin_popcount(inner);
-      const char* const ahead =
-          reinterpret_cast<const char*>(nodes + turn.node[turn.top > sentinels ? turn.top - 1 : 8]);
+      const char* const ahead = reinterpret_cast<const char*>(
+          nodes + turn.node[turn.top > sentinels ? turn.top - 1 : sentinels]);
       for (int line = 0; line < 4; ++line) __builtin_prefetch(ahead + 64 * line);
       ++i;
       if (pairs < pairs_at_once) continue;

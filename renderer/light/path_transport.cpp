@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/light/path_transport.h"
 
-#include <array>
 #include <cmath>
 #include <optional>
 
-#include "renderer/light/inside.h"
+#include "renderer/light/path_state.h"
 
 namespace minkray {
 namespace {
@@ -22,65 +21,6 @@ double share(double mine, double other) {
 }
 
 }  // namespace
-
-/// A path, and the ray that goes on from its end.
-struct PathTransport::Path {
-  Ray<Real> ray;
-  Sampler sampler;
-  Real time = 0;
-  std::uint32_t left = no_instance;
-  Inside inside;
-
-  Colour throughput = Colour::Ones();
-  Colour radiance = Colour::Zero();
-  int depth = 0, passages = 0;
-  bool is_sharp = true;         ///< the ray's direction had no density
-  bool is_straight = true;      ///< nothing was passed since the last scattering
-  bool only_sharp = true;       ///< all directions so far had none
-  double pdf = 0;               ///< of the ray's direction
-  Vec3<Real> from = {0, 0, 0};  ///< where it was scattered last
-  double gathered = 1;          ///< eta^2 of where the path is: dense media gather radiance
-  bool goes_on = true;
-};
-
-/// Where a path met a surface that scatters light.
-struct PathTransport::Point {
-  Vec3<Real> position;
-  Real rounding;
-  Frame frame;
-  Shading shading;
-  const Bsdf* bsdf;
-  std::uint32_t instance;
-  Inside above, below;  ///< what holds the places beside the surface
-  TexturePoint place;   ///< which `shading` refers to
-
-  /// A ray that goes from here; what holds it is `inside(w)`.
-  Ray<Real> ray(const Vec3<double>& w, const Vec3<double>& direction) const {
-    return {w.z() > 0 ? Vec3<Real>(position + rounding * frame.z) : position, direction};
-  }
-  const Inside& inside(const Vec3<double>& w) const { return w.z() > 0 ? above : below; }
-};
-
-/// What a light sends to a path's end, if nothing is in its way.
-struct PathTransport::Arriving {
-  std::size_t path;
-  Colour light;
-  std::uint32_t emitter = no_instance;  ///< that must be met
-};
-
-/// Rays towards lights, asked together. Whatever order they are asked in, a path's sum is the same:
-/// it takes one ray of each of these.
-struct PathTransport::ShadowRays {
-  std::array<WorldRay<Real>, most_in_packet> rays;
-  std::array<Arriving, most_in_packet> arriving;
-  std::size_t count = 0;
-
-  void add(const WorldRay<Real>& ray, const Arriving& light) {
-    rays[count] = ray;
-    arriving[count++] = light;
-  }
-  std::span<const WorldRay<Real>> asked() const { return std::span(rays).first(count); }
-};
 
 /// Paths that go on together.
 class PathTransport::Packet {
@@ -273,24 +213,46 @@ class PathTransport::Packet {
     gather(path, part * path.throughput.cwiseProduct(material.radiance), path.depth);
   }
 
-  /// Light from the only direction of a light, to all paths' ends.
-  void ask_light(std::size_t light) {
+  /// Light of a kind to all paths' ends: draw(point, sampler) is a sample of it, and part(point, w,
+  /// sample) what counts of that beside what the surface itself draws; 0 is not asked for.
+  template <class Draw, class Part>
+  void ask_for(const Draw& draw, const Part& part) {
     ShadowRays shadows;
     for (std::size_t i = 0; i < rays_.size(); ++i) {
       if (!points_[i] || points_[i]->bsdf->is_sharp()) continue;
       const Point& point = *points_[i];
-      const auto sample = of_.lights_.sample(light, point.position, paths_[i].sampler);
+      const std::optional<LightSample> sample = draw(point, paths_[i].sampler);
       if (!sample) continue;
       const Vec3<double> w = point.frame.to_local(sample->direction);
       if (!point.inside(w).none()) continue;
       const Colour reflected = point.bsdf->eval(point.shading, w);
       if (!(reflected.maxCoeff() > 0)) continue;
+      const double counts = part(point, w, *sample);
+      if (!(counts > 0)) continue;
       Ray<Real> ray = point.ray(w, sample->direction);
       ray.t_max = sample->distance;
       shadows.add({ray, point.instance, paths_[i].time},
-                  {i, sample->weight.cwiseProduct(reflected), no_instance});
+                  {i, counts * sample->weight.cwiseProduct(reflected), no_instance});
     }
     ask(shadows);
+  }
+
+  /// Light from the only direction of a light, which no surface draws.
+  void ask_light(std::size_t light) {
+    ask_for([&](const Point& point,
+                Sampler& sampler) { return of_.lights_.sample(light, point.position, sampler); },
+            [](const Point&, const Vec3<double>&, const LightSample&) { return 1.0; });
+  }
+
+  /// Light from all around, where it is bright.
+  void ask_sky(const SkySource& sky) {
+    if (!sky.is_asked()) return;
+    ask_for(
+        [&](const Point& point, Sampler& sampler) { return sky.sample(point.position, sampler); },
+        [&](const Point& point, const Vec3<double>& w, const LightSample& sample) {
+          const double density = sky.pdf(point.position, sample.direction);
+          return density > 0 ? share(density, point.bsdf->pdf(point.shading, w)) : 0.0;
+        });
   }
 
   /// Adds what arrives where nothing is in the way.
@@ -304,27 +266,6 @@ class PathTransport::Packet {
                                         answer);
       if (!answer) add(shadows.arriving[k]);
     }
-  }
-
-  /// Light from all around, where it is bright.
-  void ask_sky(const SkySource& sky) {
-    if (!sky.is_asked()) return;
-    ShadowRays shadows;
-    for (std::size_t i = 0; i < rays_.size(); ++i) {
-      if (!points_[i] || points_[i]->bsdf->is_sharp()) continue;
-      const Point& point = *points_[i];
-      const auto sample = sky.sample(point.position, paths_[i].sampler);
-      if (!sample) continue;
-      const Vec3<double> w = point.frame.to_local(sample->direction);
-      if (!point.inside(w).none()) continue;
-      const Colour reflected = point.bsdf->eval(point.shading, w);
-      const double density = sky.pdf(point.position, sample->direction);
-      if (!(reflected.maxCoeff() > 0) || !(density > 0)) continue;
-      const double part = share(density, point.bsdf->pdf(point.shading, w));
-      shadows.add({point.ray(w, sample->direction), point.instance, paths_[i].time},
-                  {i, part * sample->weight.cwiseProduct(reflected), no_instance});
-    }
-    ask(shadows);
   }
 
   /// Light from one shining body for each path's end, drawn at random. Whether the body is met, and

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// What a path tracer keeps of a path: the ray that goes on from its end, where it met a surface,
+// and what lights send there.
+#pragma once
+
+#include <array>
+
+#include "renderer/light/inside.h"
+#include "renderer/light/path_transport.h"
+
+namespace minkray {
+
+/// A path, and the ray that goes on from its end.
+struct PathTransport::Path {
+  Ray<Real> ray;
+  Sampler sampler;
+  Real time = 0;
+  std::uint32_t left = no_instance;
+  Inside inside;
+
+  Colour throughput = Colour::Ones();
+  Colour radiance = Colour::Zero();
+  int depth = 0, passages = 0;
+  bool is_sharp = true;         ///< the ray's direction had no density
+  bool is_straight = true;      ///< nothing was passed since the last scattering
+  bool only_sharp = true;       ///< all directions so far had none
+  double pdf = 0;               ///< of the ray's direction
+  Vec3<Real> from = {0, 0, 0};  ///< where it was scattered last
+  double gathered = 1;          ///< eta^2 of where the path is: dense media gather radiance
+  bool goes_on = true;
+};
+
+/// Where a path met a surface that scatters light.
+struct PathTransport::Point {
+  Vec3<Real> position;
+  Real rounding;
+  Frame frame;
+  Shading shading;
+  const Bsdf* bsdf;
+  std::uint32_t instance;
+  Inside above, below;  ///< what holds the places beside the surface
+  TexturePoint place;   ///< which `shading` refers to
+
+  /// A ray that goes from here; what holds it is `inside(w)`.
+  Ray<Real> ray(const Vec3<double>& w, const Vec3<double>& direction) const {
+    return {w.z() > 0 ? Vec3<Real>(position + rounding * frame.z) : position, direction};
+  }
+  const Inside& inside(const Vec3<double>& w) const { return w.z() > 0 ? above : below; }
+};
+
+/// What a light sends to a path's end, if nothing is in its way.
+struct PathTransport::Arriving {
+  std::size_t path;
+  Colour light;
+  std::uint32_t emitter = no_instance;  ///< that must be met
+};
+
+/// Rays towards lights, asked together. Whatever order they are asked in, a path's sum is the same:
+/// it takes one ray of each of these.
+struct PathTransport::ShadowRays {
+  std::array<WorldRay<Real>, most_in_packet> rays;
+  std::array<Arriving, most_in_packet> arriving;
+  std::size_t count = 0;
+
+  void add(const WorldRay<Real>& ray, const Arriving& light) {
+    rays[count] = ray;
+    arriving[count++] = light;
+  }
+  std::span<const WorldRay<Real>> asked() const { return std::span(rays).first(count); }
+};
+
+}  // namespace minkray
