@@ -55,7 +55,7 @@ template <bool leaves, class F, class Placed>
   exact::Line<W>& line = near.line;
   if (leaves) line.d = -line.d;
   const W first = leaves ? W(-near.end) : near.begin, last = leaves ? W(-near.begin) : near.end;
-  exact::Entry<W> entry = exact::enter<W>(form, line, open & near.told);
+  exact::Entry<W> entry = exact::enter<W>(form, line, open & near.bounded);
 
   // A plane beside the line runs along it, to rounding of its own.
   if (any(entry.miss)) {

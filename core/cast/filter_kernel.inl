@@ -42,7 +42,7 @@ void kernel(const PlacedAt& placed, const RayPacket<Lane<F>>& rays, LaneBits lan
 }
 
 template <class T>
-using PartOf = Wide<T, static_cast<int>(IsaHere::register_bytes / sizeof(double)), IsaHere>;
+using SubPacket = Wide<T, static_cast<int>(IsaHere::register_bytes / sizeof(double)), IsaHere>;
 
 template <class F>
 void at_one(const PreparedShape<Lane<F>>& shape, const RayPacket<Lane<F>>& rays, LaneBits lanes,
@@ -62,24 +62,24 @@ void at_poses(const ShapeDefinition<Lane<F>>& definition, const PosePacket<Lane<
 
 void MINKRAY_FILTER_KERNEL(const PreparedShape<float>& shape, const RayPacket<float>& rays,
                            LaneBits lanes, CastPacket<float>& answers) {
-  at_one<PartOf<float>>(shape, rays, lanes, answers);
+  at_one<SubPacket<float>>(shape, rays, lanes, answers);
 }
 
 void MINKRAY_FILTER_KERNEL(const PreparedShape<double>& shape, const RayPacket<double>& rays,
                            LaneBits lanes, CastPacket<double>& answers) {
-  at_one<PartOf<double>>(shape, rays, lanes, answers);
+  at_one<SubPacket<double>>(shape, rays, lanes, answers);
 }
 
 void MINKRAY_FILTER_KERNEL(const ShapeDefinition<float>& definition, const PosePacket<float>& poses,
                            const RayPacket<float>& rays, LaneBits lanes,
                            CastPacket<float>& answers) {
-  at_poses<PartOf<float>>(definition, poses, rays, lanes, answers);
+  at_poses<SubPacket<float>>(definition, poses, rays, lanes, answers);
 }
 
 void MINKRAY_FILTER_KERNEL(const ShapeDefinition<double>& definition,
                            const PosePacket<double>& poses, const RayPacket<double>& rays,
                            LaneBits lanes, CastPacket<double>& answers) {
-  at_poses<PartOf<double>>(definition, poses, rays, lanes, answers);
+  at_poses<SubPacket<double>>(definition, poses, rays, lanes, answers);
 }
 
 }  // namespace minkray

@@ -41,7 +41,7 @@ auto convert(const F& x) {
 template <class W>
 struct FormLine {
   exact::Line<W> line;
-  Mask<W> told;  ///< lanes in which line.E is what it says
+  Mask<W> bounded;  ///< lanes in which line.E is what it says
   W base, shift, per;
   W begin, end;  ///< the ray's, as parameters of the line
   W slack;       ///< how uncertain those are
@@ -116,10 +116,10 @@ template <class F, class W, class Placed>
   near.line.inv = inv;
   near.line.E = W(tolerance::form_rounding<float> * form.R);
   near.line.parallel = W(tolerance::form_parallel<float>) * dd;
-  near.told = (k * k * dd <= far) & (dd > W(tolerance::form_shortest_squared)) &
-              (dd < W(tolerance::form_longest_squared));
+  near.bounded = (k * k * dd <= far) & (dd > W(tolerance::form_shortest_squared)) &
+                 (dd < W(tolerance::form_longest_squared));
   if (shape.linear_to_inner())
-    near.told &= (spread <= far) & ((k * k + W(form.R * form.R) * inv) * spread_per <= far);
+    near.bounded &= (spread <= far) & ((k * k + W(form.R * form.R) * inv) * spread_per <= far);
   near.base = k;
   near.shift = W(0);
   near.per = W(1);
@@ -179,9 +179,9 @@ template <class W, class Placed>
     near.end -= k;
   }
   near.line = {s, d, dd, inv, E, W(tolerance::form_parallel<double>) * dd};
-  near.told = (abs(seen.lambda_min) <= W(tolerance::form_far * form.inner_R)) & (dd > W(0)) &
-              (seen.t_per_length > W(1 / tolerance::form_longest_step)) &
-              (seen.t_per_length < W(tolerance::form_longest_step));
+  near.bounded = (abs(seen.lambda_min) <= W(tolerance::form_far * form.inner_R)) & (dd > W(0)) &
+                 (seen.t_per_length > W(1 / tolerance::form_longest_step)) &
+                 (seen.t_per_length < W(tolerance::form_longest_step));
   near.slack = W(8 * std::numeric_limits<double>::epsilon()) * (abs(near.begin) + W(form.inner_R));
   return near;
 }

@@ -28,7 +28,7 @@ bool Judge<T>::has_to_be_proven(const CastResult<T>& answer) const {
   if (proof_ == Proof::all) return true;
   return proof_ == Proof::steep_hits && answer.status == Status::hit &&
          !question_.shape.definition().is_smooth() &&
-         -answer.normal.dot(question_.near.r) < tolerance::doubtful_slope<T>;
+         -answer.normal.dot(question_.near.r) < tolerance::uncertain_slope<T>;
 }
 
 template <class T>

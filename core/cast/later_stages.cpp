@@ -17,7 +17,7 @@ template <class T>
 ShapeKinds kind_of(const ShapeDefinition<T>& definition) {
   if (definition.is_extreme()) return shape_kind::extreme;
   if (definition.form().kind != FormKind::none) return shape_kind::with_form;
-  return definition.model() == ModelKind::osculated_parts ? shape_kind::osculated
+  return definition.model() == ModelKind::osculating_sums ? shape_kind::osculated
                                                           : shape_kind::with_model;
 }
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The body of the packet casts. MINKRAY_PACKET_KERNEL is the function's name. Everything else here
 // has the type of the lanes, and so the instruction set, in its name: see core/math/wide.h.
-#include "core/math/wide.h"
-#include "core/model/model_of.h"
 #include "core/cast/on_ray.h"
 #include "core/cast/packet_kernel.h"
 #include "core/cast/packet_lanes.h"
+#include "core/math/wide.h"
+#include "core/model/model_of.h"
 
 namespace minkray {
 namespace {
@@ -54,12 +54,12 @@ void part(const PreparedShape<Lane<W>>& shape, const RayPacket<Lane<W>>& rays, L
   const Mask<W> in_range =
       abs(result.t_base + result.t_offset) < W(std::numeric_limits<T>::infinity());
   const Mask<W> numbers = has_numbers(result, normal);
-  // What is doubtful is left to the single casts.
+  // What is uncertain is left to the single casts.
   Mask<W> hit = result.hit & in_range & numbers, inside = result.inside & numbers;
-  constexpr T doubtful = tolerance::doubtful_slope<T>;
-  if (doubtful != T(0) && !shape.definition().is_smooth()) {
-    hit &= -result.normal.dot(near.r) >= W(doubtful);
-    inside &= !result.doubtful;
+  constexpr T uncertain = tolerance::uncertain_slope<T>;
+  if (uncertain != T(0) && !shape.definition().is_smooth()) {
+    hit &= -result.normal.dot(near.r) >= W(uncertain);
+    inside &= !result.uncertain;
   }
   answers.hit |= lane_bits(hit) << from;
   answers.inside |= lane_bits(inside) << from;

@@ -15,7 +15,7 @@ enum class Stage : unsigned char {
   filter,          ///< the closed form, in double, with an error bound (filter.h)
   bounds,          ///< the box of a miss
   in_double,       ///< the shape and the ray in double, which is final; rays in double go on
-  model,           ///< the hull of the pieces that support calls have shown (core/model)
+  model,           ///< the hull of the features that support calls have shown (core/model)
   gjk,             ///< the GJK ray cast
   support_portal,  ///< the model of a polytope, whatever the shape
   finer,           ///< the GJK ray cast with more digits
@@ -67,7 +67,7 @@ inline constexpr std::array policies = {
     Policy{Kind::automatic, with_model, steep, {bounds, model, gjk, support_portal, finer}},
     Policy{Kind::automatic, osculated, steep, {gjk, model, support_portal, finer}},
     Policy{Kind::automatic, extreme, always, {in_double, model, gjk, finer}},
-    // Hulls of two pieces need digits: their models are asked in double.
+    // Hulls of two features need digits: their models are asked in double.
     Policy{Kind::jet, with_form, steep, {in_double, bounds, model, gjk, support_portal, finer}},
     Policy{Kind::jet, ordinary, steep, {bounds, model, gjk, support_portal, finer}},
     Policy{Kind::jet, extreme, always, {in_double, model, gjk, finer}},

@@ -52,12 +52,12 @@ template <class W>
   using std::min;
   const double r = sizes[0];
   Entry<W> entry;
-  // Far beside the ball, planes were rounded more than E says.
+  // Far misses_ball the ball, planes were rounded more than E says.
   const W reach = W(R) + W(2) * line.E;
-  const Mask<W> beside = open & (line.s.squaredNorm() > reach * reach);
-  const Mantle<W> round(r, line, open & !beside);
-  entry.miss = round.miss | beside;
-  entry.normal = select<W>(beside, line.s, Vec3<W>(round.x, round.y, W(0)));
+  const Mask<W> misses_ball = open & (line.s.squaredNorm() > reach * reach);
+  const Mantle<W> round(r, line, open & !misses_ball);
+  entry.miss = round.miss | misses_ball;
+  entry.normal = select<W>(misses_ball, line.s, Vec3<W>(round.x, round.y, W(0)));
   if (!any(round.hit)) return entry;
   const Cut<W> low(&sizes[3], sizes[1], line), high(&sizes[6], sizes[2], line);
   const W t = max(round.in, max(low.in, high.in));

@@ -16,7 +16,7 @@ template <class W>
   Entry<W> entry;
   const Nappe<W> round(slope, apex, R, line, open);
   entry.miss = round.miss;
-  if (any(round.miss)) entry.normal = round.beside(line);
+  if (any(round.miss)) entry.normal = round.separating(line);
   if (!any(round.hit)) return entry;
   const Slab<W> flat(line.s.z(), line.d.z(), -half_height, half_height, line.E);
   const W t = max(round.in, flat.in);
@@ -37,9 +37,9 @@ template <class W>
     const Vec3<W> in = select<W>(round.in - round.in_e >= flat.in - flat.e, side, lid);
     const Vec3<W> out = select<W>(round.out + round.out_e <= flat.out + flat.e,
                                   round.normal(round.out, sine, line), Vec3<W>(-lid));
-    const Vec3<W> apart =
-        select<W>(round.is_above(apex, line), round.beside(line), between(in, out, line.d));
-    entry.normal = select<W>(passes, apart, entry.normal);
+    const Vec3<W> separating =
+        select<W>(round.is_above(apex, line), round.separating(line), between(in, out, line.d));
+    entry.normal = select<W>(passes, separating, entry.normal);
     entry.miss |= passes;
   }
   return entry;

@@ -72,7 +72,7 @@ struct Nappe {
 
   /// The line misses both nappes, or crosses the upper one: this is the normal of a plane along it
   /// that touches the cone.
-  Vec3<W> beside(const Line<W>& line) const {
+  Vec3<W> separating(const Line<W>& line) const {
     using std::copysign;
     using std::max;
     using std::sqrt;

@@ -123,7 +123,7 @@ class Polytope::Maker {
         tables.links.push_back(static_cast<std::int32_t>(link));
         tables.origin.push_back(triangles_[f].corner[k]);
         tables.plane_of.push_back(plane_of_[f]);
-        if (tables.rounded_by > 0) fill_piece(static_cast<std::uint32_t>(3 * f + k), twin);
+        if (tables.rounded_by > 0) fill_feature(static_cast<std::uint32_t>(3 * f + k), twin);
       }
   }
 
@@ -144,7 +144,7 @@ class Polytope::Maker {
     }
   }
 
-  /// Adds the radius, and what rounding hides of the pieces beside (docs/theory.md). False if the
+  /// Adds the radius, and what rounding hides of the features beside (docs/theory.md). False if the
   /// polytope is not fit for it.
   bool make_room_for_rounding() {
     Long least = made_.radius_;
@@ -163,7 +163,7 @@ class Polytope::Maker {
     }
     const double room = static_cast<double>(least) / made_.radius_;
     if (!(room > tolerance::rounded_polytope_height)) return false;
-    // What is beside a piece rises by no more than rounding where it seems to fall, and what is
+    // What is beside a feature rises by no more than rounding where it seems to fall, and what is
     // further away by so many times more.
     made_.radius_ += made_.tables_.rounded_by;
     made_.rounding_ = tolerance::polytope_rounding * made_.radius_ + 2 * made_.rounding_ / room;
@@ -199,17 +199,17 @@ class Polytope::Maker {
   }
 
   /// Vectors of unit length are rounded once: slender triangles keep their digits.
-  void fill_piece(std::uint32_t half_edge, std::uint32_t twin) {
+  void fill_feature(std::uint32_t half_edge, std::uint32_t twin) {
     const std::uint32_t after = next(half_edge);
     const Vec3<double>& a = vertices_[origin(half_edge)];
     const Vec3<Long> from = a.cast<Long>();
     const Vec3<Long> along = vertices_[origin(after)].cast<Long>() - from;
-    const Vec3<Long> beside = vertices_[origin(next(after))].cast<Long>() - from;
+    const Vec3<Long> across = vertices_[origin(next(after))].cast<Long>() - from;
     const Long length = along.norm();
     const Vec3<double> u = (along / length).cast<double>();
     const Vec3<double> inwards =
-        (beside - along * (beside.dot(along) / along.squaredNorm())).normalized().cast<double>();
-    append(made_.tables_.pieces,
+        (across - along * (across.dot(along) / along.squaredNorm())).normalized().cast<double>();
+    append(made_.tables_.features,
            {a.x(), a.y(), a.z(), static_cast<double>(after), inwards.x(), inwards.y(), inwards.z(),
             static_cast<double>(twin), u.x(), u.y(), u.z(), static_cast<double>(length)});
   }

@@ -19,8 +19,8 @@ class Polytope {
  public:
   /// It is null where the points' hull is flat, or so thin that its planes' depths use it up, or
   /// has more points than planes are looked for; or is to be grown by a radius and is not convex,
-  /// or its triangles not high, enough for rounding to tell which of its pieces are next to a line.
-  /// Points are multiplied by `down` first.
+  /// or its triangles not high, enough for rounding to tell which of its features are next to a
+  /// line. Points are multiplied by `down` first.
   template <class T>
   static std::shared_ptr<const Polytope> of(const PointCloud<T>& points, const Vec3<double>& middle,
                                             double down, double rounded_by = 0);

@@ -11,7 +11,7 @@ using Lanes = Wide<double, static_cast<int>(IsaHere::register_bytes / sizeof(dou
 template <>
 Entry<Lanes> enter_tables<Lanes>(const PolytopeTables& polytope, const Line<Lanes>& line,
                                  const Mask<Lanes>& open) {
-  return polytope.rounded_by > 0 ? enter_pieces(polytope, line, open)
+  return polytope.rounded_by > 0 ? enter_features(polytope, line, open)
                                  : enter_planes(polytope, line, open);
 }
 

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
 // Where a line enters a polytope that is grown by a radius: the nearest face moved out, or the
 // cylinder around an edge, or the ball around a vertex, whichever its contact says is supported by
-// what is next to it. From piece to piece as Lin and Canny do ("A Fast Algorithm for Incremental
-// Distance Calculation", 1991); one text for a line and for one in each lane.
+// what is next to it. From feature to feature as Lin and Canny do ("A Fast Algorithm for
+// Incremental Distance Calculation", 1991); one text for a line and for one in each lane.
 #pragma once
 
 #include "core/exact/polytope_walk.h"
 
 namespace minkray::exact {
 
-/// Whichever piece supports, of all pieces: for lines that walks have lost.
-Entry<double> enter_any_piece(const PolytopeTables& of, const Line<double>& line);
+/// Whichever feature supports, of all features: for lines that walks have lost.
+Entry<double> enter_any_feature(const PolytopeTables& of, const Line<double>& line);
 
-/// Which piece of the surface a half-edge stands for: its triangle, itself, its origin.
-namespace piece {
+/// Which feature of the surface a half-edge stands for: its triangle, itself, its origin.
+namespace feature {
 inline constexpr double none = 0, face = 1, edge = 2, vertex = 3;
 }
 
@@ -23,24 +23,24 @@ class RoundedWalk {
   RoundedWalk(const PolytopeTables& polytope, const Line<W>& line)
       : of_(polytope), r_(polytope.rounded_by), line_(line) {}
 
-  /// From a triangle or an edge, piece by piece to the one that supports. Lanes that find none are
-  /// left `lost`.
+  /// From a triangle or an edge, feature by feature to the one that supports. Lanes that find none
+  /// are left `lost`.
   Entry<W> from(const WalkEnd<W>& start, Mask<W>& lost) {
-    constexpr int most_pieces = 24;
-    piece_ = select(start.in_triangle, W(piece::face),
-                    select(start.past_edge, W(piece::edge), W(piece::none)));
+    constexpr int most_features = 24;
+    feature_ = select(start.in_triangle, W(feature::face),
+                      select(start.past_edge, W(feature::edge), W(feature::none)));
     at_ = start.edge;
-    lost &= piece_ == W(piece::none);
-    for (int i = 0; i < most_pieces; ++i)
+    lost &= feature_ == W(feature::none);
+    for (int i = 0; i < most_features; ++i)
       if (!look()) return entry_;
-    lost |= piece_ != W(piece::none);
+    lost |= feature_ != W(feature::none);
     return entry_;
   }
 
-  /// At one piece only; false if it leads to another one.
+  /// At one feature only; false if it leads to another one.
   bool settles_at(double which, double edge) requires(std::is_same_v<W, double>) {
     entry_ = {};
-    piece_ = which;
+    feature_ = which;
     at_ = edge;
     return !look() && (entry_.hit || entry_.miss);
   }
@@ -48,7 +48,7 @@ class RoundedWalk {
   const Entry<W>& entry() const { return entry_; }
 
  private:
-  /// The line and a piece's cylinder or ball: where it enters, or is closest.
+  /// The line and a feature's cylinder or ball: where it enters, or is closest.
   struct Contact {
     Mask<W> meets, is_clear;
     W t, e;
@@ -56,25 +56,25 @@ class RoundedWalk {
   };
   using Numbers = std::array<W, 12>;
 
-  /// At each lane's piece; false, if none leads to another one.
+  /// At each lane's feature; false, if none leads to another one.
   bool look() {
-    const Mask<W> at_faces = piece_ == W(piece::face);
+    const Mask<W> at_faces = feature_ == W(feature::face);
     if (any(at_faces)) look_at_face(at_faces);
-    const Mask<W> at_edges = piece_ == W(piece::edge);
+    const Mask<W> at_edges = feature_ == W(feature::edge);
     if (any(at_edges)) look_at_edge(at_edges);
-    const Mask<W> at_vertices = piece_ == W(piece::vertex);
+    const Mask<W> at_vertices = feature_ == W(feature::vertex);
     if (any(at_vertices)) look_at_vertex(at_vertices);
-    return any(piece_ != W(piece::none));
+    return any(feature_ != W(feature::none));
   }
 
   void go_to(const Mask<W>& which, double kind, const W& edge) {
-    piece_ = select(which, W(kind), piece_);
+    feature_ = select(which, W(kind), feature_);
     at_ = select(which, edge, at_);
   }
 
   template <std::size_t count>
   std::array<W, count> numbers(const W& edge, std::size_t from = 0) const {
-    return gather_row<count>(edge, of_.pieces.data() + from, of_.piece_row);
+    return gather_row<count>(edge, of_.features.data() + from, of_.feature_row);
   }
   static Vec3<W> vector(const auto& numbers, std::size_t from) {
     return {numbers[from], numbers[from + 1], numbers[from + 2]};
@@ -90,7 +90,7 @@ class RoundedWalk {
   void go_over(const Mask<W>& which, const W& edge) {
     const PlaneRow<W> plane(of_, plane_of(of_, edge));
     const Mask<W> faces = plane.normal.dot(line_.d) < W(-least_component);
-    go_to(which & faces, piece::face, edge);
+    go_to(which & faces, feature::face, edge);
     const Mask<W> away = which & !faces;
     if (!any(away)) return;
     const W second = next(numbers<4>(edge)), third = next(numbers<4>(second));
@@ -101,7 +101,7 @@ class RoundedWalk {
       const W product = across.dot(line_.s - origin(at));
       return product * product / across.squaredNorm();
     };
-    go_to(away, piece::edge, select(distance(second) < distance(third), second, third));
+    go_to(away, feature::edge, select(distance(second) < distance(third), second, third));
   }
 
   /// As `from` and `way` to the line, both at right angles to the axis, whose square is `across`.
@@ -122,10 +122,10 @@ class RoundedWalk {
     return found;
   }
 
-  /// Hit or miss, unless so near to where another piece begins that its formula might be the right
-  /// one, and is further apart than E (docs/theory.md, section 13).
+  /// Hit or miss, unless so near to where another feature begins that its formula might be the
+  /// right one, and is further apart than E (docs/theory.md, section 13).
   void settle(const Mask<W>& which, const Contact& found, const W& nearest_end) {
-    piece_ = select(which, W(piece::none), piece_);
+    feature_ = select(which, W(feature::none), feature_);
     const W width = found.e * found.e * line_.dd;
     const Mask<W> is_vague =
         found.meets & (width > W(r_) * line_.E) & (nearest_end * nearest_end < width);
@@ -143,7 +143,7 @@ class RoundedWalk {
     const Vec3<W>& n = plane.normal;
     const W slope = n.dot(line_.d);
     const Mask<W> faces = slope < W(-least_component);
-    go_to(which & !faces, piece::none, at_);
+    go_to(which & !faces, feature::none, at_);
     which &= faces;
     const W inv = W(-1) / slope;
     const W t = -(plane.offset + W(r_) - n.dot(line_.s)) * inv;
@@ -158,7 +158,7 @@ class RoundedWalk {
       edge = next(side);
     }
     const Mask<W> outside = which & (nearest < W(0));
-    go_to(outside, piece::edge, beyond);
+    go_to(outside, feature::edge, beyond);
     which &= !outside;
     const W e = (line_.E + plane.depth) * inv;
     settle(which, {Mask<W>(true), Mask<W>(true), t, e, Vec3<W>(n * W(r_))}, nearest);
@@ -177,12 +177,12 @@ class RoundedWalk {
       go_to(which & now, kind, to);
       which &= !now;
     };
-    leave(!(across > line_.parallel), piece::vertex, select(d_along > W(0), here, next(edge)));
+    leave(!(across > line_.parallel), feature::vertex, select(d_along > W(0), here, next(edge)));
     const Contact found = contact(from, way, across);
-    leave(!found.is_clear, piece::none, here);
+    leave(!found.is_clear, feature::none, here);
     const W at = s_along + d_along * found.t;
-    leave(at < W(0), piece::vertex, here);
-    leave(at > length(edge), piece::vertex, next(edge));
+    leave(at < W(0), feature::vertex, here);
+    leave(at > length(edge), feature::vertex, next(edge));
     // The edge supports, if both triangles beside it fall away, and, lest they are in one plane,
     // what is behind them.
     if (!any(which)) return;
@@ -192,7 +192,7 @@ class RoundedWalk {
     const Mask<W> rises = which & (max(rise, other_rise) > W(0));
     if (any(rises)) go_over(rises, select(rise > other_rise, here, other));
     which &= !rises;
-    leave(!(found.out.dot(widen<W>(of_.inner) - a) < W(0)), piece::vertex, here);
+    leave(!(found.out.dot(widen<W>(of_.inner) - a) < W(0)), feature::vertex, here);
     const W to_end = min(at, W(length(edge) - at));
     settle(which, found, min(to_end, min(W(-rise), W(-other_rise))));
   }
@@ -200,7 +200,7 @@ class RoundedWalk {
   void look_at_vertex(Mask<W> which) {
     const Vec3<W> place = origin(numbers<4>(at_));
     const Contact found = contact(line_.s - place, line_.d, line_.dd);
-    go_to(which & !found.is_clear, piece::none, at_);
+    go_to(which & !found.is_clear, feature::none, at_);
     which &= found.is_clear;
     // The edges from it, triangle by triangle.
     constexpr int most_edges = 256;
@@ -215,18 +215,18 @@ class RoundedWalk {
       edge = lookup(edge, [&](std::size_t e) { return std::abs(of_.walk[e * of_.walk_row + 3]); });
       turning &= edge != start;
     }
-    go_to(turning, piece::none, start);
+    go_to(turning, feature::none, start);
     which &= !turning;
     const Mask<W> climbs =
         which & ((steepest > W(0)) | !(found.out.dot(widen<W>(of_.inner) - place) < W(0)));
-    go_to(climbs, piece::edge, up);
+    go_to(climbs, feature::edge, up);
     settle(which & !climbs, found, W(-steepest));
   }
 
   const PolytopeTables& of_;
   double r_;
   const Line<W>& line_;
-  W piece_ = W(piece::none), at_ = W(0);
+  W feature_ = W(feature::none), at_ = W(0);
   Entry<W> entry_;
 };
 
@@ -234,7 +234,7 @@ template <class W>
 void find_lost(const PolytopeTables& of, const Line<W>& line, const Mask<W>& lost,
                Entry<W>& entry) {
   if constexpr (std::is_same_v<W, double>) {
-    entry = enter_any_piece(of, line);
+    entry = enter_any_feature(of, line);
   } else {
     W hit = select(entry.hit, W(1), W(0)), miss = select(entry.miss, W(1), W(0));
     for (int i = 0; i < LaneOf<W>::count; ++i) {
@@ -243,8 +243,8 @@ void find_lost(const PolytopeTables& of, const Line<W>& line, const Mask<W>& los
         return {v.x().lane(i), v.y().lane(i), v.z().lane(i)};
       };
       const Entry<double> found =
-          enter_any_piece(of, {lane(line.s), lane(line.d), line.dd.lane(i), line.inv.lane(i),
-                               line.E.lane(i), line.parallel.lane(i)});
+          enter_any_feature(of, {lane(line.s), lane(line.d), line.dd.lane(i), line.inv.lane(i),
+                                 line.E.lane(i), line.parallel.lane(i)});
       hit.set_lane(i, found.hit ? 1 : 0);
       miss.set_lane(i, found.miss ? 1 : 0);
       entry.t.set_lane(i, found.t);
@@ -260,7 +260,7 @@ void find_lost(const PolytopeTables& of, const Line<W>& line, const Mask<W>& los
 /// normal is near that of the entry, or, if that faces away, from where the line passes the
 /// polytope itself.
 template <class W>
-Entry<W> enter_pieces(const PolytopeTables& of, const Line<W>& line, const Mask<W>& open) {
+Entry<W> enter_features(const PolytopeTables& of, const Line<W>& line, const Mask<W>& open) {
   WalkEnd<W> start;
   start.edge = first_edge(of, line);
   const PlaneRow<W> plane(of, plane_of(of, start.edge));

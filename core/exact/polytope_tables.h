@@ -25,8 +25,8 @@ struct PolytopeTables {
 
   /// A row a half-edge: its origin, the next one; the unit vector across it into its triangle, its
   /// twin; the unit vector along it, its length. Empty where the polytope cannot be rounded.
-  static constexpr std::size_t piece_row = 12;
-  std::vector<double> pieces;
+  static constexpr std::size_t feature_row = 12;
+  std::vector<double> features;
 
   /// A row a plane: normal, offset, depth, and three numbers that fill the row.
   static constexpr std::size_t plane_row = 8;

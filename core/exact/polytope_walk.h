@@ -6,6 +6,7 @@
 
 #include "core/exact/line.h"
 #include "core/exact/polytope_tables.h"
+#include "core/exact/polytope_view.h"
 #include "core/math/gather_rows.h"
 #include "core/query/tolerances.h"
 
@@ -20,51 +21,14 @@ struct WalkEnd {
   W beyond = W(0);  ///< a half-edge of the triangle beyond that
 };
 
-/// A point seen along the line, which is the origin.
-template <class W>
-struct Seen {
-  W x, y;
-};
-
-template <class W>
-W cross(const Seen<W>& a, const Seen<W>& b) {
-  return a.x * b.y - a.y * b.x;
-}
-
-/// The view along a line, which is the origin. Outward triangles that face the line are
-/// counter-clockwise.
-template <class W>
-class View {
- public:
-  /// Axes by Duff and others, "Building an Orthonormal Basis, Revisited", 2017.
-  explicit View(const Line<W>& line) {
-    using std::copysign;
-    using std::sqrt;
-    const W back = W(-1) / sqrt(line.dd);
-    const W nx = line.d.x() * back, ny = line.d.y() * back, nz = line.d.z() * back;
-    const W sign = copysign(W(1), nz), a = W(-1) / (sign + nz), b = nx * ny * a;
-    x_ = {W(1) + sign * nx * nx * a, sign * b, -sign * nx};
-    y_ = {b, sign + ny * ny * a, -ny};
-    at_ = {x_.dot(line.s), y_.dot(line.s)};
-  }
-  Seen<W> operator()(const W& x, const W& y, const W& z) const {
-    return {(x_.x() * x + x_.y() * y) + x_.z() * z - at_.x,
-            (y_.x() * x + y_.y() * y) + y_.z() * z - at_.y};
-  }
-
- private:
-  Vec3<W> x_, y_;
-  Seen<W> at_;
-};
-
 /// Whether the line passes a triangle's edges, as seen along it, by more than its error.
 template <class W>
 Mask<W> is_clear(const std::array<Seen<W>, 3>& p, const std::array<W, 3>& side, const W& E) {
   using std::abs;
-  const W beside = W(tolerance::polytope_beside) * E;
+  const W margin = W(tolerance::polytope_beside) * E;
   const auto size = [&](std::size_t k) { return abs(p[k].x) + abs(p[k].y); };
   const W a = size(0), b = size(1), c = size(2);
-  return (side[0] > beside * (a + b)) & (side[1] > beside * (b + c)) & (side[2] > beside * (c + a));
+  return (side[0] > margin * (a + b)) & (side[1] > margin * (b + c)) & (side[2] > margin * (c + a));
 }
 
 /// A half-edge of a triangle whose normal is near that of the ellipsoid of the same extents where

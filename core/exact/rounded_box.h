@@ -107,8 +107,8 @@ template <class W>
       // A line that goes away from the box already where it enters the grown one.
       const Mask<W> recedes = miss & (k < from);
       const Vec3<W> there = (p + along * from).cwiseProduct(sign);
-      const Vec3<W> apart = between(Vec3<W>(-axis(by_x, by_y)), there, line.d);
-      entry.normal = select<W>(recedes, apart, entry.normal);
+      const Vec3<W> separating = between(Vec3<W>(-axis(by_x, by_y)), there, line.d);
+      entry.normal = select<W>(recedes, separating, entry.normal);
     }
     from = select(on, until, from);
     going = on;

@@ -20,7 +20,7 @@ template <class W>
   Entry<W> entry;
   const Nappe<W> round(slope, apex, R, line, open);
   entry.miss = round.miss;
-  if (any(round.miss)) entry.normal = round.beside(line);
+  if (any(round.miss)) entry.normal = round.separating(line);
   if (!any(round.hit)) return entry;
   // The circles where the cone touches the balls.
   const double low = -half_height + lower * sine, high = half_height + upper * sine;
@@ -55,7 +55,7 @@ template <class W>
     const Vec3<W> outward = select<W>(hit, Vec3<W>((x - d * half) * (W(1) / r)), x);
     entry.normal = select<W>(hit | miss, outward, entry.normal);
     const Mask<W> passes = miss & round.is_above(apex, line);
-    if (any(passes)) entry.normal = select<W>(passes, round.beside(line), entry.normal);
+    if (any(passes)) entry.normal = select<W>(passes, round.separating(line), entry.normal);
   }
   entry.hit &= !unsure;
   return entry;

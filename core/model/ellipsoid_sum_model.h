@@ -17,10 +17,10 @@ class EllipsoidSumModel {
  public:
   using T = Lane<W>;
 
-  struct Piece {
+  struct Feature {
     Vec3<W> s;  ///< the support point, relative to the ray's s
-    W reach(const Vec3<W>& n) const { return s.dot(n); }
-    const Vec3<W>& spot(const Vec3<W>&) const { return s; }
+    W support_function(const Vec3<W>& n) const { return s.dot(n); }
+    const Vec3<W>& support_point(const Vec3<W>&) const { return s; }
   };
 
   /// `sum` must be the shape.
@@ -39,7 +39,7 @@ class EllipsoidSumModel {
   const Vec3<W>& to_shape(const Vec3<W>& n) const { return n; }
   W against_ray(const Vec3<W>& n) const { return -n.dot(r_); }
 
-  Piece support(const Vec3<W>& n, const Mask<W>&) const {
+  Feature support(const Vec3<W>& n, const Mask<W>&) const {
     return {Vec3<W>(shape_.template support<W>(n) - (widen<W>(centre_) + s_))};
   }
 
@@ -54,7 +54,7 @@ class EllipsoidSumModel {
   }
 
   /// Called only where the plane does not meet the hit that `begin` found.
-  [[gnu::noinline]] ModelHit<W> step(const Piece& piece, const Vec3<W>& n, int iteration) {
+  [[gnu::noinline]] ModelHit<W> step(const Feature& feature, const Vec3<W>& n, int iteration) {
     using std::abs;
     if (!smooth_) smooth_.emplace(shape_, centre_, s_, r_, R_);
     const Vec3<W> n_frame = smooth_->to_frame(n);
@@ -64,7 +64,7 @@ class EllipsoidSumModel {
     hit.repeated |= across_;
     // A plane that is right up to rounding, but so steep that this is much along the ray: is the
     // ray tangent?
-    const W missing = piece.reach(n) - height_ * against_ray(n);
+    const W missing = feature.support_function(n) - height_ * against_ray(n);
     across_ = hits_ & (abs(missing) <= W(tolerance::jet_gap<T> * R_));
     hits_ = Mask<W>(false);
     if (any(across_)) {
@@ -146,22 +146,22 @@ class EllipsoidSumModel {
       // Heights h_i over the centres, support points g_i.
       std::array<Vec3<W>, EllipsoidSum<T>::most> g;
       std::array<W, EllipsoidSum<T>::most> over;
-      Vec3<W> spot = Vec3<W>::Zero();
+      Vec3<W> support_point = Vec3<W>::Zero();
       W height(0);
       for (std::size_t k = 0; k < sum_.used; ++k) {
         const Vec3<W> onto = F_[k].transpose() * m;
         const W h = onto.norm();
         over[k] = W(1) / select(h > W(0), h, W(1));
         g[k] = F_[k] * (onto * over[k]);
-        spot += g[k];
+        support_point += g[k];
         height += h;
       }
-      const W reach = c_.dot(m) + height;
+      const W h = c_.dot(m) + height;
       const Mask<W> ahead = m.z() > W(along_ray);
 
       // What is to be least: ahead, where the plane cuts the ray; across it, the ratio of how far
       // the sum reaches to where the ray is.
-      const W cut = reach / select(ahead, m.z(), W(1));
+      const W cut = h / select(ahead, m.z(), W(1));
       const W beyond = -c_.dot(m);
       const W ratio = height / select(beyond > W(0), beyond, W(T(1) / T(1024)));
       const W value = select(ahead, cut, ratio);
@@ -179,20 +179,20 @@ class EllipsoidSumModel {
         osculating.add(A[k], share);
         osculating.add(g[k], select(outer, W(0), W(-share)));
       }
-      osculating.add(spot, select(outer, W(0), W(1)));
+      osculating.add(support_point, select(outer, W(0), W(1)));
       const Vec3<W> next = met(osculating);
 
-      const W x = c_.x() + spot.x(), y = c_.y() + spot.y();
-      const W beside = sqrt(x * x + y * y), step = (next - m).norm();
+      const W x = c_.x() + support_point.x(), y = c_.y() + support_point.y();
+      const W offset = sqrt(x * x + y * y), step = (next - m).norm();
       const Mask<W> on_to = next.z() > W(along_ray);
       const Mask<W> settled =
-          ahead & on_to & (!outer) & (beside * step <= rounding) & (beside <= W(model_reach * R_));
+          ahead & on_to & (!outer) & (offset * step <= rounding) & (offset <= W(model_reach * R_));
       // Separates; or reaches least of those across the ray. A ray that is tangent up to rounding
       // may send the direction to and fro.
       const W enough = i < max_across ? W(T(-2) * gap) : W(gap);
       const Mask<W> across =
           (!ahead) &
-          ((reach <= enough) | ((!on_to) & (!outer) & (step * step <= W(tolerance::epsilon<T>))));
+          ((h <= enough) | ((!on_to) & (!outer) & (step * step <= W(tolerance::epsilon<T>))));
       const Mask<W> ends = open & (settled | across);
       hit.m = select<W>(open, select<W>(settled, next, m), hit.m);
       if (any(open & settled)) {

@@ -3,138 +3,17 @@
 // closed form. docs/theory.md derives it.
 //
 // Frame: the ray runs down the z axis, from +z to -z. In a direction m with m.z > 0 the hull's
-// supporting plane cuts the axis at height reach(m)/m.z, and the hit is the least of these heights.
-// m.z = 0 with reach(m) < 0 separates hull and ray.
+// supporting plane cuts the axis at height support_function(m)/m.z, and the hit is the least of
+// these heights. m.z = 0 with support_function(m) < 0 separates hull and ray.
 #pragma once
 
 #include <array>
 
+#include "core/model/hull_bodies.h"
 #include "core/query/ray_frame.h"
 #include "core/query/tolerances.h"
 
 namespace minkray {
-
-/// What translates of one body look like: a ball.
-template <class W>
-struct RoundBody {
-  W radius;
-
-  /// How far it reaches along m, of unit length but for rounding.
-  W bend(const Vec3<W>& m) const { return radius * (W(Lane<W>(0.5)) * (W(1) + m.squaredNorm())); }
-  Vec3<W> spot(const Vec3<W>& m) const { return m * radius; }
-
-  /// The normal, of unit length, where the ray meets the body around c, or across from it.
-  Vec3<W> alone(const Vec3<W>& c) const {
-    using std::max;
-    using std::sqrt;
-    const W den = radius * radius - (c.x() * c.x() + c.y() * c.y());
-    return unit<W>({-c.x(), -c.y(), sqrt(max(den, W(0)))});
-  }
-
-  /// Answers for the cylinder that the body sweeps along e. `touch` is where, seen from the body's
-  /// centre, the cylinder is met; if it is passed by, where one grown to be touched would be.
-  Vec3<W> swept(const Vec3<W>& c, const Vec3<W>& e, const W& length, Vec3<W>& touch) const {
-    using std::abs;
-    using std::max;
-    using std::sqrt;
-    const Vec3<W> t(-e.y() / length, e.x() / length, W(0));
-    const Vec3<W> w = unit<W>({-e.x() * e.z(), -e.y() * e.z(), length * length});
-    const W L = t.x() * c.x() + t.y() * c.y();
-    const W den = radius * radius - L * L;
-    const Mask<W> crosses = den > W(0);
-    const Vec3<W> onto = unit<W>(Vec3<W>(w * sqrt(max(den, W(0))) - t * L));
-    const Vec3<W> m = select<W>(crosses, onto, select<W>(L > W(0), Vec3<W>(-t), t));
-    touch = m * select(crosses, radius, W(abs(L)));
-    return m;
-  }
-
-  /// Balls have no flat sides.
-  void between_disks(const Vec3<W>&, const Vec3<W>&, const Vec3<W>&, W&, Mask<W>&) const {}
-};
-
-/// An ellipsoid { F b : |b| <= 1 }; columns of F may be zero.
-template <class W>
-struct EllipsoidBody {
-  Mat3<W> F;
-
-  W bend(const Vec3<W>& m) const { return (F.transpose() * m).norm(); }
-  /// Goes by way of a unit vector, so that it is a point of the ellipsoid even where F^T m is
-  /// nothing but rounding. A disk's along its axis: the centre.
-  Vec3<W> spot(const Vec3<W>& m) const {
-    const Vec3<W> u = F.transpose() * m;
-    const Vec3<W> spot = F * unit<W>(u);
-    const Mask<W> along = is_along_axis(u);
-    return any(along) ? select<W>(along, Vec3<W>(Vec3<W>::Zero()), spot) : spot;
-  }
-
-  /// Whether F is a disk and u = F^T m zero but for rounding.
-  Mask<W> is_along_axis(const Vec3<W>& u) const {
-    const Mask<W> is_disk = F.col(2).cwiseAbs().sum() == W(0);
-    if (!any(is_disk)) return is_disk;
-    return is_disk & (u.cwiseAbs().sum() <= F.cwiseAbs().sum() * W(tolerance::flat_disk<Lane<W>>));
-  }
-
-  /// Where two disks lie in one plane, across m: which point between their centres, b + share e, is
-  /// such that the ray meets a disk around it, and whether it does.
-  void between_disks(const Vec3<W>& m, const Vec3<W>& b, const Vec3<W>& e, W& share,
-                     Mask<W>& meets) const {
-    const Mask<W> along = is_along_axis(F.transpose() * m);
-    if (!any(along)) return;
-    // In units of the disk: x = F y.
-    const Vec3<W> f = F.col(0), g = F.col(1);
-    const W det = cross_2d(f, g);
-    const auto unit_x = [&](const Vec3<W>& v) { return cross_2d(v, g) / det; };
-    const auto unit_y = [&](const Vec3<W>& v) { return cross_2d(f, v) / det; };
-    const W b_x = unit_x(b), b_y = unit_y(b), e_x = unit_x(e), e_y = unit_y(e);
-    const W between = -(b_x * e_x + b_y * e_y) / (e_x * e_x + e_y * e_y);
-    const W x = b_x + between * e_x, y = b_y + between * e_y;
-    const Mask<W> inside = (between >= W(0)) & (between <= W(1)) & (x * x + y * y <= W(1));
-    share = select(along, between, share);
-    meets = (along & inside) | ((!along) & meets);
-  }
-
-  Vec3<W> alone(const Vec3<W>& c) const {
-    using std::abs;
-    using std::max;
-    using std::sqrt;
-    // With N_kl = f_k x f_l: det = sum N_kl.z^2, adj c and the rest of the minors of A = F F^T are
-    // sums of products of these, which keep the digits that A itself loses for needles.
-    W det(0), off(0);
-    Vec3<W> across = Vec3<W>::Zero(), adj = Vec3<W>::Zero();
-    for (int k = 0; k < 3; ++k) {
-      for (int l = k + 1; l < 3; ++l) {
-        const Vec3<W> N = F.col(k).cross(F.col(l));
-        det += N.z() * N.z();
-        across += N * N.z();
-      }
-      const W moment = F(0, k) * c.y() - F(1, k) * c.x();
-      off += moment * moment;
-      adj += Vec3<W>(-F(1, k), F(0, k), W(0)) * moment;
-    }
-    const W volume = abs(F.col(0).dot(F.col(1).cross(F.col(2))));
-    const W den = det - off;
-    const Vec3<W> onto = across * sqrt(max(den, W(0))) - adj * volume;
-    return unit<W>(select<W>(den > W(0), onto, Vec3<W>(-adj)));
-  }
-
-  Vec3<W> swept(const Vec3<W>& c, const Vec3<W>& e, const W& length, Vec3<W>& touch) const {
-    using std::abs;
-    using std::max;
-    using std::sqrt;
-    const Vec3<W> t(-e.y() / length, e.x() / length, W(0));
-    const Vec3<W> w = unit<W>({-e.x() * e.z(), -e.y() * e.z(), length * length});
-    const Vec3<W> yw = F.transpose() * w, yt = F.transpose() * t;
-    const W ga = yt.squaredNorm(), et = yw.dot(yt), D = yw.cross(yt).norm();
-    const W L = -t.dot(c);
-    const W den = ga - L * L, root = sqrt(max(den, W(0)));
-    const Mask<W> crosses = den > W(0);
-    const Vec3<W> onto = w * (ga * root) + t * (L * D - et * root);
-    const Vec3<W> m = select<W>(crosses, unit<W>(onto), select<W>(L < W(0), Vec3<W>(-t), t));
-    const Vec3<W> grown = F * (F.transpose() * m) * (abs(L) / select(ga > W(0), ga, W(1)));
-    touch = select<W>(crosses, spot(m), grown);
-    return m;
-  }
-};
 
 /// The bodies' centres that are there beside the newest one.
 template <class W>
@@ -150,8 +29,8 @@ struct HullCastHit {
   Mask<W> found =
       Mask<W>(false);  ///< it is the hit, or separates; otherwise the best that is known
   std::array<W, 3> weights = {W(0), W(0),
-                              W(0)};  ///< of the others' spots; the newest's completes 1
-  W rank = W(std::numeric_limits<Lane<W>>::infinity());  ///< height of the hull's plane
+                              W(0)};  ///< of the others' support points; the newest's completes 1
+  W height = W(std::numeric_limits<Lane<W>>::infinity());  ///< height of the hull's plane
 };
 
 /// The cast; `rounding` is how far beside the ray counts as on it.
@@ -196,7 +75,7 @@ class HullCast {
   /// The body that reaches furthest in some direction, if there is one.
   struct Furthest {
     Vec3<W> c = Vec3<W>::Zero();
-    W reach = W(-std::numeric_limits<T>::infinity());
+    W h = W(-std::numeric_limits<T>::infinity());
     Places at = {Mask<W>(false), Mask<W>(false), Mask<W>(false)};
     Mask<W> some = Mask<W>(false);
   };
@@ -225,10 +104,10 @@ class HullCast {
   Furthest furthest_in(const Vec3<W>& m) const {
     Furthest best;
     for (std::size_t k = 0; k < 3; ++k) {
-      const W reach = others_.c[k].dot(m);
-      const Mask<W> further = others_.valid[k] & (reach > best.reach);
+      const W h = others_.c[k].dot(m);
+      const Mask<W> further = others_.valid[k] & (h > best.h);
       best.c = select<W>(further, others_.c[k], best.c);
-      best.reach = select(further, reach, best.reach);
+      best.h = select(further, h, best.h);
       for (std::size_t j = 0; j < k; ++j) best.at[j] &= !further;
       best.at[k] = further;
       best.some |= further;
@@ -243,19 +122,19 @@ class HullCast {
                     const std::array<W, 3>& weights, const Mask<W>& candidate) {
     using std::max;
     const Furthest furthest = furthest_in(m);
-    const W reach = max(newest_.dot(m), furthest.reach);
-    const Mask<W> unbeaten = !(reach - carrier.dot(m) > beaten_by_);
-    const W value = reach + body_.bend(m);
+    const W h = max(newest_.dot(m), furthest.h);
+    const Mask<W> unbeaten = !(h - carrier.dot(m) > beaten_by_);
+    const W value = h + body_.support_function(m);
     const Mask<W> ahead = m.z() > W(0);
     const W out_of_reach = W(std::numeric_limits<T>::max());
-    const W rank = select(ahead, W(value / select(ahead, m.z(), W(1))),
-                          select(value < W(0), W(-out_of_reach), out_of_reach));
+    const W height = select(ahead, W(value / select(ahead, m.z(), W(1))),
+                            select(value < W(0), W(-out_of_reach), out_of_reach));
     // What separates for sure does so wherever its bodies are met.
     const Mask<W> separates = (!ahead) & ((value < -rounding_) | (meets & (value < W(0))));
     const Mask<W> useful = unbeaten & ((ahead & meets) | separates);
-    const Mask<W> wins = candidate & (!hit_.found) & (useful | (rank < hit_.rank));
+    const Mask<W> wins = candidate & (!hit_.found) & (useful | (height < hit_.height));
     hit_.m = select<W>(wins, m, hit_.m);
-    hit_.rank = select(wins, rank, hit_.rank);
+    hit_.height = select(wins, height, hit_.height);
     hit_.found |= wins & useful;
     for (std::size_t k = 0; k < 3; ++k) hit_.weights[k] = select(wins, weights[k], hit_.weights[k]);
     return furthest;
@@ -295,7 +174,7 @@ class HullCast {
     for (std::size_t k = 0; k < 3; ++k) candidate &= !(b.at[k] & c.at[k]);
     if (!any(candidate & !hit_.found)) return;
     const Vec3<W> m = upper_normal(a.c, b.c, c.c);
-    const Vec3<W> touch = body_.spot(m);
+    const Vec3<W> touch = body_.support_point(m);
     const Vec3<W> at_a = a.c + touch, at_b = b.c + touch, at_c = c.c + touch;
     const Mask<W> meets = passes_between(at_a, at_b, at_c) | passes_edge(at_a, at_b, rounding_) |
                           passes_edge(at_b, at_c, rounding_) | passes_edge(at_c, at_a, rounding_);

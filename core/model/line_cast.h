@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The loop that all solvers on jets share. A supporting plane in direction n clips the ray: a
-// rigorous lower bound of the hit. A model of the shape, made of the pieces that the support
-// mapping has shown so far, is hit later (where the pieces are parts of the shape, and else about
+// rigorous lower bound of the hit. A model of the shape, made of the features that the support
+// mapping has shown so far, is hit later (where the features are parts of the shape, and else about
 // there), and its hit's normal is the next n. The two meet. docs/theory.md has the mathematics.
 //
 // W is a number, or a packet: then every lane is a ray of its own. Lanes that have ended go along
@@ -22,7 +22,7 @@ struct ModelHit {
   Mask<W> certain = Mask<W>(false);  ///< `height` is the model's, up to rounding
   /// The carriers of the hit are parts of the shape, so that it bounds the shape's hit.
   Mask<W> inner = Mask<W>(true);
-  Mask<W> repeated = Mask<W>(false);  ///< the newest piece had been seen before
+  Mask<W> repeated = Mask<W>(false);  ///< the newest feature had been seen before
 };
 
 /// Where the whole line s + lambda r meets the shape first.
@@ -56,11 +56,11 @@ LineHit<W> pick(const Mask<W>& condition, const LineHit<W>& a, const LineHit<W>&
 /// - `to_frame(n)`, `to_shape(n)`: a direction of the shape's frame in its own, and back;
 /// - `against_ray(n)`: the component of n against the ray's direction;
 /// - `begin(half_extents)`: what is known before the first support: a first direction, and a hit if
-///   the model knows pieces of the shape already; half_extents are the shape's;
+///   the model knows features of the shape already; half_extents are the shape's;
 /// - `support(n, wanted)`: the shape's support in direction n of unit length, relative to the ray's
-///   closest approach s, as a piece with reach(n) and spot(n), its support point; in lanes that are
-///   not wanted, any piece;
-/// - `step(piece, n, iteration)`: the model's hit once the piece is a part of it.
+///   closest approach s, as a feature with support_function(n) and support_point(n), its support
+///   point; in lanes that are not wanted, any feature;
+/// - `step(feature, n, iteration)`: the model's hit once the feature is a part of it.
 ///
 /// The line is given up beyond lambda_end; R is the size that rounding refers to. Only `open` lanes
 /// count. `observer` may be NoObserver, or else is told of each plane.
@@ -81,16 +81,16 @@ LineHit<W> first_on_line(Model& model, const Vec3<Lane<W>>& half_extents, const 
   for (int iteration = 0; iteration < max_iterations; ++iteration) {
     // The supporting plane of direction n: it clips the line, or separates (where it leans away
     // from the ray: all of the line in the bounding ball).
-    const auto piece = model.support(n, open);
+    const auto feature = model.support(n, open);
     result.supports += select(open, W(1), W(0));
-    const W h = piece.reach(n), z = model.against_ray(n);
+    const W h = feature.support_function(n), z = model.against_ray(n);
     const Mask<W> ahead = z > W(0), steep = z > least_slope, beyond = h < -gap;
     // Where it is not steep, only what lies clearly beyond rounding counts.
     const W clear = select(steep, h, W(h + gap));
     const W lambda =
         select(steep | (ahead & beyond), W(-clear / select(ahead, z, W(1))), W(-infinity));
     if constexpr (!std::is_same_v<std::remove_cvref_t<Observer>, NoObserver>)
-      observer(lambda, model.to_shape(n), model.to_shape(piece.spot(n)));
+      observer(lambda, model.to_shape(n), model.to_shape(feature.support_point(n)));
     const Mask<W> better = open & (lambda > result.lambda);
     result.lambda = select(better, lambda, result.lambda);
     result.normal = select<W>(better, n, result.normal);
@@ -122,8 +122,8 @@ LineHit<W> first_on_line(Model& model, const Vec3<Lane<W>>& half_extents, const 
     meets(z, gap);
     if (!any(open)) break;
 
-    // The hit on the model with the new piece.
-    model_hit = model.step(piece, n, iteration);
+    // The hit on the model with the new feature.
+    model_hit = model.step(feature, n, iteration);
     meets(model.against_ray(model_hit.m), select(model_hit.repeated, W(W(4) * gap), gap));
     // A tangent line: where along it the shape is touched, no plane along it tells.
     const Mask<W> touches = (!steep) & model_hit.repeated & (abs(h) <= gap);
@@ -152,11 +152,11 @@ Vec3<W> normal_on_ellipsoid(const Vec3<Lane<W>>& radii, const Vec3<W>& s, const 
   const Vec3<W> r_ball = unit<W>(r.cwiseProduct(to_ball));
   const Vec3<W> s_ball = s.cwiseProduct(to_ball);
   // By cross products, which keep the digits of components that are nothing beside others.
-  const Vec3<W> beside = r_ball.cross(s_ball.cross(r_ball));
-  const W den = W(1) - beside.squaredNorm();
+  const Vec3<W> crosswise = r_ball.cross(s_ball.cross(r_ball));
+  const W den = W(1) - crosswise.squaredNorm();
   meets = den > W(0);
   const W depth = sqrt(max(den, W(0)));
-  Vec3<W> n = unit<W>(Vec3<W>((beside - r_ball * depth).cwiseProduct(to_ball)));
+  Vec3<W> n = unit<W>(Vec3<W>((crosswise - r_ball * depth).cwiseProduct(to_ball)));
   if (!all(meets)) n = select<W>(meets, n, unit<W>(Vec3<W>(n - r * n.dot(r))));
   const Mask<W> some = n.squaredNorm() > W(0);
   return all(some) ? n : select<W>(some, n, Vec3<W>(-r));

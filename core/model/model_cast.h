@@ -15,7 +15,7 @@ struct CastLanes {
   Mask<W> inside = Mask<W>(false);
   Mask<W> miss = Mask<W>(false);
   /// Inside, but between planes so steep that rounding decides, as where the line runs in a side.
-  Mask<W> doubtful = Mask<W>(false);
+  Mask<W> uncertain = Mask<W>(false);
   W t_base = W(0), t_offset = W(0), offset_lo = W(0), offset_hi = W(0);
   Vec3<W> normal = Vec3<W>::Zero();
   W supports = W(0);
@@ -70,7 +70,7 @@ CastLanes<W> model_cast(const MakeModel& make_model, const RayNearBall<W>& near,
     // end or the ray's.
     auto model = make_model(s, direction);
     const Vec3<W> ahead = model.to_frame(direction);
-    const W last = model.support(ahead, found.tangent).reach(ahead);
+    const W last = model.support(ahead, found.tangent).support_function(ahead);
     again.supports += select(found.tangent, W(1), W(0));
     const W slope = -again.normal.dot(direction);
     const Mask<W> crosses = again.hit & (slope > W(tolerance::least_slope<T>));
@@ -108,8 +108,8 @@ CastLanes<W> model_cast(const MakeModel& make_model, const RayNearBall<W>& near,
   // Where planes are so steep that their rounding is long, the model's hit is the better answer: it
   // lies between points of the shape. But not where the model is the steeper one.
   Mask<W> bounded = entry.lambda_above < W(std::numeric_limits<T>::infinity());
-  const W apart = select(bounded, W(entry.lambda_above - entry.lambda), W(0));
-  bounded &= apart * z <= W(T(4) * tolerance::jet_gap<T> * R);
+  const W gap = select(bounded, W(entry.lambda_above - entry.lambda), W(0));
+  bounded &= gap * z <= W(T(4) * tolerance::jet_gap<T> * R);
   // Where the two are apart, the model had only a plane nearly along the ray, and nothing is known.
   result.hit &= bounded | !(entry.lambda_above < W(std::numeric_limits<T>::infinity()));
   result.t_offset = near.t_offset(select(bounded, entry.lambda_above, entry.lambda));
@@ -128,9 +128,10 @@ CastLanes<W> model_cast(const MakeModel& make_model, const RayNearBall<W>& near,
   result.miss |= left;
   result.normal = select<W>(left, exit.normal, result.normal);
   result.inside = began & exit.hit & !left;
-  constexpr T doubtful = tolerance::doubtful_slope<T>;
-  if constexpr (doubtful != T(0))
-    result.doubtful = result.inside & !((z >= W(doubtful)) & (exit.normal.dot(r) >= W(doubtful)));
+  constexpr T uncertain = tolerance::uncertain_slope<T>;
+  if constexpr (uncertain != T(0))
+    result.uncertain =
+        result.inside & !((z >= W(uncertain)) & (exit.normal.dot(r) >= W(uncertain)));
   const W start = near.t_offset(near.lambda_min);
   result.t_offset = select(result.inside, start, result.t_offset);
   result.offset_lo = select(result.inside, start, result.offset_lo);

@@ -16,12 +16,12 @@ ModelKind kind_of_surface(const Shape<T>& shape) {
     case SurfaceKind::translates:
       return ModelKind::translates;
     case SurfaceKind::ellipsoids:
-      return ModelKind::parts;
+      return ModelKind::exact_sums;
     case SurfaceKind::smooth:
       if (is_ellipsoid_sum(shape)) return ModelKind::ellipsoid_sum;
-      return has_exact_parts(shape) ? ModelKind::parts : ModelKind::smooth;
+      return has_exact_sums(shape) ? ModelKind::exact_sums : ModelKind::smooth;
     default:
-      return has_exact_parts(shape) ? ModelKind::parts : ModelKind::osculated_parts;
+      return has_exact_sums(shape) ? ModelKind::exact_sums : ModelKind::osculating_sums;
   }
 }
 

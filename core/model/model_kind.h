@@ -14,8 +14,8 @@ enum class ModelKind : unsigned char {
   gauge,            ///< known by its gauge
   ellipsoid_sum,    ///< a sum of ellipsoids
   smooth,           ///< a smooth surface
-  parts,            ///< the hull of finitely many sums of ellipsoids
-  osculated_parts,  ///< any other shape: the same, but some parts only osculate
+  exact_sums,       ///< the hull of finitely many sums of ellipsoids
+  osculating_sums,  ///< any other shape: the same, but some of them only osculate
 };
 
 /// A description that chooses between models, on which no answer's correctness depends: supporting

@@ -4,10 +4,10 @@
 
 #include "core/model/ellipsoid_sum_model.h"
 #include "core/model/model_cast.h"
-#include "core/model/parts_model.h"
 #include "core/model/polytope_model.h"
 #include "core/model/shape_definition.h"
 #include "core/model/smooth_model.h"
+#include "core/model/sums_model.h"
 #include "core/model/superellipsoid_model.h"
 #include "core/model/translates_model.h"
 #include "core/shape/declared.h"
@@ -80,9 +80,8 @@ auto with_model(const ShapeDefinition<Lane<W>>& definition, Use&& use) {
         return EllipsoidSumModel<W, Shape<T>>(shape, definition.ellipsoid_sum(), centre, s, r, R);
       });
     default:
-      return use([&](const Vec3<W>& s, const Vec3<W>& r) {
-        return PartsModel<W>(shape, centre, s, r, R);
-      });
+      return use(
+          [&](const Vec3<W>& s, const Vec3<W>& r) { return SumsModel<W>(shape, centre, s, r, R); });
   }
 }
 

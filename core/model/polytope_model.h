@@ -18,10 +18,10 @@ class PolytopeModel {
  public:
   using T = Lane<W>;
 
-  struct Piece {
+  struct Feature {
     Vec3<W> c;  ///< relative to s
-    W reach(const Vec3<W>& n) const { return c.dot(n); }
-    const Vec3<W>& spot(const Vec3<W>&) const { return c; }
+    W support_function(const Vec3<W>& n) const { return c.dot(n); }
+    const Vec3<W>& support_point(const Vec3<W>&) const { return c; }
   };
 
   PolytopeModel(const Core& core, const Vec3<T>& centre, const Vec3<W>& s, const Vec3<W>& r, T R)
@@ -37,7 +37,7 @@ class PolytopeModel {
   Vec3<W> to_shape(const Vec3<W>& n) const { return first_.to_shape(n, frame_); }
   W against_ray(const Vec3<W>& n) const { return n.z(); }
 
-  Piece support(const Vec3<W>& n, const Mask<W>& wanted) const {
+  Feature support(const Vec3<W>& n, const Mask<W>& wanted) const {
     const auto seen = [&](const Vec3<W>& point) { return frame_.into(point - from_); };
     if constexpr (looks_up) {
       const Mask<W> known = first_.is_known(n), open = wanted & !known;
@@ -69,10 +69,10 @@ class PolytopeModel {
     return hit;
   }
 
-  ModelHit<W> step(const Piece& piece, const Vec3<W>& n, int iteration) {
+  ModelHit<W> step(const Feature& feature, const Vec3<W>& n, int iteration) {
     using std::max;
     using std::min;
-    const Vec3<W>& newest = piece.c;
+    const Vec3<W>& newest = feature.c;
     // Forget an older copy of the newest vertex.
     ModelHit<W> hit;
     for (Kept& kept : kept_) {
@@ -152,10 +152,10 @@ class PolytopeModel {
     Mask<W> beaten(false);
     for (const Kept& kept : kept_) {
       const Vec3<W> centre = kept.c - kept.n * ball;
-      const W reach = centre.dot(alone);
-      const Mask<W> further = kept.valid & (reach > furthest);
+      const W h = centre.dot(alone);
+      const Mask<W> further = kept.valid & (h > furthest);
       other = select<W>(further, centre, other);
-      furthest = select(further, reach, furthest);
+      furthest = select(further, h, furthest);
       beaten |= further;
     }
     if (!any(beaten)) return alone;

@@ -112,7 +112,7 @@ ShapeDefinition<T>::ShapeDefinition(Shape<T> shape) : original_(shape), inner_(s
   half_extents_ = bounds.reach_of_centre();
   model_ = model_kind_of<T>(inner_);
   if (model_ == ModelKind::ellipsoid_sum)
-    ellipsoid_sum_ = part_of<T>(inner_, Vec3<T>(T(0), T(0), T(1)));
+    ellipsoid_sum_ = touching_sum<T>(inner_, Vec3<T>(T(0), T(0), T(1)));
   is_extreme_ = has_extreme_proportions(inner_);
   if (!is_extreme_) form_ = exact_form_of(inner_, ball_.centre.template cast<double>());
   const bool has_small_form = form_.kind != FormKind::none && form_.kind != FormKind::polytope;

@@ -33,7 +33,7 @@ class ShapeDefinition {
   bool is_extreme() const { return is_extreme_; }
   /// It is the inner shape in double, made when it is first asked for, of float shapes of which
   /// some casts are asked there: extreme ones, and those with a closed form but polytopes, whose
-  /// facets would take more memory than the doubtful few are worth. It is null for others.
+  /// facets would take more memory than the uncertain few are worth. It is null for others.
   const ShapeDefinition<double>* in_double() const;
   /// It is the inner shape of extreme shapes in long double; it is null for others.
   const Shape<long double>* in_long_double() const { return in_long_double_.get(); }
@@ -46,7 +46,7 @@ class ShapeDefinition {
   }
   /// Whether packets of rays have a solver of their own.
   bool has_packets() const {
-    return !is_extreme_ && (form_.kind != FormKind::none || model_ != ModelKind::osculated_parts);
+    return !is_extreme_ && (form_.kind != FormKind::none || model_ != ModelKind::osculating_sums);
   }
 
   /// Bounds of the whole shape (the transforms on) under a pose.

@@ -18,13 +18,13 @@ class SmoothModel {
  public:
   using T = Lane<W>;
 
-  struct Piece {
+  struct Feature {
     Vec3<W> s;  ///< the support point, relative to the ray's s
     Mat3<W> F;
     Vec3<W> patch;  ///< the jet's centre, which tells the patches of the surface apart
     W height;       ///< of the supporting plane over the origin
-    W reach(const Vec3<W>&) const { return height; }
-    const Vec3<W>& spot(const Vec3<W>&) const { return s; }
+    W support_function(const Vec3<W>&) const { return height; }
+    const Vec3<W>& support_point(const Vec3<W>&) const { return s; }
   };
 
   SmoothModel(const S& shape, const Vec3<T>& centre, const Vec3<W>& s, const Vec3<W>& r, T R)
@@ -45,33 +45,33 @@ class SmoothModel {
     return hit;
   }
 
-  Piece support(const Vec3<W>& n, const Mask<W>&) const {
+  Feature support(const Vec3<W>& n, const Mask<W>&) const {
     const Vec3<W> n_shape = frame_.out_of(n);
     const Jet<W> jet = shape_.template jet<W>(n_shape);
-    Piece piece;
-    piece.s = frame_.into(jet.support(n_shape) - from_);
-    for (int k = 0; k < 3; ++k) piece.F.col(k) = frame_.into(jet.F.col(k));
-    piece.patch = jet.c;
-    piece.height = piece.s.dot(n);
-    return piece;
+    Feature feature;
+    feature.s = frame_.into(jet.support(n_shape) - from_);
+    for (int k = 0; k < 3; ++k) feature.F.col(k) = frame_.into(jet.F.col(k));
+    feature.patch = jet.c;
+    feature.height = feature.s.dot(n);
+    return feature;
   }
 
-  ModelHit<W> step(const Piece& piece, const Vec3<W>& n, int iteration) {
+  ModelHit<W> step(const Feature& feature, const Vec3<W>& n, int iteration) {
     // A vertex has no curvature to go by: a small ball does.
-    const Mask<W> repeated = repeats(piece);
+    const Mask<W> repeated = repeats(feature);
     shrink_ = select(repeated, W(shrink_ * W(T(0.1))), shrink_);
     if (iteration >= 3) shrink_ *= W(T(0.5));
-    EllipsoidBody<W> body{piece.F};
-    const Mask<W> is_point = piece.F.squaredNorm() == W(0);
+    EllipsoidBody<W> body{feature.F};
+    const Mask<W> is_point = feature.F.squaredNorm() == W(0);
     if (any(is_point)) {
       const W ball = select(is_point, W(shrink_ * W(R_)), W(0));
       for (int k = 0; k < 3; ++k) body.F(k, k) += ball;
     }
-    const Vec3<W> c = piece.s - body.spot(n);
+    const Vec3<W> c = feature.s - body.support_point(n);
     Translates<W> others;
     for (std::size_t k = 0; k < 3; ++k) {
-      others.c[k] = s_[k] - body.spot(n_[k]);
-      others.valid[k] = valid_[k] & ((patch_[k] - piece.patch).squaredNorm() > W(0)) &
+      others.c[k] = s_[k] - body.support_point(n_[k]);
+      others.valid[k] = valid_[k] & ((patch_[k] - feature.patch).squaredNorm() > W(0)) &
                         ((n_[k] - n).squaredNorm() <= W(near_squared));
     }
     const HullCastHit<W> on_hull =
@@ -80,14 +80,14 @@ class SmoothModel {
     ModelHit<W> hit;
     hit.m = on_hull.m;
     const Mask<W> ahead = hit.m.z() > W(0);
-    hit.height = select(ahead, on_hull.rank, W(0));
-    hit.certain = on_hull.found & ahead & settled(piece, n, on_hull);
+    hit.height = select(ahead, on_hull.height, W(0));
+    hit.certain = on_hull.found & ahead & settled(feature, n, on_hull);
     hit.inner = Mask<W>(false);
     hit.repeated = repeated;
-    keep(piece, n, on_hull);
+    keep(feature, n, on_hull);
 
-    step_back(piece, n, hit);
-    stay_between(piece, n, hit);
+    step_back(feature, n, hit);
+    stay_between(feature, n, hit);
     return hit;
   }
 
@@ -95,7 +95,7 @@ class SmoothModel {
   /// A direction (x, y, 1), where the model wants to go from it, and where its support point lies
   /// beside the ray.
   struct Point {
-    W x = W(0), y = W(0), to_x = W(0), to_y = W(0), beside_x = W(0), beside_y = W(0);
+    W x = W(0), y = W(0), to_x = W(0), to_y = W(0), offset_x = W(0), offset_y = W(0);
   };
 
   static Point pick(const Mask<W>& condition, const Point& a, const Point& b) {
@@ -103,15 +103,15 @@ class SmoothModel {
             select(condition, a.y, b.y),
             select(condition, a.to_x, b.to_x),
             select(condition, a.to_y, b.to_y),
-            select(condition, a.beside_x, b.beside_x),
-            select(condition, a.beside_y, b.beside_y)};
+            select(condition, a.offset_x, b.offset_x),
+            select(condition, a.offset_y, b.offset_y)};
   }
 
-  Mask<W> repeats(const Piece& piece) {
+  Mask<W> repeats(const Feature& feature) {
     Mask<W> repeated(false);
     for (std::size_t k = 0; k < 3; ++k) {
-      const Mask<W> same = valid_[k] & (s_[k].x() == piece.s.x()) & (s_[k].y() == piece.s.y()) &
-                           (s_[k].z() == piece.s.z());
+      const Mask<W> same = valid_[k] & (s_[k].x() == feature.s.x()) & (s_[k].y() == feature.s.y()) &
+                           (s_[k].z() == feature.s.z());
       repeated |= same;
       valid_[k] &= !same;
     }
@@ -121,36 +121,36 @@ class SmoothModel {
   /// The support points of the carriers, joined by the hit's weights, are a point p of the shape:
   /// hardly below the newest supporting plane and hardly beside the ray. What the iteration would
   /// still gain is half the product of its step and the distance beside the ray.
-  Mask<W> settled(const Piece& piece, const Vec3<W>& n, const HullCastHit<W>& on_hull) const {
+  Mask<W> settled(const Feature& feature, const Vec3<W>& n, const HullCastHit<W>& on_hull) const {
     using std::sqrt;
-    Vec3<W> p = piece.s;
-    for (std::size_t k = 0; k < 3; ++k) p += (s_[k] - piece.s) * on_hull.weights[k];
-    const W beside = sqrt(p.x() * p.x() + p.y() * p.y());
-    const W below = piece.height - n.dot(p);
-    return (below + beside * (on_hull.m - n).norm() <= W(tolerance::jet_gap<T> * R_)) &
-           (beside <= W(model_reach * R_));
+    Vec3<W> p = feature.s;
+    for (std::size_t k = 0; k < 3; ++k) p += (s_[k] - feature.s) * on_hull.weights[k];
+    const W offset = sqrt(p.x() * p.x() + p.y() * p.y());
+    const W below = feature.height - n.dot(p);
+    return (below + offset * (on_hull.m - n).norm() <= W(tolerance::jet_gap<T> * R_)) &
+           (offset <= W(model_reach * R_));
   }
 
   /// A step to a lower plane, or one that clearly overshoots, is taken back: to where, between the
   /// two directions, the support point should lie beside the ray in no direction of the step. The
   /// direction as a function of that distance is interpolated (Hermite), from both ends' values and
   /// Newton steps: where curvature vanishes, it is smooth and its inverse is not.
-  void step_back(const Piece& piece, const Vec3<W>& n, ModelHit<W>& hit) {
+  void step_back(const Feature& feature, const Vec3<W>& n, ModelHit<W>& hit) {
     using std::abs;
     using std::max;
     using std::min;
     using std::sqrt;
     const Mask<W> cuts = n.z() > W(along_ray);
     const W z = select(cuts, n.z(), W(1));
-    const W lambda = select(cuts, W(-piece.height / z), W(-infinity));
+    const W lambda = select(cuts, W(-feature.height / z), W(-infinity));
     const Mask<W> onto = hit.m.z() > W(along_ray);
     const W m_z = select(onto, hit.m.z(), W(1)), x = n.x() / z, y = n.y() / z;
     const Point here{x,
                      y,
                      select(onto, W(hit.m.x() / m_z), W(x + hit.m.x() * W(far_step))),
                      select(onto, W(hit.m.y() / m_z), W(y + hit.m.y() * W(far_step))),
-                     piece.s.x(),
-                     piece.s.y()};
+                     feature.s.x(),
+                     feature.s.y()};
     const Mask<W> worse = lambda < best_lambda_;
 
     // Along the step that the model wants now.
@@ -159,8 +159,8 @@ class SmoothModel {
     e_x /= length;
     e_y /= length;
     const auto along = [&](const W& v_x, const W& v_y) { return v_x * e_x + v_y * e_y; };
-    const W before = along(best_.beside_x, best_.beside_y);
-    const W now = along(here.beside_x, here.beside_y);
+    const W before = along(best_.offset_x, best_.offset_y);
+    const W now = along(here.offset_x, here.offset_y);
     const Mask<W> overshoots = cuts & onto & (before * now < W(0)) &
                                (abs(now) > abs(before) * W(T(0.25))) & !(worse & was_back_);
     const Mask<W> back = (!hit.certain) & (worse | overshoots) & (best_lambda_ > W(-infinity));
@@ -190,11 +190,11 @@ class SmoothModel {
   /// Among directions along the ray (n.z = 0), where the model passes the ray by as well: the least
   /// reach lies where its derivative along that circle changes sign. A step out of the arc between
   /// two signs, or over half of it, is replaced by the secant's.
-  void stay_between(const Piece& piece, const Vec3<W>& n, ModelHit<W>& hit) {
+  void stay_between(const Feature& feature, const Vec3<W>& n, ModelHit<W>& hit) {
     using std::abs;
     const Mask<W> on_circle = (abs(n.z()) <= W(along_ray)) & !(hit.m.z() > W(along_ray));
     if (!any(on_circle)) return;
-    const W slope = n.x() * piece.s.y() - n.y() * piece.s.x();  // counter-clockwise
+    const W slope = n.x() * feature.s.y() - n.y() * feature.s.x();  // counter-clockwise
     const Mask<W> falls = on_circle & (slope < W(0)), rises = on_circle & (slope > W(0));
     // An end that stays for a second time counts half (the Illinois variant).
     rising_.slope = select(falls & fell_, W(rising_.slope * W(T(0.5))), rising_.slope);
@@ -214,14 +214,14 @@ class SmoothModel {
     if (any(between)) hit.m = select<W>(between, unit<W>({secant.x(), secant.y(), W(0)}), hit.m);
   }
 
-  void keep(const Piece& piece, const Vec3<W>& n, const HullCastHit<W>& on_hull) {
+  void keep(const Feature& feature, const Vec3<W>& n, const HullCastHit<W>& on_hull) {
     Mask<W> placed(false);
     for (std::size_t k = 0; k < 3; ++k) {
       valid_[k] &= on_hull.weights[k] != W(0);
       const Mask<W> here = (!valid_[k]) & (!placed);
-      s_[k] = select<W>(here, piece.s, s_[k]);
+      s_[k] = select<W>(here, feature.s, s_[k]);
       n_[k] = select<W>(here, n, n_[k]);
-      patch_[k] = select<W>(here, piece.patch, patch_[k]);
+      patch_[k] = select<W>(here, feature.patch, patch_[k]);
       valid_[k] |= here;
       placed |= here;
     }

@@ -15,10 +15,10 @@ class SuperellipsoidModel {
  public:
   using T = Lane<W>;
 
-  struct Piece {
+  struct Feature {
     Vec3<W> s;  ///< the support point, relative to the ray's s
-    W reach(const Vec3<W>& n) const { return s.dot(n); }
-    const Vec3<W>& spot(const Vec3<W>&) const { return s; }
+    W support_function(const Vec3<W>& n) const { return s.dot(n); }
+    const Vec3<W>& support_point(const Vec3<W>&) const { return s; }
   };
 
   SuperellipsoidModel(const S& shape, const Vec3<T>& centre, const Vec3<W>& s, const Vec3<W>& r,
@@ -36,7 +36,7 @@ class SuperellipsoidModel {
   const Vec3<W>& to_shape(const Vec3<W>& n) const { return n; }
   W against_ray(const Vec3<W>& n) const { return -n.dot(r_); }
 
-  Piece support(const Vec3<W>& n, const Mask<W>&) const {
+  Feature support(const Vec3<W>& n, const Mask<W>&) const {
     return {Vec3<W>(shape_.template support<W>(n) - from_)};
   }
 
@@ -55,11 +55,11 @@ class SuperellipsoidModel {
   /// Called only where the plane does not meet the hit that `begin` found. Where planes are so
   /// steep that their rounding is long, the plane itself may meet the ray at a point of the shape,
   /// up to rounding; or else the ray is tangent up to rounding, which a plane along it will tell.
-  ModelHit<W> step(const Piece& piece, const Vec3<W>& n, int) {
+  ModelHit<W> step(const Feature& feature, const Vec3<W>& n, int) {
     const W z = against_ray(n);
     const Mask<W> ahead = z > W(0);
     ModelHit<W> hit;
-    hit.height = piece.reach(n) / select(ahead, z, W(1));
+    hit.height = feature.support_function(n) / select(ahead, z, W(1));
     const auto gauge = shape_.template gauge_along<W>(u_, v_, W(-hit.height));
     hit.certain = hits_ & ahead & (gauge.value <= W(1) + rounding_of(gauge.gradient));
     hit.m = select<W>(hits_ & !hit.certain, across(n), n);
@@ -106,8 +106,8 @@ class SuperellipsoidModel {
 
   /// It is at right angles to the ray; the ray's own direction if nothing is left.
   Vec3<W> across(const Vec3<W>& n) const {
-    const Vec3<W> beside = unit<W>(Vec3<W>(n - r_ * n.dot(r_)));
-    return select<W>(beside.squaredNorm() > W(0), beside, Vec3<W>(-r_));
+    const Vec3<W> crosswise = unit<W>(Vec3<W>(n - r_ * n.dot(r_)));
+    return select<W>(crosswise.squaredNorm() > W(0), crosswise, Vec3<W>(-r_));
   }
 
   /// The line is u_ + lambda v_, in units of the radii. The tangent's zero of (gauge - 1) is a
@@ -139,7 +139,7 @@ class SuperellipsoidModel {
       const auto gauge = shape_.template gauge_along<W>(u_, v_, lambda);
       const W rounding = rounding_of(gauge.gradient);
       const W over = (gauge.value - W(1)) * (gauge.value + W(1));
-      const W b = gauge.value * gauge.slope, c = gauge.bend;
+      const W b = gauge.value * gauge.slope, c = gauge.curvature;
       const W den = b * b - c * over;
       const Mask<W> falls = gauge.slope < W(0);
       const Mask<W> meets = den > W(0);

@@ -16,8 +16,8 @@ template <class W, class Body>
 struct Translate {
   Vec3<W> c;  ///< its centre
   Body body;
-  W reach(const Vec3<W>& n) const { return c.dot(n) + body.bend(n); }
-  Vec3<W> spot(const Vec3<W>& n) const { return c + body.spot(n); }
+  W support_function(const Vec3<W>& n) const { return c.dot(n) + body.support_function(n); }
+  Vec3<W> support_point(const Vec3<W>& n) const { return c + body.support_point(n); }
 };
 
 /// A polytope and how far it is rounded.
@@ -53,14 +53,14 @@ struct JetTranslates {
   Translate<W, Body> furthest(const Vec3<W>& n, const Mask<W>&, const Vec3<W>& from,
                               const RayFrame<W>& frame) const {
     const Jet<W> jet = shape.template jet<W>(frame.out_of(n));
-    Translate<W, Body> piece{frame.into(jet.c - from), turned(jet.F, frame)};
+    Translate<W, Body> feature{frame.into(jet.c - from), turned(jet.F, frame)};
     if (!all(jet.exact)) {  // the support point alone, which is unlike the others
-      piece.c = select<W>(jet.exact, piece.c, frame.into(jet.s - from));
+      feature.c = select<W>(jet.exact, feature.c, frame.into(jet.s - from));
       for (int k = 0; k < 3; ++k)
-        piece.body.F.col(k) =
-            select<W>(jet.exact, Vec3<W>(piece.body.F.col(k)), Vec3<W>(Vec3<W>::Zero()));
+        feature.body.F.col(k) =
+            select<W>(jet.exact, Vec3<W>(feature.body.F.col(k)), Vec3<W>(Vec3<W>::Zero()));
     }
-    return piece;
+    return feature;
   }
   static Mask<W> alike(const Body& a, const Body& b) {
     return (a.F - b.F).cwiseAbs().sum() == W(0);
@@ -81,7 +81,7 @@ class TranslatesModel {
   using T = Lane<W>;
   using Body = typename Bodies::Body;
 
-  using Piece = Translate<W, Body>;  ///< relative to s
+  using Feature = Translate<W, Body>;  ///< relative to s
 
   TranslatesModel(const Bodies& bodies, const Vec3<T>& centre, const Vec3<W>& s, const Vec3<W>& r,
                   T R)
@@ -101,13 +101,13 @@ class TranslatesModel {
   }
   W against_ray(const Vec3<W>& n) const { return n.z(); }
 
-  Piece support(const Vec3<W>& n, const Mask<W>& wanted) const {
+  Feature support(const Vec3<W>& n, const Mask<W>& wanted) const {
     if constexpr (Known::some) {
       const Mask<W> known = first_.is_known(n), open = wanted & !known;
       if (!any(open)) return {first_.corner(), body_};
-      Piece piece = bodies_.furthest(n, open, from_, frame_);
-      piece.c = select<W>(known, first_.corner(), piece.c);
-      return piece;
+      Feature feature = bodies_.furthest(n, open, from_, frame_);
+      feature.c = select<W>(known, first_.corner(), feature.c);
+      return feature;
     } else {
       return bodies_.furthest(n, wanted, from_, frame_);
     }
@@ -132,10 +132,10 @@ class TranslatesModel {
     HullCastHit<W> known;
     known.found = facet.enters | !near;
     known.m = select<W>(facet.enters, facet.normal, known.m);
-    known.rank = select(facet.enters, facet.height, known.rank);
+    known.height = select(facet.enters, facet.height, known.height);
     for (std::size_t k = 0; k < 2; ++k)
       known.weights[k] = select(facet.enters, W(1), known.weights[k]);
-    const Piece corner{facet.corner, body_};
+    const Feature corner{facet.corner, body_};
     const ModelHit<W> around =
         keep(corner, HullCast<W, Body>(body_, corner.c, kept_, rounding_).solve_from(known));
     for (Mask<W>& valid : kept_.valid) valid &= near;
@@ -146,20 +146,20 @@ class TranslatesModel {
     return hit;
   }
 
-  ModelHit<W> step(const Piece& piece, const Vec3<W>&, int) {
-    // Forget an older copy of the newest piece; it will be kept in a free place.
+  ModelHit<W> step(const Feature& feature, const Vec3<W>&, int) {
+    // Forget an older copy of the newest feature; it will be kept in a free place.
     Mask<W> repeated(false);
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec3<W>& c = kept_.c[k];
-      const Mask<W> same =
-          kept_.valid[k] & (c.x() == piece.c.x()) & (c.y() == piece.c.y()) & (c.z() == piece.c.z());
+      const Mask<W> same = kept_.valid[k] & (c.x() == feature.c.x()) & (c.y() == feature.c.y()) &
+                           (c.z() == feature.c.z());
       repeated |= same;
       kept_.valid[k] &= !same;
     }
-    ModelHit<W> hit = keep(piece, HullCast<W, Body>(body_, piece.c, kept_, rounding_).solve());
+    ModelHit<W> hit = keep(feature, HullCast<W, Body>(body_, feature.c, kept_, rounding_).solve());
     hit.repeated = repeated;
     // A body of another kind: not a shape for this model after all.
-    const Mask<W> alike = Bodies::alike(piece.body, body_);
+    const Mask<W> alike = Bodies::alike(feature.body, body_);
     if (!all(alike)) hit.m = select<W>(alike, hit.m, Vec3<W>(Vec3<W>::Zero()));
     hit.certain &= alike;
     return hit;
@@ -168,20 +168,20 @@ class TranslatesModel {
  private:
   using Known = Facets<W, typename Bodies::Core>;
 
-  /// The hit on the hull of the pieces that are kept and this one, which is none of them; from now
-  /// on those that carry the hit are kept.
-  ModelHit<W> keep(const Piece& piece, const HullCastHit<W>& on_hull) {
+  /// The hit on the hull of the features that are kept and this one, which is none of them; from
+  /// now on those that carry the hit are kept.
+  ModelHit<W> keep(const Feature& feature, const HullCastHit<W>& on_hull) {
     ModelHit<W> hit;
     hit.m = on_hull.m;
     const Mask<W> ahead = hit.m.z() > W(0);
     hit.certain = on_hull.found & ahead;
-    hit.height = select(ahead, on_hull.rank, W(0));
+    hit.height = select(ahead, on_hull.height, W(0));
 
     Mask<W> placed(false);
     for (std::size_t k = 0; k < 3; ++k) {
       kept_.valid[k] &= on_hull.weights[k] != W(0);
       const Mask<W> here = (!kept_.valid[k]) & (!placed);
-      kept_.c[k] = select<W>(here, piece.c, kept_.c[k]);
+      kept_.c[k] = select<W>(here, feature.c, kept_.c[k]);
       kept_.valid[k] |= here;
       placed |= here;
     }

@@ -38,24 +38,24 @@ template <class W>
   using T = Lane<W>;
   const Vec3<W>&o = line.origin, &d = line.direction;
   // In the direction d x e_k, to either side, the line is o . (d x e_k) = (o x d)_k away.
-  const Vec3<W> beside = o.cross(d);
+  const Vec3<W> crosswise = o.cross(d);
   const Vec3<W> size(abs(d.x()), abs(d.y()), abs(d.z()));
   const Vec3<W> h = widen<W>(half_extents);
   const W largest_term = (W(R) + line.origin_size) * line.direction_size;
   const W padding = W(tolerance::box_padding<T>) * largest_term;
-  const Mask<W> by_x = abs(beside.x()) > h.y() * size.z() + h.z() * size.y() + padding;
-  const Mask<W> by_y = abs(beside.y()) > h.z() * size.x() + h.x() * size.z() + padding;
-  const Mask<W> by_z = abs(beside.z()) > h.x() * size.y() + h.y() * size.x() + padding;
+  const Mask<W> by_x = abs(crosswise.x()) > h.y() * size.z() + h.z() * size.y() + padding;
+  const Mask<W> by_y = abs(crosswise.y()) > h.z() * size.x() + h.x() * size.z() + padding;
+  const Mask<W> by_z = abs(crosswise.z()) > h.x() * size.y() + h.y() * size.x() + padding;
   // Shorter directions may have lost digits, larger terms overflow.
-  const Mask<W> told = (line.direction_size > W(tolerance::shortest_told<T>)) &
-                       (largest_term < W(std::numeric_limits<T>::max() / T(8)));
+  const Mask<W> certain = (line.direction_size > W(tolerance::shortest_certain<T>)) &
+                          (largest_term < W(std::numeric_limits<T>::max() / T(8)));
   BoundsCast<W> result;
-  result.miss = active & told & (by_x | by_y | by_z);
+  result.miss = active & certain & (by_x | by_y | by_z);
   result.open = active & !result.miss;
   if (any(result.miss)) {
-    const Vec3<W> axis(select(by_x, copysign(W(1), beside.x()), W(0)),
-                       select(by_y & !by_x, copysign(W(1), beside.y()), W(0)),
-                       select(by_x | by_y, W(0), copysign(W(1), beside.z())));
+    const Vec3<W> axis(select(by_x, copysign(W(1), crosswise.x()), W(0)),
+                       select(by_y & !by_x, copysign(W(1), crosswise.y()), W(0)),
+                       select(by_x | by_y, W(0), copysign(W(1), crosswise.z())));
     result.normal = select<W>(result.miss, unit<W>(Vec3<W>(d.cross(axis))), result.normal);
   }
   return result;

@@ -51,8 +51,8 @@ Mask<W> passes_edge(const Vec3<W>& a, const Vec3<W>& b, const W& rounding) {
   const Mask<W> in_line = area * area <= near * length;
   if (!any(in_line)) return in_line;
   const W share = min(max(W(-(a.x() * x + a.y() * y) / length), W(0)), W(1));
-  const W beside_x = a.x() + x * share, beside_y = a.y() + y * share;
-  return in_line & (beside_x * beside_x + beside_y * beside_y <= near);
+  const W offset_x = a.x() + x * share, offset_y = a.y() + y * share;
+  return in_line & (offset_x * offset_x + offset_y * offset_y <= near);
 }
 
 /// Whether the ray passes between three points.

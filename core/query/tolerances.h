@@ -60,7 +60,7 @@ inline constexpr T least_slope = std::is_same_v<T, float> ? T(0x1p-16) : T(0x1p-
 /// past a corner the ray leaves the shape's neighbourhood. Rays within 3e-8 R of a round
 /// silhouette; what is not looked at is known along the ray to 2^12 times what it is across.
 template <class T>
-inline constexpr T doubtful_slope = std::is_same_v<T, float> ? T(0) : T(0x1p-12);
+inline constexpr T uncertain_slope = std::is_same_v<T, float> ? T(0) : T(0x1p-12);
 
 /// The last word on a hit, whatever the planes' slopes: model and best plane agree so well along
 /// the ray, in units of the bounding radius. A gap of jet_gap at a slope of 1e-3 in float and 1e-6
@@ -74,7 +74,7 @@ template <class T>
 inline constexpr T tangent_push = T(8) * epsilon<T>;
 
 /// How far beside the ray, in units of the bounding radius, a point of the model counts as on it,
-/// and how much further a piece must reach than another to matter: a few roundings of a position.
+/// and how much further a feature must reach than another to matter: a few roundings of a position.
 template <class T>
 inline constexpr T model_rounding = T(8) * epsilon<T>;
 
@@ -124,7 +124,7 @@ inline constexpr T box_padding = T(8) * epsilon<T>;
 /// A direction's size above which products with a shape's sizes (2^-16 or more in float, see
 /// ShapeDefinition) and box_padding are numbers with all their digits.
 template <class T>
-inline constexpr T shortest_told = std::is_same_v<T, float> ? T(0x1p-60) : T(0x1p-500);
+inline constexpr T shortest_certain = std::is_same_v<T, float> ? T(0x1p-60) : T(0x1p-500);
 
 /// What closed forms take a position near the shape to be known to, in units of the form's radius:
 /// E / R of docs/theory.md ("Casts with an error bound"). Float rays, worked on in double: origins
@@ -161,7 +161,7 @@ inline constexpr double form_longest_step = 1e250;
 inline constexpr double polytope_rounding = 12 * 0x1p-53;
 
 /// The least height of a triangle, in radii of its polytope, at which rounded polytopes are
-/// answered by their pieces: what rounding hides of the pieces beside grows by its inverse.
+/// answered by their features: what rounding hides of the features beside grows by its inverse.
 inline constexpr double rounded_polytope_height = 0x1p-12;
 
 /// How far a polytope's corner, seen along a line that is known to E, may lie beside where it

@@ -113,7 +113,7 @@ bool keeps_right_angles(const Mat3<double>& linear) {
 CoreAndRadius find(const Shape<double>& shape, const Affine<double>& map, double radius);
 
 /// Kinds whose core is known. Nothing for others.
-struct Finder {
+struct CoreFinder {
   const Affine<double>& map;
   double radius;
   double similarity;  ///< by how much the map scales all lengths; 0 if it does not
@@ -225,7 +225,7 @@ struct Finder {
 
 CoreAndRadius find(const Shape<double>& shape, const Affine<double>& map, double radius) {
   const double similarity = AffineMap<double>(map).similarity();
-  const Finder finder{map, radius, similarity};
+  const CoreFinder finder{map, radius, similarity};
   CoreAndRadius found;
   const bool is_known =
       std::visit([&](const auto& kind) { return finder.find(kind, found); }, shape.kind);

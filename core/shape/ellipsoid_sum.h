@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Parts of shapes: a jet with its summands kept apart. What Minkowski sums make of two curved
-// pieces is no ellipsoid, so that one ellipsoid can only osculate it; but the list of both is the
+// Sums of ellipsoids: a jet with its summands kept separate. What Minkowski sums make of two curved
+// features is no ellipsoid, so that one ellipsoid can only osculate it; but the list of both is the
 // part of the shape as a whole, h(n) = c.n + sum |F_k^T n|. Nearly every shape is the hull of
 // finitely many of these.
 #pragma once
@@ -29,7 +29,7 @@ struct EllipsoidSum {
   Vec3<W> patch = Vec3<W>::Zero();
 
   /// How far it reaches along n, in lengths of n.
-  W reach(const Vec3<W>& n) const {
+  W support_function(const Vec3<W>& n) const {
     W reach = c.dot(n);
     for (std::size_t k = 0; k < used; ++k) reach += (F[k].transpose() * n).norm();
     return reach;
@@ -87,54 +87,54 @@ EllipsoidSum<W> sum_of(EllipsoidSum<W> a, const EllipsoidSum<W>& b, const Vec3<W
 }
 
 template <class W, class T>
-EllipsoidSum<W> part_of(const Shape<T>& shape, const Vec3<W>& n);
+EllipsoidSum<W> touching_sum(const Shape<T>& shape, const Vec3<W>& n);
 
 namespace detail {
 
 /// The shape's jets are ellipsoids. Those that only osculate are moved to touch the shape.
 template <class W, class S>
-EllipsoidSum<W> part_of_kind(const S& shape, const Vec3<W>& n) {
+EllipsoidSum<W> sum_of_kind(const S& shape, const Vec3<W>& n) {
   const Jet<W> jet = shape.jet(n);
-  EllipsoidSum<W> part;
-  part.s = jet.support(n);
-  part.exact = jet.exact | jet.is_point();
-  part.c = select<W>(jet.exact, jet.c, Vec3<W>(jet.s - jet.F * unit<W>(jet.F.transpose() * n)));
-  part.patch = jet.c;
-  part.add(jet.F, n);
-  return part;
+  EllipsoidSum<W> sum;
+  sum.s = jet.support(n);
+  sum.exact = jet.exact | jet.is_point();
+  sum.c = select<W>(jet.exact, jet.c, Vec3<W>(jet.s - jet.F * unit<W>(jet.F.transpose() * n)));
+  sum.patch = jet.c;
+  sum.add(jet.F, n);
+  return sum;
 }
 
 template <class W, class T>
-EllipsoidSum<W> part_of_kind(const Rounded<T>& shape, const Vec3<W>& n) {
-  EllipsoidSum<W> part = part_of<W>(*shape.shape, n);
-  part.s += unit<W>(n) * W(shape.radius);
-  part.add(Mat3<W>(Mat3<W>::Identity() * W(shape.radius)), n);
-  return part;
+EllipsoidSum<W> sum_of_kind(const Rounded<T>& shape, const Vec3<W>& n) {
+  EllipsoidSum<W> sum = touching_sum<W>(*shape.shape, n);
+  sum.s += unit<W>(n) * W(shape.radius);
+  sum.add(Mat3<W>(Mat3<W>::Identity() * W(shape.radius)), n);
+  return sum;
 }
 
 template <class W, class T>
-EllipsoidSum<W> part_of_kind(const MinkowskiSum<T>& sum, const Vec3<W>& n) {
-  EllipsoidSum<W> part = part_of<W>(*sum.shapes.front(), n);
+EllipsoidSum<W> sum_of_kind(const MinkowskiSum<T>& sum, const Vec3<W>& n) {
+  EllipsoidSum<W> total = touching_sum<W>(*sum.shapes.front(), n);
   for (std::size_t i = 1; i < sum.shapes.size(); ++i)
-    part = sum_of<W>(part, part_of<W>(*sum.shapes[i], n), n);
-  return part;
+    total = sum_of<W>(total, touching_sum<W>(*sum.shapes[i], n), n);
+  return total;
 }
 
 template <class W, class T>
-EllipsoidSum<W> part_of_kind(const MinkowskiDifference<T>& obstacle, const Vec3<W>& n) {
-  EllipsoidSum<W> mirrored = part_of<W>(*obstacle.b, Vec3<W>(-n));
+EllipsoidSum<W> sum_of_kind(const MinkowskiDifference<T>& obstacle, const Vec3<W>& n) {
+  EllipsoidSum<W> mirrored = touching_sum<W>(*obstacle.b, Vec3<W>(-n));
   mirrored.c = -mirrored.c;
   mirrored.s = -mirrored.s;
   mirrored.patch = -mirrored.patch;
-  return sum_of<W>(part_of<W>(*obstacle.a, n), mirrored, n);
+  return sum_of<W>(touching_sum<W>(*obstacle.a, n), mirrored, n);
 }
 
 template <class W, class T>
-EllipsoidSum<W> part_of_kind(const HullOf<T>& hull, const Vec3<W>& n) {
-  EllipsoidSum<W> best = part_of<W>(*hull.shapes.front(), n);
+EllipsoidSum<W> sum_of_kind(const HullOf<T>& hull, const Vec3<W>& n) {
+  EllipsoidSum<W> best = touching_sum<W>(*hull.shapes.front(), n);
   W furthest = best.s.dot(n);
   for (std::size_t i = 1; i < hull.shapes.size(); ++i) {
-    const EllipsoidSum<W> other = part_of<W>(*hull.shapes[i], n);
+    const EllipsoidSum<W> other = touching_sum<W>(*hull.shapes[i], n);
     const W along = other.s.dot(n);
     const Mask<W> further = along > furthest;
     best = select<W>(further, other, best);
@@ -144,42 +144,44 @@ EllipsoidSum<W> part_of_kind(const HullOf<T>& hull, const Vec3<W>& n) {
 }
 
 template <class W, class T>
-EllipsoidSum<W> part_of_kind(const Transform<T>& moved, const Vec3<W>& n) {
-  EllipsoidSum<W> part = part_of<W>(*moved.shape, moved.map.inner_direction(n));
-  part.c = moved.map(part.c);
-  part.s = moved.map(part.s);
-  part.patch = moved.map(part.patch);
-  for (std::size_t k = 0; k < part.used; ++k)
-    part.F[k] = moved.template mapped_factor<W>(part.F[k]);
-  return part;
+EllipsoidSum<W> sum_of_kind(const Transform<T>& moved, const Vec3<W>& n) {
+  EllipsoidSum<W> sum = touching_sum<W>(*moved.shape, moved.map.inner_direction(n));
+  sum.c = moved.map(sum.c);
+  sum.s = moved.map(sum.s);
+  sum.patch = moved.map(sum.patch);
+  for (std::size_t k = 0; k < sum.used; ++k) sum.F[k] = moved.template mapped_factor<W>(sum.F[k]);
+  return sum;
 }
 
 }  // namespace detail
 
 /// The part of the shape that it touches its supporting plane of direction n with.
 template <class W, class T>
-EllipsoidSum<W> part_of(const Shape<T>& shape, const Vec3<W>& n) {
-  return std::visit([&](const auto& kind) { return detail::part_of_kind<W>(kind, n); }, shape.kind);
+EllipsoidSum<W> touching_sum(const Shape<T>& shape, const Vec3<W>& n) {
+  return std::visit([&](const auto& kind) { return detail::sum_of_kind<W>(kind, n); }, shape.kind);
 }
+
+extern template EllipsoidSum<float> touching_sum(const Shape<float>&, const Vec3<float>&);
+extern template EllipsoidSum<double> touching_sum(const Shape<double>&, const Vec3<double>&);
 
 /// Whether the shape is the hull of such sums, as far as a few directions tell.
 template <class T>
-bool has_exact_parts(const Shape<T>& shape) {
+bool has_exact_sums(const Shape<T>& shape) {
   for (int i = 0; i < tilted_directions; ++i)
-    if (!part_of<T>(shape, tilted_direction<T>(i)).exact) return false;
+    if (!touching_sum<T>(shape, tilted_direction<T>(i)).exact) return false;
   return true;
 }
 
 /// Whether the shape is one such sum, without flat summands, as far as a few directions tell.
 template <class T>
 bool is_ellipsoid_sum(const Shape<T>& shape) {
-  const EllipsoidSum<T> first = part_of<T>(shape, tilted_direction<T>(0));
+  const EllipsoidSum<T> first = touching_sum<T>(shape, tilted_direction<T>(0));
   if (first.used == 0) return false;
   for (std::size_t k = 0; k < first.used; ++k)
     if (first.F[k].col(2).isZero(T(0))) return false;
   for (int i = 0; i < tilted_directions; ++i) {
-    const EllipsoidSum<T> part = part_of<T>(shape, tilted_direction<T>(i));
-    if (!part.exact || part.c != first.c || part.F != first.F) return false;
+    const EllipsoidSum<T> sum = touching_sum<T>(shape, tilted_direction<T>(i));
+    if (!sum.exact || sum.c != first.c || sum.F != first.F) return false;
   }
   return true;
 }

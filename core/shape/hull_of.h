@@ -33,10 +33,10 @@ struct HullOf {
   template <class W>
   Jet<W> jet(const Vec3<W>& n) const {
     Jet<W> best = shapes.front()->jet(n);
-    W furthest = best.reach(n);
+    W furthest = best.support_function(n);
     for (std::size_t i = 1; i < shapes.size(); ++i) {
       const Jet<W> candidate = shapes[i]->jet(n);
-      const W along = candidate.reach(n);
+      const W along = candidate.support_function(n);
       const auto further = along > furthest;
       best = select<W>(further, candidate, best);
       furthest = select(further, along, furthest);

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Jets: a shape's support mapping to second order. In direction n a shape looks like an ellipsoid
 // that agrees with it in support point and curvature; shapes made of flat faces, straight edges and
-// pieces of ellipsoids ARE the hull of finitely many such pieces.
+// features of ellipsoids ARE the hull of finitely many such features.
 //
 // With h(n) = n.s(n), c an interior point and H = ds/dn, the ellipsoid of shape matrix
 // A = h H + g g^T, g = s - c, around c has the same h, s and H at n. docs/theory.md derives how
-// jets compose; a factor A = F F^T is kept, since A itself loses half of the digits of flat pieces.
+// jets compose; a factor A = F F^T is kept, since A itself loses half of the digits of flat
+// features.
 #pragma once
 
 #include <concepts>
@@ -32,7 +33,7 @@ struct Jet {
     return select<W>(exact, Vec3<W>(c + F * unit<W>(F.transpose() * n)), s);
   }
   /// How far the shape reaches along that n, in lengths of n.
-  W reach(const Vec3<W>& n) const {
+  W support_function(const Vec3<W>& n) const {
     return select(exact, W(n.dot(c) + (F.transpose() * n).norm()), W(n.dot(s)));
   }
   Mask<W> is_point() const { return F.cwiseAbs().sum() == W(0); }
@@ -123,7 +124,7 @@ Mat3<W> osculating_sum(const Mat3<W>& F_a, const Mat3<W>& F_b, const Vec3<W>& n)
 }
 
 /// The jet of a Minkowski sum. A sum with a point stays exact, as does the sum of two balls; of two
-/// curved pieces the curvatures H add, and the sum only osculates.
+/// curved features the curvatures H add, and the sum only osculates.
 template <class W>
 Jet<W> add(const Jet<W>& a, const Jet<W>& b, const Vec3<W>& n) {
   using T = Lane<W>;
@@ -138,8 +139,8 @@ Jet<W> add(const Jet<W>& a, const Jet<W>& b, const Vec3<W>& n) {
   if (all(simple)) return joined;
 
   Jet<W> sum{c, osculating_sum<W>(a.F, b.F, n), Mask<W>(false), s};
-  // A flat piece seen along its normal has no curvature to speak of: the piece as a whole, moved to
-  // the other's support point, lies in the sum and touches its plane.
+  // A flat feature seen along its normal has no curvature to speak of: the feature as a whole,
+  // moved to the other's support point, lies in the sum and touches its plane.
   const W h_a = (a.F.transpose() * n).norm(), h_b = (b.F.transpose() * n).norm();
   const W flat = (h_a + h_b) * W(T(1) / T(1024));
   const Mask<W> a_flat = !(h_a > flat), b_flat = !(h_b > flat);

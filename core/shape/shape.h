@@ -70,6 +70,13 @@ struct Shape {
   template <class S>
   requires detail::is_alternative<S, ShapeVariant<T>> Shape(S shape) : kind(std::move(shape)) {}
 
+  // Compiled once, in shape.cpp: each of them asks every kind of shape.
+  Shape(const Shape& other);
+  Shape(Shape&& other) noexcept;
+  Shape& operator=(const Shape& other);
+  Shape& operator=(Shape&& other) noexcept;
+  ~Shape();
+
   /// The point of the shape that lies furthest along n. n need not be of unit length; for n = 0
   /// the answer is some point of the shape.
   template <class W>
@@ -83,6 +90,15 @@ struct Shape {
     return std::visit([&](const auto& shape) -> Jet<W> { return shape.jet(n); }, kind);
   }
 };
+
+extern template struct Shape<float>;
+extern template struct Shape<double>;
+extern template struct Shape<long double>;
+extern template Vec3<float> Shape<float>::support(const Vec3<float>&) const;
+extern template Vec3<double> Shape<double>::support(const Vec3<double>&) const;
+extern template Vec3<long double> Shape<long double>::support(const Vec3<long double>&) const;
+extern template Jet<float> Shape<float>::jet(const Vec3<float>&) const;
+extern template Jet<double> Shape<double>::jet(const Vec3<double>&) const;
 
 static_assert(SupportMapped<Shape<float>, float> && SupportMapped<Shape<double>, double>);
 

@@ -79,8 +79,8 @@ struct Superellipsoid {
     /// supporting plane where a line from the middle to x meets the surface, and the gauge of x
     /// never less than gradient.(x/a).
     Vec3<W> gradient;
-    W slope;  ///< by lambda
-    W bend;   ///< half of the second derivative of the gauge's square
+    W slope;      ///< by lambda
+    W curvature;  ///< half of the second derivative of the gauge's square
   };
 
   template <class W>
@@ -103,18 +103,18 @@ struct Superellipsoid {
     W squares(0);
     for (int i = 0; i < 3; ++i) {
       gauge.gradient[i] = copysign(W(powers[i] * scale), x[i]);
-      squares += powers[i] / max(k[i], W(least_of_bend)) * (v[i] * v[i]);
+      squares += powers[i] / max(k[i], W(least_curvature)) * (v[i] * v[i]);
     }
     gauge.slope = gauge.gradient.dot(v);
     const W slope_squared = gauge.slope * gauge.slope;
-    gauge.bend =
+    gauge.curvature =
         slope_squared + W(p - T(1)) * max(W(squares * (root * scale) - slope_squared), W(0));
     return gauge;
   }
 
  private:
   /// Where curvature is infinite (p < 2, on the coordinate planes), as it is so far beside.
-  static constexpr T least_of_bend = T(1) / T(4096);
+  static constexpr T least_curvature = T(1) / T(4096);
   /// For p up to 4, the osculating ellipsoid is at most about 1/this times as long as the shape.
   static constexpr T least_of_jet = T(1) / T(256);
 };

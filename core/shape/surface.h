@@ -7,7 +7,7 @@
 namespace minkray {
 
 enum class SurfaceKind : unsigned char {
-  flat,        ///< a polytope: points are its only pieces
+  flat,        ///< a polytope: points are its only features
   translates,  ///< faces and edges between finitely many translates of one ellipsoid
   ellipsoids,  ///< faces and edges between finitely many ellipsoids
   smooth,      ///< one curved patch, which jets only osculate

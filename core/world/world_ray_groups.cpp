@@ -38,7 +38,7 @@ constexpr double widest_ray_group = 0.25;
 constexpr int patience_a_ray = 2;
 
 template <class T>
-bool runs_apart(const Ray<T>& a, const SlabRay& slabs_a, const Ray<T>& b, const SlabRay& slabs_b) {
+bool diverges(const Ray<T>& a, const SlabRay& slabs_a, const Ray<T>& b, const SlabRay& slabs_b) {
   const Vec3<double> difference = a.direction.template cast<double>() / slabs_a.steps -
                                   b.direction.template cast<double>() / slabs_b.steps;
   return difference.cwiseAbs().maxCoeff() > widest_ray_group;
@@ -60,7 +60,7 @@ void in_groups(std::span<const WorldRay<T>> rays, std::array<SlabRay, capacity>&
     for (RayGroupMask others = open; others != 0;) {
       const auto i = static_cast<std::size_t>(next_of(others));
       if (slabs[i].octant() != slabs[first].octant() ||
-          runs_apart(rays[i].ray, slabs[i], rays[first].ray, slabs[first]))
+          diverges(rays[i].ray, slabs[i], rays[first].ray, slabs[first]))
         continue;
       group.add(slabs[i].numbers, i);
       open &= ~(RayGroupMask(1) << i);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/cli/completion.h"
 
+#include "renderer/cli/shell_quoted.h"
+
 namespace minkray {
 namespace {
 
@@ -13,13 +15,6 @@ std::string joined(const std::vector<std::string>& words, const std::string& bet
 /// The first sentence or line, which is what fits beside a name.
 std::string first_line(const std::string& doc) {
   return doc.substr(0, doc.find_first_of("\n;:"));
-}
-
-/// Within single quotes of a POSIX shell.
-std::string shell_quoted(const std::string& text) {
-  std::string out = "'";
-  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
 }
 
 std::vector<std::string> flags_of(const VerbDescription& verb) {
@@ -56,7 +51,7 @@ std::string bash_completion(std::span<const VerbDescription> verbs) {
       "  COMPREPLY=()\n"
       "  if ((COMP_CWORD == 1)); then\n"
       "    COMPREPLY=($(compgen -W " +
-      shell_quoted(joined(names, " ") + " --help --version") +
+      in_single_quotes(joined(names, " ") + " --help --version") +
       " -- \"$word\"))\n"
       "    return\n"
       "  fi\n"
@@ -66,19 +61,20 @@ std::string bash_completion(std::span<const VerbDescription> verbs) {
       if (option.choices.empty() || option.is_value_optional) continue;
       std::vector<std::string> patterns;
       for (const std::string& flag : option.flags)
-        patterns.push_back(shell_quoted(verb.name + " " + flag));
+        patterns.push_back(in_single_quotes(verb.name + " " + flag));
       if (patterns.empty()) continue;
       text += "    " + joined(patterns, " | ") + ")\n      COMPREPLY=($(compgen -W " +
-              shell_quoted(joined(option.choices, " ")) + " -- \"$word\"))\n      return ;;\n";
+              in_single_quotes(joined(option.choices, " ")) + " -- \"$word\"))\n      return ;;\n";
     }
   text += "  esac\n  case \"${COMP_WORDS[1]}\" in\n";
   for (const VerbDescription& verb : verbs)
-    text += "    " + verb.name + ") flags=" + shell_quoted(joined(flags_of(verb), " ")) + " ;;\n";
+    text +=
+        "    " + verb.name + ") flags=" + in_single_quotes(joined(flags_of(verb), " ")) + " ;;\n";
   for (const VerbDescription& verb : verbs)
     for (const OptionDescription& option : verb.options)
       if (option.flags.empty() && !option.choices.empty())
         text += "  esac\n  case \"${COMP_WORDS[1]}\" in\n    " + verb.name +
-                ") flags+=" + shell_quoted(" " + joined(option.choices, " ")) + " ;;\n";
+                ") flags+=" + in_single_quotes(" " + joined(option.choices, " ")) + " ;;\n";
   return text +
          "  esac\n"
          "  COMPREPLY=($(compgen -W \"$flags\" -- \"$word\"))\n"
@@ -95,7 +91,7 @@ std::string zsh_completion(std::span<const VerbDescription> verbs) {
       "  if ((CURRENT == 2)); then\n"
       "    local -a verbs=(\n";
   for (const VerbDescription& verb : verbs)
-    text += "      " + shell_quoted(verb.name + ":" + first_line(verb.doc)) + "\n";
+    text += "      " + in_single_quotes(verb.name + ":" + first_line(verb.doc)) + "\n";
   text +=
       "    )\n"
       "    _describe verb verbs\n"
@@ -116,15 +112,15 @@ std::string zsh_completion(std::span<const VerbDescription> verbs) {
                                           : " ");
       if (option.flags.empty()) {
         text += " \\\n        " +
-                shell_quoted(
+                in_single_quotes(
                     (option.is_repeated ? "*:" : ":") + option.place + ":" +
                     (option.choices.empty() ? "_files" : "(" + joined(option.choices, " ") + ")"));
         continue;
       }
       for (const std::string& flag : option.flags)
-        text += " \\\n        " + shell_quoted((option.is_repeated ? "*" : "") + flag +
-                                               (option.is_value_optional ? "=-" : "") + "[" +
-                                               zsh_text(option.doc) + "]" + action);
+        text += " \\\n        " + in_single_quotes((option.is_repeated ? "*" : "") + flag +
+                                                   (option.is_value_optional ? "=-" : "") + "[" +
+                                                   zsh_text(option.doc) + "]" + action);
     }
     text += " ;;\n";
   }
@@ -138,16 +134,18 @@ std::string fish_completion(std::span<const VerbDescription> verbs) {
   std::string text = "# fish completion of minkray; made by: minkray completion fish\n";
   for (const VerbDescription& verb : verbs)
     text += "complete -c minkray -n __fish_use_subcommand -f -a " + verb.name + " -d " +
-            shell_quoted(first_line(verb.doc)) + "\n";
+            in_single_quotes(first_line(verb.doc)) + "\n";
   for (const VerbDescription& verb : verbs)
     for (const OptionDescription& option : verb.options) {
-      text += "complete -c minkray -n " + shell_quoted("__fish_seen_subcommand_from " + verb.name);
+      text +=
+          "complete -c minkray -n " + in_single_quotes("__fish_seen_subcommand_from " + verb.name);
       for (const std::string& flag : option.flags)
         text += flag.starts_with("--") ? " -l " + flag.substr(2) : " -s " + flag.substr(1);
       if (!option.flags.empty() && !option.value.empty() && !option.is_value_optional)
         text += " -r";
-      if (!option.choices.empty()) text += " -f -a " + shell_quoted(joined(option.choices, " "));
-      text += " -d " + shell_quoted(first_line(option.doc)) + "\n";
+      if (!option.choices.empty())
+        text += " -f -a " + in_single_quotes(joined(option.choices, " "));
+      text += " -d " + in_single_quotes(first_line(option.doc)) + "\n";
     }
   return text;
 }

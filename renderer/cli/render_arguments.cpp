@@ -8,19 +8,19 @@
 namespace minkray {
 namespace {
 
-constexpr const char* suffix = ".png";
+constexpr const char* picture_suffix = ".png";
 
 }  // namespace
 
 void RenderArguments::choose_output(const Ranks& ranks) {
   if (image.outputs.empty() && (is_share() || frames || ranks.count() > 1))
     throw WrongUsage("--output: is needed with --tile, --sample-share, --frames and MPI");
-  image.choose_output(suffix);
+  image.choose_output(picture_suffix);
 }
 
 void RenderArguments::add_to(const Verb& verb) {
   image.samples = 16;
-  image.add_to(verb, suffix);
+  image.add_to(verb, picture_suffix);
   verb.add_option("--solver", image.solver, "Of the ray casts").show_default();
   verb.add_option("--exposure", exposure, "Stops brighter; .pfm keeps the scene's light")
       .show_default();
@@ -58,7 +58,7 @@ void RenderArguments::add_to(const Verb& verb) {
   verb.add_option("--tonemap", tone_map, maps).one_of(tone_map_names()).show_default();
   verb.add_option("--ray-group", ray_group,
                   "Camera rays that are traced together; the picture is the same for any number")
-      .between(1, most_in_packet)
+      .between(1, most_in_ray_group)
       .show_default();
   verb.add_option(
           "--build",

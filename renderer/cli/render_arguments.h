@@ -20,7 +20,7 @@ struct RenderArguments {
   double clamp = 0;
   double noise = 0;
   int bounces = IntegratorOptions().bounces;
-  int ray_group = IntegratorOptions().packet;
+  int ray_group = IntegratorOptions().ray_group;
   int max_depth = IntegratorOptions().max_depth;
   std::string integrator = "auto";
   BvhBuild build = BvhBuild::quality;

@@ -94,7 +94,7 @@ void set_options(RenderJob& job, const RenderArguments& options) {
   job.options.tile = shares.tile;
   job.options.sample_share = shares.sample_share;
   job.options.integrator.bounces = options.bounces;
-  job.options.integrator.packet = options.ray_group;
+  job.options.integrator.ray_group = options.ray_group;
   job.options.integrator.max_depth = options.max_depth;
   job.options.integrator.clamp = options.clamp;
   job.options.noise = options.noise;

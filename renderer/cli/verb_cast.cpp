@@ -33,7 +33,7 @@ constexpr std::size_t batches_a_thread = 4;
 /// memory.
 constexpr std::size_t most_bytes_a_line = std::size_t{64} << 20;
 
-struct Options {
+struct CastVerbOptions {
   std::string file;
   std::string precision = "double";
   std::string solver = "auto";
@@ -172,7 +172,7 @@ void answer_line(const Line& line, const std::string& place, MeshFiles& meshes,
   }
 }
 
-ExitCode cast(const Options& options) {
+ExitCode cast(const CastVerbOptions& options) {
   check_tolerance(options.tolerance);
   const AnswerOptions answer_options{
       options.precision == "float" ? Precision::in_float : Precision::in_double,
@@ -259,7 +259,7 @@ ExitCode cast(const Options& options) {
 void add_cast(Parser& parser, ExitCode& exit_code) {
   const Verb verb = parser.add_verb(
       "cast", "Answer ray, shape and distance queries, one JSON object a line (docs/cast.md)");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CastVerbOptions>();
   verb.add_option("file", options->file, "A file of queries, - for stdin").required();
   verb.add_option("--precision", options->precision, "float or double")
       .one_of({"float", "double"})

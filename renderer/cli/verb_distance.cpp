@@ -17,7 +17,7 @@
 namespace minkray {
 namespace {
 
-struct Options {
+struct DistanceVerbOptions {
   std::string a, b;
   double tolerance = AnswerOptions{}.tolerance;
   double at_most = std::numeric_limits<double>::infinity();
@@ -35,7 +35,7 @@ Shape<double> shape_in(const std::string& file) {
   return *shape;
 }
 
-void distance(const Options& options) {
+void distance(const DistanceVerbOptions& options) {
   check_tolerance(options.tolerance);
   if (std::isnan(options.at_most)) throw WrongUsage("--at-most: must be a number");
   SignedDistanceQuery query{shape_in(options.a), shape_in(options.b)};
@@ -51,7 +51,7 @@ void distance(const Options& options) {
 void add_distance(Parser& parser, ExitCode&) {
   const Verb verb = parser.add_verb(
       "distance", "The signed distance of two shapes, with bounds (docs/contact.md)");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<DistanceVerbOptions>();
   verb.add_option("a", options->a, "A file with a shape, as scenes have them").required();
   verb.add_option("b", options->b, "Another").required();
   add_tolerance(verb, options->tolerance);

@@ -17,13 +17,13 @@
 namespace minkray {
 namespace {
 
-struct Options {
+struct Distance2DVerbOptions {
   std::string file;
   std::string out;
   std::string subalgorithm = "projection";
 };
 
-void distance_2d(const Options& options) {
+void distance_2d(const Distance2DVerbOptions& options) {
   check_ending(options.out, ".svg", "--output");
   check_writable(options.out);
   Mistakes mistakes(options.file);
@@ -54,7 +54,7 @@ void distance_2d(const Options& options) {
 void add_distance_2d(Parser& parser, ExitCode&) {
   const Verb verb = parser.add_verb(
       "distance-2d", "Draw the distance algorithm on two flat shapes, one panel an iteration");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<Distance2DVerbOptions>();
   verb.add_option("file", options->file,
                   "JSON: {\"a\": shape, \"b\": shape}; of shapes that are not flat, their shadows "
                   "on z = 0")

@@ -12,7 +12,7 @@
 namespace minkray {
 namespace {
 
-struct Options {
+struct GenerateVerbOptions {
   std::string kind;
   std::string out;
   std::size_t count = 1000;
@@ -24,7 +24,7 @@ struct Options {
 void add_generate(Parser& parser, ExitCode&) {
   const Verb verb =
       parser.add_verb("generate", "Make a scene of many shapes, the same for the same seed");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<GenerateVerbOptions>();
   std::vector<std::string> names;
   std::string docs;
   for (const GeneratedKind& kind : generated_kinds) {

@@ -18,7 +18,7 @@
 namespace minkray {
 namespace {
 
-struct Options {
+struct HeatmapVerbOptions {
   ImageArguments image;
   std::string channel = "iterations";
   std::optional<std::string> side_by_side;  ///< solvers between commas; none: just image.solver
@@ -41,10 +41,10 @@ std::vector<std::string> split(const std::string& text) {
   return words;
 }
 
-constexpr const char* suffix = "-heatmap.png";
+constexpr const char* heatmap_suffix = "-heatmap.png";
 
-void run(Options& options) {
-  options.image.choose_output(suffix);
+void run(HeatmapVerbOptions& options) {
+  options.image.choose_output(heatmap_suffix);
   const HeatChannel channel = channel_of(options.channel);
   const std::vector<std::string> solvers =
       split(options.side_by_side.value_or(options.image.solver));
@@ -88,8 +88,8 @@ void run(Options& options) {
 
 void add_heatmap(Parser& parser, ExitCode&) {
   const Verb verb = parser.add_verb("heatmap", "Show what each pixel of a scene costs");
-  const auto options = std::make_shared<Options>();
-  options->image.add_to(verb, suffix);
+  const auto options = std::make_shared<HeatmapVerbOptions>();
+  options->image.add_to(verb, heatmap_suffix);
   std::string channels;
   for (const HeatChannelDescription& description : heat_channels)
     channels += "\n" + std::string(description.name) + ": " + std::string(description.doc);

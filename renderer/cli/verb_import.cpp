@@ -15,13 +15,13 @@
 namespace minkray {
 namespace {
 
-struct Options {
+struct ImportVerbOptions {
   std::string file, output;
   ImportOptions import;
   bool quiet = false;
 };
 
-void import(const Options& options) {
+void import(const ImportVerbOptions& options) {
   check_ending(options.output, ".json", "--output");
   check_writable(options.output);
   const Imported imported = import_scene(options.file, options.import);
@@ -35,7 +35,7 @@ void import(const Options& options) {
 
 void add_import(Parser& parser, ExitCode&) {
   const Verb verb = parser.add_verb("import", "Make a scene file of a robot's MJCF, URDF or SDF");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ImportVerbOptions>();
   verb.add_option("file", options->file, "MJCF (.xml, .mjcf), URDF (.urdf), SDF (.sdf, .world)")
       .required();
   verb.add_option("-o,--output", options->output, "The scene file to write (.json)").required();

@@ -16,7 +16,7 @@
 namespace minkray {
 namespace {
 
-struct Options {
+struct InfoVerbOptions {
   std::string scene;
   ImportOptions import;
   bool shapes = false;
@@ -25,7 +25,7 @@ struct Options {
   bool markdown = false;
 };
 
-void info(const Options& options) {
+void info(const InfoVerbOptions& options) {
   const int asked = !options.scene.empty() + options.shapes + options.schema;
   if (asked != 1) throw WrongUsage("info: give either a scene, --shapes or --schema");
   if (options.markdown && !options.shapes) throw WrongUsage("info: --markdown needs --shapes");
@@ -51,7 +51,7 @@ void info(const Options& options) {
 
 void add_info(Parser& parser, ExitCode&) {
   const Verb verb = parser.add_verb("info", "Tell what is in a scene, or what scenes may hold");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<InfoVerbOptions>();
   add_scene_option(verb, options->scene).required(false);
   add_import_options(verb, options->import);
   verb.add_flag("--shapes", options->shapes, "List all shapes and their parameters");

@@ -15,7 +15,7 @@
 namespace minkray {
 namespace {
 
-struct Options {
+struct MergeVerbOptions {
   std::vector<std::string> part_files;
   std::vector<std::string> outputs;
   double exposure = 0;
@@ -24,7 +24,7 @@ struct Options {
   bool times = false;
 };
 
-void run(const Options& options) {
+void run(const MergeVerbOptions& options) {
   check_exposure(options.exposure);
   check_outputs(options.outputs);
   for (const std::string& output : options.outputs)
@@ -51,7 +51,7 @@ void run(const Options& options) {
 void add_merge(Parser& parser, ExitCode&) {
   const Verb verb = parser.add_verb(
       "merge", "Make a picture of the part files by render --tile and --sample-share");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<MergeVerbOptions>();
   verb.add_option("parts", options->part_files, "The part files (.exr), in any order").required();
   add_output_option(verb, options->outputs);
   verb.add_option("--exposure", options->exposure, "Stops brighter, for .png").show_default();

@@ -15,7 +15,7 @@
 namespace minkray {
 namespace {
 
-struct Options {
+struct PaperVerbOptions {
   std::string only;
   std::string out;
   ClaimOptions claim;
@@ -28,7 +28,7 @@ void write_plot(const Plot& plot, const std::filesystem::path& folder) {
 }
 
 /// Words in lines of at most 96 letters, after a label.
-void print(const std::string& label, const std::string& text) {
+void print_row(const std::string& label, const std::string& text) {
   constexpr std::size_t width = 96, indent = 12;
   std::string line = "    " + label;
   line.resize(indent, ' ');
@@ -47,7 +47,7 @@ void print(const std::string& label, const std::string& text) {
   std::cout << line << '\n';
 }
 
-void paper(const Options& options) {
+void paper(const PaperVerbOptions& options) {
   if (!options.out.empty()) {
     std::error_code error;
     std::filesystem::create_directories(options.out, error);
@@ -62,18 +62,18 @@ void paper(const Options& options) {
     if (!options.only.empty() && claim.id != options.only) continue;
     const ClaimResult result = claim.run(options.claim);
     std::cout << "\n(" << claim.id << ") " << claim.title << '\n';
-    print("paper", std::string(claim.paper));
+    print_row("paper", std::string(claim.paper));
     for (std::size_t i = 0; i < result.ours.size(); ++i)
-      print(i == 0 ? "ours" : "", result.ours[i]);
-    print("verdict", result.verdict);
-    print("command", "minkray paper --only " + std::string(claim.id) + " --rays " +
-                         std::to_string(options.claim.rays) + " --seed " +
-                         std::to_string(options.claim.seed));
+      print_row(i == 0 ? "ours" : "", result.ours[i]);
+    print_row("verdict", result.verdict);
+    print_row("command", "minkray paper --only " + std::string(claim.id) + " --rays " +
+                             std::to_string(options.claim.rays) + " --seed " +
+                             std::to_string(options.claim.seed));
     std::cout.flush();
     if (options.out.empty()) continue;
     for (const Plot& plot : result.plots) {
       write_plot(plot, options.out);
-      print("plot", (std::filesystem::path(options.out) / plot.file).string());
+      print_row("plot", (std::filesystem::path(options.out) / plot.file).string());
     }
   }
 }
@@ -82,7 +82,7 @@ void paper(const Options& options) {
 
 void add_paper(Parser& parser, ExitCode&) {
   const Verb verb = parser.add_verb("paper", "Rerun the claims of the papers (docs/papers.md)");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<PaperVerbOptions>();
   std::vector<std::string> ids;
   for (const PaperClaim& claim : claims) ids.emplace_back(claim.id);
   verb.add_option("--only", options->only, "One claim").one_of(ids);

@@ -24,7 +24,7 @@
 namespace minkray {
 namespace {
 
-struct Options {
+struct ScanVerbOptions {
   std::string scene;
   ImportOptions import;
   std::optional<std::string> rays, pattern, pinhole;
@@ -54,7 +54,7 @@ std::vector<double> numbers_of(const std::string& text, const char* option,
   return numbers;
 }
 
-void read_options(Options& options) {
+void read_options(ScanVerbOptions& options) {
   if (options.rays.has_value() + options.pattern.has_value() + options.pinhole.has_value() != 1)
     throw WrongUsage("scan: give one of --rays, --pattern and --pinhole");
   options.scan.seed = parse_seed(options.seed);
@@ -85,7 +85,7 @@ void read_options(Options& options) {
   }
 }
 
-void run(Options& options) {
+void run(ScanVerbOptions& options) {
   read_options(options);
   const SensorRays rays = options.rays      ? rays_of_npy(*options.rays)
                           : options.pattern ? rays_of_pattern(*options.pattern, options.sweep)
@@ -121,7 +121,7 @@ void run(Options& options) {
 
 void add_scan(Parser& parser, ExitCode&) {
   const Verb verb = parser.add_verb("scan", "Cast a sensor's rays at a scene: lidars, depths");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ScanVerbOptions>();
   add_scene_option(verb, options->scene);
   verb.add_option("--rays", options->rays,
                   "A .npy array of (N, 6), origin and direction, or (N, 7) with t_max; float32 or "

@@ -22,7 +22,7 @@
 namespace minkray {
 namespace {
 
-struct Options {
+struct TraceVerbOptions {
   std::string scene;
   std::vector<int> pixel;
   std::string object;
@@ -65,7 +65,7 @@ std::size_t choose(const std::vector<PreparedShape<T>>& shapes, const Scene& sce
 }
 
 template <class T>
-void trace(const Options& options) {
+void trace(const TraceVerbOptions& options) {
   if (options.svg) check_ending(*options.svg, ".svg", "--svg");
   const Scene scene = import_scene(options.scene).scene;
   const Resolution& size = scene.camera.resolution;
@@ -129,7 +129,7 @@ void trace(const Options& options) {
 
 void add_trace(Parser& parser, ExitCode&) {
   const Verb verb = parser.add_verb("trace", "Show every iteration of the cast for one pixel");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<TraceVerbOptions>();
   add_scene_option(verb, options->scene);
   verb.add_option("--pixel", options->pixel, "x,y from the upper left corner; through its centre")
       .required()

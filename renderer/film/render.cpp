@@ -116,14 +116,14 @@ Rendering render(const Scene& scene, const RenderWorld& world, const RenderOptio
   }
 
   // The rays of a group: samples of one pixel first, they are the closest together; then pixels.
-  const RayGroupShape group(options.integrator.packet,
+  const RayGroupShape group(options.integrator.ray_group,
                             blocks.begin(end_block) - blocks.begin(first_block));
   // When nothing moves no random numbers are spent on when.
   const bool blurs = world.instances().move();
   const int begin_sample = blocks.begin(first_block), end_sample = blocks.begin(end_block);
   const auto render_block = [&](const PixelBlock& pixels, RayCounts& counts) {
-    std::array<PixelSum, most_in_packet> sums;
-    std::array<TracedRay, most_in_packet> rays;
+    std::array<PixelSum, most_in_ray_group> sums;
+    std::array<TracedRay, most_in_ray_group> rays;
     const int end = blocks.begin(end_block);
     int next = 0;
     for (int first = blocks.begin(first_block); first < end && !watch.stopped(); first = next) {

@@ -14,7 +14,7 @@
 namespace minkray {
 namespace {
 
-constexpr std::size_t most_bytes = std::size_t{512} << 20;
+constexpr std::size_t most_mesh_bytes = std::size_t{512} << 20;
 
 using Corners = std::array<std::uint32_t, 3>;
 using Parts = std::vector<std::vector<std::uint32_t>>;
@@ -145,7 +145,7 @@ MeshParts read_grouped_mesh(const std::filesystem::path& file, MeshSplit split) 
   if (split == MeshSplit::none) return mesh;
   const std::string ending = file.extension().string();
   const bool is_obj = ending == ".obj" || ending == ".OBJ";
-  const std::string text = read_regular_file(file, most_bytes);
+  const std::string text = read_regular_file(file, most_mesh_bytes);
   const Grouped grouped =
       is_obj ? faces_of_obj(text, mesh.vertices.size()) : facets_of_stl(text, mesh.vertices.size());
   mesh.parts = split == MeshSplit::groups ? parts_by(grouped.group_of, grouped.triangles)

@@ -28,7 +28,7 @@ const MeshFormatReader* format_of(const std::filesystem::path& file) {
   return nullptr;
 }
 
-std::string endings() {
+std::string mesh_endings() {
   std::string text;
   for (const MeshFormatReader& format : mesh_formats())
     text += (text.empty() ? "" : ", ") + std::string(format.ending);
@@ -137,7 +137,7 @@ MeshLibrary::Answer MeshLibrary::hulls_of(const std::string& uri, const Vec3<dou
   const MeshFormatReader* format = format_of(*file);
   if (!format) {
     answer.complaint =
-        "the mesh " + printable(file->string(), 160) + " must end in one of " + endings();
+        "the mesh " + printable(file->string(), 160) + " must end in one of " + mesh_endings();
     return made_[key] = answer;
   }
   auto known = read_.find(file->string());

@@ -12,7 +12,7 @@
 namespace minkray {
 namespace {
 
-constexpr std::size_t most_bytes = std::size_t{512} << 20;
+constexpr std::size_t most_msh_bytes = std::size_t{512} << 20;
 
 std::uint32_t word(std::string_view bytes, std::size_t i) {
   std::uint32_t value = 0;
@@ -24,13 +24,13 @@ std::uint32_t word(std::string_view bytes, std::size_t i) {
 }  // namespace
 
 MeshParts read_msh(const std::filesystem::path& file, MeshSplit split) {
-  const std::string bytes = read_regular_file(file, most_bytes);
+  const std::string bytes = read_regular_file(file, most_msh_bytes);
   if (bytes.size() < 16) throw std::runtime_error("a .msh must have at least 16 bytes");
   std::array<std::uint64_t, 4> counts;
   for (std::size_t i = 0; i < 4; ++i) counts[i] = word(bytes, i);
   const auto [vertices, normals, texture, faces] = counts;
   for (const std::uint64_t count : counts)
-    if (count > most_bytes / 4) throw std::runtime_error("a .msh with a count out of range");
+    if (count > most_msh_bytes / 4) throw std::runtime_error("a .msh with a count out of range");
   const std::uint64_t expected = 4 * (4 + 3 * vertices + 3 * normals + 2 * texture + 3 * faces);
   if (vertices == 0 || bytes.size() != expected)
     throw std::runtime_error("a .msh of " + std::to_string(vertices) + " vertices and " +

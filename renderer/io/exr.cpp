@@ -25,7 +25,7 @@ namespace {
 /// Far more than the largest picture that can be rendered at once has pixels (2^27).
 constexpr std::int64_t most_pixels = std::int64_t{1} << 30;
 constexpr std::size_t most_planes = 4096;
-constexpr std::size_t most_file_bytes = std::size_t{16} << 30;
+constexpr std::size_t most_exr_bytes = std::size_t{16} << 30;
 constexpr std::size_t most_header_bytes = std::size_t{256} << 20;
 
 class ToMemory : public Imf::OStream {
@@ -252,7 +252,7 @@ bool is_exr(const std::string& file) {
 
 ExrImage read_exr(const std::string& file) {
   read_exr_texts(file);  // of what is none, no more is read
-  return of_file(file, [&] { return decode_exr(read_regular_file(file, most_file_bytes), file); });
+  return of_file(file, [&] { return decode_exr(read_regular_file(file, most_exr_bytes), file); });
 }
 
 std::map<std::string, std::string> read_exr_texts(const std::string& name) {

@@ -28,7 +28,7 @@
 namespace minkray {
 namespace {
 
-constexpr std::size_t most_file_bytes = std::size_t{1} << 30;
+constexpr std::size_t most_picture_bytes = std::size_t{1} << 30;
 /// As many as the largest picture has that can be rendered at once.
 constexpr std::int64_t most_image_pixels = std::int64_t{1} << 27;
 
@@ -88,7 +88,7 @@ Image read_image(const std::filesystem::path& file) {
   if (ending == ".exr") {
     image = image_of_exr(file);
   } else if (ending == ".hdr" || ending == ".png" || ending == ".jpg" || ending == ".jpeg") {
-    const std::string bytes = read_regular_file(file, most_file_bytes);
+    const std::string bytes = read_regular_file(file, most_picture_bytes);
     const auto* begin = reinterpret_cast<const stbi_uc*>(bytes.data());
     if (ending == ".hdr")
       image = image_of_stb<float>(bytes, stbi_loadf_from_memory, [](float x) { return x; });

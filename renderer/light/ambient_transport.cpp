@@ -6,17 +6,12 @@
 #include <optional>
 
 #include "renderer/light/frame.h"
+#include "renderer/light/inside.h"
 #include "renderer/light/scene_surfaces.h"
 #include "renderer/scene/scene_instances.h"
 
 namespace minkray {
 namespace {
-
-/// A ray that leaves a surface starts this far above it, in units of rounding (machine epsilon
-/// times the largest coordinate that went into the hit point). Hit points are off by a few dozen
-/// units; the shape itself is left out of the cast, so this only keeps other shapes with a face in
-/// the same plane from shading each other.
-constexpr Real surface_offset = 256;
 
 /// Sharp highlights that a surface sees in another one (caustics) are found by a few lucky rays:
 /// white specks. Behind a scattering, coats are therefore taken to be at least this rough
@@ -61,7 +56,7 @@ void AmbientTransport::trace(std::span<TracedRay> rays, RayCounts& counts) const
   if (rays.size() == 1)
     follow<1>(rays, {}, counts);
   else
-    follow<most_in_packet>(rays, {}, counts);
+    follow<most_in_ray_group>(rays, {}, counts);
 }
 
 /// The rays together, then the shadow rays of what they meet, light by light. What comes behind is
@@ -125,9 +120,7 @@ AmbientTransport::HitPoint AmbientTransport::hit_point(const TracedRay& ray,
                                                        const WorldHit<Real>& hit) const {
   const Real t = hit.cast.t();
   const Vec3<Real> on_surface = ray.ray.at(t);
-  const Real largest =
-      std::max({on_surface.cwiseAbs().maxCoeff(), t, world_.instances().half_extent(hit.instance)});
-  const Real offset = surface_offset * tolerance::epsilon<Real> * largest;
+  const Real offset = rounding_at(world_, hit.instance, on_surface, t);
   const Frame frame(hit.cast.normal.template cast<double>());
   Vec3<double> w_out = frame.to_local(-ray.ray.direction);
   // A grazing normal may be rounded to the far side.

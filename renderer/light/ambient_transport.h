@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <span>
 #include <vector>
+#include "renderer/light/integrator_options.h"
 
 #include "renderer/light/light_transport.h"
 #include "renderer/light/lights.h"

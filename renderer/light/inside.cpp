@@ -8,7 +8,10 @@
 namespace minkray {
 namespace {
 
-/// Hit points are off by a few dozen units of rounding (docs/decisions/leaving-a-surface.md).
+/// A ray that leaves a surface starts this far above it, in units of rounding (machine epsilon
+/// times the largest coordinate that went into the hit point). Hit points are off by a few dozen
+/// units (docs/decisions/leaving-a-surface.md); the shape itself is left out of the cast, so this
+/// only keeps other shapes with a face in the same plane from shading each other.
 constexpr Real surface_offset = 256;
 
 /// Where the ray leaves a body that it is in.

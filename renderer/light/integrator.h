@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <span>
+#include "renderer/light/integrator_options.h"
 
 #include "renderer/light/light_transport.h"
 #include "renderer/scene/scene.h"

@@ -4,8 +4,8 @@
 namespace minkray {
 
 void NormalsTransport::trace(std::span<TracedRay> rays, RayCounts& counts) const {
-  std::array<WorldRay<Real>, most_in_packet> asked;
-  std::array<WorldHit<Real>, most_in_packet> hits;
+  std::array<WorldRay<Real>, most_in_ray_group> asked;
+  std::array<WorldHit<Real>, most_in_ray_group> hits;
   counts.camera += rays.size();
   for (std::size_t i = 0; i < rays.size(); ++i)
     asked[i] = {rays[i].ray, rays[i].left, rays[i].time};

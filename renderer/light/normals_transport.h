@@ -2,6 +2,7 @@
 // Normals as colours: (1 + n) / 2, white where nothing is. For a first look at shapes.
 #pragma once
 
+#include "renderer/light/integrator_options.h"
 #include "renderer/light/light_transport.h"
 
 namespace minkray {

@@ -58,8 +58,8 @@ struct PathTransport::Arriving {
 /// Rays towards lights, asked together. Whatever order they are asked in, a path's sum is the same:
 /// it takes one ray of each of these.
 struct PathTransport::ShadowRays {
-  std::array<WorldRay<Real>, most_in_packet> rays;
-  std::array<Arriving, most_in_packet> arriving;
+  std::array<WorldRay<Real>, most_in_ray_group> rays;
+  std::array<Arriving, most_in_ray_group> arriving;
   std::size_t count = 0;
 
   void add(const WorldRay<Real>& ray, const Arriving& light) {

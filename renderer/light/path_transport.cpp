@@ -58,9 +58,9 @@ class PathTransport::Packet {
 
   /// False if no path goes on.
   bool find_boundaries() {
-    std::array<WorldRay<Real>, most_in_packet> asked;
-    std::array<std::size_t, most_in_packet> whose;
-    std::array<WorldHit<Real>, most_in_packet> hits;
+    std::array<WorldRay<Real>, most_in_ray_group> asked;
+    std::array<std::size_t, most_in_ray_group> whose;
+    std::array<WorldHit<Real>, most_in_ray_group> hits;
     std::size_t count = 0;
     bool any = false;
     for (std::size_t i = 0; i < rays_.size(); ++i) {
@@ -292,7 +292,7 @@ class PathTransport::Packet {
         ask_within(ray, point.inside(w), light);
     }
     counts_.shadow += shadows.count;
-    std::array<WorldHit<Real>, most_in_packet> hits;
+    std::array<WorldHit<Real>, most_in_ray_group> hits;
     if (shadows.count > 0) of_.world_.closest_hits(shadows.asked(), hits, counts_.work);
     for (std::size_t k = 0; k < shadows.count; ++k) {
       if (of_.options_.observer)
@@ -352,9 +352,9 @@ class PathTransport::Packet {
   std::span<TracedRay> rays_;
   RayCounts& counts_;
   const Medium air_;
-  std::array<Path, most_in_packet> paths_;
-  std::array<Boundary, most_in_packet> boundaries_;
-  std::array<std::optional<Point>, most_in_packet> points_;
+  std::array<Path, most_in_ray_group> paths_;
+  std::array<Boundary, most_in_ray_group> boundaries_;
+  std::array<std::optional<Point>, most_in_ray_group> points_;
 };
 
 PathTransport::PathTransport(const Scene& scene, const RenderWorld& world,

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "renderer/light/emitters.h"
+#include "renderer/light/integrator_options.h"
 #include "renderer/light/light_transport.h"
 #include "renderer/light/lights.h"
 #include "renderer/light/scene_surfaces.h"

@@ -9,7 +9,7 @@
 namespace minkray {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// The clear coat's index of refraction, as glTF has it.
 constexpr double coat_eta = 1.5;

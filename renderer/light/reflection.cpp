@@ -6,7 +6,7 @@
 namespace minkray {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Below this a rough coat's highlight is narrower than a pixel of any picture, and its density a
 /// number too large to be summed: the coat counts as smooth. A standard deviation of slopes.

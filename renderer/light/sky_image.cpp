@@ -9,7 +9,7 @@
 namespace minkray {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// No more cells of latitude: each takes 24 bytes, twice as many of longitude.
 constexpr int most_rows = 1024;

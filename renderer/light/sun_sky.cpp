@@ -12,7 +12,7 @@
 namespace minkray {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Half the angle under which the sun is seen, in radians.
 constexpr double sun_radius = 0.2665 * pi / 180;

@@ -11,7 +11,7 @@
 namespace minkray {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Textures in space are asked so deep below the surface, in repeats: a face that lies just where
 /// two fields meet is not speckled by rounding.

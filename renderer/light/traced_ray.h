@@ -1,56 +1,12 @@
 // SPDX-License-Identifier: MIT
-// What integrators are asked: a ray, and how far to follow its light.
+// What integrators are asked: a ray, and where its light goes.
 #pragma once
 
-#include <array>
-#include <string_view>
-
 #include "renderer/light/ray_counts.h"
-#include "renderer/light/ray_observer.h"
 #include "renderer/light/sampler.h"
 #include "renderer/scene/materials.h"
 
 namespace minkray {
-
-/// Which light a picture is made of.
-enum class IntegratorKind : unsigned char { automatic, path, direct, ambient, normals };
-
-struct IntegratorDescription {
-  IntegratorKind kind;
-  std::string_view name, doc;
-};
-
-/// The list of all there are.
-inline constexpr std::array integrators = {
-    IntegratorDescription{IntegratorKind::automatic, "auto",
-                          "path where the scene has what only that shows, else ambient"},
-    IntegratorDescription{IntegratorKind::path, "path",
-                          "all light, by paths of any length; unbiased"},
-    IntegratorDescription{IntegratorKind::direct, "direct",
-                          "light that comes straight from lights and shining bodies"},
-    IntegratorDescription{IntegratorKind::ambient, "ambient",
-                          "direct light, --bounces, and then ambient occlusion"},
-    IntegratorDescription{IntegratorKind::normals, "normals", "the normals' directions as colours"},
-};
-
-struct IntegratorOptions {
-  /// How often light may be scattered between surfaces before the environment's light is the last
-  /// word; 0 is ambient occlusion.
-  int bounces = 1;
-  /// How many mirrors in a row are followed; behind the last, the environment is seen.
-  int mirrors = 4;
-  /// How many camera rays are traced together, with the shadow rays of what they meet; 1: each by
-  /// itself. The picture is the same bit for bit.
-  int packet = 16;
-  /// Told of every ray and its answer, if it is there.
-  RayObserver* observer = nullptr;
-  IntegratorKind kind = IntegratorKind::automatic;
-  /// How often a path may be scattered, mirrored or refracted.
-  int max_depth = 16;
-  /// Light that comes by way of more than one surface counts for no more than this: fewer bright
-  /// specks, and less light. 0: no limit.
-  double clamp = 0;
-};
 
 /// A ray and where its light comes to.
 struct TracedRay {
@@ -63,6 +19,6 @@ struct TracedRay {
 };
 
 /// No more rays can be traced together.
-inline constexpr int most_in_packet = most_rays_at_once;
+inline constexpr int most_in_ray_group = most_rays_at_once;
 
 }  // namespace minkray

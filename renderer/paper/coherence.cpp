@@ -18,7 +18,7 @@ namespace minkray {
 namespace {
 
 constexpr int bodies = 40, frames = 120;
-constexpr double room = 2.5, step = 1.0 / 60;
+constexpr double room = 2.5, frame_time = 1.0 / 60;
 
 struct Body {
   CentredShape<double> shape;
@@ -55,7 +55,7 @@ std::vector<Body> make_bodies(unsigned seed) {
 
 void advance(std::vector<Body>& list) {
   for (Body& body : list) {
-    body.shape.centre += step * body.velocity;
+    body.shape.centre += frame_time * body.velocity;
     for (int i = 0; i < 3; ++i)
       if (std::abs(body.shape.centre[i]) > room)
         body.velocity[i] = std::copysign(body.velocity[i], -body.shape.centre[i]);
@@ -85,7 +85,7 @@ Run run(Kind kind, unsigned seed) {
         const CentredShape<double>&A = list[i].shape, &B = list[j].shape;
         const Vec3<double> x = B.centre - A.centre;
         const Vec3<double> relative = list[j].velocity - list[i].velocity;
-        if (x.norm() > A.radius + B.radius + step * relative.norm()) continue;
+        if (x.norm() > A.radius + B.radius + frame_time * relative.norm()) continue;
         ++result.queries;
         Vec3<double>& axis = axes[i * bodies + j];
         int supports = 0;
@@ -118,7 +118,7 @@ Run run(Kind kind, unsigned seed) {
           if (kind == Kind::cached_cast) options.v0 = axis;
           if (kind == Kind::arbitrary_start)
             options.v0 = x - obstacle.support(Vec3<double>::UnitX());
-          const Ray<double> ray{x, relative, step};
+          const Ray<double> ray{x, relative, frame_time};
           const auto cast = gjk_ray_cast(obstacle, ray_near(ball.centre, ray), ball, options);
           supports = cast.supports;
           contact = cast.status != Status::miss;

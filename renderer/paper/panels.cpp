@@ -13,7 +13,7 @@ namespace {
 
 using Point2 = Vec<double, 2>;
 
-constexpr double side = 300, margin = 16, caption = 46;
+constexpr double panel_side = 300, panel_margin = 16, caption = 46;
 constexpr int columns = 3, outline_directions = 720;
 
 struct Step {
@@ -26,8 +26,8 @@ struct Step {
 struct Page {
   Point2 low;
   double scale;
-  double x(const Point2& p) const { return margin + (p.x() - low.x()) * scale; }
-  double y(const Point2& p) const { return side - margin - (p.y() - low.y()) * scale; }
+  double x(const Point2& p) const { return panel_margin + (p.x() - low.x()) * scale; }
+  double y(const Point2& p) const { return panel_side - panel_margin - (p.y() - low.y()) * scale; }
   std::string at(const Point2& p) const { return formatted("%.2f,%.2f", x(p), y(p)); }
 };
 
@@ -41,18 +41,20 @@ class Panels {
       high = high.cwiseMax(p);
     }
     const double size = std::max((high - low).maxCoeff(), 1e-300);
-    page_ = {Point2((low + high) / 2 - Point2::Constant(size / 2)), (side - 2 * margin) / size};
+    page_ = {Point2((low + high) / 2 - Point2::Constant(size / 2)),
+             (panel_side - 2 * panel_margin) / size};
   }
 
   std::string svg() {
     const int rows = (static_cast<int>(steps_.size()) + columns - 1) / columns;
-    svg_ << "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " << columns * side << ' '
-         << rows * (side + caption) << "\" font-family=\"sans-serif\" font-size=\"12\">\n"
+    svg_ << "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " << columns * panel_side
+         << ' ' << rows * (panel_side + caption)
+         << "\" font-family=\"sans-serif\" font-size=\"12\">\n"
          << "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n";
     for (std::size_t k = 0; k < steps_.size(); ++k) {
       const int column = static_cast<int>(k) % columns, row = static_cast<int>(k) / columns;
-      svg_ << "<g transform=\"translate(" << column * side << ',' << row * (side + caption)
-           << ")\">\n";
+      svg_ << "<g transform=\"translate(" << column * panel_side << ','
+           << row * (panel_side + caption) << ")\">\n";
       panel(k);
       svg_ << "</g>\n";
     }
@@ -93,9 +95,9 @@ class Panels {
     // The line through W_k square to V_k: all of C lies on its far side from the origin.
     const double length = step.v.norm();
     if (length > 0) {
-      const Point2 along = Point2(-step.v.y(), step.v.x()) / length * (side / page_.scale);
+      const Point2 along = Point2(-step.v.y(), step.v.x()) / length * (panel_side / page_.scale);
       svg_ << formatted("<clipPath id=\"c%d\"><rect width=\"%.0f\" height=\"%.0f\"/></clipPath>",
-                        static_cast<int>(k), side, side)
+                        static_cast<int>(k), panel_side, panel_side)
            << formatted("<g clip-path=\"url(#c%d)\">", static_cast<int>(k));
       line(step.w - along, step.w + along, "stroke=\"#d55e00\" stroke-dasharray=\"5 4\"");
       line(Point2::Zero(), step.v, "stroke=\"#0072b2\"");
@@ -114,11 +116,11 @@ class Panels {
     if (!step.before.empty())
       dot(step.v, 3, "fill=\"black\"", formatted("V%d", static_cast<int>(k)), 16);
     dot(Point2::Zero(), 3, "fill=\"none\" stroke=\"black\"", "0");
-    svg_ << formatted("<text x=\"%.0f\" y=\"%.0f\">k = %d: new vertex %s%s</text>\n", margin,
-                      side + 8, static_cast<int>(k), name(step.w, k).c_str(),
+    svg_ << formatted("<text x=\"%.0f\" y=\"%.0f\">k = %d: new vertex %s%s</text>\n", panel_margin,
+                      panel_side + 8, static_cast<int>(k), name(step.w, k).c_str(),
                       discarded ? formatted(", %d discarded (hollow)", discarded).c_str() : "")
          << formatted("<text x=\"%.0f\" y=\"%.0f\">%.6g &#8804; distance &#8804; %.6g</text>\n",
-                      margin, side + 26, std::max(step.lower, 0.0), step.upper);
+                      panel_margin, panel_side + 26, std::max(step.lower, 0.0), step.upper);
   }
 
   std::vector<Point2> outline_;

@@ -10,8 +10,8 @@
 namespace minkray {
 namespace {
 
-constexpr double side = 560, table_width = 520, margin = 20, line_height = 17;
-constexpr int outline_directions = 720;
+constexpr double picture_side = 560, table_width = 520, picture_margin = 20, line_height = 17;
+constexpr int outline_points = 720;
 
 }  // namespace
 
@@ -35,33 +35,34 @@ std::string trace_svg(const CastTrace<T>& trace, const PreparedShape<T>& shape) 
   Vec3<T> up = trace.ray.s;
   if (!(up.norm() > T(1e-3) * trace.ball.radius)) up = r.unitOrthogonal();
   up = (up - up.dot(r) * r).normalized();
-  const double radius = double(trace.ball.radius), scale = (side - 2 * margin) / (4 * radius);
-  const auto px = [&](double along) { return side / 2 + along * scale; };
-  const auto py = [&](double height) { return side / 2 - height * scale; };
+  const double radius = double(trace.ball.radius),
+               scale = (picture_side - 2 * picture_margin) / (4 * radius);
+  const auto px = [&](double along) { return picture_side / 2 + along * scale; };
+  const auto py = [&](double height) { return picture_side / 2 - height * scale; };
   const auto at = [&](const Vec3<T>& p) {
     return formatted("%.2f,%.2f", px(double(p.dot(r))), py(double(p.dot(up))));
   };
   const double ray_height = double(trace.ray.s.dot(up));
 
   std::ostringstream svg;
-  const double height = std::max(side, line_height * double(trace.iterations.size() + 6));
+  const double height = std::max(picture_side, line_height * double(trace.iterations.size() + 6));
   svg << formatted(
              "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %.0f %.0f\" "
              "font-family=\"sans-serif\" font-size=\"12\">\n",
-             side + table_width, height)
+             picture_side + table_width, height)
       << "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n"
-      << formatted("<clipPath id=\"p\"><rect width=\"%.0f\" height=\"%.0f\"/></clipPath>\n", side,
-                   side)
+      << formatted("<clipPath id=\"p\"><rect width=\"%.0f\" height=\"%.0f\"/></clipPath>\n",
+                   picture_side, picture_side)
       << "<g clip-path=\"url(#p)\">\n<polygon fill=\"#eeeeee\" stroke=\"#888888\" points=\"";
-  for (int i = 0; i < outline_directions; ++i) {
-    const T angle = T(2 * std::acos(-1.0) * i / outline_directions);
+  for (int i = 0; i < outline_points; ++i) {
+    const T angle = T(2 * std::acos(-1.0) * i / outline_points);
     const Vec3<T> n = std::cos(angle) * r + std::sin(angle) * up;
     svg << at(shape.inner_shape().support(n) - trace.ball.centre) << ' ';
   }
   svg << "\"/>\n"
       << formatted("<line x1=\"%.2f\" y1=\"%.2f\" x2=\"%.2f\" y2=\"%.2f\" stroke=\"black\"/>\n",
-                   std::max(px(double(trace.ray.lambda_min)), -side), py(ray_height),
-                   std::min(px(double(trace.ray.lambda_max)), 2 * side), py(ray_height));
+                   std::max(px(double(trace.ray.lambda_min)), -picture_side), py(ray_height),
+                   std::min(px(double(trace.ray.lambda_max)), 2 * picture_side), py(ray_height));
   int k = 0;
   for (const TracedIteration<T>& step : trace.iterations) {
     const double clip = double(step.clip.lambda);
@@ -81,9 +82,10 @@ std::string trace_svg(const CastTrace<T>& trace, const PreparedShape<T>& shape) 
     ++k;
   }
   svg << "</g>\n<g font-family=\"monospace\" font-size=\"11\" xml:space=\"preserve\">\n";
-  double y = margin;
+  double y = picture_margin;
   const auto write = [&](const std::string& text) {
-    svg << formatted("<text x=\"%.0f\" y=\"%.0f\">", side + 10, y) << svg_text(text) << "</text>\n";
+    svg << formatted("<text x=\"%.0f\" y=\"%.0f\">", picture_side + 10, y) << svg_text(text)
+        << "</text>\n";
     y += line_height;
   };
   const std::string status(name_of(trace.result.status));

@@ -18,7 +18,7 @@ Interval both(const Interval& a, const Interval& b) {
   return {std::max(a.lower, b.lower), std::min(a.upper, b.upper)};
 }
 
-/// The two are pieces of a convex shape.
+/// The two are features of a convex shape.
 Interval either(const Interval& a, const Interval& b) {
   if (a.empty()) return b;
   if (b.empty()) return a;

@@ -60,7 +60,7 @@ class RoundedPolytopeFilter : public ::testing::Test {};
 using Scalars = ::testing::Types<float, double>;
 TYPED_TEST_SUITE(RoundedPolytopeFilter, Scalars);
 
-/// Hulls of some 60 points have too many pieces for this oracle.
+/// Hulls of some 60 points have too many features for this oracle.
 constexpr std::size_t most_points = 40;
 
 template <class T, class Next>

@@ -33,7 +33,7 @@ std::vector<Limit> limits() {
   return {
       {"sphere", Sphere<double>{1}, 1, 1, 1},
       {"ellipsoid", egg, 1, 1, 1},
-      // Hulls of two pieces that have to be found; closed forms answer these but in doubt.
+      // Hulls of two features that have to be found; closed forms answer these but in doubt.
       {"capsule", Capsule<double>{1, 1}, 3, 10, 3},
       {"cylinder", Cylinder<double>{1, 1}, 3, 10, 3.1},
       {"cone", Cone<double>{1, 1}, 4.5, 60, 3.1},

@@ -29,14 +29,14 @@ void check(const Shape<double>& sample, std::string_view name) {
     if (i % 4 == 0) n[i / 4 % 3] = T(0);
     if (i % 8 == 0) n[(i / 4 + 1) % 3] = T(0);
     n.normalize();
-    const EllipsoidSum<T> part = part_of<T>(shape, n);
+    const EllipsoidSum<T> part = touching_sum<T>(shape, n);
     const Vec3<T> support = shape.support(n);
     ASSERT_NEAR(n.dot(part.s), n.dot(support), rounding) << name;
-    ASSERT_NEAR(part.reach(n), n.dot(support), rounding) << name;
+    ASSERT_NEAR(part.support_function(n), n.dot(support), rounding) << name;
     if (!part.exact) continue;
     for (int j = 0; j < 40; ++j) {
       const Vec3<T> m = random.direction().template cast<T>();
-      ASSERT_LE(part.reach(m), m.dot(shape.support(m)) + rounding) << name;
+      ASSERT_LE(part.support_function(m), m.dot(shape.support(m)) + rounding) << name;
     }
   }
 }
@@ -59,7 +59,7 @@ TEST(EllipsoidSum, of_balls_is_a_ball) {
       capsule, AffineMap<double>(Affine<double>{Random(4).rotation(), {1, 2, 3}})};
   const Shape<double> sum =
       Rounded<double>{0.125, Shape<double>(MinkowskiSum<double>{{capsule, turned, sphere}})};
-  const EllipsoidSum<double> part = part_of<double>(sum, Vec3<double>(0.6, 0, 0.8));
+  const EllipsoidSum<double> part = touching_sum<double>(sum, Vec3<double>(0.6, 0, 0.8));
   EXPECT_TRUE(part.exact);
   EXPECT_EQ(part.used, 1u);
   EXPECT_NEAR(part.F[0].trace(), 3 * 1.375, 1e-14);
@@ -73,12 +73,12 @@ TEST(EllipsoidSum, of_more_than_it_can_hold_osculates) {
         egg, AffineMap<double>(Affine<double>{Random(i).rotation(), {0, 0, 0}})}));
   const Shape<double> sum = MinkowskiSum<double>{eggs};
   const Vec3<double> n = Vec3<double>(1, 2, 3).normalized();
-  const EllipsoidSum<double> part = part_of<double>(sum, n);
+  const EllipsoidSum<double> part = touching_sum<double>(sum, n);
   EXPECT_FALSE(part.exact);
-  EXPECT_NEAR(part.reach(n), n.dot(sum.support(n)), 1e-14);
-  EXPECT_FALSE(has_exact_parts(sum));
+  EXPECT_NEAR(part.support_function(n), n.dot(sum.support(n)), 1e-14);
+  EXPECT_FALSE(has_exact_sums(sum));
   eggs.pop_back();
-  EXPECT_TRUE(has_exact_parts(Shape<double>(MinkowskiSum<double>{eggs})));
+  EXPECT_TRUE(has_exact_sums(Shape<double>(MinkowskiSum<double>{eggs})));
 }
 
 }  // namespace

@@ -130,7 +130,7 @@ TEST(Motion, every_ray_of_a_blurred_picture_sees_the_scene_as_it_stands_at_its_m
     const Integrator still_integrator(still, still_world);
     for (int y = 0; y < 48; ++y) {
       // Both alone and together with others.
-      static_assert(64 % most_in_packet == 0);
+      static_assert(64 % most_in_ray_group == 0);
       std::array<TracedRay, 64> together;
       RayCounts counts, still_counts;
       for (int x = 0; x < 64; ++x) {
@@ -139,8 +139,8 @@ TEST(Motion, every_ray_of_a_blurred_picture_sees_the_scene_as_it_stands_at_its_m
         ray.sampler = Sampler(1, x, y, 0);
         ray.time = moment;
       }
-      for (std::size_t x = 0; x < together.size(); x += most_in_packet)
-        integrator.trace(std::span(together).subspan(x, most_in_packet), counts);
+      for (std::size_t x = 0; x < together.size(); x += most_in_ray_group)
+        integrator.trace(std::span(together).subspan(x, most_in_ray_group), counts);
       for (int x = 0; x < 64; ++x) {
         const Ray<Real> ray = camera.ray(x + 0.5, y + 0.5);
         const auto seen = [&](const Integrator& by, RayCounts& of, Real time) {

@@ -31,7 +31,7 @@ Rendering rendering(const Scene& scene, int samples, double noise, std::uint64_t
   options.samples = samples;
   options.noise = noise;
   options.seed = seed;
-  options.integrator.packet = packet;
+  options.integrator.ray_group = packet;
   const RenderWorld world = make_world(scene);
   return render(scene, world, options);
 }

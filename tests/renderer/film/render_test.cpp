@@ -81,11 +81,11 @@ TEST(Render, the_same_bits_for_any_ray_group) {
     RenderOptions options = small_picture();
     options.samples = samples;
     if (samples == 70) options.crop = {30, 20, 41, 27};
-    options.integrator.packet = 1;
+    options.integrator.ray_group = 1;
     const Rendering alone = render(scene, world, options);
     EXPECT_EQ(render(scene, other_tree, options).image.pixels, alone.image.pixels);
-    for (const int group : {2, 4, 7, 8, 16, most_in_packet}) {
-      options.integrator.packet = group;
+    for (const int group : {2, 4, 7, 8, 16, most_in_ray_group}) {
+      options.integrator.ray_group = group;
       Rendering together;
       with_threads(1 + group % 3, [&] { together = render(scene, world, options); });
       EXPECT_EQ(together.image.pixels, alone.image.pixels) << group << " of " << samples;
@@ -105,11 +105,11 @@ TEST(Render, shares_of_samples_do_not_depend_on_ray_groups) {
   options.crop = {30, 20, 50, 31};
   options.samples = 7;
   options.sample_share = {2, 3};
-  options.integrator.packet = 1;
+  options.integrator.ray_group = 1;
   const Rendering alone = render(scene, world, options);
   ASSERT_GT(alone.block_sums.size(), 1u);
   for (const int group : {4, 8}) {
-    options.integrator.packet = group;
+    options.integrator.ray_group = group;
     const Rendering together = render(scene, world, options);
     ASSERT_EQ(together.block_sums.size(), alone.block_sums.size());
     for (std::size_t i = 0; i < alone.block_sums.size(); ++i)
@@ -126,7 +126,7 @@ TEST(Render, ray_groups_are_audited) {
   std::array<std::uint64_t, 4> rays_alone{};
   for (const int group : {1, 8}) {
     RayAudit audit(scene, world);
-    options.integrator.packet = group;
+    options.integrator.ray_group = group;
     options.integrator.observer = &audit;
     render(scene, world, options);
     for (std::size_t kind = 0; kind < 4; ++kind) {

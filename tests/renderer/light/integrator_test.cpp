@@ -64,7 +64,7 @@ TEST(Integrator, an_observer_is_told_of_every_ray_and_its_own_answer) {
   const Scene scene = two_balls();
   const RenderWorld world = make_world(scene);
   const Camera camera(scene.camera, scene.camera.resolution);
-  for (const std::size_t together : {1, 5, most_in_packet}) {
+  for (const std::size_t together : {1, 5, most_in_ray_group}) {
     Listener listener(world);
     const Integrator integrator(scene, world, {.bounces = 2, .observer = &listener});
     const Integrator unobserved(scene, world, {.bounces = 2});

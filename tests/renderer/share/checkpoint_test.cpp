@@ -24,7 +24,7 @@ class CheckpointFile : public testing::Test {
     world_ = make_world(scene_);
     options_.resolution = {70, 50};
     options_.samples = 3;
-    options_.integrator.packet = 4;
+    options_.integrator.ray_group = 4;
   }
 
   Checkpoint checkpoint(double seconds = always) {

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// Flat summands of sums of ellipsoids: across a disk's axis its support point jumps from one side
+// to the other, and Newton's method with it. Where a step leads across, the axis itself comes next.
+#pragma once
+
+#include "core/model/sum_features.h"
+
+namespace minkray {
+
+/// A direction across a flat summand, in which its support point jumps to the other side.
+template <class W>
+struct Kink {
+  Mat3<W> F = Mat3<W>::Zero();
+  Vec3<W> axis = Vec3<W>::Zero();
+  Mask<W> here = Mask<W>(false);    ///< the model is asked exactly there
+  Mask<W> solved = Mask<W>(false);  ///< and is hit there
+  Mask<W> tried = Mask<W>(false);
+};
+
+/// Where the flat summand that all features were given at the kink is theirs.
+template <class W>
+Mask<W> all_have(const SumFeatures<W>& features, const Kink<W>& kink,
+                 const std::array<W, 4>& weights) {
+  using T = Lane<W>;
+  Mask<W> have(true);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const EllipsoidSum<W>& sum = features[i].sum;
+    W difference(0), number(0);
+    for (std::size_t k = 0; k < sum.used; ++k) {
+      const W size = sum.F[k].cwiseAbs().sum();
+      const Mask<W> is_flat = (size > W(0)) & ((sum.F[k].transpose() * kink.axis).norm() <=
+                                               W(T(tolerance::flat_disk<T>)) * size);
+      difference += select(is_flat, W((sum.F[k] - kink.F).cwiseAbs().sum()), W(0));
+      number += select(is_flat, W(1), W(0));
+    }
+    have &= (weights[i] == W(0)) | ((difference == W(0)) & (number == W(1)));
+  }
+  return have;
+}
+
+/// Where the step from `before` to m leads across the axis of a flat summand, the axis comes
+/// next; where the model is not hit there either, a direction near it.
+template <class W>
+void pass_kinks(const SumFeatures<W>& features, Kink<W>& kink, const Vec3<W>& before,
+                const Mask<W>& open, Vec3<W>& m) {
+  using T = Lane<W>;
+  // How far beside a kink the iteration goes on, relative to the step that was wanted.
+  constexpr T kink_margin = T(1) / T(8);
+  const Mask<W> leaves = open & kink.here;
+  if (any(leaves))
+    m = select<W>(leaves, unit<W>(Vec3<W>(kink.axis + (m - kink.axis) * W(kink_margin))), m);
+  kink.tried |= leaves;
+  kink.here &= !open;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const EllipsoidSum<W>& sum = features[i].sum;
+    for (std::size_t k = 0; k < sum.used; ++k) {
+      const Mat3<W>& F = sum.F[k];
+      const Mask<W> is_flat = features.valid(i) & (F.col(2).cwiseAbs().sum() == W(0));
+      if (!any(is_flat & open)) continue;
+      const Vec3<W> across = F.col(0).cross(F.col(1));
+      const Vec3<W> axis = unit<W>(select<W>(across.dot(m) < W(0), Vec3<W>(-across), across));
+      const Mask<W> crosses = open & is_flat & (!leaves) & (!kink.here) & (axis.z() > W(0)) &
+                              ((F.transpose() * before).dot(F.transpose() * m) < W(0)) &
+                              (axis.dot(before) > W(0));
+      const Mask<W> first = crosses & !kink.tried, again = crosses & kink.tried;
+      kink.here |= first;
+      kink.axis = select<W>(first, axis, kink.axis);
+      for (int j = 0; j < 3; ++j)
+        kink.F.col(j) = select<W>(first, Vec3<W>(F.col(j)), Vec3<W>(kink.F.col(j)));
+      m = select<W>(first, axis, m);
+      m = select<W>(again, unit<W>(Vec3<W>(axis + (before - axis) * W(kink_margin))), m);
+    }
+  }
+}
+
+}  // namespace minkray

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// A point that support points span: a simplex of the GJK algorithms, in long double, that remembers
+// the directions its corners were found in.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <limits>
+
+#include "core/gjk/projection.h"
+#include "core/proof/certificate.h"
+
+namespace minkray {
+
+class SpannedPoint {
+ public:
+  explicit SpannedPoint(const Vec3<long double>& x) { simplex_.begin(x); }
+
+  void move(const Vec3<long double>& x) {
+    simplex_.move(x);
+    squared_ = std::numeric_limits<long double>::infinity();
+  }
+  /// Adds p, the support point along n (seen from x: the difference to it); false if it brought
+  /// nothing nearer.
+  bool add(const Vec3<long double>& p, const Vec3<double>& n) {
+    if (simplex_.full() || simplex_.holds(p)) return false;
+    directions_[static_cast<std::size_t>(simplex_.add(p))] = n;
+    const auto closest = simplex_.closest();
+    if (!(closest.v.squaredNorm() < squared_)) {
+      simplex_.keep(closest_.kept);
+      return false;
+    }
+    closest_ = closest;
+    squared_ = closest.v.squaredNorm();
+    simplex_.keep(closest.kept);
+    return true;
+  }
+  bool full() const { return simplex_.full(); }
+  /// It leads from the spanned point to x.
+  const Vec3<long double>& v() const { return closest_.v; }
+
+  /// How far x is from the point that the weights span: v, but where the simplex is a tetrahedron,
+  /// which holds x and of which v is zero, the rounding of its volumes.
+  double off() const {
+    Vec3<long double> sum = Vec3<long double>::Zero();
+    long double weights = 0;
+    for (int i = 0; i < 4; ++i) {
+      if (!(closest_.kept & (1u << i))) continue;
+      const long double weight =
+          std::max(closest_.weights[static_cast<std::size_t>(i)], static_cast<long double>(0));
+      sum += weight * simplex_.y(i);
+      weights += weight;
+    }
+    return static_cast<double>((sum / weights).norm());
+  }
+
+  /// Finds by elimination the weights with which the corners of a tetrahedron that holds x span x:
+  /// ratios of volumes lose the digits that a sliver's volume has lost.
+  void balance() {
+    if (!full()) return;
+    Mat3<long double> edges;
+    for (int i = 0; i < 3; ++i) edges.col(i) = simplex_.y(i + 1) - simplex_.y(0);
+    const Vec3<long double> weights = edges.fullPivLu().solve(-simplex_.y(0));
+    const long double first = 1 - weights.sum();
+    if (!weights.allFinite() || !(std::min(first, weights.minCoeff()) >= 0)) return;
+    closest_.weights = {first, weights[0], weights[1], weights[2]};
+  }
+
+  void write_to(Certificate& certificate) const {
+    for (std::size_t i = 0; i < directions_.size(); ++i) {
+      const bool kept = closest_.kept & (1u << i);
+      certificate.spanning[i] = {
+          directions_[i],
+          kept ? static_cast<double>(std::max(closest_.weights[i], static_cast<long double>(0)))
+               : 0};
+    }
+  }
+
+ private:
+  ProjectionSubalgorithm<long double, 3> simplex_;
+  SubalgorithmAnswer<long double, 3> closest_;
+  std::array<Vec3<double>, 4> directions_;
+  long double squared_ = std::numeric_limits<long double>::infinity();
+};
+
+}  // namespace minkray
