@@ -11,7 +11,7 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_COMPONENTS_GROUPING ONE_PER_GROUP)
-set(CPACK_COMPONENTS_ALL program library development documentation)
+set(CPACK_COMPONENTS_ALL program library development documentation cases)
 if(MINKRAY_PYTHON)
   list(APPEND CPACK_COMPONENTS_ALL python)
 endif()
@@ -54,6 +54,10 @@ minkray_package(python python3-minkray python "libminkray0 ${same}, python3 (>= 
   "rays at exact convex shapes: the Python module" "Arrays in, arrays out: rays, proofs, distances, shapes of your own.")
 minkray_package(documentation minkray-doc doc "" "rays at exact convex shapes: documentation"
   "What the formats, the answers and the proofs mean, and example programs.")
+minkray_package(cases minkray-cases science python3
+  "casts and distances that solvers get wrong, with proven answers"
+  "Queries from the trackers of collision libraries, exact answers, certificates,\na schema, and a checker that needs Python alone.")
+set(CPACK_DEBIAN_CASES_PACKAGE_ARCHITECTURE all)
 set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_ARCHITECTURE all)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SHLIBDEPS ON)

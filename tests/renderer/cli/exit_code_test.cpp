@@ -57,7 +57,7 @@ TEST(Cli, results_are_on_stdout_and_done_is_0) {
 TEST(Cli, certificates_are_summed_up_on_stderr) {
   const Outcome cast = run("cast --certify '" MINKRAY_TEST_CASES "/hard-casts.jsonl'");
   EXPECT_EQ(cast.exit_code, 0);
-  EXPECT_EQ(cast.err, "certificates: 49 hold, 0 do not; 0 answers without (distances, turning)\n");
+  EXPECT_EQ(cast.err, "certificates: 102 hold, 0 do not; 0 answers without (distances, turning)\n");
   const std::string picture = testing::TempDir() + "minkray-certified.png";
   const Outcome render =
       run("render " + scene("figure-1.json") + " -r 32x18 -s 1 -q --certify -o '" + picture + "'");
