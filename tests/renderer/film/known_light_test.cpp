@@ -6,13 +6,10 @@
 
 #include "renderer/film/render.h"
 #include "renderer/light/camera.h"
+#include "tests/support/shifted.h"
 
 namespace minkray {
 namespace {
-
-Affine<double> at(double x, double y, double z) {
-  return {Mat3<double>::Identity(), {x, y, z}};
-}
 
 /// A solver that ends when the gap |v| is within rounding knows the normal to the square root of
 /// it.
@@ -84,7 +81,7 @@ TEST(Integrator, a_point_light_fades_with_the_square_of_the_distance) {
 
 TEST(Integrator, shadows_fall_and_end_at_the_light) {
   Scene scene = one_ball({"matt", LambertMaterial{Colour::Ones()}});
-  scene.objects.push_back({"shade", Disk<double>{0.5}, at(0, -1, 3), 0});
+  scene.objects.push_back({"shade", Disk<double>{0.5}, shifted_by(0, -1, 3), 0});
   scene.lights = {PointLight{{0, -1.2, 5}, Colour::Constant(5)}};
   const double y = 30;  // the ball's upper half
   EXPECT_EQ(radiance(scene, 50, y), Colour::Zero());
@@ -144,8 +141,8 @@ TEST(Integrator, a_wall_hides_half_of_the_sky) {
   Scene scene = one_ball({"matt", LambertMaterial{Colour::Ones()}});
   scene.camera.position = {-3, 0, 4};
   scene.camera.look_at = {-1e-6, 0, 0};
-  scene.objects = {{"floor", Box<double>{{1e4, 1e4, 1}}, at(0, 0, -1), 0},
-                   {"wall", Box<double>{{1, 1e4, 1e4}}, at(1, 0, 0), 0}};
+  scene.objects = {{"floor", Box<double>{{1e4, 1e4, 1}}, shifted_by(0, 0, -1), 0},
+                   {"wall", Box<double>{{1, 1e4, 1e4}}, shifted_by(1, 0, 0), 0}};
   scene.lights = {EnvironmentLight{Colour::Ones(), Colour::Ones()}};
   EXPECT_NEAR(radiance(scene, 50, 50, 4096, {.bounces = 0}).x(), 0.5, 2e-3);
 }

@@ -42,7 +42,7 @@ Scene flight(double shutter) {
   return scene;
 }
 
-RenderOptions small_picture() {
+RenderOptions coarse_picture() {
   RenderOptions options;
   options.resolution = {64, 48};
   options.samples = 4;
@@ -89,11 +89,11 @@ TEST(Motion, a_frame_with_a_closed_shutter_is_the_picture_of_the_scene_posed_at_
     if (object.motion) object.pose = object.motion->pose_at(time);
     object.motion.reset();
   }
-  const Image frame = render(moving, world, small_picture()).image;
-  const Image picture = render(still, make_world(still), small_picture()).image;
+  const Image frame = render(moving, world, coarse_picture()).image;
+  const Image picture = render(still, make_world(still), coarse_picture()).image;
   EXPECT_EQ(frame.pixels, picture.pixels);
   const Scene at_0 = flight(0);
-  EXPECT_NE(frame.pixels, render(at_0, make_world(at_0), small_picture()).image.pixels);
+  EXPECT_NE(frame.pixels, render(at_0, make_world(at_0), coarse_picture()).image.pixels);
 }
 
 // Frame after frame the hierarchy is refitted and at times built anew; no picture shows it.
@@ -104,8 +104,8 @@ TEST(Motion, a_frame_does_not_depend_on_the_frames_before_it) {
     set_time(scene, time);
     follow(world, scene);
   }
-  const Image after_others = render(scene, world, small_picture()).image;
-  EXPECT_EQ(after_others.pixels, render(scene, make_world(scene), small_picture()).image.pixels);
+  const Image after_others = render(scene, world, coarse_picture()).image;
+  EXPECT_EQ(after_others.pixels, render(scene, make_world(scene), coarse_picture()).image.pixels);
 }
 
 // The heart of the blur: at each moment a ray sees just what it would see if the moved things stood
@@ -167,7 +167,7 @@ TEST(Motion, a_moving_ball_is_blurred_into_the_mean_of_pictures_of_it_standing) 
   Scene scene = flight(0.2);
   scene.objects.erase(scene.objects.begin(), scene.objects.begin() + 2);
   set_time(scene, 0.27);
-  RenderOptions options = small_picture();
+  RenderOptions options = coarse_picture();
   options.samples = 256;
   const Image blurred = render(scene, make_world(scene), options).image;
 

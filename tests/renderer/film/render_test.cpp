@@ -7,13 +7,10 @@
 
 #include "core/parallel/parallel.h"
 #include "renderer/audit/ray_audit.h"
+#include "tests/support/shifted.h"
 
 namespace minkray {
 namespace {
-
-Affine<double> at(double x, double y, double z) {
-  return {Mat3<double>::Identity(), {x, y, z}};
-}
 
 /// A few shapes on a glossy floor, every kind of light.
 Scene still_life() {
@@ -27,9 +24,9 @@ Scene still_life() {
                      {"red", GlossyMaterial{{0.8, 0.2, 0.1}, 0.0, 1.5}},
                      {"blue", LambertMaterial{{0.1, 0.3, 0.8}}}};
   const Shape<double> box(Box<double>{{0.5, 0.4, 0.3}});
-  scene.objects = {{"floor", Box<double>{{50, 50, 1}}, at(0, 0, -1), 0},
-                   {"ball", Sphere<double>{0.8}, at(-1.2, 0, 0.8), 1},
-                   {"rounded box", Rounded<double>{0.2, box}, at(0.8, 0, 0.5), 2}};
+  scene.objects = {{"floor", Box<double>{{50, 50, 1}}, shifted_by(0, 0, -1), 0},
+                   {"ball", Sphere<double>{0.8}, shifted_by(-1.2, 0, 0.8), 1},
+                   {"rounded box", Rounded<double>{0.2, box}, shifted_by(0.8, 0, 0.5), 2}};
   return scene;
 }
 
