@@ -29,6 +29,7 @@ struct TraceVerbOptions {
   std::optional<std::string> svg;
   std::string precision = "double";
   std::string solver = "auto";
+  std::string resolution;  ///< empty: the scene's
   bool json = false;
 };
 
@@ -68,7 +69,9 @@ template <class T>
 void trace(const TraceVerbOptions& options) {
   if (options.svg) check_ending(*options.svg, ".svg", "--svg");
   const Scene scene = import_scene(options.scene).scene;
-  const Resolution& size = scene.camera.resolution;
+  ImageArguments picture;
+  picture.resolution = options.resolution;
+  const Resolution size = picture.render_options(scene).resolution;
   const int x = options.pixel[0], y = options.pixel[1];
   if (x < 0 || y < 0 || x >= size.width || y >= size.height)
     throw WrongUsage("trace: --pixel must be within 0,0 and " + std::to_string(size.width - 1) +
@@ -134,6 +137,8 @@ void add_trace(Parser& parser, ExitCode&) {
   verb.add_option("--pixel", options->pixel, "x,y from the upper left corner; through its centre")
       .required()
       .values(2, ',');
+  verb.add_option("-r,--resolution", options->resolution,
+                  "WxH of the picture that the pixel is one of, instead of the scene's");
   verb.add_option("--object", options->object, "The object's name; by default the one that is hit");
   verb.add_option("--precision", options->precision, "float or double")
       .one_of({"float", "double"})

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// minkray inspect: a page that shows the solver at work, pixel by pixel and step by step.
+#include <memory>
+
+#include "core/parallel/parallel.h"
+#include "renderer/cli/choices.h"
+#include "renderer/cli/import_arguments.h"
+#include "renderer/cli/inspect_options.h"
+#include "renderer/cli/options.h"
+#include "renderer/cli/verbs.h"
+
+namespace minkray {
+
+void add_inspect(Parser& parser, ExitCode& exit_code) {
+  const Verb verb = parser.add_verb(
+      "inspect", "Make a page that shows each pixel's cast step by step (docs/inspector.md)");
+  const auto options = std::make_shared<InspectArguments>();
+  ImageArguments& image = options->image;
+  image.samples = 16;
+  add_scene_option(verb, image.scene);
+  add_import_options(verb, image.import);
+  const Option output =
+      verb.add_option("-o,--output", image.outputs,
+                      "The HTML file; by default the scene's name and -inspect.html")
+          .one_value_each();
+  verb.add_option("-r,--resolution", image.resolution, "WxH in pixels, instead of the scene's");
+  verb.add_option("-s,--spp", image.samples, "Samples a pixel of the picture")
+      .between(1, 1 << 16)
+      .show_default();
+  verb.add_option("-t,--threads", image.threads, "How many threads; 0 for one a core")
+      .between(0, 1024)
+      .show_default();
+  verb.add_option("--solver", image.solver, "Of the ray casts")
+      .one_of(solver_names())
+      .show_default();
+  verb.add_option("--beside", options->beside, "The solver that it is shown beside")
+      .one_of(solver_names())
+      .show_default();
+  verb.add_option("--pairs", options->pairs, "Of how many pairs of objects the distance is shown")
+      .between(std::size_t{0}, std::size_t{1000})
+      .show_default();
+  verb.add_option(
+          "--megabytes", options->megabytes,
+          "What the page may take; the more, the more pixels can be replayed; by default 6, "
+          "and more in pictures larger than 640x360")
+      .between(0.0, 2000.0);
+  verb.add_flag("--serve", options->serve,
+                "Serve the page at 127.0.0.1 instead, where any ray can be asked for, until Ctrl-C")
+      .excludes(output);
+  verb.add_option("--port", options->port, "Where to serve it; 0 for any that is free")
+      .between(0, 65535)
+      .show_default();
+  verb.add_flag("-q,--quiet", image.quiet, "No progress, no report");
+  verb.on_call([options, &exit_code] {
+    with_threads(options->image.threads, [&] { inspect(*options, exit_code); });
+  });
+}
+
+}  // namespace minkray

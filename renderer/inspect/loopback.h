@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// A web server for this machine alone: it listens at 127.0.0.1, answers GET under an address that
+// holds a secret, and reads no file.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+
+namespace minkray {
+
+/// What was asked for: "/TOKEN/cast?x=1" has the path "cast" and the value "1" of "x".
+struct WebRequest {
+  std::string path;
+  std::map<std::string, std::string> values;
+};
+
+struct WebReply {
+  int status = 200;
+  std::string type = "text/plain; charset=utf-8";
+  std::string body;
+};
+
+/// Reads the first line and the headers of a request (RFC 9112); nothing, and the reply it
+/// deserves, if they are not a GET of a page under /TOKEN/ from this machine's own address: other
+/// pages in the same browser know neither the token nor may they be sent here under a name of
+/// theirs.
+bool parse_request(std::string_view text, std::string_view token, int port, WebRequest& request,
+                   WebReply& refusal);
+
+class LoopbackServer {
+ public:
+  /// Listens at a port, or at any that is free (0). Throws WrongUsage if the port is taken.
+  explicit LoopbackServer(int port);
+  ~LoopbackServer();
+  LoopbackServer(const LoopbackServer&) = delete;
+  LoopbackServer& operator=(const LoopbackServer&) = delete;
+
+  /// "http://127.0.0.1:PORT/TOKEN/"
+  std::string address() const;
+
+  /// Answers one request after another until `stopped` says so, which it is asked a few times a
+  /// second and whenever a request comes.
+  void serve(const std::function<WebReply(const WebRequest&)>& answer,
+             const std::function<bool()>& stopped);
+
+ private:
+  int socket_ = -1, port_ = 0;
+  std::string token_;
+};
+
+}  // namespace minkray

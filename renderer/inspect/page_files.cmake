@@ -1,0 +1,22 @@
+# SPDX-License-Identifier: MIT
+# Writes OUTPUT, a C++ source with the files of the page: cmake -DOUTPUT=... -DFOLDER=... -DSCRIPTS=a;b -P
+# Raw strings hold them as they are; compilers take pieces of no more than 64 KiB for granted.
+function(add_text name)
+  set(literals)
+  foreach(file ${ARGN})
+    file(READ ${FOLDER}/${file} text)
+    string(LENGTH "${text}" length)
+    set(at 0)
+    while(at LESS length)
+      string(SUBSTRING "${text}" ${at} 12000 piece)
+      string(APPEND literals "R\"page~(${piece})page~\"\n")
+      math(EXPR at "${at} + 12000")
+    endwhile()
+  endforeach()
+  set(source "${source}const std::string_view ${name} = std::string_view(\n${literals});\n" PARENT_SCOPE)
+endfunction()
+set(source "// SPDX-License-Identifier: MIT\n#include \"renderer/inspect/page_files.h\"\n\nnamespace minkray::page_files {\n\n")
+add_text(html page.html)
+add_text(style style.css)
+add_text(script ${SCRIPTS})
+file(WRITE ${OUTPUT} "${source}\n}  // namespace minkray::page_files\n")

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/inspect/pair_replay.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/contact/distance.h"
+#include "core/contact/shape_cast.h"
+#include "renderer/inspect/replay.h"
+#include "renderer/inspect/shape_mesh.h"
+#include "renderer/query/number_json.h"
+#include "renderer/scene/scene_instances.h"
+
+namespace minkray {
+namespace {
+
+using Point2 = Vec<double, 2>;
+
+/// Directions around the plane in which an outline is looked at.
+constexpr int outline_directions = 240;
+
+/// Pairs are looked for among the scene's first objects, so many of them.
+constexpr std::size_t most_objects_paired = 300;
+
+template <int Dim>
+Json points_json(std::span<const Vec<double, Dim>> points) {
+  Json list = Json::array();
+  for (const auto& point : points) list.push_back(point_json(point));
+  return list;
+}
+
+template <int Dim>
+Json step_json(const DistanceIteration<double, Dim>& step) {
+  return {{"v", point_json(step.v)},
+          {"w", point_json(step.w)},
+          {"v_next", point_json(step.v_next)},
+          {"lower", number_json(step.lower)},
+          {"upper", number_json(step.upper)},
+          {"before", points_json<Dim>(step.before)},
+          {"after", points_json<Dim>(step.after)}};
+}
+
+template <int Dim>
+Json answer_json(const DistanceResult<double, Dim>& result, Json steps) {
+  return {{"status", name_of(result.status)},
+          {"distance", number_json(result.distance)},
+          {"lower", number_json(result.lower)},
+          {"iterations", result.iterations},
+          {"supports", result.supports},
+          {"point_a", point_json(result.point_a)},
+          {"point_b", point_json(result.point_b)},
+          {"axis", point_json(result.axis)},
+          {"steps", std::move(steps)}};
+}
+
+Json distance_json(const PreparedPair<double>& pair) {
+  Json steps = Json::array();
+  const auto result = distance_between<double>(
+      pair.a(), pair.b(), {}, SubalgorithmKind::projection,
+      [&](const DistanceIteration<double, 3>& step) { steps.push_back(step_json<3>(step)); });
+  Json json = answer_json(result, std::move(steps));
+  const Vec3<double> x = pair.b().centre - pair.a().centre;
+  json["x"] = point_json(x);
+  const Shape<double> difference =
+      MinkowskiDifference<double>{pair.a().about_centre, pair.b().about_centre};
+  json["mesh"] =
+      mirrored_mesh_json(difference, {Vec3<double>::Zero(), pair.a().radius + pair.b().radius}, x);
+  return json;
+}
+
+Json impact_json(const PreparedPair<double>& pair) {
+  const Vec3<double> apart = pair.b().centre - pair.a().centre;
+  const Ray<double> ray{apart, -apart, 1.0};
+  Json json = replay_json(trace_ray(pair.obstacle(), ray, CastOptions<double>()));
+  json["mesh"] = mesh_json(pair.obstacle().inner_shape(), pair.obstacle().inner_ball());
+  return json;
+}
+
+Json plane_json(const PreparedPair<double>& pair) {
+  Json steps = Json::array();
+  const auto result = distance_in_plane<double>(
+      pair.a(), pair.b(), {}, SubalgorithmKind::projection,
+      [&](const DistanceIteration<double, 2>& step) { steps.push_back(step_json<2>(step)); });
+  Json json = answer_json(result, std::move(steps));
+  Json outline = Json::array();
+  const Point2 x = (pair.b().centre - pair.a().centre).head<2>();
+  for (int i = 0; i < outline_directions; ++i) {
+    const double angle = 2 * std::acos(-1.0) * i / outline_directions;
+    const Vec3<double> n(std::cos(angle), std::sin(angle), 0);
+    const Vec3<double> p =
+        pair.a().about_centre.support(n) - pair.b().about_centre.support(Vec3<double>(-n));
+    outline.push_back(point_json(Vec<float, 2>((x - p.head<2>()).cast<float>())));
+  }
+  json["outline"] = std::move(outline);
+  return json;
+}
+
+CentredShape<double> centred_instance(const Scene& scene, std::size_t i) {
+  const Object object = instance_object(scene, i);
+  return centred(object.shape, object.pose);
+}
+
+}  // namespace
+
+std::vector<ObjectPair> nearest_pairs(const Scene& scene, std::size_t most) {
+  std::vector<std::size_t> solid;
+  std::vector<CentredShape<double>> shapes;
+  for (std::size_t i = 0; i < std::min(scene.objects.size(), most_objects_paired); ++i) {
+    if (scene.objects[i].half_space) continue;
+    solid.push_back(i);
+    shapes.push_back(centred_instance(scene, i));
+  }
+  struct Candidate {
+    double gap;
+    ObjectPair pair;
+  };
+  std::vector<Candidate> candidates;
+  for (std::size_t i = 0; i < solid.size(); ++i)
+    for (std::size_t j = i + 1; j < solid.size(); ++j)
+      candidates.push_back(
+          {(shapes[i].centre - shapes[j].centre).norm() - shapes[i].radius - shapes[j].radius,
+           {solid[i], solid[j]}});
+  const auto kept = std::min(most, candidates.size());
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& p, const Candidate& q) { return p.gap < q.gap; });
+  std::vector<ObjectPair> pairs;
+  for (std::size_t i = 0; i < kept; ++i) pairs.push_back(candidates[i].pair);
+  return pairs;
+}
+
+Json pair_json(const Scene& scene, const ObjectPair& pair) {
+  const PreparedPair<double> prepared(centred_instance(scene, pair.a),
+                                      centred_instance(scene, pair.b));
+  return {{"a", pair.a},
+          {"b", pair.b},
+          {"distance", distance_json(prepared)},
+          {"impact", impact_json(prepared)},
+          {"plane", plane_json(prepared)}};
+}
+
+}  // namespace minkray

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// Two of a scene's objects, for the page: the GJK distance between them, the time of impact when
+// one goes straight at the other, and the textbook's sequence in the plane, for their shadows.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "renderer/json/json.h"
+#include "renderer/scene/scene.h"
+
+namespace minkray {
+
+struct ObjectPair {
+  std::size_t a, b;
+};
+
+/// The pairs of objects that are closest by their bounding balls, closest first, at most `most`.
+/// Half-spaces are in none of them.
+std::vector<ObjectPair> nearest_pairs(const Scene& scene, std::size_t most);
+
+/// {"a", "b", "distance", "impact", "plane"}: instances, and a replay each with its meshes. The
+/// motion of "impact" is that of b's centre to a's, in one unit of time.
+Json pair_json(const Scene& scene, const ObjectPair& pair);
+
+}  // namespace minkray

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// What every pixel of an inspected picture tells when it is pointed at: the cast that `minkray
+// trace` would show of it, and the cost of its ray by each of the solvers.
+#pragma once
+
+#include "renderer/film/render.h"
+#include "renderer/inspect/planes.h"
+#include "renderer/inspect/scene_casts.h"
+
+namespace minkray {
+
+/// What the page says of the cast that is shown at a pixel, by the first solver.
+struct ShownCast {
+  std::uint32_t object = 0;  ///< 1 + the instance; 0: no cast is shown
+  std::uint8_t status = 0;   ///< its place in heat_statuses
+  double t = 0;
+  double below = 0, above = 0;  ///< how far the bounds of t lie from it
+  Vec3<double> normal = Vec3<double>::Zero();
+  int iterations = 0, supports = 0;
+};
+
+/// What a pixel's ray cost in all, by one solver.
+struct RayCost {
+  QueryCounts work;
+  Path last_path = Path::filter;
+  double nanoseconds = 0;  ///< the least of some tries
+};
+
+struct PixelAnswers {
+  Resolution resolution;
+  std::vector<ShownCast> shown;              ///< by pixel, in rows
+  std::vector<std::vector<RayCost>> of_ray;  ///< by solver, then by pixel
+  bool complete = false;
+};
+
+/// Asks the rays through the centres of all pixels; all threads.
+PixelAnswers measure_pixels(const Scene& scene, const std::vector<const SceneCasts*>& solvers,
+                            const Resolution& resolution, const RenderWatch& watch);
+
+/// The cast that is shown of a ray: what the page says of a pixel.
+ShownCast shown_cast(const SceneCasts& casts, const Ray<Real>& ray, std::size_t most_looked_at);
+
+/// How many instances are looked at for the hardest miss of a pixel in a picture, and of a single
+/// one.
+inline constexpr std::size_t most_looked_at_in_picture = 400;
+inline constexpr std::size_t most_looked_at_alone = 1000000;
+
+PackedPlanes packed(const PixelAnswers& answers);
+
+}  // namespace minkray

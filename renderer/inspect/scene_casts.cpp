@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/inspect/scene_casts.h"
+
+#include "renderer/film/render.h"
+
+namespace minkray {
+
+Path SceneAnswer::last_path() const {
+  std::size_t last = path_count - 1;
+  while (last > 0 && work.by_path[last] == 0) --last;
+  return static_cast<Path>(last);
+}
+
+SceneCasts::SceneCasts(const Scene& scene, const CastOptions<Real>& options)
+    : world_(make_world(scene, options)) {}
+
+SceneAnswer SceneCasts::answer(const Ray<Real>& ray) const {
+  SceneAnswer answer;
+  answer.hit = world_.closest_hit(ray, answer.work);
+  return answer;
+}
+
+std::optional<std::size_t> SceneCasts::shown(const Ray<Real>& ray, const SceneAnswer& answer,
+                                             std::size_t most_looked_at) const {
+  const Instances<Real>& instances = world_.instances();
+  if (answer.hit.found()) {
+    if (instances.is_half_space(answer.hit.instance)) return std::nullopt;
+    return answer.hit.instance;
+  }
+  if (instances.size() > most_looked_at) return std::nullopt;
+  std::optional<std::size_t> hardest;
+  int iterations = -1;
+  for (std::size_t i = 0; i < instances.size(); ++i) {
+    if (instances.is_half_space(i)) continue;
+    const CastResult<Real> result = cast_ray(instances.at(i), ray, world_.options());
+    if (result.iterations <= iterations) continue;
+    hardest = i;
+    iterations = result.iterations;
+  }
+  return hardest;
+}
+
+}  // namespace minkray

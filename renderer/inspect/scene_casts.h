@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// A scene made ready to be asked for one ray at a time: what pictures get to see of it, and the one
+// cast that is worth looking at, with all of its iterations, as `minkray trace` chooses and shows
+// it.
+#pragma once
+
+#include <optional>
+
+#include "renderer/base/real.h"
+#include "renderer/query/trace.h"
+#include "renderer/scene/scene.h"
+
+namespace minkray {
+
+/// What a ray through the scene met, and what it cost.
+struct SceneAnswer {
+  WorldHit<Real> hit;
+  QueryCounts work;
+
+  /// The last stage that any of its casts needed.
+  Path last_path() const;
+};
+
+class SceneCasts {
+ public:
+  SceneCasts(const Scene& scene, const CastOptions<Real>& options);
+
+  SceneAnswer answer(const Ray<Real>& ray) const;
+
+  /// The instance whose cast is to be shown: the first that the ray meets; else, of up to
+  /// `most_looked_at` instances, the one whose miss took most iterations. None: a half-space is
+  /// met, which takes no iterations, or nothing is and there are more instances.
+  std::optional<std::size_t> shown(const Ray<Real>& ray, const SceneAnswer& answer,
+                                   std::size_t most_looked_at) const;
+
+  /// Refers to this.
+  PreparedShape<Real> shape(std::size_t instance) const { return world_.instances().at(instance); }
+  CastTrace<Real> trace(std::size_t instance, const Ray<Real>& ray) const {
+    return trace_ray(shape(instance), ray, world_.options());
+  }
+
+  const RenderWorld& world() const { return world_; }
+
+ private:
+  RenderWorld world_;
+};
+
+}  // namespace minkray

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/inspect/served_scene.h"
+
+#include <charconv>
+#include <cmath>
+
+#include "renderer/base/errors.h"
+#include "renderer/inspect/pair_replay.h"
+#include "renderer/inspect/pixel_answers.h"
+#include "renderer/inspect/replay_lines.h"
+#include "renderer/io/image_file.h"
+#include "renderer/light/camera.h"
+#include "renderer/scene/scene_instances.h"
+
+namespace minkray {
+namespace {
+
+constexpr std::size_t most_kept = 4;
+constexpr int most_samples = 256;
+constexpr double most_zoom = 64;
+/// A picture that is asked for has no more, so that an answer takes seconds at most.
+constexpr int most_pixels = 4'000'000;
+
+double number_of(const std::string& text, const std::string& key) {
+  double number = 0;
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, number);
+  if (error != std::errc() || rest != end || !std::isfinite(number))
+    throw BadInput(key + ": must be a number");
+  return number;
+}
+
+std::vector<double> numbers_of(const std::string& text, const std::string& key, std::size_t count) {
+  std::vector<double> numbers;
+  for (std::size_t at = 0; at <= text.size();) {
+    const std::size_t comma = std::min(text.find(',', at), text.size());
+    numbers.push_back(number_of(text.substr(at, comma - at), key));
+    at = comma + 1;
+  }
+  if (numbers.size() != count)
+    throw BadInput(key + ": must be " + std::to_string(count) + " numbers");
+  return numbers;
+}
+
+}  // namespace
+
+/// A request's values, looked up.
+struct ServedScene::Asked {
+  const WebRequest& request;
+  CameraDescription camera;
+
+  Asked(const WebRequest& asked, const CameraDescription& of_scene)
+      : request(asked), camera(of_scene) {
+    for (const auto& [key, place] : {std::pair{"eye", &camera.position}, {"at", &camera.look_at}})
+      if (const std::string* text = find(key)) {
+        const std::vector<double> xyz = numbers_of(*text, key, 3);
+        *place = {xyz[0], xyz[1], xyz[2]};
+      }
+    if (!((camera.look_at - camera.position).cross(camera.up).norm() > 0))
+      throw BadInput("eye: must not be at \"at\", nor straight above or below it");
+  }
+  const std::string* find(const std::string& key) const {
+    const auto at = request.values.find(key);
+    return at == request.values.end() ? nullptr : &at->second;
+  }
+  double number(const std::string& key, double otherwise) const {
+    const std::string* const text = find(key);
+    return text ? number_of(*text, key) : otherwise;
+  }
+  double number_within(const std::string& key, double otherwise, double least, double most) const {
+    const double value = number(key, otherwise);
+    if (!(value >= least && value <= most)) throw BadInput(key + ": is out of range");
+    return value;
+  }
+};
+
+const std::vector<InspectedSolver>& ServedScene::solvers_for(const Asked& asked) {
+  CastOptions<Real> options;
+  const std::string* const named = asked.find("solver");
+  const std::string solver = named ? *named : solvers_.front().name;
+  const double tolerance = asked.number_within("tolerance", options.eps_tol, 0, 1);
+  if (solver == solvers_.front().name && tolerance == options.eps_tol) return solvers_;
+  for (const Kept& kept : kept_)
+    if (kept.solver == solver && kept.tolerance == tolerance) return kept.solvers;
+  std::vector<InspectedSolver> made;
+  const auto make = [&](const std::string& name) {
+    for (const SolverDescription& description : solver_descriptions) {
+      if (description.name != name) continue;
+      CastOptions<Real> of_solver;
+      of_solver.solver = description.kind;
+      of_solver.eps_tol = tolerance;
+      made.push_back({name, SceneCasts(scene_, of_solver)});
+      return;
+    }
+    throw BadInput("solver: is none");
+  };
+  make(solver);
+  for (std::size_t k = 1; k < solvers_.size(); ++k) make(solvers_[k].name);
+  kept_.push_front({solver, tolerance, std::move(made)});
+  if (kept_.size() > most_kept) kept_.pop_back();
+  return kept_.front().solvers;
+}
+
+WebReply ServedScene::cast(const Asked& asked) {
+  const auto& solvers = solvers_for(asked);
+  const double x = asked.number("x", 0), y = asked.number("y", 0);
+  const Ray<Real> ray = Camera(asked.camera, options_.picture.resolution).ray(x, y);
+  const SceneCasts& first = solvers.front().casts;
+  const auto instance = first.shown(ray, first.answer(ray), most_looked_at_alone);
+  WebReply reply{200, "application/jsonl", ""};
+  if (!instance) return reply;
+  ReplayLines lines;
+  for (std::size_t k = 0; k < solvers.size(); ++k)
+    reply.body += lines.ray(solvers[k].casts, k, *instance, {x, y, ray});
+  return reply;
+}
+
+WebReply ServedScene::pair(const Asked& asked) {
+  const auto object = [&](const char* key) {
+    const double number = asked.number_within(key, 0, 1, double(scene_.objects.size()));
+    const auto index = static_cast<std::size_t>(number) - 1;
+    if (scene_.objects[index].half_space) throw BadInput(std::string(key) + ": is a half-space");
+    return index;
+  };
+  const Json line{{"kind", "pair"}, {"pair", pair_json(scene_, {object("a"), object("b")})}};
+  return {200, "application/jsonl", line.dump() + "\n"};
+}
+
+WebReply ServedScene::picture(const Asked& asked) {
+  RenderOptions options = options_.picture;
+  options.samples = static_cast<int>(asked.number_within("samples", 1, 1, most_samples));
+  const double zoom = asked.number_within("zoom", 1, 1.0 / 64, most_zoom);
+  const auto zoomed = [&](int length) {
+    return std::max(1, static_cast<int>(std::lround(length * zoom)));
+  };
+  options.resolution = {zoomed(options.resolution.width), zoomed(options.resolution.height)};
+  options.crop = {0, 0, options.resolution.width, options.resolution.height};
+  if (const std::string* text = asked.find("window")) {
+    const std::vector<double> window = numbers_of(*text, "window", 4);
+    const auto within = [](double value, int most) {
+      return static_cast<int>(std::clamp(value, 0.0, double(most)));
+    };
+    options.crop = {
+        within(window[0], options.resolution.width), within(window[1], options.resolution.height),
+        within(window[2], options.resolution.width), within(window[3], options.resolution.height)};
+  }
+  if (options.crop.empty()) throw BadInput("window: is empty");
+  if (std::int64_t{options.crop.width()} * options.crop.height() > most_pixels)
+    throw BadInput("window: has too many pixels");
+  Scene scene = scene_;
+  scene.camera = asked.camera;
+  const Rendering rendering =
+      render(scene, solvers_for(asked).front().casts.world(), options, watch_);
+  const std::vector<unsigned char> png = encode_image(rendering.image, "picture.png");
+  return {200, "image/png", std::string(png.begin(), png.end())};
+}
+
+WebReply ServedScene::view(const Asked& asked) {
+  Scene scene = scene_;
+  scene.camera = asked.camera;
+  const auto& solvers = solvers_for(asked);
+  std::vector<const SceneCasts*> casts;
+  for (const InspectedSolver& solver : solvers) casts.push_back(&solver.casts);
+  const PixelAnswers answers = measure_pixels(scene, casts, options_.picture.resolution, watch_);
+  return {200, "application/json", view_json(scene, solvers, answers).dump()};
+}
+
+WebReply ServedScene::answer_or_throw(const WebRequest& request) {
+  if (request.path.empty()) return {200, "text/html; charset=utf-8", page_};
+  const Asked asked(request, scene_.camera);
+  if (request.path == "cast") return cast(asked);
+  if (request.path == "pair") return pair(asked);
+  if (request.path == "picture") return picture(asked);
+  if (request.path == "view") return view(asked);
+  return {404, "text/plain; charset=utf-8", "there is nothing here\n"};
+}
+
+WebReply ServedScene::answer(const WebRequest& request) {
+  try {
+    return answer_or_throw(request);
+  } catch (const std::runtime_error& error) {
+    return {400, "text/plain; charset=utf-8", error.what() + std::string("\n")};
+  }
+}
+
+}  // namespace minkray

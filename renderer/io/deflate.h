@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Bytes made smaller as they come (zlib, RFC 1950): what browsers unpack by themselves. zlib is
+// seen by deflate.cpp alone.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace minkray {
+
+class Deflater {
+ public:
+  Deflater();
+  ~Deflater();
+
+  void add(std::span<const unsigned char> bytes);
+  void add(std::string_view text);
+
+  /// How many bytes there are so far, if what was added ended here. It costs some bytes to ask.
+  std::size_t size();
+
+  /// The whole stream; nothing is to be added after.
+  std::vector<unsigned char> finish();
+
+ private:
+  struct Stream;
+  std::unique_ptr<Stream> stream_;
+};
+
+}  // namespace minkray
