@@ -35,21 +35,26 @@ class PairQueue {
   std::array<std::uint32_t, static_cast<std::size_t>(capacity)> ray_, instance_;
 };
 
+/// Whether so many rays fill the queues, two for each shape that instances share: if not, rays are
+/// faster one by one.
+template <class T>
+bool fill_queues(const Instances<T>& instances, std::size_t rays) {
+  return 2 * instances.definitions() <= rays;
+}
+
 /// Casts at pairs, alone or in packets. on_found(ray, instance, t, result) is told of those that
 /// meet; result() makes the CastResult.
 template <class T, class OnFound>
 class PairCaster {
  public:
-  PairCaster(const Instances<T>& instances, const CastOptions<T>& options, bool in_packets,
+  PairCaster(const Instances<T>& instances, const CastOptions<T>& options,
              std::span<const WorldRay<T>> rays, QueryCounts& counts, OnFound on_found)
       : instances_(instances),
         options_(options),
         rays_(rays),
         counts_(counts),
         on_found_(std::move(on_found)) {
-    // Few rays would fill no queue.
-    if (in_packets && 2 * instances.definitions() <= rays.size())
-      queues_.resize(2 * instances.definitions());
+    queues_.resize(2 * instances.definitions());
   }
 
   /// Pairs wait until the next ones come, and their instances' places with them.
@@ -80,7 +85,7 @@ class PairCaster {
       const auto [ray, instance] = waiting_[i];
       if (instances_.is_half_space(instance)) continue;
       const std::uint32_t definition = instances_.definition_of(instance);
-      if (queues_.empty() || instances_.definition(definition).form().kind == FormKind::none) {
+      if (instances_.definition(definition).form().kind == FormKind::none) {
         cast_alone(ray, instance);
         continue;
       }
@@ -160,6 +165,11 @@ void walk_pairs(const Bvh& bvh, std::span<SlabRay> slabs, Caster& caster, QueryC
 template <class T>
 void World<T>::closest_hits_in_stream(std::span<const WorldRay<T>> rays,
                                       std::span<WorldHit<T>> hits, QueryCounts& counts) const {
+  if (!in_packets_ || !fill_queues(instances_, rays.size())) {
+    for (std::size_t i = 0; i < rays.size(); ++i)
+      hits[i] = closest_hit(rays[i].ray, counts, rays[i].skip, rays[i].time);
+    return;
+  }
   std::vector<SlabRay> slabs(std::min(rays.size(), rays_at_once));
   for (; !rays.empty(); rays = rays.subspan(slabs.size()), hits = hits.subspan(slabs.size())) {
     slabs.resize(std::min(rays.size(), rays_at_once));
@@ -176,8 +186,8 @@ void World<T>::closest_hits_in_stream(std::span<const WorldRay<T>> rays,
       if (closer_half_space(rays[i], hits[i], counts))
         slabs[i].numbers.t_max = slabs[i].limit(static_cast<double>(hits[i].cast.t()));
     }
-    PairCaster<T, decltype(keep)> caster(instances_, options_, in_packets_,
-                                         rays.first(slabs.size()), counts, keep);
+    PairCaster<T, decltype(keep)> caster(instances_, options_, rays.first(slabs.size()), counts,
+                                         keep);
     walk_pairs<T>(bvh_, slabs, caster, counts);
   }
 }
@@ -185,6 +195,11 @@ void World<T>::closest_hits_in_stream(std::span<const WorldRay<T>> rays,
 template <class T>
 void World<T>::occluded_in_stream(std::span<const WorldRay<T>> rays, std::span<std::uint8_t> met,
                                   QueryCounts& counts) const {
+  if (!in_packets_ || !fill_queues(instances_, rays.size())) {
+    for (std::size_t i = 0; i < rays.size(); ++i)
+      met[i] = occluded(rays[i].ray, counts, rays[i].skip, rays[i].time) ? 1 : 0;
+    return;
+  }
   std::vector<SlabRay> slabs(std::min(rays.size(), rays_at_once));
   for (; !rays.empty(); rays = rays.subspan(slabs.size()), met = met.subspan(slabs.size())) {
     slabs.resize(std::min(rays.size(), rays_at_once));
@@ -197,8 +212,8 @@ void World<T>::occluded_in_stream(std::span<const WorldRay<T>> rays, std::span<s
       met[i] = blocked_by_half_space(rays[i], counts) ? 1 : 0;
       if (met[i]) slabs[i].numbers.t_max = -1;
     }
-    PairCaster<T, decltype(end)> caster(instances_, options_, in_packets_, rays.first(slabs.size()),
-                                        counts, end);
+    PairCaster<T, decltype(end)> caster(instances_, options_, rays.first(slabs.size()), counts,
+                                        end);
     walk_pairs<T>(bvh_, slabs, caster, counts);
   }
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/light/ambient_transport.h"
 
-#include <array>
 #include <limits>
 #include <optional>
+#include <vector>
 
 #include "renderer/light/frame.h"
 #include "renderer/light/inside.h"
@@ -18,6 +18,10 @@ namespace {
 /// (Kaplanyan and Dachsbacher, "Path Space Regularization", 2013): the light stays, but is spread.
 constexpr double least_alpha_behind_bounce = 0.3;
 
+/// From so many rays on that go each their own way, a stream is faster than one by one
+/// (docs/decisions/streams.md).
+constexpr std::size_t least_in_stream = 12;
+
 }  // namespace
 
 /// What came before rays that go together.
@@ -26,6 +30,20 @@ struct AmbientTransport::Path {
   int mirrors = 0;
 
   bool at_camera() const { return bounces == 0 && mirrors == 0; }
+};
+
+/// Rays that go on together, and what each of them is a continuation of: a place in the wave
+/// before.
+struct AmbientTransport::Wave {
+  std::vector<TracedRay> rays;
+  std::vector<std::size_t> from;
+  std::vector<Colour> weights;
+
+  void add(std::size_t place, const TracedRay& ray, const Colour& weight) {
+    rays.push_back(ray);
+    from.push_back(place);
+    weights.push_back(weight);
+  }
 };
 
 /// Where a ray met a surface.
@@ -53,27 +71,24 @@ AmbientTransport::AmbientTransport(const Scene& scene, const RenderWorld& world,
 
 void AmbientTransport::trace(std::span<TracedRay> rays, RayCounts& counts) const {
   counts.camera += rays.size();
-  if (rays.size() == 1)
-    follow<1>(rays, {}, counts);
-  else
-    follow<most_in_ray_group>(rays, {}, counts);
+  follow(rays, {}, counts);
 }
 
-/// The rays together, then the shadow rays of what they meet, light by light. What comes behind is
-/// scattered too widely to gain by it, and goes alone (docs/decisions/rays-together.md): with room
-/// for one ray, so that the stack holds paths of many bounces.
-template <std::size_t most>
+/// The rays as one wave, then the shadow rays of what they meet, light by light, then what comes to
+/// them by way of other surfaces, as waves of their own. The order of a ray's random numbers is
+/// that of a ray by itself, whatever goes with it.
 void AmbientTransport::follow(std::span<TracedRay> rays, const Path& path,
                               RayCounts& counts) const {
-  std::array<WorldRay<Real>, most> asked;
-  std::array<WorldHit<Real>, most> hits;
-  std::array<std::optional<HitPoint>, most> points;
-  const std::size_t count = rays.size();
-  for (std::size_t i = 0; i < count; ++i) asked[i] = {rays[i].ray, rays[i].left, rays[i].time};
-  world_.closest_hits(std::span(asked).first(count), hits, counts.work);
+  if (rays.empty()) return;
+  std::vector<WorldRay<Real>> asked;
+  std::vector<WorldHit<Real>> hits(rays.size());
+  asked.reserve(rays.size());
+  for (const TracedRay& ray : rays) asked.push_back({ray.ray, ray.left, ray.time});
+  find_hits(asked, hits, path, counts);
 
   const RayKind kind = path.at_camera() ? RayKind::camera : RayKind::indirect;
-  for (std::size_t i = 0; i < count; ++i) {
+  HitPoints points(rays.size());
+  for (std::size_t i = 0; i < rays.size(); ++i) {
     if (options_.observer) options_.observer->closest(kind, rays[i].ray, rays[i].left, hits[i]);
     rays[i].met = hits[i].found();
     rays[i].radiance.setZero();
@@ -83,21 +98,44 @@ void AmbientTransport::follow(std::span<TracedRay> rays, const Path& path,
     } else
       rays[i].radiance = off_surface(rays[i].ray, hits[i], path, counts);
   }
-  add_direct<most>(rays, std::span(points).first(count), path, counts);
-  for (std::size_t i = 0; i < count; ++i)
-    if (points[i])
-      rays[i].radiance = indirect(*points[i], rays[i].radiance, path, rays[i].sampler, counts);
+  add_direct(rays, points, path, counts);
+  add_indirect(rays, points, path, counts);
 }
 
-/// The light that comes to a point from a direction, by a ray of its own.
-Colour AmbientTransport::behind(const HitPoint& point, const Vec3<double>& direction,
-                                const Path& path, Sampler& sampler, RayCounts& counts) const {
-  TracedRay ray{{point.position, direction}, sampler};
-  ray.time = point.time;
-  ray.left = point.instance;
-  follow<1>(std::span(&ray, 1), path, counts);
-  sampler = ray.sampler;
-  return ray.radiance;
+/// Camera rays of neighbouring pixels walk the hierarchy together, others each their own way.
+void AmbientTransport::find_hits(std::span<const WorldRay<Real>> rays,
+                                 std::span<WorldHit<Real>> hits, const Path& path,
+                                 RayCounts& counts) const {
+  if (!path.at_camera() && rays.size() >= least_in_stream)
+    return world_.closest_hits_in_stream(rays, hits, counts.work);
+  const std::size_t together =
+      path.at_camera() ? static_cast<std::size_t>(options_.ray_group) : std::size_t{1};
+  for (std::size_t i = 0; i < rays.size(); i += together) {
+    const std::size_t count = std::min(together, rays.size() - i);
+    world_.closest_hits(rays.subspan(i, count), hits.subspan(i, count), counts.work);
+  }
+}
+
+/// met[i] answers rays[i]. Shadow rays of what a camera sees go to a light together, as they came.
+std::vector<std::uint8_t> AmbientTransport::blocked(RayKind kind,
+                                                    std::span<const WorldRay<Real>> rays,
+                                                    bool side_by_side, RayCounts& counts) const {
+  std::vector<std::uint8_t> met(rays.size());
+  if (!side_by_side && rays.size() >= least_in_stream) {
+    world_.occluded_in_stream(rays, met, counts.work);
+  } else {
+    const std::size_t together =
+        side_by_side ? static_cast<std::size_t>(options_.ray_group) : std::size_t{1};
+    for (std::size_t i = 0; i < rays.size(); i += together) {
+      const std::size_t count = std::min(together, rays.size() - i);
+      const RayGroupMask answers = world_.occluded(rays.subspan(i, count), counts.work);
+      for (std::size_t k = 0; k < count; ++k) met[i + k] = answers >> k & 1;
+    }
+  }
+  if (options_.observer)
+    for (std::size_t i = 0; i < rays.size(); ++i)
+      options_.observer->occluded(kind, rays[i].ray, rays[i].skip, met[i] != 0);
+  return met;
 }
 
 /// What a ray sees that meets nothing, or begins in a shape.
@@ -133,33 +171,22 @@ AmbientTransport::HitPoint AmbientTransport::hit_point(const TracedRay& ray,
           ray.time};
 }
 
-/// Bit i answers rays[i].
-RayGroupMask AmbientTransport::blocked(RayKind kind, std::span<const WorldRay<Real>> rays,
-                                       RayCounts& counts) const {
-  const RayGroupMask answers = world_.occluded(rays, counts.work);
-  if (options_.observer)
-    for (std::size_t i = 0; i < rays.size(); ++i)
-      options_.observer->occluded(kind, rays[i].ray, rays[i].skip, answers >> i & 1);
-  return answers;
-}
-
 /// Adds to each ray's radiance what lights send straight to where it met a surface. Nothing for
 /// lights behind the surface.
-template <std::size_t most>
-void AmbientTransport::add_direct(std::span<TracedRay> rays,
-                                  std::span<const std::optional<HitPoint>> points, const Path& path,
-                                  RayCounts& counts) const {
+void AmbientTransport::add_direct(std::span<TracedRay> rays, const HitPoints& points,
+                                  const Path& path, RayCounts& counts) const {
   /// What a light sends to the point that a ray met, if nothing is in its way.
   struct Arriving {
     std::size_t ray;
     Vec3<double> w_in;
     Colour irradiance;
   };
-  std::array<WorldRay<Real>, most> asked;
-  std::array<Arriving, most> arriving;
+  std::vector<WorldRay<Real>> asked;
+  std::vector<Arriving> arriving;
   const double least_alpha = path.bounces == 0 ? 0 : least_alpha_behind_bounce;
   for (std::size_t light = 0; light < lights_.count(); ++light) {
-    std::size_t count = 0;
+    asked.clear();
+    arriving.clear();
     for (std::size_t i = 0; i < rays.size(); ++i) {
       if (!points[i]) continue;
       const HitPoint& point = *points[i];
@@ -167,14 +194,14 @@ void AmbientTransport::add_direct(std::span<TracedRay> rays,
       if (!sample) continue;
       const Vec3<double> w_in = point.frame.to_local(sample->direction);
       if (!(w_in.z() > 0)) continue;
-      asked[count] = {
-          {point.position, sample->direction, sample->distance}, point.instance, point.time};
-      arriving[count++] = {i, w_in, sample->weight};
+      asked.push_back(
+          {{point.position, sample->direction, sample->distance}, point.instance, point.time});
+      arriving.push_back({i, w_in, sample->weight});
     }
-    counts.shadow += count;
-    const RayGroupMask answers = blocked(RayKind::shadow, std::span(asked).first(count), counts);
-    for (std::size_t k = 0; k < count; ++k) {
-      if (answers >> k & 1) continue;
+    counts.shadow += asked.size();
+    const auto met = blocked(RayKind::shadow, asked, path.at_camera(), counts);
+    for (std::size_t k = 0; k < asked.size(); ++k) {
+      if (met[k]) continue;
       const auto& [i, w_in, irradiance] = arriving[k];
       const Colour reflected = points[i]->surface.eval(points[i]->w_out, w_in, least_alpha);
       rays[i].radiance += w_in.z() * irradiance.cwiseProduct(reflected);
@@ -182,51 +209,95 @@ void AmbientTransport::add_direct(std::span<TracedRay> rays,
   }
 }
 
-/// `direct` and what comes to the point by way of other surfaces and from the environment.
-Colour AmbientTransport::indirect(const HitPoint& point, const Colour& direct, const Path& path,
-                                  Sampler& sampler, RayCounts& counts) const {
-  const std::optional<Coat>& coat = point.surface.coat();
-  if (!coat) return direct + scattered(point, path, sampler, counts);
-
-  // What the camera sees directly follows both of the coat and the base, for a quiet picture;
-  // behind that, one of the two by chance.
-  if (path.at_camera()) {
-    const Colour base = scattered(point, path, sampler, counts);
-    return direct + base + mirrored(point, *coat, path, sampler, counts);
+/// Adds what comes to the points by way of other surfaces and from the environment.
+void AmbientTransport::add_indirect(std::span<TracedRay> rays, const HitPoints& points,
+                                    const Path& path, RayCounts& counts) const {
+  // What the camera sees directly follows both of a coat and its base, for a quiet picture; behind
+  // that, one of the two by chance.
+  std::vector<std::size_t> bases, coats;
+  std::vector<double> chances(rays.size(), 1);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    if (!points[i]) continue;
+    const bool is_coated = points[i]->surface.coat().has_value();
+    if (!is_coated || path.at_camera()) bases.push_back(i);
+    if (!is_coated) continue;
+    if (path.at_camera()) {
+      coats.push_back(i);
+      continue;
+    }
+    const double chance = points[i]->surface.chance_of_coat(points[i]->w_out);
+    const bool takes_coat = rays[i].sampler.next()[0] < chance;
+    (takes_coat ? coats : bases).push_back(i);
+    chances[i] = takes_coat ? chance : 1 - chance;
   }
-  const double chance = point.surface.chance_of_coat(point.w_out);
-  if (sampler.next()[0] < chance)
-    return direct + mirrored(point, *coat, path, sampler, counts) / chance;
-  return direct + scattered(point, path, sampler, counts) / (1 - chance);
+  add_scattered(rays, points, bases, chances, path, counts);
+  add_mirrored(rays, points, coats, chances, path, counts);
 }
 
-Colour AmbientTransport::scattered(const HitPoint& point, const Path& path, Sampler& sampler,
-                                   RayCounts& counts) const {
+void AmbientTransport::add_scattered(std::span<TracedRay> rays, const HitPoints& points,
+                                     std::span<const std::size_t> which,
+                                     std::span<const double> chances, const Path& path,
+                                     RayCounts& counts) const {
   const bool last = path.bounces >= options_.bounces;
-  if (last && !lights_.has_environment()) return Colour::Zero();
-  const SurfaceSample sample = point.surface.base().sample(point.w_out, sampler.next());
-  const Vec3<double> direction = unit(point.frame.to_world(sample.w_in));
-  if (last) {
-    ++counts.ambient;
-    const WorldRay<Real> ray{{point.position, direction}, point.instance, point.time};
-    if (blocked(RayKind::ambient, std::span(&ray, 1), counts)) return Colour::Zero();
-    return sample.weight.cwiseProduct(lights_.environment(direction));
+  if (last && !lights_.has_environment()) return;
+  Wave wave;
+  for (const std::size_t i : which) {
+    const HitPoint& point = *points[i];
+    const SurfaceSample sample = point.surface.base().sample(point.w_out, rays[i].sampler.next());
+    const Vec3<double> direction = unit(point.frame.to_world(sample.w_in));
+    wave.add(i, behind(point, direction, rays[i].sampler), sample.weight);
   }
-  ++counts.scattered;
-  const Path next{path.bounces + 1, path.mirrors};
-  return sample.weight.cwiseProduct(behind(point, direction, next, sampler, counts));
+  if (last) {
+    counts.ambient += wave.rays.size();
+    std::vector<WorldRay<Real>> asked;
+    for (const TracedRay& ray : wave.rays) asked.push_back({ray.ray, ray.left, ray.time});
+    const auto met = blocked(RayKind::ambient, asked, false, counts);
+    for (std::size_t k = 0; k < asked.size(); ++k)
+      if (!met[k]) wave.rays[k].radiance = lights_.environment(wave.rays[k].ray.direction);
+  } else {
+    counts.scattered += wave.rays.size();
+    follow(wave.rays, {path.bounces + 1, path.mirrors}, counts);
+  }
+  take_back(wave, rays, chances);
 }
 
-Colour AmbientTransport::mirrored(const HitPoint& point, const Coat& coat, const Path& path,
-                                  Sampler& sampler, RayCounts& counts) const {
-  const SurfaceSample sample = coat.sample(point.w_out, sampler.next());
-  if (!(sample.weight.array() > 0).any()) return Colour::Zero();
-  const Vec3<double> direction = unit(point.frame.to_world(sample.w_in));
-  if (path.mirrors >= options_.mirrors)
-    return sample.weight.cwiseProduct(lights_.environment(direction));
-  ++counts.mirrored;
-  const Path next{path.bounces, path.mirrors + 1};
-  return sample.weight.cwiseProduct(behind(point, direction, next, sampler, counts));
+void AmbientTransport::add_mirrored(std::span<TracedRay> rays, const HitPoints& points,
+                                    std::span<const std::size_t> which,
+                                    std::span<const double> chances, const Path& path,
+                                    RayCounts& counts) const {
+  Wave wave;
+  for (const std::size_t i : which) {
+    const HitPoint& point = *points[i];
+    const SurfaceSample sample = point.surface.coat()->sample(point.w_out, rays[i].sampler.next());
+    if (!(sample.weight.array() > 0).any()) continue;
+    const Vec3<double> direction = unit(point.frame.to_world(sample.w_in));
+    wave.add(i, behind(point, direction, rays[i].sampler), sample.weight);
+  }
+  if (path.mirrors >= options_.mirrors) {
+    for (TracedRay& ray : wave.rays) ray.radiance = lights_.environment(ray.ray.direction);
+  } else {
+    counts.mirrored += wave.rays.size();
+    follow(wave.rays, {path.bounces, path.mirrors + 1}, counts);
+  }
+  take_back(wave, rays, chances);
+}
+
+/// A ray from a point on, which takes the ray's random numbers with it.
+TracedRay AmbientTransport::behind(const HitPoint& point, const Vec3<double>& direction,
+                                   const Sampler& sampler) {
+  TracedRay ray{{point.position, direction}, sampler};
+  ray.time = point.time;
+  ray.left = point.instance;
+  return ray;
+}
+
+void AmbientTransport::take_back(const Wave& wave, std::span<TracedRay> rays,
+                                 std::span<const double> chances) {
+  for (std::size_t k = 0; k < wave.rays.size(); ++k) {
+    TracedRay& ray = rays[wave.from[k]];
+    ray.sampler = wave.rays[k].sampler;
+    ray.radiance += wave.weights[k].cwiseProduct(wave.rays[k].radiance) / chances[wave.from[k]];
+  }
 }
 
 }  // namespace minkray

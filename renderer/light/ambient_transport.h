@@ -5,10 +5,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
-#include "renderer/light/integrator_options.h"
 
+#include "renderer/light/integrator_options.h"
 #include "renderer/light/light_transport.h"
 #include "renderer/light/lights.h"
 #include "renderer/light/reflection.h"
@@ -26,23 +27,34 @@ class AmbientTransport final : public LightTransport {
  private:
   struct Path;
   struct HitPoint;
-  template <std::size_t most>
+  struct Wave;
+  /// By ray: none where it met no surface.
+  using HitPoints = std::vector<std::optional<HitPoint>>;
+
   void follow(std::span<TracedRay> rays, const Path& path, RayCounts& counts) const;
-  Colour behind(const HitPoint& point, const Vec3<double>& direction, const Path& path,
-                Sampler& sampler, RayCounts& counts) const;
+  void find_hits(std::span<const WorldRay<Real>> rays, std::span<WorldHit<Real>> hits,
+                 const Path& path, RayCounts& counts) const;
+  std::vector<std::uint8_t> blocked(RayKind kind, std::span<const WorldRay<Real>> rays,
+                                    bool side_by_side, RayCounts& counts) const;
   Colour off_surface(const Ray<Real>& ray, const WorldHit<Real>& hit, const Path& path,
                      RayCounts& counts) const;
   HitPoint hit_point(const TracedRay& ray, const WorldHit<Real>& hit) const;
-  template <std::size_t most>
-  void add_direct(std::span<TracedRay> rays, std::span<const std::optional<HitPoint>> points,
-                  const Path& path, RayCounts& counts) const;
-  Colour indirect(const HitPoint& point, const Colour& direct, const Path& path, Sampler& sampler,
+  void add_direct(std::span<TracedRay> rays, const HitPoints& points, const Path& path,
                   RayCounts& counts) const;
-  Colour scattered(const HitPoint& point, const Path& path, Sampler& sampler,
-                   RayCounts& counts) const;
-  Colour mirrored(const HitPoint& point, const Coat& coat, const Path& path, Sampler& sampler,
-                  RayCounts& counts) const;
-  RayGroupMask blocked(RayKind kind, std::span<const WorldRay<Real>> rays, RayCounts& counts) const;
+  void add_indirect(std::span<TracedRay> rays, const HitPoints& points, const Path& path,
+                    RayCounts& counts) const;
+  /// By way of the base of the surfaces of some rays; `chances` are those of having come here.
+  void add_scattered(std::span<TracedRay> rays, const HitPoints& points,
+                     std::span<const std::size_t> which, std::span<const double> chances,
+                     const Path& path, RayCounts& counts) const;
+  /// By way of their coats.
+  void add_mirrored(std::span<TracedRay> rays, const HitPoints& points,
+                    std::span<const std::size_t> which, std::span<const double> chances,
+                    const Path& path, RayCounts& counts) const;
+  static TracedRay behind(const HitPoint& point, const Vec3<double>& direction,
+                          const Sampler& sampler);
+  static void take_back(const Wave& wave, std::span<TracedRay> rays,
+                        std::span<const double> chances);
 
   const RenderWorld& world_;
   IntegratorOptions options_;

@@ -13,8 +13,8 @@ class LightTransport {
  public:
   virtual ~LightTransport() = default;
 
-  /// Fills in what camera rays see, at most most_in_ray_group at once: one ray is a span of one.
-  /// What a ray sees does not depend on the others.
+  /// Fills in what camera rays see, however many; one ray is a span of one. Neighbours in the span
+  /// should be neighbours in the picture. What a ray sees does not depend on the others.
   virtual void trace(std::span<TracedRay> rays, RayCounts& counts) const = 0;
 };
 

@@ -4,6 +4,10 @@
 namespace minkray {
 
 void NormalsTransport::trace(std::span<TracedRay> rays, RayCounts& counts) const {
+  while (rays.size() > most_in_ray_group) {
+    trace(rays.first(most_in_ray_group), counts);
+    rays = rays.subspan(most_in_ray_group);
+  }
   std::array<WorldRay<Real>, most_in_ray_group> asked;
   std::array<WorldHit<Real>, most_in_ray_group> hits;
   counts.camera += rays.size();

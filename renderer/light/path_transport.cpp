@@ -369,7 +369,10 @@ PathTransport::PathTransport(const Scene& scene, const RenderWorld& world,
 
 void PathTransport::trace(std::span<TracedRay> rays, RayCounts& counts) const {
   counts.camera += rays.size();
-  Packet(*this, rays, counts).run();
+  for (std::size_t i = 0; i < rays.size(); i += most_in_ray_group)
+    Packet(*this, rays.subspan(i, std::min<std::size_t>(most_in_ray_group, rays.size() - i)),
+           counts)
+        .run();
 }
 
 }  // namespace minkray

@@ -64,28 +64,28 @@ TEST(Integrator, an_observer_is_told_of_every_ray_and_its_own_answer) {
   const Scene scene = two_balls();
   const RenderWorld world = make_world(scene);
   const Camera camera(scene.camera, scene.camera.resolution);
-  for (const std::size_t together : {1, 5, most_in_ray_group}) {
+  std::vector<TracedRay> rays;
+  for (int y = 0; y < 32; ++y)
+    for (int x = 0; x < 32; ++x)
+      rays.push_back({camera.ray(x + 0.5, y + 0.5), Sampler(2, x, y, 0)});
+  std::vector<TracedRay> alone = rays;
+  RayCounts counts_alone;
+  for (TracedRay& ray : alone)
+    Integrator(scene, world, {.bounces = 2}).trace(std::span(&ray, 1), counts_alone);
+  for (const std::size_t together : {1, 5, most_in_ray_group, 300, 1024}) {
     Listener listener(world);
     const Integrator integrator(scene, world, {.bounces = 2, .observer = &listener});
-    const Integrator unobserved(scene, world, {.bounces = 2});
-    RayCounts counts, counts_unobserved;
-    for (int y = 0; y < 32; ++y) {
-      std::vector<TracedRay> rays, others;
-      for (int x = 0; x < 32; ++x)
-        rays.push_back({camera.ray(x + 0.5, y + 0.5), Sampler(2, x, y, 0)});
-      others = rays;
-      for (std::size_t first = 0; first < rays.size(); first += together) {
-        const std::size_t count = std::min(together, rays.size() - first);
-        integrator.trace(std::span(rays).subspan(first, count), counts);
-        unobserved.trace(std::span(others).subspan(first, count), counts_unobserved);
-      }
-      for (std::size_t x = 0; x < rays.size(); ++x) EXPECT_EQ(rays[x].radiance, others[x].radiance);
-    }
+    std::vector<TracedRay> seen = rays;
+    RayCounts counts;
+    for (std::size_t first = 0; first < seen.size(); first += together)
+      integrator.trace(std::span(seen).subspan(first, std::min(together, seen.size() - first)),
+                       counts);
+    for (std::size_t i = 0; i < rays.size(); ++i) EXPECT_EQ(seen[i].radiance, alone[i].radiance);
     EXPECT_EQ(listener.told(RayKind::camera), counts.camera);
     EXPECT_EQ(listener.told(RayKind::shadow), counts.shadow);
     EXPECT_EQ(listener.told(RayKind::ambient), counts.ambient);
     EXPECT_EQ(listener.told(RayKind::indirect), counts.scattered + counts.mirrored);
-    EXPECT_EQ(counts.total(), counts_unobserved.total());
+    EXPECT_EQ(counts.total(), counts_alone.total());
     for (const RayKind kind :
          {RayKind::camera, RayKind::shadow, RayKind::ambient, RayKind::indirect})
       EXPECT_GT(listener.told(kind), 50u);
