@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/image/filter.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -25,6 +24,11 @@ PixelFilter::PixelFilter() {
     cumulative_[i] = window_integral(static_cast<double>(i) / steps_);
   cumulative_.front() = 0;
   cumulative_.back() = 1;
+  std::size_t above = 1;
+  for (std::size_t i = 0; i < cells_; ++i) {
+    while (above < steps_ && cumulative_[above] <= static_cast<double>(i) / cells_) ++above;
+    first_above_[i] = static_cast<std::uint16_t>(above);
+  }
 }
 
 double PixelFilter::weight(double offset) {
@@ -35,10 +39,10 @@ double PixelFilter::weight(double offset) {
 }
 
 double PixelFilter::offset(double u) const {
-  const auto above = std::upper_bound(cumulative_.begin() + 1, cumulative_.end() - 1, u);
-  const double low = *(above - 1), high = *above;
-  const double step =
-      static_cast<double>(above - 1 - cumulative_.begin()) + (u - low) / (high - low);
+  std::size_t above = first_above_[static_cast<std::size_t>(u * cells_)];
+  while (above < steps_ && cumulative_[above] <= u) ++above;
+  const double low = cumulative_[above - 1], high = cumulative_[above];
+  const double step = static_cast<double>(above - 1) + (u - low) / (high - low);
   return radius * (2 * step / steps_ - 1);
 }
 

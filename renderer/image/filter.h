@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 namespace minkray {
 
@@ -26,7 +27,10 @@ class PixelFilter {
 
  private:
   static constexpr std::size_t steps_ = 1024;
+  static constexpr std::size_t cells_ = 1024;
   std::array<double, steps_ + 1> cumulative_;
+  /// By the cell of u: the first step that may reach beyond u (Chen and Asau's guide table, 1974).
+  std::array<std::uint16_t, cells_> first_above_;
 };
 
 }  // namespace minkray

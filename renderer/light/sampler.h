@@ -12,8 +12,7 @@ namespace minkray {
 namespace detail {
 
 constexpr std::uint32_t reverse_bits(std::uint32_t x) {
-  x = (x >> 16) | (x << 16);
-  x = ((x & 0x00ff00ffu) << 8) | ((x & 0xff00ff00u) >> 8);
+  x = __builtin_bswap32(x);
   x = ((x & 0x0f0f0f0fu) << 4) | ((x & 0xf0f0f0f0u) >> 4);
   x = ((x & 0x33333333u) << 2) | ((x & 0xccccccccu) >> 2);
   return ((x & 0x55555555u) << 1) | ((x & 0xaaaaaaaau) >> 1);
@@ -28,23 +27,24 @@ constexpr std::uint64_t mixed(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
-/// Every bit is flipped or not depending on the bits above it and on the seed alone.
-constexpr std::uint32_t owen_scrambled(std::uint32_t x, std::uint32_t seed) {
-  x = reverse_bits(x);
+/// Every bit is flipped or not depending on the bits below it and on the seed alone.
+constexpr std::uint32_t scrambled_upwards(std::uint32_t x, std::uint32_t seed) {
   x += seed;
   x ^= x * 0x6c50b47cu;
   x ^= x * 0xb82f1e52u;
   x ^= x * 0xc7afe638u;
-  x ^= x * 0x8d22f6e6u;
-  return reverse_bits(x);
+  return x ^ x * 0x8d22f6e6u;
 }
 
-/// The second Sobol dimension; the first is reverse_bits.
-constexpr std::uint32_t sobol_second(std::uint32_t index) {
-  std::uint32_t result = 0;
-  for (std::uint32_t column = 0x80000000u; index != 0; index >>= 1, column ^= column >> 1)
-    if (index & 1u) result ^= column;
-  return result;
+/// The second Sobol dimension with its bits reversed; the first one's is the index. Bit r is the
+/// sum of the index's bits c over the odd binomials "c over r", which are those where r's bits are
+/// among c's (Lucas): sums over supersets, a bit of c at a time.
+constexpr std::uint32_t sobol_second_reversed(std::uint32_t index) {
+  index ^= (index >> 1) & 0x55555555u;
+  index ^= (index >> 2) & 0x33333333u;
+  index ^= (index >> 4) & 0x0f0f0f0fu;
+  index ^= (index >> 8) & 0x00ff00ffu;
+  return index ^ (index >> 16);
 }
 
 }  // namespace detail
@@ -67,9 +67,11 @@ class Sampler {
     const std::uint64_t more = detail::mixed(hash);
     const auto low = [](std::uint64_t bits) { return static_cast<std::uint32_t>(bits); };
     const auto high = [](std::uint64_t bits) { return static_cast<std::uint32_t>(bits >> 32); };
-    const std::uint32_t index = detail::owen_scrambled(sample_, low(hash));
-    const std::uint32_t a = detail::owen_scrambled(detail::reverse_bits(index), high(hash));
-    const std::uint32_t b = detail::owen_scrambled(detail::sobol_second(index), low(more));
+    const std::uint32_t index =
+        detail::reverse_bits(detail::scrambled_upwards(detail::reverse_bits(sample_), low(hash)));
+    const std::uint32_t a = detail::reverse_bits(detail::scrambled_upwards(index, high(hash)));
+    const std::uint32_t b = detail::reverse_bits(
+        detail::scrambled_upwards(detail::sobol_second_reversed(index), low(more)));
     return {a * 0x1p-32, b * 0x1p-32};
   }
 

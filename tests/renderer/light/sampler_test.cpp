@@ -19,7 +19,18 @@ TEST(Sampler, begins_like_the_sobol_sequence) {
   const std::vector<std::uint32_t> expected = {0x00000000u, 0x80000000u, 0xc0000000u, 0x40000000u,
                                                0xa0000000u, 0x20000000u, 0x60000000u, 0xe0000000u};
   for (std::uint32_t i = 0; i < expected.size(); ++i)
-    EXPECT_EQ(detail::sobol_second(i), expected[i]);
+    EXPECT_EQ(detail::reverse_bits(detail::sobol_second_reversed(i)), expected[i]);
+}
+
+// By direction numbers: those of the second dimension are each the one before and its shift.
+TEST(Sampler, the_second_dimension_is_the_sum_of_its_direction_numbers) {
+  for (std::uint32_t i = 0; i < 100'000; ++i) {
+    const std::uint32_t index = i * 2654435761u;
+    std::uint32_t sum = 0, direction = 0x80000000u;
+    for (int bit = 0; bit < 32; ++bit, direction ^= direction >> 1)
+      if (index >> bit & 1u) sum ^= direction;
+    ASSERT_EQ(detail::reverse_bits(detail::sobol_second_reversed(index)), sum) << index;
+  }
 }
 
 // A (0, 2)-net: every box of area 1/64 with sides that are powers of two holds one of 64 samples,
