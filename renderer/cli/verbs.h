@@ -24,6 +24,7 @@ void add_heatmap(Parser& parser, ExitCode& exit_code);
 void add_import(Parser& parser, ExitCode& exit_code);
 void add_info(Parser& parser, ExitCode& exit_code);
 void add_inspect(Parser& parser, ExitCode& exit_code);
+void add_league(Parser& parser, ExitCode& exit_code);
 void add_man(Parser& parser, ExitCode& exit_code);
 void add_merge(Parser& parser, ExitCode& exit_code);
 void add_paper(Parser& parser, ExitCode& exit_code);
@@ -33,9 +34,9 @@ void add_trace(Parser& parser, ExitCode& exit_code);
 
 /// They stand in the order in which --help shows them.
 inline constexpr AddVerb verbs[] = {
-    add_render, add_merge,    add_heatmap,    add_inspect, add_compare,     add_cast,
-    add_scan,   add_distance, add_trace,      add_paper,   add_distance_2d, add_generate,
-    add_import, add_info,     add_completion, add_man,
+    add_render, add_merge,    add_heatmap, add_inspect,    add_compare,     add_cast,
+    add_scan,   add_distance, add_trace,   add_paper,      add_distance_2d, add_generate,
+    add_import, add_info,     add_league,  add_completion, add_man,
 };
 
 }  // namespace minkray

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+// Minkray itself, in double and in float: shapes are prepared once, as its users would.
+#include "bench/league/adapter.h"
+#include "core/cast/cast.h"
+#include "core/contact/distance.h"
+#include "core/contact/shape_cast.h"
+#include "core/contact/signed_distance.h"
+#include "core/derived/convert.h"
+#include "renderer/query/query_json.h"
+
+namespace {
+
+using minkray::DistanceQuery;
+using minkray::PreparedPair;
+using minkray::PreparedShape;
+using minkray::Ray;
+using minkray::RayQuery;
+using minkray::ShapeQuery;
+using minkray::SignedDistanceQuery;
+using minkray::Status;
+using minkray::Vec3;
+
+template <class T>
+league::Answer as_answer(const minkray::CastResult<T>& result) {
+  if (result.status == Status::exhausted) return league::failed("exhausted");
+  if (!result.found()) return league::miss();
+  return league::hit(double(result.t_base) + double(result.t_offset));
+}
+
+template <class T>
+league::Ask prepare(const RayQuery& query) {
+  const auto shape = std::make_shared<PreparedShape<T>>(minkray::convert<T>(query.shape));
+  const Ray<T> ray{query.ray.origin.cast<T>(), query.ray.direction.cast<T>(),
+                   static_cast<T>(query.ray.t_max)};
+  return [=] { return as_answer(minkray::cast_ray(*shape, ray)); };
+}
+
+template <class T>
+league::Ask prepare(const ShapeQuery& query) {
+  const auto pair =
+      std::make_shared<PreparedPair<T>>(minkray::centred(minkray::convert<T>(query.obstacle)),
+                                        minkray::centred(minkray::convert<T>(query.moving)));
+  const Vec3<T> of_moving = query.direction.cast<T>(),
+                of_obstacle = query.obstacle_direction.cast<T>();
+  return [=, t_max = static_cast<T>(query.t_max)] {
+    return as_answer(minkray::cast_shapes<T>(*pair, of_obstacle, of_moving, t_max, {}).cast);
+  };
+}
+
+template <class T>
+league::Ask prepare(const DistanceQuery& query) {
+  const auto a = minkray::centred(minkray::convert<T>(query.a)),
+             b = minkray::centred(minkray::convert<T>(query.b));
+  return [=] {
+    const auto result = minkray::distance_between(a, b);
+    if (std::string(minkray::name_of(result.status)) == "exhausted")
+      return league::failed("exhausted");
+    return league::at_distance(double(result.distance));
+  };
+}
+
+template <class T>
+league::Ask prepare(const SignedDistanceQuery& query) {
+  const auto a = std::make_shared<minkray::ContactShape>(minkray::convert<T>(query.a)),
+             b = std::make_shared<minkray::ContactShape>(minkray::convert<T>(query.b));
+  return [=] {
+    const auto result = minkray::signed_distance(*a, *b, {});
+    if (result.status == minkray::SignedStatus::undecided) return league::failed("undecided");
+    return league::at_distance(result.value);
+  };
+}
+
+template <class T>
+league::Ask prepare(const minkray::ImpactQuery&) {
+  return [] { return league::unsupported("the league has no impacts"); };
+}
+
+template <class T>
+league::Ask prepare_line(const std::string& line) {
+  minkray::MeshFiles meshes{std::filesystem::path()};
+  minkray::Mistakes mistakes("league");
+  const auto query = minkray::parse_query(line, meshes, mistakes);
+  if (!query) return [why = mistakes.text()] { return league::failed(why); };
+  return std::visit([](const auto& kind) { return prepare<T>(kind); }, query->kind);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::string settings =
+      "; solver auto; signed distances in double, to 1e-10 of the shapes' sizes";
+  return league::serve(
+      argc, argv,
+      {{"minkray", MINKRAY_VERSION, "double" + settings, {}, prepare_line<double>},
+       {"minkray-float", MINKRAY_VERSION, "float" + settings, {}, prepare_line<float>}});
+}
