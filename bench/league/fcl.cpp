@@ -68,8 +68,7 @@ Ask prepare(const Query& query, fcl::GJKSolverType solver) {
       return result.is_collide ? hit(result.time_of_contact * t_max) : miss();
     };
   }
-  // Of shapes in each other its own solver knows only that they are: asked for more, it ends at an
-  // assertion.
+  // Its own solver tells no depths: asked for them, it ends at an assertion.
   const bool is_signed = query.asked == Asked::signed_distance;
   const bool has_depths = solver == fcl::GJKSolverType::GST_LIBCCD;
   return [=] {

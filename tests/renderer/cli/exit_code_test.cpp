@@ -66,10 +66,17 @@ TEST(Cli, certificates_are_summed_up_on_stderr) {
   std::filesystem::remove(picture);
 }
 
+TEST(Cli, the_league_is_a_program_of_its_own) {
+  const Outcome outcome = run("league --only 'no such case'");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.err.find("league: "), std::string::npos) << outcome.err;
+}
+
 TEST(Cli, wrong_usage_is_2) {
   for (const std::string arguments :
        {"no-such-verb", "info", "info --no-such-option", "info --shapes --schema",
-        "info a.json --schema", "info a.json --markdown"}) {
+        "info a.json --schema", "info a.json --markdown", "league --limit 0",
+        "league --random few"}) {
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.exit_code, 2) << arguments;
     EXPECT_EQ(outcome.out, "") << arguments;
