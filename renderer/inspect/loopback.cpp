@@ -116,6 +116,12 @@ class Connection {
     last_heard = Clock::now();
     return true;
   }
+  /// Whether the other side has closed it.
+  bool is_closed() const {
+    char next;
+    const ssize_t count = ::recv(socket_, &next, 1, MSG_PEEK | MSG_DONTWAIT);
+    return count == 0 || (count < 0 && errno != EAGAIN && errno != EINTR);
+  }
   void write(std::string_view text) {
     while (!text.empty()) {
       const ssize_t count = ::send(socket_, text.data(), text.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
@@ -223,6 +229,7 @@ void LoopbackServer::serve(const std::function<WebReply(const WebRequest&)>& ans
       }
       WebRequest request;
       WebReply reply;
+      request.is_abandoned = [&connection] { return connection.is_closed(); };
       if (parse_request(std::string_view(connection.request).substr(0, end), token_, port_, request,
                         reply))
         reply = answer(request);

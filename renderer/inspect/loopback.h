@@ -14,6 +14,8 @@ namespace minkray {
 struct WebRequest {
   std::string path;
   std::map<std::string, std::string> values;
+  /// Whether whoever asked has hung up meanwhile; any thread may ask.
+  std::function<bool()> is_abandoned = [] { return false; };
 };
 
 struct WebReply {

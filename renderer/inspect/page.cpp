@@ -10,6 +10,7 @@
 #include "renderer/inspect/pixel_answers.h"
 #include "renderer/inspect/replay_choice.h"
 #include "renderer/inspect/replay_lines.h"
+#include "renderer/inspect/shape_mesh.h"
 #include "renderer/io/deflate.h"
 #include "renderer/io/image_file.h"
 #include "renderer/light/camera.h"
@@ -21,6 +22,9 @@ namespace {
 
 /// So many pixels' casts are added before it is asked whether the page is full.
 constexpr std::size_t pixels_between_looks = 4;
+
+/// Pages that show more objects have coarser meshes of them.
+constexpr std::size_t most_fine_meshes = 40;
 
 /// What those and their shapes may take at most, packed.
 constexpr std::size_t reserve_bytes = 60'000;
@@ -82,7 +86,9 @@ Replays replays_within(std::size_t most_bytes, const Scene& scene,
     deflater.add(line.dump() + "\n");
   }
   Replays replays;
-  ReplayLines lines;
+  std::set<std::uint32_t> objects;
+  for (const ShownCast& cast : answers.shown) objects.insert(cast.object);
+  ReplayLines lines(objects.size() > most_fine_meshes ? coarse_mesh : fine_mesh);
   const Camera camera(scene.camera, answers.resolution);
   const auto width = static_cast<std::size_t>(answers.resolution.width);
   for (const std::size_t pixel : replay_order(answers)) {

@@ -61,19 +61,15 @@ Json distance_json(const PreparedPair<double>& pair) {
   Json json = answer_json(result, std::move(steps));
   const Vec3<double> x = pair.b().centre - pair.a().centre;
   json["x"] = point_json(x);
-  const Shape<double> difference =
-      MinkowskiDifference<double>{pair.a().about_centre, pair.b().about_centre};
-  json["mesh"] =
-      mirrored_mesh_json(difference, {Vec3<double>::Zero(), pair.a().radius + pair.b().radius}, x);
+  // The page mirrors the mesh of A - B, which is about the ball's centre, to C = {x} - (A - B).
+  json["mirrored_at"] = point_json(Vec3<double>(x - pair.obstacle().inner_ball().centre));
   return json;
 }
 
 Json impact_json(const PreparedPair<double>& pair) {
   const Vec3<double> apart = pair.b().centre - pair.a().centre;
   const Ray<double> ray{apart, -apart, 1.0};
-  Json json = replay_json(trace_ray(pair.obstacle(), ray, CastOptions<double>()));
-  json["mesh"] = mesh_json(pair.obstacle().inner_shape(), pair.obstacle().inner_ball());
-  return json;
+  return replay_json(trace_ray(pair.obstacle(), ray, CastOptions<double>()));
 }
 
 Json plane_json(const PreparedPair<double>& pair) {
@@ -131,8 +127,10 @@ std::vector<ObjectPair> nearest_pairs(const Scene& scene, std::size_t most) {
 Json pair_json(const Scene& scene, const ObjectPair& pair) {
   const PreparedPair<double> prepared(centred_instance(scene, pair.a),
                                       centred_instance(scene, pair.b));
+  const PreparedShape<double>& obstacle = prepared.obstacle();
   return {{"a", pair.a},
           {"b", pair.b},
+          {"mesh", mesh_json(obstacle.inner_shape(), obstacle.inner_ball(), fine_mesh)},
           {"distance", distance_json(prepared)},
           {"impact", impact_json(prepared)},
           {"plane", plane_json(prepared)}};

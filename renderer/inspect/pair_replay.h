@@ -19,8 +19,8 @@ struct ObjectPair {
 /// Half-spaces are in none of them.
 std::vector<ObjectPair> nearest_pairs(const Scene& scene, std::size_t most);
 
-/// {"a", "b", "distance", "impact", "plane"}: instances, and a replay each with its meshes. The
-/// motion of "impact" is that of b's centre to a's, in one unit of time.
+/// {"a", "b", "mesh", "distance", "impact", "plane"}: instances, the meshes of A - B, and a replay
+/// each. The motion of "impact" is that of b's centre to a's, in one unit of time.
 Json pair_json(const Scene& scene, const ObjectPair& pair);
 
 }  // namespace minkray

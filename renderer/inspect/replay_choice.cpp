@@ -3,12 +3,16 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 namespace minkray {
 namespace {
 
 /// The coarsest grid's step.
 constexpr int coarsest = 64;
+
+/// Scenes of more objects have one of each kind taken: their shapes would fill the page.
+constexpr std::size_t most_objects_told_apart = 200;
 
 }  // namespace
 
@@ -21,13 +25,18 @@ std::vector<std::size_t> replay_order(const PixelAnswers& answers) {
     order.push_back(pixel);
   };
 
+  std::set<std::uint32_t> objects;
+  for (const ShownCast& shown : answers.shown) objects.insert(shown.object);
+  const bool tells_apart = objects.size() <= most_objects_told_apart;
+
   // One of each kind: the hardest by each solver.
   for (const auto& rays : answers.of_ray) {
     std::map<std::array<std::uint32_t, 3>, std::size_t> hardest;
     for (std::size_t i = 0; i < answers.shown.size(); ++i) {
       const ShownCast& shown = answers.shown[i];
       const auto path = static_cast<std::uint32_t>(rays[i].last_path);
-      const auto [at, is_new] = hardest.try_emplace({shown.status, path, shown.object}, i);
+      const auto [at, is_new] =
+          hardest.try_emplace({shown.status, path, tells_apart ? shown.object : 0}, i);
       if (!is_new && rays[i].work.iterations > rays[at->second].work.iterations) at->second = i;
     }
     for (const auto& [kind, pixel] : hardest) take(pixel);

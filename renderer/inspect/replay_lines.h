@@ -20,11 +20,15 @@ struct PixelRay {
 
 class ReplayLines {
  public:
+  /// `directions` are those of the meshes.
+  explicit ReplayLines(int directions) : directions_(directions) {}
+
   /// The lines of a cast at an instance. `solver` is its number on the page.
   std::string ray(const SceneCasts& casts, std::size_t solver, std::size_t instance,
                   const PixelRay& pixel);
 
  private:
+  int directions_;
   std::map<std::uint32_t, std::size_t> shape_of_definition_;
   std::map<std::string, std::size_t> shape_of_mesh_;  ///< by its text: many objects are alike
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/inspect/served_scene.h"
 
+#include <atomic>
 #include <charconv>
 #include <cmath>
 
@@ -8,6 +9,7 @@
 #include "renderer/inspect/pair_replay.h"
 #include "renderer/inspect/pixel_answers.h"
 #include "renderer/inspect/replay_lines.h"
+#include "renderer/inspect/shape_mesh.h"
 #include "renderer/io/image_file.h"
 #include "renderer/light/camera.h"
 #include "renderer/scene/scene_instances.h"
@@ -40,6 +42,23 @@ std::vector<double> numbers_of(const std::string& text, const std::string& key, 
   if (numbers.size() != count)
     throw BadInput(key + ": must be " + std::to_string(count) + " numbers");
   return numbers;
+}
+
+/// The watch of an answer that nobody waits for any more, when the page has turned to something
+/// else. It is asked by all threads and often, the connection seldom.
+RenderWatch until_abandoned(const RenderWatch& watch, const WebRequest& request) {
+  struct State {
+    std::atomic<unsigned> calls = 0;
+    std::atomic<bool> is_over = false;
+  };
+  constexpr unsigned calls_between_looks = 32;
+  const auto state = std::make_shared<State>();
+  return {{}, [&watch, &request, state] {
+            if (watch.stopped()) return true;
+            if (state->calls++ % calls_between_looks == 0 && request.is_abandoned())
+              state->is_over = true;
+            return state->is_over.load();
+          }};
 }
 
 }  // namespace
@@ -109,7 +128,7 @@ WebReply ServedScene::cast(const Asked& asked) {
   const auto instance = first.shown(ray, first.answer(ray), most_looked_at_alone);
   WebReply reply{200, "application/jsonl", ""};
   if (!instance) return reply;
-  ReplayLines lines;
+  ReplayLines lines(fine_mesh);
   for (std::size_t k = 0; k < solvers.size(); ++k)
     reply.body += lines.ray(solvers[k].casts, k, *instance, {x, y, ray});
   return reply;
@@ -149,8 +168,8 @@ WebReply ServedScene::picture(const Asked& asked) {
     throw BadInput("window: has too many pixels");
   Scene scene = scene_;
   scene.camera = asked.camera;
-  const Rendering rendering =
-      render(scene, solvers_for(asked).front().casts.world(), options, watch_);
+  const Rendering rendering = render(scene, solvers_for(asked).front().casts.world(), options,
+                                     until_abandoned(watch_, asked.request));
   const std::vector<unsigned char> png = encode_image(rendering.image, "picture.png");
   return {200, "image/png", std::string(png.begin(), png.end())};
 }
@@ -161,7 +180,8 @@ WebReply ServedScene::view(const Asked& asked) {
   const auto& solvers = solvers_for(asked);
   std::vector<const SceneCasts*> casts;
   for (const InspectedSolver& solver : solvers) casts.push_back(&solver.casts);
-  const PixelAnswers answers = measure_pixels(scene, casts, options_.picture.resolution, watch_);
+  const PixelAnswers answers = measure_pixels(scene, casts, options_.picture.resolution,
+                                              until_abandoned(watch_, asked.request));
   return {200, "application/json", view_json(scene, solvers, answers).dump()};
 }
 

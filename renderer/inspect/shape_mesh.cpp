@@ -9,60 +9,40 @@
 namespace minkray {
 namespace {
 
-/// Smooth enough to look at, few enough for a page that holds dozens of shapes.
-constexpr int mesh_directions = 160;
-
-/// Coordinates are rounded to this share of the largest: less than a pixel of any screen.
-constexpr double steps_to_largest = 20000;
+/// Coordinates are rounded to this share of the largest: less than a pixel, unless magnified.
+constexpr double steps_to_largest = 5000;
 
 template <class Place>
-Json json_of(const Mesh& mesh, double scale, const Place& place, bool is_mirrored) {
+Json json_of(const Mesh& mesh, double scale, const Place& place) {
   Json vertices = Json::array(), triangles = Json::array();
   for (const Vec3<double>& vertex : mesh.vertices) {
     const Vec3<double> at = place(vertex) / scale;
     for (int axis = 0; axis < 3; ++axis)
       vertices.push_back(static_cast<std::int64_t>(std::lround(at[axis])));
   }
-  for (const auto& [a, b, c] : mesh.triangles) {
-    triangles.push_back(a);
-    triangles.push_back(is_mirrored ? c : b);
-    triangles.push_back(is_mirrored ? b : c);
-  }
+  for (const auto& corners : mesh.triangles)
+    for (const std::uint32_t corner : corners) triangles.push_back(corner);
   return {{"v", std::move(vertices)}, {"t", std::move(triangles)}};
-}
-
-template <class Place>
-Json meshes(const Shape<double>& shape, double largest, const Place& place, bool is_mirrored) {
-  SandwichOptions options;
-  options.directions = mesh_directions;
-  try {
-    const Sandwich sandwich = sandwich_of(shape, options);
-    const double scale = (largest > 0 ? largest : 1) / steps_to_largest;
-    const auto in_shape = [&](const Vec3<double>& vertex) {
-      return place(sandwich.frame.from_frame(vertex));
-    };
-    return {{"rank", sandwich.rank()},
-            {"scale", scale},
-            {"inner", json_of(sandwich.inner, scale, in_shape, is_mirrored)},
-            {"outer", json_of(sandwich.outer, scale, in_shape, is_mirrored)}};
-  } catch (const std::runtime_error&) {
-    return {{"rank", -1}};  // the steps are shown without it
-  }
 }
 
 }  // namespace
 
-Json mesh_json(const Shape<double>& shape, const Ball<double>& ball) {
-  return meshes(
-      shape, ball.radius,
-      [&](const Vec3<double>& point) -> Vec3<double> { return point - ball.centre; }, false);
-}
-
-Json mirrored_mesh_json(const Shape<double>& shape, const Ball<double>& ball,
-                        const Vec3<double>& from) {
-  return meshes(
-      shape, ball.radius + (from - ball.centre).norm(),
-      [&](const Vec3<double>& point) -> Vec3<double> { return from - point; }, true);
+Json mesh_json(const Shape<double>& shape, const Ball<double>& ball, int directions) {
+  SandwichOptions options;
+  options.directions = directions;
+  try {
+    const Sandwich sandwich = sandwich_of(shape, options);
+    const double scale = (ball.radius > 0 ? ball.radius : 1) / steps_to_largest;
+    const auto from_centre = [&](const Vec3<double>& vertex) -> Vec3<double> {
+      return sandwich.frame.from_frame(vertex) - ball.centre;
+    };
+    return {{"rank", sandwich.rank()},
+            {"scale", scale},
+            {"inner", json_of(sandwich.inner, scale, from_centre)},
+            {"outer", json_of(sandwich.outer, scale, from_centre)}};
+  } catch (const std::runtime_error&) {
+    return {{"rank", -1}};  // the steps are shown without it
+  }
 }
 
 }  // namespace minkray

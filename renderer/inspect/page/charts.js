@@ -10,7 +10,7 @@ function numberLine(play, count) {
   const height = 40 + 7 * rows;
   let svg = '<svg viewBox="0 0 ' + width + ' ' + height + '" aria-hidden="true">';
   const bar = (/** @type {number} */ k, /** @type {number} */ y, /** @type {number} */ thick, /** @type {number} */ alpha) => {
-    const [lo, hi] = play.show(k, false).bounds;
+    const [lo, hi] = play.bounds(k);
     const x = place(lo);
     svg += '<rect x="' + x + '" y="' + y + '" width="' + Math.max(place(hi) - x, 2) + '" height="' + thick +
       '" fill="' + styleColour('simplex') + '" opacity="' + alpha + '"/>';

@@ -128,4 +128,16 @@ class Replays {
     }
     return best;
   }
+
+  /** The pixel whose cast took most iterations by the last solver and hits. @returns {number[] | null} */
+  hardest() {
+    let best = null, most = -1;
+    for (const [key, rays] of this.rays) {
+      const last = rays[rays.length - 1];
+      if (!last || last.cast.status !== 'hit' || last.cast.iterations <= most) continue;
+      most = last.cast.iterations;
+      best = key.split(',').map(Number);
+    }
+    return best;
+  }
 }

@@ -2,16 +2,27 @@
 // The GJK distance as a replay, in space and in the plane: the origin and the set C = {x} - (A - B),
 // whose point closest to the origin is as far from it as the two objects are from each other.
 
-/** @param {DistanceReplay} of @param {string} names @param {boolean} flat @returns {Play} */
-function distancePlay(of, names, flat) {
+/** The mesh of the points a - p. @param {ShapeMesh} mesh @param {number[]} a @returns {ShapeMesh} */
+function mirrored(mesh, a) {
+  const scale = mesh.scale || 1;
+  const turn = (/** @type {MeshData | undefined} */ part) => part && {
+    v: part.v.map((c, i) => a[i % 3] / scale - c),
+    t: part.t.map((_, i) => part.t[i - i % 3 + [0, 2, 1][i % 3]]),
+  };
+  return { rank: mesh.rank, scale, inner: turn(mesh.inner), outer: turn(mesh.outer) };
+}
+
+/** @param {DistanceReplay} of @param {ShapeMesh} obstacle A - B @param {string} names @param {boolean} flat @returns {Play} */
+function distancePlay(of, obstacle, names, flat) {
+  const mesh = of.mirrored_at && obstacle.scale ? mirrored(obstacle, of.mirrored_at) : null;
   const steps = of.steps;
   const outline = of.outline || [];
   const points = outline.length > 0 ? outline : steps.map(step => step.w);
   const widen = (/** @type {number[]} */ p) => p.length === 2 ? [p[0], p[1], 0] : p;
   let radius = Math.max(1e-9, ...points.map(size), ...(of.x ? [size(of.x)] : []));
-  if (of.mesh && of.mesh.scale && of.mesh.outer)
-    for (let i = 0; i < of.mesh.outer.v.length; i += 3)
-      radius = Math.max(radius, of.mesh.scale * size(of.mesh.outer.v.slice(i, i + 3)));
+  if (mesh && mesh.scale && mesh.outer)
+    for (let i = 0; i < mesh.outer.v.length; i += 3)
+      radius = Math.max(radius, mesh.scale * size(mesh.outer.v.slice(i, i + 3)));
   const origin = flat ? [0, 0] : [0, 0, 0];
   const nameOf = (/** @type {number[]} */ vertex, /** @type {number} */ k) => {
     for (let i = 0; i <= k; ++i) if (steps[i].w.every((c, j) => c === vertex[j])) return 'W' + i;
@@ -70,13 +81,12 @@ function distancePlay(of, names, flat) {
         '; ' + short(Math.max(step.lower, 0), 8) + ' \u2264 distance \u2264 ' + short(step.upper, 8) + '.';
     }
     if (count === steps.length) formulas.push(['answer', of.status + ', distance ' + whole(of.distance)]);
-    return {
-      items, sentence, formulas, focus: step ? widen(step.v_next) : [0, 0, 0], focus_size: radius,
-      bounds: [step ? Math.max(step.lower, 0) : 0, step ? step.upper : radius],
-    };
+    return { items, sentence, formulas, focus: step ? widen(step.v_next) : [0, 0, 0], focus_size: radius };
   };
+  /** @param {number} count @returns {[number, number]} */
+  const bounds = count => count > 0 ? [Math.max(steps[count - 1].lower, 0), steps[count - 1].upper] : [0, radius];
   return {
-    mesh: of.mesh || null, radius, count: steps.length, flat, quantity: 'distance',
+    mesh, radius, count: steps.length, flat, quantity: 'distance',
     look: { right: [1, 0, 0], up: flat ? [0, 1, 0] : unit([0, 0.35, 1]) },
     summary: names + (flat ? ' (their shadows on z = 0)' : '') + ': ' + of.status + ', distance ' + whole(of.distance) + ', ' +
       of.iterations + ' iterations, ' + of.supports + ' supports',
@@ -86,7 +96,7 @@ function distancePlay(of, names, flat) {
     rows: steps.map((step, k) => [
       String(k), whole(Math.max(step.lower, 0)), whole(step.upper), short(size(step.v)), step.after.map(p => nameOf(p, k)).join(' '),
     ]),
-    show,
+    show, bounds,
     gaps: [{ name: 'GJK', values: steps.map(step => Math.max((step.upper - Math.max(step.lower, 0)) / radius, 1e-17)) }],
   };
 }

@@ -11,6 +11,7 @@ class Inspector {
     this.replay = new Replay();
     this.replay.changed = () => this.keepAddress();
     this.served = about.served ? new Served(about) : null;
+    this.progressive = this.served && new Progressive(this.served, this.picture);
     this.mode = 'ray';
     this.pair = 0;
     /** @type {{a: number, b: number}[]} */
@@ -36,9 +37,23 @@ class Inspector {
     element('show').innerHTML = maps.map(map => '<option value="' + map.name + '">' + map.text + '</option>').join('');
     this.listSolvers();
     this.listPairs();
-    this.listenToPicture();
+    listenToPicture(this.picture, {
+      point: (x, y) => this.point(x, y),
+      choose: (x, y) => { this.choose(x, y); },
+      moved: () => { if (this.progressive) this.progressive.show(false); },
+      turns: () => this.served !== null && element('orbit').checked,
+      turn: (yaw, pitch) => {
+        if (!this.served || !this.progressive) return;
+        this.served.turn(yaw, pitch);
+        this.progressive.show(true);
+      },
+    });
     this.listenToRest();
-    if (this.served) this.listenToServed(this.served);
+    const progressive = this.progressive;
+    if (this.served && progressive) {
+      progressive.changed = () => this.viewChanged();
+      listenToServed(this.served, this.about, this.view.solvers[0].name, () => progressive.show(true));
+    }
     window.addEventListener('hashchange', () => this.readAddress());
     new ResizeObserver(() => {
       this.picture.draw();
@@ -123,30 +138,28 @@ class Inspector {
     this.picture.draw();
   }
 
-  /** Replays the cast of a pixel, or of the nearest that is here. @param {number} x @param {number} y @param {number} step */
+  /** Replays the cast at a point of the picture: its pixel's, or, where the program can be asked and pixels are magnified,
+   *  its own; of a page alone, the nearest that is here. @param {number} x @param {number} y @param {number} step */
   async choose(x, y, step = Infinity) {
     this.mode = element('mode').value = 'ray';
-    element('pair-label').hidden = true;
+    const centre = (/** @type {number} */ at) => Math.floor(at) + 0.5;
     if (this.served) {
-      const served = this.served;
+      const finest = Math.max(1, Math.round(this.picture.scale()));
+      const place = (/** @type {number} */ at) => finest > 2 ? (Math.floor(at * finest) + 0.5) / finest : centre(at);
+      [x, y] = [place(x), place(y)];
       try {
-        const reply = await served.ask('cast', { x: x + 0.5, y: y + 0.5 });
-        this.rays = this.replays.add(await reply.text());
+        this.rays = this.replays.add(await (await this.served.ask('cast', { x, y })).text());
       } catch (error) {
         element('served-state').textContent = String(error);
         return;
       }
     } else {
-      const nearest = this.replays.nearest(x, y);
-      if (!nearest) {
-        this.rays = [];
-      } else {
-        [x, y] = nearest;
-        this.rays = this.replays.rays.get(x + ',' + y) || [];
-      }
+      const nearest = this.replays.nearest(Math.floor(x), Math.floor(y));
+      this.rays = nearest ? this.replays.rays.get(nearest.join(',')) || [] : [];
+      [x, y] = (nearest || [x, y]).map(centre);
     }
     this.picture.chosen = [x, y];
-    this.point(x, y);
+    this.point(Math.floor(x), Math.floor(y));
     await this.openReplay(step, false);
   }
 
@@ -171,8 +184,11 @@ class Inspector {
       if (!ray) return this.replay.open(null, 0, false);
       const name = this.view.names[ray.object] || this.about.objects[ray.object - 1] || 'object ' + ray.object;
       const others = this.rays.map((other, i) => ({ name: this.view.solvers[i].name, cast: other.cast }));
-      const what = name + ' at pixel ' + Math.floor(ray.at[0]) + ', ' + Math.floor(ray.at[1]);
-      this.replay.open(rayPlay(ray.cast, ray.mesh, this.view.solvers[ray.solver].name, others, what), step, keepsLook);
+      // The planes tell of the view as it is; a point within a pixel may have been answered otherwise.
+      const i = this.picture.index(Math.floor(ray.at[0]), Math.floor(ray.at[1]));
+      const path = this.about.paths[this.picture.plane('ray_path')[i]];
+      const what = name + ' at pixel ' + placeText(ray.at, ', ');
+      this.replay.open(rayPlay(ray.cast, ray.mesh, this.view.solvers[ray.solver].name, others, what, path), step, keepsLook);
     } else {
       const pair = await this.pairReplay();
       if (!pair) return this.replay.open(null, 0, false);
@@ -180,20 +196,29 @@ class Inspector {
       const a = this.about.objects[pair.a], b = this.about.objects[pair.b];
       if (this.mode === 'impact') {
         const cast = pair.impact;
-        this.replay.open(rayPlay(cast, cast.mesh || { rank: -1 }, 'auto', [{ name: 'auto', cast }], b + ' goes at ' + a + ', in the set A - B'), step, keepsLook);
+        this.replay.open(rayPlay(cast, pair.mesh, 'auto', [{ name: 'auto', cast }], b + ' goes at ' + a + ', in the set A - B', ''), step, keepsLook);
       } else {
         const flat = this.mode === 'plane';
-        this.replay.open(distancePlay(flat ? pair.plane : pair.distance, a + ' and ' + b, flat), step, keepsLook);
+        this.replay.open(distancePlay(flat ? pair.plane : pair.distance, pair.mesh, a + ' and ' + b, flat), step, keepsLook);
       }
     }
     this.keepAddress();
+  }
+
+  /** Maps of another camera, solver or tolerance have come. */
+  viewChanged() {
+    const { picture } = this;
+    this.listSolvers();
+    this.showMap(picture.map.name);
+    this.point(picture.pixel[0], picture.pixel[1]);
+    if (picture.chosen && this.mode === 'ray') this.choose(picture.chosen[0], picture.chosen[1]);
   }
 
   /** The state as the address has it. */
   keepAddress() {
     if (!this.isReady) return;
     const parts = [];
-    if (this.picture.chosen) parts.push('pixel=' + this.picture.chosen.join(','));
+    if (this.picture.chosen) parts.push('pixel=' + placeText(this.picture.chosen, ','));
     parts.push('step=' + this.replay.step);
     if (this.picture.solver > 0) parts.push('solver=' + this.view.solvers[this.picture.solver].name);
     if (this.picture.map !== maps[0]) parts.push('show=' + this.picture.map.name);
@@ -209,9 +234,11 @@ class Inspector {
     this.listSolvers();
     this.showMap(values.get('show') || 'picture');
     const numbers = (values.get('pixel') || '').split(',').map(Number);
-    const isPixel = numbers.length === 2 && numbers.every(Number.isInteger);
+    const isPlace = numbers.length === 2 && numbers.every(Number.isFinite);
+    const isPixel = numbers.every(Number.isInteger);
     const step = values.has('step') ? Number(values.get('step')) : Infinity;
-    const first = isPixel ? numbers : this.firstPixel();
+    const first = isPlace ? numbers.map(at => isPixel ? at + 0.5 : at)
+      : (this.replays.hardest() || [this.view.width >> 1, this.view.height >> 1]).map(at => at + 0.5);
     await this.choose(first[0], first[1], Number.isFinite(step) ? step : Infinity);
     const what = values.get('what');
     if (what && ['distance', 'impact', 'plane'].includes(what)) {
@@ -221,97 +248,6 @@ class Inspector {
     }
     this.isReady = true;
     document.documentElement.dataset.ready = 'yes';
-  }
-
-  /** Where to begin: at the hardest cast that hits and can be replayed. */
-  firstPixel() {
-    let best = [this.view.width >> 1, this.view.height >> 1], most = -1;
-    for (const [key, rays] of this.replays.rays) {
-      const last = rays[rays.length - 1];
-      if (!last || last.cast.status !== 'hit' || last.cast.iterations <= most) continue;
-      most = last.cast.iterations;
-      best = key.split(',').map(Number);
-    }
-    return best;
-  }
-
-  listenToPicture() {
-    const canvas = element('picture');
-    const picture = this.picture;
-    /** @type {{x: number, y: number, centre: number[], moved: boolean} | null} */
-    let drag = null;
-    const at = (/** @type {PointerEvent | WheelEvent} */ event) => {
-      const box = canvas.getBoundingClientRect();
-      return [event.clientX - box.left - canvas.clientLeft, event.clientY - box.top - canvas.clientTop];
-    };
-    const pixelAt = (/** @type {PointerEvent} */ event) => {
-      const [px, py] = at(event);
-      return picture.toPicture(px, py).map(Math.floor);
-    };
-    canvas.addEventListener('pointerdown', (/** @type {PointerEvent} */ event) => {
-      const [x, y] = at(event);
-      drag = { x, y, centre: picture.centre, moved: false };
-      canvas.setPointerCapture(event.pointerId);
-      if (event.pointerType === 'touch') this.point(...(/** @type {[number, number]} */ (pixelAt(event))));
-    });
-    canvas.addEventListener('pointermove', (/** @type {PointerEvent} */ event) => {
-      const [x, y] = at(event);
-      if (drag && Math.hypot(x - drag.x, y - drag.y) > 4) drag.moved = true;
-      if (drag && drag.moved) {
-        if (this.isOrbiting()) {
-          this.orbit((x - drag.x) * 0.008, (y - drag.y) * 0.008);
-          drag = { x, y, centre: picture.centre, moved: true };
-        } else {
-          const s = picture.scale();
-          picture.moveTo(drag.centre[0] - (x - drag.x) / s, drag.centre[1] - (y - drag.y) / s);
-        }
-        return;
-      }
-      const [px, py] = pixelAt(event);
-      this.point(px, py);
-    });
-    canvas.addEventListener('pointerup', (/** @type {PointerEvent} */ event) => {
-      const wasClick = drag && !drag.moved;
-      const wasPan = drag && drag.moved && !this.isOrbiting();
-      drag = null;
-      if (wasClick) {
-        const [px, py] = pixelAt(event);
-        if (px >= 0 && py >= 0 && px < this.view.width && py < this.view.height) this.choose(px, py);
-      }
-      if (wasPan) this.window_changed();
-    });
-    canvas.addEventListener('pointercancel', () => { drag = null; });
-    canvas.addEventListener('wheel', (/** @type {WheelEvent} */ event) => {
-      event.preventDefault();
-      const [px, py] = at(event);
-      picture.magnify(Math.exp(-event.deltaY * 0.002), px, py);
-      this.window_changed();
-    }, { passive: false });
-    const zoom = (/** @type {number} */ factor) => {
-      picture.magnify(factor);
-      this.window_changed();
-    };
-    element('zoom-in').addEventListener('click', () => zoom(1.6));
-    element('zoom-out').addEventListener('click', () => zoom(1 / 1.6));
-    element('zoom-all').addEventListener('click', () => zoom(1e-9));
-    canvas.addEventListener('keydown', (/** @type {KeyboardEvent} */ event) => {
-      const far = event.shiftKey ? 10 : 1;
-      const [x, y] = picture.pixel;
-      /** @type {Record<string, () => void>} */
-      const actions = {
-        ArrowLeft: () => this.point(x - far, y),
-        ArrowRight: () => this.point(x + far, y),
-        ArrowUp: () => this.point(x, y - far),
-        ArrowDown: () => this.point(x, y + far),
-        Enter: () => { this.choose(x, y); },
-        '+': () => zoom(1.6),
-        '-': () => zoom(1 / 1.6),
-      };
-      const action = actions[event.key];
-      if (!action) return;
-      event.preventDefault();
-      action();
-    });
   }
 
   listenToRest() {
@@ -335,111 +271,14 @@ class Inspector {
       this.replay.draw();
       this.picture.draw();
     });
-    document.addEventListener('keydown', event => {
-      const target = /** @type {HTMLElement} */ (event.target);
-      if (event.ctrlKey || event.altKey || event.metaKey || ['SELECT', 'INPUT', 'TEXTAREA'].includes(target.tagName)) return;
-      /** @type {Record<string, () => void>} */
-      const actions = {
-        ',': () => this.replay.go(this.replay.step - 1),
-        '.': () => this.replay.go(this.replay.step + 1),
-        Home: () => this.replay.go(1),
-        End: () => this.replay.go(Infinity),
-        p: () => this.replay.run(),
-        s: () => this.setSolver((this.picture.solver + 1) % this.view.solvers.length),
-      };
-      const action = actions[event.key];
-      if (!action) return;
-      event.preventDefault();
-      action();
+    listenToKeys({
+      ',': () => this.replay.go(this.replay.step - 1),
+      '.': () => this.replay.go(this.replay.step + 1),
+      Home: () => this.replay.go(1),
+      End: () => this.replay.go(Infinity),
+      p: () => this.replay.run(),
+      s: () => this.setSolver((this.picture.solver + 1) % this.view.solvers.length),
     });
-  }
-
-  isOrbiting() {
-    return this.served !== null && element('orbit').checked;
-  }
-
-  /** @param {number} yaw @param {number} pitch */
-  orbit(yaw, pitch) {
-    if (!this.served) return;
-    this.served.turn(-yaw, pitch);
-    this.view_changed();
-  }
-
-  /** Asks for pictures of what is seen of the view, which is magnified. */
-  async window_changed() {
-    const { served, picture } = this;
-    if (!served) return;
-    const half = [picture.canvas.clientWidth / 2 / picture.scale(), picture.canvas.clientHeight / 2 / picture.scale()];
-    const window = [
-      Math.max(0, picture.centre[0] - half[0]), Math.max(0, picture.centre[1] - half[1]),
-      Math.min(this.view.width, picture.centre[0] + half[0]), Math.min(this.view.height, picture.centre[1] + half[1]),
-    ];
-    const finest = Math.min(1, picture.canvas.clientWidth / this.view.width);
-    try {
-      return await served.pictures(window, picture.zoom, finest, photo => {
-        picture.photo = photo;
-        picture.photo_window = window;
-        picture.draw();
-      });
-    } catch (error) {
-      element('served-state').textContent = String(error);
-      return false;
-    }
-  }
-
-  /** Another camera, solver or tolerance: pictures, then what each pixel tells. */
-  async view_changed() {
-    const { served, picture } = this;
-    if (!served) return;
-    element('served-state').textContent = 'Asking ...';
-    if (!await this.window_changed()) return;
-    const latest = served.latest;
-    try {
-      const view = await viewOf(await (await served.ask('view', {})).json());
-      if (latest !== served.latest) return;
-      picture.view = view;
-      picture.findPlaces();
-    } catch (error) {
-      element('served-state').textContent = String(error);
-      return;
-    }
-    element('served-state').textContent = 'As asked.';
-    this.listSolvers();
-    this.showMap(picture.map.name);
-    this.point(picture.pixel[0], picture.pixel[1]);
-    if (picture.chosen && this.mode === 'ray') this.choose(picture.chosen[0], picture.chosen[1]);
-  }
-
-  /** @param {Served} served */
-  listenToServed(served) {
-    element('served').hidden = false;
-    element('served').addEventListener('submit', (/** @type {Event} */ event) => event.preventDefault());
-    element('ask-solver').innerHTML = '<option value="">' + escaped(this.view.solvers[0].name) + ' (as begun)</option>' +
-      this.about.all_solvers.map(s => '<option value="' + s.name + '">' + s.name + ': ' + escaped(s.doc) + '</option>').join('');
-    element('ask-tolerance').innerHTML = '<option value="">as fine as rounding</option>' +
-      ['1e-24', '1e-16', '1e-12', '1e-8', '1e-6', '1e-4', '1e-2'].map(t => '<option>' + t + '</option>').join('');
-    const changed = () => {
-      served.solver = element('ask-solver').value;
-      served.tolerance = element('ask-tolerance').value;
-      this.view_changed();
-    };
-    element('ask-solver').addEventListener('change', changed);
-    element('ask-tolerance').addEventListener('change', changed);
-    /** @type {Record<string, () => void>} */
-    const buttons = {
-      'turn-left': () => served.turn(-0.2, 0),
-      'turn-right': () => served.turn(0.2, 0),
-      'turn-up': () => served.turn(0, 0.15),
-      'turn-down': () => served.turn(0, -0.15),
-      nearer: () => served.approach(0.8),
-      further: () => served.approach(1.25),
-      'camera-back': () => served.back(),
-    };
-    for (const id of Object.keys(buttons))
-      element(id).addEventListener('click', () => {
-        buttons[id]();
-        this.view_changed();
-      });
   }
 }
 

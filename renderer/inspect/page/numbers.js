@@ -71,3 +71,9 @@ function across(n) {
 function between(lo, hi) {
   return '[' + whole(lo) + ', ' + whole(hi) + ']';
 }
+
+/** A pixel's whole numbers, or those of a point within it. @param {number[]} at @param {string} comma */
+function placeText(at, comma) {
+  const isCentre = at.every(c => c % 1 === 0.5);
+  return at.map(c => isCentre ? String(Math.floor(c)) : String(Number(c.toFixed(4)))).join(comma);
+}

@@ -31,7 +31,7 @@ class Picture {
     this.centre = [view.width / 2, view.height / 2];
     /** @type {[number, number]} */
     this.pixel = [view.width >> 1, view.height >> 1];
-    /** @type {[number, number] | null} */
+    /** The point whose cast is replayed. @type {[number, number] | null} */
     this.chosen = null;
     /** @type {Set<string>} */
     this.replayable = new Set();
@@ -168,8 +168,8 @@ class Picture {
       }
     }
     const mark = (/** @type {[number, number]} */ pixel, /** @type {string} */ colour) => {
-      const [px, py] = this.toPage(pixel[0] + 0.5, pixel[1] + 0.5);
-      const half = Math.max(5, s / 2 + 2);
+      const [px, py] = this.toPage(pixel[0], pixel[1]);
+      const half = Math.max(5, Math.min(s / 2 + 2, 14));
       for (const [thick, c] of /** @type {[number, string][]} */ ([[4, '#000000'], [2, colour]])) {
         pen.lineWidth = thick;
         pen.strokeStyle = c;
@@ -180,15 +180,22 @@ class Picture {
       pen.font = '12px system-ui, sans-serif';
       pen.textAlign = 'center';
       pen.lineWidth = 3;
+      // Names that would lie over others stand below them.
+      /** @type {{left: number, right: number, y: number}[]} */
+      const taken = [];
       for (const place of this.places) {
-        const [px, py] = this.toPage(place.x + 0.5, place.y + 0.5);
+        const [px, middle] = this.toPage(place.x + 0.5, place.y + 0.5);
+        const half = pen.measureText(place.name).width / 2 + 2;
+        let py = middle;
+        while (taken.some(other => other.left < px + half && px - half < other.right && Math.abs(other.y - py) < 14)) py += 4;
+        taken.push({ left: px - half, right: px + half, y: py });
         pen.strokeStyle = 'rgba(0,0,0,0.75)';
         pen.strokeText(place.name, px, py + 4);
         pen.fillStyle = '#ffffff';
         pen.fillText(place.name, px, py + 4);
       }
     }
-    mark(this.pixel, '#ffffff');
+    mark([this.pixel[0] + 0.5, this.pixel[1] + 0.5], '#ffffff');
     if (this.chosen) mark(this.chosen, '#f0e442');
   }
 

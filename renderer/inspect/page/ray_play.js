@@ -10,8 +10,8 @@ const caseTexts = [
 ];
 
 /** @param {Cast} cast @param {ShapeMesh} mesh @param {string} solver @param {{name: string, cast: Cast}[]} others
- *  @param {string} what @returns {Play} */
-function rayPlay(cast, mesh, solver, others, what) {
+ *  @param {string} what @param {string} path what answered in the picture, or nothing @returns {Play} */
+function rayPlay(cast, mesh, solver, others, what, path) {
   const R = cast.radius > 0 ? cast.radius : 1;
   const [base, shift, perLength] = cast.t_of;
   const tOf = (/** @type {number | null} */ lambda) => lambda === null ? Infinity : base + (shift + lambda * perLength);
@@ -111,13 +111,15 @@ function rayPlay(cast, mesh, solver, others, what) {
     } else if (count === steps.length) {
       formulas.push(['answer', cast.status + ', answered by: ' + cast.path]);
     }
+    return { items, sentence, formulas, focus, focus_size: focusSize };
+  };
+  /** @param {number} count @returns {[number, number]} */
+  const bounds = count => {
+    const step = count > 0 ? steps[count - 1] : null;
     // In the end it is what the answer claims, which knows more than single planes.
     const isProven = count === steps.length && found && cast.t_lo !== null && cast.t_hi !== null;
-    return {
-      items, sentence, formulas, focus, focus_size: focusSize,
-      bounds: isProven ? [/** @type {number} */ (cast.t_lo), /** @type {number} */ (cast.t_hi)]
-        : [step ? tOf(step[3]) : tOf(begin), step ? tOf(step[4]) : tOf(end)],
-    };
+    return isProven ? [/** @type {number} */ (cast.t_lo), /** @type {number} */ (cast.t_hi)]
+      : [step ? tOf(step[3]) : tOf(begin), step ? tOf(step[4]) : tOf(end)];
   };
 
   /** How far the lower bound is from the answer, in radii. @param {Cast} of */
@@ -133,6 +135,7 @@ function rayPlay(cast, mesh, solver, others, what) {
     mesh, radius: R, count: steps.length, flat: false, look, quantity: 't',
     summary: what + ': ' + cast.status + (found ? ', t = ' + whole(cast.t) : '') + ', ' + cast.iterations +
       ' iterations, ' + cast.supports + ' supports, by ' + solver +
+      (path === 'filter' ? '. In the picture the filter answered it, a closed form, without a step; this is the stage behind it' : '') +
       (steps.length === 0 ? '. No support point was asked for: a bound of the shape told, or a closed form.' : ''),
     range: [tOf(begin), tOf(end)],
     answer: found ? /** @type {number} */ (cast.t) : null,
@@ -141,7 +144,7 @@ function rayPlay(cast, mesh, solver, others, what) {
       String(k), String(step[1]), step[2] === null ? '-' : whole(tOf(step[2])), whole(tOf(step[3])), whole(tOf(step[4])),
       short(size(step[5])), short(size(step[7])), step[8].map(of => typeof of === 'number' ? 'p' + of : '\u2022').join(' '),
     ]),
-    show,
+    show, bounds,
     gaps: others.map(other => ({ name: other.name, values: gapsOf(other.cast) })),
   };
 }

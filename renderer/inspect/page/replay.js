@@ -103,7 +103,7 @@ class Replay {
     element('formulas').innerHTML = '<table>' + shown.formulas.map(([name, text]) =>
       '<tr><th scope="row">' + escaped(name) + '</th><td>' + escaped(text) + '</td></tr>').join('') + '</table>';
     element('line').innerHTML = numberLine(play, step);
-    element('line').setAttribute('aria-label', play.quantity + ' lies in ' + between(shown.bounds[0], shown.bounds[1]));
+    element('line').setAttribute('aria-label', play.quantity + ' lies in ' + between(...play.bounds(step)));
     element('closing').innerHTML = closingChart(play, step);
     element('closing').setAttribute('aria-label', closingText(play));
     element('table').querySelectorAll('tr').forEach((/** @type {Element} */ row, /** @type {number} */ i) =>

@@ -68,7 +68,6 @@ interface Cast {
   lambda: [number | null, number | null];
   t_of: [number, number, number];
   steps: CastStep[];
-  mesh?: ShapeMesh;
 }
 
 interface RayLine {
@@ -109,13 +108,14 @@ interface DistanceReplay {
   axis: number[];
   steps: DistanceStep[];
   x?: number[];
-  mesh?: ShapeMesh;
+  mirrored_at?: number[];
   outline?: number[][];
 }
 
 interface PairReplay {
   a: number;
   b: number;
+  mesh: ShapeMesh;
   distance: DistanceReplay;
   impact: Cast;
   plane: DistanceReplay;
@@ -145,7 +145,6 @@ interface Shown {
   items: Item[];
   sentence: string;
   formulas: [string, string][];
-  bounds: [number, number];
   focus: number[];
   focus_size: number;
 }
@@ -165,5 +164,6 @@ interface Play {
   rows: string[][];
   look: { right: number[]; up: number[] };
   show(step: number, earlier: boolean): Shown;
+  bounds(step: number): [number, number];
   gaps: { name: string; values: (number | null)[] }[];
 }

@@ -123,6 +123,49 @@ test('the camera goes around, and the picture with it', async () => {
   assert.deepEqual(page.complaints, []);
 });
 
+test('a point within a magnified pixel is replayed', async () => {
+  const page = await open();
+  for (let k = 0; k < 6; ++k) await page.value("document.getElementById('zoom-in').click()");
+  const [x, y] = await page.value(`(() => {
+    const canvas = document.getElementById('picture'), box = canvas.getBoundingClientRect();
+    return [Math.round(box.left + 0.6 * box.width), Math.round(box.top + 0.45 * box.height)];
+  })()`);
+  const before = await page.text('replay-summary');
+  await page.click(x, y);
+  await page.until(`document.getElementById('replay-summary').textContent !== ${JSON.stringify(before)}`);
+  const [px, py] = (await page.text('replay-summary')).match(/pixel ([\d.]+), ([\d.]+):/).slice(1).map(Number);
+  assert.ok(px % 1 !== 0 && py % 1 !== 0, px + ', ' + py);
+  assert.match(await page.value('location.hash'), new RegExp('pixel=' + px + ',' + py));
+  await page.until("document.getElementById('served-state').textContent === 'As asked.'", 120);
+  assert.deepEqual(page.complaints, []);
+});
+
+test('dragging turns the camera', async () => {
+  const page = await open();
+  await page.value("document.getElementById('orbit').click()");
+  const [x, y] = await place(page, 160, 120);
+  await page.mouse('mousePressed', x, y, 'left');
+  for (let k = 1; k <= 5; ++k) await page.mouse('mouseMoved', x + 12 * k, y + 3 * k, 'left');
+  await page.mouse('mouseReleased', x + 60, y + 15, 'left');
+  await page.until("document.getElementById('served-state').textContent === 'As asked.'", 120);
+  const views = page.requests.filter(url => url.includes('/view?'));
+  assert.equal(views.length, 1, 'maps are asked for once, when it has come to rest');
+  assert.match(views[0], /eye=/);
+  assert.deepEqual(page.complaints.filter(text => !text.includes('ERR_ABORTED')), []);
+});
+
+test('what nobody waits for any more is left', async () => {
+  // 327 million paths: many minutes.
+  const asked = request({ host: '127.0.0.1', port, path: pathname + 'picture?samples=256&zoom=4' });
+  asked.on('error', () => {});
+  asked.end();
+  await new Promise(resolve => setTimeout(resolve, 1500));
+  asked.destroy();
+  const begin = Date.now();
+  assert.equal((await get(pathname + 'cast?x=104.5&y=91.5')).status, 200);
+  assert.ok(Date.now() - begin < 20000, (Date.now() - begin) + ' ms');
+});
+
 let failed = 0;
 for (const { name, run } of tests) {
   try {
