@@ -108,6 +108,12 @@ def summary(records):
     return line
 
 
+def words():
+    """The command line, without what the build adds to it."""
+    given = sys.argv[1:]
+    return [w for i, w in enumerate(given) if w != '--programs' and (i == 0 or given[i - 1] != '--programs')]
+
+
 def machine():
     try:
         with open('/proc/cpuinfo') as file:
@@ -127,7 +133,7 @@ def main():
     rays = families.random_cases(options.random, options.seed) if options.random else []
     random_table = [(solver, ask_all(solver, rays, options.quiet)) for solver, _ in table] if rays else []
     model, commit = machine()
-    facts = {'cases': len(cases), 'machine': model, 'commit': commit, 'command': 'minkray league ' + ' '.join(sys.argv[1:]),
+    facts = {'cases': len(cases), 'machine': model, 'commit': commit, 'command': ' '.join(['minkray league'] + words()),
              'limit': options.limit, 'random': options.random, 'seed': options.seed}
     print(report.text(facts, cases, table, rays, random_table, summary))
     if options.html:

@@ -61,6 +61,7 @@ body { font: 15px/1.5 system-ui, sans-serif; margin: 2rem auto; max-width: 100re
 table { border-collapse: collapse; margin: 1rem 0; font-variant-numeric: tabular-nums }
 th, td { border: 1px solid #8886; padding: .15rem .5rem; text-align: right; font-size: .85rem }
 th:first-child, td:first-child { text-align: left }
+td:not(:first-child) { white-space: nowrap }
 thead th { position: sticky; top: 0; background: Canvas }
 .right { background: var(--right) } .close { background: var(--close) } .wrong { background: var(--wrong) }
 .said { background: var(--said) } .crashed, .hung { background: var(--broken) } .not { color: #888 }
@@ -97,7 +98,7 @@ def html(facts, cases, table, rays, random_table, summary):
     heads = ''.join(f'<th>{escape.escape(s.name)}</th>' for s, _ in table)
     families = ''.join(f'<h3>{family}</h3>' + table_html(lines) for family, lines in by_family(rays, random_table, summary))
     return f"""<!doctype html><html lang="en"><meta charset="utf-8"><title>League of solvers</title><style>{STYLE}</style>
-<h1>League of solvers</h1><p>{facts['cases']} cases that solvers got wrong, with proven answers. {escape.escape(facts['machine'])}, commit
+<h1>League of solvers</h1><p>{facts['cases']} hard cases, whose answers are proven. {escape.escape(facts['machine'])}, commit
 {facts['commit']}. <code>{escape.escape(facts['command'])}</code>; {facts['limit']:g} seconds for an answer, each solver in a process of its own.</p>
 {table_html(lines_of(table, summary))}<p>{LEGEND}.</p><h2>Settings</h2><ul>{settings}</ul>
 {'<h2>Random rays</h2>' + families if families else ''}
