@@ -1,19 +1,31 @@
 // SPDX-License-Identifier: MIT
-// Pairs of cores whose signed distance has a closed form: points, segments and boxes.
+// Pairs of cores whose signed distance has a closed form: points, segments, boxes and disks.
 #pragma once
 
 #include "core/contact/core_pair.h"
 
 namespace minkray {
 
-/// Points and segments against each other, and points against boxes: both bounds are the distance,
-/// negative inside a box. `axis` is the direction of the least translation that separates. Returns
-/// false for other pairs.
+inline bool is_line(const ShapeCore& core) {
+  return core.kind == CoreKind::point || core.kind == CoreKind::segment;
+}
+
+/// Segments from -p to p, and from x - q to x + q; either may be a point. Both bounds are the
+/// distance.
+CoreDistance between_segments(const Vec3<double>& p, const Vec3<double>& q, const Vec3<double>& x);
+
+/// Points against boxes and disks: both bounds are the distance, negative inside of them. `axis` is
+/// the direction of the least translation that separates. Returns false for other pairs.
 bool closed_distance(const CorePair& pair, CoreDistance& found);
 
+enum class BoxOverlap : unsigned char {
+  none,
+  without_points,  ///< a and c were not found: an edge or a face lies in the plane of contact
+  with_points,
+};
+
 /// Two boxes that overlap: the least overlap of 15 axes is the penetration depth
-/// (S. Gottschalk et al., "OBBTree", 1996). Boxes that do not overlap get the largest gap of the
-/// axes, which is a lower bound of their distance. a and c are not found.
-CoreDistance box_overlap(const CorePair& pair);
+/// (S. Gottschalk et al., "OBBTree", 1996).
+BoxOverlap box_overlap(const CorePair& pair, CoreDistance& found);
 
 }  // namespace minkray

@@ -7,9 +7,8 @@ PlacedCore placed(const ContactShape& shape, const Affine<double>& pose) {
   return {pose.linear * shape.turn(), pose(shape.middle())};
 }
 
-CorePair pair_of(const ContactShape& a, const Affine<double>& pose_a, const ContactShape& b,
-                 const Affine<double>& pose_b) {
-  const Mat3<double> from_a = pose_a.linear * a.turn();
+Vec3<double> between_middles(const ContactShape& a, const Affine<double>& pose_a,
+                             const ContactShape& b, const Affine<double>& pose_b) {
   Vec3<double> between = pose_b.translation - pose_a.translation;
   // Middles far from the bodies' origins lose what the bodies' places have gained.
   constexpr double far = 4;
@@ -24,8 +23,14 @@ CorePair pair_of(const ContactShape& a, const Affine<double>& pose_a, const Cont
   } else {
     between += pose_b.linear * b.middle() - pose_a.linear * a.middle();
   }
-  return {a.core(), b.core(), from_a.transpose() * (pose_b.linear * b.turn()),
-          from_a.transpose() * between};
+  return between;
+}
+
+CorePair pair_of(const ContactShape& a, const Affine<double>& pose_a, const ContactShape& b,
+                 const Affine<double>& pose_b) {
+  const Mat3<double> to_a = (pose_a.linear * a.turn()).transpose();
+  return {a.core(), b.core(), to_a * (pose_b.linear * b.turn()),
+          to_a * between_middles(a, pose_a, b, pose_b)};
 }
 
 }  // namespace minkray

@@ -37,8 +37,12 @@ struct PlacedCore {
 /// `pose` is rigid: its linear part is a rotation, or a reflection, to rounding.
 PlacedCore placed(const ContactShape& shape, const Affine<double>& pose);
 
-/// B as A sees it. The difference of the two places is taken before anything is rounded, so that
-/// pairs far from the origin are as exact as their poses.
+/// From A's middle to B's, in the world. The difference of the two places is taken before anything
+/// is rounded, so that pairs far from the origin are as exact as their poses.
+Vec3<double> between_middles(const ContactShape& a, const Affine<double>& pose_a,
+                             const ContactShape& b, const Affine<double>& pose_b);
+
+/// B as A sees it.
 CorePair pair_of(const ContactShape& a, const Affine<double>& pose_a, const ContactShape& b,
                  const Affine<double>& pose_b);
 

@@ -71,6 +71,7 @@ struct CoreSearch {
   /// Whether the distance is above `apart`: no more is asked. Infinite: all of it.
   double apart = std::numeric_limits<double>::infinity();
   int max_turns = 200;
+  bool may_slide = true;  ///< whether curved surfaces are looked at to second order
 };
 
 }  // namespace minkray

@@ -19,7 +19,7 @@ class CurvedGjk {
  public:
   CurvedGjk(const CorePair& pair, const CoreSearch& search) : query_{pair, search} {
     const bool is_known = pair.a.kind != CoreKind::other && pair.b.kind != CoreKind::other;
-    may_slide_ = is_known && (slides(pair.a.kind) || slides(pair.b.kind));
+    may_slide_ = search.may_slide && is_known && (slides(pair.a.kind) || slides(pair.b.kind));
   }
 
   CoreDistance run() {
@@ -63,6 +63,14 @@ class CurvedGjk {
       d = closest.v;
     }
     return finish(CoreStatus::unsettled);
+  }
+
+  /// Whether the search ended with four points of C around the origin: c, and the a of each.
+  bool encloses(Vec3<double>* c, Vec3<double>* a) const {
+    if (count_ != 4 || query_.result.status != CoreStatus::overlapping) return false;
+    std::copy(y_, y_ + 4, c);
+    std::copy(a_, a_ + 4, a);
+    return true;
   }
 
  private:

@@ -6,6 +6,7 @@
 #include "core/contact/closed_pairs.h"
 #include "core/contact/curved_gjk.h"
 #include "core/contact/direction_bounds.h"
+#include "core/contact/expanding_polytope.h"
 
 namespace minkray {
 namespace {
@@ -17,12 +18,54 @@ constexpr double settled_gap = 1e-9;
 /// What all roundings of a query amount to, relative to the sizes and the middles' distance.
 constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
 
+/// Four points of B - A around the origin, if there are any: where a polytope may begin.
+struct Enclosure {
+  Vec3<double> c[4], a[4];
+  bool is_found = false;
+};
+
+template <CoreKind A, CoreKind B>
+CoreDistance distance_of_kinds(const CorePair& pair, const CoreSearch& search,
+                               Enclosure* enclosure) {
+  CurvedGjk<A, B> gjk(pair, search);
+  const CoreDistance found = gjk.run();
+  if (enclosure) enclosure->is_found = gjk.encloses(enclosure->c, enclosure->a);
+  return found;
+}
+
 /// Pairs that are asked for most are compiled for their kinds; all others look at them each time.
-CoreDistance distance_of_cores(const CorePair& pair, const CoreSearch& search) {
+CoreDistance distance_of_cores(const CorePair& pair, const CoreSearch& search,
+                               Enclosure* enclosure = nullptr) {
   using enum CoreKind;
-  if (pair.a.kind == box && pair.b.kind == box) return CurvedGjk<box, box>(pair, search).run();
-  if (pair.a.kind == hull && pair.b.kind == hull) return CurvedGjk<hull, hull>(pair, search).run();
-  return CurvedGjk<other, other>(pair, search).run();
+  if (pair.a.kind == box && pair.b.kind == box)
+    return distance_of_kinds<box, box>(pair, search, enclosure);
+  if (pair.a.kind == hull && pair.b.kind == hull)
+    return distance_of_kinds<hull, hull>(pair, search, enclosure);
+  return distance_of_kinds<other, other>(pair, search, enclosure);
+}
+
+/// The depth by a polytope that grows from there. Returns whether its bounds met; they hold anyway.
+template <CoreKind A, CoreKind B>
+bool expand(const CorePair& pair, double gap, const Enclosure& enclosure, CoreDistance& found) {
+  ExpandingPolytope<A, B> polytope(pair, gap, found);
+  const bool has_met = polytope.run(enclosure.c, enclosure.a);
+  found = polytope.found();
+  return has_met;
+}
+
+bool depth_by_polytope(const CorePair& pair, double gap, Enclosure enclosure, CoreDistance& found) {
+  if (!enclosure.is_found) {
+    CoreSearch plain;
+    plain.may_slide = false;
+    const int supports = found.supports;
+    const CoreDistance again = distance_of_cores(pair, plain, &enclosure);
+    found.supports = supports + again.supports;
+    if (!enclosure.is_found) return false;
+  }
+  using enum CoreKind;
+  if (pair.a.kind == hull && pair.b.kind == hull)
+    return expand<hull, hull>(pair, gap, enclosure, found);
+  return expand<other, other>(pair, gap, enclosure, found);
 }
 
 /// The points of first contact when B is moved out along the axis: the nearest points of the two
@@ -39,17 +82,16 @@ void find_contact(const CorePair& pair, CoreDistance& found) {
 }
 
 /// The depth of cores that were found to overlap, or whose distance rounding hides.
-CoreDistance depth_of_cores(const CorePair& pair, CoreDistance found, double gap, bool only_sign) {
-  if (pair.a.kind == CoreKind::box && pair.b.kind == CoreKind::box &&
-      found.status == CoreStatus::overlapping) {
-    const int supports = found.supports;
-    found = box_overlap(pair);
-    found.supports = supports;
-    if (!only_sign) find_contact(pair, found);
-    return found;
-  }
+CoreDistance depth_of_cores(const CorePair& pair, const Enclosure& enclosure, CoreDistance found,
+                            double gap, bool only_sign) {
+  // A common point that was found is of neither's surface.
   const Vec3<double> a = found.a, c = found.c;
-  const double upper = found.upper;
+  const double upper = found.status == CoreStatus::overlapping
+                           ? std::numeric_limits<double>::infinity()
+                           : found.upper;
+  if (found.status == CoreStatus::overlapping && !only_sign &&
+      depth_by_polytope(pair, gap, enclosure, found))
+    return found;
   const int supports = found.supports;
   DirectionSearch search;
   search.gap = gap;
@@ -72,11 +114,17 @@ CoreDistance depth_of_cores(const CorePair& pair, CoreDistance found, double gap
 CoreDistance solve(const CorePair& pair, const SignedDistanceOptions& options) {
   CoreDistance found;
   if (closed_distance(pair, found)) return found;
+  if (pair.a.kind == CoreKind::box && pair.b.kind == CoreKind::box) {
+    const BoxOverlap overlap = box_overlap(pair, found);
+    if (overlap == BoxOverlap::without_points && !options.only_sign) find_contact(pair, found);
+    if (overlap != BoxOverlap::none) return found;
+  }
   const double radii = pair.a.radius + pair.b.radius, size = pair.size() + radii;
   CoreSearch search;
   search.apart = options.at_most + radii;
   search.gap = std::min(1e-12, options.tolerance);
-  found = distance_of_cores(pair, search);
+  Enclosure enclosure;
+  found = distance_of_cores(pair, search, &enclosure);
   if (found.lower > search.apart) return found;
   const double gap = std::clamp(options.tolerance, 1e-14, 1.0) * size;
   if (found.status == CoreStatus::separated && found.upper - found.lower <= settled_gap * size)
@@ -86,19 +134,19 @@ CoreDistance solve(const CorePair& pair, const SignedDistanceOptions& options) {
         found.status == CoreStatus::overlapping || found.upper < radii || found.lower > radii;
     if (is_settled) return found;
   }
-  return depth_of_cores(pair, found, gap / (pair.size() + pair.x.norm()),
+  return depth_of_cores(pair, enclosure, found, gap / (pair.size() + pair.x.norm()),
                         options.only_sign && radii == 0);
 }
 
-}  // namespace
-
-SignedDistance signed_distance(const ContactShape& a, const Affine<double>& pose_a,
-                               const ContactShape& b, const Affine<double>& pose_b,
-                               const SignedDistanceOptions& options) {
-  const CorePair pair = pair_of(a, pose_a, b, pose_b);
-  const CoreDistance found = solve(pair, options);
-  const double radii = pair.a.radius + pair.b.radius, size = pair.size() + radii;
-  const double allowed = rounding * (size + pair.x.norm());
+/// Bounds and points of the shapes, with their radii. `distance` is that of the middles; `to_world`
+/// turns from the frame of what was found, which stands about A's middle.
+template <class ToWorld>
+SignedDistance told(const CoreDistance& found, const ContactShape& a, const ContactShape& b,
+                    double distance, const Affine<double>& pose_a, bool only_sign,
+                    const ToWorld& to_world) {
+  const double radius_a = a.core().radius, radius_b = b.core().radius, radii = radius_a + radius_b;
+  const double size = a.core().ball + b.core().ball + radii;
+  const double allowed = rounding * (size + distance);
   SignedDistance result;
   result.supports = found.supports;
   result.lower = found.lower - radii - allowed;
@@ -110,20 +158,39 @@ SignedDistance signed_distance(const ContactShape& a, const Affine<double>& pose
       std::clamp((is_from_points ? found.upper : found.lower) - radii, result.lower, result.upper);
   const bool is_near = result.upper - result.lower <= settled_gap * size + 2 * allowed;
   result.status = SignedStatus::undecided;
-  const bool has_common_point = options.only_sign && found.status == CoreStatus::overlapping;
+  const bool has_common_point = only_sign && found.status == CoreStatus::overlapping;
   if (result.upper < 0 || has_common_point)
     result.status = SignedStatus::overlapping;
   else if (result.lower > 0)
     result.status = SignedStatus::separated;
   else if (is_near)
     result.status = SignedStatus::touching;
-  // From A's core to the world.
-  const PlacedCore frame = placed(a, pose_a);
-  result.normal = unit<double>(frame.turn * found.axis);
-  result.point_a = frame.middle + frame.turn * Vec3<double>(found.a + pair.a.radius * found.axis);
-  result.point_b =
-      frame.middle + frame.turn * Vec3<double>(found.a + found.c - pair.b.radius * found.axis);
+  const Vec3<double> middle = pose_a(a.middle()), axis = to_world(found.axis),
+                     on_a = to_world(found.a), between = to_world(found.c);
+  result.normal = unit<double>(axis);
+  result.point_a = middle + (on_a + radius_a * axis);
+  result.point_b = middle + (on_a + between - radius_b * axis);
   return result;
+}
+
+}  // namespace
+
+SignedDistance signed_distance(const ContactShape& a, const Affine<double>& pose_a,
+                               const ContactShape& b, const Affine<double>& pose_b,
+                               const SignedDistanceOptions& options) {
+  if (is_line(a.core()) && is_line(b.core())) {
+    // In the world: no frame of either is needed.
+    const Vec3<double> half_a = pose_a.linear * (a.turn().col(2) * a.core().size.z()),
+                       half_b = pose_b.linear * (b.turn().col(2) * b.core().size.z()),
+                       x = between_middles(a, pose_a, b, pose_b);
+    return told(between_segments(half_a, half_b, x), a, b, x.norm(), pose_a, options.only_sign,
+                [](const Vec3<double>& v) -> const Vec3<double>& { return v; });
+  }
+  const CorePair pair = pair_of(a, pose_a, b, pose_b);
+  const CoreDistance found = solve(pair, options);
+  const Mat3<double> turn = pose_a.linear * a.turn();
+  return told(found, a, b, pair.x.norm(), pose_a, options.only_sign,
+              [&](const Vec3<double>& v) -> Vec3<double> { return turn * v; });
 }
 
 SignedDistance signed_distance(const ContactShape& a, const ContactShape& b,

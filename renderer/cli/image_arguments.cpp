@@ -38,21 +38,6 @@ std::optional<std::vector<int>> integers(const std::string& text, char separator
   }
 }
 
-Resolution parse_resolution(const std::string& text) {
-  const auto numbers = integers(text, 'x');
-  const auto wrong = [&](const std::string& why) -> WrongUsage {
-    return WrongUsage("--resolution: " + why + " (got " + text + ")");
-  };
-  if (!numbers || numbers->size() != 2)
-    throw wrong("must be WIDTHxHEIGHT in pixels, such as 960x540");
-  const Resolution resolution{(*numbers)[0], (*numbers)[1]};
-  if (resolution.width < 1 || resolution.height < 1)
-    throw wrong("width and height must be at least 1");
-  if (resolution.width > max_side || resolution.height > max_side)
-    throw wrong("width and height must be at most " + std::to_string(max_side));
-  return resolution;
-}
-
 PixelRect parse_crop(const std::string& text, const Resolution& resolution) {
   const auto numbers = integers(text, ',');
   const auto wrong = [&](const std::string& why) -> WrongUsage {
@@ -68,6 +53,21 @@ PixelRect parse_crop(const std::string& text, const Resolution& resolution) {
 }
 
 }  // namespace
+
+Resolution parse_resolution(const std::string& text) {
+  const auto numbers = integers(text, 'x');
+  const auto wrong = [&](const std::string& why) -> WrongUsage {
+    return WrongUsage("--resolution: " + why + " (got " + text + ")");
+  };
+  if (!numbers || numbers->size() != 2)
+    throw wrong("must be WIDTHxHEIGHT in pixels, such as 960x540");
+  const Resolution resolution{(*numbers)[0], (*numbers)[1]};
+  if (resolution.width < 1 || resolution.height < 1)
+    throw wrong("width and height must be at least 1");
+  if (resolution.width > max_side || resolution.height > max_side)
+    throw wrong("width and height must be at most " + std::to_string(max_side));
+  return resolution;
+}
 
 std::uint64_t parse_seed(const std::string& text) {
   std::uint64_t seed = 0;

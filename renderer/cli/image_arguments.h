@@ -42,6 +42,9 @@ struct ImageArguments {
   RenderOptions render_options(const Scene& scene, std::size_t panels = 1) const;
 };
 
+/// Reads WIDTHxHEIGHT; throws WrongUsage for anything else.
+Resolution parse_resolution(const std::string& text);
+
 /// Throws WrongUsage for what is no whole number of 64 bits.
 std::uint64_t parse_seed(const std::string& text);
 

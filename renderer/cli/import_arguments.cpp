@@ -5,7 +5,7 @@
 
 namespace minkray {
 
-void add_import_options(const Verb& verb, ImportOptions& options) {
+void add_import_options(const Verb& verb, ImportOptions& options, bool rows) {
   constexpr const char* group = "Robots";
   verb.add_option(
           "--geometry",
@@ -14,7 +14,9 @@ void add_import_options(const Verb& verb, ImportOptions& options) {
                                : name == "all"     ? GeometryChoice::all
                                                    : GeometryChoice::visual;
           },
-          "visual: what is seen, and what collides where nothing is (default); collision; all")
+          std::string("visual: what is seen, and what collides where nothing is") +
+              (options.geometry == GeometryChoice::visual ? " (default); collision; all"
+                                                          : "; collision (default); all"))
       .one_of({"visual", "collision", "all"})
       .group(group);
   verb.add_option(
@@ -35,10 +37,11 @@ void add_import_options(const Verb& verb, ImportOptions& options) {
                   "commas")
       .one_value_each()
       .group(group);
-  verb.add_option("--joints", options.joint_rows,
-                  "A CSV file: joints' names in its first line, values in the others; several rows "
-                  "move the robot (for --frames), by a column \"time\" or 24 a second")
-      .group(group);
+  if (rows)
+    verb.add_option("--joints", options.joint_rows,
+                    "A CSV file: joints' names in its first line, values in the others; several "
+                    "rows move the robot (for --frames), by a column \"time\" or 24 a second")
+        .group(group);
   verb.add_option("--package-dir,--model-dir", options.package_dirs,
                   "Where package:// and model:// are looked for; may be given again")
       .one_value_each()

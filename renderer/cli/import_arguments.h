@@ -13,6 +13,8 @@ inline constexpr const char* scene_argument =
     "A scene file (JSON), the name of a scene that comes with Minkray, or a robot's file: MJCF "
     "(.xml, .mjcf), URDF (.urdf), SDF (.sdf, .world)";
 
-void add_import_options(const Verb& verb, ImportOptions& options);
+/// The geometry that `options` has is the default. `rows`: whether a file of joints' values is one
+/// of them.
+void add_import_options(const Verb& verb, ImportOptions& options, bool rows = true);
 
 }  // namespace minkray

@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: MIT
 // minkray distance: how far apart two shapes are, or how deep in each other, with its proof.
 #include <cmath>
-#include <filesystem>
 #include <iostream>
 #include <limits>
 #include <memory>
 
 #include "renderer/cli/options.h"
+#include "renderer/cli/shape_file.h"
 #include "renderer/cli/tolerance_option.h"
 #include "renderer/cli/verbs.h"
-#include "renderer/io/output_file.h"
-#include "renderer/json/parse.h"
 #include "renderer/query/answer.h"
-#include "renderer/scene/shape_json.h"
 
 namespace minkray {
 namespace {
@@ -23,17 +20,6 @@ struct DistanceVerbOptions {
   double at_most = std::numeric_limits<double>::infinity();
   bool only_sign = false;
 };
-
-Shape<double> shape_in(const std::string& file) {
-  Mistakes mistakes(file);
-  MeshFiles meshes(std::filesystem::path(file).parent_path());
-  std::optional<Shape<double>> shape;
-  if (const auto text = read_text_file(file, mistakes))
-    if (const auto json = parse_json(*text, mistakes))
-      shape = read_shape(*json, JsonPath(), mistakes, meshes);
-  throw_if_any(mistakes);
-  return *shape;
-}
 
 void distance(const DistanceVerbOptions& options) {
   check_tolerance(options.tolerance);

@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: MIT
 // minkray scan: the rays of a sensor at a scene.
-#include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -13,6 +10,7 @@
 #include "renderer/cli/file_ending.h"
 #include "renderer/cli/image_arguments.h"
 #include "renderer/cli/import_arguments.h"
+#include "renderer/cli/number_list.h"
 #include "renderer/cli/options.h"
 #include "renderer/cli/progress_line.h"
 #include "renderer/cli/verbs.h"
@@ -36,31 +34,13 @@ struct ScanVerbOptions {
   bool quiet = false;
 };
 
-/// So many finite numbers between commas as one of the counts.
-std::vector<double> numbers_of(const std::string& text, const char* option,
-                               std::initializer_list<std::size_t> counts, const char* expected) {
-  std::vector<double> numbers;
-  const char *at = text.data(), *const end = at + text.size();
-  while (at != end) {
-    double number = 0;
-    const auto [next, error] = std::from_chars(at, end, number);
-    if (error != std::errc() || !std::isfinite(number) || (next != end && *next != ',')) break;
-    numbers.push_back(number);
-    at = next == end ? next : next + 1;
-  }
-  const bool fits = std::find(counts.begin(), counts.end(), numbers.size()) != counts.end();
-  if (at != end || !fits)
-    throw WrongUsage(std::string(option) + ": must be " + expected + " (got " + text + ")");
-  return numbers;
-}
-
 void read_options(ScanVerbOptions& options) {
   if (options.rays.has_value() + options.pattern.has_value() + options.pinhole.has_value() != 1)
     throw WrongUsage("scan: give one of --rays, --pattern and --pinhole");
   options.scan.seed = parse_seed(options.seed);
   if (!options.pose.empty()) {
-    const auto v = numbers_of(options.pose, "--pose", {3, 7},
-                              "x,y,z, and the quaternion qx,qy,qz,qw if wanted");
+    const auto v = number_list(options.pose, "--pose", {3, 7},
+                               "x,y,z, and the quaternion qx,qy,qz,qw if wanted");
     options.scan.pose.translation = {v[0], v[1], v[2]};
     if (v.size() == 7) {
       if (v[3] == 0 && v[4] == 0 && v[5] == 0 && v[6] == 0)
@@ -69,8 +49,8 @@ void read_options(ScanVerbOptions& options) {
     }
   }
   if (!options.noise.empty()) {
-    const auto v = numbers_of(options.noise, "--noise", {1, 2},
-                              "the deviation of ranges, and of angles in radians if wanted");
+    const auto v = number_list(options.noise, "--noise", {1, 2},
+                               "the deviation of ranges, and of angles in radians if wanted");
     if (v[0] < 0 || (v.size() > 1 && v[1] < 0)) throw WrongUsage("--noise: must be >= 0");
     options.scan.range_noise = v[0];
     if (v.size() > 1) options.scan.angle_noise = v[1];

@@ -15,10 +15,12 @@ class Parser;
 using AddVerb = void (*)(Parser& parser, ExitCode& exit_code);
 
 void add_cast(Parser& parser, ExitCode& exit_code);
+void add_clearance(Parser& parser, ExitCode& exit_code);
 void add_compare(Parser& parser, ExitCode& exit_code);
 void add_completion(Parser& parser, ExitCode& exit_code);
 void add_distance(Parser& parser, ExitCode& exit_code);
 void add_distance_2d(Parser& parser, ExitCode& exit_code);
+void add_field(Parser& parser, ExitCode& exit_code);
 void add_generate(Parser& parser, ExitCode& exit_code);
 void add_heatmap(Parser& parser, ExitCode& exit_code);
 void add_import(Parser& parser, ExitCode& exit_code);
@@ -34,9 +36,10 @@ void add_trace(Parser& parser, ExitCode& exit_code);
 
 /// They stand in the order in which --help shows them.
 inline constexpr AddVerb verbs[] = {
-    add_render, add_merge,    add_heatmap, add_inspect,    add_compare,     add_cast,
-    add_scan,   add_distance, add_trace,   add_paper,      add_distance_2d, add_generate,
-    add_import, add_info,     add_league,  add_completion, add_man,
+    add_render, add_merge, add_heatmap,    add_inspect,     add_compare,
+    add_cast,   add_scan,  add_distance,   add_clearance,   add_field,
+    add_league, add_trace, add_paper,      add_distance_2d, add_generate,
+    add_import, add_info,  add_completion, add_man,
 };
 
 }  // namespace minkray

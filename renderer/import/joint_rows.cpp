@@ -26,12 +26,13 @@ std::vector<std::string> cells_of(const std::string& line) {
 
 }  // namespace
 
-std::vector<JointRow> read_joint_rows(const std::string& file, Model& model, Mistakes& mistakes) {
+std::vector<JointRow> read_joint_rows(const std::string& file, Model& model, Mistakes& mistakes,
+                                      const std::string& option) {
   std::vector<JointRow> rows;
   Mistakes of_file(file);
   const auto text = read_text_file(file, of_file);
   const auto hand_on = [&] {
-    for (const std::string& message : of_file.messages()) mistakes.add("--joints: " + message);
+    for (const std::string& message : of_file.messages()) mistakes.add(option + ": " + message);
   };
   if (!text) {
     hand_on();

@@ -35,20 +35,6 @@ std::array<double, 4> quaternion_of(const Mat3<double>& m) {
   return q;
 }
 
-/// Which geoms are asked for. A link without visual shapes shows its collision shapes.
-std::vector<bool> chosen(const Model& model, GeometryChoice choice) {
-  std::vector<bool> link_is_seen(model.links.size() + 1);
-  for (const ModelGeom& geom : model.geoms)
-    if (geom.is_seen) link_is_seen[static_cast<std::size_t>(geom.link + 1)] = true;
-  std::vector<bool> wanted;
-  for (const ModelGeom& geom : model.geoms)
-    wanted.push_back(choice == GeometryChoice::all ? true
-                     : choice == GeometryChoice::collision
-                         ? geom.collides
-                         : geom.is_seen || !link_is_seen[static_cast<std::size_t>(geom.link + 1)]);
-  return wanted;
-}
-
 class Materials {
  public:
   explicit Materials(Scene& scene) : scene_(scene) {}
@@ -70,20 +56,6 @@ class Materials {
   std::map<std::array<double, 4>, std::uint32_t> known_;
 };
 
-/// Sees the ball around the box from the front, the right and above.
-void frame_everything(Scene& scene, const Bounds<double>& bounds) {
-  CameraDescription& camera = scene.camera;
-  const Vec3<double> centre = bounds.empty() ? Vec3<double>::Zero() : bounds.centre();
-  const double size = bounds.empty() ? 1 : bounds.half_extents().norm();
-  const double radius = size > 0 ? size : 1;
-  camera.fov_y_degrees = 36;
-  camera.resolution = {960, 720};
-  camera.look_at = centre;
-  const double half_angle = camera.fov_y_degrees * 3.14159265358979 / 360;
-  camera.position =
-      centre + unit<double>({2.1, -1.7, 0.9}) * (0.92 * radius / std::sin(half_angle));
-}
-
 void light(Scene& scene) {
   scene.lights.push_back(DirectionalLight{{-1.0, 0.45, -1.5}, Colour(2.3, 2.2, 2.05)});
   scene.lights.push_back(EnvironmentLight{{0.62, 0.7, 0.82}, {0.3, 0.28, 0.26}});
@@ -97,6 +69,32 @@ void apply(Model& model, const JointRow& row) {
 }
 
 }  // namespace
+
+std::vector<bool> chosen_geoms(const Model& model, GeometryChoice choice) {
+  std::vector<bool> link_is_seen(model.links.size() + 1);
+  for (const ModelGeom& geom : model.geoms)
+    if (geom.is_seen) link_is_seen[static_cast<std::size_t>(geom.link + 1)] = true;
+  std::vector<bool> wanted;
+  for (const ModelGeom& geom : model.geoms)
+    wanted.push_back(choice == GeometryChoice::all ? true
+                     : choice == GeometryChoice::collision
+                         ? geom.collides
+                         : geom.is_seen || !link_is_seen[static_cast<std::size_t>(geom.link + 1)]);
+  return wanted;
+}
+
+void frame_everything(Scene& scene, const Bounds<double>& bounds) {
+  CameraDescription& camera = scene.camera;
+  const Vec3<double> centre = bounds.empty() ? Vec3<double>::Zero() : bounds.centre();
+  const double size = bounds.empty() ? 1 : bounds.half_extents().norm();
+  const double radius = size > 0 ? size : 1;
+  camera.fov_y_degrees = 36;
+  camera.resolution = {960, 720};
+  camera.look_at = centre;
+  const double half_angle = camera.fov_y_degrees * 3.14159265358979 / 360;
+  camera.position =
+      centre + unit<double>({2.1, -1.7, 0.9}) * (0.92 * radius / std::sin(half_angle));
+}
 
 void pose_model(Model& model, const ImportOptions& options, Mistakes& mistakes) {
   if (!options.keyframe.empty()) {
@@ -151,7 +149,7 @@ Scene scene_of(Model& model, const ImportOptions& options, const std::vector<Joi
   Scene scene;
   scene.description = model.format + (model.name.empty() ? "" : " " + model.name);
   Materials materials(scene);
-  const std::vector<bool> wanted = chosen(model, options.geometry);
+  const std::vector<bool> wanted = chosen_geoms(model, options.geometry);
   std::size_t left_out = 0;
   std::vector<std::size_t> geom_of_object;
   std::map<std::string, int> names;

@@ -3,6 +3,7 @@
 // file has none.
 #pragma once
 
+#include "core/math/bounds.h"
 #include "renderer/import/import_options.h"
 #include "renderer/import/model.h"
 #include "renderer/json/mistakes.h"
@@ -20,8 +21,15 @@ struct JointRow {
 void pose_model(Model& model, const ImportOptions& options, Mistakes& mistakes);
 
 /// Rows of values from a CSV file with the joints' names in its first line (and "time", in
-/// seconds), or a JSON list of objects. Mistakes are added.
-std::vector<JointRow> read_joint_rows(const std::string& file, Model& model, Mistakes& mistakes);
+/// seconds). Mistakes are added; they begin with the option that named the file.
+std::vector<JointRow> read_joint_rows(const std::string& file, Model& model, Mistakes& mistakes,
+                                      const std::string& option = "--joints");
+
+/// Which geoms are asked for. A link without visual shapes shows its collision shapes.
+std::vector<bool> chosen_geoms(const Model& model, GeometryChoice choice);
+
+/// Points the camera at the ball around the box, from the front, the right and above.
+void frame_everything(Scene& scene, const Bounds<double>& bounds);
 
 /// Shapes chosen by the options. With several rows, objects move from row to row.
 Scene scene_of(Model& model, const ImportOptions& options, const std::vector<JointRow>& rows);

@@ -38,7 +38,8 @@ INSTANTIATE_TEST_SUITE_P(Targets, Replay,
                          ::testing::Values(Target{"scene", check_scene},
                                            Target{"query", check_queries},
                                            Target{"mesh", check_mesh}, Target{"robot", check_robot},
-                                           Target{"cast", check_cast}),
+                                           Target{"cast", check_cast},
+                                           Target{"contact", check_contact}),
                          [](const auto& instance) { return std::string(instance.param.name); });
 
 TEST(CastQueries, that_were_answered_wrongly_once) {

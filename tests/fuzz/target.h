@@ -28,6 +28,9 @@ std::string check_robot(std::string_view bytes);
 /// accurate solvers and in packets; the answers checked by tests/fuzz/cast_promises.h.
 std::string check_cast(std::string_view bytes);
 
+/// Two shapes made of the bytes: their signed distance beside planes of their own support mappings.
+std::string check_contact(std::string_view bytes);
+
 /// Checks one cast, given as a line for `minkray cast`, in float and in double.
 std::string check_cast_query(std::string_view line);
 

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/core/contact/random_bodies.h"
+#include "tests/core/contact/pair_judge.h"
 
 namespace minkray {
 namespace {
@@ -15,104 +15,25 @@ using testing::kinds_of_bodies;
 using testing::random_shape;
 using testing::RandomShapes;
 
-/// The gap between planes with normal n.
-double gap(const Body& a, const Body& b, const Vec3<double>& n) {
-  const Vec3<double> from = a.pose.translation;
-  return static_cast<double>(-b.support_function(-n, from) - a.support_function(n, from));
-}
-
-/// The largest gap that a search at random finds.
-double best_gap(const Body& a, const Body& b, RandomShapes& random) {
-  Vec3<double> best = random.direction();
-  double largest = gap(a, b, best), step = 0.3;
-  for (int i = 0; i < 100; ++i) {
-    const Vec3<double> n =
-        i < 40 ? random.direction() : Vec3<double>((best + step * random.direction()).normalized());
-    const double found = gap(a, b, n);
-    if (found > largest) {
-      largest = found;
-      best = n;
-    } else if (i >= 40) {
-      step *= 0.8;
-    }
-  }
-  return largest;
-}
-
-/// How far a point is outside of a body, as far as some directions tell.
-double outside(const Body& body, const Vec3<double>& point, const Vec3<double>& normal,
-               RandomShapes& random) {
-  double most = 0;
-  for (int i = 0; i < 12; ++i) {
-    Vec3<double> n = normal;
-    if (i >= 8) n = random.direction();
-    if (i > 0 && i < 8) n += 1e-3 * random.direction();
-    most = std::max(most, static_cast<double>(-body.support_function(n, point)));
-  }
-  return most;
-}
-
-struct Seen {
-  int separated = 0, overlapping = 0, touching = 0, all = 0;
-};
-
-void expect_proven(const Body& a, const Body& b, const SignedDistance& result, RandomShapes& random,
-                   Seen& seen) {
-  const double size = a.ready.ball_radius() + b.ready.ball_radius();
-  const double reaches = size + a.ready.middle().norm() + b.ready.middle().norm() +
-                         (b.pose.translation - a.pose.translation).norm();
-  const double rounding = 16 * tolerance::epsilon<double> * reaches;
-  EXPECT_NE(result.status, SignedStatus::undecided);
-  EXPECT_LE(result.lower, result.value);
-  EXPECT_LE(result.value, result.upper);
-  EXPECT_LE(result.upper - result.lower, 1e-9 * size + 4 * rounding);
-  // The plane proves the lower bound, and no plane is better than the upper one.
-  EXPECT_NEAR(result.normal.norm(), 1, 1e-14);
-  EXPECT_LE(result.lower, gap(a, b, result.normal) + rounding);
-  EXPECT_GE(result.upper, best_gap(a, b, random) - rounding);
-  // The points are of the shapes, and as far from each other.
-  const double far = rounding + 4 * tolerance::epsilon<double> * a.pose.translation.norm();
-  const double near = (result.status == SignedStatus::separated ? 1e-11 : 1e-8) * size + far;
-  EXPECT_LE(((result.point_b - result.point_a) - result.value * result.normal).norm(),
-            3e-6 * size + far);
-  EXPECT_LE(outside(a, result.point_a, result.normal, random), near);
-  EXPECT_LE(outside(b, result.point_b, -result.normal, random), near);
-  seen.separated += result.status == SignedStatus::separated;
-  seen.overlapping += result.status == SignedStatus::overlapping;
-  seen.touching += result.status == SignedStatus::touching;
-  ++seen.all;
-}
-
 TEST(SignedDistance, random_pairs_of_all_kinds_are_proven_by_planes_and_points) {
   RandomShapes random(31);
-  Seen seen;
+  int separated = 0, overlapping = 0, touching = 0, all = 0;
   for (int i = 0; i < kinds_of_bodies; ++i)
     for (int j = 0; j < kinds_of_bodies; ++j)
       for (int k = 0; k < 24; ++k) {
-        // Scales of all sizes, and far origins.
-        const double scale = k % 6 == 5 ? std::pow(10, random.in(-3, 3)) : 1;
-        const double other = k % 8 == 7 ? scale * std::pow(10, random.in(-2, 2)) : scale;
-        const Vec3<double> origin =
-            k % 5 == 4 ? 1e4 * scale * random.direction() : Vec3<double>(Vec3<double>::Zero());
-        const Body a(random_shape(i, scale, random), {random.turn(), origin});
-        Body b(random_shape(j, other, random), {random.turn(), origin});
-        const double size = a.ready.ball_radius() + b.ready.ball_radius() + scale;
-        b.pose.translation += random.in(0, 1.3) * size * random.direction();
-        if (k % 3 == 2) {
-          // To touching, or nearly.
-          const SignedDistance first = signed_distance(a.ready, a.pose, b.ready, b.pose);
-          const double left = k % 2 == 0 ? 0 : std::pow(10, random.in(-14, -3)) * size;
-          b.pose.translation -= (first.value - left * (k % 4 < 2 ? 1 : -1)) * first.normal;
-        }
-        const SignedDistance result = signed_distance(a.ready, a.pose, b.ready, b.pose);
-        expect_proven(a, b, result, random, seen);
-        if (HasFailure())
-          FAIL() << "kinds " << i << " and " << j << ", " << k << ": value " << result.value
-                 << " in [" << result.lower << ", " << result.upper << "]";
+        const testing::RandomPair pair = testing::random_pair(i, j, k, random);
+        const SignedDistance result =
+            signed_distance(pair.a.ready, pair.a.pose, pair.b.ready, pair.b.pose);
+        const std::string wrong = testing::complaint(pair.a, pair.b, result, random);
+        ASSERT_EQ(wrong, "") << "kinds " << i << " and " << j << ", " << k;
+        separated += result.status == SignedStatus::separated;
+        overlapping += result.status == SignedStatus::overlapping;
+        touching += result.status == SignedStatus::touching;
+        ++all;
       }
-  EXPECT_GT(seen.separated, seen.all / 4);
-  EXPECT_GT(seen.overlapping, seen.all / 4);
-  EXPECT_GT(seen.touching, seen.all / 100);
+  EXPECT_GT(separated, all / 4);
+  EXPECT_GT(overlapping, all / 4);
+  EXPECT_GT(touching, all / 100);
 }
 
 TEST(SignedDistance, the_order_of_the_two_turns_the_normal_and_nothing_else) {

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: MIT
+#include "core/world/near_pairs.h"
+
+#include <algorithm>
+#include <queue>
+
+#include "core/parallel/parallel.h"
+
+namespace minkray {
+namespace {
+
+/// The distance of two boxes, or a little less: they are floats, which rounding of this stays
+/// below.
+double distance(const Bounds<float>& a, const Bounds<float>& b) {
+  double squared = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double apart = std::max({double(a.lower[axis]) - double(b.upper[axis]),
+                                   double(b.lower[axis]) - double(a.upper[axis]), 0.0});
+    squared += apart * apart;
+  }
+  constexpr double padding = 1 - 8 * std::numeric_limits<double>::epsilon();
+  return padding * std::sqrt(squared);
+}
+
+using Indices = std::pair<std::size_t, std::size_t>;
+
+/// A child of a hierarchy: a node or one of the bodies.
+struct Child {
+  std::uint32_t what;
+  Bounds<float> box;
+
+  bool is_leaf() const { return (what & BvhNode::leaf) != 0; }
+  std::size_t body() const { return what & ~BvhNode::leaf; }
+};
+
+/// Finds pairs of bodies whose boxes are near enough.
+class PairWalk {
+ public:
+  PairWalk(const ContactWorld& first, const ContactWorld& second, const NearPairsOptions& options)
+      : first_(first), second_(second), options_(options), is_self_(&first == &second) {}
+
+  std::vector<Indices> run() {
+    if (first_.bodies().empty() || second_.bodies().empty()) return {};
+    open_.push_back({root_of(first_), root_of(second_)});
+    while (!open_.empty()) {
+      const auto [a, b] = open_.back();
+      open_.pop_back();
+      visit(a, b);
+    }
+    std::ranges::sort(found_);
+    return found_;
+  }
+
+ private:
+  static Child root_of(const ContactWorld&) {
+    Bounds<float> everywhere;
+    everywhere.lower.setConstant(-std::numeric_limits<float>::infinity());
+    everywhere.upper.setConstant(std::numeric_limits<float>::infinity());
+    return {0, everywhere};
+  }
+
+  static std::size_t children_of(const Child& child, const ContactWorld& world, Child* children) {
+    if (child.is_leaf()) {
+      children[0] = child;
+      return 1;
+    }
+    const BvhNode& node = world.hierarchy().nodes[child.what];
+    std::size_t count = 0;
+    for (int i = 0; i < bvh_width && node.children[i] != BvhNode::none; ++i)
+      children[count++] = {node.children[i], node.box(i)};
+    return count;
+  }
+
+  void visit(const Child& a, const Child& b) {
+    if (a.is_leaf() && b.is_leaf()) return add(a.body(), b.body());
+    Child of_a[bvh_width], of_b[bvh_width];
+    const std::size_t count_a = children_of(a, first_, of_a),
+                      count_b = children_of(b, second_, of_b);
+    const bool is_same = is_self_ && a.what == b.what;
+    for (std::size_t i = 0; i < count_a; ++i)
+      for (std::size_t j = is_same ? i : 0; j < count_b; ++j) {
+        if (is_same && i == j && of_a[i].is_leaf()) continue;
+        if (distance(of_a[i].box, of_b[j].box) <= options_.at_most)
+          open_.push_back({of_a[i], of_b[j]});
+      }
+  }
+
+  void add(std::size_t a, std::size_t b) {
+    if (is_self_ && a > b) std::swap(a, b);
+    if (!first_.bodies()[a].is_pair_with(second_.bodies()[b])) return;
+    if (options_.wanted && !options_.wanted(a, b)) return;
+    found_.emplace_back(a, b);
+  }
+
+  const ContactWorld &first_, &second_;
+  const NearPairsOptions& options_;
+  bool is_self_;
+  std::vector<std::pair<Child, Child>> open_;
+  std::vector<Indices> found_;
+};
+
+}  // namespace
+
+Bounds<double> bounds_of(const ContactBody& body) {
+  constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
+  const PlacedCore frame = placed(body.shape, body.pose);
+  const ShapeCore& core = body.shape.core();
+  Bounds<double> bounds;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vec3<double> d = frame.turn.row(axis).transpose();
+    const double allowed = rounding * (core.ball + core.radius + std::abs(frame.middle[axis]));
+    const auto reach = [&](const Vec3<double>& along) {
+      return along.dot(support_of_core<CoreKind::other>(core, along).point) + core.radius + allowed;
+    };
+    bounds.lower[axis] = frame.middle[axis] - reach(-d);
+    bounds.upper[axis] = frame.middle[axis] + reach(d);
+  }
+  return bounds;
+}
+
+ContactWorld::ContactWorld(std::vector<ContactBody> bodies) : bodies_(std::move(bodies)) {
+  std::vector<Bounds<float>> boxes(bodies_.size());
+  parallel_for(boxes.size(), 256, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) boxes[i] = rounded_outwards(bounds_of(bodies_[i]));
+  });
+  hierarchy_ = build_bvh(boxes);
+}
+
+std::vector<NearPair> near_pairs(const ContactWorld& first, const ContactWorld& second,
+                                 const NearPairsOptions& options) {
+  const std::vector<Indices> candidates = PairWalk(first, second, options).run();
+  std::vector<NearPair> pairs(candidates.size());
+  parallel_for(pairs.size(), 64, [&](std::size_t begin, std::size_t end) {
+    SignedDistanceOptions how;
+    how.at_most = options.at_most;
+    how.tolerance = options.tolerance;
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto [a, b] = candidates[i];
+      const ContactBody &of_a = first.bodies()[a], &of_b = second.bodies()[b];
+      pairs[i] = {a, b, signed_distance(of_a.shape, of_a.pose, of_b.shape, of_b.pose, how)};
+    }
+  });
+  std::erase_if(pairs, [&](const NearPair& pair) { return pair.distance.lower > options.at_most; });
+  return pairs;
+}
+
+std::vector<NearPair> near_pairs(const ContactWorld& world, const NearPairsOptions& options) {
+  return near_pairs(world, world, options);
+}
+
+std::vector<NearPair> nearest_bodies(const ContactBody& to, const ContactWorld& world,
+                                     std::size_t count) {
+  std::vector<NearPair> best;
+  if (count == 0 || world.bodies().empty()) return best;
+  const auto is_nearer = [](const NearPair& a, const NearPair& b) {
+    return a.distance.value < b.distance.value ||
+           (a.distance.value == b.distance.value && a.b < b.b);
+  };
+  // The nearest box first: what is further than the worst of those kept ends the search.
+  struct Open {
+    double distance;
+    std::uint32_t what;
+    bool operator<(const Open& other) const { return distance > other.distance; }
+  };
+  std::priority_queue<Open> open;
+  open.push({0, 0});
+  const Bounds<float> box = rounded_outwards(bounds_of(to));
+  while (!open.empty()) {
+    const Open top = open.top();
+    open.pop();
+    const bool is_full = best.size() == count;
+    // Boxes that meet say nothing of how deep the bodies are in each other.
+    if (is_full && top.distance > std::max(best.back().distance.value, 0.0)) break;
+    if ((top.what & BvhNode::leaf) == 0) {
+      const BvhNode& node = world.hierarchy().nodes[top.what];
+      for (int i = 0; i < bvh_width && node.children[i] != BvhNode::none; ++i)
+        open.push({distance(box, node.box(i)), node.children[i]});
+      continue;
+    }
+    const std::size_t index = top.what & ~BvhNode::leaf;
+    const ContactBody& body = world.bodies()[index];
+    if (!to.is_pair_with(body)) continue;
+    SignedDistanceOptions how;
+    if (is_full) how.at_most = best.back().distance.value;
+    const NearPair pair{0, index, signed_distance(to.shape, to.pose, body.shape, body.pose, how)};
+    if (is_full && !is_nearer(pair, best.back())) continue;
+    best.insert(std::ranges::upper_bound(best, pair, is_nearer), pair);
+    if (best.size() > count) best.pop_back();
+  }
+  return best;
+}
+
+}  // namespace minkray

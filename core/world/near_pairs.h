@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+// Which of many bodies are near each other, with their signed distances: by a hierarchy of boxes
+// that is walked against itself or another one. Not for half-spaces, which have no box.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "core/bvh/bvh.h"
+#include "core/contact/signed_distance.h"
+
+namespace minkray {
+
+struct ContactBody {
+  ContactShape shape;
+  Affine<double> pose;  ///< rigid, to the world
+  /// Two bodies are a pair if each one's mask has a bit of the other's category.
+  std::uint32_t category = 1;
+  std::uint32_t mask = ~std::uint32_t{0};
+
+  bool is_pair_with(const ContactBody& other) const {
+    return (category & other.mask) != 0 && (other.category & mask) != 0;
+  }
+};
+
+/// The least box that holds the body, but for a rounding outwards.
+Bounds<double> bounds_of(const ContactBody& body);
+
+/// Bodies with the hierarchy of their boxes. Immutable.
+class ContactWorld {
+ public:
+  explicit ContactWorld(std::vector<ContactBody> bodies);
+
+  const std::vector<ContactBody>& bodies() const { return bodies_; }
+  const Bvh& hierarchy() const { return hierarchy_; }
+
+ private:
+  std::vector<ContactBody> bodies_;
+  Bvh hierarchy_;
+};
+
+/// Indices of two bodies, of the first and of the second world; within one world a < b.
+struct NearPair {
+  std::size_t a = 0, b = 0;
+  SignedDistance distance;
+};
+
+struct NearPairsOptions {
+  double at_most =
+      0;  ///< pairs that are further apart are left out; 0: those that overlap or touch
+  /// Says of two indices whether they are asked for, if masks do not tell enough: allowed pairs.
+  std::function<bool(std::size_t a, std::size_t b)> wanted;
+  double tolerance = SignedDistanceOptions{}.tolerance;
+};
+
+/// All pairs of a world whose signed distance is not proven to be above `at_most`, in the order of
+/// their indices, whatever the number of threads.
+std::vector<NearPair> near_pairs(const ContactWorld& world, const NearPairsOptions& options);
+
+/// All pairs of a body of one world and one of the other.
+std::vector<NearPair> near_pairs(const ContactWorld& first, const ContactWorld& second,
+                                 const NearPairsOptions& options);
+
+/// The `count` bodies nearest to another one, the nearest first; fewer if there are not so many.
+/// `a` is 0. Masks are heeded.
+std::vector<NearPair> nearest_bodies(const ContactBody& to, const ContactWorld& world,
+                                     std::size_t count);
+
+}  // namespace minkray

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// Which links may touch each other: pairs whose distance nobody asks for.
+#pragma once
+
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "renderer/import/model.h"
+#include "renderer/json/mistakes.h"
+
+namespace minkray {
+
+class AllowedPairs {
+ public:
+  void allow(const std::string& a, const std::string& b) { pairs_.insert(std::minmax(a, b)); }
+  void forbid(const std::string& a, const std::string& b) { pairs_.erase(std::minmax(a, b)); }
+  bool allows(const std::string& a, const std::string& b) const {
+    return pairs_.contains(std::minmax(a, b));
+  }
+  std::size_t size() const { return pairs_.size(); }
+
+ private:
+  std::set<std::pair<std::string, std::string>> pairs_;
+};
+
+/// Adds what an SRDF, MoveIt's description of a robot's meaning (http://wiki.ros.org/srdf), says:
+/// <disable_collisions>, <disable_default_collisions> and <enable_collisions>. Links that the model
+/// does not have are mistakes.
+void read_srdf(const std::string& file, const Model& model, AllowedPairs& allowed,
+               Mistakes& mistakes);
+
+/// Links that no joint moves against each other have the same number: that of the first of them.
+std::vector<int> rigid_groups(const Model& model);
+
+}  // namespace minkray

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// The bodies whose clearance is asked for, a robot's shapes and the obstacles around it, and which
+// of them are looked at in pairs.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/contact/contact_shape.h"
+#include "core/world/half_space.h"
+#include "renderer/clearance/allowed_pairs.h"
+#include "renderer/import/import_options.h"
+#include "renderer/scene/scene.h"
+
+namespace minkray {
+
+struct ClearanceBody {
+  std::string name;
+  std::string link;  ///< the name of the robot's link; empty: an obstacle
+  int link_index = -1;
+  Affine<double> pose;  ///< rigid, from the shape's frame to the link's, or to the world
+  ContactShape shape;
+  /// If there is one it is that, not `shape`, and stands in the world.
+  std::optional<HalfSpaceBody<double>> half_space = {};
+
+  /// The ball of this radius around the link's origin holds the shape.
+  double reach() const { return pose(shape.middle()).norm() + shape.ball_radius(); }
+};
+
+/// The shapes that `geometry` chooses.
+std::vector<ClearanceBody> bodies_of(const Model& model, GeometryChoice geometry);
+
+/// All of a scene's objects, at the scene's time.
+std::vector<ClearanceBody> bodies_of(const Scene& scene);
+
+struct BodyPair {
+  std::size_t a, b;
+};
+
+/// Pairs of which one moves against the other; not of links that a joint connects, nor of allowed
+/// ones. Without `self` only those of the robot and an obstacle.
+std::vector<BodyPair> pairs_of(const std::vector<ClearanceBody>& bodies, const Model& model,
+                               const AllowedPairs& allowed, bool self);
+
+}  // namespace minkray

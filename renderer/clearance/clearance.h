@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// The clearance of a robot's path: the least signed distance of its links to each other and to
+// obstacles, all along and not at some samples, between bounds that are proven (core/contact/
+// least_distance.h). Between two rows of joints' values each joint goes at a constant rate.
+#pragma once
+
+#include "core/contact/signed_distance.h"
+#include "renderer/clearance/bodies.h"
+#include "renderer/clearance/step_motion.h"
+
+namespace minkray {
+
+struct ClearanceOptions {
+  /// How near the bounds shall be to each other, relative to the clearance; and never less than
+  /// 1e-7 of the robot's size.
+  double tolerance = 0.01;
+  /// Whether the least of each step is asked for, not of the whole path only.
+  bool every_step = false;
+};
+
+/// The least that was seen.
+struct Closest {
+  double lower = std::numeric_limits<double>::infinity();
+  double upper = std::numeric_limits<double>::infinity();
+  double time = 0;
+  std::size_t a = 0, b = 0;  ///< which bodies
+  SignedDistance distance;
+  bool is_settled = true;  ///< whether the bounds are as near to each other as was asked
+};
+
+struct Clearance {
+  Closest closest;             ///< a, b and the rest say nothing if there are no pairs
+  std::vector<Closest> steps;  ///< if asked for
+  std::size_t pairs = 0, steps_count = 0, distances = 0;
+};
+
+Clearance clearance_of(const JointPath& path, const std::vector<ClearanceBody>& bodies,
+                       const std::vector<BodyPair>& pairs, const ClearanceOptions& options);
+
+}  // namespace minkray

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/clearance/step_motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace minkray {
+namespace {
+
+/// Where a joint's quaternion w, x, y, z begins in its values; negative if it has none.
+int quaternion_at(JointKind kind) {
+  if (kind == JointKind::ball) return 0;
+  return kind == JointKind::free ? 3 : -1;
+}
+
+using Quaternion = Eigen::Quaterniond;
+
+Quaternion quaternion_of(const std::vector<double>& values, int at) {
+  const auto i = static_cast<std::size_t>(at);
+  return Quaternion(values[i], values[i + 1], values[i + 2], values[i + 3]).normalized();
+}
+
+std::vector<double> between(JointKind kind, const std::vector<double>& first,
+                            const std::vector<double>& last, double s) {
+  std::vector<double> values(first.size());
+  for (std::size_t i = 0; i < first.size(); ++i) values[i] = first[i] + s * (last[i] - first[i]);
+  if (const int at = quaternion_at(kind); at >= 0 && !values.empty()) {
+    const Quaternion q = quaternion_of(first, at).slerp(s, quaternion_of(last, at));
+    const double numbers[4] = {q.w(), q.x(), q.y(), q.z()};
+    std::copy(numbers, numbers + 4, values.begin() + at);
+  }
+  return values;
+}
+
+Vec3<double> first_three(const std::vector<double>& values) {
+  return {values[0], values[1], values[2]};
+}
+
+}  // namespace
+
+JointPath::JointPath(const Model& model, const std::vector<JointRow>& rows) : skeleton(model) {
+  skeleton.geoms.clear();
+  skeleton.meshes.clear();
+  Model posed = skeleton;
+  for (const JointRow& row : rows) {
+    for (const auto& [name, numbers] : row.values)
+      if (ModelJoint* joint = find_joint(posed, name)) joint->value = numbers;
+    follow_mimics(posed);
+    times.push_back(row.time);
+    values.emplace_back();
+    for (const ModelLink& link : posed.links)
+      for (const ModelJoint& joint : link.joints) values.back().push_back(joint.value);
+  }
+}
+
+StepMotion::StepMotion(const JointPath& path, std::size_t step)
+    : path_(path),
+      first_(step),
+      last_(std::min(step + 1, path.times.size() - 1)),
+      begin_(path.times[first_]),
+      end_(path.times[last_]),
+      model_(path.skeleton) {
+  std::size_t at = 0;
+  for (const ModelLink& link : model_.links) {
+    rates_.emplace_back();
+    bool is_absolute = false;
+    for (const ModelJoint& joint : link.joints) {
+      const std::vector<double>&from = path.values[first_][at], &to = path.values[last_][at];
+      ++at;
+      Rate rate;
+      if (!from.empty() && from.size() == to.size() && from.size() == width_of(joint.kind)) {
+        if (const int q = quaternion_at(joint.kind); q >= 0)
+          rate.turn = quaternion_of(from, q).angularDistance(quaternion_of(to, q));
+        switch (joint.kind) {
+          case JointKind::hinge:
+            rate.turn = std::abs(to[0] - from[0]);
+            break;
+          case JointKind::slide:
+            rate.slide = std::abs(to[0] - from[0]);
+            rate.offset =
+                std::max(std::abs(from[0] - joint.reference), std::abs(to[0] - joint.reference));
+            break;
+          case JointKind::planar:
+            rate.slide = std::hypot(to[0] - from[0], to[1] - from[1]);
+            rate.offset = std::max(std::hypot(from[0], from[1]), std::hypot(to[0], to[1]));
+            rate.turn = std::abs(to[2] - from[2]);
+            break;
+          case JointKind::free:
+            rate.slide = (first_three(to) - first_three(from)).norm();
+            rate.offset = std::max(first_three(from).norm(), first_three(to).norm());
+            rate.is_absolute = is_absolute = true;
+            break;
+          case JointKind::ball:
+          case JointKind::fixed:
+            break;
+        }
+      }
+      rates_.back().push_back(rate);
+    }
+    parents_.push_back(is_absolute ? -1 : link.parent);
+  }
+}
+
+const std::vector<Affine<double>>& StepMotion::links_at(double s) {
+  if (const auto known = kept_.find(s); known != kept_.end()) return known->second;
+  std::size_t at = 0;
+  for (ModelLink& link : model_.links)
+    for (ModelJoint& joint : link.joints) {
+      const std::vector<double>&from = path_.values[first_][at], &to = path_.values[last_][at];
+      joint.value = between(joint.kind, from, to, s);
+      ++at;
+    }
+  return kept_.emplace(s, link_poses(model_)).first->second;
+}
+
+MotionBound StepMotion::bound(int link, int ancestor, double reach) const {
+  MotionBound bound{reach, 0, 0};
+  bool is_in_world = false;
+  for (int at = link; at != ancestor && at >= 0 && !is_in_world;) {
+    const auto index = static_cast<std::size_t>(at);
+    const ModelLink& of = model_.links[index];
+    for (std::size_t j = of.joints.size(); j-- > 0 && !is_in_world;) {
+      const ModelJoint& joint = of.joints[j];
+      const Rate& rate = rates_[index][j];
+      const bool has_anchor = joint.kind == JointKind::hinge || joint.kind == JointKind::ball;
+      const double arm = has_anchor ? joint.anchor.norm() : 0;
+      bound.reach += arm;
+      bound.acceleration += rate.turn * (rate.turn * bound.reach + 2 * bound.speed);
+      bound.speed += rate.turn * bound.reach + rate.slide;
+      bound.reach += arm + rate.offset;
+      is_in_world = rate.is_absolute;
+    }
+    if (!is_in_world) bound.reach += of.rest.translation.norm();
+    at = parents_[index];
+  }
+  // What the poses' own roundings amount to.
+  constexpr double padding = 1 + 1e-12;
+  bound.reach *= padding;
+  bound.speed *= padding;
+  bound.acceleration *= padding;
+  return bound;
+}
+
+int StepMotion::common_ancestor(int a, int b) const {
+  // A link's index is larger than its parent's.
+  while (a != b) {
+    int& further = a > b ? a : b;
+    further = parents_[static_cast<std::size_t>(further)];
+  }
+  return a;
+}
+
+}  // namespace minkray

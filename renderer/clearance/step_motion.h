@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// How a robot moves from one row of joints' values to the next: each joint at a constant rate, the
+// shorter way round where it is a ball. And bounds of how fast and how crookedly that moves its
+// links' points, by which what was seen at some times is proven for all.
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "renderer/import/model.h"
+#include "renderer/import/scene_of_model.h"
+
+namespace minkray {
+
+/// All joints' values in each row, in the model's order; mimics follow.
+struct JointPath {
+  JointPath(const Model& model, const std::vector<JointRow>& rows);
+
+  Model skeleton;  ///< links and joints alone
+  std::vector<double> times;
+  std::vector<std::vector<std::vector<double>>> values;  ///< row, joint, number
+
+  /// A single row is a path of one step that stands still.
+  std::size_t steps() const { return times.size() > 1 ? times.size() - 1 : 1; }
+};
+
+/// What holds of a link's points while s goes from 0 to 1, as another link sees them.
+struct MotionBound {
+  double reach = 0;  ///< no point is further from the other's origin
+  double speed = 0;
+  double acceleration = 0;
+};
+
+class StepMotion {
+ public:
+  StepMotion(const JointPath& path, std::size_t step);
+
+  /// The links' poses in the world, s from 0 to 1. Kept until this is gone.
+  const std::vector<Affine<double>>& links_at(double s);
+
+  /// The seconds of the path.
+  double time_at(double s) const { return begin_ + s * (end_ - begin_); }
+
+  /// It holds of the points within `reach` of the link's origin, as `ancestor` sees them; -1: the
+  /// world.
+  ///
+  /// A point p goes to R p + t. If R turns at a constant speed alpha, and p moves by v and a in its
+  /// own frame, R p moves by alpha |p| + v and accelerates by alpha^2 |p| + 2 alpha v + a.
+  MotionBound bound(int link, int ancestor, double reach) const;
+
+  /// The link whose frame both stand in, the furthest from the world; -1: the world.
+  int common_ancestor(int a, int b) const;
+
+ private:
+  struct Rate {
+    double turn = 0;           ///< radians in the step
+    double slide = 0;          ///< how far the origin goes in the step
+    double offset = 0;         ///< the furthest that the origin is from where it is at rest
+    bool is_absolute = false;  ///< it places the link in the world, whatever it hangs on
+  };
+
+  const JointPath& path_;
+  std::size_t first_, last_;
+  double begin_, end_;
+  Model model_;
+  std::vector<std::vector<Rate>> rates_;  ///< link, joint
+  std::vector<int> parents_;              ///< what a free joint places has none
+  std::map<double, std::vector<Affine<double>>> kept_;
+};
+
+}  // namespace minkray

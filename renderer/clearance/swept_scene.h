@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// A picture of a path: all that a robot's links pass over, as one scene of swept bodies.
+#pragma once
+
+#include "renderer/clearance/step_motion.h"
+#include "renderer/import/import_options.h"
+#include "renderer/json/mistakes.h"
+
+namespace minkray {
+
+struct SweptSceneOptions {
+  /// Steps are cut into so many parts that no body is larger than what it holds by more than this,
+  /// relative to the body's own size.
+  double slack = 0.01;
+  std::size_t most_parts = 64;  ///< of one step
+};
+
+/// One object for each shape and part of a step. Each provably holds the link all through its part;
+/// shapes that do not move stand once.
+Scene swept_scene(Model model, const ImportOptions& import, const JointPath& path,
+                  const SweptSceneOptions& options, Mistakes& mistakes);
+
+}  // namespace minkray

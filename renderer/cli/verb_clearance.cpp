@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+// minkray clearance: how near a robot comes to itself and to obstacles along a path, with proof.
+#include <iostream>
+#include <memory>
+#include <sstream>
+
+#include "core/parallel/parallel.h"
+#include "renderer/clearance/clearance.h"
+#include "renderer/clearance/swept_scene.h"
+#include "renderer/cli/exit_code.h"
+#include "renderer/cli/file_ending.h"
+#include "renderer/cli/import_arguments.h"
+#include "renderer/cli/options.h"
+#include "renderer/cli/verbs.h"
+#include "renderer/import/import.h"
+#include "renderer/io/output_file.h"
+#include "renderer/query/number_json.h"
+#include "renderer/scene/write_scene.h"
+
+namespace minkray {
+namespace {
+
+struct ClearanceVerbOptions {
+  std::string robot, srdf, steps, sweep;
+  std::vector<std::string> obstacles, allowed;
+  ImportOptions import;
+  ClearanceOptions clearance;
+  std::optional<std::string> at_least;
+  bool only_obstacles = false;
+  int threads = 0;
+
+  ClearanceVerbOptions() { import.geometry = GeometryChoice::collision; }
+};
+
+void write_text(const std::string& file, const std::string& text) {
+  write_file(file, std::span(reinterpret_cast<const unsigned char*>(text.data()), text.size()));
+}
+
+AllowedPairs allowed_pairs(const ClearanceVerbOptions& options, const Model& model,
+                           Mistakes& mistakes) {
+  AllowedPairs allowed;
+  if (!options.srdf.empty()) {
+    Mistakes of_file(options.srdf);
+    read_srdf(options.srdf, model, allowed, of_file);
+    throw_if_any(of_file);
+  }
+  const auto is_link = [&](const std::string& name) {
+    return std::ranges::any_of(model.links,
+                               [&](const ModelLink& link) { return link.name == name; });
+  };
+  for (const std::string& text : options.allowed) {
+    const std::size_t comma = text.find(',');
+    const std::string a = text.substr(0, comma),
+                      b = comma == text.npos ? "" : text.substr(comma + 1);
+    if (is_link(a) && is_link(b))
+      allowed.allow(a, b);
+    else
+      mistakes.add("--allow: must be two links of the robot with a comma between them (got \"" +
+                   printable(text, 80) + "\")");
+  }
+  return allowed;
+}
+
+/// The words a row of --steps and the answer have in common.
+std::string status_of(const Closest& closest) {
+  if (closest.lower > 0) return "clear";
+  return closest.upper < 0 ? "collides" : "touches";
+}
+
+Json json_of(const Clearance& clearance, const std::vector<ClearanceBody>& bodies) {
+  const Closest& closest = clearance.closest;
+  Json json = {{"status", clearance.pairs > 0 ? status_of(closest) : "clear"},
+               {"lower", number_json(closest.lower)},
+               {"upper", number_json(closest.upper)}};
+  if (std::isfinite(closest.upper)) {
+    json["time"] = number_json(closest.time);
+    json["a"] = bodies[closest.a].name;
+    json["b"] = bodies[closest.b].name;
+    json["point_a"] = point_json(closest.distance.point_a);
+    json["point_b"] = point_json(closest.distance.point_b);
+    json["normal"] = point_json(closest.distance.normal);
+  }
+  if (!closest.is_settled) json["settled"] = false;
+  json["pairs"] = clearance.pairs;
+  json["steps"] = clearance.steps_count;
+  json["distances"] = clearance.distances;
+  return json;
+}
+
+/// In a CSV file a name with a comma or a quote stands in quotes.
+std::string cell(const std::string& text) {
+  if (text.find_first_of(",\"\n") == text.npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
+  return quoted + '"';
+}
+
+std::string steps_text(const Clearance& clearance, const JointPath& path,
+                       const std::vector<ClearanceBody>& bodies) {
+  std::ostringstream text;
+  text.precision(17);
+  text << "begin,end,lower,upper,time,a,b,status\n";
+  for (std::size_t i = 0; i < clearance.steps.size(); ++i) {
+    const Closest& step = clearance.steps[i];
+    text << path.times[i] << ',' << path.times[std::min(i + 1, path.times.size() - 1)] << ','
+         << step.lower << ',' << step.upper << ',' << step.time << ',' << cell(bodies[step.a].name)
+         << ',' << cell(bodies[step.b].name) << ',' << status_of(step) << '\n';
+  }
+  return text.str();
+}
+
+double number_of(const std::string& text) {
+  double number = 0;
+  const auto [next, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || next != text.data() + text.size() || !std::isfinite(number))
+    throw WrongUsage("--at-least: must be a number (got " + text + ")");
+  return number;
+}
+
+void clearance(ClearanceVerbOptions& options, ExitCode& exit_code) {
+  if (!(options.clearance.tolerance <= 1))
+    throw WrongUsage("--tolerance: must be a number from 1e-9 to 1");
+  const double at_least = options.at_least ? number_of(*options.at_least) : 0;
+  if (!options.steps.empty()) check_writable(options.steps);
+  if (!options.sweep.empty()) {
+    check_ending(options.sweep, ".json", "--sweep");
+    check_writable(options.sweep);
+  }
+  Mistakes mistakes(options.robot);
+  if (!is_foreign(options.robot))
+    mistakes.add("must be a robot's file: MJCF (.xml, .mjcf), URDF (.urdf), SDF (.sdf, .world)");
+  throw_if_any(mistakes);
+  std::optional<Model> model = load_model(options.robot, options.import, mistakes);
+  throw_if_any(mistakes);
+  pose_model(*model, options.import, mistakes);
+  const std::vector<JointRow> rows =
+      read_joint_rows(options.import.joint_rows, *model, mistakes, "--path");
+  const AllowedPairs allowed = allowed_pairs(options, *model, mistakes);
+  throw_if_any(mistakes);
+  std::vector<ClearanceBody> bodies = bodies_of(*model, options.import.geometry);
+  for (const std::string& file : options.obstacles)
+    for (ClearanceBody& body : bodies_of(import_scene(file).scene)) bodies.push_back(body);
+  const std::vector<BodyPair> pairs = pairs_of(bodies, *model, allowed, !options.only_obstacles);
+
+  const JointPath path(*model, rows);
+  options.clearance.every_step = !options.steps.empty();
+  const Clearance found = clearance_of(path, bodies, pairs, options.clearance);
+  if (!options.steps.empty()) write_text(options.steps, steps_text(found, path, bodies));
+  if (!options.sweep.empty()) {
+    const Scene scene = swept_scene(*model, options.import, path, {}, mistakes);
+    throw_if_any(mistakes);
+    write_text(options.sweep, scene_text(scene));
+  }
+  std::cout << json_of(found, bodies).dump() << '\n';
+  if (options.at_least && !(found.closest.lower >= at_least)) {
+    exit_code = ExitCode::comparison_failed;
+    std::cerr << "the clearance is not proven to be " << *options.at_least << "\n";
+  }
+}
+
+}  // namespace
+
+void add_clearance(Parser& parser, ExitCode& exit_code) {
+  const Verb verb = parser.add_verb(
+      "clearance", "How near a robot comes to itself and to obstacles along a path, proven");
+  const auto options = std::make_shared<ClearanceVerbOptions>();
+  verb.add_option("robot", options->robot, "MJCF (.xml, .mjcf), URDF (.urdf), SDF (.sdf, .world)")
+      .required();
+  verb.add_option("--path", options->import.joint_rows,
+                  "A CSV file: joints' names in its first line, values in the others, perhaps a "
+                  "column \"time\"; from row to row each joint goes at a constant rate")
+      .required();
+  verb.add_option("--obstacle", options->obstacles,
+                  "A scene or a robot's file that stands still; may be given again")
+      .one_value_each();
+  verb.add_option("--srdf", options->srdf, "MoveIt's file of the links that may touch each other");
+  verb.add_option("--allow", options->allowed,
+                  "LINK,LINK that may touch each other; may be given again. Links that a joint "
+                  "connects always may")
+      .one_value_each();
+  verb.add_flag("--only-obstacles", options->only_obstacles,
+                "Not of the robot's links to each other");
+  verb.add_option("--tolerance", options->clearance.tolerance,
+                  "How near the bounds shall be to each other, relative to the clearance")
+      .between(1e-9, 1.0)
+      .show_default();
+  verb.add_option("--at-least", options->at_least,
+                  "Fails (exit code 1) unless the clearance is proven to be so much");
+  verb.add_option("--steps", options->steps, "A CSV file to write: the least of each step");
+  verb.add_option("--sweep", options->sweep,
+                  "A scene file to write (.json): bodies that hold all that the links pass over");
+  add_import_options(verb, options->import, false);
+  verb.add_option("-t,--threads", options->threads, "How many threads; 0 for one a core")
+      .between(0, 1024)
+      .show_default();
+  verb.on_call([options, &exit_code] {
+    with_threads(options->threads, [&] { clearance(*options, exit_code); });
+  });
+}
+
+}  // namespace minkray

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/field/distance_field.h"
+
+#include <atomic>
+#include <cmath>
+
+#include "core/contact/half_space_distance.h"
+#include "core/parallel/parallel.h"
+#include "renderer/base/errors.h"
+
+namespace minkray {
+namespace {
+
+struct Body {
+  ContactShape shape;
+  std::optional<HalfSpaceBody<double>> half_space;
+};
+
+}  // namespace
+
+FieldPlane plane_facing(const Vec3<double>& middle, const Vec3<double>& normal, double extent,
+                        int width, int height) {
+  constexpr double nearly_along_z = 0.99;
+  const Vec3<double> n = unit<double>(normal);
+  const Vec3<double> up_wish =
+      std::abs(n.z()) > nearly_along_z ? Vec3<double>::UnitY() : Vec3<double>::UnitZ();
+  const Vec3<double> right = unit<double>(up_wish.cross(n)), up = n.cross(right);
+  const double pixel = extent / width;
+  FieldPlane plane{width, height, {}, pixel * right, -pixel * up};
+  plane.corner = middle - (width / 2.0) * plane.right - (height / 2.0) * plane.down;
+  return plane;
+}
+
+DistanceField measure_field(const Scene& scene, const Shape<double>& probe, const FieldPlane& plane,
+                            const FieldOptions& options) {
+  if (!scene.particles.empty()) throw BadInput("distances from particles are not measured");
+  std::vector<Body> bodies;
+  for (const Object& object : scene.objects) {
+    bodies.push_back({ContactShape(object.shape, object.pose), {}});
+    if (object.half_space) bodies.back().half_space = object.half_space->posed(object.pose);
+  }
+  const ContactShape moving(probe);
+  const auto width = static_cast<std::size_t>(plane.width),
+             height = static_cast<std::size_t>(plane.height);
+  DistanceField field;
+  field.plane = plane;
+  const double none = std::numeric_limits<double>::infinity();
+  field.value.assign(width * height, none);
+  field.lower = field.upper = field.value;
+  field.object.assign(width * height, -1);
+  std::atomic<std::size_t> supports{0};
+  parallel_for(height, 1, [&](std::size_t begin, std::size_t end) {
+    std::size_t asked = 0;
+    for (std::size_t y = begin; y < end; ++y) {
+      if (options.go_on && !options.go_on()) return;
+      for (std::size_t x = 0; x < width; ++x) {
+        const std::size_t pixel = y * width + x;
+        const Affine<double> pose{Mat3<double>::Identity(),
+                                  plane.at(static_cast<int>(x), static_cast<int>(y))};
+        const Vec3<double> middle = pose(moving.middle());
+        double& value = field.value[pixel];
+        for (std::size_t i = 0; i < bodies.size(); ++i) {
+          const Body& body = bodies[i];
+          SignedDistance found;
+          if (body.half_space) {
+            found = distance_to_half_space(body.half_space->normal, body.half_space->offset, moving,
+                                           pose);
+          } else {
+            const double apart = (middle - body.shape.middle()).norm() - moving.ball_radius() -
+                                 body.shape.ball_radius();
+            if (apart > value) continue;
+            SignedDistanceOptions how;
+            how.tolerance = options.tolerance;
+            how.at_most = value;
+            found = signed_distance(body.shape, {}, moving, pose, how);
+          }
+          asked += static_cast<std::size_t>(found.supports);
+          field.lower[pixel] = std::min(field.lower[pixel], found.lower);
+          field.upper[pixel] = std::min(field.upper[pixel], found.upper);
+          if (!(found.value < value)) continue;
+          value = found.value;
+          field.object[pixel] = static_cast<int>(i);
+        }
+      }
+    }
+    supports += asked;
+  });
+  field.supports = supports;
+  return field;
+}
+
+}  // namespace minkray

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// The signed distance of a probe from a scene, over the points of a plane: the least of its signed
+// distances from all objects (core/contact/signed_distance.h).
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "core/shape/shape.h"
+#include "renderer/scene/scene.h"
+
+namespace minkray {
+
+/// The middle of pixel (x, y) is corner + (x + 1/2) right + (y + 1/2) down.
+struct FieldPlane {
+  int width = 0, height = 0;
+  Vec3<double> corner, right, down;
+
+  Vec3<double> at(int x, int y) const { return corner + (x + 0.5) * right + (y + 0.5) * down; }
+};
+
+/// The plane through `middle` as seen from the tip of its normal; z is up, or y where one looks
+/// along z. A picture of `width` pixels is as wide as `extent`.
+FieldPlane plane_facing(const Vec3<double>& middle, const Vec3<double>& normal, double extent,
+                        int width, int height);
+
+/// A number a pixel, rows from the top. The truth is between lower and upper.
+struct DistanceField {
+  FieldPlane plane;
+  std::vector<double> value, lower, upper;
+  std::vector<int> object;  ///< the index of the nearest; -1 if the scene has none
+  std::size_t supports = 0;
+};
+
+struct FieldOptions {
+  double tolerance = 1e-6;  ///< of the bounds, relative to the sizes of probe and object
+  /// Is asked once a row; says whether to go on.
+  std::function<bool()> go_on;
+};
+
+/// The probe's origin goes over the plane. Throws BadInput for a scene with particles.
+DistanceField measure_field(const Scene& scene, const Shape<double>& probe, const FieldPlane& plane,
+                            const FieldOptions& options);
+
+}  // namespace minkray

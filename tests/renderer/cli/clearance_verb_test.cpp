@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT
+// minkray clearance and minkray field as their users meet them.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "renderer/io/exr.h"
+#include "renderer/json/json.h"
+#include "tests/support/program.h"
+#include "tests/support/source_files.h"
+
+namespace minkray {
+namespace {
+
+/// A pendulum of a ball that hangs 1 from its hinge, and a post that stands 1.5 away.
+void write_pendulum(const TemporaryFolder& folder) {
+  std::ofstream(folder / "pendulum.urdf") << R"(<robot name="pendulum">
+  <link name="post"><collision><origin xyz="1.5 0 0"/>
+    <geometry><sphere radius="0.2"/></geometry></collision></link>
+  <link name="arm"/>
+  <link name="bob"><collision><geometry><sphere radius="0.1"/></geometry></collision></link>
+  <joint name="swing" type="continuous"><parent link="post"/><child link="arm"/>
+    <axis xyz="0 1 0"/></joint>
+  <joint name="rod" type="continuous"><parent link="arm"/><child link="bob"/>
+    <origin xyz="0 0 -1"/></joint>
+</robot>)";
+  // Angles from hanging down to straight up: at -pi/2 the bob is nearest to the post.
+  std::ofstream(folder / "swing.csv") << "time,swing\n0,0\n2,-3.141592653589793\n";
+  std::ofstream(folder / "half.csv") << "swing\n0\n-1\n";
+  std::ofstream(folder / "pendulum.srdf") << R"(<robot name="pendulum">
+  <disable_collisions link1="bob" link2="post" reason="Never"/></robot>)";
+  write_ball_scene(folder / "ball.json", 0.5);
+}
+
+ProgramOutcome clearance(const TemporaryFolder& folder, const std::string& words) {
+  return run_shell("cd '" + folder / "" + "' && $MINKRAY clearance pendulum.urdf " + words);
+}
+
+TEST(ClearanceVerb, names_the_pair_and_the_time_of_the_least) {
+  const TemporaryFolder folder;
+  write_pendulum(folder);
+  const ProgramOutcome outcome = clearance(folder, "--path swing.csv --tolerance 1e-6");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const Json answer = Json::parse(outcome.out);
+  // Between the ball's way and the post there is 1.5 - 1 - 0.1 - 0.2.
+  EXPECT_EQ(answer["status"].text(), "clear");
+  EXPECT_LE(answer["lower"].get<double>(), 0.2);
+  EXPECT_GE(answer["upper"].get<double>(), 0.2 - 1e-15);
+  EXPECT_NEAR(answer["lower"].get<double>(), 0.2, 1e-6);
+  EXPECT_NEAR(answer["time"].get<double>(), 1, 1e-3);
+  EXPECT_EQ(answer["a"].text(), "post/sphere");
+  EXPECT_EQ(answer["b"].text(), "bob/sphere");
+  EXPECT_NEAR(answer["point_a"][0].get<double>(), 1.3, 1e-6);
+  EXPECT_NEAR(answer["point_b"][0].get<double>(), 1.1, 1e-6);
+  EXPECT_NEAR(answer["normal"][0].get<double>(), -1, 1e-6);
+  EXPECT_EQ(answer["pairs"].get<int>(), 1);
+}
+
+TEST(ClearanceVerb, what_may_touch_is_not_asked_for) {
+  const TemporaryFolder folder;
+  write_pendulum(folder);
+  for (const char* words : {"--srdf pendulum.srdf", "--allow post,bob", "--only-obstacles"}) {
+    const ProgramOutcome outcome = clearance(folder, std::string("--path swing.csv ") + words);
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(Json::parse(outcome.out)["pairs"].get<int>(), 0) << words;
+  }
+}
+
+TEST(ClearanceVerb, obstacles_are_scenes_and_a_collision_is_told_with_its_depth) {
+  const TemporaryFolder folder;
+  write_pendulum(folder);
+  const ProgramOutcome outcome =
+      clearance(folder, "--path swing.csv --obstacle ball.json --tolerance 1e-6");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const Json answer = Json::parse(outcome.out);
+  // The ball around the hinge has a radius of 0.5: 1 - 0.1 - 0.5 all the time; the post is nearer.
+  EXPECT_NEAR(answer["upper"].get<double>(), 0.2, 1e-6);
+  write_ball_scene(folder / "ball.json", 0.95);
+  const Json collision =
+      Json::parse(clearance(folder, "--path swing.csv --obstacle ball.json --tolerance 1e-6").out);
+  EXPECT_EQ(collision["status"].text(), "collides");
+  EXPECT_NEAR(collision["lower"].get<double>(), -0.05, 1e-6);
+  EXPECT_EQ(collision["b"].text(), "ball");
+}
+
+TEST(ClearanceVerb, fails_where_less_is_proven_than_is_asked_for) {
+  const TemporaryFolder folder;
+  write_pendulum(folder);
+  EXPECT_EQ(clearance(folder, "--path swing.csv --at-least 0.19").exit_code, 0);
+  const ProgramOutcome less = clearance(folder, "--path swing.csv --at-least 0.21");
+  EXPECT_EQ(less.exit_code, 1);
+  EXPECT_NE(less.err.find("not proven to be 0.21"), std::string::npos);
+  // Half the way it does not come so near.
+  EXPECT_EQ(clearance(folder, "--path half.csv --at-least 0.21").exit_code, 0);
+}
+
+TEST(ClearanceVerb, every_step_has_a_row_and_the_sweep_is_a_scene_that_renders) {
+  const TemporaryFolder folder;
+  write_pendulum(folder);
+  const ProgramOutcome outcome =
+      clearance(folder, "--path swing.csv --steps steps.csv --sweep sweep.json");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const std::string steps = text_of_file(folder / "steps.csv");
+  EXPECT_TRUE(steps.starts_with("begin,end,lower,upper,time,a,b,status\n0,2,0.1")) << steps;
+  EXPECT_EQ(std::ranges::count(steps, '\n'), 2);
+  const ProgramOutcome picture =
+      run_shell("cd '" + folder / "" + "' && $MINKRAY render sweep.json -o sweep.png -r 32x24 -q");
+  EXPECT_EQ(picture.exit_code, 0) << picture.err;
+}
+
+TEST(ClearanceVerb, what_is_wrong_is_told) {
+  const TemporaryFolder folder;
+  write_pendulum(folder);
+  std::ofstream(folder / "wrong.csv") << "swinging\n0\n";
+  std::ofstream(folder / "wrong.srdf")
+      << R"(<robot><disable_collisions link1="bob" link2="nobody"/></robot>)";
+  const ProgramOutcome path = clearance(folder, "--path wrong.csv");
+  EXPECT_EQ(path.exit_code, 3);
+  EXPECT_NE(path.err.find("--path: wrong.csv: line 1: there is no joint \"swinging\""),
+            std::string::npos)
+      << path.err;
+  const ProgramOutcome srdf = clearance(folder, "--path swing.csv --srdf wrong.srdf");
+  EXPECT_EQ(srdf.exit_code, 3);
+  EXPECT_NE(srdf.err.find("link2: there is no link \"nobody\""), std::string::npos) << srdf.err;
+  EXPECT_EQ(clearance(folder, "--path swing.csv --allow bob").exit_code, 3);
+  EXPECT_EQ(clearance(folder, "--path swing.csv --at-least much").exit_code, 2);
+  EXPECT_EQ(clearance(folder, "").exit_code, 2);
+  const ProgramOutcome scene =
+      run_shell("cd '" + folder / "" + "' && $MINKRAY clearance ball.json --path swing.csv");
+  EXPECT_EQ(scene.exit_code, 3);
+  EXPECT_NE(scene.err.find("must be a robot's file"), std::string::npos) << scene.err;
+}
+
+TEST(FieldVerb, the_numbers_are_the_distances_from_a_ball) {
+  const TemporaryFolder folder;
+  write_ball_scene(folder / "ball.json", 0.75);
+  std::ofstream(folder / "probe.json") << R"({"type": "sphere", "radius": 0.25})";
+  for (const bool has_probe : {false, true}) {
+    const ProgramOutcome outcome =
+        run_shell("cd '" + folder / "" +
+                  "' && $MINKRAY field ball.json -o field.exr -o field.png -r 40x30 "
+                  "--extent 4 --through 0,0,0.5" +
+                  (has_probe ? " --probe probe.json" : ""));
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_TRUE(outcome.out.starts_with("least distance -")) << outcome.out;
+    const ExrImage image = read_exr(folder / "field.exr");
+    ASSERT_EQ(image.window.width(), 40);
+    ASSERT_EQ(image.window.height(), 30);
+    const double radius = has_probe ? 1 : 0.75;
+    const auto plane = [&](const char* name) {
+      return std::get<std::vector<float>>(image.find(name)->values);
+    };
+    const std::vector<float> value = plane("R"), lower = plane("G"), upper = plane("B");
+    for (int y = 0; y < 30; ++y)
+      for (int x = 0; x < 40; ++x) {
+        // Seen from above, x to the right and y up.
+        const double px = (x + 0.5 - 20) * 0.1, py = -(y + 0.5 - 15) * 0.1;
+        const double exact = std::sqrt(px * px + py * py + 0.25) - radius;
+        const auto i = static_cast<std::size_t>(y * 40 + x);
+        ASSERT_NEAR(value[i], exact, 1e-6) << x << ", " << y;
+        ASSERT_LE(lower[i], exact + 1e-7);
+        ASSERT_GE(upper[i], exact - 1e-7);
+      }
+  }
+}
+
+TEST(FieldVerb, what_is_wrong_is_told) {
+  const TemporaryFolder folder;
+  write_ball_scene(folder / "ball.json");
+  const auto field = [&](const std::string& words) {
+    return run_shell("cd '" + folder / "" + "' && $MINKRAY field ball.json -o f.png " + words)
+        .exit_code;
+  };
+  EXPECT_EQ(field("--normal 0,0,0"), 2);
+  EXPECT_EQ(field("--normal 1,2"), 2);
+  EXPECT_EQ(field("-r 40"), 2);
+  EXPECT_EQ(field("--probe nothing.json"), 3);
+  EXPECT_EQ(field("--tolerance nan"), 2);
+}
+
+}  // namespace
+}  // namespace minkray
