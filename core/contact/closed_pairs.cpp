@@ -146,6 +146,15 @@ CoreDistance between_segments(const Vec3<double>& p, const Vec3<double>& q, cons
       axis -= (axis.dot(q) / q.squaredNorm()) * q;
     axis = axis.squaredNorm() > 0.25 ? Vec3<double>(axis.normalized()) : across;
   }
+  // Where they touch, a direction at right angles to both may be the better plane.
+  constexpr double touching = 1e-20;
+  if (c.squaredNorm() <= touching * (p.squaredNorm() + q.squaredNorm())) {
+    const auto gap = [&](const Vec3<double>& m) {
+      return m.dot(x) - std::abs(m.dot(p)) - std::abs(m.dot(q));
+    };
+    const Vec3<double> turned = across.dot(x) < 0 ? Vec3<double>(-across) : across;
+    if (gap(turned) > gap(axis)) axis = turned;
+  }
   return exact(c.stableNorm(), axis, a, c);
 }
 

@@ -35,8 +35,10 @@ class ExpandingPolytope {
     if (!start(c, a)) return false;
     while (found_.supports < most_supports) {
       const int nearest = pop();
-      found_.upper = nearest < 0 ? found_.lower : -faces_[nearest].d;
-      if (nearest < 0) return finish(found_.lower, found_.axis);
+      // Faces further off than the depth can be are not kept apart: none of them is the nearest.
+      const bool is_none = nearest < 0 || faces_[nearest].d >= -found_.lower;
+      found_.upper = is_none ? found_.lower : -faces_[nearest].d;
+      if (is_none) return finish(found_.lower, found_.axis);
       const Face& face = faces_[nearest];
       const Vec3<double> axis = -face.n;
       const DifferencePoint w = nearest_along<A, B>(pair_, axis);
