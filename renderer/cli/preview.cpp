@@ -86,8 +86,11 @@ void PreviewArguments::add_to(const Verb& verb) {
       .one_of(names);
 }
 
-void show_preview(const Image& picture, const PreviewArguments& arguments) {
+void show_preview(const Image& picture, const PreviewArguments& arguments, PreviewPlace place) {
   if (arguments.preview.empty()) return;
+  const bool is_on_screen = place == PreviewPlace::top_of_screen;
+  if (is_on_screen && isatty(STDOUT_FILENO) == 0) return;
+  if (is_on_screen) std::cout << "\x1b[H\x1b[2J";
   TerminalGraphics graphics = TerminalGraphics::blocks;
   if (arguments.preview == "auto") {
     graphics = best_way();

@@ -52,6 +52,10 @@ void RenderArguments::add_to(const Verb& verb) {
                   "below this. 0: all samples")
       .between(0.0, 1.0)
       .show_default();
+  verb.add_flag(
+      "--denoise", denoise,
+      "Less noise: pixels are averaged with others that are of the same thing and about as "
+      "bright; made for few samples");
   std::string maps = "How bright light is shown by .png:";
   for (const ToneMapDescription& map : tone_maps)
     maps += "\n" + std::string(map.name) + ": " + std::string(map.doc);
@@ -87,6 +91,14 @@ void RenderArguments::add_to(const Verb& verb) {
       .between(0.0, 1e9)
       .show_default();
   verb.add_flag("--resume", resume, "Go on from the checkpoint, if there is one");
+  verb.add_flag(
+      "--progressive", progressive,
+      "In passes of 1, 2, 4 ... samples a pixel: each is written to the outputs, and shown "
+      "by --preview and --tev; the last picture has the same bits as without");
+  verb.add_option(
+      "--tev", tev,
+      "HOST:PORT: show the picture while it grows in the viewer tev that listens there; "
+      "HOST alone for its usual port, 14158");
   verb.add_option("--frames", frames,
                   "a..b: pictures of these frames, into files with the frame's number in the "
                   "place of #### in the output's name; frame 0 is at 0 s. A record beside them, "

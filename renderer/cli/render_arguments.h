@@ -31,6 +31,9 @@ struct RenderArguments {
   std::optional<int> tiles;
   double checkpoint_seconds = 60;
   bool resume = false;
+  bool progressive = false;
+  bool denoise = false;
+  std::string tev;  ///< empty: none
   std::optional<std::string> frames;
   double rate = 24;
   std::string contact_sheet;  ///< empty: none

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/cli/render_job.h"
 
+#include <algorithm>
 #include <ctime>
 #include <iostream>
 
 #include "core/parallel/parallel.h"
 #include "renderer/base/interrupt.h"
 #include "renderer/cli/progress_line.h"
+#include "renderer/film/cryptomatte.h"
 #include "renderer/film/data_channels.h"
+#include "renderer/film/features.h"
 #include "renderer/json/mistakes.h"
 #include "renderer/share/part_file.h"
 
@@ -23,6 +26,10 @@ void end_if_interrupted(const Rendering& rendering, Checkpoint& checkpoint) {
   InterruptGuard::end_if_interrupted();
 }
 
+bool is_among(std::string_view name, const std::vector<std::string_view>& names) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
 }  // namespace
 
 Facts facts_of(const RenderJob& job) {
@@ -33,6 +40,7 @@ Facts facts_of(const RenderJob& job) {
   if (!channels.empty()) facts[fact::aov] = channels;
   facts[fact::tile] = job.options.tile.text();
   facts[fact::sample_share] = job.options.sample_share.text();
+  if (job.denoise) facts[fact::denoised] = "yes";
   return facts;
 }
 
@@ -40,7 +48,7 @@ Checkpoint checkpoint_of(const RenderJob& job, const std::string& output) {
   return {Checkpoint::path_for(output), job.options, facts_of(job), job.checkpoint_seconds};
 }
 
-RenderedJob run(const RenderJob& job, Checkpoint& checkpoint) {
+RenderedJob run(const RenderJob& job, Checkpoint& checkpoint, const Spectator& spectator) {
   RenderJournal journal;
   if (!job.resume && job.checkpoint_seconds > 0) checkpoint.check_replaceable();
   if (job.resume && checkpoint.exists()) {
@@ -52,7 +60,9 @@ RenderedJob run(const RenderJob& job, Checkpoint& checkpoint) {
   }
   journal.finished = [&](const Rendering& rendering, std::size_t tile) {
     checkpoint.tile_finished(rendering, tile);
+    if (spectator.tile_finished) spectator.tile_finished(rendering, tile);
   };
+  journal.passed = spectator.passed;
 
   RenderedJob done;
   const Stopwatch watch;
@@ -71,10 +81,24 @@ RenderedJob run(const RenderJob& job, Checkpoint& checkpoint) {
     data = measure_data_channels(job.scene, job.world, job.channels, job.options,
                                  {{}, InterruptGuard::interrupted});
   end_if_interrupted(done.rendering, checkpoint);
+  Facts facts = facts_of(job);
+  for (ExrPlane& plane : light_planes(done.rendering, job.channels))
+    data.push_back(std::move(plane));
+  if (is_among("cryptomatte", job.channels)) {
+    Cryptomatte mattes =
+        measure_cryptomatte(job.scene, job.world, job.options, {{}, InterruptGuard::interrupted});
+    end_if_interrupted(done.rendering, checkpoint);
+    for (ExrPlane& plane : mattes.planes) data.push_back(std::move(plane));
+    facts.merge(mattes.texts);
+  }
+  if (job.denoise) {
+    done.rendering.image = denoised(noisy_picture(job.scene, job.world, job.options, done.rendering,
+                                                  {{}, InterruptGuard::interrupted}));
+    end_if_interrupted(done.rendering, checkpoint);
+  }
   done.seconds = watch.seconds();
 
   done.labels = labels_of(job.scene, job.options.resolution);
-  Facts facts = facts_of(job);
   facts[fact::command] = job.command;
   facts[counts_fact] = counts_text(done.rendering.counts);
   facts[seconds_fact] = std::to_string(done.seconds);

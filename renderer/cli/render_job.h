@@ -20,8 +20,15 @@ struct RenderJob {
   std::string command;
   double checkpoint_seconds = 60;
   bool resume = false;
+  bool denoise = false;
   bool wants_planes = true;  ///< whether any output has them; they take as much memory again
   bool quiet = false;
+};
+
+/// Who hears how a picture grows; each function may be missing.
+struct Spectator {
+  std::function<void(const Rendering&, int samples)> passed;  ///< as RenderJournal has them
+  std::function<void(const Rendering&, std::size_t tile)> tile_finished;
 };
 
 struct RenderedJob {
@@ -40,6 +47,6 @@ Checkpoint checkpoint_of(const RenderJob& job, const std::string& output);
 
 /// Renders; goes on from the checkpoint if the job says so and there is one. Ends the process if it
 /// is interrupted, with what is done in the checkpoint. Remove the checkpoint when all is written.
-RenderedJob run(const RenderJob& job, Checkpoint& checkpoint);
+RenderedJob run(const RenderJob& job, Checkpoint& checkpoint, const Spectator& spectator = {});
 
 }  // namespace minkray

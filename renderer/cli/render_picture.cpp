@@ -3,6 +3,7 @@
 
 #include "renderer/base/errors.h"
 #include "renderer/base/interrupt.h"
+#include "renderer/cli/growing_picture.h"
 #include "renderer/cli/shared_render.h"
 #include "renderer/cli/timed.h"
 #include "renderer/cli/write_picture.h"
@@ -14,14 +15,16 @@ Image render_picture(const RenderJob& job, const RenderArguments& options,
   const InterruptGuard guard;
   Checkpoint checkpoint = checkpoint_of(job, outputs.front());
   RenderedJob done;
+  GrowingPicture growing(job, options, outputs);
   timed(options.image.verbose, "trace", statistics.trace_seconds,
-        [&] { done = run(job, checkpoint); });
+        [&] { done = run(job, checkpoint, growing.spectator()); });
   statistics.counts += done.rendering.counts;
   const FinishedPicture picture{std::move(done.rendering.image), std::move(done.labels),
                                 job.options.region(), job.options.resolution, std::move(done.exr)};
   timed(options.image.verbose, "write", statistics.write_seconds,
         [&] { write_picture(outputs, picture, options.display()); });
   checkpoint.remove();
+  growing.finish(picture.image);
   show_preview(to_look_at(picture, options.display()), options.image.preview);
   return picture.image;
 }

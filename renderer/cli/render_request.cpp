@@ -50,6 +50,15 @@ RenderJob job_of(const RenderArguments& options, const Ranks& ranks) {
     throw WrongUsage("--noise: looks at all samples of a pixel: not with --sample-share");
   if (options.sample_share && options.aov)
     throw WrongUsage("--aov: goes with --tile, but not with --sample-share");
+  if (options.progressive && (options.is_share() || ranks.count() > 1))
+    throw WrongUsage(
+        "--progressive: shows a whole picture: not with --tile, --sample-share or MPI");
+  if (options.denoise && (options.is_share() || ranks.count() > 1))
+    throw WrongUsage("--denoise: needs a whole picture: not with --tile, --sample-share or MPI");
+  if (options.denoise && options.image.samples < 2)
+    throw WrongUsage("--denoise: needs at least 2 samples a pixel, to know how much they differ");
+  if (!options.tev.empty() && (options.is_share() || ranks.count() > 1))
+    throw WrongUsage("--tev: shows a whole picture: not with --tile, --sample-share or MPI");
   if (ranks.count() > 1 && options.is_share())
     throw WrongUsage(
         "--tile, --sample-share: the ranks of an MPI job share the picture themselves");
@@ -61,6 +70,7 @@ RenderJob job_of(const RenderArguments& options, const Ranks& ranks) {
   job.command = command_line();
   job.checkpoint_seconds = options.checkpoint_seconds;
   job.resume = options.resume;
+  job.denoise = options.denoise;
   job.wants_planes = ranks.count() > 1 || std::any_of(outputs.begin(), outputs.end(), keeps_planes);
   job.quiet = options.image.quiet;
   return job;
@@ -98,6 +108,7 @@ void set_options(RenderJob& job, const RenderArguments& options) {
   job.options.integrator.max_depth = options.max_depth;
   job.options.integrator.clamp = options.clamp;
   job.options.noise = options.noise;
+  job.options.light_channels = options.denoise || are_light_channels_wanted(job.channels);
   for (const IntegratorDescription& kind : integrators)
     if (kind.name == options.integrator)
       job.options.integrator.kind = settled(kind.kind, job.scene);

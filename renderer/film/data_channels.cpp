@@ -11,6 +11,7 @@
 #include "renderer/light/camera.h"
 #include "renderer/light/inside.h"
 #include "renderer/light/scene_surfaces.h"
+#include "renderer/scene/scene_instances.h"
 
 namespace minkray {
 namespace {
@@ -25,6 +26,8 @@ struct Found {
   QueryCounts work;
   Colour albedo = Colour::Zero(), emission = Colour::Zero();
   double thickness = 0;
+  Vec3<double> uv = Vec3<double>::Zero();
+  Eigen::Vector2d motion = Eigen::Vector2d::Zero();
 
   bool any() const { return hit.found(); }
   double distance() const {
@@ -57,50 +60,84 @@ void put(ExrPlane* planes, std::size_t pixel, const Vec3<double>& value) {
   for (int i = 0; i < 3; ++i) put(planes[i], pixel, value[i]);
 }
 
-/// How each of `data_channels` is found, in the same order.
+/// How each of `data_channels` is found, in the same order; nothing for those that samples tell.
 struct Filling {
-  bool is_integer;
-  Put put;
+  bool is_integer = false;
+  Put put = nullptr;
 };
-constexpr std::array<Filling, data_channels.size()> fillings = {{
-    {false,
-     [](const Found& f, const Vec3<double>& forward, std::size_t i, ExrPlane* planes) {
-       const double along = f.ray.direction.template cast<double>().dot(forward);
-       put(planes[0], i, f.distance() * along);
-     }},
-    {false, [](const Found& f, const Vec3<double>&, std::size_t i,
-               ExrPlane* planes) { put(planes[0], i, f.distance()); }},
-    {false,
-     [](const Found& f, const Vec3<double>&, std::size_t i, ExrPlane* planes) {
-       const Vec3<double> none = Vec3<double>::Zero();
-       put(planes, i, f.any() ? Vec3<double>(f.hit.cast.normal.template cast<double>()) : none);
-     }},
-    {false,
-     [](const Found& f, const Vec3<double>&, std::size_t i, ExrPlane* planes) {
-       const Vec3<double> none = Vec3<double>::Zero();
-       put(planes, i,
-           f.any() ? Vec3<double>(f.ray.at(f.hit.cast.t()).template cast<double>()) : none);
-     }},
-    {true, [](const Found& f, const Vec3<double>&, std::size_t i,
-              ExrPlane* planes) { put(planes[0], i, f.any() ? f.hit.instance + 1 : 0u); }},
-    {true, [](const Found& f, const Vec3<double>&, std::size_t i,
-              ExrPlane* planes) { put(planes[0], i, clamped(f.work.iterations)); }},
-    {true, [](const Found& f, const Vec3<double>&, std::size_t i,
-              ExrPlane* planes) { put(planes[0], i, clamped(f.work.supports)); }},
-    {false,
-     [](const Found& f, const Vec3<double>&, std::size_t i, ExrPlane* planes) {
-       const bool is_hit = f.any() && f.hit.cast.status == Status::hit;
-       put(planes[0], i, is_hit ? double(f.hit.cast.offset_hi - f.hit.cast.offset_lo) : 0.0);
-     }},
-    {false, [](const Found& f, const Vec3<double>&, std::size_t i,
-               ExrPlane* planes) { put(planes, i, f.albedo); }},
-    {false, [](const Found& f, const Vec3<double>&, std::size_t i,
-               ExrPlane* planes) { put(planes, i, f.emission); }},
-    {false, [](const Found& f, const Vec3<double>&, std::size_t i,
-               ExrPlane* planes) { put(planes[0], i, f.thickness); }},
-    {true, [](const Found& f, const Vec3<double>&, std::size_t i,
-              ExrPlane* planes) { put(planes[0], i, status_of(f)); }},
-}};
+constexpr std::
+    array<Filling, data_channels.size()>
+        fillings =
+            {
+                {
+                    {false,
+                     [](const Found& f, const Vec3<double>& forward, std::size_t i,
+                        ExrPlane* planes) {
+                       const double along = f.ray.direction.template cast<double>().dot(forward);
+                       put(planes[0], i, f.distance() * along);
+                     }},
+                    {false, [](const Found& f, const Vec3<double>&, std::size_t i,
+                               ExrPlane* planes) { put(planes[0], i, f.distance()); }},
+                    {false,
+                     [](const Found& f, const Vec3<double>&, std::size_t i, ExrPlane* planes) {
+                       const Vec3<double> none = Vec3<double>::Zero();
+                       put(planes, i,
+                           f.any() ? Vec3<double>(f.hit.cast.normal.template cast<double>())
+                                   : none);
+                     }},
+                    {false,
+                     [](const Found& f, const Vec3<double>&, std::size_t i, ExrPlane* planes) {
+                       const Vec3<double> none = Vec3<double>::Zero();
+                       put(planes, i,
+                           f.any() ? Vec3<double>(f.ray.at(f.hit.cast.t()).template cast<double>())
+                                   : none);
+                     }},
+                    {true,
+                     [](const Found& f, const Vec3<double>&, std::size_t i, ExrPlane* planes) {
+                       put(planes[0], i, f.any() ? f.hit.instance + 1 : 0u);
+                     }},
+                    {true, [](const Found& f, const Vec3<double>&, std::size_t i,
+                              ExrPlane* planes) { put(planes[0], i, clamped(f.work.iterations)); }},
+                    {true, [](const Found& f, const Vec3<double>&, std::size_t i,
+                              ExrPlane* planes) { put(planes[0], i, clamped(f.work.supports)); }},
+                    {false,
+                     [](const Found& f, const Vec3<double>&, std::size_t i, ExrPlane* planes) {
+                       const bool is_hit = f.any() && f.hit.cast.status == Status::hit;
+                       put(planes[0], i,
+                           is_hit ? double(f.hit.cast.offset_hi - f.hit.cast.offset_lo) : 0.0);
+                     }},
+                    {false, [](const Found& f, const Vec3<double>&, std::size_t i,
+                               ExrPlane* planes) { put(planes, i, f.albedo); }},
+                    {false, [](const Found& f, const Vec3<double>&, std::size_t i,
+                               ExrPlane* planes) { put(planes, i, f.emission); }},
+                    {false, [](const Found& f, const Vec3<double>&, std::size_t i,
+                               ExrPlane* planes) { put(planes[0], i, f.thickness); }},
+                    {false,
+                     [](const Found& f, const Vec3<double>&, std::size_t i, ExrPlane* planes) {
+                       for (int k = 0; k < 2; ++k) put(planes[k], i, f.uv[k]);
+                     }},
+                    {false,
+                     [](const Found& f, const Vec3<double>&, std::size_t i, ExrPlane* planes) {
+                       for (int k = 0; k < 2; ++k) put(planes[k], i, f.motion[k]);
+                     }},
+                    {},
+                    {},
+                    {},
+                    {},
+                    {true, [](const Found& f, const Vec3<double>&, std::size_t i,
+                              ExrPlane* planes) { put(planes[0], i, status_of(f)); }},
+                }};
+
+/// Where the point that was met is seen when the shutter closes, from where it is seen when it
+/// opens.
+Eigen::Vector2d motion_of(const Scene& scene, const Camera& camera, const Found& found) {
+  if (found.hit.cast.status != Status::hit) return Eigen::Vector2d::Zero();
+  const Vec3<double> shift = instance_shift(scene, found.hit.instance);
+  if (shift.isZero(0)) return Eigen::Vector2d::Zero();
+  const Vec3<double> point = found.ray.at(found.hit.cast.t()).template cast<double>();
+  const auto before = camera.seen_at(point), after = camera.seen_at(point + shift);
+  return before && after ? Eigen::Vector2d(*after - *before) : Eigen::Vector2d::Zero();
+}
 
 std::size_t index_of(std::string_view name) {
   const auto at =
@@ -135,6 +172,27 @@ std::vector<std::string_view> parse_data_channels(const std::string& list) {
   return names;
 }
 
+bool are_light_channels_wanted(const std::vector<std::string_view>& channels) {
+  return std::any_of(channels.begin(), channels.end(), [](std::string_view name) {
+    return name == "direct" || name == "indirect" || name == "variance";
+  });
+}
+
+std::vector<ExrPlane> light_planes(const Rendering& rendering,
+                                   const std::vector<std::string_view>& channels) {
+  ExrImage planes;
+  for (const std::string_view name : channels) {
+    if (name == "direct") add_colour_planes(planes, rendering.direct, "direct.");
+    if (name == "variance") add_colour_planes(planes, rendering.variance, "variance.");
+    if (name != "indirect") continue;
+    Image indirect = rendering.image;
+    for (std::size_t i = 0; i < indirect.pixels.size(); ++i)
+      indirect.pixels[i] -= rendering.direct.pixels[i];
+    add_colour_planes(planes, indirect, "indirect.");
+  }
+  return planes.planes;
+}
+
 std::vector<ExrPlane> measure_data_channels(const Scene& scene, const RenderWorld& world,
                                             const std::vector<std::string_view>& channels,
                                             const RenderOptions& options,
@@ -153,6 +211,7 @@ std::vector<ExrPlane> measure_data_channels(const Scene& scene, const RenderWorl
   std::vector<ExrPlane> planes;
   for (const std::string_view name : channels) {
     const std::size_t i = index_of(name);
+    if (!fillings[i].put) continue;
     wanted.push_back({fillings[i].put, planes.size()});
     const auto add = [&](const std::string& plane) {
       if (fillings[i].is_integer)
@@ -176,6 +235,8 @@ std::vector<ExrPlane> measure_data_channels(const Scene& scene, const RenderWorl
     ++of_tile.camera;
     of_tile.work += found.work;
     if (wants_colours) surfaces.describe(world, found.ray, found.hit, found.albedo, found.emission);
+    if (is_wanted("uv")) found.uv = surfaces.uv(world, found.ray, found.hit);
+    if (is_wanted("motion")) found.motion = motion_of(scene, camera, found);
     if (is_wanted("thickness")) found.thickness = length_within(world, found.ray, found.hit);
     for (const Wanted& channel : wanted)
       channel.put(found, forward, pixel.index, &planes[channel.first_plane]);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What can be told of a pixel beside its colour: where its centre's ray meets the scene, and what
 // the solver did. These are numbers, not light: nothing is filtered, one ray through the pixel's
-// centre answers for all.
+// centre answers for all. Some are told by all samples of the picture instead.
 #pragma once
 
 #include <array>
@@ -19,6 +19,7 @@ struct DataChannelDescription {
   std::string_view name;
   std::string_view planes;  ///< after the name: "" for one plane, "XYZ" for .X, .Y and .Z
   std::string_view doc;
+  enum class By : unsigned char { centre, samples } by = By::centre;
 };
 
 /// The list of all there are.
@@ -36,6 +37,27 @@ inline constexpr std::array data_channels = {
     DataChannelDescription{"emission", "RGB", "what the surface shines by itself, or 0"},
     DataChannelDescription{"thickness", "",
                            "how far the ray would go on within the object; 0 where none is"},
+    DataChannelDescription{"uv", "UV",
+                           "longitude and latitude around the object's origin, as parts of a turn "
+                           "and of half a turn: the mapping radial; or 0"},
+    DataChannelDescription{"motion", "XY",
+                           "how far the point goes in the picture while the shutter is open, in "
+                           "pixels; or 0"},
+    DataChannelDescription{"direct", "RGB",
+                           "of the picture's light, what was scattered at most once",
+                           DataChannelDescription::By::samples},
+    DataChannelDescription{"indirect", "RGB", "the rest of the picture's light",
+                           DataChannelDescription::By::samples},
+    DataChannelDescription{
+        "variance", "RGB",
+        "the squared standard error of the picture's light, by the spread of its "
+        "samples",
+        DataChannelDescription::By::samples},
+    DataChannelDescription{
+        "cryptomatte", "",
+        "mattes of all objects by name: the planes CryptoObject00.R to 02.A, and "
+        "the names in the header",
+        DataChannelDescription::By::samples},
     DataChannelDescription{"status", "",
                            "0 miss, 1 hit, 2 inside, 3 exhausted if any cast gave up (integer)"},
 };
@@ -44,8 +66,15 @@ inline constexpr std::array data_channels = {
 /// a name given twice counts once.
 std::vector<std::string_view> parse_data_channels(const std::string& list);
 
-/// The planes of the channels, of the region that `options` ask for; all threads.
-/// They are of no use if the watch said stop.
+/// Whether direct, indirect or variance are among the names: RenderOptions::light_channels.
+bool are_light_channels_wanted(const std::vector<std::string_view>& channels);
+
+/// The planes of those of the channels that a rendering with light_channels has.
+std::vector<ExrPlane> light_planes(const Rendering& rendering,
+                                   const std::vector<std::string_view>& channels);
+
+/// The planes of those of the channels that the rays through pixels' centres tell, of the region
+/// that `options` ask for; all threads. They are of no use if the watch said stop.
 std::vector<ExrPlane> measure_data_channels(const Scene& scene, const RenderWorld& world,
                                             const std::vector<std::string_view>& channels,
                                             const RenderOptions& options,

@@ -2,11 +2,9 @@
 #include "renderer/film/render.h"
 
 #include <array>
-#include <cmath>
 
-#include "renderer/film/pixel_loop.h"
-#include "renderer/image/filter.h"
-#include "renderer/light/camera.h"
+#include "renderer/film/camera_rays.h"
+#include "renderer/film/pixel_sum.h"
 #include "renderer/scene/scene_instances.h"
 
 namespace minkray {
@@ -33,37 +31,170 @@ bool is_on_the_move(const Scene& scene) {
 /// the same samples however many rays go together.
 constexpr int samples_between_looks = 16;
 
-/// What is darker than this counts as noisy as this: a part of white.
-constexpr double least_brightness = 0.02;
+/// Samples from the first on, up to the end.
+struct Pass {
+  int first, end;
+};
 
-/// A pixel while its samples come in, in their order: the same additions however many come at once.
-struct PixelSum {
-  Colour block = Colour::Zero();
-  BlockTotal total;
-  std::uint32_t met = 0;
-  int samples = 0;
-  bool is_done = false;
-  double mean = 0, deviations = 0;  ///< of the brightness (Welford 1962)
+/// Each doubles what was there before, or all at once.
+std::vector<Pass> passes_of(int first, int end, bool one_by_one) {
+  if (!one_by_one) return {{first, end}};
+  std::vector<Pass> passes;
+  for (int next = 1; first < end; next = std::min(2 * next, end)) {
+    passes.push_back({first, next});
+    first = next;
+  }
+  return passes;
+}
 
-  void add(const TracedRay& ray) {
-    block += ray.radiance;
-    met += ray.met ? 1 : 0;
-    ++samples;
-    const double brightness = ray.radiance.mean(), off = brightness - mean;
-    mean += off / samples;
-    deviations += off * (brightness - mean);
+/// Renders passes over a picture's pixels into one rendering.
+class Rendered {
+ public:
+  Rendered(const Scene& scene, const RenderWorld& world, const RenderOptions& options,
+           const RenderWatch& watch, RenderJournal& journal)
+      : options_(options),
+        watch_(watch),
+        journal_(journal),
+        region_(options.region()),
+        blocks_{options.samples},
+        first_block_(blocks_.first_of(options.sample_share)),
+        end_block_(blocks_.end_of(options.sample_share)),
+        rays_(scene, world, options),
+        integrator_(scene, world, options.integrator) {
+    if (journal.done.empty())
+      begin_black();
+    else
+      rendering_ = std::move(journal.begun);
   }
-  /// Whether the standard error of its mean is small enough.
-  bool is_quiet(double noise) const {
-    const double n = samples;
-    return std::sqrt(deviations / (n * (n - 1))) <= noise * std::max(mean, least_brightness);
+
+  Rendering run() && {
+    const int first = blocks_.begin(first_block_);
+    end_sample_ = blocks_.begin(end_block_);
+    const std::vector<Pass> passes = passes_of(first, end_sample_, bool(journal_.passed));
+    if (passes.size() > 1) kept_.resize(pixel_count(region_));
+    for (const Pass& pass : passes) {
+      const bool is_last = pass.end == end_sample_;
+      rendering_.complete = render(pass, is_last);
+      if (!rendering_.complete) break;
+      if (!is_last) journal_.passed(rendering_, pass.end);
+    }
+    return std::move(rendering_);
   }
-  Vec3<float> end_block() {
-    const Vec3<float> sum(block.cast<float>());
-    block.setZero();
-    total.add(sum);
-    return sum;
+
+ private:
+  void begin_black() {
+    const Image black(region_.width(), region_.height());
+    rendering_.met.resize(black.pixels.size());
+    if (options_.sample_share.is_all())
+      rendering_.image = black;
+    else
+      rendering_.block_sums.assign(static_cast<std::size_t>(end_block_ - first_block_), black);
+    if (options_.light_channels) rendering_.direct = rendering_.variance = black;
   }
+
+  /// Only the last pass finishes tiles. False if the watch said stop.
+  bool render(const Pass& pass, bool is_last) {
+    // The rays of a group: samples of one pixel first, they are the closest together; then pixels.
+    const RayGroupShape group(options_.integrator.ray_group, pass.end - pass.first);
+    TileJournal tiles{journal_.done, {}};
+    if (journal_.finished && is_last)
+      tiles.finished = [&](std::size_t tile) { journal_.finished(rendering_, tile); };
+    RenderWatch watch = watch_;
+    if (watch_.progress)
+      watch.progress = [&](double fraction, std::uint64_t rays) {
+        const double first = blocks_.begin(first_block_);
+        watch_.progress(
+            (pass.first - first + fraction * (pass.end - pass.first)) / (end_sample_ - first),
+            rays);
+      };
+    return for_blocks(
+        region_, group.pixels, rendering_.counts, watch,
+        [&](const PixelBlock& pixels, RayCounts& counts) {
+          render_block(pixels, pass, group.samples, counts);
+        },
+        tiles);
+  }
+
+  void render_block(const PixelBlock& pixels, const Pass& pass, int samples_at_once,
+                    RayCounts& counts) {
+    std::array<PixelSum, most_in_ray_group> sums;
+    std::size_t place = 0;
+    if (!kept_.empty() && pass.first > 0)
+      pixels.for_each([&](const Pixel& pixel) { sums[place++] = kept_[pixel.index]; });
+    int next = 0;
+    for (int first = pass.first; first < pass.end && !watch_.stopped(); first = next) {
+      next = std::min(first + samples_at_once, pass.end);
+      if (options_.noise > 0)
+        next = std::min(next, (first / samples_between_looks + 1) * samples_between_looks);
+      if (!trace(pixels, {first, next}, sums.data(), counts)) break;
+    }
+    const PixelSum* sum = sums.data();
+    pixels.for_each([&](const Pixel& pixel) {
+      if (!kept_.empty()) kept_[pixel.index] = *sum;
+      write(pixel, *sum++, pass);
+    });
+  }
+
+  /// So many samples of each pixel that is not done. False if all are.
+  bool trace(const PixelBlock& pixels, const Pass& part, PixelSum* sums, RayCounts& counts) {
+    std::array<TracedRay, most_in_ray_group> rays;
+    std::size_t count = 0;
+    const PixelSum* asked = sums;
+    pixels.for_each([&](const Pixel& pixel) {
+      if (asked++->is_done) return;
+      for (int sample = part.first; sample < part.end; ++sample)
+        rays[count++] = rays_.ray(pixel, sample);
+    });
+    if (count == 0) return false;
+    integrator_.trace(std::span(rays).first(count), counts);
+    const TracedRay* ray = rays.data();
+    PixelSum* sum = sums;
+    pixels.for_each([&](const Pixel& pixel) {
+      if (!sum->is_done)
+        for (int sample = part.first; sample < part.end; ++sample)
+          add(pixel, *sum, sample, *ray++, sample + 1 == part.end);
+      ++sum;
+    });
+    return true;
+  }
+
+  void add(const Pixel& pixel, PixelSum& sum, int sample, const TracedRay& ray, bool is_last) {
+    sum.add(ray, options_.light_channels);
+    if (is_last && options_.noise > 0 && (sample + 1) % samples_between_looks == 0)
+      sum.is_done = sum.is_quiet(options_.noise);
+    const int block = blocks_.of(sample);
+    if (sample + 1 < blocks_.begin(block + 1) && !sum.is_done) return;
+    const Vec3<float> of_block = sum.light.end_block();
+    if (options_.light_channels) sum.direct.end_block();
+    if (!options_.sample_share.is_all())
+      rendering_.block_sums[static_cast<std::size_t>(block - first_block_)].pixels[pixel.index] =
+          of_block;
+  }
+
+  /// What is known of the pixel by now.
+  void write(const Pixel& pixel, const PixelSum& sum, const Pass& pass) {
+    const int samples = std::max(sum.samples, 1);
+    if (options_.sample_share.is_all())
+      rendering_.image.pixels[pixel.index] = sum.light.mean(samples);
+    if (options_.light_channels) {
+      rendering_.direct.pixels[pixel.index] = sum.direct.mean(samples);
+      rendering_.variance.pixels[pixel.index] = sum.variance();
+    }
+    // As if it had taken all samples.
+    const int all = pass.end - blocks_.begin(first_block_);
+    rendering_.met[pixel.index] = static_cast<std::uint32_t>(std::int64_t{sum.met} * all / samples);
+  }
+
+  const RenderOptions& options_;
+  const RenderWatch& watch_;
+  RenderJournal& journal_;
+  PixelRect region_;
+  SampleBlocks blocks_;
+  int first_block_, end_block_, end_sample_ = 0;
+  CameraRays rays_;
+  Integrator integrator_;
+  Rendering rendering_;
+  std::vector<PixelSum> kept_;  ///< between passes, if there are several
 };
 
 }  // namespace
@@ -95,97 +226,7 @@ void follow(RenderWorld& world, const Scene& scene) {
 
 Rendering render(const Scene& scene, const RenderWorld& world, const RenderOptions& options,
                  const RenderWatch& watch, RenderJournal journal) {
-  const Camera camera(scene.camera, options.resolution);
-  const PixelFilter filter;
-  const Integrator integrator(scene, world, options.integrator);
-  const PixelRect region = options.region();
-  const SampleBlocks blocks{options.samples};
-  const int first_block = blocks.first_of(options.sample_share);
-  const int end_block = blocks.end_of(options.sample_share);
-
-  Rendering rendering;
-  if (journal.done.empty()) {
-    const Image black(region.width(), region.height());
-    rendering.met.resize(black.pixels.size());
-    if (options.sample_share.is_all())
-      rendering.image = black;
-    else
-      rendering.block_sums.assign(static_cast<std::size_t>(end_block - first_block), black);
-  } else {
-    rendering = std::move(journal.begun);
-  }
-
-  // The rays of a group: samples of one pixel first, they are the closest together; then pixels.
-  const RayGroupShape group(options.integrator.ray_group,
-                            blocks.begin(end_block) - blocks.begin(first_block));
-  // When nothing moves no random numbers are spent on when.
-  const bool blurs = world.instances().move();
-  const int begin_sample = blocks.begin(first_block), end_sample = blocks.begin(end_block);
-  const auto render_block = [&](const PixelBlock& pixels, RayCounts& counts) {
-    std::array<PixelSum, most_in_ray_group> sums;
-    std::array<TracedRay, most_in_ray_group> rays;
-    const int end = blocks.begin(end_block);
-    int next = 0;
-    for (int first = blocks.begin(first_block); first < end && !watch.stopped(); first = next) {
-      next = std::min(first + group.samples, end);
-      if (options.noise > 0)
-        next = std::min(next, (first / samples_between_looks + 1) * samples_between_looks);
-      std::size_t count = 0;
-      const PixelSum* asked = sums.data();
-      pixels.for_each([&](const Pixel& pixel) {
-        if (asked++->is_done) return;
-        for (int sample = first; sample < next; ++sample) {
-          TracedRay& ray = rays[count++];
-          ray.sampler = Sampler(options.seed, pixel.x, pixel.y, static_cast<std::uint32_t>(sample));
-          const std::array<double, 2> u = ray.sampler.next();
-          ray.ray =
-              camera.ray(pixel.x + 0.5 + filter.offset(u[0]), pixel.y + 0.5 + filter.offset(u[1]));
-          if (camera.has_lens()) ray.ray = camera.through_lens(ray.ray, ray.sampler.next());
-          ray.time = blurs ? ray.sampler.next()[0] : 0;
-        }
-      });
-      if (count == 0) break;
-      integrator.trace(std::span(rays).first(count), counts);
-      const TracedRay* ray = rays.data();
-      PixelSum* sum = sums.data();
-      pixels.for_each([&](const Pixel& pixel) {
-        if (sum->is_done) {
-          ++sum;
-          return;
-        }
-        const bool is_looked_at = options.noise > 0 && next % samples_between_looks == 0;
-        for (int sample = first; sample < next; ++sample) {
-          sum->add(*ray++);
-          if (is_looked_at && sample + 1 == next) sum->is_done = sum->is_quiet(options.noise);
-          const int block = blocks.of(sample);
-          if (sample + 1 < blocks.begin(block + 1) && !sum->is_done) continue;
-          const Vec3<float> of_block = sum->end_block();
-          if (!options.sample_share.is_all())
-            rendering.block_sums[static_cast<std::size_t>(block - first_block)]
-                .pixels[pixel.index] = of_block;
-        }
-        ++sum;
-      });
-    }
-    const PixelSum* sum = sums.data();
-    pixels.for_each([&](const Pixel& pixel) {
-      if (options.sample_share.is_all())
-        rendering.image.pixels[pixel.index] = sum->total.mean(std::max(sum->samples, 1));
-      // As if it had taken all samples.
-      rendering.met[pixel.index] =
-          sum->samples == 0
-              ? 0
-              : static_cast<std::uint32_t>(std::int64_t{sum->met} * (end_sample - begin_sample) /
-                                           sum->samples);
-      ++sum;
-    });
-  };
-  TileJournal tiles{std::move(journal.done), {}};
-  if (journal.finished)
-    tiles.finished = [&](std::size_t tile) { journal.finished(rendering, tile); };
-  rendering.complete =
-      for_blocks(region, group.pixels, rendering.counts, watch, render_block, tiles);
-  return rendering;
+  return Rendered(scene, world, options, watch, journal).run();
 }
 
 }  // namespace minkray

@@ -27,6 +27,8 @@ struct RenderOptions {
   /// A pixel takes no more samples when its standard error, over its brightness, is below this; 0:
   /// all of them. Not with shares of the samples.
   double noise = 0;
+  /// Whether Rendering::direct and variance are wanted as well. Not with shares of the samples.
+  bool light_channels = false;
   IntegratorOptions integrator;
 
   /// What all tiles make together.
@@ -41,6 +43,8 @@ struct Rendering {
   Image image;  ///< linear radiance, of the region asked for; empty for a share of the samples
   std::vector<Image> block_sums;   ///< of a share of the samples: the sums of its blocks, in order
   std::vector<std::uint32_t> met;  ///< by pixel: how many of the samples' rays met an object
+  Image direct;    ///< of the light, what was scattered at most once; empty unless wanted
+  Image variance;  ///< the squared standard error of the light, likewise
   RayCounts counts;
   bool complete = false;  ///< false if the watch said stop
 };
@@ -51,6 +55,10 @@ struct RenderJournal {
   std::vector<bool> done;  ///< its tiles, as TileGrid counts them; empty: none
   /// It is told after each tile, one at a time; other tiles may be written to meanwhile.
   std::function<void(const Rendering&, std::size_t tile)> finished;
+  /// If it is there the picture is made in passes of 1, 2, 4 ... samples a pixel, all together; it
+  /// is told after each but the last, with how many there are. The last picture has the same bits
+  /// as without. Not with shares of the samples. Takes 200 bytes a pixel.
+  std::function<void(const Rendering&, int samples)> passed;
 };
 
 /// Refers to `world` made of `scene`.

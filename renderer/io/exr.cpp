@@ -178,12 +178,12 @@ const ExrPlane* ExrImage::find(std::string_view name) const {
   return at == planes.end() ? nullptr : &*at;
 }
 
-void add_colour_planes(ExrImage& exr, const Image& image) {
+void add_colour_planes(ExrImage& exr, const Image& image, const std::string& before) {
   for (int channel = 0; channel < 3; ++channel) {
     std::vector<float> values;
     values.reserve(image.pixels.size());
     for (const Vec3<float>& pixel : image.pixels) values.push_back(pixel[channel]);
-    exr.planes.push_back({std::string(1, "RGB"[channel]), std::move(values)});
+    exr.planes.push_back({before + "RGB"[channel], std::move(values)});
   }
 }
 

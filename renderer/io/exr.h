@@ -30,8 +30,9 @@ struct ExrImage {
   const ExrPlane* find(std::string_view name) const;
 };
 
-/// Takes the picture apart into the planes R, G and B, which are added.
-void add_colour_planes(ExrImage& exr, const Image& image);
+/// Takes the picture apart into the planes R, G and B, which are added, with that before their
+/// names.
+void add_colour_planes(ExrImage& exr, const Image& image, const std::string& before = "");
 
 /// The file's bytes: one part, scan lines, compressed without loss. The same image gives the same
 /// bytes.

@@ -99,6 +99,7 @@ void AmbientTransport::follow(std::span<TracedRay> rays, const Path& path,
       rays[i].radiance = off_surface(rays[i].ray, hits[i], path, counts);
   }
   add_direct(rays, points, path, counts);
+  for (TracedRay& ray : rays) ray.direct = ray.radiance;
   add_indirect(rays, points, path, counts);
 }
 

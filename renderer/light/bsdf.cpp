@@ -5,6 +5,7 @@
 #include "renderer/light/conductor_bsdf.h"
 #include "renderer/light/dielectric_bsdf.h"
 #include "renderer/light/principled_bsdf.h"
+#include "renderer/light/translucent_bsdf.h"
 
 namespace minkray {
 namespace {
@@ -39,6 +40,9 @@ struct Maker {
   Made operator()(const ConductorMaterial& metal) const { return make_conductor(metal); }
   Made operator()(const PrincipledMaterial& layers) const {
     return std::make_unique<PrincipledBsdf>(layers);
+  }
+  Made operator()(const TranslucentMaterial& sheet) const {
+    return std::make_unique<TranslucentBsdf>(sheet);
   }
   Made operator()(const MixMaterial&) const { return std::make_unique<BlackBsdf>(); }
 };

@@ -15,6 +15,18 @@ Vec3<double> axis_across(const Vec3<double>& v) {
   return Vec3<double>::Unit(axis);
 }
 
+/// A place of the regular polygon whose corners lie on the unit circle, one of them upwards, drawn
+/// evenly: one of its triangles around the middle, and a place of that.
+Eigen::Vector2d between_blades(int blades, const std::array<double, 2>& u) {
+  const double which = std::min(std::floor(u[0] * blades), blades - 1.0);
+  const double from_middle = std::sqrt(u[0] * blades - which);
+  const auto corner = [&](double i) {
+    const double angle = 2 * std::numbers::pi * i / blades;
+    return Eigen::Vector2d(std::sin(angle), -std::cos(angle));
+  };
+  return from_middle * ((1 - u[1]) * corner(which) + u[1] * corner(which + 1));
+}
+
 }  // namespace
 
 Camera::Camera(const CameraDescription& description, const Resolution& resolution)
@@ -43,6 +55,7 @@ Camera::Camera(const CameraDescription& description, const Resolution& resolutio
   unit_down_ = down;
   const double to_look_at = (description.look_at - description.position).norm();
   lens_radius_ = description.aperture / 2;
+  blades_ = static_cast<int>(description.blades);
   focus_ = description.focus > 0 ? description.focus : to_look_at;
   const double field = description.fov_y_degrees * std::numbers::pi / 180;
   if (type_ == Type::orthographic) scale_ = pixel * to_look_at;
@@ -72,10 +85,31 @@ Ray<double> Camera::other_ray(double x, double y) const {
 
 Ray<double> Camera::through_lens(const Ray<double>& ray, const std::array<double, 2>& u) const {
   const double radius = lens_radius_ * std::sqrt(u[0]), angle = 2 * std::numbers::pi * u[1];
+  Eigen::Vector2d on_lens(std::cos(angle), std::sin(angle));
+  if (blades_ > 0) on_lens = between_blades(blades_, u);
   const Vec3<double> sharp = ray.at(focus_ / ray.direction.dot(forward_));
   const Vec3<double> origin =
-      ray.origin + radius * (std::cos(angle) * unit_right_ + std::sin(angle) * unit_down_);
+      ray.origin + (blades_ > 0 ? lens_radius_ : radius) *
+                       (on_lens.x() * unit_right_ + on_lens.y() * unit_down_);
   return {origin, unit<double>(sharp - origin)};
+}
+
+std::optional<Eigen::Vector2d> Camera::seen_at(const Vec3<double>& point) const {
+  if (type_ == Type::perspective || type_ == Type::orthographic) return project(point);
+  const Vec3<double> towards = unit<double>(point - position_);
+  if (towards.isZero(0)) return std::nullopt;
+  const double right = towards.dot(unit_right_), down = towards.dot(unit_down_);
+  const double along = towards.dot(forward_);
+  if (type_ == Type::panorama) {
+    const double longitude = std::atan2(right, along),
+                 latitude = std::asin(std::clamp(down, -1.0, 1.0));
+    return Eigen::Vector2d(centre_.x() * (1 + longitude / std::numbers::pi),
+                           centre_.y() * (1 + 2 * latitude / std::numbers::pi));
+  }
+  const double sine = std::hypot(right, down), angle = std::atan2(sine, along);
+  if (!(sine > 0)) return along > 0 ? std::optional(centre_) : std::nullopt;
+  const double distance = (type_ == Type::fisheye ? angle : std::sin(angle / 2)) / scale_;
+  return Eigen::Vector2d(centre_ + distance / sine * Eigen::Vector2d(right, down));
 }
 
 std::optional<Eigen::Vector2d> Camera::project(const Vec3<double>& point) const {

@@ -34,6 +34,10 @@ class Camera {
   /// perspective nor orthographic.
   std::optional<Eigen::Vector2d> project(const Vec3<double>& point) const;
 
+  /// Where a point is seen by a camera of any type; nothing if it is not. Around a panorama's back
+  /// edge it is seen on either side.
+  std::optional<Eigen::Vector2d> seen_at(const Vec3<double>& point) const;
+
  private:
   enum class Type : unsigned char { perspective, orthographic, fisheye, equisolid, panorama };
 
@@ -41,6 +45,7 @@ class Camera {
 
   Type type_ = Type::perspective;
   double lens_radius_ = 0, focus_ = 1;
+  int blades_ = 0;    ///< of the aperture; 0: it is round
   double scale_ = 1;  ///< a pixel: orthographic, in lengths; fisheyes, in radians
   Vec3<double> unit_right_, unit_down_;
   Vec3<double> position_;

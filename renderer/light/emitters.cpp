@@ -14,7 +14,7 @@ namespace {
 constexpr std::uint32_t no_emitter = std::numeric_limits<std::uint32_t>::max();
 
 /// So many emitters are weighed one by one at each point, by brightness, size and distance; more
-/// are chosen among by brightness and size alone.
+/// are chosen among by a tree of them.
 constexpr std::size_t most_weighed = 16;
 
 /// A flat body's ellipsoid is so thick, over its largest radius: directions from where the body is
@@ -190,7 +190,7 @@ AroundBody around(const PreparedShape<Real>& body) {
 
 Emitters::Emitters(const RenderWorld& world, const std::vector<Colour>& radiance_of_instance)
     : world_(world) {
-  double power = 0;
+  std::vector<LightTree::Light> lights;
   for (std::size_t i = 0; i < radiance_of_instance.size(); ++i) {
     const Colour& radiance = radiance_of_instance[i];
     // What has no end, or no size, is found by chance alone.
@@ -200,11 +200,12 @@ Emitters::Emitters(const RenderWorld& world, const std::vector<Colour>& radiance
     Emitter& emitter =
         emitters_.emplace_back(Emitter{static_cast<std::uint32_t>(i), radiance, around(body), 0});
     emitter.power = radiance.mean() * emitter.body.size2;
-    power += emitter.power;
-    power_up_to_.push_back(power);
+    const double radius = world.instances().half_extent(i);
+    lights.push_back({emitter.body.centre, radius, emitter.power});
     of_instance_.resize(radiance_of_instance.size(), no_emitter);
     of_instance_[i] = static_cast<std::uint32_t>(emitters_.size() - 1);
   }
+  if (emitters_.size() > most_weighed) tree_ = LightTree(lights);
 }
 
 /// The point as the emitter sees it, from where that stands at time 0.
@@ -223,10 +224,8 @@ std::optional<EmitterSample> Emitters::sample(const Vec3<double>& point, double 
   const double which = sampler.next()[0];
   const std::array<double, 2> u = sampler.next();
   std::size_t chosen = 0;
-  if (emitters_.size() > most_weighed) {
-    const auto at =
-        std::upper_bound(power_up_to_.begin(), power_up_to_.end(), which * power_up_to_.back());
-    chosen = std::min(static_cast<std::size_t>(at - power_up_to_.begin()), emitters_.size() - 1);
+  if (!tree_.empty()) {
+    chosen = tree_.choose(point, which);
   } else if (emitters_.size() > 1) {
     std::array<double, most_weighed> up_to;
     double sum = 0;
@@ -247,8 +246,8 @@ double Emitters::pdf(const Vec3<double>& point, double time, const Vec3<double>&
   if (of_instance_.empty() || of_instance_[instance] == no_emitter) return 0;
   const Emitter& emitter = emitters_[of_instance_[instance]];
   double chance = 1;
-  if (emitters_.size() > most_weighed) {
-    chance = emitter.power / power_up_to_.back();
+  if (!tree_.empty()) {
+    chance = tree_.chance(point, of_instance_[instance]);
   } else if (emitters_.size() > 1) {
     double sum = 0;
     for (const Emitter& other : emitters_) sum += weight(other, point, time);

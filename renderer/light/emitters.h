@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "renderer/base/real.h"
+#include "renderer/light/light_tree.h"
 #include "renderer/light/sampler.h"
 #include "renderer/scene/materials.h"
 
@@ -79,7 +80,7 @@ class Emitters {
   const RenderWorld& world_;
   std::vector<Emitter> emitters_;           ///< in the order of their instances
   std::vector<std::uint32_t> of_instance_;  ///< an index into them, or none
-  std::vector<double> power_up_to_;         ///< the sum of their powers, each included
+  LightTree tree_;                          ///< of them, if they are many
 };
 
 }  // namespace minkray

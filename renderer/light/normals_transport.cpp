@@ -23,6 +23,7 @@ void NormalsTransport::trace(std::span<TracedRay> rays, RayCounts& counts) const
       rays[i].radiance = 0.5 * (Colour::Ones() + hit.cast.normal.cast<double>());
     else if (hit.found())
       rays[i].radiance.setZero();
+    rays[i].direct = rays[i].radiance;
     counts.background += hit.found() ? 0 : 1;
     counts.from_inside += hit.cast.status == Status::inside ? 1 : 0;
   }

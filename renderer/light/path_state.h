@@ -20,6 +20,7 @@ struct PathTransport::Path {
 
   Colour throughput = Colour::Ones();
   Colour radiance = Colour::Zero();
+  Colour direct = Colour::Zero();  ///< of the radiance: what was scattered at most once
   int depth = 0, passages = 0;
   bool is_sharp = true;         ///< the ray's direction had no density
   bool is_straight = true;      ///< nothing was passed since the last scattering
@@ -34,16 +35,22 @@ struct PathTransport::Path {
 struct PathTransport::Point {
   Vec3<Real> position;
   Real rounding;
+  Vec3<Real> normal;  ///< outward; the frame's may be bent by a relief
   Frame frame;
   Shading shading;
   const Bsdf* bsdf;
   std::uint32_t instance;
   Inside above, below;  ///< what holds the places beside the surface
   TexturePoint place;   ///< which `shading` refers to
+  bool is_bent;         ///< by a relief
 
   /// A ray that goes from here; what holds it is `inside(w)`.
   Ray<Real> ray(const Vec3<double>& w, const Vec3<double>& direction) const {
-    return {w.z() > 0 ? Vec3<Real>(position + rounding * frame.z) : position, direction};
+    return {w.z() > 0 ? Vec3<Real>(position + rounding * normal) : position, direction};
+  }
+  /// Whether the surface lies between the two sides for its relief as well.
+  bool is_on_side(const Vec3<double>& w, const Vec3<double>& direction) const {
+    return !is_bent || (w.z() > 0) == (direction.dot(normal) > 0);
   }
   const Inside& inside(const Vec3<double>& w) const { return w.z() > 0 ? above : below; }
 };

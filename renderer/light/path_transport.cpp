@@ -15,6 +15,15 @@ constexpr int sure_depth = 4;
 /// A path goes through no more boundaries that do not count: of bodies within others.
 constexpr int most_passages = 256;
 
+/// A body is one sheet if it is so thin, over its largest extent.
+constexpr double sheet_thickness = 1e-6;
+
+bool is_flat(const RenderWorld& world, std::uint32_t instance) {
+  if (world.instances().is_half_space(instance)) return false;
+  const Vec3<double> half = world.instances().at(instance).definition().inner_half_extents();
+  return half.minCoeff() <= sheet_thickness * half.maxCoeff();
+}
+
 /// The balance heuristic.
 double share(double mine, double other) {
   return mine / (mine + other);
@@ -48,7 +57,10 @@ class PathTransport::Packet {
       for (std::size_t i = 0; i < rays_.size(); ++i)
         if (points_[i]) scatter(paths_[i], *points_[i]);
     }
-    for (std::size_t i = 0; i < rays_.size(); ++i) rays_[i].radiance = paths_[i].radiance;
+    for (std::size_t i = 0; i < rays_.size(); ++i) {
+      rays_[i].radiance = paths_[i].radiance;
+      rays_[i].direct = paths_[i].direct;
+    }
   }
 
  private:
@@ -130,7 +142,7 @@ class PathTransport::Packet {
 
     Inside beyond = path.inside;
     Shading shading;
-    if (material.bsdf->lets_through()) {
+    if (material.bsdf->lets_through() && !of_.is_flat_sheet(at.instance)) {
       const bool has_room = at.leaves || beyond.enter(at.instance);
       if (at.leaves) beyond.leave(at.instance);
       const bool counts =
@@ -151,27 +163,35 @@ class PathTransport::Packet {
       return;
     }
     const Vec3<Real> position = path.ray.at(at.t);
-    const Frame frame = material.bsdf->has_grain()
-                            ? Frame(at.normal, of_.surfaces_.axis(at.instance))
-                            : Frame(at.normal);
+    TexturePoint place;
+    if (of_.surfaces_.has_textures())
+      place = of_.surfaces_.place(of_.world_, at.instance, position, at.normal, path.time);
+    const auto frame_of = [&](const Vec3<double>& normal) {
+      return material.bsdf->has_grain() ? Frame(normal, of_.surfaces_.axis(at.instance))
+                                        : Frame(normal);
+    };
+    Frame frame = frame_of(at.normal);
+    if (material.relief.any()) {
+      const Frame bent = frame_of(of_.surfaces_.relief_normal_at(at.instance, place));
+      // What is seen from behind its bent normal is seen as it is.
+      if ((bent.z.dot(path.ray.direction) > 0) == at.leaves) frame = bent;
+    }
     shading.w_out = frame.to_local(-path.ray.direction);
     // A grazing normal may be rounded to the far side.
     constexpr double least = std::numeric_limits<double>::epsilon();
     double& z = shading.w_out.z();
     z = at.leaves ? std::min(z, -least) : std::max(z, least);
-    points_[i].emplace(Point{position, rounding_at(of_.world_, at.instance, position, at.t), frame,
-                             shading, material.bsdf.get(), at.instance,
+    points_[i].emplace(Point{position, rounding_at(of_.world_, at.instance, position, at.t),
+                             at.normal, frame, shading, material.bsdf.get(), at.instance,
                              at.leaves ? beyond : path.inside, at.leaves ? path.inside : beyond,
-                             TexturePoint()});
-    if (!of_.surfaces_.has_textures()) return;
-    points_[i]->place =
-        of_.surfaces_.place(of_.world_, at.instance, position, at.normal, path.time);
-    points_[i]->shading.place = &points_[i]->place;
+                             place, frame.z != at.normal});
+    if (of_.surfaces_.has_textures()) points_[i]->shading.place = &points_[i]->place;
   }
 
   /// Adds light that was scattered so often; what the camera sees directly and what is lit directly
   /// is never limited.
   void gather(Path& path, const Colour& light, int depth) const {
+    if (depth <= 1) path.direct += light;
     const double most = of_.options_.clamp, brightest = light.maxCoeff();
     if (most > 0 && depth > 1 && !path.only_sharp && brightest > most)
       path.radiance += most / brightest * light;
@@ -224,7 +244,7 @@ class PathTransport::Packet {
       const std::optional<LightSample> sample = draw(point, paths_[i].sampler);
       if (!sample) continue;
       const Vec3<double> w = point.frame.to_local(sample->direction);
-      if (!point.inside(w).none()) continue;
+      if (!point.is_on_side(w, sample->direction) || !point.inside(w).none()) continue;
       const Colour reflected = point.bsdf->eval(point.shading, w);
       if (!(reflected.maxCoeff() > 0)) continue;
       const double counts = part(point, w, *sample);
@@ -279,6 +299,7 @@ class PathTransport::Packet {
       const auto sample = of_.emitters_.sample(point.position, path.time, path.sampler);
       if (!sample) continue;
       const Vec3<double> w = point.frame.to_local(sample->direction);
+      if (!point.is_on_side(w, sample->direction)) continue;
       const Colour reflected = point.bsdf->eval(point.shading, w);
       if (!(reflected.maxCoeff() > 0)) continue;
       const double part = share(sample->pdf, point.bsdf->pdf(point.shading, w)) / sample->pdf;
@@ -331,6 +352,10 @@ class PathTransport::Packet {
     }
     path.throughput = path.throughput.cwiseProduct(sample->weight);
     const Vec3<double> direction = unit(point.frame.to_world(sample->w_in));
+    if (!point.is_on_side(sample->w_in, direction)) {
+      path.goes_on = false;
+      return;
+    }
     path.ray = point.ray(sample->w_in, direction);
     path.inside = point.inside(sample->w_in);
     path.left = point.instance;
@@ -365,7 +390,11 @@ PathTransport::PathTransport(const Scene& scene, const RenderWorld& world,
       emitters_(world, surfaces_.radiances()),
       lights_(scene.lights),
       background_(scene.background.zenith, scene.background.nadir),
-      background_is_sky_(scene.background_is_sky) {}
+      background_is_sky_(scene.background_is_sky) {
+  if (!surfaces_.has_sheets()) return;
+  for (std::uint32_t i = 0; i < world.instances().size(); ++i)
+    is_flat_sheet_.push_back(surfaces_.of(i).is_sheet && is_flat(world, i));
+}
 
 void PathTransport::trace(std::span<TracedRay> rays, RayCounts& counts) const {
   counts.camera += rays.size();

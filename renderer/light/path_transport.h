@@ -6,6 +6,8 @@
 // chance (Russian roulette), so that nothing is lost on average.
 #pragma once
 
+#include <vector>
+
 #include "renderer/light/emitters.h"
 #include "renderer/light/integrator_options.h"
 #include "renderer/light/light_transport.h"
@@ -29,6 +31,10 @@ class PathTransport final : public LightTransport {
   struct ShadowRays;
   class Packet;
 
+  bool is_flat_sheet(std::uint32_t instance) const {
+    return !is_flat_sheet_.empty() && is_flat_sheet_[instance];
+  }
+
   const RenderWorld& world_;
   IntegratorOptions options_;
   SceneSurfaces surfaces_;
@@ -36,6 +42,7 @@ class PathTransport final : public LightTransport {
   Lights lights_;
   EnvironmentSource background_;
   bool background_is_sky_;
+  std::vector<bool> is_flat_sheet_;  ///< by instance, if there are sheets
 };
 
 }  // namespace minkray

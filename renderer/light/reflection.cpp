@@ -38,6 +38,9 @@ struct BaseOf {
   DiffuseBase operator()(const PrincipledMaterial& layers) const {
     return DiffuseBase(layers.colour.colour());
   }
+  DiffuseBase operator()(const TranslucentMaterial& sheet) const {
+    return DiffuseBase(sheet.colour.colour());
+  }
   DiffuseBase operator()(const MixMaterial&) const { return DiffuseBase(Colour::Constant(0.5)); }
 };
 

@@ -3,6 +3,7 @@
 
 #include "renderer/light/conductor_bsdf.h"
 #include "renderer/light/mix_bsdf.h"
+#include "renderer/light/relief_normal.h"
 #include "renderer/scene/scene_instances.h"
 
 namespace minkray {
@@ -43,6 +44,23 @@ Medium medium_of(const Scene& scene, const Material& material) {
   return {};
 }
 
+/// Whether all of it that lets light through is thin.
+bool is_sheet(const Scene& scene, const Material& material) {
+  if (std::holds_alternative<TranslucentMaterial>(material.kind)) return true;
+  const auto* mix = std::get_if<MixMaterial>(&material.kind);
+  if (!mix) return false;
+  bool any = false;
+  for (const std::uint32_t i : mix->materials.indices) {
+    const Material& part = scene.materials[i];
+    const auto* layers = std::get_if<PrincipledMaterial>(&part.kind);
+    if (std::holds_alternative<DielectricMaterial>(part.kind) ||
+        (layers && layers->transmission > 0))
+      return false;
+    any = any || is_sheet(scene, part);
+  }
+  return any;
+}
+
 /// What a material is told by: metals have what they mirror straight ahead, glass is white.
 Paint paint_of(const Scene& scene, const Material& material) {
   if (const auto* metal = std::get_if<ConductorMaterial>(&material.kind)) {
@@ -81,8 +99,11 @@ SceneSurfaces::SceneSurfaces(const Scene& scene) : of_instance_(material_of_inst
     made.radiance = radiance_of(scene, material);
     made.colour = paint_of(scene, material);
     made.inside = medium_of(scene, material);
+    made.relief = material.relief;
+    made.is_sheet = is_sheet(scene, material);
+    has_sheets_ = has_sheets_ || made.is_sheet;
     materials_.push_back(std::move(made));
-    has_textures_ = has_textures_ || has_texture(material);
+    has_textures_ = has_textures_ || has_texture(material) || material.relief.any();
   }
   for (const Object& object : scene.objects) {
     axes_.push_back(unit<double>(object.pose.linear * Vec3<double>::UnitZ()));
@@ -111,6 +132,19 @@ void SceneSurfaces::describe(const RenderWorld& world, const Ray<Real>& ray,
   if (material.colour.texture())
     albedo = paint_at(material.colour,
                       place(world, hit.instance, ray.at(hit.cast.t()), hit.cast.normal, 0));
+}
+
+Vec3<double> SceneSurfaces::uv(const RenderWorld& world, const Ray<Real>& ray,
+                               const WorldHit<Real>& hit) const {
+  if (hit.cast.status != Status::hit) return Vec3<double>::Zero();
+  return radial_place(
+      place(world, hit.instance, ray.at(hit.cast.t()), hit.cast.normal, 0).position);
+}
+
+Vec3<double> SceneSurfaces::relief_normal_at(std::uint32_t instance, const TexturePoint& at) const {
+  const Vec3<double> normal = relief_normal(of(instance).relief, at);
+  if (instance >= to_object_.size()) return normal;
+  return unit<double>(to_object_[instance].linear.transpose() * normal);
 }
 
 std::vector<Colour> SceneSurfaces::radiances() const {

@@ -29,6 +29,8 @@ struct PreparedMaterial {
   Paint colour = Colour::Zero();
   Colour radiance;
   Medium inside;
+  Relief relief;
+  bool is_sheet = false;  ///< what goes through it is on its other side, not within
 };
 
 class SceneSurfaces {
@@ -44,6 +46,13 @@ class SceneSurfaces {
   /// The colour of what a ray has met, and what it shines; nothing is changed where it met nothing.
   void describe(const RenderWorld& world, const Ray<Real>& ray, const WorldHit<Real>& hit,
                 Colour& albedo, Colour& emission) const;
+  /// Longitude and latitude around the origin of the object that a ray has met, as the mapping
+  /// radial has them; zero where it met nothing.
+  Vec3<double> uv(const RenderWorld& world, const Ray<Real>& ray, const WorldHit<Real>& hit) const;
+  /// The normal of the instance's relief in the world, where the place in the object's frame is
+  /// given.
+  Vec3<double> relief_normal_at(std::uint32_t instance, const TexturePoint& at) const;
+  bool has_sheets() const { return has_sheets_; }
   bool has_textures() const { return has_textures_; }
   /// The direction of the object's z axis, around which brushed metal has its grain.
   Vec3<double> axis(std::uint32_t instance) const {
@@ -56,7 +65,7 @@ class SceneSurfaces {
   std::vector<PreparedMaterial> materials_;
   std::vector<std::uint32_t> of_instance_;
   std::vector<Affine<double>> to_object_;  ///< of objects
-  bool has_textures_ = false;
+  bool has_textures_ = false, has_sheets_ = false;
   std::vector<Vec3<double>> axes_;  ///< of objects; particles have the world's
 };
 

@@ -21,14 +21,6 @@ Colour blend(const TwoColours& colours, double part_of_b) {
   return colours.a + std::clamp(part_of_b, 0.0, 1.0) * (colours.b - colours.a);
 }
 
-/// A pair of angles, as parts of a turn: around z, and from the top down.
-Vec3<double> of_direction(const Vec3<double>& direction) {
-  const double length = direction.norm();
-  if (!(length > 0)) return Vec3<double>::Zero();
-  return {0.5 - std::atan2(direction.y(), direction.x()) / (2 * pi),
-          std::acos(std::clamp(direction.z() / length, -1.0, 1.0)) / pi, 0};
-}
-
 /// Where the surface faces x, y or z most, the other two; upright sides have z downwards.
 Vec3<double> of_box(const TexturePoint& at) {
   const Vec3<double>& p = at.position;
@@ -42,8 +34,8 @@ Vec3<double> of_box(const TexturePoint& at) {
 
 /// The place in repeats: in the plane of a mapping, or without one in space.
 Vec3<double> place(const TexturePoint& at, const Mapping& mapping, double scale) {
-  if (mapping.name == "radial") return of_direction(at.position) / scale;
-  if (mapping.name == "normal") return of_direction(at.normal) / scale;
+  if (mapping.name == "radial") return radial_place(at.position) / scale;
+  if (mapping.name == "normal") return radial_place(at.normal) / scale;
   if (mapping.name == "box") return of_box(at) / scale;
   if (mapping.name == "planar") return Vec3<double>(at.position.x(), -at.position.y(), 0) / scale;
   return at.position / scale - below_surface * at.normal;
@@ -122,6 +114,28 @@ struct Evaluate {
 };
 
 }  // namespace
+
+Vec3<double> radial_place(const Vec3<double>& direction) {
+  const double length = direction.norm();
+  if (!(length > 0)) return Vec3<double>::Zero();
+  return {0.5 + std::atan2(direction.y(), direction.x()) / (2 * pi),
+          std::acos(std::clamp(direction.z() / length, -1.0, 1.0)) / pi, 0};
+}
+
+Vec3<double> picture_right(const TexturePoint& at, const Mapping& mapping) {
+  if (mapping.name == "box") {
+    int axis = 0;
+    at.normal.cwiseAbs().maxCoeff(&axis);
+    const double side = at.normal[axis] < 0 ? -1 : 1;
+    if (axis == 0) return {0, side, 0};
+    if (axis == 1) return {-side, 0, 0};
+    return Vec3<double>::UnitX();
+  }
+  if (mapping.name == "planar") return Vec3<double>::UnitX();
+  const Vec3<double>& outwards = mapping.name == "normal" ? at.normal : at.position;
+  const Vec3<double> around(-outwards.y(), outwards.x(), 0);
+  return around.isZero(0) ? Vec3<double>(Vec3<double>::UnitY()) : around;
+}
 
 double gradient_noise(const Vec3<double>& at) {
   const Vec3<double> floor(std::floor(at.x()), std::floor(at.y()), std::floor(at.z()));

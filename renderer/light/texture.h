@@ -12,6 +12,13 @@ struct TexturePoint {
   Vec3<double> normal = Vec3<double>::UnitZ();  ///< outward, of unit length
 };
 
+/// Longitude around z as a part of a turn, 0 and 1 being at -x and 0.5 at +x, and latitude from the
+/// top down as a part of half a turn; the third number is 0.
+Vec3<double> radial_place(const Vec3<double>& direction);
+
+/// Which way pictures of a mapping have right, seen from outside; not along the surface.
+Vec3<double> picture_right(const TexturePoint& at, const Mapping& mapping);
+
 /// Pictures are interpolated between pixels, and repeat.
 Colour paint_at(const Paint& paint, const TexturePoint& at);
 

@@ -13,6 +13,7 @@ struct TracedRay {
   Ray<Real> ray;  ///< of unit direction
   Sampler sampler;
   Colour radiance = Colour::Zero();
+  Colour direct = Colour::Zero();    ///< of it: what was scattered at most once
   bool met = false;                  ///< whether it met an object
   Real time = 0;                     ///< while the shutter is open: from 0 to 1
   std::uint32_t left = no_instance;  ///< the instance that it leaves

@@ -38,6 +38,7 @@ struct CameraDescription {
   double aperture = 0;
   std::optional<double> focus_distance = {};
   std::string focus_on = {};
+  double blades = 0;  ///< a whole number: 0 or at least 3
   /// Not a key: how far away it is sharp, along the camera's axis; 0: at look_at.
   double focus = 0;
 
@@ -49,8 +50,11 @@ struct CameraDescription {
         Field{"look_at", &C::look_at, Unit::length, Range::any, "what it points at"},
         Field{"up", &C::up, Unit::none, Range::any, "the direction that is up in the picture",
               true},
-        Field{"fov_y_degrees", &C::fov_y_degrees, Unit::degrees, Range::zero_to_180,
-              "the angle of view from the picture's lower to its upper edge", true},
+        Field{
+            "fov_y_degrees", &C::fov_y_degrees, Unit::degrees, Range::positive,
+            "the angle of view from the picture's lower to its upper edge: below 180, of fisheyes "
+            "up to 360",
+            true},
         Field{"resolution", &C::resolution, Unit::none, Range::any,
               "the picture's width and height in pixels", true},
         Field{"shutter", &C::shutter, Unit::none, Range::not_negative,
@@ -65,7 +69,12 @@ struct CameraDescription {
         Field{"focus_distance", &C::focus_distance, Unit::length, Range::positive,
               "how far away it is sharp, along the camera's axis; at look_at if left out", true},
         Field{"focus_on", &C::focus_on, Unit::none, Range::any,
-              "or the name of the object that is sharp", true}};
+              "or the name of the object that is sharp", true},
+        Field{"blades", &C::blades, Unit::none, Range::not_negative,
+              "of the aperture, a whole number of at least 3: what is not in focus shows a polygon "
+              "of "
+              "so many corners; 0 for a round one",
+              true}};
   }
 };
 

@@ -2,6 +2,8 @@
 // Lights, as scene files say them: one struct a light, the list of all at the end.
 #pragma once
 
+#include <optional>
+#include <string>
 #include <string_view>
 #include <variant>
 
@@ -92,9 +94,12 @@ struct ImageSkyLight {
   }
 };
 
-/// The sky of a clear day and the sun in it.
+/// The sky of a clear day and the sun in it. Where the sun stands is told by its direction, or by a
+/// time and a place, of which whoever reads the file makes the direction.
 struct SunSkyLight {
   Vec3<double> sun = {0, -1, 1};
+  std::string time = {};
+  std::optional<double> latitude_degrees = {}, longitude_degrees = {};
   double turbidity = 3;
   Colour ground = Colour::Constant(0.1);
   double strength = 1;
@@ -105,12 +110,21 @@ struct SunSkyLight {
   static constexpr std::string_view doc = "A clear day's sky and its sun (Preetham et al. 1999).";
   static constexpr auto fields() {
     using L = SunSkyLight;
-    return std::tuple{Field{"sun", &L::sun, Unit::none, Range::any,
-                            "the direction towards the sun, above the horizon"},
-                      Field{"turbidity", &L::turbidity, Unit::none, Range::at_least_one,
-                            "how hazy it is: 2 very clear, 10 misty", true},
-                      Field{"ground", &L::ground, Unit::none, Range::not_negative,
-                            "the radiance (linear RGB) from below the horizon", true}};
+    return std::tuple{
+        Field{"sun", &L::sun, Unit::none, Range::any,
+              "the direction towards the sun, above the horizon", true},
+        Field{"time", &L::time, Unit::none, Range::any,
+              "instead of the direction: when it is, such as 2026-06-21T09:30+02:00 or "
+              "2026-06-21T07:30Z; +x is east and +y is north",
+              true},
+        Field{"latitude_degrees", &L::latitude_degrees, Unit::degrees, Range::any,
+              "with the time: where it is, positive in the north", true},
+        Field{"longitude_degrees", &L::longitude_degrees, Unit::degrees, Range::any,
+              "with the time: where it is, positive in the east", true},
+        Field{"turbidity", &L::turbidity, Unit::none, Range::at_least_one,
+              "how hazy it is: 2 very clear, 10 misty", true},
+        Field{"ground", &L::ground, Unit::none, Range::not_negative,
+              "the radiance (linear RGB) from below the horizon", true}};
   }
 };
 

@@ -13,6 +13,7 @@
 
 #include "core/math/vec.h"
 #include "core/shape/field.h"
+#include "renderer/scene/relief.h"
 #include "renderer/scene/textures.h"
 
 namespace minkray {
@@ -185,6 +186,26 @@ struct PrincipledMaterial {
   }
 };
 
+/// Paper, a leaf: a sheet that scatters light to both sides. Bodies of it are hollow, flat ones are
+/// one sheet.
+struct TranslucentMaterial {
+  Paint colour = Colour::Constant(0.7);
+  double transmission = 0.5;
+
+  static constexpr std::string_view name = "translucent";
+  static constexpr std::string_view doc =
+      "Paper, a leaf: a thin sheet that scatters light to both sides; bodies of it are hollow.";
+  static constexpr auto fields() {
+    using M = TranslucentMaterial;
+    return std::tuple{
+        Field{"color", &M::colour, Unit::none, Range::zero_to_one,
+              "the part of the light that it scatters, to both sides together (linear "
+              "RGB)"},
+        Field{"transmission", &M::transmission, Unit::none, Range::zero_to_one,
+              "how much of that goes through", true}};
+  }
+};
+
 /// Two materials that come before, by their names and their places in Scene::materials.
 struct TwoMaterials {
   std::shared_ptr<const std::array<std::string, 2>> names;
@@ -210,11 +231,12 @@ struct MixMaterial {
 /// What "type" may say of a material.
 using MaterialKind =
     std::variant<LambertMaterial, GlossyMaterial, EmissiveMaterial, DielectricMaterial,
-                 ConductorMaterial, PrincipledMaterial, MixMaterial>;
+                 ConductorMaterial, PrincipledMaterial, TranslucentMaterial, MixMaterial>;
 
 struct Material {
   std::string name;
   MaterialKind kind;
+  Relief relief = {};
 };
 
 /// Whether a colour of it changes from place to place; not of what a mixture is made of.

@@ -22,6 +22,12 @@ struct NameOf {
 struct PictureFile {
   std::string file;
   std::shared_ptr<const Image> image;
+
+  /// Whether its numbers are light as they are, not sRGB codes of it.
+  bool is_linear() const {
+    return file.ends_with(".exr") || file.ends_with(".hdr") || file.ends_with(".EXR") ||
+           file.ends_with(".HDR");
+  }
 };
 
 }  // namespace minkray

@@ -6,6 +6,7 @@
 
 #include "renderer/json/parse.h"
 #include "renderer/json/values.h"
+#include "renderer/scene/fitting_keys.h"
 #include "renderer/scene/half_space_json.h"
 #include "renderer/scene/read_particles.h"
 #include "renderer/scene/scene_instances.h"
@@ -94,6 +95,7 @@ class SceneReader {
     CameraDescription& camera = scene_.camera;
     const bool all_read = read_members(object, camera, meshes_);
     object.finish();
+    check_lens(scene_.camera, json, path, mistakes_);
     if (!all_read) return;
     const Vec3<double> view = unit<double>(camera.look_at - camera.position);
     const Vec3<double> up = unit(camera.up);
@@ -121,9 +123,7 @@ class SceneReader {
     if (directional && directional->direction.isZero(0)) {
       mistakes_.add(path / "direction", "must not be zero");
     }
-    const auto* day = std::get_if<SunSkyLight>(&*light);
-    if (day && !(day->sun.z() > 0))
-      mistakes_.add(path / "sun", "must be above the horizon: its third number > 0");
+    if (auto* day = std::get_if<SunSkyLight>(&*light)) find_sun(*day, json, path, mistakes_);
     scene_.lights.push_back(std::move(*light));
   }
 
@@ -133,9 +133,11 @@ class SceneReader {
     if (const Json* written = object.require("name", "the material's name")) {
       name = read_name(*written, object.path("name"));
     }
+    Relief relief;
+    if (read_members(object, relief, meshes_)) check_relief(relief, path, mistakes_);
     auto kind = read_tagged<MaterialKind>(
         object, "a material", [&](auto& made) { return read_members(object, made, meshes_); });
-    if (kind) check_metal(*kind, path);
+    if (kind) check_metal(*kind, path, mistakes_);
     if (kind) find_mixed(*kind, path);
     if (name.empty()) return;
     // A material with mistakes still takes its name and place, so that objects of it are no
@@ -146,14 +148,7 @@ class SceneReader {
                                        printable(name, 60) + "\" again)");
       return;
     }
-    scene_.materials.push_back({name, kind.value_or(LambertMaterial())});
-  }
-
-  void check_metal(const MaterialKind& kind, const JsonPath& path) {
-    const auto* conductor = std::get_if<ConductorMaterial>(&kind);
-    if (conductor && conductor->metal.name.empty() != conductor->colour.has_value())
-      mistakes_.add(path, std::string("must have either \"metal\" or \"color\" (got ") +
-                              (conductor->colour ? "both)" : "neither)"));
+    scene_.materials.push_back({name, kind.value_or(LambertMaterial()), relief});
   }
 
   void find_mixed(MaterialKind& kind, const JsonPath& path) {

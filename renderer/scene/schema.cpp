@@ -163,6 +163,7 @@ Json scene_schema() {
       tagged_schema<MaterialKind>("A material.", [&]<class S>(Json& material) {
         material["properties"]["name"] = name;
         material["required"].push_back("name");
+        add_members<Relief>(material);
       });
   definitions["texture"] = tagged_schema<TextureKind>("A texture.", []<class S>(Json&) {});
   definitions["object"] = std::move(object);

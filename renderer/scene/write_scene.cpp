@@ -66,6 +66,7 @@ std::string scene_text(const Scene& scene) {
   for (const Material& material : scene.materials) {
     Json written = std::visit([](const auto& kind) { return tagged(kind); }, material.kind);
     written["name"] = material.name;
+    if (material.relief.any()) write_members(written, material.relief);
     json["materials"].push_back(std::move(written));
   }
   json["objects"] = Json::array();

@@ -33,6 +33,10 @@ std::vector<unsigned char> encode(const Rendering& rendering, const RenderOption
     std::erase_if(exr.planes, [](const ExrPlane& plane) { return plane.name == alpha_plane; });
     exr.planes.push_back({met_plane, rendering.met});
   }
+  if (options.light_channels) {
+    add_colour_planes(exr, rendering.direct, std::string(direct_planes) + ".");
+    add_colour_planes(exr, rendering.variance, std::string(variance_planes) + ".");
+  }
   std::vector<std::uint32_t> is_done(rendering.met.size());
   const PixelRect region = options.region();
   const TileGrid tiles(region);
@@ -104,6 +108,10 @@ RenderJournal Checkpoint::load() {
     begun.met = integers_of(exr, met_plane);
     if (options_.sample_share.is_all()) {
       begun.image = image_of(exr, "R", "G", "B");
+      if (options_.light_channels) {
+        begun.direct = image_of(exr, direct_planes);
+        begun.variance = image_of(exr, variance_planes);
+      }
     } else {
       const SampleBlocks blocks{options_.samples};
       const int end = blocks.end_of(options_.sample_share);
@@ -134,6 +142,7 @@ Rendering Checkpoint::done_tiles_of(const Rendering& rendering) const {
   copy.counts = rendering.counts;
   copy.met.resize(rendering.met.size());
   copy.image = Image(rendering.image.width, rendering.image.height);
+  if (options_.light_channels) copy.direct = copy.variance = copy.image;
   for (const Image& sums : rendering.block_sums)
     copy.block_sums.emplace_back(sums.width, sums.height);
   const PixelRect region = options_.region();
@@ -147,6 +156,10 @@ Rendering Checkpoint::done_tiles_of(const Rendering& rendering) const {
       };
       copy_row(rendering.met, copy.met);
       if (!copy.image.pixels.empty()) copy_row(rendering.image.pixels, copy.image.pixels);
+      if (options_.light_channels) {
+        copy_row(rendering.direct.pixels, copy.direct.pixels);
+        copy_row(rendering.variance.pixels, copy.variance.pixels);
+      }
       for (std::size_t i = 0; i < copy.block_sums.size(); ++i)
         copy_row(rendering.block_sums[i].pixels, copy.block_sums[i].pixels);
     });

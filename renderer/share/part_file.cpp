@@ -79,6 +79,10 @@ Image image_of(const ExrImage& exr, const std::string& red, const std::string& g
   return image;
 }
 
+Image image_of(const ExrImage& exr, const std::string& name) {
+  return image_of(exr, name + ".R", name + ".G", name + ".B");
+}
+
 const std::vector<std::uint32_t>& integers_of(const ExrImage& exr, const std::string& name) {
   const ExrPlane* plane = exr.find(name);
   const auto* values = plane ? std::get_if<std::vector<std::uint32_t>>(&plane->values) : nullptr;

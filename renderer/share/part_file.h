@@ -20,6 +20,13 @@ std::string block_plane_name(int block, char channel);
 Image image_of(const ExrImage& exr, const std::string& red, const std::string& green,
                const std::string& blue);
 
+/// The planes .R, .G and .B of a name.
+Image image_of(const ExrImage& exr, const std::string& name);
+
+/// The names that the planes of Rendering::direct and variance begin with.
+inline constexpr const char* direct_planes = "direct";
+inline constexpr const char* variance_planes = "variance";
+
 /// The integers of a plane. Throws BadInput if there is none of that name.
 const std::vector<std::uint32_t>& integers_of(const ExrImage& exr, const std::string& name);
 

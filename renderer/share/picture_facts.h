@@ -25,8 +25,9 @@ inline constexpr const char* seed = "minkray.seed";
 inline constexpr const char* solver = "minkray.solver";
 inline constexpr const char* bounces = "minkray.bounces";
 inline constexpr const char* integrator = "minkray.integrator";
-inline constexpr const char* limits = "minkray.limits";  ///< of bright light, of noise
-inline constexpr const char* aov = "minkray.aov";        ///< names between commas
+inline constexpr const char* limits = "minkray.limits";      ///< of bright light, of noise
+inline constexpr const char* denoised = "minkray.denoised";  ///< "yes", or missing
+inline constexpr const char* aov = "minkray.aov";            ///< names between commas
 inline constexpr const char* tile = "minkray.tile";
 inline constexpr const char* sample_share = "minkray.sample_share";
 

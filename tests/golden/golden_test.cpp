@@ -81,6 +81,9 @@ constexpr Picture pictures[] = {
     {"shape-zoo", "$SCENES/shape-zoo.json", "-r 96x54 -s 2 --aov all"},
     {"boxes", "$SCENES/rounded-boxes-10k.json", "-r 64x48 -s 2 --bounces 2 --aov all"},
     {"particles", "particles.json", "-r 64x48 -s 2 --aov all"},
+    {"cornell", "$SCENES/cornell.json", "-r 40x40 -s 5 --aov all"},
+    {"glass", "$SCENES/glass.json", "-r 48x27 -s 3"},
+    {"studio", "$SCENES/studio.json", "-r 48x27 -s 3"},
 };
 
 /// One way of many to make the same picture: $1 is the scene, $2 the file, $3... the options.
@@ -95,6 +98,7 @@ constexpr Way ways[] = {
     {"rays one by one", "\"$MINKRAY\" render \"$scene\" -q -o \"$out\" --ray-group 1 $options"},
     {"groups of 4 rays", "\"$MINKRAY\" render \"$scene\" -q -o \"$out\" --ray-group 4 $options"},
     {"groups of 8 rays", "\"$MINKRAY\" render \"$scene\" -q -o \"$out\" --ray-group 8 $options"},
+    {"passes", "\"$MINKRAY\" render \"$scene\" -q -o \"$out\" --progressive $options"},
     {"5 tiles",
      "for i in 1 2 3 4 5; do \"$MINKRAY\" render \"$scene\" -q -o tile-$i.exr --tile $i/5 $options "
      "|| exit 1; done; \"$MINKRAY\" merge tile-?.exr -o \"$out\"; code=$?; rm tile-?.exr; exit "

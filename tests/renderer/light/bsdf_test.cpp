@@ -7,6 +7,7 @@
 #include "renderer/light/conductor_bsdf.h"
 #include "renderer/light/dielectric_bsdf.h"
 #include "tests/support/density.h"
+#include "tests/support/must_hold.h"
 
 namespace minkray {
 namespace {
@@ -39,6 +40,7 @@ std::vector<Case> white_surfaces() {
           {"rough metal", white_metal(1)},
           {"brushed metal", white_metal(0.6, 0.8)},
           {"principled", PrincipledMaterial{Colour::Ones()}},
+          {"paper", TranslucentMaterial{Colour::Ones(), 0.3}},
           {"principled glass",
            PrincipledMaterial{.colour = Colour::Ones(), .roughness = 0.4, .transmission = 1}, 1.5},
           {"lacquered cloth and metal", PrincipledMaterial{.colour = Colour::Ones(),
@@ -66,22 +68,30 @@ double furnace(const Bsdf& bsdf, const Shading& at) {
 }
 
 TEST(Bsdf, white_surfaces_vanish_in_a_furnace_to_one_percent) {
+  double worst = 0;
+  const auto check = [&](const Bsdf& bsdf, const Shading& at) {
+    const double kept = furnace(bsdf, at);
+    EXPECT_NEAR(kept, 1, 0.01);
+    worst = std::max(worst, std::abs(kept - 1));
+  };
   for (const Case& c : white_surfaces()) {
     const auto bsdf = make_bsdf({"", c.material});
     for (const double cosine : {0.1, 0.3, 0.6, 0.95}) {
       SCOPED_TRACE(std::string(c.name) + " from " + std::to_string(cosine));
-      EXPECT_NEAR(furnace(*bsdf, {from(cosine), 1, c.eta}), 1, 0.01);
+      check(*bsdf, {from(cosine), 1, c.eta});
       if (!bsdf->lets_through()) continue;
       const Vec3<double> w = from(cosine);
-      EXPECT_NEAR(furnace(*bsdf, {{w.x(), w.y(), -w.z()}, 1, c.eta}), 1, 0.01);
+      check(*bsdf, {{w.x(), w.y(), -w.z()}, 1, c.eta});
     }
   }
+  tell_figure("light_lost_by_white_surfaces", worst, "<= 0.01");
 }
 
 TEST(Bsdf, directions_have_the_density_they_claim) {
   const std::vector<Case> rough = {{"frosted glass", DielectricMaterial{1.5, 0.7}, 1.5},
                                    {"rough diamond", DielectricMaterial{2.4, 1.0}, 2.4},
                                    {"metal", white_metal(0.6)},
+                                   {"paper", TranslucentMaterial{Colour::Ones(), 0.3}},
                                    {"brushed metal", white_metal(0.8, 0.7)},
                                    {"principled",
                                     PrincipledMaterial{.colour = Colour::Constant(0.6),

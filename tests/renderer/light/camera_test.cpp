@@ -5,6 +5,8 @@
 
 #include <numbers>
 
+#include "renderer/light/sampler.h"
+
 namespace minkray {
 namespace {
 
@@ -127,6 +129,69 @@ TEST(Camera, rays_through_a_lens_meet_where_it_is_in_focus) {
     farthest = std::max(farthest, (ray.origin - middle.origin).norm());
   }
   EXPECT_NEAR(farthest, 0.3, 0.01);
+}
+
+TEST(Camera, of_any_type_a_point_is_seen_where_its_ray_passes) {
+  for (const char* type : {"perspective", "orthographic", "fisheye", "equisolid", "panorama"}) {
+    CameraDescription description;
+    description.position = {1, 2, 3};
+    description.look_at = {4, 6, 2};
+    description.type = {type};
+    description.fov_y_degrees = std::string(type) == "fisheye" ? 220 : 100;
+    const Camera camera(description, {64, 48});
+    for (const double x : {20.5, 31.0, 40.25})
+      for (const double y : {10.5, 23.0, 35.75}) {
+        const auto seen = camera.seen_at(camera.ray(x, y).at(7.0));
+        ASSERT_TRUE(seen) << type;
+        EXPECT_NEAR((*seen - Eigen::Vector2d(x, y)).norm(), 0, 1e-9) << type;
+      }
+  }
+}
+
+TEST(Camera, a_fisheye_of_more_than_half_a_turn_sees_what_is_behind_it) {
+  CameraDescription description;
+  description.position = {0, 0, 0};
+  description.look_at = {0, 1, 0};
+  description.type = {"fisheye"};
+  description.fov_y_degrees = 220;
+  const Camera camera(description, {100, 100});
+  const Vec3<double> top = camera.ray(50, 0).direction;
+  EXPECT_NEAR(std::acos(top.y()) * 180 / std::numbers::pi, 110, 1e-9);
+  EXPECT_LT(top.y(), 0);
+  EXPECT_GT(top.z(), 0);
+}
+
+// Where rays leave the lens: within the polygon, whose corners are on the round aperture's edge,
+// and evenly in each of its triangles.
+TEST(Camera, blades_make_the_aperture_a_polygon) {
+  CameraDescription description;
+  description.position = {0, -5, 0};
+  description.aperture = 2;
+  for (const int blades : {3, 5, 8}) {
+    description.blades = blades;
+    const Camera camera(description, {10, 10});
+    const Ray<double> middle = camera.ray(4, 7);
+    const double inner = std::cos(std::numbers::pi / blades);
+    double farthest = 0, squares = 0;
+    std::vector<int> sectors(static_cast<std::size_t>(blades));
+    constexpr int draws = 1 << 14;
+    for (std::uint32_t i = 0; i < draws; ++i) {
+      Sampler sampler(2, 0, 0, i);
+      const Ray<double> ray = camera.through_lens(middle, sampler.next());
+      const Vec3<double> p = ray.origin - middle.origin;
+      EXPECT_NEAR(p.y(), 0, 1e-12);
+      const double part = std::atan2(p.x(), p.z()) / (2 * std::numbers::pi) * blades + blades;
+      ++sectors[static_cast<std::size_t>(part) % sectors.size()];
+      const double across = std::hypot(p.x(), p.z()) * std::cos((part - std::floor(part) - 0.5) *
+                                                                2 * std::numbers::pi / blades);
+      EXPECT_LE(across, inner + 1e-12);
+      farthest = std::max(farthest, across);
+      squares += across * across / draws;
+    }
+    EXPECT_GT(farthest, 0.99 * inner);
+    EXPECT_NEAR(squares, inner * inner / 2, 0.01);  // as of a triangle's points, by their height
+    for (const int count : sectors) EXPECT_NEAR(count, draws / blades, 0.02 * draws);
+  }
 }
 
 }  // namespace

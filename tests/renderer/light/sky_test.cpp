@@ -9,6 +9,7 @@
 #include "renderer/light/sky_image.h"
 #include "renderer/light/sun_sky.h"
 #include "tests/support/density.h"
+#include "tests/support/must_hold.h"
 
 namespace minkray {
 namespace {
@@ -98,6 +99,8 @@ TEST(SkyImage, a_small_sun_is_found) {
     of_cosine += std::pow(by_cosine - expected, 2) / 64;
   }
   EXPECT_LT(std::sqrt(error), std::sqrt(of_cosine) / 4);
+  tell_figure("error_under_a_small_sun_beside_cosine_sampling", std::sqrt(error / of_cosine),
+              "<= 0.25");
 }
 
 TEST(SunSky, noon_is_brighter_and_whiter_than_evening) {

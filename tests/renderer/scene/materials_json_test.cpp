@@ -12,6 +12,7 @@
 #include "renderer/io/read_image.h"
 #include "renderer/scene/scene_json.h"
 #include "renderer/scene/write_scene.h"
+#include "tests/support/must_hold.h"
 #include "tests/support/program.h"
 
 namespace minkray {
@@ -67,7 +68,10 @@ TEST_F(Pictures, all_mistakes_of_materials_are_told_at_once) {
     {"name": "mix", "type": "mix", "materials": ["m", "later"]},
     {"name": "later", "type": "principled", "base_color": [0.5, 0.5, 1.5], "coat": 2},
     {"name": "dots", "type": "lambert", "color": {"type": "dots"}},
-    {"name": "turn", "type": "lambert", "color": {"type": "checker", "mapping": "around", "scale": 0}})"));
+    {"name": "turn", "type": "lambert", "color": {"type": "checker", "mapping": "around", "scale": 0}},
+    {"name": "paper", "type": "translucent", "color": [1, 1, 1], "transmission": 1.5},
+    {"name": "dent", "type": "lambert", "color": [1, 1, 1], "bump": [1, 1, 1], "bump_height": -1,
+     "normal_map": {"type": "checker"}})"));
   const std::vector<std::string> places = {
       "/materials/0/roughness: must be >= 0 and <= 1 (got -0.1)",
       "/materials/0/index_of_refraction: must be >= 1 (got 0.5)",
@@ -82,14 +86,27 @@ TEST_F(Pictures, all_mistakes_of_materials_are_told_at_once) {
       "/materials/6/coat: must be",
       "/materials/7/color/type: must be the name of a texture",
       "/materials/8/color/mapping: must be the name of a mapping",
-      "/materials/8/color/scale: must be > 0 (got 0)"};
+      "/materials/8/color/scale: must be > 0 (got 0)",
+      "/materials/9/transmission: must be",
+      "/materials/10/bump_height: must be >= 0 (got -1)"};
   EXPECT_EQ(found.size(), places.size());
+  tell_figure("mistakes_of_materials_told_at_once", static_cast<double>(found.size()),
+              "== " + std::to_string(places.size()));
   for (const std::string& place : places)
     EXPECT_TRUE(std::any_of(
         found.begin(), found.end(),
         [&](const std::string& message) { return message.find(place) != std::string::npos; }))
         << place << "\n"
         << testing::PrintToString(found);
+}
+
+TEST_F(Pictures, reliefs_are_textures) {
+  const auto found = complaints(scene(
+      R"({"name": "m", "type": "lambert", "color": [1, 1, 1], "bump": [1, 1, 1],
+          "normal_map": {"type": "checker"}})"));
+  ASSERT_EQ(found.size(), 2u) << testing::PrintToString(found);
+  EXPECT_NE(found[0].find("/materials/0/bump: must be a texture"), std::string::npos);
+  EXPECT_NE(found[1].find("/materials/0/normal_map: must be a texture of type"), std::string::npos);
 }
 
 TEST_F(Pictures, numbers_that_are_none_are_refused) {
@@ -108,6 +125,8 @@ TEST_F(Pictures, pictures_that_cannot_be_used_are_told_all_at_once) {
       image("m", "missing.png") + "," + image("b", "broken.png") + "," + image("t", "text.txt"),
       R"({"type": "environment", "file": "nan.exr"}, {"type": "environment", "file": "gone.hdr"})"));
   ASSERT_EQ(found.size(), 5u) << testing::PrintToString(found);
+  tell_figure("pictures_that_cannot_be_used_told_at_once", static_cast<double>(found.size()),
+              "== 5");
   for (const auto& [place, what] : {std::pair{"/lights/0/file", "must hold finite numbers"},
                                     {"/lights/1/file", "gone.hdr"},
                                     {"/materials/0/color/file", "missing.png"},
@@ -133,6 +152,29 @@ TEST_F(Pictures, skies_and_lenses_are_checked) {
             std::string::npos);
   EXPECT_NE(one("", R"(, "type": "fisheye", "aperture": 1)").find("/camera/aperture"),
             std::string::npos);
+  EXPECT_NE(one("", R"(, "blades": 2)").find("/camera/blades: must be 0 or a whole number from 3"),
+            std::string::npos);
+  EXPECT_NE(one("", R"(, "fov_y_degrees": 180)").find("must be > 0 and < 180 (got 180)"),
+            std::string::npos);
+  EXPECT_NE(one("", R"(, "type": "fisheye", "fov_y_degrees": 361)").find("<= 360 (got 361)"),
+            std::string::npos);
+  EXPECT_TRUE(complaints(scene(matt, "", R"(, "type": "fisheye", "fov_y_degrees": 220)")).empty());
+  const auto day = [&](const char* keys) {
+    return one(std::string(R"({"type": "sun_sky")") + keys + "}", "");
+  };
+  EXPECT_NE(day("").find("must have either \"sun\" or all of \"time\""), std::string::npos);
+  EXPECT_NE(day(R"(, "sun": [0, 0, 1], "time": "2026-06-21T12:00Z")").find("either"),
+            std::string::npos);
+  EXPECT_NE(day(R"(, "time": "2026-06-21T12:00Z", "latitude_degrees": 51)").find("either"),
+            std::string::npos);
+  const std::string place = R"(, "latitude_degrees": 51, "longitude_degrees": 0)";
+  EXPECT_NE(day((R"(, "time": "noon")" + place).c_str()).find("/lights/0/time: must be a time"),
+            std::string::npos);
+  EXPECT_NE(day((R"(, "time": "2026-06-21T00:00Z")" + place).c_str()).find("below the horizon"),
+            std::string::npos);
+  EXPECT_TRUE(
+      complaints(scene(matt, R"({"type": "sun_sky", "time": "2026-06-21T12:00Z")" + place + "}"))
+          .empty());
   EXPECT_NE(one("", R"(, "type": "fish")").find("the name of a camera"), std::string::npos);
   // A plain environment must still say both colours.
   EXPECT_NE(one(R"({"type": "environment", "zenith": [1, 1, 1]})", "").find("/lights/0/nadir"),
@@ -145,11 +187,15 @@ TEST_F(Pictures, what_is_written_is_read_as_the_same) {
          {"name": "gold", "type": "conductor", "metal": "gold", "anisotropy": 0.5},
          {"name": "white", "type": "conductor", "color": [1, 1, 1]},
          {"name": "both", "type": "mix", "materials": ["glass", "gold"], "amount": 0.25},
+         {"name": "leaf", "type": "translucent", "color": [0.2, 0.6, 0.1], "transmission": 0.7},
+         {"name": "hammered", "type": "conductor", "metal": "copper", "bump": {"type": "noise", "scale": 0.2},
+          "bump_height": 0.02, "normal_map": {"type": "image", "file": "board.png"}},
          {"name": "board", "type": "glossy", "color": {"type": "image", "file": "board.png", "mapping": "box"}},
          {"name": "m", "type": "principled", "base_color": {"type": "wood", "scale": 0.3}, "coat": 1})",
       R"({"type": "environment", "file": "sky.exr", "rotate_degrees": 30, "intensity": 2},
-         {"type": "sun_sky", "sun": [1, 0, 1]})",
-      R"(, "aperture": 0.1, "focus_on": "ball")");
+         {"type": "sun_sky", "sun": [1, 0, 1]},
+         {"type": "sun_sky", "time": "2026-06-21T12:00Z", "latitude_degrees": 51, "longitude_degrees": 0})",
+      R"(, "aperture": 0.1, "focus_on": "ball", "blades": 6)");
   Mistakes mistakes("x.json");
   const auto first = parse_scene(text, folder_ / "", mistakes);
   ASSERT_TRUE(first) << mistakes.text();

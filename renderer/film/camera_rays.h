@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// The rays that a picture's samples begin with: where in the pixel, where on the lens and when each
+// of them is. Whoever asks for a sample of a pixel gets the same ray.
+#pragma once
+
+#include "renderer/film/pixel_loop.h"
+#include "renderer/film/render.h"
+#include "renderer/image/filter.h"
+#include "renderer/light/camera.h"
+
+namespace minkray {
+
+class CameraRays {
+ public:
+  CameraRays(const Scene& scene, const RenderWorld& world, const RenderOptions& options)
+      : camera_(scene.camera, options.resolution),
+        seed_(options.seed),
+        blurs_(world.instances().move()) {}
+
+  /// Its sampler goes on behind the numbers that were spent on the ray.
+  TracedRay ray(const Pixel& pixel, int sample) const {
+    TracedRay traced;
+    traced.sampler = Sampler(seed_, pixel.x, pixel.y, static_cast<std::uint32_t>(sample));
+    const std::array<double, 2> u = traced.sampler.next();
+    traced.ray =
+        camera_.ray(pixel.x + 0.5 + filter_.offset(u[0]), pixel.y + 0.5 + filter_.offset(u[1]));
+    if (camera_.has_lens()) traced.ray = camera_.through_lens(traced.ray, traced.sampler.next());
+    // When nothing moves no random numbers are spent on when.
+    traced.time = blurs_ ? traced.sampler.next()[0] : 0;
+    return traced;
+  }
+
+ private:
+  Camera camera_;
+  PixelFilter filter_;
+  std::uint64_t seed_;
+  bool blurs_;
+};
+
+}  // namespace minkray

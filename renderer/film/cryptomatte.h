@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// Mattes of every object for compositing: by pixel, which objects its samples met and how many of
+// them (Friedman and Jones, "Fully Automatic ID Mattes with Support for Motion Blur and
+// Transparency", 2015, and the Cryptomatte specification 1.2). Camera rays are cast again as the
+// picture's samples had them, so that edges, lenses and shutters are those of the picture.
+#pragma once
+
+#include <map>
+
+#include "renderer/film/render.h"
+#include "renderer/io/exr.h"
+
+namespace minkray {
+
+/// The name that the planes begin with.
+inline constexpr const char* cryptomatte_layer = "CryptoObject";
+
+/// MurmurHash3 of 32 bits (Appleby), and the float of its bits, which is always a normal number.
+std::uint32_t cryptomatte_hash(std::string_view name);
+float cryptomatte_id(std::string_view name);
+
+struct Cryptomatte {
+  /// CryptoObject00.R and .G are the id of the object that covers most of the pixel and how much,
+  /// .B and .A the next one, and so on for six objects.
+  std::vector<ExrPlane> planes;
+  /// What the header says: the manifest has the objects' names; particles have that of their set.
+  std::map<std::string, std::string> texts;
+};
+
+/// It is of the region that `options` ask for, by all threads, and of no use if the watch said
+/// stop.
+Cryptomatte measure_cryptomatte(const Scene& scene, const RenderWorld& world,
+                                const RenderOptions& options, const RenderWatch& watch = {});
+
+}  // namespace minkray

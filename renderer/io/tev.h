@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// A picture shown by the viewer tev while it grows, over the protocol that tev listens for: packets
+// with their length and kind in front, numbers in little-endian order, texts that end with a zero
+// (Tom94/tev, the packets CreateImage and UpdateImageV3).
+#pragma once
+
+#include <string>
+
+#include "renderer/image/image.h"
+
+namespace minkray {
+
+/// Where tev listens unless it is told otherwise.
+inline constexpr const char* tev_port = "14158";
+
+class TevPicture {
+ public:
+  /// Opens a picture of that name and size in the viewer that listens at "HOST:PORT", or at HOST
+  /// and its usual port. Throws CannotWrite if none does.
+  TevPicture(const std::string& address, const std::string& name, int width, int height);
+  ~TevPicture();
+  TevPicture(const TevPicture&) = delete;
+  TevPicture& operator=(const TevPicture&) = delete;
+
+  /// Shows a part of the image, which is as large as the picture. Does nothing once the viewer has
+  /// gone.
+  void show(const Image& image, const PixelRect& part);
+
+  /// What went wrong, if anything: the picture itself does not need its viewer.
+  const std::string& complaint() const { return complaint_; }
+
+ private:
+  void send(const std::string& packet);
+
+  std::string name_;
+  int socket_ = -1;
+  std::string complaint_;
+};
+
+}  // namespace minkray

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// Keys of a scene file that must fit other keys beside them, each of which is right by itself. Each
+// function adds mistakes about the object at `path`, whose JSON is given where it is quoted.
+#pragma once
+
+#include "renderer/json/json.h"
+#include "renderer/json/mistakes.h"
+#include "renderer/scene/scene.h"
+
+namespace minkray {
+
+/// Numbers that the camera's type allows or not.
+void check_lens(const CameraDescription& camera, const Json& json, const JsonPath& path,
+                Mistakes& mistakes);
+
+/// Settles where the sun is: by its direction, or by time and place.
+void find_sun(SunSkyLight& day, const Json& json, const JsonPath& path, Mistakes& mistakes);
+
+void check_relief(const Relief& relief, const JsonPath& path, Mistakes& mistakes);
+
+void check_metal(const MaterialKind& kind, const JsonPath& path, Mistakes& mistakes);
+
+}  // namespace minkray
