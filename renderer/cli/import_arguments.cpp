@@ -38,9 +38,11 @@ void add_import_options(const Verb& verb, ImportOptions& options, bool rows) {
       .one_value_each()
       .group(group);
   if (rows)
-    verb.add_option("--joints", options.joint_rows,
-                    "A CSV file: joints' names in its first line, values in the others; several "
-                    "rows move the robot (for --frames), by a column \"time\" or 24 a second")
+    verb.add_option(
+            "--joints", options.joint_rows,
+            "A CSV file: joints' names in its first line, values in the others; or JSON: a "
+            "list of {\"time\": 0, \"elbow\": 1.2}; several rows move the robot (for --frames), "
+            "by \"time\" or 24 a second")
         .group(group);
   verb.add_option("--package-dir,--model-dir", options.package_dirs,
                   "Where package:// and model:// are looked for; may be given again")

@@ -11,7 +11,7 @@ class Verb;
 /// The help of the argument itself.
 inline constexpr const char* scene_argument =
     "A scene file (JSON), the name of a scene that comes with Minkray, or a robot's file: MJCF "
-    "(.xml, .mjcf), URDF (.urdf), SDF (.sdf, .world)";
+    "(.xml, .mjcf), URDF (.urdf), SDF (.sdf, .world), glTF (.gltf, .glb)";
 
 /// The geometry that `options` has is the default. `rows`: whether a file of joints' values is one
 /// of them.

@@ -34,9 +34,11 @@ void import(const ImportVerbOptions& options) {
 }  // namespace
 
 void add_import(Parser& parser, ExitCode&) {
-  const Verb verb = parser.add_verb("import", "Make a scene file of a robot's MJCF, URDF or SDF");
+  const Verb verb =
+      parser.add_verb("import", "Make a scene file of a robot's MJCF, URDF, SDF or glTF");
   const auto options = std::make_shared<ImportVerbOptions>();
-  verb.add_option("file", options->file, "MJCF (.xml, .mjcf), URDF (.urdf), SDF (.sdf, .world)")
+  verb.add_option("file", options->file,
+                  "MJCF (.xml, .mjcf), URDF (.urdf), SDF (.sdf, .world), glTF (.gltf, .glb)")
       .required();
   verb.add_option("-o,--output", options->output, "The scene file to write (.json)").required();
   add_import_options(verb, options->import);

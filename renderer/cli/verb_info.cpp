@@ -39,7 +39,7 @@ void info(const InfoVerbOptions& options) {
     const Imported imported = import_scene(options.scene, options.import);
     const Scene& scene = imported.scene;
     if (options.json) {
-      std::cout << info_as_json(scene);
+      std::cout << info_as_json(scene, imported.model ? model_as_json(*imported.model) : nullptr);
     } else {
       if (imported.model) std::cout << model_as_text(*imported.model);
       std::cout << info_as_text(scene);

@@ -16,8 +16,10 @@
 #include "renderer/cli/verbs.h"
 #include "renderer/import/import.h"
 #include "renderer/io/output_file.h"
+#include "renderer/json/object_reader.h"
 #include "renderer/sensor/scan.h"
 #include "renderer/sensor/scan_files.h"
+#include "renderer/sensor/sensor_path.h"
 
 namespace minkray {
 namespace {
@@ -26,13 +28,29 @@ struct ScanVerbOptions {
   std::string scene;
   ImportOptions import;
   std::optional<std::string> rays, pattern, pinhole;
-  std::string pose, seed = "0", noise, table;
+  std::string pose, mount, path, seed = "0", noise, table;
   double sweep = 0.1;
   ScanOptions scan;
   std::vector<std::string> outputs;
   int threads = 0;
   bool quiet = false;
 };
+
+/// A link of a robot, or an object.
+MovingFrame mount_of(Imported& imported, const std::string& name) {
+  if (name.empty()) return {};
+  if (imported.model)
+    if (auto frame = frame_of_link(*imported.model, imported.rows, name)) return *frame;
+  if (auto frame = frame_of_object(imported.scene, name)) return *frame;
+  std::vector<std::string> names;
+  for (const Object& object : imported.scene.objects) names.push_back(printable(object.name, 60));
+  if (imported.model)
+    for (const ModelLink& link : imported.model->links) names.push_back(printable(link.name, 60));
+  constexpr std::size_t enough = 40;
+  if (names.size() > enough) names.resize(enough);
+  throw WrongUsage("--on: there is no link and no object \"" + printable(name, 60) + "\" (" +
+                   suggestion(name, names) + ")");
+}
 
 void read_options(ScanVerbOptions& options) {
   if (options.rays.has_value() + options.pattern.has_value() + options.pinhole.has_value() != 1)
@@ -73,7 +91,10 @@ void run(ScanVerbOptions& options) {
   for (const std::string& output : options.outputs)
     if (scan_format_of(output).is_image && rays.width == 0)
       throw WrongUsage("--output: rays that are no image's cannot become one (got " + output + ")");
-  Scene scene = import_scene(options.scene, options.import).scene;
+  Imported imported = import_scene(options.scene, options.import);
+  const Scene& scene = imported.scene;
+  options.scan.mount = mount_of(imported, options.mount);
+  if (!options.path.empty()) options.scan.path = read_sensor_path(options.path);
   const InterruptGuard guard;
   Scan result;
   {
@@ -113,8 +134,12 @@ void add_scan(Parser& parser, ExitCode&) {
                   "A JSON file of a camera: fx, fy, cx, cy, width, height in pixels; x right, y "
                   "down, z ahead");
   verb.add_option("--pose", options->pose, "x,y,z[,qx,qy,qz,qw] of the sensor");
-  verb.add_option("--on", options->scan.mount,
-                  "The object that the sensor is mounted on: the pose is in its frame");
+  verb.add_option("--on", options->mount,
+                  "The link (of a robot) or object that the sensor is mounted on: poses are in its "
+                  "frame, and the sensor moves with it");
+  verb.add_option("--path", options->path,
+                  "A CSV file of the sensor's poses: columns time (s), x, y, z, and qx, qy, qz, qw "
+                  "if it turns");
   verb.add_option("--start", options->scan.start, "When the sweep begins, in seconds")
       .between(-1e9, 1e9);
   verb.add_option("--sweep", options->sweep, "How many seconds a turn of spinning takes")

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/import/collada.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <numbers>
+#include <numeric>
+#include <span>
 #include <stdexcept>
 #include <unordered_map>
 
@@ -13,18 +18,23 @@ namespace {
 /// A node may show other nodes, and these others, so that few lines could show meshes without end.
 constexpr std::size_t most_vertices = 20'000'000;
 constexpr int deepest_node = 64;
+constexpr std::size_t most_nodes = 1'000'000;
+constexpr std::size_t most_text_bytes = 1'000'000'000;
+
+using FaceCorners = std::array<std::uint32_t, 3>;
 
 class Collada {
  public:
-  Collada(const XmlElement& root, XmlFiles& files) : root_(root), files_(files) { index(root); }
+  Collada(const XmlElement& root, XmlFiles& files, MeshSplit split)
+      : root_(root), files_(files), split_(split) {
+    index(root);
+  }
 
   MeshParts read() {
-    Affine<double> up;
-    if (const XmlElement* asset = root_.child("asset")) {
+    Affine<double> scale;
+    if (const XmlElement* asset = root_.child("asset"))
       if (const XmlElement* unit = asset->child("unit"))
-        if (const auto meter = files_.number(*unit, "meter")) up.linear *= *meter;
-      if (const XmlElement* axis = asset->child("up_axis")) up.linear = z_up(*axis) * up.linear;
-    }
+        if (const auto meter = files_.number(*unit, "meter")) scale.linear *= *meter;
     const XmlElement* scene = nullptr;
     if (const XmlElement* chosen = root_.child("scene"))
       if (const XmlElement* instance = chosen->child("instance_visual_scene"))
@@ -34,9 +44,9 @@ class Collada {
         scene = library->child("visual_scene");
     if (scene) {
       for (const XmlElement& node : scene->children)
-        if (node.name == "node") add_node(node, up, 0);
+        if (node.name == "node") add_node(node, scale, 0);
     } else if (const XmlElement* library = root_.child("library_geometries")) {
-      for (const XmlElement& geometry : library->children) add_geometry(geometry, up);
+      for (const XmlElement& geometry : library->children) add_geometry(geometry, scale);
     }
     return std::move(mesh_);
   }
@@ -54,11 +64,14 @@ class Collada {
     return found == by_id_.end() ? nullptr : found->second;
   }
 
-  static Mat3<double> z_up(const XmlElement& axis) {
-    Mat3<double> turn = Mat3<double>::Identity();
-    if (axis.text == "Y_UP") turn << 1, 0, 0, 0, 0, -1, 0, 1, 0;
-    if (axis.text == "X_UP") turn << 0, -1, 0, 0, 0, -1, 1, 0, 0;
-    return turn;
+  Affine<double> matrix_of(const XmlElement& element) {
+    Affine<double> map;
+    if (const auto m = files_.numbers_in(element, element.text, element.name, 16, 16))
+      for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) map.linear(i, j) = (*m)[static_cast<std::size_t>(4 * i + j)];
+        map.translation[i] = (*m)[static_cast<std::size_t>(4 * i + 3)];
+      }
+    return map;
   }
 
   /// The node's transforms, in the order in which they stand.
@@ -70,13 +83,7 @@ class Collada {
       };
       Affine<double> one;
       if (step.name == "matrix") {
-        if (const auto m = numbers(16)) {
-          for (int i = 0; i < 3; ++i) {
-            for (int j = 0; j < 3; ++j)
-              one.linear(i, j) = (*m)[static_cast<std::size_t>(4 * i + j)];
-            one.translation[i] = (*m)[static_cast<std::size_t>(4 * i + 3)];
-          }
-        }
+        one = matrix_of(step);
       } else if (step.name == "translate") {
         if (const auto v = numbers(3)) one.translation = {(*v)[0], (*v)[1], (*v)[2]};
       } else if (step.name == "scale") {
@@ -97,8 +104,18 @@ class Collada {
     return all;
   }
 
+  /// A mesh may be shown again and again, and is read each time.
+  void take_text(const std::string& text) {
+    text_bytes_ += text.size();
+    if (text_bytes_ > most_text_bytes)
+      throw std::runtime_error("shows meshes of more than " + std::to_string(most_text_bytes) +
+                               " bytes of text");
+  }
+
   void add_node(const XmlElement& node, const Affine<double>& outer, int depth) {
     if (depth > deepest_node) throw std::runtime_error("nodes are nested too deeply, or for ever");
+    if (++nodes_ > most_nodes)
+      throw std::runtime_error("shows more than " + std::to_string(most_nodes) + " nodes");
     const Affine<double> pose = outer * transform_of(node);
     for (const XmlElement& child : node.children) {
       if (child.name == "node") add_node(child, pose, depth + 1);
@@ -109,7 +126,10 @@ class Collada {
       if (child.name == "instance_controller")
         if (const XmlElement* controller = target(child, "url"))
           if (const XmlElement* skin = controller->child("skin"))
-            if (const XmlElement* geometry = target(*skin, "source")) add_geometry(*geometry, pose);
+            if (const XmlElement* geometry = target(*skin, "source")) {
+              const XmlElement* bind = skin->child("bind_shape_matrix");
+              add_geometry(*geometry, bind ? pose * matrix_of(*bind) : pose);
+            }
     }
   }
 
@@ -122,24 +142,106 @@ class Collada {
       const XmlElement* source = target(input, "source");
       const XmlElement* array = source ? source->child("float_array") : nullptr;
       if (!array) continue;
+      take_text(array->text);
       const auto numbers =
           files_.numbers_in(*array, array->text, "float_array", 0, 3 * most_vertices);
       if (!numbers) return;
-      std::vector<std::uint32_t>& part = mesh_.parts.emplace_back();
       if (mesh_.vertices.size() + numbers->size() / 3 > most_vertices)
         throw std::runtime_error("shows more than " + std::to_string(most_vertices) + " vertices");
-      for (std::size_t i = 0; i + 2 < numbers->size(); i += 3) {
-        part.push_back(static_cast<std::uint32_t>(mesh_.vertices.size()));
+      const std::size_t first = mesh_.vertices.size();
+      const auto [begin, stride] = layout_of(*source);
+      for (std::size_t i = begin; i + 2 < numbers->size(); i += stride)
         mesh_.vertices.push_back(
             pose(Vec3<double>((*numbers)[i], (*numbers)[i + 1], (*numbers)[i + 2])));
+      add_parts(*mesh, first);
+    }
+  }
+
+  /// Where the first vertex begins, and how many numbers there are to the next one.
+  std::pair<std::size_t, std::size_t> layout_of(const XmlElement& source) {
+    const XmlElement* common = source.child("technique_common");
+    const XmlElement* accessor = common ? common->child("accessor") : nullptr;
+    const auto number = [&](const char* key, double otherwise) {
+      const auto value = accessor ? files_.number(*accessor, key) : std::nullopt;
+      return std::clamp(value.value_or(otherwise), otherwise, 1e6);
+    };
+    return {static_cast<std::size_t>(number("offset", 0)),
+            static_cast<std::size_t>(number("stride", 3))};
+  }
+
+  void add_parts(const XmlElement& mesh, std::size_t first) {
+    const std::size_t count = mesh_.vertices.size() - first;
+    if (count == 0) return;
+    if (split_ == MeshSplit::groups) {
+      std::vector<std::uint32_t>& part = mesh_.parts.emplace_back(count);
+      std::iota(part.begin(), part.end(), static_cast<std::uint32_t>(first));
+    } else if (split_ == MeshSplit::components) {
+      const auto own = std::span(mesh_.vertices).subspan(first);
+      for (std::vector<std::uint32_t>& part : components_of(own, triangles_of(mesh, count))) {
+        for (std::uint32_t& i : part) i += static_cast<std::uint32_t>(first);
+        mesh_.parts.push_back(std::move(part));
       }
-      if (part.empty()) mesh_.parts.pop_back();
+    }
+  }
+
+  /// Triangles that hang together as the mesh's polygons do.
+  std::vector<FaceCorners> triangles_of(const XmlElement& mesh, std::size_t vertices) {
+    std::vector<FaceCorners> triangles;
+    for (const XmlElement& faces : mesh.children) {
+      double stride = 1, offset = -1;
+      for (const XmlElement& input : faces.children) {
+        if (input.name != "input") continue;
+        const double at = std::clamp(files_.number(input, "offset").value_or(0), 0.0, 1000.0);
+        stride = std::max(stride, std::floor(at) + 1);
+        if (input.attribute_or("semantic") == "VERTEX") offset = std::floor(at);
+      }
+      if (offset < 0) continue;
+      std::vector<double> counts;
+      if (const XmlElement* vcount = faces.child("vcount"))
+        counts = files_.numbers_in(*vcount, vcount->text, "vcount", 0, most_vertices)
+                     .value_or(std::vector<double>());
+      for (const XmlElement& list : faces.children) {
+        if (list.name != "p") continue;
+        take_text(list.text);
+        const auto p = files_.numbers_in(list, list.text, "p", 0, 16 * most_vertices);
+        if (!p) continue;
+        std::vector<std::uint32_t> corners;
+        for (auto i = static_cast<std::size_t>(offset); i < p->size();
+             i += static_cast<std::size_t>(stride)) {
+          if (!((*p)[i] >= 0 && (*p)[i] < static_cast<double>(vertices)))
+            throw std::runtime_error("a <p> names a vertex that is not there");
+          corners.push_back(static_cast<std::uint32_t>((*p)[i]));
+        }
+        add_polygons(faces.name, counts, corners, triangles);
+      }
+    }
+    return triangles;
+  }
+
+  static void add_polygons(const std::string& kind, const std::vector<double>& counts,
+                           const std::vector<std::uint32_t>& corners,
+                           std::vector<FaceCorners>& triangles) {
+    std::size_t begin = 0;
+    const auto add = [&](std::size_t count) {
+      const std::size_t end = std::min(begin + count, corners.size());
+      for (std::size_t i = begin + 2; i < end; ++i)
+        triangles.push_back({corners[begin], corners[i - 1], corners[i]});
+      begin = end;
+    };
+    if (kind == "polylist") {
+      for (const double count : counts) add(static_cast<std::size_t>(std::clamp(count, 0.0, 1e9)));
+    } else if (kind == "triangles") {
+      while (begin < corners.size()) add(3);
+    } else {
+      add(corners.size());  // one polygon, fan or strip: all of it hangs together
     }
   }
 
   const XmlElement& root_;
   XmlFiles& files_;
+  MeshSplit split_;
   std::unordered_map<std::string, const XmlElement*> by_id_;
+  std::size_t nodes_ = 0, text_bytes_ = 0;
   MeshParts mesh_;
 };
 
@@ -151,14 +253,13 @@ MeshParts read_collada(const std::filesystem::path& file, MeshSplit split) {
   MeshParts mesh;
   if (const auto root = files.read(file, most_collada_bytes)) {
     if (root->name != "COLLADA") throw std::runtime_error("is no COLLADA file");
-    mesh = Collada(*root, files).read();
+    mesh = Collada(*root, files, split).read();
   }
   if (!mistakes.none()) {
     std::string first = mistakes.messages().front();
     throw std::runtime_error(first.starts_with(": ") ? first.substr(2) : first);
   }
   if (mesh.vertices.empty()) throw std::runtime_error("has no vertices");
-  if (split == MeshSplit::none) mesh.parts.clear();
   return mesh;
 }
 

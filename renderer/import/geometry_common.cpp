@@ -63,6 +63,10 @@ void add_mesh(Model& model, XmlFiles& files, const XmlElement& element,
     return;
   }
   if (!answer.complaint.empty()) return files.wrong(element, answer.complaint);
+  add_hulls(model, answer, std::move(geom));
+}
+
+void add_hulls(Model& model, const MeshLibrary::Answer& answer, ModelGeom geom) {
   geom.kind = "mesh";
   const std::string name = geom.name;
   for (std::size_t i = 0; i < answer.hulls.size(); ++i) {

@@ -32,6 +32,9 @@ class ShapeNumbers {
   bool all_good_ = true;
 };
 
+/// Adds a mesh's hulls as geoms like the one given.
+void add_hulls(Model& model, const MeshLibrary::Answer& answer, ModelGeom geom);
+
 /// Adds a mesh's hulls as geoms like the one given; or tells what is wrong with it, or passes it
 /// over if it is missing and that is allowed.
 void add_mesh(Model& model, XmlFiles& files, const XmlElement& element,

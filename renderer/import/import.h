@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Scenes from files of any format that is read: our own JSON, MJCF, URDF, SDF. The list of foreign
-// formats is in import.cpp and nowhere else.
+// Scenes from files of any format that is read: our own JSON, MJCF, URDF, SDF, glTF. The list of
+// foreign formats is in import.cpp and nowhere else.
 #pragma once
 
 #include <filesystem>
@@ -8,6 +8,7 @@
 
 #include "renderer/import/import_options.h"
 #include "renderer/import/model.h"
+#include "renderer/import/scene_of_model.h"
 #include "renderer/json/mistakes.h"
 #include "renderer/scene/scene.h"
 
@@ -17,6 +18,7 @@ namespace minkray {
 struct Imported {
   Scene scene;
   std::optional<Model> model;
+  std::vector<JointRow> rows = {};  ///< that it moves by, if it does
 };
 
 /// Whether the file's ending is one of a robot's description.

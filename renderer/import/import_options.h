@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "core/files/mesh_parts.h"
+
 namespace minkray {
 
 enum class GeometryChoice : unsigned char {
@@ -12,8 +14,6 @@ enum class GeometryChoice : unsigned char {
   collision,  ///< what collides
   all,        ///< every shape there is
 };
-
-enum class MeshSplit : unsigned char { none, groups, components };
 
 struct ImportOptions {
   GeometryChoice geometry = GeometryChoice::visual;

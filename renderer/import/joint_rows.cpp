@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Joints' values from files: CSV with names in its first line.
+// Joints' values from files: CSV with names in its first line, or JSON.
 #include <charconv>
 #include <cmath>
 #include <sstream>
 
 #include "renderer/import/scene_of_model.h"
 #include "renderer/json/parse.h"
+#include "renderer/json/values.h"
 
 namespace minkray {
 namespace {
@@ -24,21 +25,9 @@ std::vector<std::string> cells_of(const std::string& line) {
   return cells;
 }
 
-}  // namespace
-
-std::vector<JointRow> read_joint_rows(const std::string& file, Model& model, Mistakes& mistakes,
-                                      const std::string& option) {
+std::vector<JointRow> rows_of_csv(const std::string& text, Model& model, Mistakes& of_file) {
   std::vector<JointRow> rows;
-  Mistakes of_file(file);
-  const auto text = read_text_file(file, of_file);
-  const auto hand_on = [&] {
-    for (const std::string& message : of_file.messages()) mistakes.add(option + ": " + message);
-  };
-  if (!text) {
-    hand_on();
-    return rows;
-  }
-  std::istringstream lines(*text);
+  std::istringstream lines(text);
   std::string line;
   std::getline(lines, line);
   const std::vector<std::string> names = cells_of(line);
@@ -90,8 +79,60 @@ std::vector<JointRow> read_joint_rows(const std::string& file, Model& model, Mis
       of_file.add("line " + std::to_string(number) + ": times must rise");
     rows.push_back(std::move(row));
   }
-  if (rows.empty() && of_file.none()) of_file.add("must have rows of values");
-  hand_on();
+  return rows;
+}
+
+/// {"time": 0.5, "elbow": 1.2, "ball": [1, 0, 0, 0]}
+void add_row(const Json& json, const JsonPath& path, Model& model, Mistakes& of_file,
+             std::vector<JointRow>& rows) {
+  if (!json.is_object()) return of_file.add(path, "must be an object (" + found(json) + ")");
+  JointRow row{static_cast<double>(rows.size()) / rows_a_second, {}};
+  for (const auto& [name, value] : json.members()) {
+    const JsonPath at = path / name;
+    if (name == "time") {
+      row.time = read_number(value, at, of_file).value_or(row.time);
+      continue;
+    }
+    const ModelJoint* joint = find_joint(model, name);
+    if (!joint) {
+      of_file.add(at, "there is no joint of this name");
+      continue;
+    }
+    const std::size_t width = width_of(joint->kind);
+    if (width == 1 && value.is_number()) {
+      if (const auto number = read_number(value, at, of_file))
+        row.values.push_back({name, {*number}});
+    } else if (auto numbers = read_numbers(value, at, of_file, width)) {
+      row.values.emplace_back(name, std::move(*numbers));
+    }
+  }
+  if (!rows.empty() && !(row.time > rows.back().time)) of_file.add(path / "time", "must rise");
+  rows.push_back(std::move(row));
+}
+
+std::vector<JointRow> rows_of_json(const std::string& text, Model& model, Mistakes& of_file) {
+  std::vector<JointRow> rows;
+  const auto json = parse_json(text, of_file);
+  if (!json) return rows;
+  if (!json->is_array()) add_row(*json, JsonPath(), model, of_file, rows);
+  for (std::size_t i = 0; json->is_array() && i < json->size(); ++i)
+    if (of_file.messages().size() < 20) add_row((*json)[i], JsonPath() / i, model, of_file, rows);
+  return rows;
+}
+
+}  // namespace
+
+std::vector<JointRow> read_joint_rows(const std::string& file, Model& model, Mistakes& mistakes,
+                                      const std::string& option) {
+  std::vector<JointRow> rows;
+  Mistakes of_file(file);
+  if (const auto text = read_text_file(file, of_file)) {
+    const std::size_t begin = text->find_first_not_of(" \t\r\n");
+    const bool is_json = begin != text->npos && ((*text)[begin] == '[' || (*text)[begin] == '{');
+    rows = is_json ? rows_of_json(*text, model, of_file) : rows_of_csv(*text, model, of_file);
+    if (rows.empty() && of_file.none()) of_file.add("must have rows of values");
+  }
+  for (const std::string& message : of_file.messages()) mistakes.add(option + ": " + message);
   return rows;
 }
 

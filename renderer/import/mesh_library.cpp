@@ -6,10 +6,9 @@
 #include <exception>
 #include <stdexcept>
 
-#include "core/files/mesh_file.h"
 #include "renderer/base/hash.h"
 #include "renderer/import/collada.h"
-#include "renderer/import/mesh_groups.h"
+#include "renderer/import/gltf.h"
 #include "renderer/import/msh.h"
 #include "renderer/json/mistakes.h"
 
@@ -63,9 +62,8 @@ double deepest_below(const std::vector<Vec3<double>>& vertices, const PointCloud
 
 const std::vector<MeshFormatReader>& mesh_formats() {
   static const std::vector<MeshFormatReader> formats = {
-      {".obj", read_grouped_mesh},
-      {".stl", read_grouped_mesh},
-      {".msh", read_msh},
+      {".obj", read_mesh_parts}, {".stl", read_mesh_parts}, {".msh", read_msh},
+      {".dae", read_collada},    {".gltf", read_gltf_mesh}, {".glb", read_gltf_mesh},
   };
   return formats;
 }
@@ -157,13 +155,13 @@ MeshLibrary::Answer MeshLibrary::hulls_of(const std::string& uri, const Vec3<dou
   return made_[key] = add(known->second, scale, uri);
 }
 
-MeshLibrary::Answer MeshLibrary::hull_of_vertices(std::vector<Vec3<double>> vertices,
-                                                  const Vec3<double>& scale,
-                                                  const std::string& name) {
+MeshLibrary::Answer MeshLibrary::hulls_of_parts(const MeshParts& mesh, const Vec3<double>& scale,
+                                                const std::string& name) {
   Hash hash;
-  hash.add({reinterpret_cast<const char*>(vertices.data()), vertices.size() * sizeof vertices[0]});
+  hash.add({reinterpret_cast<const char*>(mesh.vertices.data()),
+            mesh.vertices.size() * sizeof mesh.vertices[0]});
   hash_text_ += hash.text();
-  return add({std::move(vertices)}, scale, name);
+  return add(mesh, scale, name);
 }
 
 MeshLibrary::Answer MeshLibrary::add(const MeshParts& mesh, const Vec3<double>& scale,

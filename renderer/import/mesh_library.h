@@ -15,12 +15,6 @@
 
 namespace minkray {
 
-/// Vertices, and where the parts end that the file tells apart: at least one.
-struct MeshParts {
-  std::vector<Vec3<double>> vertices;
-  std::vector<std::vector<std::uint32_t>> parts = {};  ///< vertices of each; empty: all are one
-};
-
 /// A reader throws std::runtime_error that says what is wrong, without the file's name.
 struct MeshFormatReader {
   std::string_view ending;
@@ -44,8 +38,7 @@ class MeshLibrary {
   Answer hulls_of(const std::string& uri, const Vec3<double>& scale);
 
   /// The vertices stand in the file itself.
-  Answer hull_of_vertices(std::vector<Vec3<double>> vertices, const Vec3<double>& scale,
-                          const std::string& name);
+  Answer hulls_of_parts(const MeshParts& mesh, const Vec3<double>& scale, const std::string& name);
 
   /// The file that a name stands for, if there is one; `looked_for` gets all places.
   std::optional<std::filesystem::path> find(const std::string& uri,

@@ -2,6 +2,7 @@
 #include "renderer/import/mjcf_assets.h"
 
 #include "renderer/import/geometry_common.h"
+#include "renderer/import/orientation.h"
 
 namespace minkray {
 namespace {
@@ -72,7 +73,7 @@ void MjcfAssets::add_mesh_geom(const XmlElement& written, const XmlElement& e, M
   // Vertices are moved and turned before they are scaled.
   Affine<double> before;
   if (const auto q = files_.numbers(asset, "refquat", 4, 4))
-    before.linear = rotation_matrix_of_any((*q)[1], (*q)[2], (*q)[3], (*q)[0]).transpose();
+    before.linear = rotation_of_quaternion((*q)[1], (*q)[2], (*q)[3], (*q)[0]).transpose();
   if (const auto p = files_.vector(asset, "refpos")) before.translation = -(before.linear * *p);
   const bool moves = !(before == Affine<double>());
   const Vec3<double> scale_of_vertices = moves ? Vec3<double>::Ones() : scale;
@@ -82,7 +83,7 @@ void MjcfAssets::add_mesh_geom(const XmlElement& written, const XmlElement& e, M
     std::vector<Vec3<double>> vertices;
     for (std::size_t i = 0; i + 2 < numbers->size(); i += 3)
       vertices.emplace_back((*numbers)[i], (*numbers)[i + 1], (*numbers)[i + 2]);
-    answer = meshes_.hull_of_vertices(std::move(vertices), scale_of_vertices, name);
+    answer = meshes_.hulls_of_parts({std::move(vertices)}, scale_of_vertices, name);
   } else {
     std::string file = asset.attribute_or("file");
     if (strips_path_) file = std::filesystem::path(file).filename().string();

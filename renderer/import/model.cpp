@@ -4,6 +4,8 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "renderer/import/orientation.h"
+
 namespace minkray {
 namespace {
 
@@ -33,7 +35,7 @@ Affine<double> motion_of(const ModelJoint& joint) {
     case JointKind::slide:
       return {Mat3<double>::Identity(), (q[0] - joint.reference) * joint.axis};
     case JointKind::ball:
-      return about_anchor(rotation_matrix_of_any(q[1], q[2], q[3], q[0]));
+      return about_anchor(rotation_of_quaternion(q[1], q[2], q[3], q[0]));
     case JointKind::planar: {
       const auto [u, v] = directions_across(joint.axis);
       return {turn(joint.axis, q[2]), q[0] * u + q[1] * v};
@@ -101,7 +103,7 @@ std::vector<Affine<double>> link_poses(const Model& model) {
       if (joint.value.size() != width_of(joint.kind) || joint.value.empty()) continue;
       if (joint.kind == JointKind::free) {
         const std::vector<double>& q = joint.value;
-        pose = {rotation_matrix_of_any(q[4], q[5], q[6], q[3]), {q[0], q[1], q[2]}};
+        pose = {rotation_of_quaternion(q[4], q[5], q[6], q[3]), {q[0], q[1], q[2]}};
       } else {
         pose = pose * motion_of(joint);
       }

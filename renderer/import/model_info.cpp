@@ -18,6 +18,29 @@ std::string line(std::string_view title, const std::string& value) {
   return text + value + "\n";
 }
 
+using Counts = std::map<std::string, std::size_t>;
+
+/// What there is of each kind.
+struct ModelCounts {
+  explicit ModelCounts(const Model& model) {
+    for (const ModelLink& link : model.links)
+      for (const ModelJoint& joint : link.joints) ++joints[std::string(name_of(joint.kind))];
+    for (const ModelGeom& geom : model.geoms) {
+      ++geoms[geom.kind];
+      collide += geom.collides ? 1 : 0;
+      seen += geom.is_seen ? 1 : 0;
+    }
+  }
+  Counts joints, geoms;
+  std::size_t collide = 0, seen = 0;
+};
+
+Json json_of(const Counts& counts) {
+  Json json = Json::object();
+  for (const auto& [name, count] : counts) json[printable(name, 100)] = count;
+  return json;
+}
+
 std::string counted(const std::map<std::string, std::size_t>& counts) {
   std::string text;
   for (const auto& [name, count] : counts)
@@ -29,19 +52,11 @@ std::string counted(const std::map<std::string, std::size_t>& counts) {
 
 std::string model_as_text(const Model& model) {
   std::string text = line("model", model.format + " " + printable(model.name, 80));
-  std::map<std::string, std::size_t> joints, geoms;
-  for (const ModelLink& link : model.links)
-    for (const ModelJoint& joint : link.joints) ++joints[std::string(name_of(joint.kind))];
-  std::size_t colliding = 0, seen = 0;
-  for (const ModelGeom& geom : model.geoms) {
-    ++geoms[geom.kind];
-    colliding += geom.collides ? 1 : 0;
-    seen += geom.is_seen ? 1 : 0;
-  }
+  const ModelCounts counts(model);
   text += line("links", std::to_string(model.links.size()));
-  text += line("joints", counted(joints));
-  text += line("shapes", counted(geoms) + " (" + std::to_string(seen) + " seen, " +
-                             std::to_string(colliding) + " collide)");
+  text += line("joints", counted(counts.joints));
+  text += line("shapes", counted(counts.geoms) + " (" + std::to_string(counts.seen) + " seen, " +
+                             std::to_string(counts.collide) + " collide)");
   if (!model.keyframes.empty()) {
     std::string names;
     for (const auto& [name, values] : model.keyframes)
@@ -64,6 +79,40 @@ std::string model_as_text(const Model& model) {
   for (const PassedOver& one : model.passed_over)
     text += line("passed over", std::to_string(one.count) + " " + one.what + ": " + one.why);
   return text;
+}
+
+Json model_as_json(const Model& model) {
+  const ModelCounts counts(model);
+  Json json;
+  json["format"] = model.format;
+  json["name"] = printable(model.name);
+  json["links"] = model.links.size();
+  json["joints"] = json_of(counts.joints);
+  json["geoms"] = json_of(counts.geoms);
+  json["seen"] = counts.seen;
+  json["collide"] = counts.collide;
+  json["keyframes"] = Json::array();
+  for (const auto& [name, values] : model.keyframes) json["keyframes"].push_back(printable(name));
+  json["meshes"] = Json::array();
+  for (const ModelMesh& mesh : model.meshes) {
+    Json one;
+    one["file"] = printable(mesh.file);
+    one["vertices"] = mesh.vertices;
+    one["hulls"] = mesh.parts;
+    one["hull_points"] = mesh.corners;
+    one["size"] = mesh.diameter;
+    one["deepest_vertex"] = mesh.deepest;
+    json["meshes"].push_back(std::move(one));
+  }
+  json["passed_over"] = Json::array();
+  for (const PassedOver& passed : model.passed_over) {
+    Json one;
+    one["what"] = printable(passed.what);
+    one["why"] = printable(passed.why);
+    one["count"] = passed.count;
+    json["passed_over"].push_back(std::move(one));
+  }
+  return json;
 }
 
 }  // namespace minkray

@@ -5,9 +5,13 @@
 #include <string>
 
 #include "renderer/import/model.h"
+#include "renderer/json/json.h"
 
 namespace minkray {
 
 std::string model_as_text(const Model& model);
+
+/// An object of counts, meshes with how far from convex they are, and what was passed over and why.
+Json model_as_json(const Model& model);
 
 }  // namespace minkray

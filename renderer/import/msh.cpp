@@ -7,7 +7,6 @@
 #include <stdexcept>
 
 #include "core/files/regular_file.h"
-#include "renderer/import/mesh_groups.h"
 
 namespace minkray {
 namespace {

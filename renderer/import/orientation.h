@@ -21,6 +21,12 @@ inline Mat3<double> rotation_of_rpy(const Vec3<double>& rpy) {
   return m;
 }
 
+/// A quaternion of any length; one of length zero turns nothing, as in MuJoCo.
+inline Mat3<double> rotation_of_quaternion(double x, double y, double z, double w) {
+  if (x == 0 && y == 0 && z == 0 && w == 0) return Mat3<double>::Identity();
+  return rotation_matrix_of_any(x, y, z, w);
+}
+
 /// A turn about an axis of any length but zero.
 inline Mat3<double> rotation_about(const Vec3<double>& axis, double angle) {
   const Vec3<double> s = unit(axis) * std::sin(angle / 2);

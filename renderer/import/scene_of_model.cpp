@@ -145,9 +145,25 @@ void pose_model(Model& model, const ImportOptions& options, Mistakes& mistakes) 
   follow_mimics(model);
 }
 
+std::optional<MovingFrame> frame_of_link(Model& model, const std::vector<JointRow>& rows,
+                                         const std::string& name) {
+  const auto link = std::ranges::find(model.links, name, &ModelLink::name);
+  if (link == model.links.end()) return std::nullopt;
+  const auto index = static_cast<std::size_t>(link - model.links.begin());
+  if (rows.empty()) return MovingFrame{link_poses(model)[index]};
+  Motion motion;
+  for (const JointRow& row : rows) {
+    apply(model, row);
+    const Affine<double> pose = link_poses(model)[index];
+    motion.keys.push_back({row.time, pose.translation, quaternion_of(pose.linear)});
+  }
+  return MovingFrame{{}, motion};
+}
+
 Scene scene_of(Model& model, const ImportOptions& options, const std::vector<JointRow>& rows) {
   Scene scene;
-  scene.description = model.format + (model.name.empty() ? "" : " " + model.name);
+  // What is not UTF-8 could not be written as a scene file.
+  scene.description = model.format + (model.name.empty() ? "" : " " + printable(model.name));
   Materials materials(scene);
   const std::vector<bool> wanted = chosen_geoms(model, options.geometry);
   std::size_t left_out = 0;
@@ -166,6 +182,7 @@ Scene scene_of(Model& model, const ImportOptions& options, const std::vector<Joi
     object.name = !geom.name.empty() ? geom.name
                                      : (link.empty() ? "link " + std::to_string(geom.link) : link) +
                                            "/" + geom.kind;
+    object.name = printable(object.name);
     const int again = names[object.name]++;
     if (again > 0) object.name += " " + std::to_string(again + 1);
     if (geom.shape)
@@ -207,9 +224,16 @@ Scene scene_of(Model& model, const ImportOptions& options, const std::vector<Joi
   for (const std::string& joint : options.joints) hash.add(joint);
   hash.add(std::to_string(static_cast<int>(options.geometry)) +
            std::to_string(static_cast<int>(options.split)));
-  for (const JointRow& row : rows)
-    for (const auto& [name, values] : row.values)
-      for (const double value : values) hash.add(name + std::to_string(value));
+  const auto add_number = [&](double number) {
+    hash.add({reinterpret_cast<const char*>(&number), sizeof number});
+  };
+  for (const JointRow& row : rows) {
+    add_number(row.time);
+    for (const auto& [name, values] : row.values) {
+      hash.add(name);
+      for (const double value : values) add_number(value);
+    }
+  }
   scene.hash = hash.text();
   return scene;
 }

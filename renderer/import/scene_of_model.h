@@ -7,6 +7,7 @@
 #include "renderer/import/import_options.h"
 #include "renderer/import/model.h"
 #include "renderer/json/mistakes.h"
+#include "renderer/scene/moving_frame.h"
 #include "renderer/scene/scene.h"
 
 namespace minkray {
@@ -20,8 +21,9 @@ struct JointRow {
 /// Keyframe and joints as the options ask.
 void pose_model(Model& model, const ImportOptions& options, Mistakes& mistakes);
 
-/// Rows of values from a CSV file with the joints' names in its first line (and "time", in
-/// seconds). Mistakes are added; they begin with the option that named the file.
+/// Rows of values: from a CSV file with the joints' names in its first line (and "time", in
+/// seconds), or from JSON: an object of joints' names and values, or a list of such. Mistakes are
+/// added; they begin with the option that named the file.
 std::vector<JointRow> read_joint_rows(const std::string& file, Model& model, Mistakes& mistakes,
                                       const std::string& option = "--joints");
 
@@ -33,5 +35,9 @@ void frame_everything(Scene& scene, const Bounds<double>& bounds);
 
 /// Shapes chosen by the options. With several rows, objects move from row to row.
 Scene scene_of(Model& model, const ImportOptions& options, const std::vector<JointRow>& rows);
+
+/// Where a link stands or moves by the rows; nothing if there is none of that name.
+std::optional<MovingFrame> frame_of_link(Model& model, const std::vector<JointRow>& rows,
+                                         const std::string& name);
 
 }  // namespace minkray

@@ -34,7 +34,7 @@ Affine<double> sdf_pose(const XmlElement& element, XmlFiles& files) {
   Affine<double> result;
   result.translation = {(*v)[0], (*v)[1], (*v)[2]};
   if (count == 7) {
-    result.linear = rotation_matrix_of_any((*v)[3], (*v)[4], (*v)[5], (*v)[6]);
+    result.linear = rotation_of_quaternion((*v)[3], (*v)[4], (*v)[5], (*v)[6]);
   } else {
     const bool is_degrees =
         pose->attribute_or("degrees") == "true" || pose->attribute_or("degrees") == "1";
@@ -53,8 +53,16 @@ std::string sdf_text(const XmlElement& element, std::string_view key) {
   return text.substr(begin, text.find_last_not_of(" \t\r\n") - begin + 1);
 }
 
-SdfFrames::SdfFrames(const XmlElement& model, XmlFiles& files) : files_(files) {
+SdfFrames::SdfFrames(const XmlElement& model, XmlFiles& files) : model_(model), files_(files) {
   for (const XmlElement& child : model.children) {
+    if (child.name == "include") {
+      // Without a name of its own it has that of the included model, which nobody here knows.
+      const std::string own = sdf_text(child, "name");
+      if (!own.empty() &&
+          !frames_.emplace(own, Frame{sdf_pose(child, files), relative_to(child), &child}).second)
+        files.wrong(child, "name: must not be given twice");
+      continue;
+    }
     if (child.name != "link" && child.name != "frame" && child.name != "joint" &&
         child.name != "model")
       continue;
@@ -64,6 +72,8 @@ SdfFrames::SdfFrames(const XmlElement& model, XmlFiles& files) : files_(files) {
     if (child.name == "frame" && frame.relative_to.empty())
       frame.relative_to = child.attribute_or("attached_to");
     const std::string own = child.attribute_or("name");
+    // A file's only model may do without a name.
+    if (own.empty() && child.name == "model" && model.name != "model") continue;
     if (own.empty()) files.wrong(child, "name: must be there");
     if (!frames_.emplace(own, frame).second && child.name != "joint")
       files.wrong(child, "name: must not be given twice");
@@ -72,14 +82,65 @@ SdfFrames::SdfFrames(const XmlElement& model, XmlFiles& files) : files_(files) {
 
 Affine<double> SdfFrames::pose_of(const std::string& name, const XmlElement& asks) {
   if (is_of_model(name)) return {};
+  const std::size_t colons = name.find("::");
+  if (colons != name.npos) {
+    const std::string outer = name.substr(0, colons), rest = name.substr(colons + 2);
+    const auto nested = frames_.find(outer);
+    if (nested != frames_.end() && nested->second.element->name == "model") {
+      return pose_of(outer, asks) * inner_of(*nested->second.element).pose_of(rest, asks);
+    }
+  }
   const auto found = frames_.find(name);
   if (found == frames_.end()) {
     files_.wrong(asks, "there is no frame \"" + printable(name, 60) + "\"");
     return {};
   }
   Frame& frame = found->second;
-  if (!frame.is_known) find(frame);
+  if (frame.is_open)
+    files_.wrong(*frame.element, "frames must not be relative to each other in a circle");
+  else if (!frame.is_known)
+    find(frame);
   return frame.in_model;
+}
+
+SdfFrames& SdfFrames::inner_of(const XmlElement& model) {
+  auto& inner = inner_[&model];
+  if (!inner) inner = std::make_unique<SdfFrames>(model, files_);
+  return *inner;
+}
+
+Affine<double> SdfFrames::pose_in_model(const XmlElement& element, const std::string& otherwise) {
+  const std::string named = relative_to(element);
+  return pose_of(named.empty() ? otherwise : named, element) * sdf_pose(element, files_);
+}
+
+bool SdfFrames::is_relative(const XmlElement& element) const {
+  return !relative_to(element).empty();
+}
+
+std::string SdfFrames::canonical_link() const {
+  if (const std::string* named = model_.attribute("canonical_link")) return *named;
+  const XmlElement* first = model_.child("link");
+  return first ? first->attribute_or("name") : "";
+}
+
+std::string SdfFrames::link_of(const std::string& name) const {
+  std::string at = name;
+  for (std::size_t steps = 0; steps <= frames_.size(); ++steps) {
+    if (at == "__model__" || at.empty()) return canonical_link();
+    const auto found = frames_.find(at);
+    if (found == frames_.end()) return at;
+    const XmlElement& element = *found->second.element;
+    if (element.name == "frame")
+      at = element.attribute_or("attached_to");
+    else if (element.name == "joint")
+      at = sdf_text(element, "child");
+    else if (element.name == "model")
+      return at + "::" + SdfFrames(element, files_).canonical_link();
+    else
+      return at;
+  }
+  return name;  // in a circle, which is told where poses are asked for
 }
 
 /// Chains of frames may be long: each is made known from its end, without recursion.
@@ -92,6 +153,10 @@ void SdfFrames::find(Frame& frame) {
     chain.push_back(at);
     const std::string& next = at->relative_to;
     if (is_of_model(next)) break;
+    if (next.find("::") != next.npos) {
+      outer = pose_of(next, *at->element);
+      break;
+    }
     const auto there = frames_.find(next);
     if (there == frames_.end() || there->second.is_open) {
       files_.wrong(*at->element,
@@ -108,6 +173,11 @@ void SdfFrames::find(Frame& frame) {
   }
   for (auto one = chain.rbegin(); one != chain.rend(); ++one) {
     outer = outer * (*one)->pose;
+    // What a pose places may be one of the nested model's own frames.
+    const XmlElement& element = *(*one)->element;
+    const std::string* placed = element.attribute("placement_frame");
+    if (placed && element.name == "model")
+      outer = outer * inner_of(element).pose_of(*placed, element).inverse();
     (*one)->in_model = outer;
     (*one)->is_known = true;
     (*one)->is_open = false;

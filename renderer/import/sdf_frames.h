@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Poses in SDF: each is given relative to a link, a frame or a joint of its model, and these may be
-// relative to others in turn.
+// Poses in SDF: each is given relative to a link, a frame, a joint or a nested model of its model,
+// and these may be relative to others in turn. "arm::hand" is the hand of the nested model arm.
 #pragma once
 
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -18,7 +19,7 @@ Affine<double> sdf_pose(const XmlElement& element, XmlFiles& files);
 /// The text of a child, without the blanks around it; "" if there is no such child.
 std::string sdf_text(const XmlElement& element, std::string_view key);
 
-/// A <model>'s names, each with its pose in the model's frame.
+/// The names of a <model> or a <world>, each with its pose in its frame.
 class SdfFrames {
  public:
   /// Collects the names of links, frames, joints and nested models before any pose is asked for:
@@ -27,6 +28,16 @@ class SdfFrames {
 
   /// The pose of a name in the model's frame; `asks` is the element that a mistake names.
   Affine<double> pose_of(const std::string& name, const XmlElement& asks);
+
+  /// The pose that an element's <pose> says, in the model's frame; in that of `otherwise` if it
+  /// does not say relative to what.
+  Affine<double> pose_in_model(const XmlElement& element, const std::string& otherwise = "");
+
+  /// Whether an element's <pose> says relative to what.
+  bool is_relative(const XmlElement& element) const;
+
+  /// The link that a link, a frame or a joint is fixed to; the name itself if it is none of these.
+  std::string link_of(const std::string& name) const;
 
  private:
   /// A frame whose pose is given in another one.
@@ -40,9 +51,14 @@ class SdfFrames {
   };
 
   void find(Frame& frame);
+  SdfFrames& inner_of(const XmlElement& model);
+  std::string canonical_link() const;
 
+  const XmlElement& model_;
   XmlFiles& files_;
   std::map<std::string, Frame> frames_;
+  std::map<const XmlElement*, std::unique_ptr<SdfFrames>>
+      inner_;  ///< of nested models that were asked for
 };
 
 }  // namespace minkray

@@ -9,7 +9,7 @@
 
 namespace minkray {
 
-void SdfGeometry::add(const XmlElement& element, int link) {
+void SdfGeometry::add(const XmlElement& element, int link, const Affine<double>& pose) {
   ModelGeom geom;
   geom.link = link;
   geom.name = element.attribute_or("name");
@@ -17,7 +17,7 @@ void SdfGeometry::add(const XmlElement& element, int link) {
     geom.name = model_.links[static_cast<std::size_t>(link)].name + "::" + geom.name;
   geom.is_seen = element.name == "visual";
   geom.collides = !geom.is_seen;
-  geom.pose = sdf_pose(element, files_);
+  geom.pose = pose;
   if (const XmlElement* material = element.child("material"))
     if (const XmlElement* diffuse = material->child("diffuse"))
       if (const auto v = files_.numbers_in(*diffuse, diffuse->text, "diffuse", 3, 4))

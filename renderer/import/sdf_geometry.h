@@ -18,8 +18,8 @@ class SdfGeometry {
   SdfGeometry(Model& model, XmlFiles& files, const ImportOptions& options)
       : model_(model), files_(files), options_(options) {}
 
-  /// Adds the shapes of a <visual> or <collision> to a link.
-  void add(const XmlElement& element, int link);
+  /// Adds the shapes of a <visual> or <collision> to a link, at a pose in its frame.
+  void add(const XmlElement& element, int link, const Affine<double>& pose);
 
   /// Gives the model the meshes that were read, and their hashes.
   void hand_over_meshes();

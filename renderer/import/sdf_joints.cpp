@@ -38,9 +38,12 @@ void SdfTree::find_parents() {
     const SdfJoint& joint = joints_[j];
     const auto index_of = [&](const std::string& name) {
       const auto found = links_.index.find(joint.prefix + name);
-      return found == links_.index.end() ? -1 : found->second;
+      if (found != links_.index.end()) return found->second;
+      const auto other = links_.index.find(joint.prefix + joint.frames->link_of(name));
+      return other == links_.index.end() ? -1 : other->second;
     };
-    const int child = index_of(joint.child), parent = index_of(joint.parent);
+    const int child = index_of(joint.child);
+    const int parent = joint.parent == "world" ? -1 : index_of(joint.parent);
     if (child < 0 || (parent < 0 && joint.parent != "world")) {
       files_.wrong(*joint.element, "the link \"" +
                                        printable(child < 0 ? joint.child : joint.parent, 60) +
@@ -121,11 +124,10 @@ Vec3<double> SdfTree::axis_in_link(const XmlElement& xyz, const XmlElement& axis
   if (const auto v = files_.numbers_in(xyz, xyz.text, "xyz", 3, 3))
     written = {(*v)[0], (*v)[1], (*v)[2]};
   const std::string expressed = xyz.attribute_or("expressed_in");
-  const bool in_model = sdf_text(axis, "use_parent_model_frame") == "1" ||
-                        sdf_text(axis, "use_parent_model_frame") == "true";
+  const std::string given = sdf_text(axis, "use_parent_model_frame");
+  const bool in_model = given.empty() ? from.axis_is_in_model : given == "1" || given == "true";
   if (!in_model && expressed.empty()) return in_link.linear * written;
-  const Affine<double> frame =
-      from.model_in_world * (in_model ? Affine<double>() : from.frames->pose_of(expressed, xyz));
+  const Affine<double> frame = from.model_in_world * from.frames->pose_of(expressed, xyz);
   const Mat3<double> turn = child_in_world.linear.transpose() * frame.linear;
   return turn * written;
 }

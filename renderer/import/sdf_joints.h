@@ -18,7 +18,8 @@ struct SdfJoint {
   std::string parent, child, name;
   SdfFrames* frames;  ///< of its model
   Affine<double> model_in_world;
-  std::string prefix;  ///< of its model's names
+  std::string prefix;     ///< of its model's names
+  bool axis_is_in_model;  ///< so it was up to SDF 1.4
 };
 
 /// The links in the order of the file, their poses in the world.

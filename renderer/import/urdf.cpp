@@ -76,7 +76,7 @@ class UrdfReader {
     if (const auto xyz = files_.vector(*origin, "xyz")) pose.translation = *xyz;
     if (const auto rpy = files_.vector(*origin, "rpy")) pose.linear = rotation_of_rpy(*rpy);
     if (const auto q = files_.numbers(*origin, "quat_xyzw", 4, 4))
-      pose.linear = rotation_matrix_of_any((*q)[0], (*q)[1], (*q)[2], (*q)[3]);
+      pose.linear = rotation_of_quaternion((*q)[0], (*q)[1], (*q)[2], (*q)[3]);
     return pose;
   }
 

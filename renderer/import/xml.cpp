@@ -83,8 +83,16 @@ std::optional<XmlElement> XmlFiles::parse(const std::string& text,
   Hash hash;
   hash.add(text);
   hash_text_ += hash.text();
-  if (static_cast<std::size_t>(std::ranges::count(text, '<')) > most_xml_elements) {
-    mistakes_.add(where + "must have at most " + std::to_string(most_xml_elements) + " elements");
+  elements_ += static_cast<std::size_t>(std::ranges::count(text, '<'));
+  if (elements_ > most_xml_elements) {
+    mistakes_.add(where + "must have at most " + std::to_string(most_xml_elements) +
+                  " elements, with all files that are included");
+    return std::nullopt;
+  }
+  bytes_ += text.size();
+  if (bytes_ > most_collada_bytes) {
+    mistakes_.add(where + "must have at most " + std::to_string(most_collada_bytes) +
+                  " bytes, with all files that are included");
     return std::nullopt;
   }
   if (text.find("<!ENTITY") != text.npos) {

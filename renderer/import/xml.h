@@ -77,7 +77,7 @@ class XmlFiles {
   Mistakes& mistakes_;
   std::vector<std::filesystem::path> files_;
   std::string hash_text_;
-  std::size_t reported_ = 0;
+  std::size_t reported_ = 0, elements_ = 0, bytes_ = 0;
 };
 
 /// "<geom name="x">": an element as messages name it.

@@ -72,10 +72,11 @@ Json tagged_json(const S& described) {
 
 }  // namespace
 
-std::string info_as_json(const Scene& scene) {
+std::string info_as_json(const Scene& scene, Json model) {
   const SceneSummary summary = summarise(scene);
   Json json;
   json["description"] = scene.description;
+  if (!model.is_null()) json["model"] = std::move(model);
   json["objects"] = summary.instances;
   json["particles"] = summary.particles;
   json["shapes"] = Json::object();

@@ -42,6 +42,35 @@ std::optional<PointCloud<double>> MeshFiles::read(const std::string& name, const
   }
 }
 
+std::optional<std::vector<PointCloud<double>>> MeshFiles::read_parts(const std::string& name,
+                                                                     MeshSplit split,
+                                                                     const JsonPath& path,
+                                                                     Mistakes& mistakes) {
+  const auto known = parts_.find({name, split});
+  if (known != parts_.end()) return known->second.hulls;
+  const std::filesystem::path file = folder_ / name;
+  try {
+    const MeshParts mesh = read_mesh_parts(file, split);
+    Hash hash;
+    hash.add({reinterpret_cast<const char*>(mesh.vertices.data()),
+              mesh.vertices.size() * sizeof mesh.vertices[0]});
+    Parts parts;
+    if (mesh.parts.empty()) parts.hulls.emplace_back(mesh.vertices);
+    for (const std::vector<std::uint32_t>& part : mesh.parts) {
+      std::vector<Vec3<double>> vertices;
+      vertices.reserve(part.size());
+      for (const std::uint32_t i : part) vertices.push_back(mesh.vertices[i]);
+      hash.add({reinterpret_cast<const char*>(part.data()), part.size() * sizeof part[0]});
+      parts.hulls.emplace_back(std::move(vertices));
+    }
+    parts.hash = hash.text();
+    return parts_.emplace(std::pair(name, split), std::move(parts)).first->second.hulls;
+  } catch (const std::exception& error) {
+    mistakes.add(path, printable(file.string(), 200) + ": " + error.what() + advice(folder_, file));
+    return std::nullopt;
+  }
+}
+
 std::shared_ptr<const Image> MeshFiles::read_picture(const std::string& name, const JsonPath& path,
                                                      Mistakes& mistakes) {
   const auto known = pictures_.find(name);
@@ -69,6 +98,10 @@ void MeshFiles::add_to(Hash& hash) const {
   for (const auto& [name, mesh] : read_) {
     hash.add(name);
     hash.add(mesh.hash);
+  }
+  for (const auto& [key, parts] : parts_) {
+    hash.add(key.first);
+    hash.add(parts.hash);
   }
 }
 

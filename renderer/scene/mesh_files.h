@@ -7,7 +7,10 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "core/files/mesh_parts.h"
 #include "core/geometry/point_cloud.h"
 #include "renderer/base/hash.h"
 #include "renderer/image/image.h"
@@ -24,6 +27,11 @@ class MeshFiles {
   std::optional<PointCloud<double>> read(const std::string& name, const JsonPath& path,
                                          Mistakes& mistakes);
 
+  /// The hulls of a mesh file's parts: all vertices are one part if it does not tell parts apart.
+  std::optional<std::vector<PointCloud<double>>> read_parts(const std::string& name,
+                                                            MeshSplit split, const JsonPath& path,
+                                                            Mistakes& mistakes);
+
   /// Adds what was read: the names, and all vertices.
   void add_to(Hash& hash) const;
 
@@ -38,6 +46,11 @@ class MeshFiles {
   };
   std::filesystem::path folder_;
   std::map<std::string, Mesh> read_;
+  struct Parts {
+    std::vector<PointCloud<double>> hulls;
+    std::string hash;  ///< of all vertices, and of how they are split
+  };
+  std::map<std::pair<std::string, MeshSplit>, Parts> parts_;
   struct Picture {
     std::shared_ptr<const Image> image;
     std::string hash;  ///< of all pixels

@@ -9,6 +9,7 @@
 #include "renderer/scene/fitting_keys.h"
 #include "renderer/scene/half_space_json.h"
 #include "renderer/scene/read_particles.h"
+#include "renderer/scene/read_split.h"
 #include "renderer/scene/scene_instances.h"
 #include "renderer/scene/shape_json.h"
 #include "renderer/scene/tagged_json.h"
@@ -191,13 +192,18 @@ class SceneReader {
     if (const Json* written = object.require("name", "the object's name")) {
       name = read_name(*written, object.path("name"));
     }
-    std::optional<Shape<double>> shape;
+    std::vector<Shape<double>> shapes;
     std::optional<HalfSpaceBody<double>> half_space;
+    const Json* const split = object.find("split");
     if (const Json* written = object.require("shape", "a shape")) {
-      if (is_half_space(*written))
+      if (split) {
+        if (auto hulls = read_split_hulls(object, *split, *written, meshes_))
+          shapes = std::move(*hulls);
+      } else if (is_half_space(*written)) {
         half_space = read_half_space(*written, object.path("shape"), mistakes_);
-      else
-        shape = read_shape(*written, object.path("shape"), mistakes_, meshes_);
+      } else if (auto shape = read_shape(*written, object.path("shape"), mistakes_, meshes_)) {
+        shapes.push_back(std::move(*shape));
+      }
     }
     std::uint32_t material = 0;
     if (const Json* written = object.require("material", "the name of a material")) {
@@ -213,14 +219,14 @@ class SceneReader {
     if (const Json* written = object.find("keys"))
       motion = Motion{read_keys(*written, object.path("keys"), mistakes_), pose};
     object.finish();
-    if (!shape && !half_space) return;
-    Object& made = scene_.objects.emplace_back();
-    made.name = name;
-    made.pose = pose;
-    made.material = material;
-    if (shape) made.shape = std::move(*shape);
+    Object made{name, Point<double>(), pose, material, std::move(motion)};
     made.half_space = half_space;
-    made.motion = std::move(motion);
+    if (half_space) scene_.objects.push_back(made);
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+      if (split) made.name = name + "[" + std::to_string(i) + "]";
+      made.shape = std::move(shapes[i]);
+      scene_.objects.push_back(made);
+    }
   }
 
   void read_particle_block(const Json& json, const JsonPath& path) {

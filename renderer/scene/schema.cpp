@@ -3,6 +3,7 @@
 
 #include "renderer/scene/describe_member.h"
 #include "renderer/scene/particles.h"
+#include "renderer/scene/read_split.h"
 #include "renderer/scene/scene_json.h"
 #include "renderer/scene/shape_json.h"
 #include "renderer/scene/tagged_json.h"
@@ -85,12 +86,20 @@ Json scene_schema() {
       described_object(object_schema(Background::doc), [](Json& o) { add_members<Background>(o); });
 
   Json object = object_schema("A thing in the scene.");
+  Json split_names = Json::array();
+  for (const MeshSplitName& split : mesh_split_names)
+    split_names.push_back(std::string(split.name));
   object["properties"] = {
       {"name", name},
       {"shape",
        {{"anyOf", Json::array({{{"$ref", "#/$defs/shape"}}, {{"$ref", "#/$defs/half_space"}}})}}},
       {"material", name},
       {"transform", {{"$ref", "#/$defs/transform"}}},
+      {"split",
+       {{"description",
+         "makes an object of each part of the shape's mesh file: the parts that it names, or those "
+         "that hang together"},
+        {"enum", split_names}}},
       {"keys",
        {{"type", "array"},
         {"description", "where it is when, with rising times"},

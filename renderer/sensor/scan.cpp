@@ -3,23 +3,19 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <mutex>
 #include <numbers>
 #include <numeric>
 
 #include "core/parallel/parallel.h"
-#include "renderer/base/errors.h"
-#include "renderer/film/render.h"
-#include "renderer/json/mistakes.h"
+#include "renderer/sensor/moving_scene.h"
 
 namespace minkray {
 namespace {
 
 /// Rays of one index range: some hundred microseconds of work.
 constexpr std::size_t rays_a_range = 2048;
-constexpr auto together = static_cast<std::size_t>(most_rays_at_once);
 
 /// Random numbers of one ray, whatever else is cast (Steele, Lea and Flood 2014: SplitMix).
 class RayRandom {
@@ -60,22 +56,39 @@ Vec3<double> turned(const Vec3<double>& direction, double a, double b) {
 
 class Scanner {
  public:
-  Scanner(const RenderWorld& world, const SensorRays& rays, const ScanOptions& options, Scan& scan)
-      : world_(world), rays_(rays), options_(options), scan_(scan) {}
+  Scanner(const MovingScene& scene, const SensorRays& rays, const ScanOptions& options, Scan& scan)
+      : scene_(scene), rays_(rays), options_(options), scan_(scan) {}
 
-  /// The rays order[begin] to order[end - 1], with the sensor at this pose.
-  void cast(std::span<const std::uint32_t> order, const Affine<double>& pose, QueryCounts& counts) {
-    std::array<WorldRay<Real>, together> asked;
-    std::array<WorldHit<Real>, together> hits;
-    for (std::size_t first = 0; first < order.size(); first += together) {
-      const std::size_t count = std::min(together, order.size() - first);
-      for (std::size_t i = 0; i < count; ++i) asked[i] = {ray_of(order[first + i], pose)};
-      world_.closest_hits(std::span(asked).first(count), std::span(hits).first(count), counts);
-      for (std::size_t i = 0; i < count; ++i) keep(order[first + i], asked[i].ray, hits[i], counts);
+  /// Casts rays in the order of their times.
+  void cast(std::span<const std::uint32_t> order, QueryCounts& counts) const {
+    SceneWhile scene(scene_, time_of(order.front()), time_of(order.back()));
+    std::vector<WorldRay<Real>> asked(order.size());
+    std::vector<WorldHit<Real>> hits(order.size());
+    std::vector<double> times(order.size());
+    double time_of_pose = time_of(order.front());
+    Affine<double> pose = pose_at(time_of_pose);
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      times[i] = time_of(order[i]);
+      if (times[i] != time_of_pose) pose = pose_at(time_of_pose = times[i]);
+      asked[i] = {ray_of(order[i], pose)};
     }
+    scene.closest_hits(asked, times, hits, counts);
+    for (std::size_t i = 0; i < order.size(); ++i)
+      keep(order[i], {asked[i].ray, times[i]}, hits[i], scene, counts);
   }
 
+  double time_of(std::uint32_t index) const { return options_.start + rays_.rays[index].time; }
+
  private:
+  struct TimedRay {
+    Ray<double> ray;
+    double time;
+  };
+
+  Affine<double> pose_at(double time) const {
+    return options_.mount.at(time) * options_.path.at(time) * options_.pose;
+  }
+
   Ray<double> ray_of(std::uint32_t index, const Affine<double>& pose) const {
     const Ray<double>& own = rays_.rays[index].ray;
     Vec3<double> direction = own.direction;
@@ -87,7 +100,9 @@ class Scanner {
     return {pose(own.origin), pose.linear * direction, own.t_max};
   }
 
-  void keep(std::uint32_t index, const Ray<double>& ray, WorldHit<Real> hit, QueryCounts& counts) {
+  void keep(std::uint32_t index, const TimedRay& at, WorldHit<Real> hit, SceneWhile& scene,
+            QueryCounts& counts) const {
+    const Ray<double>& ray = at.ray;
     RayRandom random(options_.seed + 1, index);
     const bool is_dropped = options_.dropout > 0 && random.uniform() <= options_.dropout;
     const double speed = ray.direction.norm();
@@ -110,102 +125,77 @@ class Scanner {
       echo.object = static_cast<std::int32_t>(hit.instance);
       echo.t_lo = cast.t_base + cast.offset_lo;
       echo.t_hi = cast.t_base + cast.offset_hi;
-      if (k + 1 < options_.returns) hit = behind(ray, hit, counts);
+      if (k + 1 < options_.returns) hit = behind(at, hit, scene, counts);
     }
   }
 
   /// What the ray enters next, behind where it leaves what it met: bodies that overlap are passed
   /// as one.
-  WorldHit<Real> behind(const Ray<double>& ray, WorldHit<Real> hit, QueryCounts& counts) const {
+  static WorldHit<Real> behind(const TimedRay& at, WorldHit<Real> hit, SceneWhile& scene,
+                               QueryCounts& counts) {
+    const Ray<double>& ray = at.ray;
     double passed = 0;
     std::uint32_t left = hit.instance;
     WorldHit<Real> none;
     none.cast.status = Status::miss;
-    if (world_.instances().is_half_space(left)) return none;
+    if (scene.is_half_space(left)) return none;
     for (int i = 0; i < 64; ++i) {
-      const CastResult<Real> exit = cast_exit(world_.instances().at(left), ray);
+      const CastResult<Real> exit = scene.exit(left, ray, at.time);
       if (exit.status != Status::hit) return none;  // the ray ends in it
       passed = std::max(passed, exit.t());
       const Ray<double> rest{ray.at(passed), ray.direction, ray.t_max - passed};
-      WorldHit<Real> next = world_.closest_hit(rest, counts, left);
+      WorldHit<Real> next = scene.closest_hit({rest, left}, at.time, counts);
       if (!next.found()) return none;
       if (next.cast.status == Status::hit) {
         next.cast.t_base += passed;
         return next;
       }
       left = next.instance;
-      if (world_.instances().is_half_space(left)) return none;
+      if (scene.is_half_space(left)) return none;
     }
     return none;
   }
 
-  const RenderWorld& world_;
+  const MovingScene& scene_;
   const SensorRays& rays_;
   const ScanOptions& options_;
   Scan& scan_;
 };
 
-/// The pose of what the sensor is mounted on, with what it scales.
-Affine<double> mount_pose(const Scene& scene, std::size_t mount) {
-  return mount < scene.objects.size() ? scene.objects[mount].pose : Affine<double>();
-}
-
-std::size_t mount_of(const Scene& scene, const std::string& name) {
-  if (name.empty()) return scene.objects.size();
-  for (std::size_t i = 0; i < scene.objects.size(); ++i)
-    if (scene.objects[i].name == name) return i;
-  throw WrongUsage("--on: the scene has no object \"" + printable(name, 60) + "\"");
-}
-
 }  // namespace
 
-Scan scan(Scene& scene, const SensorRays& rays, const ScanOptions& options,
+std::optional<MovingFrame> frame_of_object(const Scene& scene, const std::string& name) {
+  for (const Object& object : scene.objects)
+    if (object.name == name) return MovingFrame{object.pose, object.motion};
+  return std::nullopt;
+}
+
+Scan scan(const Scene& scene, const SensorRays& rays, const ScanOptions& options,
           const std::function<bool(double, std::uint64_t)>& progress) {
-  const std::size_t mount = mount_of(scene, options.mount);
   Scan result;
   result.echoes.resize(rays.rays.size() * static_cast<std::size_t>(options.returns));
   std::vector<std::uint32_t> order(rays.rays.size());
   std::iota(order.begin(), order.end(), 0u);
-  scene.camera.shutter = 0;
-  set_time(scene, options.start);
-  RenderWorld world = make_world(scene);
-  Scanner scanner(world, rays, options, result);
+  const MovingScene moving(scene);
+  const Scanner scanner(moving, rays, options, result);
+  if (moving.movers() > 0)
+    std::ranges::stable_sort(order, {}, [&](std::uint32_t i) { return scanner.time_of(i); });
+  // Where much moves, it is prepared for more rays at a time.
+  const std::size_t some = std::max(rays_a_range, moving.movers());
   std::mutex mutex;
   std::size_t done = 0;
-  const auto tell = [&](std::size_t count, const QueryCounts& counts) {
+  parallel_for(order.size(), some, [&](std::size_t begin, std::size_t end) {
+    {
+      const std::lock_guard lock(mutex);
+      if (!result.complete) return;
+    }
+    QueryCounts counts;
+    scanner.cast(std::span(order).subspan(begin, end - begin), counts);
     const std::lock_guard lock(mutex);
     result.counts += counts;
-    done += count;
-    if (progress && !progress(double(done) / double(std::max<std::size_t>(order.size(), 1)), done))
-      result.complete = false;
-  };
-  const auto cast_all = [&](std::span<const std::uint32_t> some) {
-    const Affine<double> pose = mount_pose(scene, mount) * options.pose;
-    parallel_for(some.size(), rays_a_range, [&](std::size_t begin, std::size_t end) {
-      {
-        const std::lock_guard lock(mutex);
-        if (!result.complete) return;
-      }
-      QueryCounts counts;
-      scanner.cast(some.subspan(begin, end - begin), pose, counts);
-      tell(end - begin, counts);
-    });
-  };
-  if (!moves(scene)) {
-    cast_all(order);
-    return result;
-  }
-  // At each moment the scene is put where it is then, for all rays of that moment.
-  const auto time_of = [&](std::uint32_t i) { return rays.rays[i].time; };
-  std::ranges::stable_sort(order, {}, time_of);
-  for (std::size_t begin = 0; begin < order.size() && result.complete;) {
-    std::size_t end = begin;
-    while (end < order.size() && time_of(order[end]) == time_of(order[begin])) ++end;
-    set_time(scene, options.start + time_of(order[begin]));
-    follow(world, scene);
-    cast_all(std::span(order).subspan(begin, end - begin));
-    begin = end;
-  }
+    done += end - begin;
+    if (progress && !progress(double(done) / double(order.size()), done)) result.complete = false;
+  });
   return result;
 }
 

@@ -5,11 +5,13 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/math/affine.h"
 #include "renderer/base/real.h"
+#include "renderer/scene/moving_frame.h"
 #include "renderer/scene/scene.h"
 #include "renderer/sensor/sensor_rays.h"
 
@@ -28,8 +30,9 @@ struct Echo {
 };
 
 struct ScanOptions {
-  Affine<double> pose;     ///< of the sensor, in the world or in the frame that it is mounted on
-  std::string mount;       ///< an object's name; empty: the world
+  Affine<double> pose;     ///< of the sensor, in its path's frame
+  MovingFrame path;        ///< in the frame that it is mounted on
+  MovingFrame mount;       ///< in the world
   double start = 0;        ///< when the sweep begins, in seconds
   double range_noise = 0;  ///< standard deviation, of distances
   double angle_noise = 0;  ///< standard deviation, in radians
@@ -45,9 +48,12 @@ struct Scan {
 };
 
 /// Gives the same bits for any number of threads and any cut of the rays. If the scene moves, each
-/// ray is cast at its own time. `progress` may answer false to stop. Throws WrongUsage for a mount
-/// that is not there.
-Scan scan(Scene& scene, const SensorRays& rays, const ScanOptions& options,
+/// ray is cast at its own time, and so it is if the sensor moves. `progress` may answer false to
+/// stop.
+Scan scan(const Scene& scene, const SensorRays& rays, const ScanOptions& options,
           const std::function<bool(double fraction, std::uint64_t rays)>& progress = {});
+
+/// Where an object's shape stands, by its name; nothing if there is none of that name.
+std::optional<MovingFrame> frame_of_object(const Scene& scene, const std::string& name);
 
 }  // namespace minkray

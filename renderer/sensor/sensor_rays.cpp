@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/sensor/sensor_rays.h"
 
-#include <charconv>
 #include <cmath>
 #include <numbers>
-#include <sstream>
 
 #include "renderer/base/errors.h"
 #include "renderer/json/object_reader.h"
 #include "renderer/json/parse.h"
 #include "renderer/json/values.h"
 #include "renderer/sensor/npy.h"
+#include "renderer/sensor/number_table.h"
 
 namespace minkray {
 namespace {
@@ -28,30 +27,14 @@ Vec3<double> direction_of(double azimuth, double elevation) {
           std::sin(elevation)};
 }
 
-/// All of the numbers between the separators; nothing if the text is otherwise.
-std::optional<std::vector<double>> numbers_of(std::string_view text, char separator) {
-  std::vector<double> numbers;
-  const char* at = text.data();
-  const char* const end = at + text.size();
-  for (;;) {
-    double number = 0;
-    const auto [next, error] = std::from_chars(at, end, number);
-    if (error != std::errc() || !std::isfinite(number)) return std::nullopt;
-    numbers.push_back(number);
-    if (next == end) return numbers;
-    if (*next != separator) return std::nullopt;
-    at = next + 1;
-  }
-}
-
 SensorRays spinning(const std::string& pattern, double seconds) {
   const std::string rest = pattern.substr(pattern.find(':') + 1);
   const std::size_t colon = rest.find(':');
-  const auto counts = numbers_of(rest.substr(0, colon), 'x');
+  const auto counts = numbers_between(rest.substr(0, colon), 'x');
   double lowest = -15, highest = 15;
   bool is_good = counts && counts->size() == 2;
   if (colon != rest.npos) {
-    const auto angles = numbers_of(rest.substr(colon + 1), ',');
+    const auto angles = numbers_between(rest.substr(colon + 1), ',');
     is_good = is_good && angles && angles->size() == 2 && (*angles)[0] <= (*angles)[1] &&
               (*angles)[0] >= -90 && (*angles)[1] <= 90;
     if (is_good) lowest = (*angles)[0], highest = (*angles)[1];
@@ -81,63 +64,24 @@ SensorRays spinning(const std::string& pattern, double seconds) {
   return rays;
 }
 
-/// A column's meaning by what its title begins with.
-enum class Column { time, azimuth, zenith, elevation, none };
-Column column_of(std::string title) {
-  std::string letters;
-  for (const char c : title)
-    if (std::isalpha(static_cast<unsigned char>(c)))
-      letters += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  if (letters.starts_with("time")) return Column::time;
-  if (letters.starts_with("azimuth")) return Column::azimuth;
-  if (letters.starts_with("zenith")) return Column::zenith;
-  if (letters.starts_with("elevation")) return Column::elevation;
-  return Column::none;
-}
-
 SensorRays rays_of_csv(const std::string& file) {
   Mistakes mistakes(file);
-  const auto text = read_text_file(file, mistakes);
+  const NumberTable table = read_number_table(file, mistakes);
   throw_if_any(mistakes);
-  std::istringstream lines(*text);
-  std::string line;
-  std::getline(lines, line);
-  std::vector<Column> columns;
-  {
-    std::istringstream titles(line);
-    for (std::string title; std::getline(titles, title, ',');) columns.push_back(column_of(title));
-  }
-  const auto has = [&](Column column) {
-    return std::find(columns.begin(), columns.end(), column) != columns.end();
-  };
-  if (!has(Column::azimuth) || has(Column::zenith) == has(Column::elevation))
+  const auto time = table.column("time"), azimuth = table.column("azimuth"),
+             zenith = table.column("zenith"), elevation = table.column("elevation");
+  if (!azimuth || zenith.has_value() == elevation.has_value())
     mistakes.add(
         "line 1: must name the columns azimuth and zenith (or elevation), in degrees, and time, in "
         "seconds, if there is one");
+  if (table.rows() == 0) mistakes.add("must have rays");
   throw_if_any(mistakes);
   SensorRays rays;
-  for (std::size_t number = 2; std::getline(lines, line); ++number) {
-    if (!line.empty() && line.back() == '\r') line.pop_back();
-    if (line.empty()) continue;
-    const auto values = numbers_of(line, ',');
-    if (!values || values->size() != columns.size()) {
-      mistakes.add("line " + std::to_string(number) + ": must be " +
-                   std::to_string(columns.size()) + " numbers between commas");
-      if (mistakes.messages().size() >= 20) break;
-      continue;
-    }
-    double time = 0, azimuth = 0, elevation = 0;
-    for (std::size_t c = 0; c < columns.size(); ++c) {
-      const double value = (*values)[c];
-      if (columns[c] == Column::time) time = value;
-      if (columns[c] == Column::azimuth) azimuth = radians(value);
-      if (columns[c] == Column::zenith) elevation = radians(90 - value);
-      if (columns[c] == Column::elevation) elevation = radians(value);
-    }
-    rays.rays.push_back({{{0, 0, 0}, direction_of(azimuth, elevation)}, time});
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const double up = zenith ? 90 - table.at(row, *zenith) : table.at(row, *elevation);
+    rays.rays.push_back({{{0, 0, 0}, direction_of(radians(table.at(row, *azimuth)), radians(up))},
+                         time ? table.at(row, *time) : 0});
   }
-  if (rays.rays.empty() && mistakes.none()) mistakes.add("must have rays");
-  throw_if_any(mistakes);
   return rays;
 }
 

@@ -37,8 +37,9 @@ TEST_P(Replay, kept_inputs_keep_every_promise) {
 INSTANTIATE_TEST_SUITE_P(Targets, Replay,
                          ::testing::Values(Target{"scene", check_scene},
                                            Target{"query", check_queries},
-                                           Target{"mesh", check_mesh}, Target{"robot", check_robot},
-                                           Target{"cast", check_cast},
+                                           Target{"mesh", check_mesh}, Target{"mjcf", check_mjcf},
+                                           Target{"urdf", check_urdf}, Target{"sdf", check_sdf},
+                                           Target{"gltf", check_gltf}, Target{"cast", check_cast},
                                            Target{"contact", check_contact}),
                          [](const auto& instance) { return std::string(instance.param.name); });
 

@@ -20,9 +20,13 @@ std::string check_queries(std::string_view bytes);
 /// refused with a message.
 std::string check_mesh(std::string_view bytes);
 
-/// A robot's file, MJCF, URDF or SDF by its root element: read into a model whose links are in
-/// order and a scene, or refused with messages.
-std::string check_robot(std::string_view bytes);
+/// A robot's file, or what stands within its root element: read into a model and a scene
+/// (tests/fuzz/robot_promises.h), or refused with messages.
+std::string check_mjcf(std::string_view bytes);
+std::string check_urdf(std::string_view bytes);
+std::string check_sdf(std::string_view bytes);
+/// A glTF file, text or binary.
+std::string check_gltf(std::string_view bytes);
 
 /// Shapes, nestings and rays made of the bytes (tests/fuzz/shape_from_bytes.h), cast by all
 /// accurate solvers and in packets; the answers checked by tests/fuzz/cast_promises.h.

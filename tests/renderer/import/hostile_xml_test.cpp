@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <sstream>
 
 #include "renderer/import/xml.h"
 #include "tests/renderer/import/imports.h"
 #include "tests/support/program.h"
+#include "tests/support/source_files.h"
 
 namespace minkray {
 namespace {
@@ -45,6 +47,91 @@ TEST(HostileXml, a_chain_of_a_hundred_thousand_joints_is_read) {
   const std::optional<Model> model = parse_model(text, "chain.urdf", {}, mistakes);
   ASSERT_TRUE(model) << mistakes.text();
   EXPECT_EQ(link_poses(*model).back().translation, Vec3<double>(count, 0, 0));
+}
+
+/// The lines of a text that a program writes about itself.
+double resident_megabytes() {
+  std::istringstream status(text_of_file("/proc/self/status"));
+  for (std::string word; status >> word;)
+    if (word == "VmHWM:") {
+      double kilobytes = 0;
+      status >> kilobytes;
+      return kilobytes / 1024;
+    }
+  return 0;
+}
+
+TEST(HostileXml, models_that_include_each_other_twice_end_soon_and_stay_small) {
+  const TemporaryFolder folder;
+  // Each file of 4 MiB shows the other one twice: 2^32 of them, or gigabytes of elements.
+  const std::string filler(std::size_t{4} << 20, 'x');
+  for (const auto& [name, other] : {std::pair{"a.sdf", "b.sdf"}, {"b.sdf", "a.sdf"}})
+    std::ofstream(folder / name)
+        << "<sdf version='1.6'><model name='m'><link name='l'/><include><uri>" << other
+        << "</uri></include><include><uri>" << other << "</uri></include><!--x--><plugin>" << filler
+        << "</plugin></model></sdf>";
+  const double before = resident_megabytes();
+  Mistakes mistakes("a.sdf");
+  EXPECT_FALSE(load_model(folder / "a.sdf", {}, mistakes));
+  EXPECT_LT(resident_megabytes() - before, 1500);
+  EXPECT_LE(mistakes.messages().size(), 110u);
+}
+
+TEST(HostileXml, a_hundred_megabytes_are_refused_before_they_are_read) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "large.urdf") << "<robot>";
+  std::filesystem::resize_file(folder / "large.urdf", std::size_t{100} << 20);
+  Mistakes mistakes("large.urdf");
+  EXPECT_FALSE(load_model(folder / "large.urdf", {}, mistakes));
+  EXPECT_NE(mistakes.text().find("must not hold more than"), std::string::npos);
+}
+
+TEST(HostileXml, numbers_that_are_none_or_too_large_are_told) {
+  const auto link = [](const std::string& inside) {
+    return "<robot name='r'><link name='a'><visual>" + inside +
+           "<geometry><sphere radius='1'/></geometry></visual></link></robot>";
+  };
+  for (const char* number : {"nan", "inf", "1e999", "-nan", "0x10", "1,5", "1e", "--1"}) {
+    const std::string told = mistakes_of(link(std::string("<origin xyz='0 0 ") + number + "'/>"));
+    EXPECT_NE(told.find("line 1: <origin>: xyz: must be 3 finite number"), std::string::npos)
+        << told;
+  }
+  // Each number is finite, the place of the shape is not.
+  const TemporaryFolder folder;
+  std::ofstream(folder / "far.xml")
+      << "<mujoco><worldbody><body pos='1e308 0 0'><body pos='1e308 0 0'>"
+         "<geom size='1'/></body></body></worldbody></mujoco>";
+  EXPECT_THROW(import_scene(folder / "far.xml"), BadInput);
+}
+
+TEST(HostileXml, bodies_and_classes_that_are_not_there_are_named) {
+  EXPECT_NE(mistakes_of("<mujoco><worldbody><body childclass='none'><geom size='1' class='other'/>"
+                        "</body></worldbody></mujoco>",
+                        "m.xml")
+                .find("no defaults of the class \"other\""),
+            std::string::npos);
+  EXPECT_NE(
+      mistakes_of("<sdf version='1.6'><model name='m'><link name='a'/><joint name='j' "
+                  "type='fixed'><parent>a</parent><child>nobody</child></joint></model></sdf>",
+                  "m.sdf")
+          .find("the link \"nobody\" is not there"),
+      std::string::npos);
+  EXPECT_NE(mistakes_of("<robot name='r'><link name='a'/><link name='b'/><joint name='j' "
+                        "type='revolute'><parent link='a'/><child link='b'/><mimic joint='none'/>"
+                        "</joint></robot>")
+                .find("the joint \"none\" is not there"),
+            std::string::npos);
+}
+
+TEST(HostileXml, names_that_are_no_text_are_written_as_scenes_all_the_same) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "r.xml") << "<mujoco model='\xff\xfe'><worldbody><body name='\xc0\x80'>"
+                                     "<geom name='\x80' size='1'/></body></worldbody></mujoco>";
+  for (const std::string command : {"info --json r.xml", "info r.xml", "import r.xml -o r.json -q",
+                                    "render r.json -o r.png -r 8x8 -s 1 -q"}) {
+    const ProgramOutcome outcome = run_shell("cd '" + folder / "" + "' && $MINKRAY " + command);
+    EXPECT_EQ(outcome.exit_code, 0) << command << "\n" << outcome.err;
+  }
 }
 
 TEST(HostileXml, files_that_include_each_other_and_large_files_are_refused) {

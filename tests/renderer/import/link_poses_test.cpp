@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "tests/renderer/import/imports.h"
+#include "tests/support/dart_frames.h"
 #include "tests/support/random.h"
 #include "tests/support/robot_models.h"
 
@@ -121,6 +122,18 @@ TEST(Urdf, links_stand_where_a_second_way_in_long_double_puts_them) {
       }
     }
     EXPECT_LT(worst, 1e-12) << name;
+  }
+}
+
+TEST(Urdf, links_stand_where_dart_puts_them) {
+  if (!has_robot_models()) GTEST_SKIP() << "run scenes/fetch-models";
+  for (const char* name : robots_beside_dart) {
+    const auto errors = frames_beside_dart((robot_models() / name).string(), 100);
+    if (!errors) GTEST_SKIP() << "python3-dartpy is not installed";
+    EXPECT_EQ(errors->missing, "") << name;
+    EXPECT_GT(errors->links, 6u) << name;
+    EXPECT_EQ(errors->states, 100u) << name;
+    EXPECT_LT(errors->worst, 1e-12) << name;
   }
 }
 

@@ -134,7 +134,7 @@ TEST(Scans, each_ray_of_a_sweep_sees_the_scene_at_its_own_time) {
     EXPECT_NEAR(result.echoes[i].t, 19 + 10 * rays.rays[i].time, 1e-12);
   // Mounted on it, a sensor goes along.
   ScanOptions options;
-  options.mount = "moving";
+  options.mount = frame_of_object(scene, "moving").value();
   options.pose.translation = {0, 0, 5};
   for (SensorRay& ray : rays.rays) ray.ray = {{0, 0, 0}, {0, 0, -1}};
   const Scan mounted = scan(scene, rays, options);

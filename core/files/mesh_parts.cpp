@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "renderer/import/mesh_groups.h"
+#include "core/files/mesh_parts.h"
 
 #include <algorithm>
 #include <cctype>
@@ -19,20 +19,20 @@ constexpr std::size_t most_mesh_bytes = std::size_t{512} << 20;
 using Corners = std::array<std::uint32_t, 3>;
 using Parts = std::vector<std::vector<std::uint32_t>>;
 
-/// Cornerss, each with the number of its group.
+/// Triangles, each with the number of its group.
 struct Grouped {
   std::vector<Corners> triangles;
   std::vector<std::uint32_t> group_of;
 };
 
-std::string_view next_word(std::string_view& line) {
+std::string_view take_word(std::string_view& line) {
   line.remove_prefix(std::min(line.find_first_not_of(" \t\r"), line.size()));
   const std::string_view word = line.substr(0, line.find_first_of(" \t\r"));
   line.remove_prefix(word.size());
   return word;
 }
 
-std::string_view next_line(std::string_view& text) {
+std::string_view take_line(std::string_view& text) {
   const std::string_view line = text.substr(0, text.find('\n'));
   text.remove_prefix(std::min(line.size() + 1, text.size()));
   return line;
@@ -46,19 +46,19 @@ Grouped faces_of_obj(std::string_view text, std::size_t count) {
   std::uint32_t current = 0;
   std::size_t above = 0;
   while (!text.empty()) {
-    std::string_view line = next_line(text);
+    std::string_view line = take_line(text);
     line = line.substr(0, line.find('#'));
-    const std::string_view word = next_word(line);
+    const std::string_view word = take_word(line);
     if (word == "v") ++above;
     if (word == "o" || word == "g") {
-      (word == "o" ? object : group) = std::string(next_word(line));
+      (word == "o" ? object : group) = std::string(take_word(line));
       if (word == "o") group.clear();
       const auto next = static_cast<std::uint32_t>(groups.size());
       current = groups.emplace(object + "\n" + group, next).first->second;
     }
     if (word != "f") continue;
     std::vector<std::uint32_t> corners;
-    for (std::string_view corner = next_word(line); !corner.empty(); corner = next_word(line)) {
+    for (std::string_view corner = take_word(line); !corner.empty(); corner = take_word(line)) {
       long long index = 0;
       std::from_chars(corner.data(), corner.data() + corner.size(), index);
       const long long at = index < 0 ? static_cast<long long>(above) + index : index - 1;
@@ -83,8 +83,8 @@ Grouped facets_of_stl(std::string_view text, std::size_t count) {
   std::size_t facet = 0;
   std::uint32_t solids = 0;
   while (!text.empty()) {
-    std::string_view line = next_line(text);
-    const std::string_view word = next_word(line);
+    std::string_view line = take_line(text);
+    const std::string_view word = take_word(line);
     if (word == "endsolid") ++solids;
     if (word == "facet" && facet < grouped.group_of.size()) grouped.group_of[facet++] = solids;
   }
@@ -140,11 +140,12 @@ Parts components_of(std::span<const Vec3<double>> vertices, std::span<const Corn
   return parts_by(labels, {triangles.begin(), triangles.end()});
 }
 
-MeshParts read_grouped_mesh(const std::filesystem::path& file, MeshSplit split) {
+MeshParts read_mesh_parts(const std::filesystem::path& file, MeshSplit split) {
   MeshParts mesh{read_mesh_vertices(file)};
   if (split == MeshSplit::none) return mesh;
-  const std::string ending = file.extension().string();
-  const bool is_obj = ending == ".obj" || ending == ".OBJ";
+  std::string ending = file.extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const bool is_obj = ending == ".obj";
   const std::string text = read_regular_file(file, most_mesh_bytes);
   const Grouped grouped =
       is_obj ? faces_of_obj(text, mesh.vertices.size()) : facets_of_stl(text, mesh.vertices.size());

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// The parts of a mesh, so that each can have a hull of its own: as the file groups them, or as
+// they hang together.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <vector>
+
+#include "core/math/vec.h"
+
+namespace minkray {
+
+enum class MeshSplit : unsigned char { none, groups, components };
+
+/// Vertices, and where the parts end that the file tells apart: at least one.
+struct MeshParts {
+  std::vector<Vec3<double>> vertices;
+  std::vector<std::vector<std::uint32_t>> parts = {};  ///< vertices of each; empty: all are one
+};
+
+/// Reads OBJ and STL. Groups are what follows an "o" or "g" with another name, and STL's solids.
+/// Throws std::runtime_error without the file's name.
+MeshParts read_mesh_parts(const std::filesystem::path& file, MeshSplit split);
+
+/// The vertices of each connected part, parts in the order of their first triangle. Vertices at the
+/// same place are one. Vertices of no triangle are left out.
+std::vector<std::vector<std::uint32_t>> components_of(
+    std::span<const Vec3<double>> vertices,
+    std::span<const std::array<std::uint32_t, 3>> triangles);
+
+}  // namespace minkray

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// glTF 2.0 as a container: the JSON of a .gltf or .glb file, its buffers (in the file, in data:
+// URIs, in files beside it) and the numbers that accessors name in them.
+// https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/math/vec.h"
+#include "renderer/json/json.h"
+#include "renderer/json/mistakes.h"
+
+namespace minkray {
+
+class GltfDocument {
+ public:
+  /// `bytes` are a file's; other files are looked for beside `file`. What is wrong is a mistake.
+  GltfDocument(std::string bytes, std::filesystem::path file, Mistakes& mistakes);
+
+  /// The root object, or null if the file is no glTF that is read.
+  const Json* root() const { return root_ ? &*root_ : nullptr; }
+
+  /// How many items a list of the root has: "nodes", "meshes".
+  std::size_t count(std::string_view list) const;
+  /// The item of a list of the root that a key of an object names by its number; nothing if the key
+  /// is not there, or is wrong, which is a mistake.
+  std::optional<std::size_t> index(const Json& object, const JsonPath& path, std::string_view key,
+                                   std::string_view list);
+  /// The same for a number that stands in a list.
+  std::optional<std::size_t> index_of(const Json& number, const JsonPath& path,
+                                      std::string_view list);
+  const Json& item(std::string_view list, std::size_t index) const;
+
+  /// Finite points of an accessor (VEC3), in its order; nothing, and a mistake, if it is wrong.
+  std::optional<std::vector<Vec3<double>>> points(std::size_t accessor);
+  /// Whole numbers of an accessor (SCALAR), each less than `limit`.
+  std::optional<std::vector<std::uint32_t>> indices(std::size_t accessor, std::size_t limit);
+
+  /// Hashes of all that was read.
+  const std::string& hash_text() const { return hash_text_; }
+  Mistakes& mistakes() { return mistakes_; }
+
+ private:
+  struct Source;
+  bool open_binary();
+  void check_extensions();
+  std::size_t natural(const Json& object, const JsonPath& path, std::string_view key,
+                      std::size_t otherwise);
+  const std::string* buffer(std::size_t index);
+  std::optional<std::string> read_uri(const std::string& uri, const JsonPath& path);
+  bool find(const Json& object, const JsonPath& path, std::size_t components, std::size_t count,
+            int type, Source& source);
+  std::optional<std::vector<double>> numbers(std::size_t accessor, std::size_t components);
+  bool replace_sparse(const Json& accessor, const JsonPath& path, std::size_t components,
+                      std::size_t count, int type, bool normalized, std::vector<double>& values);
+
+  Mistakes& mistakes_;
+  std::filesystem::path file_;
+  std::string bytes_;
+  std::string_view json_text_, binary_;  ///< into bytes_
+  bool has_binary_ = false;
+  std::optional<Json> root_;
+  std::map<std::size_t, std::string> buffers_;
+  std::size_t numbers_read_ = 0;  ///< accessors may share what they read, and be asked again
+  std::string hash_text_;
+};
+
+}  // namespace minkray

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/import/gltf_meshes.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+#include "renderer/json/values.h"
+
+namespace minkray {
+namespace {
+
+using GltfTriangle = std::array<std::uint32_t, 3>;
+
+/// How a primitive's indices make triangles.
+constexpr std::size_t mode_triangles = 4, mode_fan = 6;
+
+/// It is enough to know what hangs together: strips are not turned over at every other triangle.
+std::vector<GltfTriangle> triangles_of(const std::vector<std::uint32_t>& corners,
+                                       std::size_t mode) {
+  std::vector<GltfTriangle> all;
+  const std::size_t step = mode == mode_triangles ? 3 : 1;
+  for (std::size_t i = 0; i + 2 < corners.size(); i += step)
+    all.push_back({mode == mode_fan ? corners[0] : corners[i], corners[i + 1], corners[i + 2]});
+  return all;
+}
+
+/// The file's lists of numbers, whose items may be anything.
+std::vector<std::size_t> indices_in(GltfDocument& document, const Json& object,
+                                    const JsonPath& path, std::string_view key,
+                                    std::string_view list) {
+  std::vector<std::size_t> indices;
+  const Json* written = object.find(key);
+  if (!written) return indices;
+  if (!written->is_array()) {
+    document.mistakes().add(path / key, "must be a list (" + found(*written) + ")");
+    return indices;
+  }
+  for (std::size_t i = 0; i < written->size(); ++i) {
+    if (const auto index = document.index_of((*written)[i], path / key / i, list))
+      indices.push_back(*index);
+  }
+  return indices;
+}
+
+}  // namespace
+
+Affine<double> gltf_z_up() {
+  Affine<double> turn;
+  turn.linear << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+  return turn;
+}
+
+const MeshParts& GltfMeshes::mesh(std::size_t index) {
+  return read(index).parts;
+}
+
+const std::vector<std::size_t>& GltfMeshes::primitives_of_parts(std::size_t index) {
+  return read(index).primitives;
+}
+
+const GltfMeshes::Read& GltfMeshes::read(std::size_t index) {
+  const auto known = read_.find(index);
+  if (known != read_.end()) return known->second;
+  Read& read = read_[index];
+  const JsonPath path = JsonPath() / "meshes" / index / "primitives";
+  const Json* primitives = document_.item("meshes", index).find("primitives");
+  if (!primitives || !primitives->is_array()) {
+    document_.mistakes().add(path, "must be a list");
+    return read;
+  }
+  for (std::size_t i = 0; i < primitives->size(); ++i) {
+    if ((*primitives)[i].is_object())
+      add_primitive((*primitives)[i], path / i, i, read);
+    else
+      document_.mistakes().add(path / i, "must be an object (" + found((*primitives)[i]) + ")");
+  }
+  return read;
+}
+
+void GltfMeshes::add_primitive(const Json& primitive, const JsonPath& path, std::size_t number,
+                               Read& read) {
+  std::size_t mode = mode_triangles;
+  if (const Json* written = primitive.find("mode")) {
+    const auto value = read_integer(*written, path / "mode", document_.mistakes(), 0, mode_fan);
+    if (!value) return;
+    mode = static_cast<std::size_t>(*value);
+  }
+  if (mode < mode_triangles) {
+    ++left_out_;
+    return;
+  }
+  const Json* attributes = primitive.find("attributes");
+  const auto accessor =
+      attributes ? document_.index(*attributes, path / "attributes", "POSITION", "accessors")
+                 : std::nullopt;
+  if (!accessor) {
+    if (!attributes || !attributes->is_object() || !attributes->contains("POSITION"))
+      document_.mistakes().add(path / "attributes", "must have a \"POSITION\"");
+    return;
+  }
+  const auto points = document_.points(*accessor);
+  if (!points) return;
+  std::vector<std::uint32_t> corners(points->size());
+  std::iota(corners.begin(), corners.end(), 0u);
+  if (primitive.contains("indices")) {
+    const auto index = document_.index(primitive, path, "indices", "accessors");
+    auto indices = index ? document_.indices(*index, points->size()) : std::nullopt;
+    if (!indices) return;
+    corners = std::move(*indices);
+  }
+  // Buffers may hold what other meshes use: only the corners' points are shown.
+  std::vector<std::uint32_t> used = corners;
+  std::ranges::sort(used);
+  used.erase(std::ranges::unique(used).begin(), used.end());
+  vertices_ += used.size();
+  if (vertices_ > most_gltf_vertices) {
+    document_.mistakes().add("shows more than " + std::to_string(most_gltf_vertices) + " vertices");
+    return;
+  }
+  MeshParts& mesh = read.parts;
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  for (const std::uint32_t i : used) mesh.vertices.push_back((*points)[i]);
+  if (split_ == MeshSplit::groups) {
+    std::vector<std::uint32_t>& part = mesh.parts.emplace_back(used.size());
+    std::iota(part.begin(), part.end(), first);
+    read.primitives.push_back(number);
+  } else if (split_ == MeshSplit::components) {
+    for (std::uint32_t& corner : corners)
+      corner = static_cast<std::uint32_t>(std::ranges::lower_bound(used, corner) - used.begin());
+    const auto own = std::span(mesh.vertices).subspan(first);
+    for (std::vector<std::uint32_t>& part : components_of(own, triangles_of(corners, mode))) {
+      for (std::uint32_t& i : part) i += first;
+      mesh.parts.push_back(std::move(part));
+    }
+  }
+}
+
+Affine<double> gltf_pose(GltfDocument& document, std::size_t node) {
+  const Json& json = document.item("nodes", node);
+  const JsonPath path = JsonPath() / "nodes" / node;
+  const auto numbers = [&](const char* key, std::size_t count) {
+    const Json* written = json.find(key);
+    return written ? read_numbers(*written, path / key, document.mistakes(), count) : std::nullopt;
+  };
+  Affine<double> pose;
+  if (const auto m = numbers("matrix", 16)) {
+    for (int column = 0; column < 3; ++column)
+      for (int row = 0; row < 3; ++row)
+        pose.linear(row, column) = (*m)[static_cast<std::size_t>(4 * column + row)];
+    pose.translation = {(*m)[12], (*m)[13], (*m)[14]};
+    if ((*m)[3] != 0 || (*m)[7] != 0 || (*m)[11] != 0 || (*m)[15] != 1)
+      document.mistakes().add(path / "matrix", "must have a last row of 0, 0, 0, 1");
+    return pose;
+  }
+  if (const auto t = numbers("translation", 3)) pose.translation = {(*t)[0], (*t)[1], (*t)[2]};
+  if (const auto q = numbers("rotation", 4)) {
+    if ((*q)[0] == 0 && (*q)[1] == 0 && (*q)[2] == 0 && (*q)[3] == 0)
+      document.mistakes().add(path / "rotation", "must not be zero");
+    else
+      pose.linear = rotation_matrix_of_any((*q)[0], (*q)[1], (*q)[2], (*q)[3]);
+  }
+  if (const auto s = numbers("scale", 3))
+    pose.linear = pose.linear * Vec3<double>((*s)[0], (*s)[1], (*s)[2]).asDiagonal();
+  return pose;
+}
+
+std::vector<std::size_t> gltf_children(GltfDocument& document, std::size_t node) {
+  return indices_in(document, document.item("nodes", node), JsonPath() / "nodes" / node, "children",
+                    "nodes");
+}
+
+std::vector<std::size_t> gltf_roots(GltfDocument& document) {
+  const std::size_t count = document.count("nodes");
+  std::vector<char> has_parent(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!document.item("nodes", i).is_object()) {
+      document.mistakes().add(JsonPath() / "nodes" / i, "must be an object");
+      continue;
+    }
+    for (const std::size_t child : gltf_children(document, i)) {
+      if (has_parent[child])
+        document.mistakes().add(JsonPath() / "nodes" / child, "must not be a child twice");
+      has_parent[child] = 1;
+    }
+  }
+  std::vector<std::size_t> roots;
+  if (document.count("scenes") > 0) {
+    std::size_t scene = 0;
+    if (document.root()->contains("scene"))
+      scene = document.index(*document.root(), JsonPath(), "scene", "scenes").value_or(0);
+    if (document.item("scenes", scene).is_object())
+      roots = indices_in(document, document.item("scenes", scene), JsonPath() / "scenes" / scene,
+                         "nodes", "nodes");
+    // A node in a circle has a parent, so that no walk from these ends where it began.
+    for (const std::size_t root : roots)
+      if (has_parent[root])
+        document.mistakes().add(
+            JsonPath() / "scenes" / scene / "nodes",
+            "must be nodes without a parent (got " + std::to_string(root) + ")");
+  } else {
+    for (std::size_t i = 0; i < count; ++i)
+      if (!has_parent[i]) roots.push_back(i);
+  }
+  return document.mistakes().none() ? roots : std::vector<std::size_t>();
+}
+
+void add_shown_meshes(GltfDocument& document, GltfMeshes& meshes,
+                      std::span<const std::size_t> nodes, const Affine<double>& pose,
+                      bool with_own_pose, MeshParts& all) {
+  struct Open {
+    std::size_t node;
+    Affine<double> pose;
+  };
+  std::vector<Open> open;
+  for (const std::size_t node : nodes)
+    open.push_back({node, with_own_pose ? pose * gltf_pose(document, node) : pose});
+  // A node that a collider names may be in a circle.
+  std::size_t visits = 0;
+  while (!open.empty()) {
+    const Open at = open.back();
+    open.pop_back();
+    if (++visits > document.count("nodes")) {
+      document.mistakes().add(JsonPath() / "nodes" / at.node, "must not be below itself");
+      return;
+    }
+    const Json& json = document.item("nodes", at.node);
+    if (const auto index = document.index(json, JsonPath() / "nodes" / at.node, "mesh", "meshes")) {
+      const MeshParts& mesh = meshes.mesh(*index);
+      if (all.vertices.size() + mesh.vertices.size() > most_gltf_vertices) {
+        document.mistakes().add("shows more than " + std::to_string(most_gltf_vertices) +
+                                " vertices");
+        return;
+      }
+      const auto first = static_cast<std::uint32_t>(all.vertices.size());
+      // A skin's vertices stand where they are, wherever its node is.
+      const Affine<double> there = json.contains("skin") ? pose : at.pose;
+      for (const Vec3<double>& vertex : mesh.vertices) all.vertices.push_back(there(vertex));
+      for (std::vector<std::uint32_t> part : mesh.parts) {
+        for (std::uint32_t& i : part) i += first;
+        all.parts.push_back(std::move(part));
+      }
+    }
+    for (const std::size_t child : gltf_children(document, at.node))
+      open.push_back({child, at.pose * gltf_pose(document, child)});
+  }
+}
+
+}  // namespace minkray

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// The meshes and nodes of a glTF file: which vertices they show, and where.
+#pragma once
+
+#include <map>
+#include <span>
+#include <vector>
+
+#include "core/files/mesh_parts.h"
+#include "core/math/affine.h"
+#include "renderer/import/gltf_document.h"
+
+namespace minkray {
+
+/// No file shows more vertices, meshes that are shown again counted again.
+inline constexpr std::size_t most_gltf_vertices = 20'000'000;
+
+/// Turns y up to z up.
+Affine<double> gltf_z_up();
+
+class GltfMeshes {
+ public:
+  GltfMeshes(GltfDocument& document, MeshSplit split) : document_(document), split_(split) {}
+
+  /// The vertices that its triangles use, with one part a primitive (groups), one a connected
+  /// piece (components), or none. Empty, and maybe mistakes, if there are none.
+  const MeshParts& mesh(std::size_t index);
+
+  /// Of each part of mesh(), the primitive that it is, if groups are asked for.
+  const std::vector<std::size_t>& primitives_of_parts(std::size_t index);
+
+  /// How many primitives were points or lines.
+  std::size_t left_out() const { return left_out_; }
+
+ private:
+  struct Read {
+    MeshParts parts;
+    std::vector<std::size_t> primitives;
+  };
+  const Read& read(std::size_t index);
+  void add_primitive(const Json& primitive, const JsonPath& path, std::size_t number, Read& read);
+
+  GltfDocument& document_;
+  MeshSplit split_;
+  std::map<std::size_t, Read> read_;
+  std::size_t vertices_ = 0, left_out_ = 0;
+};
+
+/// What a node is by itself.
+Affine<double> gltf_pose(GltfDocument& document, std::size_t node);
+
+/// The nodes below a node.
+std::vector<std::size_t> gltf_children(GltfDocument& document, std::size_t node);
+
+/// The nodes without a parent that are shown: those of the file's scene, or all. A mistake if nodes
+/// are no forest.
+std::vector<std::size_t> gltf_roots(GltfDocument& document);
+
+/// Adds all meshes that are shown by nodes and those below them.
+void add_shown_meshes(GltfDocument& document, GltfMeshes& meshes,
+                      std::span<const std::size_t> nodes, const Affine<double>& pose,
+                      bool with_own_pose, MeshParts& all);
+
+}  // namespace minkray

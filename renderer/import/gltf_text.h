@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// How glTF writes bytes as text: base64 in data: URIs, and %20 in names.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace minkray {
+
+/// The bytes of base64 text (RFC 4648); nothing if it is none.
+std::optional<std::string> from_base64(std::string_view text);
+
+/// The text with what "%20" and the like stand for (RFC 3986).
+std::string percent_decoded(std::string_view text);
+
+}  // namespace minkray

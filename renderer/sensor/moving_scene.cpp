@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/sensor/moving_scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/bvh/traverse.h"
+#include "renderer/scene/scene_instances.h"
+
+namespace minkray {
+namespace {
+
+/// Boxes grow by this share of their size and their distance from the origin, and of the way that
+/// is swept: some hundred roundings of double are less, and a float holds no smaller share.
+constexpr double box_slack = 1e-7;
+
+/// Whether most rays are like the ones before them, as a camera's and a lidar's are: these are
+/// faster in groups, others in streams. The answers have the same bits.
+bool run_together(std::span<const WorldRay<Real>> rays) {
+  constexpr std::size_t step = 16;
+  constexpr double alike = 0.1;  // radians, about
+  std::size_t asked = 0, together = 0;
+  for (std::size_t i = 1; i < rays.size(); i += step) {
+    const Ray<Real>&a = rays[i - 1].ray, &b = rays[i].ray;
+    const double across = a.direction.cross(b.direction).squaredNorm();
+    const double along = a.direction.dot(b.direction);
+    ++asked;
+    together += a.origin == b.origin && along > 0 && across < alike * alike * along * along ? 1 : 0;
+  }
+  return 2 * together > asked;
+}
+
+/// How far a body may go from `begin` to `end`, whose points are up to `reach` from what the keys
+/// move: positions go along lines, and turns by an angle move a point by no more than the arc.
+double longest_way(const Motion& motion, double begin, double end, double reach) {
+  double way = 0;
+  const auto add = [&](const PoseKey& a, const PoseKey& b, double fraction) {
+    double cosine = 0, straight = 0;
+    for (std::size_t i = 0; i < 4; ++i) cosine += a.rotate[i] * b.rotate[i];
+    const double sign = cosine < 0 ? -1 : 1;
+    for (std::size_t i = 0; i < 4; ++i)
+      straight += (a.rotate[i] - sign * b.rotate[i]) * (a.rotate[i] - sign * b.rotate[i]);
+    const double angle = 4 * std::asin(std::min(1.0, std::sqrt(straight) / 2));
+    way += fraction * ((b.translate - a.translate).norm() + reach * angle);
+  };
+  for (std::size_t k = 1; k < motion.keys.size(); ++k) {
+    const PoseKey &a = motion.keys[k - 1], &b = motion.keys[k];
+    const double share = (std::min(end, b.time) - std::max(begin, a.time)) / (b.time - a.time);
+    if (share > 0) add(a, b, std::min(share, 1.0));
+  }
+  return way;
+}
+
+/// A box of all places that the body takes meanwhile.
+Bounds<float> swept_box(const ShapeDefinition<Real>& shape, const Motion& motion, double begin,
+                        double end) {
+  Bounds<Real> box = shape.bounds_of(motion.pose_at(begin));
+  const Vec3<double> pivot = motion.translation_at(begin);
+  const Vec3<double> farthest =
+      (box.lower - pivot).cwiseAbs().cwiseMax((box.upper - pivot).cwiseAbs());
+  const double size = box.lower.cwiseAbs().cwiseMax(box.upper.cwiseAbs()).maxCoeff();
+  const double way = longest_way(motion, begin, end, farthest.norm());
+  const double more = way + box_slack * (way + size);
+  box.lower.array() -= more;
+  box.upper.array() += more;
+  return rounded_outwards(box);
+}
+
+}  // namespace
+
+MovingScene::MovingScene(const Scene& scene) : scene_(scene) {
+  Instances<Real> instances;
+  instances.reserve(instance_count(scene));
+  const bool has_movers = minkray::moves(scene);
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    const Object& object = scene.objects[i];
+    if (object.motion) {
+      place_.push_back(static_cast<std::uint32_t>(movers_.size()));
+      movers_.push_back({static_cast<std::uint32_t>(i),
+                         object.half_space
+                             ? nullptr
+                             : std::make_shared<const ShapeDefinition<Real>>(object.shape)});
+      continue;
+    }
+    place_.push_back(static_cast<std::uint32_t>(instances.size()));
+    if (has_movers) object_of_still_.push_back(static_cast<std::uint32_t>(i));
+    if (object.half_space)
+      instances.add(*object.half_space, object.pose);
+    else
+      instances.add(object.shape, object.pose);
+  }
+  for (const ParticleSet& set : scene.particles)
+    instances.add_many(instances.define(set.shape), set.size(), set.linear_alike(),
+                       [&](std::size_t i) { return set.pose(i); });
+  // Particles are numbered behind all objects.
+  if (has_movers)
+    for (std::size_t i = object_of_still_.size(); i < instances.size(); ++i)
+      object_of_still_.push_back(static_cast<std::uint32_t>(i + movers_.size()));
+  still_ = RenderWorld(std::move(instances));
+}
+
+SceneWhile::SceneWhile(const MovingScene& scene, double begin, double end) : scene_(scene) {
+  std::vector<Bounds<float>> boxes;
+  for (std::size_t i = 0; i < scene.movers_.size(); ++i) {
+    const MovingScene::Mover& mover = scene.movers_[i];
+    if (!mover.definition) {
+      half_spaces_.push_back(static_cast<std::uint32_t>(i));
+      continue;
+    }
+    bodies_.push_back(static_cast<std::uint32_t>(i));
+    boxes.push_back(
+        swept_box(*mover.definition, *scene.scene_.objects[mover.object].motion, begin, end));
+  }
+  if (!boxes.empty()) bvh_ = build_bvh(boxes, BvhBuild::speed);
+  placed_.resize(scene.movers_.size());
+}
+
+bool SceneWhile::moves(std::uint32_t instance) const {
+  const std::vector<Object>& objects = scene_.scene_.objects;
+  return instance < objects.size() && objects[instance].motion.has_value();
+}
+
+bool SceneWhile::is_half_space(std::uint32_t instance) const {
+  const std::vector<Object>& objects = scene_.scene_.objects;
+  return instance < objects.size() && objects[instance].half_space.has_value();
+}
+
+PreparedShape<Real> SceneWhile::mover_at(std::size_t mover, double time) {
+  const ShapeDefinition<Real>& definition = *scene_.movers_[mover].definition;
+  Placed& placed = placed_[mover];
+  if (!placed.is_known || placed.time != time) {
+    const Object& object = scene_.scene_.objects[scene_.movers_[mover].object];
+    const auto placement = definition.placed(object.motion->pose_at(time));
+    placed = {time, true, placement.centre, placement.to_inner, placement.is_rigid_identity};
+  }
+  return {definition, placed.centre, placed.is_identity ? nullptr : &placed.to_inner};
+}
+
+/// Tells what comes before the closest hit so far, if any: as a world does.
+void SceneWhile::meet_movers(const WorldRay<Real>& ray, double time, WorldHit<Real>& closest,
+                             QueryCounts& counts) {
+  const auto meet = [&](std::uint32_t object, const CastResult<Real>& result) {
+    ++counts.casts;
+    counts.iterations += static_cast<std::uint64_t>(result.iterations);
+    counts.supports += static_cast<std::uint64_t>(result.supports);
+    ++counts.by_path[static_cast<std::size_t>(result.path)];
+    counts.exhausted += result.status == Status::exhausted ? 1 : 0;
+    if (!result.found() || !closest.yields_to(object, result.t())) return false;
+    closest = {object, result};
+    return true;
+  };
+  for (const std::uint32_t mover : half_spaces_) {
+    const std::uint32_t object = scene_.movers_[mover].object;
+    if (object == ray.skip) continue;
+    const Object& body = scene_.scene_.objects[object];
+    meet(object, cast_ray(body.half_space->posed(body.motion->pose_at(time)), ray.ray));
+  }
+  if (bodies_.empty()) return;
+  SlabRay slabs(ray.ray);
+  if (closest.found()) slabs.numbers.t_max = slabs.limit(closest.cast.t());
+  counts.nodes += traverse(bvh_, slabs, [&](std::uint32_t body) {
+    const std::uint32_t mover = bodies_[body];
+    const std::uint32_t object = scene_.movers_[mover].object;
+    if (object == ray.skip) return false;
+    if (meet(object, cast_ray(mover_at(mover, time), ray.ray)))
+      slabs.numbers.t_max = slabs.limit(closest.cast.t());
+    return false;
+  });
+}
+
+void SceneWhile::closest_hits(std::span<const WorldRay<Real>> rays, std::span<const double> times,
+                              std::span<WorldHit<Real>> hits, QueryCounts& counts) {
+  if (run_together(rays)) {
+    constexpr auto together = static_cast<std::size_t>(most_rays_at_once);
+    for (std::size_t first = 0; first < rays.size(); first += together) {
+      const std::size_t count = std::min(together, rays.size() - first);
+      scene_.still_.closest_hits(rays.subspan(first, count), hits.subspan(first, count), counts);
+    }
+  } else {
+    scene_.still_.closest_hits_in_stream(rays, hits, counts);
+  }
+  if (scene_.movers_.empty()) return;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    if (hits[i].found()) hits[i].instance = scene_.object_of_still_[hits[i].instance];
+    meet_movers(rays[i], times[i], hits[i], counts);
+  }
+}
+
+WorldHit<Real> SceneWhile::closest_hit(const WorldRay<Real>& ray, double time,
+                                       QueryCounts& counts) {
+  const bool all_still = scene_.movers_.empty();
+  std::uint32_t skip = ray.skip;
+  if (skip != no_instance) skip = moves(skip) ? no_instance : scene_.still_number(skip);
+  WorldHit<Real> closest = scene_.still_.closest_hit(ray.ray, counts, skip);
+  if (all_still) return closest;
+  if (closest.found()) closest.instance = scene_.object_of_still_[closest.instance];
+  meet_movers(ray, time, closest, counts);
+  return closest;
+}
+
+CastResult<Real> SceneWhile::exit(std::uint32_t instance, const Ray<Real>& ray, double time) {
+  if (moves(instance)) return cast_exit(mover_at(scene_.place_[instance], time), ray);
+  return cast_exit(scene_.still_.instances().at(scene_.still_number(instance)), ray);
+}
+
+}  // namespace minkray

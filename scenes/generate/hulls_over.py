@@ -1,0 +1,25 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""hulls_over.py SEEN.json COLLISION.json OUT.json: two scenes that minkray import wrote of one robot, what is
+seen of it as solid bodies, and what collides as tinted glass around them."""
+import json
+import sys
+
+
+def main():
+    with open(sys.argv[1], encoding="utf-8") as file:
+        seen = json.load(file)
+    with open(sys.argv[2], encoding="utf-8") as file:
+        collision = json.load(file)
+    seen["materials"].append({"name": "hull", "type": "dielectric", "index_of_refraction": 1,
+                              "absorption": [9, 2.2, 0.6], "priority": 1})
+    for item in collision["objects"]:
+        item["name"] = "hull of " + item["name"]
+        item["material"] = "hull"
+        seen["objects"].append(item)
+    seen["description"] = "What a robot looks like, and what of it collides."
+    with open(sys.argv[3], "w", encoding="utf-8") as file:
+        json.dump(seen, file)
+
+
+main()
