@@ -4,7 +4,7 @@
 #include "core/derived/shape_bounds.h"
 #include "renderer/audit/half_space_verdict.h"
 #include "renderer/json/json.h"
-#include "renderer/query/number_json.h"
+#include "renderer/json/number_json.h"
 #include "renderer/scene/scene_instances.h"
 #include "renderer/scene/shape_json.h"
 

@@ -5,8 +5,7 @@
 namespace minkray {
 
 void compare(const CompareArguments&, ExitCode&) {
-  run_beside("compare", "minkray-compare",
-             "which is built where Embree is installed (./run compare does both)");
+  run_beside("compare", "minkray-compare");
 }
 
 }  // namespace minkray

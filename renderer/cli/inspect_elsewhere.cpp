@@ -5,7 +5,7 @@
 namespace minkray {
 
 void inspect(const InspectArguments&, ExitCode&) {
-  run_beside("inspect", "minkray-inspect", "which ./run inspect builds");
+  run_beside("inspect", "minkray-inspect");
 }
 
 }  // namespace minkray

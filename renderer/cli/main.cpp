@@ -8,6 +8,7 @@
 
 #include "renderer/base/errors.h"
 #include "renderer/cli/options.h"
+#include "renderer/cli/program_beside.h"
 #include "renderer/cli/verbs.h"
 #include "renderer/json/mistakes.h"
 
@@ -48,9 +49,16 @@ ExitCode run(int argc, char** argv) {
       "Exit codes: 0 done, 1 a comparison or certificate failed, 2 wrong usage,\n"
       "3 bad scene or input, 4 could not write. Results are on stdout, everything else on stderr.");
   ExitCode exit_code = ExitCode::done;
-  for (const minkray::AddVerb add : minkray::verbs) add(parser, exit_code);
+  for (const minkray::VerbRow& verb : minkray::verbs) {
+    if (const minkray::AddVerb add = minkray::verb_here(verb.name))
+      add(parser, exit_code);
+    else if (argv[1] == verb.name)
+      minkray::run_beside(std::string(verb.name), verb.program);
+    else
+      parser.add_verb(std::string(verb.name));
+  }
 
-  if (argc > 1 && argv[1][0] != '-') check_verb(parser, argv[1]);
+  if (argv[1][0] != '-') check_verb(parser, argv[1]);
   const std::string complaints = parser.parse(argc, argv);
   if (!complaints.empty()) exit_code = ExitCode::wrong_usage;
   std::cerr << minkray::printable_lines(complaints);

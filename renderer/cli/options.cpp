@@ -4,6 +4,9 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <sstream>
+#include <stdexcept>
+
+#include "renderer/cli/verbs.h"
 
 namespace minkray {
 
@@ -142,8 +145,10 @@ void Parser::set_footer(const std::string& text) {
   app_->footer(text);
 }
 
-Verb Parser::add_verb(const std::string& name, const std::string& doc) {
-  return Verb(*app_->add_subcommand(name, doc));
+Verb Parser::add_verb(const std::string& name) {
+  for (const VerbRow& row : minkray::verbs)
+    if (row.name == name) return Verb(*app_->add_subcommand(name, std::string(row.doc)));
+  throw std::logic_error("no such verb: " + name);
 }
 
 std::string Parser::parse(int argc, char** argv) {

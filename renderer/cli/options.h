@@ -94,7 +94,8 @@ class Parser {
   void set_version(const std::string& version);
   /// What help ends with.
   void set_footer(const std::string& text);
-  Verb add_verb(const std::string& name, const std::string& doc);
+  /// Adds one of the verbs that there are (renderer/cli/verbs.h).
+  Verb add_verb(const std::string& name);
 
   /// They come in the order in which they were added.
   std::vector<std::string> verb_names() const;

@@ -24,7 +24,7 @@ std::vector<std::string> words() {
 
 }  // namespace
 
-void run_beside(const std::string& verb, const std::string& program, const std::string& otherwise) {
+void run_beside(const std::string& verb, const std::string& program) {
   std::error_code error;
   const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
   const std::string path = (self.parent_path() / program).string();
@@ -34,7 +34,8 @@ void run_beside(const std::string& verb, const std::string& program, const std::
   pointers.push_back(nullptr);
   ::execv(path.c_str(), pointers.data());
   if (errno == ENOENT)
-    throw WrongUsage(verb + ": needs the program " + program + " beside this one, " + otherwise);
+    throw WrongUsage(verb + ": needs the program " + program + " beside this one, which ./run " +
+                     verb + " builds");
   throw WrongUsage(verb + ": " + path + ": " + std::generic_category().message(errno));
 }
 

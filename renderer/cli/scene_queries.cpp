@@ -3,10 +3,10 @@
 
 #include "renderer/film/render.h"
 #include "renderer/import/import.h"
+#include "renderer/json/number_json.h"
 #include "renderer/json/object_reader.h"
 #include "renderer/json/parse.h"
 #include "renderer/json/values.h"
-#include "renderer/query/number_json.h"
 #include "renderer/scene/scene_instances.h"
 
 namespace minkray {

@@ -257,8 +257,7 @@ ExitCode cast(const CastVerbOptions& options) {
 }  // namespace
 
 void add_cast(Parser& parser, ExitCode& exit_code) {
-  const Verb verb = parser.add_verb(
-      "cast", "Answer ray, shape and distance queries, one JSON object a line (docs/cast.md)");
+  const Verb verb = parser.add_verb("cast");
   const auto options = std::make_shared<CastVerbOptions>();
   verb.add_option("file", options->file, "A file of queries, - for stdin").required();
   verb.add_option("--precision", options->precision, "float or double")

@@ -14,7 +14,7 @@
 #include "renderer/cli/verbs.h"
 #include "renderer/import/import.h"
 #include "renderer/io/output_file.h"
-#include "renderer/query/number_json.h"
+#include "renderer/json/number_json.h"
 #include "renderer/scene/write_scene.h"
 
 namespace minkray {
@@ -161,8 +161,7 @@ void clearance(ClearanceVerbOptions& options, ExitCode& exit_code) {
 }  // namespace
 
 void add_clearance(Parser& parser, ExitCode& exit_code) {
-  const Verb verb = parser.add_verb(
-      "clearance", "How near a robot comes to itself and to obstacles along a path, proven");
+  const Verb verb = parser.add_verb("clearance");
   const auto options = std::make_shared<ClearanceVerbOptions>();
   verb.add_option("robot", options->robot, "MJCF (.xml, .mjcf), URDF (.urdf), SDF (.sdf, .world)")
       .required();

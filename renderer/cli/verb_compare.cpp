@@ -11,8 +11,7 @@
 namespace minkray {
 
 void add_compare(Parser& parser, ExitCode& exit_code) {
-  const Verb verb =
-      parser.add_verb("compare", "Check every object of a scene against triangle meshes in Embree");
+  const Verb verb = parser.add_verb("compare");
   const auto options = std::make_shared<CompareArguments>();
   ImageArguments& image = options->image;
   image.seed = "1";

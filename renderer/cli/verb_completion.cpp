@@ -10,7 +10,7 @@
 namespace minkray {
 
 void add_completion(Parser& parser, ExitCode&) {
-  const Verb verb = parser.add_verb("completion", "Print completions for a shell");
+  const Verb verb = parser.add_verb("completion");
   const auto shell = std::make_shared<std::string>();
   verb.add_option("shell", *shell, "Which shell's").required().one_of({"bash", "zsh", "fish"});
   verb.on_call([shell, &parser] {

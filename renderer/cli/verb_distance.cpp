@@ -35,8 +35,7 @@ void distance(const DistanceVerbOptions& options) {
 }  // namespace
 
 void add_distance(Parser& parser, ExitCode&) {
-  const Verb verb = parser.add_verb(
-      "distance", "The signed distance of two shapes, with bounds (docs/contact.md)");
+  const Verb verb = parser.add_verb("distance");
   const auto options = std::make_shared<DistanceVerbOptions>();
   verb.add_option("a", options->a, "A file with a shape, as scenes have them").required();
   verb.add_option("b", options->b, "Another").required();

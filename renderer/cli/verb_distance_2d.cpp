@@ -52,8 +52,7 @@ void distance_2d(const Distance2DVerbOptions& options) {
 }  // namespace
 
 void add_distance_2d(Parser& parser, ExitCode&) {
-  const Verb verb = parser.add_verb(
-      "distance-2d", "Draw the distance algorithm on two flat shapes, one panel an iteration");
+  const Verb verb = parser.add_verb("distance-2d");
   const auto options = std::make_shared<Distance2DVerbOptions>();
   verb.add_option("file", options->file,
                   "JSON: {\"a\": shape, \"b\": shape}; of shapes that are not flat, their shadows "

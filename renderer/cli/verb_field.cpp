@@ -92,8 +92,7 @@ void field(FieldVerbOptions& options) {
 }  // namespace
 
 void add_field(Parser& parser, ExitCode&) {
-  const Verb verb = parser.add_verb(
-      "field", "Show the signed distance from a scene's objects over a plane (docs/contact.md)");
+  const Verb verb = parser.add_verb("field");
   const auto options = std::make_shared<FieldVerbOptions>();
   add_scene_option(verb, options->scene);
   add_import_options(verb, options->import);

@@ -22,8 +22,7 @@ struct GenerateVerbOptions {
 }  // namespace
 
 void add_generate(Parser& parser, ExitCode&) {
-  const Verb verb =
-      parser.add_verb("generate", "Make a scene of many shapes, the same for the same seed");
+  const Verb verb = parser.add_verb("generate");
   const auto options = std::make_shared<GenerateVerbOptions>();
   std::vector<std::string> names;
   std::string docs;

@@ -87,7 +87,7 @@ void run(HeatmapVerbOptions& options) {
 }  // namespace
 
 void add_heatmap(Parser& parser, ExitCode&) {
-  const Verb verb = parser.add_verb("heatmap", "Show what each pixel of a scene costs");
+  const Verb verb = parser.add_verb("heatmap");
   const auto options = std::make_shared<HeatmapVerbOptions>();
   options->image.add_to(verb, heatmap_suffix);
   std::string channels;

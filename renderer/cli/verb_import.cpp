@@ -34,8 +34,7 @@ void import(const ImportVerbOptions& options) {
 }  // namespace
 
 void add_import(Parser& parser, ExitCode&) {
-  const Verb verb =
-      parser.add_verb("import", "Make a scene file of a robot's MJCF, URDF, SDF or glTF");
+  const Verb verb = parser.add_verb("import");
   const auto options = std::make_shared<ImportVerbOptions>();
   verb.add_option("file", options->file,
                   "MJCF (.xml, .mjcf), URDF (.urdf), SDF (.sdf, .world), glTF (.gltf, .glb)")

@@ -50,7 +50,7 @@ void info(const InfoVerbOptions& options) {
 }  // namespace
 
 void add_info(Parser& parser, ExitCode&) {
-  const Verb verb = parser.add_verb("info", "Tell what is in a scene, or what scenes may hold");
+  const Verb verb = parser.add_verb("info");
   const auto options = std::make_shared<InfoVerbOptions>();
   add_scene_option(verb, options->scene).required(false);
   add_import_options(verb, options->import);

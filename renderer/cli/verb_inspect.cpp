@@ -12,8 +12,7 @@
 namespace minkray {
 
 void add_inspect(Parser& parser, ExitCode& exit_code) {
-  const Verb verb = parser.add_verb(
-      "inspect", "Make a page that shows each pixel's cast step by step (docs/inspector.md)");
+  const Verb verb = parser.add_verb("inspect");
   const auto options = std::make_shared<InspectArguments>();
   ImageArguments& image = options->image;
   image.samples = 16;

@@ -24,7 +24,7 @@ struct LeagueWords {
 }  // namespace
 
 void add_league(Parser& parser, ExitCode&) {
-  const Verb verb = parser.add_verb("league", "Ask solvers the hard cases and say who is right");
+  const Verb verb = parser.add_verb("league");
   const auto words = std::make_shared<LeagueWords>();
   verb.add_option("--cases", words->cases, "Files of cases, in place of all of tests/cases");
   verb.add_option("--only", words->only, "Only cases whose names contain this");
@@ -47,10 +47,7 @@ void add_league(Parser& parser, ExitCode&) {
   verb.add_option("-o,--html", words->html, "A report: case by solver");
   verb.add_option("--json", words->json, "A file of all answers and verdicts");
   verb.add_flag("-q,--quiet", words->quiet, "No progress");
-  verb.on_call([words] {
-    run_beside("league", "minkray-league",
-               "which ./run league builds, with adapters for the solvers that are installed");
-  });
+  verb.on_call([words] { run_beside("league", "minkray-league"); });
 }
 
 }  // namespace minkray

@@ -49,8 +49,7 @@ void run(const MergeVerbOptions& options) {
 }  // namespace
 
 void add_merge(Parser& parser, ExitCode&) {
-  const Verb verb = parser.add_verb(
-      "merge", "Make a picture of the part files by render --tile and --sample-share");
+  const Verb verb = parser.add_verb("merge");
   const auto options = std::make_shared<MergeVerbOptions>();
   verb.add_option("parts", options->part_files, "The part files (.exr), in any order").required();
   add_output_option(verb, options->outputs);

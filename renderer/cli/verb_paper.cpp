@@ -81,7 +81,7 @@ void paper(const PaperVerbOptions& options) {
 }  // namespace
 
 void add_paper(Parser& parser, ExitCode&) {
-  const Verb verb = parser.add_verb("paper", "Rerun the claims of the papers (docs/papers.md)");
+  const Verb verb = parser.add_verb("paper");
   const auto options = std::make_shared<PaperVerbOptions>();
   std::vector<std::string> ids;
   for (const PaperClaim& claim : claims) ids.emplace_back(claim.id);

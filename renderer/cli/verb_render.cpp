@@ -72,7 +72,7 @@ ExitCode run(RenderArguments& options) {
 }  // namespace
 
 void add_render(Parser& parser, ExitCode& exit_code) {
-  const Verb verb = parser.add_verb("render", "Make a picture of a scene");
+  const Verb verb = parser.add_verb("render");
   const auto options = std::make_shared<RenderArguments>();
   options->add_to(verb);
   verb.on_call([options, &exit_code] {

@@ -121,7 +121,7 @@ void run(ScanVerbOptions& options) {
 }  // namespace
 
 void add_scan(Parser& parser, ExitCode&) {
-  const Verb verb = parser.add_verb("scan", "Cast a sensor's rays at a scene: lidars, depths");
+  const Verb verb = parser.add_verb("scan");
   const auto options = std::make_shared<ScanVerbOptions>();
   add_scene_option(verb, options->scene);
   verb.add_option("--rays", options->rays,

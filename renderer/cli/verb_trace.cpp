@@ -14,9 +14,9 @@
 #include "renderer/cli/verbs.h"
 #include "renderer/import/import.h"
 #include "renderer/io/output_file.h"
+#include "renderer/json/number_json.h"
 #include "renderer/light/camera.h"
 #include "renderer/paper/trace_picture.h"
-#include "renderer/query/number_json.h"
 #include "renderer/scene/scene_instances.h"
 
 namespace minkray {
@@ -131,7 +131,7 @@ void trace(const TraceVerbOptions& options) {
 }  // namespace
 
 void add_trace(Parser& parser, ExitCode&) {
-  const Verb verb = parser.add_verb("trace", "Show every iteration of the cast for one pixel");
+  const Verb verb = parser.add_verb("trace");
   const auto options = std::make_shared<TraceVerbOptions>();
   add_scene_option(verb, options->scene);
   verb.add_option("--pixel", options->pixel, "x,y from the upper left corner; through its centre")

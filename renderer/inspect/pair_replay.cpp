@@ -8,7 +8,7 @@
 #include "core/contact/shape_cast.h"
 #include "renderer/inspect/replay.h"
 #include "renderer/inspect/shape_mesh.h"
-#include "renderer/query/number_json.h"
+#include "renderer/json/number_json.h"
 #include "renderer/scene/scene_instances.h"
 
 namespace minkray {

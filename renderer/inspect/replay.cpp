@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "renderer/query/number_json.h"
+#include "renderer/json/number_json.h"
 
 namespace minkray {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "renderer/inspect/replay.h"
 #include "renderer/inspect/shape_mesh.h"
-#include "renderer/query/number_json.h"
+#include "renderer/json/number_json.h"
 
 namespace minkray {
 

@@ -7,7 +7,7 @@
 #include "core/contact/shape_cast.h"
 #include "core/contact/signed_distance.h"
 #include "core/derived/convert.h"
-#include "renderer/query/number_json.h"
+#include "renderer/json/number_json.h"
 #include "renderer/query/trace.h"
 
 namespace minkray {

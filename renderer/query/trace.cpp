@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/query/trace.h"
 
-#include "renderer/query/number_json.h"
+#include "renderer/json/number_json.h"
 
 namespace minkray {
 

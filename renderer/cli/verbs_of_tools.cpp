@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// All verbs: what completions and man pages are made of.
+#include "renderer/cli/verbs.h"
+
+namespace minkray {
+namespace {
+
+struct VerbHere {
+  std::string_view name;
+  AddVerb add;
+};
+
+constexpr VerbHere verbs_here[] = {
+    {"render", add_render},
+    {"merge", add_merge},
+    {"heatmap", add_heatmap},
+    {"inspect", add_inspect},
+    {"compare", add_compare},
+    {"cast", add_cast},
+    {"scan", add_scan},
+    {"distance", add_distance},
+    {"clearance", add_clearance},
+    {"field", add_field},
+    {"trace", add_trace},
+    {"paper", add_paper},
+    {"distance-2d", add_distance_2d},
+    {"generate", add_generate},
+    {"import", add_import},
+    {"info", add_info},
+    {"league", add_league},
+    {"completion", add_completion},
+    {"man", add_man},
+};
+
+}  // namespace
+
+AddVerb verb_here(std::string_view name) {
+  for (const VerbHere& verb : verbs_here)
+    if (verb.name == name) return verb.add;
+  return nullptr;
+}
+
+}  // namespace minkray
