@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/film/render.h"
 
-#include <array>
+#include <vector>
 
 #include "renderer/film/camera_rays.h"
 #include "renderer/film/pixel_sum.h"
@@ -20,6 +20,10 @@ struct RayGroupShape {
       (pixels.height < pixels.width ? pixels.height : pixels.width) *= 2;
   }
 };
+
+/// So many camera rays are traced at once, so that what they scatter makes streams; groups of
+/// neighbours among them walk the hierarchy together.
+constexpr int most_in_wave = 512;
 
 /// While the shutter is open.
 bool is_on_the_move(const Scene& scene) {
@@ -95,7 +99,10 @@ class Rendered {
   /// Only the last pass finishes tiles. False if the watch said stop.
   bool render(const Pass& pass, bool is_last) {
     // The rays of a group: samples of one pixel first, they are the closest together; then pixels.
-    const RayGroupShape group(options_.integrator.ray_group, pass.end - pass.first);
+    // A wave has several groups, where those are of one pixel each.
+    const int samples = pass.end - pass.first, together = options_.integrator.ray_group;
+    const bool has_waves = together > 1 && samples >= together;
+    const RayGroupShape group(has_waves ? most_in_wave : together, samples);
     TileJournal tiles{journal_.done, {}};
     if (journal_.finished && is_last)
       tiles.finished = [&](std::size_t tile) { journal_.finished(rendering_, tile); };
@@ -117,7 +124,7 @@ class Rendered {
 
   void render_block(const PixelBlock& pixels, const Pass& pass, int samples_at_once,
                     RayCounts& counts) {
-    std::array<PixelSum, most_in_ray_group> sums;
+    std::vector<PixelSum> sums(most_in_wave);
     std::size_t place = 0;
     if (!kept_.empty() && pass.first > 0)
       pixels.for_each([&](const Pixel& pixel) { sums[place++] = kept_[pixel.index]; });
@@ -137,7 +144,7 @@ class Rendered {
 
   /// So many samples of each pixel that is not done. False if all are.
   bool trace(const PixelBlock& pixels, const Pass& part, PixelSum* sums, RayCounts& counts) {
-    std::array<TracedRay, most_in_ray_group> rays;
+    std::vector<TracedRay> rays(most_in_wave);
     std::size_t count = 0;
     const PixelSum* asked = sums;
     pixels.for_each([&](const Pixel& pixel) {
