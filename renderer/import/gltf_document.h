@@ -30,7 +30,7 @@ class GltfDocument {
   /// is not there, or is wrong, which is a mistake.
   std::optional<std::size_t> index(const Json& object, const JsonPath& path, std::string_view key,
                                    std::string_view list);
-  /// The same for a number that stands in a list.
+  /// Reads a number that stands in a list in the same way.
   std::optional<std::size_t> index_of(const Json& number, const JsonPath& path,
                                       std::string_view list);
   const Json& item(std::string_view list, std::size_t index) const;

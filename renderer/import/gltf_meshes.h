@@ -26,7 +26,7 @@ class GltfMeshes {
   /// piece (components), or none. Empty, and maybe mistakes, if there are none.
   const MeshParts& mesh(std::size_t index);
 
-  /// Of each part of mesh(), the primitive that it is, if groups are asked for.
+  /// Tells which primitive each part of mesh() is, if groups are asked for.
   const std::vector<std::size_t>& primitives_of_parts(std::size_t index);
 
   /// How many primitives were points or lines.
