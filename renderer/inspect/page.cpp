@@ -13,8 +13,8 @@
 #include "renderer/inspect/shape_mesh.h"
 #include "renderer/io/deflate.h"
 #include "renderer/io/image_file.h"
-#include "renderer/light/camera.h"
 #include "renderer/json/number_json.h"
+#include "renderer/light/camera.h"
 #include "renderer/scene/scene_instances.h"
 
 namespace minkray {
