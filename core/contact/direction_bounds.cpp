@@ -60,11 +60,12 @@ class CellBound {
 
   double value() const {
     const double allowed = highest_ + rounding * size_;
-    if (!(allowed > 0)) return allowed;
-    // On the sphere u is larger than on the flat triangle, which is nearer to the origin.
+    // On the flat triangle, which is nearer to the origin than the sphere, u is concave: no larger
+    // than at the candidates. There and on the sphere it differs by factors between these two.
     const auto& corners = cell_.corners;
     const Vec3<double> normal = (corners[1].n - corners[0].n).cross(corners[2].n - corners[0].n);
-    return allowed * normal.norm() / std::abs(normal.dot(corners[0].n));
+    const double nearest = std::abs(normal.dot(corners[0].n)) / normal.norm();
+    return allowed > 0 ? allowed / nearest : allowed * nearest;
   }
 
  private:
@@ -95,11 +96,14 @@ class CellBound {
   }
 
   /// Where n.p = n.q = n.r, if that is in the cell or just beside it. Of points in a line the one
-  /// between the others bounds nothing. However much rounding turns n: where the foot of the plane
-  /// is in the triangle, its distance is rounded as the points are; where it is not, u is larger
-  /// elsewhere.
+  /// between the others bounds nothing. Of slivers rounding turns n much: it matters where the foot
+  /// of their plane is in the triangle (elsewhere u is larger at another candidate), and that is no
+  /// further along n than the furthest of the three, nor is the plane but for the square of the
+  /// turn.
   void try_triple(const Vec3<double>& p, const Vec3<double>& q, const Vec3<double>& r) {
     constexpr double in_line = 1e-12, beside = 1e-3;
+    // A cross product is rounded by so much of its factors' lengths.
+    constexpr double in_rounding = 8 * std::numeric_limits<double>::epsilon();
     const Vec3<double> e1 = q - p, e2 = r - p;
     Vec3<double> n = e1.cross(e2);
     const double length = n.norm();
@@ -110,7 +114,10 @@ class CellBound {
       const Vec3<double> inward = corners[side].n.cross(corners[(side + 1) % 3].n);
       if (n.dot(inward) < -beside * inward.squaredNorm()) return;
     }
-    try_direction(n, u(n));
+    const double at_p = n.dot(p), at_q = n.dot(q), at_r = n.dot(r);
+    const double turn = in_rounding * e1.norm() * e2.norm() / length;
+    const double value = u(n) + (std::max({at_p, at_q, at_r}) - std::min({at_p, at_q, at_r}));
+    try_direction(n, value + std::abs(value) * turn * turn);
   }
 
   const Cell& cell_;

@@ -14,6 +14,7 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 
 #include "core/contact/core_query.h"
 #include "core/contact/simplex_point.h"
@@ -62,6 +63,9 @@ class ExpandingPolytope {
                        most_heaped = 4 * most_faces, most_supports = 1000;
   /// In sizes: what is as near to a plane is in it.
   static constexpr double in_plane = 1e-14;
+  /// What a volume between four points of C is rounded by, in cubes of the size: differences, a
+  /// cross product and a dot product of numbers no larger than that.
+  static constexpr double rounded_volume = 32 * std::numeric_limits<double>::epsilon();
 
   struct Face {
     Vec3<double> n;
@@ -93,10 +97,12 @@ class ExpandingPolytope {
     count_ = 4;
     constexpr int corners[4][3] = {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {0, 2, 3}};
     for (const auto& corner : corners) {
-      // Here the origin must be on the inner side for sure: all else follows from that.
+      // Here the origin must be on the inner side for sure: all else follows from that. Of slivers
+      // n itself is rounding.
       const Vec3<double>& from = y_[corner[0]];
       const Vec3<double> n = (y_[corner[1]] - from).cross(y_[corner[2]] - from);
-      if (!(n.dot(from) > in_plane * size_ * n.norm())) return false;
+      const double n_rounding = rounded_volume * size_ * size_;
+      if (!(n.dot(from) > (in_plane * n.norm() + n_rounding) * size_)) return false;
       if (add_face(corner[0], corner[1], corner[2]) < 0) return false;
     }
     for (int f = 0; f < 4; ++f)

@@ -71,7 +71,10 @@ class Referee {
               return "a plane better than upper";
         }
     const Vec3<double> apart = found.point_b - found.point_a - found.value * found.normal;
-    if (!(apart.norm() <= 1e-5 * size_ + rounding_ + far()))
+    // Between planes `lower` apart, points `upper` apart are no further aside than this.
+    const double width = found.upper - found.lower;
+    const double aside = std::sqrt(2 * std::abs(found.value) * (width + rounding_));
+    if (!(apart.norm() <= 1e-5 * size_ + rounding_ + far() + aside))
       return "points not value along the normal apart";
     return "";
   }
