@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t most_numbers = 100'000'000;
 /// Sparse accessors may leave out what they change: zeros, which no bytes of the file stand for.
-constexpr std::size_t most_zeros = 1'000'000;
+constexpr std::size_t most_zeros = 100'000;
 constexpr std::size_t most_numbers_read = 400'000'000;
 
 /// The component types' numbers in the file are OpenGL's.

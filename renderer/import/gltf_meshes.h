@@ -13,7 +13,7 @@
 namespace minkray {
 
 /// No file shows more vertices, meshes that are shown again counted again.
-inline constexpr std::size_t most_gltf_vertices = 20'000'000;
+inline constexpr std::size_t most_gltf_vertices = 8'000'000;
 
 /// Turns y up to z up.
 Affine<double> gltf_z_up();

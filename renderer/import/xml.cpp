@@ -20,6 +20,20 @@ constexpr std::size_t most_reported = 100;
 /// A piece of what was found, for messages.
 constexpr std::size_t longest_quote = 60;
 
+/// tinyxml2 compares each attribute of an element with all before it.
+constexpr std::size_t most_attributes = 10'000;
+
+/// How many attributes an element has at most: values in quotes behind an equals sign.
+std::size_t attributes_at_once(std::string_view text) {
+  std::size_t most = 0, here = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '<' || text[i] == '>') here = 0;
+    if ((text[i] == '"' || text[i] == '\'') && i > 0 && text[i - 1] == '=')
+      most = std::max(most, ++here);
+  }
+  return most;
+}
+
 XmlElement converted(const tinyxml2::XMLElement& from, std::uint32_t file) {
   XmlElement element;
   element.name = from.Name();
@@ -97,6 +111,11 @@ std::optional<XmlElement> XmlFiles::parse(const std::string& text,
   }
   if (text.find("<!ENTITY") != text.npos) {
     mistakes_.add(where + "declares entities (<!ENTITY), which are not read");
+    return std::nullopt;
+  }
+  if (attributes_at_once(text) > most_attributes) {
+    mistakes_.add(where + "has an element of more than " + std::to_string(most_attributes) +
+                  " attributes");
     return std::nullopt;
   }
   tinyxml2::XMLDocument document;

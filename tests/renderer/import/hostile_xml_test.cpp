@@ -104,6 +104,13 @@ TEST(HostileXml, numbers_that_are_none_or_too_large_are_told) {
   EXPECT_THROW(import_scene(folder / "far.xml"), BadInput);
 }
 
+TEST(HostileXml, an_element_of_a_million_attributes_is_refused_at_once) {
+  std::string text = "<mujoco><worldbody><geom";
+  for (int i = 0; i < 1'000'000; ++i) text += " a" + std::to_string(i) + "='1'";
+  EXPECT_NE(mistakes_of(text + "/></worldbody></mujoco>", "m.xml").find("attributes"),
+            std::string::npos);
+}
+
 TEST(HostileXml, bodies_and_classes_that_are_not_there_are_named) {
   EXPECT_NE(mistakes_of("<mujoco><worldbody><body childclass='none'><geom size='1' class='other'/>"
                         "</body></worldbody></mujoco>",
