@@ -39,6 +39,7 @@ pid_t start_program(std::vector<std::string> words) {
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
+  std::fflush(nullptr);  // or the child would write what waits, too
   const pid_t child = ::fork();
   // Who kills process -1 kills all there are.
   if (child < 0) throw std::runtime_error("cannot start a process");
