@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // glTF 2.0 as a container: the JSON of a .gltf or .glb file, its buffers (in the file, in data:
 // URIs, in files beside it) and the numbers that accessors name in them.
-// https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html
+// Khronos Group, "glTF 2.0 Specification", 2021.
 #pragma once
 
 #include <filesystem>
