@@ -12,11 +12,7 @@ template <class T>
 CastResult<T> counted_cast(const PreparedShape<T>& shape, const Ray<T>& ray,
                            const CastOptions<T>& options, QueryCounts& counts) {
   const CastResult<T> result = cast_ray(shape, ray, options);
-  ++counts.casts;
-  counts.iterations += static_cast<std::uint64_t>(result.iterations);
-  counts.supports += static_cast<std::uint64_t>(result.supports);
-  ++counts.by_path[static_cast<std::size_t>(result.path)];
-  counts.exhausted += result.status == Status::exhausted ? 1 : 0;
+  counts.add_cast(result);
   return result;
 }
 

@@ -32,6 +32,26 @@ struct QueryCounts {
 
   std::uint64_t answered_by(Path path) const { return by_path[static_cast<std::size_t>(path)]; }
 
+  /// The furthest path that any cast needed; the first, if there was none.
+  Path furthest_path() const {
+    std::size_t path = path_count - 1;
+    while (path > 0 && by_path[path] == 0) --path;
+    return static_cast<Path>(path);
+  }
+
+  /// One more cast.
+  void add_cast(int its_supports, int its_iterations, Path path, bool is_exhausted) {
+    ++casts;
+    iterations += static_cast<std::uint64_t>(its_iterations);
+    supports += static_cast<std::uint64_t>(its_supports);
+    ++by_path[static_cast<std::size_t>(path)];
+    exhausted += is_exhausted ? 1 : 0;
+  }
+  template <class T>
+  void add_cast(const CastResult<T>& result) {
+    add_cast(result.supports, result.iterations, result.path, result.status == Status::exhausted);
+  }
+
   QueryCounts& operator+=(const QueryCounts& other) {
     nodes += other.nodes;
     casts += other.casts;
@@ -96,7 +116,8 @@ class World {
   /// Bit i answers rays[i].
   RayGroupMask occluded(std::span<const WorldRay<T>> rays, QueryCounts& counts) const;
 
-  /// Answer any number of rays that go each their own way: the more, the faster, from a hundred on.
+  /// Answer any number of rays that go each their own way: faster from two rays on for each shape
+  /// that instances share.
   void closest_hits_in_stream(std::span<const WorldRay<T>> rays, std::span<WorldHit<T>> hits,
                               QueryCounts& counts) const;
   /// met[i] becomes 1 if rays[i] is occluded, 0 if not.

@@ -82,22 +82,12 @@ template <class T, class RayOf, class OnFound>
 void cast_all(const PreparedShape<T>& shape, RayGroupMask which, const RayOf& ray_of,
               const CastOptions<T>& options, bool in_packets, QueryCounts& counts,
               const OnFound& on_found) {
-  const auto count = [&](std::uint64_t supports, std::uint64_t iterations, Path path,
-                         bool exhausted) {
-    ++counts.casts;
-    ++counts.by_path[static_cast<std::size_t>(path)];
-    counts.iterations += iterations;
-    counts.supports += supports;
-    counts.exhausted += exhausted ? 1 : 0;
-  };
   const bool has_packets = in_packets && shape.definition().has_packets();
   while (which != 0) {
     if (!has_packets || std::has_single_bit(which)) {
       const int lane = next_of(which);
       const CastResult<T> result = cast_ray(shape, ray_of(lane), options);
-      count(static_cast<std::uint64_t>(result.supports),
-            static_cast<std::uint64_t>(result.iterations), result.path,
-            result.status == Status::exhausted);
+      counts.add_cast(result);
       if (result.found()) on_found(lane, result.t(), [&] { return result; });
       continue;
     }
@@ -114,9 +104,9 @@ void cast_all(const PreparedShape<T>& shape, RayGroupMask which, const RayOf& ra
     cast_packet(shape, packet, (LaneBits(1) << used) - 1, answers);
     const LaneBits answered = answers.found() | answers.miss;
     for (int i = 0; i < used; ++i) {
-      const auto supports =
-          static_cast<std::uint64_t>(answers.supports[static_cast<std::size_t>(i)]);
-      count(supports, supports, answers.path[static_cast<std::size_t>(i)], !(answered >> i & 1));
+      const auto used_lane = static_cast<std::size_t>(i);
+      const int supports = static_cast<int>(answers.supports[used_lane]);
+      counts.add_cast(supports, supports, answers.path[used_lane], !(answered >> i & 1));
       if (answers.found() >> i & 1)
         on_found(lane_of[static_cast<std::size_t>(i)], answers.t(i),
                  [&] { return answers.result(i); });

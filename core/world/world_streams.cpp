@@ -36,7 +36,7 @@ class PairQueue {
 };
 
 /// Whether so many rays fill the queues, two for each shape that instances share: if not, rays are
-/// faster one by one.
+/// faster one by one (docs/decisions/streams.md).
 template <class T>
 bool fill_queues(const Instances<T>& instances, std::size_t rays) {
   return 2 * instances.definitions() <= rays;
@@ -101,17 +101,9 @@ class PairCaster {
     return instances_.seen_by(instance, rays_[ray].ray, rays_[ray].time);
   }
 
-  void count(int supports, int iterations, Path path, bool exhausted) {
-    ++counts_.casts;
-    ++counts_.by_path[static_cast<std::size_t>(path)];
-    counts_.iterations += static_cast<std::uint64_t>(iterations);
-    counts_.supports += static_cast<std::uint64_t>(supports);
-    counts_.exhausted += exhausted ? 1 : 0;
-  }
-
   void cast_alone(std::uint32_t ray, std::uint32_t instance) {
     const CastResult<T> result = cast_ray(instances_.at(instance), seen(ray, instance), options_);
-    count(result.supports, result.iterations, result.path, result.status == Status::exhausted);
+    counts_.add_cast(result);
     if (result.found()) on_found_(ray, instance, result.t(), [&] { return result; });
   }
 
@@ -132,7 +124,7 @@ class PairCaster {
     for (int i = 0; i < used; ++i) {
       const auto lane = static_cast<std::size_t>(i);
       const int supports = static_cast<int>(answers.supports[lane]);
-      count(supports, supports, answers.path[lane], !(answered >> i & 1));
+      counts_.add_cast(supports, supports, answers.path[lane], !(answered >> i & 1));
       if (answers.found() >> i & 1)
         on_found_(queue.ray(i), queue.instance(i), answers.t(i), [&] { return answers.result(i); });
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The command line: minkray VERB ARGS...
+#include <algorithm>
 #include <csignal>
 #include <exception>
 #include <iostream>
@@ -49,9 +50,11 @@ ExitCode run(int argc, char** argv) {
       "Exit codes: 0 done, 1 a comparison or certificate failed, 2 wrong usage,\n"
       "3 bad scene or input, 4 could not write. Results are on stdout, everything else on stderr.");
   ExitCode exit_code = ExitCode::done;
+  const std::span<const minkray::VerbHere> here = minkray::verbs_here();
   for (const minkray::VerbRow& verb : minkray::verbs) {
-    if (const minkray::AddVerb add = minkray::verb_here(verb.name))
-      add(parser, exit_code);
+    const auto found = std::ranges::find(here, verb.name, &minkray::VerbHere::name);
+    if (found != here.end())
+      found->add(parser, exit_code);
     else if (argv[1] == verb.name)
       minkray::run_beside(std::string(verb.name), verb.program);
     else

@@ -4,6 +4,7 @@
 // else to compile (docs/decisions/build-time.md). The others lie beside it and are run by it.
 #pragma once
 
+#include <span>
 #include <string_view>
 
 #include "renderer/cli/exit_code.h"
@@ -53,9 +54,14 @@ inline constexpr VerbRow verbs[] = {
 /// one of renderer/errors.h.
 using AddVerb = void (*)(Parser& parser, ExitCode& exit_code);
 
-/// What adds a verb to this program; null if another one has it. It is defined once for `minkray`
+struct VerbHere {
+  std::string_view name;
+  AddVerb add;
+};
+
+/// The verbs that this program has itself. It is defined once for `minkray`
 /// (verbs_of_pictures.cpp), and once for the programs that know all verbs (verbs_of_tools.cpp).
-AddVerb verb_here(std::string_view name);
+std::span<const VerbHere> verbs_here();
 
 void add_cast(Parser& parser, ExitCode& exit_code);
 void add_clearance(Parser& parser, ExitCode& exit_code);

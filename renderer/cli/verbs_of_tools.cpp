@@ -5,12 +5,7 @@
 namespace minkray {
 namespace {
 
-struct VerbHere {
-  std::string_view name;
-  AddVerb add;
-};
-
-constexpr VerbHere verbs_here[] = {
+constexpr VerbHere here[] = {
     {"render", add_render},
     {"merge", add_merge},
     {"heatmap", add_heatmap},
@@ -34,10 +29,8 @@ constexpr VerbHere verbs_here[] = {
 
 }  // namespace
 
-AddVerb verb_here(std::string_view name) {
-  for (const VerbHere& verb : verbs_here)
-    if (verb.name == name) return verb.add;
-  return nullptr;
+std::span<const VerbHere> verbs_here() {
+  return here;
 }
 
 }  // namespace minkray

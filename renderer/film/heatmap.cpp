@@ -28,11 +28,8 @@ float heat_of_ray(const RenderWorld& world, const Ray<Real>& ray, HeatChannel ch
       return static_cast<float>(work.supports);
     case HeatChannel::nodes:
       return static_cast<float>(work.nodes);
-    case HeatChannel::path: {
-      std::size_t last = path_count - 1;
-      while (last > 0 && work.by_path[last] == 0) --last;
-      return static_cast<float>(last);
-    }
+    case HeatChannel::path:
+      return static_cast<float>(work.furthest_path());
     case HeatChannel::status:
       break;
   }

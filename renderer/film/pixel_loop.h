@@ -36,6 +36,8 @@ class PixelBlock {
  public:
   PixelBlock(const PixelRect& region, const PixelRect& pixels) : region_(region), pixels_(pixels) {}
 
+  std::size_t count() const { return pixel_count(pixels_); }
+
   /// Calls visit(pixel) for all of them, in rows.
   template <class Visit>
   void for_each(const Visit& visit) const {

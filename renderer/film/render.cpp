@@ -5,6 +5,7 @@
 
 #include "renderer/film/camera_rays.h"
 #include "renderer/film/pixel_sum.h"
+#include "renderer/scene/add_instances.h"
 #include "renderer/scene/scene_instances.h"
 
 namespace minkray {
@@ -124,7 +125,7 @@ class Rendered {
 
   void render_block(const PixelBlock& pixels, const Pass& pass, int samples_at_once,
                     RayCounts& counts) {
-    std::vector<PixelSum> sums(most_in_wave);
+    std::vector<PixelSum> sums(pixels.count());
     std::size_t place = 0;
     if (!kept_.empty() && pass.first > 0)
       pixels.for_each([&](const Pixel& pixel) { sums[place++] = kept_[pixel.index]; });
@@ -144,16 +145,16 @@ class Rendered {
 
   /// So many samples of each pixel that is not done. False if all are.
   bool trace(const PixelBlock& pixels, const Pass& part, PixelSum* sums, RayCounts& counts) {
-    std::vector<TracedRay> rays(most_in_wave);
-    std::size_t count = 0;
+    std::vector<TracedRay> rays;
+    rays.reserve(pixels.count() * static_cast<std::size_t>(part.end - part.first));
     const PixelSum* asked = sums;
     pixels.for_each([&](const Pixel& pixel) {
       if (asked++->is_done) return;
       for (int sample = part.first; sample < part.end; ++sample)
-        rays[count++] = rays_.ray(pixel, sample);
+        rays.push_back(rays_.ray(pixel, sample));
     });
-    if (count == 0) return false;
-    integrator_.trace(std::span(rays).first(count), counts);
+    if (rays.empty()) return false;
+    integrator_.trace(rays, counts);
     const TracedRay* ray = rays.data();
     PixelSum* sum = sums;
     pixels.for_each([&](const Pixel& pixel) {
@@ -209,15 +210,8 @@ class Rendered {
 RenderWorld make_world(const Scene& scene, const CastOptions<Real>& options, BvhBuild build) {
   Instances<Real> instances;
   instances.reserve(instance_count(scene));
-  for (const Object& object : scene.objects) {
-    if (object.half_space)
-      instances.add(*object.half_space, object.pose);
-    else
-      instances.add(object.shape, object.pose);
-  }
-  for (const ParticleSet& set : scene.particles)
-    instances.add_many(instances.define(set.shape), set.size(), set.linear_alike(),
-                       [&](std::size_t i) { return set.pose(i); });
+  for (const Object& object : scene.objects) add_object(instances, object);
+  add_particles(instances, scene);
   RenderWorld world(std::move(instances), options, build);
   if (is_on_the_move(scene)) follow(world, scene);
   return world;

@@ -24,7 +24,7 @@ RayCost cost_of(const SceneCasts& casts, const Ray<Real>& ray) {
     const std::chrono::duration<double, std::nano> taken = Clock::now() - begin;
     least = std::min(least, taken.count());
     cost.work = answer.work;
-    cost.last_path = answer.last_path();
+    cost.last_path = answer.work.furthest_path();
   }
   cost.nanoseconds = least;
   return cost;

@@ -5,12 +5,6 @@
 
 namespace minkray {
 
-Path SceneAnswer::last_path() const {
-  std::size_t last = path_count - 1;
-  while (last > 0 && work.by_path[last] == 0) --last;
-  return static_cast<Path>(last);
-}
-
 SceneCasts::SceneCasts(const Scene& scene, const CastOptions<Real>& options)
     : world_(make_world(scene, options)) {}
 

@@ -16,9 +16,6 @@ namespace minkray {
 struct SceneAnswer {
   WorldHit<Real> hit;
   QueryCounts work;
-
-  /// The last stage that any of its casts needed.
-  Path last_path() const;
 };
 
 class SceneCasts {

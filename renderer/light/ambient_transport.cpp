@@ -18,10 +18,6 @@ namespace {
 /// (Kaplanyan and Dachsbacher, "Path Space Regularization", 2013): the light stays, but is spread.
 constexpr double least_alpha_behind_bounce = 0.3;
 
-/// From so many rays on that go each their own way, a stream is faster than one by one
-/// (docs/decisions/streams.md).
-constexpr std::size_t least_in_stream = 12;
-
 }  // namespace
 
 /// What came before rays that go together.
@@ -107,10 +103,8 @@ void AmbientTransport::follow(std::span<TracedRay> rays, const Path& path,
 void AmbientTransport::find_hits(std::span<const WorldRay<Real>> rays,
                                  std::span<WorldHit<Real>> hits, const Path& path,
                                  RayCounts& counts) const {
-  if (!path.at_camera() && rays.size() >= least_in_stream)
-    return world_.closest_hits_in_stream(rays, hits, counts.work);
-  const std::size_t together =
-      path.at_camera() ? static_cast<std::size_t>(options_.ray_group) : std::size_t{1};
+  if (!path.at_camera()) return world_.closest_hits_in_stream(rays, hits, counts.work);
+  const auto together = static_cast<std::size_t>(options_.ray_group);
   for (std::size_t i = 0; i < rays.size(); i += together) {
     const std::size_t count = std::min(together, rays.size() - i);
     world_.closest_hits(rays.subspan(i, count), hits.subspan(i, count), counts.work);
@@ -122,11 +116,10 @@ std::vector<std::uint8_t> AmbientTransport::blocked(RayKind kind,
                                                     std::span<const WorldRay<Real>> rays,
                                                     bool side_by_side, RayCounts& counts) const {
   std::vector<std::uint8_t> met(rays.size());
-  if (!side_by_side && rays.size() >= least_in_stream) {
+  if (!side_by_side) {
     world_.occluded_in_stream(rays, met, counts.work);
   } else {
-    const std::size_t together =
-        side_by_side ? static_cast<std::size_t>(options_.ray_group) : std::size_t{1};
+    const auto together = static_cast<std::size_t>(options_.ray_group);
     for (std::size_t i = 0; i < rays.size(); i += together) {
       const std::size_t count = std::min(together, rays.size() - i);
       const RayGroupMask answers = world_.occluded(rays.subspan(i, count), counts.work);

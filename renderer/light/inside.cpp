@@ -62,11 +62,7 @@ WorldHit<Real> closest_but(const RenderWorld& world, const WorldRay<Real>& ray,
     return instance == ray.skip || std::find(but.begin(), but.end(), instance) != but.end();
   };
   const auto meet = [&](std::uint32_t instance, const CastResult<Real>& cast) {
-    ++counts.casts;
-    counts.iterations += static_cast<std::uint64_t>(cast.iterations);
-    counts.supports += static_cast<std::uint64_t>(cast.supports);
-    ++counts.by_path[static_cast<std::size_t>(cast.path)];
-    counts.exhausted += cast.status == Status::exhausted ? 1 : 0;
+    counts.add_cast(cast);
     if (!cast.found() || !closest.yields_to(instance, cast.t())) return false;
     closest = {instance, cast};
     return true;

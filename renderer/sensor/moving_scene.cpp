@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/bvh/traverse.h"
+#include "renderer/scene/add_instances.h"
 #include "renderer/scene/scene_instances.h"
 
 namespace minkray {
@@ -84,14 +85,9 @@ MovingScene::MovingScene(const Scene& scene) : scene_(scene) {
     }
     place_.push_back(static_cast<std::uint32_t>(instances.size()));
     if (has_movers) object_of_still_.push_back(static_cast<std::uint32_t>(i));
-    if (object.half_space)
-      instances.add(*object.half_space, object.pose);
-    else
-      instances.add(object.shape, object.pose);
+    add_object(instances, object);
   }
-  for (const ParticleSet& set : scene.particles)
-    instances.add_many(instances.define(set.shape), set.size(), set.linear_alike(),
-                       [&](std::size_t i) { return set.pose(i); });
+  add_particles(instances, scene);
   // Particles are numbered behind all objects.
   if (has_movers)
     for (std::size_t i = object_of_still_.size(); i < instances.size(); ++i)
@@ -140,11 +136,7 @@ PreparedShape<Real> SceneWhile::mover_at(std::size_t mover, double time) {
 void SceneWhile::meet_movers(const WorldRay<Real>& ray, double time, WorldHit<Real>& closest,
                              QueryCounts& counts) {
   const auto meet = [&](std::uint32_t object, const CastResult<Real>& result) {
-    ++counts.casts;
-    counts.iterations += static_cast<std::uint64_t>(result.iterations);
-    counts.supports += static_cast<std::uint64_t>(result.supports);
-    ++counts.by_path[static_cast<std::size_t>(result.path)];
-    counts.exhausted += result.status == Status::exhausted ? 1 : 0;
+    counts.add_cast(result);
     if (!result.found() || !closest.yields_to(object, result.t())) return false;
     closest = {object, result};
     return true;

@@ -120,11 +120,10 @@ const std::vector<Case>& cases() {
          for (int i = 0; i < many; ++i) {
            const char* comma = i > 0 ? "," : "";
            primitives += comma + (R"({"attributes":{"POSITION":)" + std::to_string(i)) + "}}";
-           accessors +=
-               std::string(comma) +
-               R"({"componentType":5120,"count":100000,"type":"VEC3","sparse":{"count":1,)"
-               R"("indices":{"bufferView":0,"componentType":5121},)"
-               R"("values":{"bufferView":0}}})";
+           accessors += std::string(comma) +
+                        R"({"componentType":5120,"count":100000,"type":"VEC3","sparse":{"count":1,)"
+                        R"("indices":{"bufferView":0,"componentType":5121},)"
+                        R"("values":{"bufferView":0}}})";
          }
          return R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0}],"meshes":[{"primitives":[)" +
                 primitives + R"(]}],"accessors":[)" + accessors +

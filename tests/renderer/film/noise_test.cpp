@@ -4,24 +4,15 @@
 #include <gtest/gtest.h>
 
 #include "renderer/film/render.h"
+#include "tests/support/lit_ball.h"
 
 namespace minkray {
 namespace {
 
-/// A matt ball and floor, a lamp, and much background.
-Scene lit_ball() {
-  Scene scene;
-  scene.camera.position = {0, -6, 2};
-  scene.camera.resolution = {40, 30};
-  scene.materials = {{"matt", LambertMaterial{Colour::Constant(0.7)}},
-                     {"lamp", EmissiveMaterial{Colour::Constant(8)}}};
+/// There is much background.
+Scene ball_and_background() {
+  Scene scene = lit_ball({40, 30});
   scene.background = {Colour::Constant(0.3), Colour::Constant(0.3)};
-  const auto add = [&](Shape<double> shape, const Vec3<double>& at, std::uint32_t material) {
-    scene.objects.push_back({"", std::move(shape), {Mat3<double>::Identity(), at}, material});
-  };
-  add(Box<double>{{3, 3, 0.5}}, {0, 0, -1.5}, 0);
-  add(Sphere<double>{1}, {0, 0, 0}, 0);
-  add(Sphere<double>{0.4}, {2, -1, 3}, 1);
   return scene;
 }
 
@@ -37,7 +28,7 @@ Rendering rendering(const Scene& scene, int samples, double noise, std::uint64_t
 }
 
 TEST(Noise, pixels_stop_when_they_are_quiet_and_not_before) {
-  const Scene scene = lit_ball();
+  const Scene scene = ball_and_background();
   constexpr double noise = 0.04;
   const Rendering all = rendering(scene, 1024, 0, 1, 16);
   const Rendering quiet = rendering(scene, 1024, noise, 2, 16);
@@ -53,7 +44,7 @@ TEST(Noise, pixels_stop_when_they_are_quiet_and_not_before) {
 }
 
 TEST(Noise, pixels_stop_at_the_same_samples_whatever_rays_go_together) {
-  const Scene scene = lit_ball();
+  const Scene scene = ball_and_background();
   const Rendering one = rendering(scene, 200, 0.1, 3, 1);
   for (const int packet : {5, 16, 32}) {
     const Rendering many = rendering(scene, 200, 0.1, 3, packet);

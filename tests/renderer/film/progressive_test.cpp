@@ -4,24 +4,14 @@
 #include <gtest/gtest.h>
 
 #include "renderer/film/render.h"
+#include "tests/support/lit_ball.h"
 
 namespace minkray {
 namespace {
 
-/// A matt ball on a floor under a lamp, out of focus.
-Scene ball_in_light() {
-  Scene scene;
-  scene.camera.position = {0, -6, 2};
-  scene.camera.resolution = {37, 29};
+Scene ball_out_of_focus() {
+  Scene scene = lit_ball({37, 29});
   scene.camera.aperture = 0.1;
-  scene.materials = {{"matt", LambertMaterial{Colour::Constant(0.7)}},
-                     {"lamp", EmissiveMaterial{Colour::Constant(8)}}};
-  const auto add = [&](Shape<double> shape, const Vec3<double>& at, std::uint32_t material) {
-    scene.objects.push_back({"", std::move(shape), {Mat3<double>::Identity(), at}, material});
-  };
-  add(Box<double>{{3, 3, 0.5}}, {0, 0, -1.5}, 0);
-  add(Sphere<double>{1}, {0, 0, 0}, 0);
-  add(Sphere<double>{0.4}, {2, -1, 3}, 1);
   return scene;
 }
 
@@ -34,7 +24,7 @@ RenderOptions options_for(const Scene& scene, int samples) {
 }
 
 TEST(Progressive, the_last_picture_has_the_same_bits_as_in_one_go) {
-  const Scene scene = ball_in_light();
+  const Scene scene = ball_out_of_focus();
   const RenderWorld world = make_world(scene);
   for (const int samples : {1, 6, 16, 100})
     for (const double noise : {0.0, 0.1}) {
@@ -58,7 +48,7 @@ TEST(Progressive, the_last_picture_has_the_same_bits_as_in_one_go) {
 }
 
 TEST(Progressive, each_pass_is_a_picture_of_its_samples) {
-  const Scene scene = ball_in_light();
+  const Scene scene = ball_out_of_focus();
   const RenderWorld world = make_world(scene);
   RenderJournal journal;
   int compared = 0;
@@ -78,7 +68,7 @@ TEST(Progressive, each_pass_is_a_picture_of_its_samples) {
 
 // Pixels of tiles that are done, from a checkpoint, are left as they are.
 TEST(Progressive, goes_on_where_a_checkpoint_ended) {
-  const Scene scene = ball_in_light();
+  const Scene scene = ball_out_of_focus();
   const RenderWorld world = make_world(scene);
   const RenderOptions options = options_for(scene, 20);
   const Rendering whole = render(scene, world, options);
@@ -96,7 +86,7 @@ TEST(Progressive, goes_on_where_a_checkpoint_ended) {
 }
 
 TEST(LightChannels, direct_light_is_that_of_the_direct_integrator) {
-  const Scene scene = ball_in_light();
+  const Scene scene = ball_out_of_focus();
   const RenderWorld world = make_world(scene);
   RenderOptions options = options_for(scene, 8);
   const Rendering all = render(scene, world, options);
@@ -113,7 +103,7 @@ TEST(LightChannels, direct_light_is_that_of_the_direct_integrator) {
 // The mean of what the variance says over pictures of other seeds, beside how they differ. Samples
 // of one pixel are spread evenly, so that it says somewhat too much.
 TEST(LightChannels, the_variance_is_about_how_pictures_differ) {
-  const Scene scene = ball_in_light();
+  const Scene scene = ball_out_of_focus();
   const RenderWorld world = make_world(scene);
   RenderOptions options = options_for(scene, 16);
   const Rendering reference = render(scene, world, options_for(scene, 2048));
