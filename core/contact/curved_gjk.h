@@ -50,9 +50,10 @@ class CurvedGjk {
       feature_b_[count_] = w.feature_b;
       ++count_;
       const SimplexPoint closest = closest_of_simplex(y_, count_, true);
-      if (closest.kept == 0) return finish(settled(length));
-      // Rounding ends what should come nearer with every turn.
-      if (!(closest.squared < squared) && (++stalls > 1 || query_.result.lower > 0)) {
+      // Rounding ends what should come nearer with every turn: the point of the turn before is the
+      // answer, which the newest has no weight in.
+      const bool is_nearer = closest.kept != 0 && closest.squared < squared;
+      if (!is_nearer && (closest.kept == 0 || ++stalls > 1 || query_.result.lower > 0)) {
         --count_;
         return finish(settled(length));
       }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Many random pairs of all kinds of shapes: their signed distances, judged by planes and points
-// (tests/core/contact/pair_judge.h). Prints what is wrong.
+// Many random pairs of all kinds of shapes, slender ones among them: their signed distances, judged
+// by planes and points (tests/core/contact/pair_judge.h). Prints what is wrong.
 #include <cstdio>
 #include <cstdlib>
 
@@ -16,7 +16,9 @@ int main(int count, char** words) {
     const int i = static_cast<int>(n % kinds_of_bodies),
               j = static_cast<int>(n / kinds_of_bodies % kinds_of_bodies),
               k = static_cast<int>(n / kinds_of_bodies / kinds_of_bodies % 120);
-    const RandomPair pair = random_pair(i, j, k, random);
+    const bool is_slender = n % 11 == 10;
+    const RandomPair pair = is_slender ? slender_pair(k, std::pow(10, random.in(1, 4)), random)
+                                       : random_pair(i, j, k, random);
     const SignedDistance result =
         signed_distance(pair.a.ready, pair.a.pose, pair.b.ready, pair.b.pose);
     const std::string bad = complaint(pair.a, pair.b, result, random);

@@ -97,6 +97,12 @@ inline std::string complaint(const Body& a, const Body& b, const SignedDistance&
   return text.str();
 }
 
+/// B moves to where the two touch, or nearly: `left` apart in sizes, if negative they overlap.
+inline void bring_near(const Body& a, Body& b, double left, double size) {
+  const SignedDistance first = signed_distance(a.ready, a.pose, b.ready, b.pose);
+  b.pose.translation -= (first.value - left * size) * first.normal;
+}
+
 /// The k-th of a family of pairs: apart, overlapping, touching and nearly so, of all scales, far
 /// from the origin, one in the other.
 struct RandomPair {
@@ -113,11 +119,20 @@ inline RandomPair random_pair(int i, int j, int k, RandomShapes& random) {
   const double size = pair.a.ready.ball_radius() + b.ready.ball_radius() + scale;
   b.pose.translation += random.in(0, 1.3) * size * random.direction();
   if (k % 3 == 2) {
-    // To touching, or nearly.
-    const SignedDistance first = signed_distance(pair.a.ready, pair.a.pose, b.ready, b.pose);
-    const double left = k % 2 == 0 ? 0 : std::pow(10, random.in(-14, -3)) * size;
-    b.pose.translation -= (first.value - left * (k % 4 < 2 ? 1 : -1)) * first.normal;
+    const double left = k % 2 == 0 ? 0 : std::pow(10, random.in(-14, -3));
+    bring_near(pair.a, b, k % 4 < 2 ? left : -left, size);
   }
+  return pair;
+}
+
+/// The k-th pair of slender shapes: apart or overlapping, touching, nearly so.
+inline RandomPair slender_pair(int k, double thin, RandomShapes& random) {
+  RandomPair pair{
+      Body(slender_shape(thin, random), {random.turn(), Vec3<double>::Zero()}),
+      Body(slender_shape(thin, random), {random.turn(), random.in(0, 2.5) * random.direction()})};
+  const double size = pair.a.ready.ball_radius() + pair.b.ready.ball_radius();
+  const double left = k % 3 == 1 ? 0 : std::pow(10, random.in(-14, -3));
+  if (k % 3 > 0) bring_near(pair.a, pair.b, k % 2 == 0 ? left : -left, size);
   return pair;
 }
 

@@ -78,6 +78,32 @@ inline Shape<double> random_shape(int kind, double s, RandomShapes& random) {
   }
 }
 
+/// Plates, needles and blades: of size 1 one way and 1:`thin` another.
+inline Shape<double> slender_shape(double thin, RandomShapes& random) {
+  const double t = 1 / thin, between = std::pow(t, random.in(0, 1));
+  const bool is_plate = random.in(0, 1) < 0.5;
+  switch (static_cast<int>(random.in(0, 7))) {
+    case 0:
+      return Ellipsoid<double>{{1, between, t}};
+    case 1:
+      return is_plate ? Cylinder<double>{1, t} : Cylinder<double>{t, 1};
+    case 2:
+      return is_plate ? Cone<double>{1, t} : Cone<double>{t, 1};
+    case 3:
+      return Box<double>{{1, between, t}};
+    case 4:
+      return Frustum<double>{{t, 1}, t * random.in(0.1, 10)};
+    case 5:
+      return Capsule<double>{t, 1};
+    default: {
+      std::vector<Vec3<double>> points;
+      for (int i = 0; i < 32; ++i)
+        points.push_back(Vec3<double>(1, between, t).cwiseProduct(random.direction()));
+      return Hull<double>{PointCloud<double>(points)};
+    }
+  }
+}
+
 struct Body {
   Shape<double> shape;
   ContactShape ready;
