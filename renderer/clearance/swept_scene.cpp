@@ -6,8 +6,8 @@
 
 #include "core/contact/contact_shape.h"
 #include "core/contact/swept.h"
+#include "renderer/import/framing.h"
 #include "renderer/scene/scene_instances.h"
-#include "renderer/scene/summary.h"
 
 namespace minkray {
 
@@ -64,10 +64,7 @@ Scene swept_scene(Model model, const ImportOptions& import, const JointPath& pat
     }
   }
   scene.objects = std::move(objects);
-  Bounds<double> bounds;
-  for (const Object& object : scene.objects)
-    if (!object.half_space) bounds.extend(bounds_of(object));
-  frame_everything(scene, bounds);
+  frame_everything(scene, import.picture);
   return scene;
 }
 

@@ -6,7 +6,6 @@
 #include "renderer/cli/compare_options.h"
 #include "renderer/cli/progress_line.h"
 #include "renderer/compare/compare_scene.h"
-#include "renderer/import/import.h"
 #include "renderer/scene/scene_instances.h"
 
 namespace minkray {
@@ -28,7 +27,7 @@ void compare(const CompareArguments& options, ExitCode& exit_code) {
   CompareSceneOptions compare_options;
   compare_options.object.cast.solver = cast_options(options.image.solver).solver;
   check_outputs(options.image.outputs);
-  const Scene scene = import_scene(options.image.scene, options.image.import).scene;
+  const Scene scene = options.image.load_scene();
   if (!options.image.outputs.empty())
     compare_options.picture = options.image.render_options(scene).resolution;
   const std::size_t objects = instance_count(scene);

@@ -11,6 +11,7 @@
 #include "renderer/cli/import_arguments.h"
 #include "renderer/cli/options.h"
 #include "renderer/cli/scene_file.h"
+#include "renderer/import/import.h"
 #include "renderer/io/image_file.h"
 #include "renderer/io/output_file.h"
 #include "renderer/json/mistakes.h"
@@ -137,6 +138,12 @@ bool is_same_file(const std::string& a, const std::string& b) {
   const auto status = std::filesystem::status(a, error);
   if (std::filesystem::is_character_file(status) || std::filesystem::is_fifo(status)) return false;
   return whole(a) == whole(b) || std::filesystem::equivalent(a, b, error);
+}
+
+Scene ImageArguments::load_scene() const {
+  ImportOptions options = import;
+  if (!resolution.empty()) options.picture = parse_resolution(resolution);
+  return import_scene(scene, options).scene;
 }
 
 RenderOptions ImageArguments::render_options(const Scene& loaded, std::size_t panels) const {

@@ -37,6 +37,9 @@ struct ImageArguments {
   /// If there is no -o: chooses default_output of the scene and says so.
   void choose_output(const std::string& suffix);
 
+  /// The scene. A camera that frames everything does so at the resolution that is asked for.
+  Scene load_scene() const;
+
   /// The options for a scene, of which `panels` pictures come beside each other. Throws WrongUsage
   /// where a value is not usable.
   RenderOptions render_options(const Scene& scene, std::size_t panels = 1) const;

@@ -8,7 +8,6 @@
 #include "renderer/cli/file_ending.h"
 #include "renderer/cli/inspect_options.h"
 #include "renderer/cli/progress_line.h"
-#include "renderer/import/import.h"
 #include "renderer/inspect/page.h"
 #include "renderer/inspect/served_scene.h"
 #include "renderer/io/output_file.h"
@@ -58,7 +57,7 @@ void inspect(const InspectArguments& arguments, ExitCode&) {
     check_ending(output, ".html", "--output");
     check_writable(output);
   }
-  const Scene scene = import_scene(arguments.image.scene, arguments.image.import).scene;
+  const Scene scene = arguments.image.load_scene();
   InspectOptions options;
   options.name = std::filesystem::path(arguments.image.scene).stem().string();
   options.picture = arguments.image.render_options(scene);

@@ -13,7 +13,6 @@
 #include "renderer/cli/progress_line.h"
 #include "renderer/cli/verbs.h"
 #include "renderer/film/heatmap.h"
-#include "renderer/import/import.h"
 
 namespace minkray {
 namespace {
@@ -51,7 +50,7 @@ void run(HeatmapVerbOptions& options) {
   const char* const solver_option = options.side_by_side ? "--side-by-side" : "--solver";
   for (const std::string& solver : solvers) cast_options(solver, solver_option);
   check_outputs(options.image.outputs);
-  const Scene scene = import_scene(options.image.scene, options.image.import).scene;
+  const Scene scene = options.image.load_scene();
   const RenderOptions render_options = options.image.render_options(scene, solvers.size());
 
   std::vector<HeatField> fields;

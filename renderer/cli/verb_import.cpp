@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "renderer/cli/file_ending.h"
+#include "renderer/cli/image_arguments.h"
 #include "renderer/cli/import_arguments.h"
 #include "renderer/cli/options.h"
 #include "renderer/cli/verbs.h"
@@ -17,6 +18,7 @@ namespace {
 
 struct ImportVerbOptions {
   std::string file, output;
+  std::string resolution;  ///< empty: the options' own
   ImportOptions import;
   bool quiet = false;
 };
@@ -24,7 +26,9 @@ struct ImportVerbOptions {
 void import(const ImportVerbOptions& options) {
   check_ending(options.output, ".json", "--output");
   check_writable(options.output);
-  const Imported imported = import_scene(options.file, options.import);
+  ImportOptions import = options.import;
+  if (!options.resolution.empty()) import.picture = parse_resolution(options.resolution);
+  const Imported imported = import_scene(options.file, import);
   const std::string text = scene_text(imported.scene);
   write_file(options.output,
              std::span(reinterpret_cast<const unsigned char*>(text.data()), text.size()));
@@ -41,6 +45,8 @@ void add_import(Parser& parser, ExitCode&) {
       .required();
   verb.add_option("-o,--output", options->output, "The scene file to write (.json)").required();
   add_import_options(verb, options->import);
+  verb.add_option("-r,--resolution", options->resolution,
+                  "WxH of the pictures that the scene's camera frames everything for (960x720)");
   verb.add_flag("-q,--quiet", options->quiet, "Do not tell what was read and what passed over");
   verb.on_call([options] { import(*options); });
 }

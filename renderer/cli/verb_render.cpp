@@ -14,7 +14,6 @@
 #include "renderer/cli/render_request.h"
 #include "renderer/cli/timed.h"
 #include "renderer/cli/verbs.h"
-#include "renderer/import/import.h"
 #include "renderer/json/mistakes.h"
 #include "renderer/share/merge.h"
 
@@ -37,8 +36,7 @@ ExitCode run(RenderArguments& options) {
 
   RenderStatistics statistics;
   const bool verbose = options.image.verbose;
-  timed(verbose, "load", statistics.load_seconds,
-        [&] { job.scene = import_scene(options.image.scene, options.image.import).scene; });
+  timed(verbose, "load", statistics.load_seconds, [&] { job.scene = options.image.load_scene(); });
   set_options(job, options);
   timed(verbose, "build", statistics.build_seconds,
         [&] { job.world = make_world(job.scene, cast, options.build); });

@@ -10,9 +10,9 @@
 #include "renderer/cli/choices.h"
 #include "renderer/cli/file_ending.h"
 #include "renderer/cli/image_arguments.h"
+#include "renderer/cli/import_arguments.h"
 #include "renderer/cli/options.h"
 #include "renderer/cli/verbs.h"
-#include "renderer/import/import.h"
 #include "renderer/io/output_file.h"
 #include "renderer/json/number_json.h"
 #include "renderer/light/camera.h"
@@ -24,6 +24,7 @@ namespace {
 
 struct TraceVerbOptions {
   std::string scene;
+  ImportOptions import;
   std::vector<int> pixel;
   std::string object;
   std::optional<std::string> svg;
@@ -68,9 +69,11 @@ std::size_t choose(const std::vector<PreparedShape<T>>& shapes, const Scene& sce
 template <class T>
 void trace(const TraceVerbOptions& options) {
   if (options.svg) check_ending(*options.svg, ".svg", "--svg");
-  const Scene scene = import_scene(options.scene).scene;
   ImageArguments picture;
+  picture.scene = options.scene;
+  picture.import = options.import;
   picture.resolution = options.resolution;
+  const Scene scene = picture.load_scene();
   const Resolution size = picture.render_options(scene).resolution;
   const int x = options.pixel[0], y = options.pixel[1];
   if (x < 0 || y < 0 || x >= size.width || y >= size.height)
@@ -134,6 +137,7 @@ void add_trace(Parser& parser, ExitCode&) {
   const Verb verb = parser.add_verb("trace");
   const auto options = std::make_shared<TraceVerbOptions>();
   add_scene_option(verb, options->scene);
+  add_import_options(verb, options->import);
   verb.add_option("--pixel", options->pixel, "x,y from the upper left corner; through its centre")
       .required()
       .values(2, ',');

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/files/mesh_parts.h"
+#include "renderer/scene/camera_description.h"
 
 namespace minkray {
 
@@ -23,6 +24,7 @@ struct ImportOptions {
   std::string joint_rows;                 ///< a CSV or JSON file of values; empty: none
   std::vector<std::string> package_dirs;  ///< where package:// and model:// are looked for
   bool skip_missing_meshes = false;
+  Resolution picture = {960, 720};  ///< that the camera frames everything for
 
   /// Whether anything is asked for that a scene file has no use of.
   bool any() const {

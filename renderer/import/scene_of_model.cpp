@@ -9,7 +9,7 @@
 #include "renderer/base/errors.h"
 #include "renderer/base/hash.h"
 #include "renderer/image/colour.h"
-#include "renderer/scene/summary.h"
+#include "renderer/import/framing.h"
 
 namespace minkray {
 namespace {
@@ -56,8 +56,20 @@ class Materials {
   std::map<std::array<double, 4>, std::uint32_t> known_;
 };
 
+/// A sun and a sky; a lamp at the camera where a plane hides the sun from everything, as it does
+/// within walls, which have no end.
 void light(Scene& scene) {
-  scene.lights.push_back(DirectionalLight{{-1.0, 0.45, -1.5}, Colour(2.3, 2.2, 2.05)});
+  const DirectionalLight sun{{-1.0, 0.45, -1.5}, Colour(2.3, 2.2, 2.05)};
+  const bool sun_is_hidden = std::ranges::any_of(scene.objects, [&](const Object& object) {
+    return object.half_space &&
+           object.half_space->posed(object.pose).normal.dot(sun.direction) >= 0;
+  });
+  const CameraDescription& camera = scene.camera;
+  if (sun_is_hidden)
+    scene.lights.push_back(
+        PointLight{camera.position, sun.colour * (camera.look_at - camera.position).squaredNorm()});
+  else
+    scene.lights.push_back(sun);
   scene.lights.push_back(EnvironmentLight{{0.62, 0.7, 0.82}, {0.3, 0.28, 0.26}});
   scene.background = {{0.72, 0.8, 0.9}, {0.93, 0.93, 0.93}};
 }
@@ -81,19 +93,6 @@ std::vector<bool> chosen_geoms(const Model& model, GeometryChoice choice) {
                          ? geom.collides
                          : geom.is_seen || !link_is_seen[static_cast<std::size_t>(geom.link + 1)]);
   return wanted;
-}
-
-void frame_everything(Scene& scene, const Bounds<double>& bounds) {
-  CameraDescription& camera = scene.camera;
-  const Vec3<double> centre = bounds.empty() ? Vec3<double>::Zero() : bounds.centre();
-  const double size = bounds.empty() ? 1 : bounds.half_extents().norm();
-  const double radius = size > 0 ? size : 1;
-  camera.fov_y_degrees = 36;
-  camera.resolution = {960, 720};
-  camera.look_at = centre;
-  const double half_angle = camera.fov_y_degrees * 3.14159265358979 / 360;
-  camera.position =
-      centre + unit<double>({2.1, -1.7, 0.9}) * (0.92 * radius / std::sin(half_angle));
 }
 
 void pose_model(Model& model, const ImportOptions& options, Mistakes& mistakes) {
@@ -212,10 +211,7 @@ Scene scene_of(Model& model, const ImportOptions& options, const std::vector<Joi
   }
   if (!rows.empty()) set_time(scene, 0);
 
-  Bounds<double> bounds;
-  for (const Object& object : scene.objects)
-    if (!object.half_space) bounds.extend(bounds_of(object));
-  frame_everything(scene, bounds);
+  frame_everything(scene, options.picture);
   light(scene);
 
   Hash hash;

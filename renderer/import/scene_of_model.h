@@ -3,7 +3,6 @@
 // file has none.
 #pragma once
 
-#include "core/math/bounds.h"
 #include "renderer/import/import_options.h"
 #include "renderer/import/model.h"
 #include "renderer/json/mistakes.h"
@@ -29,9 +28,6 @@ std::vector<JointRow> read_joint_rows(const std::string& file, Model& model, Mis
 
 /// Which geoms are asked for. A link without visual shapes shows its collision shapes.
 std::vector<bool> chosen_geoms(const Model& model, GeometryChoice choice);
-
-/// Points the camera at the ball around the box, from the front, the right and above.
-void frame_everything(Scene& scene, const Bounds<double>& bounds);
 
 /// Shapes chosen by the options. With several rows, objects move from row to row.
 Scene scene_of(Model& model, const ImportOptions& options, const std::vector<JointRow>& rows);
