@@ -400,6 +400,29 @@ template <class Support>
 Shape custom(Support support) {
   return detail::custom_within(std::move(support), nullptr, nullptr);
 }
+/// The same of a function that is asked for many points at once:
+/// `support(View<const Vec3> directions, View<Vec3> points)`. With `gathered`, rays wait for each
+/// other until there are so many, as is worth while if a call is dear.
+template <class Support>
+Shape custom_batched(Support support, std::size_t gathered = 0) {
+  minkray_support given = {};
+  given.user = new Support(std::move(support));
+  given.gathered = gathered;
+  given.function = [](void* user, std::size_t count, const double(*n)[3], double(*p)[3]) -> int {
+    try {
+      const Support& function = *static_cast<const Support*>(user);
+      function(View<const Vec3>(reinterpret_cast<const Vec3*>(n), count),
+               View<Vec3>(reinterpret_cast<Vec3*>(p), count));
+      return 0;
+    } catch (...) {
+      return 1;
+    }
+  };
+  given.release = [](void* user) { delete static_cast<Support*>(user); };
+  minkray_shape made;
+  detail::check(minkray_shape_custom(&given, &made));
+  return Shape(made);
+}
 /// A box that holds the shape may be given with it: answers out of it are found.
 template <class Support>
 Shape custom(Support support, const Vec3& lower, const Vec3& upper) {
@@ -467,6 +490,16 @@ inline void check_sizes(std::size_t rays, std::size_t answers) {
 
 using Proof = minkray_proof;
 
+/// A lidar's rays, into as much room as there is: "spinning:32x1800", or a CSV file of Livox's.
+/// Answers how many there are.
+inline std::size_t lidar(Text pattern, const Pose& pose, View<Ray> rays = {}) {
+  std::size_t needed = 0;
+  detail::check(minkray_lidar_rays(pattern.c_str(), detail::plain(&pose),
+                                   reinterpret_cast<minkray_ray*>(rays.data()), rays.size(),
+                                   &needed));
+  return needed;
+}
+
 /// What is met of one shape alone.
 inline Hit cast(const Shape& shape, const Ray& ray, const Pose& pose = identity()) {
   Hit found;
@@ -486,12 +519,26 @@ struct FileOptions {
   bool skip_missing_meshes = false;
 };
 
+/// How a picture is made; see minkray_picture_options.
+struct PictureOptions {
+  Text view = {};  ///< camera, lights and background, as scene files have them
+  std::uint32_t width = 0, height = 0;
+  std::uint32_t samples = 16;
+  std::uint64_t seed = 0;
+  Text integrator = {};
+  std::int32_t bounces = 0, max_depth = 0;  ///< 0: as usual, less than 0: none
+  bool denoise = false;
+};
+using Channel = minkray_channel;
+using Clearance = minkray_clearance;
+
 /// Shapes with poses. Any number of threads may ask one; only one may change it, while none asks.
 class Scene {
  public:
   /// What came from a file: objects with numbers that follow each other.
   class Group {
    public:
+    std::uint32_t number() const { return group_; }
     std::uint32_t first() const { return first_; }
     std::uint32_t size() const { return size_; }
     std::uint32_t joints() const { return joints_; }
@@ -629,6 +676,28 @@ class Scene {
     detail::check(minkray_scene_prove(handle_, detail::plain(rays),
                                       reinterpret_cast<const minkray_hit*>(hits.data()),
                                       rays.size(), proofs.data(), &how));
+  }
+  /// A picture: its light is the channel "rgb", of width * height * 3 numbers.
+  void render(const PictureOptions& options, View<const Channel> channels,
+              const Options& how = {}) const {
+    const minkray_picture_options plain = {
+        sizeof plain,    options.view.c_str(),      options.width,     options.height,
+        options.samples, options.bounces,           options.max_depth, options.denoise,
+        options.seed,    options.integrator.c_str()};
+    const minkray_options plain_how = detail::plain(how);
+    detail::check(
+        minkray_scene_render(handle_, &plain, channels.data(), channels.size(), &plain_how));
+  }
+  /// How near a robot comes to itself and to all else on its way through rows of joints' values:
+  /// one answer for each two rows, and the least of all.
+  Clearance clearance(const Group& robot, View<const double> path, std::size_t rows,
+                      View<Clearance> steps = {}) const {
+    detail::check_sizes(steps.size(), steps.size() == 0 ? 0 : rows > 1 ? rows - 1 : 1);
+    Clearance least;
+    detail::check(minkray_scene_clearance(handle_, robot.number(), path.data(), rows,
+                                          rows > 0 ? path.size() / rows : 0, nullptr, steps.data(),
+                                          &least));
+    return least;
   }
   Proof prove(const Ray& ray, const Hit& hit) const {
     Proof proof;

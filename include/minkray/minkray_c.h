@@ -96,6 +96,10 @@ typedef struct minkray_support {
   void (*release)(void* user); /* when the last shape made of it is gone; may be NULL */
   const double* lower;         /* corners of a box that holds the shape; both may be NULL */
   const double* upper;
+  /* For functions that are dear to call and cheap by the direction, such as those of interpreters:
+   * many rays wait for each other, so that up to so many directions are asked for at once. 0: as
+   * they come, at most 16. */
+  size_t gathered;
 } minkray_support;
 
 /* The function is asked in some hundred directions at once, and its answers are held against each
@@ -302,6 +306,55 @@ MINKRAY_API int minkray_scene_prove(minkray_scene scene, const minkray_ray* rays
                                     const minkray_hit* hits, size_t count, minkray_proof* proofs,
                                     const minkray_options* options);
 
+/* ---- sensors --------------------------------------------------------------------------------- */
+
+/* A lidar's rays: `pattern` is "spinning:CHANNELSxSTEPS", with ":LOWEST,HIGHEST" elevations in
+ * degrees if wanted (else -15, 15), row by row from above, clockwise from behind; or the name of a
+ * CSV file with columns azimuth and zenith or elevation, in degrees, as Livox publishes its
+ * patterns. In the sensor's frame x is ahead and z is the axis; `pose`, of the sensor in the world,
+ * may be NULL. Directions have length 1, so that t is the distance. Writes at most `size` rays, and
+ * to `needed` (if not NULL) how many there are. */
+MINKRAY_API int minkray_lidar_rays(const char* pattern, const minkray_pose* pose, minkray_ray* rays,
+                                   size_t size, size_t* needed);
+
+/* ---- pictures -------------------------------------------------------------------------------- */
+
+typedef struct minkray_picture_options {
+  size_t size; /* sizeof(minkray_picture_options) */
+  /* What scene files say as "camera", "lights" and "background", in an object, as text: those of
+   * them that are there are taken in the place of those of the scene's files. May be NULL. */
+  const char* view;
+  uint32_t width; /* in pixels; 0: the camera's */
+  uint32_t height;
+  uint32_t samples;  /* of a pixel; 0: 16 */
+  int32_t bounces;   /* with integrator "ambient"; 0: 1, less than 0: none */
+  int32_t max_depth; /* with integrator "path"; 0: 16, less than 0: none */
+  int32_t denoise;   /* 1: less noise, with at least 2 samples */
+  uint64_t seed;
+  const char* integrator; /* as `minkray render --integrator` has it; NULL: "auto" */
+} minkray_picture_options;
+
+/* One part of a picture. */
+typedef struct minkray_channel {
+  const char* name; /* "rgb", the light, linear; or one of `minkray render --aov` but cryptomatte */
+  double* values;   /* the numbers of a pixel side by side, pixels in rows from the top */
+  size_t count;     /* of values: width * height * numbers of a pixel */
+} minkray_channel;
+
+/* How many numbers of a pixel a channel has, and whether they are whole; both may be NULL. */
+MINKRAY_API int minkray_picture_channel(const char* name, uint32_t* numbers, int32_t* is_integer);
+
+/* How large a picture becomes. Options may be NULL. */
+MINKRAY_API int minkray_scene_picture_size(minkray_scene scene,
+                                           const minkray_picture_options* options, uint32_t* width,
+                                           uint32_t* height);
+
+/* A picture of the scene, the same bits as `minkray render` makes of a file that says the same, for
+ * any number of threads. Shapes that were added are grey. Either options may be NULL. */
+MINKRAY_API int minkray_scene_render(minkray_scene scene, const minkray_picture_options* options,
+                                     const minkray_channel* channels, size_t count,
+                                     const minkray_options* how);
+
 /* ---- pairs of shapes ------------------------------------------------------------------------- */
 
 typedef enum minkray_distance_status {
@@ -367,6 +420,40 @@ MINKRAY_API int minkray_time_of_impact(minkray_shape a, const minkray_pose* pose
                                        const minkray_twist* twist_a, minkray_shape b,
                                        const minkray_pose* pose_b, const minkray_twist* twist_b,
                                        double t_max, minkray_impact* impact);
+
+/* ---- robots' paths --------------------------------------------------------------------------- */
+
+typedef struct minkray_clearance_options {
+  size_t size;            /* sizeof(minkray_clearance_options) */
+  double tolerance;       /* how near the bounds shall be, relative to the clearance; 0: 0.01 */
+  int32_t only_obstacles; /* 1: not of the robot's links to each other */
+  int32_t threads;        /* 0: one a core */
+} minkray_clearance_options;
+
+/* The least signed distance between the robot and what is around it, and between its links that no
+ * joint connects, all along and not at some samples. */
+typedef struct minkray_clearance {
+  double lower; /* proven: it is never less than this; infinite if there is nothing to meet */
+  double upper; /* it is so at `row` */
+  double row;   /* 2.25: a quarter of the way from path[2] to path[3] */
+  double point_a[3];
+  double point_b[3];
+  double normal[3]; /* from a to b, of length 1 */
+  uint32_t object_a;
+  uint32_t object_b;
+  int32_t is_settled; /* 0 if the bounds are further apart than was asked */
+  int32_t reserved;
+} minkray_clearance;
+
+/* A robot's way by `rows` rows of `numbers` joint values each, in the order of minkray_scene_joint;
+ * from row to row each joint goes at a constant rate. `steps` (or NULL) are one for each two rows
+ * that follow each other, or one if there is one row; `least` (or NULL) is of all of them. The
+ * shapes looked at are those that the file was added with: see `geometry` of minkray_file_options.
+ * The scene must be committed; where the robot's joints are by now does not matter. */
+MINKRAY_API int minkray_scene_clearance(minkray_scene scene, uint32_t group, const double* path,
+                                        size_t rows, size_t numbers,
+                                        const minkray_clearance_options* options,
+                                        minkray_clearance* steps, minkray_clearance* least);
 
 #ifdef __cplusplus
 }

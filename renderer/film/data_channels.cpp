@@ -172,6 +172,11 @@ std::vector<std::string_view> parse_data_channels(const std::string& list) {
   return names;
 }
 
+bool has_integers(std::string_view channel) {
+  const std::size_t i = index_of(channel);
+  return i < fillings.size() && fillings[i].is_integer;
+}
+
 bool are_light_channels_wanted(const std::vector<std::string_view>& channels) {
   return std::any_of(channels.begin(), channels.end(), [](std::string_view name) {
     return name == "direct" || name == "indirect" || name == "variance";

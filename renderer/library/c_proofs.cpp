@@ -18,9 +18,8 @@ extern "C" int minkray_scene_prove(minkray_scene scene, const minkray_ray* rays,
     }
     const RaySource source(rays, count);
     const Prover prover(held);
-    work_on_rays(count, options, [&](size_t begin, size_t end) {
-      for (size_t i = begin; i < end; ++i) proofs[i] = prover.prove(source[i], hits[i]);
-    });
+    work_on_groups(count, 1, are_gathered(held.customs()), options,
+                   [&](size_t i, size_t) { proofs[i] = prover.prove(source[i], hits[i]); });
     throw_if_lied(held.customs());
   });
 }

@@ -26,51 +26,46 @@ void cast_rays(const HeldScene& scene, const RaySource& rays, const minkray_opti
     const WorldHit<double> hit = world.closest_hit(ray, counts);
     tell(i, ray, plain_hit(ray, hit, counts.exhausted > 0));
   };
-  work_on_rays(rays.size(), options, [&](std::size_t begin, std::size_t end) {
+  const auto group = [&](std::size_t first, std::size_t end) {
     std::array<WorldRay<double>, at_once> asked;
     std::array<WorldHit<double>, at_once> hits;
-    for (std::size_t first = begin; first < end; first += at_once) {
-      const std::size_t count = std::min(at_once, end - first);
-      if (count == 1) {
-        one(first, rays[first]);
-        continue;
-      }
-      for (std::size_t i = 0; i < count; ++i) asked[i] = {rays[first + i]};
-      QueryCounts counts;
-      world.closest_hits(std::span(asked).first(count), std::span(hits).first(count), counts);
-      for (std::size_t i = 0; i < count; ++i) {
-        if (counts.exhausted > 0)
-          one(first + i, asked[i].ray);
-        else
-          tell(first + i, asked[i].ray, plain_hit(asked[i].ray, hits[i], false));
-      }
+    const std::size_t count = end - first;
+    if (count == 1) return one(first, rays[first]);
+    for (std::size_t i = 0; i < count; ++i) asked[i] = {rays[first + i]};
+    QueryCounts counts;
+    world.closest_hits(std::span(asked).first(count), std::span(hits).first(count), counts);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (counts.exhausted > 0)
+        one(first + i, asked[i].ray);
+      else
+        tell(first + i, asked[i].ray, plain_hit(asked[i].ray, hits[i], false));
     }
-  });
+  };
+  work_on_groups(rays.size(), at_once, are_gathered(scene.customs()), options, group);
   throw_if_lied(scene.customs());
 }
 
 void find_occluded(const HeldScene& scene, const RaySource& rays, std::uint8_t* blocked,
                    const minkray_options* options) {
   const RenderWorld& world = scene.world();
-  work_on_rays(rays.size(), options, [&](std::size_t begin, std::size_t end) {
+  const auto group = [&](std::size_t first, std::size_t end) {
     std::array<WorldRay<double>, at_once> asked;
-    for (std::size_t first = begin; first < end; first += at_once) {
-      const std::size_t count = std::min(at_once, end - first);
-      for (std::size_t i = 0; i < count; ++i) asked[i] = {rays[first + i]};
-      QueryCounts counts;
-      const RayGroupMask met = world.occluded(std::span(asked).first(count), counts);
-      for (std::size_t i = 0; i < count; ++i) {
-        const bool is_met = (met >> i & 1u) != 0;
-        bool gave_up = !is_met && counts.exhausted > 0;
-        if (gave_up) {
-          QueryCounts alone;
-          world.occluded(asked[i].ray, alone);
-          gave_up = alone.exhausted > 0;
-        }
-        blocked[first + i] = is_met ? MINKRAY_HIT : gave_up ? MINKRAY_EXHAUSTED : MINKRAY_MISS;
+    const std::size_t count = end - first;
+    for (std::size_t i = 0; i < count; ++i) asked[i] = {rays[first + i]};
+    QueryCounts counts;
+    const RayGroupMask met = world.occluded(std::span(asked).first(count), counts);
+    for (std::size_t i = 0; i < count; ++i) {
+      const bool is_met = (met >> i & 1u) != 0;
+      bool gave_up = !is_met && counts.exhausted > 0;
+      if (gave_up) {
+        QueryCounts alone;
+        world.occluded(asked[i].ray, alone);
+        gave_up = alone.exhausted > 0;
       }
+      blocked[first + i] = is_met ? MINKRAY_HIT : gave_up ? MINKRAY_EXHAUSTED : MINKRAY_MISS;
     }
-  });
+  };
+  work_on_groups(rays.size(), at_once, are_gathered(scene.customs()), options, group);
   throw_if_lied(scene.customs());
 }
 

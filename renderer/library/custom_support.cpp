@@ -145,15 +145,22 @@ void CustomSupport::support(std::size_t count, const Coordinates* directions,
                             Coordinates* points) const {
   static_assert(sizeof(Coordinates) == sizeof(double[3]));
   if (!has_lied()) {
-    const Coordinates nan = {NAN, NAN, NAN};
-    std::fill_n(points, count, nan);
-    const int failed =
-        function_.function(function_.user, count, reinterpret_cast<const double(*)[3]>(directions),
-                           reinterpret_cast<double(*)[3]>(points));
-    if (failed) complain("the support function failed");
+    if (function_.gathered == 0 || !Gathering::wait(*this, count, directions, points))
+      answer(count, directions, points);
     for (std::size_t i = 0; i < count && !has_lied(); ++i) check(directions[i], points[i]);
   }
   if (has_lied()) std::fill_n(points, count, fallback_);
+}
+
+void CustomSupport::answer(std::size_t count, const Coordinates* directions,
+                           Coordinates* points) const {
+  const Coordinates nan = {NAN, NAN, NAN};
+  std::fill_n(points, count, nan);
+  if (has_lied()) return;
+  const int failed =
+      function_.function(function_.user, count, reinterpret_cast<const double(*)[3]>(directions),
+                         reinterpret_cast<double(*)[3]>(points));
+  if (failed) complain("the support function failed");
 }
 
 void CustomSupport::check(const Coordinates& n, const Coordinates& point) const {
@@ -236,6 +243,10 @@ Customs customs_of(const Shape<double>& shape) {
   Customs customs;
   collect(shape, customs);
   return customs;
+}
+
+bool are_gathered(const Customs& customs) {
+  return std::ranges::any_of(customs, [](const auto& one) { return one->most_at_once() > 0; });
 }
 
 void throw_if_lied(const Customs& customs) {

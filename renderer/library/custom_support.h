@@ -17,6 +17,7 @@
 #include "core/shape/custom.h"
 #include "core/shape/shape.h"
 #include "renderer/library/c_header.h"
+#include "renderer/library/gather.h"
 
 namespace minkray {
 
@@ -25,7 +26,7 @@ namespace minkray {
 inline constexpr double support_contradiction = 1e-12;
 
 /// Any number of threads may ask. After the first lie it answers the same point for ever.
-class CustomSupport final : public SupportSource {
+class CustomSupport final : public SupportSource, public BatchSource {
  public:
   /// Asks the function in some hundred directions. Throws CallError if it fails or lies.
   explicit CustomSupport(const minkray_support& function);
@@ -34,6 +35,8 @@ class CustomSupport final : public SupportSource {
   /// What was wrong with an answer; empty if nothing was.
   std::string complaint() const;
   bool has_lied() const { return lied_.load(std::memory_order_acquire); }
+
+  std::size_t most_at_once() const override { return function_.gathered; }
 
   /// Two answers of it; tells if they contradict each other.
   void compare(const Vec3<double>& n, const Vec3<double>& along_n, const Vec3<double>& m,
@@ -49,6 +52,7 @@ class CustomSupport final : public SupportSource {
 
   void support(std::size_t count, const Coordinates* directions,
                Coordinates* points) const override;
+  void answer(std::size_t count, const Coordinates* directions, Coordinates* points) const override;
   void probe();
   void check(const Coordinates& n, const Coordinates& point) const;
   void complain(const std::string& what) const;
@@ -66,6 +70,9 @@ class CustomSupport final : public SupportSource {
 
 /// The custom shapes that a shape is made of.
 std::vector<std::shared_ptr<const CustomSupport>> customs_of(const Shape<double>& shape);
+
+/// Whether one of them wants to be asked for many directions at once.
+bool are_gathered(const std::vector<std::shared_ptr<const CustomSupport>>& customs);
 
 /// Throws CallError if one of them has lied.
 void throw_if_lied(const std::vector<std::shared_ptr<const CustomSupport>>& customs);

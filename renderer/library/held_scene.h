@@ -57,6 +57,8 @@ class HeldScene {
   const Group& group(std::uint32_t group) const;
 
   const Scene& plain() const { return scene_; }
+  /// Whether a file had one.
+  bool has_camera() const { return has_camera_; }
   const std::vector<std::shared_ptr<const CustomSupport>>& customs() const { return customs_; }
 
   /// What rays are cast at. Throws CallError if the scene was not committed since it was changed,

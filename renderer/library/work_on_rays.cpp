@@ -7,6 +7,7 @@
 
 #include "core/parallel/parallel.h"
 #include "renderer/library/call.h"
+#include "renderer/library/gather.h"
 
 namespace minkray {
 namespace {
@@ -40,17 +41,22 @@ class Progress {
 
 }  // namespace
 
+int checked_threads(int threads) {
+  if (threads < 0 || threads > most_threads)
+    wrong_use("options.threads: must be between 0 and 1024 (got " + std::to_string(threads) + ")");
+  return threads;
+}
+
+int threads_of(const minkray_options* options) {
+  if (!options) return 0;
+  if (options->size < sizeof(minkray_options))
+    wrong_use("options.size: must be sizeof(minkray_options)");
+  return checked_threads(options->threads);
+}
+
 void work_on_rays(std::size_t count, const minkray_options* options,
                   const std::function<void(std::size_t begin, std::size_t end)>& body) {
-  int threads = 0;
-  if (options) {
-    if (options->size < sizeof(minkray_options))
-      wrong_use("options.size: must be sizeof(minkray_options)");
-    threads = options->threads;
-    if (threads < 0 || threads > most_threads)
-      wrong_use("options.threads: must be between 0 and 1024 (got " + std::to_string(threads) +
-                ")");
-  }
+  const int threads = threads_of(options);
   Progress progress(options, count);
   const auto part = [&](std::size_t begin, std::size_t end) {
     if (progress.stopped()) return;
@@ -68,6 +74,23 @@ void work_on_rays(std::size_t count, const minkray_options* options,
   else
     with_threads(threads, [&] { parallel_for(parts, 1, some_parts); });
   if (progress.stopped()) throw CallError(MINKRAY_STOPPED, "stopped by the caller");
+}
+
+void work_on_groups(std::size_t count, std::size_t group, bool gathered,
+                    const minkray_options* options,
+                    const std::function<void(std::size_t begin, std::size_t end)>& body) {
+  Gathering gathering;
+  work_on_rays(count, options, [&](std::size_t begin, std::size_t end) {
+    const auto one = [&](std::size_t i) {
+      const std::size_t first = begin + i * group;
+      body(first, std::min(first + group, end));
+    };
+    const std::size_t groups = (end - begin + group - 1) / group;
+    if (gathered)
+      gathering.run(groups, one);
+    else
+      for (std::size_t i = 0; i < groups; ++i) one(i);
+  });
 }
 
 }  // namespace minkray

@@ -11,9 +11,21 @@ namespace minkray {
 /// Rays that one thread takes at once; a multiple of most_rays_at_once.
 inline constexpr std::size_t rays_a_part = 2048;
 
+/// Throws CallError unless so many threads may be asked for.
+int checked_threads(int threads);
+
+/// How many threads the options ask for; throws CallError if they are wrong. They may be null.
+int threads_of(const minkray_options* options);
+
 /// Calls body(begin, end) for parts of [0, count), at once. Throws CallError if the options are
 /// wrong, or if the caller stops it.
 void work_on_rays(std::size_t count, const minkray_options* options,
                   const std::function<void(std::size_t begin, std::size_t end)>& body);
+
+/// The same with body(begin, end) for groups of at most `group` that follow each other: in order,
+/// or if they are to be gathered, some of them in turns (gather.h).
+void work_on_groups(std::size_t count, std::size_t group, bool gathered,
+                    const minkray_options* options,
+                    const std::function<void(std::size_t begin, std::size_t end)>& body);
 
 }  // namespace minkray

@@ -8,5 +8,6 @@ namespace minkray_python {
 
 void bind_shapes(py::module_& module);
 void bind_scenes(py::module_& module);
+void bind_pictures(py::module_& module);
 
 }  // namespace minkray_python

@@ -21,4 +21,5 @@ PYBIND11_MODULE(_minkray, module) {
   });
   bind_shapes(module);
   bind_scenes(module);
+  bind_pictures(module);
 }

@@ -49,6 +49,7 @@ minkray::Shape custom(const py::function& support, const py::object& bounds) {
   }
   given.user = new py::function(support);
   given.function = ask;
+  given.gathered = 4096;  // by then a call of the interpreter costs nothing
   given.release = [](void* user) {
     const py::gil_scoped_acquire lock;
     delete static_cast<py::function*>(user);

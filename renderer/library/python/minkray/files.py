@@ -1,27 +1,45 @@
 # SPDX-License-Identifier: MIT
-"""Point clouds as files."""
+"""Point clouds and pictures as files."""
 import os
+import struct
+import zlib
 
 import numpy as np
 
 
 def write(file, points, **columns):
-    """Writes a point cloud.
+    """Writes a point cloud, or a picture.
 
     Parameters
     ----------
-    file : str
-        Ends in .pcd, .ply or .npy.
+    file : str or path
+        Ends in .pcd, .ply or .npy; for pictures in .png (light as screens show it: sRGB, what is
+        brighter than 1 is white), .pfm (light as it is) or .npy.
     points : (N, 3) array
+        Points, or a picture of the shape (height, width, 3): linear light, rows from the top.
     **columns : (N,) array
-        More of each point, such as ``object=hit.object``.
+        More of each point, such as ``object=hit.object``; as 32-bit floats and integers.
+
+    Raises
+    ------
+    ValueError
+        If the array has another shape, or the file another ending.
+
+    Examples
+    --------
+    >>> import minkray as mk, numpy as np, os, tempfile
+    >>> file = os.path.join(tempfile.mkdtemp(), "two.pcd")
+    >>> mk.write(file, np.zeros((2, 3)), object=[0, 1])
     """
+    file = os.fspath(file)
     points = np.asarray(points, float)
+    if points.ndim == 3 and not columns:
+        return _write_picture(file, points)
     if points.ndim != 2 or points.shape[1] != 3:
         raise ValueError(f"points: must have the shape (N, 3) (got {points.shape})")
     for name, values in columns.items():
-        if len(values) != len(points):
-            raise ValueError(f"{name}: must be one for each point (got {len(values)} of {len(points)})")
+        if np.shape(values) != (len(points),):
+            raise ValueError(f"{name}: must be one number for each point (got the shape {np.shape(values)})")
     fields = {"x": points[:, 0], "y": points[:, 1], "z": points[:, 2],
               **{name: np.asarray(values) for name, values in columns.items()}}
     ending = os.path.splitext(file)[1].lower()
@@ -48,3 +66,30 @@ def write(file, points, **columns):
             out.write((f"ply\nformat binary_little_endian 1.0\nelement vertex {len(rows)}\n"
                        f"{properties}end_header\n").encode())
         out.write(rows.tobytes())
+
+
+def _write_picture(file, picture):
+    if picture.shape[2] != 3:
+        raise ValueError(f"points: a picture must have the shape (height, width, 3) (got {picture.shape})")
+    height, width, _ = picture.shape
+    ending = os.path.splitext(file)[1].lower()
+    if ending == ".npy":
+        np.save(file, picture.astype("<f4"))
+    elif ending == ".pfm":
+        with open(file, "wb") as out:
+            out.write(f"PF\n{width} {height}\n-1.0\n".encode())
+            out.write(picture[::-1].astype("<f4").tobytes())
+    elif ending == ".png":
+        light = np.clip(np.nan_to_num(picture), 0, 1)
+        shown = np.where(light <= 0.0031308, 12.92 * light, 1.055 * light ** (1 / 2.4) - 0.055)
+        rows = np.zeros((height, 1 + 3 * width), np.uint8)  # each row begins with its filter: none
+        rows[:, 1:] = np.round(255 * shown).astype(np.uint8).reshape(height, 3 * width)
+
+        def chunk(name, data):
+            return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
+
+        with open(file, "wb") as out:
+            out.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0))
+                      + chunk(b"IDAT", zlib.compress(rows.tobytes())) + chunk(b"IEND", b""))
+    else:
+        raise ValueError(f"{file}: a picture must end in .png, .pfm or .npy")

@@ -1,6 +1,10 @@
 # SPDX-License-Identifier: MIT
 """Rays of cameras and lidars, as arrays whose last axis is origin and direction."""
+import os
+
 import numpy as np
+
+from . import _minkray
 
 
 def pinhole(K, pose, width, height):
@@ -9,15 +13,24 @@ def pinhole(K, pose, width, height):
     Parameters
     ----------
     K : (3, 3) array
-        In pixels; the frame is OpenCV's: x right, y down, z ahead.
+        In pixels; the frame is OpenCV's: x right, y down, z ahead. The upper left corner of the
+        picture is at (0, 0), the middle of its first pixel at (0.5, 0.5).
     pose : (4, 4) array or None
         Of the camera, in the world.
     width, height : int
+        In pixels.
 
     Returns
     -------
-    (height, width, 6) array
+    (height, width, 6) array of float64
         Directions have z = 1 in the camera's frame, so `t` is the depth.
+
+    Examples
+    --------
+    >>> import minkray as mk
+    >>> rays = mk.pinhole([[500, 0, 320], [0, 500, 240], [0, 0, 1]], None, 640, 480)
+    >>> rays.shape
+    (480, 640, 6)
     """
     K = np.asarray(K, float)
     pose = np.eye(4) if pose is None else np.asarray(pose, float)
@@ -40,39 +53,24 @@ def lidar(pattern, pose=None):
     ----------
     pattern : str or tuple
         A CSV file with columns for azimuth and zenith or elevation, in degrees, as Livox publishes
-        its patterns; or ``(channels, steps)``, or ``(channels, steps, lowest, highest)`` with
-        elevations in degrees: a sensor that spins.
-    pose : (4, 4) array or None
-        Of the sensor; x is ahead, z the axis.
+        its patterns; or a sensor that spins: ``(channels, steps)``, or ``(channels, steps, lowest,
+        highest)`` with elevations in degrees (else -15 and 15). Its rays come channel by channel
+        from the highest, clockwise from behind: ``rays.reshape(channels, steps, 6)`` is an image.
+    pose : (4, 4) array, optional
+        Of the sensor, in the world; x is ahead, z the axis.
 
     Returns
     -------
-    (N, 6) array
-        Directions of length 1, so `t` is the distance.
+    (N, 6) array of float64
+        Origins and directions, these of length 1, so that `t` is the distance.
+
+    Examples
+    --------
+    >>> import minkray as mk
+    >>> mk.lidar((32, 1800)).shape
+    (57600, 6)
     """
     if isinstance(pattern, (tuple, list)):
         channels, steps, *limits = pattern
-        lowest, highest = limits or (-15, 15)
-        elevation = np.radians(np.linspace(lowest, highest, channels))
-        azimuth = 2 * np.pi * np.arange(steps) / steps
-        azimuth, elevation = (grid.ravel() for grid in np.meshgrid(azimuth, elevation, indexing="ij"))
-    else:
-        table = np.genfromtxt(pattern, delimiter=",", names=True)
-        names = {name.lower(): name for name in table.dtype.names}
-
-        def column(word):
-            found = [name for lower, name in names.items() if lower.startswith(word)]
-            return np.radians(table[found[0]]) if found else None
-
-        azimuth, elevation, zenith = column("azimuth"), column("elevation"), column("zenith")
-        if azimuth is None or (elevation is None and zenith is None):
-            raise ValueError(f"{pattern}: must have columns for azimuth and zenith or elevation")
-        if elevation is None:
-            elevation = np.pi / 2 - zenith
-    pose = np.eye(4) if pose is None else np.asarray(pose, float)
-    directions = np.stack([np.cos(elevation) * np.cos(azimuth), np.cos(elevation) * np.sin(azimuth),
-                           np.sin(elevation)], axis=-1)
-    rays = np.empty((len(azimuth), 6))
-    rays[:, :3] = pose[:3, 3]
-    rays[:, 3:] = directions @ pose[:3, :3].T
-    return rays
+        pattern = f"spinning:{channels}x{steps}" + (":{},{}".format(*limits) if limits else "")
+    return _minkray.lidar(os.fspath(pattern), pose)

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+// The function of the C interface that bounds how near a robot comes to what is around it.
+#include <cmath>
+
+#include "core/parallel/parallel.h"
+#include "renderer/clearance/clearance.h"
+#include "renderer/library/call.h"
+#include "renderer/library/held_scene.h"
+#include "renderer/library/poses.h"
+#include "renderer/library/work_on_rays.h"
+
+namespace minkray {
+namespace {
+
+/// One row of numbers as values of the joints, which stand in it one behind the other.
+JointRow row_of(const HeldScene::Group& robot, const double* numbers, std::size_t index) {
+  JointRow row;
+  row.time = static_cast<double>(index);
+  for (const auto& [name, width] : robot.joints) {
+    row.values.emplace_back(name, std::vector<double>(numbers, numbers + width));
+    numbers += width;
+  }
+  return row;
+}
+
+std::vector<JointRow> rows_of(const HeldScene::Group& robot, const double* path, std::size_t rows,
+                              std::size_t numbers) {
+  std::size_t width = 0;
+  for (const auto& joint : robot.joints) width += joint.second;
+  if (numbers != width)
+    wrong_use("numbers: must be " + std::to_string(width) +
+              ", those of all joints of the group (got " + std::to_string(numbers) + ")");
+  if (rows == 0) wrong_use("rows: must be at least 1");
+  if (width > 0) require(path, "path");
+  for (std::size_t i = 0; i < rows * width; ++i)
+    if (!std::isfinite(path[i]))
+      wrong_use("path[" + std::to_string(i / width) + "][" + std::to_string(i % width) +
+                "]: must be a finite number (got " + std::to_string(path[i]) + ")");
+  std::vector<JointRow> read;
+  for (std::size_t i = 0; i < rows; ++i) read.push_back(row_of(robot, path + i * width, i));
+  return read;
+}
+
+/// Everything else in the scene as the robot's own frame has it.
+void add_obstacles(const HeldScene& held, const HeldScene::Group& robot,
+                   std::vector<ClearanceBody>& bodies, std::vector<std::uint32_t>& objects) {
+  const Mat3<double> turned_back = robot.pose.linear.transpose();
+  const Affine<double> to_robot = {turned_back, -(turned_back * robot.pose.translation)};
+  for (std::uint32_t i = 0; i < held.plain().objects.size(); ++i) {
+    if (i >= robot.first && i - robot.first < robot.count) continue;
+    Object object = held.plain().objects[i];
+    object.pose = to_robot * object.pose;
+    Scene alone;
+    alone.objects.push_back(std::move(object));
+    bodies.push_back(std::move(bodies_of(alone).front()));
+    objects.push_back(i);
+  }
+}
+
+minkray_clearance plain_clearance(const Closest& found, const Affine<double>& robot,
+                                  const std::vector<std::uint32_t>& objects) {
+  minkray_clearance plain = {};
+  plain.lower = found.lower;
+  plain.upper = found.upper;
+  plain.row = found.time;
+  plain.is_settled = found.is_settled ? 1 : 0;
+  plain.object_a = plain.object_b = MINKRAY_NO_OBJECT;
+  if (!std::isfinite(found.upper)) return plain;
+  plain.object_a = objects[found.a];
+  plain.object_b = objects[found.b];
+  const Vec3<double> a = robot(found.distance.point_a), b = robot(found.distance.point_b);
+  const Vec3<double> n = robot.linear * found.distance.normal;
+  for (int k = 0; k < 3; ++k) {
+    plain.point_a[k] = a[k];
+    plain.point_b[k] = b[k];
+    plain.normal[k] = n[k];
+  }
+  return plain;
+}
+
+void find_clearance(const HeldScene& held, const HeldScene::Group& robot,
+                    const std::vector<JointRow>& rows, const minkray_clearance_options& given,
+                    minkray_clearance* steps, minkray_clearance* least) {
+  std::vector<ClearanceBody> bodies = bodies_of(*robot.model, robot.options.geometry);
+  std::vector<std::uint32_t> objects;
+  for (std::uint32_t i = 0; i < bodies.size(); ++i) objects.push_back(robot.first + i);
+  add_obstacles(held, robot, bodies, objects);
+  const std::vector<BodyPair> pairs = pairs_of(bodies, *robot.model, {}, given.only_obstacles == 0);
+  ClearanceOptions options;
+  if (given.tolerance > 0) options.tolerance = given.tolerance;
+  options.every_step = steps != nullptr;
+  const JointPath path(*robot.model, rows);
+  const Clearance found = clearance_of(path, bodies, pairs, options);
+  throw_if_lied(held.customs());
+  if (least) *least = plain_clearance(found.closest, robot.pose, objects);
+  for (std::size_t i = 0; steps && i < path.steps(); ++i)
+    steps[i] =
+        plain_clearance(i < found.steps.size() ? found.steps[i] : Closest{}, robot.pose, objects);
+}
+
+}  // namespace
+}  // namespace minkray
+
+using namespace minkray;
+
+extern "C" int minkray_scene_clearance(minkray_scene scene, uint32_t group, const double* path,
+                                       size_t rows, size_t numbers,
+                                       const minkray_clearance_options* options,
+                                       minkray_clearance* steps, minkray_clearance* least) {
+  return call("minkray_scene_clearance", [&] {
+    const HeldScene& held = scene_of(scene);
+    held.world();  // it is not being changed
+    const HeldScene::Group& robot = held.group(group);
+    if (!robot.model) wrong_use("group: must be a robot's, from URDF, MJCF, SDF or glTF");
+    if (!is_rigid(robot.pose)) wrong_use("group: must have a pose that keeps lengths");
+    minkray_clearance_options given = {sizeof given, 0, 0, 0};
+    if (options) {
+      if (options->size < sizeof given)
+        wrong_use("options.size: must be sizeof(minkray_clearance_options)");
+      given = *options;
+    }
+    if (!(given.tolerance >= 0 && given.tolerance <= 1))
+      wrong_use("options.tolerance: must be between 0 and 1 (got " +
+                std::to_string(given.tolerance) + ")");
+    const std::vector<JointRow> read = rows_of(robot, path, rows, numbers);
+    with_threads(checked_threads(given.threads),
+                 [&] { find_clearance(held, robot, read, given, steps, least); });
+  });
+}

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/library/gather.h"
+
+#include <sys/mman.h>
+#include <ucontext.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <exception>
+#include <new>
+#include <utility>
+
+namespace minkray {
+namespace {
+
+/// Of one piece of work: traversal and solvers take some ten thousand bytes, nested shapes a few
+/// hundred each. Memory that is never touched costs nothing.
+constexpr std::size_t stack_bytes = std::size_t{1} << 19;
+
+/// Pieces of work that stand still at once.
+constexpr std::size_t most_turns = 256;
+
+/// Memory for a stack, above a page that must not be touched.
+class Stack {
+ public:
+  Stack() : page_(static_cast<std::size_t>(sysconf(_SC_PAGESIZE))) {
+    memory_ = mmap(nullptr, page_ + stack_bytes, PROT_READ | PROT_WRITE,
+                   MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    if (memory_ == MAP_FAILED) throw std::bad_alloc();
+    mprotect(memory_, page_, PROT_NONE);
+  }
+  ~Stack() { munmap(memory_, page_ + stack_bytes); }
+  Stack(const Stack&) = delete;
+  Stack& operator=(const Stack&) = delete;
+  void* lowest() const { return static_cast<char*>(memory_) + page_; }
+
+ private:
+  std::size_t page_;
+  void* memory_;
+};
+
+/// What stands still, and what it waits for.
+struct Turn {
+  Stack stack;
+  ucontext_t context;
+  const BatchSource* source = nullptr;  ///< null when it is done
+  std::size_t count = 0;
+  const Coordinates* directions = nullptr;
+  Coordinates* points = nullptr;
+};
+
+}  // namespace
+
+class Gathering::Turns {
+ public:
+  void run(std::size_t count, const std::function<void(std::size_t)>& work) {
+    next_ = 0;
+    count_ = count;
+    work_ = &work;
+    thrown_ = nullptr;
+    while (turns_.size() < std::min(count, most_turns)) turns_.push_back(std::make_unique<Turn>());
+    Turns* const outer = std::exchange(of_this_thread(), this);
+    std::vector<Turn*> ready, waiting;
+    for (std::size_t i = 0; i < std::min(count, most_turns); ++i) {
+      begin(*turns_[i]);
+      ready.push_back(turns_[i].get());
+    }
+    while (!ready.empty()) {
+      waiting.clear();
+      for (Turn* turn : ready) {
+        turn->source = nullptr;
+        current_ = turn;
+        swapcontext(&caller_, &turn->context);
+        if (turn->source) waiting.push_back(turn);
+      }
+      answer(waiting);
+      ready.swap(waiting);
+    }
+    of_this_thread() = outer;
+    if (thrown_) std::rethrow_exception(thrown_);
+  }
+
+  void wait(const BatchSource& source, std::size_t count, const Coordinates* directions,
+            Coordinates* points) {
+    Turn& turn = *current_;
+    turn.source = &source;
+    turn.count = count;
+    turn.directions = directions;
+    turn.points = points;
+    swapcontext(&turn.context, &caller_);
+  }
+
+  /// Whose work this thread is doing; null if none's. It is what a support mapping, deep in a
+  /// solver, has no argument for.
+  static Turns*& of_this_thread() {
+    thread_local Turns* turns = nullptr;
+    return turns;
+  }
+
+ private:
+  /// What it does is begun anew each time: it may be another thread's by then.
+  void begin(Turn& turn) {
+    getcontext(&turn.context);
+    turn.context.uc_stack.ss_sp = turn.stack.lowest();
+    turn.context.uc_stack.ss_size = stack_bytes;
+    turn.context.uc_link = &caller_;
+    makecontext(&turn.context, &Turns::take_pieces, 0);
+  }
+
+  static void take_pieces() {
+    Turns& turns = *of_this_thread();
+    try {
+      while (turns.next_ < turns.count_ && !turns.thrown_) (*turns.work_)(turns.next_++);
+    } catch (...) {
+      turns.thrown_ = std::current_exception();
+    }
+  }
+
+  /// Asks each source once for all that it is asked for, or as often as that is too much at once.
+  void answer(std::vector<Turn*>& waiting) {
+    for (std::size_t first = 0; first < waiting.size();) {
+      const BatchSource& source = *waiting[first]->source;
+      const auto begin = waiting.begin() + static_cast<std::ptrdiff_t>(first);
+      const auto of_others = std::stable_partition(
+          begin, waiting.end(), [&](const Turn* turn) { return turn->source == &source; });
+      const auto end = static_cast<std::size_t>(of_others - waiting.begin());
+      while (first < end) {
+        directions_.clear();
+        std::size_t last = first;
+        do {
+          const Turn& turn = *waiting[last++];
+          directions_.insert(directions_.end(), turn.directions, turn.directions + turn.count);
+        } while (last < end && directions_.size() + waiting[last]->count <= source.most_at_once());
+        points_.resize(directions_.size());
+        source.answer(directions_.size(), directions_.data(), points_.data());
+        const Coordinates* from = points_.data();
+        for (; first < last; ++first) {
+          std::copy_n(from, waiting[first]->count, waiting[first]->points);
+          from += waiting[first]->count;
+        }
+      }
+    }
+  }
+
+  std::vector<std::unique_ptr<Turn>> turns_;
+  ucontext_t caller_;
+  Turn* current_ = nullptr;
+  std::size_t next_ = 0, count_ = 0;
+  const std::function<void(std::size_t)>* work_ = nullptr;
+  std::exception_ptr thrown_;
+  std::vector<Coordinates> directions_, points_;
+};
+
+Gathering::Gathering() = default;
+Gathering::~Gathering() = default;
+
+void Gathering::run(std::size_t count, const std::function<void(std::size_t)>& work) {
+  std::unique_ptr<Turns> turns;
+  {
+    const std::lock_guard lock(mutex_);
+    if (!idle_.empty()) {
+      turns = std::move(idle_.back());
+      idle_.pop_back();
+    }
+  }
+  if (!turns) turns = std::make_unique<Turns>();
+  turns->run(count, work);
+  const std::lock_guard lock(mutex_);
+  idle_.push_back(std::move(turns));
+}
+
+bool Gathering::wait(const BatchSource& source, std::size_t count, const Coordinates* directions,
+                     Coordinates* points) {
+  Turns* const turns = Turns::of_this_thread();
+  if (!turns) return false;
+  turns->wait(source, count, directions, points);
+  return true;
+}
+
+}  // namespace minkray

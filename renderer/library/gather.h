@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// Many pieces of work on one thread that wait for each other's support points, so that a support
+// function that is dear to call is asked for many directions at once.
+//
+// Each piece runs on a stack of its own. Where it asks for support points it stands still, and the
+// next one begins or goes on; when all stand still the function is called once for all of them.
+// Solvers know nothing of that, and answers are the same.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "core/shape/custom.h"
+
+namespace minkray {
+
+/// Where support points come from by the hundred.
+class BatchSource {
+ public:
+  virtual ~BatchSource() = default;
+  virtual void answer(std::size_t count, const Coordinates* directions,
+                      Coordinates* points) const = 0;
+  /// Directions that may be asked for at once; 0 if that is none of its business.
+  virtual std::size_t most_at_once() const = 0;
+};
+
+/// Any number of threads may use it at once.
+class Gathering {
+ public:
+  Gathering();
+  ~Gathering();
+  Gathering(const Gathering&) = delete;
+  Gathering& operator=(const Gathering&) = delete;
+
+  /// Calls work(i) for all i < count on this thread, some of them in turns. Throws what one of them
+  /// throws.
+  void run(std::size_t count, const std::function<void(std::size_t)>& work);
+
+  /// Within `run`'s work: the source's answer, when others have asked as well. Answers false, and
+  /// does nothing, anywhere else.
+  static bool wait(const BatchSource& source, std::size_t count, const Coordinates* directions,
+                   Coordinates* points);
+
+ private:
+  class Turns;
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<Turns>> idle_;
+};
+
+}  // namespace minkray

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+// Pictures, sensors and robots' paths, for __init__.py to build on.
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "renderer/library/python/bind.h"
+#include "renderer/library/python/interruptible.h"
+
+namespace minkray_python {
+namespace {
+
+using minkray::Scene;
+
+/// The channels by their names, each of the shape (height, width) or (height, width, numbers).
+py::dict render(const Scene& scene, const std::string& view, std::uint32_t width,
+                std::uint32_t height, std::uint32_t samples, std::uint64_t seed,
+                const std::string& integrator, std::int32_t bounces, std::int32_t max_depth,
+                bool denoise, const std::vector<std::string>& names, int threads) {
+  const minkray_picture_options options = {sizeof options, view.empty() ? nullptr : view.c_str(),
+                                           width,          height,
+                                           samples,        bounces,
+                                           max_depth,      denoise ? 1 : 0,
+                                           seed,           integrator.c_str()};
+  check(minkray_scene_picture_size(scene.handle(), &options, &width, &height));
+  std::vector<py::array_t<double>> arrays;
+  std::vector<minkray_channel> channels;
+  std::vector<bool> are_integers;
+  for (const std::string& name : names) {
+    std::uint32_t numbers = 0;
+    std::int32_t is_integer = 0;
+    check(minkray_picture_channel(name.c_str(), &numbers, &is_integer));
+    std::vector<py::ssize_t> shape = {static_cast<py::ssize_t>(height),
+                                      static_cast<py::ssize_t>(width)};
+    if (numbers > 1) shape.push_back(static_cast<py::ssize_t>(numbers));
+    py::array_t<double>& array = arrays.emplace_back(shape);
+    channels.push_back(
+        {name.c_str(), array.mutable_data(), static_cast<std::size_t>(array.size())});
+    are_integers.push_back(is_integer != 0);
+  }
+  Interruptible(threads).run([&](const minkray_options* how) {
+    return minkray_scene_render(scene.handle(), &options, channels.data(), channels.size(), how);
+  });
+  py::dict result;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (are_integers[i])
+      result[names[i].c_str()] = py::array_t<std::uint32_t>(arrays[i]);
+    else
+      result[names[i].c_str()] = py::array_t<float>(arrays[i]);
+  }
+  return result;
+}
+
+py::array_t<double> points(const std::vector<minkray_clearance>& found,
+                           const double (minkray_clearance::*of)[3]) {
+  const auto n = static_cast<py::ssize_t>(found.size());
+  py::array_t<double> array({n, py::ssize_t{3}});
+  for (std::size_t i = 0; i < found.size(); ++i)
+    std::copy_n(found[i].*of, 3, array.mutable_data(static_cast<py::ssize_t>(i), 0));
+  return array;
+}
+
+template <class T>
+py::array_t<T> column(const std::vector<minkray_clearance>& found, T minkray_clearance::*of) {
+  py::array_t<T> array(static_cast<py::ssize_t>(found.size()));
+  for (std::size_t i = 0; i < found.size(); ++i)
+    array.mutable_at(static_cast<py::ssize_t>(i)) = found[i].*of;
+  return array;
+}
+
+py::dict clearance(const Scene& scene, const Scene::Group& robot, const Doubles& path,
+                   double tolerance, bool only_obstacles, int threads) {
+  if (path.ndim() != 2) throw py::value_error("path: must have the shape (rows, joint values)");
+  const auto rows = static_cast<std::size_t>(path.shape(0));
+  std::vector<minkray_clearance> steps(std::max<std::size_t>(rows, 2) - 1);
+  const minkray_clearance_options options = {sizeof options, tolerance, only_obstacles ? 1 : 0,
+                                             threads};
+  int code = MINKRAY_OK;
+  {
+    const py::gil_scoped_release unlock;
+    code = minkray_scene_clearance(scene.handle(), robot.number(), path.data(), rows,
+                                   static_cast<std::size_t>(path.shape(1)), &options, steps.data(),
+                                   nullptr);
+  }
+  check(code);
+  py::dict result;
+  result["lower"] = column(steps, &minkray_clearance::lower);
+  result["upper"] = column(steps, &minkray_clearance::upper);
+  result["row"] = column(steps, &minkray_clearance::row);
+  result["object_a"] = column(steps, &minkray_clearance::object_a);
+  result["object_b"] = column(steps, &minkray_clearance::object_b);
+  result["point_a"] = points(steps, &minkray_clearance::point_a);
+  result["point_b"] = points(steps, &minkray_clearance::point_b);
+  result["normal"] = points(steps, &minkray_clearance::normal);
+  return result;
+}
+
+py::array_t<double> lidar(const std::string& pattern, const py::object& pose) {
+  const minkray::Pose map = pose_of(pose, "pose");
+  std::vector<minkray::Ray> rays(minkray::lidar(pattern, map));
+  minkray::lidar(pattern, map, rays);
+  py::array_t<double> array({static_cast<py::ssize_t>(rays.size()), py::ssize_t{6}});
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    double* row = array.mutable_data(static_cast<py::ssize_t>(i), 0);
+    std::copy_n(&rays[i].origin.x, 3, row);
+    std::copy_n(&rays[i].direction.x, 3, row + 3);
+  }
+  return array;
+}
+
+}  // namespace
+
+void bind_pictures(py::module_& module) {
+  module.def("render", &render);
+  module.def("clearance", &clearance);
+  module.def("lidar", &lidar);
+}
+
+}  // namespace minkray_python

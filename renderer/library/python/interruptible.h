@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// Work without the interpreter's lock that Ctrl-C stops.
+#pragma once
+
+#include <thread>
+
+#include "renderer/library/python/arrays.h"
+
+namespace minkray_python {
+
+inline void check(int code) {
+  if (code != MINKRAY_OK) throw minkray::Error(code);
+}
+
+/// Lets Ctrl-C stop what takes long: signals are looked at by the thread that called.
+class Interruptible {
+ public:
+  explicit Interruptible(int threads) {
+    options_ = {sizeof options_, threads, 0, &Interruptible::look, this};
+  }
+  const minkray_options* options() const { return &options_; }
+
+  /// Runs the work without the interpreter's lock; answers its code.
+  template <class Work>
+  void run(Work&& work) {
+    int code = MINKRAY_OK;
+    {
+      const py::gil_scoped_release unlock;
+      code = work(options());
+    }
+    if (code == MINKRAY_STOPPED && PyErr_Occurred()) throw py::error_already_set();
+    check(code);
+  }
+
+ private:
+  static int look(void* user, double) {
+    auto* self = static_cast<Interruptible*>(user);
+    if (std::this_thread::get_id() != self->caller_) return 0;
+    const py::gil_scoped_acquire lock;
+    return PyErr_CheckSignals() != 0 ? 1 : 0;
+  }
+  std::thread::id caller_ = std::this_thread::get_id();
+  minkray_options options_;
+};
+
+}  // namespace minkray_python
