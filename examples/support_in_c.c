@@ -19,7 +19,7 @@ static int support(void* user, size_t count, const double (*n)[3], double (*p)[3
 
 int main(void) {
   double radius = 1;
-  const minkray_support mine = {support, &radius, NULL, NULL, NULL};
+  const minkray_support mine = {.function = support, .user = &radius};
   const minkray_ray ray = {{0.2, 0.3, 5}, {0, 0, -1}, INFINITY};
   minkray_shape shape;
   minkray_hit hit;

@@ -400,7 +400,7 @@ template <class Support>
 Shape custom(Support support) {
   return detail::custom_within(std::move(support), nullptr, nullptr);
 }
-/// The same of a function that is asked for many points at once:
+/// Makes a shape of a function that is asked for many points at once:
 /// `support(View<const Vec3> directions, View<Vec3> points)`. With `gathered`, rays wait for each
 /// other until there are so many, as is worth while if a call is dear.
 template <class Support>

@@ -13,8 +13,8 @@
 namespace minkray {
 namespace {
 
-/// Of one piece of work: traversal and solvers take some ten thousand bytes, nested shapes a few
-/// hundred each. Memory that is never touched costs nothing.
+/// Each piece of work has so many: traversal and solvers take some ten thousand, nested shapes a
+/// few hundred each. Memory that is never touched costs nothing.
 constexpr std::size_t stack_bytes = std::size_t{1} << 19;
 
 /// Pieces of work that stand still at once.

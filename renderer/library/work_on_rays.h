@@ -22,7 +22,7 @@ int threads_of(const minkray_options* options);
 void work_on_rays(std::size_t count, const minkray_options* options,
                   const std::function<void(std::size_t begin, std::size_t end)>& body);
 
-/// The same with body(begin, end) for groups of at most `group` that follow each other: in order,
+/// Calls body(begin, end) likewise, for groups of at most `group` that follow each other: in order,
 /// or if they are to be gathered, some of them in turns (gather.h).
 void work_on_groups(std::size_t count, std::size_t group, bool gathered,
                     const minkray_options* options,

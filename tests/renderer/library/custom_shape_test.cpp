@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 #include <minkray/minkray.h>
 
+#include <atomic>
 #include <cmath>
+#include <cstring>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -213,6 +215,74 @@ TEST(CustomShape, that_throws_in_the_middle_of_a_cast_ends_the_cast_with_an_erro
   EXPECT_THROW(scene.cast(rays, hits), mk::Error);
   std::vector<mk::Proof> proofs(rays.size());
   EXPECT_THROW(scene.prove(rays, hits, proofs), mk::Error);
+}
+
+/// Counts how often it is called, and with how many directions.
+struct CountedBatch {
+  std::atomic<std::size_t>*calls, *directions;
+  const bool* fails = nullptr;
+  void operator()(mk::View<const Vec3> n, mk::View<Vec3> points) const {
+    ++*calls;
+    *directions += n.size();
+    if (fails && *fails) throw std::runtime_error("no more");
+    for (std::size_t i = 0; i < n.size(); ++i) points[i] = cut_cylinder_support(n[i]);
+  }
+};
+
+TEST(CustomShape, that_is_gathered_answers_the_same_bits_in_fewer_calls) {
+  std::atomic<std::size_t> calls[2] = {0, 0}, directions[2] = {0, 0};
+  const std::vector<mk::Ray> rays = rays_around({0, 0, 0}, 2, 10000);
+  std::vector<mk::Hit> hits[2];
+  std::vector<mk::Proof> proofs[2];
+  std::vector<std::uint8_t> blocked[2];
+  for (const std::size_t gathered : {0, 1000}) {
+    const std::size_t i = gathered > 0;
+    mk::Scene scene;
+    const mk::Shape shape = mk::custom_batched(CountedBatch{&calls[i], &directions[i]}, gathered);
+    // Two of them, one in the other's way, and one of ours.
+    scene.add(shape);
+    scene.add(
+        mk::rounded(mk::custom_batched(CountedBatch{&calls[i], &directions[i]}, gathered), 0.1),
+        mk::translation({1, 0.5, 0}));
+    scene.add(mk::sphere(0.5), mk::translation({-1, 0, 0}));
+    scene.commit();
+    calls[i] = directions[i] = 0;
+    hits[i].resize(rays.size());
+    proofs[i].resize(500);
+    blocked[i].resize(rays.size());
+    scene.cast(rays, hits[i]);
+    scene.occluded(rays, blocked[i]);
+    scene.prove({rays.data(), 500}, {hits[i].data(), 500}, proofs[i]);
+  }
+  EXPECT_GT(directions[1], 20000u);
+  EXPECT_EQ(directions[0], directions[1]);
+  EXPECT_LT(calls[1] * 10, calls[0]) << calls[0] << " calls become " << calls[1];
+  std::size_t met = 0;
+  for (std::size_t k = 0; k < rays.size(); ++k) {
+    ASSERT_EQ(std::memcmp(&hits[0][k], &hits[1][k], sizeof(mk::Hit)), 0) << k;
+    met += hits[0][k].found();
+  }
+  EXPECT_GT(met, rays.size() / 4);
+  EXPECT_LT(met, rays.size() * 3 / 4);
+  EXPECT_EQ(blocked[0], blocked[1]);
+  for (std::size_t k = 0; k < proofs[0].size(); ++k) {
+    EXPECT_TRUE(proofs[0][k].holds) << k << ": " << proofs[0][k].complaint;
+    ASSERT_EQ(std::memcmp(&proofs[0][k], &proofs[1][k], sizeof(mk::Proof)), 0) << k;
+  }
+}
+
+TEST(CustomShape, that_is_gathered_and_throws_ends_the_cast_with_an_error) {
+  std::atomic<std::size_t> calls = 0, directions = 0;
+  bool fails = false;
+  mk::Scene scene;
+  scene.add(mk::custom_batched(CountedBatch{&calls, &directions, &fails}, 100));
+  scene.commit();
+  const std::vector<mk::Ray> rays = rays_around({0, 0, 0}, 2, 5000);
+  std::vector<mk::Hit> hits(rays.size());
+  scene.cast(rays, hits);
+  fails = true;
+  EXPECT_THROW(scene.cast(rays, hits), mk::Error);
+  EXPECT_THROW(scene.cast(rays, hits), mk::Error);  // and is not forgotten
 }
 
 }  // namespace

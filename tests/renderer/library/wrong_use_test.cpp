@@ -177,6 +177,81 @@ TEST(WrongUse, of_files_says_which) {
   minkray_scene_release(scene);
 }
 
+TEST(WrongUse, of_pictures_says_which_option_or_channel) {
+  const minkray_scene scene = scene_with_a_ball();
+  minkray_picture_options options = {};
+  options.size = sizeof options;
+  options.width = 4;
+  options.height = 2;
+  std::vector<double> light(24);
+  minkray_channel channel = {"rgb", light.data(), light.size()};
+  const auto render = [&] { return minkray_scene_render(scene, &options, &channel, 1, nullptr); };
+  expect_error(render(), MINKRAY_WRONG_USE, "must have a camera");
+  options.view = R"({"camera": {"position": [0, -4, 0], "look_at": [0, 0, 0]}})";
+  expect_error(render(), MINKRAY_WRONG_USE, "must be committed");
+  ASSERT_EQ(minkray_scene_commit(scene), MINKRAY_OK);
+  ASSERT_EQ(render(), MINKRAY_OK) << minkray_last_error();
+  channel.count = 23;
+  expect_error(render(), MINKRAY_WRONG_USE, "channels[0].count: must be 24");
+  channel = {"rgb", nullptr, 24};
+  expect_error(render(), MINKRAY_WRONG_USE, "channels[0].values: must not be NULL");
+  channel = {nullptr, light.data(), 24};
+  expect_error(render(), MINKRAY_WRONG_USE, "channels[0].name: must not be NULL");
+  channel = {"cryptomatte", light.data(), 24};
+  expect_error(render(), MINKRAY_WRONG_USE, "channels[0].name: must be one of rgb, Z");
+  channel = {"rgb", light.data(), 24};
+  options.integrator = "paths";
+  expect_error(render(), MINKRAY_WRONG_USE, "options.integrator: must be one of auto, path");
+  options.integrator = nullptr;
+  options.samples = 1u << 30;
+  expect_error(render(), MINKRAY_WRONG_USE, "options.samples: must be at most");
+  options.samples = 1;
+  options.denoise = 1;
+  expect_error(render(), MINKRAY_WRONG_USE, "options.samples: must be at least 2");
+  options.denoise = 0;
+  for (
+      const auto& [view, text] : std::initializer_list<std::pair<const char*, const char*>>{
+          {"{", "options.view"},
+          {"[]", "must be an object"},
+          {R"({"camera": 1})", "/camera"},
+          {R"({"camera": {"position": [0, -4, 0], "look_at": [0, 0, 0]}, "objects": [1]})",
+           "/objects/0"},
+          {R"({"camera": {"position": [0, -4, 0], "look_at": [0, 0, 0]}, "lights": [{"type": "moon"}]})",
+           "/lights/0/type"}}) {
+    options.view = view;
+    expect_error(minkray_scene_picture_size(scene, &options, nullptr, nullptr), MINKRAY_BAD_INPUT,
+                 text);
+  }
+  options.size = 8;
+  expect_error(render(), MINKRAY_WRONG_USE, "options.size");
+  expect_error(minkray_scene_render(scene, nullptr, nullptr, 1, nullptr), MINKRAY_WRONG_USE,
+               "channels: must not be NULL");
+  minkray_scene_release(scene);
+}
+
+TEST(WrongUse, of_paths_and_lidars_says_what) {
+  const minkray_scene scene = scene_with_a_ball();
+  ASSERT_EQ(minkray_scene_commit(scene), MINKRAY_OK);
+  const double path[2] = {0, nan};
+  minkray_clearance least;
+  expect_error(minkray_scene_clearance(scene, 0, path, 1, 2, nullptr, nullptr, &least),
+               MINKRAY_WRONG_USE, "group: must be less than 0");
+  size_t needed = 0;
+  expect_error(minkray_lidar_rays(nullptr, nullptr, nullptr, 0, &needed), MINKRAY_WRONG_USE,
+               "pattern: must not be NULL");
+  expect_error(minkray_lidar_rays("spinning:4x8", nullptr, nullptr, 1, &needed), MINKRAY_WRONG_USE,
+               "rays: must not be NULL");
+  expect_error(minkray_lidar_rays("no-such.csv", nullptr, nullptr, 0, &needed), MINKRAY_BAD_INPUT,
+               "no-such.csv");
+  ASSERT_EQ(minkray_lidar_rays("spinning:4x8", nullptr, nullptr, 0, &needed), MINKRAY_OK);
+  EXPECT_EQ(needed, 32u);
+  std::vector<minkray_ray> rays(3, along_x);
+  ASSERT_EQ(minkray_lidar_rays("spinning:4x8", nullptr, rays.data(), 2, nullptr), MINKRAY_OK);
+  EXPECT_LT(rays[0].direction[0], 0);  // it begins behind
+  EXPECT_EQ(rays[2].direction[0], along_x.direction[0]);
+  minkray_scene_release(scene);
+}
+
 /// A support function that waits, so that a commit takes as long as the test wants.
 struct Gate {
   std::atomic<bool> closed = false, waiting = false;
@@ -191,7 +266,7 @@ struct Gate {
 
 TEST(WrongUse, of_a_scene_by_two_threads_that_change_it) {
   Gate gate;
-  const minkray_support support = {Gate::support, &gate, nullptr, nullptr, nullptr};
+  const minkray_support support = {Gate::support, &gate, nullptr, nullptr, nullptr, 0};
   minkray_shape shape;
   ASSERT_EQ(minkray_shape_custom(&support, &shape), MINKRAY_OK) << minkray_last_error();
   minkray_scene scene;
