@@ -407,7 +407,6 @@ template <class Support>
 Shape custom_batched(Support support, std::size_t gathered = 0) {
   minkray_support given = {};
   given.user = new Support(std::move(support));
-  given.gathered = gathered;
   given.function = [](void* user, std::size_t count, const double(*n)[3], double(*p)[3]) -> int {
     try {
       const Support& function = *static_cast<const Support*>(user);
@@ -420,7 +419,7 @@ Shape custom_batched(Support support, std::size_t gathered = 0) {
   };
   given.release = [](void* user) { delete static_cast<Support*>(user); };
   minkray_shape made;
-  detail::check(minkray_shape_custom(&given, &made));
+  detail::check(minkray_shape_custom_gathered(&given, gathered, &made));
   return Shape(made);
 }
 /// A box that holds the shape may be given with it: answers out of it are found.

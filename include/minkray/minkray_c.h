@@ -96,10 +96,6 @@ typedef struct minkray_support {
   void (*release)(void* user); /* when the last shape made of it is gone; may be NULL */
   const double* lower;         /* corners of a box that holds the shape; both may be NULL */
   const double* upper;
-  /* For functions that are dear to call and cheap by the direction, such as those of interpreters:
-   * many rays wait for each other, so that up to so many directions are asked for at once. 0: as
-   * they come, at most 16. */
-  size_t gathered;
 } minkray_support;
 
 /* The function is asked in some hundred directions at once, and its answers are held against each
@@ -107,6 +103,13 @@ typedef struct minkray_support {
  * as well, and queries that it lies to answer MINKRAY_BAD_SUPPORT. `release` is called if this
  * fails. */
 MINKRAY_API int minkray_shape_custom(const minkray_support* support, minkray_shape* shape);
+
+/* Makes one of a function that is dear to call and cheap by the direction, such as those of
+ * interpreters: where many rays are cast they wait for each other, so that up to `gathered`
+ * directions are asked for at once. The answers are the same; others come in calls of at most 16.
+ */
+MINKRAY_API int minkray_shape_custom_gathered(const minkray_support* support, size_t gathered,
+                                              minkray_shape* shape);
 
 /* One more owner; releasing takes one away. */
 MINKRAY_API int minkray_shape_retain(minkray_shape shape);

@@ -77,6 +77,15 @@ int minkray_shape_custom(const minkray_support* support, minkray_shape* shape) {
   });
 }
 
+int minkray_shape_custom_gathered(const minkray_support* support, size_t gathered,
+                                  minkray_shape* shape) {
+  return call("minkray_shape_custom_gathered", [&] {
+    require(support, "support");
+    require(shape, "shape");
+    *shape = hold(Custom<double>{std::make_shared<const CustomSupport>(*support, gathered)});
+  });
+}
+
 int minkray_shape_retain(minkray_shape shape) {
   return call("minkray_shape_retain", [&] {
     if (!held_shapes().retain(shape.id)) shape_of(shape, "shape");

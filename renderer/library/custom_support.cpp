@@ -61,8 +61,8 @@ std::string contradiction(const Coordinates& n, const Coordinates& point, const 
 
 }  // namespace
 
-CustomSupport::CustomSupport(const minkray_support& function)
-    : function_(function), has_bounds_(function.lower && function.upper) {
+CustomSupport::CustomSupport(const minkray_support& function, std::size_t gathered)
+    : function_(function), gathered_(gathered), has_bounds_(function.lower && function.upper) {
   try {
     if (!function.function) wrong_use("support.function: must not be NULL");
     if ((function.lower == nullptr) != (function.upper == nullptr))
@@ -145,7 +145,7 @@ void CustomSupport::support(std::size_t count, const Coordinates* directions,
                             Coordinates* points) const {
   static_assert(sizeof(Coordinates) == sizeof(double[3]));
   if (!has_lied()) {
-    if (function_.gathered == 0 || !Gathering::wait(*this, count, directions, points))
+    if (gathered_ == 0 || !Gathering::wait(*this, count, directions, points))
       answer(count, directions, points);
     for (std::size_t i = 0; i < count && !has_lied(); ++i) check(directions[i], points[i]);
   }

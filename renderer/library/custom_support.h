@@ -29,14 +29,14 @@ inline constexpr double support_contradiction = 1e-12;
 class CustomSupport final : public SupportSource, public BatchSource {
  public:
   /// Asks the function in some hundred directions. Throws CallError if it fails or lies.
-  explicit CustomSupport(const minkray_support& function);
+  explicit CustomSupport(const minkray_support& function, std::size_t gathered = 0);
   ~CustomSupport() override;
 
   /// What was wrong with an answer; empty if nothing was.
   std::string complaint() const;
   bool has_lied() const { return lied_.load(std::memory_order_acquire); }
 
-  std::size_t most_at_once() const override { return function_.gathered; }
+  std::size_t most_at_once() const override { return gathered_; }
 
   /// Two answers of it; tells if they contradict each other.
   void compare(const Vec3<double>& n, const Vec3<double>& along_n, const Vec3<double>& m,
@@ -58,6 +58,7 @@ class CustomSupport final : public SupportSource, public BatchSource {
   void complain(const std::string& what) const;
 
   minkray_support function_;
+  std::size_t gathered_;
   bool has_bounds_;
   Bounds<double> bounds_;
   double allowed_ = 0;  ///< beyond planes and bounds, in lengths

@@ -7,6 +7,9 @@
 namespace minkray_python {
 namespace {
 
+/// Directions that are asked for at once at most: by then a call of the interpreter costs nothing.
+constexpr std::size_t gathered = 4096;
+
 /// Guarded by the interpreter's lock.
 std::string& last_raised() {
   static std::string text;
@@ -49,7 +52,6 @@ minkray::Shape custom(const py::function& support, const py::object& bounds) {
   }
   given.user = new py::function(support);
   given.function = ask;
-  given.gathered = 4096;  // by then a call of the interpreter costs nothing
   given.release = [](void* user) {
     const py::gil_scoped_acquire lock;
     delete static_cast<py::function*>(user);
@@ -58,7 +60,7 @@ minkray::Shape custom(const py::function& support, const py::object& bounds) {
   int code = MINKRAY_OK;
   {
     const py::gil_scoped_release unlock;
-    code = minkray_shape_custom(&given, &shape);
+    code = minkray_shape_custom_gathered(&given, gathered, &shape);
   }
   if (code != MINKRAY_OK) throw minkray::Error(code);
   return minkray::Shape(shape);

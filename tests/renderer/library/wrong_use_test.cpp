@@ -266,7 +266,7 @@ struct Gate {
 
 TEST(WrongUse, of_a_scene_by_two_threads_that_change_it) {
   Gate gate;
-  const minkray_support support = {Gate::support, &gate, nullptr, nullptr, nullptr, 0};
+  const minkray_support support = {Gate::support, &gate, nullptr, nullptr, nullptr};
   minkray_shape shape;
   ASSERT_EQ(minkray_shape_custom(&support, &shape), MINKRAY_OK) << minkray_last_error();
   minkray_scene scene;

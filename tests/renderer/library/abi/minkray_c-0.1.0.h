@@ -1,0 +1,375 @@
+/* SPDX-License-Identifier: MIT
+ * Minkray for C and for every language that can call C: convex shapes, scenes of them, rays cast at
+ * them, proofs of the answers, distances and times of impact. docs/library.md has examples.
+ *
+ * All functions that answer an int answer MINKRAY_OK or another minkray_code; what was wrong, and
+ * where, minkray_last_error() says then. Nothing is written to a result of a call that failed,
+ * unless its description says so.
+ *
+ * Handles are numbers, never addresses: one that was released, or never made, is an error that is
+ * told, whatever was made since.
+ *
+ * Threads: functions that take a scene and do not say that they change it may be called for it by
+ * any number of threads at once, and so may all functions of shapes. Those that change a scene are
+ * to be called by one thread at a time, while no other uses that scene; two that change one at once
+ * get MINKRAY_WRONG_USE.
+ *
+ * All points, directions and poses are in the frame of the world, of one unit of length, in double.
+ */
+#ifndef MINKRAY_MINKRAY_C_H
+#define MINKRAY_MINKRAY_C_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#define MINKRAY_VERSION_MAJOR 0
+#define MINKRAY_VERSION_MINOR 1
+#define MINKRAY_VERSION_PATCH 0
+
+#if defined(__GNUC__)
+#define MINKRAY_API __attribute__((visibility("default")))
+#else
+#define MINKRAY_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* What became of a call. */
+typedef enum minkray_code {
+  MINKRAY_OK = 0,
+  MINKRAY_WRONG_USE = 1,   /* an argument that cannot be, or a call at the wrong time */
+  MINKRAY_BAD_INPUT = 2,   /* a file or text that cannot be used */
+  MINKRAY_BAD_SUPPORT = 3, /* a support function of yours is none: it contradicts itself */
+  MINKRAY_NO_MEMORY = 4,
+  MINKRAY_STOPPED = 5, /* you asked for it; results are filled in part */
+  MINKRAY_DEFECT = 6   /* an error of Minkray's own: please report it */
+} minkray_code;
+
+/* "0.1.0", of the library that is running. */
+MINKRAY_API const char* minkray_version(void);
+
+/* What the last call of this thread that failed says, one mistake a line. Valid until the next. */
+MINKRAY_API const char* minkray_last_error(void);
+
+/* ---- shapes ---------------------------------------------------------------------------------- */
+
+/* A convex shape, which never changes. {0} is none. */
+typedef struct minkray_shape {
+  uint64_t id;
+} minkray_shape;
+
+/* x -> linear x + translation: three rows of the linear part's and the translation's numbers. */
+typedef struct minkray_pose {
+  double rows[3][4];
+} minkray_pose;
+
+/* One parameter of a shape: numbers (for points, three each; for a map, the 12 of a minkray_pose)
+ * or shapes. */
+typedef struct minkray_parameter {
+  const char* name;
+  const double* numbers;
+  size_t number_count;
+  const minkray_shape* shapes;
+  size_t shape_count;
+} minkray_parameter;
+
+/* A shape of any kind that scene files know, by the same names: `minkray info --shapes` lists kinds
+ * and parameters. The operands may be released afterwards. */
+MINKRAY_API int minkray_shape_make(const char* kind, const minkray_parameter* parameters,
+                                   size_t count, minkray_shape* shape);
+
+/* What a scene file says of a shape, as text. Mesh files are looked for in `folder`, which may be
+ * NULL for the working folder. */
+MINKRAY_API int minkray_shape_read(const char* json, const char* folder, minkray_shape* shape);
+
+/* Your own shape: points[i] is to be the point of it furthest along directions[i], which has length
+ * 1. Equal directions must get equal points. It is called by several threads at once and must not
+ * call Minkray; it answers 0, or anything else if it failed. */
+typedef int (*minkray_support_function)(void* user, size_t count, const double (*directions)[3],
+                                        double (*points)[3]);
+
+typedef struct minkray_support {
+  minkray_support_function function;
+  void* user;
+  void (*release)(void* user); /* when the last shape made of it is gone; may be NULL */
+  const double* lower;         /* corners of a box that holds the shape; both may be NULL */
+  const double* upper;
+} minkray_support;
+
+/* The function is asked in some hundred directions at once, and its answers are held against each
+ * other: MINKRAY_BAD_SUPPORT if no convex shape has them. Whatever it answers later on is checked
+ * as well, and queries that it lies to answer MINKRAY_BAD_SUPPORT. `release` is called if this
+ * fails. */
+MINKRAY_API int minkray_shape_custom(const minkray_support* support, minkray_shape* shape);
+
+/* One more owner; releasing takes one away. */
+MINKRAY_API int minkray_shape_retain(minkray_shape shape);
+MINKRAY_API int minkray_shape_release(minkray_shape shape);
+
+/* What minkray_shape_read makes the same shape of. Writes at most `size` bytes, the last of them 0,
+ * and to `needed` (if not NULL) how many it takes. Custom shapes cannot be written. */
+MINKRAY_API int minkray_shape_write(minkray_shape shape, char* text, size_t size, size_t* needed);
+
+/* The kind's name, such as "rounded". */
+MINKRAY_API int minkray_shape_kind(minkray_shape shape, const char** kind);
+
+/* Support points along `count` directions of any length. */
+MINKRAY_API int minkray_shape_support(minkray_shape shape, size_t count,
+                                      const double (*directions)[3], double (*points)[3]);
+
+/* The tightest box along the axes, but for rounding. */
+MINKRAY_API int minkray_shape_bounds(minkray_shape shape, double lower[3], double upper[3]);
+
+/* ---- scenes ---------------------------------------------------------------------------------- */
+
+/* Shapes with poses, that rays are cast at. {0} is none. */
+typedef struct minkray_scene {
+  uint64_t id;
+} minkray_scene;
+
+#define MINKRAY_NO_OBJECT UINT32_MAX
+
+MINKRAY_API int minkray_scene_make(minkray_scene* scene);
+MINKRAY_API int minkray_scene_release(minkray_scene scene);
+
+/* The functions from here to minkray_scene_commit change the scene. What is added is numbered from
+ * 0 on. `pose` may be any invertible map, NULL for the identity; `name` may be NULL; so may the
+ * places for numbers. */
+MINKRAY_API int minkray_scene_add(minkray_scene scene, minkray_shape shape,
+                                  const minkray_pose* pose, const char* name, uint32_t* object);
+
+/* All points x with normal . x <= offset |normal|. */
+MINKRAY_API int minkray_scene_add_half_space(minkray_scene scene, const double normal[3],
+                                             double offset, const char* name, uint32_t* object);
+
+typedef struct minkray_file_options {
+  size_t size;                     /* sizeof(minkray_file_options) */
+  const minkray_pose* pose;        /* of all that the file holds, after its own; or NULL */
+  const char* geometry;            /* of robots: "visual" (or NULL), "collision" or "all" */
+  const char* keyframe;            /* or NULL */
+  const char* const* package_dirs; /* where package:// and model:// are looked for */
+  size_t package_dir_count;
+  int skip_missing_meshes;
+} minkray_file_options;
+
+/* All objects of a scene file of Minkray's (.json) or of a robot's description (URDF, MJCF, SDF):
+ * a group of objects with numbers that follow each other. Options may be NULL. */
+MINKRAY_API int minkray_scene_add_file(minkray_scene scene, const char* file,
+                                       const minkray_file_options* options, uint32_t* group);
+
+/* Moves an object. Of robots, joints move it again. */
+MINKRAY_API int minkray_scene_set_pose(minkray_scene scene, uint32_t object,
+                                       const minkray_pose* pose);
+
+/* Moves all that came from a file. */
+MINKRAY_API int minkray_scene_set_group_pose(minkray_scene scene, uint32_t group,
+                                             const minkray_pose* pose);
+
+/* One number for a hinge (radians) or a slide, four for a ball joint (quaternion w, x, y, z). */
+MINKRAY_API int minkray_scene_set_joint(minkray_scene scene, uint32_t group, const char* joint,
+                                        const double* values, size_t count);
+
+/* Makes rays meet what was added and moved since the last commit: builds the hierarchy, or if
+ * things only moved, refits it. */
+MINKRAY_API int minkray_scene_commit(minkray_scene scene);
+
+/* How many objects were added. Particles of scene files are numbered after all objects, once the
+ * scene is committed. */
+MINKRAY_API int minkray_scene_size(minkray_scene scene, uint32_t* objects, uint32_t* particles);
+
+/* Valid until the scene is changed. */
+MINKRAY_API int minkray_scene_name(minkray_scene scene, uint32_t object, const char** name);
+MINKRAY_API int minkray_scene_pose(minkray_scene scene, uint32_t object, minkray_pose* pose);
+
+/* The objects of a group, and how many joints it has that move. */
+MINKRAY_API int minkray_scene_group(minkray_scene scene, uint32_t group, uint32_t* first_object,
+                                    uint32_t* objects, uint32_t* joints);
+MINKRAY_API int minkray_scene_joint(minkray_scene scene, uint32_t group, uint32_t joint,
+                                    const char** name, size_t* number_count);
+
+/* ---- rays ------------------------------------------------------------------------------------ */
+
+/* The points origin + t direction, 0 <= t <= t_max. The direction may have any length but zero;
+ * t_max may be infinite. */
+typedef struct minkray_ray {
+  double origin[3];
+  double direction[3];
+  double t_max;
+} minkray_ray;
+
+typedef enum minkray_status {
+  MINKRAY_HIT = 0,
+  MINKRAY_MISS = 1,
+  MINKRAY_INSIDE = 2,   /* the ray begins in the object: t = 0 */
+  MINKRAY_EXHAUSTED = 3 /* the solver gave up: this is neither a hit nor a miss */
+} minkray_status;
+
+typedef struct minkray_hit {
+  double t;    /* in lengths of the direction; infinite where nothing is met */
+  double t_lo; /* the true t lies between these two */
+  double t_hi;
+  double t_base; /* t is t_base + t_offset, which have more digits than their sum */
+  double t_offset;
+  double point[3];  /* NaN where nothing is met */
+  double normal[3]; /* outward, of length 1; zero where there is none */
+  uint32_t object;  /* or MINKRAY_NO_OBJECT */
+  int32_t status;   /* a minkray_status */
+  int32_t supports; /* how often the object's support mapping was asked */
+  int32_t reserved;
+} minkray_hit;
+
+typedef struct minkray_options {
+  size_t size;     /* sizeof(minkray_options) */
+  int32_t threads; /* 0: one a core. The answers are the same bits for any number */
+  int32_t reserved;
+  /* Told now and then what part is done, by one thread at a time; answers anything but 0 to stop.
+   * May be NULL. */
+  int (*progress)(void* user, double done);
+  void* user;
+} minkray_options;
+
+/* What each ray meets first; where several are met at the same t, the one of the least number. The
+ * answers are the same bits however rays are cut into calls. A ray whose solver gave up at any
+ * object is MINKRAY_EXHAUSTED, though something may have been met: then it is told. Options may be
+ * NULL. */
+MINKRAY_API int minkray_scene_cast(minkray_scene scene, const minkray_ray* rays, size_t count,
+                                   minkray_hit* hits, const minkray_options* options);
+
+/* Rays and answers as arrays: strides are in bytes from one ray to the next. */
+typedef struct minkray_ray_arrays {
+  size_t size; /* sizeof(minkray_ray_arrays) */
+  const double* origins;
+  ptrdiff_t origin_stride;
+  const double* directions;
+  ptrdiff_t direction_stride;
+  const double* t_max; /* NULL: infinite */
+  ptrdiff_t t_max_stride;
+} minkray_ray_arrays;
+
+/* Those that are NULL are not filled. */
+typedef struct minkray_hit_arrays {
+  size_t size; /* sizeof(minkray_hit_arrays) */
+  double* t;
+  double* t_lo;
+  double* t_hi;
+  double* distance; /* t times the direction's length */
+  double* points;   /* three a ray */
+  double* normals;  /* three a ray */
+  uint32_t* objects;
+  uint8_t* status;
+  int32_t* supports;
+} minkray_hit_arrays;
+
+MINKRAY_API int minkray_scene_cast_arrays(minkray_scene scene, const minkray_ray_arrays* rays,
+                                          size_t count, const minkray_hit_arrays* hits,
+                                          const minkray_options* options);
+
+/* blocked[i] is MINKRAY_HIT if the ray meets anything, MINKRAY_MISS, or MINKRAY_EXHAUSTED. */
+MINKRAY_API int minkray_scene_occluded(minkray_scene scene, const minkray_ray_arrays* rays,
+                                       size_t count, uint8_t* blocked,
+                                       const minkray_options* options);
+
+/* Where rays leave one object: MINKRAY_HIT at the greatest t, MINKRAY_INSIDE if they end in it at
+ * t_max, MINKRAY_MISS if they never meet it. Not for half-spaces, which have no end. */
+MINKRAY_API int minkray_scene_exit(minkray_scene scene, uint32_t object, const minkray_ray* rays,
+                                   size_t count, minkray_hit* hits, const minkray_options* options);
+
+/* What is met of one shape, alone. `pose` may be NULL. */
+MINKRAY_API int minkray_shape_cast(minkray_shape shape, const minkray_pose* pose,
+                                   const minkray_ray* rays, size_t count, minkray_hit* hits,
+                                   const minkray_options* options);
+
+/* ---- proofs ---------------------------------------------------------------------------------- */
+
+/* Whether an answer holds, found by support points alone (docs/certificates.md). */
+typedef struct minkray_proof {
+  int32_t holds; /* 1 if so */
+  int32_t reserved;
+  uint32_t against; /* the object that the proof failed at, or MINKRAY_NO_OBJECT */
+  uint32_t checked; /* objects for which something had to be proven */
+  double t_lo;      /* of hits: what is proven of t */
+  double t_hi;
+  double plane[3]; /* of hits: nothing of the object lies beyond this plane through t_lo */
+  char complaint[64];
+} minkray_proof;
+
+/* Proves answers of minkray_scene_cast: that the object is hit where it is said to be, and that all
+ * others are missed before. What is proven is that, up to the rounding that docs/certificates.md
+ * names. */
+MINKRAY_API int minkray_scene_prove(minkray_scene scene, const minkray_ray* rays,
+                                    const minkray_hit* hits, size_t count, minkray_proof* proofs,
+                                    const minkray_options* options);
+
+/* ---- pairs of shapes ------------------------------------------------------------------------- */
+
+typedef enum minkray_distance_status {
+  MINKRAY_SEPARATED = 0,
+  MINKRAY_TOUCHING = 1, /* the bounds are on both sides of 0 */
+  MINKRAY_OVERLAPPING = 2,
+  MINKRAY_UNDECIDED = 3 /* the bounds hold, but are further apart than was asked */
+} minkray_distance_status;
+
+typedef struct minkray_distance {
+  double value; /* between lower and upper; less than zero: how deep they are in each other */
+  double lower;
+  double upper;
+  double point_a[3]; /* point_b - point_a = value normal */
+  double point_b[3];
+  double normal[3]; /* from a to b, of length 1 */
+  int32_t status;   /* a minkray_distance_status */
+  int32_t supports;
+} minkray_distance;
+
+typedef struct minkray_distance_options {
+  size_t size;       /* sizeof(minkray_distance_options) */
+  double tolerance;  /* how near the bounds shall be, relative to the shapes' sizes; 0: 1e-10 */
+  double at_most;    /* beyond this distance it is enough to know so; 0: none */
+  int32_t only_sign; /* 1: only whether they overlap is asked */
+  int32_t reserved;
+} minkray_distance_options;
+
+/* How far apart two shapes are, or how deep in each other. Poses are any invertible maps, NULL for
+ * the identity; so may the options be. */
+MINKRAY_API int minkray_signed_distance(minkray_shape a, const minkray_pose* pose_a,
+                                        minkray_shape b, const minkray_pose* pose_b,
+                                        const minkray_distance_options* options,
+                                        minkray_distance* distance);
+
+/* How a shape moves: its frame's origin by `velocity`, and about that by `turn`, a rotation vector
+ * in the world, radians a unit of time. */
+typedef struct minkray_twist {
+  double velocity[3];
+  double turn[3];
+} minkray_twist;
+
+typedef enum minkray_impact_status {
+  MINKRAY_IMPACT = 0,
+  MINKRAY_NO_IMPACT = 1, /* proven */
+  MINKRAY_BEGINS_INSIDE = 2,
+  MINKRAY_IMPACT_UNDECIDED = 3 /* none before t_lo; no more is known */
+} minkray_impact_status;
+
+typedef struct minkray_impact {
+  double t_lo;     /* they are apart before this: proven */
+  double t_hi;     /* they touch here; infinite if they do not */
+  double distance; /* between them at t_lo */
+  double point_a[3];
+  double point_b[3];
+  double normal[3];
+  int32_t status; /* a minkray_impact_status */
+  int32_t steps;
+} minkray_impact;
+
+/* The first contact at times from 0 to t_max, which is finite. Twists may be NULL: at rest. */
+MINKRAY_API int minkray_time_of_impact(minkray_shape a, const minkray_pose* pose_a,
+                                       const minkray_twist* twist_a, minkray_shape b,
+                                       const minkray_pose* pose_b, const minkray_twist* twist_b,
+                                       double t_max, minkray_impact* impact);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
