@@ -34,8 +34,8 @@ diff <(functions_of "$folder/now/libminkray.so") <(functions_of "$build/libminkr
   { echo "the library does not export what the header declares"; exit 1; }
 
 # Programs of then, with the library of now.
-for header in "$here"/abi/minkray_c-*.h; do
-  then="$(basename "$header" .h)"
+for header in "$here"/abi/minkray_c-*.header; do
+  then="$(basename "$header" .header)"
   stub "$header" "$then"
   for program in scene_in_c support_in_c; do
     gcc -std=c99 -I"$folder/$then" "$sources/examples/$program.c" -L"$folder/$then" -lminkray -lm \
@@ -49,8 +49,8 @@ for header in "$here"/abi/minkray_c-*.h; do
 done
 
 command -v abidiff >/dev/null || { echo "abidiff (abigail-tools) is missing"; exit 77; }
-for header in "$here"/abi/minkray_c-*.h; do
-  then="$(basename "$header" .h)"
+for header in "$here"/abi/minkray_c-*.header; do
+  then="$(basename "$header" .header)"
   abidiff --no-added-syms "$folder/$then/libminkray.so" "$folder/now/libminkray.so" ||
     { echo "programs of $then would break: a new SOVERSION is due"; exit 1; }
 done
