@@ -44,6 +44,13 @@ paste "$folder/answers" "$folder/of_program" | awk '
     ++hits }
   END { if (hits < 50) { print "too few hits: " hits; exit 1 } print hits " hits are the same bits" }'
 
+# What the pages show.
+for page in README.md docs/library.md; do
+  awk '/^```cpp$/ && !n {shows = 1; n = 1; next} /^```$/ {shows = 0} shows' "$sources/$page" >"$folder/shown.cpp"
+  g++ -std=c++20 -Wall -Werror -I"$prefix/include" "$folder/shown.cpp" -L"$prefix/lib" -lminkray -o "$folder/shown"
+  "$folder/shown" | grep -q '^bumper at '
+done
+
 # With pkg-config, and with the static library.
 if command -v pkg-config >/dev/null; then
   g++ -std=c++20 -O2 -march=native -I/usr/include/eigen3 "$sources/examples/beside_eigen.cpp" \
