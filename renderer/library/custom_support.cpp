@@ -168,12 +168,14 @@ void CustomSupport::check(const Coordinates& n, const Coordinates& point) const 
     return complain("the support function answered a point that is not finite, " + text_of(point) +
                     ", along " + text_of(n));
   const double reach = dot(n, point) + allowed_;
-  bool fine = true;
+  // Numbers that are as wide as what is compared make one loop of packets.
+  std::int64_t wrong = 0;
   for (std::size_t i = 0; i < probes_.h.size(); ++i) {
     const double of_probe = n[0] * probes_.x[i] + n[1] * probes_.y[i] + n[2] * probes_.z[i];
     const double beyond =
         probes_.nx[i] * point[0] + probes_.ny[i] * point[1] + probes_.nz[i] * point[2];
-    fine &= (of_probe <= reach) & (beyond <= probes_.h[i]);
+    wrong += of_probe > reach ? 1 : 0;
+    wrong += beyond > probes_.h[i] ? 1 : 0;
   }
   if (has_bounds_ && !probes_.h.empty()) {
     for (int k = 0; k < 3; ++k) {
@@ -183,7 +185,7 @@ void CustomSupport::check(const Coordinates& n, const Coordinates& point) const 
                         ", which lies out of the bounds that were given with it");
     }
   }
-  if (fine) return;
+  if (wrong == 0) return;
   for (std::size_t i = 0; i < probes_.h.size(); ++i)
     compare({n[0], n[1], n[2]}, {point[0], point[1], point[2]},
             {probes_.nx[i], probes_.ny[i], probes_.nz[i]},
