@@ -16,21 +16,36 @@ std::string& last_raised() {
   return text;
 }
 
+/// Calls the function; answers 1, with a reason, if its answer has another shape.
+int answer_once(const py::function& support, std::size_t count, const double (*directions)[3],
+                double (*points)[3]) {
+  const auto rows = static_cast<py::ssize_t>(count);
+  py::array_t<double> asked({rows, py::ssize_t{3}});
+  std::memcpy(asked.mutable_data(), directions, count * sizeof *directions);
+  const py::object answer = support(asked);
+  const Doubles array = Doubles::ensure(answer);
+  if (!array) throw py::error_already_set();
+  if (array.ndim() != 2 || array.shape(0) != rows || array.shape(1) != 3) {
+    last_raised() = "it must answer an array of the shape (" + std::to_string(count) + ", 3)";
+    return 1;
+  }
+  std::memcpy(points, array.data(), count * sizeof *points);
+  return 0;
+}
+
 int ask(void* user, std::size_t count, const double (*directions)[3], double (*points)[3]) {
   const py::gil_scoped_acquire lock;
+  const auto& support = *static_cast<const py::function*>(user);
   try {
-    const auto rows = static_cast<py::ssize_t>(count);
-    py::array_t<double> asked({rows, py::ssize_t{3}});
-    std::memcpy(asked.mutable_data(), directions, count * sizeof *directions);
-    const py::object answer = (*static_cast<const py::function*>(user))(asked);
-    const Doubles array = Doubles::ensure(answer);
-    if (!array) throw py::error_already_set();
-    if (array.ndim() != 2 || array.shape(0) != rows || array.shape(1) != 3) {
-      last_raised() = "it must answer an array of the shape (" + std::to_string(count) + ", 3)";
-      return 1;
+    try {
+      return answer_once(support, count, directions, points);
+    } catch (py::error_already_set& error) {
+      if (!error.matches(PyExc_KeyboardInterrupt)) throw;
     }
-    std::memcpy(points, array.data(), count * sizeof *points);
-    return 0;
+    // Ctrl-C is no fault of the function's: it answers again, and what called for it is stopped.
+    const int failed = answer_once(support, count, directions, points);
+    PyErr_SetInterrupt();
+    return failed;
   } catch (const std::exception& error) {
     last_raised() = error.what();
     return 1;

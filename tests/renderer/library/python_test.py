@@ -89,6 +89,27 @@ class Rays(unittest.TestCase):
         self.assertLess(time.monotonic() - begin, 5)
 
 
+class Interrupts(unittest.TestCase):
+    def test_stop_casts_at_shapes_of_ones_own_and_leave_these_as_they_are(self):
+        def slow_box(n):
+            begin = time.monotonic()
+            while time.monotonic() < begin + 0.002:  # in the interpreter, where signals arrive
+                pass
+            return box(n)
+
+        scene = mk.Scene()
+        scene.add(mk.custom(slow_box))
+        rays = rays_around(200000, 0.9)
+        for threads in 1, 0:
+            timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
+            timer.start()
+            begin = time.monotonic()
+            with self.assertRaises(KeyboardInterrupt):
+                scene.cast_rays(rays, threads=threads)
+            self.assertLess(time.monotonic() - begin, 10)
+            self.assertEqual(scene.cast_rays([[-4, 0, 0, 1, 0, 0]]).t[0], 3.5)
+
+
 class Shapes(unittest.TestCase):
     def test_are_pickled_and_shown(self):
         shape = mk.hull_of(mk.rounded(mk.box([0.1, 0.2, 0.3]), 1 / 3), mk.translated(mk.cone(1, 2), [0, 0, 1]))
