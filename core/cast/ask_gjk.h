@@ -13,11 +13,12 @@ namespace minkray {
 /// observed: they see Shape<T>.
 template <class T, class Observer>
 CastResult<T> cast_with_gjk(Stage stage, const StageQuestion<T>& question, Observer&& observer) {
-  const auto& [shape, near, options, unused] = question;
-  const Shape<T>& any = shape.inner_shape();
-  const Ball<T>& ball = shape.inner_ball();
+  const auto& near = question.near;
+  const CastOptions<T>& options = question.options;
+  const Shape<T>& any = question.shape.inner_shape();
+  const Ball<T>& ball = question.shape.inner_ball();
   GjkCastOptions<T> gjk{options.eps_tol, options.max_iterations, options.v0};
-  if (!gjk.v0.isZero(T(0))) gjk.v0 = shape.normal_to_inner(gjk.v0);
+  if (!gjk.v0.isZero(T(0))) gjk.v0 = question.shape.normal_to_inner(gjk.v0);
   const auto answer = [&] {
     switch (stage) {
       case Stage::algorithm_1:

@@ -102,7 +102,7 @@ Parts parts_by(const std::vector<std::uint32_t>& label_of_triangle,
   }
   for (std::vector<std::uint32_t>& part : parts) {
     std::ranges::sort(part);
-    part.erase(std::ranges::unique(part).begin(), part.end());
+    part.erase(std::unique(part.begin(), part.end()), part.end());
   }
   return parts;
 }

@@ -10,6 +10,7 @@
 #include "renderer/cli/options.h"
 #include "renderer/cli/verbs.h"
 #include "renderer/import/import.h"
+#include "renderer/import/meshes_of_scene.h"
 #include "renderer/import/model_info.h"
 #include "renderer/info/scene_info.h"
 
@@ -38,11 +39,14 @@ void info(const InfoVerbOptions& options) {
   } else {
     const Imported imported = import_scene(options.scene, options.import);
     const Scene& scene = imported.scene;
+    const bool is_robot = imported.model.has_value();
+    const auto meshes = is_robot ? std::vector<ModelMesh>() : meshes_of_scene(options.scene);
     if (options.json) {
-      std::cout << info_as_json(scene, imported.model ? model_as_json(*imported.model) : nullptr);
+      std::cout << info_as_json(scene, is_robot ? model_as_json(*imported.model) : nullptr,
+                                is_robot ? nullptr : meshes_as_json(meshes));
     } else {
-      if (imported.model) std::cout << model_as_text(*imported.model);
-      std::cout << info_as_text(scene);
+      if (is_robot) std::cout << model_as_text(*imported.model);
+      std::cout << info_as_text(scene) << meshes_as_text(meshes);
     }
   }
 }

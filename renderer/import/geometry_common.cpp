@@ -3,6 +3,10 @@
 
 namespace minkray {
 
+std::string counted_numbers(std::size_t count) {
+  return std::to_string(count) + (count == 1 ? " number" : " numbers");
+}
+
 Shape<double> box_of(const Vec3<double>& half_extents) {
   return Box<double>{half_extents};
 }

@@ -9,6 +9,9 @@
 
 namespace minkray {
 
+/// "1 number", "2 numbers".
+std::string counted_numbers(std::size_t count);
+
 Shape<double> box_of(const Vec3<double>& half_extents);
 Shape<double> sphere_of(double radius);
 Shape<double> cylinder_of(double radius, double half_height);

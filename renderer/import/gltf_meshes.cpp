@@ -112,7 +112,7 @@ void GltfMeshes::add_primitive(const Json& primitive, const JsonPath& path, std:
   // Buffers may hold what other meshes use: only the corners' points are shown.
   std::vector<std::uint32_t> used = corners;
   std::ranges::sort(used);
-  used.erase(std::ranges::unique(used).begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
   vertices_ += used.size();
   if (vertices_ > most_gltf_vertices) {
     document_.mistakes().add("shows more than " + std::to_string(most_gltf_vertices) + " vertices");

@@ -122,6 +122,22 @@ std::vector<JointRow> rows_of_json(const std::string& text, Model& model, Mistak
 
 }  // namespace
 
+namespace {
+
+/// Files that were recorded have joints that follow others, too.
+void leave_out_mimics(std::vector<JointRow>& rows, Model& model) {
+  for (JointRow& row : rows)
+    std::erase_if(row.values, [&](const auto& value) {
+      const ModelJoint* joint = find_joint(model, value.first);
+      if (!joint->mimic) return false;
+      model.pass_over("values of the joint \"" + printable(value.first, 60) + "\"",
+                      "it follows \"" + printable(joint->mimic->joint, 60) + "\"");
+      return true;
+    });
+}
+
+}  // namespace
+
 std::vector<JointRow> read_joint_rows(const std::string& file, Model& model, Mistakes& mistakes,
                                       const std::string& option) {
   std::vector<JointRow> rows;
@@ -132,6 +148,7 @@ std::vector<JointRow> read_joint_rows(const std::string& file, Model& model, Mis
     rows = is_json ? rows_of_json(*text, model, of_file) : rows_of_csv(*text, model, of_file);
     if (rows.empty() && of_file.none()) of_file.add("must have rows of values");
   }
+  if (of_file.none()) leave_out_mimics(rows, model);
   for (const std::string& message : of_file.messages()) mistakes.add(option + ": " + message);
   return rows;
 }

@@ -68,38 +68,53 @@ const std::vector<MeshFormatReader>& mesh_formats() {
   return formats;
 }
 
+std::string list_of_places(const std::vector<std::filesystem::path>& places) {
+  constexpr std::size_t longest = 480;
+  std::string text;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const std::string place = printable(places[i].string(), 160);
+    if (text.size() + place.size() > longest)
+      return text + " and " + std::to_string(places.size() - i) + " more places";
+    text += (i > 0 ? ", " : "") + place;
+  }
+  return text;
+}
+
 std::optional<std::filesystem::path> MeshLibrary::find(
     const std::string& uri, std::vector<std::filesystem::path>& looked_for) const {
-  std::vector<std::filesystem::path>& places = looked_for;
+  const auto look_at = [&](const std::filesystem::path& place) {
+    const std::filesystem::path normal = place.lexically_normal();
+    if (std::ranges::find(looked_for, normal) == looked_for.end()) looked_for.push_back(normal);
+  };
   const auto begins = [&](std::string_view scheme) { return uri.starts_with(scheme); };
   if (begins("package://") || begins("model://")) {
     const std::string rest = uri.substr(uri.find("://") + 3);
     const std::string in_package = rest.substr(std::min(rest.find('/') + 1, rest.size()));
     for (const std::string& folder : options_->package_dirs) {
-      places.push_back(std::filesystem::path(folder) / rest);
-      places.push_back(std::filesystem::path(folder) / in_package);
-      places.push_back(std::filesystem::path(folder) / std::filesystem::path(rest).filename());
+      look_at(std::filesystem::path(folder) / rest);
+      look_at(std::filesystem::path(folder) / in_package);
+      look_at(std::filesystem::path(folder) / std::filesystem::path(rest).filename());
     }
     // Packages lie in a folder of their name, beside or above the file.
     std::filesystem::path folder =
         std::filesystem::absolute(folder_.empty() ? "." : folder_).lexically_normal();
     for (int i = 0; i < 8; ++i) {
-      places.push_back(folder / rest);
+      look_at(folder / rest);
       if (folder == folder.parent_path()) break;
       folder = folder.parent_path();
     }
   } else if (begins("file://")) {
-    places.emplace_back(uri.substr(std::string_view("file://").size()));
-    places.push_back(folder_ / uri.substr(std::string_view("file://").size()));
+    look_at(uri.substr(std::string_view("file://").size()));
+    look_at(folder_ / uri.substr(std::string_view("file://").size()));
   } else {
-    places.push_back(folder_ / uri);
+    look_at(folder_ / uri);
     for (const std::string& folder : options_->package_dirs) {
-      places.push_back(std::filesystem::path(folder) / uri);
-      places.push_back(std::filesystem::path(folder) / std::filesystem::path(uri).filename());
+      look_at(std::filesystem::path(folder) / uri);
+      look_at(std::filesystem::path(folder) / std::filesystem::path(uri).filename());
     }
   }
   std::error_code error;
-  for (const std::filesystem::path& place : places)
+  for (const std::filesystem::path& place : looked_for)
     if (std::filesystem::is_regular_file(place, error)) return place;
   return std::nullopt;
 }
@@ -127,9 +142,7 @@ MeshLibrary::Answer MeshLibrary::hulls_of(const std::string& uri, const Vec3<dou
   if (!file) {
     answer.is_missing = true;
     answer.complaint = "the mesh \"" + printable(uri, 100) + "\" is not there (looked for ";
-    for (std::size_t i = 0; i < looked_for.size(); ++i)
-      answer.complaint += (i > 0 ? ", " : "") + printable(looked_for[i].string(), 160);
-    answer.complaint += ")";
+    answer.complaint += list_of_places(looked_for) + ")";
     return made_[key] = answer;
   }
   const MeshFormatReader* format = format_of(*file);

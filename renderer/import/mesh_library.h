@@ -22,6 +22,9 @@ struct MeshFormatReader {
 };
 const std::vector<MeshFormatReader>& mesh_formats();
 
+/// The places between commas; of many, the first ones.
+std::string list_of_places(const std::vector<std::filesystem::path>& places);
+
 class MeshLibrary {
  public:
   /// `folder`: that of the file that names the meshes.

@@ -226,7 +226,7 @@ class MjcfReader {
     for (std::size_t i = 0; i < needed->second; ++i)
       if (!(size[i] > 0))
         return files_.wrong(written, "size: of a " + geom.kind + " must be " +
-                                         std::to_string(needed->second) + " numbers > 0 (got \"" +
+                                         counted_numbers(needed->second) + " > 0 (got \"" +
                                          printable(e.attribute_or("size"), 60) + "\")");
     geom.shape = geom.kind == "sphere"     ? sphere_of(size[0])
                  : geom.kind == "capsule"  ? capsule_of(size[0], size[1])
@@ -242,11 +242,11 @@ class MjcfReader {
       for (const ModelJoint& joint : link.joints) width += width_of(joint.kind);
     for (std::size_t i = 0; i < keyframes.children.size(); ++i) {
       const XmlElement& key = keyframes.children[i];
-      if (!key.attribute("qpos")) continue;
-      const auto values = files_.numbers(key, "qpos", width, width);
-      if (!values) continue;
-      // Keys without a name are known by their number.
-      model_.keyframes[key.attribute_or("name", std::to_string(model_.keyframes.size()))] = *values;
+      model_.keyframes.push_back({key.attribute_or("name"), {}});
+      // Without it all joints are at rest.
+      if (key.attribute("qpos"))
+        if (const auto values = files_.numbers(key, "qpos", width, width))
+          model_.keyframes.back().values = *values;
     }
   }
 

@@ -96,7 +96,7 @@ class PlanReader {
     const auto size = files_.numbers(*geom, "size", sizes, 3);
     bool is_good = size.has_value();
     for (std::size_t i = 0; is_good && i < sizes; ++i) is_good = (*size)[i] > 0;
-    if (!is_good) return wrong(*geom, "size: must be " + std::to_string(sizes) + " numbers > 0");
+    if (!is_good) return wrong(*geom, "size: must be " + counted_numbers(sizes) + " > 0");
     plan_.size = *size;
     plan_.geom.kind = kind;
     plan_.geom.rgba = colour_of(*geom);

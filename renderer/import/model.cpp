@@ -120,6 +120,21 @@ ModelJoint* find_joint(Model& model, const std::string& name) {
   return nullptr;
 }
 
+const ModelKeyframe* find_keyframe(const Model& model, const std::string& name) {
+  for (const ModelKeyframe& keyframe : model.keyframes)
+    if (!name.empty() && keyframe.name == name) return &keyframe;
+  for (std::size_t i = 0; i < model.keyframes.size(); ++i)
+    if (name == std::to_string(i)) return &model.keyframes[i];
+  return nullptr;
+}
+
+std::vector<std::string> keyframe_names(const Model& model) {
+  std::vector<std::string> names;
+  for (const ModelKeyframe& keyframe : model.keyframes)
+    names.push_back(keyframe.name.empty() ? std::to_string(names.size()) : keyframe.name);
+  return names;
+}
+
 void set_values(Model& model, const std::vector<double>& values) {
   std::size_t at = 0;
   for (ModelLink& link : model.links)

@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -71,12 +70,17 @@ struct PassedOver {
   std::size_t count = 1;
 };
 
+struct ModelKeyframe {
+  std::string name;            ///< may be empty
+  std::vector<double> values;  ///< of all joints in their order; empty: all are at rest
+};
+
 struct Model {
   std::string format, name;
   std::vector<ModelLink> links;
   std::vector<ModelGeom> geoms;
   std::vector<ModelMesh> meshes;
-  std::map<std::string, std::vector<double>> keyframes;  ///< values of all joints in their order
+  std::vector<ModelKeyframe> keyframes;
   std::vector<PassedOver> passed_over;
   std::string hash;  ///< of all that was read
 
@@ -88,6 +92,12 @@ std::vector<Affine<double>> link_poses(const Model& model);
 
 /// The joint of that name, or null.
 ModelJoint* find_joint(Model& model, const std::string& name);
+
+/// The keyframe of that name, or of that number, counted from 0; or null.
+const ModelKeyframe* find_keyframe(const Model& model, const std::string& name);
+
+/// What keyframes are called: their names, or numbers where they have none.
+std::vector<std::string> keyframe_names(const Model& model);
 
 /// Gives all joints the values of a keyframe, as far as they reach.
 void set_values(Model& model, const std::vector<double>& values);

@@ -50,20 +50,9 @@ std::string counted(const std::map<std::string, std::size_t>& counts) {
 
 }  // namespace
 
-std::string model_as_text(const Model& model) {
-  std::string text = line("model", model.format + " " + printable(model.name, 80));
-  const ModelCounts counts(model);
-  text += line("links", std::to_string(model.links.size()));
-  text += line("joints", counted(counts.joints));
-  text += line("shapes", counted(counts.geoms) + " (" + std::to_string(counts.seen) + " seen, " +
-                             std::to_string(counts.collide) + " collide)");
-  if (!model.keyframes.empty()) {
-    std::string names;
-    for (const auto& [name, values] : model.keyframes)
-      names += (names.empty() ? "" : ", ") + printable(name, 40);
-    text += line("keyframes", names);
-  }
-  for (const ModelMesh& mesh : model.meshes) {
+std::string meshes_as_text(const std::vector<ModelMesh>& meshes) {
+  std::string text;
+  for (const ModelMesh& mesh : meshes) {
     char depth[100];
     const double share = mesh.diameter > 0 ? mesh.deepest / mesh.diameter : 0;
     if (share <= convex_enough)
@@ -76,6 +65,38 @@ std::string model_as_text(const Model& model) {
                              (mesh.parts > 1 ? std::to_string(mesh.parts) + " hulls" : "the hull") +
                              "; " + depth);
   }
+  return text;
+}
+
+Json meshes_as_json(const std::vector<ModelMesh>& meshes) {
+  Json list = Json::array();
+  for (const ModelMesh& mesh : meshes) {
+    Json one;
+    one["file"] = printable(mesh.file);
+    one["vertices"] = mesh.vertices;
+    one["hulls"] = mesh.parts;
+    one["hull_points"] = mesh.corners;
+    one["size"] = mesh.diameter;
+    one["deepest_vertex"] = mesh.deepest;
+    list.push_back(std::move(one));
+  }
+  return list;
+}
+
+std::string model_as_text(const Model& model) {
+  std::string text = line("model", model.format + " " + printable(model.name, 80));
+  const ModelCounts counts(model);
+  text += line("links", std::to_string(model.links.size()));
+  text += line("joints", counted(counts.joints));
+  text += line("shapes", counted(counts.geoms) + " (" + std::to_string(counts.seen) + " seen, " +
+                             std::to_string(counts.collide) + " collide)");
+  if (!model.keyframes.empty()) {
+    std::string names;
+    for (const std::string& name : keyframe_names(model))
+      names += (names.empty() ? "" : ", ") + printable(name, 40);
+    text += line("keyframes", names);
+  }
+  text += meshes_as_text(model.meshes);
   for (const PassedOver& one : model.passed_over)
     text += line("passed over", std::to_string(one.count) + " " + one.what + ": " + one.why);
   return text;
@@ -92,18 +113,9 @@ Json model_as_json(const Model& model) {
   json["seen"] = counts.seen;
   json["collide"] = counts.collide;
   json["keyframes"] = Json::array();
-  for (const auto& [name, values] : model.keyframes) json["keyframes"].push_back(printable(name));
-  json["meshes"] = Json::array();
-  for (const ModelMesh& mesh : model.meshes) {
-    Json one;
-    one["file"] = printable(mesh.file);
-    one["vertices"] = mesh.vertices;
-    one["hulls"] = mesh.parts;
-    one["hull_points"] = mesh.corners;
-    one["size"] = mesh.diameter;
-    one["deepest_vertex"] = mesh.deepest;
-    json["meshes"].push_back(std::move(one));
-  }
+  for (const std::string& name : keyframe_names(model))
+    json["keyframes"].push_back(printable(name));
+  json["meshes"] = meshes_as_json(model.meshes);
   json["passed_over"] = Json::array();
   for (const PassedOver& passed : model.passed_over) {
     Json one;

@@ -11,6 +11,10 @@ namespace minkray {
 
 std::string model_as_text(const Model& model);
 
+/// A line a mesh.
+std::string meshes_as_text(const std::vector<ModelMesh>& meshes);
+Json meshes_as_json(const std::vector<ModelMesh>& meshes);
+
 /// An object of counts, meshes with how far from convex they are, and what was passed over and why.
 Json model_as_json(const Model& model);
 

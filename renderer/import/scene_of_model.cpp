@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <map>
 
 #include "renderer/base/errors.h"
@@ -95,14 +96,31 @@ std::vector<bool> chosen_geoms(const Model& model, GeometryChoice choice) {
   return wanted;
 }
 
+namespace {
+
+/// Joints stand where they are asked to, but not in silence if that is beyond their limits.
+void tell_limits(Model& model) {
+  for (const ModelLink& link : model.links)
+    for (const ModelJoint& joint : link.joints) {
+      if (!joint.limits || joint.value.size() != 1) continue;
+      const auto [lower, upper] = *joint.limits;
+      if (!(joint.value[0] < lower) && !(joint.value[0] > upper)) continue;
+      char text[120];
+      std::snprintf(text, sizeof text, "it stands at %.6g, beyond %.6g to %.6g", joint.value[0],
+                    lower, upper);
+      model.pass_over("limit of the joint \"" + printable(joint.name, 60) + "\"", text);
+    }
+}
+
+}  // namespace
+
 void pose_model(Model& model, const ImportOptions& options, Mistakes& mistakes) {
   if (!options.keyframe.empty()) {
-    const auto found = model.keyframes.find(options.keyframe);
-    if (found != model.keyframes.end()) {
-      set_values(model, found->second);
+    if (const ModelKeyframe* found = find_keyframe(model, options.keyframe)) {
+      set_values(model, found->values);
     } else {
       std::string names;
-      for (const auto& [name, values] : model.keyframes)
+      for (const std::string& name : keyframe_names(model))
         names += (names.empty() ? "" : ", ") + printable(name, 40);
       mistakes.add("--keyframe: there is none of the name \"" + printable(options.keyframe, 60) +
                    "\" (" + (names.empty() ? "the file has none" : "known are " + names) + ")");
@@ -123,6 +141,11 @@ void pose_model(Model& model, const ImportOptions& options, Mistakes& mistakes) 
                    "\"; joints are " + names + (count > 40 ? ", ..." : "") + ")");
       continue;
     }
+    if (joint->mimic) {
+      mistakes.add("--joint: " + printable(name, 60) + " follows " +
+                   printable(joint->mimic->joint, 60) + ", and takes no value of its own");
+      continue;
+    }
     std::vector<double> values;
     const char *at = text.data() + equals + 1, *const end = text.data() + text.size();
     while (at != end) {
@@ -134,14 +157,16 @@ void pose_model(Model& model, const ImportOptions& options, Mistakes& mistakes) 
     }
     if (at != end || values.size() != width_of(joint->kind)) {
       mistakes.add("--joint: " + printable(name, 60) + " takes " +
-                   std::to_string(width_of(joint->kind)) +
-                   " numbers between commas, angles in radians (got \"" +
-                   printable(text.substr(equals + 1), 60) + "\")");
+                   (width_of(joint->kind) == 1 ? "one finite number, radians if it is an angle"
+                                               : std::to_string(width_of(joint->kind)) +
+                                                     " numbers between commas, angles in radians") +
+                   " (got \"" + printable(text.substr(equals + 1), 60) + "\")");
       continue;
     }
     joint->value = values;
   }
   follow_mimics(model);
+  tell_limits(model);
 }
 
 std::optional<MovingFrame> frame_of_link(Model& model, const std::vector<JointRow>& rows,

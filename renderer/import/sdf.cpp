@@ -99,6 +99,29 @@ class SdfReader {
     }
   }
 
+  /// The file that a model.config names: of several that of the highest version. An empty path, and
+  /// a mistake, if it names none.
+  std::filesystem::path file_of_config(const std::filesystem::path& config,
+                                       const XmlElement& include) {
+    const std::optional<XmlElement> root = files_.read(config);
+    if (!root) return {};
+    std::string name;
+    double highest = -1;
+    for (const XmlElement& child : root->children) {
+      if (child.name != "sdf") continue;
+      const double version = files_.number(child, "version").value_or(0);
+      if (version <= highest) continue;
+      highest = version;
+      name = sdf_text(child);
+    }
+    std::error_code error;
+    const std::filesystem::path file = config.parent_path() / name;
+    if (!name.empty() && std::filesystem::is_regular_file(file, error)) return file;
+    files_.wrong(include, printable(config.string(), 200) + ": names no <sdf> file that is there" +
+                              (name.empty() ? "" : " (got \"" + printable(name, 60) + "\")"));
+    return {};
+  }
+
   /// Another file's model, in a folder with a model.config or a model.sdf.
   void read_include(const XmlElement& include, SdfFrames& frames, Placing at) {
     has_content_ = true;
@@ -109,18 +132,17 @@ class SdfReader {
     const std::filesystem::path folder = files_.files()[include.file].parent_path();
     std::vector<std::filesystem::path> places;
     std::optional<std::filesystem::path> file;
-    for (const char* inside : {"", "/model.sdf"}) {
-      MeshLibrary library(folder, options_);
+    const MeshLibrary library(folder, options_);
+    for (const char* inside : {"", "/model.config", "/model.sdf"})
       if (!file) file = library.find(uri + inside, places);
-    }
+    if (file && file->filename() == "model.config") file = file_of_config(*file, include);
+    if (file && file->empty()) return;
     if (!file) {
       if (uri == "model://sun") return model_.pass_over("<include>", "model://sun is a light");
       if (uri == "model://ground_plane")
         return add_ground_plane(at.outer * frames.pose_in_model(include));
-      std::string text;
-      for (const auto& place : places) text += (text.empty() ? "" : ", ") + place.string();
       return files_.wrong(include, "the model \"" + printable(uri, 100) +
-                                       "\" is not there (looked for " + printable(text, 400) +
+                                       "\" is not there (looked for " + list_of_places(places) +
                                        "); --model-dir says where models are");
     }
     std::optional<XmlElement> root = files_.read(*file);

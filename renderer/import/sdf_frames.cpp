@@ -46,8 +46,11 @@ Affine<double> sdf_pose(const XmlElement& element, XmlFiles& files) {
 
 std::string sdf_text(const XmlElement& element, std::string_view key) {
   const XmlElement* child = element.child(key);
-  if (!child) return "";
-  std::string text = child->text;
+  return child ? sdf_text(*child) : "";
+}
+
+std::string sdf_text(const XmlElement& element) {
+  const std::string& text = element.text;
   const std::size_t begin = text.find_first_not_of(" \t\r\n");
   if (begin == text.npos) return "";
   return text.substr(begin, text.find_last_not_of(" \t\r\n") - begin + 1);

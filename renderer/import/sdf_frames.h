@@ -16,6 +16,9 @@ namespace minkray {
 /// The pose that an element's <pose> says; the identity without one.
 Affine<double> sdf_pose(const XmlElement& element, XmlFiles& files);
 
+/// The text of an element, without the blanks around it.
+std::string sdf_text(const XmlElement& element);
+
 /// The text of a child, without the blanks around it; "" if there is no such child.
 std::string sdf_text(const XmlElement& element, std::string_view key);
 

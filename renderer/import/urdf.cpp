@@ -33,6 +33,8 @@ class UrdfReader {
           link_order_.push_back(name);
       } else if (child.name == "joint") {
         read_joint(child);
+      } else if (child.name.starts_with("xacro:")) {
+        files_.wrong(child, "is a macro: expand the file first (xacro robot.urdf.xacro)");
       } else if (child.name != "material") {
         model_.pass_over("<" + printable(child.name, 40) + ">", "is no geometry");
       }
@@ -66,7 +68,12 @@ class UrdfReader {
       }
     }
     const auto known = materials_.find(name);
-    return known == materials_.end() ? std::nullopt : std::optional(known->second);
+    if (known != materials_.end()) return known->second;
+    if (material.child("texture"))
+      model_.pass_over("<texture>", "surfaces have one colour");
+    else if (!name.empty())
+      model_.pass_over("<material>", "no colour is known of \"" + printable(name, 60) + "\"");
+    return std::nullopt;
   }
 
   Affine<double> origin_of(const XmlElement& element) {

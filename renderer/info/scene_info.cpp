@@ -72,7 +72,7 @@ Json tagged_json(const S& described) {
 
 }  // namespace
 
-std::string info_as_json(const Scene& scene, Json model) {
+std::string info_as_json(const Scene& scene, Json model, Json meshes) {
   const SceneSummary summary = summarise(scene);
   Json json;
   json["description"] = scene.description;
@@ -85,6 +85,7 @@ std::string info_as_json(const Scene& scene, Json model) {
                                               {"operands", kind.operands}};
   }
   json["hull_points"] = summary.hull_points;
+  if (!meshes.is_null()) json["meshes"] = std::move(meshes);
   json["bytes"] = summary.bytes;
   const RenderWorld world = make_world(scene);
   json["world_bytes"] = world.bytes();

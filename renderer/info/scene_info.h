@@ -11,8 +11,8 @@ namespace minkray {
 
 /// What is in a scene: counts of shapes, bounds, memory, lights, camera.
 std::string info_as_text(const Scene& scene);
-/// `model`, if it is not null, is told as well: what the scene was made of.
-std::string info_as_json(const Scene& scene, Json model = nullptr);
+/// `model` and `meshes`, if they are not null, are told as well: what the scene was made of.
+std::string info_as_json(const Scene& scene, Json model = nullptr, Json meshes = nullptr);
 
 /// All kinds of shapes with their parameters, units, constraints and docs.
 std::string shapes_as_text();

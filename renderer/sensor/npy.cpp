@@ -26,6 +26,15 @@ std::string_view after(std::string_view header, std::string_view key) {
   return rest;
 }
 
+/// Gives row by row the numbers that stand there column by column.
+std::vector<double> transposed(const std::vector<double>& columns, std::size_t rows,
+                               std::size_t width) {
+  std::vector<double> values(columns.size());
+  for (std::size_t i = 0; i < rows; ++i)
+    for (std::size_t k = 0; k < width; ++k) values[i * width + k] = columns[k * rows + i];
+  return values;
+}
+
 NpyArray parse(const std::string& bytes) {
   if (!bytes.starts_with(magic) || bytes.size() < 12) throw BadInput("is no .npy file");
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(bytes[i]); };
@@ -42,8 +51,7 @@ NpyArray parse(const std::string& bytes) {
   const bool is_double = kind.starts_with("'<f8'"), is_float = kind.starts_with("'<f4'");
   if (!is_double && !is_float)
     throw BadInput("must hold little-endian floats of 32 or 64 bits, '<f4' or '<f8'");
-  if (after(header, "fortran_order").starts_with("True"))
-    throw BadInput("must be in C order (numpy.ascontiguousarray)");
+  const bool first_index_is_fastest = after(header, "fortran_order").starts_with("True");
   NpyArray array;
   std::string_view shape = after(header, "shape");
   shape = shape.substr(0, shape.find(')'));
@@ -58,6 +66,8 @@ NpyArray parse(const std::string& bytes) {
     }
     at = error == std::errc() ? next : at + 1;
   }
+  if (first_index_is_fastest && array.shape.size() > 2)
+    throw BadInput("must be in C order (numpy.ascontiguousarray)");
   const std::size_t width = is_double ? 8 : 4;
   if (bytes.size() - start - length != count * width)
     throw BadInput("must have " + std::to_string(count * width) + " bytes of numbers (got " +
@@ -74,6 +84,8 @@ NpyArray parse(const std::string& bytes) {
       array.values[i] = static_cast<double>(value);
     }
   }
+  if (first_index_is_fastest && array.shape.size() == 2)
+    array.values = transposed(array.values, array.shape[0], array.shape[1]);
   return array;
 }
 
@@ -83,7 +95,7 @@ std::string NpyArray::shape_text() const {
   std::string text = "(";
   for (std::size_t i = 0; i < shape.size(); ++i)
     text += (i > 0 ? ", " : "") + std::to_string(shape[i]);
-  return text + ")";
+  return text + (shape.size() == 1 ? ",)" : ")");
 }
 
 NpyArray read_npy(const std::string& file) {

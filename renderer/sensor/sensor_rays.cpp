@@ -15,7 +15,7 @@ namespace minkray {
 namespace {
 
 constexpr int most_side = 1 << 16;
-constexpr std::size_t most_rays = std::size_t{1} << 28;
+constexpr std::size_t most_rays = std::size_t{1} << 28;  // some 60 GB, with their echoes
 
 double radians(double degrees) {
   return degrees * (std::numbers::pi / 180);
@@ -25,6 +25,13 @@ double radians(double degrees) {
 Vec3<double> direction_of(double azimuth, double elevation) {
   return {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
           std::sin(elevation)};
+}
+
+/// Throws WrongUsage that begins with the option's name.
+void check_count(double width, double height, const char* option) {
+  if (width * height > double(most_rays))
+    throw WrongUsage(std::string(option) + ": must be at most " + std::to_string(most_rays) +
+                     " rays");
 }
 
 SensorRays spinning(const std::string& pattern, double seconds) {
@@ -48,6 +55,7 @@ SensorRays spinning(const std::string& pattern, double seconds) {
         ":LOWEST,HIGHEST "
         "elevations in degrees if wanted, or a CSV file (got " +
         printable(pattern, 80) + ")");
+  check_count((*counts)[0], (*counts)[1], "--pattern");
   SensorRays rays;
   rays.height = static_cast<int>((*counts)[0]);
   rays.width = static_cast<int>((*counts)[1]);
@@ -137,6 +145,7 @@ SensorRays rays_of_pinhole(const std::string& file) {
   rays.height = pixels("height");
   object.finish();
   throw_if_any(mistakes);
+  check_count(rays.width, rays.height, "--pinhole");
   rays.rays.reserve(static_cast<std::size_t>(rays.width) * static_cast<std::size_t>(rays.height));
   for (int v = 0; v < rays.height; ++v)
     for (int u = 0; u < rays.width; ++u)

@@ -12,7 +12,7 @@ def main():
     with open(sys.argv[2], encoding="utf-8") as file:
         collision = json.load(file)
     seen["materials"].append({"name": "hull", "type": "dielectric", "index_of_refraction": 1,
-                              "absorption": [9, 2.2, 0.6], "priority": 1})
+                              "absorption": [3, 22, 70], "priority": 1})
     for item in collision["objects"]:
         item["name"] = "hull of " + item["name"]
         item["material"] = "hull"

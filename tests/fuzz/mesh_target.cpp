@@ -3,15 +3,12 @@
 
 #include "core/files/mesh_file.h"
 #include "core/geometry/point_cloud.h"
+#include "tests/fuzz/hull_rounding.h"
 #include "tests/fuzz/target.h"
 #include "tests/support/random.h"
 
 namespace minkray::fuzz {
 namespace {
-
-/// As core/geometry/convex_hull.cpp says: a set thinner than 16 epsilon of its coordinates is flat;
-/// a facet's plane is rounded by as much again, in each of three dimensions.
-constexpr double hull_rounding = 64 * std::numeric_limits<double>::epsilon();
 
 std::string check_hull(const std::vector<Vec3<double>>& vertices) {
   double largest = 0;

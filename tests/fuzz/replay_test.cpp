@@ -34,14 +34,14 @@ TEST_P(Replay, kept_inputs_keep_every_promise) {
   EXPECT_GT(count, 3);
 }
 
-INSTANTIATE_TEST_SUITE_P(Targets, Replay,
-                         ::testing::Values(Target{"scene", check_scene},
-                                           Target{"query", check_queries},
-                                           Target{"mesh", check_mesh}, Target{"mjcf", check_mjcf},
-                                           Target{"urdf", check_urdf}, Target{"sdf", check_sdf},
-                                           Target{"gltf", check_gltf}, Target{"cast", check_cast},
-                                           Target{"contact", check_contact}),
-                         [](const auto& instance) { return std::string(instance.param.name); });
+INSTANTIATE_TEST_SUITE_P(
+    Targets, Replay,
+    ::testing::Values(Target{"scene", check_scene}, Target{"query", check_queries},
+                      Target{"mesh", check_mesh}, Target{"parts", check_mesh_parts},
+                      Target{"mjcf", check_mjcf}, Target{"urdf", check_urdf},
+                      Target{"sdf", check_sdf}, Target{"gltf", check_gltf},
+                      Target{"cast", check_cast}, Target{"contact", check_contact}),
+    [](const auto& instance) { return std::string(instance.param.name); });
 
 TEST(CastQueries, that_were_answered_wrongly_once) {
   std::ifstream file(source_folder() / "tests/fuzz/casts.jsonl");

@@ -20,6 +20,10 @@ std::string check_queries(std::string_view bytes);
 /// refused with a message.
 std::string check_mesh(std::string_view bytes);
 
+/// A mesh file of any format that robots' files name: read, split into parts and made hulls of, or
+/// refused with a message. The first two bytes tell the format and the split.
+std::string check_mesh_parts(std::string_view bytes);
+
 /// A robot's file, or what stands within its root element: read into a model and a scene
 /// (tests/fuzz/robot_promises.h), or refused with messages.
 std::string check_mjcf(std::string_view bytes);

@@ -198,9 +198,9 @@ TEST_F(ScanVerb, a_path_moves_the_sensor) {
 
 TEST_F(ScanVerb, rays_of_length_zero_and_wrong_arrays_are_answered_or_refused) {
   const auto array = [](const std::string& descr, const std::string& shape,
-                        const std::vector<double>& numbers) {
+                        const std::vector<double>& numbers, const char* by_columns = "False") {
     std::string header =
-        "{'descr': '" + descr + "', 'fortran_order': False, 'shape': " + shape + ", }";
+        "{'descr': '" + descr + "', 'fortran_order': " + by_columns + ", 'shape': " + shape + ", }";
     header.resize(117, ' ');
     header += '\n';
     std::string bytes("\x93NUMPY\1\0v\0", 10);
@@ -219,6 +219,11 @@ TEST_F(ScanVerb, rays_of_length_zero_and_wrong_arrays_are_answered_or_refused) {
   EXPECT_EQ(rows[0].status, 1);
   EXPECT_EQ(rows[3].status, 2);
   EXPECT_EQ(rows[3].distance, 0);
+  // NumPy writes arrays that were transposed column by column: the rays are the same.
+  const std::string once = text("a.npy");
+  write(array("<f8", "(2, 6)", {0, 5, 0, 0, 9, 3, 0, 0, 0, 0, 0, 0}, "True"));
+  ASSERT_EQ(scan("r.urdf --rays rays.npy -o a.npy --returns 3 -q").exit_code, 0);
+  EXPECT_EQ(text("a.npy"), once);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const std::string& bytes :
        {array("<f8", "(1, 6)", {nan, 0, 0, 0, 0, 1}), array("<f8", "(2, 6)", {0, 0, 0, 0, 0, 1}),
@@ -229,6 +234,8 @@ TEST_F(ScanVerb, rays_of_length_zero_and_wrong_arrays_are_answered_or_refused) {
     write(bytes);
     EXPECT_EQ(scan("r.urdf --rays rays.npy -o a.npy").exit_code, 3) << bytes.substr(0, 90);
   }
+  // That is refused before memory ends.
+  EXPECT_EQ(scan("r.urdf --pattern spinning:65536x65536 -o a.npy").exit_code, 2);
   // No rays at all are an array of none.
   write(array("<f8", "(0, 6)", {}));
   EXPECT_EQ(scan("r.urdf --rays rays.npy -o a.npy -q").exit_code, 0);

@@ -144,8 +144,8 @@ TEST(Mjcf, keyframes_are_mujocos) {
   ASSERT_EQ(theirs->keyframes(), 2u);
   for (std::size_t i = 0; i < 2; ++i) {
     const std::string name = i == 0 ? "home" : "1";
-    ASSERT_TRUE(model->keyframes.contains(name));
-    set_values(*model, model->keyframes[name]);
+    ASSERT_TRUE(find_keyframe(*model, name));
+    set_values(*model, find_keyframe(*model, name)->values);
     theirs->set_positions(theirs->keyframe(i));
     expect_same_geoms(*model, *theirs, "key " + name);
   }

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/import/meshes_of_scene.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/shape/hull.h"
+#include "renderer/import/mesh_library.h"
+#include "renderer/json/parse.h"
+#include "renderer/json/values.h"
+#include "renderer/scene/read_split.h"
+
+namespace minkray {
+namespace {
+
+using SplitFile = std::pair<std::string, MeshSplit>;
+
+MeshSplit split_of(const Json& object) {
+  const Json* written = object.find("split");
+  if (written && written->is_string())
+    for (const MeshSplitName& known : mesh_split_names)
+      if (known.name == written->text()) return known.split;
+  return MeshSplit::none;
+}
+
+/// Hulls of files stand anywhere in shapes of shapes; a split stands beside the shape itself.
+void find_files(const Json& json, MeshSplit split, std::vector<SplitFile>& files) {
+  if (json.is_array())
+    for (std::size_t i = 0; i < json.size(); ++i) find_files(json[i], MeshSplit::none, files);
+  if (!json.is_object()) return;
+  const Json *type = json.find("type"), *file = json.find("file");
+  if (type && type->is_string() && type->text() == Hull<double>::name && file &&
+      file->is_string()) {
+    const SplitFile found{file->text(), split};
+    if (std::ranges::find(files, found) == files.end()) files.push_back(found);
+  }
+  for (const auto& [key, value] : json.members())
+    find_files(value, key == "shape" ? split_of(json) : MeshSplit::none, files);
+}
+
+}  // namespace
+
+std::vector<ModelMesh> meshes_of_scene(const std::filesystem::path& scene_file) {
+  Mistakes mistakes(scene_file.string());
+  const auto text = read_text_file(scene_file, mistakes);
+  const auto json = text ? parse_json(*text, mistakes) : std::nullopt;
+  std::vector<SplitFile> files;
+  if (json) find_files(*json, MeshSplit::none, files);
+  std::vector<ModelMesh> meshes;
+  for (const auto& [file, split] : files) {
+    ImportOptions options;
+    options.split = split;
+    MeshLibrary library(scene_file.parent_path(), options);
+    library.hulls_of(file, Vec3<double>::Ones());
+    for (ModelMesh& mesh : library.take_meshes()) meshes.push_back(std::move(mesh));
+  }
+  return meshes;
+}
+
+}  // namespace minkray

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+// What a user asks of a robot: keyframes and joints by name, and what is said where that cannot be
+// done or is done otherwise than a robot could.
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "renderer/base/errors.h"
+#include "renderer/import/model_info.h"
+#include "tests/renderer/import/imports.h"
+#include "tests/support/program.h"
+
+namespace minkray {
+namespace {
+
+class RobotOptions : public ::testing::Test {
+ protected:
+  std::string write(const std::string& name, const std::string& text) {
+    std::ofstream(folder_ / name) << text;
+    return folder_ / name;
+  }
+
+  /// Where the last shape of the scene stands.
+  static Vec3<double> last_place(const Imported& imported) {
+    return imported.scene.objects.back().pose.translation;
+  }
+
+  static std::string refusal(const std::string& file, const ImportOptions& options) {
+    try {
+      import_scene(file, options);
+    } catch (const BadInput& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(RobotOptions, keyframes_are_known_by_their_names_and_numbers) {
+  const std::string file = write("r.xml", R"(<mujoco><worldbody><body><joint type="slide"/>
+    <geom size=".1"/></body></worldbody><keyframe><key name="up" qpos="0.5"/><key qpos="0.25"/>
+    <key name="rest"/><key name="0" qpos="4"/></keyframe></mujoco>)");
+  ImportOptions options;
+  // A name is looked for before a number.
+  for (const auto& [name, height] : {std::pair<const char*, double>{"up", 0.5},
+                                     {"1", 0.25},
+                                     {"rest", 0.0},
+                                     {"2", 0.0},
+                                     {"0", 4.0},
+                                     {"3", 4.0}}) {
+    options.keyframe = name;
+    EXPECT_EQ(last_place(import_scene(file, options)).z(), height) << name;
+  }
+  options.keyframe = "down";
+  EXPECT_NE(refusal(file, options).find("known are up, 1, rest, 0"), std::string::npos)
+      << refusal(file, options);
+}
+
+constexpr const char* gripper = R"(<robot name="g"><link name="a"/>
+  <link name="b"><visual><geometry><sphere radius="1"/></geometry></visual></link>
+  <link name="c"><visual><geometry><sphere radius="1"/></geometry></visual></link>
+  <joint name="left" type="prismatic"><parent link="a"/><child link="b"/>
+    <limit lower="0" upper="1" effort="1" velocity="1"/></joint>
+  <joint name="right" type="prismatic"><parent link="a"/><child link="c"/>
+    <limit lower="0" upper="1" effort="1" velocity="1"/><mimic joint="left" multiplier="2"/></joint>
+  </robot>)";
+
+TEST_F(RobotOptions, a_joint_that_follows_another_takes_no_value_of_its_own) {
+  const std::string file = write("r.urdf", gripper);
+  ImportOptions options;
+  options.joints = {"right=1"};
+  EXPECT_NE(refusal(file, options).find("--joint: right follows left"), std::string::npos);
+  // Recorded rows hold all joints; what they say of such a one is told to be passed over.
+  options.joints = {};
+  options.joint_rows = write("rows.csv", "time,left,right\n0,0.25,7\n");
+  const Imported imported = import_scene(file, options);
+  EXPECT_EQ(imported.scene.objects.back().motion->pose_at(0).translation.x(), 0.5);
+  EXPECT_NE(model_as_text(*imported.model).find("values of the joint \"right\""),
+            std::string::npos);
+}
+
+TEST_F(RobotOptions, joints_beyond_their_limits_stand_there_and_are_told) {
+  const std::string file = write("r.urdf", gripper);
+  ImportOptions options;
+  options.joints = {"left=0.75"};
+  const Imported imported = import_scene(file, options);
+  EXPECT_EQ(last_place(imported).x(), 1.5);
+  const std::string text = model_as_text(*imported.model);
+  EXPECT_NE(text.find("limit of the joint \"right\": it stands at 1.5, beyond 0 to 1"), text.npos)
+      << text;
+  EXPECT_EQ(text.find("limit of the joint \"left\""), text.npos);
+}
+
+TEST_F(RobotOptions, every_wrong_joint_is_told_at_once) {
+  const std::string file = write("r.urdf", gripper);
+  ImportOptions options;
+  options.joints = {"lefd=1", "left", "left=nan", "left=1,2", "left=0.5"};
+  options.keyframe = "home";
+  const std::string text = refusal(file, options);
+  for (const char* expected :
+       {"got \"lefd=1\"; joints are left, right", "got \"left\"", "left takes one finite number",
+        "(got \"nan\")", "(got \"1,2\")", "--keyframe: there is none of the name \"home\""})
+    EXPECT_NE(text.find(expected), text.npos) << expected << " in\n" << text;
+}
+
+TEST_F(RobotOptions, each_place_where_a_mesh_was_looked_for_is_named_once) {
+  const std::string file = write("r.urdf", R"(<robot name="r"><link name="a"><visual><geometry>
+    <mesh filename="package://arm/meshes/a.stl"/></geometry></visual></link></robot>)");
+  ImportOptions options;
+  options.package_dirs = {folder_ / "packages", folder_ / "packages/"};
+  const std::string text = refusal(file, options);
+  for (const char* place :
+       {"packages/arm/meshes/a.stl", "packages/meshes/a.stl", "packages/a.stl"}) {
+    const std::size_t first = text.find(folder_ / place);
+    ASSERT_NE(first, text.npos) << place << " in\n" << text;
+    EXPECT_EQ(text.find(folder_ / place, first + 1), text.npos) << place << " in\n" << text;
+  }
+}
+
+TEST_F(RobotOptions, macros_and_unknown_materials_of_urdf_are_told) {
+  EXPECT_NE(mistakes_of(R"(<robot name="r" xmlns:xacro="x"><xacro:include filename="y"/>
+    <link name="a"/></robot>)")
+                .find("<xacro:include filename=\"y\">: is a macro: expand the file first"),
+            std::string::npos);
+  Mistakes mistakes("r.urdf");
+  const auto model = parse_model(R"(<robot name="r"><link name="a"><visual><geometry>
+    <sphere radius="1"/></geometry><material name="chrome"/></visual></link></robot>)",
+                                 "r.urdf", {}, mistakes);
+  ASSERT_TRUE(model) << mistakes.text();
+  EXPECT_NE(model_as_text(*model).find("no colour is known of \"chrome\""), std::string::npos);
+}
+
+TEST_F(RobotOptions, an_sdf_model_is_the_file_that_its_config_names) {
+  for (const char* folder : {"models", "models/cup"})
+    std::filesystem::create_directory(folder_ / folder);
+  write("models/cup/model.config",
+        "<model><name>cup</name><sdf version='1.4'>old.sdf</sdf><sdf version='1.6'> cup-1_6.sdf "
+        "</sdf></model>");
+  write("models/cup/cup-1_6.sdf",
+        "<sdf version='1.6'><model name='cup'><link name='l'><visual name='v'><geometry><sphere>"
+        "<radius>2</radius></sphere></geometry></visual></link></model></sdf>");
+  const std::string file = write(
+      "w.sdf",
+      "<sdf version='1.6'><world name='w'><include><uri>model://cup</uri></include></world></sdf>");
+  ImportOptions options;
+  options.package_dirs = {folder_ / "models"};
+  const Imported imported = import_scene(file, options);
+  ASSERT_EQ(imported.scene.objects.size(), 1u);
+  EXPECT_EQ(imported.scene.objects[0].shape.support(Vec3<double>(1, 0, 0)).x(), 2);
+  write("models/cup/model.config", "<model><sdf version='1.6'>gone.sdf</sdf></model>");
+  EXPECT_NE(refusal(file, options).find("names no <sdf> file that is there (got \"gone.sdf\")"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace minkray
