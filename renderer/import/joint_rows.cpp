@@ -99,7 +99,7 @@ void add_row(const Json& json, const JsonPath& path, Model& model, Mistakes& of_
       continue;
     }
     const std::size_t width = width_of(joint->kind);
-    if (width == 1 && value.is_number()) {
+    if (width == 1 && !value.is_array()) {
       if (const auto number = read_number(value, at, of_file))
         row.values.push_back({name, {*number}});
     } else if (auto numbers = read_numbers(value, at, of_file, width)) {

@@ -69,7 +69,7 @@ const std::vector<MeshFormatReader>& mesh_formats() {
 }
 
 std::string list_of_places(const std::vector<std::filesystem::path>& places) {
-  constexpr std::size_t longest = 480;
+  constexpr std::size_t longest = 360;
   std::string text;
   for (std::size_t i = 0; i < places.size(); ++i) {
     const std::string place = printable(places[i].string(), 160);
@@ -128,6 +128,7 @@ MeshLibrary::Answer MeshLibrary::hulls_of(const std::string& uri, const Vec3<dou
   Answer answer;
   std::vector<std::filesystem::path> looked_for;
   std::optional<std::filesystem::path> file = find(uri, looked_for);
+  std::string title = uri;
   if (!file) {
     // Descriptions outlive their meshes' formats: the same name in another one will do.
     for (const std::filesystem::path& place : looked_for) {
@@ -138,6 +139,7 @@ MeshLibrary::Answer MeshLibrary::hulls_of(const std::string& uri, const Vec3<dou
         if (!file && std::filesystem::is_regular_file(other, error)) file = other;
       }
     }
+    if (file) title += " (there as " + file->filename().string() + ")";
   }
   if (!file) {
     answer.is_missing = true;
@@ -165,7 +167,7 @@ MeshLibrary::Answer MeshLibrary::hulls_of(const std::string& uri, const Vec3<dou
       return made_[key] = answer;
     }
   }
-  return made_[key] = add(known->second, scale, uri);
+  return made_[key] = add(known->second, scale, title);
 }
 
 MeshLibrary::Answer MeshLibrary::hulls_of_parts(const MeshParts& mesh, const Vec3<double>& scale,

@@ -90,7 +90,14 @@ void Model::pass_over(const std::string& what, const std::string& why, std::size
       known.count += count;
       return;
     }
-  passed_over.push_back({what, why, count});
+  // Each is looked for among all: a hostile file could have a hundred thousand.
+  constexpr std::size_t most_kinds = 200;
+  if (passed_over.size() < most_kinds)
+    passed_over.push_back({what, why, count});
+  else if (passed_over.size() == most_kinds)
+    passed_over.push_back({"other things", "there are too many kinds to tell each", count});
+  else
+    passed_over.back().count += count;
 }
 
 std::vector<Affine<double>> link_poses(const Model& model) {

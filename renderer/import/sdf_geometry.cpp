@@ -74,6 +74,9 @@ void SdfGeometry::add_shape(const XmlElement& shape, ModelGeom geom) {
     if (const XmlElement* child = shape.child("scale"))
       if (const auto v = files_.numbers_in(*child, child->text, "scale", 3, 3))
         scale = {(*v)[0], (*v)[1], (*v)[2]};
+    if (shape.child("submesh"))
+      model_.pass_over("<submesh>",
+                       "the hull is that of the whole mesh (--split tells parts apart)");
     return add_mesh(model_, files_, shape, library_of(shape).hulls_of(uri, scale), std::move(geom),
                     options_);
   } else if (shape.name == "empty") {

@@ -2,6 +2,7 @@
 // Files that are made to crash, stall or fill the memory of who reads them.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <fstream>
 #include <sstream>
 
@@ -154,6 +155,21 @@ TEST(HostileXml, files_that_include_each_other_and_large_files_are_refused) {
   write("large.xml", std::string(most_xml_bytes + 1, ' '));
   Mistakes large(folder / "large.xml");
   EXPECT_FALSE(load_model(folder / "large.xml", {}, large));
+}
+
+TEST(HostileXml, a_hundred_thousand_kinds_of_unknown_elements_are_counted_in_seconds) {
+  std::string text = "<robot name='r'><link name='a'/>";
+  constexpr std::size_t kinds = 100'000;
+  for (std::size_t i = 0; i < kinds; ++i) text += "<x" + std::to_string(i) + "/>";
+  Mistakes mistakes("r.urdf");
+  const auto begin = std::chrono::steady_clock::now();
+  const auto model = parse_model(text + "</robot>", "r.urdf", {}, mistakes);
+  ASSERT_TRUE(model) << mistakes.text();
+  std::size_t count = 0;
+  for (const PassedOver& one : model->passed_over) count += one.count;
+  EXPECT_EQ(count, kinds);
+  EXPECT_LE(model->passed_over.size(), 201u);
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20));
 }
 
 }  // namespace

@@ -131,6 +131,33 @@ TEST_F(RobotOptions, macros_and_unknown_materials_of_urdf_are_told) {
   EXPECT_NE(model_as_text(*model).find("no colour is known of \"chrome\""), std::string::npos);
 }
 
+TEST_F(RobotOptions, a_part_of_a_mesh_that_sdf_asks_for_is_told_not_to_be_singled_out) {
+  write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n");
+  const std::string file = write("m.sdf", R"(<sdf version="1.6"><model name="m"><link name="l">
+    <visual name="v"><geometry><mesh><uri>m.obj</uri><submesh><name>lid</name></submesh></mesh>
+    </geometry></visual></link></model></sdf>)");
+  const std::string text = model_as_text(*import_scene(file).model);
+  EXPECT_NE(text.find("<submesh>: the hull is that of the whole mesh"), text.npos) << text;
+}
+
+TEST_F(RobotOptions, a_mesh_that_is_there_in_another_format_is_told_to_be) {
+  write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n");
+  const std::string file = write("r.urdf", R"(<robot name="r"><link name="a"><visual><geometry>
+    <mesh filename="m.dae"/></geometry></visual></link></robot>)");
+  const std::string text = model_as_text(*import_scene(file).model);
+  EXPECT_NE(text.find("m.dae (there as m.obj): 4 vertices"), text.npos) << text;
+}
+
+TEST_F(RobotOptions, rows_of_json_say_what_is_wrong_with_a_value) {
+  const std::string file = write("r.urdf", gripper);
+  ImportOptions options;
+  options.joint_rows = write("rows.json", R"([{"left": "far"}, {"left": [1, 2]}, {"lid": 1}])");
+  const std::string text = refusal(file, options);
+  for (const char* expected : {"/0/left: must be a number", "/1/left: must be a list of 1",
+                               "/2/lid: there is no joint of this name"})
+    EXPECT_NE(text.find(expected), text.npos) << expected << " in\n" << text;
+}
+
 TEST_F(RobotOptions, an_sdf_model_is_the_file_that_its_config_names) {
   for (const char* folder : {"models", "models/cup"})
     std::filesystem::create_directory(folder_ / folder);
