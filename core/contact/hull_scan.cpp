@@ -52,12 +52,18 @@ int scan(const ShapeCore& hull, double x, double y, double z) {
       best[half] = _mm256_max_pd(r, best[half]);
     }
   }
-  alignas(32) double reach[lanes], at[lanes];
-  for (int half = 0; half < 2; ++half) {
-    _mm256_store_pd(reach + 4 * half, best[half]);
-    _mm256_store_pd(at + 4 * half, index[half]);
-  }
-  return best_of_lanes(reach, at);
+  // The first lane that has the most, as best_of_lanes finds it.
+  __m256d most = _mm256_max_pd(best[0], best[1]);
+  most = _mm256_max_pd(most, _mm256_permute2f128_pd(most, most, 1));
+  most = _mm256_max_pd(most, _mm256_permute_pd(most, 5));
+  const int first = _mm256_movemask_pd(_mm256_cmp_pd(best[0], most, _CMP_EQ_OQ)),
+            second = _mm256_movemask_pd(_mm256_cmp_pd(best[1], most, _CMP_EQ_OQ));
+  const unsigned mask = static_cast<unsigned>(first | second << 4);
+  if (mask == 0) return 0;  // not numbers
+  alignas(32) double at[lanes];
+  for (int half = 0; half < 2; ++half) _mm256_store_pd(at + 4 * half, index[half]);
+  const int lane = __builtin_ctz(mask);
+  return static_cast<int>(at[lane]) + lane;
 }
 #endif
 

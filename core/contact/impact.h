@@ -10,6 +10,8 @@
 // (1/cos(theta/2) - 1) times the larger of them. So two gaps, at the beginning and at the end of a
 // step, prove that nothing touches in between, but for a term in theta^2: near the contact each
 // step leaves about the square of the time that was left before.
+//
+// Bodies that do not turn need no steps: swept_portal.h.
 #pragma once
 
 #include "core/contact/signed_distance.h"
@@ -51,7 +53,8 @@ struct Impact {
   ImpactStatus status = ImpactStatus::undecided;
   double t_lo = 0;  ///< they are apart before this; from where they touch at 0 and part, after 0
   double t_hi = std::numeric_limits<double>::infinity();  ///< they touch or overlap here
-  /// These are at t_lo: the nearest points, and the normal from A to B, in the world.
+  /// These are at t_lo, of misses at t_max: the nearest points, and the normal from A to B, in the
+  /// world.
   Vec3<double> point_a = Vec3<double>::Zero();
   Vec3<double> point_b = Vec3<double>::Zero();
   Vec3<double> normal = Vec3<double>::Zero();
@@ -65,6 +68,8 @@ struct ImpactOptions {
   /// away: what is called a miss is one.
   double touching = 1e-10;
   int max_steps = 2000;
+  /// Whether the nearest points at t_max of what misses are asked for; the normal is told anyway.
+  bool points_of_misses = true;
 };
 
 /// The first contact of A and B at times from 0 to t_max. Bodies that touch at time 0 (to

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "core/contact/closed_pairs.h"
-#include "core/contact/curved_gjk.h"
+#include "core/contact/core_distance.h"
 #include "core/contact/direction_bounds.h"
 #include "core/contact/expanding_polytope.h"
 
@@ -17,32 +17,6 @@ constexpr double settled_gap = 1e-9;
 
 /// What all roundings of a query amount to, relative to the sizes and the middles' distance.
 constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
-
-/// Four points of B - A around the origin, if there are any: where a polytope may begin.
-struct Enclosure {
-  Vec3<double> c[4], a[4];
-  bool is_found = false;
-};
-
-template <CoreKind A, CoreKind B>
-CoreDistance distance_of_kinds(const CorePair& pair, const CoreSearch& search,
-                               Enclosure* enclosure) {
-  CurvedGjk<A, B> gjk(pair, search);
-  const CoreDistance found = gjk.run();
-  if (enclosure) enclosure->is_found = gjk.encloses(enclosure->c, enclosure->a);
-  return found;
-}
-
-/// Pairs that are asked for most are compiled for their kinds; all others look at them each time.
-CoreDistance distance_of_cores(const CorePair& pair, const CoreSearch& search,
-                               Enclosure* enclosure = nullptr) {
-  using enum CoreKind;
-  if (pair.a.kind == box && pair.b.kind == box)
-    return distance_of_kinds<box, box>(pair, search, enclosure);
-  if (pair.a.kind == hull && pair.b.kind == hull)
-    return distance_of_kinds<hull, hull>(pair, search, enclosure);
-  return distance_of_kinds<other, other>(pair, search, enclosure);
-}
 
 /// The depth by a polytope that grows from there. Returns whether its bounds met; they hold anyway.
 template <CoreKind A, CoreKind B>
@@ -66,6 +40,24 @@ bool depth_by_polytope(const CorePair& pair, double gap, Enclosure enclosure, Co
   if (pair.a.kind == hull && pair.b.kind == hull)
     return expand<hull, hull>(pair, gap, enclosure, found);
   return expand<other, other>(pair, gap, enclosure, found);
+}
+
+/// Where the cores nearly touch, what is between their nearest points is short of digits for a
+/// direction. B stands off along the axis: the plane that is found there is one here, too.
+void improve_plane(const CorePair& pair, CoreDistance& found) {
+  constexpr double stand_offs[] = {1e-3, 1e-5};
+  for (const double stand_off : stand_offs) {
+    if (found.axis.isZero(0)) return;
+    CorePair moved = pair;
+    moved.x += stand_off * pair.size() * found.axis;
+    const CoreDistance there = distance_of_cores(moved, CoreSearch{});
+    found.supports += there.supports + 1;
+    if (there.axis.isZero(0)) return;
+    found.raise_lower(there.axis.dot(nearest_along(pair, there.axis).c), there.axis);
+    if (found.upper - found.lower <= settled_gap * pair.size()) break;
+  }
+  if (found.lower > 0 && found.status == CoreStatus::unsettled)
+    found.status = CoreStatus::separated;
 }
 
 /// The points of first contact when B is moved out along the axis: the nearest points of the two
@@ -127,12 +119,15 @@ CoreDistance solve(const CorePair& pair, const SignedDistanceOptions& options) {
   found = distance_of_cores(pair, search, &enclosure);
   if (found.lower > search.apart) return found;
   const double gap = std::clamp(options.tolerance, 1e-14, 1.0) * size;
-  if (found.status == CoreStatus::separated && found.upper - found.lower <= settled_gap * size)
-    return found;
-  if (options.only_sign) {
-    const bool is_settled =
-        found.status == CoreStatus::overlapping || found.upper < radii || found.lower > radii;
-    if (is_settled) return found;
+  const auto is_settled = [&] {
+    const bool overlaps = found.status == CoreStatus::overlapping;
+    if (options.only_sign && (overlaps || found.upper < radii || found.lower > radii)) return true;
+    return !overlaps && found.upper - found.lower <= settled_gap * size;
+  };
+  if (is_settled() && found.status != CoreStatus::unsettled) return found;
+  if (found.status != CoreStatus::overlapping && std::isfinite(found.upper)) {
+    improve_plane(pair, found);
+    if (is_settled()) return found;
   }
   return depth_of_cores(pair, enclosure, found, gap / (pair.size() + pair.x.norm()),
                         options.only_sign && radii == 0);
@@ -178,6 +173,13 @@ SignedDistance told(const CoreDistance& found, const ContactShape& a, const Cont
 SignedDistance signed_distance(const ContactShape& a, const Affine<double>& pose_a,
                                const ContactShape& b, const Affine<double>& pose_b,
                                const SignedDistanceOptions& options) {
+  if (a.core().kind > b.core().kind) {
+    // The solvers are compiled for one order of two kinds.
+    SignedDistance turned = signed_distance(b, pose_b, a, pose_a, options);
+    std::swap(turned.point_a, turned.point_b);
+    turned.normal = -turned.normal;
+    return turned;
+  }
   if (is_line(a.core()) && is_line(b.core())) {
     // In the world: no frame of either is needed.
     const Vec3<double> half_a = pose_a.linear * (a.turn().col(2) * a.core().size.z()),

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#include "core/contact/core_distance.h"
+
+#include "core/contact/core_kinds.h"
+#include "core/contact/curved_gjk.h"
+
+namespace minkray {
+
+CoreDistance distance_of_cores(const CorePair& pair, const CoreSearch& search,
+                               Enclosure* enclosure) {
+  return with_core_kinds(pair, [&]<CoreKind A, CoreKind B>() {
+    CurvedGjk<A, B> gjk(pair, search);
+    const CoreDistance found = gjk.run();
+    if (enclosure) enclosure->is_found = gjk.encloses(enclosure->c, enclosure->a);
+    return found;
+  });
+}
+
+}  // namespace minkray

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+// A time of impact that is being searched for: two cores of which B moves without turning, and what
+// is proven so far. Their radii are in the points: C is grown by both.
+#pragma once
+
+#include <algorithm>
+
+#include "core/contact/core_pair.h"
+
+namespace minkray {
+
+enum class SweptStatus : unsigned char {
+  open,  ///< none of the others is proven; the bounds hold
+  hit,
+  miss,
+};
+
+/// All in A's frame.
+struct SweptTime {
+  SweptStatus status = SweptStatus::open;
+  double t_lo = -std::numeric_limits<double>::infinity();  ///< no contact since long before
+  double t_hi = std::numeric_limits<double>::infinity();   ///< they touch or overlap
+  Vec3<double> axis = Vec3<double>::Zero();  ///< across the plane between them, of unit length
+  Vec3<double> a = Vec3<double>::Zero();     ///< a point of A, which at t_hi is one of B
+  int supports = 0;
+};
+
+/// A point y = b - a of C, and its shadow along the motion: p e0 + q e1, h along it.
+struct SweptPoint {
+  Vec3<double> y, a;
+  double p, q, h;
+  int feature_a, feature_b;
+};
+
+inline double cross(const SweptPoint& a, const SweptPoint& b) {
+  return a.p * b.q - a.q * b.p;
+}
+
+template <CoreKind A, CoreKind B>
+struct SweptQuery {
+  const CorePair& pair;
+  Vec3<double> velocity;
+  double t_max, near;
+  double radius = pair.a.radius + pair.b.radius;
+  double size = pair.size() + radius;
+  double speed = velocity.norm();
+  Vec3<double> along = velocity / speed;
+  Vec3<double> e0 = along.unitOrthogonal(), e1 = along.cross(e0);
+  /// What roundings of a gap amount to.
+  double rounding = 16 * std::numeric_limits<double>::epsilon() * (size + pair.x.norm());
+  SweptTime result = {};
+
+  SweptQuery(const CorePair& of, const Vec3<double>& v, double most, double nearness)
+      : pair(of), velocity(v), t_max(most), near(nearness) {}
+
+  SweptPoint in_shadow(const Vec3<double>& y, const Vec3<double>& a, int of_a, int of_b) const {
+    return {y, a, e0.dot(y), e1.dot(y), along.dot(y), of_a, of_b};
+  }
+  SweptPoint support(const Vec3<double>& d) {
+    ++result.supports;
+    const DifferencePoint w = nearest_along<A, B>(pair, d);
+    return grown(w.c, w.a, d, w.feature_a, w.feature_b);
+  }
+  SweptPoint grown(const Vec3<double>& c, const Vec3<double>& a, const Vec3<double>& d, int of_a,
+                   int of_b) const {
+    if (!(radius > 0)) return in_shadow(c, a, of_a, of_b);
+    const Vec3<double> n = d / d.norm();
+    return in_shadow(c - radius * n, a + pair.a.radius * n, of_a, of_b);
+  }
+  /// The points of features, which need not be the furthest.
+  SweptPoint on_features(int of_a, int of_b, const Vec3<double>& d) const {
+    const Vec3<double> a = point_of_feature<A>(pair.a, of_a, d),
+                       b = point_of_feature<B>(pair.b, of_b, pair.to_b(-d));
+    return grown(pair.x + pair.turn * b - a, a, d, of_a, of_b);
+  }
+
+  void end(SweptStatus status, const Vec3<double>& axis) {
+    result.status = status;
+    result.axis = unit<double>(axis);
+  }
+  /// Always true.
+  bool end_hit() {
+    result.status = SweptStatus::hit;
+    return true;
+  }
+
+  /// The balls around both miss each other.
+  bool passes_by() {
+    const double towards = pair.x.dot(along);
+    const Vec3<double> aside = pair.x - towards * along;
+    const double distance = towards >= 0 ? pair.x.norm() : aside.norm();
+    if (!(distance > size + near)) return false;
+    end(SweptStatus::miss, towards >= 0 ? pair.x : aside);
+    return true;
+  }
+
+  /// What the plane with normal n through w proves. Returns whether that is a miss.
+  bool judge(const Vec3<double>& n, const SweptPoint& w) {
+    const double length = n.norm(), gap = n.dot(w.y) - rounding * length,
+                 approach = -n.dot(velocity);
+    if (!(approach > 0)) {
+      if (!(gap > near * length)) return false;
+      end(SweptStatus::miss, n);
+      return true;
+    }
+    if (gap - t_max * approach > near * length) {
+      end(SweptStatus::miss, n);
+      return true;
+    }
+    const double t = gap / approach;
+    if (t > result.t_lo) {
+      result.t_lo = t;
+      result.axis = n / length;
+    }
+    return false;
+  }
+
+  /// The time at which the origin is on the triangle: an upper bound if it is within. Returns
+  /// whether it is.
+  bool pierce(const SweptPoint& r, const SweptPoint& s, const SweptPoint& t) {
+    const double at_r = cross(s, t), at_s = cross(t, r), at_t = cross(r, s),
+                 area = at_r + at_s + at_t, sign = area < 0 ? -1 : 1;
+    // Rounding moves the sides of thinner slivers too far.
+    constexpr double sliver = 1e-10;
+    const double reach = std::max({std::abs(r.p) + std::abs(r.q), std::abs(s.p) + std::abs(s.q),
+                                   std::abs(t.p) + std::abs(t.q)});
+    if (!(sign * at_r >= 0 && sign * at_s >= 0 && sign * at_t >= 0 &&
+          std::abs(area) > sliver * size * reach))
+      return false;
+    // Rounding moves the points across, which counts as much as their plane is steep.
+    const double p1 = s.p - r.p, q1 = s.q - r.q, h1 = s.h - r.h, p2 = t.p - r.p, q2 = t.q - r.q,
+                 h2 = t.h - r.h;
+    const double steep =
+                     (std::abs(q1 * h2 - h1 * q2) + std::abs(h1 * p2 - p1 * h2)) / std::abs(area),
+                 allowed = rounding * (1 + steep);
+    const double time = (allowed - (at_r * r.h + at_s * s.h + at_t * t.h) / area) / speed;
+    if (time < result.t_hi) {
+      result.t_hi = time;
+      result.a = (at_r * r.a + at_s * s.a + at_t * t.a) / area;
+    }
+    return true;
+  }
+
+  bool has_met() const { return (result.t_hi - result.t_lo) * speed <= near; }
+};
+
+}  // namespace minkray

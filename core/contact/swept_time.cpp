@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include "core/contact/swept_time.h"
+
+#include "core/contact/core_kinds.h"
+#include "core/contact/swept_portal.h"
+
+namespace minkray {
+
+namespace {
+
+/// Two balls: |x + t v| = r, the first of the two times, and what rounding may have done to it.
+SweptTime of_balls(const CorePair& pair, const Vec3<double>& velocity, double t_max, double near) {
+  SweptTime result;
+  const double radius = pair.a.radius + pair.b.radius, squared = velocity.squaredNorm(),
+               towards = -pair.x.dot(velocity);
+  const Vec3<double> aside = pair.x + (towards / squared) * velocity;
+  const double distance = towards > 0 ? aside.norm() : pair.x.norm();
+  if (!(squared > 0) || std::abs(distance - radius) <= near) return result;
+  const auto miss = [&](const Vec3<double>& axis) {
+    result.status = SweptStatus::miss;
+    result.axis = unit<double>(axis);
+    return result;
+  };
+  if (distance > radius) return miss(towards > 0 ? aside : pair.x);
+  const double deep = (radius - distance) * (radius + distance) / squared;
+  const double t = towards / squared - std::sqrt(deep);
+  const Vec3<double> there = pair.x + t * velocity;
+  const double speed = std::sqrt(squared), approach = -there.dot(velocity) / there.norm();
+  constexpr double epsilons = 16 * std::numeric_limits<double>::epsilon();
+  // What is wrong of the distance there, by the speed at which it changes.
+  const double off = std::abs(there.norm() - radius) + epsilons * (radius + pair.x.norm());
+  if (!(t * speed > near) || !(approach > 0)) return result;
+  if ((t - t_max) * approach > near + off) return miss(pair.x + t_max * velocity);
+  result.status = SweptStatus::hit;
+  result.t_lo = t - off / approach;
+  result.t_hi = t + off / approach;
+  result.axis = unit<double>(there);
+  result.a = pair.a.radius * result.axis;
+  if ((result.t_hi - result.t_lo) * speed > near) result.status = SweptStatus::open;
+  return result;
+}
+
+}  // namespace
+
+SweptTime swept_time(const CorePair& pair, const Vec3<double>& velocity, double t_max,
+                     double near) {
+  if (pair.a.kind == CoreKind::point && pair.b.kind == CoreKind::point)
+    return of_balls(pair, velocity, t_max, near);
+  return with_core_kinds(pair, [&]<CoreKind A, CoreKind B>() {
+    return SweptPortal<A, B>(pair, velocity, t_max, near).run();
+  });
+}
+
+}  // namespace minkray
