@@ -127,16 +127,20 @@ struct SweptQuery {
     if (!(sign * at_r >= 0 && sign * at_s >= 0 && sign * at_t >= 0 &&
           std::abs(area) > sliver * size * reach))
       return false;
-    // Rounding moves the points across, which counts as much as their plane is steep.
+    const double of_r = at_r / area, of_s = at_s / area, of_t = at_t / area;
+    // The weights of a thin triangle lead to a point that is a little beside the origin: it is put
+    // right along the triangle's plane. Rounding moves the points across, which counts as much as
+    // that is steep.
     const double p1 = s.p - r.p, q1 = s.q - r.q, h1 = s.h - r.h, p2 = t.p - r.p, q2 = t.q - r.q,
-                 h2 = t.h - r.h;
-    const double steep =
-                     (std::abs(q1 * h2 - h1 * q2) + std::abs(h1 * p2 - p1 * h2)) / std::abs(area),
-                 allowed = rounding * (1 + steep);
-    const double time = (allowed - (at_r * r.h + at_s * s.h + at_t * t.h) / area) / speed;
+                 h2 = t.h - r.h, across = p1 * q2 - q1 * p2;
+    const double rise_p = (h1 * q2 - q1 * h2) / across, rise_q = (p1 * h2 - h1 * p2) / across;
+    const double p = of_r * r.p + of_s * s.p + of_t * t.p, q = of_r * r.q + of_s * s.q + of_t * t.q,
+                 h = of_r * r.h + of_s * s.h + of_t * t.h - rise_p * p - rise_q * q,
+                 allowed = rounding * (1 + std::abs(rise_p) + std::abs(rise_q));
+    const double time = (allowed - h) / speed;
     if (time < result.t_hi) {
       result.t_hi = time;
-      result.a = (at_r * r.a + at_s * s.a + at_t * t.a) / area;
+      result.a = of_r * r.a + of_s * s.a + of_t * t.a;
     }
     return true;
   }
