@@ -325,7 +325,8 @@ MINKRAY_API int minkray_lidar_rays(const char* pattern, const minkray_pose* pose
 typedef struct minkray_picture_options {
   size_t size; /* sizeof(minkray_picture_options) */
   /* What scene files say as "camera", "lights" and "background", in an object, as text: those of
-   * them that are there are taken in the place of those of the scene's files. May be NULL. */
+   * them that are there are taken in the place of those of the scene's files. May be NULL. If there
+   * are none at all, everything is framed, and lit by a sun and a sky. */
   const char* view;
   uint32_t width; /* in pixels; 0: the camera's */
   uint32_t height;

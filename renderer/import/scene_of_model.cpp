@@ -57,9 +57,15 @@ class Materials {
   std::map<std::array<double, 4>, std::uint32_t> known_;
 };
 
-/// A sun and a sky; a lamp at the camera where a plane hides the sun from everything, as it does
-/// within walls, which have no end.
-void light(Scene& scene) {
+void apply(Model& model, const JointRow& row) {
+  for (const auto& [name, value] : row.values)
+    if (ModelJoint* joint = find_joint(model, name)) joint->value = value;
+  follow_mimics(model);
+}
+
+}  // namespace
+
+void light_everything(Scene& scene) {
   const DirectionalLight sun{{-1.0, 0.45, -1.5}, Colour(2.3, 2.2, 2.05)};
   const bool sun_is_hidden = std::ranges::any_of(scene.objects, [&](const Object& object) {
     return object.half_space &&
@@ -74,14 +80,6 @@ void light(Scene& scene) {
   scene.lights.push_back(EnvironmentLight{{0.62, 0.7, 0.82}, {0.3, 0.28, 0.26}});
   scene.background = {{0.72, 0.8, 0.9}, {0.93, 0.93, 0.93}};
 }
-
-void apply(Model& model, const JointRow& row) {
-  for (const auto& [name, value] : row.values)
-    if (ModelJoint* joint = find_joint(model, name)) joint->value = value;
-  follow_mimics(model);
-}
-
-}  // namespace
 
 std::vector<bool> chosen_geoms(const Model& model, GeometryChoice choice) {
   std::vector<bool> link_is_seen(model.links.size() + 1);
@@ -237,7 +235,7 @@ Scene scene_of(Model& model, const ImportOptions& options, const std::vector<Joi
   if (!rows.empty()) set_time(scene, 0);
 
   frame_everything(scene, options.picture);
-  light(scene);
+  light_everything(scene);
 
   Hash hash;
   hash.add(model.hash);

@@ -8,6 +8,8 @@
 #include "renderer/base/errors.h"
 #include "renderer/film/data_channels.h"
 #include "renderer/film/features.h"
+#include "renderer/import/framing.h"
+#include "renderer/import/scene_of_model.h"
 #include "renderer/json/parse.h"
 #include "renderer/library/call.h"
 #include "renderer/library/held_scene.h"
@@ -43,21 +45,20 @@ Channel channel_of(const char* name, const std::string& argument) {
   wrong_use(argument + ": must be one of " + names + " (got \"" + printable(name, 60) + "\")");
 }
 
-/// The scene, seen as `view` says: see minkray_picture_options.
-Scene seen(const HeldScene& held, const char* view) {
+/// The scene with the camera and the light that the options ask for, or else those of its files, or
+/// of robots if it has none.
+Scene seen(const HeldScene& held, const minkray_picture_options& options) {
   Scene scene = held.plain();
   Json json = Json::object();
-  if (view) {
+  if (options.view) {
     Mistakes mistakes("options.view");
-    const auto given = parse_json(view, mistakes);
+    const auto given = parse_json(options.view, mistakes);
     if (given && !given->is_object()) mistakes.add("must be an object");
     throw_if_any(mistakes);
     json = *given;
   }
   const bool has_camera = json.contains("camera"), has_lights = json.contains("lights"),
              has_background = json.contains("background");
-  if (!has_camera && !held.has_camera())
-    wrong_use("options.view: must have a camera, since no file of the scene has one");
   // All the rest that a scene file must have; what is read of it is not looked at.
   json["version"] = scene_version;
   if (!has_camera) json["camera"] = {{"position", {0, -1, 0}}, {"look_at", {0, 0, 0}}};
@@ -68,7 +69,16 @@ Scene seen(const HeldScene& held, const char* view) {
   if (read && (read->objects.size() > 0 || read->materials.size() > 0))
     mistakes.add("must have nothing but camera, lights and background");
   throw_if_any(mistakes);
-  if (has_camera) scene.camera = read->camera;
+  if (has_camera) {
+    scene.camera = read->camera;
+  } else if (!held.has_camera()) {
+    const auto side = [](std::uint32_t given, int or_else) {
+      return given > 0 && given <= most_pixels_a_side ? static_cast<int>(given) : or_else;
+    };
+    frame_everything(scene, {side(options.width, scene.camera.resolution.width),
+                             side(options.height, scene.camera.resolution.height)});
+  }
+  if (!has_lights && !held.has_camera()) light_everything(scene);
   if (has_lights) scene.lights = read->lights;
   if (has_background) scene.background = read->background;
   if (has_background || has_lights) scene.background_is_sky = read->background_is_sky;
@@ -138,7 +148,7 @@ void interleave(const std::vector<ExrPlane>& planes, const Channel& channel, dou
 
 void render(const HeldScene& held, const minkray_picture_options& given,
             std::span<const minkray_channel> asked, const minkray_options* how) {
-  const Scene scene = seen(held, given.view);
+  const Scene scene = seen(held, given);
   const RenderWorld& world = held.world();
   RenderOptions options = render_options(scene, given);
   const auto pixels = static_cast<std::size_t>(options.resolution.width) *
@@ -224,7 +234,7 @@ int minkray_scene_picture_size(minkray_scene scene, const minkray_picture_option
   return call("minkray_scene_picture_size", [&] {
     const HeldScene& held = scene_of(scene);
     const minkray_picture_options& given = checked(options);
-    const Resolution found = render_options(seen(held, given.view), given).resolution;
+    const Resolution found = render_options(seen(held, given), given).resolution;
     if (width) *width = static_cast<uint32_t>(found.width);
     if (height) *height = static_cast<uint32_t>(found.height);
   });

@@ -28,6 +28,7 @@ for program in first_ray clearance impact cut_cylinder scene_in_c support_in_c; 
   "$folder/examples/$program"
 done
 "$folder/examples/robot" "$sources/examples/arm.urdf"
+"$folder/examples/path" "$sources/examples/arm.urdf"
 
 # Beside vectorised Eigen the answers are those of the command line, bit for bit.
 scene="$sources/scenes/shape-zoo.json"

@@ -72,11 +72,16 @@ class Pictures(unittest.TestCase):
         self.assertGreater(same.mean(), 0.995)  # rays that just touch may differ by rounding
         np.testing.assert_allclose(parts["Z"][met & same], depth[met & same], rtol=1e-5)
 
-    def test_of_what_was_added_need_a_camera_and_may_have_lights(self):
+    def test_of_what_was_added_are_framed_and_lit_or_as_they_are_told(self):
+        scene = mk.Scene()
+        scene.add(mk.translated(mk.sphere(1), [30, 20, 10]))
+        framed = scene.render(spp=2, width=40, height=30, aovs=["id.object"])
+        met = framed["id.object"] == 1
+        self.assertTrue(0.3 < met.mean() < 0.8, met.mean())
+        self.assertFalse(met[0].any() or met[-1].any() or met[:, 0].any() or met[:, -1].any())
+        self.assertTrue((framed["rgb"][met] > 0.03).all())
         scene = mk.Scene()
         scene.add(mk.sphere(1))
-        with self.assertRaisesRegex(mk.Error, "must have a camera"):
-            scene.render()
         view = {"position": np.array([0, -5, 0]), "look_at": [0, 0, 0]}
         dark = scene.render(view, spp=1, width=16, height=16, lights=[], background=[0, 0, 0])["rgb"]
         self.assertEqual(dark.max(), 0)

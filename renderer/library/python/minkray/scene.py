@@ -422,7 +422,7 @@ class Scene:
         ----------
         camera : dict, optional
             As scene files have it: ``{"position": [0, -5, 2], "look_at": [0, 0, 0]}``. None for
-            that of the scene's first file that has one.
+            that of the scene's first file that has one; without any, everything is framed.
         spp : int
             Samples of a pixel.
         bounces : int, optional
@@ -431,7 +431,7 @@ class Scene:
             More that is told of each pixel: 'Z', 'N', 'P', 'dist', 'id.object', 'albedo' and all
             others that ``minkray render --help`` names, but for 'cryptomatte'.
         lights : list of dict, optional
-            As scene files have them; None for those of the scene's files.
+            As scene files have them; None for those of the scene's files, or a sun and a sky.
         background : list or dict, optional
             Likewise.
         width, height : int
