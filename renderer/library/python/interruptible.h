@@ -2,6 +2,7 @@
 // Work without the interpreter's lock that Ctrl-C stops.
 #pragma once
 
+#include <chrono>
 #include <thread>
 
 #include "renderer/library/python/arrays.h"
@@ -36,9 +37,15 @@ class Interruptible {
   static int look(void* user, double) {
     auto* self = static_cast<Interruptible*>(user);
     if (std::this_thread::get_id() != self->caller_) return 0;
+    // The lock is not asked for more often than anybody would notice.
+    const Clock::time_point now = Clock::now();
+    if (now < self->next_look_) return 0;
+    self->next_look_ = now + std::chrono::milliseconds(20);
     const py::gil_scoped_acquire lock;
     return PyErr_CheckSignals() != 0 ? 1 : 0;
   }
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point next_look_ = Clock::now();
   std::thread::id caller_ = std::this_thread::get_id();
   minkray_options options_;
 };
