@@ -36,10 +36,12 @@ constexpr ForeignFormat formats[] = {
     {"robot", [](XmlElement root, XmlFiles& files,
                  const ImportOptions& options) { return read_urdf(root, files, options); }},
     {"sdf", [](XmlElement root, XmlFiles& files,
-               const ImportOptions& options) { return read_sdf(root, files, options); }},
+               const ImportOptions& options) { return read_sdf(std::move(root), files, options); }},
     // So it was called up to version 1.2.
-    {"gazebo", [](XmlElement root, XmlFiles& files,
-                  const ImportOptions& options) { return read_sdf(root, files, options); }},
+    {"gazebo",
+     [](XmlElement root, XmlFiles& files, const ImportOptions& options) {
+       return read_sdf(std::move(root), files, options);
+     }},
 };
 
 constexpr std::string_view xml_endings[] = {".xml", ".mjcf", ".urdf", ".sdf", ".world", ".model"};

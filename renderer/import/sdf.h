@@ -9,6 +9,6 @@
 
 namespace minkray {
 
-Model read_sdf(const XmlElement& root, XmlFiles& files, const ImportOptions& options);
+Model read_sdf(XmlElement root, XmlFiles& files, const ImportOptions& options);
 
 }  // namespace minkray

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <map>
 
 #include "renderer/base/errors.h"
 #include "renderer/import/model_info.h"
@@ -129,6 +130,39 @@ TEST_F(RobotOptions, macros_and_unknown_materials_of_urdf_are_told) {
                                  "r.urdf", {}, mistakes);
   ASSERT_TRUE(model) << mistakes.text();
   EXPECT_NE(model_as_text(*model).find("no colour is known of \"chrome\""), std::string::npos);
+}
+
+TEST_F(RobotOptions, poses_may_be_relative_to_what_stands_in_an_included_model) {
+  write("cup.sdf", R"(<sdf version="1.9"><model name="cup"><frame name="rim"><pose>0 0 2 0 0 0
+    </pose></frame><link name="l"><pose>0 0 1 0 0 0</pose><visual name="v"><geometry><sphere>
+    <radius>2</radius></sphere></geometry></visual></link></model></sdf>)");
+  const std::string ball = R"(<visual name="v"><geometry><sphere><radius>1</radius></sphere>
+    </geometry></visual>)";
+  const std::string file = write("w.sdf", R"(<sdf version="1.9"><world name="w">
+    <model name="on_rim"><pose relative_to="a::rim">1 0 0 0 0 0</pose><link name="l">)" +
+                                              ball + R"(
+    </link></model>
+    <model name="on_cup"><pose relative_to="cup::l">0 0 0 0 0 0</pose><link name="l">)" +
+                                              ball + R"(
+    </link></model>
+    <include><uri>cup.sdf</uri><name>a</name><pose>10 0 0 0 0 0</pose></include>
+    <include><uri>cup.sdf</uri><pose relative_to="a">0 5 0 0 0 0</pose></include>
+    <include><uri>cup.sdf</uri><name>placed</name><placement_frame>rim</placement_frame>
+      <pose>0 0 0 0 0 0</pose></include></world></sdf>)");
+  std::map<std::string, Vec3<double>> at;
+  for (const Object& object : import_scene(file).scene.objects)
+    at[object.name] = object.pose.translation;
+  EXPECT_EQ(at.at("a::l::v"), Vec3<double>(10, 0, 1));
+  EXPECT_EQ(at.at("on_rim::l::v"), Vec3<double>(11, 0, 2));
+  EXPECT_EQ(at.at("cup::l::v"), Vec3<double>(10, 5, 1));
+  EXPECT_EQ(at.at("on_cup::l::v"), Vec3<double>(10, 5, 1));
+  EXPECT_EQ(at.at("placed::l::v"), Vec3<double>(0, 0, -1));
+  const std::string wrong = write("x.sdf", R"(<sdf version="1.9"><world name="w">
+    <include><uri>cup.sdf</uri><pose relative_to="table">0 0 0 0 0 0</pose></include></world></sdf>)");
+  const std::string text = refusal(wrong, {});
+  EXPECT_NE(text.find("line 2: <model name=\"cup\">: there is no frame \"table\""),
+            text.npos)
+      << text;
 }
 
 TEST_F(RobotOptions, a_part_of_a_mesh_that_sdf_asks_for_is_told_not_to_be_singled_out) {

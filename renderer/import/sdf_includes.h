@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// Models of other files, put in the place of the <include> that names them: what stands further
+// down or further in can then name their links and frames as those of any nested model.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+
+#include "renderer/import/import_options.h"
+#include "renderer/import/model.h"
+#include "renderer/import/xml.h"
+
+namespace minkray {
+
+/// Files may include each other so deeply, and models be nested so deeply.
+inline constexpr int deepest_sdf_model = 32;
+
+class SdfIncludes {
+ public:
+  /// `model` is told what is passed over.
+  SdfIncludes(Model& model, XmlFiles& files, const ImportOptions& options)
+      : model_(model), files_(files), options_(options) {}
+
+  /// Each <include> under the root becomes the <model> it names, under the name and the pose that
+  /// the <include> gives it. There stay those that could not be read, which is a mistake, and
+  /// Gazebo's own sun and ground_plane where they are not there.
+  void expand(XmlElement& root);
+
+  /// The version of SDF that the element's file is written in.
+  double version_of(const XmlElement& element) const;
+
+ private:
+  void expand(XmlElement& parent, int depth);
+  std::optional<XmlElement> model_for(const XmlElement& include);
+  std::filesystem::path file_of_config(const std::filesystem::path& config,
+                                       const XmlElement& include);
+
+  Model& model_;
+  XmlFiles& files_;
+  const ImportOptions& options_;
+  int count_ = 0;
+  std::map<std::uint32_t, double> version_of_file_;
+};
+
+}  // namespace minkray
