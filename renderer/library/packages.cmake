@@ -66,6 +66,15 @@ file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/triggers "activate-noawait ldconfig\n")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA
   ${CMAKE_CURRENT_BINARY_DIR}/shlibs ${CMAKE_CURRENT_BINARY_DIR}/triggers)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+# What Python keeps beside the module goes with it.
+file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/prerm
+"#!/bin/sh
+set -e
+rm -rf /usr/lib/python3/dist-packages/minkray/__pycache__
+")
+file(CHMOD ${CMAKE_CURRENT_BINARY_DIR}/prerm PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE
+     GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${CMAKE_CURRENT_BINARY_DIR}/prerm)
 # The module needs the library of this very build, which is not installed yet.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_BINARY_DIR})
 include(CPack)
