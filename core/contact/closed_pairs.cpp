@@ -18,11 +18,18 @@ CoreDistance exact(double distance, const Vec3<double>& axis, const Vec3<double>
   return result;
 }
 
+/// It is stableNorm(), which scales, without that where squares are ordinary numbers.
+double length_of(const Vec3<double>& c) {
+  constexpr double smallest = 1e-280, largest = 1e280;
+  const double squared = c.squaredNorm();
+  return squared > smallest && squared < largest ? std::sqrt(squared) : c.stableNorm();
+}
+
 /// c's direction; where there is none, `otherwise`.
 CoreDistance exact_between(const Vec3<double>& a, const Vec3<double>& c,
                            const Vec3<double>& otherwise) {
   const Vec3<double> direction = unit<double>(c);
-  return exact(c.stableNorm(), direction.isZero(0) ? otherwise : direction, a, c);
+  return exact(length_of(c), direction.isZero(0) ? otherwise : direction, a, c);
 }
 
 /// The parameter, from -1 to 1, of the point of the segment from -half to +half nearest to p.
@@ -101,6 +108,8 @@ CoreDistance point_and_disks(const Vec3<double>& size, const Vec3<double>& p) {
 }  // namespace
 
 CoreDistance between_segments(const Vec3<double>& p, const Vec3<double>& q, const Vec3<double>& x) {
+  if (p.isZero(0) && q.isZero(0))
+    return exact_between(Vec3<double>::Zero(), x, Vec3<double>::UnitX());
   // The nearest points are within both, or one of them is an end.
   const Vec3<double> n = p.cross(q);
   const double squared = n.squaredNorm();
@@ -155,7 +164,7 @@ CoreDistance between_segments(const Vec3<double>& p, const Vec3<double>& q, cons
     const Vec3<double> turned = across.dot(x) < 0 ? Vec3<double>(-across) : across;
     if (gap(turned) > gap(axis)) axis = turned;
   }
-  return exact(c.stableNorm(), axis, a, c);
+  return exact(length_of(c), axis, a, c);
 }
 
 bool closed_distance(const CorePair& pair, CoreDistance& found) {
