@@ -26,6 +26,8 @@ struct AmbientTransport::Path {
   int mirrors = 0;
 
   bool at_camera() const { return bounces == 0 && mirrors == 0; }
+  /// Camera rays of neighbouring pixels go side by side, and shadow rays of what they see.
+  RaysGo rays_go() const { return at_camera() ? RaysGo::side_by_side : RaysGo::each_its_way; }
 };
 
 /// Rays that go on together, and what each of them is a continuation of: a place in the wave
@@ -55,6 +57,7 @@ struct AmbientTransport::HitPoint {
 AmbientTransport::AmbientTransport(const Scene& scene, const RenderWorld& world,
                                    const IntegratorOptions& options)
     : world_(world),
+      casts_(world, options),
       options_(options),
       surface_of_instance_(material_of_instance(scene)),
       lights_(scene.lights),
@@ -77,15 +80,14 @@ void AmbientTransport::follow(std::span<TracedRay> rays, const Path& path,
                               RayCounts& counts) const {
   if (rays.empty()) return;
   std::vector<WorldRay<Real>> asked;
-  std::vector<WorldHit<Real>> hits(rays.size());
+  std::vector<WorldHit<Real>> hits;
   asked.reserve(rays.size());
   for (const TracedRay& ray : rays) asked.push_back({ray.ray, ray.left, ray.time});
-  find_hits(asked, hits, path, counts);
+  const auto kind = path.at_camera() ? RayKind::camera : RayKind::indirect;
+  casts_.find_hits([&](std::size_t) { return kind; }, asked, path.rays_go(), hits, counts.work);
 
-  const RayKind kind = path.at_camera() ? RayKind::camera : RayKind::indirect;
   HitPoints points(rays.size());
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    if (options_.observer) options_.observer->closest(kind, rays[i].ray, rays[i].left, hits[i]);
     rays[i].met = hits[i].found();
     rays[i].radiance.setZero();
     if (hits[i].cast.status == Status::hit) {
@@ -97,39 +99,6 @@ void AmbientTransport::follow(std::span<TracedRay> rays, const Path& path,
   add_direct(rays, points, path, counts);
   for (TracedRay& ray : rays) ray.direct = ray.radiance;
   add_indirect(rays, points, path, counts);
-}
-
-/// Camera rays of neighbouring pixels walk the hierarchy together, others each their own way.
-void AmbientTransport::find_hits(std::span<const WorldRay<Real>> rays,
-                                 std::span<WorldHit<Real>> hits, const Path& path,
-                                 RayCounts& counts) const {
-  if (!path.at_camera()) return world_.closest_hits_in_stream(rays, hits, counts.work);
-  const auto together = static_cast<std::size_t>(options_.ray_group);
-  for (std::size_t i = 0; i < rays.size(); i += together) {
-    const std::size_t count = std::min(together, rays.size() - i);
-    world_.closest_hits(rays.subspan(i, count), hits.subspan(i, count), counts.work);
-  }
-}
-
-/// met[i] answers rays[i]. Shadow rays of what a camera sees go to a light together, as they came.
-std::vector<std::uint8_t> AmbientTransport::blocked(RayKind kind,
-                                                    std::span<const WorldRay<Real>> rays,
-                                                    bool side_by_side, RayCounts& counts) const {
-  std::vector<std::uint8_t> met(rays.size());
-  if (!side_by_side) {
-    world_.occluded_in_stream(rays, met, counts.work);
-  } else {
-    const auto together = static_cast<std::size_t>(options_.ray_group);
-    for (std::size_t i = 0; i < rays.size(); i += together) {
-      const std::size_t count = std::min(together, rays.size() - i);
-      const RayGroupMask answers = world_.occluded(rays.subspan(i, count), counts.work);
-      for (std::size_t k = 0; k < count; ++k) met[i + k] = answers >> k & 1;
-    }
-  }
-  if (options_.observer)
-    for (std::size_t i = 0; i < rays.size(); ++i)
-      options_.observer->occluded(kind, rays[i].ray, rays[i].skip, met[i] != 0);
-  return met;
 }
 
 /// What a ray sees that meets nothing, or begins in a shape.
@@ -177,6 +146,7 @@ void AmbientTransport::add_direct(std::span<TracedRay> rays, const HitPoints& po
   };
   std::vector<WorldRay<Real>> asked;
   std::vector<Arriving> arriving;
+  std::vector<std::uint8_t> met;
   const double least_alpha = path.bounces == 0 ? 0 : least_alpha_behind_bounce;
   for (std::size_t light = 0; light < lights_.count(); ++light) {
     asked.clear();
@@ -193,7 +163,7 @@ void AmbientTransport::add_direct(std::span<TracedRay> rays, const HitPoints& po
       arriving.push_back({i, w_in, sample->weight});
     }
     counts.shadow += asked.size();
-    const auto met = blocked(RayKind::shadow, asked, path.at_camera(), counts);
+    casts_.find_blocked(RayKind::shadow, asked, path.rays_go(), met, counts.work);
     for (std::size_t k = 0; k < asked.size(); ++k) {
       if (met[k]) continue;
       const auto& [i, w_in, irradiance] = arriving[k];
@@ -245,7 +215,8 @@ void AmbientTransport::add_scattered(std::span<TracedRay> rays, const HitPoints&
     counts.ambient += wave.rays.size();
     std::vector<WorldRay<Real>> asked;
     for (const TracedRay& ray : wave.rays) asked.push_back({ray.ray, ray.left, ray.time});
-    const auto met = blocked(RayKind::ambient, asked, false, counts);
+    std::vector<std::uint8_t> met;
+    casts_.find_blocked(RayKind::ambient, asked, RaysGo::each_its_way, met, counts.work);
     for (std::size_t k = 0; k < asked.size(); ++k)
       if (!met[k]) wave.rays[k].radiance = lights_.environment(wave.rays[k].ray.direction);
   } else {

@@ -9,10 +9,10 @@
 #include <span>
 #include <vector>
 
-#include "renderer/light/integrator_options.h"
 #include "renderer/light/light_transport.h"
 #include "renderer/light/lights.h"
 #include "renderer/light/reflection.h"
+#include "renderer/light/wave_casts.h"
 #include "renderer/scene/scene.h"
 
 namespace minkray {
@@ -32,10 +32,6 @@ class AmbientTransport final : public LightTransport {
   using HitPoints = std::vector<std::optional<HitPoint>>;
 
   void follow(std::span<TracedRay> rays, const Path& path, RayCounts& counts) const;
-  void find_hits(std::span<const WorldRay<Real>> rays, std::span<WorldHit<Real>> hits,
-                 const Path& path, RayCounts& counts) const;
-  std::vector<std::uint8_t> blocked(RayKind kind, std::span<const WorldRay<Real>> rays,
-                                    bool side_by_side, RayCounts& counts) const;
   Colour off_surface(const Ray<Real>& ray, const WorldHit<Real>& hit, const Path& path,
                      RayCounts& counts) const;
   HitPoint hit_point(const TracedRay& ray, const WorldHit<Real>& hit) const;
@@ -57,6 +53,7 @@ class AmbientTransport final : public LightTransport {
                         std::span<const double> chances);
 
   const RenderWorld& world_;
+  WaveCasts casts_;
   IntegratorOptions options_;
   std::vector<Surface> surfaces_;
   std::vector<std::uint32_t> surface_of_instance_;

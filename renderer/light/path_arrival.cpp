@@ -3,7 +3,7 @@
 // is to be scattered.
 #include <limits>
 
-#include "renderer/light/path_packet.h"
+#include "renderer/light/path_wave.h"
 
 namespace minkray {
 namespace {
@@ -13,7 +13,7 @@ constexpr int most_passages = 256;
 
 }  // namespace
 
-const Medium& PathTransport::Packet::medium(const Inside& inside, std::uint32_t* which) const {
+const Medium& PathTransport::Wave::medium(const Inside& inside, std::uint32_t* which) const {
   static constexpr std::uint32_t none = no_instance;
   const Medium* found = &air_;
   std::uint32_t body = none;
@@ -27,12 +27,12 @@ const Medium& PathTransport::Packet::medium(const Inside& inside, std::uint32_t*
   return *found;
 }
 
-Colour PathTransport::Packet::left_after(const Medium& medium, Real length) {
+Colour PathTransport::Wave::left_after(const Medium& medium, Real length) {
   if (medium.absorption.isZero(0)) return Colour::Ones();
   return (-medium.absorption * length).array().exp();
 }
 
-void PathTransport::Packet::arrive(std::size_t i) {
+void PathTransport::Wave::arrive(std::size_t i) {
   Path& path = paths_[i];
   const Boundary& at = boundaries_[i];
   const bool is_first = path.depth == 0 && path.passages == 0;
@@ -101,7 +101,7 @@ void PathTransport::Packet::arrive(std::size_t i) {
   if (of_.surfaces_.has_textures()) points_[i]->shading.place = &points_[i]->place;
 }
 
-void PathTransport::Packet::gather(Path& path, const Colour& light, int depth) const {
+void PathTransport::Wave::gather(Path& path, const Colour& light, int depth) const {
   if (depth <= 1) path.direct += light;
   const double most = of_.options_.clamp, brightest = light.maxCoeff();
   if (most > 0 && depth > 1 && !path.only_sharp && brightest > most)
@@ -110,12 +110,12 @@ void PathTransport::Packet::gather(Path& path, const Colour& light, int depth) c
     path.radiance += light;
 }
 
-void PathTransport::Packet::pass(Path& path, bool can) const {
+void PathTransport::Wave::pass(Path& path, bool can) const {
   path.is_straight = false;
   path.goes_on = can && ++path.passages < most_passages;
 }
 
-Colour PathTransport::Packet::off_surface(const Path& path) {
+Colour PathTransport::Wave::off_surface(const Path& path) {
   counts_.background += path.depth == 0 ? 1 : 0;
   const bool sees_background =
       path.only_sharp && (path.depth == 0 || !of_.lights_.has_environment());
@@ -131,8 +131,8 @@ Colour PathTransport::Packet::off_surface(const Path& path) {
   return path.throughput.cwiseProduct(light);
 }
 
-void PathTransport::Packet::add_emission(Path& path, const Boundary& at,
-                                         const PreparedMaterial& material) const {
+void PathTransport::Wave::add_emission(Path& path, const Boundary& at,
+                                       const PreparedMaterial& material) const {
   if (!(material.radiance.maxCoeff() > 0)) return;
   double part = 1;
   if (!path.is_sharp && path.is_straight)

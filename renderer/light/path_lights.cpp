@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 // What lights and shining bodies send to the ends of paths.
-#include "renderer/light/path_packet.h"
+#include "renderer/light/path_wave.h"
 
 namespace minkray {
 
 template <class Draw, class Part>
-void PathTransport::Packet::ask_for(const Draw& draw, const Part& part) {
-  ShadowRays shadows;
-  for (std::size_t i = 0; i < rays_.size(); ++i) {
-    if (!points_[i] || points_[i]->bsdf->is_sharp()) continue;
+void PathTransport::Wave::ask_for(const Draw& draw, const Part& part) {
+  shadows_.clear();
+  for (const std::size_t i : scattering_) {
+    if (points_[i]->bsdf->is_sharp()) continue;
     const Point& point = *points_[i];
     const std::optional<LightSample> sample = draw(point, paths_[i].sampler);
     if (!sample) continue;
@@ -20,19 +20,19 @@ void PathTransport::Packet::ask_for(const Draw& draw, const Part& part) {
     if (!(counts > 0)) continue;
     Ray<Real> ray = point.ray(w, sample->direction);
     ray.t_max = sample->distance;
-    shadows.add({ray, point.instance, paths_[i].time},
-                {i, counts * sample->weight.cwiseProduct(reflected), no_instance});
+    shadows_.add({ray, point.instance, paths_[i].time},
+                 {i, counts * sample->weight.cwiseProduct(reflected), no_instance});
   }
-  ask(shadows);
+  ask_shadows();
 }
 
-void PathTransport::Packet::ask_light(std::size_t light) {
+void PathTransport::Wave::ask_light(std::size_t light) {
   ask_for([&](const Point& point,
               Sampler& sampler) { return of_.lights_.sample(light, point.position, sampler); },
           [](const Point&, const Vec3<double>&, const LightSample&) { return 1.0; });
 }
 
-void PathTransport::Packet::ask_sky(const SkySource& sky) {
+void PathTransport::Wave::ask_sky(const SkySource& sky) {
   if (!sky.is_asked()) return;
   ask_for([&](const Point& point, Sampler& sampler) { return sky.sample(point.position, sampler); },
           [&](const Point& point, const Vec3<double>& w, const LightSample& sample) {
@@ -41,22 +41,17 @@ void PathTransport::Packet::ask_sky(const SkySource& sky) {
           });
 }
 
-void PathTransport::Packet::ask(const ShadowRays& shadows) {
-  counts_.shadow += shadows.count;
-  const RayGroupMask blocked = of_.world_.occluded(shadows.asked(), counts_.work);
-  for (std::size_t k = 0; k < shadows.count; ++k) {
-    const bool answer = blocked >> k & 1;
-    if (of_.options_.observer)
-      of_.options_.observer->occluded(RayKind::shadow, shadows.rays[k].ray, shadows.rays[k].skip,
-                                      answer);
-    if (!answer) add(shadows.arriving[k]);
-  }
+void PathTransport::Wave::ask_shadows() {
+  counts_.shadow += shadows_.rays.size();
+  of_.casts_.find_blocked(RayKind::shadow, shadows_.rays, rays_go_, blocked_, counts_.work);
+  for (std::size_t k = 0; k < blocked_.size(); ++k)
+    if (!blocked_[k]) add(shadows_.arriving[k]);
 }
 
-void PathTransport::Packet::ask_emitters() {
-  ShadowRays shadows;
-  for (std::size_t i = 0; i < rays_.size(); ++i) {
-    if (!points_[i] || points_[i]->bsdf->is_sharp()) continue;
+void PathTransport::Wave::ask_emitters() {
+  shadows_.clear();
+  for (const std::size_t i : scattering_) {
+    if (points_[i]->bsdf->is_sharp()) continue;
     const Point& point = *points_[i];
     Path& path = paths_[i];
     const auto sample = of_.emitters_.sample(point.position, path.time, path.sampler);
@@ -70,24 +65,20 @@ void PathTransport::Packet::ask_emitters() {
                          of_.emitters_.instance(sample->emitter)};
     const WorldRay<Real> ray{point.ray(w, sample->direction), point.instance, path.time};
     if (point.inside(w).none())
-      shadows.add(ray, light);
+      shadows_.add(ray, light);
     else
       ask_within(ray, point.inside(w), light);
   }
-  counts_.shadow += shadows.count;
-  std::array<WorldHit<Real>, most_in_ray_group> hits;
-  if (shadows.count > 0) of_.world_.closest_hits(shadows.asked(), hits, counts_.work);
-  for (std::size_t k = 0; k < shadows.count; ++k) {
-    if (of_.options_.observer)
-      of_.options_.observer->closest(RayKind::shadow, shadows.rays[k].ray, shadows.rays[k].skip,
-                                     hits[k]);
-    if (hits[k].instance == shadows.arriving[k].emitter && hits[k].cast.status == Status::hit)
-      add(shadows.arriving[k]);
-  }
+  counts_.shadow += shadows_.rays.size();
+  of_.casts_.find_hits([](std::size_t) { return RayKind::shadow; }, shadows_.rays, rays_go_, hits_,
+                       counts_.work);
+  for (std::size_t k = 0; k < hits_.size(); ++k)
+    if (hits_[k].instance == shadows_.arriving[k].emitter && hits_[k].cast.status == Status::hit)
+      add(shadows_.arriving[k]);
 }
 
-void PathTransport::Packet::ask_within(const WorldRay<Real>& ray, const Inside& inside,
-                                       Arriving light) {
+void PathTransport::Wave::ask_within(const WorldRay<Real>& ray, const Inside& inside,
+                                     Arriving light) {
   ++counts_.shadow;
   const Boundary met = next_boundary(of_.world_, ray, inside, counts_.work);
   if (met.instance != light.emitter || met.leaves || met.is_within || met.is_lost) return;
@@ -95,7 +86,7 @@ void PathTransport::Packet::ask_within(const WorldRay<Real>& ray, const Inside& 
   add(light);
 }
 
-void PathTransport::Packet::add(const Arriving& arriving) {
+void PathTransport::Wave::add(const Arriving& arriving) {
   Path& path = paths_[arriving.path];
   gather(path, path.throughput.cwiseProduct(arriving.light), path.depth + 1);
 }

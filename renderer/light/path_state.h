@@ -3,7 +3,7 @@
 // and what lights send there.
 #pragma once
 
-#include <array>
+#include <vector>
 
 #include "renderer/light/inside.h"
 #include "renderer/light/path_transport.h"
@@ -65,15 +65,17 @@ struct PathTransport::Arriving {
 /// Rays towards lights, asked together. Whatever order they are asked in, a path's sum is the same:
 /// it takes one ray of each of these.
 struct PathTransport::ShadowRays {
-  std::array<WorldRay<Real>, most_in_ray_group> rays;
-  std::array<Arriving, most_in_ray_group> arriving;
-  std::size_t count = 0;
+  std::vector<WorldRay<Real>> rays;
+  std::vector<Arriving> arriving;
 
-  void add(const WorldRay<Real>& ray, const Arriving& light) {
-    rays[count] = ray;
-    arriving[count++] = light;
+  void clear() {
+    rays.clear();
+    arriving.clear();
   }
-  std::span<const WorldRay<Real>> asked() const { return std::span(rays).first(count); }
+  void add(const WorldRay<Real>& ray, const Arriving& light) {
+    rays.push_back(ray);
+    arriving.push_back(light);
+  }
 };
 
 }  // namespace minkray

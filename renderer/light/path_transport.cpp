@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/light/path_transport.h"
 
-#include "renderer/light/path_packet.h"
+#include "renderer/light/path_wave.h"
 
 namespace minkray {
 namespace {
@@ -20,28 +20,39 @@ bool is_flat(const RenderWorld& world, std::uint32_t instance) {
 
 }  // namespace
 
-PathTransport::Packet::Packet(const PathTransport& of, std::span<TracedRay> rays, RayCounts& counts)
-    : of_(of), rays_(rays), counts_(counts) {
+PathTransport::Wave::Wave(const PathTransport& of, std::span<TracedRay> rays, RayCounts& counts)
+    : of_(of),
+      rays_(rays),
+      counts_(counts),
+      paths_(rays.size()),
+      going_on_(rays.size()),
+      boundaries_(rays.size()),
+      points_(rays.size()) {
   for (std::size_t i = 0; i < rays.size(); ++i) {
     Path& path = paths_[i];
     path.ray = rays[i].ray;
     path.sampler = rays[i].sampler;
     path.time = rays[i].time;
     path.left = rays[i].left;
+    going_on_[i] = i;
   }
 }
 
-void PathTransport::Packet::run() {
-  while (find_boundaries()) {
-    for (std::size_t i = 0; i < rays_.size(); ++i) {
+void PathTransport::Wave::run() {
+  while (!going_on_.empty()) {
+    find_boundaries();
+    scattering_.clear();
+    for (const std::size_t i : going_on_) {
       points_[i].reset();
-      if (paths_[i].goes_on) arrive(i);
+      arrive(i);
+      if (points_[i]) scattering_.push_back(i);
     }
     for (std::size_t light = 0; light < of_.lights_.count(); ++light) ask_light(light);
     for (const auto& sky : of_.lights_.skies()) ask_sky(*sky);
     if (!of_.emitters_.none()) ask_emitters();
-    for (std::size_t i = 0; i < rays_.size(); ++i)
-      if (points_[i]) scatter(paths_[i], *points_[i]);
+    for (const std::size_t i : scattering_) scatter(paths_[i], *points_[i]);
+    std::erase_if(going_on_, [&](std::size_t i) { return !paths_[i].goes_on; });
+    rays_go_ = RaysGo::each_its_way;
   }
   for (std::size_t i = 0; i < rays_.size(); ++i) {
     rays_[i].radiance = paths_[i].radiance;
@@ -49,34 +60,25 @@ void PathTransport::Packet::run() {
   }
 }
 
-bool PathTransport::Packet::find_boundaries() {
-  std::array<WorldRay<Real>, most_in_ray_group> asked;
-  std::array<std::size_t, most_in_ray_group> whose;
-  std::array<WorldHit<Real>, most_in_ray_group> hits;
-  std::size_t count = 0;
-  bool any = false;
-  for (std::size_t i = 0; i < rays_.size(); ++i) {
+void PathTransport::Wave::find_boundaries() {
+  asked_.clear();
+  whose_.clear();
+  for (const std::size_t i : going_on_) {
     const Path& path = paths_[i];
-    if (!path.goes_on) continue;
-    any = true;
     const WorldRay<Real> ray{path.ray, path.left, path.time};
     if (path.inside.none()) {
-      asked[count] = ray;
-      whose[count++] = i;
+      asked_.push_back(ray);
+      whose_.push_back(i);
     } else {
       boundaries_[i] = next_boundary(of_.world_, ray, path.inside, counts_.work);
     }
   }
-  if (count > 0) of_.world_.closest_hits(std::span(asked).first(count), hits, counts_.work);
-  for (std::size_t k = 0; k < count; ++k) {
-    boundaries_[whose[k]] = boundary_of(hits[k]);
-    if (of_.options_.observer)
-      of_.options_.observer->closest(kind(paths_[whose[k]]), asked[k].ray, asked[k].skip, hits[k]);
-  }
-  return any;
+  const auto kind_of = [&](std::size_t k) { return kind(paths_[whose_[k]]); };
+  of_.casts_.find_hits(kind_of, asked_, rays_go_, hits_, counts_.work);
+  for (std::size_t k = 0; k < whose_.size(); ++k) boundaries_[whose_[k]] = boundary_of(hits_[k]);
 }
 
-void PathTransport::Packet::scatter(Path& path, const Point& point) {
+void PathTransport::Wave::scatter(Path& path, const Point& point) {
   const std::array<double, 2> u = path.sampler.next();
   const double which = path.sampler.next()[0];
   const auto sample = point.bsdf->sample(point.shading, {u, which});
@@ -113,6 +115,7 @@ void PathTransport::Packet::scatter(Path& path, const Point& point) {
 PathTransport::PathTransport(const Scene& scene, const RenderWorld& world,
                              const IntegratorOptions& options)
     : world_(world),
+      casts_(world, options),
       options_(options),
       surfaces_(scene),
       emitters_(world, surfaces_.radiances()),
@@ -126,10 +129,7 @@ PathTransport::PathTransport(const Scene& scene, const RenderWorld& world,
 
 void PathTransport::trace(std::span<TracedRay> rays, RayCounts& counts) const {
   counts.camera += rays.size();
-  for (std::size_t i = 0; i < rays.size(); i += most_in_ray_group)
-    Packet(*this, rays.subspan(i, std::min<std::size_t>(most_in_ray_group, rays.size() - i)),
-           counts)
-        .run();
+  Wave(*this, rays, counts).run();
 }
 
 }  // namespace minkray

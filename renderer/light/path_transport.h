@@ -9,14 +9,14 @@
 #include <vector>
 
 #include "renderer/light/emitters.h"
-#include "renderer/light/integrator_options.h"
 #include "renderer/light/light_transport.h"
 #include "renderer/light/lights.h"
 #include "renderer/light/scene_surfaces.h"
+#include "renderer/light/wave_casts.h"
 
 namespace minkray {
 
-/// Refers to the world. Paths of a packet go on together, step by step; each has its own random
+/// Refers to the world. Paths of a wave go on together, step by step; each has its own random
 /// numbers and sums, so that it does not matter which go together.
 class PathTransport final : public LightTransport {
  public:
@@ -29,13 +29,14 @@ class PathTransport final : public LightTransport {
   struct Point;
   struct Arriving;
   struct ShadowRays;
-  class Packet;
+  class Wave;
 
   bool is_flat_sheet(std::uint32_t instance) const {
     return !is_flat_sheet_.empty() && is_flat_sheet_[instance];
   }
 
   const RenderWorld& world_;
+  WaveCasts casts_;
   IntegratorOptions options_;
   SceneSurfaces surfaces_;
   Emitters emitters_;

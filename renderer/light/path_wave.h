@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// Paths that go on together, step by step: where their rays come to, what lights send there, and
+// where they go on from there.
+#pragma once
+
+#include <optional>
+
+#include "renderer/light/path_state.h"
+
+namespace minkray {
+
+/// The balance heuristic.
+inline double share(double mine, double other) {
+  return mine / (mine + other);
+}
+
+class PathTransport::Wave {
+ public:
+  Wave(const PathTransport& of, std::span<TracedRay> rays, RayCounts& counts);
+  void run();
+
+ private:
+  // Step by step (path_transport.cpp).
+  RayKind kind(const Path& path) const {
+    return path.depth == 0 ? RayKind::camera : RayKind::indirect;
+  }
+  /// Where the rays of all paths that go on come to.
+  void find_boundaries();
+  /// Draws the direction in which the path goes on, or ends it.
+  void scatter(Path& path, const Point& point);
+
+  // Where rays come to (path_arrival.cpp).
+  /// The clear body that counts where bodies overlap: of the greatest priority, of equals that
+  /// which was entered last.
+  const Medium& medium(const Inside& inside, std::uint32_t* which = nullptr) const;
+  static Colour left_after(const Medium& medium, Real length);
+  /// Light that the ray finds by itself, and the point where it is to be scattered.
+  void arrive(std::size_t i);
+  /// Adds light that was scattered so often; what the camera sees directly and what is lit directly
+  /// is never limited.
+  void gather(Path& path, const Colour& light, int depth) const;
+  /// Goes on through a boundary that does not count, if it can.
+  void pass(Path& path, bool can) const;
+  /// What a path sees that meets nothing. Surfaces are lit by the environment and mirror it;
+  /// without one they still mirror the background that cameras see.
+  Colour off_surface(const Path& path);
+  void add_emission(Path& path, const Boundary& at, const PreparedMaterial& material) const;
+
+  // What lights send (path_lights.cpp).
+  /// Light of a kind to all paths' ends: draw(point, sampler) is a sample of it, and part(point, w,
+  /// sample) what counts of that beside what the surface itself draws; 0 is not asked for.
+  template <class Draw, class Part>
+  void ask_for(const Draw& draw, const Part& part);
+  /// Light from the only direction of a light, which no surface draws.
+  void ask_light(std::size_t light);
+  /// Light from all around, where it is bright.
+  void ask_sky(const SkySource& sky);
+  /// Adds what arrives where nothing is in the way.
+  void ask_shadows();
+  /// Light from one shining body for each path's end, drawn at random. Whether the body is met, and
+  /// before anything else, is one question.
+  void ask_emitters();
+  /// Asks within clear bodies.
+  void ask_within(const WorldRay<Real>& ray, const Inside& inside, Arriving light);
+  void add(const Arriving& arriving);
+
+  const PathTransport& of_;
+  std::span<TracedRay> rays_;
+  RayCounts& counts_;
+  const Medium air_;
+  RaysGo rays_go_ = RaysGo::side_by_side;  ///< until they have come to something
+  std::vector<Path> paths_;
+  std::vector<std::size_t> going_on_;  ///< the paths that have not ended
+  std::vector<Boundary> boundaries_;   ///< by path: where it has come to
+  std::vector<std::optional<Point>> points_;
+  std::vector<std::size_t> scattering_;  ///< the paths that are at a point
+  std::vector<WorldRay<Real>> asked_;
+  std::vector<std::size_t> whose_;
+  std::vector<WorldHit<Real>> hits_;
+  std::vector<std::uint8_t> blocked_;
+  ShadowRays shadows_;
+};
+
+}  // namespace minkray
