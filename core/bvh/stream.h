@@ -10,7 +10,7 @@
 namespace minkray {
 
 /// So many pairs are told at once, or fewer.
-inline constexpr std::size_t most_pairs_at_once = 2 * bvh_width;
+inline constexpr std::size_t most_pairs_at_once = 2 * std::size_t{bvh_width};
 
 /// Told which rays meet which boxes, pair by pair. Rounding may add some. A plain function, so that
 /// kernels share no code.

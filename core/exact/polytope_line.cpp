@@ -14,7 +14,7 @@ Entry<double> enter_tables<double>(const PolytopeTables& polytope, const Line<do
 
 /// Over flat and slender polytopes the way from feature to feature may lead round in circles.
 Entry<double> enter_any_feature(const PolytopeTables& of, const Line<double>& line) {
-  constexpr std::size_t most_half_edges = 3 * 128;
+  constexpr std::size_t most_half_edges = 384;  // three for each of 128 triangles
   const std::size_t count = of.origin.size();
   if (count > most_half_edges) return {};
   RoundedWalk<double> walk(of, line);

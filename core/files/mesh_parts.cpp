@@ -41,7 +41,7 @@ std::string_view take_line(std::string_view& text) {
 /// The file was read already: what its faces name is there.
 Grouped faces_of_obj(std::string_view text, std::size_t count) {
   Grouped grouped;
-  std::map<std::string, std::uint32_t> groups;
+  std::map<std::pair<std::string, std::string>, std::uint32_t> groups;
   std::string object, group;
   std::uint32_t current = 0;
   std::size_t above = 0;
@@ -54,7 +54,7 @@ Grouped faces_of_obj(std::string_view text, std::size_t count) {
       (word == "o" ? object : group) = std::string(take_word(line));
       if (word == "o") group.clear();
       const auto next = static_cast<std::uint32_t>(groups.size());
-      current = groups.emplace(object + "\n" + group, next).first->second;
+      current = groups.emplace(std::pair(object, group), next).first->second;
     }
     if (word != "f") continue;
     std::vector<std::uint32_t> corners;

@@ -125,7 +125,7 @@ void FacetMesh<T>::fill_cube_map() {
   };
   for (std::uint32_t f = 0; f < facets_.size(); ++f)
     reach(cell_of(facets_[f].normal().template cast<double>()), f);
-  for (std::size_t i = 0; i < reached.size(); ++i) {
+  for (std::size_t i = 0; i < reached.size(); ++i) {  // NOLINT(modernize-loop-convert): it grows
     const CubeMap::Cell square = directions_[reached[i]];
     std::uint32_t& facet = facing_[reached[i]];
     facet = climb(facet, middle_of(square, 0.5, 0.5).template cast<T>());

@@ -19,8 +19,8 @@ inline constexpr int tilted_directions = 27;
 /// Slightly beside the directions of a cube's faces, edges and corners, where shapes are special.
 template <class T>
 Vec3<T> tilted_direction(int i) {
-  const Vec3<T> tilt(T(0.11), T(0.07), T(0.13));
-  return Vec3<T>(T(i % 3 - 1), T(i / 3 % 3 - 1), T(i / 9 - 1)) + tilt;
+  const int x = i % 3 - 1, y = i / 3 % 3 - 1, z = i / 9 - 1;
+  return Vec3<T>(T(x) + T(0.11), T(y) + T(0.07), T(z) + T(0.13));
 }
 
 /// Found by asking for jets in 27 slightly tilted directions: a description that steers the

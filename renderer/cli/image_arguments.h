@@ -42,7 +42,7 @@ struct ImageArguments {
 
   /// The options for a scene, of which `panels` pictures come beside each other. Throws WrongUsage
   /// where a value is not usable.
-  RenderOptions render_options(const Scene& scene, std::size_t panels = 1) const;
+  RenderOptions render_options(const Scene& loaded, std::size_t panels = 1) const;
 };
 
 /// Reads WIDTHxHEIGHT; throws WrongUsage for anything else.

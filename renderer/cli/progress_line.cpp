@@ -20,11 +20,9 @@ void ProgressLine::show(double fraction, std::uint64_t rays) {
   last_ = now;
   line_is_dirty_ = true;
   const double seconds = std::chrono::duration<double>(now - begin_).count();
-  const double left = seconds * (1 - fraction) / fraction;
-  std::fprintf(stderr, "\r\x1b[K%5.1f %%  %.2f Mray/s  %.0f:%02d left", 100 * fraction,
-               static_cast<double>(rays) / seconds / 1e6,
-               static_cast<double>(static_cast<long>(left) / 60),
-               static_cast<int>(static_cast<long>(left) % 60));
+  const auto left = static_cast<long>(seconds * (1 - fraction) / fraction);
+  std::fprintf(stderr, "\r\x1b[K%5.1f %%  %.2f Mray/s  %ld:%02ld left", 100 * fraction,
+               static_cast<double>(rays) / seconds / 1e6, left / 60, left % 60);
   std::fflush(stderr);
 }
 

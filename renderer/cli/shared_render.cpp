@@ -140,7 +140,7 @@ std::string parts_folder(const std::string& output) {
 }
 
 int default_tile_count(const PixelRect& picture) {
-  constexpr std::int64_t pixels_a_tile = 64 * 64;
+  constexpr std::int64_t pixels_a_tile = 4096;
   const std::int64_t pixels = std::int64_t{picture.width()} * picture.height();
   return static_cast<int>(std::clamp<std::int64_t>(pixels / pixels_a_tile, 1, 9999));
 }

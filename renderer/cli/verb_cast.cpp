@@ -215,7 +215,7 @@ ExitCode cast(const CastVerbOptions& options) {
       }
     };
     while (batch->lines.size() < lines_a_batch && next()) {
-      batch->lines.push_back(std::move(line));
+      batch->lines.push_back(std::exchange(line, {}));
       // Answers to a slow writer come line by line.
       if (in.rdbuf()->in_avail() == 0 && options.file == "-") break;
     }

@@ -79,7 +79,7 @@ void field(FieldVerbOptions& options) {
   const Image picture = field_picture(found, title);
   write_images(options.outputs, picture, field_numbers(found));
   show_preview(picture, options.preview);
-  if (options.quiet || options.preview.preview.size() > 0) return;
+  if (options.quiet || !options.preview.preview.empty()) return;
   double least = std::numeric_limits<double>::infinity(), widest = 0;
   for (std::size_t i = 0; i < found.value.size(); ++i) {
     least = std::min(least, found.value[i]);

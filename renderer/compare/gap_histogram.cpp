@@ -13,10 +13,13 @@ void GapHistogram::add(double gap) {
   greatest_ = std::max(greatest_, gap);
   // |gap| in [10^(k - decades), 10^(k + 1 - decades)) is k + 1 bins away from the middle.
   const double size = std::abs(gap);
-  int away = 0;
-  if (size > 0)
-    away = std::clamp(static_cast<int>(std::floor(std::log10(size))) + decades + 1, 0, decades);
-  ++counts_[static_cast<std::size_t>(decades + (gap < 0 ? -away : away))];
+  int bin = decades;
+  if (size > 0) {
+    const int away =
+        std::clamp(static_cast<int>(std::floor(std::log10(size))) + decades + 1, 0, decades);
+    bin += gap < 0 ? -away : away;
+  }
+  ++counts_[static_cast<std::size_t>(bin)];
 }
 
 double GapHistogram::lower_edge(int bin) {

@@ -63,7 +63,7 @@ std::vector<double> ticks(double most) {
     }
   step = std::max(step, 1.0);
   std::vector<double> result;
-  for (double at = 0; at <= most; at += step) result.push_back(at);
+  for (int i = 0; i * step <= most; ++i) result.push_back(i * step);
   return result;
 }
 

@@ -35,10 +35,10 @@ std::vector<Label> labels_of(const Scene& scene, const Resolution& resolution) {
   if (!scene.labels) return labels;
   const Camera camera(scene.camera, resolution);
   const double scale = label_scale(resolution);
-  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-    if (scene.objects[i].half_space) continue;  // it has no middle
-    const std::string& name = scene.objects[i].name;
-    const auto seen = projected(camera, bounds_of(scene.objects[i]));
+  for (const auto& object : scene.objects) {
+    if (object.half_space) continue;  // it has no middle
+    const std::string& name = object.name;
+    const auto seen = projected(camera, bounds_of(object));
     if (name.empty() || !seen) continue;
     const double width = text_size(name, scale).width;
     labels.push_back(

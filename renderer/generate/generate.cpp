@@ -131,8 +131,8 @@ void generate_hulls(const GenerateOptions& options, const std::string& file) {
   Json scene = frame(options, half_size);
   Random random(options.seed);
   for (std::size_t i = 0; i < options.count; ++i) {
-    const Vec3<double> cell(static_cast<double>(i % side), static_cast<double>(i / side % side),
-                            static_cast<double>(i / side / side));
+    const std::size_t x = i % side, y = i / side % side, z = i / side / side;
+    const Vec3<double> cell(static_cast<double>(x), static_cast<double>(y), static_cast<double>(z));
     const Vec3<double> radii(random.within(0.3, 0.5), random.within(0.3, 0.5),
                              random.within(0.3, 0.5));
     Json points = Json::array();

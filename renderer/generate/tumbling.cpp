@@ -101,8 +101,8 @@ Json tumbling_scene(std::size_t count, std::uint64_t seed) {
   Random random(seed);
   scene["objects"] = Json::array();
   for (std::size_t i = 0; i < count; ++i) {
-    const Vec3<double> cell(static_cast<double>(i % side), static_cast<double>(i / side % side),
-                            static_cast<double>(i / side / side));
+    const std::size_t x = i % side, y = i / side % side, z = i / side / side;
+    const Vec3<double> cell(static_cast<double>(x), static_cast<double>(y), static_cast<double>(z));
     const Vec3<double> from =
         spacing * (cell + Vec3<double>::Constant(0.5)) - Vec3<double>::Constant(half_size);
     // Outwards, and each a little its own way.

@@ -58,9 +58,9 @@ void draw_text(Image& image, double x, double y, std::string_view text, const Ve
   std::vector<Vertex> vertices((copy.size() + 1) * 40);
   const int quads = stb_easy_font_print(0, 0, copy.data(), nullptr, vertices.data(),
                                         static_cast<int>(vertices.size() * sizeof(Vertex)));
-  for (int i = 0; i < quads; ++i) {
-    const Vertex& a = vertices[static_cast<std::size_t>(4 * i)];
-    const Vertex& c = vertices[static_cast<std::size_t>(4 * i + 2)];
+  for (std::size_t i = 0; i < static_cast<std::size_t>(quads); ++i) {
+    const Vertex& a = vertices[4 * i];
+    const Vertex& c = vertices[4 * i + 2];
     fill_rectangle(image, x + a.x * scale, y + a.y * scale, x + c.x * scale, y + c.y * scale,
                    colour);
   }

@@ -22,24 +22,24 @@ namespace {
 /// A format is known by its root element.
 struct ForeignFormat {
   std::string_view root;
-  Model (*read)(XmlElement root, XmlFiles& files, const ImportOptions& options);
+  Model (*read)(XmlElement&& root, XmlFiles& files, const ImportOptions& options);
 };
 constexpr ForeignFormat formats[] = {
     {"mujoco",
-     [](XmlElement root, XmlFiles& files, const ImportOptions& options) {
+     [](XmlElement&& root, XmlFiles& files, const ImportOptions& options) {
        return read_mjcf(std::move(root), files, options);
      }},
     {"mujocoinclude",
-     [](XmlElement root, XmlFiles& files, const ImportOptions& options) {
+     [](XmlElement&& root, XmlFiles& files, const ImportOptions& options) {
        return read_mjcf(std::move(root), files, options);
      }},
-    {"robot", [](XmlElement root, XmlFiles& files,
+    {"robot", [](XmlElement&& root, XmlFiles& files,
                  const ImportOptions& options) { return read_urdf(root, files, options); }},
-    {"sdf", [](XmlElement root, XmlFiles& files,
+    {"sdf", [](XmlElement&& root, XmlFiles& files,
                const ImportOptions& options) { return read_sdf(std::move(root), files, options); }},
     // So it was called up to version 1.2.
     {"gazebo",
-     [](XmlElement root, XmlFiles& files, const ImportOptions& options) {
+     [](XmlElement&& root, XmlFiles& files, const ImportOptions& options) {
        return read_sdf(std::move(root), files, options);
      }},
 };

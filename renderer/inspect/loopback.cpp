@@ -168,7 +168,7 @@ bool parse_request(std::string_view text, std::string_view token, int port, WebR
   const std::string number = ":" + std::to_string(port);
   if (host != "127.0.0.1" + number && host != "localhost" + number)
     return refuse(421, "this is another machine's name\n");
-  if (word(target, '/') != "") return refuse(404, "there is nothing here\n");
+  if (!word(target, '/').empty()) return refuse(404, "there is nothing here\n");
   if (!is_same_secret(word(target, '/'), token)) return refuse(404, "there is nothing here\n");
   request.path = decoded(word(target, '?'));
   while (!target.empty()) {

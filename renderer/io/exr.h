@@ -49,6 +49,6 @@ ExrImage read_exr(const std::string& file);
 bool is_exr(const std::string& file);
 
 /// Just the string attributes of a file, without its pixels.
-std::map<std::string, std::string> read_exr_texts(const std::string& file);
+std::map<std::string, std::string> read_exr_texts(const std::string& name);
 
 }  // namespace minkray

@@ -94,7 +94,7 @@ std::vector<std::uint8_t> palette_indices(const Image& image) {
         const float value =
             static_cast<float>(wanted[static_cast<std::size_t>(channel)]) / 255 * (levels - 1) +
             row[i][channel];
-        const int level = std::clamp(static_cast<int>(value + 0.5f), 0, levels - 1);
+        const int level = std::clamp(static_cast<int>(std::lround(value)), 0, levels - 1);
         const float error = value - static_cast<float>(level);
         row[i + 1][channel] += error * 7 / 16;
         below[i - 1][channel] += error * 3 / 16;

@@ -49,7 +49,7 @@ class HeldScene {
                          const std::optional<Affine<double>>& pose);
   void set_pose(std::uint32_t object, const Affine<double>& pose);
   void set_group_pose(std::uint32_t group, const Affine<double>& pose);
-  void set_joint(std::uint32_t group, const std::string& joint, std::span<const double> values);
+  void set_joint(std::uint32_t group, const std::string& name, std::span<const double> values);
   void commit();
 
   /// Throws CallError if the number is that of no object; of no group.

@@ -128,8 +128,9 @@ class Arguments {
   bool fill_from(const minkray_parameter& given, const Parameter& field,
                  ShapeList<double>& operand_list) {
     auto list = operands(given, field, 1, std::numeric_limits<std::size_t>::max());
-    if (list) operand_list = *std::move(list);
-    return list.has_value();
+    if (!list) return false;
+    operand_list = *std::move(list);
+    return true;
   }
 
   bool fill_from(const minkray_parameter& given, const Parameter& field, AffineMap<double>& map) {

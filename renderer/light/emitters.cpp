@@ -49,7 +49,7 @@ Vec3<double> half_axes(const ShapeDefinition<Real>& shape) {
   const exact::Form& form = shape.form();
   if (form.kind == FormKind::ball && !form.is_off_centre) return form.R * form.scale.cwiseInverse();
   // As long as its box, flat where that is flat.
-  const Vec3<double> box = shape.inner_half_extents();
+  const Vec3<double>& box = shape.inner_half_extents();
   const double least = least_thickness * box.maxCoeff();
   Vec3<double> axes = box.cwiseMax(least);
   const double growth = growth_to_hold(shape, axes);

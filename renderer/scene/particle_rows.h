@@ -44,7 +44,7 @@ class ParticleRows {
 /// Adds the rows of a file: .csv (text) or .f32 or .f64 (little-endian floats or doubles, nothing
 /// between them). `count`: how many rows it must hold. At most `most_rows`. Throws
 /// std::runtime_error that says what is wrong, and in which row or line, without the file's name.
-void read_particle_file(const std::filesystem::path& file, std::optional<std::size_t> count,
+void read_particle_file(const std::filesystem::path& path, std::optional<std::size_t> count,
                         std::size_t most_rows, ParticleRows& rows, Hash& hash);
 
 }  // namespace minkray

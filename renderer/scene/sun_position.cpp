@@ -81,7 +81,9 @@ std::optional<double> days_since_2000(const std::string& time) {
   return days_of_date(year, month, day) - 0.5 + seconds / 86400;
 }
 
-Vec3<double> direction_of_sun(double n, double latitude_degrees, double longitude_degrees) {
+Vec3<double> direction_of_sun(double days_since_2000, double latitude_degrees,
+                              double longitude_degrees) {
+  const double n = days_since_2000;
   const double mean_longitude = 280.460 + 0.9856474 * n;
   const double g = (357.528 + 0.9856003 * n) * degree;  // mean anomaly
   const double lambda = (mean_longitude + 1.915 * std::sin(g) + 0.020 * std::sin(2 * g)) * degree;
