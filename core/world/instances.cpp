@@ -102,21 +102,21 @@ void Instances<T>::add_many(std::uint32_t definition, std::size_t count, bool li
 
 template <class T>
 void Instances<T>::pose_all(const std::function<Affine<T>(std::size_t)>& pose_of,
-                            const std::function<Vec3<T>(std::size_t)>& shift_of) {
+                            const std::function<Movement<T>(std::size_t)>& movement_of) {
   linear_.resize(places_.size());
   boxes_.resize(places_.size());
-  shifts_.resize(shift_of ? places_.size() : 0);
+  movements_.resize(movement_of ? places_.size() : 0);
   for (PosedHalfSpace& one : half_spaces_) one.in_world = one.at_rest.posed(pose_of(one.instance));
   parallel_for(places_.size(), poses_a_range, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      if (shift_of) shifts_[i] = shift_of(i);
+      if (movement_of) movements_[i] = movement_of(i);
       if (is_half_space(i)) continue;
-      place(i, places_[i].definition, pose_of(i), i, true);
-      if (!shift_of) continue;
-      const Bounds<T> before = definitions_[places_[i].definition]->bounds_of(pose_of(i));
-      Bounds<T> all = before;
-      all.extend(Bounds<T>{before.lower + shifts_[i], before.upper + shifts_[i]});
-      boxes_[i] = rounded_outwards(padded(all));
+      const Affine<T> pose = pose_of(i);
+      place(i, places_[i].definition, pose, i, true);
+      if (!movement_of) continue;
+      const ShapeDefinition<T>& shape = *definitions_[places_[i].definition];
+      const Bounds<T> at_end = shape.bounds_of(movements_[i].moved(pose, T(1)));
+      boxes_[i] = rounded_outwards(padded(movements_[i].swept(shape.bounds_of(pose), at_end)));
     }
   });
 }
@@ -138,7 +138,7 @@ template <class T>
 std::size_t Instances<T>::bytes() const {
   return definitions_.size() * (sizeof(ShapeDefinition<T>) + sizeof(definitions_[0])) +
          places_.capacity() * sizeof(Place) + linear_.capacity() * sizeof(Linear) +
-         shifts_.capacity() * sizeof(shifts_[0]) +
+         movements_.capacity() * sizeof(movements_[0]) +
          half_spaces_.capacity() * sizeof(PosedHalfSpace) + boxes_.capacity() * sizeof(boxes_[0]);
 }
 

@@ -11,6 +11,7 @@
 
 #include "core/cast/prepared_shape.h"
 #include "core/world/half_space.h"
+#include "core/world/movement.h"
 
 namespace minkray {
 
@@ -36,20 +37,33 @@ class Instances {
                 const std::function<Affine<T>(std::size_t)>& pose_of);
 
   /// Moves every instance: the i-th to pose_of(i), which is asked from several threads at once.
-  /// There are boxes to take again. If there is a shift_of, instances are on the move: while time
-  /// goes from 0 to 1 the i-th goes along shift_of(i), and its box holds all of that.
+  /// There are boxes to take again. If there is a movement_of, instances are on the move: while
+  /// time goes from 0 to 1 the i-th does what movement_of(i) says, and its box holds all of that.
   void pose_all(const std::function<Affine<T>(std::size_t)>& pose_of,
-                const std::function<Vec3<T>(std::size_t)>& shift_of = {});
+                const std::function<Movement<T>(std::size_t)>& movement_of = {});
 
   /// Whether any instance is on the move.
-  bool move() const { return !shifts_.empty(); }
+  bool move() const { return !movements_.empty(); }
 
-  /// The ray as the i-th instance sees it at that time, from where it stands at time 0: an instance
-  /// that has gone along `time` times its shift is met just where the ray's origin has gone the
-  /// other way.
+  /// The ray as the i-th instance sees it at that time, from where it stands at time 0.
   Ray<T> seen_by(std::size_t i, const Ray<T>& ray, T time) const {
-    if (shifts_.empty()) return ray;
-    return {ray.origin - time * shifts_[i], ray.direction, ray.t_max};
+    return movements_.empty() ? ray : movements_[i].unmoved(ray, time);
+  }
+  /// The point as it sees it.
+  Vec3<T> seen_by(std::size_t i, const Vec3<T>& point, T time) const {
+    return movements_.empty() ? point : movements_[i].unmoved(point, time);
+  }
+  /// A direction as it sees it, and the way back: it may have turned since time 0.
+  Vec3<T> unturned(std::size_t i, const Vec3<T>& direction, T time) const {
+    return movements_.empty() ? direction : movements_[i].unturned(direction, time);
+  }
+  Vec3<T> turned(std::size_t i, const Vec3<T>& direction, T time) const {
+    return movements_.empty() ? direction : movements_[i].turned(direction, time);
+  }
+  /// What was cast at the ray as the instance sees it, in the world.
+  CastResult<T> turned(std::size_t i, CastResult<T> cast, T time) const {
+    if (!movements_.empty()) cast.normal = movements_[i].turned(cast.normal, time);
+    return cast;
   }
 
   /// Room for so many more instances of `add`.
@@ -125,7 +139,7 @@ class Instances {
   std::vector<std::shared_ptr<const ShapeDefinition<T>>> definitions_;
   std::vector<Place> places_;
   std::vector<Linear> linear_;
-  std::vector<Vec3<T>> shifts_;  ///< by instance; empty if all stand still
+  std::vector<Movement<T>> movements_;  ///< by instance; empty if all stand still
   std::vector<Bounds<float>> boxes_;
   std::vector<PosedHalfSpace> half_spaces_;  ///< in the order of their instances
 };

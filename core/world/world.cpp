@@ -51,7 +51,7 @@ bool World<T>::closer_half_space(const WorldRay<T>& ray, WorldHit<T>& closest,
     const CastResult<T> result =
         cast_ray(in_world, instances_.seen_by(instance, ray.ray, ray.time));
     if (!result.found() || !closest.yields_to(instance, result.t())) continue;
-    closest = {instance, result};
+    closest = {instance, instances_.turned(instance, result, ray.time)};
     found = true;
   }
   return found;
@@ -75,7 +75,7 @@ void World<T>::closer_hit(const WorldRay<T>& ray, SlabRay& slabs, WorldHit<T>& c
     const CastResult<T> result = counted_cast(
         instances_.at(instance), instances_.seen_by(instance, ray.ray, ray.time), options_, counts);
     if (!result.found() || !closest.yields_to(instance, result.t())) return false;
-    closest = {instance, result};
+    closest = {instance, instances_.turned(instance, result, ray.time)};
     slabs.numbers.t_max = slabs.limit(static_cast<double>(result.t()));
     return false;
   });
@@ -112,12 +112,12 @@ bool World<T>::occluded(const Ray<T>& ray, QueryCounts& counts, std::uint32_t sk
 
 template <class T>
 void World<T>::pose_all(const std::function<Affine<T>(std::size_t)>& pose_of,
-                        const std::function<Vec3<T>(std::size_t)>& shift_of) {
+                        const std::function<Movement<T>(std::size_t)>& movement_of) {
   const auto visits = [&] {
     const VisitEstimate expected = expected_visits(bvh_);
     return expected.nodes + expected.leaves;
   };
-  instances_.pose_all(pose_of, shift_of);
+  instances_.pose_all(pose_of, movement_of);
   const std::vector<Bounds<float>> boxes = instances_.take_boxes();
   if (visits_as_built_ == 0) visits_as_built_ = visits();
   refit(bvh_, boxes);

@@ -125,11 +125,11 @@ class World {
                           QueryCounts& counts) const;
 
   /// Moves all instances: the i-th to pose_of(i), which is asked from several threads at once, and
-  /// if there is a shift_of, from there along shift_of(i) while time goes from 0 to 1. The
+  /// if there is a movement_of, from there as that says while time goes from 0 to 1. The
   /// hierarchy stays the same tree around other boxes, unless these make rays visit half as much
   /// again: then it is built anew.
   void pose_all(const std::function<Affine<T>(std::size_t)>& pose_of,
-                const std::function<Vec3<T>(std::size_t)>& shift_of = {});
+                const std::function<Movement<T>(std::size_t)>& movement_of = {});
 
   const Instances<T>& instances() const { return instances_; }
   const Bvh& bvh() const { return bvh_; }

@@ -158,7 +158,7 @@ void World<T>::closest_hits(std::span<const WorldRay<T>> rays, std::span<WorldHi
                   [&](int lane, T t, const auto& result) {
                     WorldHit<T>& hit = hits[index(lane)];
                     if (!hit.yields_to(instance, t)) return;
-                    hit = {instance, result()};
+                    hit = {instance, instances_.turned(instance, result(), rays[index(lane)].time)};
                     SlabRay& slab = slabs[index(lane)];
                     slab.numbers.t_max = slab.limit(static_cast<double>(t));
                     group.rays.set_t_max(lane, slab.numbers.t_max);

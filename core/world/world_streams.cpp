@@ -168,7 +168,7 @@ void World<T>::closest_hits_in_stream(std::span<const WorldRay<T>> rays,
     const auto keep = [&](std::uint32_t ray, std::uint32_t instance, T t, const auto& result) {
       WorldHit<T>& hit = hits[ray];
       if (!hit.yields_to(instance, t)) return;
-      hit = {instance, result()};
+      hit = {instance, instances_.turned(instance, result(), rays[ray].time)};
       slabs[ray].numbers.t_max = slabs[ray].limit(static_cast<double>(t));
     };
     for (std::size_t i = 0; i < slabs.size(); ++i) {

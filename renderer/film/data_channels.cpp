@@ -132,10 +132,10 @@ constexpr std::
 /// opens.
 Eigen::Vector2d motion_of(const Scene& scene, const Camera& camera, const Found& found) {
   if (found.hit.cast.status != Status::hit) return Eigen::Vector2d::Zero();
-  const Vec3<double> shift = instance_shift(scene, found.hit.instance);
-  if (shift.isZero(0)) return Eigen::Vector2d::Zero();
+  const Movement<double> movement = instance_movement(scene, found.hit.instance);
+  if (movement.stands()) return Eigen::Vector2d::Zero();
   const Vec3<double> point = found.ray.at(found.hit.cast.t()).template cast<double>();
-  const auto before = camera.seen_at(point), after = camera.seen_at(point + shift);
+  const auto before = camera.seen_at(point), after = camera.seen_at(movement.moved(point, 1));
   return before && after ? Eigen::Vector2d(*after - *before) : Eigen::Vector2d::Zero();
 }
 

@@ -29,7 +29,7 @@ constexpr int most_in_wave = 512;
 /// While the shutter is open.
 bool is_on_the_move(const Scene& scene) {
   return std::any_of(scene.objects.begin(), scene.objects.end(),
-                     [](const Object& object) { return !object.shift.isZero(0); });
+                     [](const Object& object) { return !object.movement.stands(); });
 }
 
 /// With a limit to the noise a pixel is looked at after so many samples, and again and again: at
@@ -220,7 +220,7 @@ RenderWorld make_world(const Scene& scene, const CastOptions<Real>& options, Bvh
 void follow(RenderWorld& world, const Scene& scene) {
   const auto pose = [&](std::size_t i) { return instance_pose(scene, i); };
   if (is_on_the_move(scene))
-    world.pose_all(pose, [&](std::size_t i) { return instance_shift(scene, i); });
+    world.pose_all(pose, [&](std::size_t i) { return instance_movement(scene, i); });
   else
     world.pose_all(pose);
 }

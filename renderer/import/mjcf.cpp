@@ -240,8 +240,7 @@ class MjcfReader {
     std::size_t width = 0;
     for (const ModelLink& link : model_.links)
       for (const ModelJoint& joint : link.joints) width += width_of(joint.kind);
-    for (std::size_t i = 0; i < keyframes.children.size(); ++i) {
-      const XmlElement& key = keyframes.children[i];
+    for (const XmlElement& key : keyframes.children) {
       model_.keyframes.push_back({key.attribute_or("name"), {}});
       // Without it all joints are at rest.
       if (key.attribute("qpos"))

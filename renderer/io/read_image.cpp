@@ -60,6 +60,20 @@ Image image_of_exr(const std::filesystem::path& file) {
   return image;
 }
 
+/// stb_image takes a PNG that is too large for it for no picture. Its header tells how large it is.
+void check_size_of_png(std::string_view bytes) {
+  constexpr std::string_view signature = "\x89PNG\r\n\x1a\n";
+  constexpr std::size_t width_at = 16, height_at = 20, header = 24;
+  if (!bytes.starts_with(signature) || bytes.size() < header) return;
+  const auto number_at = [&](std::size_t at) {
+    std::int64_t number = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+      number = number * 256 + static_cast<unsigned char>(bytes[at + i]);
+    return number;
+  };
+  check_size(number_at(width_at), number_at(height_at));
+}
+
 /// What stb_image reads, each number made linear by from(code).
 template <class T, class Load, class From>
 Image image_of_stb(std::string_view bytes, Load load, From from) {
@@ -89,6 +103,7 @@ Image read_image(const std::filesystem::path& file) {
     image = image_of_exr(file);
   } else if (ending == ".hdr" || ending == ".png" || ending == ".jpg" || ending == ".jpeg") {
     const std::string bytes = read_regular_file(file, most_picture_bytes);
+    check_size_of_png(bytes);
     const auto* begin = reinterpret_cast<const stbi_uc*>(bytes.data());
     if (ending == ".hdr")
       image = image_of_stb<float>(bytes, stbi_loadf_from_memory, [](float x) { return x; });

@@ -211,7 +211,7 @@ Emitters::Emitters(const RenderWorld& world, const std::vector<Colour>& radiance
 /// The point as the emitter sees it, from where that stands at time 0.
 Vec3<double> Emitters::seen_from(const Emitter& emitter, const Vec3<double>& point,
                                  double time) const {
-  return world_.instances().seen_by(emitter.instance, {point, point}, time).origin;
+  return world_.instances().seen_by(emitter.instance, point, time);
 }
 
 double Emitters::weight(const Emitter& emitter, const Vec3<double>& point, double time) const {
@@ -234,11 +234,12 @@ std::optional<EmitterSample> Emitters::sample(const Vec3<double>& point, double 
     while (chosen + 1 < emitters_.size() && up_to[chosen] <= which * sum) ++chosen;
   }
   const Emitter& emitter = emitters_[chosen];
-  const auto direction = emitter.body.sample(seen_from(emitter, point, time), u);
-  if (!direction) return std::nullopt;
-  const double density = pdf(point, time, *direction, emitter.instance);
+  const auto seen = emitter.body.sample(seen_from(emitter, point, time), u);
+  if (!seen) return std::nullopt;
+  const Vec3<double> direction = world_.instances().turned(emitter.instance, *seen, time);
+  const double density = pdf(point, time, direction, emitter.instance);
   if (!(density > 0)) return std::nullopt;
-  return EmitterSample{chosen, *direction, density};
+  return EmitterSample{chosen, direction, density};
 }
 
 double Emitters::pdf(const Vec3<double>& point, double time, const Vec3<double>& direction,
@@ -253,7 +254,8 @@ double Emitters::pdf(const Vec3<double>& point, double time, const Vec3<double>&
     for (const Emitter& other : emitters_) sum += weight(other, point, time);
     chance = weight(emitter, point, time) / sum;
   }
-  return chance * emitter.body.pdf(seen_from(emitter, point, time), direction);
+  return chance * emitter.body.pdf(seen_from(emitter, point, time),
+                                   world_.instances().unturned(instance, direction, time));
 }
 
 }  // namespace minkray

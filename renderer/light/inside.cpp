@@ -26,9 +26,10 @@ Boundary exit_of(const RenderWorld& world, const WorldRay<Real>& ray, std::uint3
   if (instances.is_half_space(body)) {
     for (const auto& half_space : instances.half_spaces()) {
       if (half_space.instance != body) continue;
-      exit.normal = half_space.in_world.normal;
-      const Real rise = exit.normal.dot(seen.direction);
-      const Real depth = half_space.in_world.offset - exit.normal.dot(seen.origin);
+      const Vec3<Real>& normal = half_space.in_world.normal;
+      const Real rise = normal.dot(seen.direction);
+      const Real depth = half_space.in_world.offset - normal.dot(seen.origin);
+      exit.normal = instances.turned(body, normal, ray.time);
       exit.t = rise > 0 ? std::max(depth / rise, Real(0)) : std::numeric_limits<Real>::infinity();
     }
     return exit;
@@ -49,6 +50,7 @@ Boundary exit_of(const RenderWorld& world, const WorldRay<Real>& ray, std::uint3
     ++counts.exhausted;
     exit.is_lost = true;
   }
+  exit.normal = instances.turned(body, exit.normal, ray.time);
   return exit;
 }
 
@@ -64,7 +66,7 @@ WorldHit<Real> closest_but(const RenderWorld& world, const WorldRay<Real>& ray,
   const auto meet = [&](std::uint32_t instance, const CastResult<Real>& cast) {
     counts.add_cast(cast);
     if (!cast.found() || !closest.yields_to(instance, cast.t())) return false;
-    closest = {instance, cast};
+    closest = {instance, instances.turned(instance, cast, ray.time)};
     return true;
   };
   for (const auto& half_space : instances.half_spaces())

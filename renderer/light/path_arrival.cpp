@@ -79,13 +79,16 @@ void PathTransport::Wave::arrive(std::size_t i) {
   TexturePoint place;
   if (of_.surfaces_.has_textures())
     place = of_.surfaces_.place(of_.world_, at.instance, position, at.normal, path.time);
+  const auto in_world = [&](const Vec3<double>& direction) {
+    return of_.world_.instances().turned(at.instance, direction, path.time);
+  };
   const auto frame_of = [&](const Vec3<double>& normal) {
-    return material.bsdf->has_grain() ? Frame(normal, of_.surfaces_.axis(at.instance))
+    return material.bsdf->has_grain() ? Frame(normal, in_world(of_.surfaces_.axis(at.instance)))
                                       : Frame(normal);
   };
   Frame frame = frame_of(at.normal);
   if (material.relief.any()) {
-    const Frame bent = frame_of(of_.surfaces_.relief_normal_at(at.instance, place));
+    const Frame bent = frame_of(in_world(of_.surfaces_.relief_normal_at(at.instance, place)));
     // What is seen from behind its bent normal is seen as it is.
     if ((bent.z.dot(path.ray.direction) > 0) == at.leaves) frame = bent;
   }

@@ -116,11 +116,11 @@ TexturePoint SceneSurfaces::place(const RenderWorld& world, std::uint32_t instan
                                   const Vec3<Real>& point, const Vec3<Real>& normal,
                                   Real time) const {
   const Instances<Real>& instances = world.instances();
-  const Vec3<Real> at_rest = instances.seen_by(instance, {point, normal}, time).origin;
-  if (instance >= to_object_.size()) return {at_rest - instances.at(instance).centre(), normal};
+  const auto [at_rest, n, unused] = instances.seen_by(instance, Ray<Real>{point, normal}, time);
+  if (instance >= to_object_.size()) return {at_rest - instances.at(instance).centre(), n};
   const Affine<double>& to_object = to_object_[instance];
   // Normals go by the transposed inverse of the map.
-  return {to_object(at_rest), unit<double>(inverse_of(to_object.linear).transpose() * normal)};
+  return {to_object(at_rest), unit<double>(inverse_of(to_object.linear).transpose() * n)};
 }
 
 void SceneSurfaces::describe(const RenderWorld& world, const Ray<Real>& ray,

@@ -47,6 +47,10 @@ Quaternion slerp(const Quaternion& a, Quaternion b, double fraction) {
   return q;
 }
 
+Quaternion slerp(const Between& at) {
+  return at.fraction == 0 ? at.from->rotate : slerp(at.from->rotate, at.to->rotate, at.fraction);
+}
+
 Vec3<double> lerp(const Between& at) {
   if (at.fraction == 0) return at.from->translate;
   return at.from->translate + at.fraction * (at.to->translate - at.from->translate);
@@ -60,9 +64,28 @@ Vec3<double> Motion::translation_at(double time) const {
 
 Affine<double> Motion::pose_at(double time) const {
   const Between at = between(keys, time);
-  const Quaternion q =
-      at.fraction == 0 ? at.from->rotate : slerp(at.from->rotate, at.to->rotate, at.fraction);
+  const Quaternion q = slerp(at);
   return Affine<double>{rotation_matrix(q[0], q[1], q[2], q[3]), lerp(at)} * rest;
+}
+
+Movement<double> Motion::movement(double begin, double end) const {
+  const Between first = between(keys, begin), last = between(keys, end);
+  const Quaternion a = slerp(first), b = slerp(last);
+  // b a^-1 is what is turned between; by the shorter way its w is not negative.
+  Vec3<double> xyz = a[3] * Vec3<double>(b[0], b[1], b[2]) - b[3] * Vec3<double>(a[0], a[1], a[2]) -
+                     Vec3<double>(b[0], b[1], b[2]).cross(Vec3<double>(a[0], a[1], a[2]));
+  double w = 0;
+  for (std::size_t i = 0; i < 4; ++i) w += a[i] * b[i];
+  if (w < 0) xyz = -xyz;
+
+  Movement<double> movement;
+  movement.pivot = lerp(first);
+  movement.shift = lerp(last) - movement.pivot;
+  const double sine = xyz.norm();
+  if (a == b || !(sine > 0)) return movement;
+  movement.angle = 2 * std::atan2(sine, std::abs(w));
+  movement.axis = xyz / sine;
+  return movement;
 }
 
 }  // namespace minkray

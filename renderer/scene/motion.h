@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "core/math/affine.h"
+#include "core/world/movement.h"
 
 namespace minkray {
 
@@ -25,6 +25,9 @@ struct Motion {
 
   Affine<double> pose_at(double time) const;
   Vec3<double> translation_at(double time) const;
+  /// From where it stands at the first time straight to where it stands at the second, and by the
+  /// shorter way: just what the keys say if none lies between.
+  Movement<double> movement(double begin, double end) const;
 };
 
 }  // namespace minkray

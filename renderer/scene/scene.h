@@ -26,10 +26,10 @@ namespace minkray {
 struct Object {
   std::string name;
   Shape<double> shape = Point<double>();
-  Affine<double> pose;                        ///< from the shape's frame to the world
-  std::uint32_t material = 0;                 ///< index into Scene::materials
-  std::optional<Motion> motion = {};          ///< `pose` is what it is at the scene's time
-  Vec3<double> shift = Vec3<double>::Zero();  ///< how far it goes while the shutter is open
+  Affine<double> pose;                ///< from the shape's frame to the world
+  std::uint32_t material = 0;         ///< index into Scene::materials
+  std::optional<Motion> motion = {};  ///< `pose` is what it is at the scene's time
+  Movement<double> movement = {};     ///< what it does while the shutter is open
   std::optional<HalfSpaceBody<double>> half_space =
       {};  ///< if there is one it is that, not `shape`
 };

@@ -27,9 +27,9 @@ inline Affine<double> instance_pose(const Scene& scene, std::size_t i) {
   return {};
 }
 
-/// How far it goes while the shutter is open.
-inline Vec3<double> instance_shift(const Scene& scene, std::size_t i) {
-  return i < scene.objects.size() ? scene.objects[i].shift : Vec3<double>::Zero();
+/// What it does while the shutter is open.
+inline Movement<double> instance_movement(const Scene& scene, std::size_t i) {
+  return i < scene.objects.size() ? scene.objects[i].movement : Movement<double>();
 }
 
 /// Makes it an object of its own; a particle's name is that of its set with its number:

@@ -16,10 +16,8 @@ void set_time(Scene& scene, double time) {
   for (Object& object : scene.objects) {
     if (!object.motion) continue;
     object.pose = object.motion->pose_at(time);
-    object.shift.setZero();
-    if (shutter > 0)
-      object.shift =
-          object.motion->translation_at(time + shutter) - object.motion->translation_at(time);
+    object.movement = {};
+    if (shutter > 0) object.movement = object.motion->movement(time, time + shutter);
   }
 }
 

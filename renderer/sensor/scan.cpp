@@ -131,7 +131,7 @@ class Scanner {
 
   /// What the ray enters next, behind where it leaves what it met: bodies that overlap are passed
   /// as one.
-  static WorldHit<Real> behind(const TimedRay& at, WorldHit<Real> hit, SceneWhile& scene,
+  static WorldHit<Real> behind(const TimedRay& at, const WorldHit<Real>& hit, SceneWhile& scene,
                                QueryCounts& counts) {
     const Ray<double>& ray = at.ray;
     double passed = 0;

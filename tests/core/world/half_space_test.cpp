@@ -155,7 +155,9 @@ TEST(HalfSpaces, they_move_with_their_world_and_while_the_shutter_is_open) {
       [](std::size_t) {
         return Affine<double>{Mat3<double>::Identity(), {7, 0, 2}};
       },
-      [](std::size_t) { return Vec3<double>(0, 0, 1); });
+      [](std::size_t) {
+        return Movement<double>{{0, 0, 1}};
+      });
   EXPECT_EQ(world.closest_hit(down, counts, no_instance, 0).cast.t(), 3);
   EXPECT_EQ(world.closest_hit(down, counts, no_instance, 1).cast.t(), 2);
 }

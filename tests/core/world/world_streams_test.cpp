@@ -80,13 +80,19 @@ TYPED_TEST(WorldStreamsOf, half_spaces_and_instances_on_the_move) {
   Instances<T> shapes = scattered_instances(300, random);
   shapes.add(HalfSpaceBody<T>{Vec3<T>(0, 0, 1), T(-9)});
   std::vector<Affine<T>> poses;
-  std::vector<Vec3<T>> shifts;
+  std::vector<Movement<T>> movements;
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     poses.push_back(shapes.is_half_space(i) ? Affine<T>() : random.pose(12));
-    shifts.push_back(random.point(2));
+    Movement<T>& movement = movements.emplace_back();
+    movement.shift = random.point(2);
+    if (i % 3 == 0) continue;  // goes without turning
+    movement.angle = static_cast<T>(random.within(0, 3));
+    movement.axis = unit<T>(random.point(1));
+    movement.pivot = random.point(12);
   }
   World<T> world(std::move(shapes));
-  world.pose_all([&](std::size_t i) { return poses[i]; }, [&](std::size_t i) { return shifts[i]; });
+  world.pose_all([&](std::size_t i) { return poses[i]; },
+                 [&](std::size_t i) { return movements[i]; });
   auto rays = mixed_rays(random, 3000, world.instances().size());
   for (WorldRay<T>& ray : rays) ray.time = random.within(0, 1);
   expect_answers_of_single_rays<T>(world, rays, 3000);

@@ -77,6 +77,27 @@ TEST(Motion, turns_by_the_shorter_way_whatever_the_sign_of_the_quaternion) {
   EXPECT_LT((one.pose_at(0.4).linear - other.pose_at(0.4).linear).norm(), 1e-15);
 }
 
+// Between two keys, and over the end of them.
+TEST(Motion, while_the_shutter_is_open_things_go_and_turn_as_their_keys_say) {
+  const Affine<double> rest{Mat3<double>::Identity() * 2, {0.5, -1, 0.25}};
+  const Motion motion{{{1, {1, 2, 3}, {0.1, -0.7, 0.2, std::sqrt(0.46)}},
+                       {3, {5, 2, 3}, {0.5, 0.5, -0.5, 0.5}},
+                       {4, {5, 3, 3}, {-0.5, -0.5, 0.5, -0.5}}},
+                      rest};
+  for (const auto& [begin, end] : {std::pair{1.0, 3.0}, {1.3, 2.9}, {1.3, 1.300001}, {3.0, 4.0}}) {
+    const Movement<double> movement = motion.movement(begin, end);
+    const Affine<double> opening = motion.pose_at(begin);
+    for (const double moment : {0.0, 0.2, 0.5, 1.0}) {
+      const Affine<double> seen = movement.moved(opening, moment);
+      const Affine<double> expected = motion.pose_at(begin + moment * (end - begin));
+      EXPECT_LT((seen.linear - expected.linear).norm(), 1e-13) << begin << " " << moment;
+      EXPECT_LT((seen.translation - expected.translation).norm(), 1e-13) << begin << " " << moment;
+    }
+  }
+  EXPECT_EQ(motion.movement(3, 4).angle, 0);
+  EXPECT_TRUE(motion.movement(5, 6).stands());
+}
+
 TEST(Motion, a_frame_with_a_closed_shutter_is_the_picture_of_the_scene_posed_at_that_time) {
   const double time = 0.4;
   Scene moving = flight(0);
@@ -121,8 +142,8 @@ TEST(Motion, every_ray_of_a_blurred_picture_sees_the_scene_as_it_stands_at_its_m
   for (const double moment : {0.0, 0.25, 0.8, 1.0}) {
     Scene still = blurred;
     for (Object& object : still.objects) {
-      object.pose.translation += moment * object.shift;
-      object.shift.setZero();
+      object.pose = object.movement.moved(object.pose, moment);
+      object.movement = {};
       object.motion.reset();
     }
     const RenderWorld still_world = make_world(still);
@@ -176,8 +197,9 @@ TEST(Motion, a_moving_ball_is_blurred_into_the_mean_of_pictures_of_it_standing) 
   Image mean(64, 48);
   for (int i = 0; i < moments; ++i) {
     Scene still = scene;
-    still.objects[0].pose.translation += (i + 0.5) / moments * still.objects[0].shift;
-    still.objects[0].shift.setZero();
+    Object& ball = still.objects[0];
+    ball.pose = ball.movement.moved(ball.pose, (i + 0.5) / moments);
+    ball.movement = {};
     const Image picture = render(still, make_world(still), options).image;
     for (std::size_t p = 0; p < mean.pixels.size(); ++p)
       mean.pixels[p] += picture.pixels[p] / float(moments);
@@ -189,7 +211,7 @@ TEST(Motion, a_moving_ball_is_blurred_into_the_mean_of_pictures_of_it_standing) 
   EXPECT_LT(largest, 0.06);
   // It is a blur: another picture than with the shutter closed.
   Scene sharp = scene;
-  sharp.objects[0].shift.setZero();
+  sharp.objects[0].movement = {};
   options.samples = 256;
   const Image open = render(sharp, make_world(sharp), options).image;
   double difference = 0;
@@ -203,7 +225,7 @@ TEST(Motion, boxes_hold_all_of_the_way) {
   Scene scene = flight(0.5);
   const RenderWorld world = make_world(scene);
   // Far beyond the box at the beginning, the ray meets the box at the end only.
-  const Vec3<double> end = scene.objects[1].pose.translation + scene.objects[1].shift;
+  const Vec3<double> end = scene.objects[1].pose.translation + scene.objects[1].movement.shift;
   const Ray<Real> ray{end + Vec3<double>(0, 0, 5), {0, 0, -1}};
   QueryCounts counts;
   EXPECT_EQ(world.closest_hit(ray, counts, no_instance, 1).instance, 1u);

@@ -208,6 +208,33 @@ TEST_F(Pictures, what_is_written_is_read_as_the_same) {
   EXPECT_EQ(scene_text(*first), scene_text(*second));
 }
 
+TEST_F(Pictures, of_20000_pixels_a_side_and_of_16_bits_in_grey_are_read_or_told) {
+  const std::vector<std::uint8_t> row(3 * 20000, 255);
+  write("wide.png", png_of(20000, 1, row));
+  write("high.png", png_of(1, 20000, row));
+  write("grey.png", png_of_grey16(2, 1, std::vector<std::uint16_t>{0, 32768}));
+  EXPECT_EQ(read_image(folder_ / "wide.png").width, 20000);
+  EXPECT_EQ(read_image(folder_ / "high.png").height, 20000);
+  const Image grey = read_image(folder_ / "grey.png");
+  EXPECT_EQ(grey.at(0, 0), Vec3<float>(0, 0, 0));
+  EXPECT_NEAR(grey.at(1, 0).x(), 0.214F, 0.001);
+  EXPECT_EQ(grey.at(1, 0).x(), grey.at(1, 0).z());
+
+  // Its header says that it is as large, and nothing follows.
+  std::vector<unsigned char> large = png_of(1, 1, std::vector<std::uint8_t>(3));
+  for (const std::size_t number : {16, 20}) {
+    large[number + 2] = 20000 / 256;
+    large[number + 3] = 20000 % 256;
+  }
+  write("large.png", large);
+  const auto told = complaints(scene(
+      R"({"name": "m", "type": "lambert", "color": {"type": "image", "file": "large.png"}},
+         {"name": "n", "type": "glossy", "color": {"type": "image", "file": "none.png"}, "roughness": -1},
+         {"name": "o", "type": "conductor", "metal": "gold", "roughness": 7})"));
+  ASSERT_EQ(told.size(), 4u);
+  EXPECT_NE(told[0].find("must have at most 2^27 pixels (got 20000 x 20000)"), std::string::npos);
+}
+
 TEST_F(Pictures, numbers_of_pictures_are_linear) {
   const Image board = read_image(folder_ / "board.png");
   EXPECT_NEAR(board.at(0, 0).x(), 0.5F, 0.005);

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// What a body does while time goes from 0 to 1: it turns at constant speed about a pivot, which
+// goes along a line. A ray meets it at its time just where the ray, moved back, meets the body
+// where it stood at time 0: no shape is stretched or put together from slices.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "core/math/affine.h"
+#include "core/math/bounds.h"
+#include "core/math/ray.h"
+
+namespace minkray {
+
+template <class T>
+struct Movement {
+  Vec3<T> shift = Vec3<T>::Zero();
+  T angle = T(0);  ///< in radians, by the right-hand rule
+  Vec3<T> axis = Vec3<T>::UnitZ();
+  Vec3<T> pivot = Vec3<T>::Zero();  ///< where it is at time 0
+
+  bool stands() const { return angle == T(0) && shift.isZero(T(0)); }
+
+  /// The direction as the body sees it that stands as at time 0, and the way back.
+  Vec3<T> unturned(const Vec3<T>& direction, T time) const {
+    return angle == T(0) ? direction : by_angle(direction, -angle * time);
+  }
+  Vec3<T> turned(const Vec3<T>& direction, T time) const {
+    return angle == T(0) ? direction : by_angle(direction, angle * time);
+  }
+
+  /// The ray as the body sees it, and a point.
+  Ray<T> unmoved(const Ray<T>& ray, T time) const {
+    return {unmoved(ray.origin, time), unturned(ray.direction, time), ray.t_max};
+  }
+  Vec3<T> unmoved(const Vec3<T>& point, T time) const {
+    const Vec3<T> unshifted = point - time * shift;
+    return angle == T(0) ? unshifted : Vec3<T>(pivot + unturned(unshifted - pivot, time));
+  }
+
+  /// Where a point of the body has come to that was there at time 0.
+  Vec3<T> moved(const Vec3<T>& point, T time) const {
+    return angle == T(0) ? Vec3<T>(point + time * shift)
+                         : Vec3<T>(pivot + time * shift + turned(point - pivot, time));
+  }
+
+  /// What has become of a pose at time 0.
+  Affine<T> moved(const Affine<T>& pose, T time) const {
+    Affine<T> now = pose;
+    for (int column = 0; column < 3; ++column)
+      now.linear.col(column) = turned(pose.linear.col(column), time);
+    now.translation = moved(pose.translation, time);
+    return now;
+  }
+
+  /// Holds the body all the while, from boxes that hold it at time 0 and 1. A point at the distance
+  /// rho from the axis is never further than rho angle^2 / 8 from the line between its two ends,
+  /// since its path's second derivative is rho angle^2.
+  Bounds<T> swept(const Bounds<T>& begin, const Bounds<T>& end) const {
+    Bounds<T> all = begin;
+    all.extend(end);
+    if (angle == T(0)) return all;
+    T rho_squared = T(0), reach_squared = T(0);
+    for (int corner = 0; corner < 8; ++corner) {
+      Vec3<T> arm;
+      for (int i = 0; i < 3; ++i)
+        arm[i] = (corner >> i & 1 ? begin.upper[i] : begin.lower[i]) - pivot[i];
+      reach_squared = std::max(reach_squared, arm.squaredNorm());
+      rho_squared = std::max(rho_squared, arm.cross(axis).squaredNorm());
+    }
+    const T beside = std::sqrt(rho_squared) * angle * angle / T(8);
+    all.lower.array() -= beside;
+    all.upper.array() += beside;
+    // Nor does it ever leave the ball around the pivot.
+    const T reach = std::sqrt(reach_squared);
+    Bounds<T> balls{pivot - Vec3<T>::Constant(reach), pivot + Vec3<T>::Constant(reach)};
+    balls.extend(Bounds<T>{balls.lower + shift, balls.upper + shift});
+    return {all.lower.cwiseMax(balls.lower), all.upper.cwiseMin(balls.upper)};
+  }
+
+ private:
+  /// Rodrigues' formula.
+  Vec3<T> by_angle(const Vec3<T>& v, T phi) const {
+    const T cosine = std::cos(phi), sine = std::sin(phi);
+    return cosine * v + sine * axis.cross(v) + (T(1) - cosine) * axis.dot(v) * axis;
+  }
+};
+
+}  // namespace minkray
