@@ -4,7 +4,6 @@
 // where it stood at time 0: no shape is stretched or put together from slices.
 #pragma once
 
-#include <Eigen/Geometry>
 #include <cmath>
 
 #include "core/math/affine.h"

@@ -19,6 +19,6 @@ struct CompareArguments {
 /// Compares every object of the scene with Embree and prints what came out. In minkray-compare it
 /// does so itself (compare_here.cpp); in minkray it runs minkray-compare with the same command line
 /// (compare_elsewhere.cpp), and throws WrongUsage if that has not been built.
-void compare(const CompareArguments& arguments, ExitCode& exit_code);
+void compare(const CompareArguments& options, ExitCode& exit_code);
 
 }  // namespace minkray

@@ -79,10 +79,15 @@ class Handles {
     std::uint32_t owners = 0, uses = 0;
   };
 
+  static std::size_t chunk_of(std::uint32_t place) {
+    const int width = std::bit_width(place / first_chunk);
+    return width > 1 ? static_cast<std::size_t>(width - 1) : 0;
+  }
+
   /// Chunks double in size, and stay where they are.
   Slot& slot_at(std::uint32_t index) const {
     const std::uint32_t place = index + first_chunk;
-    const auto chunk = static_cast<std::size_t>(std::bit_width(place / first_chunk) - 1);
+    const std::size_t chunk = chunk_of(place);
     return chunks_[chunk].load(std::memory_order_acquire)[place - (first_chunk << chunk)];
   }
 
@@ -95,7 +100,7 @@ class Handles {
 
   void grow() {
     const std::uint32_t size = size_.load();
-    const auto chunk = static_cast<std::size_t>(std::bit_width(size / first_chunk + 1) - 1);
+    const std::size_t chunk = chunk_of(size + first_chunk);
     const std::uint32_t more = first_chunk << chunk;
     chunks_[chunk].store(new Slot[more], std::memory_order_release);
     size_.store(size + more, std::memory_order_release);
