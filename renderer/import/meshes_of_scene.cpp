@@ -26,7 +26,7 @@ MeshSplit split_of(const Json& object) {
 /// Hulls of files stand anywhere in shapes of shapes; a split stands beside the shape itself.
 void find_files(const Json& json, MeshSplit split, std::vector<SplitFile>& files) {
   if (json.is_array())
-    for (std::size_t i = 0; i < json.size(); ++i) find_files(json[i], MeshSplit::none, files);
+    for (const Json& element : json) find_files(element, MeshSplit::none, files);
   if (!json.is_object()) return;
   const Json *type = json.find("type"), *file = json.find("file");
   if (type && type->is_string() && type->text() == Hull<double>::name && file &&

@@ -66,7 +66,7 @@ Scene seen(const HeldScene& held, const minkray_picture_options& options) {
     if (!json.contains(key)) json[key] = Json::array();
   Mistakes mistakes("options.view");
   const std::optional<Scene> read = parse_scene(json.dump(), {}, mistakes);
-  if (read && (read->objects.size() > 0 || read->materials.size() > 0))
+  if (read && (!read->objects.empty() || !read->materials.empty()))
     mistakes.add("must have nothing but camera, lights and background");
   throw_if_any(mistakes);
   if (has_camera) {

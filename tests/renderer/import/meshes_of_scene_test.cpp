@@ -14,13 +14,13 @@ namespace {
 
 // Two tetrahedra of side 4, and a vertex at (1, 1, 1) in the first: 1 under three of its faces and
 // 1 / sqrt(3) under the slanted one.
-constexpr const char* two_tetrahedra =
+constexpr const char* two_bodies =
     "o left\nv 0 0 0\nv 4 0 0\nv 0 4 0\nv 0 0 4\nv 1 1 1\nf 1 2 3\nf 1 2 4\nf 2 3 5\nf 3 4 5\n"
     "o right\nv 10 0 0\nv 14 0 0\nv 10 4 0\nv 10 0 4\nf 6 7 8\nf 6 7 9\nf 7 8 9\n";
 
 TEST(MeshesOfScene, are_told_with_how_deep_a_vertex_lies_under_the_hull) {
   const TemporaryFolder folder;
-  std::ofstream(folder / "m.obj") << two_tetrahedra;
+  std::ofstream(folder / "m.obj") << two_bodies;
   std::ofstream(folder / "s.json") << R"({"objects": [
     {"shape": {"type": "hull", "file": "m.obj"}, "split": "groups"},
     {"shape": {"type": "hull", "file": "m.obj"}, "split": "groups", "name": "again"},
