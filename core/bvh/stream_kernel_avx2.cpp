@@ -33,8 +33,8 @@ struct Turn {
 
 /// For each set of lanes, their numbers from the lowest up.
 struct LanesOfSet {
-  std::uint64_t lanes[256];
-  constexpr LanesOfSet() : lanes() {
+  std::uint64_t lanes[256] = {};
+  constexpr LanesOfSet() {
     for (std::uint32_t set = 0; set < 256; ++set)
       for (std::uint32_t lane = 0, count = 0; lane < 8; ++lane)
         if (set >> lane & 1) lanes[set] |= static_cast<std::uint64_t>(lane) << (8 * count++);

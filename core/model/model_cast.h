@@ -69,7 +69,7 @@ CastLanes<W> model_cast(const MakeModel& make_model, const RayNearBall<W>& near,
     // The plane found there, where the line itself crosses it: later, but not behind the shape's
     // end or the ray's.
     auto model = make_model(s, direction);
-    const Vec3<W> ahead = model.to_frame(direction);
+    const Vec3<W> ahead = model.to_frame(direction);  // NOLINT: of some models no reference
     const W last = model.support(ahead, found.tangent).support_function(ahead);
     again.supports += select(found.tangent, W(1), W(0));
     const W slope = -again.normal.dot(direction);
