@@ -90,10 +90,12 @@ class Advance {
   /// at which they overlap.
   double leave(const SignedDistance& now) {
     const double speed = approach(now, 0);
-    for (double t = 4 * touching_ / speed; t < t_max_; t *= 2) {
+    double t = 4 * touching_ / speed;
+    while (t < t_max_) {
       const SignedDistance then = at(t);
       if (then.upper < 0) return -t;
       if (then.lower > 2 * touching_) return t;
+      t *= 2;
     }
     return t_max_;
   }

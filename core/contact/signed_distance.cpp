@@ -160,8 +160,9 @@ SignedDistance told(const CoreDistance& found, const ContactShape& a, const Cont
     result.status = SignedStatus::separated;
   else if (is_near)
     result.status = SignedStatus::touching;
-  const Vec3<double> middle = pose_a(a.middle()), axis = to_world(found.axis),
-                     on_a = to_world(found.a), between = to_world(found.c);
+  const Vec3<double> middle = pose_a(a.middle()), on_a = to_world(found.a),
+                     between = to_world(found.c);
+  const Vec3<double>& axis = to_world(found.axis);
   result.normal = unit<double>(axis);
   result.point_a = middle + (on_a + radius_a * axis);
   result.point_b = middle + (on_a + between - radius_b * axis);
