@@ -160,9 +160,10 @@ SignedDistance told(const CoreDistance& found, const ContactShape& a, const Cont
     result.status = SignedStatus::separated;
   else if (is_near)
     result.status = SignedStatus::touching;
-  const Vec3<double> middle = pose_a(a.middle()), on_a = to_world(found.a),
-                     between = to_world(found.c);
+  const Vec3<double> middle = pose_a(a.middle());
   const Vec3<double>& axis = to_world(found.axis);
+  const Vec3<double>& on_a = to_world(found.a);
+  const Vec3<double>& between = to_world(found.c);
   result.normal = unit<double>(axis);
   result.point_a = middle + (on_a + radius_a * axis);
   result.point_b = middle + (on_a + between - radius_b * axis);
