@@ -10,7 +10,7 @@ int main(int count, char** words) {
   using namespace minkray::testing;
   const long motions = count > 1 ? std::atol(words[1]) : 100000;
   const int samples = count > 2 ? std::atoi(words[2]) : 500;
-  RandomMotions random(count > 3 ? static_cast<unsigned>(std::atol(words[3])) : 1);
+  RandomNumbers random(count > 3 ? static_cast<unsigned>(std::atol(words[3])) : 1);
   SeenImpacts seen;
   long wrong = 0;
   for (long n = 0; n < motions; ++n) {

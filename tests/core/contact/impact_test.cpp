@@ -11,7 +11,7 @@ namespace minkray::testing {
 namespace {
 
 TEST(Impact, of_turning_capsules_is_that_of_dense_samples) {
-  RandomMotions random(3);
+  RandomNumbers random(3);
   SeenImpacts seen;
   for (int k = 0; k < 3000; ++k)
     ASSERT_EQ(impact_complaint(moving_capsules(random), 200, seen), "") << k;
@@ -21,7 +21,7 @@ TEST(Impact, of_turning_capsules_is_that_of_dense_samples) {
 }
 
 TEST(Impact, of_turning_boxes_is_that_of_dense_samples) {
-  RandomMotions random(4);
+  RandomNumbers random(4);
   SeenImpacts seen;
   for (int k = 0; k < 2000; ++k)
     ASSERT_EQ(impact_complaint(moving_boxes(random), 100, seen), "") << k;

@@ -4,30 +4,14 @@
 #pragma once
 
 #include <functional>
-#include <random>
 #include <string>
 
 #include "core/contact/impact.h"
+#include "tests/core/contact/random_numbers.h"
 
 namespace minkray::testing {
 
 using Long = long double;
-
-class RandomMotions {
- public:
-  explicit RandomMotions(unsigned seed) : engine_(seed) {}
-  double in(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(engine_);
-  }
-  Vec3<double> direction() {
-    std::normal_distribution<double> normal;
-    return Vec3<double>(normal(engine_), normal(engine_), normal(engine_)).normalized();
-  }
-  Mat3<double> turn() { return rotation_matrix(in(-1, 1), in(-1, 1), in(-1, 1), in(-1, 1)); }
-
- private:
-  std::mt19937 engine_;
-};
 
 inline Affine<Long> pose_at(const RigidMotion& motion, Long time) {
   Affine<Long> pose = motion.pose.cast<Long>();
@@ -88,7 +72,7 @@ struct MovingPair {
   std::function<Long(Long)> gap;  ///< its sign says whether they are apart
 };
 
-inline void move_at_random(MovingPair& pair, RandomMotions& random) {
+inline void move_at_random(MovingPair& pair, RandomNumbers& random) {
   pair.of_a.pose = {random.turn(), 10 * random.direction()};
   pair.of_b.pose = {random.turn(),
                     pair.of_a.pose.translation + random.in(1.2, 4) * random.direction()};
@@ -149,7 +133,7 @@ inline std::string impact_complaint(const MovingPair& pair, int samples, SeenImp
   return "";
 }
 
-inline MovingPair moving_capsules(RandomMotions& random) {
+inline MovingPair moving_capsules(RandomNumbers& random) {
   const Capsule<double> A{random.in(0.1, 0.5), random.in(0.1, 1)},
       B{random.in(0.1, 0.5), random.in(0.1, 1)};
   MovingPair pair{ContactShape(Shape<double>(A)), ContactShape(Shape<double>(B)), {}, {}, 0, {}};
@@ -166,7 +150,7 @@ inline MovingPair moving_capsules(RandomMotions& random) {
   return pair;
 }
 
-inline MovingPair moving_boxes(RandomMotions& random) {
+inline MovingPair moving_boxes(RandomNumbers& random) {
   const Box<double> A{{random.in(0.1, 1), random.in(0.1, 1), random.in(0.1, 1)}},
       B{{random.in(0.1, 1), random.in(0.1, 1), random.in(0.1, 1)}};
   MovingPair pair{ContactShape(Shape<double>(A)), ContactShape(Shape<double>(B)), {}, {}, 0, {}};

@@ -2,32 +2,21 @@
 // Random shapes of all kinds, each ready for signed distances and posed somewhere.
 #pragma once
 
-#include <random>
 #include <vector>
 
 #include "core/contact/signed_distance.h"
+#include "tests/core/contact/random_numbers.h"
 
 namespace minkray::testing {
 
-class RandomShapes {
+class RandomShapes : public RandomNumbers {
  public:
-  explicit RandomShapes(unsigned seed) : engine_(seed) {}
-  double in(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(engine_);
-  }
-  Vec3<double> direction() {
-    std::normal_distribution<double> normal;
-    return Vec3<double>(normal(engine_), normal(engine_), normal(engine_)).normalized();
-  }
-  Mat3<double> turn() { return rotation_matrix(in(-1, 1), in(-1, 1), in(-1, 1), in(-1, 1)); }
+  using RandomNumbers::RandomNumbers;
   Shape<double> hull(int count, double size) {
     std::vector<Vec3<double>> points;
     for (int i = 0; i < count; ++i) points.push_back(size * direction());
     return Hull<double>{PointCloud<double>(points)};
   }
-
- private:
-  std::mt19937 engine_;
 };
 
 inline constexpr int kinds_of_bodies = 17;
