@@ -68,13 +68,11 @@ class SpannedPoint {
   }
 
   void write_to(Certificate& certificate) const {
-    for (std::size_t i = 0; i < directions_.size(); ++i) {
-      const bool kept = closest_.kept & (1u << i);
-      certificate.spanning[i] = {
-          directions_[i],
-          kept ? static_cast<double>(std::max(closest_.weights[i], static_cast<long double>(0)))
-               : 0};
-    }
+    certificate.spanning = {};
+    for (std::size_t i = 0; i < directions_.size(); ++i)
+      if (closest_.kept & (1u << i))
+        certificate.spanning[i] = {directions_[i],
+                                   static_cast<double>(std::max(closest_.weights[i], 0.0L))};
   }
 
  private:

@@ -3,55 +3,16 @@
 // samples, and the bits that hashes.txt records. `./run golden` records them anew.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <fstream>
 #include <map>
-#include <sstream>
 
 #include "renderer/base/hash.h"
 #include "renderer/io/exr.h"
 #include "tests/support/program.h"
+#include "tests/support/recorded_hashes.h"
 #include "tests/support/source_files.h"
 
 namespace minkray {
 namespace {
-
-/// What rounds: the compiler that built the tests, and the C library whose sin and exp are called.
-/// Another machine may make other last bits; there the pictures are only compared with each other.
-std::string build_name() {
-  return "gcc-" + std::to_string(__GNUC__) + " glibc-" + std::to_string(__GLIBC__) + "." +
-         std::to_string(__GLIBC_MINOR__);
-}
-#if defined(__clang__)
-constexpr bool is_gcc = false;
-#else
-constexpr bool is_gcc = true;
-#endif
-
-std::string hash_file() {
-  return (source_folder() / "tests/golden/hashes.txt").string();
-}
-
-struct Recorded {
-  std::string build;
-  std::map<std::string, std::string> hashes;  ///< by name and part of the picture
-};
-
-/// The file's lines: `build NAME...`, then `PICTURE PART HASH`; # begins a comment.
-Recorded read_recorded() {
-  Recorded recorded;
-  std::istringstream lines(text_of_file(hash_file()));
-  for (std::string line; std::getline(lines, line);) {
-    if (line.empty() || line.front() == '#') continue;
-    if (line.starts_with("build ")) {
-      recorded.build = line.substr(6);
-      continue;
-    }
-    const std::size_t space = line.rfind(' ');
-    recorded.hashes[line.substr(0, space)] = line.substr(space + 1);
-  }
-  return recorded;
-}
 
 /// The colours, and each data channel by itself: what has changed is told. The header is left out:
 /// it says when and how the picture was made.
@@ -111,7 +72,7 @@ constexpr Way shares = {
     "$i/2 --sample-share $j/2 $options || exit 1; done; done; \"$MINKRAY\" merge share-??.exr -o "
     "\"$out\"; code=$?; rm share-??.exr; exit $code"};
 
-class Golden : public testing::TestWithParam<Picture> {
+class Golden : public ::testing::TestWithParam<Picture> {
  protected:
   Golden() {
     EXPECT_EQ(run_shell("cd '" + (folder_ / ".") +
@@ -136,20 +97,6 @@ class Golden : public testing::TestWithParam<Picture> {
 constexpr Way one_thread = {"1 thread",
                             "\"$MINKRAY\" render \"$scene\" -q -o \"$out\" -t 1 $options"};
 
-/// Adds the picture's lines to the file, in place of those that were there.
-void record(const std::string& picture, const std::map<std::string, std::string>& hashes) {
-  Recorded recorded = read_recorded();
-  std::erase_if(recorded.hashes,
-                [&](const auto& entry) { return entry.first.starts_with(picture + " "); });
-  for (const auto& [part, hash] : hashes) recorded.hashes[picture + " " + part] = hash;
-  std::ofstream out(hash_file());
-  out << "# What the pictures of golden_test.cpp have been; made anew by `./run golden`. Change "
-         "this "
-         "file\n# only with a change that is meant to change pictures, and say so there.\nbuild "
-      << build_name() << '\n';
-  for (const auto& [name, hash] : recorded.hashes) out << name << ' ' << hash << '\n';
-}
-
 TEST_P(Golden, the_same_bits_in_every_way_and_as_recorded) {
   const std::string name = GetParam().name, options = GetParam().options;
   const auto first = made(one_thread, options);
@@ -160,19 +107,17 @@ TEST_P(Golden, the_same_bits_in_every_way_and_as_recorded) {
   for (const char* colour : {"R", "G", "B"})
     EXPECT_EQ(in_shares.contains(colour) ? in_shares.at(colour) : "none", first.at(colour))
         << shares.name << ", " << colour;
-  if (std::getenv("MINKRAY_RECORD_GOLDEN") != nullptr) return record(name, first);
-
-  const Recorded recorded = read_recorded();
-  if (!is_gcc || recorded.build != build_name())
-    GTEST_SKIP() << "recorded with " << recorded.build << ": other last bits are no mistake";
-  for (const auto& [part, hash] : first) {
-    const auto found = recorded.hashes.find(name + " " + part);
-    ASSERT_NE(found, recorded.hashes.end()) << part << ": not recorded; ./run golden";
-    EXPECT_EQ(hash, found->second) << part << " of " << name << " has changed";
-  }
+  std::map<std::string, std::string> named;
+  for (const auto& [part, hash] : first) named[name + " " + part] = hash;
+  testing::RecordedHashes recorded("hashes.txt", "the pictures of golden_test.cpp have been");
+  if (testing::is_recording()) return recorded.replace(name + " ", named);
+  if (!recorded.is_comparable())
+    GTEST_SKIP() << "recorded with " << recorded.build() << ": other last bits are no mistake";
+  for (const auto& [part, hash] : named)
+    EXPECT_EQ(hash, recorded.find(part)) << part << " has changed; see ./run golden";
 }
 
-INSTANTIATE_TEST_SUITE_P(Pictures, Golden, testing::ValuesIn(pictures), [](const auto& instance) {
+INSTANTIATE_TEST_SUITE_P(Pictures, Golden, ::testing::ValuesIn(pictures), [](const auto& instance) {
   std::string name = instance.param.name;
   std::replace(name.begin(), name.end(), '-', '_');
   return name;

@@ -14,7 +14,7 @@ namespace minkray::mutant {
 extern int active;
 
 /// Which mutants the process came by, whether they were on or not.
-inline constexpr int most_mutants = 4096;
+inline constexpr int most_mutants = 8192;
 extern bool reached[most_mutants];
 
 template <int k>
@@ -24,10 +24,14 @@ bool on() {
   return active == k;
 }
 
-/// on ? changed : as_it_was, for constants.
-template <int k, class X>
-X constant(const X& as_it_was, const X& changed) {
-  return on<k>() ? changed : as_it_was;
+/// For constants: two mutants, or none where the number is 0.
+template <int k, int k_smaller, class X>
+X constant(const X& as_it_was, const X& larger, const X& smaller) {
+  if constexpr (k > 0)
+    if (on<k>()) return larger;
+  if constexpr (k_smaller > 0)
+    if (on<k_smaller>()) return smaller;
+  return as_it_was;
 }
 
 // --- a + b -> a + plus<k> * b: minus b where the mutant is on; likewise a - b.

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+// Casts answer what tests/golden/casts.txt records, bit for bit, and by the same ways: each solver,
+// exits, packets and proofs, at every kind of shape, in poses that are easy and hard. Whether the
+// answers are right others test; here nothing changes unnoticed, be it only what a cast costs.
+// `./run golden` records anew.
+#include <gtest/gtest.h>
+
+#include "core/cast/cast.h"
+#include "core/cast/packet_cast.h"
+#include "core/derived/convert.h"
+#include "core/proof/certificate.h"
+#include "core/proof/check_certificate.h"
+#include "renderer/base/hash.h"
+#include "tests/support/measured_shapes.h"
+#include "tests/support/ray_families.h"
+#include "tests/support/recorded_hashes.h"
+#include "tests/support/rounded.h"
+#include "tests/support/sample_shapes.h"
+
+namespace minkray::testing {
+namespace {
+
+/// What was answered, and by which way and at which cost.
+struct Bits {
+  Hash answers, costs;
+
+  template <class Number>
+  static void add(Hash& hash, const Number& number) {
+    hash.add({reinterpret_cast<const char*>(&number), sizeof number});
+  }
+  template <class T>
+  static void add(Hash& hash, const Vec3<T>& v) {
+    for (int k = 0; k < 3; ++k) add(hash, T(v[k]));
+  }
+
+  template <class T>
+  void add(const CastResult<T>& answer) {
+    add(answers, answer.status);
+    if (answer.found()) {
+      for (const T number : {answer.t_base, answer.t_offset, answer.offset_lo, answer.offset_hi})
+        add(answers, number);
+    }
+    add(answers, answer.normal);
+    add(costs, answer.path);
+    add(costs, answer.iterations);
+    add(costs, answer.supports);
+  }
+
+  void add(const Certificate& proof, const CertificateVerdict& check) {
+    add(answers, check.holds);
+    for (const double number : {check.offset_lo, check.offset_hi, check.offset_spanned, check.gap,
+                                check.lateral, check.margin, check.claim_error, check.allowed})
+      add(answers, number);
+    add(answers, proof.plane);
+    for (const WeightedSupport& spanning : proof.spanning) {
+      add(answers, spanning.direction);
+      add(answers, spanning.weight);
+    }
+    add(costs, proof.supports);
+  }
+};
+
+using AllBits = std::map<std::string, Bits>;
+
+constexpr int rays_each = 24;        ///< of a family, for each pose and precision
+constexpr int slow_rays_each = 3;    ///< for the slow reference
+constexpr int proven_rays_each = 6;  ///< proofs take some hundred support points
+
+/// As it is; turned and moved; sheared; tiny; and far from the origin.
+std::vector<Affine<double>> golden_poses(double size) {
+  Affine<double> turned, sheared, tiny, far;
+  turned.linear =
+      Eigen::AngleAxis<double>(0.7, Vec3<double>(1, 2, 3).normalized()).toRotationMatrix();
+  turned.translation = Vec3<double>(0.3, -4, 7) * size;
+  sheared.linear << 1, 2, 0.5, 0, 1.5, -1, 0.3, 0, 0.4;
+  sheared.translation = Vec3<double>(1, 2, 3) * size;
+  tiny.linear *= 1e-3;
+  far.translation = Vec3<double>(2e3, -1e3, 3e2) * size;
+  return {{}, turned, sheared, tiny, far};
+}
+
+/// One in four begins or ends somewhere along its way, or at the surface.
+Ray<double> cut(Ray<double> ray, Random& random) {
+  const double way = 2;  // rays reach the shape at t near 1 or 5
+  switch (random.below(16)) {
+    case 0:
+      ray.t_max = random.uniform() * 5 * way;
+      break;
+    case 1:
+      ray.origin += ray.direction * (random.uniform() * 5 * way);
+      break;
+    case 2:
+      ray.t_max = 5;
+      break;
+    case 3:
+      ray.direction *= std::pow(10.0, random.uniform(-12, 12));
+      break;
+    default:
+      break;
+  }
+  return ray;
+}
+
+template <class T>
+void cast_all(const Shape<double>& shape, const Affine<double>& pose, AllBits& bits) {
+  const Shape<double> placed = Transform<double>{shape, AffineMap<double>(pose)};
+  const Shape<T> rounded = convert<T>(placed);
+  const PreparedShape<T> prepared(rounded);
+  const Shape<double> same = convert<double>(rounded);
+  const SupportFunction support = supports_of(same);
+  for (const RayFamilyDescription& family : ray_families) {
+    FamilyRays rays(same, family.family, 2004);
+    Random random(17);
+    RayPacket<T> packet;
+    for (int i = 0; i < rays_each; ++i) {
+      const Ray<T> ray = rounded_to<T>(cut(rays.next(), random));
+      for (const SolverDescription& solver : solver_descriptions) {
+        const bool is_slow = solver.kind == SolverKind::first_solution;
+        if (is_slow && i >= slow_rays_each) continue;
+        CastOptions<T> options;
+        options.solver = solver.kind;
+        if (i % 8 == 5) options.v0 = Vec3<T>(T(1), T(2), T(-3));
+        if (i % 8 == 6) options.max_iterations = 4;
+        bits[std::string(solver.name)].add(cast_ray(prepared, ray, options));
+        if (solver.kind == SolverKind::automatic || solver.kind == SolverKind::jet)
+          bits["exit-" + std::string(solver.name)].add(cast_exit(prepared, ray, options));
+      }
+      if (i < proven_rays_each) {
+        const Claim claim = claim_of(cast_ray(prepared, ray));
+        const Ray<double> proven = in_double(ray);
+        const Certificate proof = certify(support, proven, claim);
+        bits["proof"].add(proof, check_certificate(support, proven, claim, proof));
+      }
+      packet.set(i % packet_lanes<T>, ray);
+      if (i % packet_lanes<T> < packet_lanes<T> - 1) continue;
+      CastPacket<T> answers;
+      cast_packet(prepared, packet, all_lanes<T>, answers);
+      for (int lane = 0; lane < packet_lanes<T>; ++lane) bits["packet"].add(answers.result(lane));
+    }
+  }
+}
+
+std::vector<SampleShape> golden_shapes() {
+  std::vector<SampleShape> shapes = sample_shapes();
+  for (const MeasuredShape& measured : measured_shapes())
+    if (measured.name.find("hull") != std::string::npos)
+      shapes.push_back({measured.name, measured.shape});
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const Shape<double> shape = random_nesting(seed);
+    shapes.push_back({"nesting " + std::to_string(seed) + ", " + name_of_nesting(shape), shape});
+  }
+  return shapes;
+}
+
+class GoldenCasts : public ::testing::TestWithParam<SampleShape> {};
+
+TEST_P(GoldenCasts, are_as_recorded) {
+  const Shape<double>& shape = GetParam().shape;
+  AllBits bits;
+  for (const Affine<double>& pose : golden_poses(ball_around(bounds_of<double>(shape)).radius)) {
+    cast_all<float>(shape, pose, bits);
+    cast_all<double>(shape, pose, bits);
+  }
+  std::map<std::string, std::string> found;
+  for (const auto& [way, hashes] : bits) {
+    found[GetParam().name + ": " + way + " answers"] = hashes.answers.text();
+    found[GetParam().name + ": " + way + " costs"] = hashes.costs.text();
+  }
+  RecordedHashes recorded("casts.txt", "the casts of golden_casts_test.cpp answer");
+  if (is_recording()) return recorded.replace(GetParam().name + ": ", found);
+  if (!recorded.is_comparable())
+    GTEST_SKIP() << "recorded with " << recorded.build() << ": other last bits are no mistake";
+  for (const auto& [name, hash] : found)
+    EXPECT_EQ(hash, recorded.find(name)) << name << " have changed; see ./run golden";
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, GoldenCasts, ::testing::ValuesIn(golden_shapes()),
+                         [](const auto& instance) {
+                           std::string name = std::to_string(instance.index);
+                           for (const char c : instance.param.name)
+                             name += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
+                           return name;
+                         });
+
+}  // namespace
+}  // namespace minkray::testing
