@@ -71,6 +71,11 @@ league::Ask prepare(const SignedDistanceQuery& query) {
 }
 
 template <class T>
+league::Ask prepare(const minkray::ManifoldQuery&) {
+  return [] { return league::unsupported("the league has no points of contact"); };
+}
+
+template <class T>
 league::Ask prepare(const minkray::ImpactQuery&) {
   return [] { return league::unsupported("the league has no impacts"); };
 }

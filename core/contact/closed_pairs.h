@@ -14,9 +14,13 @@ inline bool is_line(const ShapeCore& core) {
 /// distance.
 CoreDistance between_segments(const Vec3<double>& p, const Vec3<double>& q, const Vec3<double>& x);
 
-/// Points against boxes and disks: both bounds are the distance, negative inside of them. `axis` is
-/// the direction of the least translation that separates. Returns false for other pairs.
-bool closed_distance(const CorePair& pair, CoreDistance& found);
+inline bool is_solid(const ShapeCore& core) {
+  return core.kind == CoreKind::box || core.kind == CoreKind::disks;
+}
+
+/// A box or disks against a point p, in the solid's frame: both bounds are the distance, negative
+/// inside. `axis` is the direction of the least translation of the point that separates.
+CoreDistance between_solid_and_point(const ShapeCore& solid, const Vec3<double>& p);
 
 enum class BoxOverlap : unsigned char {
   none,

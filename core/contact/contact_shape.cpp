@@ -4,12 +4,13 @@
 namespace minkray {
 
 PlacedCore placed(const ContactShape& shape, const Affine<double>& pose) {
-  return {pose.linear * shape.turn(), pose(shape.middle())};
+  return {turn_in_world(shape, pose), middle_in_world(shape, pose)};
 }
 
 Vec3<double> between_middles(const ContactShape& a, const Affine<double>& pose_a,
                              const ContactShape& b, const Affine<double>& pose_b) {
   Vec3<double> between = pose_b.translation - pose_a.translation;
+  if (!a.is_moved() && !b.is_moved()) return between;
   // Middles far from the bodies' origins lose what the bodies' places have gained.
   constexpr double far = 4;
   const bool is_far = a.middle().squaredNorm() > far * far * a.ball_radius() * a.ball_radius() ||
@@ -26,11 +27,10 @@ Vec3<double> between_middles(const ContactShape& a, const Affine<double>& pose_a
   return between;
 }
 
-CorePair pair_of(const ContactShape& a, const Affine<double>& pose_a, const ContactShape& b,
-                 const Affine<double>& pose_b) {
-  const Mat3<double> to_a = (pose_a.linear * a.turn()).transpose();
-  return {a.core(), b.core(), to_a * (pose_b.linear * b.turn()),
-          to_a * between_middles(a, pose_a, b, pose_b)};
+CorePair pair_of(const ContactShape& a, const Affine<double>& pose_a, const Mat3<double>& turn_a,
+                 const ContactShape& b, const Affine<double>& pose_b) {
+  return {a.core(), b.core(), turn_a.transpose() * turn_in_world(b, pose_b),
+          turn_a.transpose() * between_middles(a, pose_a, b, pose_b)};
 }
 
 }  // namespace minkray

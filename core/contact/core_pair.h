@@ -6,6 +6,7 @@
 #pragma once
 
 #include "core/contact/core_support.h"
+#include "core/contact/pair_memory.h"
 #include "core/query/tolerances.h"
 
 namespace minkray {
@@ -72,6 +73,8 @@ struct CoreSearch {
   double apart = std::numeric_limits<double>::infinity();
   int max_turns = 200;
   bool may_slide = true;  ///< whether curved surfaces are looked at to second order
+  /// Where the search begins, if there is something in it, and what it ended with.
+  PairMemory* memory = nullptr;
 };
 
 }  // namespace minkray

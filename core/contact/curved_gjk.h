@@ -26,6 +26,9 @@ class CurvedGjk {
     Vec3<double> d = query_.pair.x;
     if (!(d.squaredNorm() > 0)) d = Vec3<double>::UnitX();
     double squared = std::numeric_limits<double>::infinity();
+    if (query_.search.memory) {
+      if (resume(*query_.search.memory, d, squared)) return query_.result;
+    }
     int stalls = 0;
     for (int turn = 1; turn <= query_.search.max_turns; ++turn) {
       const DifferencePoint w = query_.nearest(d);
@@ -38,7 +41,7 @@ class CurvedGjk {
       if constexpr (any_slides) {
         if (may_slide_ && count_ > 0 && turn > plain_turns) {
           may_slide_ = false;
-          if (try_flat_ends(query_, d) || slide(d)) return query_.result;
+          if (try_flat_ends(query_, d) || slide(d, first_damping)) return query_.result;
         }
       }
       for (int i = 0; i < count_; ++i)
@@ -77,6 +80,8 @@ class CurvedGjk {
  private:
   /// Turns of GJK before features slide: with a separating plane, and without one.
   static constexpr int turns_apart = 2, turns_near = 6;
+  /// Of the first step of features that slide, in sizes; less where they were the right ones.
+  static constexpr double first_damping = 0.1, resumed_damping = 1e-3;
   static constexpr bool any_slides =
       (A == CoreKind::other || slides(A) || slides(B)) || B == CoreKind::other;
 
@@ -101,13 +106,83 @@ class CurvedGjk {
   }
 
   /// Goes on to second order.
-  bool slide(const Vec3<double>& d) {
+  bool slide(const Vec3<double>& d, double damping) {
     SlidingFeatures<A, B> features(query_);
     for (int i = 0; i < count_; ++i) features.add(feature_a_[i], feature_b_[i], weight_[i]);
-    return features.run(d);
+    if (!features.run(d, damping)) return false;
+    if (!query_.search.memory) return true;
+    // Features slide back to where bodies are nearest, and are of no use to those that overlap.
+    if (query_.result.status == CoreStatus::overlapping)
+      query_.search.memory->count = 0;
+    else
+      features.remember(*query_.search.memory);
+    return true;
+  }
+
+  /// Begins with what the last query on the pair ended with: its features are points of C wherever
+  /// the bodies are by now. Returns whether that was an answer; if not, d and the points that are
+  /// kept are where to go on from. The direction alone is no start: on a surface that is known by
+  /// its support mapping only, a simplex of points as near to each other has few digits.
+  bool resume(const PairMemory& memory, Vec3<double>& d, double& squared) {
+    if (!memory.has_axis()) return false;
+    take_features_of(memory);
+    if (count_ == 0) return false;
+    const SimplexPoint closest = closest_of_simplex(y_, count_, false);
+    keep(closest);
+    if (closest.is_inside()) {
+      finish(CoreStatus::overlapping);
+      // Points that were not chosen for it may lie in a plane: then rounding says that.
+      constexpr double in_plane = 1e-13;
+      if (query_.result.upper <= in_plane * query_.size) return true;
+    } else if (count_ > 0) {
+      if constexpr (any_slides) {
+        if (may_slide_) {
+          may_slide_ = false;
+          if (try_flat_ends(query_, memory.axis) || slide(memory.axis, resumed_damping))
+            return true;
+          may_slide_ = true;
+        }
+      }
+      constexpr double is_near = 1e-12;
+      if (!may_slide_ && closest.squared > is_near * is_near * query_.size * query_.size) {
+        squared = closest.squared;
+        d = closest.v;
+        return false;
+      }
+    }
+    // It is GJK from the beginning.
+    count_ = 0;
+    query_.result.status = CoreStatus::unsettled;
+    query_.result.upper = std::numeric_limits<double>::infinity();
+    return false;
+  }
+
+  /// Of numbers that are none of the cores' features nothing is taken.
+  void take_features_of(const PairMemory& memory) {
+    const Vec3<double> of_b = query_.pair.to_b(-memory.axis);
+    for (int i = 0; i < 4 && i < memory.count; ++i) {
+      const int feature_a = memory.feature_a[i], feature_b = memory.feature_b[i];
+      if (!is_feature_of(query_.pair.a, feature_a) || !is_feature_of(query_.pair.b, feature_b))
+        continue;
+      const Vec3<double> a = point_of_feature<A>(query_.pair.a, feature_a, memory.axis),
+                         b = point_of_feature<B>(query_.pair.b, feature_b, of_b);
+      a_[count_] = a;
+      y_[count_] = query_.pair.x + query_.pair.turn * b - a;
+      feature_a_[count_] = feature_a;
+      feature_b_[count_] = feature_b;
+      ++count_;
+    }
+  }
+
+  void remember(PairMemory& memory, CoreStatus status) const {
+    const bool slid = any_slides && (slides(query_.pair.a.kind) || slides(query_.pair.b.kind));
+    memory.count = slid && status == CoreStatus::overlapping ? 0 : count_;
+    std::copy(feature_a_, feature_a_ + count_, memory.feature_a);
+    std::copy(feature_b_, feature_b_ + count_, memory.feature_b);
   }
 
   CoreDistance finish(CoreStatus status) {
+    if (query_.search.memory) remember(*query_.search.memory, status);
     query_.result.status = status;
     if (count_ > 0) {
       query_.result.a.setZero();

@@ -24,20 +24,26 @@ double support_function(const ContactShape& shape, const Mat3<double>& to_world,
 class Advance {
  public:
   Advance(const ContactShape& a, const RigidMotion& motion_a, const ContactShape& b,
-          const RigidMotion& motion_b, double t_max, const ImpactOptions& options)
-      : a_(a), b_(b), of_a_(motion_a), of_b_(motion_b), t_max_(t_max), options_(options) {
+          const RigidMotion& motion_b, double t_max, PairMemory* memory,
+          const ImpactOptions& options)
+      : a_(a),
+        b_(b),
+        of_a_(motion_a),
+        of_b_(motion_b),
+        t_max_(t_max),
+        memory_(memory),
+        options_(options) {
     size_ = a.ball_radius() + b.ball_radius();
-    const double about_a = a.middle().norm() + a.ball_radius(),
-                 about_b = b.middle().norm() + b.ball_radius();
-    turning_a_ = motion_a.angular_velocity.norm();
-    turning_b_ = motion_b.angular_velocity.norm();
-    speed_ = (motion_b.velocity - motion_a.velocity).norm() + turning_a_ * about_a +
-             turning_b_ * about_b;
     touching_ = options.touching * size_;
   }
 
   Impact run() {
-    if (turning_a_ == 0 && turning_b_ == 0 && run_swept()) return result_;
+    const bool is_turning = !of_a_.angular_velocity.isZero(0) || !of_b_.angular_velocity.isZero(0);
+    if (!is_turning && run_swept()) return result_;
+    find_speeds();
+    // Every step begins with what the one before it has found.
+    PairMemory of_steps;
+    if (!memory_) memory_ = &of_steps;
     SignedDistance now = at(0);
     // The contact at the start counts unless the two part.
     if (now.upper < 0 || (now.value <= touching_ && approach(now, 0) <= parting()))
@@ -61,12 +67,21 @@ class Advance {
   }
 
  private:
+  void find_speeds() {
+    const double about_a = a_.middle().norm() + a_.ball_radius(),
+                 about_b = b_.middle().norm() + b_.ball_radius();
+    turning_a_ = of_a_.angular_velocity.norm();
+    turning_b_ = of_b_.angular_velocity.norm();
+    speed_ = (of_b_.velocity - of_a_.velocity).norm() + turning_a_ * about_a + turning_b_ * about_b;
+  }
+
   SignedDistance at(double t, bool only_sign = false) {
     ++result_.steps;
     SignedDistanceOptions how;
     how.only_sign = only_sign;
     how.tolerance = std::min(1e-9, options_.touching);
-    return signed_distance(a_, of_a_.at(t), b_, of_b_.at(t), how);
+    if (!memory_) return signed_distance(a_, of_a_.at(t), b_, of_b_.at(t), how);
+    return signed_distance(a_, of_a_.at(t), b_, of_b_.at(t), *memory_, how);
   }
 
   bool touches(double t) {
@@ -155,10 +170,10 @@ class Advance {
     const bool is_turned = a_.core().kind > b_.core().kind;
     const ContactShape &first = is_turned ? b_ : a_, &second = is_turned ? a_ : b_;
     const RigidMotion &of_first = is_turned ? of_b_ : of_a_, &of_second = is_turned ? of_a_ : of_b_;
-    const Mat3<double> frame = of_first.pose.linear * first.turn();
+    const Mat3<double> frame = turn_in_world(first, of_first.pose);
     const Vec3<double> velocity = of_second.velocity - of_first.velocity;
-    const SweptTime swept = swept_time(pair_of(first, of_first.pose, second, of_second.pose),
-                                       frame.transpose() * velocity, t_max_, touching_);
+    const SweptTime swept = swept_time(pair_of(first, of_first.pose, frame, second, of_second.pose),
+                                       frame.transpose() * velocity, t_max_, touching_, memory_);
     if (swept.status == SweptStatus::open) return false;
     const Vec3<double> axis = frame * swept.axis,
                        normal = unit<double>(is_turned ? Vec3<double>(-axis) : axis);
@@ -174,7 +189,7 @@ class Advance {
     // The point is one of both at t_hi: at t_lo the second is so much further back.
     const Vec3<double> back = (result_.t_hi - result_.t_lo) * velocity;
     result_.point_a = result_.point_b =
-        of_first.pose(first.middle()) + frame * swept.a + result_.t_lo * of_first.velocity;
+        middle_in_world(first, of_first.pose) + frame * swept.a + result_.t_lo * of_first.velocity;
     (is_turned ? result_.point_a : result_.point_b) -= back;
     result_.distance = normal.dot(result_.point_b - result_.point_a);
     return true;
@@ -213,6 +228,7 @@ class Advance {
   const ContactShape &a_, &b_;
   const RigidMotion &of_a_, &of_b_;
   double t_max_;
+  PairMemory* memory_;
   const ImpactOptions& options_;
   double size_ = 0, turning_a_ = 0, turning_b_ = 0, speed_ = 0, touching_ = 0;
   Impact result_;
@@ -233,7 +249,13 @@ Affine<double> RigidMotion::at(double time) const {
 
 Impact first_impact(const ContactShape& a, const RigidMotion& motion_a, const ContactShape& b,
                     const RigidMotion& motion_b, double t_max, const ImpactOptions& options) {
-  return Advance(a, motion_a, b, motion_b, t_max, options).run();
+  return Advance(a, motion_a, b, motion_b, t_max, nullptr, options).run();
+}
+
+Impact first_impact(const ContactShape& a, const RigidMotion& motion_a, const ContactShape& b,
+                    const RigidMotion& motion_b, double t_max, PairMemory& memory,
+                    const ImpactOptions& options) {
+  return Advance(a, motion_a, b, motion_b, t_max, &memory, options).run();
 }
 
 }  // namespace minkray

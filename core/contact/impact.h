@@ -78,4 +78,11 @@ struct ImpactOptions {
 Impact first_impact(const ContactShape& a, const RigidMotion& motion_a, const ContactShape& b,
                     const RigidMotion& motion_b, double t_max, const ImpactOptions& options = {});
 
+/// Begins with what the last query on this pair left in `memory`, and leaves there what it ended
+/// with: the plane of a miss is a miss's proof in the next frame, too. The bounds hold whatever is
+/// in it; the answer's last digits depend on it.
+Impact first_impact(const ContactShape& a, const RigidMotion& motion_a, const ContactShape& b,
+                    const RigidMotion& motion_b, double t_max, PairMemory& memory,
+                    const ImpactOptions& options = {});
+
 }  // namespace minkray

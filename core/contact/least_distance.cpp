@@ -103,8 +103,9 @@ LeastDistance least_distance(const MovingPair& pair, const LeastDistanceOptions&
 double gap_along(const ContactShape& a, const Affine<double>& pose_a, const ContactShape& b,
                  const Affine<double>& pose_b, const Vec3<double>& n) {
   constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
-  const CorePair pair = pair_of(a, pose_a, b, pose_b);
-  const Vec3<double> d = (pose_a.linear * a.turn()).transpose() * n;
+  const Mat3<double> turn_a = turn_in_world(a, pose_a);
+  const CorePair pair = pair_of(a, pose_a, turn_a, b, pose_b);
+  const Vec3<double> d = turn_a.transpose() * n;
   const double radii = pair.a.radius + pair.b.radius;
   return d.dot(nearest_along(pair, d).c) - radii - rounding * (pair.size() + radii + pair.x.norm());
 }

@@ -28,8 +28,16 @@ class SlidingFeatures {
     append(feature_a, feature_b, weight);
   }
 
-  /// Searches from the direction d. Returns whether it came to an answer.
-  bool run(const Vec3<double>& d);
+  /// Searches from the direction d; its first step is damped by so much, in sizes: mixed faces and
+  /// rims need it. Returns whether it came to an answer.
+  bool run(const Vec3<double>& d, double damping);
+
+  /// The features that carry the closest point.
+  void remember(PairMemory& memory) const {
+    memory.count = count_;
+    std::copy(feature_a_, feature_a_ + count_, memory.feature_a);
+    std::copy(feature_b_, feature_b_ + count_, memory.feature_b);
+  }
 
  private:
   static constexpr int most_turns = 12;
@@ -132,9 +140,8 @@ bool SlidingFeatures<A, B>::is_inside(const Vec3<double>& n, double depth, const
 }
 
 template <CoreKind A, CoreKind B>
-bool SlidingFeatures<A, B>::run(const Vec3<double>& d) {
+bool SlidingFeatures<A, B>::run(const Vec3<double>& d, double damping) {
   Vec3<double> nd = d;
-  double damping = 0.1;  // of the first step, in sizes: mixed faces and rims need it
   for (int step = 0; step < most_turns; ++step, damping = step < 7 ? damping * 0.1 : 0) {
     const DifferencePoint w = query_.nearest(nd);
     const double length = nd.norm(), gap = nd.dot(w.c) / length;

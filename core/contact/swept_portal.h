@@ -25,8 +25,12 @@ class SweptPortal {
                  (slides(pair.a.kind) || slides(pair.b.kind) || query_.radius > 0);
   }
 
-  SweptTime run() {
+  /// There may be a memory: the plane that it has is looked at first.
+  SweptTime run(const PairMemory* memory) {
     if (!(query_.speed > 0) || query_.passes_by()) return query_.result;
+    if (memory && memory->has_axis()) {
+      if (query_.judge(memory->axis, query_.support(memory->axis))) return query_.result;
+    }
     portal_[0] = query_.support(-query_.along);
     if (query_.judge(-query_.along, portal_[0]) || !surround() || refine()) return query_.result;
     return query_.result;

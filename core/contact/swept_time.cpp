@@ -2,6 +2,8 @@
 #include "core/contact/swept_time.h"
 
 #include "core/contact/core_kinds.h"
+#include "core/contact/swept_boxes.h"
+#include "core/contact/swept_closed.h"
 #include "core/contact/swept_portal.h"
 
 namespace minkray {
@@ -42,13 +44,22 @@ SweptTime of_balls(const CorePair& pair, const Vec3<double>& velocity, double t_
 
 }  // namespace
 
-SweptTime swept_time(const CorePair& pair, const Vec3<double>& velocity, double t_max,
-                     double near) {
+SweptTime swept_time(const CorePair& pair, const Vec3<double>& velocity, double t_max, double near,
+                     PairMemory* memory) {
   if (pair.a.kind == CoreKind::point && pair.b.kind == CoreKind::point)
     return of_balls(pair, velocity, t_max, near);
-  return with_core_kinds(pair, [&]<CoreKind A, CoreKind B>() {
-    return SweptPortal<A, B>(pair, velocity, t_max, near).run();
+  SweptTime swept;
+  const bool are_boxes = pair.a.kind == CoreKind::box && pair.b.kind == CoreKind::box;
+  if (has_swept_closed(pair))
+    swept = swept_closed(pair, velocity, t_max, near);
+  else if (are_boxes && pair.a.radius + pair.b.radius == 0)
+    swept = swept_boxes(pair, velocity, t_max, near);
+  if (swept.status != SweptStatus::open) return swept;
+  swept = with_core_kinds(pair, [&]<CoreKind A, CoreKind B>() {
+    return SweptPortal<A, B>(pair, velocity, t_max, near).run(memory);
   });
+  if (memory && !swept.axis.isZero(0)) memory->axis = swept.axis;
+  return swept;
 }
 
 }  // namespace minkray

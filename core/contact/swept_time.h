@@ -7,7 +7,8 @@
 
 namespace minkray {
 
-/// As SweptPortal has it (swept_portal.h).
-SweptTime swept_time(const CorePair& pair, const Vec3<double>& velocity, double t_max, double near);
+/// As SweptPortal has it (swept_portal.h). There may be a memory.
+SweptTime swept_time(const CorePair& pair, const Vec3<double>& velocity, double t_max, double near,
+                     PairMemory* memory);
 
 }  // namespace minkray

@@ -3,6 +3,7 @@
 
 #include "core/contact/distance.h"
 #include "core/contact/impact.h"
+#include "core/contact/manifold.h"
 #include "core/contact/rotating_cast.h"
 #include "core/contact/shape_cast.h"
 #include "core/contact/signed_distance.h"
@@ -233,6 +234,33 @@ void solve(const SignedDistanceQuery& query, const AnswerOptions& options, Answe
     answer.json["point_b"] = point_json(Vec3<T>(result.point_b.cast<T>()));
   }
   answer.json["supports"] = result.supports;
+}
+
+template <class T>
+void solve(const ManifoldQuery& query, const AnswerOptions& options, Answer& answer) {
+  const ContactShape a(convert<T>(query.a)), b(convert<T>(query.b));
+  SignedDistanceOptions how;
+  how.tolerance = options.tolerance;
+  const SignedDistance nearest = signed_distance(a, b, how);
+  ManifoldOptions manifold;
+  manifold.tilt = query.tilt.value_or(manifold.tilt);
+  manifold.within = query.within.value_or(manifold.within);
+  const ContactManifold found = contact_manifold(a, {}, b, {}, nearest, manifold);
+  answer.facts.status = name_of(nearest.status);
+  answer.facts.hit = nearest.status == SignedStatus::overlapping;
+  answer.facts.distance = nearest.value;
+  answer.facts.normal = found.normal;
+  answer.json["status"] = answer.facts.status;
+  answer.json["value"] = number_json(static_cast<T>(nearest.value));
+  answer.json["normal"] = point_json(Vec3<T>(found.normal.cast<T>()));
+  Json points = Json::array();
+  for (int i = 0; i < found.count; ++i) {
+    const ContactPoint& point = found.points[static_cast<std::size_t>(i)];
+    points.push_back({{"point_a", point_json(Vec3<T>(point.point_a.cast<T>()))},
+                      {"point_b", point_json(Vec3<T>(point.point_b.cast<T>()))},
+                      {"distance", number_json(static_cast<T>(point.distance))}});
+  }
+  answer.json["points"] = std::move(points);
 }
 
 /// The shape in a frame about its pivot, and that frame's motion.

@@ -35,6 +35,9 @@ Extent extent(const DistanceQuery& query) {
 Extent extent(const SignedDistanceQuery& query) {
   return {std::max(largest_coordinate(query.a), largest_coordinate(query.b))};
 }
+Extent extent(const ManifoldQuery& query) {
+  return {std::max(largest_coordinate(query.a), largest_coordinate(query.b))};
+}
 Extent extent(const ImpactQuery& query) {
   return {std::max(largest_coordinate(query.a), largest_coordinate(query.b)),
           query.motion_b.velocity - query.motion_a.velocity};
@@ -85,6 +88,9 @@ double miss_distance(const DistanceQuery&) {
   return 0;
 }
 double miss_distance(const SignedDistanceQuery&) {
+  return 0;
+}
+double miss_distance(const ManifoldQuery&) {
   return 0;
 }
 double miss_distance(const ImpactQuery&) {

@@ -47,6 +47,14 @@ struct SignedDistanceQuery {
   bool only_sign = false;
 };
 
+/// Up to four points of contact (core/contact/manifold.h).
+struct ManifoldQuery {
+  Shape<double> a;
+  Shape<double> b;
+  std::optional<double> tilt;    ///< radians
+  std::optional<double> within;  ///< in sizes of the smaller shape
+};
+
 /// How a shape of an impact moves: about `pivot`, which is part of it (by default its middle).
 struct ImpactMotion {
   Vec3<double> velocity = Vec3<double>::Zero();
@@ -76,7 +84,8 @@ struct Expectation {
 
 struct Query {
   std::string name;
-  std::variant<RayQuery, ShapeQuery, DistanceQuery, SignedDistanceQuery, ImpactQuery> kind;
+  std::variant<RayQuery, ShapeQuery, DistanceQuery, SignedDistanceQuery, ManifoldQuery, ImpactQuery>
+      kind;
   std::optional<Expectation> expect;
 };
 

@@ -11,6 +11,8 @@ namespace {
 
 /// A step more costs a cast more: nobody means more than this.
 constexpr int most_steps = 1000000;
+/// What leans by more looks at nothing on the other side.
+constexpr double most_tilt = 0.5;
 
 class QueryReader {
  public:
@@ -91,6 +93,23 @@ class QueryReader {
     query->kind = std::move(read);
   }
 
+  void read_manifold(std::optional<Query>& query) {
+    const auto a = shape("a"), b = shape("b");
+    ManifoldQuery read{Point<double>{}, Point<double>{}, {}, {}};
+    const auto number = [&](std::string_view key, std::optional<double>& value) {
+      if (const Json* json = object_.find(key))
+        value = read_number(*json, object_.path(key), object_.mistakes(), Range::not_negative);
+    };
+    number("tilt", read.tilt);
+    number("within", read.within);
+    if (read.tilt && !(*read.tilt < most_tilt))
+      object_.mistakes().add(object_.path("tilt"), "must be less than 0.5 radians");
+    if (!a || !b) return;
+    read.a = *a;
+    read.b = *b;
+    query->kind = std::move(read);
+  }
+
   ImpactMotion motion(std::string_view key) {
     ImpactMotion read;
     const Json* json = object_.find(key);
@@ -161,7 +180,8 @@ std::optional<Query> parse_query(std::string_view text, MeshFiles& meshes, Mista
     query->expect = read_expectation(*expect, object.path("expect"), mistakes);
 
   QueryReader reader(object, meshes);
-  constexpr const char* kinds = R"("ray", "shape", "distance", "signed_distance" or "impact")";
+  constexpr const char* kinds =
+      R"("ray", "shape", "distance", "signed_distance", "manifold" or "impact")";
   const Json* kind = object.require("query", kinds);
   if (!kind) return std::nullopt;
   if (*kind == "ray") {
@@ -172,6 +192,8 @@ std::optional<Query> parse_query(std::string_view text, MeshFiles& meshes, Mista
     reader.read_distance(query);
   } else if (*kind == "signed_distance") {
     reader.read_signed_distance(query);
+  } else if (*kind == "manifold") {
+    reader.read_manifold(query);
   } else if (*kind == "impact") {
     reader.read_impact(query);
   } else {

@@ -126,6 +126,40 @@ TEST(Queries, impacts_say_between_which_times) {
       std::string::npos);
 }
 
+TEST(Queries, manifolds_have_the_corners_that_rest_on_a_plate) {
+  Mistakes mistakes("q");
+  const std::string plate = R"("a":{"type":"box","half_extents":[5,5,0.5]})";
+  const auto query = parse(
+      R"({"query":"manifold",)" + plate +
+          R"(,"b":{"type":"transform","shape":{"type":"box","half_extents":[1,0.5,0.25]},"translate":[0.5,0.5,0.7]}})",
+      mistakes);
+  ASSERT_TRUE(query) << mistakes.text();
+  const Answer result = answer(*query, {});
+  EXPECT_EQ(result.facts.status, "overlapping");
+  const Json& points = result.json.at("points");
+  ASSERT_EQ(points.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_NEAR(points[i].at("distance").get<double>(), -0.05, 1e-12);
+    const auto corner = [&](std::size_t k) {
+      const Json& p = points[k % 4].at("point_a");
+      return Vec3<double>(p[0].get<double>(), p[1].get<double>(), p[2].get<double>());
+    };
+    EXPECT_NEAR(corner(i).z(), 0.5, 1e-12);
+    EXPECT_NEAR(std::abs(corner(i).x() - 0.5), 1, 1e-9);
+    EXPECT_NEAR(std::abs(corner(i).y() - 0.5), 0.5, 1e-9);
+    for (std::size_t k = 0; k < i; ++k) EXPECT_GT((corner(i) - corner(k)).norm(), 0.9);
+  }
+  const std::string ball = R"(,"b":{"type":"transform","shape":{"type":"sphere","radius":1},)"
+                           R"("translate":[0,0,1.5]}})";
+  const auto of_ball = parse(R"({"query":"manifold",)" + plate + ball, mistakes);
+  ASSERT_TRUE(of_ball) << mistakes.text();
+  EXPECT_EQ(answer(*of_ball, {}).json.at("points").size(), 1u);
+  EXPECT_NE(mistakes_of(R"({"query":"manifold","tilt":2,)" + plate + ball).find("/tilt"),
+            std::string::npos);
+  EXPECT_NE(mistakes_of(R"({"query":"manifold","within":-1,)" + plate + ball).find("/within"),
+            std::string::npos);
+}
+
 constexpr const char* ball_query =
     R"({"query":"ray","shape":{"type":"sphere","radius":1},"ray":{"origin":[-3,0,0],"direction":[1,0,0]},"expect":{"hit":true,"t":2,"t_abs_tol":1e-12}})";
 

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+
+#include "core/contact/closed_answer.h"
+#include "core/contact/closed_pairs.h"
+
+namespace minkray {
+namespace {
+
+/// The parameter, from -1 to 1, of the point of the segment from -half to +half nearest to p.
+double nearest_on_segment(const Vec3<double>& half, const Vec3<double>& p) {
+  const double squared = half.squaredNorm();
+  return squared > 0 ? std::clamp(p.dot(half) / squared, -1.0, 1.0) : 0;
+}
+
+/// The nearest points s p and x + t q of two segments, s and t from -1 to 1, of any two: within
+/// both, or one of them is an end.
+struct OnSegments {
+  double s, t;
+  bool is_within;  ///< and not parallel: then it is the common perpendicular
+};
+
+OnSegments nearest_of_any(const Vec3<double>& p, const Vec3<double>& q, const Vec3<double>& x,
+                          const Vec3<double>& n) {
+  const double squared = n.squaredNorm();
+  if (squared > 0) {
+    const double s = x.cross(q).dot(n) / squared, t = x.cross(p).dot(n) / squared;
+    if (std::abs(s) <= 1 && std::abs(t) <= 1) return {s, t, true};
+  }
+  OnSegments nearest{0, 0, false};
+  double best = std::numeric_limits<double>::infinity();
+  const auto try_points = [&](double s, double t) {
+    const double length = (x + t * q - s * p).squaredNorm();
+    if (!(length < best)) return;
+    best = length;
+    nearest = {s, t, false};
+  };
+  for (const double end : {-1.0, 1.0}) {
+    try_points(nearest_on_segment(p, x + end * q), end);
+    try_points(end, nearest_on_segment(q, end * p - x));
+  }
+  return nearest;
+}
+
+/// The same of segments that are neither nearly parallel nor points (C. Ericson, "Real-Time
+/// Collision Detection", 2005, section 5.1.9). `pp`, `qq`, `pq` are products of the two.
+OnSegments nearest_of_crossing(const Vec3<double>& p, const Vec3<double>& q, const Vec3<double>& x,
+                               double pp, double qq, double pq) {
+  const double px = p.dot(x), qx = q.dot(x);
+  const double s = std::clamp((px * qq - qx * pq) / (pp * qq - pq * pq), -1.0, 1.0),
+               t = (s * pq - qx) / qq;
+  if (std::abs(t) <= 1) return {s, t, std::abs(s) < 1};
+  const double end = t < 0 ? -1 : 1;
+  return {std::clamp((px + end * pq) / pp, -1.0, 1.0), end, false};
+}
+
+/// Some direction at right angles to both, whatever they are.
+Vec3<double> across(const Vec3<double>& p, const Vec3<double>& q, const Vec3<double>& n) {
+  const double squared = n.squaredNorm();
+  if (squared > 0) return n / std::sqrt(squared);
+  if (p.squaredNorm() > 0) return p.unitOrthogonal();
+  if (q.squaredNorm() > 0) return q.unitOrthogonal();
+  return Vec3<double>::UnitX();
+}
+
+/// The direction of c = x + t q - s p, of which no point of A is further along, and none of B less
+/// far. Where c is as good as zero, it is one of rounding: that is taken out, twice where that is
+/// most of it, since the first time leaves some.
+Vec3<double> direction_between(const Vec3<double>& p, const Vec3<double>& q, double pp, double qq,
+                               const Vec3<double>& c, double s, double t, const Vec3<double>& n) {
+  Vec3<double> axis = unit<double>(c);
+  for (int i = 0; i < 2; ++i) {
+    const double along_a = axis.dot(p), along_b = axis.dot(q);
+    bool is_turned = false;
+    if (pp > 0 && (std::abs(s) < 1 || s * along_a < 0)) {
+      axis -= (along_a / pp) * p;
+      is_turned = true;
+    }
+    if (qq > 0 && (std::abs(t) < 1 || t * along_b > 0)) {
+      axis -= (axis.dot(q) / qq) * q;
+      is_turned = true;
+    }
+    const double left = axis.squaredNorm();
+    if (!(left > 0.25)) {
+      axis = across(p, q, n);
+      continue;
+    }
+    if (is_turned) axis /= std::sqrt(left);
+    constexpr double most_of_it = 1 - 1e-6;
+    if (left > most_of_it) break;
+  }
+  return axis;
+}
+
+/// A point, and a segment from x - q to x + q.
+CoreDistance point_and_segment(const Vec3<double>& q, const Vec3<double>& x) {
+  const double qq = q.squaredNorm(), t = std::clamp(-x.dot(q) / qq, -1.0, 1.0);
+  const Vec3<double> c = x + t * q;
+  const double length = length_of(c);
+  constexpr double touching = 1e-10;
+  if (!(length > touching * std::sqrt(qq))) {
+    const Vec3<double> zero = Vec3<double>::Zero();
+    return closed_answer(length, direction_between(zero, q, 0, qq, c, 0, t, zero), zero, c);
+  }
+  // At right angles to the segment, where the nearest point is no end.
+  Vec3<double> axis = c / length;
+  if (std::abs(t) < 1) {
+    axis -= (axis.dot(q) / qq) * q;
+    axis /= std::sqrt(axis.squaredNorm());
+  }
+  return closed_answer(length, axis, Vec3<double>::Zero(), c);
+}
+
+}  // namespace
+
+CoreDistance between_segments(const Vec3<double>& p, const Vec3<double>& q, const Vec3<double>& x) {
+  const double pp = p.squaredNorm(), qq = q.squaredNorm();
+  if (!(pp > 0)) {
+    if (!(qq > 0)) return closed_between(Vec3<double>::Zero(), x, Vec3<double>::UnitX());
+    return point_and_segment(q, x);
+  }
+  const double pq = p.dot(q);
+  // Products of nearly parallel ones have too few digits for the nearest points.
+  constexpr double parallel = 1e-2;
+  const bool is_crossing = pp * qq - pq * pq > parallel * pp * qq && qq > 0;
+  const Vec3<double> n = p.cross(q);
+  const OnSegments on =
+      is_crossing ? nearest_of_crossing(p, q, x, pp, qq, pq) : nearest_of_any(p, q, x, n);
+  const Vec3<double> a = on.s * p;
+  if (on.is_within) {
+    const Vec3<double> axis = n / std::sqrt(n.squaredNorm());
+    const double gap = x.dot(axis);
+    const Vec3<double> towards = gap < 0 ? Vec3<double>(-axis) : axis;
+    return closed_answer(std::abs(gap), towards, a, std::abs(gap) * towards);
+  }
+  const Vec3<double> c = x + on.t * q - a;
+  Vec3<double> axis = direction_between(p, q, pp, qq, c, on.s, on.t, n);
+  // Where they touch, a direction at right angles to both may be the better plane.
+  constexpr double touching = 1e-20;
+  if (c.squaredNorm() <= touching * (pp + qq)) {
+    const auto gap = [&](const Vec3<double>& m) {
+      return m.dot(x) - std::abs(m.dot(p)) - std::abs(m.dot(q));
+    };
+    const Vec3<double> beside = across(p, q, n);
+    const Vec3<double> turned = beside.dot(x) < 0 ? Vec3<double>(-beside) : beside;
+    if (gap(turned) > gap(axis)) axis = turned;
+  }
+  return closed_answer(length_of(c), axis, a, c);
+}
+
+}  // namespace minkray

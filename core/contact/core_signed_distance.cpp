@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#include "core/contact/core_signed_distance.h"
+
+#include <algorithm>
+
+#include "core/contact/closed_pairs.h"
+#include "core/contact/core_distance.h"
+#include "core/contact/direction_bounds.h"
+#include "core/contact/expanding_polytope.h"
+#include "core/contact/signed_distance.h"
+
+namespace minkray {
+namespace {
+
+/// The depth by a polytope that grows from there. Returns whether its bounds met; they hold anyway.
+template <CoreKind A, CoreKind B>
+bool expand(const CorePair& pair, double gap, const Enclosure& enclosure, CoreDistance& found) {
+  ExpandingPolytope<A, B> polytope(pair, gap, found);
+  const bool has_met = polytope.run(enclosure.c, enclosure.a);
+  found = polytope.found();
+  return has_met;
+}
+
+bool depth_by_polytope(const CorePair& pair, double gap, Enclosure enclosure, CoreDistance& found) {
+  if (!enclosure.is_found) {
+    CoreSearch plain;
+    plain.may_slide = false;
+    const int supports = found.supports;
+    const CoreDistance again = distance_of_cores(pair, plain, &enclosure);
+    found.supports = supports + again.supports;
+    if (!enclosure.is_found) return false;
+  }
+  using enum CoreKind;
+  if (pair.a.kind == hull && pair.b.kind == hull)
+    return expand<hull, hull>(pair, gap, enclosure, found);
+  return expand<other, other>(pair, gap, enclosure, found);
+}
+
+/// Where the cores nearly touch, what is between their nearest points is short of digits for a
+/// direction. B stands off along the axis: the plane that is found there is one here, too.
+void improve_plane(const CorePair& pair, CoreDistance& found) {
+  constexpr double stand_offs[] = {1e-3, 1e-5};
+  for (const double stand_off : stand_offs) {
+    if (found.axis.isZero(0)) return;
+    CorePair moved = pair;
+    moved.x += stand_off * pair.size() * found.axis;
+    const CoreDistance there = distance_of_cores(moved, CoreSearch{});
+    found.supports += there.supports + 1;
+    if (there.axis.isZero(0)) return;
+    found.raise_lower(there.axis.dot(nearest_along(pair, there.axis).c), there.axis);
+    if (found.upper - found.lower <= settled_core_gap * pair.size()) break;
+  }
+  if (found.lower > 0 && found.status == CoreStatus::unsettled)
+    found.status = CoreStatus::separated;
+}
+
+/// The points of first contact when B is moved out along the axis: the nearest points of the two
+/// once B stands off by a fair distance, where they are found most exactly.
+void find_contact(const CorePair& pair, CoreDistance& found) {
+  constexpr double stand_off = 1e-3;
+  const double apart = stand_off * pair.size();
+  CorePair moved = pair;
+  moved.x += (apart - found.lower) * found.axis;
+  const CoreDistance nearest = distance_of_cores(moved, CoreSearch{});
+  found.supports += nearest.supports;
+  found.a = nearest.a;
+  found.c = nearest.c - (apart - found.lower) * found.axis;
+}
+
+/// The depth of cores that were found to overlap, or whose distance rounding hides.
+CoreDistance depth_of_cores(const CorePair& pair, const Enclosure& enclosure, CoreDistance found,
+                            double gap, bool only_sign) {
+  // A common point that was found is of neither's surface.
+  const Vec3<double> a = found.a, c = found.c;
+  const double upper = found.status == CoreStatus::overlapping
+                           ? std::numeric_limits<double>::infinity()
+                           : found.upper;
+  if (found.status == CoreStatus::overlapping && !only_sign &&
+      depth_by_polytope(pair, gap, enclosure, found))
+    return found;
+  const int supports = found.supports;
+  DirectionSearch search;
+  search.gap = gap;
+  search.only_sign = only_sign;
+  found.supports = 0;
+  found = bound_by_directions(pair, found, search);
+  found.supports += supports;
+  if (found.lower > 0) found.status = CoreStatus::separated;
+  if (only_sign) return found;
+  if (found.lower > 0 && upper <= found.upper + settled_core_gap * pair.size()) {
+    found.a = a;
+    found.c = c;
+    found.upper = std::min(found.upper, upper);
+  } else {
+    find_contact(pair, found);
+  }
+  return found;
+}
+
+}  // namespace
+
+CoreDistance core_signed_distance(const CorePair& pair, const SignedDistanceOptions& options,
+                                  PairMemory* memory) {
+  CoreDistance found;
+  if (pair.a.kind == CoreKind::box && pair.b.kind == CoreKind::box) {
+    const BoxOverlap overlap = box_overlap(pair, found);
+    if (overlap == BoxOverlap::without_points && !options.only_sign) find_contact(pair, found);
+    if (overlap != BoxOverlap::none) return found;
+  }
+  const double radii = pair.a.radius + pair.b.radius, size = pair.size() + radii;
+  CoreSearch search;
+  search.apart = options.at_most + radii;
+  search.gap = std::min(1e-12, options.tolerance);
+  search.memory = memory;
+  Enclosure enclosure;
+  found = distance_of_cores(pair, search, &enclosure);
+  if (found.lower > search.apart) return found;
+  const double gap = std::clamp(options.tolerance, 1e-14, 1.0) * size;
+  const auto is_settled = [&] {
+    const bool overlaps = found.status == CoreStatus::overlapping;
+    if (options.only_sign && (overlaps || found.upper < radii || found.lower > radii)) return true;
+    return !overlaps && found.upper - found.lower <= settled_core_gap * size;
+  };
+  if (is_settled() && found.status != CoreStatus::unsettled) return found;
+  if (found.status != CoreStatus::overlapping && std::isfinite(found.upper)) {
+    improve_plane(pair, found);
+    if (is_settled()) return found;
+  }
+  return depth_of_cores(pair, enclosure, found, gap / (pair.size() + pair.x.norm()),
+                        options.only_sign && radii == 0);
+}
+
+}  // namespace minkray

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// The signed distance of two cores that have no closed form: by a search for the distance, and
+// where they overlap, or touch, for the depth.
+#pragma once
+
+#include "core/contact/core_pair.h"
+
+namespace minkray {
+
+struct SignedDistanceOptions;
+
+/// How near the bounds are where a query is called settled, relative to the sizes. What is not is
+/// looked at by branch and bound.
+inline constexpr double settled_core_gap = 1e-9;
+
+/// A's kind is not after B's. There may be a memory.
+CoreDistance core_signed_distance(const CorePair& pair, const SignedDistanceOptions& options,
+                                  PairMemory* memory);
+
+}  // namespace minkray

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// What a query on a pair of bodies ended with, which a caller keeps for the next frame: the paper's
+// caching of the separating axis (G. van den Bergen, "Ray Casting against General Convex Objects",
+// 2004, section 4), and of the features that the nearest points lay on.
+//
+// It is where a search begins and never what an answer rests on: whatever is in here, from another
+// pair or from nowhere, the bounds are proven anew.
+#pragma once
+
+#include <cstdint>
+
+#include "core/shape/core_and_radius.h"
+
+namespace minkray {
+
+struct PairMemory {
+  /// The direction of the last answer, as the first of the two cores sees it; zero: there is none.
+  Vec3<double> axis = Vec3<double>::Zero();
+  /// The features of the nearest points, on the first core and on the second.
+  std::int32_t feature_a[4] = {}, feature_b[4] = {};
+  std::int32_t count = 0;
+
+  /// NaN is none.
+  bool has_axis() const {
+    constexpr double near_one = 1e-6;
+    return std::abs(axis.squaredNorm() - 1) < near_one;
+  }
+};
+
+/// Whether the core has a feature of this number.
+inline bool is_feature_of(const ShapeCore& core, std::int32_t feature) {
+  switch (core.kind) {
+    case CoreKind::point:
+    case CoreKind::ellipsoid:
+      return feature == 0;
+    case CoreKind::segment:
+    case CoreKind::disks:
+      return feature == 0 || feature == 1;
+    case CoreKind::box:
+      return feature >= 0 && feature < 8;
+    case CoreKind::hull:
+      return feature >= 0 && feature < core.count;
+    case CoreKind::other:
+      break;
+  }
+  return false;
+}
+
+}  // namespace minkray
