@@ -3,8 +3,6 @@
 
 #include <unistd.h>
 
-#include <cstdio>
-
 namespace minkray {
 
 ProgressLine::ProgressLine(bool wanted) : shown_(wanted && ::isatty(STDERR_FILENO) == 1) {}
@@ -20,9 +18,7 @@ void ProgressLine::show(double fraction, std::uint64_t rays) {
   last_ = now;
   line_is_dirty_ = true;
   const double seconds = std::chrono::duration<double>(now - begin_).count();
-  const auto left = static_cast<long>(seconds * (1 - fraction) / fraction);
-  std::fprintf(stderr, "\r\x1b[K%5.1f %%  %.2f Mray/s  %ld:%02ld left", 100 * fraction,
-               static_cast<double>(rays) / seconds / 1e6, left / 60, left % 60);
+  std::fprintf(stderr, "\r\x1b[K%s", progress_text(fraction, rays, seconds, noise_).c_str());
   std::fflush(stderr);
 }
 

@@ -72,7 +72,7 @@ RenderedJob run(const RenderJob& job, Checkpoint& checkpoint, const Spectator& s
     done.rendering =
         render(job.scene, job.world, job.options,
                {[&](double fraction, std::uint64_t rays) { line.show(fraction, rays); },
-                InterruptGuard::interrupted},
+                InterruptGuard::interrupted, [&](double noise) { line.set_noise(noise); }},
                std::move(journal));
   }
   end_if_interrupted(done.rendering, checkpoint);

@@ -19,6 +19,7 @@ Image render_picture(const RenderJob& job, const RenderArguments& options,
   timed(options.image.verbose, "trace", statistics.trace_seconds,
         [&] { done = run(job, checkpoint, growing.spectator()); });
   statistics.counts += done.rendering.counts;
+  statistics.noise = done.rendering.noise;
   const FinishedPicture picture{std::move(done.rendering.image), std::move(done.labels),
                                 job.options.region(), job.options.resolution, std::move(done.exr)};
   timed(options.image.verbose, "write", statistics.write_seconds,

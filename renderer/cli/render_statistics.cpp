@@ -40,6 +40,7 @@ Json as_json(const RenderStatistics& s) {
             {"model", c.work.answered_by(Path::model)},
             {"gjk", c.work.answered_by(Path::gjk)},
             {"finer", c.work.answered_by(Path::finer)}}},
+          {"noise", s.noise < 0 ? Json() : Json(s.noise)},
           {"exhausted", c.work.exhausted},
           {"camera_rays_from_inside", c.from_inside},
           {"bytes",
@@ -55,6 +56,12 @@ void print(const RenderStatistics& s) {
     text << std::fixed << std::setprecision(3) << value << " s";
     return text.str();
   };
+  std::ostringstream noise;
+  noise << std::setprecision(3);
+  if (s.noise < 0)
+    noise << "not known by single samples";
+  else
+    noise << 100 * s.noise << " % of a pixel's brightness, in the mean";
   std::cout << "objects     " << s.objects << "\n"
             << "threads     " << s.threads << "\n"
             << "time        load " << seconds(s.load_seconds) << ", build "
@@ -71,6 +78,7 @@ void print(const RenderStatistics& s) {
             << "answered by filter " << c.work.answered_by(Path::filter) << ", model "
             << c.work.answered_by(Path::model) << ", gjk " << c.work.answered_by(Path::gjk)
             << ", finer " << c.work.answered_by(Path::finer) << "\n"
+            << "noise       " << noise.str() << "\n"
             << "exhausted   " << c.work.exhausted << " casts\n"
             << "memory      " << s.world_bytes << " bytes, of which the hierarchy " << s.bvh_bytes
             << "; " << s.per_object(s.world_bytes) << " an object, of which the hierarchy "

@@ -14,6 +14,7 @@ struct RenderStatistics {
   double load_seconds = 0, build_seconds = 0, trace_seconds = 0, write_seconds = 0;
   std::size_t world_bytes = 0, bvh_bytes = 0;
   RayCounts counts;
+  double noise = -1;  ///< Rendering::noise
 
   /// Fills in what is known before the first ray.
   void describe(const Scene& scene, const RenderWorld& world);

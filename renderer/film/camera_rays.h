@@ -3,6 +3,9 @@
 // of them is. Whoever asks for a sample of a pixel gets the same ray.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "renderer/film/pixel_loop.h"
 #include "renderer/film/render.h"
 #include "renderer/image/filter.h"
@@ -15,7 +18,8 @@ class CameraRays {
   CameraRays(const Scene& scene, const RenderWorld& world, const RenderOptions& options)
       : camera_(scene.camera, options.resolution),
         seed_(options.seed),
-        blurs_(world.instances().move()) {}
+        blurs_(world.instances().move()),
+        of_samples_(is_painted(scene) ? 1 / std::sqrt(options.samples) : 0) {}
 
   /// Its sampler goes on behind the numbers that were spent on the ray.
   TracedRay ray(const Pixel& pixel, int sample) const {
@@ -24,6 +28,7 @@ class CameraRays {
     const std::array<double, 2> u = traced.sampler.next();
     traced.ray =
         camera_.ray(pixel.x + 0.5 + filter_.offset(u[0]), pixel.y + 0.5 + filter_.offset(u[1]));
+    if (of_samples_ > 0) traced.cone = camera_.cone(pixel.x + 0.5, pixel.y + 0.5).part(of_samples_);
     if (camera_.has_lens()) traced.ray = camera_.through_lens(traced.ray, traced.sampler.next());
     // When nothing moves no random numbers are spent on when.
     traced.time = blurs_ ? traced.sampler.next()[0] : 0;
@@ -31,10 +36,16 @@ class CameraRays {
   }
 
  private:
+  static bool is_painted(const Scene& scene) {
+    return std::any_of(scene.materials.begin(), scene.materials.end(),
+                       [](const Material& material) { return minkray::is_painted(material); });
+  }
+
   Camera camera_;
   PixelFilter filter_;
   std::uint64_t seed_;
   bool blurs_;
+  double of_samples_;  ///< the width of one of a pixel's samples, if that matters
 };
 
 }  // namespace minkray

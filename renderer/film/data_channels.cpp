@@ -239,7 +239,9 @@ std::vector<ExrPlane> measure_data_channels(const Scene& scene, const RenderWorl
     found.hit = world.closest_hit(found.ray, found.work);
     ++of_tile.camera;
     of_tile.work += found.work;
-    if (wants_colours) surfaces.describe(world, found.ray, found.hit, found.albedo, found.emission);
+    if (wants_colours)
+      surfaces.describe(world, found.ray, camera.cone(pixel.x + 0.5, pixel.y + 0.5), found.hit,
+                        found.albedo, found.emission);
     if (is_wanted("uv")) found.uv = surfaces.uv(world, found.ray, found.hit);
     if (is_wanted("motion")) found.motion = motion_of(scene, camera, found);
     if (is_wanted("thickness")) found.thickness = length_within(world, found.ray, found.hit);

@@ -31,7 +31,7 @@ NoisyPicture noisy_picture(const Scene& scene, const RenderWorld& world,
       const WorldHit<Real> hit = world.closest_hit(ray.ray, of_tile.work, no_instance, ray.time);
       ++of_tile.camera;
       if (hit.cast.status != Status::hit) continue;
-      surfaces.describe(world, ray.ray, hit, albedo, emission);
+      surfaces.describe(world, ray.ray, ray.cone, hit, albedo, emission);
       albedos += albedo;
       normals += hit.cast.normal.template cast<double>();
       depths += hit.cast.t();

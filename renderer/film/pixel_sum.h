@@ -66,12 +66,16 @@ struct PixelSum {
     direct.add(ray.direct);
     colour.add(ray.radiance.array(), samples);
   }
-  /// Whether the standard error of its mean is small enough.
-  bool is_quiet(double noise) const {
+  /// The standard error of its mean brightness, as the spread of its samples tells it; 0 of a
+  /// single one.
+  double standard_error() const {
     const double n = samples;
-    return std::sqrt(brightness.deviations / (n * (n - 1))) <=
-           noise * std::max(brightness.mean, least_brightness);
+    return samples < 2 ? 0 : std::sqrt(brightness.deviations / (n * (n - 1)));
   }
+  /// What the standard error is told as a part of.
+  double least_mean() const { return std::max(brightness.mean, least_brightness); }
+  /// Whether the standard error of its mean is small enough.
+  bool is_quiet(double noise) const { return standard_error() <= noise * least_mean(); }
   /// The squared standard error of its colour, by the spread of its samples; 0 of a single one.
   Vec3<float> variance() const {
     const double n = samples;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/film/render.h"
 
+#include <atomic>
 #include <vector>
 
 #include "renderer/film/camera_rays.h"
@@ -52,6 +53,25 @@ std::vector<Pass> passes_of(int first, int end, bool one_by_one) {
   return passes;
 }
 
+/// The mean of what several threads tell; to be shown, for its last digits depend on their order.
+class MeanNoise {
+ public:
+  void clear() { sum_ = 0, count_ = 0; }
+  void add(double noise) {
+    sum_ += noise;
+    ++count_;
+  }
+  /// Negative if there is nothing.
+  double mean() const {
+    const std::uint64_t count = count_;
+    return count > 0 ? sum_ / static_cast<double>(count) : -1;
+  }
+
+ private:
+  std::atomic<double> sum_ = 0;
+  std::atomic<std::uint64_t> count_ = 0;
+};
+
 /// Renders passes over a picture's pixels into one rendering.
 class Rendered {
  public:
@@ -78,8 +98,10 @@ class Rendered {
     const std::vector<Pass> passes = passes_of(first, end_sample_, bool(journal_.passed));
     if (passes.size() > 1) kept_.resize(pixel_count(region_));
     for (const Pass& pass : passes) {
+      noise_.clear();
       const bool is_last = pass.end == end_sample_;
       rendering_.complete = render(pass, is_last);
+      rendering_.noise = noise_.mean();
       if (!rendering_.complete) break;
       if (!is_last) journal_.passed(rendering_, pass.end);
     }
@@ -111,6 +133,7 @@ class Rendered {
     if (watch_.progress)
       watch.progress = [&](double fraction, std::uint64_t rays) {
         const double first = blocks_.begin(first_block_);
+        if (watch_.noise && noise_.mean() >= 0) watch_.noise(noise_.mean());
         watch_.progress(
             (pass.first - first + fraction * (pass.end - pass.first)) / (end_sample_ - first),
             rays);
@@ -181,6 +204,7 @@ class Rendered {
 
   /// What is known of the pixel by now.
   void write(const Pixel& pixel, const PixelSum& sum, const Pass& pass) {
+    if (sum.samples > 1) noise_.add(sum.standard_error() / sum.least_mean());
     const int samples = std::max(sum.samples, 1);
     if (options_.sample_share.is_all())
       rendering_.image.pixels[pixel.index] = sum.light.mean(samples);
@@ -202,6 +226,7 @@ class Rendered {
   CameraRays rays_;
   Integrator integrator_;
   Rendering rendering_;
+  MeanNoise noise_;
   std::vector<PixelSum> kept_;  ///< between passes, if there are several
 };
 

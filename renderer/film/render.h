@@ -45,6 +45,9 @@ struct Rendering {
   std::vector<std::uint32_t> met;  ///< by pixel: how many of the samples' rays met an object
   Image direct;    ///< of the light, what was scattered at most once; empty unless wanted
   Image variance;  ///< the squared standard error of the light, likewise
+  /// The mean of the pixels' standard errors, each over the pixel's brightness, of those that were
+  /// rendered here and have two samples or more; negative if none has.
+  double noise = -1;
   RayCounts counts;
   bool complete = false;  ///< false if the watch said stop
 };

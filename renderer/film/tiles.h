@@ -13,12 +13,14 @@
 
 namespace minkray {
 
-/// What a rendering is watched by; either may be missing.
+/// What a rendering is watched by; each may be missing.
 struct RenderWatch {
   /// It is told after each tile, one at a time: the fraction done and the rays so far.
   std::function<void(double fraction, std::uint64_t rays)> progress;
   /// It is asked often, by all threads: whether to end early. A single pixel may take minutes.
   std::function<bool()> stop;
+  /// It is told before each progress how noisy the picture is by now: Rendering::noise.
+  std::function<void(double noise)> noise = {};
 
   bool stopped() const { return stop && stop(); }
 };

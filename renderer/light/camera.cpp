@@ -83,6 +83,16 @@ Ray<double> Camera::other_ray(double x, double y) const {
   return {position_, unit<double>(std::cos(angle) * forward_ + std::sin(angle) * outwards)};
 }
 
+// By the rays through the neighbouring pixels on the right and below.
+RayCone Camera::cone(double x, double y) const {
+  const Ray<double> middle = ray(x, y), right = ray(x + 1, y), down = ray(x, y + 1);
+  const auto side = [](const Vec3<double>& to_right, const Vec3<double>& to_below) {
+    return std::sqrt(to_right.cross(to_below).norm());
+  };
+  return {side(right.origin - middle.origin, down.origin - middle.origin),
+          side(right.direction - middle.direction, down.direction - middle.direction)};
+}
+
 Ray<double> Camera::through_lens(const Ray<double>& ray, const std::array<double, 2>& u) const {
   const double radius = lens_radius_ * std::sqrt(u[0]), angle = 2 * std::numbers::pi * u[1];
   Eigen::Vector2d on_lens(std::cos(angle), std::sin(angle));

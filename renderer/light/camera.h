@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/math/ray.h"
+#include "renderer/light/ray_cone.h"
 #include "renderer/scene/scene.h"
 
 namespace minkray {
@@ -23,6 +24,9 @@ class Camera {
               unit<double>(forward_ + (x - centre_.x()) * right_ + (y - centre_.y()) * down_)};
     return other_ray(x, y);
   }
+
+  /// The cone of a pixel around that ray: as large as the pixel, seen from the middle of the lens.
+  RayCone cone(double x, double y) const;
 
   /// Whether rays through other places of the lens differ: it has a size.
   bool has_lens() const { return lens_radius_ > 0; }

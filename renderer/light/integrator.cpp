@@ -34,7 +34,7 @@ IntegratorKind settled(IntegratorKind kind, const Scene& scene) {
   const bool wants_paths =
       std::any_of(scene.materials.begin(), scene.materials.end(),
                   [](const Material& material) {
-                    return has_texture(material) || material.relief.any() ||
+                    return is_painted(material) ||
                            (!std::holds_alternative<LambertMaterial>(material.kind) &&
                             !std::holds_alternative<GlossyMaterial>(material.kind));
                   }) ||

@@ -48,6 +48,7 @@ void PathTransport::Wave::arrive(std::size_t i) {
     pass(path, material.bsdf->lets_through() && path.inside.enter(at.instance));
     return;
   }
+  path.cone = path.cone.at(at.t);
   std::uint32_t holder = no_instance;
   const Medium& before = medium(path.inside, &holder);
   if (holder != no_instance) path.throughput.array() *= left_after(before, at.t).array();
@@ -78,7 +79,8 @@ void PathTransport::Wave::arrive(std::size_t i) {
   const Vec3<Real> position = path.ray.at(at.t);
   TexturePoint place;
   if (of_.surfaces_.has_textures())
-    place = of_.surfaces_.place(of_.world_, at.instance, position, at.normal, path.time);
+    place = of_.surfaces_.place(of_.world_, at.instance, position, at.normal, path.time,
+                                path.ray.direction, path.cone);
   const auto in_world = [&](const Vec3<double>& direction) {
     return of_.world_.instances().turned(at.instance, direction, path.time);
   };

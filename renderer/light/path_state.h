@@ -17,6 +17,7 @@ struct PathTransport::Path {
   Real time = 0;
   std::uint32_t left = no_instance;
   Inside inside;
+  RayCone cone;  ///< of the ray
 
   Colour throughput = Colour::Ones();
   Colour radiance = Colour::Zero();

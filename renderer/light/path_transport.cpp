@@ -34,6 +34,7 @@ PathTransport::Wave::Wave(const PathTransport& of, std::span<TracedRay> rays, Ra
     path.sampler = rays[i].sampler;
     path.time = rays[i].time;
     path.left = rays[i].left;
+    path.cone = rays[i].cone;
     going_on_[i] = i;
   }
 }
@@ -88,6 +89,7 @@ void PathTransport::Wave::scatter(Path& path, const Point& point) {
   if (goes_through) {
     const double eta = point.shading.eta_below / point.shading.eta_above;
     path.gathered *= sample->w_in.z() > 0 ? 1 / (eta * eta) : eta * eta;
+    path.cone = path.cone.refracted(sample->w_in.z() > 0 ? 1 / eta : eta);
   }
   path.throughput = path.throughput.cwiseProduct(sample->weight);
   const Vec3<double> direction = unit(point.frame.to_world(sample->w_in));

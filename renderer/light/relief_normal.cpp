@@ -14,13 +14,16 @@ namespace {
 /// Heights are compared so far apart, as a part of the texture's scale: finer detail is not seen.
 constexpr double least_step = 2e-3;
 
-/// Pictures of heights and normals hold numbers, not light: what was read from sRGB codes becomes
-/// the codes again.
-Colour numbers_at(const Paint& paint, const TexturePoint& at) {
-  const Colour colour = paint_at(paint, at);
-  const auto* image = paint.texture() ? std::get_if<ImageTexture>(paint.texture()) : nullptr;
-  if (!image || image->picture.is_linear()) return colour;
-  return {to_srgb(colour.x()), to_srgb(colour.y()), to_srgb(colour.z())};
+PaintIfAny in_numbers(const PaintIfAny& paint) {
+  const auto* texture =
+      paint && paint->texture() ? std::get_if<ImageTexture>(paint->texture()) : nullptr;
+  if (!texture || !texture->picture.image || texture->picture.is_linear()) return paint;
+  Image codes = *texture->picture.image;
+  for (Vec3<float>& pixel : codes.pixels)
+    for (float& value : pixel) value = static_cast<float>(to_srgb(double{value}));
+  ImageTexture of_codes = *texture;
+  of_codes.picture.image = std::make_shared<const Image>(std::move(codes));
+  return Paint(TextureKind(std::move(of_codes)));
 }
 
 /// The length of the texture's finest detail around a place.
@@ -41,19 +44,27 @@ double step_of(const TextureKind& texture, const TexturePoint& at) {
 /// How the height rises along the surface.
 Vec3<double> slope(const Paint& bump, const TexturePoint& at) {
   if (!bump.texture()) return Vec3<double>::Zero();
-  const double step = step_of(*bump.texture(), at);
-  if (!(step > 0)) return Vec3<double>::Zero();
+  const double finest = step_of(*bump.texture(), at);
+  if (!(finest > 0)) return Vec3<double>::Zero();
   const Frame frame(at.normal);
   const auto height = [&](const Vec3<double>& offset) {
-    return numbers_at(bump, {at.position + offset, at.normal}).mean();
+    return paint_at(bump, {at.position + offset, at.normal, at.footprint}).mean();
   };
   Vec3<double> rise = Vec3<double>::Zero();
-  for (const Vec3<double>& along : {frame.x, frame.y})
+  for (const Vec3<double>& along : {frame.x, frame.y}) {
+    const double footprint =
+        std::abs(at.footprint[0].dot(along)) + std::abs(at.footprint[1].dot(along));
+    const double step = std::max(finest, footprint / 2);
     rise += (height(step * along) - height(-step * along)) / (2 * step) * along;
+  }
   return rise;
 }
 
 }  // namespace
+
+Relief in_numbers(const Relief& relief) {
+  return {in_numbers(relief.bump), relief.bump_height, in_numbers(relief.normal_map)};
+}
 
 Vec3<double> relief_normal(const Relief& relief, const TexturePoint& at) {
   Vec3<double> normal = at.normal;
@@ -61,7 +72,7 @@ Vec3<double> relief_normal(const Relief& relief, const TexturePoint& at) {
     if (const auto* image = std::get_if<ImageTexture>(relief.normal_map->texture())) {
       const Vec3<double> towards = picture_right(at, image->mapping);
       const Vec3<double> right = unit<double>(towards - normal.dot(towards) * normal);
-      const Colour code = numbers_at(*relief.normal_map, at);
+      const Colour code = paint_at(*relief.normal_map, at);
       const Vec3<double> local = 2 * code - Colour::Ones();
       const Vec3<double> up = normal.cross(right);
       const Vec3<double> bent = local.x() * right + local.y() * up + local.z() * normal;

@@ -9,7 +9,11 @@
 
 namespace minkray {
 
-/// Outward, of unit length, in the object's frame as the place is.
+/// With pictures of heights and normals that hold numbers, not light: what was read from sRGB codes
+/// is the codes again.
+Relief in_numbers(const Relief& relief);
+
+/// Outward, of unit length, in the object's frame as the place is. The relief must be in numbers.
 Vec3<double> relief_normal(const Relief& relief, const TexturePoint& at);
 
 }  // namespace minkray

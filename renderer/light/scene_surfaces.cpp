@@ -99,11 +99,11 @@ SceneSurfaces::SceneSurfaces(const Scene& scene) : of_instance_(material_of_inst
     made.radiance = radiance_of(scene, material);
     made.colour = paint_of(scene, material);
     made.inside = medium_of(scene, material);
-    made.relief = material.relief;
+    made.relief = in_numbers(material.relief);
     made.is_sheet = is_sheet(scene, material);
     has_sheets_ = has_sheets_ || made.is_sheet;
     materials_.push_back(std::move(made));
-    has_textures_ = has_textures_ || has_texture(material) || material.relief.any();
+    has_textures_ = has_textures_ || is_painted(material);
   }
   for (const Object& object : scene.objects) {
     axes_.push_back(unit<double>(object.pose.linear * Vec3<double>::UnitZ()));
@@ -113,32 +113,39 @@ SceneSurfaces::SceneSurfaces(const Scene& scene) : of_instance_(material_of_inst
 }
 
 TexturePoint SceneSurfaces::place(const RenderWorld& world, std::uint32_t instance,
-                                  const Vec3<Real>& point, const Vec3<Real>& normal,
-                                  Real time) const {
+                                  const Vec3<Real>& point, const Vec3<Real>& normal, Real time,
+                                  const Vec3<double>& direction, const RayCone& cone) const {
   const Instances<Real>& instances = world.instances();
   const auto [at_rest, n, unused] = instances.seen_by(instance, Ray<Real>{point, normal}, time);
-  if (instance >= to_object_.size()) return {at_rest - instances.at(instance).centre(), n};
+  SurfaceFootprint footprint = footprint_of(cone, direction, normal);
+  for (Vec3<double>& axis : footprint) axis = instances.unturned(instance, axis, time);
+  if (instance >= to_object_.size())
+    return {at_rest - instances.at(instance).centre(), n, footprint};
   const Affine<double>& to_object = to_object_[instance];
+  for (Vec3<double>& axis : footprint) axis = to_object.linear * axis;
   // Normals go by the transposed inverse of the map.
-  return {to_object(at_rest), unit<double>(inverse_of(to_object.linear).transpose() * n)};
+  return {to_object(at_rest), unit<double>(inverse_of(to_object.linear).transpose() * n),
+          footprint};
 }
 
-void SceneSurfaces::describe(const RenderWorld& world, const Ray<Real>& ray,
+void SceneSurfaces::describe(const RenderWorld& world, const Ray<Real>& ray, const RayCone& cone,
                              const WorldHit<Real>& hit, Colour& albedo, Colour& emission) const {
   if (hit.cast.status != Status::hit) return;
   const PreparedMaterial& material = of(hit.instance);
   emission = material.radiance;
   albedo = material.colour.colour();
   if (material.colour.texture())
-    albedo = paint_at(material.colour,
-                      place(world, hit.instance, ray.at(hit.cast.t()), hit.cast.normal, 0));
+    albedo =
+        paint_at(material.colour, place(world, hit.instance, ray.at(hit.cast.t()), hit.cast.normal,
+                                        0, ray.direction, cone.at(hit.cast.t())));
 }
 
 Vec3<double> SceneSurfaces::uv(const RenderWorld& world, const Ray<Real>& ray,
                                const WorldHit<Real>& hit) const {
   if (hit.cast.status != Status::hit) return Vec3<double>::Zero();
   return radial_place(
-      place(world, hit.instance, ray.at(hit.cast.t()), hit.cast.normal, 0).position);
+      place(world, hit.instance, ray.at(hit.cast.t()), hit.cast.normal, 0, ray.direction, {})
+          .position);
 }
 
 Vec3<double> SceneSurfaces::relief_normal_at(std::uint32_t instance, const TexturePoint& at) const {

@@ -40,12 +40,14 @@ class SceneSurfaces {
   const PreparedMaterial& of(std::uint32_t instance) const {
     return materials_[of_instance_[instance]];
   }
-  /// The place in the object's frame; for particles it is not turned.
+  /// The place in the object's frame; for particles it is not turned. The footprint is what a cone
+  /// around a ray of that direction lights of the plane that touches the surface.
   TexturePoint place(const RenderWorld& world, std::uint32_t instance, const Vec3<Real>& point,
-                     const Vec3<Real>& normal, Real time) const;
+                     const Vec3<Real>& normal, Real time, const Vec3<double>& direction,
+                     const RayCone& cone) const;
   /// The colour of what a ray has met, and what it shines; nothing is changed where it met nothing.
-  void describe(const RenderWorld& world, const Ray<Real>& ray, const WorldHit<Real>& hit,
-                Colour& albedo, Colour& emission) const;
+  void describe(const RenderWorld& world, const Ray<Real>& ray, const RayCone& cone,
+                const WorldHit<Real>& hit, Colour& albedo, Colour& emission) const;
   /// Longitude and latitude around the origin of the object that a ray has met, as the mapping
   /// radial has them; zero where it met nothing.
   Vec3<double> uv(const RenderWorld& world, const Ray<Real>& ray, const WorldHit<Real>& hit) const;
@@ -53,6 +55,7 @@ class SceneSurfaces {
   /// given.
   Vec3<double> relief_normal_at(std::uint32_t instance, const TexturePoint& at) const;
   bool has_sheets() const { return has_sheets_; }
+  /// Whether any colour or relief changes from place to place.
   bool has_textures() const { return has_textures_; }
   /// The direction of the object's z axis, around which brushed metal has its grain.
   Vec3<double> axis(std::uint32_t instance) const {

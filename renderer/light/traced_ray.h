@@ -2,6 +2,7 @@
 // What integrators are asked: a ray, and where its light goes.
 #pragma once
 
+#include "renderer/light/ray_cone.h"
 #include "renderer/light/ray_counts.h"
 #include "renderer/light/sampler.h"
 #include "renderer/scene/materials.h"
@@ -17,6 +18,7 @@ struct TracedRay {
   bool met = false;                  ///< whether it met an object
   Real time = 0;                     ///< while the shutter is open: from 0 to 1
   std::uint32_t left = no_instance;  ///< the instance that it leaves
+  RayCone cone = {};                 ///< what textures are the means over
 };
 
 /// No more rays can be traced together.

@@ -253,4 +253,9 @@ inline bool has_texture(const Material& material) {
       material.kind);
 }
 
+/// Whether its colour or its relief does.
+inline bool is_painted(const Material& material) {
+  return has_texture(material) || material.relief.any();
+}
+
 }  // namespace minkray

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/scene/textures.h"
 
+#include "renderer/image/pyramid.h"
+
 namespace minkray {
 namespace {
 
@@ -20,10 +22,17 @@ Colour mean_of(const TextureKind& texture) {
       texture);
 }
 
+std::vector<Image> smaller_pictures(const TextureKind& texture) {
+  const auto* image = std::get_if<ImageTexture>(&texture);
+  return image && image->picture.image ? smaller_images(*image->picture.image)
+                                       : std::vector<Image>();
+}
+
 }  // namespace
 
-Paint::Paint(TextureKind texture)
-    : colour_(mean_of(texture)),
-      texture_(std::make_shared<const TextureKind>(std::move(texture))) {}
+Paint::Paint(TextureKind texture) : colour_(mean_of(texture)) {
+  std::vector<Image> smaller = smaller_pictures(texture);
+  texture_ = std::make_shared<const Texture>(Texture{std::move(texture), std::move(smaller)});
+}
 
 }  // namespace minkray

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <variant>
+#include <vector>
 
 #include "core/math/vec.h"
 #include "core/shape/field.h"
@@ -134,11 +135,17 @@ class Paint {
   /// About the mean of a texture's colours.
   const Colour& colour() const { return colour_; }
   /// Null if it is the same everywhere.
-  const TextureKind* texture() const { return texture_.get(); }
+  const TextureKind* texture() const { return texture_ ? &texture_->kind : nullptr; }
+  /// The picture of a texture that has one, at smaller sizes (smaller_images).
+  const std::vector<Image>& smaller() const { return texture_->smaller; }
 
  private:
+  struct Texture {
+    TextureKind kind;
+    std::vector<Image> smaller;
+  };
   Colour colour_;
-  std::shared_ptr<const TextureKind> texture_;
+  std::shared_ptr<const Texture> texture_;
 };
 
 /// A colour, or none.

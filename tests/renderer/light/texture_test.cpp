@@ -5,6 +5,7 @@
 
 #include "renderer/film/render.h"
 #include "renderer/light/integrator.h"
+#include "renderer/light/noise.h"
 
 namespace minkray {
 namespace {

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// A picture at all sizes, after Williams, "Pyramidal Parametrics" (1983): each half as wide and
+// half as high as the one before, so that a large part of it is looked up as fast as a small one.
+#pragma once
+
+#include <vector>
+
+#include "renderer/image/image.h"
+
+namespace minkray {
+
+/// The smaller ones, down to a single pixel, which is the mean. Sides are halved and rounded up; a
+/// pixel is the mean of what it covers, parts of pixels included. What is brighter than white
+/// counts as white.
+std::vector<Image> smaller_images(const Image& image);
+
+}  // namespace minkray

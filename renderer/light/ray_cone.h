@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// How much of a surface a ray stands for: a narrow cone around it (Amanatides, "Ray Tracing with
+// Cones", 1984), the round kind of ray differentials (Igehy, "Tracing Ray Differentials", 1999).
+#pragma once
+
+#include <array>
+
+#include "core/math/vec.h"
+
+namespace minkray {
+
+/// If it has no width it is a ray: what it meets is looked up at a point.
+struct RayCone {
+  double width = 0;   ///< the diameter where the ray begins
+  double spread = 0;  ///< by how much that grows, over the distance
+
+  /// Further along the ray.
+  RayCone at(double distance) const { return {width + spread * distance, spread}; }
+  /// Behind a flat surface: eta is the index of refraction where it goes on, over where it was.
+  RayCone refracted(double eta) const { return {width, spread / eta}; }
+  /// One of many that share its place.
+  RayCone part(double size) const { return {size * width, size * spread}; }
+};
+
+/// What a cone lights of a surface: an ellipse's two axes, from one side to the other, along the
+/// surface.
+using SurfaceFootprint = std::array<Vec3<double>, 2>;
+
+/// What it lights of a plane, by its unit normal; `width` is that of the cone where it meets the
+/// plane. What grazes is as long as it can be.
+SurfaceFootprint footprint_of(const RayCone& cone, const Vec3<double>& direction,
+                              const Vec3<double>& normal);
+
+}  // namespace minkray

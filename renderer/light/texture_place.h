@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// Where textures are looked up: places of surfaces become places in repeats of a texture, in space
+// or in the plane of a mapping, and so do their footprints.
+#pragma once
+
+#include <array>
+
+#include "renderer/light/ray_cone.h"
+#include "renderer/scene/textures.h"
+
+namespace minkray {
+
+/// A place on a surface, in the object's frame.
+struct TexturePoint {
+  Vec3<double> position = Vec3<double>::Zero();
+  Vec3<double> normal = Vec3<double>::UnitZ();  ///< outward, of unit length
+  /// What the colour is to be the mean of; zero: the point itself.
+  SurfaceFootprint footprint = {Vec3<double>::Zero(), Vec3<double>::Zero()};
+};
+
+/// A place in repeats, and a parallelogram around it by its sides.
+struct TexturePlace {
+  Vec3<double> middle;
+  std::array<Vec3<double>, 2> sides;
+
+  /// In other units.
+  TexturePlace times(const Vec3<double>& size) const {
+    return {middle.cwiseProduct(size), {sides[0].cwiseProduct(size), sides[1].cwiseProduct(size)}};
+  }
+};
+
+/// Without a mapping, in space.
+TexturePlace texture_place(const TexturePoint& at, const Mapping& mapping, double scale);
+
+/// Longitude around z as a part of a turn, 0 and 1 being at -x and 0.5 at +x, and latitude from the
+/// top down as a part of half a turn; the third number is 0.
+Vec3<double> radial_place(const Vec3<double>& direction);
+
+/// Which way pictures of a mapping have right, seen from outside; not along the surface.
+Vec3<double> picture_right(const TexturePoint& at, const Mapping& mapping);
+
+}  // namespace minkray
