@@ -5,6 +5,7 @@
 
 #include "core/contact/closed_pairs.h"
 #include "core/contact/core_distance.h"
+#include "core/contact/depth_direction.h"
 #include "core/contact/direction_bounds.h"
 #include "core/contact/expanding_polytope.h"
 #include "core/contact/signed_distance.h"
@@ -21,15 +22,34 @@ bool expand(const CorePair& pair, double gap, const Enclosure& enclosure, CoreDi
   return has_met;
 }
 
+/// Four points around the origin, if the cores overlap so little that GJK did not find any.
+bool enclose(const CorePair& pair, double gap, CoreDistance& found, Enclosure& enclosure) {
+  if (!DepthDirection::helps(pair) || found.axis.isZero(0)) return false;
+  DepthDirection depth(pair);
+  const auto is_sure = [&](const Enclosure& four) {
+    using enum CoreKind;
+    return ExpandingPolytope<other, other>(pair, 0, found).begins(four.c, four.a);
+  };
+  const bool is_found = depth.enclose(found.axis, gap * pair.size(), enclosure, is_sure);
+  found.supports += depth.supports();
+  if (!depth.direction().isZero(0)) found.raise_lower(depth.gap(), depth.direction());
+  return is_found;
+}
+
 bool depth_by_polytope(const CorePair& pair, double gap, Enclosure enclosure, CoreDistance& found) {
+  constexpr double shallow = 1e-4;
+  const bool is_shallow = found.lower > -shallow * pair.size();
+  // What GJK has found then is as flat as rounding lets it be.
+  Enclosure finer;
+  if (is_shallow && enclose(pair, gap, found, finer)) enclosure = finer;
   if (!enclosure.is_found) {
     CoreSearch plain;
     plain.may_slide = false;
     const int supports = found.supports;
     const CoreDistance again = distance_of_cores(pair, plain, &enclosure);
     found.supports = supports + again.supports;
-    if (!enclosure.is_found) return false;
   }
+  if (!enclosure.is_found && (is_shallow || !enclose(pair, gap, found, enclosure))) return false;
   using enum CoreKind;
   if (pair.a.kind == hull && pair.b.kind == hull)
     return expand<hull, hull>(pair, gap, enclosure, found);
@@ -37,21 +57,28 @@ bool depth_by_polytope(const CorePair& pair, double gap, Enclosure enclosure, Co
 }
 
 /// Where the cores nearly touch, what is between their nearest points is short of digits for a
-/// direction. B stands off along the axis: the plane that is found there is one here, too.
+/// direction. B stands off along the axis: the plane that is found there is one here, too, and its
+/// axis a better one to stand off along; the points are some here, too.
 void improve_plane(const CorePair& pair, CoreDistance& found) {
-  constexpr double stand_offs[] = {1e-3, 1e-5};
+  constexpr double stand_offs[] = {1e-3, 1e-3, 1e-5};
   for (const double stand_off : stand_offs) {
     if (found.axis.isZero(0)) return;
     CorePair moved = pair;
-    moved.x += stand_off * pair.size() * found.axis;
+    const Vec3<double> away = stand_off * pair.size() * found.axis;
+    moved.x += away;
     const CoreDistance there = distance_of_cores(moved, CoreSearch{});
     found.supports += there.supports + 1;
     if (there.axis.isZero(0)) return;
     found.raise_lower(there.axis.dot(nearest_along(pair, there.axis).c), there.axis);
+    const Vec3<double> between = there.c - away;
+    if (there.status == CoreStatus::separated && between.norm() < found.upper) {
+      found.upper = between.norm();
+      found.a = there.a;
+      found.c = between;
+    }
     if (found.upper - found.lower <= settled_core_gap * pair.size()) break;
   }
-  if (found.lower > 0 && found.status == CoreStatus::unsettled)
-    found.status = CoreStatus::separated;
+  if (found.lower > 0) found.status = CoreStatus::separated;
 }
 
 /// The points of first contact when B is moved out along the axis: the nearest points of the two
@@ -68,13 +95,27 @@ void find_contact(const CorePair& pair, CoreDistance& found) {
 }
 
 /// The depth of cores that were found to overlap, or whose distance rounding hides.
-CoreDistance depth_of_cores(const CorePair& pair, const Enclosure& enclosure, CoreDistance found,
+CoreDistance depth_of_cores(const CorePair& pair, Enclosure enclosure, CoreDistance found,
                             double gap, bool only_sign) {
+  // Of an overlap so slight points that are as near to each other tell enough.
+  const double slight = gap * (pair.size() + pair.x.norm());
+  if (found.status == CoreStatus::overlapping && found.lower >= -slight) {
+    if (!(found.c.norm() <= slight / 2)) improve_plane(pair, found);
+    if (found.lower <= 0 && found.c.norm() <= slight / 2) return found;
+  }
   // A common point that was found is of neither's surface.
   const Vec3<double> a = found.a, c = found.c;
   const double upper = found.status == CoreStatus::overlapping
                            ? std::numeric_limits<double>::infinity()
                            : found.upper;
+  if (found.status != CoreStatus::overlapping && found.lower < 0 &&
+      enclose(pair, gap, found, enclosure)) {
+    found.status = CoreStatus::overlapping;
+    if (only_sign) {
+      found.c.setZero();
+      return found;
+    }
+  }
   if (found.status == CoreStatus::overlapping && !only_sign &&
       depth_by_polytope(pair, gap, enclosure, found))
     return found;

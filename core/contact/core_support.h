@@ -124,6 +124,14 @@ struct Symmetric {
     xz += k * t.x() * t.z();
     yz += k * t.y() * t.z();
   }
+  void add_all(double k, const Symmetric& other) {
+    xx += k * other.xx;
+    yy += k * other.yy;
+    zz += k * other.zz;
+    xy += k * other.xy;
+    xz += k * other.xz;
+    yz += k * other.yz;
+  }
   Vec3<double> operator*(const Vec3<double>& a) const {
     return {xx * a.x() + xy * a.y() + xz * a.z(), xy * a.x() + yy * a.y() + yz * a.z(),
             xz * a.x() + yz * a.y() + zz * a.z()};

@@ -41,7 +41,8 @@ class CurvedGjk {
       if constexpr (any_slides) {
         if (may_slide_ && count_ > 0 && turn > plain_turns) {
           may_slide_ = false;
-          if (try_flat_ends(query_, d) || slide(d, first_damping)) return query_.result;
+          if (try_flat_ends(query_, d) || slide(d, SlidingFeatures<A, B>::first_damping))
+            return query_.result;
         }
       }
       for (int i = 0; i < count_; ++i)
@@ -81,7 +82,7 @@ class CurvedGjk {
   /// Turns of GJK before features slide: with a separating plane, and without one.
   static constexpr int turns_apart = 2, turns_near = 6;
   /// Of the first step of features that slide, in sizes; less where they were the right ones.
-  static constexpr double first_damping = 0.1, resumed_damping = 1e-3;
+  static constexpr double resumed_damping = 1e-3;
   static constexpr bool any_slides =
       (A == CoreKind::other || slides(A) || slides(B)) || B == CoreKind::other;
 

@@ -56,6 +56,9 @@ class ExpandingPolytope {
     return false;
   }
 
+  /// Whether the origin is within four points of C for sure: then a polytope may begin with them.
+  bool begins(const Vec3<double>* c, const Vec3<double>* a) { return start(c, a); }
+
   const CoreDistance& found() const { return found_; }
 
  private:
@@ -63,8 +66,8 @@ class ExpandingPolytope {
                        most_heaped = 4 * most_faces, most_supports = 1000;
   /// In sizes: what is as near to a plane is in it.
   static constexpr double in_plane = 1e-14;
-  /// What a volume between four points of C is rounded by, in cubes of the size: differences, a
-  /// cross product and a dot product of numbers no larger than that.
+  /// What a volume between four points of C is rounded by, in products of the lengths of two sides
+  /// and the size: differences, a cross product and a dot product of numbers no larger than that.
   static constexpr double rounded_volume = 32 * std::numeric_limits<double>::epsilon();
 
   struct Face {
@@ -100,8 +103,8 @@ class ExpandingPolytope {
       // Here the origin must be on the inner side for sure: all else follows from that. Of slivers
       // n itself is rounding.
       const Vec3<double>& from = y_[corner[0]];
-      const Vec3<double> n = (y_[corner[1]] - from).cross(y_[corner[2]] - from);
-      const double n_rounding = rounded_volume * size_ * size_;
+      const Vec3<double> e1 = y_[corner[1]] - from, e2 = y_[corner[2]] - from, n = e1.cross(e2);
+      const double n_rounding = rounded_volume * e1.norm() * e2.norm();
       if (!(n.dot(from) > (in_plane * n.norm() + n_rounding) * size_)) return false;
       if (add_face(corner[0], corner[1], corner[2]) < 0) return false;
     }

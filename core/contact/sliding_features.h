@@ -32,6 +32,30 @@ class SlidingFeatures {
   /// rims need it. Returns whether it came to an answer.
   bool run(const Vec3<double>& d, double damping);
 
+  /// The direction around d in which the gap of cores that overlap is the largest, to about 1e-7:
+  /// one of those in which their depth may be seen. Nothing is proven but the gaps on the way.
+  /// Returns whether it was found.
+  bool settle(const Vec3<double>& d) {
+    is_direction_asked_ = true;
+    run(d, first_damping);
+    return is_settled_;
+  }
+  const Vec3<double>& direction() const { return direction_; }
+
+  /// Calls f(point) with points of C around the one that settle() has found: those of each feature
+  /// in three directions turned by so much.
+  template <class F>
+  void around(double turn, const F& f) const {
+    const Vec3<double> e0 = direction_.unitOrthogonal(), e1 = direction_.cross(e0);
+    constexpr double cosine[3] = {1, -0.5, -0.5},
+                     sine[3] = {0, 0.8660254037844386, -0.8660254037844386};
+    for (int i = 0; i < count_; ++i)
+      for (int k = 0; k < 3; ++k)
+        f(on_features(i, direction_ + (turn * cosine[k]) * e0 + (turn * sine[k]) * e1));
+  }
+
+  static constexpr double first_damping = 0.1;
+
   /// The features that carry the closest point.
   void remember(PairMemory& memory) const {
     memory.count = count_;
@@ -40,7 +64,7 @@ class SlidingFeatures {
   }
 
  private:
-  static constexpr int most_turns = 12;
+  static constexpr int most_turns = 12, most_turns_settling = 24;
 
   /// H = I + scale S = L L^T.
   struct Metric {
@@ -76,7 +100,7 @@ class SlidingFeatures {
   /// Keeps the features that carry the closest point.
   void keep(const SimplexPoint& closest) {
     int kept = 0;
-    for (int i = 0; i < count_; ++i) {
+    for (int i = 0; i < std::min(count_, 4); ++i) {
       if ((closest.kept >> i & 1u) == 0) continue;
       feature_a_[kept] = feature_a_[i];
       feature_b_[kept] = feature_b_[i];
@@ -85,9 +109,34 @@ class SlidingFeatures {
     count_ = kept;
   }
 
+  DifferencePoint on_features(int i, const Vec3<double>& d) const {
+    const Vec3<double> a = point_of_feature<A>(query_.pair.a, feature_a_[i], d),
+                       b = point_of_feature<B>(query_.pair.b, feature_b_[i], query_.pair.to_b(-d));
+    return {query_.pair.x + query_.pair.turn * b - a, a, feature_a_[i], feature_b_[i]};
+  }
+
   bool is_inside(const Vec3<double>& n, double depth, const Vec3<double>* z, Vec3<double>& common);
 
+  /// Newton's method on the gap, of one feature that slides: S - depth is what it bends by. False
+  /// where that is no peak.
+  static bool climb(const Symmetric& S, double depth, const Vec3<double>& n, const Vec3<double>& v,
+                    Vec3<double>& next) {
+    const Vec3<double> e0 = n.unitOrthogonal(), e1 = n.cross(e0), s0 = S * e0, s1 = S * e1;
+    const double b00 = e0.dot(s0) - depth, b01 = e0.dot(s1), b11 = e1.dot(s1) - depth,
+                 determinant = b00 * b11 - b01 * b01, trace = b00 + b11;
+    constexpr double flattest = 1e-3;
+    if (!(trace > 0 && determinant > flattest * trace * trace)) return false;
+    const double q0 = e0.dot(v), q1 = e1.dot(v);
+    const double m0 = (b11 * q0 - b01 * q1) / determinant, m1 = (b00 * q1 - b01 * q0) / determinant;
+    constexpr double furthest = 0.5;  // radians: beyond it the bend is another one
+    if (!(m0 * m0 + m1 * m1 < furthest * furthest)) return false;
+    next = (n + m0 * e0 + m1 * e1).normalized();
+    return true;
+  }
+
   CoreQuery<A, B>& query_;
+  bool is_direction_asked_ = false, is_settled_ = false;
+  Vec3<double> direction_ = Vec3<double>::Zero();
   int count_ = 0;
   int feature_a_[4], feature_b_[4];
   double weight_[4];
@@ -107,12 +156,7 @@ bool SlidingFeatures<A, B>::is_inside(const Vec3<double>& n, double depth, const
     for (int i = 0; i < 4; ++i) common += closest.weight[i] * corners[i];
     return closest.is_inside();
   };
-  const auto on_feature = [&](int i, const Vec3<double>& d) -> Vec3<double> {
-    return query_.pair.x +
-           query_.pair.turn *
-               point_of_feature<B>(query_.pair.b, feature_b_[i], query_.pair.to_b(-d)) -
-           point_of_feature<A>(query_.pair.a, feature_a_[i], d);
-  };
+  const auto on_feature = [&](int i, const Vec3<double>& d) { return on_features(i, d).c; };
   const double turned = std::sqrt(depth / query_.size) + 1e-9;
   for (const double angle : {0.5 * turned, 5 * turned}) {
     const double c = -0.5 * angle, s = 0.8660254037844386 * angle;
@@ -142,7 +186,8 @@ bool SlidingFeatures<A, B>::is_inside(const Vec3<double>& n, double depth, const
 template <CoreKind A, CoreKind B>
 bool SlidingFeatures<A, B>::run(const Vec3<double>& d, double damping) {
   Vec3<double> nd = d;
-  for (int step = 0; step < most_turns; ++step, damping = step < 7 ? damping * 0.1 : 0) {
+  const int most = is_direction_asked_ ? most_turns_settling : most_turns;
+  for (int step = 0; step < most; ++step, damping = step < 7 ? damping * 0.1 : 0) {
     const DifferencePoint w = query_.nearest(nd);
     const double length = nd.norm(), gap = nd.dot(w.c) / length;
     const Vec3<double> n = nd / length;
@@ -175,10 +220,18 @@ bool SlidingFeatures<A, B>::run(const Vec3<double>& d, double damping) {
       constexpr double stationary = 1e-7;
       const Vec3<double> aside = v - v.dot(n) * n;
       if (aside.squaredNorm() < stationary * stationary * query_.size * query_.size) {
+        direction_ = n;
+        is_settled_ = true;
+        if (is_direction_asked_) return false;
         Vec3<double> common;
         if (!is_inside(n, -gap, z, common)) return false;
         return query_.end_at(CoreStatus::overlapping, on_a, common);
       }
+    }
+    if (is_direction_asked_ && gap <= 0 && is_known && count_ == 1) {
+      Symmetric of_unit;
+      of_unit.add_all(length, S);
+      if (climb(of_unit, -gap, n, v, nd)) continue;
     }
     const double scale = length / (gap > least ? gap : least);
     if (!is_known) {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "core/contact/swept_boxes.h"
 
+#include <algorithm>
+
 namespace minkray {
 namespace {
 
-/// A face of A (j < 0), one of B (i < 0), or an edge of each.
+/// Which pair of planes: a face of A (j < 0), one of B (i < 0), or an edge of each.
 struct Slab {
-  int i = -1, j = -1;
-  double t = 0;
-  double side = 1;  ///< which of the two planes
+  int i, j;
 };
 
 class BoxSweep {
@@ -18,11 +18,6 @@ class BoxSweep {
     speed_ = velocity.norm();
     constexpr double epsilons = 16 * std::numeric_limits<double>::epsilon();
     rounding_ = epsilons * (pair.size() + pair.x.norm());
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    in_.t = -infinity;
-    out_.t = infinity;
-    surely_in_ = -infinity;
-    surely_out_ = infinity;
   }
 
   SweptTime run() {
@@ -55,42 +50,57 @@ class BoxSweep {
   }
 
  private:
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+
   /// The ray is at s + t v of the slab between -reach and reach; numbers are relative to the length
-  /// of the slab's normal, or a little more. Returns whether to go on.
+  /// of the slab's normal, or a little more. Returns whether to go on. Which slab is the last to be
+  /// entered nobody can foresee: it is looked for once, in the end.
   bool pass(double s, double v, double reach, double length, int i, int j) {
-    const double allowed = rounding_ * length;
-    if (v == 0) {
+    const double allowed = rounding_ * length, sign = std::copysign(1.0, v), speed = sign * v;
+    slabs_[count_] = {i, j};
+    sides_[count_] = -sign;
+    if (speed == 0) {
       // Beside it for ever, between its planes for ever, or too near to tell.
       if (std::abs(s) < reach - allowed) return true;
       if (std::abs(s) - reach > near_ * length + allowed) {
-        in_ = {i, j, 0, s < 0 ? -1.0 : 1.0};
-        result_.axis = normal_of(in_);
+        sides_[count_] = s < 0 ? -1 : 1;
+        result_.axis = normal_of(count_, 1);
         result_.status = SweptStatus::miss;
       }
       return false;
     }
-    const double speed = std::abs(v), side = v < 0 ? 1 : -1, per_speed = 1 / speed;
     // The gap to the plane that the ray comes from, which shrinks by speed * t.
-    const double gap = side * s - reach;
-    const double in = (gap - allowed) * per_speed, surely = (gap + allowed) * per_speed,
-                 out = (gap + 2 * reach) * per_speed,
-                 surely_out = (gap + 2 * reach - allowed) * per_speed;
-    if (in > in_.t) in_ = {i, j, in, side};
-    if (surely > surely_in_) surely_in_ = surely;
-    if (out < out_.t) out_ = {i, j, out, -side};
-    if (surely_out < surely_out_) surely_out_ = surely_out;
+    const double gap = -sign * s - reach, per_speed = 1 / speed;
+    in_[count_] = (gap - allowed) * per_speed;
+    out_[count_] = (gap + 2 * reach) * per_speed;
+    last_in_ = std::max(last_in_, in_[count_]);
+    first_out_ = std::min(first_out_, out_[count_]);
+    surely_in_ = std::max(surely_in_, (gap + allowed) * per_speed);
+    surely_out_ = std::min(surely_out_, (gap + 2 * reach - allowed) * per_speed);
+    ++count_;
     return true;
   }
 
-  bool is_passed() const { return in_.t > out_.t || in_.t > t_max_ || out_.t < 0; }
+  bool is_passed() const { return last_in_ > first_out_ || last_in_ > t_max_ || first_out_ < 0; }
+  int entered() const {
+    int n = 0;
+    while (n < count_ - 1 && in_[n] != last_in_) ++n;
+    return n;
+  }
+  int left() const {
+    int n = 0;
+    while (n < count_ - 1 && out_[n] != first_out_) ++n;
+    return n;
+  }
 
   /// From A to B, of unit length.
-  Vec3<double> normal_of(const Slab& slab) const {
-    Vec3<double> n = slab.j < 0 ? Vec3<double>(Vec3<double>::Unit(slab.i))
-                     : slab.i < 0
-                         ? Vec3<double>(pair_.turn.col(slab.j))
-                         : Vec3<double>(Vec3<double>::Unit(slab.i).cross(pair_.turn.col(slab.j)));
-    return n * (slab.side / n.norm());
+  Vec3<double> normal_of(int n, double side) const {
+    const auto [i, j] = slabs_[n];
+    const Vec3<double> normal =
+        j < 0 ? Vec3<double>(Vec3<double>::Unit(i))
+              : (i < 0 ? Vec3<double>(pair_.turn.col(j))
+                       : Vec3<double>(Vec3<double>::Unit(i).cross(pair_.turn.col(j))));
+    return normal * (side * sides_[n] / normal.norm());
   }
   double gap_along(const Vec3<double>& n) const {
     return n.dot(nearest_along<CoreKind::box, CoreKind::box>(pair_, n).c) - rounding_;
@@ -99,12 +109,13 @@ class BoxSweep {
   /// One plane lies between them at all times: that which is not yet passed, that which is left, or
   /// one between the two, along which nothing moves.
   SweptTime miss() {
-    const Vec3<double> n_in = normal_of(in_), n_out = normal_of(out_);
+    if (count_ == 0) return result_;
+    const Vec3<double> n_in = normal_of(entered(), 1), n_out = normal_of(left(), -1);
     double gap = 0;
-    if (in_.t > t_max_) {
+    if (last_in_ > t_max_) {
       result_.axis = n_in;
       gap = gap_along(n_in) + t_max_ * n_in.dot(velocity_);
-    } else if (out_.t < 0) {
+    } else if (first_out_ < 0) {
       result_.axis = n_out;
       gap = gap_along(n_out);
     } else {
@@ -116,10 +127,11 @@ class BoxSweep {
   }
 
   SweptTime hit() {
-    result_.t_lo = in_.t;
+    if (count_ == 0) return result_;
+    result_.t_lo = last_in_;
     result_.t_hi = surely_in_;
-    result_.axis = normal_of(in_);
-    const bool has_met = surely_in_ <= surely_out_ && (surely_in_ - in_.t) * speed_ <= near_;
+    result_.axis = normal_of(entered(), 1);
+    const bool has_met = surely_in_ <= surely_out_ && (surely_in_ - last_in_) * speed_ <= near_;
     if (has_met && find_point()) result_.status = SweptStatus::hit;
     return result_;
   }
@@ -134,12 +146,13 @@ class BoxSweep {
     };
     const Vec3<double> of_a = corner(pair_.a.size, n),
                        of_b = x + pair_.turn * corner(pair_.b.size, pair_.to_b(-n));
-    if (in_.j < 0) {
+    const auto [i, j] = slabs_[entered()];
+    if (j < 0) {
       result_.a = of_b;
-    } else if (in_.i < 0) {
+    } else if (i < 0) {
       result_.a = of_a;
     } else {
-      const Vec3<double> e = Vec3<double>::Unit(in_.i), f = pair_.turn.col(in_.j);
+      const Vec3<double> e = Vec3<double>::Unit(i), f = pair_.turn.col(j);
       const Vec3<double> between = of_b - of_a;
       const double cosine = e.dot(f), squared = 1 - cosine * cosine;
       result_.a = of_a + ((between.dot(e) - between.dot(f) * cosine) / squared) * e;
@@ -153,8 +166,12 @@ class BoxSweep {
 
   const CorePair& pair_;
   const Vec3<double>& velocity_;
-  double t_max_, near_, speed_, rounding_, surely_in_, surely_out_;
-  Slab in_, out_;
+  double t_max_, near_, speed_, rounding_;
+  int count_ = 0;
+  Slab slabs_[15];
+  double sides_[15], in_[15], out_[15];
+  double last_in_ = -infinity, surely_in_ = -infinity, first_out_ = infinity,
+         surely_out_ = infinity;
   SweptTime result_;
 };
 

@@ -33,6 +33,7 @@ ClaimResult sphere_iterations(const ClaimOptions& options);
 ClaimResult polytope_iterations(const ClaimOptions& options);
 ClaimResult short_rays(const ClaimOptions& options);
 ClaimResult cached_axis(const ClaimOptions& options);
+ClaimResult caching_in_own_queries(const ClaimOptions& options);
 ClaimResult against_separating_axis(const ClaimOptions& options);
 ClaimResult float_terminates(const ClaimOptions& options);
 ClaimResult first_solution_cost(const ClaimOptions& options);
@@ -72,6 +73,9 @@ inline constexpr std::array claims = {
     PaperClaim{"i", "distance in 2D",
                "the iterates decrease in length, and faceted objects need a finite number of steps",
                distance_decreases},
+    PaperClaim{"j", "caching in our own queries",
+               "what d says, of distances and times of impact that have overtaken the paper's",
+               caching_in_own_queries},
 };
 
 }  // namespace minkray

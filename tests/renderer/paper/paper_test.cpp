@@ -64,6 +64,12 @@ TEST(Paper, caching_the_separating_axis_saves_iterations) {
   EXPECT_EQ(result.verdict.rfind("confirmed", 0), 0u) << result.verdict;
 }
 
+TEST(Paper, caching_features_saves_supports_in_our_own_queries_and_changes_no_contact) {
+  const ClaimResult result = caching_in_own_queries({});
+  EXPECT_EQ(result.verdict.rfind("confirmed", 0), 0u) << result.verdict;
+  EXPECT_EQ(result.ours.size(), 2u) << "contacts differ";
+}
+
 TEST(Paper, in_single_precision_no_cast_loops) {
   ClaimOptions options;
   options.rays = 300;
