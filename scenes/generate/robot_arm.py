@@ -73,27 +73,28 @@ for i, (x, y) in enumerate([(-0.2, -0.2), (0, -0.2), (0.2, -0.2), (-0.2, 0), (0.
 objects.append({"name": "floor", "shape": {"type": "box", "half_extents": [12, 12, 0.1]},
                 "material": "floor", "transform": {"translate": [0, 0, -0.1]}})
 
-write("robot-arm.json", {
-    "$schema": "scene.schema.json",
-    "version": 1,
-    "description": "A Universal Robots UR10 arm, each link the convex hull of its mesh, at work.",
-    "camera": {"position": [1.75, -2.15, 1.35], "look_at": [0.42, -0.1, 0.6], "up": [0, 0, 1],
-               "fov_y_degrees": 34, "resolution": [960, 720]},
-    "lights": [
-        {"type": "directional", "direction": [-0.5, 0.6, -1.1], "color": [1, 0.95, 0.88],
-         "intensity": 2.4},
-        {"type": "environment", "zenith": [0.55, 0.65, 0.8], "nadir": [0.25, 0.23, 0.2]},
-    ],
-    "materials": [
-        {"name": "silver", "type": "glossy", "color": [0.62, 0.63, 0.65], "roughness": 0.25,
-         "index_of_refraction": 1.8},
-        {"name": "blue", "type": "glossy", "color": [0.12, 0.32, 0.52], "roughness": 0.2},
-        {"name": "dark", "type": "glossy", "color": [0.06, 0.06, 0.07], "roughness": 0.3},
-        {"name": "orange", "type": "glossy", "color": [0.85, 0.28, 0.04], "roughness": 0.08},
-        {"name": "white", "type": "glossy", "color": [0.8, 0.8, 0.78], "roughness": 0.08},
-        {"name": "wood", "type": "lambert", "color": [0.5, 0.36, 0.22]},
-        {"name": "floor", "type": "glossy", "color": [0.3, 0.31, 0.33], "roughness": 0.15},
-    ],
-    "objects": objects,
-    "background": {"zenith": [0.45, 0.55, 0.7], "nadir": [0.85, 0.87, 0.9]},
-})
+if __name__ == "__main__":
+    write("robot-arm.json", {
+        "$schema": "scene.schema.json",
+        "version": 1,
+        "description": "A Universal Robots UR10 arm, each link the convex hull of its mesh, at work.",
+        "camera": {"position": [1.75, -2.15, 1.35], "look_at": [0.42, -0.1, 0.6], "up": [0, 0, 1],
+                   "fov_y_degrees": 34, "resolution": [960, 720]},
+        "lights": [
+            {"type": "directional", "direction": [-0.5, 0.6, -1.1], "color": [1, 0.95, 0.88],
+             "intensity": 2.4},
+            {"type": "environment", "zenith": [0.55, 0.65, 0.8], "nadir": [0.25, 0.23, 0.2]},
+        ],
+        "materials": [
+            {"name": "silver", "type": "glossy", "color": [0.62, 0.63, 0.65], "roughness": 0.25,
+             "index_of_refraction": 1.8},
+            {"name": "blue", "type": "glossy", "color": [0.12, 0.32, 0.52], "roughness": 0.2},
+            {"name": "dark", "type": "glossy", "color": [0.06, 0.06, 0.07], "roughness": 0.3},
+            {"name": "orange", "type": "glossy", "color": [0.85, 0.28, 0.04], "roughness": 0.08},
+            {"name": "white", "type": "glossy", "color": [0.8, 0.8, 0.78], "roughness": 0.08},
+            {"name": "wood", "type": "lambert", "color": [0.5, 0.36, 0.22]},
+            {"name": "floor", "type": "glossy", "color": [0.3, 0.31, 0.33], "roughness": 0.15},
+        ],
+        "objects": objects,
+        "background": {"zenith": [0.45, 0.55, 0.7], "nadir": [0.85, 0.87, 0.9]},
+    })

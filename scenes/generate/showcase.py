@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Writes scenes/showcase.json, the picture on the front page."""
+"""Writes scenes/showcase.json, and scenes/showcase-studio.json, the same bodies of other materials in a studio: the
+picture on the front page."""
 import math
 import random
 
@@ -137,4 +138,54 @@ write("showcase.json", {
     ],
     "objects": objects,
     "background": {"zenith": [0.5, 0.6, 0.75], "nadir": [0.8, 0.82, 0.85]},
+})
+
+# In a studio: boxes that shine, a dark room.
+PRECIOUS = {"superellipsoid": "glass", "triangle + disk": "gold", "ellipsoid": "copper", "segment + disk": "frosted",
+            "rounded dodecahedron": "marble", "hull of balls": "pearl", "frustum": "wood", "tapered capsule": "brushed"}
+
+
+def lamp(name, half_extents, at, rotate, material):
+    return {"name": name, "shape": round_off(0.02, box(*half_extents)), "material": material,
+            "transform": {"translate": at, "rotate": rounded(rotate)}}
+
+
+write("showcase-studio.json", {
+    "$schema": "scene.schema.json",
+    "version": 1,
+    "description": "The bodies of showcase.json of glass, metal, marble and lacquer in a studio: three boxes that shine "
+                   "light them, and a dim room.",
+    "camera": {"position": [0.5, -9.6, 4.6], "look_at": [0.05, 0, 0.5], "up": [0, 0, 1],
+               "fov_y_degrees": 27.5, "resolution": [1280, 720]},
+    "lights": [{"type": "environment", "zenith": [0.3, 0.33, 0.4], "nadir": [0.2, 0.19, 0.18]}],
+    "materials": [
+        {"name": "floor", "type": "glossy", "color": [0.33, 0.32, 0.31], "roughness": 0.1},
+        {"name": "coral", "type": "glossy", "color": [0.8, 0.13, 0.07], "roughness": 0.12},
+        {"name": "mustard", "type": "glossy", "color": [0.85, 0.5, 0.06], "roughness": 0.2},
+        {"name": "teal", "type": "principled", "base_color": [0.02, 0.3, 0.3], "metallic": 0.5, "roughness": 0.35,
+         "coat": 1},
+        {"name": "navy", "type": "glossy", "color": [0.04, 0.09, 0.3], "roughness": 0.08},
+        {"name": "cream", "type": "lambert", "color": [0.8, 0.75, 0.64]},
+        {"name": "glass", "type": "dielectric", "absorption": [0.35, 0.08, 0.12]},
+        {"name": "frosted", "type": "dielectric", "roughness": 0.25, "absorption": [0.3, 0.1, 0.1]},
+        {"name": "gold", "type": "conductor", "metal": "gold", "roughness": 0.22},
+        {"name": "copper", "type": "conductor", "metal": "copper", "roughness": 0.12},
+        {"name": "brushed", "type": "conductor", "metal": "aluminium", "roughness": 0.4, "anisotropy": 0.8},
+        {"name": "pearl", "type": "principled", "base_color": [0.75, 0.72, 0.74], "roughness": 0.3, "coat": 1,
+         "sheen": 0.3},
+        {"name": "marble", "type": "glossy", "roughness": 0.1, "color": {
+            "type": "marble", "a": [0.82, 0.8, 0.76], "b": [0.09, 0.1, 0.11], "scale": 0.55}},
+        {"name": "wood", "type": "principled", "roughness": 0.35, "base_color": {
+            "type": "wood", "a": [0.5, 0.28, 0.12], "b": [0.22, 0.09, 0.03], "scale": 0.09}},
+        {"name": "warm", "type": "emissive", "radiance": [24, 21, 17]},
+        {"name": "cool", "type": "emissive", "radiance": [12, 15, 20]},
+        {"name": "above", "type": "emissive", "radiance": [4, 4, 4]},
+    ],
+    "objects": [{**thing, "material": PRECIOUS.get(thing["name"], thing["material"])} for thing in objects] + [
+        lamp("key", (1.6, 1.1, 0.03), [-5.2, -3.6, 5.6],
+             after(turn(Z, 35), turn(Y, 48)), "warm"),
+        lamp("rim", (0.35, 2.6, 0.03), [6.6, 4.2, 3.4], after(turn(Z, 30), turn(Y, -62)), "cool"),
+        lamp("sky", (3.2, 2.2, 0.03), [0, 2, 8], [0, 0, 0, 1], "above"),
+    ],
+    "background": {"zenith": [0.1, 0.11, 0.13], "nadir": [0.3, 0.3, 0.31]},
 })
