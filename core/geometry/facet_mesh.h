@@ -106,6 +106,13 @@ class FacetMesh {
     }
   }
 
+  /// False of a hull that is thinner than the rounding of its points: what its facets say of a line
+  /// is rounding alone.
+  bool is_supported() const {
+    return std::any_of(facets_.begin(), facets_.end(),
+                       [](const Facet& facet) { return facet.numbers_[Facet::supported] > T(0); });
+  }
+
   const Facet& operator[](std::size_t i) const { return facets_[i]; }
   std::size_t size() const { return facets_.size(); }
 

@@ -74,6 +74,7 @@ std::size_t PointCloud<T>::furthest(const Vec3<T>& n, T cell) const {
 template <class T>
 std::shared_ptr<const FacetMesh<T>> PointCloud<T>::with_supports(FacetMesh<T> facets) const {
   facets.find_supported([&](const Vec3<T>& n) { return support(n); });
+  if (!facets.is_supported()) return nullptr;
   return std::make_shared<const FacetMesh<T>>(std::move(facets));
 }
 

@@ -25,7 +25,8 @@ class PointCloud {
   const std::vector<Vec3<T>>& points() const { return *points_; }
   const std::string& source() const { return source_; }
 
-  /// It is null if the hull is flat. Its normals are the points' before they were rounded to T.
+  /// It is null if the hull is flat, or as thin as rounding. Its normals are the points' before
+  /// they were rounded to T.
   const FacetMesh<T>* facets() const { return facets_.get(); }
 
   /// The points are rounded to U. What was found out about the points is shared rather than found
@@ -70,7 +71,7 @@ class PointCloud {
   /// table. Not inline: packets of every instruction set call it.
   std::size_t furthest(const Vec3<T>& n, T cell) const;
 
-  /// These, which know now where they touch the hull.
+  /// These, which know now where they touch the hull; null if none of them does.
   std::shared_ptr<const FacetMesh<T>> with_supports(FacetMesh<T> facets) const;
 
   /// The table has a list for each lane of its own.

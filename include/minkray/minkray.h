@@ -391,6 +391,24 @@ Shape custom_within(Support support, const double* lower, const double* upper) {
   check(minkray_shape_custom(&given, &made));
   return Shape(made);
 }
+
+template <class Function>
+int answer_jets(const Function& function, std::size_t count, const double (*n)[3], double (*p)[3],
+                double (*derivatives)[9]) {
+  try {
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto jet = function(Vec3{n[i][0], n[i][1], n[i][2]});
+      p[i][0] = jet.point.x;
+      p[i][1] = jet.point.y;
+      p[i][2] = jet.point.z;
+      if (!derivatives) continue;
+      for (int k = 0; k < 9; ++k) derivatives[i][k] = jet.derivative[k / 3][k % 3];
+    }
+    return 0;
+  } catch (...) {
+    return 1;
+  }
+}
 }  // namespace detail
 
 /// Your own shape: `support(const Vec3& n)` is to answer the point furthest along n, which has
@@ -420,6 +438,30 @@ Shape custom_batched(Support support, std::size_t gathered = 0) {
   given.release = [](void* user) { delete static_cast<Support*>(user); };
   minkray_shape made;
   detail::check(minkray_shape_custom_gathered(&given, gathered, &made));
+  return Shape(made);
+}
+/// A support point, and how it moves as its direction turns: a symmetric matrix.
+struct SupportJet {
+  Vec3 point;
+  double derivative[3][3];  ///< of the point by a direction of length 1
+};
+/// Makes a smooth shape of a function that knows its curvature, `jet(const Vec3& n)` answering a
+/// SupportJet: casts take a fraction of the support points. Wrong derivatives cost time only.
+template <class Function>
+Shape custom_with_jets(Function jet) {
+  minkray_support given = {};
+  given.user = new Function(std::move(jet));
+  given.function = [](void* user, std::size_t count, const double(*n)[3], double(*p)[3]) -> int {
+    return detail::answer_jets(*static_cast<const Function*>(user), count, n, p, nullptr);
+  };
+  given.release = [](void* user) { delete static_cast<Function*>(user); };
+  minkray_shape made;
+  detail::check(minkray_shape_custom_with_jets(
+      &given,
+      [](void* user, std::size_t count, const double(*n)[3], double(*p)[3], double(*d)[9]) -> int {
+        return detail::answer_jets(*static_cast<const Function*>(user), count, n, p, d);
+      },
+      &made));
   return Shape(made);
 }
 /// A box that holds the shape may be given with it: answers out of it are found.

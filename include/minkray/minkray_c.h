@@ -111,6 +111,18 @@ MINKRAY_API int minkray_shape_custom(const minkray_support* support, minkray_sha
 MINKRAY_API int minkray_shape_custom_gathered(const minkray_support* support, size_t gathered,
                                               minkray_shape* shape);
 
+/* How support points move as directions turn: derivatives[i] is that of points[i] by the direction,
+ * for directions of length 1: a symmetric matrix, row by row, whose product with the direction is
+ * zero. Radii of curvature are its other eigenvalues; at a vertex it is zero. */
+typedef int (*minkray_jet_function)(void* user, size_t count, const double (*directions)[3],
+                                    double (*points)[3], double (*derivatives)[9]);
+
+/* Makes one of a smooth shape that knows its curvature, which saves most of the support points of a
+ * cast. `jets` gets the same `user`, and must answer the same points. Derivatives guide casts, and
+ * nothing is believed of them: wrong ones cost time. */
+MINKRAY_API int minkray_shape_custom_with_jets(const minkray_support* support,
+                                               minkray_jet_function jets, minkray_shape* shape);
+
 /* One more owner; releasing takes one away. */
 MINKRAY_API int minkray_shape_retain(minkray_shape shape);
 MINKRAY_API int minkray_shape_release(minkray_shape shape);

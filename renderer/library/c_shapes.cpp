@@ -86,6 +86,16 @@ int minkray_shape_custom_gathered(const minkray_support* support, size_t gathere
   });
 }
 
+int minkray_shape_custom_with_jets(const minkray_support* support, minkray_jet_function jets,
+                                   minkray_shape* shape) {
+  return call("minkray_shape_custom_with_jets", [&] {
+    require(support, "support");
+    if (!jets) wrong_use("jets: must not be NULL");
+    require(shape, "shape");
+    *shape = hold(Custom<double>{std::make_shared<const CustomSupport>(*support, 0, jets)});
+  });
+}
+
 int minkray_shape_retain(minkray_shape shape) {
   return call("minkray_shape_retain", [&] {
     if (!held_shapes().retain(shape.id)) shape_of(shape, "shape");

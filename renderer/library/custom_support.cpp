@@ -61,8 +61,12 @@ std::string contradiction(const Coordinates& n, const Coordinates& point, const 
 
 }  // namespace
 
-CustomSupport::CustomSupport(const minkray_support& function, std::size_t gathered)
-    : function_(function), gathered_(gathered), has_bounds_(function.lower && function.upper) {
+CustomSupport::CustomSupport(const minkray_support& function, std::size_t gathered,
+                             minkray_jet_function with_derivatives)
+    : function_(function),
+      jets_(with_derivatives),
+      gathered_(gathered),
+      has_bounds_(function.lower && function.upper) {
   try {
     if (!function.function) wrong_use("support.function: must not be NULL");
     if ((function.lower == nullptr) != (function.upper == nullptr))
@@ -139,6 +143,49 @@ void CustomSupport::probe() {
     probes_.h.push_back(dot(directions[i], points[i]) + allowed_);
   }
   for (std::size_t i = 0; i < directions.size(); ++i) check(directions[i], points[i]);
+  if (jets_ && !has_lied()) probe_jets(directions.data(), points.data(), directions.size());
+}
+
+/// The points with derivatives must be those without. The mean of points lies in the shape.
+void CustomSupport::probe_jets(const Coordinates* directions, const Coordinates* points,
+                               std::size_t count) {
+  Vec3<double> mean = Vec3<double>::Zero();
+  for (std::size_t i = 0; i < count; ++i) {
+    Coordinates point;
+    Derivative derivative;
+    jets(1, &directions[i], &point, &derivative);
+    if (has_lied()) return;
+    if (point != points[i])
+      return complain("the function with derivatives answers the direction " +
+                      text_of(directions[i]) + " " + text_of(point) + ", the one without " +
+                      text_of(points[i]));
+    mean += Vec3<double>(point[0], point[1], point[2]) / static_cast<double>(count);
+  }
+  know_jets({mean.x(), mean.y(), mean.z()});
+}
+
+void CustomSupport::jets(std::size_t count, const Coordinates* directions, Coordinates* points,
+                         Derivative* derivatives) const {
+  static_assert(sizeof(Derivative) == sizeof(double[9]));
+  const Coordinates nan = {NAN, NAN, NAN};
+  std::fill_n(points, count, nan);
+  std::fill_n(derivatives, count, Derivative{});
+  if (!has_lied()) {
+    const int failed =
+        jets_(function_.user, count, reinterpret_cast<const double(*)[3]>(directions),
+              reinterpret_cast<double(*)[3]>(points), reinterpret_cast<double(*)[9]>(derivatives));
+    if (failed) complain("the function with derivatives failed");
+    for (std::size_t i = 0; i < count && !has_lied(); ++i) {
+      check(directions[i], points[i]);
+      if (!std::ranges::all_of(derivatives[i], [](double x) { return std::isfinite(x); }))
+        complain("the function with derivatives answered one that is not finite along " +
+                 text_of(directions[i]));
+    }
+  }
+  if (has_lied()) {
+    std::fill_n(points, count, fallback_);
+    std::fill_n(derivatives, count, Derivative{});
+  }
 }
 
 void CustomSupport::support(std::size_t count, const Coordinates* directions,
@@ -211,49 +258,6 @@ void CustomSupport::complain(const std::string& what) const {
 std::string CustomSupport::complaint() const {
   const std::lock_guard lock(mutex_);
   return complaint_;
-}
-
-namespace {
-
-using Customs = std::vector<std::shared_ptr<const CustomSupport>>;
-
-void collect(const Shape<double>& shape, Customs& customs);
-
-void collect_of(const Nested<double>& operand, Customs& customs) {
-  collect(*operand, customs);
-}
-void collect_of(const ShapeList<double>& operands, Customs& customs) {
-  for (const Nested<double>& operand : operands) collect(*operand, customs);
-}
-template <class Member>
-void collect_of(const Member&, Customs&) {}
-
-void collect(const Shape<double>& shape, Customs& customs) {
-  std::visit(
-      [&]<class S>(const S& kind) {
-        if constexpr (declared_by<S>.by_program)
-          customs.push_back(std::dynamic_pointer_cast<const CustomSupport>(kind.source));
-        else
-          for_each_field<S>([&](const auto& field) { collect_of(kind.*(field.member), customs); });
-      },
-      shape.kind);
-}
-
-}  // namespace
-
-Customs customs_of(const Shape<double>& shape) {
-  Customs customs;
-  collect(shape, customs);
-  return customs;
-}
-
-bool are_gathered(const Customs& customs) {
-  return std::ranges::any_of(customs, [](const auto& one) { return one->most_at_once() > 0; });
-}
-
-void throw_if_lied(const Customs& customs) {
-  for (const auto& custom : customs)
-    if (custom->has_lied()) throw CallError(MINKRAY_BAD_SUPPORT, custom->complaint());
 }
 
 }  // namespace minkray

@@ -29,7 +29,8 @@ inline constexpr double support_contradiction = 1e-12;
 class CustomSupport final : public SupportSource, public BatchSource {
  public:
   /// Asks the function in some hundred directions. Throws CallError if it fails or lies.
-  explicit CustomSupport(const minkray_support& function, std::size_t gathered = 0);
+  explicit CustomSupport(const minkray_support& function, std::size_t gathered = 0,
+                         minkray_jet_function with_derivatives = nullptr);
   ~CustomSupport() override;
 
   /// What was wrong with an answer; empty if nothing was.
@@ -52,12 +53,16 @@ class CustomSupport final : public SupportSource, public BatchSource {
 
   void support(std::size_t count, const Coordinates* directions,
                Coordinates* points) const override;
+  void jets(std::size_t count, const Coordinates* directions, Coordinates* points,
+            Derivative* derivatives) const override;
   void answer(std::size_t count, const Coordinates* directions, Coordinates* points) const override;
   void probe();
+  void probe_jets(const Coordinates* directions, const Coordinates* points, std::size_t count);
   void check(const Coordinates& n, const Coordinates& point) const;
   void complain(const std::string& what) const;
 
   minkray_support function_;
+  minkray_jet_function jets_;
   std::size_t gathered_;
   bool has_bounds_;
   Bounds<double> bounds_;

@@ -9,6 +9,7 @@
 #include "core/proof/check_certificate.h"
 #include "tests/support/random.h"
 #include "tests/support/ray_families.h"
+#include "tests/support/rounded.h"
 
 namespace minkray::testing {
 namespace {
@@ -199,6 +200,35 @@ TEST(ExtremeShapes, in_a_thin_skin_one_is_inside) {
       const Shape<double> hull = Hull<double>{PointCloud<double>(box.corners)};
       expect_inside(Rounded<double>{radius, hull}, middle + out, random);
     }
+}
+
+/// What facets of such hulls say of a line in float is rounding: rays were stopped by a fiftieth of
+/// the needle's length before they met it.
+TEST(ExtremeShapes, needles_thinner_than_rounding_are_met_where_they_are_in_float) {
+  Random random(3);
+  int hits = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const double thickness = std::pow(10.0, random.uniform(-14, -9));
+    const Vec3<double> extents(1, thickness, thickness);
+    std::vector<Vec3<double>> points;
+    double first = 1, last = -1;
+    for (int k = 0; k < 8; ++k) {
+      points.push_back(random.in_cube().cwiseProduct(extents));
+      first = std::min(first, points.back().x());
+      last = std::max(last, points.back().x());
+    }
+    const Shape<double> hull = Hull<double>{PointCloud<double>(points)};
+    const PreparedShape<float> needle{convert<float>(hull)};
+    const Vec3<double> at(random.uniform(first, last), 0, 0);
+    const Vec3<double> origin = at + 3 * random.direction() + Vec3<double>(0, 0, 3.5);
+    const Ray<double> ray{origin, at - origin};
+    const CastResult<float> answer = cast_ray(needle, rounded_to<float>(ray));
+    if (answer.status != Status::hit) continue;
+    ++hits;
+    const double beside = (ray.origin + double(answer.t()) * ray.direction).tail<2>().norm();
+    EXPECT_LE(beside, 1e-5) << i;
+  }
+  EXPECT_GT(hits, 3500);
 }
 
 TEST(ExtremeShapes, packets_say_what_single_casts_say) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "tests/renderer/library/rays.h"
+#include "tests/renderer/library/same_answers.h"
 
 namespace {
 
@@ -36,41 +37,6 @@ Vec3 cut_cylinder_support(const Vec3& n) {
   const Vec3 upper = rim(cuts.upper_height, cuts.upper_slope);
   const auto along = [&](const Vec3& p) { return n.x * p.x + n.y * p.y + n.z * p.z; };
   return along(upper) > along(lower) ? upper : lower;
-}
-
-/// Answers of both agree: the intervals of hits meet, and statuses are equal but for rays that just
-/// touch. Every answer is certified.
-void expect_same_answers(const mk::Shape& ours, const mk::Shape& custom, double size,
-                         std::size_t count) {
-  mk::Scene a, b;
-  a.add(ours, mk::translation({1, 2, 3}));
-  b.add(custom, mk::translation({1, 2, 3}));
-  a.commit();
-  b.commit();
-  const std::vector<mk::Ray> rays = rays_around({1, 2, 3}, size, count);
-  std::vector<mk::Hit> hits_a(count), hits_b(count);
-  a.cast(rays, hits_a);
-  b.cast(rays, hits_b);
-  std::vector<mk::Proof> proofs(count);
-  b.prove(rays, hits_b, proofs);
-  std::size_t hits = 0, differ = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    ASSERT_NE(hits_b[i].status, mk::exhausted) << i;
-    ASSERT_TRUE(proofs[i].holds) << i << ": " << proofs[i].complaint;
-    if (hits_a[i].status != hits_b[i].status) {
-      ++differ;
-      continue;
-    }
-    if (hits_a[i].status != mk::hit) continue;
-    ++hits;
-    // Each encloses the truth, so they meet, but for the last bit of their ends.
-    const double bit = 4e-16 * std::abs(hits_a[i].t);
-    EXPECT_LE(hits_a[i].t_lo, hits_b[i].t_hi + bit) << i;
-    EXPECT_LE(hits_b[i].t_lo, hits_a[i].t_hi + bit) << i;
-  }
-  EXPECT_GT(hits, count * 3 / 10);
-  EXPECT_LT(hits, count * 8 / 10);
-  EXPECT_LE(differ, count / 10000);
 }
 
 TEST(CustomShape, of_a_box_is_met_where_the_box_is) {
