@@ -16,6 +16,7 @@ namespace {
 template <class T>
 ShapeKinds kind_of(const ShapeDefinition<T>& definition) {
   if (definition.is_extreme()) return shape_kind::extreme;
+  if (definition.is_lost_in_rounding()) return shape_kind::lost;
   if (definition.form().kind != FormKind::none) return shape_kind::with_form;
   return definition.model() == ModelKind::osculating_sums ? shape_kind::osculated
                                                           : shape_kind::with_model;

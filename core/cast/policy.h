@@ -38,7 +38,8 @@ inline constexpr ShapeKinds with_form = 1;   ///< it declares a closed form
 inline constexpr ShapeKinds with_model = 2;  ///< it has none, but a model that is exact
 inline constexpr ShapeKinds osculated = 4;   ///< its model only osculates it
 inline constexpr ShapeKinds extreme = 8;     ///< its proportions are (core/derived/proportions.h)
-inline constexpr ShapeKinds ordinary = with_form | with_model | osculated;
+inline constexpr ShapeKinds lost = 16;       ///< a needle of points thinner than float's rounding
+inline constexpr ShapeKinds ordinary = with_form | with_model | osculated | lost;
 inline constexpr ShapeKinds every = ordinary | extreme;
 }  // namespace shape_kind
 
@@ -52,7 +53,7 @@ struct Policy {
 namespace policy_rows {
 
 using enum Stage;
-using shape_kind::every, shape_kind::extreme, shape_kind::ordinary;
+using shape_kind::every, shape_kind::extreme, shape_kind::lost, shape_kind::ordinary;
 using shape_kind::osculated, shape_kind::with_form, shape_kind::with_model;
 using Kind = SolverKind;
 inline constexpr auto never = Proof::none;
@@ -66,6 +67,7 @@ inline constexpr std::array policies = {
            {filter, in_double, bounds, model, gjk, support_portal, finer}},
     Policy{Kind::automatic, with_model, steep, {bounds, model, gjk, support_portal, finer}},
     Policy{Kind::automatic, osculated, steep, {gjk, model, support_portal, finer}},
+    Policy{Kind::automatic, lost, steep, {gjk, support_portal, finer}},
     Policy{Kind::automatic, extreme, always, {in_double, model, gjk, finer}},
     // Hulls of two features need digits: their models are asked in double.
     Policy{Kind::jet, with_form, steep, {in_double, bounds, model, gjk, support_portal, finer}},

@@ -44,17 +44,23 @@ bool is_on_a_line(std::span<const Vec3<T>> points) {
   return true;
 }
 
-/// Their lengths along their principal axes. They are scaled, lest squares leave the range.
+/// What points look like along their principal axes.
+struct Spread {
+  double size = 0;                              ///< of the box around them
+  Vec3<double> lengths = Vec3<double>::Zero();  ///< by the size, the shortest first
+  double flat = 0;                              ///< lengths up to it are rounding
+};
+
+/// They are scaled, lest squares leave the range.
 template <class T>
-double ratio_of_points(std::span<const Vec3<T>> points) {
+Spread spread_of(std::span<const Vec3<T>> points) {
   Vec3<double> lower = points[0].template cast<double>(), upper = lower;
   for (const Vec3<T>& p : points) {
     lower = lower.cwiseMin(p.template cast<double>());
     upper = upper.cwiseMax(p.template cast<double>());
   }
   const double size = (upper - lower).maxCoeff();
-  if (!(size > 0)) return 1;
-  if (!std::isfinite(size)) return size;
+  if (!(size > 0) || !std::isfinite(size)) return {size};
   // About their mean, which lies in the plane if they all do.
   Vec3<double> mean = Vec3<double>::Zero();
   for (const Vec3<T>& p : points) mean += (p.template cast<double>() - lower) / size;
@@ -76,12 +82,26 @@ double ratio_of_points(std::span<const Vec3<T>> points) {
   const double flat = roundings * double(std::numeric_limits<T>::epsilon()) * coordinate / size;
   Vec3<double> lengths = most - least;
   std::sort(lengths.begin(), lengths.end());
-  // A needle that is thinner than rounding both ways, but no segment. Not in float, whose rays are
-  // rounded as coarsely: in double, a cast would tell that they pass it by.
-  if (std::is_same_v<T, double> && lengths[1] <= flat &&
-      lengths[1] * most_along_axes<T> <= lengths[2] && !is_on_a_line(points))
+  return {size, lengths, flat};
+}
+
+/// A needle that is thinner than rounding both ways, but no segment.
+template <class T>
+bool is_lost_needle(const Spread& spread, std::span<const Vec3<T>> points) {
+  return spread.lengths[1] <= spread.flat &&
+         spread.lengths[1] * most_along_axes<T> <= spread.lengths[2] && !is_on_a_line(points);
+}
+
+template <class T>
+double ratio_of_points(std::span<const Vec3<T>> points) {
+  const Spread spread = spread_of(points);
+  if (!(spread.size > 0)) return 1;
+  if (!std::isfinite(spread.size)) return spread.size;
+  // Not in float, whose rays are rounded as coarsely: in double, a cast would tell that they pass
+  // it by.
+  if (std::is_same_v<T, double> && is_lost_needle(spread, points))
     return std::numeric_limits<double>::infinity();
-  return ratio_of(lengths, flat);
+  return ratio_of(spread.lengths, spread.flat);
 }
 
 /// How much maps lengthen and shorten what they map, at most.
@@ -159,6 +179,25 @@ bool has_extreme_proportions(const Shape<T>& shape) {
   look_at(shape, Stretch(), seen);
   return seen.extreme_operand || seen.longest > most_along_axes<T> * seen.shortest ||
          seen.longest > most_to_rounding * seen.least_rounding;
+}
+
+bool is_lost_in_rounding(const Shape<float>& shape) {
+  return std::visit(
+      []<class S>(const S& kind) {
+        const auto is_lost = [](std::span<const Vec3<float>> points) {
+          const Spread spread = spread_of(points);
+          return spread.size > 0 && std::isfinite(spread.size) && is_lost_needle(spread, points);
+        };
+        if constexpr (std::is_same_v<S, Transform<float>>)
+          return is_lost_in_rounding(*kind.shape);
+        else if constexpr (std::is_same_v<S, Hull<float>>)
+          return is_lost(kind.points.points());
+        else if constexpr (std::is_same_v<S, Triangle<float>>)
+          return is_lost(kind.points);
+        else
+          return false;
+      },
+      shape.kind);
 }
 
 template bool has_extreme_proportions(const Shape<float>&);

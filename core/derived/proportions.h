@@ -13,6 +13,10 @@ namespace minkray {
 template <class T>
 bool has_extreme_proportions(const Shape<T>& shape);
 
+/// Whether the shape is made of points in float that are a needle thinner than their rounding: rays
+/// in float still meet it, and only the GJK ray cast says where.
+bool is_lost_in_rounding(const Shape<float>& shape);
+
 extern template bool has_extreme_proportions(const Shape<float>&);
 extern template bool has_extreme_proportions(const Shape<double>&);
 

@@ -114,6 +114,8 @@ ShapeDefinition<T>::ShapeDefinition(Shape<T> shape) : original_(shape), inner_(s
   if (model_ == ModelKind::ellipsoid_sum)
     ellipsoid_sum_ = touching_sum<T>(inner_, Vec3<T>(T(0), T(0), T(1)));
   is_extreme_ = has_extreme_proportions(inner_);
+  if constexpr (std::is_same_v<T, float>)
+    is_lost_in_rounding_ = !is_extreme_ && minkray::is_lost_in_rounding(inner_);
   if (!is_extreme_) form_ = exact_form_of(inner_, ball_.centre.template cast<double>());
   const bool has_small_form = form_.kind != FormKind::none && form_.kind != FormKind::polytope;
   if (std::is_same_v<T, float> && (is_extreme_ || has_small_form))

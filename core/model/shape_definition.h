@@ -31,6 +31,7 @@ class ShapeDefinition {
   const EllipsoidSum<T>& ellipsoid_sum() const { return ellipsoid_sum_; }
   /// Casts at it are proven, one by one and in double, before they are answered.
   bool is_extreme() const { return is_extreme_; }
+  bool is_lost_in_rounding() const { return is_lost_in_rounding_; }
   /// It is the inner shape in double, made when it is first asked for, of float shapes of which
   /// some casts are asked there: extreme ones, and those with a closed form but polytopes, whose
   /// facets would take more memory than the uncertain few are worth. It is null for others.
@@ -75,6 +76,7 @@ class ShapeDefinition {
   ModelKind model_;
   EllipsoidSum<T> ellipsoid_sum_;
   bool is_extreme_;
+  bool is_lost_in_rounding_ = false;
   exact::Form form_;
   struct InDouble;
   std::shared_ptr<InDouble> in_double_;
