@@ -42,7 +42,7 @@ OnSegments nearest_of_any(const Vec3<double>& p, const Vec3<double>& q, const Ve
   return nearest;
 }
 
-/// The same of segments that are neither nearly parallel nor points (C. Ericson, "Real-Time
+/// Answers for segments that are neither nearly parallel nor points (C. Ericson, "Real-Time
 /// Collision Detection", 2005, section 5.1.9). `pp`, `qq`, `pq` are products of the two.
 OnSegments nearest_of_crossing(const Vec3<double>& p, const Vec3<double>& q, const Vec3<double>& x,
                                double pp, double qq, double pq) {

@@ -99,7 +99,7 @@ CoreDistance point_and_disks(const Vec3<double>& size, const Vec3<double>& p) {
 CoreDistance between_solid_and_point(const ShapeCore& solid, const Vec3<double>& p) {
   const Vec3<double>& size = solid.size;
   if (solid.kind == CoreKind::box) return point_and_box(size, p);
-  // Of disks without a height the larger one is all there is.
+  // The larger one of two disks without a height is all there is.
   if (size.x() == size.y() || !(size.z() > 0))
     return point_and_cylinder(std::max(size.x(), size.y()), size.z(), p);
   return point_and_disks(size, p);

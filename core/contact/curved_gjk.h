@@ -81,7 +81,7 @@ class CurvedGjk {
  private:
   /// Turns of GJK before features slide: with a separating plane, and without one.
   static constexpr int turns_apart = 2, turns_near = 6;
-  /// Of the first step of features that slide, in sizes; less where they were the right ones.
+  /// It damps the first step of features that slide, in sizes; less where they were the right ones.
   static constexpr double resumed_damping = 1e-3;
   static constexpr bool any_slides =
       (A == CoreKind::other || slides(A) || slides(B)) || B == CoreKind::other;
@@ -158,7 +158,7 @@ class CurvedGjk {
     return false;
   }
 
-  /// Of numbers that are none of the cores' features nothing is taken.
+  /// Takes nothing of numbers that are none of the cores' features.
   void take_features_of(const PairMemory& memory) {
     const Vec3<double> of_b = query_.pair.to_b(-memory.axis);
     for (int i = 0; i < 4 && i < memory.count; ++i) {

@@ -31,7 +31,7 @@ template <class T>
 inline constexpr T gjk_stalled = T(256) * epsilon<T>;
 /// Long double answers are given, and proven, in double.
 template <>
-inline constexpr long double gjk_stalled<long double> = gjk_stalled<double>;
+inline constexpr long double gjk_stalled<long double> = 256 * epsilon<double>;
 
 /// A tetrahedron lower than this, relative to its vertices' largest coordinate, is flat: a vertex,
 /// a normal and their product are rounded by about as much.

@@ -33,10 +33,15 @@ class SupportSource {
   /// Whether it knows how its points move as directions turn; with a point in the shape's middle.
   bool has_jets() const { return has_jets_; }
   const Coordinates& middle() const { return middle_; }
-  /// The same as `ask`, and the derivatives of the points by their directions of unit length, which
-  /// are symmetric. Casts are guided by them, and believe nothing: wrong ones cost time.
-  void ask_jets(std::size_t count, Coordinates* directions, Coordinates* points,
-                Derivative* derivatives) const;
+  /// What a jet along a direction is made of; an ellipsoid where it is `curved`, else a point.
+  struct JetNumbers {
+    bool curved = false;
+    Coordinates point = {0, 0, 0};
+    Derivative factor = {};  ///< of the ellipsoid around the middle
+  };
+  /// Asks for the point and its derivative, which is symmetric. Casts are guided by it, and believe
+  /// nothing: wrong ones cost time.
+  JetNumbers jet_along(Coordinates direction) const;
 
   static constexpr std::size_t most = 16;
 
@@ -111,45 +116,39 @@ struct Custom {
   template <class W>
   Jet<W> jet(const Vec3<W>& n) const {
     if (!source->has_jets()) return PointJet<W>{support(n)};
+    constexpr std::size_t lanes = LaneOf<W>::count;
+    std::array<SupportSource::JetNumbers, lanes> jets;
     if constexpr (std::floating_point<W>) {
-      return jet_of_one(n);
+      jets[0] = source->jet_along({double(n.x()), double(n.y()), double(n.z())});
     } else {
-      using T1 = Lane<W>;
-      std::array<Jet<T1>, LaneOf<W>::count> jets;
-      for (std::size_t lane = 0; lane < jets.size(); ++lane) {
-        const int i = static_cast<int>(lane);
-        jets[lane] = jet_of_one(Vec3<T1>(n.x().lane(i), n.y().lane(i), n.z().lane(i)));
-      }
-      const auto of = [&](int lane) -> const Jet<T1>& { return jets[std::size_t(lane)]; };
-      Jet<W> jet;
-      jet.c = per_lane<W>([&](int lane) { return of(lane).c; });
-      jet.s = per_lane<W>([&](int lane) { return of(lane).s; });
-      for (int k = 0; k < 3; ++k)
-        jet.F.col(k) = per_lane<W>([&](int lane) { return Vec3<T1>(of(lane).F.col(k)); });
-      const Vec3<W> exact =
-          per_lane<W>([&](int lane) { return Vec3<T1>(T1(of(lane).exact ? 1 : 0), T1(0), T1(0)); });
-      jet.exact = exact.x() > W(0);
-      return jet;
+      for (int lane = 0; lane < static_cast<int>(lanes); ++lane)
+        jets[std::size_t(lane)] = source->jet_along(
+            {double(n.x().lane(lane)), double(n.y().lane(lane)), double(n.z().lane(lane))});
     }
-  }
-
- private:
-  template <class W>
-  Jet<W> jet_of_one(const Vec3<W>& n) const {
-    Coordinates direction = {double(n.x()), double(n.y()), double(n.z())}, point;
-    Derivative derivative;
-    source->ask_jets(1, &direction, &point, &derivative);
-    const Coordinates& c = source->middle();
-    const Vec3<double> s(point[0], point[1], point[2]), middle(c[0], c[1], c[2]), g = s - middle;
-    const double reach = Vec3<double>(direction[0], direction[1], direction[2]).dot(g);
-    Mat3<double> H;
-    H << derivative[0], derivative[1], derivative[2],  //
-        derivative[3], derivative[4], derivative[5],   //
-        derivative[6], derivative[7], derivative[8];
-    const bool is_curved = reach > 0 && H.allFinite() && !H.isZero(0);
-    if (!is_curved) return PointJet<W>{s.template cast<W>()};
-    const Mat3<double> F = factor<double>(Mat3<double>(reach * H + g * g.transpose()));
-    return {middle.template cast<W>(), F.template cast<W>(), false, s.template cast<W>()};
+    const auto in_lanes = [&](const auto& of) -> Vec3<W> {
+      if constexpr (std::floating_point<W>) {
+        const Coordinates v = of(jets[0]);
+        return {W(v[0]), W(v[1]), W(v[2])};
+      } else {
+        return per_lane<W>([&](int lane) {
+          const Coordinates v = of(jets[std::size_t(lane)]);
+          return Vec3<Lane<W>>(Lane<W>(v[0]), Lane<W>(v[1]), Lane<W>(v[2]));
+        });
+      }
+    };
+    using Numbers = SupportSource::JetNumbers;
+    Jet<W> jet;
+    jet.s = in_lanes([](const Numbers& one) { return one.point; });
+    jet.c = in_lanes([&](const Numbers& one) { return one.curved ? source->middle() : one.point; });
+    for (std::size_t k = 0; k < 3; ++k)
+      jet.F.row(static_cast<Eigen::Index>(k)) = in_lanes([&](const Numbers& one) {
+        return Coordinates{one.factor[3 * k], one.factor[3 * k + 1], one.factor[3 * k + 2]};
+      });
+    const Vec3<W> curved = in_lanes([](const Numbers& one) {
+      return Coordinates{one.curved ? 1.0 : 0.0, 0, 0};
+    });
+    jet.exact = curved.x() == W(0);
+    return jet;
   }
 };
 

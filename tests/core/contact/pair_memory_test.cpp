@@ -20,7 +20,7 @@ PairMemory garbage(int k, RandomShapes& random) {
   for (int i = 0; i < 4; ++i) {
     memory.feature_a[i] = static_cast<std::int32_t>(random.in(k % 5 == 0 ? -most : 0, most));
     memory.feature_b[i] = static_cast<std::int32_t>(random.in(k % 5 == 0 ? -most : 0, most));
-    // The same point several times, or points in a line.
+    // One point several times, or points in a line.
     if (i > 0 && k % 4 == 3) memory.feature_b[i] = memory.feature_b[0];
     if (i > 0 && k % 8 == 7) memory.feature_a[i] = memory.feature_a[0];
   }

@@ -160,8 +160,7 @@ TEST_F(RobotOptions, poses_may_be_relative_to_what_stands_in_an_included_model) 
   const std::string wrong = write("x.sdf", R"(<sdf version="1.9"><world name="w">
     <include><uri>cup.sdf</uri><pose relative_to="table">0 0 0 0 0 0</pose></include></world></sdf>)");
   const std::string text = refusal(wrong, {});
-  EXPECT_NE(text.find("line 2: <model name=\"cup\">: there is no frame \"table\""),
-            text.npos)
+  EXPECT_NE(text.find("line 2: <model name=\"cup\">: there is no frame \"table\""), text.npos)
       << text;
 }
 
