@@ -97,7 +97,7 @@ void find_contact(const CorePair& pair, CoreDistance& found) {
 /// The depth of cores that were found to overlap, or whose distance rounding hides.
 CoreDistance depth_of_cores(const CorePair& pair, Enclosure enclosure, CoreDistance found,
                             double gap, bool only_sign) {
-  // Of an overlap so slight points that are as near to each other tell enough.
+  // Points that are as near to each other tell enough of an overlap so slight.
   const double slight = gap * (pair.size() + pair.x.norm());
   if (found.status == CoreStatus::overlapping && found.lower >= -slight) {
     if (!(found.c.norm() <= slight / 2)) improve_plane(pair, found);

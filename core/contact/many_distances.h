@@ -26,7 +26,7 @@ void signed_distances(const ContactShape& a, const Affine<double>& pose_a, const
                       std::span<const Affine<double>> poses_b, std::span<SignedDistance> answers,
                       const SignedDistanceOptions& options = {});
 
-/// The same with a memory for each pair: as many as pairs.
+/// Keeps a memory for each pair: as many as pairs.
 void signed_distances(std::span<const PosedPair> pairs, std::span<PairMemory> memories,
                       std::span<SignedDistance> answers, const SignedDistanceOptions& options = {});
 

@@ -138,7 +138,7 @@ Run run(Kind kind, unsigned seed) {
   return result;
 }
 
-/// The same pairs and frames, asked by our own queries (core/contact): the distance, and whether
+/// Asks our own queries about those pairs and frames (core/contact): the distance, and whether
 /// the two touch within the frame; each anew, or with a memory for each pair.
 struct OwnRun {
   double distance_seconds = 0, impact_seconds = 0;

@@ -95,7 +95,7 @@ TEST(PairMemory, of_bodies_that_tumble_saves_supports_and_changes_no_promise) {
       const SignedDistance result =
           signed_distance(pair.a.ready, pair.a.pose, pair.b.ready, pair.b.pose, memory);
       ASSERT_EQ(complaint(pair.a, pair.b, result, random), "") << n << ", frame " << frame;
-      // Of bodies known by their support mapping only nothing is kept.
+      // Nothing is kept of bodies known by their support mapping only.
       const bool is_known = pair.a.ready.core().kind != CoreKind::other &&
                             pair.b.ready.core().kind != CoreKind::other;
       if (frame > 0 && is_known && result.status == SignedStatus::separated) {
