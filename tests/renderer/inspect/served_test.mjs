@@ -12,7 +12,10 @@ if (!chromium()) {
 }
 const minkray = process.argv[2];
 const scene = 'shape-zoo', size = '320x250';
-const server = spawn(minkray, ['inspect', scene, '-r', size, '-s', '1', '-q', '--serve'], { stdio: ['ignore', 'pipe', 'inherit'] });
+const server = spawn(minkray, ['inspect', scene, '-r', size, '-s', '1', '-q', '--serve'], { stdio: ['ignore', 'pipe', 'pipe'] });
+// However this ends, no server is left that holds on to the pipes of whoever runs the tests.
+server.stderr.pipe(process.stderr);
+process.on('exit', () => server.kill('SIGKILL'));
 const address = await new Promise((resolve, reject) => {
   server.stdout.setEncoding('utf8').once('data', text => resolve(text.trim()));
   server.once('exit', () => reject(new Error('the server ended')));
