@@ -129,7 +129,7 @@ CastLanes<W> model_cast(const MakeModel& make_model, const RayNearBall<W>& near,
   result.normal = select<W>(left, exit.normal, result.normal);
   result.inside = began & exit.hit & !left;
   constexpr T uncertain = tolerance::uncertain_slope<T>;
-  if constexpr (uncertain != T(0))
+  if (uncertain != T(0))
     result.uncertain =
         result.inside & !((z >= W(uncertain)) & (exit.normal.dot(r) >= W(uncertain)));
   const W start = near.t_offset(near.lambda_min);
