@@ -79,15 +79,15 @@ std::vector<Affine<double>> golden_poses(double size) {
   return {{}, turned, sheared, tiny, far};
 }
 
-/// One in four begins or ends somewhere along its way, or at the surface.
+/// One in four begins or ends somewhere along its way, ends near the surface, or has another
+/// length. Rays reach the shape at t near 1 or 5.
 Ray<double> cut(Ray<double> ray, Random& random) {
-  const double way = 2;  // rays reach the shape at t near 1 or 5
   switch (random.below(16)) {
     case 0:
-      ray.t_max = random.uniform() * 5 * way;
+      ray.t_max = random.uniform() * 10;
       break;
     case 1:
-      ray.origin += ray.direction * (random.uniform() * 5 * way);
+      ray.origin += ray.direction * (random.uniform() * 10);
       break;
     case 2:
       ray.t_max = 5;

@@ -2,25 +2,20 @@
 // Shapes somewhere in the world, for tests of what is asked of two of them.
 #pragma once
 
-#include <random>
 #include <vector>
 
 #include "core/contact/distance.h"
 #include "core/contact/shape_cast.h"
 #include "core/derived/convert.h"
+#include "tests/core/contact/random_numbers.h"
 
 namespace minkray::testing {
 
-class RandomPoses {
+class RandomPoses : public RandomNumbers {
  public:
-  explicit RandomPoses(unsigned seed) : engine_(seed) {}
-  double in(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(engine_);
-  }
+  using RandomNumbers::RandomNumbers;
   Vec3<double> in_cube(double half) { return {in(-half, half), in(-half, half), in(-half, half)}; }
-  Affine<double> pose(double spread) {
-    return {rotation_matrix(in(-1, 1), in(-1, 1), in(-1, 1), in(-1, 1)), in_cube(spread)};
-  }
+  Affine<double> pose(double spread) { return {turn(), in_cube(spread)}; }
   /// Points of the cube, or of the square in it where z is 0.
   std::vector<Vec3<double>> points(int count, bool flat) {
     std::vector<Vec3<double>> result;
@@ -30,9 +25,6 @@ class RandomPoses {
     }
     return result;
   }
-
- private:
-  std::mt19937 engine_;
 };
 
 inline Affine<double> at(const Vec3<double>& where) {
