@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+// What is kept of rays from far away: all of a position's digits, and t's, up to where casts are
+// promised to end (docs/cast.md).
+#include <gtest/gtest.h>
+
+#include "core/cast/cast.h"
+#include "core/query/near_segment.h"
+#include "core/query/ray_near_ball.h"
+#include "tests/support/random.h"
+
+namespace minkray::testing {
+namespace {
+
+__extension__ using Quad = __float128;
+using Point = std::array<Quad, 3>;
+
+/// origin + t * direction, from `centre`.
+template <class T>
+Point along(const Ray<T>& ray, Quad t, const Vec3<T>& centre) {
+  Point p;
+  for (int k = 0; k < 3; ++k)
+    p[static_cast<std::size_t>(k)] =
+        Quad(ray.origin[k]) + t * Quad(ray.direction[k]) - Quad(centre[k]);
+  return p;
+}
+
+Quad dot(const Point& a, const Point& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+double size_of(const Point& p) {
+  return std::sqrt(static_cast<double>(dot(p, p)));
+}
+
+/// The line's point that is nearest to the centre, from there. The first step is to a number of T:
+/// its products with the direction are exact.
+template <class T>
+Point closest_approach(const Ray<T>& ray, T first_step, const Vec3<T>& centre) {
+  Point at = along(ray, Quad(first_step), centre);
+  const Point way = along<T>({{0, 0, 0}, ray.direction}, Quad(1), {0, 0, 0});
+  const Quad left = -dot(at, way) / dot(way, way);
+  for (std::size_t k = 0; k < 3; ++k) at[k] += left * way[k];
+  return at;
+}
+
+template <class T>
+double distance(const Vec3<T>& s, const Point& p) {
+  Point apart;
+  for (int k = 0; k < 3; ++k)
+    apart[static_cast<std::size_t>(k)] = Quad(s[k]) - p[static_cast<std::size_t>(k)];
+  return size_of(apart);
+}
+
+/// At a point of the unit ball around the origin, from so far away.
+template <class T>
+Ray<T> from(double distance, Random& random) {
+  const Vec3<double> target = random.direction() * random.uniform(0, 0.8);
+  const Vec3<double> way = random.direction() * distance;
+  return {(target - way).cast<T>(), way.cast<T>()};
+}
+
+/// How far what casts see of rays from 2^least to 2^most radii lies beside where it should be, in
+/// roundings of the ball's radius.
+template <class T>
+double worst_position(double least, double most) {
+  Random random(41);
+  double worst = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const Vec3<T> centre = random.in_cube().cast<T>();
+    const Ray<T> ray = from<T>(std::exp2(random.uniform(least, most)), random);
+    RayNearBall<T> near = ray_near(centre, ray);
+    if (near.is_from_afar(T(1))) near = ray_near_from_afar(centre, ray);
+    const Point nearest = closest_approach(ray, near.t_base, centre);
+    // The line may pass the ball by, rounded as its origin is.
+    const double scale = std::max(1.0, size_of(nearest));
+    worst = std::max(worst, distance<T>(near.s, nearest) / scale);
+  }
+  return worst / std::numeric_limits<T>::epsilon();
+}
+
+TEST(FarOrigins, cost_no_digit_of_a_position) {
+  EXPECT_LT(worst_position<float>(0, 23), 4);
+  EXPECT_LT(worst_position<float>(23, 28), 4);  // where the second way takes over
+  EXPECT_LT(worst_position<float>(28, 45), 4);
+  EXPECT_LT(worst_position<double>(0, 52), 4);
+  EXPECT_LT(worst_position<double>(52, 57), 4);
+  EXPECT_LT(worst_position<double>(57, 61), 4);
+}
+
+/// So far that t's two numbers tell where on the ball it is, all rays are answered; from further
+/// away, no hit is.
+template <class T>
+void check_hits(double limit) {
+  const PreparedShape<T> ball{Shape<T>(Sphere<T>{T(1)})};
+  CastOptions<T> options;
+  options.solver = SolverKind::paper;  // closed forms end before
+  Random random(43);
+  int hits = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const double power = random.uniform(limit - 3, limit + 4);
+    const Ray<T> ray = from<T>(std::exp2(power), random);
+    if (size_of(closest_approach<T>(ray, T(1), {0, 0, 0})) > 0.9) continue;
+    const CastResult<T> answer = cast_ray(ball, ray, options);
+    ASSERT_NE(name_of(answer.status), name_of(Status::miss)) << power;
+    if (power < limit - 0.1) {
+      ASSERT_EQ(name_of(answer.status), name_of(Status::hit)) << power;
+    } else if (power > limit + 1) {
+      ASSERT_EQ(name_of(answer.status), name_of(Status::exhausted)) << power;
+    }
+    if (answer.status != Status::hit) continue;
+    ++hits;
+    const Point spot = along<T>(ray, Quad(answer.t_base) + Quad(answer.t_offset), {0, 0, 0});
+    ASSERT_NEAR(size_of(spot), 1, 0.2) << power;
+  }
+  EXPECT_GT(hits, 500);
+}
+
+TEST(FarOrigins, are_answered_up_to_where_t_tells_the_spot) {
+  check_hits<float>(46);
+  check_hits<double>(62);
+}
+
+/// Along an axis past the origin, from so far away: most t's on the way are no numbers of double.
+Ray<double> along_axis(double distance, Random& random) {
+  Vec3<double> origin = random.in_cube(), way = Vec3<double>::Zero();
+  const int axis = random.below(3);
+  origin[axis] = -distance;
+  way[axis] = distance * random.uniform(0.1, 1);
+  return {origin, way};
+}
+
+/// What proofs see of a ray is exact, or known not to be; and it is exact from where casts answer.
+TEST(FarOrigins, are_proven_with_all_digits_or_refused) {
+  Random random(47);
+  const Vec3<double> middle(0.3, -0.2, 0.1);
+  const auto support = [&](const Vec3<double>& n) -> Vec3<double> { return middle + unit(n); };
+  int refused = 0;
+  double worst = 0;
+  for (int i = 0; i < 40000; ++i) {
+    const double power = random.uniform(40, 72);
+    const Ray<double> ray = along_axis(std::exp2(power), random);
+    const NearSegment near = near_segment(support, ray);
+    refused += near.is_too_far;
+    if (power < 62) {
+      ASSERT_FALSE(near.is_too_far) << power;
+    }
+    if (near.is_too_far) continue;
+    // In two steps, whose products are exact.
+    Point at = along<double>(ray, Quad(near.t_base), near.centre);
+    for (std::size_t k = 0; k < 3; ++k)
+      at[k] += Quad(near.t_shift) * Quad(ray.direction[static_cast<int>(k)]);
+    worst = std::max(worst, distance(near.s, at) / std::max(1.0, size_of(at)));
+  }
+  EXPECT_LT(worst, std::numeric_limits<double>::epsilon());
+  EXPECT_GT(refused, 1000);
+}
+
+}  // namespace
+}  // namespace minkray::testing
