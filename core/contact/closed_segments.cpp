@@ -13,6 +13,20 @@ double nearest_on_segment(const Vec3<double>& half, const Vec3<double>& p) {
   return squared > 0 ? std::clamp(p.dot(half) / squared, -1.0, 1.0) : 0;
 }
 
+/// Of a cross product n of p and q that is smaller, too much is rounding to tell a direction; such
+/// segments are parallel to rounding.
+bool tells_direction(const Vec3<double>& n, double pp, double qq) {
+  constexpr double rounded = 8 * std::numeric_limits<double>::epsilon();
+  return n.squaredNorm() > rounded * rounded * pp * qq;
+}
+
+/// n's direction, at right angles to p: then to q as well, since what rounding has turned n by is
+/// the more, the nearer q is to p.
+Vec3<double> common_perpendicular(const Vec3<double>& p, const Vec3<double>& n) {
+  const Vec3<double> axis = unit<double>(n);
+  return unit<double>(axis - (axis.dot(p) / p.squaredNorm()) * p);
+}
+
 /// The nearest points s p and x + t q of two segments, s and t from -1 to 1, of any two: within
 /// both, or one of them is an end.
 struct OnSegments {
@@ -22,9 +36,10 @@ struct OnSegments {
 
 OnSegments nearest_of_any(const Vec3<double>& p, const Vec3<double>& q, const Vec3<double>& x,
                           const Vec3<double>& n) {
-  const double squared = n.squaredNorm();
-  if (squared > 0) {
-    const double s = x.cross(q).dot(n) / squared, t = x.cross(p).dot(n) / squared;
+  const double qq = q.squaredNorm();
+  if (tells_direction(n, p.squaredNorm(), qq)) {
+    // Of nearly parallel ones s is rounded by much. t goes with s as it is.
+    const double s = x.cross(q).dot(n) / n.squaredNorm(), t = (s * p - x).dot(q) / qq;
     if (std::abs(s) <= 1 && std::abs(t) <= 1) return {s, t, true};
   }
   OnSegments nearest{0, 0, false};
@@ -56,8 +71,7 @@ OnSegments nearest_of_crossing(const Vec3<double>& p, const Vec3<double>& q, con
 
 /// Some direction at right angles to both, whatever they are.
 Vec3<double> across(const Vec3<double>& p, const Vec3<double>& q, const Vec3<double>& n) {
-  const double squared = n.squaredNorm();
-  if (squared > 0) return n / std::sqrt(squared);
+  if (tells_direction(n, p.squaredNorm(), q.squaredNorm())) return common_perpendicular(p, n);
   if (p.squaredNorm() > 0) return p.unitOrthogonal();
   if (q.squaredNorm() > 0) return q.unitOrthogonal();
   return Vec3<double>::UnitX();
@@ -70,14 +84,16 @@ Vec3<double> direction_between(const Vec3<double>& p, const Vec3<double>& q, dou
                                const Vec3<double>& c, double s, double t, const Vec3<double>& n) {
   Vec3<double> axis = unit<double>(c);
   for (int i = 0; i < 2; ++i) {
-    const double along_a = axis.dot(p), along_b = axis.dot(q);
+    const double along_a = axis.dot(p);
     bool is_turned = false;
     if (pp > 0 && (std::abs(s) < 1 || s * along_a < 0)) {
       axis -= (along_a / pp) * p;
       is_turned = true;
     }
+    // Nearly parallel ones are at right angles to both only in this order.
+    const double along_b = axis.dot(q);
     if (qq > 0 && (std::abs(t) < 1 || t * along_b > 0)) {
-      axis -= (axis.dot(q) / qq) * q;
+      axis -= (along_b / qq) * q;
       is_turned = true;
     }
     const double left = axis.squaredNorm();
@@ -128,24 +144,28 @@ CoreDistance between_segments(const Vec3<double>& p, const Vec3<double>& q, cons
       is_crossing ? nearest_of_crossing(p, q, x, pp, qq, pq) : nearest_of_any(p, q, x, n);
   const Vec3<double> a = on.s * p;
   if (on.is_within) {
-    const Vec3<double> axis = n / std::sqrt(n.squaredNorm());
+    const Vec3<double> axis =
+        is_crossing ? Vec3<double>(n / std::sqrt(n.squaredNorm())) : common_perpendicular(p, n);
     const double gap = x.dot(axis);
     const Vec3<double> towards = gap < 0 ? Vec3<double>(-axis) : axis;
     return closed_answer(std::abs(gap), towards, a, std::abs(gap) * towards);
   }
   const Vec3<double> c = x + on.t * q - a;
   Vec3<double> axis = direction_between(p, q, pp, qq, c, on.s, on.t, n);
+  const auto gap = [&](const Vec3<double>& m) {
+    return m.dot(x) - std::abs(m.dot(p)) - std::abs(m.dot(q));
+  };
   // Where they touch, a direction at right angles to both may be the better plane.
   constexpr double touching = 1e-20;
   if (c.squaredNorm() <= touching * (pp + qq)) {
-    const auto gap = [&](const Vec3<double>& m) {
-      return m.dot(x) - std::abs(m.dot(p)) - std::abs(m.dot(q));
-    };
     const Vec3<double> beside = across(p, q, n);
     const Vec3<double> turned = beside.dot(x) < 0 ? Vec3<double>(-beside) : beside;
     if (gap(turned) > gap(axis)) axis = turned;
   }
-  return closed_answer(length_of(c), axis, a, c);
+  CoreDistance found = closed_answer(length_of(c), axis, a, c);
+  // Of nearly parallel ones near each other the direction is short of digits.
+  if (!is_crossing) found.lower = std::min(found.lower, gap(axis));
+  return found;
 }
 
 }  // namespace minkray

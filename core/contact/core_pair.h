@@ -58,6 +58,7 @@ struct CoreDistance {
   Vec3<double> a = Vec3<double>::Zero();                    ///< a point of A, in its frame,
   Vec3<double> c = Vec3<double>::Zero();                    ///< and from it to a point of B
   int supports = 0;                                         ///< of C
+  bool is_exhausted = false;  ///< the budget ended the search, before the bounds met
 
   void raise_lower(double bound, const Vec3<double>& unit_axis) {
     if (!(bound > lower)) return;

@@ -8,6 +8,7 @@
 #include "core/contact/depth_direction.h"
 #include "core/contact/direction_bounds.h"
 #include "core/contact/expanding_polytope.h"
+#include "core/contact/meridian_bounds.h"
 #include "core/contact/signed_distance.h"
 
 namespace minkray {
@@ -96,7 +97,7 @@ void find_contact(const CorePair& pair, CoreDistance& found) {
 
 /// The depth of cores that were found to overlap, or whose distance rounding hides.
 CoreDistance depth_of_cores(const CorePair& pair, Enclosure enclosure, CoreDistance found,
-                            double gap, bool only_sign) {
+                            const SignedDistanceOptions& options, double gap, bool only_sign) {
   // Points that are as near to each other tell enough of an overlap so slight.
   const double slight = gap * (pair.size() + pair.x.norm());
   if (found.status == CoreStatus::overlapping && found.lower >= -slight) {
@@ -108,25 +109,28 @@ CoreDistance depth_of_cores(const CorePair& pair, Enclosure enclosure, CoreDista
   const double upper = found.status == CoreStatus::overlapping
                            ? std::numeric_limits<double>::infinity()
                            : found.upper;
-  if (found.status != CoreStatus::overlapping && found.lower < 0 &&
-      enclose(pair, gap, found, enclosure)) {
-    found.status = CoreStatus::overlapping;
-    if (only_sign) {
-      found.c.setZero();
-      return found;
+  const std::optional<CoreDistance> of_meridian = bound_along_meridian(pair, found, gap);
+  if (of_meridian && !of_meridian->is_exhausted) {
+    found = *of_meridian;
+  } else {
+    if (of_meridian) found.raise_lower(of_meridian->lower, of_meridian->axis);
+    if (found.status != CoreStatus::overlapping && found.lower < 0 &&
+        enclose(pair, gap, found, enclosure)) {
+      found.status = CoreStatus::overlapping;
+      if (only_sign) {
+        found.c.setZero();
+        return found;
+      }
     }
+    if (found.status == CoreStatus::overlapping && !only_sign &&
+        depth_by_polytope(pair, gap, enclosure, found))
+      return found;
+    const int supports = found.supports;
+    found.supports = 0;
+    found = bound_by_directions(pair, found, {gap, options.max_supports, only_sign});
+    found.supports += supports;
+    if (of_meridian) found.upper = std::min(found.upper, of_meridian->upper);
   }
-  if (found.status == CoreStatus::overlapping && !only_sign &&
-      depth_by_polytope(pair, gap, enclosure, found))
-    return found;
-  const int supports = found.supports;
-  DirectionSearch search;
-  search.gap = gap;
-  search.only_sign = only_sign;
-  found.supports = 0;
-  found = bound_by_directions(pair, found, search);
-  found.supports += supports;
-  if (found.lower > 0) found.status = CoreStatus::separated;
   if (only_sign) return found;
   if (found.lower > 0 && upper <= found.upper + settled_core_gap * pair.size()) {
     found.a = a;
@@ -167,7 +171,9 @@ CoreDistance core_signed_distance(const CorePair& pair, const SignedDistanceOpti
     improve_plane(pair, found);
     if (is_settled()) return found;
   }
-  return depth_of_cores(pair, enclosure, found, gap / (pair.size() + pair.x.norm()),
+  // Of two points at one place, both known by their support mapping only, there is no size.
+  const double reach = pair.size() + pair.x.norm();
+  return depth_of_cores(pair, enclosure, found, options, reach > 0 ? gap / reach : 0,
                         options.only_sign && radii == 0);
 }
 

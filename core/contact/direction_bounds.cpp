@@ -149,23 +149,27 @@ class Search {
       add(cell);
     }
     double settled = -std::numeric_limits<double>::infinity();
+    bool is_signed = false;
     while (!cells_.empty()) {
       const Cell top = cells_.front();
       best_.upper = std::max(top.bound, settled);
-      const bool is_near = top.bound - best_.lower <= search_.gap * size_;
-      const bool is_signed = search_.only_sign && (best_.upper < 0 || best_.lower > 0);
-      if (is_near || is_signed || ++cells_seen_ > search_.max_cells) break;
+      is_signed = search_.only_sign && (best_.upper < 0 || best_.lower > 0);
+      if (is_near(top.bound) || is_signed || !may_ask()) break;
       std::pop_heap(cells_.begin(), cells_.end(), later);
       cells_.pop_back();
       if (!split(top)) settled = std::max(settled, top.bound);
       if (cells_.empty()) best_.upper = settled;
     }
+    best_.is_exhausted = !is_signed && !is_near(best_.upper);
     if (best_.lower > 0) best_.status = CoreStatus::separated;
     if (best_.upper < 0) best_.status = CoreStatus::overlapping;
     return best_;
   }
 
  private:
+  bool is_near(double bound) const { return bound - best_.lower <= search_.gap * size_; }
+  bool may_ask() const { return best_.supports < search_.max_supports; }
+
   static bool later(const Cell& a, const Cell& b) { return a.is_below(b); }
 
   Sample sample(const Vec3<double>& n) {
@@ -180,7 +184,7 @@ class Search {
     for (;;) {
       const CellBound bound(cell, size_);
       cell.bound = std::min(cell.bound, bound.value());
-      if (cell.bound - best_.lower <= search_.gap * size_) break;
+      if (is_near(cell.bound) || !may_ask()) break;
       // Large cells are cut before they are looked at more closely.
       constexpr double large = 0.5;
       const int most = cell.longest_side() > large ? 4 : Cell::most_points;
@@ -226,7 +230,6 @@ class Search {
   double size_;
   CoreDistance best_;
   std::vector<Cell> cells_;
-  int cells_seen_ = 0;
 };
 
 }  // namespace

@@ -16,14 +16,14 @@
 namespace minkray {
 
 struct DirectionSearch {
-  double gap = 1e-10;      ///< upper - lower, relative to the size
-  int max_cells = 200000;  ///< then the bounds are what they are
+  double gap = 1e-10;        ///< upper - lower, relative to the size
+  int max_supports = 50000;  ///< then the bounds are what they are
   /// Ends as soon as the sign is known.
   bool only_sign = false;
 };
 
 /// `known.lower` and `known.axis` are where it starts. upper may be negative: less the penetration
-/// depth. a and c are not found.
+/// depth. a and c are not found. Where the bounds are further apart than asked, `is_exhausted`.
 CoreDistance bound_by_directions(const CorePair& pair, const CoreDistance& known,
                                  const DirectionSearch& search = {});
 

@@ -23,6 +23,7 @@ SignedDistance told(const CoreDistance& found, const ContactShape& a, const Cont
   const double allowed = core_rounding * (size + distance);
   SignedDistance result;
   result.supports = found.supports;
+  result.is_exhausted = found.is_exhausted;
   result.lower = found.lower - radii - allowed;
   result.upper = found.upper - radii + allowed;
   if (found.status == CoreStatus::overlapping && found.upper >= 0)

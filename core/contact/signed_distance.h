@@ -49,6 +49,9 @@ struct SignedDistance {
   /// It has unit length, from A to B, across planes `lower` apart. Moving B by it separates.
   Vec3<double> normal = Vec3<double>::Zero();
   int supports = 0;  ///< of the difference B - A: each is one of A and one of B
+  /// The support points that may be asked for ran out: the bounds hold, but are not as near to each
+  /// other as was asked.
+  bool is_exhausted = false;
 };
 
 struct SignedDistanceOptions {
@@ -60,6 +63,11 @@ struct SignedDistanceOptions {
   /// Whether they overlap is all that is asked: the depth is not, and lower is -infinity or what
   /// was found in passing.
   bool only_sign = false;
+  /// Branch and bound, which takes what all else leaves open, asks for no more support points (but
+  /// for some tens in the end, which find the points of contact). Of a body whose directions are
+  /// all as good as each other no number is enough for ten digits: a ball known by its support
+  /// mapping only, around a point.
+  int max_supports = 50000;
 };
 
 /// The poses are rigid. Their rounding, and that of all numbers here, is allowed for by 16 epsilons

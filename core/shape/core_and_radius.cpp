@@ -75,6 +75,7 @@ CoreAndRadius of_other(const Shape<double>& shape, const Affine<double>& map, do
     low[axis] = in_place.support(Vec3<double>(-Vec3<double>::Unit(axis)))[axis];
   }
   const Vec3<double> middle = low + (high - low) / 2;
+  if (low == high) return of_point(middle, radius);
   auto about_middle = std::make_shared<Shape<double>>(
       Transform<double>{shape, Affine<double>{map.linear, map.translation - middle}});
   ShapeCore core;
@@ -167,7 +168,8 @@ struct CoreFinder {
     return true;
   }
   bool find(const Sphere<double>& shape, CoreAndRadius& found) const {
-    if (!(similarity > 0)) return false;
+    if (!(similarity > 0))
+      return find(Ellipsoid<double>{Vec3<double>::Constant(shape.radius)}, found);
     found = of_point(map.translation, radius + shape.radius * similarity);
     return true;
   }
@@ -211,6 +213,17 @@ struct CoreFinder {
   }
   bool find(const Frustum<double>& shape, CoreAndRadius& found) const {
     return disks(shape.radii[0], shape.radii[1], shape.half_height, found);
+  }
+  bool find(const TaperedCapsule<double>& shape, CoreAndRadius& found) const {
+    if (!(similarity > 0)) return false;
+    const TaperedCapsule<double> upright{{shape.radii[0] * similarity, shape.radii[1] * similarity},
+                                         shape.half_height * similarity};
+    found = of_other(Shape<double>(upright), {}, radius);
+    found.core.is_round = true;
+    const Affine<double> turned{map.linear / similarity, map.translation};
+    found.turn = turned.linear;
+    found.middle = turned(found.middle);
+    return true;
   }
   bool find(const Rounded<double>& shape, CoreAndRadius& found) const {
     if (!(similarity > 0)) return false;

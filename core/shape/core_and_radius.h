@@ -24,7 +24,8 @@ enum class CoreKind : unsigned char {
 
 struct ShapeCore {
   CoreKind kind = CoreKind::point;
-  int count = 0;  ///< of a hull's points, filled up to a multiple of 8
+  bool is_round = false;  ///< `other`, and of revolution about the z axis
+  int count = 0;          ///< of a hull's points, filled up to a multiple of 8
   /// A box' half extents, an ellipsoid's radii; of disks the radii below and above; of those and of
   /// segments, z is the half height.
   Vec3<double> size = Vec3<double>::Zero();
