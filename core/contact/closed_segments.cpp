@@ -13,8 +13,8 @@ double nearest_on_segment(const Vec3<double>& half, const Vec3<double>& p) {
   return squared > 0 ? std::clamp(p.dot(half) / squared, -1.0, 1.0) : 0;
 }
 
-/// Of a cross product n of p and q that is smaller, too much is rounding to tell a direction; such
-/// segments are parallel to rounding.
+/// Too much of a smaller cross product n of p and q is rounding; such segments are parallel to
+/// rounding.
 bool tells_direction(const Vec3<double>& n, double pp, double qq) {
   constexpr double rounded = 8 * std::numeric_limits<double>::epsilon();
   return n.squaredNorm() > rounded * rounded * pp * qq;
@@ -38,7 +38,7 @@ OnSegments nearest_of_any(const Vec3<double>& p, const Vec3<double>& q, const Ve
                           const Vec3<double>& n) {
   const double qq = q.squaredNorm();
   if (tells_direction(n, p.squaredNorm(), qq)) {
-    // Of nearly parallel ones s is rounded by much. t goes with s as it is.
+    // Here s may be rounded by much. t goes with s as it is.
     const double s = x.cross(q).dot(n) / n.squaredNorm(), t = (s * p - x).dot(q) / qq;
     if (std::abs(s) <= 1 && std::abs(t) <= 1) return {s, t, true};
   }
@@ -163,7 +163,7 @@ CoreDistance between_segments(const Vec3<double>& p, const Vec3<double>& q, cons
     if (gap(turned) > gap(axis)) axis = turned;
   }
   CoreDistance found = closed_answer(length_of(c), axis, a, c);
-  // Of nearly parallel ones near each other the direction is short of digits.
+  // The direction is short of digits if they are near each other.
   if (!is_crossing) found.lower = std::min(found.lower, gap(axis));
   return found;
 }

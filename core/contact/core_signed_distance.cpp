@@ -171,7 +171,7 @@ CoreDistance core_signed_distance(const CorePair& pair, const SignedDistanceOpti
     improve_plane(pair, found);
     if (is_settled()) return found;
   }
-  // Of two points at one place, both known by their support mapping only, there is no size.
+  // There is no size of two points at one place.
   const double reach = pair.size() + pair.x.norm();
   return depth_of_cores(pair, enclosure, found, options, reach > 0 ? gap / reach : 0,
                         options.only_sign && radii == 0);

@@ -55,7 +55,7 @@ std::optional<HalfPlane> meridian_of(const CorePair& pair) {
   // B turns about its middle until its axis is A's. The angle is no more than twice its sine.
   if (!a.is_any && !b.is_any) plane.off += 2 * e.cross(axis_b).norm() * pair.b.ball;
   plane.across = unit<double>(pair.x - e.dot(pair.x) * e);
-  // Of what lies along the axis but for rounding, any half plane is as good.
+  // Any half plane is as good for what lies along the axis but for rounding.
   const double aslant = std::abs(plane.across.dot(e));
   if (!(aslant < 0.5) || plane.across.isZero(0)) {
     plane.off += 2 * (pair.x - e.dot(pair.x) * e).norm();

@@ -234,6 +234,7 @@ void solve(const SignedDistanceQuery& query, const AnswerOptions& options, Answe
     answer.json["point_b"] = point_json(Vec3<T>(result.point_b.cast<T>()));
   }
   answer.json["supports"] = result.supports;
+  if (result.is_exhausted) answer.json["settled"] = false;
 }
 
 template <class T>

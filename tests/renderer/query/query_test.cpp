@@ -110,6 +110,23 @@ TEST(HardCases, the_worst_that_fuzzing_found_are_right_in_double_but_one) {
   EXPECT_EQ(cases, 10);
 }
 
+TEST(Queries, signed_distances_that_ran_out_of_support_points_say_so) {
+  const auto is_told = [](const std::string& shape) {
+    Mistakes mistakes("q");
+    const auto query = parse(
+        R"({"query":"signed_distance","a":{"type":"point","position":[0,0,0]},"b":)" + shape + "}",
+        mistakes);
+    EXPECT_TRUE(query) << mistakes.text();
+    const Answer result = answer(*query, {});
+    EXPECT_EQ(result.facts.status, "overlapping");
+    return result.json.contains("settled") && result.json["settled"] == false;
+  };
+  // All directions are as good as each other, and nothing but the support mapping is known.
+  EXPECT_TRUE(is_told(R"({"type":"hull_of","shapes":[{"type":"sphere","radius":1}]})"));
+  EXPECT_FALSE(is_told(R"({"type":"sphere","radius":1})"));
+  EXPECT_FALSE(is_told(R"({"type":"ellipsoid","radii":[1,1,2]})"));
+}
+
 TEST(Queries, impacts_say_between_which_times) {
   Mistakes mistakes("q");
   const auto query = parse(
