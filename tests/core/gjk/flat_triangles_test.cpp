@@ -41,8 +41,8 @@ Point nearest_of_triangle(const Point& a, const Point& b, const Point& c) {
   return plus(plus(a, e, u), f, w);
 }
 
-/// Of slivers with such sines, whose corners are numbers of T as they come, and which the origin is
-/// above: how far the point that was found is from the nearest one, by the distance.
+/// Tells how far the point that was found is from the nearest one, by the distance: the worst of
+/// slivers with such sines, whose corners are numbers of T as they come, below the origin.
 template <class T>
 double worst_error(double least_power, double most_power) {
   Random random(29);
