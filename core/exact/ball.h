@@ -10,21 +10,22 @@ namespace minkray::exact {
 /// of r^2, less than this times E r.
 inline constexpr double tangent_margin = 4;
 
-template <class W>
-[[gnu::always_inline]] inline Entry<W> enter_ball(double r, const Line<W>& line,
+template <class W, class S>
+[[gnu::always_inline]] inline Entry<W> enter_ball(const S& size, const Line<W>& line,
                                                   const Mask<W>& open) {
   using std::max;
   using std::sqrt;
+  const W r(size);
   Entry<W> entry;
-  const W h2 = W(r * r) - line.s.squaredNorm(), margin = W(tangent_margin * r) * line.E;
+  const W h2 = r * r - line.s.squaredNorm(), margin = W(tangent_margin) * r * line.E;
   entry.hit = open & (h2 > margin);
   entry.miss = open & (h2 < -margin);
   entry.normal = line.s;
   if (!any(entry.hit)) return entry;
   const W half = sqrt(max(h2, margin) * line.inv);
   entry.t = -half;
-  entry.e = line.E * W(r) * line.inv / half;
-  entry.normal = select<W>(entry.hit, Vec3<W>((line.s - line.d * half) * W(1 / r)), entry.normal);
+  entry.e = line.E * r * line.inv / half;
+  entry.normal = select<W>(entry.hit, Vec3<W>((line.s - line.d * half) * (W(1) / r)), entry.normal);
   return entry;
 }
 

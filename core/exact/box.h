@@ -7,14 +7,14 @@
 
 namespace minkray::exact {
 
-template <class W>
-[[gnu::always_inline]] inline Entry<W> enter_box(const FormSizes& h, const Line<W>& line,
+template <class W, class Sizes>
+[[gnu::always_inline]] inline Entry<W> enter_box(const Sizes& h, const Line<W>& line,
                                                  const Mask<W>& open) {
   using std::max;
   using std::min;
   const Vec3<W>&s = line.s, &d = line.d;
-  const Slab<W> x(s.x(), d.x(), -h[0], h[0], line.E), y(s.y(), d.y(), -h[1], h[1], line.E),
-      z(s.z(), d.z(), -h[2], h[2], line.E);
+  const Slab<W> x(s.x(), d.x(), h[0], line.E), y(s.y(), d.y(), h[1], line.E),
+      z(s.z(), d.z(), h[2], line.E);
   const W t = max(max(x.in, y.in), z.in);
   const W lo = max(max(W(x.in - x.e), W(y.in - y.e)), W(z.in - z.e));
   const W hi = max(max(W(x.in + x.e), W(y.in + y.e)), W(z.in + z.e));

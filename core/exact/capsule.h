@@ -7,13 +7,14 @@
 
 namespace minkray::exact {
 
-template <class W>
-[[gnu::always_inline]] inline Entry<W> enter_capsule(double r, double half_height,
+template <class W, class S>
+[[gnu::always_inline]] inline Entry<W> enter_capsule(const S& radius, const S& half_height,
                                                      const Line<W>& line, const Mask<W>& open) {
   using std::abs;
   using std::copysign;
   using std::max;
   using std::sqrt;
+  const W r(radius);
   const Vec3<W>&s = line.s, &d = line.d;
   Entry<W> entry;
   const Mantle<W> round(r, line, open);
@@ -30,21 +31,21 @@ template <class W>
   // The two formulas are apart by w^2 / 2r across the ray at a distance w from where they meet: no
   // doubt about which of them holds, unless that is more than E and the line is as near as w.
   const W w2 = entry.e * entry.e * line.dd;
-  const Mask<W> unsure = (w2 > W(r) * line.E) & (beyond * beyond < w2);
+  const Mask<W> unsure = (w2 > r * line.E) & (beyond * beyond < w2);
 
   const Mask<W> by_end = round.hit & !by_side & !unsure;
   if (any(by_end)) {
     const Vec3<W> p(s.x(), s.y(), s.z() - copysign(W(half_height), z));
     const W k = -p.dot(d) * line.inv;
     const Vec3<W> x = p + d * k;
-    const W h2 = W(r * r) - x.squaredNorm(), margin = W(tangent_margin * r) * line.E;
+    const W h2 = r * r - x.squaredNorm(), margin = W(tangent_margin) * r * line.E;
     const Mask<W> hit = by_end & (h2 > margin), miss = by_end & (h2 < -margin);
     const W half = sqrt(max(h2, margin) * line.inv);
     entry.hit |= hit;
     entry.miss |= miss;
     entry.t = select(hit, W(k - half), entry.t);
-    entry.e = select(hit, W(W(2 * r) * line.E * line.inv / half), entry.e);
-    const Vec3<W> outward = select<W>(hit, Vec3<W>((x - d * half) * W(1 / r)), x);
+    entry.e = select(hit, W(W(2) * r * line.E * line.inv / half), entry.e);
+    const Vec3<W> outward = select<W>(hit, Vec3<W>((x - d * half) * (W(1) / r)), x);
     entry.normal = select<W>(hit | miss, outward, entry.normal);
   }
   entry.hit &= !unsure;

@@ -19,10 +19,10 @@ struct Cut {
     using std::abs;
     using std::max;
     const W slope = normal.dot(line.d), room = W(offset) - normal.dot(line.s);
-    const W inv = W(1) / max(abs(slope), W(least_component)), t = room * inv;
+    const W inv = W(1) / max(abs(slope), W(least_component<W>)), t = room * inv;
     const Mask<W> enters = slope < W(0);
-    in = select(enters, W(-t), W(-endless));
-    out = select(enters, W(endless), t);
+    in = select(enters, W(-t), W(-endless<W>));
+    out = select(enters, W(endless<W>), t);
     e = line.E * inv;
   }
 };

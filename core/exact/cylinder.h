@@ -6,8 +6,8 @@
 
 namespace minkray::exact {
 
-template <class W>
-[[gnu::always_inline]] inline Entry<W> enter_cylinder(double r, double half_height,
+template <class W, class S>
+[[gnu::always_inline]] inline Entry<W> enter_cylinder(const S& r, const S& half_height,
                                                       const Line<W>& line, const Mask<W>& open) {
   using std::max;
   using std::min;
@@ -16,7 +16,7 @@ template <class W>
   entry.miss = round.miss;
   entry.normal = {round.x, round.y, W(0)};
   if (!any(round.hit)) return entry;
-  const Slab<W> flat(line.s.z(), line.d.z(), -half_height, half_height, line.E);
+  const Slab<W> flat(line.s.z(), line.d.z(), half_height, line.E);
   const W t = max(round.in, flat.in);
   const W lo = max(W(round.in - round.e), W(flat.in - flat.e));
   const W hi = max(W(round.in + round.e), W(flat.in + flat.e));

@@ -7,9 +7,10 @@
 
 namespace minkray::exact {
 
-template <class W>
-[[gnu::always_inline]] inline Entry<W> enter_frustum(double slope, double sine, double half_height,
-                                                     double apex, double R, const Line<W>& line,
+template <class W, class S>
+[[gnu::always_inline]] inline Entry<W> enter_frustum(const S& slope, const S& sine,
+                                                     const S& half_height, const S& apex,
+                                                     const S& R, const Line<W>& line,
                                                      const Mask<W>& open) {
   using std::max;
   using std::min;
@@ -18,7 +19,7 @@ template <class W>
   entry.miss = round.miss;
   if (any(round.miss)) entry.normal = round.separating(line);
   if (!any(round.hit)) return entry;
-  const Slab<W> flat(line.s.z(), line.d.z(), -half_height, half_height, line.E);
+  const Slab<W> flat(line.s.z(), line.d.z(), half_height, line.E);
   const W t = max(round.in, flat.in);
   const W lo = max(W(round.in - round.in_e), W(flat.in - flat.e));
   const W hi = max(W(round.in + round.in_e), W(flat.in + flat.e));

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What closed forms are asked, and what they answer: a line seen from nearby and where it enters,
 // with a bound of its error. W is double, or a packet of doubles: a line in every lane. The same
-// operations in the same order, so that a packet's lanes have a single line's bits.
+// operations in the same order, so that a packet's lanes have a single line's bits. Or it is a
+// packet of floats, which screens candidates (core/cast/screen.h) and may have a form in every lane
+// as well.
 //
 // docs/theory.md ("Casts with an error bound") derives the bounds.
 #pragma once
@@ -25,7 +27,8 @@ struct Line {
   Line reversed() const { return {s, -d, dd, inv, E, parallel}; }
 };
 
-/// Where a line enters a form. A lane that neither hits nor misses is in doubt.
+/// Where a line enters a form, whose sizes may be numbers for all lanes or W, one for each. A lane
+/// that neither hits nor misses is in doubt.
 template <class W>
 struct Entry {
   Mask<W> hit = Mask<W>(false), miss = Mask<W>(false);
@@ -37,7 +40,9 @@ struct Entry {
 
 /// Below it a direction's component is taken for this: what runs so nearly along a slab leaves it
 /// beyond all numbers that count, and does not divide by zero. Directions' lengths are from 1e-20.
-inline constexpr double least_component = 1e-100;
+template <class W>
+inline constexpr Lane<W> least_component = std::is_same_v<Lane<W>, float> ? Lane<W>(1e-20)
+                                                                          : Lane<W>(1e-100);
 
 /// The normal of a plane along the line that separates it from what lies below both of two planes:
 /// one that the line crosses inwards, after it has left the other one.
@@ -49,23 +54,22 @@ Vec3<W> between(const Vec3<W>& entered, const Vec3<W>& left, const Vec3<W>& d) {
   return entered * select(is_along, W(1), outwards) - left * inwards;
 }
 
-/// One pair of parallel planes, z = low and z = high, as a line with these components sees it.
+/// One pair of parallel planes, z = -half and z = half, as a line with these components sees it.
 template <class W>
 struct Slab {
   W in, out, e;  ///< the parameters of entry and exit, and their error
   W facing;      ///< 1 or -1: the outward normal where the line leaves
 
-  Slab(const W& s, const W& d, double low, double high, const W& E) {
+  template <class S>
+  Slab(const W& s, const W& d, const S& half, const W& E) {
     using std::abs;
     using std::copysign;
     using std::max;
-    const W inv = W(1) / max(abs(d), W(least_component));
+    const W inv = W(1) / max(abs(d), W(least_component<W>));
     facing = copysign(W(1), d);
     const W at = facing * s;
-    const W first = low == -high ? W(low) : select(d < W(0), W(-high), W(low));
-    const W last = low == -high ? W(high) : select(d < W(0), W(-low), W(high));
-    in = (first - at) * inv;
-    out = (last - at) * inv;
+    in = (W(-half) - at) * inv;
+    out = (W(half) - at) * inv;
     e = E * inv;
   }
 };

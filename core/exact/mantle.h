@@ -14,9 +14,11 @@ struct Mantle {
   W x, y;             ///< where the line is closest to the axis
   W half;             ///< from there to either end, a parameter
 
-  Mantle(double r, const Line<W>& line, const Mask<W>& open) {
+  template <class S>
+  Mantle(const S& size, const Line<W>& line, const Mask<W>& open) {
     using std::max;
     using std::sqrt;
+    const W r(size);
     const Vec3<W>&s = line.s, &d = line.d;
     const W across = d.x() * d.x() + d.y() * d.y();
     const Mask<W> along = across < line.parallel;
@@ -24,18 +26,19 @@ struct Mantle {
     const W k = select(along, W(0), W(-(s.x() * d.x() + s.y() * d.y()) * inv));
     x = s.x() + k * d.x();
     y = s.y() + k * d.y();
-    const W h2 = W(r * r) - (x * x + y * y), margin = W(tangent_margin * r) * line.E;
+    const W h2 = r * r - (x * x + y * y), margin = W(tangent_margin) * r * line.E;
     hit = open & (h2 > margin);
     miss = open & (h2 < -margin);
     half = sqrt(max(h2, margin) * inv);
     in = k - half;
     out = k + half;
-    e = line.E * W(r) * inv / half;
+    e = line.E * r * inv / half;
   }
   /// Outward, of unit length, where the line enters or (sign = 1) leaves.
-  Vec3<W> normal(double sign, double r, const Line<W>& line) const {
-    const W at = half * W(sign);
-    return {(x + line.d.x() * at) * W(1 / r), (y + line.d.y() * at) * W(1 / r), W(0)};
+  template <class S>
+  Vec3<W> normal(int sign, const S& r, const Line<W>& line) const {
+    const W at = half * W(Lane<W>(sign)), per_r = W(1) / W(r);
+    return {(x + line.d.x() * at) * per_r, (y + line.d.y() * at) * per_r, W(0)};
   }
 };
 

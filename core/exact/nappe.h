@@ -8,7 +8,8 @@
 namespace minkray::exact {
 
 /// A parameter beyond all that matter, whose products with a line's numbers are numbers.
-inline constexpr double endless = 1e200;
+template <class W>
+inline constexpr Lane<W> endless = std::is_same_v<Lane<W>, float> ? Lane<W>(1e15) : Lane<W>(1e200);
 
 /// x^2 + y^2 <= slope^2 (apex - z)^2, z <= apex. R is that of the form, which lies within 2 R of
 /// the apex or within twice the apex' own height.
@@ -17,56 +18,59 @@ struct Nappe {
   Mask<W> hit, miss;       ///< of the cone above and below the apex; neither: in doubt
   W in, in_e, out, out_e;  ///< the parameters, and their errors; of what has no end, `endless`
 
-  Nappe(double slope, double apex, double R, const Line<W>& line, const Mask<W>& open)
+  template <class S>
+  Nappe(const S& slope, const S& apex, const S& R, const Line<W>& line, const Mask<W>& open)
       : slope_(slope) {
     using std::abs;
     using std::copysign;
     using std::max;
     using std::min;
     using std::sqrt;
-    const double square = slope * slope, size = max(R, apex);
+    const W square = slope_ * slope_, size = max(W(R), W(apex));
     const Vec3<W>& d = line.d;
     const Vec3<W> p(line.s.x(), line.s.y(), line.s.z() - W(apex));
     // The quadratic's discriminant, from the line's moment: b^2 - ac would cancel.
     moment_ = p.cross(d);
-    const W D = W(square) * (moment_.x() * moment_.x() + moment_.y() * moment_.y()) -
+    const W D = square * (moment_.x() * moment_.x() + moment_.y() * moment_.y()) -
                 moment_.z() * moment_.z();
     const W length = sqrt(line.dd);
-    const W margin = W(4 * max(1.0, square)) * line.E * length *
+    const W margin = W(4) * max(W(1), square) * line.E * length *
                      (line.E * length + abs(moment_.x()) + abs(moment_.y()) + abs(moment_.z()));
     hit = open & (D > margin);
     miss = open & (D < -margin);
-    a_ = d.x() * d.x() + d.y() * d.y() - W(square) * d.z() * d.z();
+    a_ = d.x() * d.x() + d.y() * d.y() - square * d.z() * d.z();
     const Mask<W> is_flat = a_ > W(0);  // the line, so that both ends are of one nappe
-    const W a = select(is_flat, a_, min(a_, W(-least_component)));
-    const W b = p.x() * d.x() + p.y() * d.y() - W(square) * p.z() * d.z();
-    const W c = p.x() * p.x() + p.y() * p.y() - W(square) * p.z() * p.z();
+    const W a = select(is_flat, a_, min(a_, W(-least_component<W>)));
+    const W b = p.x() * d.x() + p.y() * d.y() - square * p.z() * d.z();
+    const W c = p.x() * p.x() + p.y() * p.y() - square * p.z() * p.z();
     const W root = sqrt(max(D, margin)), q = -(b + copysign(root, b));
     const W t1 = q / a, t2 = c / q;
-    const W per_R = length * W(1 / R), base = W(2 * size * (1 + square)) * line.E / root;
+    const W per_R = length * (W(1) / W(R)), base = W(2) * size * (W(1) + square) * line.E / root;
     const W w1 = W(1) + abs(t1) * per_R, w2 = W(1) + abs(t2) * per_R;
     const W e1 = base * w1 * w1, e2 = base * w2 * w2;
     // A steep line has an end in each nappe: downwards it enters this one at the later.
     const Mask<W> first = t1 < t2, down = d.z() < W(0), enters = is_flat | down,
                   leaves = is_flat | !down;
     const Mask<W> in_first = (is_flat & first) | ((!is_flat) & !first);
-    in = select(enters, select(in_first, t1, t2), W(-endless));
+    in = select(enters, select(in_first, t1, t2), W(-endless<W>));
     in_e = select(enters, select(in_first, e1, e2), W(0));
-    out = select(leaves, select(in_first, t2, t1), W(endless));
+    out = select(leaves, select(in_first, t2, t1), W(endless<W>));
     out_e = select(leaves, select(in_first, e2, e1), W(0));
   }
 
   /// Outward, of unit length, at the parameter t.
-  Vec3<W> normal(const W& t, double sine, const Line<W>& line) const {
+  template <class S>
+  Vec3<W> normal(const W& t, const S& sine, const Line<W>& line) const {
     using std::max;
     using std::sqrt;
     const W x = line.s.x() + t * line.d.x(), y = line.s.y() + t * line.d.y();
-    const W per = W(sine / slope_) / sqrt(max(W(x * x + y * y), W(least_component)));
+    const W per = (W(sine) / slope_) / sqrt(max(W(x * x + y * y), W(least_component<W>)));
     return {x * per, y * per, W(sine)};
   }
 
   /// Lines whose ends are both those of the nappe above the apex, which is none of the form's.
-  Mask<W> is_above(double apex, const Line<W>& line) const {
+  template <class S>
+  Mask<W> is_above(const S& apex, const Line<W>& line) const {
     return hit & (a_ > W(0)) & (line.s.z() + out * line.d.z() > W(apex));
   }
 
@@ -78,12 +82,12 @@ struct Nappe {
     using std::sqrt;
     const Vec3<W>& d = line.d;
     const W across = d.x() * d.x() + d.y() * d.y();
-    const W along = W(-slope_) * d.z(), turn = -copysign(sqrt(max(a_, W(0))), moment_.z());
-    return {along * d.x() - turn * d.y(), along * d.y() + turn * d.x(), W(slope_) * across};
+    const W along = (-slope_) * d.z(), turn = -copysign(sqrt(max(a_, W(0))), moment_.z());
+    return {along * d.x() - turn * d.y(), along * d.y() + turn * d.x(), slope_ * across};
   }
 
  private:
-  double slope_;
+  W slope_;
   Vec3<W> moment_;
   W a_;
 };

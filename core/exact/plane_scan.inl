@@ -13,7 +13,7 @@ void scan(const PlaneRows& planes, const Line<double>& line, PlaneScan& found) {
   constexpr std::size_t lanes = LaneOf<W>::count, a_row = PlaneRows::planes_a_row;
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const Vec3<W> s = widen<W>(line.s), d = widen<W>(line.d);
-  const W E(line.E), least(least_component);
+  const W E(line.E), least(least_component<W>);
   W index(0);
   for (std::size_t i = 0; i < lanes; ++i) index.set_lane(static_cast<int>(i), double(i));
   W in(-infinity), in_hi(-infinity), out(infinity), out_lo(infinity), entered(0), left(0);

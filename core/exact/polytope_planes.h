@@ -34,7 +34,7 @@ void settle_hit(const PolytopeTables& of, const W& plane, const Line<W>& line, c
                 Entry<W>& entry) {
   const PlaneRow<W> at(of, plane);
   const W slope = at.normal.dot(line.d);
-  const Mask<W> hit = open & (slope < W(-least_component));
+  const Mask<W> hit = open & (slope < W(-least_component<W>));
   const W inv = W(-1) / slope;
   if (all(hit)) {
     entry = {hit, Mask<W>(false), -(at.offset - at.normal.dot(line.s)) * inv,
@@ -54,8 +54,8 @@ void settle_miss(const PolytopeTables& of, const W& entered, const W& left, cons
   using std::max;
   const PlaneRow<W> in(of, entered), out(of, left);
   const W slope_in = in.normal.dot(line.d), slope_out = out.normal.dot(line.d);
-  const W inv_in = W(1) / max(W(-slope_in), W(least_component));
-  const W inv_out = W(1) / max(slope_out, W(least_component));
+  const W inv_in = W(1) / max(W(-slope_in), W(least_component<W>));
+  const W inv_out = W(1) / max(slope_out, W(least_component<W>));
   const W first = -(in.offset - in.normal.dot(line.s)) * inv_in - line.E * inv_in;
   const W last = (out.offset - out.normal.dot(line.s)) * inv_out + line.E * inv_out;
   const Mask<W> miss = open & (slope_in < W(0)) & (slope_out >= W(0)) & (first > last);
@@ -94,7 +94,7 @@ PlanesPassed<W> pass_planes(const PolytopeTables& of, const Line<W>& line) {
       const W x(row[0]), y(row[1]), z(row[2]), index(static_cast<double>(i));
       const W slope = x * line.d.x() + y * line.d.y() + z * line.d.z();
       const W room = W(row[3]) - (x * line.s.x() + y * line.s.y() + z * line.s.z());
-      const W inv = W(1) / max(abs(slope), W(least_component));
+      const W inv = W(1) / max(abs(slope), W(least_component<W>));
       const W t = room * inv, e = (line.E + W(row[4])) * inv;
       const Mask<W> enters = slope < W(0);
       const W t_in = select(enters, -t, W(-infinity)), t_out = select(enters, W(infinity), t);

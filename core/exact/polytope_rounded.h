@@ -89,7 +89,7 @@ class RoundedWalk {
   /// Goes to a half-edge's triangle, or, if that faces away, to the nearer one of its other edges.
   void go_over(const Mask<W>& which, const W& edge) {
     const PlaneRow<W> plane(of_, plane_of(of_, edge));
-    const Mask<W> faces = plane.normal.dot(line_.d) < W(-least_component);
+    const Mask<W> faces = plane.normal.dot(line_.d) < W(-least_component<W>);
     go_to(which & faces, feature::face, edge);
     const Mask<W> away = which & !faces;
     if (!any(away)) return;
@@ -142,7 +142,7 @@ class RoundedWalk {
     const PlaneRow<W> plane(of_, plane_of(of_, at_));
     const Vec3<W>& n = plane.normal;
     const W slope = n.dot(line_.d);
-    const Mask<W> faces = slope < W(-least_component);
+    const Mask<W> faces = slope < W(-least_component<W>);
     go_to(which & !faces, feature::none, at_);
     which &= faces;
     const W inv = W(-1) / slope;
@@ -264,7 +264,7 @@ Entry<W> enter_features(const PolytopeTables& of, const Line<W>& line, const Mas
   WalkEnd<W> start;
   start.edge = first_edge(of, line);
   const PlaneRow<W> plane(of, plane_of(of, start.edge));
-  start.in_triangle = open & (plane.normal.dot(line.d) < W(-least_component));
+  start.in_triangle = open & (plane.normal.dot(line.d) < W(-least_component<W>));
   const Mask<W> away = open & !start.in_triangle;
   if (any(away)) {
     const WalkEnd<W> end = follow(of, line, away);

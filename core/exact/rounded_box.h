@@ -8,9 +8,9 @@
 
 namespace minkray::exact {
 
-template <class W>
-[[gnu::always_inline]] inline Entry<W> enter_rounded_box(const FormSizes& sizes,
-                                                         const Line<W>& line, const Mask<W>& open) {
+template <class W, class Sizes>
+[[gnu::always_inline]] inline Entry<W> enter_rounded_box(const Sizes& sizes, const Line<W>& line,
+                                                         const Mask<W>& open) {
   using std::abs;
   using std::copysign;
   using std::max;
@@ -18,15 +18,15 @@ template <class W>
   using std::sqrt;
   // A line passes three pairs of planes.
   constexpr int most_shares = 7;
-  const double r = sizes[3];
+  const W r(sizes[3]);
   // Mirrored, so that the line runs towards +x, +y, +z.
   Vec3<W> sign, d, s, inv, first, last, e;
   for (int i = 0; i < 3; ++i) {
-    const W grown(sizes[static_cast<std::size_t>(i)] + r);
+    const W grown = W(sizes[static_cast<std::size_t>(i)]) + r;
     sign[i] = copysign(W(1), line.d[i]);
     d[i] = abs(line.d[i]);
     s[i] = sign[i] * line.s[i];
-    inv[i] = W(1) / max(d[i], W(least_component));
+    inv[i] = W(1) / max(d[i], W(least_component<W>));
     first[i] = (-grown - s[i]) * inv[i];
     last[i] = (grown - s[i]) * inv[i];
     e[i] = line.E * inv[i];
@@ -63,7 +63,7 @@ template <class W>
   entry.normal = select<W>(by_face, Vec3<W>(-axis(by_x, by_y)), entry.normal);
   // Beside a share's end the next one's surface is as far apart as the square of the way there: no
   // doubt, unless that is more than E r (core/exact/capsule.h).
-  const W area = W(r) * line.E;
+  const W area = r * line.E;
   const W w2 = entry.e * entry.e * line.dd;
   entry.hit = by_face & !((w2 > area) & (outside * outside < w2));
   going &= !by_face;
@@ -78,7 +78,7 @@ template <class W>
   W from = t;
   for (int share = 0; share < most_shares && any(going); ++share) {
     // The share that begins at `from`: of the axes whose slab the line is not in.
-    W until(std::numeric_limits<double>::infinity());
+    W until(std::numeric_limits<Lane<W>>::infinity());
     Vec3<W> p, along;
     for (int i = 0; i < 3; ++i) {
       const W h(sizes[static_cast<std::size_t>(i)]);
@@ -91,17 +91,17 @@ template <class W>
     const W inverse = W(1) / max(across, line.parallel);
     const W k = select(across < line.parallel, W(0), W(-p.dot(along) * inverse));
     const Vec3<W> x = p + along * k;
-    const W h2 = W(r * r) - x.squaredNorm(), margin = W(tangent_margin * r) * line.E;
+    const W h2 = r * r - x.squaredNorm(), margin = W(tangent_margin) * r * line.E;
     const W half = sqrt(max(h2, W(0)) * inverse), at = k - half;
     const Mask<W> on = going & (at > until), here = going & !on;
     const Mask<W> hit = here & (h2 > margin), miss = here & (h2 < -margin);
-    const W error = W(2 * r) * line.E * inverse / half, width = error * error * line.dd;
+    const W error = W(2) * r * line.E * inverse / half, width = error * error * line.dd;
     const Mask<W> unsure = (width > area) & ((until - at < error) | (at - from < error));
     entry.hit |= hit & !unsure;
     entry.miss |= miss;
     entry.t = select(hit, at, entry.t);
     entry.e = select(hit, error, entry.e);
-    const Vec3<W> outward = select<W>(hit, Vec3<W>((x - along * half) * W(1 / r)), x);
+    const Vec3<W> outward = select<W>(hit, Vec3<W>((x - along * half) * (W(1) / r)), x);
     entry.normal = select<W>(hit | miss, Vec3<W>(outward.cwiseProduct(sign)), entry.normal);
     if (share == 0 && any(miss)) {
       // A line that goes away from the box already where it enters the grown one.

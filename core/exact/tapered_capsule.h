@@ -8,11 +8,11 @@
 
 namespace minkray::exact {
 
-template <class W>
-[[gnu::always_inline]] inline Entry<W> enter_tapered_capsule(double lower, double upper,
-                                                             double half_height, double slope,
-                                                             double sine, double apex, double R,
-                                                             const Line<W>& line,
+template <class W, class S>
+[[gnu::always_inline]] inline Entry<W> enter_tapered_capsule(const S& lower, const S& upper,
+                                                             const S& half_height, const S& slope,
+                                                             const S& sine, const S& apex,
+                                                             const S& R, const Line<W>& line,
                                                              const Mask<W>& open) {
   using std::max;
   using std::sqrt;
@@ -23,9 +23,9 @@ template <class W>
   if (any(round.miss)) entry.normal = round.separating(line);
   if (!any(round.hit)) return entry;
   // The circles where the cone touches the balls.
-  const double low = -half_height + lower * sine, high = half_height + upper * sine;
+  const W low(-half_height + lower * sine), high(half_height + upper * sine);
   const W z = s.z() + round.in * d.z();
-  const Mask<W> below = z<W(low), above = z> W(high);
+  const Mask<W> below = z<low, above = z> high;
   const Mask<W> by_side = round.hit & !below & !above;
   entry.hit = by_side;
   entry.t = round.in;
@@ -34,7 +34,7 @@ template <class W>
     entry.normal = select<W>(by_side, round.normal(round.in, sine, line), entry.normal);
   // As at a capsule (core/exact/capsule.h).
   const W w2 = entry.e * entry.e * line.dd;
-  const W from_low = z - W(low), from_high = z - W(high);
+  const W from_low = z - low, from_high = z - high;
   const Mask<W> unsure =
       (w2 > W(upper) * line.E) & ((from_low * from_low < w2) | (from_high * from_high < w2));
 

@@ -29,6 +29,7 @@ Bounds<T> padded(const Bounds<T>& bounds) {
 template <class T>
 std::uint32_t Instances<T>::define(Shape<T> shape) {
   definitions_.push_back(std::make_shared<const ShapeDefinition<T>>(std::move(shape)));
+  screens_.push_back(minkray::screen_of(*definitions_.back()));
   return static_cast<std::uint32_t>(definitions_.size() - 1);
 }
 
@@ -136,7 +137,8 @@ void Instances<T>::place(std::size_t i, std::uint32_t definition, const Affine<T
 
 template <class T>
 std::size_t Instances<T>::bytes() const {
-  return definitions_.size() * (sizeof(ShapeDefinition<T>) + sizeof(definitions_[0])) +
+  return definitions_.size() *
+             (sizeof(ShapeDefinition<T>) + sizeof(definitions_[0]) + sizeof(Screen)) +
          places_.capacity() * sizeof(Place) + linear_.capacity() * sizeof(Linear) +
          movements_.capacity() * sizeof(movements_[0]) +
          half_spaces_.capacity() * sizeof(PosedHalfSpace) + boxes_.capacity() * sizeof(boxes_[0]);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/cast/prepared_shape.h"
+#include "core/cast/screen.h"
 #include "core/world/half_space.h"
 #include "core/world/movement.h"
 
@@ -92,6 +93,14 @@ class Instances {
   bool is_turned(std::size_t i) const { return places_[i].linear != identity; }
   const ShapeDefinition<T>& definition(std::uint32_t k) const { return *definitions_[k]; }
 
+  /// What the i-th instance, which is no half-space, is screened by: its definition's numbers, and
+  /// its place as PreparedShape has it.
+  const Screen& screen_of(std::size_t i) const { return screens_[places_[i].definition]; }
+  const Vec3<T>& centre(std::size_t i) const { return places_[i].centre; }
+  const Mat3<T>& to_inner(std::size_t i) const {
+    return is_turned(i) ? linear_[places_[i].linear].to_inner : unturned_;
+  }
+
   /// Brings near what `at` will read: first the place, and, when that has come, the map.
   void prefetch_place(std::size_t i) const { __builtin_prefetch(&places_[i]); }
   void prefetch_map(std::size_t i) const {
@@ -137,6 +146,8 @@ class Instances {
              bool writes);
 
   std::vector<std::shared_ptr<const ShapeDefinition<T>>> definitions_;
+  std::vector<Screen> screens_;  ///< of each definition
+  Mat3<T> unturned_ = Mat3<T>::Identity();
   std::vector<Place> places_;
   std::vector<Linear> linear_;
   std::vector<Movement<T>> movements_;  ///< by instance; empty if all stand still

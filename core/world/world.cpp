@@ -111,6 +111,11 @@ bool World<T>::occluded(const Ray<T>& ray, QueryCounts& counts, std::uint32_t sk
 }
 
 template <class T>
+bool World<T>::has_screen() const {
+  return in_packets_ && best_walk_set() == WalkSet::avx2;
+}
+
+template <class T>
 void World<T>::pose_all(const std::function<Affine<T>(std::size_t)>& pose_of,
                         const std::function<Movement<T>(std::size_t)>& movement_of) {
   const auto visits = [&] {

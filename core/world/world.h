@@ -116,8 +116,7 @@ class World {
   /// Bit i answers rays[i].
   RayGroupMask occluded(std::span<const WorldRay<T>> rays, QueryCounts& counts) const;
 
-  /// Answer any number of rays that go each their own way: faster from two rays on for each shape
-  /// that instances share.
+  /// Answer any number of rays that go each their own way.
   void closest_hits_in_stream(std::span<const WorldRay<T>> rays, std::span<WorldHit<T>> hits,
                               QueryCounts& counts) const;
   /// met[i] becomes 1 if rays[i] is occluded, 0 if not.
@@ -147,6 +146,14 @@ class World {
   /// They look at half-spaces alone, which are in no hierarchy.
   bool closer_half_space(const WorldRay<T>& ray, WorldHit<T>& closest, QueryCounts& counts) const;
   bool blocked_by_half_space(const WorldRay<T>& ray, QueryCounts& counts) const;
+
+  /// Answer so many rays of a stream as stay in the cache.
+  void closest_of_pairs(std::span<const WorldRay<T>> rays, std::span<WorldHit<T>> hits,
+                        QueryCounts& counts) const;
+  void occluded_of_pairs(std::span<const WorldRay<T>> rays, std::span<std::uint8_t> met,
+                         QueryCounts& counts) const;
+  /// Whether lanes of floats may look at pairs first.
+  bool has_screen() const;
 
   Instances<T> instances_;
   Bvh bvh_;

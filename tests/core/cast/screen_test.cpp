@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+// What lanes of floats say of rays and shapes holds for the casts at them: where they say miss, no
+// cast meets; where they say when, casts meet then.
+#include "core/cast/screen.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "core/bvh/traverse.h"
+#include "core/cast/cast.h"
+
+namespace minkray {
+namespace {
+
+template <class T>
+class ScreenOf : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (best_walk_set() != WalkSet::avx2) GTEST_SKIP() << "the lanes need AVX2";
+  }
+
+  double within(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random_);
+  }
+  Vec3<double> point(double size) {
+    return {within(-size, size), within(-size, size), within(-size, size)};
+  }
+  /// Turned and moved; stretched and sheared where `is_affine`.
+  Affine<T> pose(double size, double away, bool is_affine) {
+    const Vec3<double> axis = point(1);
+    Mat3<double> linear = rotation_matrix(axis.x(), axis.y(), axis.z(), within(-1, 1));
+    if (is_affine)
+      linear *= Vec3<double>(1, within(0.3, 3), within(0.3, 3)).asDiagonal() *
+                rotation_matrix(axis.y(), axis.z(), axis.x(), within(-1, 1));
+    return {(linear * size).cast<T>(), point(away).template cast<T>()};
+  }
+
+  std::mt19937 random_{11};
+};
+using Scalars = ::testing::Types<float, double>;
+TYPED_TEST_SUITE(ScreenOf, Scalars);
+
+struct Seen {
+  int pairs = 0, misses = 0, sure = 0, wrong = 0;
+};
+
+/// A pair in each lane, each of its own sizes, and what a cast says of it.
+template <class T>
+void compare(const std::vector<PreparedShape<T>>& shapes, const std::vector<Ray<T>>& rays,
+             Seen& seen) {
+  std::vector<Screen> screens;
+  for (const auto& shape : shapes) screens.push_back(screen_of(shape.definition()));
+  const Mat3<T> unturned = Mat3<T>::Identity();
+  struct alignas(32) Centre {
+    Vec3<T> at;
+    T unused = T(0);
+  };
+  std::array<Centre, screen_lanes> centres;
+  ScreenPairs<T> pairs;
+  for (std::size_t i = 0; i < screen_lanes; ++i) {
+    centres[i].at = shapes[i].centre();
+    pairs.ray[i] = &rays[i];
+    pairs.centre[i] = &centres[i].at;
+    pairs.to_inner[i] = shapes[i].linear_to_inner() ? shapes[i].linear_to_inner() : &unturned;
+    pairs.form[i] = &screens[i].form;
+  }
+  Screened answers;
+  screen_avx2(screens[0].kind, pairs, answers);
+  for (std::size_t i = 0; i < screen_lanes; ++i) {
+    const CastResult<T> cast = cast_ray(shapes[i], rays[i]);
+    const auto t = static_cast<double>(cast.t());
+    const double first = static_cast<double>(answers.first[i]),
+                 last = static_cast<double>(answers.last[i]);
+    ++seen.pairs;
+    const bool misses = std::isinf(first), sure = screens[i].is_whole && std::isfinite(last);
+    seen.misses += misses ? 1 : 0;
+    seen.sure += sure ? 1 : 0;
+    const bool in_range = rays[i].t_max >= T(last);
+    const bool is_wrong = (cast.found() && !(first <= t)) ||
+                          (sure && in_range && !(cast.found() && t <= last)) || std::isnan(first) ||
+                          std::isnan(last);
+    seen.wrong += is_wrong ? 1 : 0;
+    EXPECT_FALSE(is_wrong) << "cast " << static_cast<int>(cast.status) << " at " << t << ", lanes "
+                           << first << " to " << last;
+  }
+}
+
+/// Shapes of one kind, whose sizes are drawn anew.
+template <class T>
+std::vector<std::function<Shape<T>(const std::function<T()>&)>> kinds() {
+  using Size = std::function<T()>;
+  return {
+      [](const Size& s) { return Shape<T>(Sphere<T>{s()}); },
+      [](const Size& s) {
+        return Shape<T>(Ellipsoid<T>{{s(), s(), s()}});
+      },
+      [](const Size& s) {
+        return Shape<T>(Box<T>{{s(), s(), s()}});
+      },
+      [](const Size& s) {
+        return Shape<T>(Rounded<T>{s() / 3, Shape<T>(Box<T>{{s(), s(), s()}})});
+      },
+      [](const Size& s) {
+        return Shape<T>(Capsule<T>{s(), s()});
+      },
+      [](const Size& s) {
+        return Shape<T>(TaperedCapsule<T>{s(), s(), T(2) + s()});
+      },
+      [](const Size& s) {
+        return Shape<T>(Cylinder<T>{s(), s()});
+      },
+      [](const Size& s) {
+        return Shape<T>(Cone<T>{s(), s()});
+      },
+      [](const Size& s) {
+        return Shape<T>(Frustum<T>{T(1) + s(), s() / 4, s()});
+      },
+  };
+}
+
+TYPED_TEST(ScreenOf, says_of_casts_at_all_kinds_what_they_answer) {
+  using T = TypeParam;
+  for (const auto& kind : kinds<T>()) {
+    Seen seen;
+    for (int round = 0; round < 3000; ++round) {
+      const double scale = std::exp2(this->within(-9, 9)),
+                   away = this->within(0, 1) < 0.3 ? 300 : 3;
+      std::vector<PreparedShape<T>> shapes;
+      std::vector<Ray<T>> rays;
+      FormKind first = FormKind::none;
+      while (shapes.size() < screen_lanes) {
+        const Shape<T> shape = kind([&] { return static_cast<T>(std::exp2(this->within(-2, 1))); });
+        const Affine<T> pose = this->pose(scale, away * scale, round % 3 == 0);
+        PreparedShape<T> prepared(shape, pose);
+        const Screen screen = screen_of(prepared.definition());
+        if (!shapes.empty() && screen.kind != first) continue;  // a frustum with ends alike
+        first = screen.kind;
+        const Vec3<double> centre = prepared.centre().template cast<double>();
+        // Some go by the edge, some begin within, some lie in a plane of the axes.
+        Vec3<double> from = centre + this->point(away * scale);
+        const Vec3<double> aim = centre + this->point(1.2 * scale);
+        if (round % 7 == 0) from = centre + this->point(0.3 * scale);
+        Vec3<double> direction = (aim - from) * std::exp2(this->within(-3, 3)) / scale;
+        if (round % 5 == 0) direction[round % 3] = 0;
+        Ray<T> ray{from.cast<T>(), direction.template cast<T>()};
+        if (ray.direction.isZero(0)) continue;
+        if (round % 11 == 0) ray.t_max = static_cast<T>(this->within(0, 2));
+        shapes.push_back(std::move(prepared));
+        rays.push_back(ray);
+      }
+      compare(shapes, rays, seen);
+    }
+    EXPECT_EQ(seen.wrong, 0);
+    EXPECT_GT(seen.misses, seen.pairs / 20);
+    EXPECT_GT(seen.sure, seen.pairs / 20);
+  }
+}
+
+TYPED_TEST(ScreenOf, is_seldom_undecided) {
+  using T = TypeParam;
+  const PreparedShape<T> shape{
+      Shape<T>(Rounded<T>{T(0.1), Shape<T>(Box<T>{{T(0.5), T(0.3), T(0.2)}})})};
+  const std::vector<PreparedShape<T>> shapes(screen_lanes, shape);
+  Seen seen;
+  for (int round = 0; round < 2000; ++round) {
+    std::vector<Ray<T>> rays;
+    for (int i = 0; i < screen_lanes; ++i) {
+      const Vec3<double> from = unit<double>(this->point(1)) * 50.0, aim = this->point(0.7);
+      rays.push_back({from.cast<T>(), (aim - from).template cast<T>()});
+    }
+    compare(shapes, rays, seen);
+  }
+  EXPECT_EQ(seen.wrong, 0);
+  EXPECT_LT(seen.pairs - seen.misses - seen.sure, seen.pairs / 500);
+}
+
+TYPED_TEST(ScreenOf, shapes_without_a_form_have_a_box_around_them) {
+  using T = TypeParam;
+  const Shape<T> sum = MinkowskiSum<T>{
+      {Shape<T>(Ellipsoid<T>{{T(0.4), T(0.3), T(0.2)}}), Shape<T>(Cone<T>{T(0.3), T(0.5)})}};
+  const std::vector<PreparedShape<T>> shapes(screen_lanes, PreparedShape<T>{sum});
+  const Screen screen = screen_of(shapes[0].definition());
+  EXPECT_EQ(screen.kind, FormKind::box);
+  EXPECT_FALSE(screen.is_whole);
+  Seen seen;
+  for (int round = 0; round < 2000; ++round) {
+    std::vector<Ray<T>> rays;
+    for (int i = 0; i < screen_lanes; ++i) {
+      const Vec3<double> from = unit<double>(this->point(1)) * 5.0, aim = this->point(1);
+      rays.push_back({from.cast<T>(), (aim - from).template cast<T>()});
+    }
+    compare(shapes, rays, seen);
+  }
+  EXPECT_EQ(seen.wrong, 0);
+  EXPECT_GT(seen.misses, seen.pairs / 20);
+}
+
+}  // namespace
+}  // namespace minkray
