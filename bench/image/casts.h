@@ -16,20 +16,25 @@ struct CastSpeed {
   Agreement agreement;     ///< with our answers
 };
 
+/// Which rays, and what is asked of them: where they meet something first or, of shadows, whether.
+enum class RayKindAsked : unsigned char { camera, scattered, scattered_shadows, light_shadows };
+
 struct CastResults {
-  std::string rays;  ///< which
+  RayKindAsked kind = RayKindAsked::camera;
+  std::string rays;  ///< the same in words
   std::size_t count = 0;
   double hit_rate = 0;
   std::vector<CastSpeed> speeds;
 
-  /// The least ratio of a contender's entries: its best case.
-  double best_ratio(const std::string& contender) const;
+  /// The least ratio of the entries of contenders whose names begin so: their best case.
+  double best_ratio(std::string_view contender) const;
 };
 
 /// Coherent rays of the camera, and incoherent ones: from where those arrive to all sides, in
-/// random order. About `rays` of each.
+/// random order. About `rays` of each. `with_shadows`: these are also asked whether they meet
+/// anything, and so are rays to the light.
 std::vector<CastResults> measure_casts(const Subject& subject,
                                        const std::vector<Contender>& contenders, std::size_t rays,
-                                       int rounds);
+                                       int rounds, bool with_shadows = false);
 
 }  // namespace minkray::bench

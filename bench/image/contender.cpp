@@ -32,10 +32,13 @@ std::vector<Contender> contenders_for(const Scene& scene, const ContenderWishes&
     if (wishes.default_quality) add(name.str() + " medium", false);
   }
   if (wishes.user_geometry) {
-    all.push_back({"embree user, our cast", embree_with_our_cast, 0});
+    if (wishes.our_cast_in_user_geometry)
+      all.push_back({"embree user, our cast", embree_with_our_cast, 0});
     if (has_closed_form(scene))
       all.push_back({"embree user, closed form", embree_with_closed_form, 0});
   }
+  if (wishes.round_geometry && has_round_geometry(scene))
+    all.push_back({"embree round geometry", embree_round, 0});
   return all;
 }
 

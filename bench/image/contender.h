@@ -21,6 +21,8 @@ inline constexpr std::string_view ours = "minkray";
 struct ContenderWishes {
   std::vector<double> mesh_errors = {1e-4, 1e-6};
   bool user_geometry = true;
+  bool our_cast_in_user_geometry = true;
+  bool round_geometry = false;   ///< Embree's own spheres and capsules
   bool fast_build = false;       ///< ours also with a hierarchy that is built fast
   bool default_quality = false;  ///< meshes also at Embree's default quality
 };

@@ -10,6 +10,7 @@
 #include "bench/image/memory.h"
 #include "bench/image/povray.h"
 #include "bench/image/report.h"
+#include "bench/image/scenes_table.h"
 #include "bench/image/statistics.h"
 #include "core/parallel/parallel.h"
 #include "renderer/io/output_file.h"
@@ -57,6 +58,7 @@ class Bench {
     std::cout << machine() << "; ratios: other / minkray in float, medians of " << options_.rounds
               << " interleaved rounds\n";
     const std::set<std::string> wanted(options_.parts.begin(), options_.parts.end());
+    if (wanted.contains("scenes")) json_["scenes"] = measure_scenes(options_, goals_);
     if (wanted.contains("casts")) casts();
     if (wanted.contains("build")) build();
     if (wanted.contains("memory")) memory();

@@ -19,9 +19,9 @@ void read_arguments(CLI::App& app, ImageBenchOptions& options, const char* progr
   options.minkray = std::filesystem::path(program).parent_path() / "minkray";
   app.add_option("--part", options.parts,
                  "Which: casts, build, memory, hulls, threads, povray (all these by default); "
-                 "image, growth")
+                 "scenes, image, growth")
       ->check(CLI::IsMember(
-          {"casts", "build", "memory", "hulls", "threads", "povray", "image", "growth"}));
+          {"casts", "build", "memory", "hulls", "threads", "povray", "scenes", "image", "growth"}));
   app.add_option("--kind", options.kind, "Of the scene: of minkray generate, or rounded-hulls")
       ->capture_default_str();
   app.add_option("-n,--objects", options.objects)->capture_default_str();

@@ -6,10 +6,51 @@
 #include "core/derived/convert.h"
 #include "core/derived/shape_bounds.h"
 #include "renderer/generate/generate.h"
+#include "renderer/generate/random.h"
 #include "renderer/scene/scene_instances.h"
 #include "renderer/scene/scene_json.h"
 
 namespace minkray::bench {
+
+namespace {
+
+/// Points of an ellipsoid, all of which are vertices.
+Shape<double> hull_of(int points) {
+  Random random(7);
+  std::vector<Vec3<double>> corners;
+  for (int i = 0; i < points; ++i)
+    corners.push_back(random.direction().cwiseProduct(Vec3<double>(0.75, 0.5, 0.35)));
+  return Hull<double>{PointCloud<double>(corners)};
+}
+
+/// Gives the particles of the one set eight shapes in turn, a set for each.
+void mix(Scene& scene) {
+  const Box<double> box{{0.5, 0.35, 0.2}};
+  const std::vector<Shape<double>> kinds = {Sphere<double>{0.5},
+                                            Ellipsoid<double>{{0.75, 0.5, 0.35}},
+                                            box,
+                                            Rounded<double>{0.1, Shape<double>(box)},
+                                            Capsule<double>{0.25, 0.4},
+                                            Cylinder<double>{0.35, 0.4},
+                                            Cone<double>{0.45, 0.5},
+                                            hull_of(16)};
+  const ParticleSet all = std::move(scene.particles.at(0));
+  scene.particles.clear();
+  const std::size_t numbers = all.row_numbers();
+  for (std::size_t k = 0; k < kinds.size(); ++k) {
+    ParticleSet set = all;
+    set.name += std::to_string(k);
+    set.shape = kinds[k];
+    set.poses.clear();
+    for (std::size_t i = k; i < all.size(); i += kinds.size()) {
+      const auto row = all.poses.begin() + static_cast<std::ptrdiff_t>(i * numbers);
+      set.poses.insert(set.poses.end(), row, row + static_cast<std::ptrdiff_t>(numbers));
+    }
+    scene.particles.push_back(std::move(set));
+  }
+}
+
+}  // namespace
 
 std::size_t Subject::objects() const {
   return instance_count(scene);
@@ -17,12 +58,15 @@ std::size_t Subject::objects() const {
 
 Subject make_subject(const std::string& kind, std::size_t objects) {
   const bool rounded = kind == "rounded-hulls";
+  const std::string generated = rounded                                         ? "hulls"
+                                : kind == "mixed" || kind.starts_with("hulls-") ? "rounded-boxes"
+                                                                                : kind;
   const TemporaryFolder folder;
   const std::string file = folder.path() / "scene.json";
   Subject subject;
   subject.kind = kind;
   const Clock generating;
-  generate_scene({rounded ? "hulls" : kind, objects, 0}, file);
+  generate_scene({generated, objects, 0}, file);
   subject.generate_seconds = generating.seconds();
   const Clock loading;
   subject.scene = load_scene(file);
@@ -32,6 +76,9 @@ Subject make_subject(const std::string& kind, std::size_t objects) {
       const double size = bounds_of<double>(object.shape).half_extents().maxCoeff();
       object.shape = Rounded<double>{0.1 * size, object.shape};
     }
+  if (kind == "hulls-16" || kind == "hulls-64")
+    subject.scene.particles.at(0).shape = hull_of(kind == "hulls-16" ? 16 : 64);
+  if (kind == "mixed") mix(subject.scene);
   return subject;
 }
 

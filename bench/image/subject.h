@@ -20,8 +20,10 @@ struct Subject {
   std::size_t objects() const;
 };
 
-/// A kind of `minkray generate`, or "rounded-hulls": its hulls, each rounded by a tenth of its
-/// size.
+/// A kind of `minkray generate`, or one of its scenes with other shapes: "rounded-hulls" (its
+/// hulls, each rounded by a tenth of its size), "hulls-16" and "hulls-64" (one hull of so many
+/// points of an ellipsoid in place of rounded boxes), "mixed" (eight kinds of shapes in their
+/// place).
 Subject make_subject(const std::string& kind, std::size_t objects);
 
 /// All shapes there are, each once.

@@ -27,6 +27,10 @@ std::unique_ptr<Tracer> embree_with_our_cast(const Scene& scene, int threads);
 /// Whether all shapes of a scene are rounded boxes.
 bool has_closed_form(const Scene& scene);
 
+/// Embree's own spheres or round curves, where all shapes of a scene are spheres, or all capsules.
+bool has_round_geometry(const Scene& scene);
+std::unique_ptr<Tracer> embree_round(const Scene& scene, int threads);
+
 /// This one uses the closed form of a ray and a rounded box.
 std::unique_ptr<Tracer> embree_with_closed_form(const Scene& scene, int threads);
 
