@@ -159,7 +159,7 @@ void put(std::unique_ptr<Subtree> subtree, std::vector<BvhNode>& nodes, std::siz
   std::vector<std::size_t> begins;
   std::size_t next = begin + subtree->nodes.size();
   for (const auto& [child, below] : subtree->below) {
-    nodes[begin].refer(child, static_cast<std::uint32_t>(next));
+    nodes[begin].children[child] = static_cast<std::uint32_t>(next);
     begins.push_back(next);
     next += below->node_count();
   }

@@ -15,7 +15,7 @@ inline constexpr int bvh_width = 8;
 
 /// Up to eight boxes, coordinate by coordinate, and what is in each. Boxes are rounded outwards to
 /// float whatever the scalar of the rays, which costs at most a few visits more.
-struct alignas(64) BvhNode {
+struct alignas(32) BvhNode {
   /// No such child: the box is empty, and so are all that follow.
   static constexpr std::uint32_t none = ~std::uint32_t{0};
   /// A child with this bit is one of the boxes that the hierarchy was built of, the rest is its
@@ -24,7 +24,6 @@ struct alignas(64) BvhNode {
 
   float planes[2][3][bvh_width];  ///< lower corners, upper corners
   std::uint32_t children[bvh_width];
-  std::uint32_t leaves = 0, inner = 0;  ///< a bit for each child of that kind
 
   Bounds<float> box(int child) const {
     const auto at = [&](int corner) {
@@ -38,17 +37,10 @@ struct alignas(64) BvhNode {
       planes[0][axis][child] = box.lower[axis];
       planes[1][axis][child] = box.upper[axis];
     }
-    refer(child, what);
-  }
-  void refer(int child, std::uint32_t what) {
     children[child] = what;
-    const std::uint32_t bit = std::uint32_t{1} << child;
-    leaves &= ~bit;
-    inner &= ~bit;
-    if (what != none) ((what & leaf) != 0 ? leaves : inner) |= bit;
   }
 };
-static_assert(sizeof(BvhNode) == 256);  // four lines of a cache
+static_assert(sizeof(BvhNode) == 224);
 
 /// Node 0 is the root; no nodes at all if there are no boxes. Children follow their parents.
 struct Bvh {

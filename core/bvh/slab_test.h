@@ -24,35 +24,18 @@ struct SlabInterval {
   Mask<Lanes> is_met() const { return enter <= leave * Lanes(slab_padding) + Lanes(slab_tiny); }
 };
 
-/// Where a ray's near and far planes stand in every node: so many numbers behind the first.
-struct SlabRows {
-  std::size_t near[3], far[3];
-
-  SlabRows() = default;
-  explicit SlabRows(const SlabNumbers& ray) {
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto row = [&](int corner) {
-        return static_cast<std::size_t>((3 * corner + axis) * bvh_width);
-      };
-      near[axis] = row(ray.near[axis]);
-      far[axis] = row(1 - ray.near[axis]);
-    }
-  }
-};
-
-/// Which of a node's boxes are met up to t_max, and where. `rows` are the ray's.
+/// Which of a node's boxes are met up to t_max, and where.
 template <class Lanes>
-std::uint32_t boxes_met(const BvhNode& node, const SlabRows& rows, const SlabNumbers& ray,
-                        float t_max, float (&enters)[bvh_width]) {
-  const float* const planes = &node.planes[0][0][0];
+std::uint32_t boxes_met(const BvhNode& node, const SlabNumbers& ray, float t_max,
+                        float (&enters)[bvh_width]) {
   std::uint32_t met = 0;
   for (int from = 0; from < bvh_width; from += LaneOf<Lanes>::count) {
     SlabInterval<Lanes> t{Lanes(0.0f), Lanes(t_max)};
     for (int axis = 0; axis < 3; ++axis)
-      t.meet(Lanes::load(planes + rows.near[axis] + from),
-             Lanes::load(planes + rows.far[axis] + from), Lanes(ray.origin_near[axis]),
-             Lanes(ray.origin_far[axis]), Lanes(ray.inverse_near[axis]),
-             Lanes(ray.inverse_far[axis]));
+      t.meet(Lanes::load(node.planes[ray.near[axis]][axis] + from),
+             Lanes::load(node.planes[1 - ray.near[axis]][axis] + from),
+             Lanes(ray.origin_near[axis]), Lanes(ray.origin_far[axis]),
+             Lanes(ray.inverse_near[axis]), Lanes(ray.inverse_far[axis]));
     t.enter.store(enters + from);
     met |= lane_bits(t.is_met()) << from;
   }

@@ -27,7 +27,6 @@ static_assert(pairs_at_once - 1 + bvh_width <= most_pairs_at_once);
 struct Turn {
   std::uint32_t ray;
   int top;
-  SlabRows rows;
   float enter[stack_size];
   std::uint32_t node[stack_size];
 };
@@ -69,9 +68,8 @@ void store(std::uint32_t* to, __m256i lanes) {
   _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), lanes);
 }
 
-void begin(Turn& turn, std::uint32_t ray, const SlabNumbers& numbers) {
+void begin(Turn& turn, std::uint32_t ray) {
   turn.ray = ray;
-  turn.rows = SlabRows(numbers);
   turn.top = sentinels + 1;
   turn.enter[sentinels] = 0;
   turn.node[sentinels] = 0;
@@ -108,8 +106,7 @@ std::uint64_t walk_stream_avx2(const BvhNode* nodes, SlabRay* rays, std::size_t 
       if (&enter == all[opened].enter + sentinels) break;
       enter = -std::numeric_limits<float>::infinity();
     }
-    begin(all[opened], next, rays[next].numbers);
-    ++next;
+    begin(all[opened], next++);
     open[opened] = opened;
   }
   const __m256i lane_numbers = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
@@ -121,20 +118,22 @@ std::uint64_t walk_stream_avx2(const BvhNode* nodes, SlabRay* rays, std::size_t 
       const SlabNumbers& ray = rays[turn.ray].numbers;
       const float t_max = ray.t_max;
       if (!drop_distant(turn, t_max)) {
-        if (next < rays_left) {
-          begin(turn, next, rays[next].numbers);
-          ++next;
-        } else {
+        if (next < rays_left)
+          begin(turn, next++);
+        else
           open[i] = open[--opened];
-        }
         continue;
       }
       const BvhNode& node = nodes[turn.node[--turn.top]];
       ++visited;
       alignas(32) float enters[bvh_width];
-      const std::uint32_t met = boxes_met<Lanes>(node, turn.rows, ray, t_max, enters);
+      const std::uint32_t met = boxes_met<Lanes>(node, ray, t_max, enters);
       const __m256i children = _mm256_load_si256(reinterpret_cast<const __m256i*>(node.children));
-      const std::uint32_t boxes = met & node.leaves, inner = met & node.inner;
+      const auto leaves =
+          static_cast<std::uint32_t>(_mm256_movemask_ps(_mm256_castsi256_ps(children)));
+      const auto absent = static_cast<std::uint32_t>(_mm256_movemask_ps(
+          _mm256_castsi256_ps(_mm256_cmpeq_epi32(children, _mm256_set1_epi32(-1)))));
+      const std::uint32_t boxes = met & leaves & ~absent, inner = met & ~leaves;
       // Boxes to the queue.
       store(pair_boxes + pairs,
             _mm256_and_si256(_mm256_permutevar8x32_epi32(children, lanes_of(boxes)),

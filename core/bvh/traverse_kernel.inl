@@ -58,7 +58,6 @@ Walk walk(const BvhNode* nodes, const RayOrGroup& rays, const BoxVisitor& visito
     float enter;
   };
   const SlabNumbers& whole = whole_of(rays);
-  const SlabRows rows(whole);
   Waiting stack[bvh_max_depth * (bvh_width - 1) + 1];
   int top = 0;
   int patience = patience_of(rays);
@@ -67,7 +66,7 @@ Walk walk(const BvhNode* nodes, const RayOrGroup& rays, const BoxVisitor& visito
   for (;;) {
     ++done.visited;
     float enters[bvh_width];
-    std::uint32_t met = boxes_met<Lanes>(nodes[node], rows, whole, whole.t_max, enters);
+    std::uint32_t met = boxes_met<Lanes>(nodes[node], whole, whole.t_max, enters);
     // The nearest on top.
     for (const int bottom = top; met != 0; met &= met - 1) {
       const int child = __builtin_ctz(met);
