@@ -8,7 +8,7 @@
 namespace minkray::bench {
 
 struct ImageBenchOptions {
-  std::vector<std::string> parts = {"casts", "build", "memory", "hulls", "threads", "povray"};
+  std::vector<std::string> parts = {"scenes", "build", "memory", "hulls", "threads", "povray"};
   std::string kind = "rounded-boxes";
   std::size_t objects = 100000;
   std::size_t build_objects = 1000000;

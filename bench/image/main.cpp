@@ -18,8 +18,8 @@ using namespace minkray::bench;
 void read_arguments(CLI::App& app, ImageBenchOptions& options, const char* program) {
   options.minkray = std::filesystem::path(program).parent_path() / "minkray";
   app.add_option("--part", options.parts,
-                 "Which: casts, build, memory, hulls, threads, povray (all these by default); "
-                 "scenes, image, growth")
+                 "Which: scenes, build, memory, hulls, threads, povray (all these by default); "
+                 "casts, image, growth")
       ->check(CLI::IsMember(
           {"casts", "build", "memory", "hulls", "threads", "povray", "scenes", "image", "growth"}));
   app.add_option("--kind", options.kind, "Of the scene: of minkray generate, or rounded-hulls")
