@@ -9,6 +9,7 @@
 
 #include "core/bvh/traverse.h"
 #include "core/cast/cast.h"
+#include "core/derived/shape_bounds.h"
 
 namespace minkray {
 namespace {
@@ -194,6 +195,100 @@ TYPED_TEST(ScreenOf, shapes_without_a_form_have_a_box_around_them) {
   }
   EXPECT_EQ(seen.wrong, 0);
   EXPECT_GT(seen.misses, seen.pairs / 20);
+}
+
+/// What the lanes say of one pair.
+struct Said {
+  double first, last;
+  bool misses() const { return std::isinf(first); }
+  bool is_sure() const { return std::isfinite(last); }
+  bool is_undecided() const { return first == 0 && !is_sure(); }
+};
+
+Said said_of(const Shape<double>& shape, const Ray<double>& ray) {
+  const PreparedShape<double> prepared{shape};
+  const Screen screen = screen_of(prepared.definition());
+  const Mat3<double> unturned = Mat3<double>::Identity();
+  const std::array<double, 4> centre = {prepared.centre().x(), prepared.centre().y(),
+                                        prepared.centre().z(), 0};
+  ScreenPairs<double> pairs;
+  pairs.ray.fill(&ray);
+  pairs.centre.fill(reinterpret_cast<const Vec3<double>*>(centre.data()));
+  pairs.to_inner.fill(prepared.linear_to_inner() ? prepared.linear_to_inner() : &unturned);
+  pairs.form.fill(&screen.form);
+  Screened answers;
+  screen_avx2(screen.kind, pairs, answers);
+  return {static_cast<double>(answers.first[0]), static_cast<double>(answers.last[0])};
+}
+
+class ScreenBounds : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (best_walk_set() != WalkSet::avx2) GTEST_SKIP() << "the lanes need AVX2";
+  }
+};
+
+// A ball of radius 1 is known to E = 2^-19 * (3 sqrt(2) + 1) = 1e-5, and rays are decided that pass
+// its surface by more than 2 E (docs/theory.md, section 13).
+TEST_F(ScreenBounds, rays_are_undecided_that_pass_by_less_than_rounding) {
+  const Shape<double> ball = Sphere<double>{1};
+  const auto beside = [&](double distance) {
+    return said_of(ball, {{-3, 1 + distance, 0}, {1, 0, 0}});
+  };
+  EXPECT_TRUE(beside(1.2e-5).is_undecided());
+  EXPECT_TRUE(beside(-1.2e-5).is_undecided());
+  EXPECT_TRUE(beside(6e-5).misses());
+  EXPECT_TRUE(beside(-6e-5).is_sure());
+}
+
+// E of this box is 8e-6: 1/30 of the one radius, 1/270 of the other.
+TEST_F(ScreenBounds, radii_that_rounding_nearly_reaches_are_undecided) {
+  const auto at_edge = [](double radius) {
+    const Shape<double> box = Rounded<double>{radius, Shape<double>(Box<double>{{0.5, 0.5, 0.5}})};
+    return said_of(box, {{-3, 0.1, 0.2}, {1, 0.01, 0.02}});
+  };
+  EXPECT_TRUE(at_edge(2.5e-4).is_undecided());
+  EXPECT_TRUE(at_edge(2.2e-3).is_sure());
+}
+
+// t is a sum of floats.
+TEST_F(ScreenBounds, parameters_are_known_to_their_own_rounding) {
+  const double t = 1e4;
+  const Said said = said_of(Sphere<double>{0.01}, {{-t, 0, 0}, {1, 0, 0}});
+  ASSERT_TRUE(said.is_sure());
+  EXPECT_GT(said.last - said.first, 0x1p-23 * t);
+  EXPECT_LT(said.last - said.first, 3e-6 * t);
+}
+
+// Squares of numbers beyond would leave float's range.
+TEST_F(ScreenBounds, directions_of_unusual_length_and_shapes_of_unusual_size_are_undecided) {
+  const auto along = [](double length) {
+    return said_of(Sphere<double>{1}, {{-3, 0.1, 0}, {length, 0, 0}});
+  };
+  EXPECT_TRUE(along(0.7e-4).is_undecided());
+  EXPECT_TRUE(along(1.5e-4).is_sure());
+  EXPECT_TRUE(along(0.7e4).is_sure());
+  EXPECT_TRUE(along(1.5e4).is_undecided());
+  const auto kind = [](double radius) {
+    return screen_of(ShapeDefinition<double>(Shape<double>(Sphere<double>{radius}))).kind;
+  };
+  EXPECT_EQ(kind(0.7e-7), FormKind::none);
+  EXPECT_EQ(kind(1.5e-7), FormKind::ball);
+  EXPECT_EQ(kind(0.7e7), FormKind::ball);
+  EXPECT_EQ(kind(1.5e7), FormKind::none);
+}
+
+// Solvers may take a ray for a hit that passes by as much as they tolerate.
+TEST_F(ScreenBounds, boxes_around_shapes_without_a_form_are_a_little_wider) {
+  const Shape<double> sum = MinkowskiSum<double>{
+      {Shape<double>(Ellipsoid<double>{{0.4, 0.3, 0.2}}), Shape<double>(Cone<double>{0.3, 0.5})}};
+  const double edge = bounds_of<double>(sum).upper.x(),
+               R = ShapeDefinition<double>(sum).inner_ball().radius;
+  const auto beside = [&](double share) {
+    return said_of(sum, {{edge + share * R, 0, -3}, {0, 0, 1}});
+  };
+  EXPECT_FALSE(beside(0.6e-4).misses());
+  EXPECT_TRUE(beside(3e-4).misses());
 }
 
 }  // namespace
