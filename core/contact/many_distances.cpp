@@ -8,19 +8,22 @@
 namespace minkray {
 namespace {
 
-/// A thread takes so many at a time.
-constexpr std::size_t grain = 256;
+/// Asks for each answer by itself, on all cores.
+template <class Ask>
+void answer_all(std::span<SignedDistance> answers, const Ask& ask) {
+  constexpr std::size_t grain = 256;  // a thread takes so many at a time
+  parallel_for(answers.size(), grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) answers[i] = ask(i);
+  });
+}
 
 }  // namespace
 
 void signed_distances(std::span<const PosedPair> pairs, std::span<SignedDistance> answers,
                       const SignedDistanceOptions& options) {
   assert(answers.size() == pairs.size());
-  parallel_for(pairs.size(), grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const PosedPair& pair = pairs[i];
-      answers[i] = signed_distance(*pair.a, pair.pose_a, *pair.b, pair.pose_b, options);
-    }
+  answer_all(answers, [&](std::size_t i) {
+    return signed_distance(*pairs[i].a, pairs[i].pose_a, *pairs[i].b, pairs[i].pose_b, options);
   });
 }
 
@@ -28,21 +31,16 @@ void signed_distances(const ContactShape& a, const Affine<double>& pose_a, const
                       std::span<const Affine<double>> poses_b, std::span<SignedDistance> answers,
                       const SignedDistanceOptions& options) {
   assert(answers.size() == poses_b.size());
-  parallel_for(poses_b.size(), grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      answers[i] = signed_distance(a, pose_a, b, poses_b[i], options);
-  });
+  answer_all(answers,
+             [&](std::size_t i) { return signed_distance(a, pose_a, b, poses_b[i], options); });
 }
 
 void signed_distances(std::span<const PosedPair> pairs, std::span<PairMemory> memories,
                       std::span<SignedDistance> answers, const SignedDistanceOptions& options) {
   assert(answers.size() == pairs.size() && memories.size() == pairs.size());
-  parallel_for(pairs.size(), grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const PosedPair& pair = pairs[i];
-      answers[i] =
-          signed_distance(*pair.a, pair.pose_a, *pair.b, pair.pose_b, memories[i], options);
-    }
+  answer_all(answers, [&](std::size_t i) {
+    return signed_distance(*pairs[i].a, pairs[i].pose_a, *pairs[i].b, pairs[i].pose_b, memories[i],
+                           options);
   });
 }
 
