@@ -51,6 +51,8 @@ std::vector<Limit> limits() {
        MinkowskiSum<double>{{S(Ellipsoid<double>{{1, 0.5, 0.2}}), box}}, 5, 10, 4},
       {"sum of ellipsoids", MinkowskiSum<double>{{egg, S(Ellipsoid<double>{{0.3, 0.5, 1}})}}, 5, 10,
        4},
+      {"superellipsoid and ellipsoid",
+       MinkowskiSum<double>{{S(Superellipsoid<double>{{1, 0.7, 0.5}, 3}), egg}}, 5, 50, 2.3},
   };
 }
 

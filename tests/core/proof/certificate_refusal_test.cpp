@@ -114,5 +114,34 @@ TEST(Certificate, with_negative_weights_is_refused) {
   EXPECT_FALSE(check_certificate(support, beside, claim, certificate).holds);
 }
 
+// The certificate is that of the whole ray: it is the ray's end that refuses.
+TEST(Certificate, of_a_hit_beyond_the_rays_end_is_refused) {
+  const Shape<double> ball = Sphere<double>{2};
+  const SupportFunction support = supports_of(ball);
+  Ray<double> ray{{-3, 1, 0.5}, {0.5, 0, 0}};
+  const Claim claim = claim_of(cast_ray(PreparedShape<double>(ball), ray));
+  ASSERT_EQ(claim.status, Status::hit);
+  const Certificate certificate = certify(support, ray, claim);
+  const double t = claim.t_base + claim.t_offset;
+  for (const double share : {2.0, 1.0, 0.9999, 0.5}) {
+    ray.t_max = share * t;
+    EXPECT_EQ(check_certificate(support, ray, claim, certificate).holds, share >= 1) << share;
+  }
+}
+
+// Its support points have to lie as high as that plane.
+TEST(Certificate, without_a_plane_of_its_own_is_judged_by_the_claimed_one) {
+  const Shape<double> ball = Sphere<double>{2};
+  const SupportFunction support = supports_of(ball);
+  const Ray<double> ray{{-3, 0, 0}, {1, 0, 0}};
+  const Claim claim = claim_of(cast_ray(PreparedShape<double>(ball), ray));
+  Certificate certificate;
+  certificate.spanning[0] = {{-1, 0, 0}, 1};
+  EXPECT_TRUE(check_certificate(support, ray, claim, certificate).holds);
+  certificate.spanning[0].weight = 0.5;
+  certificate.spanning[1] = {{1, 0, 0}, 0.5};  // the middle
+  EXPECT_FALSE(check_certificate(support, ray, claim, certificate).holds);
+}
+
 }  // namespace
 }  // namespace minkray::testing

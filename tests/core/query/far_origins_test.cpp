@@ -88,7 +88,7 @@ TEST(FarOrigins, cost_no_digit_of_a_position) {
 }
 
 /// So far that t's two numbers tell where on the ball it is, all rays are answered; from further
-/// away, no hit is.
+/// away, no hit is. Rays that lead away miss, wherever they begin.
 template <class T>
 void check_hits(double limit) {
   const PreparedShape<T> ball{Shape<T>(Sphere<T>{T(1)})};
@@ -107,6 +107,10 @@ void check_hits(double limit) {
     } else if (power > limit + 1) {
       ASSERT_EQ(name_of(answer.status), name_of(Status::exhausted)) << power;
     }
+    ASSERT_GT(answer.supports, 0) << "whatever it says, it was asked";
+    const CastResult<T> away = cast_ray(ball, Ray<T>{ray.origin, -ray.direction}, options);
+    ASSERT_EQ(name_of(away.status), name_of(Status::miss)) << power;
+    ASSERT_LT(away.normal.dot(ray.direction), T(0)) << power;
     if (answer.status != Status::hit) continue;
     ++hits;
     const Point spot = along<T>(ray, Quad(answer.t_base) + Quad(answer.t_offset), {0, 0, 0});
