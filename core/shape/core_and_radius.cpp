@@ -1,69 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "core/shape/core_and_radius.h"
 
-#include <algorithm>
+#include "core/shape/simple_cores.h"
 
 namespace minkray {
 namespace {
 
-/// A box's and ellipsoid's balls are rounded up, so that they hold what they should.
-constexpr double padding = 1 + 16 * std::numeric_limits<double>::epsilon();
-
+using namespace cores;
 using Points = std::vector<Vec3<double>>;
-
-CoreAndRadius placed(const ShapeCore& core, const Mat3<double>& turn, const Vec3<double>& middle) {
-  return {core, turn, middle, nullptr};
-}
-
-CoreAndRadius of_point(const Vec3<double>& point, double radius) {
-  ShapeCore core;
-  core.radius = radius;
-  return {core, Mat3<double>::Identity(), point, nullptr};
-}
-
-CoreAndRadius of_segment(const Vec3<double>& from, const Vec3<double>& to, double radius) {
-  // Halves of differences, so that what is far from the origin keeps its digits.
-  const Vec3<double> half = (to - from) / 2;
-  const double length = half.stableNorm();
-  if (!(length > 0)) return of_point(from, radius);
-  ShapeCore core;
-  core.kind = CoreKind::segment;
-  core.size.z() = length;
-  core.radius = radius;
-  core.ball = length * padding;
-  Mat3<double> turn;
-  turn.col(2) = half / length;
-  turn.col(0) = turn.col(2).unitOrthogonal();
-  turn.col(1) = turn.col(2).cross(turn.col(0));
-  return {core, turn, from + half, nullptr};
-}
-
-/// The points' middle is that of their box.
-CoreAndRadius of_points(const Points& points, double radius) {
-  if (points.size() == 1) return of_point(points[0], radius);
-  if (points.size() == 2) return of_segment(points[0], points[1], radius);
-  Vec3<double> low = points[0], high = points[0];
-  for (const Vec3<double>& p : points) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  const Vec3<double> middle = low + (high - low) / 2;
-  const std::size_t count = (points.size() + 7) / 8 * 8;
-  auto numbers = std::make_shared<std::vector<double>>(3 * count);
-  ShapeCore core;
-  core.kind = CoreKind::hull;
-  for (std::size_t i = 0; i < count; ++i) {
-    const Vec3<double> p = points[std::min(i, points.size() - 1)] - middle;
-    core.ball = std::max(core.ball, p.norm() * padding);
-    for (std::size_t k = 0; k < 3; ++k) (*numbers)[k * count + i] = p[static_cast<Eigen::Index>(k)];
-  }
-  core.count = static_cast<int>(count);
-  core.radius = radius;
-  core.x = numbers->data();
-  core.y = core.x + count;
-  core.z = core.y + count;
-  return {core, Mat3<double>::Identity(), middle, std::move(numbers)};
-}
 
 /// Goes by the support mapping. A box of it is asked for, about whose middle it then stands.
 CoreAndRadius of_other(const Shape<double>& shape, const Affine<double>& map, double radius) {
@@ -86,14 +30,6 @@ CoreAndRadius of_other(const Shape<double>& shape, const Affine<double>& map, do
   return {core, Mat3<double>::Identity(), middle, std::move(about_middle)};
 }
 
-ShapeCore of_disks(double below, double above, double half_height) {
-  ShapeCore core;
-  core.kind = CoreKind::disks;
-  core.size = {below, above, half_height};
-  core.ball = std::hypot(std::max(below, above), half_height) * padding;
-  return core;
-}
-
 Points mapped(const Points& points, const Affine<double>& map) {
   Points result;
   for (const Vec3<double>& p : points) result.push_back(map(p));
@@ -112,6 +48,37 @@ bool keeps_right_angles(const Mat3<double>& linear) {
 }
 
 CoreAndRadius find(const Shape<double>& shape, const Affine<double>& map, double radius);
+
+/// A Minkowski sum of which all operands but one at most are points and balls: those move that one
+/// and make it rounder.
+class BallsAndOne {
+ public:
+  /// Whether it still is one.
+  bool add(const Shape<double>& operand, const Mat3<double>& linear) {
+    CoreAndRadius one = find(operand, {linear, Vec3<double>::Zero()}, 0);
+    offset_ += one.middle;
+    radius_ += one.core.radius;
+    if (one.core.kind == CoreKind::point) return true;
+    if (has_one_) return false;
+    has_one_ = true;
+    one_ = std::move(one);
+    return true;
+  }
+
+  CoreAndRadius of(const Vec3<double>& translation, double radius) const {
+    if (!has_one_) return of_point(offset_ + translation, radius_ + radius);
+    CoreAndRadius found = one_;
+    found.middle = offset_ + translation;
+    found.core.radius = radius_ + radius;
+    return found;
+  }
+
+ private:
+  Vec3<double> offset_ = Vec3<double>::Zero();
+  double radius_ = 0;
+  bool has_one_ = false;
+  CoreAndRadius one_;
+};
 
 /// Kinds whose core is known. Nothing for others.
 struct CoreFinder {
@@ -228,6 +195,24 @@ struct CoreFinder {
   bool find(const Rounded<double>& shape, CoreAndRadius& found) const {
     if (!(similarity > 0)) return false;
     found = minkray::find(*shape.shape, map, radius + shape.radius * similarity);
+    return true;
+  }
+  bool find(const HullOf<double>& shape, CoreAndRadius& found) const {
+    if (shape.shapes.size() > 1) return false;
+    found = minkray::find(*shape.shapes.front(), map, radius);
+    return true;
+  }
+  bool find(const MinkowskiSum<double>& shape, CoreAndRadius& found) const {
+    BallsAndOne sum;
+    for (const Nested<double>& operand : shape.shapes)
+      if (!sum.add(*operand, map.linear)) return false;
+    found = sum.of(map.translation, radius);
+    return true;
+  }
+  bool find(const MinkowskiDifference<double>& shape, CoreAndRadius& found) const {
+    BallsAndOne sum;
+    if (!sum.add(*shape.a, map.linear) || !sum.add(*shape.b, -map.linear)) return false;
+    found = sum.of(map.translation, radius);
     return true;
   }
   bool find(const Transform<double>& shape, CoreAndRadius& found) const {

@@ -46,8 +46,9 @@ struct CoreAndRadius {
   std::shared_ptr<const void> storage;  ///< of what the core points to
 };
 
-/// Affine maps that keep angles, and radii, are taken off; what is under any other map is `other`,
-/// but points, boxes along the axes of a scale, and hulls.
+/// Affine maps that keep angles, and radii, are taken off, also points and balls that are added to a
+/// shape; what is under any other map is `other`, but points, balls, boxes and ellipsoids along the
+/// axes of a scale, and hulls.
 CoreAndRadius core_and_radius(const Shape<double>& shape, const Affine<double>& map = {});
 
 }  // namespace minkray

@@ -15,6 +15,7 @@ using testing::RandomShapes;
 Shape<double> hull_of(const Shape<double>& shape) {
   ShapeList<double> shapes;
   shapes.push_back(shape);
+  shapes.push_back(shape);
   return HullOf<double>{shapes};
 }
 
@@ -56,7 +57,7 @@ TEST(SupportBudget, bounds_hold_for_any_pair_and_any_budget) {
   RandomShapes random(61);
   int exhausted = 0, closed = 0;
   for (int k = 0; k < 600; ++k) {
-    // Hidden behind a hull of one, so that branch and bound has more of them to settle.
+    // Hidden behind a hull, so that branch and bound has more of them to settle.
     const testing::Body a(hull_of(testing::random_shape(k % 17, 1, random)),
                           {random.turn(), Vec3<double>::Zero()}),
         b(hull_of(testing::random_shape(k / 17 % 17, 1, random)),
