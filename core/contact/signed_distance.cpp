@@ -20,7 +20,7 @@ SignedDistance told(const CoreDistance& found, const ContactShape& a, const Cont
                     const ToWorld& to_world) {
   const double radius_a = a.core().radius, radius_b = b.core().radius, radii = radius_a + radius_b;
   const double size = a.core().ball + b.core().ball + radii;
-  const double allowed = core_rounding * (size + distance);
+  const double allowed = core_rounding * (size + distance) + a.core().rounding + b.core().rounding;
   SignedDistance result;
   result.supports = found.supports;
   result.is_exhausted = found.is_exhausted;

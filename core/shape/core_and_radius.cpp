@@ -27,6 +27,9 @@ CoreAndRadius of_other(const Shape<double>& shape, const Affine<double>& map, do
   core.radius = radius;
   core.ball = ((high - low) / 2).norm() * padding;
   core.shape = about_middle.get();
+  // What is far from the origin of its frame has lost those digits before it comes to its middle.
+  constexpr double lost = 4 * std::numeric_limits<double>::epsilon();
+  core.rounding = lost * (middle.norm() + map.translation.norm());
   return {core, Mat3<double>::Identity(), middle, std::move(about_middle)};
 }
 

@@ -29,8 +29,9 @@ struct ShapeCore {
   /// A box' half extents, an ellipsoid's radii; of disks the radii below and above; of those and of
   /// segments, z is the half height.
   Vec3<double> size = Vec3<double>::Zero();
-  double radius = 0;          ///< by which the core is grown
-  double ball = 0;            ///< the radius of a ball around the middle that holds the core
+  double radius = 0;    ///< by which the core is grown
+  double rounding = 0;  ///< of `other`: its support points are as far off, for where it stands
+  double ball = 0;      ///< the radius of a ball around the middle that holds the core
   const double* x = nullptr;  ///< a hull's points, coordinate by coordinate
   const double* y = nullptr;
   const double* z = nullptr;
@@ -46,9 +47,9 @@ struct CoreAndRadius {
   std::shared_ptr<const void> storage;  ///< of what the core points to
 };
 
-/// Affine maps that keep angles, and radii, are taken off, also points and balls that are added to a
-/// shape; what is under any other map is `other`, but points, balls, boxes and ellipsoids along the
-/// axes of a scale, and hulls.
+/// Affine maps that keep angles, and radii, are taken off, also points and balls that are added to
+/// a shape; what is under any other map is `other`, but points, balls, boxes and ellipsoids along
+/// the axes of a scale, and hulls.
 CoreAndRadius core_and_radius(const Shape<double>& shape, const Affine<double>& map = {});
 
 }  // namespace minkray
