@@ -85,5 +85,28 @@ TEST(SignedDistance, early_answers_agree_with_whole_ones) {
   EXPECT_GT(overlapping, 300);
 }
 
+TEST(SignedDistance, small_shapes_far_from_their_origin_have_bounds_in_order) {
+  // Known by its support mapping only, whose digits such a body has lost: lower was above upper.
+  RandomShapes random(17);
+  for (int k = 0; k < 3000; ++k) {
+    const auto small = [&] {
+      ShapeList<double> balls;
+      const Vec3<double> far = random.in(1, 10) * random.direction();
+      for (int i = 0; i < 2; ++i)
+        balls.push_back(Shape<double>(Transform<double>{
+            Nested<double>(Shape<double>(Sphere<double>{random.in(1e-4, 2e-4)})),
+            Affine<double>{Mat3<double>::Identity(), far + 1e-4 * random.direction()}}));
+      return Shape<double>(HullOf<double>{balls});
+    };
+    const Body a(small(), {random.turn(), Vec3<double>::Zero()});
+    Body b(small(), {random.turn(), random.direction()});
+    const double size = a.ready.ball_radius() + b.ready.ball_radius();
+    testing::bring_near(a, b, k % 2 == 0 ? 1e-3 : random.in(0, 1), size);
+    const SignedDistance found = signed_distance(a.ready, a.pose, b.ready, b.pose);
+    ASSERT_LE(found.lower, found.value) << k;
+    ASSERT_LE(found.value, found.upper) << k;
+  }
+}
+
 }  // namespace
 }  // namespace minkray
