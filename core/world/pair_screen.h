@@ -17,16 +17,18 @@ namespace minkray {
 
 /// How far each ray goes on: what it may still meet lies no further than what it surely meets.
 struct RayLimits {
-  std::span<SlabRay> slabs;
+  std::vector<SlabRay> slabs;
   std::vector<float> t;            ///< not below the T that it stands for
   std::vector<std::uint8_t> sure;  ///< 1: it is that of a pair which has not been cast at yet
 
-  explicit RayLimits(std::span<SlabRay> rays) : slabs(rays), t(rays.size()), sure(rays.size()) {}
-
   template <class T>
-  void begin(std::size_t ray, T t_max) {
-    t[ray] = detail::float_above(static_cast<double>(t_max));
-    sure[ray] = 0;
+  explicit RayLimits(std::span<const WorldRay<T>> rays) : sure(rays.size()) {
+    slabs.reserve(rays.size());
+    t.reserve(rays.size());
+    for (const WorldRay<T>& one : rays) {
+      slabs.emplace_back(one.ray);
+      t.push_back(detail::float_above(static_cast<double>(one.ray.t_max)));
+    }
   }
   /// Nothing else is asked of this ray.
   void end(std::size_t ray) {
@@ -64,14 +66,6 @@ class PairScreen {
     }
   }
 
-  void add(std::uint32_t ray, std::uint32_t instance) {
-    if (instances_.is_half_space(instance) || rays_[ray].skip == instance) return;
-    const FormKind kind = instances_.screen_of(instance).kind;
-    if (kind == FormKind::none) return caster_.add(ray, instance);
-    Queue& queue = queues_[static_cast<std::size_t>(kind)];
-    if (queue.add(ray, instance)) look_at(queue, kind);
-  }
-
   /// Looks at all that still wait, and casts at what is left of all.
   void finish() {
     sort_waiting();
@@ -98,9 +92,17 @@ class PairScreen {
     for (std::size_t i = 0; i < waiting_count_; ++i) {
       const auto [ray, instance] = waiting_[i];
       instances_.prefetch_map(instance);
-      add(ray, instance);
+      sort(ray, instance);
     }
     waiting_count_ = 0;
+  }
+
+  void sort(std::uint32_t ray, std::uint32_t instance) {
+    if (instances_.is_half_space(instance) || rays_[ray].skip == instance) return;
+    const FormKind kind = instances_.screen_of(instance).kind;
+    if (kind == FormKind::none) return caster_.add(ray, instance);
+    Queue& queue = queues_[static_cast<std::size_t>(kind)];
+    if (queue.add(ray, instance)) look_at(queue, kind);
   }
 
   void look_at(Queue& queue, FormKind kind) {

@@ -30,11 +30,8 @@ void walk_pairs(const Bvh& bvh, std::span<SlabRay> slabs, Screen& screen, QueryC
 template <class T>
 void World<T>::closest_of_pairs(std::span<const WorldRay<T>> rays, std::span<WorldHit<T>> hits,
                                 QueryCounts& counts) const {
-  std::vector<SlabRay> slabs(rays.size());
-  RayLimits limits(slabs);
+  RayLimits limits(rays);
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    slabs[i] = SlabRay(rays[i].ray);
-    limits.begin(i, rays[i].ray.t_max);
     hits[i] = {};
     hits[i].cast.status = Status::miss;
     if (closer_half_space(rays[i], hits[i], counts))
@@ -63,11 +60,8 @@ void World<T>::closest_of_pairs(std::span<const WorldRay<T>> rays, std::span<Wor
 template <class T>
 void World<T>::occluded_of_pairs(std::span<const WorldRay<T>> rays, std::span<std::uint8_t> met,
                                  QueryCounts& counts) const {
-  std::vector<SlabRay> slabs(rays.size());
-  RayLimits limits(slabs);
+  RayLimits limits(rays);
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    slabs[i] = SlabRay(rays[i].ray);
-    limits.begin(i, rays[i].ray.t_max);
     met[i] = blocked_by_half_space(rays[i], counts) ? 1 : 0;
     if (met[i]) limits.end(i);
   }
