@@ -12,10 +12,8 @@ CastResult<double> cast_finer(const Shape<Finer>& shape, const StageQuestion<T>&
   // Mapped, though to itself: r is of unit length to the wider numbers' rounding then.
   const RayNearBall<Finer> near =
       in_precision<Finer>(question.near).mapped(Mat3<Finer>::Identity());
-  CastResult<double> found = in_precision<double>(
+  return in_precision<double>(
       gjk_ray_cast(shape, near, in_precision<Finer>(question.shape.inner_ball())));
-  found.path = Path::finer;
-  return found;
 }
 
 }  // namespace

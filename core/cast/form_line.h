@@ -116,8 +116,10 @@ template <class F, class W, class Placed>
   near.line.inv = inv;
   near.line.E = W(tolerance::form_rounding<float> * form.R);
   near.line.parallel = W(tolerance::form_parallel<float>) * dd;
-  near.bounded = (k * k * dd <= far) & (dd > W(tolerance::form_shortest_squared)) &
-                 (dd < W(tolerance::form_longest_squared));
+  // Directions whose squares are floats: with these, t and its bound are floats with all their
+  // digits, for shapes of ordinary size (ShapeDefinition).
+  constexpr double least_square = std::numeric_limits<float>::min();
+  near.bounded = (k * k * dd <= far) & (dd > W(least_square)) & (dd < W(1 / least_square));
   if (shape.linear_to_inner())
     near.bounded &= (spread <= far) & ((k * k + W(form.R * form.R) * inv) * spread_per <= far);
   near.base = k;

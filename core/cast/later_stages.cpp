@@ -4,6 +4,7 @@
 #include "core/cast/later_stages.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "core/cast/in_double.h"
@@ -97,7 +98,7 @@ void end_far_cast(const PreparedShape<T>& shape, const RayNearBall<T>& near,
           error = std::abs(near.lambda_min) / tolerance::farthest_origin<T>;
   if (!(R > T(0)) || error <= R) return;
   const T nearest = std::min(std::max(T(0), near.lambda_min), near.lambda_max);
-  const bool is_clear = (near.s + nearest * near.r).stableNorm() > R + T(4) * error;
+  const bool is_clear = std::hypot(near.s.stableNorm(), nearest) > R + T(4) * error;
   if (result.status == Status::miss && is_clear) return;
   CastResult<T> none;
   none.iterations = result.iterations;

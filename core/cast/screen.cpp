@@ -4,15 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/query/tolerances.h"
+
 namespace minkray {
 namespace {
 
-/// A box around a shape that has no form is made wider by this share of the shape's radius: more
-/// than any solver allows a float hit to be off.
-constexpr double box_margin = 0x1p-13;
-
-/// Radii between which all that a form calculates stays among float's numbers.
-constexpr double least_radius = 1e-7, largest_radius = 1e7;
+/// Whether all that a form of this radius calculates stays among float's numbers.
+bool is_in_range(double R) {
+  return R > tolerance::screen_least_radius && R < tolerance::screen_largest_radius;
+}
 
 bool has_lanes(FormKind kind) {
   switch (kind) {
@@ -54,8 +54,9 @@ exact::Form box_around(const ShapeDefinition<T>& definition) {
   const auto R = static_cast<double>(definition.inner_ball().radius);
   for (int axis = 0; axis < 3; ++axis)
     form.sizes[static_cast<std::size_t>(axis)] =
-        static_cast<double>(definition.inner_half_extents()[axis]) + box_margin * R;
-  form.R = form.inner_R = R * (1 + 2 * box_margin);
+        static_cast<double>(definition.inner_half_extents()[axis]) +
+        tolerance::screen_box_margin * R;
+  form.R = form.inner_R = R * (1 + 2 * tolerance::screen_box_margin);
   return form;
 }
 
@@ -67,8 +68,7 @@ Screen screen_of(const ShapeDefinition<T>& definition) {
   if (definition.is_extreme() || definition.is_lost_in_rounding()) return screen;
   screen.is_whole = has_lanes(definition.form().kind);
   const exact::Form form = screen.is_whole ? definition.form() : box_around(definition);
-  if (!(form.R > least_radius && form.R < largest_radius)) return screen;
-  if (!(form.inner_R > least_radius && form.inner_R < largest_radius)) return screen;
+  if (!is_in_range(form.R) || !is_in_range(form.inner_R)) return screen;
   screen.kind = form.kind;
   const auto in_float = [](double x) { return static_cast<float>(x); };
   for (std::size_t i = 0; i < screen.form.sizes.size(); ++i)

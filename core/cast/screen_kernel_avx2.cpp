@@ -9,27 +9,13 @@
 #include "core/exact/rounded_box.h"
 #include "core/exact/tapered_capsule.h"
 #include "core/math/wide.h"
+#include "core/query/tolerances.h"
 
 #if defined(__AVX2__)
 namespace minkray {
 namespace {
 
 using W = Wide<float, screen_lanes, IsaAvx2>;
-
-/// What a position is known to, in units of what the numbers that it was made of are as large as:
-/// 32 roundings by 2^-24: twelve for the way to the form (docs/theory.md has them), twenty for what
-/// the form does with it.
-constexpr float rounding = 0x1p-19f;
-
-/// Positions must be known to this share of a form's least radius: squares of errors, which the
-/// forms' bounds leave out, are then far below the bounds.
-constexpr float largest_share = 0x1p-6f;
-
-/// Squared lengths of directions in a form's frame between which all numbers are float's.
-constexpr float shortest_squared = 1e-8f, longest_squared = 1e8f;
-
-/// How uncertain t is in units of its own size: it is a sum of two numbers.
-constexpr float t_rounding = 0x1p-21f;
 
 __m128 four(const float* from) {
   return _mm_loadu_ps(from);
@@ -166,16 +152,17 @@ void screen(const ScreenPairs<T>& pairs, Screened& answers) {
   // along the line, before the map.
   const W before = near.squaredNorm() + (rest * rest + form.R * form.R * line.inv) * d_squared;
   const W reach = sqrt(W(3) * map.squaredNorm() * before);
-  line.E = W(rounding) * (largest_scale * reach + form.extent);
+  line.E = W(tolerance::screen_rounding) * (largest_scale * reach + form.extent);
   const W share = line.E / form.R;
   line.parallel = share * share * W(0x1p-4f) * line.dd;
-  const Mask<W> bounded = (line.dd > W(shortest_squared)) & (line.dd < W(longest_squared)) &
-                          (line.E < W(largest_share) * min(form.least, form.R));
+  const Mask<W> bounded = (line.dd > W(tolerance::screen_shortest_squared)) &
+                          (line.dd < W(tolerance::screen_longest_squared)) &
+                          (line.E < W(tolerance::screen_largest_share) * min(form.least, form.R));
 
   const exact::Entry<W> entry = enter<kind>(form, line, bounded);
   using std::abs;
   const auto slack_of = [&](const exact::Entry<W>& of) {
-    return W(2) * of.e + W(t_rounding) * (abs(k) + abs(rest) + abs(of.t));
+    return W(2) * of.e + W(tolerance::screen_digits) * (abs(k) + abs(rest) + abs(of.t));
   };
   const W t = k + (rest + entry.t), slack = slack_of(entry), lo = t - slack, hi = t + slack;
   const W infinity(std::numeric_limits<float>::infinity());

@@ -3,12 +3,9 @@
 #pragma once
 
 #include "core/exact/line.h"
+#include "core/query/tolerances.h"
 
 namespace minkray::exact {
-
-/// How near to tangent: r^2 - |x|^2 of the closest point x is known to 2 r |dx| and a few roundings
-/// of r^2, less than this times E r.
-inline constexpr double tangent_margin = 4;
 
 template <class W, class S>
 [[gnu::always_inline]] inline Entry<W> enter_ball(const S& size, const Line<W>& line,
@@ -17,7 +14,7 @@ template <class W, class S>
   using std::sqrt;
   const W r(size);
   Entry<W> entry;
-  const W h2 = r * r - line.s.squaredNorm(), margin = W(tangent_margin) * r * line.E;
+  const W h2 = r * r - line.s.squaredNorm(), margin = W(tolerance::form_tangent) * r * line.E;
   entry.hit = open & (h2 > margin);
   entry.miss = open & (h2 < -margin);
   entry.normal = line.s;

@@ -38,7 +38,7 @@ template <class W, class S>
     const Vec3<W> p(s.x(), s.y(), s.z() - copysign(W(half_height), z));
     const W k = -p.dot(d) * line.inv;
     const Vec3<W> x = p + d * k;
-    const W h2 = r * r - x.squaredNorm(), margin = W(tangent_margin) * r * line.E;
+    const W h2 = r * r - x.squaredNorm(), margin = W(tolerance::form_tangent) * r * line.E;
     const Mask<W> hit = by_end & (h2 > margin), miss = by_end & (h2 < -margin);
     const W half = sqrt(max(h2, margin) * line.inv);
     entry.hit |= hit;

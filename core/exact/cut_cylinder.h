@@ -30,10 +30,11 @@ struct Cut {
 /// Makes ready what is declared, whose lengths alone `form` has scaled. None, where the planes
 /// cross within the cylinder by more than rounding.
 inline Form cut_cylinder_form(Form form, const FormSizes& declared) {
-  constexpr double touching = 1 - 0x1p-50;
   const double r = form.sizes[0], below = form.sizes[1], above = form.sizes[2];
   const double *low = &declared[3], *high = &declared[5];
-  if (!(above - below >= r * std::hypot(high[0] - low[0], high[1] - low[1]) * touching)) return {};
+  if (!(above - below >=
+        r * std::hypot(high[0] - low[0], high[1] - low[1]) * (1 - tolerance::form_touching)))
+    return {};
   const double steepest = std::max(std::hypot(low[0], low[1]), std::hypot(high[0], high[1]));
   form.R = std::hypot(r, std::max(std::abs(below), std::abs(above)) + r * steepest);
   const Vec3<double> l = Vec3<double>(low[0], low[1], -1).normalized();

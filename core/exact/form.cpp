@@ -16,7 +16,6 @@ namespace {
 /// they are turned so that it is above. None, where the apex is too far away or an end too small
 /// for the bounds that docs/theory.md derives.
 Form tapered(Form form) {
-  constexpr double farthest_apex = 8, least_ball = 0x1p-10, steepest = 0.99;
   double &lower = form.sizes[0], &upper = form.sizes[1], &half_height = form.sizes[2],
          &apex = form.sizes[3];
   if (upper > lower) {
@@ -33,7 +32,9 @@ Form tapered(Form form) {
   if (!(half_height > 0)) return {};
   const double narrows = (lower - upper) / (2 * half_height);
   if (is_round) {
-    if (!(narrows < steepest) || !(upper > least_ball * lower)) return {};
+    if (!(narrows < tolerance::tapered_steepest) ||
+        !(upper > tolerance::tapered_least_ball * lower))
+      return {};
     form.sine = narrows;
     form.slope = narrows / std::sqrt(1 - narrows * narrows);
   } else {
@@ -42,7 +43,7 @@ Form tapered(Form form) {
   }
   form.R = is_round ? half_height + lower : std::hypot(half_height, lower);
   apex = half_height + upper / narrows;
-  if (!(apex < farthest_apex * form.R)) return {};
+  if (!(apex < tolerance::tapered_farthest_apex * form.R)) return {};
   return form;
 }
 

@@ -8,6 +8,7 @@
 // docs/theory.md ("Casts with an error bound") derives the bounds.
 #pragma once
 
+#include "core/math/least_to_square.h"
 #include "core/math/vec.h"
 #include "core/shape/exact_form.h"
 
@@ -39,10 +40,10 @@ struct Entry {
 };
 
 /// Below it a direction's component is taken for this: what runs so nearly along a slab leaves it
-/// beyond all numbers that count, and does not divide by zero. Directions' lengths are from 1e-20.
+/// beyond all numbers that count, and does not divide by zero. Directions' lengths are from 1e-19
+/// in double, from 1e-4 in float.
 template <class W>
-inline constexpr Lane<W> least_component = std::is_same_v<Lane<W>, float> ? Lane<W>(1e-20)
-                                                                          : Lane<W>(1e-100);
+inline constexpr Lane<W> least_component = least_to_square<Lane<W>>;
 
 /// The normal of a plane along the line that separates it from what lies below both of two planes:
 /// one that the line crosses inwards, after it has left the other one.

@@ -26,7 +26,7 @@ struct Mantle {
     const W k = select(along, W(0), W(-(s.x() * d.x() + s.y() * d.y()) * inv));
     x = s.x() + k * d.x();
     y = s.y() + k * d.y();
-    const W h2 = r * r - (x * x + y * y), margin = W(tangent_margin) * r * line.E;
+    const W h2 = r * r - (x * x + y * y), margin = W(tolerance::form_tangent) * r * line.E;
     hit = open & (h2 > margin);
     miss = open & (h2 < -margin);
     half = sqrt(max(h2, margin) * inv);

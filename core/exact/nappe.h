@@ -9,7 +9,7 @@ namespace minkray::exact {
 
 /// A parameter beyond all that matter, whose products with a line's numbers are numbers.
 template <class W>
-inline constexpr Lane<W> endless = std::is_same_v<Lane<W>, float> ? Lane<W>(1e15) : Lane<W>(1e200);
+inline constexpr Lane<W> endless = 1 / least_to_square<Lane<W>>;
 
 /// x^2 + y^2 <= slope^2 (apex - z)^2, z <= apex. R is that of the form, which lies within 2 R of
 /// the apex or within twice the apex' own height.

@@ -23,16 +23,8 @@ class PlaneRows {
   const double* row(std::size_t i) const {
     return numbers_.data() + i * planes_a_row * numbers_a_plane;
   }
-  Vec3<double> normal(std::size_t plane) const {
-    return {number(plane, 0), number(plane, 1), number(plane, 2)};
-  }
-  double offset(std::size_t plane) const { return number(plane, 3); }
-  double depth(std::size_t plane) const { return number(plane, 4); }
 
  private:
-  double number(std::size_t plane, std::size_t k) const {
-    return row(plane / planes_a_row)[k * planes_a_row + plane % planes_a_row];
-  }
   std::vector<double> numbers_;
   std::size_t size_ = 0;
 };

@@ -91,7 +91,7 @@ template <class W, class Sizes>
     const W inverse = W(1) / max(across, line.parallel);
     const W k = select(across < line.parallel, W(0), W(-p.dot(along) * inverse));
     const Vec3<W> x = p + along * k;
-    const W h2 = r * r - x.squaredNorm(), margin = W(tangent_margin) * r * line.E;
+    const W h2 = r * r - x.squaredNorm(), margin = W(tolerance::form_tangent) * r * line.E;
     const W half = sqrt(max(h2, W(0)) * inverse), at = k - half;
     const Mask<W> on = going & (at > until), here = going & !on;
     const Mask<W> hit = here & (h2 > margin), miss = here & (h2 < -margin);

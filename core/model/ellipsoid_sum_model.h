@@ -157,7 +157,7 @@ class EllipsoidSumModel {
         height += h;
       }
       const W h = c_.dot(m) + height;
-      const Mask<W> ahead = m.z() > W(along_ray);
+      const Mask<W> ahead = m.z() > W(tolerance::model_rounding<T>);
 
       // What is to be least: ahead, where the plane cuts the ray; across it, the ratio of how far
       // the sum reaches to where the ray is.
@@ -184,7 +184,7 @@ class EllipsoidSumModel {
 
       const W x = c_.x() + support_point.x(), y = c_.y() + support_point.y();
       const W offset = sqrt(x * x + y * y), step = (next - m).norm();
-      const Mask<W> on_to = next.z() > W(along_ray);
+      const Mask<W> on_to = next.z() > W(tolerance::model_rounding<T>);
       const Mask<W> settled =
           ahead & on_to & (!outer) & (offset * step <= rounding) & (offset <= W(model_reach * R_));
       // Separates; or reaches least of those across the ray. A ray that is tangent up to rounding
@@ -213,8 +213,6 @@ class EllipsoidSumModel {
   static constexpr int max_evaluations = 12;
   /// The directions across the ray converge in about four.
   static constexpr int max_across = 6;
-  /// The sine below which a direction counts as at right angles to the ray.
-  static constexpr T along_ray = T(64) * std::numeric_limits<T>::epsilon();
   /// It is in units of R: how close to the ray an osculating ellipsoid is trusted (cbrt epsilon).
   inline static const T model_reach = std::cbrt(tolerance::epsilon<T>);
 

@@ -190,7 +190,8 @@ class PolytopeModel {
   }
 
   /// They are in units of R. Balls smaller than the least are as good as points.
-  static constexpr T first_ball = T(1) / T(2), least_ball = T(1) / T(1024);
+  static constexpr T first_ball = T(1) / T(2);
+  static constexpr T least_ball = T(1) / T(1024);
 
   using Known = Facets<W, Core>;
 

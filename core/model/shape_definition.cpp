@@ -9,15 +9,12 @@
 #include "core/derived/recentred.h"
 #include "core/derived/shape_bounds.h"
 #include "core/exact/polytope.h"
+#include "core/query/tolerances.h"
 #include "core/shape/as_rounded_box.h"
 #include "core/shape/declared.h"
 
 namespace minkray {
 namespace {
-
-/// Fourth powers of it, with room for the square of epsilon, are in the range of T.
-template <class T>
-constexpr T ordinary_size = std::is_same_v<T, float> ? T(0x1p16) : T(0x1p128);
 
 template <class T>
 exact::Form rounded_polytope(const Rounded<T>& shape, const Vec3<double>& ball_centre,
@@ -95,7 +92,8 @@ ShapeDefinition<T>::ShapeDefinition(Shape<T> shape) : original_(shape), inner_(s
   // Very small and very large shapes are brought to about unit size by a power of two, which is
   // exact: solvers multiply up to four lengths, and must not leave the range of T.
   const T size = bounds.half_extents().maxCoeff();
-  if (size > T(0) && !(size >= T(1) / ordinary_size<T> && size <= ordinary_size<T>)) {
+  if (size > T(0) &&
+      !(size >= T(1) / tolerance::ordinary_size<T> && size <= tolerance::ordinary_size<T>)) {
     down_ = std::ldexp(T(1), -std::ilogb(size));
     up_ = std::ldexp(T(1), std::ilogb(size));
     inner_ = Transform<T>{Nested<T>(inner_), Affine<T>{Mat3<T>::Identity() * down_, {0, 0, 0}}};

@@ -71,8 +71,7 @@ class SmoothModel {
     Translates<W> others;
     for (std::size_t k = 0; k < 3; ++k) {
       others.c[k] = s_[k] - body.support_point(n_[k]);
-      others.valid[k] = valid_[k] & ((patch_[k] - feature.patch).squaredNorm() > W(0)) &
-                        ((n_[k] - n).squaredNorm() <= W(near_squared));
+      others.valid[k] = valid_[k] & ((patch_[k] - feature.patch).squaredNorm() > W(0));
     }
     const HullCastHit<W> on_hull =
         HullCast<W, EllipsoidBody<W>>(body, c, others, rounding_).solve();
@@ -140,10 +139,10 @@ class SmoothModel {
     using std::max;
     using std::min;
     using std::sqrt;
-    const Mask<W> cuts = n.z() > W(along_ray);
+    const Mask<W> cuts = n.z() > W(tolerance::model_rounding<T>);
     const W z = select(cuts, n.z(), W(1));
     const W lambda = select(cuts, W(-feature.height / z), W(-infinity));
-    const Mask<W> onto = hit.m.z() > W(along_ray);
+    const Mask<W> onto = hit.m.z() > W(tolerance::model_rounding<T>);
     const W m_z = select(onto, hit.m.z(), W(1)), x = n.x() / z, y = n.y() / z;
     const Point here{x,
                      y,
@@ -192,7 +191,8 @@ class SmoothModel {
   /// two signs, or over half of it, is replaced by the secant's.
   void stay_between(const Feature& feature, const Vec3<W>& n, ModelHit<W>& hit) {
     using std::abs;
-    const Mask<W> on_circle = (abs(n.z()) <= W(along_ray)) & !(hit.m.z() > W(along_ray));
+    const Mask<W> on_circle = (abs(n.z()) <= W(tolerance::model_rounding<T>)) &
+                              !(hit.m.z() > W(tolerance::model_rounding<T>));
     if (!any(on_circle)) return;
     const W slope = n.x() * feature.s.y() - n.y() * feature.s.x();  // counter-clockwise
     const Mask<W> falls = on_circle & (slope < W(0)), rises = on_circle & (slope > W(0));
@@ -239,12 +239,8 @@ class SmoothModel {
     }
   };
 
-  /// The sine below which a direction counts as at right angles to the ray.
-  static constexpr T along_ray = T(64) * std::numeric_limits<T>::epsilon();
   /// It is in units of R: how close to the ray an osculating ellipsoid is trusted (cbrt epsilon).
   inline static const T model_reach = std::cbrt(tolerance::epsilon<T>);
-  /// Up to about 15 degrees between their directions, two patches go together.
-  static constexpr T near_squared = T(1) / T(16);
   /// How far a step goes that the model would have lead past the shape.
   static constexpr T far_step = T(4);
   static constexpr T infinity = std::numeric_limits<T>::infinity();

@@ -175,7 +175,8 @@ class SumsCast {
       const Vec3<W> before = solution.m;
       solution = pick(goes, next, solution);
       solution.certain &= !lost;
-      const Mask<W> settles = (same & (moved <= W(settled_squared)) & !kink.here) | common | points;
+      const Mask<W> settles =
+          (same & (moved <= W(tolerance::settled_squared<T>)) & !kink.here) | common | points;
       Mask<W> at_kink = kink.here & next.certain &
                         (moved <= W(T(tolerance::flat_disk<T>) * T(tolerance::flat_disk<T>)));
       if (any(at_kink)) at_kink &= all_have(features_, kink, next.weights);
@@ -202,7 +203,7 @@ class SumsCast {
     const W z = select(ahead, m.z(), W(1));
     const W far = W(std::numeric_limits<T>::max());
     const W height = select(ahead, W(h / z), select(h < W(0), W(-far), far));
-    const Mask<W> higher = lanes & (height > lowest.height + W(agreed * R_));
+    const Mask<W> higher = lanes & (height > lowest.height + W(tolerance::jet_gap<T> * R_));
     const Mask<W> lower = lanes & !higher;
     if (any(higher)) {
       const Vec3<W> from = lowest.m * (W(1) / select(higher, lowest.m.z(), W(1)));
@@ -249,30 +250,23 @@ class SumsCast {
     // From p to where the ray crosses its plane.
     const W drop = (m.x() * p.x() + m.y() * p.y()) / select(ahead, m.z(), W(1));
     const W away = p.x() * p.x() + p.y() * p.y() + drop * drop;
-    const Mask<W> agrees =
-        (highest - mean <= W(agreed * R_)) & ((away <= W(on_the_ray_squared * R_ * R_)) | at_kink);
+    const Mask<W> agrees = (highest - mean <= W(tolerance::jet_gap<T> * R_)) &
+                           ((away <= W(tolerance::on_the_ray_squared<T> * R_ * R_)) | at_kink);
     solution.height = select(common, solution.height, W(mean / select(ahead, m.z(), W(1))));
     solution.certain &= ahead & (common | agrees);
     if (all(solution.exact)) return;
     using std::sqrt;
     const W offset = sqrt(found.x() * found.x() + found.y() * found.y());
     const W below = n_newest.dot(features_[newest].sum.s - found);
-    const Mask<W> settles = (below + offset * (m - n_newest).norm() <= W(agreed * R_)) &
-                            (offset <= W(model_reach * R_));
+    const Mask<W> settles =
+        (below + offset * (m - n_newest).norm() <= W(tolerance::jet_gap<T> * R_)) &
+        (offset <= W(model_reach * R_));
     solution.certain &= solution.exact | settles;
   }
 
   static constexpr int newton_steps = 12;
   /// Where the surrogate is so small, points are taken as they are.
   static constexpr T least_shrink = T(1e-3);
-  /// How little the direction moves (of 1; squared) when the iteration, which converges
-  /// quadratically, has used up the digits: the value's error is the square.
-  static constexpr T settled_squared = T(4) * tolerance::epsilon<T>;
-  /// It is the rounding of a value, in units of the bounding radius.
-  static constexpr T agreed = T(4) * tolerance::epsilon<T>;
-  /// How far beside its point the ray may cross the tangent plane, in units of the bounding radius,
-  /// squared: the surface is lower there by half of it over the radius of curvature.
-  static constexpr T on_the_ray_squared = T(0.36) * tolerance::epsilon<T>;
   /// An osculating ellipsoid is trusted so close to the ray, in units of the bounding radius.
   inline static const T model_reach = std::cbrt(tolerance::epsilon<T>);
 

@@ -3,19 +3,12 @@
 #include "core/proof/certificate.h"
 
 #include "core/proof/proof_finder.h"
+#include "core/query/tolerances.h"
 
 namespace minkray {
 namespace {
 
 using proof::Finder;
-
-/// What the search is content with, in machine epsilons of the size: a quarter of what the checker
-/// allows.
-constexpr double good_enough = 16;
-
-/// A hit found anew this near to the claimed one, along the normal in epsilons of the claim's
-/// precision, is taken for the same.
-constexpr double close_to_claim = 32;
 
 /// The best proof so far.
 struct Candidate {
@@ -52,17 +45,16 @@ Vec3<double> first_direction(const Claim& claim, const Vec3<double>& towards) {
 void certify_hit(Finder& finder, const Claim& claim, const Vec3<double>& n) {
   const NearSegment& near = finder.near();
   const double claimed = near.lambda_of(claim.t_base, claim.t_offset);
-  const double tolerance =
-      finder.rounding() * claim.epsilon / std::numeric_limits<double>::epsilon();
+  const double allowed = finder.rounding() * claim.epsilon / std::numeric_limits<double>::epsilon();
   const double slope = std::abs(n.dot(near.r));
 
   Candidate best;
   double lambda = near.begin;
   best.take(finder.enter(n, lambda), n, finder);
-  if (std::abs(lambda - claimed) * slope <= close_to_claim * tolerance) {
-    if (best.off <= good_enough * finder.rounding()) return best.give(finder);
+  if (std::abs(lambda - claimed) * slope <= tolerance::proof_close_to_claim * allowed) {
+    if (best.off <= tolerance::proof_good_enough * finder.rounding()) return best.give(finder);
     best.take(finder.refine(lambda, best.certificate.plane), n, finder);
-    if (best.off <= good_enough * finder.rounding()) return best.give(finder);
+    if (best.off <= tolerance::proof_good_enough * finder.rounding()) return best.give(finder);
   } else {
     best.off = std::numeric_limits<double>::infinity();
   }
@@ -70,11 +62,11 @@ void certify_hit(Finder& finder, const Claim& claim, const Vec3<double>& n) {
   Vec3<double> separating = n;
   finder.certificate.plane = n;
   best.take(finder.nearest(claimed, claimed, n, separating), n, finder);
-  if (best.off <= good_enough * tolerance) return best.give(finder);
+  if (best.off <= tolerance::proof_good_enough * allowed) return best.give(finder);
   finder.certificate.plane = n;
   best.take(finder.refine(claimed, n), n, finder);
-  if (best.off <= good_enough * tolerance) return best.give(finder);
-  const double end = std::min(claimed + good_enough * tolerance / slope, near.end);
+  if (best.off <= tolerance::proof_good_enough * allowed) return best.give(finder);
+  const double end = std::min(claimed + tolerance::proof_good_enough * allowed / slope, near.end);
   best.take(finder.nearest(claimed, end, n, separating), n, finder);
   best.give(finder);
 }
@@ -93,7 +85,7 @@ Certificate certify(const SupportFunction& support, const Ray<double>& ray, cons
     Candidate best;
     best.take(finder.nearest(origin, origin, n, separating), separating, finder);
     // On the surface, where the search comes to a point of a rim or a seam but slowly.
-    if (!(best.off <= good_enough * finder.rounding()))
+    if (!(best.off <= tolerance::proof_good_enough * finder.rounding()))
       best.take(finder.refine(origin, separating), separating, finder);
     best.give(finder);
   }

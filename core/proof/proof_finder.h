@@ -10,15 +10,12 @@
 
 #include "core/proof/spanned_point.h"
 #include "core/query/near_segment.h"
+#include "core/query/tolerances.h"
 
 namespace minkray::proof {
 
 /// Touching ellipsoids of 1:1000 were seen to take 160.
 inline constexpr int most_supports = 400;
-
-/// A spanned point no further off than this, in machine epsilons of the size, is as good as one on
-/// the hit point: the support points are rounded as coarsely.
-inline constexpr double close_enough = 2;
 
 /// Angles: the first is the square root of a machine epsilon, the others reach further where the
 /// normal itself is less certain, or the hit point further from a corner.
@@ -71,7 +68,7 @@ class Finder {
         }
       }
       if (!spanned.add(p.cast<Long>(), n) && !moved) break;
-      if (spanned.full() || spanned.v().norm() <= close_enough * rounding_) break;
+      if (spanned.full() || spanned.v().norm() <= tolerance::proof_on_the_spot * rounding_) break;
       n = spanned.v().cast<double>().normalized();
     }
     spanned.balance();
@@ -94,7 +91,7 @@ class Finder {
       }
       if (!spanned.add(-y, n)) break;
       const auto distance = static_cast<double>(spanned.v().norm());
-      if (spanned.full() || distance <= close_enough * rounding_) break;
+      if (spanned.full() || distance <= tolerance::proof_on_the_spot * rounding_) break;
       if (distance - widest <= rounding_) break;
       n = spanned.v().cast<double>() / distance;
     }
@@ -150,7 +147,7 @@ class Finder {
       for (std::size_t i = 0; i <= k; ++i)
         for (std::size_t j = i; j <= k; ++j) try_triangle(i, j, k);
     const auto is_near_enough = [&] {
-      return std::sqrt(best_squared) <= Long(close_enough * rounding_);
+      return std::sqrt(best_squared) <= Long(tolerance::proof_on_the_spot * rounding_);
     };
     // From n, and from the direction in which x lies, which is one of the normals of most rims.
     for (const Vec3<double>& from : {n, unit<double>(x.cast<double>())})
@@ -192,7 +189,8 @@ class Finder {
     if (!(near_.size > 0)) return n;
     double step = 1 / near_.size;
     Vec3<Long> y = x - support(n).cast<Long>();
-    for (int i = 0; i < secant_steps && y.norm() > Long(close_enough * rounding_); ++i) {
+    for (int i = 0; i < secant_steps && y.norm() > Long(tolerance::proof_on_the_spot * rounding_);
+         ++i) {
       const Vec3<double> turned = unit<double>(n + step * y.cast<double>());
       if (!turned.allFinite() || turned.isZero(0)) break;
       const Vec3<Long> left = x - support(turned).cast<Long>();

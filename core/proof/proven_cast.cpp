@@ -4,30 +4,21 @@
 #include <algorithm>
 
 #include "core/proof/check_certificate.h"
+#include "core/query/tolerances.h"
 
 namespace minkray {
-namespace {
-
-/// It is in bounding radii from the ball's centre: nothing further along the ray matters.
-constexpr double reach_of_proof = 2;
-
-/// How much more rounding than double's a proof is allowed: the middle of a sliver is only known so
-/// much worse than its corners.
-constexpr double roundings_allowed = 16;
-
-}  // namespace
 
 ProvenCast proven(const Shape<double>& shape, const Ball<double>& ball,
                   const RayNearBall<double>& near, const CastResult<double>& answer) {
   ProvenCast proof{answer};
   if (answer.status == Status::exhausted) return proof;
-  const double reach = reach_of_proof * ball.radius;
+  const double reach = tolerance::proof_reach * ball.radius;
   const double begin = std::clamp(near.lambda_min, -reach, reach);
   const double end = std::clamp(near.lambda_max, -reach, reach);
   const Ray<double> ray{ball.centre + near.s + begin * near.r, near.r, end - begin};
 
   Claim claim = claim_of(answer);
-  claim.epsilon *= roundings_allowed;
+  claim.epsilon *= tolerance::proof_roundings;
   claim.t_base = 0;
   claim.t_offset = (answer.t_offset - near.t_shift) / near.t_per_length - begin;
   const SupportFunction support = supports_of(shape);
@@ -47,7 +38,7 @@ ProvenCast proven(const Shape<double>& shape, const Ball<double>& ball,
   }
   proof.holds = verdict.holds;
   const double off = answer.status == Status::miss ? -verdict.margin : verdict.lateral;
-  proof.is_sharp = verdict.holds && roundings_allowed * off <= verdict.allowed;
+  proof.is_sharp = verdict.holds && tolerance::proof_roundings * off <= verdict.allowed;
   return proof;
 }
 

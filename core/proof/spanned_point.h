@@ -47,8 +47,7 @@ class SpannedPoint {
     long double weights = 0;
     for (int i = 0; i < 4; ++i) {
       if (!(closest_.kept & (1u << i))) continue;
-      const long double weight =
-          std::max(closest_.weights[static_cast<std::size_t>(i)], static_cast<long double>(0));
+      const long double weight = closest_.weights[static_cast<std::size_t>(i)];
       sum += weight * simplex_.y(i);
       weights += weight;
     }

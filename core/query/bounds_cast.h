@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/math/bounds.h"
+#include "core/math/least_to_square.h"
 #include "core/query/ray_near_ball.h"
 #include "core/query/tolerances.h"
 
@@ -47,7 +48,7 @@ template <class W>
   const Mask<W> by_y = abs(crosswise.y()) > h.z() * size.x() + h.x() * size.z() + padding;
   const Mask<W> by_z = abs(crosswise.z()) > h.x() * size.y() + h.y() * size.x() + padding;
   // Shorter directions may have lost digits, larger terms overflow.
-  const Mask<W> certain = (line.direction_size > W(tolerance::shortest_certain<T>)) &
+  const Mask<W> certain = (line.direction_size > W(least_to_square<T>)) &
                           (largest_term < W(std::numeric_limits<T>::max() / T(8)));
   BoundsCast<W> result;
   result.miss = active & certain & (by_x | by_y | by_z);

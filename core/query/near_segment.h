@@ -65,7 +65,8 @@ NearSegment near_segment(const Support& support, const Ray<double>& ray) {
   near.t_shift = parameter();
   move(near.t_shift);
   near.s = (s - centre).cast<double>();
-  constexpr double most = 0x1p11;  // of which long double's epsilon is double's of one
+  // So many times as far, long double's epsilon is what double's is of one.
+  const double most = std::numeric_limits<double>::epsilon() / std::numeric_limits<Long>::epsilon();
   near.is_too_far = !(step <= most * (near.size + near.s.norm()));
   const double pad = 8 * std::numeric_limits<double>::epsilon() * near.size;
   const double at_s = near.r.dot(near.s);

@@ -76,14 +76,13 @@ template <class W, class C>
   using T = Lane<W>;
   const Vec3<W> centre = widen<W>(centre_of_ball);
 
-  // Powers of two keep the scaled direction exact, and its square in range; tiny directions take
-  // two of them, since denormal numbers have no leading power.
-  constexpr T tiny = std::is_same_v<T, float> ? T(0x1p-60) : T(0x1p-500);
+  // Powers of two keep the scaled direction exact, and its square in range; denormal
+  // directions take two of them, since their numbers have no leading power.
   constexpr T up = std::is_same_v<T, float> ? T(0x1p100) : T(0x1p900);
   const W longest =
       max(abs(ray.direction.x()), max(abs(ray.direction.y()), abs(ray.direction.z())));
   const Mask<W> has_direction = longest > W(0);
-  const W first = select(longest < W(tiny), W(up), W(1));
+  const W first = select(longest < W(std::numeric_limits<T>::min()), W(up), W(1));
   const W size = select(has_direction, leading_power_of_two(W(longest * first)), W(1));
   const W second = W(1) / size;
   const Vec3<W> direction = ray.direction * first * second;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Every tolerance of the solvers, with its unit and its reason. All are relative: to the shape's
-// size, or to the numbers they are compared with.
+// size, or to the numbers they are compared with. Numbers that steer a search and leave its answers
+// as they are stand where the search is; the checker of certificates, which must not depend on what
+// it checks, has its own (core/proof/check_certificate.h).
 #pragma once
 
 #include <limits>
@@ -75,8 +77,24 @@ inline constexpr T tangent_push = T(8) * epsilon<T>;
 
 /// How far beside the ray, in units of the bounding radius, a point of the model counts as on it,
 /// and how much further a feature must reach than another to matter: a few roundings of a position.
+/// Also the sine below which a direction counts as at right angles to the ray.
 template <class T>
 inline constexpr T model_rounding = T(8) * epsilon<T>;
+
+/// How little the direction moves (of 1; squared) when the search on a hull of sums, which
+/// converges quadratically, has used up the digits: the value's error is the square.
+template <class T>
+inline constexpr T settled_squared = T(4) * epsilon<T>;
+
+/// How far beside its point the ray may cross the tangent plane of a hull of sums, in units of the
+/// bounding radius, squared: the surface is lower there by half of it over the radius of curvature.
+template <class T>
+inline constexpr T on_the_ray_squared = T(0.36) * epsilon<T>;
+
+/// Sizes up to which, and down to whose inverse, shapes are cast at as they are: fourth powers,
+/// with room for the square of epsilon, are in the range of T.
+template <class T>
+inline constexpr T ordinary_size = std::is_same_v<T, float> ? T(0x1p16) : T(0x1p128);
 
 /// How far a disk may reach along a direction, relative to its size, for that to count as its axis:
 /// a few roundings of either.
@@ -121,11 +139,6 @@ inline constexpr double far_out = 0x1p9;
 template <class T>
 inline constexpr T box_padding = T(8) * epsilon<T>;
 
-/// A direction's size above which products with a shape's sizes (2^-16 or more in float, see
-/// ShapeDefinition) and box_padding are numbers with all their digits.
-template <class T>
-inline constexpr T shortest_certain = std::is_same_v<T, float> ? T(0x1p-60) : T(0x1p-500);
-
 /// What closed forms take a position near the shape to be known to, in units of the form's radius:
 /// E / R of docs/theory.md ("Casts with an error bound"). Float rays, worked on in double: origins
 /// up to form_far away are moved with an error of 2^-33 R, and leave up to 5 times that along the
@@ -142,10 +155,6 @@ inline constexpr double form_parallel = form_rounding<T>* form_rounding<T> / 16;
 /// there 2^-53 is form_rounding's 2^-33 for float rays.
 inline constexpr double form_far = 0x1p20;
 
-/// Squared lengths of float directions between which t and its bound are floats with all their
-/// digits, for shapes of ordinary size (ShapeDefinition).
-inline constexpr double form_shortest_squared = 1e-40, form_longest_squared = 1e30;
-
 /// What the rounding of t's bound and of t adds to the bound: a share of itself, and epsilons of
 /// the offset; for double rays also what the ray's length and its inverse were rounded by.
 inline constexpr double form_margin = 0x1p-20;
@@ -154,6 +163,21 @@ inline constexpr double form_digits = (std::is_same_v<T, float> ? 1 : 8) * doubl
 
 /// Rays in double have this limit for lengths of directions and for their inverses.
 inline constexpr double form_longest_step = 1e250;
+
+/// How near to tangent: r^2 - |x|^2 of the closest point x is known to 2 r |dx| and a few roundings
+/// of r^2, less than this times E r.
+inline constexpr double form_tangent = 4;
+
+/// The share of their distance by which two planes may cross within the cylinder that they cut:
+/// what double rounds of where they touch.
+inline constexpr double form_touching = 0x1p-50;
+
+/// Limits of what docs/theory.md derives bounds for, of forms that narrow: their apex' height in
+/// units of their radius, the smaller ball's radius in units of the larger one's, and the sine of a
+/// mantle's slope.
+inline constexpr double tapered_farthest_apex = 8;
+inline constexpr double tapered_least_ball = 0x1p-10;
+inline constexpr double tapered_steepest = 0.99;
 
 /// What a polytope's plane and a line round by where they cross, across the plane, in units of the
 /// polytope's radius: the plane's offset 1, the line's height 5 and its slope 3 (three products and
@@ -177,10 +201,10 @@ inline constexpr T distance_gap = T(4) * epsilon<T>;
 
 /// Polytopes end by themselves, and of smooth shapes the worst seen (ellipsoids of 1:1000) needed
 /// fewer than 200.
-inline constexpr int distance_max_iterations = 1000;
+inline constexpr int distance_max_iterations = 400;
 
 /// Algorithm 1 was seen to need some 1500 support points in its nested queries for grazing rays.
-inline constexpr int first_solution_max_supports = 20000;
+inline constexpr int first_solution_max_supports = 10000;
 
 /// How far the shapes are parted to find where they touched, relative to their sizes' sum: hits are
 /// precise to a few epsilon, those that stalled to gjk_stalled.
@@ -192,5 +216,47 @@ inline constexpr T contact_back_off[] = {T(8) * epsilon<T>, T(64) * epsilon<T>,
 /// differences of two shapes' are each rounded, in a line or not.
 template <class T>
 inline constexpr T collinear = T(4) * epsilon<T>;
+
+/// Proofs end so far along the ray from the ball's centre, in its radii: nothing further matters.
+inline constexpr double proof_reach = 2;
+
+/// How much more rounding than double's a proof is allowed: the middle of a sliver is only known so
+/// much worse than its corners.
+inline constexpr double proof_roundings = 16;
+
+/// What the search for a proof is content with, in machine epsilons of the size: a quarter of what
+/// the checker allows.
+inline constexpr double proof_good_enough = 16;
+
+/// A hit found anew this near to the claimed one, along the normal in epsilons of the claim's
+/// precision, is taken for the same.
+inline constexpr double proof_close_to_claim = 32;
+
+/// A spanned point no further off than this, in machine epsilons of the size, is as good as one on
+/// the hit point: the support points are rounded as coarsely.
+inline constexpr double proof_on_the_spot = 2;
+
+/// What a position is known to in float lanes, in units of what the numbers that it was made of are
+/// as large as: 32 roundings by 2^-24: twelve for the way to the form (docs/theory.md has them),
+/// twenty for what the form does with it.
+inline constexpr float screen_rounding = 0x1p-19f;
+
+/// Positions must be known to this share of a form's least radius: squares of errors, which the
+/// forms' bounds leave out, are then far below the bounds.
+inline constexpr float screen_largest_share = 0x1p-6f;
+
+/// Squared lengths of directions in a form's frame, and radii, between which all numbers of float
+/// lanes are float's.
+inline constexpr float screen_shortest_squared = 1e-8f;
+inline constexpr float screen_longest_squared = 1e8f;
+inline constexpr double screen_least_radius = 1e-7;
+inline constexpr double screen_largest_radius = 1e7;
+
+/// How uncertain t is in float lanes, in units of its own size: it is a sum of two numbers.
+inline constexpr float screen_digits = 0x1p-21f;
+
+/// A box around a shape that has no form is made wider by this share of the shape's radius: more
+/// than any solver allows a float hit to be off.
+inline constexpr double screen_box_margin = 0x1p-13;
 
 }  // namespace minkray::tolerance

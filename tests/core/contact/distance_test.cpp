@@ -180,6 +180,7 @@ TEST(Distance, begun_with_the_answers_axis_ends_at_once_and_separation_needs_one
   const auto separation = distance_between(box, cone, options);
   EXPECT_EQ(separation.status, DistanceStatus::separated);
   EXPECT_EQ(separation.iterations, 1);
+  EXPECT_TRUE(std::isinf(separation.distance)) << "none is asked for";
 }
 
 }  // namespace

@@ -65,9 +65,49 @@ TEST(LimitsOfForms, planes_that_cross_within_a_cylinder_have_no_form) {
     return cut.definition().form().kind != FormKind::none;
   };
   const double touching = 2 * std::hypot(0.375, 0.5);
-  for (const double share : {1.0, 1 + 1e-15, 1.5, 20.0}) EXPECT_TRUE(has_form(share * touching));
-  for (const double share : {1 - 1e-14, 1 - 1e-7, 0.9, 0.5, 0.11})
+  for (const double share : {1 - 6e-16, 1.0, 1 + 1e-15, 1.5, 20.0})
+    EXPECT_TRUE(has_form(share * touching));
+  for (const double share : {1 - 4e-15, 1 - 1e-14, 1 - 1e-7, 0.9, 0.5, 0.11})
     EXPECT_FALSE(has_form(share * touching));
+}
+
+/// The apex of a mantle that hardly narrows is far away, where its bounds would be wide.
+TEST(LimitsOfForms, frustums_whose_apex_is_far_away_have_no_form) {
+  for (const double radii : {1.0, 4.0, 7.9, 8.1, 20.0, 70.0}) {
+    // With a height of 2 and a radius of 1 below, the apex is at 1 + 2 upper / (1 - upper).
+    const double above = (radii * std::sqrt(2.0) - 1) / 2, upper = above / (1 + above);
+    const PreparedShape<double> frustum(S(Frustum<double>{{1, upper}, 1}));
+    EXPECT_EQ(frustum.definition().form().kind == FormKind::frustum, radii < 8) << radii;
+  }
+}
+
+TEST(LimitsOfForms, tapered_capsules_with_hardly_a_ball_at_an_end_have_no_form) {
+  for (const double share : {0x1p-1, 0x1p-8, 0x1.2p-10, 0x1.dp-11, 0x1p-13}) {
+    const PreparedShape<double> tapered(S(TaperedCapsule<double>{{1, share}, 2}));
+    EXPECT_EQ(tapered.definition().form().kind == FormKind::tapered_capsule, share > 0x1p-10)
+        << share;
+  }
+}
+
+TEST(LimitsOfForms, tapered_capsules_whose_mantle_is_hardly_one_have_no_form) {
+  for (const double sine : {0.05, 0.5, 0.985, 0.995}) {
+    const PreparedShape<double> tapered(S(TaperedCapsule<double>{{1, 0.1}, 0.45 / sine}));
+    EXPECT_EQ(tapered.definition().form().kind == FormKind::tapered_capsule, sine < 0.99) << sine;
+  }
+}
+
+/// Where directions are so long or so short that their numbers have room for few sizes, other
+/// solvers are asked, with the same answer.
+TEST(LimitsOfForms, directions_of_unusual_length_are_answered_by_models) {
+  const PreparedShape<double> ball(S(Sphere<double>{1}));
+  const P origin(-3, 0.25, -0.5);
+  const double lambda = 3 - std::sqrt(1 - origin.y() * origin.y() - origin.z() * origin.z());
+  for (const double length : {0.6e-250, 1.5e-250, 1e-9, 1.0, 1e9, 0.6e250, 1.5e250}) {
+    const CastResult<double> answer = cast_ray(ball, {origin, {length, 0, 0}});
+    ASSERT_EQ(name_of(answer.status), name_of(Status::hit)) << length;
+    EXPECT_NEAR(answer.t() * length, lambda, 1e-14) << length;
+    EXPECT_EQ(answer.path == Path::filter, length > 1e-250 && length < 1e250) << length;
+  }
 }
 
 }  // namespace

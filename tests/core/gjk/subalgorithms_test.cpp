@@ -64,6 +64,20 @@ TYPED_TEST(Subalgorithms, find_wolfes_point_of_random_simplices_and_after_transl
   EXPECT_GT(full, 40);
 }
 
+TYPED_TEST(Subalgorithms, know_nothing_of_what_they_were_asked_before) {
+  constexpr int Dim = TypeParam::dimension;
+  using Point = Vec<double, Dim>;
+  TypeParam simplex;
+  simplex.begin(Point::Zero());
+  simplex.add(Point::Constant(0.25));
+  simplex.add(Point::Constant(-0.5));
+  const Point far = Point::Constant(3);
+  simplex.begin(Point::Zero());
+  simplex.add(far);
+  EXPECT_EQ(simplex.closest().v, Point(-far));
+  EXPECT_EQ(simplex.furthest_squared(), far.squaredNorm());
+}
+
 TYPED_TEST(Subalgorithms, answer_degenerate_simplices_with_a_point_of_them) {
   constexpr int Dim = TypeParam::dimension;
   using Point = Vec<double, Dim>;

@@ -125,7 +125,10 @@ TEST(Certificate, of_a_hit_beyond_the_rays_end_is_refused) {
   const double t = claim.t_base + claim.t_offset;
   for (const double share : {2.0, 1.0, 0.9999, 0.5}) {
     ray.t_max = share * t;
-    EXPECT_EQ(check_certificate(support, ray, claim, certificate).holds, share >= 1) << share;
+    const CertificateVerdict verdict = check_certificate(support, ray, claim, certificate);
+    EXPECT_EQ(verdict.holds, share >= 1) << share;
+    // It is the claim that is wrong, and not what was found to prove it.
+    EXPECT_EQ(verdict.complaint, share >= 1 ? "" : "the hit lies beyond t_max") << share;
   }
 }
 

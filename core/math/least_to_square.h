@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// Where a type's numbers have room for a square.
+#pragma once
+
+#include <limits>
+#include <type_traits>
+
+namespace minkray {
+
+/// The least number whose square is a normal number. Its inverse has a square that is a number.
+template <class T>
+inline constexpr T least_to_square = std::is_same_v<T, float> ? T(0x1p-63) : T(0x1p-511);
+static_assert(least_to_square<float> * least_to_square<float> == std::numeric_limits<float>::min());
+static_assert(least_to_square<double> * least_to_square<double> ==
+              std::numeric_limits<double>::min());
+
+}  // namespace minkray
