@@ -43,16 +43,13 @@ inline constexpr float slab_tiny = std::numeric_limits<float>::min();
 
 namespace detail {
 
-inline float next_above(float x) {
-  if (x == 0) return std::numeric_limits<float>::denorm_min();
-  const auto bits = std::bit_cast<std::int32_t>(x);
-  return x == std::numeric_limits<float>::infinity()
-             ? x
-             : std::bit_cast<float>(x > 0 ? bits + 1 : bits - 1);
-}
+/// Without a branch: whether a number was rounded down is as good as random.
 inline float float_above(double x) {
   const auto nearest = static_cast<float>(x);
-  return static_cast<double>(nearest) < x ? next_above(nearest) : nearest;
+  const std::int32_t step = static_cast<double>(nearest) < x ? 1 : 0;
+  // A zero counts as positive. Above infinity nothing is, and numbers that are none stay so.
+  const std::int32_t bits = nearest == 0 ? 0 : std::bit_cast<std::int32_t>(nearest);
+  return std::bit_cast<float>(bits + (bits < 0 ? -step : step));
 }
 inline float float_below(double x) {
   return -float_above(-x);
@@ -80,11 +77,15 @@ struct SlabRay {
                            : std::ldexp(static_cast<double>(ray.direction[axis]), -exponent);
       const bool down = std::signbit(d);
       const double inverse = 1 / d;
-      const auto o = static_cast<double>(ray.origin[axis]);
-      const float above = detail::float_above(o), below = detail::float_below(o);
       numbers.near[axis] = down ? 1 : 0;
-      numbers.origin_near[axis] = down ? below : above;
-      numbers.origin_far[axis] = down ? above : below;
+      if constexpr (std::is_same_v<T, float>) {
+        numbers.origin_near[axis] = numbers.origin_far[axis] = ray.origin[axis];
+      } else {
+        // As if the ray went up, and turned again: signs are as good as random as well.
+        const double turn = std::copysign(1.0, d), o = turn * ray.origin[axis];
+        numbers.origin_near[axis] = static_cast<float>(turn) * detail::float_above(o);
+        numbers.origin_far[axis] = static_cast<float>(turn) * detail::float_below(o);
+      }
       numbers.inverse_near[axis] = numbers.inverse_far[axis] = static_cast<float>(inverse);
       // Too large for float, but not without end.
       constexpr float most = std::numeric_limits<float>::max();

@@ -18,7 +18,7 @@ std::uint64_t walk_stream(const Bvh& bvh, std::span<SlabRay> rays, const PairVis
           visitor.visit(visitor.context, &ray, &box, 1);
           return slabs.numbers.t_max < 0;
         },
-        set);
+        ExpectNothing(), set);
   }
   return visited;
 }

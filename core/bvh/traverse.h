@@ -19,30 +19,40 @@ Walk walk(const Bvh& bvh, const SlabNumbers& ray, const BoxVisitor& visitor,
 Walk walk(const Bvh& bvh, const RayGroup& group, const BoxVisitor& visitor,
           WalkSet set = best_walk_set());
 
+struct ExpectNothing {
+  void operator()(std::uint32_t) const {}
+};
+
+/// on_expected(box), as a plain function.
+template <class OnExpected>
+void expected(const void* context, std::uint32_t box) {
+  (*static_cast<const OnExpected*>(context))(box);
+}
+
 /// Calls on_box(index) for the boxes that the ray meets with 0 <= t <= t_max, and rounding may add
 /// some. It may lower ray.numbers.t_max, and ends the walk by returning true. Answers how many
-/// nodes were visited.
-template <class OnBox>
+/// nodes were visited. on_expected(index) is told beforehand of boxes that may be met soon.
+template <class OnBox, class OnExpected = ExpectNothing>
 std::uint32_t traverse(const Bvh& bvh, const SlabRay& ray, OnBox&& on_box,
-                       WalkSet set = best_walk_set()) {
+                       const OnExpected& on_expected = {}, WalkSet set = best_walk_set()) {
   using Function = std::remove_reference_t<OnBox>;
   const auto visit = [](void* context, std::uint32_t box, RayGroupMask) -> bool {
     return (*static_cast<Function*>(context))(box);
   };
-  return walk(bvh, ray.numbers, {visit, &on_box}, set).visited;
+  return walk(bvh, ray.numbers, {visit, &on_box, expected<OnExpected>, &on_expected}, set).visited;
 }
 
 /// Calls on_box(index, rays) for the boxes that rays of the group meet: to each ray happens what
 /// would happen to it alone, but for the order of boxes, if the walk is complete. It may lower
 /// t_max of rays.
-template <class OnBox>
+template <class OnBox, class OnExpected = ExpectNothing>
 Walk traverse(const Bvh& bvh, const RayGroup& group, OnBox&& on_box,
-              WalkSet set = best_walk_set()) {
+              const OnExpected& on_expected = {}, WalkSet set = best_walk_set()) {
   using Function = std::remove_reference_t<OnBox>;
   const auto visit = [](void* context, std::uint32_t box, RayGroupMask rays) -> bool {
     return (*static_cast<Function*>(context))(box, rays);
   };
-  return walk(bvh, group, {visit, &on_box}, set);
+  return walk(bvh, group, {visit, &on_box, expected<OnExpected>, &on_expected}, set);
 }
 
 }  // namespace minkray

@@ -14,6 +14,9 @@ struct BoxVisitor {
   /// whether to end the walk.
   bool (*visit)(void* context, std::uint32_t box, RayGroupMask rays);
   void* context;
+  /// Told of boxes that may be visited soon, so that what they hold can be brought near.
+  void (*expect)(const void* context, std::uint32_t box);
+  const void* expect_context;
 };
 
 /// How many nodes were visited, and whether that was all: a group may have lost its patience, and

@@ -70,7 +70,9 @@ Walk walk(const BvhNode* nodes, const RayOrGroup& rays, const BoxVisitor& visito
     // The nearest on top.
     for (const int bottom = top; met != 0; met &= met - 1) {
       const int child = __builtin_ctz(met);
-      if (nodes[node].children[child] == BvhNode::none) break;  // rays from beyond float's range
+      const std::uint32_t what = nodes[node].children[child];
+      if (what == BvhNode::none) break;  // rays from beyond float's range
+      if (what & BvhNode::leaf) visitor.expect(visitor.expect_context, what & ~BvhNode::leaf);
       int at = top++;
       for (; at > bottom && stack[at - 1].enter < enters[child]; --at) stack[at] = stack[at - 1];
       stack[at] = {node, child, enters[child]};

@@ -102,13 +102,14 @@ class Instances {
   }
 
   /// Brings near what `at` will read: first the place, and, when that has come, the map.
-  void prefetch_place(std::size_t i) const { __builtin_prefetch(&places_[i]); }
-  void prefetch_map(std::size_t i) const {
-    if (!is_turned(i)) return;
-    const auto* const map = reinterpret_cast<const char*>(&linear_[places_[i].linear]);
-    __builtin_prefetch(map);
-    __builtin_prefetch(map + sizeof(Linear) - 1);
+  [[gnu::always_inline]] void prefetch_place(std::size_t i) const { __builtin_prefetch(&places_[i]); }
+  [[gnu::always_inline]] void prefetch_map(std::size_t i) const {
+    if (is_turned(i)) prefetch_linear(places_[i].linear);
   }
+
+  /// Where each instance has a map of its own its place need not be read to find it.
+  bool have_own_maps() const { return linear_.size() == places_.size(); }
+  [[gnu::always_inline]] void prefetch_own_map(std::size_t i) const { prefetch_linear(i); }
 
   /// Half the longest side of the instance's box in the world, but for rounding.
   T half_extent(std::size_t i) const {
@@ -140,6 +141,12 @@ class Instances {
     Mat3<T> to_inner;
     T half_extent;
   };
+  [[gnu::always_inline]] void prefetch_linear(std::size_t entry) const {
+    const auto* const map = reinterpret_cast<const char*>(&linear_[entry]);
+    __builtin_prefetch(map);
+    __builtin_prefetch(map + sizeof(Linear) - 1);
+  }
+
   /// Places the i-th instance; its linear part, unless it is the identity, is to be the given entry
   /// of linear_, and is written there if `writes`.
   void place(std::size_t i, std::uint32_t definition, const Affine<T>& pose, std::size_t linear,

@@ -70,7 +70,7 @@ void World<T>::closer_hit(const WorldRay<T>& ray, SlabRay& slabs, WorldHit<T>& c
                           QueryCounts& counts) const {
   if (closer_half_space(ray, closest, counts))
     slabs.numbers.t_max = slabs.limit(static_cast<double>(closest.cast.t()));
-  counts.nodes += traverse(bvh_, slabs, [&](std::uint32_t instance) {
+  auto on_instance = [&](std::uint32_t instance) {
     if (instance == ray.skip || instances_.is_half_space(instance)) return false;
     const CastResult<T> result = counted_cast(
         instances_.at(instance), instances_.seen_by(instance, ray.ray, ray.time), options_, counts);
@@ -78,20 +78,22 @@ void World<T>::closer_hit(const WorldRay<T>& ray, SlabRay& slabs, WorldHit<T>& c
     closest = {instance, instances_.turned(instance, result, ray.time)};
     slabs.numbers.t_max = slabs.limit(static_cast<double>(result.t()));
     return false;
-  });
+  };
+  counts.nodes += traverse(bvh_, slabs, on_instance, prefetching());
 }
 
 template <class T>
 bool World<T>::is_blocked(const WorldRay<T>& ray, const SlabRay& slabs, QueryCounts& counts) const {
   if (blocked_by_half_space(ray, counts)) return true;
   bool met = false;
-  counts.nodes += traverse(bvh_, slabs, [&](std::uint32_t instance) {
+  auto on_instance = [&](std::uint32_t instance) {
     if (instance == ray.skip || instances_.is_half_space(instance)) return false;
     met = counted_cast(instances_.at(instance), instances_.seen_by(instance, ray.ray, ray.time),
                        options_, counts)
               .found();
     return met;
-  });
+  };
+  counts.nodes += traverse(bvh_, slabs, on_instance, prefetching());
   return met;
 }
 

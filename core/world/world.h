@@ -152,6 +152,13 @@ class World {
                         QueryCounts& counts) const;
   void occluded_of_pairs(std::span<const WorldRay<T>> rays, std::span<std::uint8_t> met,
                          QueryCounts& counts) const;
+  /// What walks call with instances that they may come to.
+  auto prefetching() const {
+    return [this, have_own_maps = instances_.have_own_maps()](std::uint32_t instance) {
+      instances_.prefetch_place(instance);
+      if (have_own_maps) instances_.prefetch_own_map(instance);
+    };
+  }
   /// Whether lanes of floats may look at pairs first.
   bool has_screen() const;
 

@@ -39,8 +39,8 @@ constexpr int patience_a_ray = 2;
 
 template <class T>
 bool diverges(const Ray<T>& a, const SlabRay& slabs_a, const Ray<T>& b, const SlabRay& slabs_b) {
-  const Vec3<double> difference = a.direction.template cast<double>() / slabs_a.steps -
-                                  b.direction.template cast<double>() / slabs_b.steps;
+  const Vec3<double> difference = a.direction.template cast<double>() * (1 / slabs_a.steps) -
+                                  b.direction.template cast<double>() * (1 / slabs_b.steps);
   return difference.cwiseAbs().maxCoeff() > widest_ray_group;
 }
 
@@ -146,7 +146,7 @@ void World<T>::closest_hits(std::span<const WorldRay<T>> rays, std::span<WorldHi
       }
       group.rays.narrow();
     }
-    const Walk walk = traverse(bvh_, group.rays, [&](std::uint32_t instance, RayGroupMask meeting) {
+    auto on_instance = [&](std::uint32_t instance, RayGroupMask meeting) {
       if (instances_.is_half_space(instance)) return false;
       const auto ray_of = [&](int lane) {
         const WorldRay<T>& asked = rays[index(lane)];
@@ -166,7 +166,8 @@ void World<T>::closest_hits(std::span<const WorldRay<T>> rays, std::span<WorldHi
                   });
       if (nearer) group.rays.narrow();
       return false;
-    });
+    };
+    const Walk walk = traverse(bvh_, group.rays, on_instance, prefetching());
     counts.nodes += walk.visited;
     if (walk.complete) return;
     for (int lane = 0; lane < group.rays.count; ++lane) on_single(index(lane));
@@ -198,7 +199,7 @@ RayGroupMask World<T>::occluded(std::span<const WorldRay<T>> rays, QueryCounts& 
       if (open == 0) return;
       group.rays.narrow();
     }
-    const Walk walk = traverse(bvh_, group.rays, [&](std::uint32_t instance, RayGroupMask meeting) {
+    auto on_instance = [&](std::uint32_t instance, RayGroupMask meeting) {
       if (instances_.is_half_space(instance)) return false;
       const auto ray_of = [&](int lane) {
         const WorldRay<T>& asked = rays[index(lane)];
@@ -214,7 +215,8 @@ RayGroupMask World<T>::occluded(std::span<const WorldRay<T>> rays, QueryCounts& 
                   });
       if (open < before) group.rays.narrow();
       return open == 0;
-    });
+    };
+    const Walk walk = traverse(bvh_, group.rays, on_instance, prefetching());
     counts.nodes += walk.visited;
     if (walk.complete) return;
     for (int lane = 0; lane < group.rays.count; ++lane)

@@ -69,7 +69,7 @@ BoxSet boxes_found(const Bvh& bvh, const Ray<T>& ray, WalkSet set = best_walk_se
         found.insert(i);
         return false;
       },
-      set);
+      ExpectNothing(), set);
   return found;
 }
 
