@@ -19,7 +19,7 @@ template <class Caster>
 class UserGeometry : public Tracer {
  public:
   UserGeometry(const Scene& scene, int threads) : top_(threads), caster_(scene) {
-    const std::vector<Bounds<float>> boxes = caster_.take_boxes();
+    const FirstTouchVector<Bounds<float>> boxes = caster_.take_boxes();
     const Clock clock;
     RTCGeometry geometry = rtcNewGeometry(top_.device(), RTC_GEOMETRY_TYPE_USER);
     rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(boxes.size()));
@@ -100,7 +100,7 @@ class OurCast {
  public:
   explicit OurCast(const Scene& scene) : instances_(instances_of<float>(scene)) {}
 
-  std::vector<Bounds<float>> take_boxes() { return instances_.take_boxes(); }
+  FirstTouchVector<Bounds<float>> take_boxes() { return instances_.take_boxes(); }
   std::size_t bytes() const { return instances_.bytes(); }
   FirstHit cast(unsigned instance, const Ray<float>& ray) const {
     const CastResult<float> result = cast_ray(instances_.at(instance), ray);
@@ -128,7 +128,7 @@ class ClosedForm {
     });
   }
 
-  std::vector<Bounds<float>> take_boxes() { return std::move(boxes_); }
+  FirstTouchVector<Bounds<float>> take_boxes() { return std::move(boxes_); }
   std::size_t bytes() const { return places_.capacity() * sizeof(Place); }
   FirstHit cast(unsigned instance, const Ray<float>& ray) const {
     const Place& place = places_[instance];
@@ -151,7 +151,7 @@ class ClosedForm {
     Vec3<float> centre;
     std::uint32_t shape;
   };
-  std::vector<Bounds<float>> boxes_;
+  FirstTouchVector<Bounds<float>> boxes_;
   std::vector<RoundedBox> shapes_;
   std::vector<Place> places_;
 };

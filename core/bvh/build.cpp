@@ -37,7 +37,7 @@ struct ChildRanges {
 /// A subtree that one thread has built: nodes[0] is its root, and children are counted from there.
 /// In a large one the root stands alone, and its children are subtrees.
 struct Subtree {
-  std::vector<BvhNode> nodes;
+  FirstTouchVector<BvhNode> nodes;
   std::vector<std::pair<int, std::unique_ptr<Subtree>>>
       below;  ///< with the child's place in the root
   BuildBox box;
@@ -82,7 +82,7 @@ class Builder {
 
  private:
   /// Appends the nodes of a range, the root first, and answers its box.
-  BuildBox append(const BuildRange& range, std::vector<BvhNode>& nodes) const {
+  BuildBox append(const BuildRange& range, FirstTouchVector<BvhNode>& nodes) const {
     const std::size_t at = nodes.size();
     nodes.push_back(empty_node());
     const ChildRanges children = children_of(range);
@@ -150,7 +150,7 @@ class Builder {
 };
 
 /// Puts the nodes of a subtree to `begin` and behind, and frees the subtree.
-void put(std::unique_ptr<Subtree> subtree, std::vector<BvhNode>& nodes, std::size_t begin) {
+void put(std::unique_ptr<Subtree> subtree, FirstTouchVector<BvhNode>& nodes, std::size_t begin) {
   for (std::size_t i = 0; i < subtree->nodes.size(); ++i) {
     BvhNode& node = nodes[begin + i] = subtree->nodes[i];
     for (std::uint32_t& child : node.children)
@@ -169,7 +169,7 @@ void put(std::unique_ptr<Subtree> subtree, std::vector<BvhNode>& nodes, std::siz
   });
 }
 
-std::unique_ptr<Subtree> built(std::vector<Primitive>& primitives, BvhBuild build) {
+std::unique_ptr<Subtree> built(FirstTouchVector<Primitive>& primitives, BvhBuild build) {
   if (build == BvhBuild::speed) {
     const CurveSplitter splitter(primitives);
     return Builder<CurveSplitter>(primitives, splitter).build(splitter.whole());
@@ -178,22 +178,37 @@ std::unique_ptr<Subtree> built(std::vector<Primitive>& primitives, BvhBuild buil
   return Builder<AreaSplitter>(primitives, splitter).build(splitter.whole());
 }
 
-}  // namespace
-
-Bvh build_bvh(std::span<const Bounds<float>> boxes, BvhBuild build) {
-  Bvh bvh;
-  if (boxes.empty()) return bvh;
-  std::vector<Primitive> primitives(boxes.size());
+FirstTouchVector<Primitive> primitives_of(std::span<const Bounds<float>> boxes) {
+  FirstTouchVector<Primitive> primitives;
+  primitives.resize(boxes.size());
   parallel_for(boxes.size(), parallel_size, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       primitives[i] = Primitive(boxes[i], static_cast<std::uint32_t>(i));
   });
+  return primitives;
+}
+
+Bvh bvh_of(FirstTouchVector<Primitive> primitives, BvhBuild build) {
+  Bvh bvh;
+  if (primitives.empty()) return bvh;
   std::unique_ptr<Subtree> whole = built(primitives, build);
   // Before the nodes are there twice: of millions of primitives, memory is at its highest here.
   primitives = {};
   bvh.nodes.resize(whole->node_count());
   put(std::move(whole), bvh.nodes, 0);
   return bvh;
+}
+
+}  // namespace
+
+Bvh build_bvh(std::span<const Bounds<float>> boxes, BvhBuild build) {
+  return bvh_of(primitives_of(boxes), build);
+}
+
+Bvh build_bvh(FirstTouchVector<Bounds<float>>&& boxes, BvhBuild build) {
+  FirstTouchVector<Primitive> primitives = primitives_of(boxes);
+  boxes = {};
+  return bvh_of(std::move(primitives), build);
 }
 
 }  // namespace minkray

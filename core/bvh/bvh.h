@@ -4,9 +4,9 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "core/math/bounds.h"
+#include "core/parallel/first_touch.h"
 
 namespace minkray {
 
@@ -44,7 +44,7 @@ static_assert(sizeof(BvhNode) == 224);
 
 /// Node 0 is the root; no nodes at all if there are no boxes. Children follow their parents.
 struct Bvh {
-  std::vector<BvhNode> nodes;
+  FirstTouchVector<BvhNode> nodes;
 
   std::size_t bytes() const { return nodes.capacity() * sizeof(BvhNode); }
 };
@@ -65,6 +65,8 @@ enum class BvhBuild : unsigned char {
 /// The hierarchy of boxes [0, count), which must be at most 2^30. The same for any number of
 /// threads. The boxes must not be empty; they may be flat, alike, or infinite.
 Bvh build_bvh(std::span<const Bounds<float>> boxes, BvhBuild build = BvhBuild::quality);
+/// The same, and frees the boxes as soon as they are read.
+Bvh build_bvh(FirstTouchVector<Bounds<float>>&& boxes, BvhBuild build = BvhBuild::quality);
 
 /// Puts the hierarchy around other boxes: those of things that have moved. The further they moved
 /// against each other, the more rays visit too much; rays find the same as after a build anew.

@@ -4,9 +4,9 @@
 
 #include <cstddef>
 #include <span>
-#include <vector>
 
 #include "core/bvh/primitive.h"
+#include "core/parallel/first_touch.h"
 
 namespace minkray {
 
@@ -44,13 +44,13 @@ class AreaSplitter {
 /// BVH Construction on GPUs", 2009). Sorts the primitives when made.
 class CurveSplitter {
  public:
-  explicit CurveSplitter(std::span<Primitive> primitives);
+  explicit CurveSplitter(FirstTouchVector<Primitive>& primitives);
   BuildRange whole() const { return {0, codes_.size(), 0, {}}; }
   BuildHalves split(const BuildRange& range) const;
   static double weight(const BuildRange& range) { return static_cast<double>(range.count()); }
 
  private:
-  std::vector<std::uint32_t> codes_;
+  FirstTouchVector<std::uint32_t> codes_;
 };
 
 }  // namespace minkray

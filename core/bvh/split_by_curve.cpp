@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "core/bvh/sort_by_place.h"
 #include "core/bvh/split.h"
 #include "core/parallel/parallel_reduce.h"
 
@@ -9,12 +10,6 @@ namespace minkray {
 namespace {
 
 constexpr int bits_an_axis = 10;
-/// Sorted by so many bits at a time: their counts stay in the first cache.
-constexpr int bits_a_pass = 10;
-
-/// A place on the curve in the upper half, an index in the lower one.
-using Keyed = std::uint64_t;
-
 /// The bits of x with two zeros before each.
 std::uint32_t spread(std::uint32_t x) {
   x = (x | (x << 16)) & 0x030000ffu;
@@ -23,25 +18,9 @@ std::uint32_t spread(std::uint32_t x) {
   return (x | (x << 2)) & 0x09249249u;
 }
 
-/// Sorts by the upper halves and is stable.
-void sort_by_place(std::vector<Keyed>& keys) {
-  constexpr std::size_t buckets = std::size_t{1} << bits_a_pass;
-  std::vector<Keyed> other(keys.size());
-  for (int shift = 32; shift < 32 + 3 * bits_an_axis; shift += bits_a_pass) {
-    const auto bucket = [&](Keyed key) {
-      return static_cast<std::size_t>(key >> shift) & (buckets - 1);
-    };
-    std::vector<std::size_t> starts(buckets + 1, 0);
-    for (const Keyed key : keys) ++starts[bucket(key) + 1];
-    for (std::size_t i = 0; i < buckets; ++i) starts[i + 1] += starts[i];
-    for (const Keyed key : keys) other[starts[bucket(key)]++] = key;
-    keys.swap(other);
-  }
-}
-
 }  // namespace
 
-CurveSplitter::CurveSplitter(std::span<Primitive> primitives) {
+CurveSplitter::CurveSplitter(FirstTouchVector<Primitive>& primitives) {
   const auto middles = parallel_reduce<BuildBox>(
       0, primitives.size(),
       [&](BuildBox& box, std::size_t i) { box.extend(primitives[i].middle()); },
@@ -55,21 +34,24 @@ CurveSplitter::CurveSplitter(std::span<Primitive> primitives) {
     const auto bits = [&](int axis) { return spread(static_cast<std::uint32_t>(cell.lane(axis))); };
     return bits(0) << 2 | bits(1) << 1 | bits(2);
   };
-  std::vector<Keyed> keys(primitives.size());
+  FirstTouchVector<KeyedPlace> keys;
+  keys.resize(primitives.size());
   constexpr std::size_t range_size = 8192;
   const auto for_all = [&](const auto& body) {
     parallel_for(primitives.size(), range_size, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) body(i);
     });
   };
-  for_all([&](std::size_t i) { keys[i] = Keyed{place(primitives[i])} << 32 | i; });
-  sort_by_place(keys);
-  const std::vector<Primitive> unsorted(primitives.begin(), primitives.end());
+  for_all([&](std::size_t i) { keys[i] = KeyedPlace{place(primitives[i])} << 32 | i; });
+  sort_by_place(keys, 3 * bits_an_axis);
+  FirstTouchVector<Primitive> sorted;
+  sorted.resize(primitives.size());
   codes_.resize(primitives.size());
   for_all([&](std::size_t i) {
-    primitives[i] = unsorted[static_cast<std::uint32_t>(keys[i])];
+    sorted[i] = primitives[static_cast<std::uint32_t>(keys[i])];
     codes_[i] = static_cast<std::uint32_t>(keys[i] >> 32);
   });
+  primitives.swap(sorted);
 }
 
 BuildHalves CurveSplitter::split(const BuildRange& range) const {

@@ -53,6 +53,16 @@ exact::Form exact_form_of(const Shape<T>& inner, const Vec3<double>& ball_centre
       shape.kind);
 }
 
+/// A Transform that holds no shape: as many poses as there are instances ask for bounds, and to
+/// share a shape among threads costs more than its supports.
+template <class T>
+struct Posed {
+  const Shape<T>& shape;
+  AffineMap<T> map;
+
+  Vec3<T> support(const Vec3<T>& n) const { return map(shape.support(map.inner_direction(n))); }
+};
+
 }  // namespace
 
 /// Made once, by whichever thread is first.
@@ -124,7 +134,7 @@ ShapeDefinition<T>::ShapeDefinition(Shape<T> shape) : original_(shape), inner_(s
 
 template <class T>
 Bounds<T> ShapeDefinition<T>::bounds_of(const Affine<T>& pose) const {
-  return minkray::bounds_of<T>(Transform<T>{original_, pose});
+  return minkray::bounds_of<T>(Posed<T>{*original_, pose});
 }
 
 /// Takes more digits: the maps' shifts may be far larger than the shape.

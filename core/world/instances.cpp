@@ -68,7 +68,7 @@ void Instances<T>::add(const HalfSpaceBody<T>& half_space, const Affine<T>& pose
 
 /// Half-spaces get a point of another box, which makes the hierarchy no larger.
 template <class T>
-std::vector<Bounds<float>> Instances<T>::take_boxes() {
+FirstTouchVector<Bounds<float>> Instances<T>::take_boxes() {
   if (!half_spaces_.empty()) {
     Vec3<float> corner = Vec3<float>::Zero();
     for (std::size_t i = 0; i < places_.size(); ++i) {

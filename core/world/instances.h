@@ -11,6 +11,7 @@
 
 #include "core/cast/prepared_shape.h"
 #include "core/cast/screen.h"
+#include "core/parallel/first_touch.h"
 #include "core/world/half_space.h"
 #include "core/world/movement.h"
 
@@ -102,7 +103,9 @@ class Instances {
   }
 
   /// Brings near what `at` will read: first the place, and, when that has come, the map.
-  [[gnu::always_inline]] void prefetch_place(std::size_t i) const { __builtin_prefetch(&places_[i]); }
+  [[gnu::always_inline]] void prefetch_place(std::size_t i) const {
+    __builtin_prefetch(&places_[i]);
+  }
   [[gnu::always_inline]] void prefetch_map(std::size_t i) const {
     if (is_turned(i)) prefetch_linear(places_[i].linear);
   }
@@ -122,7 +125,7 @@ class Instances {
 
   /// Boxes that hold the instances and what rounding makes of them; once after each change, since
   /// they are given away.
-  std::vector<Bounds<float>> take_boxes();
+  FirstTouchVector<Bounds<float>> take_boxes();
 
   std::size_t definitions() const { return definitions_.size(); }
 
@@ -155,10 +158,10 @@ class Instances {
   std::vector<std::shared_ptr<const ShapeDefinition<T>>> definitions_;
   std::vector<Screen> screens_;  ///< of each definition
   Mat3<T> unturned_ = Mat3<T>::Identity();
-  std::vector<Place> places_;
-  std::vector<Linear> linear_;
+  FirstTouchVector<Place> places_;
+  FirstTouchVector<Linear> linear_;
   std::vector<Movement<T>> movements_;  ///< by instance; empty if all stand still
-  std::vector<Bounds<float>> boxes_;
+  FirstTouchVector<Bounds<float>> boxes_;
   std::vector<PosedHalfSpace> half_spaces_;  ///< in the order of their instances
 };
 

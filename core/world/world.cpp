@@ -37,8 +37,7 @@ World<T>::World(Instances<T> instances, const CastOptions<T>& options, BvhBuild 
       build_(build),
       options_(options),
       in_packets_(are_default(options)) {
-  const std::vector<Bounds<float>> boxes = instances_.take_boxes();
-  bvh_ = build_bvh(boxes, build);
+  bvh_ = build_bvh(instances_.take_boxes(), build);
 }
 
 template <class T>
@@ -125,7 +124,7 @@ void World<T>::pose_all(const std::function<Affine<T>(std::size_t)>& pose_of,
     return expected.nodes + expected.leaves;
   };
   instances_.pose_all(pose_of, movement_of);
-  const std::vector<Bounds<float>> boxes = instances_.take_boxes();
+  const FirstTouchVector<Bounds<float>> boxes = instances_.take_boxes();
   if (visits_as_built_ == 0) visits_as_built_ = visits();
   refit(bvh_, boxes);
   if (visits() <= most_visits_after_refit * visits_as_built_) return;

@@ -124,7 +124,7 @@ TYPED_TEST(InstancesOf, boxes_hold_their_instances_tightly) {
     poses.push_back(random.pose());
     instances.add(Box<T>{half}, poses.back());
   }
-  const std::vector<Bounds<float>> boxes = instances.take_boxes();
+  const FirstTouchVector<Bounds<float>> boxes = instances.take_boxes();
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     const Vec3<double> extent =
         poses[i].linear.template cast<double>().cwiseAbs() * half.template cast<double>();

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#include "core/bvh/sort_by_place.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+#include <vector>
+
+#include "core/parallel/parallel.h"
+
+namespace minkray {
+namespace {
+
+/// Sorted by so many bits at a time: their counts stay in the first cache.
+constexpr int bits_a_pass = 10;
+constexpr std::size_t buckets = std::size_t{1} << bits_a_pass;
+
+/// Each range's keys are counted, and moved, by one thread: long enough that the ranges' counts are
+/// few beside the keys.
+constexpr std::size_t range_size = std::size_t{1} << 16;
+
+using Counts = std::array<std::size_t, buckets>;
+
+/// Counts of keys become where the first key of each bucket and range is to be: bucket by bucket,
+/// and range by range within a bucket.
+void make_starts(std::vector<Counts>& of_ranges) {
+  std::size_t start = 0;
+  for (std::size_t bucket = 0; bucket < buckets; ++bucket)
+    for (Counts& counts : of_ranges) start += std::exchange(counts[bucket], start);
+}
+
+}  // namespace
+
+void sort_by_place(FirstTouchVector<KeyedPlace>& keys, int bits) {
+  FirstTouchVector<KeyedPlace> other;
+  other.resize(keys.size());
+  std::vector<Counts> of_ranges((keys.size() + range_size - 1) / range_size);
+  for (int shift = 32; shift < 32 + bits; shift += bits_a_pass) {
+    const auto bucket_of = [&](KeyedPlace key) {
+      return static_cast<std::size_t>(key >> shift) & (buckets - 1);
+    };
+    // on_key(counts, key) for all keys of a range.
+    const auto for_ranges = [&](const auto& on_key) {
+      parallel_for(of_ranges.size(), 1, [&](std::size_t first, std::size_t last) {
+        for (std::size_t range = first; range < last; ++range) {
+          const std::size_t begin = range * range_size;
+          for (std::size_t i = begin; i < std::min(begin + range_size, keys.size()); ++i)
+            on_key(of_ranges[range], keys[i]);
+        }
+      });
+    };
+    for (Counts& counts : of_ranges) counts.fill(0);
+    for_ranges([&](Counts& counts, KeyedPlace key) { ++counts[bucket_of(key)]; });
+    make_starts(of_ranges);
+    for_ranges([&](Counts& starts, KeyedPlace key) { other[starts[bucket_of(key)]++] = key; });
+    keys.swap(other);
+  }
+}
+
+}  // namespace minkray
