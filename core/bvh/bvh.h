@@ -65,7 +65,7 @@ enum class BvhBuild : unsigned char {
 /// The hierarchy of boxes [0, count), which must be at most 2^30. The same for any number of
 /// threads. The boxes must not be empty; they may be flat, alike, or infinite.
 Bvh build_bvh(std::span<const Bounds<float>> boxes, BvhBuild build = BvhBuild::quality);
-/// The same, and frees the boxes as soon as they are read.
+/// It frees the boxes as soon as they are read.
 Bvh build_bvh(FirstTouchVector<Bounds<float>>&& boxes, BvhBuild build = BvhBuild::quality);
 
 /// Puts the hierarchy around other boxes: those of things that have moved. The further they moved

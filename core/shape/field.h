@@ -13,7 +13,19 @@ enum class Unit { none, length, degrees };
 
 /// What values a number may take. Numbers must be finite whatever their range. zero_to_180 leaves
 /// out both ends.
-enum class Range { any, positive, not_negative, at_least_one, zero_to_one, zero_to_180 };
+enum class Range {
+  any,
+  positive,
+  not_negative,
+  at_least_one,
+  zero_to_one,
+  zero_to_180,
+  brightness
+};
+
+/// No light is brighter, in the scene's unit: products of a few such numbers, and sums of millions
+/// of them, are finite in a picture, whose numbers end at 3.4e38.
+inline constexpr double most_brightness = 1e15;
 
 /// One parameter: the member of shape S that holds it. The member's type says how it is spelled:
 /// T a number, std::array<T, 2> and Vec3<T> lists of two and three, std::array<Vec3<T>, N> a list

@@ -102,6 +102,12 @@ void Instances<T>::add_many(std::uint32_t definition, std::size_t count, bool li
 }
 
 template <class T>
+void Instances<T>::show_to(std::size_t i, RayKinds kinds) {
+  shown_to_.resize(places_.size(), all_ray_kinds);
+  shown_to_[i] = kinds;
+}
+
+template <class T>
 void Instances<T>::pose_all(const std::function<Affine<T>(std::size_t)>& pose_of,
                             const std::function<Movement<T>(std::size_t)>& movement_of) {
   linear_.resize(places_.size());
@@ -140,7 +146,7 @@ std::size_t Instances<T>::bytes() const {
   return definitions_.size() *
              (sizeof(ShapeDefinition<T>) + sizeof(definitions_[0]) + sizeof(Screen)) +
          places_.capacity() * sizeof(Place) + linear_.capacity() * sizeof(Linear) +
-         movements_.capacity() * sizeof(movements_[0]) +
+         movements_.capacity() * sizeof(movements_[0]) + shown_to_.capacity() * sizeof(RayKinds) +
          half_spaces_.capacity() * sizeof(PosedHalfSpace) + boxes_.capacity() * sizeof(boxes_[0]);
 }
 

@@ -17,6 +17,10 @@
 
 namespace minkray {
 
+/// Kinds of rays, a bit for each; which is which is the caller's.
+using RayKinds = std::uint8_t;
+inline constexpr RayKinds all_ray_kinds = 0xff;
+
 /// In double an instance takes 32 bytes, and 80 more if it is turned or scaled otherwise than the
 /// one before.
 template <class T>
@@ -37,6 +41,13 @@ class Instances {
   /// `linear_alike`: the poses differ in their translation alone.
   void add_many(std::uint32_t definition, std::size_t count, bool linear_alike,
                 const std::function<Affine<T>(std::size_t)>& pose_of);
+
+  /// From now on the i-th is met by rays of these kinds alone; once all have been added.
+  void show_to(std::size_t i, RayKinds kinds);
+  /// Whether rays of one of the kinds meet it.
+  bool is_shown_to(std::size_t i, RayKinds kinds) const {
+    return shown_to_.empty() || (shown_to_[i] & kinds) != 0;
+  }
 
   /// Moves every instance: the i-th to pose_of(i), which is asked from several threads at once.
   /// There are boxes to take again. If there is a movement_of, instances are on the move: while
@@ -163,6 +174,7 @@ class Instances {
   std::vector<Movement<T>> movements_;  ///< by instance; empty if all stand still
   FirstTouchVector<Bounds<float>> boxes_;
   std::vector<PosedHalfSpace> half_spaces_;  ///< in the order of their instances
+  std::vector<RayKinds> shown_to_;           ///< by instance; empty if all are shown to all rays
 };
 
 extern template class Instances<float>;

@@ -98,7 +98,7 @@ class PairScreen {
   }
 
   void sort(std::uint32_t ray, std::uint32_t instance) {
-    if (instances_.is_half_space(instance) || rays_[ray].skip == instance) return;
+    if (instances_.is_half_space(instance) || rays_[ray].passes(instances_, instance)) return;
     const FormKind kind = instances_.screen_of(instance).kind;
     if (kind == FormKind::none) return caster_.add(ray, instance);
     Queue& queue = queues_[static_cast<std::size_t>(kind)];

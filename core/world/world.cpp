@@ -45,7 +45,7 @@ bool World<T>::closer_half_space(const WorldRay<T>& ray, WorldHit<T>& closest,
                                  QueryCounts& counts) const {
   bool found = false;
   for (const auto& [instance, at_rest, in_world] : instances_.half_spaces()) {
-    if (instance == ray.skip) continue;
+    if (ray.passes(instances_, instance)) continue;
     ++counts.casts;
     const CastResult<T> result =
         cast_ray(in_world, instances_.seen_by(instance, ray.ray, ray.time));
@@ -70,7 +70,7 @@ void World<T>::closer_hit(const WorldRay<T>& ray, SlabRay& slabs, WorldHit<T>& c
   if (closer_half_space(ray, closest, counts))
     slabs.numbers.t_max = slabs.limit(static_cast<double>(closest.cast.t()));
   auto on_instance = [&](std::uint32_t instance) {
-    if (instance == ray.skip || instances_.is_half_space(instance)) return false;
+    if (ray.passes(instances_, instance) || instances_.is_half_space(instance)) return false;
     const CastResult<T> result = counted_cast(
         instances_.at(instance), instances_.seen_by(instance, ray.ray, ray.time), options_, counts);
     if (!result.found() || !closest.yields_to(instance, result.t())) return false;
@@ -86,7 +86,7 @@ bool World<T>::is_blocked(const WorldRay<T>& ray, const SlabRay& slabs, QueryCou
   if (blocked_by_half_space(ray, counts)) return true;
   bool met = false;
   auto on_instance = [&](std::uint32_t instance) {
-    if (instance == ray.skip || instances_.is_half_space(instance)) return false;
+    if (ray.passes(instances_, instance) || instances_.is_half_space(instance)) return false;
     met = counted_cast(instances_.at(instance), instances_.seen_by(instance, ray.ray, ray.time),
                        options_, counts)
               .found();
@@ -97,18 +97,17 @@ bool World<T>::is_blocked(const WorldRay<T>& ray, const SlabRay& slabs, QueryCou
 }
 
 template <class T>
-WorldHit<T> World<T>::closest_hit(const Ray<T>& ray, QueryCounts& counts, std::uint32_t skip,
-                                  T time) const {
+WorldHit<T> World<T>::closest_hit(const WorldRay<T>& ray, QueryCounts& counts) const {
   WorldHit<T> closest;
   closest.cast.status = Status::miss;
-  SlabRay slabs(ray);
-  closer_hit({ray, skip, time}, slabs, closest, counts);
+  SlabRay slabs(ray.ray);
+  closer_hit(ray, slabs, closest, counts);
   return closest;
 }
 
 template <class T>
-bool World<T>::occluded(const Ray<T>& ray, QueryCounts& counts, std::uint32_t skip, T time) const {
-  return is_blocked({ray, skip, time}, SlabRay(ray), counts);
+bool World<T>::occluded(const WorldRay<T>& ray, QueryCounts& counts) const {
+  return is_blocked(ray, SlabRay(ray.ray), counts);
 }
 
 template <class T>

@@ -76,12 +76,19 @@ struct WorldHit {
   }
 };
 
-/// A ray, the instance that it leaves, and when it is cast: from 0 to 1.
+/// A ray, the instance that it leaves, when it is cast (from 0 to 1), and of which kinds it is: it
+/// meets what is shown to one of them.
 template <class T>
 struct WorldRay {
   Ray<T> ray;
   std::uint32_t skip = no_instance;
   T time = T(0);
+  RayKinds kinds = all_ray_kinds;
+
+  /// Whether it goes through the instance, whatever that is like.
+  bool passes(const Instances<T>& instances, std::uint32_t instance) const {
+    return instance == skip || !instances.is_shown_to(instance, kinds);
+  }
 };
 
 /// So many rays can be asked for at once.
@@ -102,11 +109,17 @@ class World {
   /// it again. Casts that exhaust their solver are counted and taken for neither: the caller must
   /// look.
   WorldHit<T> closest_hit(const Ray<T>& ray, QueryCounts& counts, std::uint32_t skip = no_instance,
-                          T time = T(0)) const;
+                          T time = T(0)) const {
+    return closest_hit(WorldRay<T>{ray, skip, time}, counts);
+  }
+  WorldHit<T> closest_hit(const WorldRay<T>& ray, QueryCounts& counts) const;
 
   /// Whether any instance but `skip` is met with 0 <= t <= t_max.
   bool occluded(const Ray<T>& ray, QueryCounts& counts, std::uint32_t skip = no_instance,
-                T time = T(0)) const;
+                T time = T(0)) const {
+    return occluded(WorldRay<T>{ray, skip, time}, counts);
+  }
+  bool occluded(const WorldRay<T>& ray, QueryCounts& counts) const;
 
   /// Answers up to most_rays_at_once rays, faster the closer together they run. hits[i] answers
   /// rays[i].

@@ -114,14 +114,15 @@ void cast_all(const PreparedShape<T>& shape, RayGroupMask which, const RayOf& ra
   }
 }
 
-/// The group's rays of the set `which` that do not leave the instance.
+/// The group's rays of the set `which` that do not pass the instance.
 template <class T>
-RayGroupMask without_leaving(RayGroupMask which, std::uint32_t instance,
-                             std::span<const WorldRay<T>> rays, const Group& group) {
+RayGroupMask without_passing(RayGroupMask which, const Instances<T>& instances,
+                             std::uint32_t instance, std::span<const WorldRay<T>> rays,
+                             const Group& group) {
   RayGroupMask rest = which;
   for (RayGroupMask left = which; left != 0;) {
     const int lane = next_of(left);
-    if (rays[group.ray_of[static_cast<std::size_t>(lane)]].skip == instance)
+    if (rays[group.ray_of[static_cast<std::size_t>(lane)]].passes(instances, instance))
       rest &= ~(RayGroupMask(1) << lane);
   }
   return rest;
@@ -152,7 +153,7 @@ void World<T>::closest_hits(std::span<const WorldRay<T>> rays, std::span<WorldHi
         const WorldRay<T>& asked = rays[index(lane)];
         return instances_.seen_by(instance, asked.ray, asked.time);
       };
-      meeting = without_leaving(meeting, instance, rays, group);
+      meeting = without_passing(meeting, instances_, instance, rays, group);
       bool nearer = false;
       cast_all<T>(instances_.at(instance), meeting, ray_of, options_, in_packets_, counts,
                   [&](int lane, T t, const auto& result) {
@@ -205,7 +206,7 @@ RayGroupMask World<T>::occluded(std::span<const WorldRay<T>> rays, QueryCounts& 
         const WorldRay<T>& asked = rays[index(lane)];
         return instances_.seen_by(instance, asked.ray, asked.time);
       };
-      meeting = without_leaving(meeting, instance, rays, group);
+      meeting = without_passing(meeting, instances_, instance, rays, group);
       const int before = open;
       cast_all<T>(instances_.at(instance), meeting, ray_of, options_, in_packets_, counts,
                   [&](int lane, T, const auto&) {

@@ -54,7 +54,7 @@ void World<T>::closest_of_pairs(std::span<const WorldRay<T>> rays, std::span<Wor
   // Where what was sure to be met was not, a solver gave up: nothing is sure for this ray.
   for (std::size_t i = 0; i < rays.size(); ++i)
     if (limits.sure[i] && !(hits[i].found() && hits[i].cast.t() <= T(limits.t[i])))
-      hits[i] = closest_hit(rays[i].ray, counts, rays[i].skip, rays[i].time);
+      hits[i] = closest_hit(rays[i], counts);
 }
 
 template <class T>
@@ -86,8 +86,7 @@ template <class T>
 void World<T>::closest_hits_in_stream(std::span<const WorldRay<T>> rays,
                                       std::span<WorldHit<T>> hits, QueryCounts& counts) const {
   if (!has_screen() || rays.size() < least_stream) {
-    for (std::size_t i = 0; i < rays.size(); ++i)
-      hits[i] = closest_hit(rays[i].ray, counts, rays[i].skip, rays[i].time);
+    for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = closest_hit(rays[i], counts);
     return;
   }
   for (std::size_t first = 0; first < rays.size(); first += rays_at_once) {
@@ -100,8 +99,7 @@ template <class T>
 void World<T>::occluded_in_stream(std::span<const WorldRay<T>> rays, std::span<std::uint8_t> met,
                                   QueryCounts& counts) const {
   if (!has_screen() || rays.size() < least_stream) {
-    for (std::size_t i = 0; i < rays.size(); ++i)
-      met[i] = occluded(rays[i].ray, counts, rays[i].skip, rays[i].time) ? 1 : 0;
+    for (std::size_t i = 0; i < rays.size(); ++i) met[i] = occluded(rays[i], counts) ? 1 : 0;
     return;
   }
   for (std::size_t first = 0; first < rays.size(); first += rays_at_once) {

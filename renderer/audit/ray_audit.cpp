@@ -19,7 +19,7 @@ constexpr std::size_t most_failures = 20;
 constexpr double box_padding = 1e-9;
 
 /// Whether the ray passes the box; where in doubt it does.
-bool may_meet(const Bounds<double>& box, const Ray<double>& ray) {
+bool may_pass(const Bounds<double>& box, const Ray<double>& ray) {
   double enter = 0, leave = ray.t_max;
   for (int axis = 0; axis < 3; ++axis) {
     const double to_lower = box.lower[axis] - ray.origin[axis];
@@ -95,13 +95,18 @@ void RayAudit::fail(RayKind kind, std::uint32_t instance, const Ray<double>& ray
       {message, object.half_space ? "" : query_line(object, targets_[instance].shape, ray)});
 }
 
+bool RayAudit::may_meet(RayKind kind, std::uint32_t instance, const Ray<double>& ray) const {
+  return world_.instances().is_shown_to(instance, kinds_of(kind)) &&
+         may_pass(targets_[instance].bounds, ray);
+}
+
 /// All but two: the one that the ray leaves, and the one that it meets.
 bool RayAudit::all_missed(RayKind kind, const Ray<double>& ray, std::uint32_t skip,
                           std::uint32_t met) {
   Claim miss;
   miss.status = Status::miss;
   for (std::uint32_t i = 0; i < targets_.size(); ++i) {
-    if (i == skip || i == met || !may_meet(targets_[i].bounds, ray)) continue;
+    if (i == skip || i == met || !may_meet(kind, i, ray)) continue;
     const CertificateVerdict answer = verdict(i, ray, miss);
     if (answer.holds) continue;
     fail(kind, i, ray, met == no_instance ? "not proven to be missed" : "is met before");
@@ -133,7 +138,7 @@ void RayAudit::occluded(RayKind kind, const Ray<Real>& ray, std::uint32_t skip, 
     return;
   }
   for (std::uint32_t i = 0; i < targets_.size(); ++i) {
-    if (i == skip || !may_meet(targets_[i].bounds, ray)) continue;
+    if (i == skip || !may_meet(kind, i, ray)) continue;
     const CastResult<Real> cast = targets_[i].half_space
                                       ? cast_ray(*targets_[i].half_space, ray)
                                       : cast_ray(world_.instances().at(i), ray, world_.options());

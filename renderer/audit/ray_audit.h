@@ -51,6 +51,7 @@ class RayAudit final : public RayObserver {
   };
   static std::size_t index(RayKind kind) { return static_cast<std::size_t>(kind); }
   CertificateVerdict verdict(std::uint32_t instance, const Ray<double>& ray, const Claim& claim);
+  bool may_meet(RayKind kind, std::uint32_t instance, const Ray<double>& ray) const;
   bool all_missed(RayKind kind, const Ray<double>& ray, std::uint32_t skip, std::uint32_t met);
   void fail(RayKind kind, std::uint32_t instance, const Ray<double>& ray, std::string_view what);
 

@@ -7,6 +7,7 @@
 #include <new>
 #include <string>
 
+#include "renderer/base/build.h"
 #include "renderer/base/errors.h"
 #include "renderer/cli/options.h"
 #include "renderer/cli/program_beside.h"
@@ -41,7 +42,7 @@ void check_verb(const Parser& parser, const std::string& name) {
 
 ExitCode run(int argc, char** argv) {
   Parser parser("Minkray casts rays at exact convex shapes.", "minkray");
-  parser.set_version("minkray " MINKRAY_VERSION);
+  parser.set_version(std::string(minkray::version_and_commit()));
   if (argc <= 1) {
     std::cout << first_page;
     return ExitCode::done;

@@ -128,7 +128,7 @@ Cryptomatte measure_cryptomatte(const Scene& scene, const RenderWorld& world,
       const int count = std::min(options.samples - first, most_in_ray_group);
       for (int i = 0; i < count; ++i) {
         const TracedRay ray = rays.ray(pixel, first + i);
-        asked[static_cast<std::size_t>(i)] = {ray.ray, ray.left, ray.time};
+        asked[static_cast<std::size_t>(i)] = {ray.ray, ray.left, ray.time, camera_rays};
       }
       const auto together = std::span(asked).first(static_cast<std::size_t>(count));
       world.closest_hits(together, hits, of_tile.work);

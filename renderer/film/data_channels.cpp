@@ -236,7 +236,7 @@ std::vector<ExrPlane> measure_data_channels(const Scene& scene, const RenderWorl
   RayCounts counts;
   for_pixels(region, counts, watch, [&](const Pixel& pixel, RayCounts& of_tile) {
     Found found{camera.ray(pixel.x + 0.5, pixel.y + 0.5), {}, {}};
-    found.hit = world.closest_hit(found.ray, found.work);
+    found.hit = world.closest_hit({found.ray, no_instance, 0, camera_rays}, found.work);
     ++of_tile.camera;
     of_tile.work += found.work;
     if (wants_colours)

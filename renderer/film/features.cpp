@@ -28,7 +28,8 @@ NoisyPicture noisy_picture(const Scene& scene, const RenderWorld& world,
     int met = 0;
     for (int sample = 0; sample < count; ++sample) {
       const TracedRay ray = rays.ray(pixel, sample);
-      const WorldHit<Real> hit = world.closest_hit(ray.ray, of_tile.work, no_instance, ray.time);
+      const WorldHit<Real> hit =
+          world.closest_hit({ray.ray, ray.left, ray.time, camera_rays}, of_tile.work);
       ++of_tile.camera;
       if (hit.cast.status != Status::hit) continue;
       surfaces.describe(world, ray.ray, ray.cone, hit, albedo, emission);

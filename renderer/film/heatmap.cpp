@@ -19,7 +19,7 @@ float status_number(Status status) {
 float heat_of_ray(const RenderWorld& world, const Ray<Real>& ray, HeatChannel channel,
                   QueryCounts& counts) {
   QueryCounts work;
-  const WorldHit<Real> hit = world.closest_hit(ray, work);
+  const WorldHit<Real> hit = world.closest_hit({ray, no_instance, 0, camera_rays}, work);
   counts += work;
   switch (channel) {
     case HeatChannel::iterations:

@@ -237,6 +237,7 @@ RenderWorld make_world(const Scene& scene, const CastOptions<Real>& options, Bvh
   instances.reserve(instance_count(scene));
   for (const Object& object : scene.objects) add_object(instances, object);
   add_particles(instances, scene);
+  show_instances(instances, scene);
   RenderWorld world(std::move(instances), options, build);
   if (is_on_the_move(scene)) follow(world, scene);
   return world;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/parallel/parallel.h"
+#include "renderer/film/tile_order.h"
 #include "renderer/image/image.h"
 
 namespace minkray {
@@ -37,6 +38,8 @@ class TileGrid {
         rows_(tiles_along(region.height())) {}
 
   std::size_t count() const { return columns_ * rows_; }
+  std::size_t columns() const { return columns_; }
+  std::size_t rows() const { return rows_; }
   PixelRect operator[](std::size_t tile) const {
     const int x = region_.x0 + static_cast<int>(tile % columns_) * tile_size;
     const int y = region_.y0 + static_cast<int>(tile / columns_) * tile_size;
@@ -67,8 +70,10 @@ bool for_tiles(const PixelRect& region, Counts& counts, const RenderWatch& watch
   const TileGrid tiles(region);
   std::mutex mutex;
   auto done = static_cast<std::size_t>(std::count(journal.done.begin(), journal.done.end(), true));
+  const std::vector<std::uint32_t> order = along_curve(tiles.columns(), tiles.rows());
   parallel_for(tiles.count(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t tile = begin; tile < end && !watch.stopped(); ++tile) {
+    for (std::size_t i = begin; i < end && !watch.stopped(); ++i) {
+      const std::size_t tile = order[i];
       if (!journal.done.empty() && journal.done[tile]) continue;
       const Counts more = render_tile(tiles[tile]);
       const std::lock_guard lock(mutex);

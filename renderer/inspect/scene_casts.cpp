@@ -10,7 +10,7 @@ SceneCasts::SceneCasts(const Scene& scene, const CastOptions<Real>& options)
 
 SceneAnswer SceneCasts::answer(const Ray<Real>& ray) const {
   SceneAnswer answer;
-  answer.hit = world_.closest_hit(ray, answer.work);
+  answer.hit = world_.closest_hit({ray, no_instance, 0, camera_rays}, answer.work);
   return answer;
 }
 

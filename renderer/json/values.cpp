@@ -46,6 +46,8 @@ std::string_view constraint(Range range) {
       return ">= 0 and <= 1";
     case Range::zero_to_180:
       return "> 0 and < 180";
+    case Range::brightness:
+      return ">= 0 and <= 1e15";
   }
   return "";
 }
@@ -64,6 +66,8 @@ bool in_range(double value, Range range) {
       return value >= 0 && value <= 1;
     case Range::zero_to_180:
       return value > 0 && value < 180;
+    case Range::brightness:
+      return value >= 0 && value <= most_brightness;
   }
   return false;
 }

@@ -82,8 +82,8 @@ void AmbientTransport::follow(std::span<TracedRay> rays, const Path& path,
   std::vector<WorldRay<Real>> asked;
   std::vector<WorldHit<Real>> hits;
   asked.reserve(rays.size());
-  for (const TracedRay& ray : rays) asked.push_back({ray.ray, ray.left, ray.time});
   const auto kind = path.at_camera() ? RayKind::camera : RayKind::indirect;
+  for (const TracedRay& ray : rays) asked.push_back({ray.ray, ray.left, ray.time, kinds_of(kind)});
   casts_.find_hits([&](std::size_t) { return kind; }, asked, path.rays_go(), hits, counts.work);
 
   HitPoints points(rays.size());
@@ -158,8 +158,10 @@ void AmbientTransport::add_direct(std::span<TracedRay> rays, const HitPoints& po
       if (!sample) continue;
       const Vec3<double> w_in = point.frame.to_local(sample->direction);
       if (!(w_in.z() > 0)) continue;
-      asked.push_back(
-          {{point.position, sample->direction, sample->distance}, point.instance, point.time});
+      asked.push_back({{point.position, sample->direction, sample->distance},
+                       point.instance,
+                       point.time,
+                       shadow_rays});
       arriving.push_back({i, w_in, sample->weight});
     }
     counts.shadow += asked.size();
@@ -214,7 +216,8 @@ void AmbientTransport::add_scattered(std::span<TracedRay> rays, const HitPoints&
   if (last) {
     counts.ambient += wave.rays.size();
     std::vector<WorldRay<Real>> asked;
-    for (const TracedRay& ray : wave.rays) asked.push_back({ray.ray, ray.left, ray.time});
+    for (const TracedRay& ray : wave.rays)
+      asked.push_back({ray.ray, ray.left, ray.time, kinds_of(RayKind::ambient)});
     std::vector<std::uint8_t> met;
     casts_.find_blocked(RayKind::ambient, asked, RaysGo::each_its_way, met, counts.work);
     for (std::size_t k = 0; k < asked.size(); ++k)

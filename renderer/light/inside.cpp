@@ -61,7 +61,8 @@ WorldHit<Real> closest_but(const RenderWorld& world, const WorldRay<Real>& ray,
   WorldHit<Real> closest;
   closest.cast.status = Status::miss;
   const auto is_left_out = [&](std::uint32_t instance) {
-    return instance == ray.skip || std::find(but.begin(), but.end(), instance) != but.end();
+    return ray.passes(instances, instance) ||
+           std::find(but.begin(), but.end(), instance) != but.end();
   };
   const auto meet = [&](std::uint32_t instance, const CastResult<Real>& cast) {
     counts.add_cast(cast);

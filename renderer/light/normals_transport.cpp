@@ -12,7 +12,7 @@ void NormalsTransport::trace(std::span<TracedRay> rays, RayCounts& counts) const
   std::array<WorldHit<Real>, most_in_ray_group> hits;
   counts.camera += rays.size();
   for (std::size_t i = 0; i < rays.size(); ++i)
-    asked[i] = {rays[i].ray, rays[i].left, rays[i].time};
+    asked[i] = {rays[i].ray, rays[i].left, rays[i].time, camera_rays};
   world_.closest_hits(std::span(asked).first(rays.size()), hits, counts.work);
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const WorldHit<Real>& hit = hits[i];

@@ -20,7 +20,7 @@ void PathTransport::Wave::ask_for(const Draw& draw, const Part& part) {
     if (!(counts > 0)) continue;
     Ray<Real> ray = point.ray(w, sample->direction);
     ray.t_max = sample->distance;
-    shadows_.add({ray, point.instance, paths_[i].time},
+    shadows_.add({ray, point.instance, paths_[i].time, shadow_rays},
                  {i, counts * sample->weight.cwiseProduct(reflected), no_instance});
   }
   ask_shadows();
@@ -63,7 +63,8 @@ void PathTransport::Wave::ask_emitters() {
     const double part = share(sample->pdf, point.bsdf->pdf(point.shading, w)) / sample->pdf;
     const Arriving light{i, part * of_.emitters_.radiance(sample->emitter).cwiseProduct(reflected),
                          of_.emitters_.instance(sample->emitter)};
-    const WorldRay<Real> ray{point.ray(w, sample->direction), point.instance, path.time};
+    const WorldRay<Real> ray{point.ray(w, sample->direction), point.instance, path.time,
+                             shadow_rays};
     if (point.inside(w).none())
       shadows_.add(ray, light);
     else

@@ -66,7 +66,7 @@ void PathTransport::Wave::find_boundaries() {
   whose_.clear();
   for (const std::size_t i : going_on_) {
     const Path& path = paths_[i];
-    const WorldRay<Real> ray{path.ray, path.left, path.time};
+    const WorldRay<Real> ray{path.ray, path.left, path.time, kinds_of(kind(path))};
     if (path.inside.none()) {
       asked_.push_back(ray);
       whose_.push_back(i);

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "renderer/base/real.h"
+#include "renderer/scene/visible_to.h"
 
 namespace minkray {
 
@@ -14,6 +15,13 @@ enum class RayKind : unsigned char { camera, shadow, ambient, indirect };
 
 inline constexpr std::array<std::string_view, 4> ray_kind_names = {"camera", "shadow", "ambient",
                                                                    "indirect"};
+
+/// What a ray of the kind meets.
+constexpr RayKinds kinds_of(RayKind kind) {
+  return kind == RayKind::camera   ? camera_rays
+         : kind == RayKind::shadow ? shadow_rays
+                                   : scattered_rays;
+}
 
 /// Any number of threads may tell it at once.
 class RayObserver {

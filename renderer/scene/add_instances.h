@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/world/instances.h"
-#include "renderer/scene/scene.h"
+#include "renderer/scene/scene_instances.h"
 
 namespace minkray {
 
@@ -20,6 +20,14 @@ void add_particles(Instances<T>& instances, const Scene& scene) {
   for (const ParticleSet& set : scene.particles)
     instances.add_many(instances.define(set.shape), set.size(), set.linear_alike(),
                        [&](std::size_t i) { return set.pose(i); });
+}
+
+/// Once all are added: tells which rays meet which of them.
+template <class T>
+void show_instances(Instances<T>& instances, const Scene& scene) {
+  if (!any_is_hidden(scene)) return;
+  for (std::size_t i = 0; i < instances.size(); ++i)
+    instances.show_to(i, instance_visible_to(scene, i));
 }
 
 }  // namespace minkray

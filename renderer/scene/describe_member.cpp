@@ -75,6 +75,10 @@ Json schema_of_number(Range range) {
       schema["exclusiveMinimum"] = 0;
       schema["exclusiveMaximum"] = 180;
       break;
+    case Range::brightness:
+      schema["minimum"] = 0;
+      schema["maximum"] = most_brightness;
+      break;
   }
   return schema;
 }

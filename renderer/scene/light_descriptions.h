@@ -27,7 +27,7 @@ struct DirectionalLight {
     using L = DirectionalLight;
     return std::tuple{
         Field{"direction", &L::direction, Unit::none, Range::any, "where the light travels to"},
-        Field{"color", &L::colour, Unit::none, Range::not_negative,
+        Field{"color", &L::colour, Unit::none, Range::brightness,
               "the irradiance (linear RGB) on a surface that faces it", true}};
   }
 };
@@ -46,7 +46,7 @@ struct PointLight {
     using L = PointLight;
     return std::tuple{
         Field{"position", &L::position, Unit::length, Range::any, "where the light is"},
-        Field{"color", &L::colour, Unit::none, Range::not_negative,
+        Field{"color", &L::colour, Unit::none, Range::brightness,
               "its radiant intensity (linear RGB): the irradiance at distance 1", true}};
   }
 };
@@ -65,9 +65,9 @@ struct EnvironmentLight {
   static constexpr std::string_view doc = "Light from all around, as from the sky.";
   static constexpr auto fields() {
     using L = EnvironmentLight;
-    return std::tuple{Field{"zenith", &L::zenith, Unit::none, Range::not_negative,
+    return std::tuple{Field{"zenith", &L::zenith, Unit::none, Range::brightness,
                             "the radiance (linear RGB) from straight up"},
-                      Field{"nadir", &L::nadir, Unit::none, Range::not_negative,
+                      Field{"nadir", &L::nadir, Unit::none, Range::brightness,
                             "the radiance from straight down"}};
   }
 };
@@ -123,7 +123,7 @@ struct SunSkyLight {
               "with the time: where it is, positive in the east", true},
         Field{"turbidity", &L::turbidity, Unit::none, Range::at_least_one,
               "how hazy it is: 2 very clear, 10 misty", true},
-        Field{"ground", &L::ground, Unit::none, Range::not_negative,
+        Field{"ground", &L::ground, Unit::none, Range::brightness,
               "the radiance (linear RGB) from below the horizon", true}};
   }
 };

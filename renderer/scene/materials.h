@@ -15,6 +15,7 @@
 #include "core/shape/field.h"
 #include "renderer/scene/relief.h"
 #include "renderer/scene/textures.h"
+#include "renderer/scene/visible_to.h"
 
 namespace minkray {
 
@@ -57,8 +58,8 @@ struct EmissiveMaterial {
   static constexpr std::string_view name = "emissive";
   static constexpr std::string_view doc = "Shines, the same to all sides: any shape as a light.";
   static constexpr auto fields() {
-    return std::tuple{Field{"radiance", &EmissiveMaterial::radiance, Unit::none,
-                            Range::not_negative, "how bright it is seen (linear RGB)"}};
+    return std::tuple{Field{"radiance", &EmissiveMaterial::radiance, Unit::none, Range::brightness,
+                            "how bright it is seen (linear RGB)"}};
   }
 };
 
@@ -237,6 +238,7 @@ struct Material {
   std::string name;
   MaterialKind kind;
   Relief relief = {};
+  RayKinds visible_to = all_ray_kinds;  ///< as an object's
 };
 
 /// Whether a colour of it changes from place to place; not of what a mixture is made of.

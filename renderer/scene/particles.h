@@ -9,6 +9,7 @@
 
 #include "core/math/affine.h"
 #include "core/shape/shape.h"
+#include "renderer/scene/visible_to.h"
 
 namespace minkray {
 
@@ -40,6 +41,7 @@ struct ParticleSet {
   std::size_t scale_numbers = 0;  ///< 0, 1 or 3
   std::vector<double> poses;
   std::vector<std::uint16_t> material_of;  ///< by particle, into `materials`; empty: the first
+  RayKinds visible_to = all_ray_kinds;     ///< as an object's
 
   std::size_t row_numbers() const { return 3 + (has_rotation ? 4 : 0) + scale_numbers; }
   std::size_t size() const { return poses.size() / row_numbers(); }

@@ -8,6 +8,7 @@
 #include "renderer/json/object_reader.h"
 #include "renderer/json/values.h"
 #include "renderer/scene/particle_rows.h"
+#include "renderer/scene/read_visible_to.h"
 #include "renderer/scene/shape_json.h"
 
 namespace minkray {
@@ -115,7 +116,8 @@ std::optional<ParticleSet> read_particles(const Json& json, const JsonPath& path
                                           Mistakes& mistakes, const ParticleSource& source) {
   ObjectReader block(json, path, mistakes);
   if (!block.is_object()) return std::nullopt;
-  block.allow({"name", "shape", "columns", "material", "materials", "count", "poses", "file"});
+  block.allow({"name", "shape", "columns", "material", "materials", "count", "poses", "file",
+               "visible_to"});
   ParticleSet set;
   bool good = true;
   if (const Json* written = block.require("name", "the particles' name")) {
@@ -130,6 +132,9 @@ std::optional<ParticleSet> read_particles(const Json& json, const JsonPath& path
   const auto columns = read_columns(block);
   good &= columns && read_materials(block, contains(*columns, ParticleColumn::material), source,
                                     set.materials);
+  set.visible_to = read_visible_to(block);
+  for (const std::uint32_t material : set.materials)
+    check_visible(source.scene, material, set.visible_to, block);
   std::optional<std::size_t> count;
   if (const Json* written = block.find("count")) {
     const auto number =

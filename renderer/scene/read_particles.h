@@ -10,12 +10,13 @@
 #include "renderer/json/json.h"
 #include "renderer/json/mistakes.h"
 #include "renderer/scene/mesh_files.h"
-#include "renderer/scene/particles.h"
+#include "renderer/scene/scene.h"
 
 namespace minkray {
 
 /// What a block is read with.
 struct ParticleSource {
+  const Scene& scene;                   ///< as far as it is read
   const std::filesystem::path& folder;  ///< files are named relative to it
   MeshFiles& meshes;
   Hash& hash;             ///< files' contents go into it

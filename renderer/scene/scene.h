@@ -31,7 +31,8 @@ struct Object {
   std::optional<Motion> motion = {};  ///< `pose` is what it is at the scene's time
   Movement<double> movement = {};     ///< what it does while the shutter is open
   std::optional<HalfSpaceBody<double>> half_space =
-      {};  ///< if there is one it is that, not `shape`
+      {};                               ///< if there is one it is that, not `shape`
+  RayKinds visible_to = all_ray_kinds;  ///< and to no rays that its material is not visible to
 };
 
 /// What "type" says in the place of a shape's name for a half-space, which is none.
@@ -46,9 +47,9 @@ struct Background {
   static constexpr auto fields() {
     using B = Background;
     return std::tuple{
-        Field{"zenith", &B::zenith, Unit::none, Range::not_negative,
+        Field{"zenith", &B::zenith, Unit::none, Range::brightness,
               "the radiance (linear RGB) straight up"},
-        Field{"nadir", &B::nadir, Unit::none, Range::not_negative, "the radiance straight down"}};
+        Field{"nadir", &B::nadir, Unit::none, Range::brightness, "the radiance straight down"}};
   }
 };
 

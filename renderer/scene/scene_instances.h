@@ -3,6 +3,8 @@
 // the particles of one set after the other. Worlds number their instances the same way.
 #pragma once
 
+#include <algorithm>
+
 #include "renderer/scene/scene.h"
 
 namespace minkray {
@@ -32,6 +34,29 @@ inline Movement<double> instance_movement(const Scene& scene, std::size_t i) {
   return i < scene.objects.size() ? scene.objects[i].movement : Movement<double>();
 }
 
+/// The rays that meet the i-th.
+inline RayKinds instance_visible_to(const Scene& scene, std::size_t i) {
+  const auto with_material = [&](RayKinds own, std::uint32_t material) {
+    return static_cast<RayKinds>(own & scene.materials[material].visible_to);
+  };
+  if (i < scene.objects.size())
+    return with_material(scene.objects[i].visible_to, scene.objects[i].material);
+  i -= scene.objects.size();
+  for (const ParticleSet& set : scene.particles) {
+    if (i < set.size()) return with_material(set.visible_to, set.material(i));
+    i -= set.size();
+  }
+  return all_ray_kinds;
+}
+
+/// Whether some rays go through some of them.
+inline bool any_is_hidden(const Scene& scene) {
+  const auto is_hidden = [](const auto& thing) { return thing.visible_to != all_ray_kinds; };
+  return std::any_of(scene.objects.begin(), scene.objects.end(), is_hidden) ||
+         std::any_of(scene.particles.begin(), scene.particles.end(), is_hidden) ||
+         std::any_of(scene.materials.begin(), scene.materials.end(), is_hidden);
+}
+
 /// Makes it an object of its own; a particle's name is that of its set with its number:
 /// "grains[12]". It is for single ones, not for millions.
 inline Object instance_object(const Scene& scene, std::size_t i) {
@@ -39,7 +64,11 @@ inline Object instance_object(const Scene& scene, std::size_t i) {
   i -= scene.objects.size();
   for (const ParticleSet& set : scene.particles) {
     if (i < set.size())
-      return {set.name + "[" + std::to_string(i) + "]", set.shape, set.pose(i), set.material(i)};
+      return {.name = set.name + "[" + std::to_string(i) + "]",
+              .shape = set.shape,
+              .pose = set.pose(i),
+              .material = set.material(i),
+              .visible_to = set.visible_to};
     i -= set.size();
   }
   return {};

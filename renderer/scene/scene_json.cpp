@@ -6,10 +6,12 @@
 
 #include "renderer/json/parse.h"
 #include "renderer/json/values.h"
+#include "renderer/scene/find_focus.h"
 #include "renderer/scene/fitting_keys.h"
 #include "renderer/scene/half_space_json.h"
 #include "renderer/scene/read_particles.h"
 #include "renderer/scene/read_split.h"
+#include "renderer/scene/read_visible_to.h"
 #include "renderer/scene/scene_instances.h"
 #include "renderer/scene/shape_json.h"
 #include "renderer/scene/tagged_json.h"
@@ -73,7 +75,7 @@ class SceneReader {
                    std::holds_alternative<SunSkyLight>(light);
           });
     }
-    find_focus(file.path("camera"));
+    find_focus(scene_, file.path("camera"), mistakes_);
     file.finish();
   }
 
@@ -113,7 +115,7 @@ class SceneReader {
     ObjectReader object(json, path, mistakes_);
     double intensity = 1;
     if (const Json* factor = object.find("intensity")) {
-      intensity = read_number(*factor, object.path("intensity"), mistakes_, Range::not_negative)
+      intensity = read_number(*factor, object.path("intensity"), mistakes_, Range::brightness)
                       .value_or(1);
     }
     auto light = read_tagged<Light>(
@@ -136,6 +138,7 @@ class SceneReader {
     }
     Relief relief;
     if (read_members(object, relief, meshes_)) check_relief(relief, path, mistakes_);
+    const RayKinds visible_to = read_visible_to(object);
     auto kind = read_tagged<MaterialKind>(
         object, "a material", [&](auto& made) { return read_members(object, made, meshes_); });
     if (kind) check_metal(*kind, path, mistakes_);
@@ -149,7 +152,8 @@ class SceneReader {
                                        printable(name, 60) + "\" again)");
       return;
     }
-    scene_.materials.push_back({name, kind.value_or(LambertMaterial()), relief});
+    scene_.materials.push_back({name, kind.value_or(LambertMaterial()), relief, visible_to});
+    check_visible(scene_, index, all_ray_kinds, object);
   }
 
   void find_mixed(MaterialKind& kind, const JsonPath& path) {
@@ -157,32 +161,6 @@ class SceneReader {
     for (std::size_t i = 0; mix && i < 2; ++i)
       mix->materials.indices[i] =
           read_material_name(Json((*mix->materials.names)[i]), path / "materials" / i);
-  }
-
-  /// Settles how far away it is sharp.
-  void find_focus(const JsonPath& path) {
-    CameraDescription& camera = scene_.camera;
-    if (camera.aperture > 0 && camera.type.name != "perspective")
-      mistakes_.add(path / "aperture", "must be 0 for other cameras than perspective");
-    if (camera.focus_distance && !camera.focus_on.empty())
-      mistakes_.add(path, "must have either \"focus_distance\" or \"focus_on\" (got both)");
-    camera.focus = camera.focus_distance.value_or(0);
-    if (camera.focus_on.empty()) return;
-    std::vector<std::string> names;
-    for (const Object& object : scene_.objects) {
-      if (object.name != camera.focus_on) {
-        names.push_back(printable(object.name, 60));
-        continue;
-      }
-      const Vec3<double> view = unit<double>(camera.look_at - camera.position);
-      camera.focus = view.dot(object.pose.translation - camera.position);
-      if (!(camera.focus > 0))
-        mistakes_.add(path / "focus_on", "must be an object in front of the camera");
-      return;
-    }
-    mistakes_.add(path / "focus_on", "must be the name of an object (got \"" +
-                                         printable(camera.focus_on, 60) + "\"; " +
-                                         suggestion(camera.focus_on, names) + ")");
   }
 
   void read_object(const Json& json, const JsonPath& path) {
@@ -218,9 +196,12 @@ class SceneReader {
     std::optional<Motion> motion;
     if (const Json* written = object.find("keys"))
       motion = Motion{read_keys(*written, object.path("keys"), mistakes_), pose};
+    const RayKinds visible_to = read_visible_to(object);
+    check_visible(scene_, material, visible_to, object);
     object.finish();
     Object made{name, Point<double>(), pose, material, std::move(motion)};
     made.half_space = half_space;
+    made.visible_to = visible_to;
     if (half_space) scene_.objects.push_back(made);
     for (std::size_t i = 0; i < shapes.size(); ++i) {
       if (split) made.name = name + "[" + std::to_string(i) + "]";
@@ -232,7 +213,7 @@ class SceneReader {
   void read_particle_block(const Json& json, const JsonPath& path) {
     auto set = read_particles(
         json, path, mistakes_,
-        {folder_, meshes_, particle_files_, most_instances - instance_count(scene_),
+        {scene_, folder_, meshes_, particle_files_, most_instances - instance_count(scene_),
          [&](const Json& name, const JsonPath& at) { return read_material_name(name, at); }});
     if (set) scene_.particles.push_back(std::move(*set));
   }
@@ -266,7 +247,7 @@ class SceneReader {
                     "must be a colour (a list of 3 numbers) or an object with \"zenith\" "
                     "and \"nadir\" (" +
                         found(json) + ")");
-    } else if (const auto colour = read_vector(json, path, mistakes_, Range::not_negative)) {
+    } else if (const auto colour = read_vector(json, path, mistakes_, Range::brightness)) {
       scene_.background = {*colour, *colour};
     }
   }

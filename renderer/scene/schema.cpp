@@ -4,6 +4,7 @@
 #include "renderer/scene/describe_member.h"
 #include "renderer/scene/particles.h"
 #include "renderer/scene/read_split.h"
+#include "renderer/scene/read_visible_to.h"
 #include "renderer/scene/scene_json.h"
 #include "renderer/scene/shape_json.h"
 #include "renderer/scene/tagged_json.h"
@@ -81,7 +82,7 @@ Json described_object(Json schema, auto add) {
 Json scene_schema() {
   const Json text = {{"type", "string"}};
   const Json name = {{"type", "string"}, {"minLength", 1}};
-  const Json colour = schema_of_list(schema_of_number(Range::not_negative), 3);
+  const Json colour = schema_of_list(schema_of_number(Range::brightness), 3);
   const Json background =
       described_object(object_schema(Background::doc), [](Json& o) { add_members<Background>(o); });
 
@@ -95,6 +96,7 @@ Json scene_schema() {
        {{"anyOf", Json::array({{{"$ref", "#/$defs/shape"}}, {{"$ref", "#/$defs/half_space"}}})}}},
       {"material", name},
       {"transform", {{"$ref", "#/$defs/transform"}}},
+      {"visible_to", visible_to_schema()},
       {"split",
        {{"description",
          "makes an object of each part of the shape's mesh file: the parts that it names, or those "
@@ -132,6 +134,7 @@ Json scene_schema() {
         {"uniqueItems", true}}},
       {"material", name},
       {"materials", {{"type", "array"}, {"items", name}, {"minItems", 1}}},
+      {"visible_to", visible_to_schema()},
       {"count", {{"type", "integer"}, {"minimum", 1}, {"description", "how many rows there are"}}},
       {"poses",
        {{"type", "array"},
@@ -165,7 +168,7 @@ Json scene_schema() {
   definitions["camera"] = described_object(object_schema(CameraDescription::doc),
                                            [](Json& o) { add_members<CameraDescription>(o); });
   definitions["light"] = tagged_schema<Light>("A light.", []<class S>(Json& light) {
-    light["properties"]["intensity"] = schema_of_number(Range::not_negative);
+    light["properties"]["intensity"] = schema_of_number(Range::brightness);
     light["properties"]["intensity"]["description"] = "multiplies its colours";
   });
   definitions["material"] =
@@ -173,6 +176,7 @@ Json scene_schema() {
         material["properties"]["name"] = name;
         material["required"].push_back("name");
         add_members<Relief>(material);
+        material["properties"]["visible_to"] = visible_to_schema();
       });
   definitions["texture"] = tagged_schema<TextureKind>("A texture.", []<class S>(Json&) {});
   definitions["object"] = std::move(object);

@@ -4,6 +4,7 @@
 #include "renderer/base/errors.h"
 #include "renderer/json/json.h"
 #include "renderer/scene/half_space_json.h"
+#include "renderer/scene/read_visible_to.h"
 #include "renderer/scene/scene_json.h"
 #include "renderer/scene/shape_json.h"
 #include "renderer/scene/write_member.h"
@@ -32,6 +33,7 @@ Json object_json(const Object& object, const Scene& scene) {
   json["material"] = scene.materials[object.material].name;
   const Affine<double>& pose = object.motion ? object.motion->rest : object.pose;
   if (!(pose == Affine<double>())) json["transform"] = pose_json(pose);
+  write_visible_to(json, object.visible_to);
   if (!object.motion) return json;
   json["keys"] = Json::array();
   for (const PoseKey& key : object.motion->keys) {
@@ -67,6 +69,7 @@ std::string scene_text(const Scene& scene) {
     Json written = std::visit([](const auto& kind) { return tagged(kind); }, material.kind);
     written["name"] = material.name;
     if (material.relief.any()) write_members(written, material.relief);
+    write_visible_to(written, material.visible_to);
     json["materials"].push_back(std::move(written));
   }
   json["objects"] = Json::array();

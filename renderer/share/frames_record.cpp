@@ -8,6 +8,7 @@
 
 #include "core/files/regular_file.h"
 #include "renderer/base/errors.h"
+#include "renderer/io/folder_lock.h"
 #include "renderer/io/output_file.h"
 #include "renderer/json/parse.h"
 
@@ -80,6 +81,7 @@ FramesRecord::FramesRecord(std::string path, Facts facts, bool resume)
 
 void FramesRecord::add(int frame) {
   frames_.insert(frame);
+  const FolderLock lock(std::filesystem::path(path_).parent_path());
   try {
     Content found = read(path_);
     if (differences(found.facts, facts_).empty()) frames_.merge(found.frames);

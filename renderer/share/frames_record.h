@@ -31,7 +31,7 @@ class FramesRecord {
 
   bool has(int frame) const { return frames_.contains(frame); }
 
-  /// The frame's file is written. Frames that others add meanwhile, on other machines, are kept.
+  /// The frame's file is written. Frames that others add meanwhile are kept.
   void add(int frame);
 
   void write() const;

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/share/picture_facts.h"
+#include "renderer/base/build.h"
 
 #include <charconv>
 
+#include "renderer/base/build.h"
 #include "renderer/base/errors.h"
 #include "renderer/json/json.h"
 
@@ -47,7 +49,7 @@ Facts picture_facts(const Scene& scene, const RenderWorld& world, const RenderOp
     if (description.kind == world.options().solver) solver = description.name;
   const auto number = [](auto value) { return std::to_string(value); };
   return {
-      {fact::software, "minkray " MINKRAY_VERSION},
+      {fact::software, std::string(version_and_commit())},
       {fact::scene, scene.hash},
       {fact::resolution,
        number(options.resolution.width) + "x" + number(options.resolution.height)},

@@ -49,7 +49,8 @@ TEST_F(Drivers, gnu_parallel) {
   EXPECT_NE(noted.err.find("note: b.pfm.parts stays"), std::string::npos) << noted.err;
   const ProgramOutcome strange =
       shell(std::string("name=") + strange_name +
-            "; \"$DRIVERS/render-parallel\" scene.json \"$name\" 3 -s 8 && cmp a.pfm \"$name\" && "
+            "; name=\"{} {#} {.}\n$name\"; "
+            "\"$DRIVERS/render-parallel\" scene.json \"$name\" 3 -s 8 && cmp a.pfm \"$name\" && "
             "! test -e \"$name.parts\"");
   EXPECT_EQ(strange.exit_code, 0) << strange.err;
 }

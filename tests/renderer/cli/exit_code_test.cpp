@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <regex>
 
 #include "renderer/info/scene_info.h"
 #include "renderer/json/mistakes.h"
@@ -51,7 +52,20 @@ TEST(Cli, results_are_on_stdout_and_done_is_0) {
   EXPECT_EQ(info.exit_code, 0);
   EXPECT_NE(info.out.find("Every shape and every operator"), std::string::npos);
   EXPECT_EQ(info.err, "");
-  EXPECT_EQ(run("--version").exit_code, 0);
+}
+
+TEST(Cli, the_version_names_the_commit) {
+  const Outcome version = run("--version");
+  EXPECT_EQ(version.exit_code, 0);
+  const bool has_history =
+      std::filesystem::exists(source_folder() / ".git") &&
+      std::system(
+          ("git -C '" + source_folder().string() + "' rev-parse HEAD >/dev/null 2>&1").c_str()) ==
+          0;
+  const std::string commit = has_history ? R"( \([0-9a-f]{12}\+?\))" : "";
+  EXPECT_TRUE(
+      std::regex_match(version.out, std::regex("minkray [0-9]+\\.[0-9]+\\.[0-9]+" + commit + "\n")))
+      << version.out;
 }
 
 TEST(Cli, certificates_are_summed_up_on_stderr) {

@@ -77,7 +77,7 @@ TEST_F(Pictures, all_mistakes_of_materials_are_told_at_once) {
       "/materials/0/index_of_refraction: must be >= 1 (got 0.5)",
       "/materials/0/absorption/1: must be >= 0 (got -1)",
       "/materials/0/priority: must be a number",
-      "/materials/1/radiance/2: must be >= 0 (got -3)",
+      "/materials/1/radiance/2: must be >= 0 and <= 1e15 (got -3)",
       "/materials/2: must have either \"metal\" or \"color\" (got neither)",
       "/materials/3: must have either \"metal\" or \"color\" (got both)",
       "/materials/4/metal: must be the name of a metal",

@@ -94,6 +94,23 @@ TEST(SceneJson, ten_different_mistakes_get_ten_messages_with_their_places) {
   EXPECT_EQ(found, expected);
 }
 
+TEST(SceneJson, lights_are_no_brighter_than_pictures_can_hold) {
+  Mistakes mistakes("x.json");
+  EXPECT_FALSE(
+      parse_scene(R"({"version": 1, "camera": {"position": [0, -4, 2], "look_at": [0, 0, 0]},
+    "lights": [{"type": "point", "position": [0, 0, 3], "color": [1e15, 2e15, 1]},
+               {"type": "directional", "direction": [0, 0, -1], "color": [1, 1, 1],
+                "intensity": 1e300}],
+    "materials": [{"name": "lamp", "type": "emissive", "radiance": [1, 1, 1e16]}],
+    "objects": [], "background": [0, 1e16, 0]})",
+                  ".", mistakes));
+  const std::string range = "must be >= 0 and <= 1e15 (got ";
+  EXPECT_EQ(mistakes.text(), "x.json: /lights/0/color/1: " + range + "2e+15)\n" +
+                                 "x.json: /lights/1/intensity: " + range + "1e+300)\n" +
+                                 "x.json: /materials/0/radiance/2: " + range + "1e+16)\n" +
+                                 "x.json: /background/1: " + range + "1e+16)");
+}
+
 TEST(SceneJson, a_file_that_cannot_be_read_says_why) {
   const auto message = [](const char* file) -> std::string {
     try {

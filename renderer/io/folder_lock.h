@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// One process at a time where several change a file of a folder: each reads it, changes it and
+// writes it anew.
+#pragma once
+
+#include <filesystem>
+
+namespace minkray {
+
+/// Waits for others that hold the lock of the folder, and holds it as long as it lives. Advisory,
+/// and the system's: it goes with a process that dies. Where a file system has no locks nobody
+/// waits.
+class FolderLock {
+ public:
+  explicit FolderLock(const std::filesystem::path& folder);
+  ~FolderLock();
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  int folder_;  ///< a file descriptor; negative: there is none
+};
+
+}  // namespace minkray

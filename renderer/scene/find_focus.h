@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+// How far away a scene's camera is sharp, which may be said by an object's name.
+#pragma once
+
+#include "renderer/json/mistakes.h"
+#include "renderer/scene/scene.h"
+
+namespace minkray {
+
+/// Sets the camera's `focus`, once the objects are read. `path` is the camera's in the file.
+void find_focus(Scene& scene, const JsonPath& path, Mistakes& mistakes);
+
+}  // namespace minkray
