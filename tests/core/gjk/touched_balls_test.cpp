@@ -9,7 +9,6 @@ namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-// The ball's chord was none, and the cast began as if it had come from before.
 TEST(TouchedBalls, rays_that_begin_at_a_surface_do_not_hit_it_where_they_begin) {
   const PreparedShape<double> ball(Shape<double>(Sphere<double>{1}));
   for (const SolverKind solver : {SolverKind::paper, SolverKind::first_solution}) {
