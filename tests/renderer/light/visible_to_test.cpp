@@ -70,7 +70,7 @@ int alike(const Image& a, const Image& b) {
   return count;
 }
 
-class VisibleTo : public testing::TestWithParam<IntegratorKind> {};
+class VisibleTo : public ::testing::TestWithParam<IntegratorKind> {};
 
 TEST_P(VisibleTo, hidden_from_all_rays_of_a_picture_it_is_not_there) {
   // These follow no scattered rays: a black floor scatters none.
@@ -130,7 +130,7 @@ TEST_P(VisibleTo, hidden_from_scattered_rays_it_is_in_no_mirror) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Integrators, VisibleTo,
-                         testing::Values(IntegratorKind::path, IntegratorKind::ambient),
+                         ::testing::Values(IntegratorKind::path, IntegratorKind::ambient),
                          [](const auto& kind) {
                            return kind.param == IntegratorKind::path ? "path" : "ambient";
                          });
