@@ -20,7 +20,7 @@ export class Browser {
       '--headless=new', '--no-sandbox', '--disable-gpu', '--disable-dev-shm-usage', '--no-first-run', '--disable-extensions',
       '--disable-background-networking', '--disable-component-update', '--disable-sync', '--hide-scrollbars',
       '--remote-debugging-pipe', '--user-data-dir=' + this.folder, 'about:blank',
-    ], { stdio: ['ignore', 'ignore', 'ignore', 'pipe', 'pipe'] });
+    ], { stdio: ['ignore', 'ignore', 'ignore', 'pipe', 'pipe'], detached: true });
     this.next = 1;
     this.waiting = new Map();
     this.listeners = [];
@@ -65,9 +65,10 @@ export class Browser {
   }
 
   close() {
-    this.process.kill('SIGKILL');
+    // All of its processes, which are a group: one that is left would write into the folder.
+    process.kill(-this.process.pid, 'SIGKILL');
     return new Promise(resolve => this.process.on('exit', () => {
-      rmSync(this.folder, { recursive: true, force: true, maxRetries: 5 });
+      rmSync(this.folder, { recursive: true, force: true, maxRetries: 20 });
       resolve();
     }));
   }
