@@ -19,6 +19,7 @@ Walk walk(const Bvh& bvh, const SlabNumbers& ray, const BoxVisitor& visitor,
 Walk walk(const Bvh& bvh, const RayGroup& group, const BoxVisitor& visitor,
           WalkSet set = best_walk_set());
 
+/// For walks at boxes whose contents are near anyway.
 struct ExpectNothing {
   void operator()(std::uint32_t) const {}
 };
