@@ -139,6 +139,7 @@ TEST(Layers, each_library_is_seen_in_one_place) {
       {"netinet/in.h", "tests/renderer/cli/"},
       {"stb/stb_image.h", "tests/renderer/"},
       {"minkray/", "tests/renderer/library/"},
+      {"minkray/", "tests/soak/"},
   };
   const std::regex standard("[a-z_]+");
   const std::regex posix("(sys/)?[a-z]+\\.h");
