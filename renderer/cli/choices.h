@@ -22,6 +22,14 @@ inline std::vector<std::string> subalgorithm_names() {
   return names;
 }
 
+/// What help says of --solver: a line for each.
+inline std::string solver_help() {
+  std::string help = "How rays are cast:";
+  for (const SolverDescription& solver : solver_descriptions)
+    help += "\n" + std::string(solver.name) + ": " + std::string(solver.doc);
+  return help;
+}
+
 /// The name must be one of solver_names.
 inline SolverKind solver_named(const std::string& name) {
   for (const SolverDescription& solver : solver_descriptions)

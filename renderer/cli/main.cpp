@@ -29,15 +29,15 @@ constexpr const char* first_page =
     "\n"
     "minkray --help lists all verbs, minkray VERB --help tells what one of them takes.\n";
 
-/// The parser says of an unknown verb only that one is required.
+/// The parser says of an unknown verb, or of an option before it, only that a verb is required.
 void check_verb(const Parser& parser, const std::string& name) {
   std::string names;
   for (const std::string& verb : parser.verb_names()) {
     if (verb == name) return;
     names += (names.empty() ? "" : ", ") + verb;
   }
-  throw minkray::WrongUsage("minkray: must be one of " + names + " (got " +
-                            minkray::printable(name, 40) + ")");
+  throw minkray::WrongUsage("minkray: the first word must be --help, --version or one of " + names +
+                            " (got " + minkray::printable(name, 40) + ")");
 }
 
 ExitCode run(int argc, char** argv) {
@@ -62,7 +62,8 @@ ExitCode run(int argc, char** argv) {
       parser.add_verb(std::string(verb.name));
   }
 
-  if (argv[1][0] != '-') check_verb(parser, argv[1]);
+  const std::string first = argv[1];
+  if (first != "-h" && first != "--help" && first != "--version") check_verb(parser, first);
   const std::string complaints = parser.parse(argc, argv);
   if (!complaints.empty()) exit_code = ExitCode::wrong_usage;
   std::cerr << minkray::printable_lines(complaints);

@@ -8,6 +8,7 @@
 #include "core/parallel/parallel.h"
 #include "renderer/base/errors.h"
 #include "renderer/base/interrupt.h"
+#include "renderer/cli/choices.h"
 #include "renderer/cli/image_arguments.h"
 #include "renderer/cli/options.h"
 #include "renderer/cli/progress_line.h"
@@ -93,8 +94,9 @@ void add_heatmap(Parser& parser, ExitCode&) {
   for (const HeatChannelDescription& description : heat_channels)
     channels += "\n" + std::string(description.name) + ": " + std::string(description.doc);
   verb.add_option("--channel", options->channel, "What to show:" + channels).show_default();
-  const Option solver =
-      verb.add_option("--solver", options->image.solver, "Of the ray casts").show_default();
+  const Option solver = verb.add_option("--solver", options->image.solver, solver_help())
+                            .one_of(solver_names())
+                            .show_default();
   verb.add_option("--side-by-side", options->side_by_side,
                   "Solvers to show beside each other on one scale, such as paper,auto")
       .excludes(solver);

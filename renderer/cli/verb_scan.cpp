@@ -83,6 +83,16 @@ void read_options(ScanVerbOptions& options) {
   }
 }
 
+/// A sensor that nobody placed may stand in a body, where it sees nothing else.
+void warn_of_inside(const Scan& scan, int returns) {
+  std::size_t rays = 0, inside = 0;
+  for (std::size_t first = 0; first < scan.echoes.size(); first += std::size_t(returns), ++rays)
+    inside += scan.echoes[first].status == 2;
+  if (inside > 0)
+    std::cerr << "warning: " << inside << " of " << rays
+              << " rays begin within a body, at t = 0 (--pose and --on say where the sensor is)\n";
+}
+
 void run(ScanVerbOptions& options) {
   read_options(options);
   const SensorRays rays = options.rays      ? rays_of_npy(*options.rays)
@@ -116,6 +126,7 @@ void run(ScanVerbOptions& options) {
                std::span(reinterpret_cast<const unsigned char*>(text.data()), text.size()));
   }
   warn_of_exhausted(result.counts.exhausted, result.counts.casts);
+  warn_of_inside(result, options.scan.returns);
 }
 
 }  // namespace

@@ -120,7 +120,8 @@ SensorRays rays_of_npy(const std::string& file) {
 }
 
 SensorRays rays_of_pattern(const std::string& pattern, double seconds) {
-  return pattern.starts_with("spinning:") ? spinning(pattern, seconds) : rays_of_csv(pattern);
+  return pattern == "spinning" || pattern.starts_with("spinning:") ? spinning(pattern, seconds)
+                                                                   : rays_of_csv(pattern);
 }
 
 SensorRays rays_of_pinhole(const std::string& file) {

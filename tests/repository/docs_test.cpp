@@ -30,6 +30,17 @@ TEST(Docs, every_link_to_a_file_leads_to_one) {
   EXPECT_GT(count, 50u);  // the test has found the links
 }
 
+TEST(Docs, the_index_has_every_page) {
+  const std::string index = text_of_file(source_folder() / "docs/README.md");
+  std::size_t count = 0;
+  for (const SourceFile& page : files_in("docs")) {
+    if (!page.name.ends_with(".md") || page.name == "docs/README.md") continue;
+    EXPECT_NE(index.find("](" + page.name.substr(5) + ")"), std::string::npos) << page.name;
+    ++count;
+  }
+  EXPECT_GT(count, 40u);
+}
+
 TEST(Docs, every_file_that_contributing_names_is_there) {
   const std::string text = text_of_file(source_folder() / "docs/contributing.md");
   const std::regex file(R"re(`([\w.-]+(/[\w.-]+)+)`)re");

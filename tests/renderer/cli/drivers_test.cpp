@@ -67,6 +67,21 @@ TEST_F(Drivers, numbers_of_tiles_are_whole_numbers) {
   EXPECT_EQ(folder_.files(), std::vector<std::string>{"scene.json"});
 }
 
+TEST_F(Drivers, what_a_driver_needs_is_named_if_it_is_missing) {
+  // A PATH with what the scripts call until then, and no more.
+  EXPECT_EQ(
+      shell("mkdir bin; for p in bash env; do ln -s \"$(command -v $p)\" bin/; done").exit_code, 0);
+  for (const auto& [driver, program] :
+       {std::pair{"render-parallel", "GNU parallel"}, std::pair{"render-slurm", "sbatch"}}) {
+    const ProgramOutcome outcome =
+        shell("PATH=\"$PWD/bin\" \"$DRIVERS/\"" + std::string(driver) + " scene.json a.pfm 3");
+    EXPECT_EQ(outcome.exit_code, 2) << driver;
+    EXPECT_NE(outcome.err.find(std::string(driver) + ": needs"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find(program), std::string::npos) << outcome.err;
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "a.pfm.parts")) << driver;
+  }
+}
+
 // There is no Slurm here: the stand-in runs each task as sbatch's manual says, with the array's
 // variables and logs, one after the other, and refuses options that it does not know, arrays that
 // are too large, patterns that it does not know in a log's name, jobs after the $LAST_JOB-th, and

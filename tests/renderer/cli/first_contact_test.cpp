@@ -8,6 +8,7 @@
 #include <set>
 #include <sstream>
 
+#include "core/query/solver_kind.h"
 #include "tests/support/program.h"
 #include "tests/support/source_files.h"
 
@@ -50,6 +51,26 @@ TEST(FirstContact, an_unknown_name_is_told_with_the_names_there_are) {
   EXPECT_EQ(outcome.exit_code, 3);
   EXPECT_NE(outcome.err.find("showcsae: must be"), std::string::npos) << outcome.err;
   EXPECT_NE(outcome.err.find("shape-zoo, showcase"), std::string::npos) << outcome.err;
+}
+
+TEST(FirstContact, a_first_word_that_is_no_verb_is_told_with_the_verbs_there_are) {
+  for (const std::string word : {"rendr", "-V", "--solver"}) {
+    const ProgramOutcome outcome = run_shell("$MINKRAY " + word);
+    EXPECT_EQ(outcome.exit_code, 2) << word;
+    EXPECT_NE(outcome.err.find("--version or one of render, merge"), std::string::npos)
+        << outcome.err;
+    EXPECT_NE(outcome.err.find("(got " + word + ")"), std::string::npos) << outcome.err;
+  }
+}
+
+TEST(FirstContact, each_verb_that_takes_a_solver_says_which_there_are) {
+  for (const std::string verb : {"render", "heatmap", "compare", "inspect", "cast", "trace"}) {
+    const std::string help = run_shell("$MINKRAY " + verb + " --help").out;
+    for (const SolverDescription& solver : solver_descriptions)
+      EXPECT_NE(help.find(std::string(solver.name) + ": " + std::string(solver.doc)),
+                std::string::npos)
+          << verb << " " << solver.name;
+  }
 }
 
 TEST(FirstContact, without_an_output_nobody_elses_file_is_replaced) {

@@ -241,5 +241,19 @@ TEST_F(ScanVerb, rays_of_length_zero_and_wrong_arrays_are_answered_or_refused) {
   EXPECT_EQ(scan("r.urdf --rays rays.npy -o a.npy -q").exit_code, 0);
 }
 
+TEST_F(ScanVerb, a_sensor_that_stands_in_a_body_is_told_of) {
+  const std::string pattern = "r.urdf --pattern spinning:4x8 -o a.npy";
+  const ProgramOutcome within = scan(pattern + " --pose 5,0,3 --returns 2");
+  EXPECT_EQ(within.exit_code, 0);
+  EXPECT_NE(within.err.find("32 of 32 rays begin within a body"), std::string::npos) << within.err;
+  EXPECT_EQ(scan(pattern + " --pose 2,0,3").err.find("within a body"), std::string::npos);
+}
+
+TEST_F(ScanVerb, a_pattern_without_its_numbers_is_told_which_it_wants) {
+  const ProgramOutcome outcome = scan("r.urdf --pattern spinning -o a.npy");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.err.find("spinning:CHANNELSxSTEPS"), std::string::npos) << outcome.err;
+}
+
 }  // namespace
 }  // namespace minkray
