@@ -23,9 +23,11 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t most_bytes_of_request = 8192;
+/// When there are more, the oldest goes: whoever asks does so at once.
 constexpr std::size_t most_connections = 64;
-/// Browsers open connections in advance, which say nothing for a while.
-constexpr auto longest_silence = std::chrono::seconds(20);
+/// Browsers open connections in advance, which say nothing for a while. Whoever is slower than this
+/// with all of a request is not answered.
+constexpr auto longest_request = std::chrono::seconds(20);
 /// How long a reader may take none of an answer.
 constexpr int longest_write_ms = 5000;
 constexpr int poll_ms = 200;
@@ -94,18 +96,19 @@ class Connection {
   explicit Connection(int socket) : socket_(socket) {}
   Connection(Connection&& other) noexcept
       : socket_(std::exchange(other.socket_, -1)),
-        request(std::move(other.request)),
-        last_heard(other.last_heard) {}
+        begun_(other.begun_),
+        request(std::move(other.request)) {}
   Connection& operator=(Connection&& other) noexcept {
     std::swap(socket_, other.socket_);
+    begun_ = other.begun_;
     request = std::move(other.request);
-    last_heard = other.last_heard;
     return *this;
   }
   ~Connection() {
     if (socket_ >= 0) ::close(socket_);
   }
   int socket() const { return socket_; }
+  Clock::duration age() const { return Clock::now() - begun_; }
 
   /// Takes what is there; false if the other side is gone.
   bool read() {
@@ -113,7 +116,6 @@ class Connection {
     const ssize_t count = ::recv(socket_, block, sizeof block, MSG_DONTWAIT);
     if (count <= 0) return count < 0 && (errno == EAGAIN || errno == EINTR);
     request.append(block, static_cast<std::size_t>(count));
-    last_heard = Clock::now();
     return true;
   }
   /// Whether the other side has closed it.
@@ -138,10 +140,10 @@ class Connection {
 
  private:
   int socket_;
+  Clock::time_point begun_ = Clock::now();
 
  public:
   std::string request;
-  Clock::time_point last_heard = Clock::now();
 };
 
 }  // namespace
@@ -157,14 +159,18 @@ bool parse_request(std::string_view text, std::string_view token, int port, WebR
   std::string_view target = word(line, ' ');
   if (!line.starts_with("HTTP/1.")) return refuse(400, "no request of HTTP/1\n");
   std::string host;
+  int hosts = 0;
   while (!text.empty()) {
     std::string_view header = word(text, '\n');
     const std::string name = lower(word(header, ':'));
     while (!header.empty() && (header.back() == '\r' || header.back() == ' '))
       header.remove_suffix(1);
     while (!header.empty() && header.front() == ' ') header.remove_prefix(1);
-    if (name == "host") host = header;
+    if (name != "host") continue;
+    host = header;
+    ++hosts;
   }
+  if (hosts > 1) return refuse(400, "more than one host\n");
   const std::string number = ":" + std::to_string(port);
   if (host != "127.0.0.1" + number && host != "localhost" + number)
     return refuse(421, "this is another machine's name\n");
@@ -180,7 +186,7 @@ bool parse_request(std::string_view text, std::string_view token, int port, WebR
 }
 
 LoopbackServer::LoopbackServer(int port) : token_(random_token()) {
-  socket_ = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  socket_ = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
   const auto fail = [&](const char* what) {
     const std::string why = std::generic_category().message(errno);
     if (socket_ >= 0) ::close(socket_);
@@ -196,7 +202,7 @@ LoopbackServer::LoopbackServer(int port) : token_(random_token()) {
   auto* const any = reinterpret_cast<sockaddr*>(&address);
   socklen_t size = sizeof address;
   if (::bind(socket_, any, size) < 0) fail("cannot be listened at");
-  if (::listen(socket_, 16) < 0) fail("cannot be listened at");
+  if (::listen(socket_, SOMAXCONN) < 0) fail("cannot be listened at");
   ::getsockname(socket_, any, &size);
   port_ = ntohs(address.sin_port);
 }
@@ -222,8 +228,7 @@ void LoopbackServer::serve(const std::function<WebReply(const WebRequest&)>& ans
       if (waits[i + 1].revents != 0 && !connection.read()) continue;
       const std::size_t end = connection.request.find("\r\n\r\n");
       if (end == std::string::npos) {
-        if (connection.request.size() < most_bytes_of_request &&
-            Clock::now() - connection.last_heard < longest_silence)
+        if (connection.request.size() < most_bytes_of_request && connection.age() < longest_request)
           still_open.push_back(std::move(connection));
         continue;
       }
@@ -237,9 +242,11 @@ void LoopbackServer::serve(const std::function<WebReply(const WebRequest&)>& ans
       connection.write(whole_reply(reply));
     }
     open = std::move(still_open);
-    if (waits[0].revents != 0 && open.size() < most_connections) {
+    for (std::size_t i = 0; waits[0].revents != 0 && i < most_connections; ++i) {
       const int socket = ::accept4(socket_, nullptr, nullptr, SOCK_CLOEXEC);
-      if (socket >= 0) open.emplace_back(socket);
+      if (socket < 0) break;
+      open.emplace_back(socket);
+      if (open.size() > most_connections) open.erase(open.begin());
     }
   }
 }

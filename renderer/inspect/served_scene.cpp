@@ -23,6 +23,12 @@ constexpr double most_zoom = 64;
 /// A picture that is asked for has no more, so that an answer takes seconds at most.
 constexpr int most_pixels = 4'000'000;
 
+/// What nobody waits for any more is not finished: it is no picture, and is not to be taken for one
+/// by whoever only ceased to send.
+WebReply left() {
+  return {503, "text/plain; charset=utf-8", "not finished: nobody waits for it any more\n"};
+}
+
 double number_of(const std::string& text, const std::string& key) {
   double number = 0;
   const char* const end = text.data() + text.size();
@@ -170,6 +176,7 @@ WebReply ServedScene::picture(const Asked& asked) {
   scene.camera = asked.camera;
   const Rendering rendering = render(scene, solvers_for(asked).front().casts.world(), options,
                                      until_abandoned(watch_, asked.request));
+  if (!rendering.complete) return left();
   const std::vector<unsigned char> png = encode_image(rendering.image, "picture.png");
   return {200, "image/png", std::string(png.begin(), png.end())};
 }
@@ -182,6 +189,7 @@ WebReply ServedScene::view(const Asked& asked) {
   for (const InspectedSolver& solver : solvers) casts.push_back(&solver.casts);
   const PixelAnswers answers = measure_pixels(scene, casts, options_.picture.resolution,
                                               until_abandoned(watch_, asked.request));
+  if (!answers.complete) return left();
   return {200, "application/json", view_json(scene, solvers, answers).dump()};
 }
 

@@ -26,6 +26,17 @@ std::size_t utf8_length(std::string_view text, std::size_t i) {
 
 }  // namespace
 
+namespace {
+
+/// Whether it ends lines or turns the order of what is shown beside it: U+2028 to U+202E and U+2066
+/// to U+2069.
+bool turns_text(std::string_view character) {
+  return (character >= "\xE2\x80\xA8" && character <= "\xE2\x80\xAE") ||
+         (character >= "\xE2\x81\xA6" && character <= "\xE2\x81\xA9");
+}
+
+}  // namespace
+
 std::string printable(std::string_view text, std::size_t limit) {
   std::string shown;
   for (std::size_t i = 0; i < text.size();) {
@@ -34,7 +45,8 @@ std::string printable(std::string_view text, std::size_t limit) {
     // U+0080 to U+009F are control characters, too.
     const bool is_control =
         first < 0x20 || first == 0x7F ||
-        (length == 2 && first == 0xC2 && static_cast<unsigned char>(text[i + 1]) < 0xA0);
+        (length == 2 && first == 0xC2 && static_cast<unsigned char>(text[i + 1]) < 0xA0) ||
+        (length == 3 && turns_text(text.substr(i, 3)));
     if (length == 0 || is_control) {
       shown += '?';
     } else {

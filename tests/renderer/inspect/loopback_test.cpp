@@ -39,6 +39,14 @@ TEST(Loopback, without_the_token_there_is_nothing) {
     EXPECT_EQ(status_of(std::string("GET ") + path + host), 404) << path;
 }
 
+/// Whoever stands between might go by the first and we by the last (RFC 9112, 3.2).
+TEST(Loopback, a_request_has_one_host) {
+  EXPECT_EQ(status_of("GET /0123456789abcdef/" + host + "\r\nHost: example.com"), 400);
+  EXPECT_EQ(
+      status_of("GET /0123456789abcdef/ HTTP/1.1\r\nHost: example.com\r\nHost: 127.0.0.1:8123"),
+      400);
+}
+
 /// A page of somebody else's name that is resolved to 127.0.0.1 (DNS rebinding).
 TEST(Loopback, under_another_name_nothing_is_answered) {
   for (const char* name : {"example.com:8123", "127.0.0.1", "127.0.0.1:8124", "127.0.0.1:81230",
