@@ -32,6 +32,7 @@ std::vector<JointRow> rows_of(const HeldScene::Group& robot, const double* path,
               ", those of all joints of the group (got " + std::to_string(numbers) + ")");
   if (rows == 0) wrong_use("rows: must be at least 1");
   if (width > 0) require(path, "path");
+  require_room(rows, sizeof(double) * (width + 1), "rows");
   for (std::size_t i = 0; i < rows * width; ++i)
     if (!std::isfinite(path[i]))
       wrong_use("path[" + std::to_string(i / width) + "][" + std::to_string(i % width) +

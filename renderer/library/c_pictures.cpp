@@ -246,6 +246,7 @@ int minkray_scene_render(minkray_scene scene, const minkray_picture_options* opt
   return call("minkray_scene_render", [&] {
     const HeldScene& held = scene_of(scene);
     if (count > 0) require(channels, "channels");
+    require_room(count, sizeof(minkray_channel), "count");
     render(held, checked(options), {channels, count}, how);
   });
 }

@@ -37,6 +37,7 @@ ImportOptions import_options(const minkray_file_options* given) {
               printable(geometry, 60) + "\")");
   if (given->keyframe) options.keyframe = given->keyframe;
   if (given->package_dir_count > 0) require(given->package_dirs, "options.package_dirs");
+  require_room(given->package_dir_count, sizeof(char*), "options.package_dir_count");
   for (size_t i = 0; i < given->package_dir_count; ++i) {
     require(given->package_dirs[i], "options.package_dirs[]");
     options.package_dirs.emplace_back(given->package_dirs[i]);

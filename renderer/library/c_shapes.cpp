@@ -7,6 +7,7 @@
 #include "renderer/library/call.h"
 #include "renderer/library/held_shape.h"
 #include "renderer/library/make_shape.h"
+#include "renderer/library/nesting.h"
 #include "renderer/scene/shape_json.h"
 
 namespace minkray {
@@ -28,6 +29,7 @@ const HeldShape& shape_of(minkray_shape shape, const char* argument) {
 namespace {
 
 minkray_shape hold(Shape<double> shape) {
+  check_nesting(shape);
   return {held_shapes().add(std::make_unique<HeldShape>(std::move(shape)))};
 }
 
@@ -52,6 +54,7 @@ int minkray_shape_make(const char* kind, const minkray_parameter* parameters, si
     require(kind, "kind");
     require(shape, "shape");
     if (count > 0) require(parameters, "parameters");
+    require_room(count, sizeof(minkray_parameter), "count");
     *shape = hold(make_shape(kind, {parameters, count}));
   });
 }
@@ -138,6 +141,7 @@ int minkray_shape_support(minkray_shape shape, size_t count, const double (*dire
     if (count > 0) {
       require(directions, "directions");
       require(points, "points");
+      require_room(count, sizeof *points, "count");
     }
     for (size_t i = 0; i < count; ++i) {
       const Vec3<double> n(directions[i][0], directions[i][1], directions[i][2]);

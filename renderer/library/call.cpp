@@ -2,6 +2,7 @@
 #include "renderer/library/call.h"
 
 #include <exception>
+#include <limits>
 #include <new>
 
 #include "renderer/base/errors.h"
@@ -29,6 +30,13 @@ void wrong_use(const std::string& what) {
 
 void require(const void* pointer, const char* argument) {
   if (!pointer) wrong_use(std::string(argument) + ": must not be NULL");
+}
+
+void require_room(std::size_t count, std::size_t bytes_each, const char* argument) {
+  constexpr auto most_bytes = static_cast<std::size_t>(std::numeric_limits<std::ptrdiff_t>::max());
+  if (count > most_bytes / bytes_each)
+    wrong_use(std::string(argument) + ": must be of things that are in memory (got " +
+              std::to_string(count) + ")");
 }
 
 int keep_error(const char* function) noexcept {

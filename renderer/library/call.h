@@ -26,6 +26,10 @@ class CallError : public std::runtime_error {
 /// Throws unless the pointer is set.
 void require(const void* pointer, const char* argument);
 
+/// Throws unless so many things of so many bytes can be in memory: a count of less than zero, taken
+/// for one without a sign, cannot.
+void require_room(std::size_t count, std::size_t bytes_each, const char* argument);
+
 /// The code of what is being thrown right now, whose text is kept for this thread.
 int keep_error(const char* function) noexcept;
 

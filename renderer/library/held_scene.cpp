@@ -35,8 +35,11 @@ void HeldScene::check_room(std::size_t more) const {
 
 std::uint32_t HeldScene::append(Object object, const char* name) {
   check_room(1);
-  if (scene_.materials.empty())
+  if (!grey_) {
+    grey_ = static_cast<std::uint32_t>(scene_.materials.size());
     scene_.materials.push_back({"grey", LambertMaterial{Colour::Constant(grey)}});
+  }
+  object.material = *grey_;
   const auto index = static_cast<std::uint32_t>(scene_.objects.size());
   object.name = name ? name : "object " + std::to_string(index);
   scene_.objects.push_back(std::move(object));

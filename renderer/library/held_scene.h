@@ -75,7 +75,8 @@ class HeldScene {
   void place(Group& group);
 
   Scene scene_;
-  bool has_camera_ = false;  ///< and lights, of the first file that has them
+  std::optional<std::uint32_t> grey_;  ///< the material of what is added without one
+  bool has_camera_ = false;            ///< and lights, of the first file that has them
   std::vector<Group> groups_;
   std::vector<std::shared_ptr<const CustomSupport>> customs_;
   RenderWorld world_;

@@ -153,8 +153,11 @@ class Arguments {
 }  // namespace
 
 Shape<double> make_shape(std::string_view kind, std::span<const minkray_parameter> parameters) {
-  for (const minkray_parameter& parameter : parameters)
+  for (const minkray_parameter& parameter : parameters) {
     require(parameter.name, "parameters[].name");
+    require_room(parameter.number_count, sizeof(double), "parameters[].number_count");
+    require_room(parameter.shape_count, sizeof(minkray_shape), "parameters[].shape_count");
+  }
   std::optional<Shape<double>> made;
   for_each_alternative(std::type_identity<ShapeVariant<double>>(), [&]<class S>() {
     if (S::name != kind) return;

@@ -11,6 +11,7 @@ namespace minkray {
 RaySource::RaySource(const minkray_ray* rays, std::size_t count) : count_(count) {
   if (count == 0) return;
   require(rays, "rays");
+  require_room(count, sizeof(minkray_ray), "count");
   origins_ = rays->origin;
   directions_ = rays->direction;
   t_max_ = &rays->t_max;
@@ -23,6 +24,7 @@ RaySource::RaySource(const minkray_ray_arrays* rays, std::size_t count) : count_
   if (rays->size < sizeof(minkray_ray_arrays))
     wrong_use("rays.size: must be sizeof(minkray_ray_arrays)");
   if (count == 0) return;
+  require_room(count, sizeof(double), "count");
   require(rays->origins, "rays.origins");
   require(rays->directions, "rays.directions");
   origins_ = rays->origins;

@@ -188,6 +188,46 @@ TEST(LibraryScene, tells_inside_and_miss_apart) {
   EXPECT_EQ(scene.exit(0, {{-5, 0, 0}, {2, 0, 0}}).t, 3);
 }
 
+/// It had the first material of a file that was there before it.
+TEST(LibraryScene, what_is_added_is_grey_whatever_came_before_it) {
+  const std::string file = testing::TempDir() + "minkray_library_red.json";
+  std::ofstream(file) << R"({"version": 1, "lights": [],
+    "camera": {"position": [0, -5, 0], "look_at": [0, 0, 0]},
+    "materials": [{"name": "red", "type": "lambert", "color": [1, 0, 0]}],
+    "objects": [{"name": "ball", "material": "red", "shape": {"type": "sphere", "radius": 1}}]})";
+  for (const bool file_first : {true, false}) {
+    minkray_scene scene;
+    ASSERT_EQ(minkray_scene_make(&scene), MINKRAY_OK);
+    const auto add_file = [&] {
+      ASSERT_EQ(minkray_scene_add_file(scene, file.c_str(), nullptr, nullptr), MINKRAY_OK)
+          << minkray_last_error();
+    };
+    if (file_first) add_file();
+    minkray_shape shape;
+    ASSERT_EQ(minkray_shape_read(R"({"type": "sphere", "radius": 1})", nullptr, &shape),
+              MINKRAY_OK);
+    const minkray_pose right = {{{1, 0, 0, 2}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+    ASSERT_EQ(minkray_scene_add(scene, shape, &right, nullptr, nullptr), MINKRAY_OK);
+    if (!file_first) add_file();
+    ASSERT_EQ(minkray_scene_commit(scene), MINKRAY_OK);
+    double albedo[2][3];  // of a pixel at each
+    const minkray_channel channel = {"albedo", &albedo[0][0], 6};
+    minkray_picture_options options = {};
+    options.size = sizeof options;
+    options.width = 2;
+    options.height = 1;
+    options.view = R"({"camera": {"position": [1, -50, 0], "look_at": [1, 0, 0],
+                       "fov_y_degrees": 2}})";
+    ASSERT_EQ(minkray_scene_render(scene, &options, &channel, 1, nullptr), MINKRAY_OK)
+        << minkray_last_error();
+    EXPECT_NEAR(albedo[0][0], 1, 1e-6) << file_first;
+    EXPECT_NEAR(albedo[0][1], 0, 1e-6) << file_first;
+    for (const double grey : albedo[1]) EXPECT_NEAR(grey, 0.7, 1e-6) << file_first;
+    minkray_shape_release(shape);
+    minkray_scene_release(scene);
+  }
+}
+
 TEST(LibraryScene, robots_move_by_their_joints) {
   const std::string file = testing::TempDir() + "minkray_library_robot.urdf";
   std::ofstream(file) << R"(<robot name="arm">

@@ -10,6 +10,8 @@
 #include <thread>
 #include <vector>
 
+#include "tests/support/source_files.h"
+
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -249,6 +251,38 @@ TEST(WrongUse, of_paths_and_lidars_says_what) {
   EXPECT_LT(rays[0].direction[0], 0);  // it begins behind
   EXPECT_EQ(rays[2].direction[0], along_x.direction[0]);
   minkray_scene_release(scene);
+}
+
+/// Counts that went below zero; times the numbers of a row the first was less than one again, and
+/// rows were read from where there is nothing.
+TEST(WrongUse, of_counts_that_no_memory_holds_is_told) {
+  constexpr std::size_t minus_one = std::numeric_limits<std::size_t>::max();
+  minkray_scene scene;
+  ASSERT_EQ(minkray_scene_make(&scene), MINKRAY_OK);
+  uint32_t arm;
+  ASSERT_EQ(minkray_scene_add_file(scene, (minkray::source_folder() / "examples/arm.urdf").c_str(),
+                                   nullptr, &arm),
+            MINKRAY_OK)
+      << minkray_last_error();
+  ASSERT_EQ(minkray_scene_commit(scene), MINKRAY_OK);
+  uint32_t joints;
+  ASSERT_EQ(minkray_scene_group(scene, arm, nullptr, nullptr, &joints), MINKRAY_OK);
+  const std::vector<double> path(joints);
+  minkray_clearance least;
+  for (const std::size_t rows : {minus_one, std::size_t{1} << 63, std::size_t{1} << 61})
+    expect_error(
+        minkray_scene_clearance(scene, arm, path.data(), rows, joints, nullptr, nullptr, &least),
+        MINKRAY_WRONG_USE, "rows: must be of things that are in memory");
+  minkray_hit hit;
+  expect_error(minkray_scene_cast(scene, &along_x, minus_one, &hit, nullptr), MINKRAY_WRONG_USE,
+               "count: must be of things that are in memory");
+  minkray_scene_release(scene);
+  const minkray_shape shape = ball();
+  const double direction[1][3] = {{1, 0, 0}};
+  double point[1][3];
+  expect_error(minkray_shape_support(shape, minus_one, direction, point), MINKRAY_WRONG_USE,
+               "count: must be");
+  minkray_shape_release(shape);
 }
 
 /// A support function that waits, so that a commit takes as long as the test wants.

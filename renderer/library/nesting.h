@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// How large a shape made of shapes may become. Files end somewhere; handles do not: a sum of a
+// shape with itself, made forty times over, has a million million parts.
+#pragma once
+
+#include <cstddef>
+
+#include "core/shape/shape.h"
+
+namespace minkray {
+
+/// How deep shapes may stand in shapes: far below what the stack holds.
+inline constexpr std::size_t deepest_shape = 1000;
+
+/// How many shapes one may have, each counted as often as it stands in it: a support point asks
+/// for one of each.
+inline constexpr std::size_t most_shapes_in_one = std::size_t{1} << 20;
+
+/// Throws CallError if the shape is larger.
+void check_nesting(const Shape<double>& shape);
+
+}  // namespace minkray
