@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/library/make_shape.h"
 
+#include <cmath>
 #include <optional>
 
 #include "renderer/json/object_reader.h"
@@ -74,8 +75,20 @@ class Arguments {
     return list;
   }
 
+  /// Tells what JSON has no word for.
+  bool are_finite(std::span<const double> numbers, const Parameter& field) {
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      if (std::isfinite(numbers[i])) continue;
+      const JsonPath place = numbers.size() == 1 ? path(field) : path(field) / i;
+      mistakes_.add(place, "must be a finite number (got " + std::to_string(numbers[i]) + ")");
+      return false;
+    }
+    return true;
+  }
+
   template <class Member>
   bool fill_from(const minkray_parameter& given, const Parameter& field, Member& member) {
+    if (!are_finite(numbers(given), field)) return false;
     Json json = Json::object();
     json[field.name] = as_json<Member>(numbers(given));
     ObjectReader object(json, JsonPath(), mistakes_);

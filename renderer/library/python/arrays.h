@@ -6,6 +6,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
+#include <cstdint>
 #include <string>
 
 #include "renderer/library/python/public_header.h"
@@ -43,6 +44,10 @@ inline Rows rows_of(const py::object& object, py::ssize_t width, const char* arg
   }
   if (array.shape(0) > 0 && array.strides(1) != static_cast<py::ssize_t>(sizeof(double)))
     array = Doubles(array);
+  // Such as a part of a file that was read into memory.
+  if (reinterpret_cast<std::uintptr_t>(array.data()) % alignof(double) != 0 ||
+      array.strides(0) % static_cast<py::ssize_t>(alignof(double)) != 0)
+    array = AnyDoubles(array.attr("copy")());
   return {array, static_cast<std::size_t>(array.shape(0)), array.data(), array.strides(0)};
 }
 

@@ -146,6 +146,14 @@ Scene::Group add_file(Scene& scene, const std::string& file, const py::object& p
   return scene.add_file(file, options);
 }
 
+/// An object's; C would take it to end at a zero.
+std::string name_of(const py::object& name) {
+  std::string text = name.is_none() ? "" : py::cast<std::string>(name);
+  if (text.find('\0') != std::string::npos)
+    throw py::value_error("name: must have no zero character");
+  return text;
+}
+
 }  // namespace
 
 void bind_scenes(py::module_& module) {
@@ -173,13 +181,13 @@ void bind_scenes(py::module_& module) {
            [](Scene& scene, const minkray::Shape& shape, const py::object& pose,
               const py::object& name) {
              const minkray::Pose map = pose_of(pose, "pose");
-             const std::string text = name.is_none() ? "" : py::cast<std::string>(name);
+             const std::string text = name_of(name);
              return scene.add(shape, map, name.is_none() ? minkray::Text() : minkray::Text(text));
            })
       .def("add_half_space",
            [](Scene& scene, const std::array<double, 3>& normal, double offset,
               const py::object& name) {
-             const std::string text = name.is_none() ? "" : py::cast<std::string>(name);
+             const std::string text = name_of(name);
              return scene.add_half_space({normal[0], normal[1], normal[2]}, offset,
                                          name.is_none() ? minkray::Text() : minkray::Text(text));
            })

@@ -76,7 +76,8 @@ py::dict signed_distance(const Shape& a, const py::object& pose_a, const Shape& 
   const auto poses_a = poses_of(pose_a, "pose_a"), poses_b = poses_of(pose_b, "pose_b");
   if (poses_a.size() != poses_b.size() && poses_a.size() != 1 && poses_b.size() != 1)
     throw py::value_error("pose_a, pose_b: must be as many, or one");
-  const std::size_t count = std::max(poses_a.size(), poses_b.size());
+  const bool is_none = poses_a.empty() || poses_b.empty();
+  const std::size_t count = is_none ? 0 : std::max(poses_a.size(), poses_b.size());
   std::vector<minkray::Distance> found(count);
   unlocked([&] {
     for (std::size_t i = 0; i < count; ++i)

@@ -24,9 +24,9 @@ int answer_once(const py::function& support, std::size_t count, const double (*d
   std::memcpy(asked.mutable_data(), directions, count * sizeof *directions);
   const py::object answer = support(asked);
   const Doubles array = Doubles::ensure(answer);
-  if (!array) throw py::error_already_set();
-  if (array.ndim() != 2 || array.shape(0) != rows || array.shape(1) != 3) {
-    last_raised() = "it must answer an array of the shape (" + std::to_string(count) + ", 3)";
+  if (!array || array.ndim() != 2 || array.shape(0) != rows || array.shape(1) != 3) {
+    last_raised() =
+        "it must answer an array of numbers of the shape (" + std::to_string(count) + ", 3)";
     return 1;
   }
   std::memcpy(points, array.data(), count * sizeof *points);

@@ -194,6 +194,55 @@ class Files(unittest.TestCase):
         np.testing.assert_allclose(rows["x"], points[:, 0], rtol=1e-6)
 
 
+class Hostile(unittest.TestCase):
+    """Values that did harm, or were taken for others without a word."""
+
+    def test_no_poses_are_no_pairs(self):  # memory was read where no pose is
+        ball = mk.sphere(1)
+        none = np.zeros((0, 4, 4))
+        for a, b in [(none, None), (None, none), (none, none), (np.eye(4)[None], none)]:
+            self.assertEqual(np.shape(mk.signed_distance(ball, a, ball, b).value), (0,))
+
+    def test_names_do_not_end_at_a_zero(self):  # the file before the zero was read
+        scene = mk.Scene()
+        arm = os.path.join(SOURCES, "examples/arm.urdf")
+        for call in (lambda: scene.add_file(arm + "\0.json"), lambda: scene.add_file(arm, package_dirs=["a\0"]),
+                     lambda: scene.add(mk.sphere(1), name="a\0b"), lambda: mk.lidar("a\0.csv"),
+                     lambda: scene.add_half_space([0, 0, 1], name="\0")):
+            with self.assertRaisesRegex(ValueError, "zero"):
+                call()
+        self.assertEqual(len(scene), 0)
+        scene.add_file(os.fsencode(arm))  # "b'...'" was not there
+        self.assertGreater(len(scene), 0)
+
+    def test_columns_do_not_write_the_header(self):
+        file = os.path.join(tempfile.mkdtemp(), "two.ply")
+        for columns in ({"a b": [1, 2]}, {"a\nend_header": [1, 2]}, {"x": [1, 2]}, {"": [1, 2]},
+                        {"a": [1, 2**40]}, {"a": [-2**31 - 1, 0]}):
+            with self.assertRaises(ValueError, msg=columns):
+                mk.write(file, np.zeros((2, 3)), **columns)
+        self.assertFalse(os.path.exists(file))
+        mk.write(file, np.zeros((2, 3)), object=np.array([0, mk.NO_OBJECT], np.uint32))
+
+    def test_rays_may_lie_anywhere_in_memory(self):
+        scene = mk.Scene()
+        scene.add(mk.sphere(1))
+        ray = np.array([[-5.0, 0, 0, 1, 0, 0]] * 3)
+        askew = np.frombuffer(b"_" + ray.tobytes(), offset=1).reshape(3, 6)
+        self.assertFalse(askew.flags.aligned)
+        np.testing.assert_array_equal(scene.cast_rays(askew).t, 4)
+        np.testing.assert_array_equal(mk.sphere(1).support(askew[:, 3:]), [[1, 0, 0]] * 3)
+
+    def test_answers_that_are_no_numbers_are_told(self):
+        for answer in ("x", None, object()):
+            with self.assertRaisesRegex(mk.Error, "array of numbers of the shape"):
+                mk.custom(lambda n: answer)
+        with self.assertRaisesRegex(mk.Error, r"half_extents/1: must be a finite number \(got nan\)"):
+            mk.box([1, np.nan, 1])
+        with self.assertRaisesRegex(ValueError, "lowest, highest"):
+            mk.lidar((1, 2, 3))
+
+
 class Mistakes(unittest.TestCase):
     def expect(self, text, work, kind=ValueError):
         with self.assertRaises(kind) as raised:

@@ -1,10 +1,32 @@
 # SPDX-License-Identifier: MIT
 """Point clouds and pictures as files."""
 import os
+import re
 import struct
 import zlib
 
 import numpy as np
+
+
+def name_of(file):
+    """The file's name as the system has it: bytes without a zero, where C would take it to end."""
+    name = os.fsencode(file)
+    if b"\0" in name:
+        raise ValueError(f"{file!r}: a file's name must have no zero byte")
+    return name
+
+
+def _check_columns(columns, count):
+    """Their names become words in the file's header, their whole numbers have 32 bits."""
+    for name, values in columns.items():
+        if not re.fullmatch(r"[A-Za-z_][A-Za-z0-9_.]*", name) or name in ("x", "y", "z"):
+            raise ValueError(f"{name!r}: a column's name must be letters, digits, dots and lines below,"
+                             " and other than x, y and z")
+        if np.shape(values) != (count,):
+            raise ValueError(f"{name}: must be one number for each point (got the shape {np.shape(values)})")
+        values = np.asarray(values)
+        if values.dtype.kind in "iu" and count and not (values.min() >= -2**31 and values.max() < 2**32):
+            raise ValueError(f"{name}: must be numbers of 32 bits (got {values.min()} to {values.max()})")
 
 
 def write(file, points, **columns):
@@ -37,9 +59,7 @@ def write(file, points, **columns):
         return _write_picture(file, points)
     if points.ndim != 2 or points.shape[1] != 3:
         raise ValueError(f"points: must have the shape (N, 3) (got {points.shape})")
-    for name, values in columns.items():
-        if np.shape(values) != (len(points),):
-            raise ValueError(f"{name}: must be one number for each point (got the shape {np.shape(values)})")
+    _check_columns(columns, len(points))
     fields = {"x": points[:, 0], "y": points[:, 1], "z": points[:, 2],
               **{name: np.asarray(values) for name, values in columns.items()}}
     ending = os.path.splitext(file)[1].lower()

@@ -72,5 +72,8 @@ def lidar(pattern, pose=None):
     """
     if isinstance(pattern, (tuple, list)):
         channels, steps, *limits = pattern
+        if len(limits) not in (0, 2):
+            raise ValueError("pattern: must be (channels, steps) or (channels, steps, lowest, highest)"
+                             f" (got {pattern})")
         pattern = f"spinning:{channels}x{steps}" + (":{},{}".format(*limits) if limits else "")
-    return _minkray.lidar(os.fspath(pattern), pose)
+    return _minkray.lidar(name_of(pattern), pose)

@@ -6,6 +6,7 @@ import numpy as np
 
 from . import _minkray
 from .answers import EXHAUSTED, HIT, Clearance, Hits, Proofs
+from .files import name_of
 from .rays import pinhole
 
 
@@ -153,8 +154,8 @@ class Scene:
         Robot
         """
         self._changed()
-        group = self._scene.add_file(str(file), pose, geometry, keyframe,
-                                     [str(folder) for folder in package_dirs], skip_missing_meshes)
+        group = self._scene.add_file(name_of(file), pose, geometry, keyframe,
+                                     [name_of(folder) for folder in package_dirs], skip_missing_meshes)
         return Robot(group, self._changed)
 
     def add_json(self, file, pose=None):
