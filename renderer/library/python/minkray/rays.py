@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MIT
 """Rays of cameras and lidars, as arrays whose last axis is origin and direction."""
-import os
 
 import numpy as np
 
 from . import _minkray
+from .files import name_of
 
 
 def pinhole(K, pose, width, height):
