@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Whoever opens connections and says nothing, or no end of it, keeps nobody else from an answer:
 // other users of the machine can do so without the token, and so can any page in the browser.
-#include <arpa/inet.h>
 #include <gtest/gtest.h>
 #include <netinet/in.h>
 #include <sys/socket.h>

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: MIT
 """Rays of cameras and lidars, as arrays whose last axis is origin and direction."""
-
 import numpy as np
 
 from . import _minkray
