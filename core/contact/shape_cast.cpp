@@ -3,6 +3,7 @@
 #include "core/contact/shape_cast.h"
 
 #include "core/contact/distance.h"
+#include "core/contact/signed_distance.h"
 
 namespace minkray {
 namespace {
@@ -10,6 +11,8 @@ namespace {
 /// The contact: the closest points of the two at the time of impact. There they touch, and a
 /// simplex around a common point on the boundary is as flat as rounding makes it; so B is taken
 /// back along the normal by a rounding error, and by more where that leaves them touching still.
+/// Where they graze each other, the distance query may end with points that are not the closest:
+/// those that are further apart than its steps explain are asked of the signed distance.
 template <class T>
 void find_contact(const PreparedPair<T>& pair, const Vec3<T>& direction,
                   ShapeCastResult<T>& result) {
@@ -22,17 +25,29 @@ void find_contact(const PreparedPair<T>& pair, const Vec3<T>& direction,
   a.centre.setZero();
   DistanceOptions<T, 3> options;
   options.v0 = result.cast.normal;
-  DistanceResult<T, 3> closest;
-  Vec3<T> backed_off = Vec3<T>::Zero();
   const T size = std::min(a.radius + b.radius, std::numeric_limits<T>::max());
+  Vec3<T> point_a = Vec3<T>::Zero(), point_b = Vec3<T>::Zero();
   for (const T step : tolerance::contact_back_off<T>) {
-    backed_off = step * size * result.cast.normal;
+    const Vec3<T> backed_off = step * size * result.cast.normal;
     b.centre = offset + backed_off;
-    closest = distance_between(a, b, options);
+    const DistanceResult<T, 3> closest = distance_between(a, b, options);
+    point_a = closest.point_a;
+    point_b = closest.point_b - backed_off;
     if (result.cast.status == Status::inside || closest.status == DistanceStatus::separated) break;
   }
-  result.point_a = world_a + closest.point_a;
-  result.point_b = world_a + (closest.point_b - backed_off);
+  const T most = tolerance::contact_back_off<T>[1] * size;
+  if (result.cast.status == Status::hit && !((point_b - point_a).norm() <= most)) {
+    Affine<double> of_b;
+    of_b.translation = offset.template cast<double>();
+    const SignedDistance touch =
+        signed_distance(ContactShape(a.about_centre), {}, ContactShape(b.about_centre), of_b);
+    if ((touch.point_b - touch.point_a).norm() < double((point_b - point_a).norm())) {
+      point_a = touch.point_a.template cast<T>();
+      point_b = touch.point_b.template cast<T>();
+    }
+  }
+  result.point_a = world_a + point_a;
+  result.point_b = world_a + point_b;
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ struct ShapeCastResult {
   /// the world (inside: zero; miss: the normal of a plane that keeps B off A all the time).
   CastResult<T> cast;
   /// Hit or inside: the contact point on A, and on B at the time of impact, in the world. Their
-  /// difference is what rounding left. Inside: a point common to both at t = 0.
+  /// difference is what rounding left, more where they graze. Inside: a common point at t = 0.
   Vec3<T> point_a = Vec3<T>::Zero();
   Vec3<T> point_b = Vec3<T>::Zero();
 };

@@ -42,8 +42,8 @@ struct SignedDistance {
   double value = 0;  ///< in [lower, upper], which allow for rounding
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
-  /// They are points of A and B, in the world, such that point_b - point_a = value * normal: the
-  /// nearest ones; or where the two touch first when they are moved apart.
+  /// They are points of A and B, in the world, with point_b - point_a = value * normal but for what
+  /// docs/contact.md allows aside: the nearest ones; or where the two touch first, moved apart.
   Vec3<double> point_a = Vec3<double>::Zero();
   Vec3<double> point_b = Vec3<double>::Zero();
   /// It has unit length, from A to B, across planes `lower` apart. Moving B by it separates.

@@ -384,7 +384,7 @@ typedef struct minkray_distance {
   double value; /* between lower and upper; less than zero: how deep they are in each other */
   double lower;
   double upper;
-  double point_a[3]; /* point_b - point_a = value normal */
+  double point_a[3]; /* point_b - point_a = value normal, to rounding or a contact's 3e-6 sizes */
   double point_b[3];
   double normal[3]; /* from a to b, of length 1 */
   int32_t status;   /* a minkray_distance_status */
