@@ -28,6 +28,9 @@ void compare(const CompareArguments& options, ExitCode& exit_code) {
   compare_options.object.cast.solver = cast_options(options.image.solver).solver;
   check_outputs(options.image.outputs);
   const Scene scene = options.image.load_scene();
+  Mistakes mistakes(options.image.scene);
+  find_incomparable(scene, mistakes);
+  throw_if_any(mistakes);
   if (!options.image.outputs.empty())
     compare_options.picture = options.image.render_options(scene).resolution;
   const std::size_t objects = instance_count(scene);

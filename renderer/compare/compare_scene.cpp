@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <mutex>
+#include <sstream>
 
+#include "core/derived/shape_bounds.h"
 #include "core/parallel/parallel.h"
 #include "renderer/compare/half_space_check.h"
 #include "renderer/light/camera.h"
@@ -108,6 +110,25 @@ double SceneComparison::disagreements_per_million() const {
     sum += object.report.violations[static_cast<std::size_t>(Violation::false_hit)] +
            object.report.violations[static_cast<std::size_t>(Violation::false_miss)];
   return rays() > 0 ? 1e6 * static_cast<double>(sum) / static_cast<double>(rays()) : 0;
+}
+
+void find_incomparable(const Scene& scene, Mistakes& mistakes) {
+  // Boxes of 1e307 have rays whose ways through them overflow; at 1e306 all are answered.
+  constexpr double furthest = 1e306;
+  for (std::size_t i = 0; i < instance_count(scene); ++i) {
+    const Object object = instance_object(scene, i);
+    if (object.half_space) continue;
+    const Shape<double> placed =
+        Transform<double>{Nested<double>(object.shape), AffineMap<double>(object.pose)};
+    const Bounds<double> bounds = bounds_of<double>(placed);
+    const double reach =
+        std::max(bounds.lower.cwiseAbs().maxCoeff(), bounds.upper.cwiseAbs().maxCoeff());
+    if (reach <= furthest) continue;
+    std::ostringstream text;
+    text << "object \"" << object.name << "\": must not reach further than " << furthest
+         << " to be compared, for its rays begin three sizes away (got " << reach << ")";
+    mistakes.add(text.str());
+  }
 }
 
 SceneComparison compare_scene(const Scene& scene, const CompareSceneOptions& options,

@@ -9,6 +9,7 @@
 #include "renderer/compare/sandwich_check.h"
 #include "renderer/image/image.h"
 #include "renderer/json/json.h"
+#include "renderer/json/mistakes.h"
 #include "renderer/scene/scene.h"
 
 namespace minkray {
@@ -44,6 +45,10 @@ struct CompareSceneOptions {
   /// If not zero, the picture as well, with one ray a pixel.
   Resolution picture = {0, 0};
 };
+
+/// Adds a mistake for each object that reaches too far to be compared: its rays begin three sizes
+/// away, and nothing is larger than the largest number.
+void find_incomparable(const Scene& scene, Mistakes& mistakes);
 
 /// progress(fraction, rays) may stop the rest by returning false; the answer is then not complete.
 SceneComparison compare_scene(const Scene& scene, const CompareSceneOptions& options,
