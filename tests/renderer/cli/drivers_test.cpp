@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <fstream>
 
-#include "renderer/share/ranks.h"
 #include "tests/renderer/cli/drivers.h"
 
 namespace minkray {
@@ -17,14 +16,6 @@ namespace fs = std::filesystem;
 /// It is, for a shell, the name of a picture with what means something to shells, to printf and to
 /// sbatch.
 constexpr const char* strange_name = R"('it'\''s "100%A", %d $HOME	a\b&ö;.pfm')";
-
-TEST_F(Drivers, without_mpi_several_ranks_are_told_so) {
-  if (has_mpi) GTEST_SKIP() << "built with MPI";
-  const ProgramOutcome outcome =
-      shell("OMPI_COMM_WORLD_SIZE=4 \"$MINKRAY\" render scene.json -o a.pfm");
-  EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_NE(outcome.err.find("built without MPI"), std::string::npos);
-}
 
 TEST_F(Drivers, gnu_parallel) {
   if (!has_program("parallel")) GTEST_SKIP() << "needs GNU parallel";

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// What takes MPI's place in builds without it, which builds with it have tested as well: a program
+// of its own, since the others have MPI's.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "renderer/base/errors.h"
+#include "renderer/share/ranks.h"
+
+namespace minkray {
+namespace {
+
+class RanksAlone : public ::testing::TestWithParam<const char*> {
+ protected:
+  ~RanksAlone() override { ::unsetenv(GetParam()); }
+};
+
+TEST_P(RanksAlone, are_one_if_no_launcher_says_otherwise) {
+  for (const char* size : {"", "0", "1"}) {
+    ::setenv(GetParam(), size, 1);
+    const Ranks ranks;
+    EXPECT_EQ(ranks.rank(), 0);
+    EXPECT_EQ(ranks.count(), 1);
+  }
+}
+
+TEST_P(RanksAlone, that_a_launcher_started_with_others_are_told_that_mpi_is_missing) {
+  ::setenv(GetParam(), "4", 1);
+  try {
+    const Ranks ranks;
+    ADD_FAILURE() << "each rank would render the whole picture";
+  } catch (const WrongUsage& error) {
+    EXPECT_NE(std::string(error.what()).find("built without MPI"), std::string::npos);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Launchers, RanksAlone,
+                         ::testing::Values("OMPI_COMM_WORLD_SIZE", "PMI_SIZE"));
+
+}  // namespace
+}  // namespace minkray
