@@ -14,8 +14,10 @@ int main(int argc, char** argv) {
       arm.set("elbow", elbow);
       scene.commit();
       const mk::Hit hit = scene.cast({{5, 0, 1.0}, {-1, 0, 0}});
-      std::printf("elbow %.1f: %s\n", elbow,
-                  hit.found() ? scene.name(hit.object) : "nothing is met");
+      if (hit.found())
+        std::printf("elbow %.1f: %s at t = %.6f\n", elbow, scene.name(hit.object), hit.t);
+      else
+        std::printf("elbow %.1f: nothing is met\n", elbow);
     }
   } catch (const mk::Error& error) {
     std::fprintf(stderr, "%s\n", error.what());

@@ -118,11 +118,12 @@ std::string info_as_text(const Scene& scene) {
   if (summary.particles > 0)
     text += line("", std::to_string(summary.particles) + " of them particles");
   for (const KindCount& kind : summary.kinds) {
-    std::string count = std::to_string(kind.objects) + " " + std::string(kind.name);
-    if (kind.operands > 0) {
-      count += kind.objects > 0 ? ", and " : ", ";
-      count += std::to_string(kind.operands) + " inside other shapes";
-    }
+    std::string count;
+    if (kind.objects > 0) count = std::to_string(kind.objects) + " " + std::string(kind.name);
+    if (kind.operands > 0)
+      count += (count.empty() ? std::to_string(kind.operands) + " " + std::string(kind.name)
+                              : ", and " + std::to_string(kind.operands)) +
+               " inside other shapes";
     text += line("", count);
   }
   if (summary.hull_points > 0) text += line("hull points", std::to_string(summary.hull_points));
@@ -132,8 +133,8 @@ std::string info_as_text(const Scene& scene) {
   // What is read, and what is made of it for rays.
   const RenderWorld world = make_world(scene);
   const auto per_object = [&](std::size_t bytes) {
-    return text_of(static_cast<double>(bytes) /
-                   static_cast<double>(std::max<std::size_t>(summary.instances, 1)));
+    const std::size_t objects = std::max<std::size_t>(summary.instances, 1);
+    return std::to_string((bytes + objects / 2) / objects);
   };
   text +=
       line("memory", "scene " + bytes_text(summary.bytes) + ", world " + bytes_text(world.bytes()));

@@ -54,6 +54,12 @@ TEST(Cli, results_are_on_stdout_and_done_is_0) {
   EXPECT_EQ(info.err, "");
 }
 
+TEST(Cli, info_counts_what_objects_are_and_what_they_are_made_of) {
+  const std::string text = run("info " + scene("showcase.json")).out;
+  EXPECT_NE(text.find(" 1 box, and 3 inside other shapes\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("  6 sphere inside other shapes\n"), std::string::npos) << text;
+}
+
 TEST(Cli, the_version_names_the_commit) {
   const Outcome version = run("--version");
   EXPECT_EQ(version.exit_code, 0);

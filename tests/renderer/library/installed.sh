@@ -19,6 +19,13 @@ nm -D --defined-only "$prefix/lib/libminkray.so" | awk '$2 == "T" {print $3}' | 
 nm -g --defined-only "$prefix/lib/libminkray.a" | c++filt | grep -E ' [A-Z] ' | grep -v ' T minkray_' &&
   { echo "the static library shows more than minkray_*"; exit 1; }
 
+# The manual has every page that it points at.
+pages="$(zcat "$prefix/share/man/man1/minkray.1.gz" | sed 's/\\-/-/g' | grep -o 'minkray-[a-z0-9-]* (1)' | cut -d' ' -f1)"
+(($(wc -w <<<"$pages") > 10)) || { echo "minkray.1 names no verbs"; exit 1; }
+for page in $pages; do
+  zgrep -q '^\.TH' "$prefix/share/man/man1/$page.1.gz" || { echo "no page $page"; exit 1; }
+done
+
 # With find_package: all of the examples.
 cmake -S "$sources/examples" -B "$folder/examples" -G Ninja -DCMAKE_PREFIX_PATH="$prefix" \
   -DCMAKE_BUILD_TYPE=Release >/dev/null

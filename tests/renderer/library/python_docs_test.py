@@ -6,8 +6,10 @@ import importlib
 import inspect
 import os
 import pkgutil
+import re
 import subprocess
 import sys
+import tempfile
 import unittest
 
 import minkray as mk
@@ -149,9 +151,12 @@ class Readme(unittest.TestCase):
         for page in "README.md", "docs/library.md":
             with open(os.path.join(SOURCES, page)) as file:
                 text = file.read()
-            begin = text.index("```python\n") + len("```python\n")
-            program = text[begin:text.index("```", begin)]
-            ran = subprocess.run([sys.executable, "-W", "error", "-c", program], capture_output=True, text=True)
+            blocks = re.findall("```python\n(.*?)```", text, re.DOTALL)
+            self.assertEqual(len(blocks), {"README.md": 1, "docs/library.md": 3}[page])
+            with tempfile.TemporaryDirectory() as folder:  # one program, which may write there
+                os.symlink(os.path.join(SOURCES, "examples"), os.path.join(folder, "examples"))
+                ran = subprocess.run([sys.executable, "-W", "error", "-c", "".join(blocks)], cwd=folder,
+                                     capture_output=True, text=True)
             self.assertEqual(ran.returncode, 0, ran.stderr)
             self.assertIn("bumper", ran.stdout)
 
