@@ -12,7 +12,7 @@ CoreDistance distance_of_cores(const CorePair& pair, const CoreSearch& search,
     CurvedGjk<A, B> gjk(pair, search);
     const CoreDistance found = gjk.run();
     if (search.memory && !found.axis.isZero(0)) search.memory->axis = found.axis;
-    if (enclosure) enclosure->is_found = gjk.encloses(enclosure->c, enclosure->a);
+    if (enclosure) enclosure->is_found = gjk.encloses(enclosure->c.data(), enclosure->a.data());
     return found;
   });
 }

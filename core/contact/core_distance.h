@@ -3,13 +3,15 @@
 // each pair: support points are most of the work, and the compiler sees through them.
 #pragma once
 
+#include <array>
+
 #include "core/contact/core_pair.h"
 
 namespace minkray {
 
 /// Four points of B - A around the origin, if there are any: where a polytope may begin.
 struct Enclosure {
-  Vec3<double> c[4], a[4];
+  std::array<Vec3<double>, 4> c, a;
   bool is_found = false;
 };
 

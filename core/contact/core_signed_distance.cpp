@@ -18,7 +18,7 @@ namespace {
 template <CoreKind A, CoreKind B>
 bool expand(const CorePair& pair, double gap, const Enclosure& enclosure, CoreDistance& found) {
   ExpandingPolytope<A, B> polytope(pair, gap, found);
-  const bool has_met = polytope.run(enclosure.c, enclosure.a);
+  const bool has_met = polytope.run(enclosure.c.data(), enclosure.a.data());
   found = polytope.found();
   return has_met;
 }
@@ -29,7 +29,7 @@ bool enclose(const CorePair& pair, double gap, CoreDistance& found, Enclosure& e
   DepthDirection depth(pair);
   const auto is_sure = [&](const Enclosure& four) {
     using enum CoreKind;
-    return ExpandingPolytope<other, other>(pair, 0, found).begins(four.c, four.a);
+    return ExpandingPolytope<other, other>(pair, 0, found).begins(four.c.data(), four.a.data());
   };
   const bool is_found = depth.enclose(found.axis, gap * pair.size(), enclosure, is_sure);
   found.supports += depth.supports();
