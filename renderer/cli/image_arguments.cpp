@@ -101,7 +101,12 @@ void ImageArguments::add_to(const Verb& verb, const std::string& suffix) {
 void ImageArguments::choose_output(const std::string& suffix) {
   if (!outputs.empty()) return;
   outputs.push_back(default_output(scene, suffix));
-  if (!quiet) std::cerr << "the picture goes to " << printable(outputs.front()) << "\n";
+  is_output_chosen = true;
+}
+
+void ImageArguments::tell_output() const {
+  if (is_output_chosen && !quiet)
+    std::cerr << "the picture goes to " << printable(outputs.front()) << "\n";
 }
 
 Option add_scene_option(const Verb& verb, std::string& scene) {

@@ -27,6 +27,7 @@ struct ImageArguments {
   int threads = 0;
   bool quiet = false;
   bool verbose = false;
+  bool is_output_chosen = false;
 
   PreviewArguments preview;
 
@@ -34,8 +35,10 @@ struct ImageArguments {
   /// the scene's name and `suffix`, see choose_output.
   void add_to(const Verb& verb, const std::string& suffix);
 
-  /// If there is no -o: chooses default_output of the scene and says so.
+  /// If there is no -o: chooses default_output of the scene.
   void choose_output(const std::string& suffix);
+  /// Says where the picture goes, if choose_output chose: once it is known that there will be one.
+  void tell_output() const;
 
   /// The scene. A camera that frames everything does so at the resolution that is asked for.
   Scene load_scene() const;

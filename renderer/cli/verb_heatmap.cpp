@@ -53,6 +53,7 @@ void run(HeatmapVerbOptions& options) {
   check_outputs(options.image.outputs);
   const Scene scene = options.image.load_scene();
   const RenderOptions render_options = options.image.render_options(scene, solvers.size());
+  options.image.tell_output();
 
   std::vector<HeatField> fields;
   std::vector<HeatPanel> panels;

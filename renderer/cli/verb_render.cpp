@@ -38,6 +38,7 @@ ExitCode run(RenderArguments& options) {
   const bool verbose = options.image.verbose;
   timed(verbose, "load", statistics.load_seconds, [&] { job.scene = options.image.load_scene(); });
   set_options(job, options);
+  options.image.tell_output();
   timed(verbose, "build", statistics.build_seconds,
         [&] { job.world = make_world(job.scene, cast, options.build); });
   statistics.describe(job.scene, job.world);

@@ -5,11 +5,15 @@
 //   kind
 //                                  of ray; the shapes whose names contain NAME; SOLVER: default
 //                                  auto
+#include <algorithm>
 #include <atomic>
+#include <charconv>
 #include <iomanip>
 #include <iostream>
 #include <mutex>
 #include <sstream>
+#include <string>
+#include <string_view>
 
 #include "core/parallel/parallel.h"
 #include "renderer/json/json.h"
@@ -54,17 +58,32 @@ CertifiedCasts prove(const SampleShape& sample, const RayFamilyDescription& fami
   return casts;
 }
 
+/// A proof of nothing would pass.
+int wrong_usage(const char* what, std::string_view got) {
+  std::cerr << "prove [RAYS [NAME [SOLVER]]]: " << what << " (got " << got << ")\n";
+  return 2;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  const int rays = argc > 1 ? std::stoi(argv[1]) : 100000;
+  int rays = 100000;
+  if (argc > 1) {
+    const std::string_view number = argv[1];
+    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), rays);
+    if (error != std::errc() || end != number.data() + number.size() || rays < 1)
+      return wrong_usage("RAYS: must be a whole number > 0", number);
+  }
   const std::string wanted = argc > 2 ? argv[2] : "";
-  SolverKind solver = SolverKind::automatic;
-  for (const SolverDescription& description : solver_descriptions)
-    if (argc > 3 && description.name == argv[3]) solver = description.kind;
+  const std::string_view name = argc > 3 ? argv[3] : "auto";
+  const auto solver_row = std::ranges::find(solver_descriptions, name, &SolverDescription::name);
+  if (solver_row == solver_descriptions.end())
+    return wrong_usage("SOLVER: must be one of minkray cast --help", name);
+  const SolverKind solver = solver_row->kind;
   std::vector<SampleShape> samples;
   for (SampleShape& sample : sample_shapes())
     if (sample.name.find(wanted) != std::string::npos) samples.push_back(std::move(sample));
+  if (samples.empty()) return wrong_usage("NAME: must be in the name of a sample shape", wanted);
   std::cout << "Extremes in machine epsilons times the size, of which " << certificate_rounding
             << " are allowed; supports a certificate.\n"
             << std::left << std::setw(44) << "shape" << std::setw(7) << "in" << std::setw(11)

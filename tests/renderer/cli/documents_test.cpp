@@ -94,6 +94,21 @@ TEST(Documents, every_verb_task_and_option_that_they_show_is_there) {
   EXPECT_GT(options, 80u);
 }
 
+// Asked for help a task begins no work, of which some is of hours.
+TEST(Documents, every_task_says_what_it_does) {
+  const std::string run = "'" + (source_folder() / "run").string() + "' ";
+  std::size_t tasks = 0;
+  for (const SourceFile& task : files_in(".ci/tasks")) {
+    const std::string name = fs::path(task.name).filename().string();
+    const ProgramOutcome help = run_shell(run + name + " --help");
+    EXPECT_EQ(help.exit_code, 0) << name;
+    EXPECT_TRUE(help.out.starts_with("./run " + name + " ")) << name << ": " << help.out;
+    EXPECT_EQ(help.err, "") << name;
+    ++tasks;
+  }
+  EXPECT_GT(tasks, 20u);  // the test has found them
+}
+
 TEST(Documents, every_script_that_they_show_can_be_run) {
   std::size_t scripts = 0;
   for (const ShownCommand& command : shown_commands()) {

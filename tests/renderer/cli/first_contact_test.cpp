@@ -46,6 +46,16 @@ TEST(FirstContact, a_scene_is_found_by_its_name_and_its_picture_goes_to_that_nam
             (std::vector<std::string>{"b.png", "shape-zoo-heatmap.png", "shape-zoo.png"}));
 }
 
+TEST(FirstContact, no_picture_is_promised_where_none_will_be_made) {
+  for (const std::string arguments :
+       {"render shape-zoo -r 10", "heatmap shape-zoo --channel cost",
+        "render shape-zoo --crop 0,0,9999,9", "render no/such.json"}) {
+    const ProgramOutcome outcome = run_shell("$MINKRAY " + arguments);
+    EXPECT_NE(outcome.exit_code, 0) << arguments;
+    EXPECT_EQ(outcome.err.find("the picture goes to"), std::string::npos) << outcome.err;
+  }
+}
+
 TEST(FirstContact, an_unknown_name_is_told_with_the_names_there_are) {
   const ProgramOutcome outcome = run_shell("$MINKRAY render showcsae -o /dev/null");
   EXPECT_EQ(outcome.exit_code, 3);
