@@ -41,7 +41,8 @@ typedef enum minkray_code {
   MINKRAY_OK = 0,
   MINKRAY_WRONG_USE = 1,   /* an argument that cannot be, or a call at the wrong time */
   MINKRAY_BAD_INPUT = 2,   /* a file or text that cannot be used */
-  MINKRAY_BAD_SUPPORT = 3, /* a support function of yours is none: it contradicts itself */
+  MINKRAY_BAD_SUPPORT = 3, /* a support function of yours is none: it contradicts itself; results
+                            * may be filled in part */
   MINKRAY_NO_MEMORY = 4,
   MINKRAY_STOPPED = 5, /* you asked for it; results are filled in part */
   MINKRAY_DEFECT = 6   /* an error of Minkray's own: please report it */

@@ -9,6 +9,7 @@
 #include "core/files/regular_file.h"
 #include "renderer/image/colour.h"
 #include "renderer/io/exr.h"
+#include "renderer/io/jpeg_tables.h"
 
 #define STB_IMAGE_STATIC
 #define STB_IMAGE_IMPLEMENTATION
@@ -37,7 +38,8 @@ struct Free {
 };
 
 void check_size(std::int64_t width, std::int64_t height) {
-  if (width * height > most_image_pixels)
+  // Without their product, for which four bytes each may be too many.
+  if (height > 0 && width > most_image_pixels / height)
     throw std::runtime_error("must have at most 2^27 pixels (got " + std::to_string(width) + " x " +
                              std::to_string(height) + ")");
 }
@@ -104,6 +106,8 @@ Image read_image(const std::filesystem::path& file) {
   } else if (ending == ".hdr" || ending == ".png" || ending == ".jpg" || ending == ".jpeg") {
     const std::string bytes = read_regular_file(file, most_picture_bytes);
     check_size_of_png(bytes);
+    if (!has_usable_jpeg_tables(bytes))
+      throw std::runtime_error("cannot be read: a table of more than 256 Huffman codes");
     const auto* begin = reinterpret_cast<const stbi_uc*>(bytes.data());
     if (ending == ".hdr")
       image = image_of_stb<float>(bytes, stbi_loadf_from_memory, [](float x) { return x; });

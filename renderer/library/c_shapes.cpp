@@ -117,9 +117,9 @@ int minkray_shape_write(minkray_shape shape, char* text, size_t size, size_t* ne
     if (!held.customs().empty())
       wrong_use("shape: cannot be written, since a program gives its support function");
     const std::string json = write_shape(*held.shape()).dump();
+    if (size > 0) require(text, "text");
     if (needed) *needed = json.size() + 1;
     if (size == 0) return;
-    require(text, "text");
     const std::size_t count = std::min(size - 1, json.size());
     std::memcpy(text, json.data(), count);
     text[count] = '\0';
@@ -143,11 +143,14 @@ int minkray_shape_support(minkray_shape shape, size_t count, const double (*dire
       require(points, "points");
       require_room(count, sizeof *points, "count");
     }
-    for (size_t i = 0; i < count; ++i) {
-      const Vec3<double> n(directions[i][0], directions[i][1], directions[i][2]);
-      if (!n.allFinite())
+    const auto direction = [&](size_t i) {
+      return Vec3<double>(directions[i][0], directions[i][1], directions[i][2]);
+    };
+    for (size_t i = 0; i < count; ++i)
+      if (!direction(i).allFinite())
         wrong_use("directions[" + std::to_string(i) + "]: must be three finite numbers");
-      const Vec3<double> point = held.shape()->support(n);
+    for (size_t i = 0; i < count; ++i) {
+      const Vec3<double> point = held.shape()->support(direction(i));
       for (int k = 0; k < 3; ++k) points[i][k] = point[k];
     }
     throw_if_lied(held.customs());

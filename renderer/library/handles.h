@@ -80,7 +80,7 @@ class Handles {
   };
 
   static std::size_t chunk_of(std::uint32_t place) {
-    const int width = std::bit_width(place / first_chunk);
+    const auto width = static_cast<int>(std::bit_width(place / first_chunk));
     return width > 1 ? static_cast<std::size_t>(width - 1) : 0;
   }
 

@@ -193,7 +193,7 @@ Merged merge_part_files(const std::vector<std::string>& files, bool allow_partia
     samples = samples_of(facts);
   });
   const Share& split = first_share.sample_share;
-  if (picture.empty() || split.count > SampleBlocks{samples}.count())
+  if (!can_be_tiled(picture, first_share.tile.count) || split.count > SampleBlocks{samples}.count())
     throw BadInput(files.front() + ": its header contradicts itself");
   for (int tile = 1; tile <= first_share.tile.count; ++tile)
     for (int share = 1; share <= split.count; ++share)

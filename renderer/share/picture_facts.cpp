@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/share/picture_facts.h"
-#include "renderer/base/build.h"
 
+#include <algorithm>
 #include <charconv>
 
 #include "renderer/base/build.h"
@@ -10,6 +10,10 @@
 
 namespace minkray {
 namespace {
+
+[[noreturn]] void unusable(const Facts& facts, const std::string& name) {
+  throw BadInput("its header has no usable " + name + " (got \"" + text_of(facts, name) + "\")");
+}
 
 /// Whole numbers between separators, nothing else around them.
 std::vector<int> integers(const Facts& facts, const std::string& name, char separator,
@@ -26,8 +30,7 @@ std::vector<int> integers(const Facts& facts, const std::string& name, char sepa
     numbers.push_back(number);
     at = next + 1;
   }
-  if (numbers.size() != count)
-    throw BadInput("its header has no usable " + name + " (got \"" + text + "\")");
+  if (numbers.size() != count) unusable(facts, name);
   return numbers;
 }
 
@@ -84,17 +87,21 @@ std::string difference(const Facts& found, const Facts& wanted,
 
 Resolution resolution_of(const Facts& facts) {
   const std::vector<int> numbers = integers(facts, fact::resolution, 'x', 2);
+  if (numbers[0] < 1 || numbers[1] < 1) unusable(facts, fact::resolution);
   return {numbers[0], numbers[1]};
 }
 
 PixelRect crop_of(const Facts& facts) {
   const std::vector<int> numbers = integers(facts, fact::crop, ',', 4);
+  // Pixels of the picture: so no width or height is beyond any int.
+  if (std::ranges::any_of(numbers, [](int number) { return number < 0; }))
+    unusable(facts, fact::crop);
   return {numbers[0], numbers[1], numbers[2], numbers[3]};
 }
 
 int samples_of(const Facts& facts) {
   const int samples = integers(facts, fact::samples, ' ', 1)[0];
-  if (samples < 1) throw BadInput(std::string("its header has no usable ") + fact::samples);
+  if (samples < 1) unusable(facts, fact::samples);
   return samples;
 }
 

@@ -18,6 +18,7 @@ class Bytes {
  public:
   explicit Bytes(std::string_view bytes) : left_(bytes) {}
 
+  bool empty() const { return left_.empty(); }
   unsigned byte() {
     if (left_.empty()) return 0;
     const auto first = static_cast<unsigned char>(left_.front());

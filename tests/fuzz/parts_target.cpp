@@ -1,39 +1,19 @@
 // SPDX-License-Identifier: MIT
 // Mesh files of every format that robots' files name: the first byte tells which, the second how
 // they are split.
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <fstream>
 #include <limits>
 
 #include "renderer/import/mesh_library.h"
 #include "renderer/json/mistakes.h"
+#include "tests/fuzz/folder.h"
 #include "tests/fuzz/hull_rounding.h"
 #include "tests/fuzz/target.h"
 
 namespace minkray::fuzz {
 namespace {
-
-/// A folder for the file, as readers take no text. It is removed when the program ends.
-class Folder {
- public:
-  Folder() { std::filesystem::create_directories(path_); }
-  ~Folder() {
-    std::error_code error;
-    std::filesystem::remove_all(path_, error);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_ =
-      std::filesystem::temp_directory_path() / ("minkray-fuzz-parts-" + std::to_string(getpid()));
-};
 
 std::string check_message(const std::string& message) {
   if (message.empty()) return "an error that says nothing";
@@ -90,9 +70,9 @@ std::string check_mesh_parts(std::string_view bytes) {
   const MeshFormatReader& format = formats[static_cast<unsigned char>(bytes[0]) % formats.size()];
   ImportOptions options;
   options.split = static_cast<MeshSplit>(static_cast<unsigned char>(bytes[1]) % 3);
-  static const Folder folder;
+  static const Folder folder("parts");
   const std::string name = "mesh" + std::string(format.ending);
-  std::ofstream(folder.path() / name, std::ios::binary) << bytes.substr(2);
+  folder.write(name, bytes.substr(2));
 
   MeshParts mesh;
   std::string refused;

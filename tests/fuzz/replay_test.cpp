@@ -40,7 +40,8 @@ INSTANTIATE_TEST_SUITE_P(
                       Target{"mesh", check_mesh}, Target{"parts", check_mesh_parts},
                       Target{"mjcf", check_mjcf}, Target{"urdf", check_urdf},
                       Target{"sdf", check_sdf}, Target{"gltf", check_gltf},
-                      Target{"cast", check_cast}, Target{"contact", check_contact}),
+                      Target{"image", check_image}, Target{"cast", check_cast},
+                      Target{"contact", check_contact}, Target{"c_abi", check_c_abi}),
     [](const auto& instance) { return std::string(instance.param.name); });
 
 TEST(CastQueries, that_were_answered_wrongly_once) {

@@ -39,6 +39,14 @@ std::string check_cast(std::string_view bytes);
 /// Two shapes made of the bytes: their signed distance beside planes of their own support mappings.
 std::string check_contact(std::string_view bytes);
 
+/// An image file, a part file or a checkpoint, or edits of one (tests/fuzz/image_target.cpp): read
+/// into what is written and read again the same, or refused with a message that names the file.
+std::string check_image(std::string_view bytes);
+
+/// Calls of the C interface, right and wrong ones: what minkray_c.h promises of each
+/// (tests/fuzz/c_abi_program.h).
+std::string check_c_abi(std::string_view bytes);
+
 /// Checks one cast, given as a line for `minkray cast`, in float and in double.
 std::string check_cast_query(std::string_view line);
 
