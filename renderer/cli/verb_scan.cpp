@@ -52,6 +52,25 @@ MovingFrame mount_of(Imported& imported, const std::string& name) {
                    suggestion(name, names) + ")");
 }
 
+/// Nothing that is written takes the place of what is read, nor of what else is written.
+void check_places(const ScanVerbOptions& options) {
+  std::vector<std::string> taken = {options.scene,
+                                    options.rays.value_or(""),
+                                    options.pattern.value_or(""),
+                                    options.pinhole.value_or(""),
+                                    options.path,
+                                    options.import.joint_rows};
+  const auto take = [&](const std::string& file, const char* option) {
+    for (const std::string& other : taken)
+      if (!other.empty() && is_same_file(file, other))
+        throw WrongUsage(std::string(option) + ": " + printable(file) +
+                         " is read or written already, as " + printable(other));
+    taken.push_back(file);
+  };
+  for (const std::string& output : options.outputs) take(output, "--output");
+  if (!options.table.empty()) take(options.table, "--ids");
+}
+
 void read_options(ScanVerbOptions& options) {
   if (options.rays.has_value() + options.pattern.has_value() + options.pinhole.has_value() != 1)
     throw WrongUsage("scan: give one of --rays, --pattern and --pinhole");
@@ -81,6 +100,7 @@ void read_options(ScanVerbOptions& options) {
     scan_format_of(output);
     check_writable(output);
   }
+  check_places(options);
 }
 
 /// A sensor that nobody placed may stand in a body, where it sees nothing else.

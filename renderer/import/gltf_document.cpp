@@ -170,7 +170,14 @@ std::optional<std::string> GltfDocument::read_uri(const std::string& uri, const 
     mistakes_.add(path, "must be a file beside this one or data (" + printable(uri, 100) + ")");
     return std::nullopt;
   }
-  const std::filesystem::path file = file_.parent_path() / percent_decoded(uri);
+  const std::filesystem::path name = percent_decoded(uri);
+  // A buffer may be any bytes: what somebody's file names is not read out of other folders.
+  if (name.is_absolute() || std::ranges::find(name, std::filesystem::path("..")) != name.end()) {
+    mistakes_.add(path, "must be a file beside this one, or in a folder beside it (" +
+                            printable(uri, 100) + ")");
+    return std::nullopt;
+  }
+  const std::filesystem::path file = file_.parent_path() / name;
   try {
     std::string bytes = read_regular_file(file, most_buffer_bytes);
     Hash hash;

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "core/files/regular_file.h"
+#include "core/shape/field.h"
 #include "renderer/image/colour.h"
 #include "renderer/io/exr.h"
 #include "renderer/io/jpeg_tables.h"
@@ -84,6 +85,10 @@ Image image_of_stb(std::string_view bytes, Load load, From from) {
   const int size = static_cast<int>(bytes.size());
   if (!stbi_info_from_memory(begin, size, &width, &height, &channels))
     throw std::runtime_error(std::string("cannot be read: ") + stbi_failure_reason());
+  // stb_image divides by the width of a .hdr file.
+  if (width < 1 || height < 1)
+    throw std::runtime_error("must have pixels (got " + std::to_string(width) + " x " +
+                             std::to_string(height) + ")");
   check_size(width, height);
   const std::unique_ptr<T, Free> codes(load(begin, size, &width, &height, &channels, 3));
   if (!codes) throw std::runtime_error(std::string("cannot be read: ") + stbi_failure_reason());
@@ -123,8 +128,8 @@ Image read_image(const std::filesystem::path& file) {
     throw std::runtime_error(std::string("must be one of ") + readable_images);
   }
   for (const Vec3<float>& pixel : image.pixels)
-    if (!pixel.allFinite() || pixel.minCoeff() < 0)
-      throw std::runtime_error("must hold finite numbers >= 0");
+    if (!pixel.allFinite() || pixel.minCoeff() < 0 || pixel.maxCoeff() > most_brightness)
+      throw std::runtime_error("must hold finite numbers from 0 to 1e15");
   return image;
 }
 

@@ -67,6 +67,23 @@ TEST_F(NothingLost, no_output_takes_the_place_of_an_input_or_another_output) {
   EXPECT_NE(made.err.find("a.png.checkpoint: is no checkpoint"), std::string::npos) << made.err;
 }
 
+/// The CSV file of a lidar's pattern was gone, and so was the robot's path.
+TEST_F(NothingLost, a_scan_takes_the_place_of_nothing_that_it_reads) {
+  const ProgramOutcome made = shell(R"(set -e
+    fails() { if "$MINKRAY" "$@"; then exit 1; else test $? = 2; fi; }
+    printf 'time,azimuth,zenith\n0,1,90\n' > pattern.csv; cp pattern.csv kept.csv
+    fails scan scene.json --pattern pattern.csv -o pattern.csv
+    fails scan scene.json --pattern pattern.csv -o ./a.ply -o a.ply
+    fails scan scene.json --pattern spinning:2x4 -o a.csv --ids scene.json
+    fails scan scene.json --pattern spinning:2x4 --path pattern.csv -o a.ply -o pattern.csv
+    fails scan scene.json --pattern spinning:2x4 --joints pattern.csv -o pattern.csv
+    test ! -e a.ply; cmp pattern.csv kept.csv
+    "$MINKRAY" scan scene.json --pattern pattern.csv -o a.csv -o a.ply -q)");
+  EXPECT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_NE(made.err.find("--output: pattern.csv is read or written already"), std::string::npos)
+      << made.err;
+}
+
 TEST_F(NothingLost, help_that_nobody_gets_is_no_success) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "needs /dev/full";
   EXPECT_EQ(shell("\"$MINKRAY\" --help > /dev/full").exit_code, 4);

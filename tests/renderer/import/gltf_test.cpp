@@ -227,6 +227,11 @@ TEST(Gltf, mistakes_are_told_all_at_once_with_their_place) {
   refused(gltf_document(R"([{"mesh": 0}])", "", R"("uri": "https://x.org/a.bin", )"),
           "beside this one");
   refused(gltf_document(R"([{"mesh": 0}])", "", R"("uri": "data:,abc", )"), "base64");
+  // Any file's bytes are numbers: these were read as points.
+  for (const char* elsewhere : {"/etc/passwd", "../../etc/passwd", "a/%2e%2e/../b.bin"})
+    refused(
+        gltf_document(R"([{"mesh": 0}])", "", R"("uri": ")" + std::string(elsewhere) + R"(", )"),
+        "beside this one");
   std::string text = gltf_document(R"([{"mesh": 0}])");
   const auto with = [&](const std::string& from, const std::string& to) {
     std::string changed = text;

@@ -75,6 +75,16 @@ TEST(ParseJson, endless_numbers_that_are_not_finite_end) {
   EXPECT_EQ(found[100].find("x: /100: not valid JSON at line:column 1:502: "), 0u) << found[100];
 }
 
+/// What ends lines or turns the order of the letters around it, as "\u202egnp.exe" does.
+TEST(ParseJson, messages_show_no_signs_that_steer) {
+  for (const char* sign : {"\xE2\x80\xA8", "\xE2\x80\xA9", "\xE2\x80\xAA", "\xE2\x80\xAE",
+                           "\xE2\x81\xA6", "\xE2\x81\xA9", "\xC2\x9B", "\x1B", "\x7F", "\n"})
+    EXPECT_EQ(printable("a" + std::string(sign) + "b"), "a?b");
+  for (const char* sign :
+       {"\xE2\x80\xA7", "\xE2\x80\xAF", "\xE2\x81\xA5", "\xE2\x81\xAA", "\xC2\xA0", "\xD9\x85"})
+    EXPECT_EQ(printable("a" + std::string(sign) + "b"), "a" + std::string(sign) + "b");
+}
+
 TEST(ParseJson, numbers_that_are_not_finite_move_nothing) {
   // In texts, after escaped quotes and between nulls they are told from what only looks like them.
   const std::vector<std::string> found = complaints(

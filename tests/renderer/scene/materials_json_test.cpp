@@ -250,5 +250,25 @@ TEST_F(Pictures, numbers_of_pictures_are_linear) {
   EXPECT_NEAR(two.at(1, 0).y(), 8, 0.01);
 }
 
+/// Of no pixels: the program ended in a division by zero. Of 1.7e38: skies of it were pictures of
+/// infinities.
+TEST_F(Pictures, of_no_pixels_or_beyond_all_brightness_are_refused) {
+  const std::string header = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n";
+  for (const auto& [rest, what] :
+       {std::pair<std::string, std::string>{"-Y 0 +X 0\n", "must have pixels (got 0 x 0)"},
+        {"-Y 4 +X 0\n", "must have pixels (got 0 x 4)"},
+        {"-Y 1 +X 1\n\xff\xff\xff\xff", "must hold finite numbers from 0 to 1e15"},
+        {"-Y 1 +X 1\n\xff\xff\xff\xb4", "must hold finite numbers from 0 to 1e15"}}) {
+    const std::string hdr = header + rest;
+    write("bad.hdr", {hdr.begin(), hdr.end()});
+    try {
+      read_image(folder_ / "bad.hdr");
+      ADD_FAILURE() << what;
+    } catch (const std::exception& error) {
+      EXPECT_NE(std::string(error.what()).find(what), std::string::npos) << error.what();
+    }
+  }
+}
+
 }  // namespace
 }  // namespace minkray
