@@ -250,7 +250,7 @@ TEST_F(Pictures, numbers_of_pictures_are_linear) {
   EXPECT_NEAR(two.at(1, 0).y(), 8, 0.01);
 }
 
-/// Of no pixels: the program ended in a division by zero. Of 1.7e38: skies of it were pictures of
+/// The first ended the program by a division by zero; skies of 1.7e38 were pictures of
 /// infinities.
 TEST_F(Pictures, of_no_pixels_or_beyond_all_brightness_are_refused) {
   const std::string header = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n";
