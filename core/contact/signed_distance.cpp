@@ -2,6 +2,7 @@
 #include "core/contact/signed_distance.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/contact/closed_pairs.h"
 #include "core/contact/core_signed_distance.h"
@@ -24,6 +25,7 @@ SignedDistance told(const CoreDistance& found, const ContactShape& a, const Cont
   SignedDistance result;
   result.supports = found.supports;
   result.is_exhausted = found.is_exhausted;
+  if (!std::isfinite(allowed)) return result;  // squares of such lengths are no numbers
   result.lower = found.lower - radii - allowed;
   result.upper = found.upper - radii + allowed;
   if (found.status == CoreStatus::overlapping && found.upper >= 0)

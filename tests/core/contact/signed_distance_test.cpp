@@ -108,5 +108,21 @@ TEST(SignedDistance, small_shapes_far_from_their_origin_have_bounds_in_order) {
   }
 }
 
+TEST(SignedDistance, is_undecided_where_squares_of_lengths_overflow) {
+  const auto at = [](double radius, const Vec3<double>& centre) {
+    return ContactShape(Transform<double>{Nested<double>(Shape<double>(Sphere<double>{radius})),
+                                          Affine<double>{Mat3<double>::Identity(), centre}});
+  };
+  const Vec3<double> far(1e308, 1e308, 1e308);
+  const ContactShape box(Box<double>{{1e200, 1e200, 1e200}}), small(at(1, far)),
+      opposite(at(1, -far)), large(at(1e200, Vec3<double>::Zero()));
+  for (const auto& [a, b] : {std::pair(small, opposite), {large, small}, {box, small}}) {
+    const SignedDistance found = signed_distance(a, b);
+    EXPECT_EQ(found.status, SignedStatus::undecided);
+    EXPECT_LE(found.lower, found.value);
+    EXPECT_LE(found.value, found.upper);
+  }
+}
+
 }  // namespace
 }  // namespace minkray
