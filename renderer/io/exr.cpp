@@ -18,6 +18,7 @@
 #include "core/files/regular_file.h"
 #include "renderer/base/errors.h"
 #include "renderer/base/of_file.h"
+#include "renderer/io/exr_header.h"
 
 namespace minkray {
 namespace {
@@ -148,8 +149,19 @@ PixelRect window_of(const Imf::Header& header) {
   return window;
 }
 
+void check_attributes(const ReadOn& read) {
+  if (!has_whole_exr_attributes(read)) throw std::runtime_error("the file ends too early");
+}
+
 /// The header alone. Throws if the file is no OpenEXR file, or far longer than its header says.
 Imf::Header header_of(RegularFile& file, const std::string& name) {
+  RegularFile ahead(name);
+  std::size_t left = most_header_bytes;
+  check_attributes([&](std::span<char> buffer) {
+    if (buffer.size() > left) throw std::runtime_error("its header is too long");
+    left -= buffer.size();
+    return ahead.read(buffer) == buffer.size();
+  });
   FromFile stream(file, name);
   std::array<char, 4> begin, version;
   stream.read(begin.data(), begin.size());
@@ -208,6 +220,13 @@ std::vector<unsigned char> encode_exr(const ExrImage& image) {
 
 ExrImage decode_exr(std::string_view bytes, const std::string& file) {
   try {
+    std::string_view left = bytes;
+    check_attributes([&](std::span<char> buffer) {
+      if (left.size() < buffer.size()) return false;
+      std::copy_n(left.begin(), buffer.size(), buffer.begin());
+      left.remove_prefix(buffer.size());
+      return true;
+    });
     FromMemory memory(bytes, file);
     Imf::InputFile in(memory, 0);
     const Imf::Header& header = in.header();
