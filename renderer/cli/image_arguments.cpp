@@ -135,6 +135,14 @@ void check_outputs(const std::vector<std::string>& outputs) {
                          outputs[i] + ")");
 }
 
+void check_outputs_beside(const Scene& scene, const std::vector<std::string>& outputs) {
+  for (const std::string& output : outputs)
+    for (const std::filesystem::path& picture : scene.pictures)
+      if (is_same_file(output, picture))
+        throw WrongUsage("--output: must not be a picture that the scene shows (got " +
+                         printable(output) + ")");
+}
+
 bool is_same_file(const std::string& a, const std::string& b) {
   std::error_code error;
   const auto whole = [&error](const std::string& file) {
@@ -148,7 +156,9 @@ bool is_same_file(const std::string& a, const std::string& b) {
 Scene ImageArguments::load_scene() const {
   ImportOptions options = import;
   if (!resolution.empty()) options.picture = parse_resolution(resolution);
-  return import_scene(scene, options).scene;
+  Scene loaded = import_scene(scene, options).scene;
+  check_outputs_beside(loaded, outputs);
+  return loaded;
 }
 
 RenderOptions ImageArguments::render_options(const Scene& loaded, std::size_t panels) const {

@@ -67,6 +67,9 @@ void add_output_option(const Verb& verb, std::vector<std::string>& outputs,
 /// written later.
 void check_outputs(const std::vector<std::string>& outputs);
 
+/// Throws WrongUsage for an output that would take the place of a picture that the scene shows.
+void check_outputs_beside(const Scene& scene, const std::vector<std::string>& outputs);
+
 /// Whether two names are one file's, which need not be there. Devices and pipes are never the same.
 bool is_same_file(const std::string& a, const std::string& b);
 

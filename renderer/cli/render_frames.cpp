@@ -26,10 +26,23 @@ std::vector<FramesRecord> records_of(const RenderJob& job, const RenderArguments
   return records;
 }
 
+/// No frame takes the place of a picture that the scene shows.
+void check_frames_beside(const Scene& scene, const RenderArguments& options,
+                         const FrameRange& frames) {
+  if (!options.contact_sheet.empty()) check_outputs_beside(scene, {options.contact_sheet});
+  for (const std::string& name : options.image.outputs)
+    for (const std::filesystem::path& picture : scene.pictures)
+      if (const auto frame = frame_of_file(name, picture.string(), frames))
+        throw WrongUsage("--output: frame " + std::to_string(*frame) +
+                         " must not be a picture that the scene shows (got " +
+                         printable(picture.string()) + ")");
+}
+
 }  // namespace
 
 void render_frames(RenderJob& job, const RenderArguments& options, const FrameRange& frames,
                    RenderStatistics& statistics) {
+  check_frames_beside(job.scene, options, frames);
   const std::string scene_hash = job.scene.hash;
   std::vector<FramesRecord> records = records_of(job, options);
   ContactSheet sheet;

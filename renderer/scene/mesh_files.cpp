@@ -90,6 +90,12 @@ std::shared_ptr<const Image> MeshFiles::read_picture(const std::string& name, co
   }
 }
 
+std::vector<std::filesystem::path> MeshFiles::pictures() const {
+  std::vector<std::filesystem::path> files;
+  for (const auto& [name, picture] : pictures_) files.push_back(folder_ / name);
+  return files;
+}
+
 void MeshFiles::add_to(Hash& hash) const {
   for (const auto& [name, picture] : pictures_) {
     hash.add(name);

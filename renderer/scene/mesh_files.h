@@ -35,6 +35,9 @@ class MeshFiles {
   /// Adds what was read: the names, and all vertices.
   void add_to(Hash& hash) const;
 
+  /// The files of the pictures that were read.
+  std::vector<std::filesystem::path> pictures() const;
+
   /// The picture of a file; null, and a mistake at `path`, if it cannot be used.
   std::shared_ptr<const Image> read_picture(const std::string& name, const JsonPath& path,
                                             Mistakes& mistakes);

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <variant>
@@ -67,6 +68,8 @@ struct Scene {
   bool labels = false;  ///< whether the objects' names are drawn into the picture
   std::string hash;     ///< of the file it came from and of all files it names; or empty
   double time = 0;      ///< when the shutter opens, in seconds
+  /// The files of its textures and skies: no picture of it may take the place of one.
+  std::vector<std::filesystem::path> pictures;
 };
 
 /// Whether any object has keys.

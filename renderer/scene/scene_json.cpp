@@ -29,6 +29,8 @@ class SceneReader {
   SceneReader(Scene& scene, const std::filesystem::path& folder, Mistakes& mistakes)
       : scene_(scene), folder_(folder), meshes_(folder), mistakes_(mistakes) {}
 
+  std::vector<std::filesystem::path> pictures() const { return meshes_.pictures(); }
+
   void add_files_to(Hash& hash) const {
     meshes_.add_to(hash);
     if (!scene_.particles.empty()) hash.add(particle_files_.text());
@@ -115,8 +117,8 @@ class SceneReader {
     ObjectReader object(json, path, mistakes_);
     double intensity = 1;
     if (const Json* factor = object.find("intensity")) {
-      intensity = read_number(*factor, object.path("intensity"), mistakes_, Range::brightness)
-                      .value_or(1);
+      intensity =
+          read_number(*factor, object.path("intensity"), mistakes_, Range::brightness).value_or(1);
     }
     auto light = read_tagged<Light>(
         object, "a light", [&](auto& kind) { return read_members(object, kind, meshes_); });
@@ -275,6 +277,7 @@ std::optional<Scene> parse_scene(std::string_view text, const std::filesystem::p
   hash.add(text);
   reader.add_files_to(hash);
   scene.hash = hash.text();
+  scene.pictures = reader.pictures();
   return scene;
 }
 

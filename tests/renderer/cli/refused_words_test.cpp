@@ -67,6 +67,29 @@ TEST_F(NothingLost, no_output_takes_the_place_of_an_input_or_another_output) {
   EXPECT_NE(made.err.find("a.png.checkpoint: is no checkpoint"), std::string::npos) << made.err;
 }
 
+/// The textures and the sky of a scene were written over.
+TEST_F(NothingLost, a_picture_takes_the_place_of_none_that_the_scene_shows) {
+  const ProgramOutcome made = shell(R"(set -e
+    fails() { if "$MINKRAY" "$@"; then exit 1; else test $? = 2; fi; }
+    "$MINKRAY" render scene.json -s 1 -r 8x8 -o sky1.png; cp sky1.png kept.png; ln -s sky1.png link.png
+    printf '%s' '{"version": 1, "camera": {"position": [0, -5, 1], "look_at": [0, 0, 0]},
+      "lights": [{"type": "environment", "file": "sky1.png"}],
+      "materials": [{"name": "m", "type": "lambert", "color": [1, 1, 1]}],
+      "objects": [{"name": "o", "shape": {"type": "sphere", "radius": 1}, "material": "m"}]}' > lit.json
+    fails render lit.json -s 1 -r 8x8 -o sky1.png
+    fails render lit.json -s 1 -r 8x8 -o a.png -o link.png
+    fails render lit.json -s 1 -r 8x8 -o 'sky#.png' --frames 0..2
+    fails render lit.json -s 1 -r 8x8 -o 'f#.png' --frames 0..2 --contact-sheet ./sky1.png
+    fails heatmap lit.json -r 8x8 -o sky1.png
+    fails compare lit.json --rays 10 -r 8x8 -o sky1.png
+    test ! -e a.png; test ! -e f0.png; test ! -e sky0.png; cmp sky1.png kept.png
+    "$MINKRAY" render lit.json -s 1 -r 8x8 -o a.png -q)");
+  EXPECT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_NE(made.err.find("--output: frame 1 must not be a picture that the scene shows"),
+            std::string::npos)
+      << made.err;
+}
+
 /// The CSV file of a lidar's pattern was gone, and so was the robot's path.
 TEST_F(NothingLost, a_scan_takes_the_place_of_nothing_that_it_reads) {
   const ProgramOutcome made = shell(R"(set -e
