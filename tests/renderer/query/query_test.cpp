@@ -122,7 +122,8 @@ TEST(Queries, signed_distances_that_ran_out_of_support_points_say_so) {
     return result.json.contains("settled") && result.json["settled"] == false;
   };
   // All directions are as good as each other, and nothing but the support mapping is known.
-  EXPECT_TRUE(is_told(R"({"type":"hull_of","shapes":[{"type":"sphere","radius":1},{"type":"sphere","radius":0.5}]})"));
+  EXPECT_TRUE(is_told(
+      R"({"type":"hull_of","shapes":[{"type":"sphere","radius":1},{"type":"sphere","radius":0.5}]})"));
   EXPECT_FALSE(is_told(R"({"type":"sphere","radius":1})"));
   EXPECT_FALSE(is_told(R"({"type":"ellipsoid","radii":[1,1,2]})"));
 }
