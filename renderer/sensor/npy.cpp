@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/sensor/npy.h"
 
+#include <algorithm>
 #include <bit>
 #include <charconv>
 #include <cstdint>
@@ -76,7 +77,8 @@ NpyArray parse(const std::string& bytes) {
   const char* const data = bytes.data() + start + length;
   array.values.resize(count);
   if (is_double) {
-    std::memcpy(array.values.data(), data, count * sizeof(double));
+    // An array without numbers has no memory, which memcpy must not be given.
+    std::copy_n(data, count * sizeof(double), reinterpret_cast<char*>(array.values.data()));
   } else {
     for (std::size_t i = 0; i < count; ++i) {
       float value;
