@@ -35,7 +35,8 @@ TEST(Docs, the_index_has_every_page) {
   std::size_t count = 0;
   for (const SourceFile& page : files_in("docs")) {
     if (!page.name.ends_with(".md") || page.name == "docs/README.md") continue;
-    EXPECT_NE(index.find("](" + page.name.substr(5) + ")"), std::string::npos) << page.name;
+    EXPECT_NE(index.find("](" + page.name.substr(5) + ")"), std::string::npos)
+        << page.name << " is not in docs/README.md";
     ++count;
   }
   EXPECT_GT(count, 40u);
@@ -46,7 +47,8 @@ TEST(Docs, every_file_that_contributing_names_is_there) {
   const std::regex file(R"re(`([\w.-]+(/[\w.-]+)+)`)re");
   std::size_t count = 0;
   for (std::sregex_iterator match(text.begin(), text.end(), file), end; match != end; ++match) {
-    EXPECT_TRUE(std::filesystem::exists(source_folder() / (*match)[1].str())) << (*match)[1];
+    EXPECT_TRUE(std::filesystem::exists(source_folder() / (*match)[1].str()))
+        << "there is no " << (*match)[1] << ", which docs/contributing.md names";
     ++count;
   }
   EXPECT_GT(count, 50u);  // the test has found the names
