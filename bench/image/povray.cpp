@@ -15,10 +15,10 @@
 
 #include "bench/image/clock.h"
 #include "bench/image/statistics.h"
-#include "bench/image/temporary_folder.h"
 #include "renderer/generate/generate.h"
 #include "renderer/json/json.h"
 #include "renderer/scene/scene_json.h"
+#include "tests/support/temporary_folder.h"
 
 namespace minkray::bench {
 namespace {

@@ -2,13 +2,13 @@
 #include "bench/image/subject.h"
 
 #include "bench/image/clock.h"
-#include "bench/image/temporary_folder.h"
 #include "core/derived/convert.h"
 #include "core/derived/shape_bounds.h"
 #include "renderer/generate/generate.h"
 #include "renderer/generate/random.h"
 #include "renderer/scene/scene_instances.h"
 #include "renderer/scene/scene_json.h"
+#include "tests/support/temporary_folder.h"
 
 namespace minkray::bench {
 

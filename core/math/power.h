@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Powers of numbers that are not negative, for one number or for a packet: the same operations and
 // so the same bits for both, which the C library's pow does not promise for packets, and without
-// its table look-ups, which packets would have to make lane by lane.
+// its table look-ups, which packets would have to make lane by lane. In long double that one asks
+// the processor for logarithms, whose last bits differ between makers.
 //
 // By way of logarithm and exponential, each a power of two that is read off the bits times a
 // Taylor series. A power is precise to a few epsilon as long as its logarithm is of moderate size;
@@ -11,6 +12,18 @@
 #include "core/math/vec.h"
 
 namespace minkray {
+
+namespace detail {
+
+/// Enough terms of the two series for the numbers' digits.
+template <class T>
+struct SeriesTerms {
+  static_assert(std::numeric_limits<T>::digits <= 64, "more digits need more terms");
+  static constexpr int log2 = std::is_same_v<T, float> ? 5 : std::is_same_v<T, double> ? 11 : 13;
+  static constexpr int exp2 = std::is_same_v<T, float> ? 7 : std::is_same_v<T, double> ? 13 : 16;
+};
+
+}  // namespace detail
 
 /// log2(x) for x > 0 that is a normal number; what a result is for others has no meaning.
 template <class W>
@@ -24,7 +37,7 @@ W log2_of(const W& x) {
   const W m = from_1 * select(above, W(T(0.5)), W(1));
   const W k = exponent_of(power) + select(above, W(1), W(0));
   const W t = (m - W(1)) / (m + W(1)), t2 = t * t;
-  constexpr int terms = std::is_same_v<T, float> ? 5 : 11;  // t^2 < 0.03
+  constexpr int terms = detail::SeriesTerms<T>::log2;  // t^2 < 0.03
   W series = W(T(1) / T(2 * terms - 1));
   for (int i = terms - 1; i > 0; --i) series = series * t2 + W(T(1) / T(2 * i - 1));
   return k + t * series * W(T(2) * log2_e);
@@ -44,16 +57,16 @@ W exp2_of(const W& x) {
   constexpr T no_fraction = T(1.5) / std::numeric_limits<T>::epsilon();
   const W k = (bounded + W(no_fraction)) - W(no_fraction);
   const W y = (bounded - k) * W(ln2);
-  constexpr int terms = std::is_same_v<T, float> ? 7 : 13;  // |y| < 0.35
+  constexpr int terms = detail::SeriesTerms<T>::exp2;  // |y| < 0.35
   W series(1);
   for (int i = terms; i > 0; --i) series = series * y * W(T(1) / T(i)) + W(1);
   return select(x < W(least), W(0), W(series * two_to(k)));
 }
 
-namespace detail {
-
+/// base^exponent for 0 <= base; 0^exponent is 0, whatever the exponent but 0. The exponent may be
+/// infinite.
 template <class W>
-W power_by_exponential(const W& base, Lane<W> exponent) {
+W power(const W& base, Lane<W> exponent) {
   using T = Lane<W>;
   if (exponent == T(0)) return W(1);
   // Whole exponents by multiplication, roots by square roots: cheap, and the usual ones.
@@ -85,19 +98,6 @@ W power_by_exponential(const W& base, Lane<W> exponent) {
   }
   const W result = exp2_of<W>((log2_of<W>(normal) - brought_up) * W(exponent));
   return select(some, result, W(0));
-}
-
-}  // namespace detail
-
-/// base^exponent for 0 <= base; 0^exponent is 0, whatever the exponent but 0. The exponent may be
-/// infinite.
-template <class W>
-W power(const W& base, Lane<W> exponent) {
-  // Precisions that there are no packets of: the tests' own.
-  if constexpr (sizeof(Lane<W>) > sizeof(double))
-    return std::pow(base, exponent);
-  else
-    return detail::power_by_exponential<W>(base, exponent);
 }
 
 }  // namespace minkray

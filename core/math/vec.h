@@ -72,23 +72,33 @@ W leading_power_of_two(W x) {
 /// The k of 2^k, a normal number.
 template <std::floating_point W>
 W exponent_of(W power_of_two) {
-  // The exponent's bits, put behind a number whose last digit is worth 1.
-  using Bits = std::conditional_t<sizeof(W) == 4, std::uint32_t, std::uint64_t>;
-  constexpr int digits = std::numeric_limits<W>::digits - 1;
-  constexpr W ones = W(1) / std::numeric_limits<W>::epsilon();
-  constexpr W bias = W(std::numeric_limits<W>::max_exponent - 1);
-  const Bits biased = std::bit_cast<Bits>(power_of_two) >> digits;
-  return std::bit_cast<W>(biased | std::bit_cast<Bits>(ones)) - (ones + bias);
+  if constexpr (sizeof(W) > sizeof(double)) {
+    int exponent = 0;
+    std::frexp(power_of_two, &exponent);
+    return W(exponent - 1);
+  } else {
+    // The exponent's bits, put behind a number whose last digit is worth 1.
+    using Bits = std::conditional_t<sizeof(W) == 4, std::uint32_t, std::uint64_t>;
+    constexpr int digits = std::numeric_limits<W>::digits - 1;
+    constexpr W ones = W(1) / std::numeric_limits<W>::epsilon();
+    constexpr W bias = W(std::numeric_limits<W>::max_exponent - 1);
+    const Bits biased = std::bit_cast<Bits>(power_of_two) >> digits;
+    return std::bit_cast<W>(biased | std::bit_cast<Bits>(ones)) - (ones + bias);
+  }
 }
 
 /// 2^k for a whole number k for which that is a normal number.
 template <std::floating_point W>
 W two_to(W k) {
-  using Bits = std::conditional_t<sizeof(W) == 4, std::uint32_t, std::uint64_t>;
-  constexpr int digits = std::numeric_limits<W>::digits - 1;
-  constexpr W ones = W(1) / std::numeric_limits<W>::epsilon();
-  constexpr W bias = W(std::numeric_limits<W>::max_exponent - 1);
-  return std::bit_cast<W>(std::bit_cast<Bits>(k + (ones + bias)) << digits);
+  if constexpr (sizeof(W) > sizeof(double)) {
+    return std::ldexp(W(1), static_cast<int>(k));
+  } else {
+    using Bits = std::conditional_t<sizeof(W) == 4, std::uint32_t, std::uint64_t>;
+    constexpr int digits = std::numeric_limits<W>::digits - 1;
+    constexpr W ones = W(1) / std::numeric_limits<W>::epsilon();
+    constexpr W bias = W(std::numeric_limits<W>::max_exponent - 1);
+    return std::bit_cast<W>(std::bit_cast<Bits>(k + (ones + bias)) << digits);
+  }
 }
 
 /// The vector of the lanes where the condition holds from a, elsewhere from b.

@@ -23,7 +23,7 @@ enum class FormKind : unsigned char {
   cut_cylinder,     ///< radius, the planes' heights on the z axis, lower and upper slope along x, y
   segment,          ///< half the way from end to end, along x, y, z; the radius it is grown by
   triangle,         ///< three corners; the radius it is grown by
-  polytope,         ///< none: shapes declare its facets (declared.h)
+  polytope,         ///< none: shapes declare its facets (declared.h). It stays the last
 };
 
 /// It has as many numbers as the form with the most.

@@ -7,6 +7,7 @@
 
 #include "core/gjk/subalgorithm.h"
 #include "core/query/solver_kind.h"
+#include "renderer/cli/options.h"
 
 namespace minkray {
 
@@ -22,12 +23,12 @@ inline std::vector<std::string> subalgorithm_names() {
   return names;
 }
 
-/// What help says of --solver: a line for each.
-inline std::string solver_help() {
+/// Adds --solver, whose help has a line for each solver.
+inline Option add_solver_option(const Verb& verb, std::string& solver) {
   std::string help = "How rays are cast:";
-  for (const SolverDescription& solver : solver_descriptions)
-    help += "\n" + std::string(solver.name) + ": " + std::string(solver.doc);
-  return help;
+  for (const SolverDescription& description : solver_descriptions)
+    help += "\n" + std::string(description.name) + ": " + std::string(description.doc);
+  return verb.add_option("--solver", solver, help).one_of(solver_names()).show_default();
 }
 
 /// The name must be one of solver_names.

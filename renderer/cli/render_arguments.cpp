@@ -22,7 +22,7 @@ void RenderArguments::choose_output(const Ranks& ranks) {
 void RenderArguments::add_to(const Verb& verb) {
   image.samples = 16;
   image.add_to(verb, picture_suffix);
-  verb.add_option("--solver", image.solver, solver_help()).one_of(solver_names()).show_default();
+  add_solver_option(verb, image.solver);
   verb.add_option("--exposure", exposure, "Stops brighter; .pfm keeps the scene's light")
       .show_default();
   std::string kinds = "Which light the picture is made of:";

@@ -263,7 +263,7 @@ void add_cast(Parser& parser, ExitCode& exit_code) {
   verb.add_option("--precision", options->precision, "float or double")
       .one_of({"float", "double"})
       .show_default();
-  verb.add_option("--solver", options->solver, solver_help()).one_of(solver_names()).show_default();
+  add_solver_option(verb, options->solver);
   verb.add_option("--subalgorithm", options->subalgorithm, "How distances' simplices are reduced")
       .one_of(subalgorithm_names())
       .show_default();

@@ -33,7 +33,7 @@ void add_compare(Parser& parser, ExitCode& exit_code) {
       .between(0, 1024)
       .show_default();
   verb.add_option("--seed", image.seed, "Of the random rays").show_default();
-  verb.add_option("--solver", image.solver, solver_help()).one_of(solver_names()).show_default();
+  add_solver_option(verb, image.solver);
   verb.add_flag("--json", options->json, "Print JSON, with histograms of the gaps");
   verb.add_flag("-q,--quiet", image.quiet, "No progress");
   verb.on_call([options, &exit_code] {

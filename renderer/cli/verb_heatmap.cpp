@@ -95,9 +95,7 @@ void add_heatmap(Parser& parser, ExitCode&) {
   for (const HeatChannelDescription& description : heat_channels)
     channels += "\n" + std::string(description.name) + ": " + std::string(description.doc);
   verb.add_option("--channel", options->channel, "What to show:" + channels).show_default();
-  const Option solver = verb.add_option("--solver", options->image.solver, solver_help())
-                            .one_of(solver_names())
-                            .show_default();
+  const Option solver = add_solver_option(verb, options->image.solver);
   verb.add_option("--side-by-side", options->side_by_side,
                   "Solvers to show beside each other on one scale, such as paper,auto")
       .excludes(solver);

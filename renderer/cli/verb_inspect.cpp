@@ -29,7 +29,7 @@ void add_inspect(Parser& parser, ExitCode& exit_code) {
   verb.add_option("-t,--threads", image.threads, "How many threads; 0 for one a core")
       .between(0, 1024)
       .show_default();
-  verb.add_option("--solver", image.solver, solver_help()).one_of(solver_names()).show_default();
+  add_solver_option(verb, image.solver);
   verb.add_option("--beside", options->beside, "The solver that it is shown beside")
       .one_of(solver_names())
       .show_default();

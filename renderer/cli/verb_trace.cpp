@@ -147,7 +147,7 @@ void add_trace(Parser& parser, ExitCode&) {
   verb.add_option("--precision", options->precision, "float or double")
       .one_of({"float", "double"})
       .show_default();
-  verb.add_option("--solver", options->solver, solver_help()).one_of(solver_names()).show_default();
+  add_solver_option(verb, options->solver);
   verb.add_flag("--json", options->json, "Print JSON");
   verb.add_option("--svg", options->svg, "Also draw it into this file");
   verb.on_call([options] {

@@ -8,7 +8,7 @@
 namespace minkray {
 namespace {
 
-constexpr std::uint32_t magic = 20000630, multi_part_flag = 0x1000;
+constexpr std::uint32_t magic_number = 20000630, multi_part_flag = 0x1000;
 constexpr std::size_t longest_name = 255;
 
 class Reader {
@@ -50,7 +50,7 @@ class Reader {
 
 bool has_whole_exr_attributes(const ReadOn& read) {
   Reader reader(read);
-  if (reader.number() != magic) return true;
+  if (reader.number() != magic_number) return true;
   const bool has_parts = (reader.number() & multi_part_flag) != 0;
   // A header ends with an empty name; of several parts, the last with two.
   for (bool is_first = true; reader.is_whole();) {

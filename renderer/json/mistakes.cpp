@@ -24,10 +24,6 @@ std::size_t utf8_length(std::string_view text, std::size_t i) {
   return length;
 }
 
-}  // namespace
-
-namespace {
-
 /// Whether it ends lines or turns the order of what is shown beside it: U+2028 to U+202E and U+2066
 /// to U+2069.
 bool turns_text(std::string_view character) {

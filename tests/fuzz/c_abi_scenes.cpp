@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "tests/fuzz/c_abi_program.h"
-#include "tests/fuzz/folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace minkray::fuzz {
 namespace {
@@ -107,7 +107,7 @@ void CallProgram::add_half_space() {
 }
 
 void CallProgram::add_file() {
-  static const Folder folder("c_abi");
+  static const TemporaryFolder folder;
   const Given<minkray_scene> to = scene();
   const int which = bytes_.below(sizeof files / sizeof files[0] + 1);
   const bool is_there = which < int(sizeof files / sizeof files[0]);

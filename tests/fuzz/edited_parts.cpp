@@ -6,7 +6,7 @@
 
 #include "renderer/film/pixel_loop.h"
 #include "renderer/share/checkpoint.h"
-#include "tests/fuzz/folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace minkray::fuzz {
 namespace {
@@ -120,7 +120,7 @@ PartsOfPicture checkpoint_of_kind(int kind) {
   parts.options.light_channels = kind == 1;
   if (kind == 2) parts.options.sample_share = {2, 2};
   parts.facts = facts_of(parts.options);
-  const Folder folder("checkpoint");
+  const TemporaryFolder folder;
   const std::string file = (folder.path() / "x.checkpoint").string();
   {
     constexpr double always = 1e-9;  // seconds

@@ -15,8 +15,8 @@
 #include "renderer/share/checkpoint.h"
 #include "renderer/share/merge.h"
 #include "tests/fuzz/edited_parts.h"
-#include "tests/fuzz/folder.h"
 #include "tests/fuzz/target.h"
+#include "tests/support/temporary_folder.h"
 
 namespace minkray::fuzz {
 namespace {
@@ -25,8 +25,8 @@ namespace {
 /// memory and the time that they say.
 constexpr std::int64_t most_tried = 1 << 18, most_allowed = std::int64_t{1} << 27;
 
-const Folder& folder() {
-  static const Folder folder("image");
+const TemporaryFolder& folder() {
+  static const TemporaryFolder folder;
   return folder;
 }
 

@@ -8,9 +8,9 @@
 
 #include "renderer/import/mesh_library.h"
 #include "renderer/json/mistakes.h"
-#include "tests/fuzz/folder.h"
 #include "tests/fuzz/hull_rounding.h"
 #include "tests/fuzz/target.h"
+#include "tests/support/temporary_folder.h"
 
 namespace minkray::fuzz {
 namespace {
@@ -70,7 +70,7 @@ std::string check_mesh_parts(std::string_view bytes) {
   const MeshFormatReader& format = formats[static_cast<unsigned char>(bytes[0]) % formats.size()];
   ImportOptions options;
   options.split = static_cast<MeshSplit>(static_cast<unsigned char>(bytes[1]) % 3);
-  static const Folder folder("parts");
+  static const TemporaryFolder folder;
   const std::string name = "mesh" + std::string(format.ending);
   folder.write(name, bytes.substr(2));
 

@@ -31,7 +31,7 @@ TEST_P(Replay, kept_inputs_keep_every_promise) {
       ++count;
     }
   }
-  EXPECT_GT(count, 3);
+  EXPECT_GT(count, 3) << "inputs in tests/fuzz/corpus/" << GetParam().name;
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -50,7 +50,8 @@ TEST(Comments, have_a_verb) {
         continue;
       std::vector<std::string> found;
       count += look_at_comments(file.text, found);
-      for (const std::string& line : found) ADD_FAILURE() << file.name << ": " << line;
+      for (const std::string& line : found)
+        ADD_FAILURE() << file.name << ": no verb follows in: " << line;
     }
   }
   EXPECT_GT(count, 1000u);  // the test has found the comments

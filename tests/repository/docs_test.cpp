@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The documents: what they point at is there.
+// The documents and lists of files: what they point at is there, and nothing is left out.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -35,10 +35,33 @@ TEST(Docs, the_index_has_every_page) {
   std::size_t count = 0;
   for (const SourceFile& page : files_in("docs")) {
     if (!page.name.ends_with(".md") || page.name == "docs/README.md") continue;
-    EXPECT_NE(index.find("](" + page.name.substr(5) + ")"), std::string::npos) << page.name;
+    EXPECT_NE(index.find("](" + page.name.substr(5) + ")"), std::string::npos)
+        << page.name << " is not in docs/README.md";
     ++count;
   }
   EXPECT_GT(count, 40u);
+}
+
+/// Whether a CMakeLists.txt of its own folder, or of one above, names the file.
+bool is_built(const std::filesystem::path& file) {
+  for (auto folder = file.parent_path(); !folder.empty(); folder = folder.parent_path()) {
+    const std::filesystem::path list = source_folder() / folder / "CMakeLists.txt";
+    if (std::filesystem::exists(list) &&
+        text_of_file(list).find(' ' + file.lexically_relative(folder).string()) !=
+            std::string::npos)
+      return true;
+  }
+  return false;
+}
+
+TEST(Docs, every_source_of_tests_is_built) {
+  std::size_t count = 0;
+  for (const SourceFile& file : files_in("tests")) {
+    if (!file.name.ends_with("_test.cpp")) continue;
+    EXPECT_TRUE(is_built(file.name)) << file.name << " is in no CMakeLists.txt: nobody runs it";
+    ++count;
+  }
+  EXPECT_GT(count, 150u);
 }
 
 TEST(Docs, every_file_that_contributing_names_is_there) {
@@ -46,7 +69,8 @@ TEST(Docs, every_file_that_contributing_names_is_there) {
   const std::regex file(R"re(`([\w.-]+(/[\w.-]+)+)`)re");
   std::size_t count = 0;
   for (std::sregex_iterator match(text.begin(), text.end(), file), end; match != end; ++match) {
-    EXPECT_TRUE(std::filesystem::exists(source_folder() / (*match)[1].str())) << (*match)[1];
+    EXPECT_TRUE(std::filesystem::exists(source_folder() / (*match)[1].str()))
+        << "there is no " << (*match)[1] << ", which docs/contributing.md names";
     ++count;
   }
   EXPECT_GT(count, 50u);  // the test has found the names

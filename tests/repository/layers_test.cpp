@@ -64,7 +64,7 @@ TEST(Layers, no_include_points_up) {
   for (const SourceFile& file : sources()) {
     const std::string room = folder_of(file.name);
     found.insert(room);
-    ASSERT_LT(floor_of(room), rooms.size()) << file.name << " is in no room of the list";
+    ASSERT_LT(floor_of(room), rooms.size()) << file.name << " is in no room of this test's list";
     for (const std::string& included : own_includes(file)) {
       EXPECT_LE(floor_of(folder_of(included)), floor_of(room))
           << file.name << " must not include " << included;
@@ -167,7 +167,8 @@ TEST(Layers, each_library_is_seen_in_one_place) {
       const bool is_known =
           std::regex_match(included, standard) || std::regex_match(included, posix);
       if (place == places.end() && is_known) continue;
-      ASSERT_NE(place, places.end()) << file.name << " includes the unknown library " << included;
+      ASSERT_NE(place, places.end())
+          << file.name << " includes a library that is not in this test's list: " << included;
       EXPECT_TRUE(file.name.starts_with(place->second))
           << file.name << " must not include " << included;
     }
@@ -216,7 +217,8 @@ TEST(Layers, no_shape_is_named_outside_of_its_header_and_the_list) {
     if (file.name.starts_with("renderer/paper/")) continue;  // repeats the papers' own experiments
     std::smatch match;
     EXPECT_FALSE(std::regex_search(file.text, match, named))
-        << file.name << " names the shape " << match.str();
+        << file.name << " names the shape " << match.str()
+        << ">: what it is to be known by is declared in the shape's header (core/shape/declared.h)";
   }
 }
 
@@ -227,7 +229,8 @@ TEST(Repository, a_source_includes_its_own_header_first) {
     const std::string header = file.name.substr(0, file.name.size() - 3) + "h";
     if (!std::filesystem::exists(source_folder() / header)) continue;
     const std::string first = file.text.substr(file.text.find("#include "));
-    EXPECT_TRUE(first.starts_with("#include \"" + header + "\"\n")) << file.name;
+    EXPECT_TRUE(first.starts_with("#include \"" + header + "\"\n"))
+        << file.name << " must include " << header << " first";
   }
 }
 
@@ -237,7 +240,8 @@ TEST(Repository, no_file_names_a_folder_of_one_machine) {
     for (const SourceFile& file : files_in(folder)) {
       if (file.name.starts_with("scenes/meshes/") || file.text.size() > 1000000) continue;
       std::smatch match;
-      EXPECT_FALSE(std::regex_search(file.text, match, absolute)) << file.name << match.str();
+      EXPECT_FALSE(std::regex_search(file.text, match, absolute))
+          << file.name << " has " << match.str();
     }
   }
 }
@@ -247,9 +251,11 @@ TEST(Repository, every_source_begins_with_its_licence) {
     for (const SourceFile& file : files_in(folder)) {
       const bool is_source = file.name.ends_with(".h") || file.name.ends_with(".cpp");
       if (!is_source) continue;
-      EXPECT_TRUE(file.text.starts_with("// SPDX-License-Identifier: MIT\n")) << file.name;
+      EXPECT_TRUE(file.text.starts_with("// SPDX-License-Identifier: MIT\n"))
+          << file.name << " must begin with it";
       if (file.name.ends_with(".h")) {
-        EXPECT_NE(file.text.find("#pragma once\n"), std::string::npos) << file.name;
+        EXPECT_NE(file.text.find("#pragma once\n"), std::string::npos)
+            << file.name << " must have #pragma once";
       }
     }
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Pairs of shapes that are made and gone, and a robot on its way.
+#include "tests/renderer/library/shapes.h"
 #include "tests/soak/work.h"
 
 namespace soak {

@@ -4,7 +4,9 @@
 // away.
 #include <cmath>
 
+#include "tests/renderer/library/ellipsoid_jet.h"
 #include "tests/renderer/library/rays.h"
+#include "tests/renderer/library/shapes.h"
 #include "tests/soak/work.h"
 
 namespace soak {
@@ -15,21 +17,6 @@ void ask(const mk::Scene& scene, Answers& answers, int threads, std::size_t coun
   std::vector<mk::Hit> hits(rays.size());
   scene.cast(rays, hits, {.threads = threads});
   answers.add_all(hits);
-}
-
-/// The ellipsoid of these radii: s = A n / h, ds/dn = A / h - s s^T / h, A of the squared radii and
-/// h = n.s.
-mk::SupportJet ellipsoid_jet(const mk::Vec3& n) {
-  constexpr double radii[3] = {1, 0.5, 0.25};
-  const double along[3] = {n.x, n.y, n.z};
-  double h = 0, s[3];
-  for (int i = 0; i < 3; ++i) h = std::hypot(h, radii[i] * along[i]);
-  for (int i = 0; i < 3; ++i) s[i] = radii[i] * radii[i] * along[i] / h;
-  mk::SupportJet jet = {{s[0], s[1], s[2]}, {}};
-  for (int i = 0; i < 3; ++i)
-    for (int k = 0; k < 3; ++k)
-      jet.derivative[i][k] = ((i == k ? radii[i] * radii[i] : 0) - s[i] * s[k]) / h;
-  return jet;
 }
 
 }  // namespace

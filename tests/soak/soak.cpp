@@ -13,6 +13,7 @@
 #include <mutex>
 #include <thread>
 
+#include "tests/renderer/library/shapes.h"
 #include "tests/soak/memory.h"
 #include "tests/soak/work.h"
 

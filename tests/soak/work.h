@@ -83,12 +83,6 @@ inline constexpr Kind kinds[] = {
     {"mistakes", mistakes},
 };
 
-/// One shape of every kind, and some of the algebra; they are made anew.
-std::vector<mk::Shape> some_shapes();
-
-/// Those in rows on the ground; committed.
-mk::Scene scene_of_shapes();
-
 /// A file of the source tree.
 std::string source_file(const std::string& name);
 

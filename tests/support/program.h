@@ -1,29 +1,15 @@
 // SPDX-License-Identifier: MIT
-// The program minkray as its users meet it, in a folder that is gone afterwards.
+// The program minkray as its users meet it.
 #pragma once
 
 #include <sys/types.h>
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
+#include "tests/support/temporary_folder.h"
+
 namespace minkray {
-
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-  /// The names of all entries, sorted.
-  std::vector<std::string> files() const;
-
- private:
-  std::filesystem::path path_;
-};
 
 /// Starts a program, looked for in PATH, with its output thrown away; the process is to be waited
 /// for.

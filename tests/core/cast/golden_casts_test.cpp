@@ -171,7 +171,9 @@ TEST_P(GoldenCasts, are_as_recorded) {
   if (!recorded.is_comparable())
     GTEST_SKIP() << "recorded with " << recorded.build() << ": other last bits are no mistake";
   for (const auto& [name, hash] : found)
-    EXPECT_EQ(hash, recorded.find(name)) << name << " have changed; see ./run golden";
+    EXPECT_EQ(hash, recorded.find(name))
+        << name << (recorded.find(name).empty() ? " were never recorded" : " have changed")
+        << "; see ./run golden";
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, GoldenCasts, ::testing::ValuesIn(golden_shapes()),

@@ -46,6 +46,21 @@ TEST(Power, is_the_librarys_up_to_rounding) {
   check_against_library<double>();
 }
 
+// In long double the library's own is no more precise than a few epsilon: it is compared with what
+// is exact, a product and a root.
+TEST(Power, in_long_double_is_precise_to_its_own_digits) {
+  using Long = long double;
+  constexpr Long epsilon = std::numeric_limits<Long>::epsilon();
+  for (const Long x : bases<Long>()) {
+    const Long cube = x * x * x, sixth = std::sqrt(cube) * cube;
+    EXPECT_LE(std::abs(power<Long>(cube, 1 / Long(3)) - x), 8 * epsilon * std::max(x, Long(1)));
+    EXPECT_LE(std::abs(power<Long>(x, Long(4.5)) - sixth),
+              16 * epsilon * std::max(sixth, Long(1)) * (1 + std::log2(std::max(sixth, Long(1)))))
+        << x;
+  }
+  EXPECT_LE(std::abs(power<Long>(1e-4945L, 1e-3L) - std::pow(1e-4945L, 1e-3L)), 1e-22L);
+}
+
 TEST(Power, of_zero_and_one_is_exact) {
   for (const double exponent : exponents) {
     EXPECT_EQ(power<double>(0, exponent), 0) << exponent;

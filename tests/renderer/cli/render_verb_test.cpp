@@ -13,6 +13,9 @@
 #include <thread>
 #include <vector>
 
+#include "tests/support/program.h"
+#include "tests/support/source_files.h"
+
 namespace minkray {
 namespace {
 
@@ -29,61 +32,24 @@ constexpr const char* scene_text = R"({
 
 class RenderVerb : public testing::Test {
  protected:
-  RenderVerb() {
-    std::string name = (fs::temp_directory_path() / "minkray_cli_XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    folder_ = name;
-    std::ofstream(path("scene.json")) << scene_text;
-  }
-  ~RenderVerb() override { fs::remove_all(folder_); }
+  RenderVerb() { folder_.write("scene.json", scene_text); }
 
-  std::string path(const std::string& file) const { return (folder_ / file).string(); }
-
-  static pid_t start(const std::vector<std::string>& arguments) {
-    std::vector<std::string> words = {MINKRAY_PROGRAM};
-    words.insert(words.end(), arguments.begin(), arguments.end());
-    std::vector<char*> pointers;
-    for (std::string& word : words) pointers.push_back(word.data());
-    pointers.push_back(nullptr);
-    const pid_t child = ::fork();
-    if (child == 0) {
-      if (std::freopen("/dev/null", "w", stdout) == nullptr) ::_exit(126);
-      if (std::freopen("/dev/null", "w", stderr) == nullptr) ::_exit(126);
-      ::execv(MINKRAY_PROGRAM, pointers.data());
-      ::_exit(127);
-    }
-    return child;
-  }
-  static int wait_for(pid_t child) {
-    int status = 0;
-    ::waitpid(child, &status, 0);
-    return status;
-  }
+  std::string path(const std::string& file) const { return folder_ / file; }
+  std::vector<std::string> files() const { return folder_.files(); }
   static int exit_code(const std::vector<std::string>& arguments) {
-    const int status = wait_for(start(arguments));
+    const int status = wait_for(start_minkray(arguments));
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
-  static std::string content(const std::string& file) {
-    std::ifstream in(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
-  std::vector<std::string> files() const {
-    std::vector<std::string> names;
-    for (const auto& entry : fs::directory_iterator(folder_))
-      names.push_back(entry.path().filename().string());
-    std::sort(names.begin(), names.end());
-    return names;
-  }
 
-  fs::path folder_;
+  TemporaryFolder folder_;
 };
 
 TEST_F(RenderVerb, writes_every_output) {
   EXPECT_EQ(exit_code({"render", path("scene.json"), "-o", path("a.png"), "-o", path("a.pfm"), "-s",
                        "2", "--stats=json"}),
             0);
-  EXPECT_EQ(content(path("a.png")).substr(1, 3), "PNG");
-  EXPECT_EQ(content(path("a.pfm")).substr(0, 9), "PF\n64 48\n");
+  EXPECT_EQ(text_of_file(path("a.png")).substr(1, 3), "PNG");
+  EXPECT_EQ(text_of_file(path("a.pfm")).substr(0, 9), "PF\n64 48\n");
   EXPECT_EQ(exit_code({"heatmap", path("scene.json"), "-o", path("h.png"), "--side-by-side",
                        "paper,auto"}),
             0);
@@ -94,7 +60,7 @@ TEST_F(RenderVerb, a_crop_of_a_huge_picture_is_no_huge_picture) {
   EXPECT_EQ(exit_code({"render", path("scene.json"), "-o", path("a.pfm"), "-s", "1", "-r",
                        "65536x65536", "--crop", "30000,30000,30010,30005"}),
             0);
-  EXPECT_EQ(content(path("a.pfm")).substr(0, 8), "PF\n10 5\n");
+  EXPECT_EQ(text_of_file(path("a.pfm")).substr(0, 8), "PF\n10 5\n");
 }
 
 TEST_F(RenderVerb, wrong_values_are_wrong_usage) {
@@ -146,17 +112,17 @@ TEST_F(RenderVerb, files_that_cannot_be_read_or_written) {
 TEST_F(RenderVerb, an_interrupted_render_costs_nothing) {
   const std::string target = path("a.png");
   ASSERT_EQ(exit_code({"render", path("scene.json"), "-o", target, "-s", "1"}), 0);
-  const std::string before = content(target);
+  const std::string before = text_of_file(target);
   int ended_by_signal = 0;
   for (int i = 0; i < 16; ++i) {
     const int signal = i % 2 ? SIGINT : SIGTERM;
-    const pid_t child = start({"render", path("scene.json"), "-o", target, "-s", "100000"});
+    const pid_t child = start_minkray({"render", path("scene.json"), "-o", target, "-s", "100000"});
     std::this_thread::sleep_for(std::chrono::milliseconds(1 + 6 * i));
     ::kill(child, signal);
     const int status = wait_for(child);
     EXPECT_FALSE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
     if (WIFSIGNALED(status) && WTERMSIG(status) == signal) ++ended_by_signal;
-    EXPECT_EQ(content(target), before);
+    EXPECT_EQ(text_of_file(target), before);
     EXPECT_EQ(files(), (std::vector<std::string>{"a.png", "scene.json"})) << i;
   }
   EXPECT_EQ(ended_by_signal, 16);

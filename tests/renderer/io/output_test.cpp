@@ -13,6 +13,7 @@
 #include "renderer/image/text.h"
 #include "renderer/io/image_file.h"
 #include "renderer/io/output_file.h"
+#include "tests/support/temporary_folder.h"
 
 #define STB_IMAGE_STATIC
 #define STB_IMAGE_IMPLEMENTATION
@@ -29,21 +30,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder that is gone afterwards.
 class Output : public testing::Test {
  protected:
-  Output() {
-    std::string name = (fs::temp_directory_path() / "minkray_test_XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    folder_ = name;
-  }
-  ~Output() override { fs::remove_all(folder_); }
-
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
-  std::size_t file_count() const {
-    return static_cast<std::size_t>(
-        std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
-  }
+  std::string path(const std::string& name) const { return folder_ / name; }
+  std::size_t file_count() const { return folder_.files().size(); }
   static std::string content(const std::string& file) {
     std::ifstream in(file, std::ios::binary);
     return {std::istreambuf_iterator<char>(in), {}};
@@ -52,7 +42,7 @@ class Output : public testing::Test {
     return {text.begin(), text.end()};
   }
 
-  fs::path folder_;
+  TemporaryFolder folder_;
 };
 
 TEST(ImageFile, png_there_and_back) {
@@ -153,8 +143,8 @@ TEST_F(Output, devices_are_written_to_and_not_replaced) {
 
 TEST_F(Output, tells_early_and_clearly_what_cannot_be_written) {
   for (const std::string& target :
-       {path("missing/a.png"), folder_.string(), folder_.string() + "/", std::string(),
-        std::string("/proc/a.png"), path(std::string(300, 'a'))}) {
+       {path("missing/a.png"), folder_.path().string(), folder_.path().string() + "/",
+        std::string(), std::string("/proc/a.png"), path(std::string(300, 'a'))}) {
     try {
       check_writable(target);
       FAIL() << target;

@@ -10,6 +10,7 @@
 #include <limits>
 #include <string>
 
+#include "tests/renderer/library/ellipsoid_jet.h"
 #include "tests/renderer/library/same_answers.h"
 
 namespace {
@@ -17,31 +18,16 @@ namespace {
 namespace mk = minkray;
 using mk::Vec3;
 
-constexpr double radii[3] = {1, 0.5, 0.25};
-
-/// s = A n / h and ds/dn = A / h - s s^T / h, with A of the squared radii and h = n.s.
-mk::SupportJet jet_of(const Vec3& n) {
-  const double along[3] = {n.x, n.y, n.z};
-  double h = 0, s[3];
-  for (int i = 0; i < 3; ++i) h = std::hypot(h, radii[i] * along[i]);
-  for (int i = 0; i < 3; ++i) s[i] = radii[i] * radii[i] * along[i] / h;
-  mk::SupportJet jet = {{s[0], s[1], s[2]}, {}};
-  for (int i = 0; i < 3; ++i)
-    for (int k = 0; k < 3; ++k)
-      jet.derivative[i][k] = ((i == k ? radii[i] * radii[i] : 0) - s[i] * s[k]) / h;
-  return jet;
-}
-
 Vec3 ellipsoid_support(const Vec3& n) {
-  return jet_of(n).point;
+  return ellipsoid_jet(n).point;
 }
 
 mk::Shape ours() {
-  return mk::ellipsoid({radii[0], radii[1], radii[2]});
+  return mk::ellipsoid({jet_radii[0], jet_radii[1], jet_radii[2]});
 }
 
 TEST(CustomJets, of_an_ellipsoid_are_met_where_the_ellipsoid_is) {
-  expect_same_answers(ours(), mk::custom_with_jets(jet_of), 1.2, 20000);
+  expect_same_answers(ours(), mk::custom_with_jets(ellipsoid_jet), 1.2, 20000);
 }
 
 TEST(CustomJets, may_stand_wherever_a_shape_may) {
@@ -50,7 +36,7 @@ TEST(CustomJets, may_stand_wherever_a_shape_may) {
     return mk::hull_of({mk::sum(mk::transformed(shape, turned), mk::box({0.1, 0.2, 0.1})),
                         mk::rounded(mk::scaled(shape, Vec3{1, 0.5, 0.5}), 0.05)});
   };
-  expect_same_answers(nest(ours()), nest(mk::custom_with_jets(jet_of)), 1.8, 4000);
+  expect_same_answers(nest(ours()), nest(mk::custom_with_jets(ellipsoid_jet)), 1.8, 4000);
 }
 
 /// Support points of so many rays at a shape of the function.
@@ -68,7 +54,7 @@ std::size_t supports_of(const Make& make) {
 }
 
 TEST(CustomJets, take_a_fraction_of_the_support_points) {
-  const std::size_t with = supports_of([] { return mk::custom_with_jets(jet_of); });
+  const std::size_t with = supports_of([] { return mk::custom_with_jets(ellipsoid_jet); });
   const std::size_t without = supports_of([] { return mk::custom(ellipsoid_support); });
   EXPECT_LT(2 * with, without);
 }
@@ -76,7 +62,7 @@ TEST(CustomJets, take_a_fraction_of_the_support_points) {
 TEST(CustomJets, that_lie_cost_time_and_nothing_else) {
   const auto lie = [](double size, bool is_symmetric) {
     return [=](const Vec3& n) {
-      mk::SupportJet jet = jet_of(n);
+      mk::SupportJet jet = ellipsoid_jet(n);
       for (int i = 0; i < 3; ++i)
         for (int k = 0; k < 3; ++k)
           jet.derivative[i][k] =
@@ -100,14 +86,14 @@ TEST(CustomJets, that_are_no_numbers_or_other_points_are_refused) {
     return {};
   };
   const std::string no_numbers = refusal([](const Vec3& n) {
-    mk::SupportJet jet = jet_of(n);
+    mk::SupportJet jet = ellipsoid_jet(n);
     if (n.x > 0.9) jet.derivative[1][2] = std::numeric_limits<double>::quiet_NaN();
     return jet;
   });
   EXPECT_NE(no_numbers.find("not finite"), std::string::npos) << no_numbers;
   std::atomic<int> asked = 0;
   const std::string others = refusal([&](const Vec3& n) {
-    mk::SupportJet jet = jet_of(n);
+    mk::SupportJet jet = ellipsoid_jet(n);
     if (++asked > 500) jet.point.x = std::nextafter(jet.point.x, 2);
     return jet;
   });

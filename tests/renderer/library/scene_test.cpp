@@ -11,52 +11,18 @@
 #include <vector>
 
 #include "tests/renderer/library/rays.h"
+#include "tests/renderer/library/shapes.h"
 
 namespace {
 
 namespace mk = minkray;
-
-/// Every shape there is, in rows.
-mk::Scene every_shape() {
-  mk::Scene scene;
-  const mk::Shape shapes[] = {
-      mk::sphere(0.5),
-      mk::ellipsoid({0.5, 0.3, 0.2}),
-      mk::box({0.3, 0.2, 0.4}),
-      mk::disk(0.5),
-      mk::cylinder(0.3, 0.4),
-      mk::cut_cylinder(0.3, {-0.4, 0.4, {0.2, 0.1}, {-0.3, 0.2}}),
-      mk::cone(0.4, 0.4),
-      mk::capsule(0.2, 0.3),
-      mk::tapered_capsule(0.3, 0.1, 0.3),
-      mk::frustum(0.4, 0.2, 0.3),
-      mk::superellipsoid({0.5, 0.4, 0.3}, 3),
-      mk::hull({{0, 0, 0}, {0.5, 0, 0}, {0, 0.5, 0}, {0.1, 0.1, 0.6}, {0.4, 0.4, 0.3}}),
-      mk::triangle({0, 0, 0}, {0.6, 0, 0.1}, {0, 0.5, 0.3}),
-      mk::rounded(mk::segment({-0.3, 0, 0}, {0.3, 0.1, 0.2}), 0.1),
-      mk::sum(mk::box({0.2, 0.1, 0.2}), mk::ellipsoid({0.2, 0.3, 0.1})),
-      mk::difference(mk::cone(0.3, 0.3), mk::cylinder(0.1, 0.2)),
-      mk::hull_of({mk::sphere(0.2), mk::translated(mk::disk(0.3), {0, 0, 0.4})}),
-      mk::scaled(mk::cone(0.4, 0.4), mk::Vec3{1, 0.5, 1.2}),
-      mk::swept(mk::sphere(0.15), {0.4, 0.2, 0.1}),
-  };
-  int i = 0;
-  for (const mk::Shape& shape : shapes) {
-    const double x = i % 5 - 2, y = i / 5 - 2;
-    scene.add(shape, mk::pose({x, y, 0.1 * i}, {0.1 * i, 0.3, -0.2, 0.9}));
-    ++i;
-  }
-  scene.add_half_space({0.1, 0, 1}, -1, "ground");
-  scene.commit();
-  return scene;
-}
 
 bool same_bits(const mk::Hit& a, const mk::Hit& b) {
   return std::memcmp(&a, &b, sizeof a) == 0;
 }
 
 TEST(LibraryScene, answers_are_the_same_bits_for_any_cut_and_any_number_of_threads) {
-  const mk::Scene scene = every_shape();
+  const mk::Scene scene = scene_of_shapes();
   const std::vector<mk::Ray> rays = rays_around({0, 0, 0.5}, 3, 10000);
   std::vector<mk::Hit> one_by_one(rays.size());
   std::vector<bool> met(scene.size());
@@ -82,7 +48,7 @@ TEST(LibraryScene, answers_are_the_same_bits_for_any_cut_and_any_number_of_threa
 }
 
 TEST(LibraryScene, answers_threads_of_its_own) {
-  const mk::Scene scene = every_shape();
+  const mk::Scene scene = scene_of_shapes();
   const std::vector<mk::Ray> rays = rays_around({0, 0, 0.5}, 3, 4000);
   std::vector<mk::Hit> hits(rays.size());
   scene.cast(rays, hits);
@@ -98,7 +64,7 @@ TEST(LibraryScene, answers_threads_of_its_own) {
 }
 
 TEST(LibraryScene, occlusion_and_exits_agree_with_hits) {
-  const mk::Scene scene = every_shape();
+  const mk::Scene scene = scene_of_shapes();
   const std::vector<mk::Ray> rays = rays_around({0, 0, 0.5}, 3, 2000);
   std::vector<mk::Hit> hits(rays.size());
   std::vector<std::uint8_t> blocked(rays.size());
@@ -119,7 +85,7 @@ TEST(LibraryScene, occlusion_and_exits_agree_with_hits) {
 }
 
 TEST(LibraryScene, hits_are_proven_and_false_ones_are_not) {
-  const mk::Scene scene = every_shape();
+  const mk::Scene scene = scene_of_shapes();
   const std::vector<mk::Ray> rays = rays_around({0, 0, 0.5}, 3, 1000);
   std::vector<mk::Hit> hits(rays.size());
   std::vector<mk::Proof> proofs(rays.size());
@@ -150,7 +116,7 @@ TEST(LibraryScene, hits_are_proven_and_false_ones_are_not) {
 }
 
 TEST(LibraryScene, what_moved_is_met_where_a_new_scene_has_it) {
-  mk::Scene moved = every_shape(), fresh;
+  mk::Scene moved = scene_of_shapes(), fresh;
   const mk::Pose shift = mk::pose({0.3, -0.2, 0.5}, {0, 0.1, 0, 1});
   for (std::uint32_t i = 0; i + 1 < moved.size(); ++i) moved.set_pose(i, shift * moved.pose(i));
   moved.commit();
@@ -269,7 +235,7 @@ TEST(LibraryScene, shapes_go_through_text_and_stay_the_same) {
 }
 
 TEST(LibraryScene, what_takes_long_is_told_of_and_can_be_stopped) {
-  const mk::Scene scene = every_shape();
+  const mk::Scene scene = scene_of_shapes();
   const std::vector<mk::Ray> rays = rays_around({0, 0, 0.5}, 3, 20000);
   std::vector<mk::Hit> hits(rays.size());
   struct Told {

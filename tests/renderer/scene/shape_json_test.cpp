@@ -79,7 +79,7 @@ TEST(ShapeJson, what_is_written_reads_as_the_same_shape) {
   }
   // A new kind of shape belongs into the list above, unless no file can hold one.
   for_each_shape_kind<double>([&, i = 0u]<class S>() mutable {
-    EXPECT_NE(seen[i++], declared_by<S>.by_program) << S::name;
+    EXPECT_NE(seen[i++], declared_by<S>.by_program) << S::name << " has no line in the list above";
   });
 }
 
