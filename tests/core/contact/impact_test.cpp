@@ -59,6 +59,14 @@ TEST(Impact, a_contact_at_the_start_counts_unless_the_two_part) {
             ImpactStatus::inside);
 }
 
+/// The step away from a contact was as long as a part of their sizes, which are none: it was taken
+/// for ever.
+TEST(Impact, points_that_part_have_none) {
+  const ContactShape point{Shape<double>(Point<double>{{0, 0, 0}})};
+  const RigidMotion turns = at(1, 2, 3, {1, 0, 0}, {0, 0, 1}), rests = at(1, 2, 3, {0, 0, 0});
+  EXPECT_EQ(first_impact(point, turns, point, rests, 1).status, ImpactStatus::miss);
+}
+
 TEST(Impact, what_grazes_is_a_hit_and_what_passes_is_a_miss) {
   const ContactShape ball(Shape<double>(Sphere<double>{1}));
   const RigidMotion rest = at(0, 0, 0, {0, 0, 0});
