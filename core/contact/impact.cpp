@@ -12,6 +12,9 @@ namespace {
 /// A body's own rounding, relative to its size and its pivot's way.
 constexpr double rounding = 32 * std::numeric_limits<double>::epsilon();
 
+/// Bodies that part are looked at again after at least this part of the time asked for.
+constexpr double first_step = 1e-30;
+
 /// The support function of a body, seen from its pivot, in a direction of the world.
 double support_function(const ContactShape& shape, const Mat3<double>& to_world,
                         const Vec3<double>& n) {
@@ -105,7 +108,8 @@ class Advance {
   /// at which they overlap.
   double leave(const SignedDistance& now) {
     const double speed = approach(now, 0);
-    double t = 4 * touching_ / speed;
+    // Points are of no size, and nothing is near to nothing: the way begins somewhere.
+    double t = std::max(4 * touching_ / speed, first_step * t_max_);
     while (t < t_max_) {
       const SignedDistance then = at(t);
       if (then.upper < 0) return -t;

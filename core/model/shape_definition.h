@@ -47,7 +47,8 @@ class ShapeDefinition {
   }
   /// Whether packets of rays have a solver of their own.
   bool has_packets() const {
-    return !is_extreme_ && (form_.kind != FormKind::none || model_ != ModelKind::osculating_sums);
+    if (form_.kind != FormKind::none) return true;  // an extreme shape has none
+    return !is_extreme_ && !is_lost_in_rounding_ && model_ != ModelKind::osculating_sums;
   }
 
   /// Bounds of the whole shape (the transforms on) under a pose.

@@ -110,7 +110,7 @@ void ImageArguments::tell_output() const {
 }
 
 Option add_scene_option(const Verb& verb, std::string& scene) {
-  return verb.add_option("scene", scene, scene_argument).required().replace(scene_file);
+  return verb.add_option("scene", scene, scene_argument()).required().replace(scene_file);
 }
 
 void add_output_option(const Verb& verb, std::vector<std::string>& outputs,

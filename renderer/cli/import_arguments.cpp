@@ -2,8 +2,14 @@
 #include "renderer/cli/import_arguments.h"
 
 #include "renderer/cli/options.h"
+#include "renderer/import/import.h"
 
 namespace minkray {
+
+std::string scene_argument() {
+  return "A scene file (JSON), the name of a scene that comes with Minkray, or a robot's file: " +
+         foreign_formats();
+}
 
 void add_import_options(const Verb& verb, ImportOptions& options, bool rows) {
   constexpr const char* group = "Robots";

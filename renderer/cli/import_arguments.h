@@ -2,6 +2,8 @@
 // What all verbs take that take a scene: how a robot's file is made one.
 #pragma once
 
+#include <string>
+
 #include "renderer/import/import_options.h"
 
 namespace minkray {
@@ -9,9 +11,7 @@ namespace minkray {
 class Verb;
 
 /// The help of the argument itself.
-inline constexpr const char* scene_argument =
-    "A scene file (JSON), the name of a scene that comes with Minkray, or a robot's file: MJCF "
-    "(.xml, .mjcf), URDF (.urdf), SDF (.sdf, .world), glTF (.gltf, .glb)";
+std::string scene_argument();
 
 /// The geometry that `options` has is the default. `rows`: whether a file of joints' values is one
 /// of them.

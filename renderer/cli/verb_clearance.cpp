@@ -127,8 +127,7 @@ void clearance(ClearanceVerbOptions& options, ExitCode& exit_code) {
     check_writable(options.sweep);
   }
   Mistakes mistakes(options.robot);
-  if (!is_foreign(options.robot))
-    mistakes.add("must be a robot's file: MJCF (.xml, .mjcf), URDF (.urdf), SDF (.sdf, .world)");
+  if (!is_foreign(options.robot)) mistakes.add("must be a robot's file: " + foreign_formats());
   throw_if_any(mistakes);
   std::optional<Model> model = load_model(options.robot, options.import, mistakes);
   throw_if_any(mistakes);
@@ -163,8 +162,7 @@ void clearance(ClearanceVerbOptions& options, ExitCode& exit_code) {
 void add_clearance(Parser& parser, ExitCode& exit_code) {
   const Verb verb = parser.add_verb("clearance");
   const auto options = std::make_shared<ClearanceVerbOptions>();
-  verb.add_option("robot", options->robot, "MJCF (.xml, .mjcf), URDF (.urdf), SDF (.sdf, .world)")
-      .required();
+  verb.add_option("robot", options->robot, foreign_formats()).required();
   verb.add_option("--path", options->import.joint_rows,
                   "A CSV file: joints' names in its first line, values in the others, perhaps a "
                   "column \"time\"; from row to row each joint goes at a constant rate")

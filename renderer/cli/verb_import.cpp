@@ -40,9 +40,7 @@ void import(const ImportVerbOptions& options) {
 void add_import(Parser& parser, ExitCode&) {
   const Verb verb = parser.add_verb("import");
   const auto options = std::make_shared<ImportVerbOptions>();
-  verb.add_option("file", options->file,
-                  "MJCF (.xml, .mjcf), URDF (.urdf), SDF (.sdf, .world), glTF (.gltf, .glb)")
-      .required();
+  verb.add_option("file", options->file, foreign_formats()).required();
   verb.add_option("-o,--output", options->output, "The scene file to write (.json)").required();
   add_import_options(verb, options->import);
   verb.add_option("-r,--resolution", options->resolution,

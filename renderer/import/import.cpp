@@ -2,6 +2,7 @@
 #include "renderer/import/import.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <span>
 #include <stdexcept>
@@ -19,43 +20,64 @@
 namespace minkray {
 namespace {
 
-/// A format is known by its root element.
+/// What is XML is known by its root element, whatever its file is called; what is none by the
+/// ending.
 struct ForeignFormat {
-  std::string_view root;
-  Model (*read)(XmlElement&& root, XmlFiles& files, const ImportOptions& options);
+  std::string_view name;
+  std::array<std::string_view, 3> endings;
+  std::array<std::string_view, 2> roots = {};  ///< of XML
+  Model (*read_element)(XmlElement&& root, XmlFiles& files, const ImportOptions& options) = nullptr;
+  Model (*read_bytes)(std::string&& bytes, const std::filesystem::path& file,
+                      const ImportOptions& options, Mistakes& mistakes) = nullptr;
+  std::size_t most_bytes = 0;
 };
 constexpr ForeignFormat formats[] = {
-    {"mujoco",
-     [](XmlElement&& root, XmlFiles& files, const ImportOptions& options) {
-       return read_mjcf(std::move(root), files, options);
-     }},
-    {"mujocoinclude",
-     [](XmlElement&& root, XmlFiles& files, const ImportOptions& options) {
-       return read_mjcf(std::move(root), files, options);
-     }},
-    {"robot", [](XmlElement&& root, XmlFiles& files,
-                 const ImportOptions& options) { return read_urdf(root, files, options); }},
-    {"sdf", [](XmlElement&& root, XmlFiles& files,
-               const ImportOptions& options) { return read_sdf(std::move(root), files, options); }},
-    // So it was called up to version 1.2.
-    {"gazebo",
-     [](XmlElement&& root, XmlFiles& files, const ImportOptions& options) {
-       return read_sdf(std::move(root), files, options);
-     }},
+    {.name = "MJCF",
+     .endings = {".xml", ".mjcf"},
+     .roots = {"mujoco", "mujocoinclude"},
+     .read_element =
+         [](XmlElement&& root, XmlFiles& files, const ImportOptions& options) {
+           return read_mjcf(std::move(root), files, options);
+         }},
+    {.name = "URDF",
+     .endings = {".urdf"},
+     .roots = {"robot"},
+     .read_element = [](XmlElement&& root, XmlFiles& files,
+                        const ImportOptions& options) { return read_urdf(root, files, options); }},
+    {.name = "SDF",
+     .endings = {".sdf", ".world", ".model"},
+     .roots = {"sdf", "gazebo"},  // the latter up to version 1.2
+     .read_element =
+         [](XmlElement&& root, XmlFiles& files, const ImportOptions& options) {
+           return read_sdf(std::move(root), files, options);
+         }},
+    {.name = "glTF",
+     .endings = {".gltf", ".glb"},
+     .read_bytes =
+         [](std::string&& bytes, const std::filesystem::path& file, const ImportOptions& options,
+            Mistakes& mistakes) { return read_gltf(std::move(bytes), file, options, mistakes); },
+     .most_bytes = most_gltf_bytes},
 };
 
-constexpr std::string_view xml_endings[] = {".xml", ".mjcf", ".urdf", ".sdf", ".world", ".model"};
-constexpr std::string_view gltf_endings[] = {".gltf", ".glb"};
-
-bool has_ending(const std::filesystem::path& file, std::span<const std::string_view> endings) {
-  std::string ending = file.extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return std::ranges::find(endings, ending) != endings.end();
+/// Names that are not there are empty.
+bool has(std::span<const std::string_view> names, std::string_view name) {
+  return !name.empty() && std::ranges::find(names, name) != names.end();
 }
 
-std::optional<Model> model_of_gltf(std::string bytes, const std::filesystem::path& file,
-                                   const ImportOptions& options, Mistakes& mistakes) {
-  Model model = read_gltf(std::move(bytes), file, options, mistakes);
+/// The format that has the file's ending; null if none has.
+const ForeignFormat* told_by_ending(const std::filesystem::path& file) {
+  std::string ending = file.extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const auto found = std::ranges::find_if(
+      formats, [&](const ForeignFormat& format) { return has(format.endings, ending); });
+  return found == std::end(formats) ? nullptr : found;
+}
+
+bool is_xml(const ForeignFormat* format) {
+  return !format || !format->read_bytes;
+}
+
+std::optional<Model> unless_wrong(Model model, const Mistakes& mistakes) {
   if (!mistakes.none()) return std::nullopt;
   return model;
 }
@@ -63,34 +85,52 @@ std::optional<Model> model_of_gltf(std::string bytes, const std::filesystem::pat
 std::optional<Model> model_of(std::optional<XmlElement> root, XmlFiles& files,
                               const ImportOptions& options, Mistakes& mistakes) {
   if (!root) return std::nullopt;
+  for (const ForeignFormat& format : formats)
+    if (has(format.roots, root->name))
+      return unless_wrong(format.read_element(std::move(*root), files, options), mistakes);
+  std::string expected;
   for (const ForeignFormat& format : formats) {
-    if (format.root != root->name) continue;
-    Model model = format.read(std::move(*root), files, options);
-    if (!mistakes.none()) return std::nullopt;
-    return model;
+    if (!is_xml(&format)) continue;
+    if (!expected.empty()) expected += " or ";
+    expected += "<" + std::string(format.roots.front()) + "> (" + std::string(format.name) + ")";
   }
-  files.wrong(*root, "must be <mujoco>, <robot> (URDF) or <sdf>");
+  files.wrong(*root, "must be " + expected);
   return std::nullopt;
 }
 
 }  // namespace
 
+std::string foreign_formats() {
+  std::string all;
+  for (const ForeignFormat& format : formats) {
+    all += (all.empty() ? "" : ", ") + std::string(format.name);
+    std::string endings;
+    for (const std::string_view ending : format.endings)
+      if (!ending.empty()) endings += (endings.empty() ? "" : ", ") + std::string(ending);
+    all += " (" + endings + ")";
+  }
+  return all;
+}
+
 bool is_foreign(const std::filesystem::path& file) {
-  return has_ending(file, xml_endings) || has_ending(file, gltf_endings);
+  return told_by_ending(file) != nullptr;
 }
 
 std::optional<Model> parse_model(const std::string& text, const std::filesystem::path& file,
                                  const ImportOptions& options, Mistakes& mistakes) {
-  if (has_ending(file, gltf_endings)) return model_of_gltf(text, file, options, mistakes);
+  if (const ForeignFormat* format = told_by_ending(file); !is_xml(format))
+    return unless_wrong(format->read_bytes(std::string(text), file, options, mistakes), mistakes);
   XmlFiles files(mistakes);
   return model_of(files.parse(text, file), files, options, mistakes);
 }
 
 std::optional<Model> load_model(const std::filesystem::path& file, const ImportOptions& options,
                                 Mistakes& mistakes) {
-  if (has_ending(file, gltf_endings)) {
+  if (const ForeignFormat* format = told_by_ending(file); !is_xml(format)) {
     try {
-      return model_of_gltf(read_regular_file(file, most_gltf_bytes), file, options, mistakes);
+      return unless_wrong(
+          format->read_bytes(read_regular_file(file, format->most_bytes), file, options, mistakes),
+          mistakes);
     } catch (const std::runtime_error& error) {
       mistakes.add(error.what());
       return std::nullopt;

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 
 #include "renderer/import/import_options.h"
 #include "renderer/import/model.h"
@@ -20,6 +21,9 @@ struct Imported {
   std::optional<Model> model;
   std::vector<JointRow> rows = {};  ///< that it moves by, if it does
 };
+
+/// Their names with the endings of their files, for messages: "MJCF (.xml, .mjcf), URDF (.urdf)..."
+std::string foreign_formats();
 
 /// Whether the file's ending is one of a robot's description.
 bool is_foreign(const std::filesystem::path& file);

@@ -10,14 +10,17 @@
 #include "core/shape/field.h"
 #include "renderer/image/colour.h"
 #include "renderer/io/exr.h"
+#include "renderer/io/image_size.h"
 #include "renderer/io/jpeg_tables.h"
+#include "renderer/io/radiance.h"
 
 #define STB_IMAGE_STATIC
 #define STB_IMAGE_IMPLEMENTATION
 #define STBI_NO_STDIO
 #define STBI_ONLY_PNG
 #define STBI_ONLY_JPEG
-#define STBI_ONLY_HDR
+#define STBI_NO_HDR
+#define STBI_NO_LINEAR
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"
 #pragma GCC diagnostic ignored "-Wsign-conversion"
@@ -31,19 +34,10 @@ namespace minkray {
 namespace {
 
 constexpr std::size_t most_picture_bytes = std::size_t{1} << 30;
-/// As many as the largest picture has that can be rendered at once.
-constexpr std::int64_t most_image_pixels = std::int64_t{1} << 27;
 
 struct Free {
   void operator()(void* pixels) const { stbi_image_free(pixels); }
 };
-
-void check_size(std::int64_t width, std::int64_t height) {
-  // Without their product, for which four bytes each may be too many.
-  if (height > 0 && width > most_image_pixels / height)
-    throw std::runtime_error("must have at most 2^27 pixels (got " + std::to_string(width) + " x " +
-                             std::to_string(height) + ")");
-}
 
 Image image_of_exr(const std::filesystem::path& file) {
   const ExrImage exr = read_exr(file.string());
@@ -56,7 +50,7 @@ Image image_of_exr(const std::filesystem::path& file) {
   for (const auto*& plane : planes) plane = plane ? plane : grey;
   if (!planes[0] || !planes[1] || !planes[2])
     throw std::runtime_error("must have the channels R, G and B, or Y");
-  check_size(exr.window.width(), exr.window.height());
+  check_image_size(exr.window.width(), exr.window.height());
   Image image(exr.window.width(), exr.window.height());
   for (std::size_t i = 0; i < image.pixels.size(); ++i)
     image.pixels[i] = {(*planes[0])[i], (*planes[1])[i], (*planes[2])[i]};
@@ -74,7 +68,7 @@ void check_size_of_png(std::string_view bytes) {
       number = number * 256 + static_cast<unsigned char>(bytes[at + i]);
     return number;
   };
-  check_size(number_at(width_at), number_at(height_at));
+  check_image_size(number_at(width_at), number_at(height_at));
 }
 
 /// What stb_image reads, each number made linear by from(code).
@@ -85,11 +79,7 @@ Image image_of_stb(std::string_view bytes, Load load, From from) {
   const int size = static_cast<int>(bytes.size());
   if (!stbi_info_from_memory(begin, size, &width, &height, &channels))
     throw std::runtime_error(std::string("cannot be read: ") + stbi_failure_reason());
-  // stb_image divides by the width of a .hdr file.
-  if (width < 1 || height < 1)
-    throw std::runtime_error("must have pixels (got " + std::to_string(width) + " x " +
-                             std::to_string(height) + ")");
-  check_size(width, height);
+  check_image_size(width, height);
   const std::unique_ptr<T, Free> codes(load(begin, size, &width, &height, &channels, 3));
   if (!codes) throw std::runtime_error(std::string("cannot be read: ") + stbi_failure_reason());
   Image image(width, height);
@@ -108,15 +98,15 @@ Image read_image(const std::filesystem::path& file) {
   Image image;
   if (ending == ".exr") {
     image = image_of_exr(file);
-  } else if (ending == ".hdr" || ending == ".png" || ending == ".jpg" || ending == ".jpeg") {
+  } else if (ending == ".hdr") {
+    image = read_radiance(read_regular_file(file, most_picture_bytes));
+  } else if (ending == ".png" || ending == ".jpg" || ending == ".jpeg") {
     const std::string bytes = read_regular_file(file, most_picture_bytes);
     check_size_of_png(bytes);
     if (!has_usable_jpeg_tables(bytes))
       throw std::runtime_error("cannot be read: a table of more than 256 Huffman codes");
     const auto* begin = reinterpret_cast<const stbi_uc*>(bytes.data());
-    if (ending == ".hdr")
-      image = image_of_stb<float>(bytes, stbi_loadf_from_memory, [](float x) { return x; });
-    else if (stbi_is_16_bit_from_memory(begin, static_cast<int>(bytes.size())))
+    if (stbi_is_16_bit_from_memory(begin, static_cast<int>(bytes.size())))
       image = image_of_stb<stbi_us>(bytes, stbi_load_16_from_memory, [](stbi_us x) {
         return static_cast<float>(from_srgb(x / 65535.0));
       });

@@ -41,7 +41,9 @@ std::string compare(const CastResult<T>& one, const CastResult<T>& lane) {
   normals << "another normal (" << name_of(one.status) << "): " << lane.normal.transpose()
           << " instead of " << one.normal.transpose();
   if (!same_normal) return normals.str();
-  return one.supports == lane.supports ? "" : "other counts";
+  if (one.supports == lane.supports) return "";
+  return std::to_string(lane.supports) + " support points instead of " +
+         std::to_string(one.supports);
 }
 
 /// The line to give to `minkray cast`.

@@ -25,6 +25,14 @@ std::vector<SampleShape> shapes() {
     const Shape<double> shape = random_nesting(seed);
     all.push_back({"seed " + std::to_string(seed) + " " + name_of_nesting(shape), shape});
   }
+  // Needles whose thickness is rounding in float: packets left their casts' box and model to them.
+  using V = Vec3<double>;
+  all.push_back({"triangle of 1e27",
+                 Triangle<double>{{V(-1, 3, 0), V(3, -1.25, 0.75), V(5.9e27, 0.04, -0.0625)}}});
+  Random random(6);
+  std::vector<V> points;
+  for (int k = 0; k < 8; ++k) points.push_back(random.in_cube().cwiseProduct(V(1, 1e-11, 1e-11)));
+  all.push_back({"needle of 1e-11", Hull<double>{PointCloud<double>(points)}});
   return all;
 }
 

@@ -59,6 +59,22 @@ TEST(Impact, a_contact_at_the_start_counts_unless_the_two_part) {
             ImpactStatus::inside);
 }
 
+/// The step away from a contact was as long as a part of their sizes, which are none: it was taken
+/// for ever. Whether points in one place part depends on a normal, which any direction is.
+TEST(Impact, points_in_one_place_part_or_touch) {
+  const ContactShape point{Shape<double>(Point<double>{{0, 0, 0}})};
+  const RigidMotion rests = at(1, 2, 3, {0, 0, 0});
+  int misses = 0;
+  for (const double speed : {1.0, -1.0})
+    for (int axis = 0; axis < 3; ++axis) {
+      const RigidMotion turns = at(1, 2, 3, speed * Vec3<double>::Unit(axis), {0, 0, 1});
+      const ImpactStatus status = first_impact(point, turns, point, rests, 1).status;
+      EXPECT_TRUE(status == ImpactStatus::miss || status == ImpactStatus::inside);
+      misses += status == ImpactStatus::miss;
+    }
+  EXPECT_GE(misses, 1);
+}
+
 TEST(Impact, what_grazes_is_a_hit_and_what_passes_is_a_miss) {
   const ContactShape ball(Shape<double>(Sphere<double>{1}));
   const RigidMotion rest = at(0, 0, 0, {0, 0, 0});

@@ -66,6 +66,18 @@ TEST(ShippedScenes, the_format_names_all_lights_and_materials_with_their_keys_an
                        [&]<class S>() { EXPECT_EQ(rows_of(page, S::name).size(), 1u) << S::name; });
 }
 
+TEST(ShippedScenes, cpp_and_python_have_functions_for_all_shapes) {
+  for (const char* name :
+       {"include/minkray/minkray.h", "renderer/library/python/minkray/shapes.py"}) {
+    const std::string text = text_of_file(source_folder() / name);
+    for_each_shape_kind<double>([&]<class S>() {
+      if (S::name == "custom") return;  // made of a function, and of no name
+      const std::string kind = "\"" + std::string(S::name) + "\"";
+      EXPECT_NE(text.find(kind), std::string::npos) << name << " makes no shape of kind " << kind;
+    });
+  }
+}
+
 TEST(ShippedScenes, all_can_be_read_and_say_what_they_show) {
   const bool has_meshes = std::filesystem::exists(source_folder() / "scenes/meshes/.complete");
   std::size_t count = 0;

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// How large a picture may be that is read.
+#pragma once
+
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+
+namespace minkray {
+
+/// As many as the largest picture has that can be rendered at once.
+inline constexpr std::int64_t most_image_pixels = std::int64_t{1} << 27;
+
+/// Throws std::runtime_error.
+inline void check_image_size(std::int64_t width, std::int64_t height) {
+  if (width < 1 || height < 1)
+    throw std::runtime_error("must have pixels (got " + std::to_string(width) + " x " +
+                             std::to_string(height) + ")");
+  // Without their product, for which four bytes each may be too many.
+  if (width > most_image_pixels / height)
+    throw std::runtime_error("must have at most 2^27 pixels (got " + std::to_string(width) + " x " +
+                             std::to_string(height) + ")");
+}
+
+}  // namespace minkray

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// Pictures in Radiance's format (.hdr): rows of four bytes a pixel, three numbers and their common
+// exponent, plain or run-length encoded (Ward, Real Pixels, Graphics Gems II, 1991). stb_image
+// reads them too; its release 2.27 does not end where such a file does.
+#pragma once
+
+#include <string_view>
+
+#include "renderer/image/image.h"
+
+namespace minkray {
+
+/// Throws std::runtime_error, with what was expected and found, if it is no such picture, cut off,
+/// or of more pixels than may be read.
+Image read_radiance(std::string_view bytes);
+
+}  // namespace minkray
