@@ -129,7 +129,10 @@ class Finder {
     ClosestPoint<Long> best;
     Long best_squared = std::numeric_limits<Long>::infinity();
     std::array<std::size_t, 3> corners{};
+    // A triangle can be nearer than the best only if a corner lies before the plane through it.
+    const auto is_before = [&](std::size_t i) { return seen[i].y.dot(best.v) < best_squared; };
     const auto try_triangle = [&](std::size_t i, std::size_t j, std::size_t k) {
+      if (!is_before(k) && !is_before(j) && !is_before(i)) return;
       const SimplexPoints<Long> triangle{{seen[i].y, seen[j].y, seen[k].y}, 3};
       const ClosestPoint<Long> closest = closest_point(triangle);
       const Long squared = closest.v.squaredNorm();

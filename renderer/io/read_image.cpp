@@ -57,18 +57,41 @@ Image image_of_exr(const std::filesystem::path& file) {
   return image;
 }
 
+constexpr std::string_view png_signature = "\x89PNG\r\n\x1a\n";
+
+/// Four bytes of a PNG, the highest first.
+std::int64_t png_number(std::string_view bytes, std::size_t at) {
+  std::int64_t number = 0;
+  for (const char byte : bytes.substr(at, 4))
+    number = number * 256 + static_cast<unsigned char>(byte);
+  return number;
+}
+
 /// stb_image takes a PNG that is too large for it for no picture. Its header tells how large it is.
 void check_size_of_png(std::string_view bytes) {
-  constexpr std::string_view signature = "\x89PNG\r\n\x1a\n";
   constexpr std::size_t width_at = 16, height_at = 20, header = 24;
-  if (!bytes.starts_with(signature) || bytes.size() < header) return;
-  const auto number_at = [&](std::size_t at) {
-    std::int64_t number = 0;
-    for (std::size_t i = 0; i < 4; ++i)
-      number = number * 256 + static_cast<unsigned char>(bytes[at + i]);
-    return number;
-  };
-  check_image_size(number_at(width_at), number_at(height_at));
+  if (!bytes.starts_with(png_signature) || bytes.size() < header) return;
+  check_image_size(png_number(bytes, width_at), png_number(bytes, height_at));
+}
+
+/// Takes the chunks of no pixels out of a PNG: they are allowed, but stb_image copies the first of
+/// them to a null pointer.
+void drop_empty_data(std::string& bytes) {
+  constexpr std::size_t frame = 12, name_at = 4, name_length = 4;  // length, name and CRC
+  if (!bytes.starts_with(png_signature)) return;
+  std::size_t to = png_signature.size(), from = to;
+  while (bytes.size() - from >= frame) {
+    const auto length = static_cast<std::size_t>(png_number(bytes, from));
+    const bool is_empty =
+        length == 0 && std::string_view(bytes).substr(from + name_at, name_length) == "IDAT";
+    const std::size_t end = from + std::min(frame + length, bytes.size() - from);
+    const std::size_t kept = is_empty ? 0 : end - from;
+    if (to != from)
+      std::copy_n(bytes.begin() + std::ptrdiff_t(from), kept, bytes.begin() + std::ptrdiff_t(to));
+    to += kept;
+    from = end;
+  }
+  bytes.erase(to, from - to);
 }
 
 /// What stb_image reads, each number made linear by from(code).
@@ -101,8 +124,9 @@ Image read_image(const std::filesystem::path& file) {
   } else if (ending == ".hdr") {
     image = read_radiance(read_regular_file(file, most_picture_bytes));
   } else if (ending == ".png" || ending == ".jpg" || ending == ".jpeg") {
-    const std::string bytes = read_regular_file(file, most_picture_bytes);
+    std::string bytes = read_regular_file(file, most_picture_bytes);
     check_size_of_png(bytes);
+    drop_empty_data(bytes);
     if (!has_usable_jpeg_tables(bytes))
       throw std::runtime_error("cannot be read: a table of more than 256 Huffman codes");
     const auto* begin = reinterpret_cast<const stbi_uc*>(bytes.data());
