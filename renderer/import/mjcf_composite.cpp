@@ -242,7 +242,12 @@ class Composite {
 
 void add_composite(Model& model, int body, const XmlElement& composite, XmlFiles& files,
                    const std::function<std::array<double, 4>(const XmlElement&)>& colour_of) {
-  if (std::optional<CompositePlan> plan = read_composite(composite, files, colour_of))
+  std::optional<CompositePlan> plan = read_composite(composite, files, colour_of);
+  if (!plan) return;
+  const double elements = static_cast<double>(model.geoms.size()) + plan->elements();
+  if (elements > most_composite_elements)
+    files.wrong(composite, "count: with the geoms before it, at most 100,000 elements");
+  else
     Composite(model, std::move(*plan), composite, files).add(body);
 }
 

@@ -8,9 +8,6 @@
 namespace minkray {
 namespace {
 
-/// Beyond that nobody means it.
-constexpr double most_elements = 1e6;
-
 class PlanReader {
  public:
   PlanReader(const XmlElement& element, XmlFiles& files) : element_(element), files_(files) {}
@@ -65,7 +62,7 @@ class PlanReader {
     bool is_ordered = true;
     for (std::size_t i = 0; i < counts->size(); ++i) {
       const double count = (*counts)[i];
-      if (!(count >= 1 && count <= most_elements) || count != std::floor(count))
+      if (!(count >= 1 && count <= most_composite_elements) || count != std::floor(count))
         return wrong(element_, "count: must be whole numbers from 1 on");
       if (count > 1 && dimensions < static_cast<int>(i)) is_ordered = false;
       dimensions += count > 1 ? 1 : 0;
@@ -73,7 +70,8 @@ class PlanReader {
       product *= count;
     }
     if (!is_ordered) return wrong(element_, "count: ones must come last");
-    if (product > most_elements) return wrong(element_, "count: at most a million elements");
+    if (product > most_composite_elements)
+      return wrong(element_, "count: at most 100,000 elements");
     if (!(plan_.spacing > 0)) return wrong(element_, "spacing: must be > 0");
     const std::string& type = plan_.type;
     const int expected = type == "rope" || type == "loop" ? 1 : type == "cloth" ? 2 : 3;

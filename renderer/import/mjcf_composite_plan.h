@@ -16,6 +16,10 @@
 
 namespace minkray {
 
+/// The most a file's composites may ask for, with all its geoms: fifty bytes of text make as many
+/// bodies as they like, and a picture of this many still takes seconds.
+inline constexpr double most_composite_elements = 100'000;
+
 struct CompositePlan {
   std::string type, prefix;
   std::array<int, 3> count = {1, 1, 1};
@@ -27,6 +31,8 @@ struct CompositePlan {
   ModelGeom geom;            ///< without link, name and pose
   bool hides_skin = false;   ///< the geoms stand for a skin, which is not shown
 
+  /// How many there are, in a block that is full: a shell has fewer.
+  double elements() const { return 1.0 * count[0] * count[1] * count[2]; }
   bool is_shell() const { return type == "box" || type == "cylinder" || type == "ellipsoid"; }
 };
 

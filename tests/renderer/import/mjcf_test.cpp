@@ -204,6 +204,29 @@ TEST(Mjcf, rays_meet_what_mujocos_rays_meet) {
 
 #endif
 
+TEST(Mjcf, composites_of_a_file_have_a_hundred_thousand_elements_at_most_together) {
+  const auto file_with = [](const std::vector<std::string>& counts) {
+    std::string text = "<mujoco><worldbody>\n";
+    for (std::size_t i = 0; i < counts.size(); ++i)
+      text += "<body><composite prefix=\"" + std::to_string(i) + "\" type=\"particle\" count=\"" +
+              counts[i] + "\" spacing=\"0.1\"><geom size=\"0.01\"/></composite></body>\n";
+    return text + "</worldbody></mujoco>";
+  };
+  Mistakes mistakes("robot.xml");
+  const std::optional<Model> model =
+      parse_model(file_with({"100 100 9", "100 10 10"}), "robot.xml", {}, mistakes);
+  ASSERT_TRUE(model) << mistakes.text();
+  EXPECT_EQ(model->geoms.size(), 100'000u);
+
+  for (const std::vector<std::string>& counts :
+       {std::vector<std::string>{"100 1000 2"}, {"100 100 9", "100 101 1"}}) {
+    mistakes = Mistakes("robot.xml");
+    EXPECT_FALSE(parse_model(file_with(counts), "robot.xml", {}, mistakes));
+    EXPECT_NE(mistakes.text().find("at most 100,000 elements"), std::string::npos)
+        << mistakes.text();
+  }
+}
+
 TEST(Mjcf, mistakes_are_told_all_at_once_with_their_lines) {
   const std::string text = R"(<mujoco>
   <compiler angle="degrees"/>
