@@ -15,6 +15,10 @@ constexpr double rounding = 32 * std::numeric_limits<double>::epsilon();
 /// Bodies that part are looked at again after at least this part of the time asked for.
 constexpr double first_step = 1e-30;
 
+/// So many distances at single times may run out of support points before the impact is given up:
+/// those of infinite bodies all do, and each takes as long as a thousand others.
+constexpr int most_exhausted = 10;
+
 /// The support function of a body, seen from its pivot, in a direction of the world.
 double support_function(const ContactShape& shape, const Mat3<double>& to_world,
                         const Vec3<double>& n) {
@@ -55,10 +59,11 @@ class Advance {
     if (now.value <= touching_) {
       t = leave(now);
       if (t < 0) return finish(ImpactStatus::hit, 0, -t, now);
+      if (!may_go_on()) return give_up(0, now);
       now = at(t);
     }
     double t_end = t_max_;
-    while (result_.steps < options_.max_steps) {
+    while (may_go_on()) {
       if (now.value <= touching_) return meet(t, t_end, now);
       const double next = proven_until(t, t_end, now);
       if (next >= t_end) return miss(t_end, now.normal);
@@ -66,10 +71,19 @@ class Advance {
       t = next;
       now = at(t);
     }
-    return finish(ImpactStatus::undecided, t, std::numeric_limits<double>::infinity(), now);
+    return give_up(t, now);
   }
 
  private:
+  bool may_go_on() const {
+    return result_.steps < options_.max_steps && exhausted_ < most_exhausted;
+  }
+
+  /// After a time until which they do not meet.
+  Impact give_up(double t, const SignedDistance& now) {
+    return finish(ImpactStatus::undecided, t, std::numeric_limits<double>::infinity(), now);
+  }
+
   void find_speeds() {
     const double about_a = a_.middle().norm() + a_.ball_radius(),
                  about_b = b_.middle().norm() + b_.ball_radius();
@@ -83,8 +97,11 @@ class Advance {
     SignedDistanceOptions how;
     how.only_sign = only_sign;
     how.tolerance = std::min(1e-9, options_.touching);
-    if (!memory_) return signed_distance(a_, of_a_.at(t), b_, of_b_.at(t), how);
-    return signed_distance(a_, of_a_.at(t), b_, of_b_.at(t), *memory_, how);
+    const SignedDistance there =
+        memory_ ? signed_distance(a_, of_a_.at(t), b_, of_b_.at(t), *memory_, how)
+                : signed_distance(a_, of_a_.at(t), b_, of_b_.at(t), how);
+    exhausted_ += there.is_exhausted ? 1 : 0;
+    return there;
   }
 
   bool touches(double t) {
@@ -110,7 +127,7 @@ class Advance {
     const double speed = approach(now, 0);
     // Points are of no size, and nothing is near to nothing: the way begins somewhere.
     double t = std::max(4 * touching_ / speed, first_step * t_max_);
-    while (t < t_max_) {
+    while (t < t_max_ && may_go_on()) {
       const SignedDistance then = at(t);
       if (then.upper < 0) return -t;
       if (then.lower > 2 * touching_) return t;
@@ -235,6 +252,7 @@ class Advance {
   PairMemory* memory_;
   const ImpactOptions& options_;
   double size_ = 0, turning_a_ = 0, turning_b_ = 0, speed_ = 0, touching_ = 0;
+  int exhausted_ = 0;  ///< of the distances at single times
   Impact result_;
 };
 

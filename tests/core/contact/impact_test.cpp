@@ -75,6 +75,23 @@ TEST(Impact, points_in_one_place_part_or_touch) {
   EXPECT_GE(misses, 1);
 }
 
+/// Found by the fuzz target `query`, with a length that is infinite in float: at each of a hundred
+/// times all support points that a distance may ask for were used up, for a minute under
+/// sanitizers.
+TEST(Impact, of_infinite_bodies_is_given_up_soon) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  const ContactShape needle{Shape<double>(Capsule<double>{0.5, infinity})};
+  const Shape<double> superellipsoid = Superellipsoid<double>{{1, 1, 1}, 4};
+  const Affine<double> aside = {Mat3<double>::Identity(), {4, 0, 0}};
+  const ContactShape body{
+      Shape<double>(Transform<double>{superellipsoid, AffineMap<double>(aside)})};
+  const Impact impact =
+      first_impact(needle, at(0, 0, 0, {1, 5e-324, 1}, {0, 0, 1}), body, at(0, 0, 0, {0, 0, 0}), 5);
+  EXPECT_EQ(impact.status, ImpactStatus::undecided);
+  EXPECT_EQ(impact.t_lo, 0);
+  EXPECT_LE(impact.steps, 12);
+}
+
 TEST(Impact, what_grazes_is_a_hit_and_what_passes_is_a_miss) {
   const ContactShape ball(Shape<double>(Sphere<double>{1}));
   const RigidMotion rest = at(0, 0, 0, {0, 0, 0});
