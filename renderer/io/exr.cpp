@@ -150,7 +150,7 @@ PixelRect window_of(const Imf::Header& header) {
 }
 
 void check_attributes(const ReadOn& read) {
-  if (!has_whole_exr_attributes(read)) throw std::runtime_error("the file ends too early");
+  if (!has_whole_exr_attributes(read)) throw std::runtime_error("its header is cut off, or an attribute of it ends where it does not say");
 }
 
 /// The header alone. Throws if the file is no OpenEXR file, or far longer than its header says.

@@ -4,12 +4,49 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <string>
+#include <string_view>
 
 namespace minkray {
 namespace {
 
 constexpr std::uint32_t magic_number = 20000630, multi_part_flag = 0x1000;
 constexpr std::size_t longest_name = 255;
+
+/// Values of these types are read by what they are, whatever length the file says they have: with
+/// another one, what comes behind them would be read as something else than here.
+struct TypeOfOneLength {
+  std::string_view name;
+  std::uint32_t length;
+};
+constexpr std::array types_of_one_length = {TypeOfOneLength{"box2f", 16},
+                                            TypeOfOneLength{"box2i", 16},
+                                            TypeOfOneLength{"chromaticities", 32},
+                                            TypeOfOneLength{"compression", 1},
+                                            TypeOfOneLength{"deepImageState", 1},
+                                            TypeOfOneLength{"double", 8},
+                                            TypeOfOneLength{"envmap", 1},
+                                            TypeOfOneLength{"float", 4},
+                                            TypeOfOneLength{"int", 4},
+                                            TypeOfOneLength{"keycode", 28},
+                                            TypeOfOneLength{"lineOrder", 1},
+                                            TypeOfOneLength{"m33d", 72},
+                                            TypeOfOneLength{"m33f", 36},
+                                            TypeOfOneLength{"m44d", 128},
+                                            TypeOfOneLength{"m44f", 64},
+                                            TypeOfOneLength{"rational", 8},
+                                            TypeOfOneLength{"tiledesc", 9},
+                                            TypeOfOneLength{"timecode", 8},
+                                            TypeOfOneLength{"v2d", 16},
+                                            TypeOfOneLength{"v2f", 8},
+                                            TypeOfOneLength{"v2i", 8},
+                                            TypeOfOneLength{"v3d", 24},
+                                            TypeOfOneLength{"v3f", 12},
+                                            TypeOfOneLength{"v3i", 12}};
+/// A list of channels ends with an empty name; of each channel there are so many bytes behind its
+/// name.
+constexpr std::string_view type_of_channels = "chlist";
+constexpr std::uint32_t channel_bytes = 16;
 
 class Reader {
  public:
@@ -23,13 +60,13 @@ class Reader {
       number = number * 256 + static_cast<unsigned char>(bytes[i]);
     return number;
   }
-  /// How long a name is that ends with a zero.
-  std::size_t name() {
-    std::size_t length = 0;
+  /// What ends with a zero.
+  std::string name() {
+    std::string name;
     std::array<char, 1> byte = {};
-    while ((is_whole_ = is_whole_ && length <= longest_name && read_(byte)) && byte[0] != 0)
-      ++length;
-    return length;
+    while ((is_whole_ = is_whole_ && name.size() <= longest_name && read_(byte)) && byte[0] != 0)
+      name += byte[0];
+    return name;
   }
   void skip(std::size_t count) {
     std::array<char, 4096> buffer;
@@ -39,9 +76,27 @@ class Reader {
       count -= part;
     }
   }
+  /// An attribute's value, which must end where the file says.
+  void value(std::string_view type, std::uint32_t length) {
+    const auto* fixed = std::ranges::find(types_of_one_length, type, &TypeOfOneLength::name);
+    if (fixed != types_of_one_length.end() && length != fixed->length) is_whole_ = false;
+    if (type == type_of_channels)
+      channels(length);
+    else
+      skip(length);
+  }
   bool is_whole() const { return is_whole_; }
 
  private:
+  void channels(std::uint32_t length) {
+    std::uint64_t read = 1;
+    for (std::string channel; is_whole_ && !(channel = name()).empty();) {
+      skip(channel_bytes);
+      read += channel.size() + 1 + channel_bytes;
+    }
+    is_whole_ = is_whole_ && read == length;
+  }
+
   const ReadOn& read_;
   bool is_whole_ = true;
 };
@@ -54,14 +109,14 @@ bool has_whole_exr_attributes(const ReadOn& read) {
   const bool has_parts = (reader.number() & multi_part_flag) != 0;
   // A header ends with an empty name; of several parts, the last with two.
   for (bool is_first = true; reader.is_whole();) {
-    if (reader.name() == 0) {
+    if (reader.name().empty()) {
       if (!has_parts || is_first) break;
       is_first = true;
       continue;
     }
     is_first = false;
-    reader.name();  // of its type
-    reader.skip(reader.number());
+    const std::string type = reader.name();
+    reader.value(type, reader.number());
   }
   return reader.is_whole();
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A look at OpenEXR headers before the library reads them: it takes as much memory for an attribute
-// as its length says, 1.8 GB for one in a file of 1.3 kB.
+// A look at OpenEXR headers before the library reads them: it takes as much memory for a text as
+// its length says, 1.8 GB for one in a file of 1.3 kB.
 #pragma once
 
 #include <functional>
@@ -11,8 +11,9 @@ namespace minkray {
 /// Reads on, into all of the buffer; false at the end of the file.
 using ReadOn = std::function<bool(std::span<char> buffer)>;
 
-/// Whether all attributes of the file's headers are there as long as they say they are. `read`
-/// begins at the file's first byte; of what is no OpenEXR file nothing is said.
+/// Whether all attributes of the file's headers are there, each as long as it says and as values of
+/// its type are. `read` begins at the file's first byte; of what is no OpenEXR file nothing is
+/// said.
 bool has_whole_exr_attributes(const ReadOn& read);
 
 }  // namespace minkray

@@ -3,11 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <string>
+#include <string_view>
 
 #include "renderer/base/errors.h"
+#include "renderer/io/exr_header.h"
 #include "tests/support/program.h"
 
 namespace minkray {
@@ -94,6 +98,31 @@ TEST(Exr, so_are_files_whose_header_is_damaged) {
     refused += is_refused(text_of(damaged));
   }
   EXPECT_GT(refused, 50);
+}
+
+// The library reads such values by their type: behind them it would find another header than we do.
+TEST(Exr, attributes_that_end_where_they_do_not_say_are_refused) {
+  const std::string whole(text_of(encode_exr(small_image())));
+  const auto holds = [](std::string_view left) {
+    return has_whole_exr_attributes([&](std::span<char> buffer) {
+      if (left.size() < buffer.size()) return false;
+      std::ranges::copy(left.substr(0, buffer.size()), buffer.begin());
+      left.remove_prefix(buffer.size());
+      return true;
+    });
+  };
+  ASSERT_TRUE(holds(whole));
+  using namespace std::string_view_literals;
+  for (const std::string_view type : {"\0chlist\0"sv, "\0compression\0"sv, "\0box2i\0"sv,
+                                      "\0float\0"sv, "\0v2f\0"sv, "\0lineOrder\0"sv}) {
+    const std::size_t length = whole.rfind(type) + type.size();
+    ASSERT_NE(whole.rfind(type), std::string::npos) << type;
+    const std::size_t end = length + 4 + static_cast<unsigned char>(whole[length]);
+    std::string longer = whole;
+    ++longer[length];
+    longer.insert(end, 1, '\0');
+    EXPECT_FALSE(holds(longer)) << type;
+  }
 }
 
 }  // namespace
