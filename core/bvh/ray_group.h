@@ -9,6 +9,7 @@
 // directions of any length stay in range.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -70,6 +71,7 @@ struct SlabRay {
     const double largest = static_cast<double>(ray.direction.cwiseAbs().maxCoeff());
     int exponent = 0;
     if (largest > 0 && !(largest >= 0.5 && largest < 2)) std::frexp(largest, &exponent);
+    exponent = std::min(exponent, std::numeric_limits<double>::max_exponent - 1);  // of a number
     steps = exponent == 0 ? 1 : std::ldexp(1.0, exponent);
     for (int axis = 0; axis < 3; ++axis) {
       const double d = exponent == 0

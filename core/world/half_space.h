@@ -3,6 +3,9 @@
 // mapping, no box and no solver. A ray meets it in closed form.
 #pragma once
 
+#include <cmath>
+#include <limits>
+
 #include "core/math/affine.h"
 #include "core/math/ray.h"
 #include "core/query/result.h"
@@ -29,15 +32,17 @@ struct HalfSpaceBody {
 
 /// Where the ray enters: at the surface or below it, inside. The interval holds what the roundings
 /// of this division can have moved; a ray along the plane meets nothing, or begins inside.
+/// Exhausted where a height, a fall or the way to the plane is no number of this type.
 template <class T>
 CastResult<T> cast_ray(const HalfSpaceBody<T>& half_space, const Ray<T>& ray) {
-  using std::abs;
+  using std::abs, std::isfinite;
   // Three products and their sums round by less than so many units of what they add.
   constexpr T rounding = T(4) * std::numeric_limits<T>::epsilon();
   const Vec3<T>& n = half_space.normal;
   const T height = n.dot(ray.origin) - half_space.offset;
   const T fall = -n.dot(ray.direction);
   CastResult<T> result;
+  if (!isfinite(height) || !isfinite(fall)) return result;  // exhausted
   result.offset_lo = T(0);
   if (height <= T(0)) {
     result.status = Status::inside;
@@ -45,6 +50,7 @@ CastResult<T> cast_ray(const HalfSpaceBody<T>& half_space, const Ray<T>& ray) {
     return result;
   }
   const T t = height / fall;
+  if (fall > T(0) && !isfinite(t) && !isfinite(ray.t_max)) return CastResult<T>();  // exhausted
   if (!(fall > T(0)) || !(t <= ray.t_max)) {
     result.status = Status::miss;
     result.normal = n;

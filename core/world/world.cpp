@@ -49,6 +49,7 @@ bool World<T>::closer_half_space(const WorldRay<T>& ray, WorldHit<T>& closest,
     ++counts.casts;
     const CastResult<T> result =
         cast_ray(in_world, instances_.seen_by(instance, ray.ray, ray.time));
+    counts.exhausted += result.status == Status::exhausted ? 1 : 0;
     if (!result.found() || !closest.yields_to(instance, result.t())) continue;
     closest = {instance, instances_.turned(instance, result, ray.time)};
     found = true;

@@ -32,8 +32,7 @@ void run(const MergeVerbOptions& options) {
       if (is_same_file(output, file))
         throw WrongUsage("--output: must be none of the part files (got " + output + ")");
   Merged merged = merge_part_files(options.part_files, options.allow_partial);
-  for (const std::string& missing : merged.missing)
-    std::cerr << "warning: missing: " << missing << "\n";
+  if (merged.missing > 0) std::cerr << "warning: missing: " << merged.missing_names << "\n";
   merged.exr.texts[fact::command] = command_line();
   const InterruptGuard guard;
   write_picture(options.outputs,

@@ -7,7 +7,9 @@
 #include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfPartType.h>
 #include <OpenEXR/ImfStringAttribute.h>
+#include <OpenEXR/ImfVersion.h>
 
 #include <algorithm>
 #include <array>
@@ -150,7 +152,37 @@ PixelRect window_of(const Imf::Header& header) {
 }
 
 void check_attributes(const ReadOn& read) {
-  if (!has_whole_exr_attributes(read)) throw std::runtime_error("its header is cut off, or an attribute of it ends where it does not say");
+  if (!has_whole_exr_attributes(read))
+    throw std::runtime_error(
+        "its header is cut off, or an attribute of it ends where it should not");
+}
+
+std::size_t count_channels(const Imf::Header& header) {
+  std::size_t channels = 0;
+  for (auto it = header.channels().begin(); it != header.channels().end(); ++it) ++channels;
+  return channels;
+}
+
+/// The first header, from the file's first byte on. Throws if it is of no picture that is read: the
+/// library would take memory, or time, on a damaged header's word.
+Imf::Header read_header(Imf::IStream& stream, std::size_t file_bytes) {
+  std::array<char, 4> begin, version;
+  stream.read(begin.data(), begin.size());
+  if (begin != magic) throw std::runtime_error("it does not begin like one");
+  stream.read(version.data(), version.size());
+  Imf::Header header;
+  int flags = 0;
+  std::memcpy(&flags, version.data(), sizeof flags);
+  header.readFrom(stream, flags);
+  if (Imf::isNonImage(flags) || (header.hasType() && Imf::isDeepData(header.type())))
+    throw std::runtime_error("deep images are not read");
+  const std::size_t channels = count_channels(header);
+  if (channels > most_planes) throw std::runtime_error("it has too many channels");
+  // Compression saves at most a factor of about 1000 of two bytes a number, or more.
+  constexpr std::size_t best_compression = 2000;
+  if (pixel_count(window_of(header)) * channels * 2 / best_compression > file_bytes)
+    throw std::runtime_error("the file ends too early");
+  return header;
 }
 
 /// The header alone. Throws if the file is no OpenEXR file, or far longer than its header says.
@@ -163,18 +195,9 @@ Imf::Header header_of(RegularFile& file, const std::string& name) {
     return ahead.read(buffer) == buffer.size();
   });
   FromFile stream(file, name);
-  std::array<char, 4> begin, version;
-  stream.read(begin.data(), begin.size());
-  if (begin != magic) throw std::runtime_error("it does not begin like one");
-  stream.read(version.data(), version.size());
-  Imf::Header header;
-  int flags = 0;
-  std::memcpy(&flags, version.data(), sizeof flags);
-  header.readFrom(stream, flags);
-  std::size_t channels = 0;
-  for (auto it = header.channels().begin(); it != header.channels().end(); ++it) ++channels;
+  const Imf::Header header = read_header(stream, file.size());
   // Uncompressed, twice over, and what else there is in a file.
-  const std::size_t most = 8 * pixel_count(window_of(header)) * channels +
+  const std::size_t most = 8 * pixel_count(window_of(header)) * count_channels(header) +
                            static_cast<std::size_t>(stream.tellg()) + (std::size_t{1} << 20);
   if (file.size() > most)
     throw std::runtime_error("its " + std::to_string(file.size()) +
@@ -228,23 +251,18 @@ ExrImage decode_exr(std::string_view bytes, const std::string& file) {
       return true;
     });
     FromMemory memory(bytes, file);
+    const Imf::Header header = read_header(memory, bytes.size());
+    memory.seekg(0);
     Imf::InputFile in(memory, 0);
-    const Imf::Header& header = in.header();
     ExrImage image{rect_of(header.displayWindow()), window_of(header), {}, {}};
-    // What an honest header says fits the file: no memory is taken on a damaged one's word. (The
-    // compression saves at most a factor of about 1000.)
     image.texts = texts_of(header);
     for (auto it = header.channels().begin(); it != header.channels().end(); ++it) {
       if (it.channel().xSampling != 1 || it.channel().ySampling != 1)
         throw std::runtime_error(std::string("its channel ") + it.name() + " is subsampled");
-      if (image.planes.size() == most_planes) throw std::runtime_error("it has too many channels");
       ExrPlane plane{it.name(), std::vector<float>()};
       if (it.channel().type == Imf::UINT) plane.values = std::vector<std::uint32_t>();
       image.planes.push_back(std::move(plane));
     }
-    constexpr std::size_t best_compression = 2000;
-    if (pixel_count(image.window) * image.planes.size() * 2 / best_compression > bytes.size())
-      throw std::runtime_error("the file ends too early");
     Imf::FrameBuffer target;
     for (ExrPlane& plane : image.planes) {
       std::visit([&](auto& values) { values.resize(pixel_count(image.window)); }, plane.values);

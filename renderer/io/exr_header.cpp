@@ -80,6 +80,9 @@ class Reader {
   void value(std::string_view type, std::uint32_t length) {
     const auto* fixed = std::ranges::find(types_of_one_length, type, &TypeOfOneLength::name);
     if (fixed != types_of_one_length.end() && length != fixed->length) is_whole_ = false;
+    // Of these the library reads whole numbers only, and four bytes more than they have.
+    if ((type == "floatvector" && length % sizeof(float) != 0) || type == "idmanifest")
+      is_whole_ = false;
     if (type == type_of_channels)
       channels(length);
     else

@@ -4,15 +4,19 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
+#include <limits>
 #include <memory>
 #include <stdexcept>
+#include <vector>
 
 #include "core/files/regular_file.h"
 #include "core/shape/field.h"
 #include "renderer/image/colour.h"
 #include "renderer/io/exr.h"
 #include "renderer/io/image_size.h"
-#include "renderer/io/jpeg_tables.h"
+#include "renderer/io/jpeg_segments.h"
+#include "renderer/io/png_chunks.h"
 #include "renderer/io/radiance.h"
 
 #define STB_IMAGE_STATIC
@@ -22,10 +26,24 @@
 #define STBI_ONLY_JPEG
 #define STBI_NO_HDR
 #define STBI_NO_LINEAR
-// stb_image up to 2.27 does not clear what it decodes with, and a scan of a JPEG file may name
-// tables that the file does not hold.
+namespace minkray {
+namespace {
+
+/// std::realloc, cleared where it is new.
+void* grown(void* memory, std::size_t old_bytes, std::size_t bytes) {
+  void* larger = std::realloc(memory, bytes);
+  if (larger && bytes > old_bytes)
+    std::memset(static_cast<char*>(larger) + old_bytes, 0, bytes - old_bytes);
+  return larger;
+}
+
+}  // namespace
+}  // namespace minkray
+
+// stb_image up to 2.27 does not clear what it decodes with or into: a scan of a JPEG file may name
+// tables that the file does not hold, and pixels of a PNG may be copied from what is not yet there.
 #define STBI_MALLOC(bytes) std::calloc(1, bytes)
-#define STBI_REALLOC(memory, bytes) std::realloc(memory, bytes)
+#define STBI_REALLOC_SIZED(memory, old_bytes, bytes) ::minkray::grown(memory, old_bytes, bytes)
 #define STBI_FREE(memory) std::free(memory)
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"
@@ -63,58 +81,32 @@ Image image_of_exr(const std::filesystem::path& file) {
   return image;
 }
 
-constexpr std::string_view png_signature = "\x89PNG\r\n\x1a\n";
-
-/// Four bytes of a PNG, the highest first.
-std::int64_t png_number(std::string_view bytes, std::size_t at) {
-  std::int64_t number = 0;
-  for (const char byte : bytes.substr(at, 4))
-    number = number * 256 + static_cast<unsigned char>(byte);
-  return number;
+/// Each code as the light that it means.
+template <class Code>
+std::vector<float> light_of_codes() {
+  constexpr std::size_t most = std::numeric_limits<Code>::max();
+  std::vector<float> light(most + 1);
+  for (std::size_t code = 0; code <= most; ++code)
+    light[code] = static_cast<float>(from_srgb(static_cast<double>(code) / double{most}));
+  return light;
 }
 
-/// stb_image takes a PNG that is too large for it for no picture. Its header tells how large it is.
-void check_size_of_png(std::string_view bytes) {
-  constexpr std::size_t width_at = 16, height_at = 20, header = 24;
-  if (!bytes.starts_with(png_signature) || bytes.size() < header) return;
-  check_image_size(png_number(bytes, width_at), png_number(bytes, height_at));
-}
-
-/// Takes the chunks of no pixels out of a PNG: they are allowed, but stb_image copies the first of
-/// them to a null pointer.
-void drop_empty_data(std::string& bytes) {
-  constexpr std::size_t frame = 12, name_at = 4, name_length = 4;  // length, name and CRC
-  if (!bytes.starts_with(png_signature)) return;
-  std::size_t to = png_signature.size(), from = to;
-  while (bytes.size() - from >= frame) {
-    const auto length = static_cast<std::size_t>(png_number(bytes, from));
-    const bool is_empty =
-        length == 0 && std::string_view(bytes).substr(from + name_at, name_length) == "IDAT";
-    const std::size_t end = from + std::min(frame + length, bytes.size() - from);
-    const std::size_t kept = is_empty ? 0 : end - from;
-    if (to != from)
-      std::copy_n(bytes.begin() + std::ptrdiff_t(from), kept, bytes.begin() + std::ptrdiff_t(to));
-    to += kept;
-    from = end;
-  }
-  bytes.erase(to, from - to);
-}
-
-/// What stb_image reads, each number made linear by from(code).
-template <class T, class Load, class From>
-Image image_of_stb(std::string_view bytes, Load load, From from) {
+/// What stb_image reads, by a function of its own for codes of such a size.
+template <class Code, class Load>
+Image image_of_stb(std::string_view bytes, Load load) {
   int width = 0, height = 0, channels = 0;
   const auto* begin = reinterpret_cast<const stbi_uc*>(bytes.data());
   const int size = static_cast<int>(bytes.size());
   if (!stbi_info_from_memory(begin, size, &width, &height, &channels))
     throw std::runtime_error(std::string("cannot be read: ") + stbi_failure_reason());
   check_image_size(width, height);
-  const std::unique_ptr<T, Free> codes(load(begin, size, &width, &height, &channels, 3));
+  const std::unique_ptr<Code, Free> codes(load(begin, size, &width, &height, &channels, 3));
   if (!codes) throw std::runtime_error(std::string("cannot be read: ") + stbi_failure_reason());
+  const std::vector<float> light = light_of_codes<Code>();
   Image image(width, height);
   for (std::size_t i = 0; i < image.pixels.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k)
-      image.pixels[i][static_cast<int>(k)] = from(codes.get()[3 * i + k]);
+      image.pixels[i][static_cast<int>(k)] = light[codes.get()[3 * i + k]];
   return image;
 }
 
@@ -131,19 +123,12 @@ Image read_image(const std::filesystem::path& file) {
     image = read_radiance(read_regular_file(file, most_picture_bytes));
   } else if (ending == ".png" || ending == ".jpg" || ending == ".jpeg") {
     std::string bytes = read_regular_file(file, most_picture_bytes);
-    check_size_of_png(bytes);
-    drop_empty_data(bytes);
-    if (!has_usable_jpeg_tables(bytes))
-      throw std::runtime_error("cannot be read: a table of more than 256 Huffman codes");
+    mend_png(bytes);
+    check_jpeg(bytes);
     const auto* begin = reinterpret_cast<const stbi_uc*>(bytes.data());
-    if (stbi_is_16_bit_from_memory(begin, static_cast<int>(bytes.size())))
-      image = image_of_stb<stbi_us>(bytes, stbi_load_16_from_memory, [](stbi_us x) {
-        return static_cast<float>(from_srgb(x / 65535.0));
-      });
-    else
-      image = image_of_stb<stbi_uc>(bytes, stbi_load_from_memory, [](stbi_uc x) {
-        return static_cast<float>(from_srgb(x / 255.0));
-      });
+    image = stbi_is_16_bit_from_memory(begin, static_cast<int>(bytes.size()))
+                ? image_of_stb<stbi_us>(bytes, stbi_load_16_from_memory)
+                : image_of_stb<stbi_uc>(bytes, stbi_load_from_memory);
   } else {
     throw std::runtime_error(std::string("must be one of ") + readable_images);
   }

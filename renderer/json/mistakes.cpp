@@ -7,6 +7,9 @@ namespace {
 /// Longer paths have their middle left out.
 constexpr std::size_t longest_path = 160;
 
+/// Nobody reads so many, and each may be a kilobyte.
+constexpr std::size_t most_messages = 10'000;
+
 /// The number of bytes of the UTF-8 character that starts at text[i], 0 if none does.
 std::size_t utf8_length(std::string_view text, std::size_t i) {
   const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(text[k]); };
@@ -73,11 +76,19 @@ std::string printable_lines(std::string_view text) {
 }
 
 void Mistakes::add(const JsonPath& path, std::string_view message) {
+  if (messages_.size() >= most_messages) {
+    ++more_;
+    return;
+  }
   if (!paths_.insert(path.text()).second) return;
   add(printable(path.text(), longest_path) + ": " + std::string(message));
 }
 
 void Mistakes::add(std::string_view message) {
+  if (messages_.size() >= most_messages) {
+    ++more_;
+    return;
+  }
   // Whoever gives us a file also gives it its name.
   messages_.push_back(printable(file_ + ": " + std::string(message)));
 }
@@ -88,6 +99,8 @@ std::string Mistakes::text() const {
     if (!text.empty()) text += '\n';
     text += message;
   }
+  if (more_ > 0)
+    text += '\n' + printable(file_) + ": and " + std::to_string(more_) + " more mistakes";
   return text;
 }
 

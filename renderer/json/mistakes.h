@@ -19,7 +19,8 @@ class Mistakes {
   explicit Mistakes(std::string file) : file_(std::move(file)) {}
 
   /// One mistake at a place in the document: what was expected and what was found. Only the first
-  /// one at each place is kept: what follows from it would be noise.
+  /// one at each place is kept: what follows from it would be noise. Of very many the first
+  /// 10,000 are kept, and the others counted.
   void add(const JsonPath& path, std::string_view message);
 
   /// One mistake of the file as a whole.
@@ -35,6 +36,7 @@ class Mistakes {
  private:
   std::string file_;
   std::vector<std::string> messages_;
+  std::size_t more_ = 0;  ///< that are not kept
   std::unordered_set<std::string> paths_;
 };
 

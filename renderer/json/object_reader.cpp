@@ -11,6 +11,8 @@ namespace {
 
 /// Longer words are not compared: nobody mistypes those.
 constexpr std::size_t longest_word = 64;
+/// Of longer lists the beginning is told.
+constexpr std::size_t most_names = 40;
 
 /// How many letters must be added, removed, changed or swapped with their neighbour to turn one
 /// word into the other (optimal string alignment, Damerau 1964).
@@ -35,19 +37,20 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 std::string suggestion(std::string_view written, const std::vector<std::string>& names) {
   if (names.empty()) return "none is known here";
   if (written.size() <= longest_word) {
-    const auto distance = [&](const std::string& name) { return edit_distance(written, name); };
-    const auto closest =
-        std::min_element(names.begin(), names.end(),
-                         [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
+    std::vector<std::size_t> distances;
+    for (const std::string& name : names) distances.push_back(edit_distance(written, name));
+    const auto least = std::ranges::min_element(distances);
+    const std::string& closest = names[static_cast<std::size_t>(least - distances.begin())];
     // A third of the letters may be wrong.
-    if (distance(*closest) * 3 <= std::max<std::size_t>(closest->size(), 3)) {
-      return "did you mean \"" + *closest + "\"?";
+    if (*least * 3 <= std::max<std::size_t>(closest.size(), 3)) {
+      return "did you mean \"" + closest + "\"?";
     }
   }
   std::string text = "known here:";
-  for (const std::string& name : names) {
-    text += (&name == &names.front() ? " " : ", ") + name;
-  }
+  for (std::size_t i = 0; i < std::min(names.size(), most_names); ++i)
+    text += (i == 0 ? " " : ", ") + names[i];
+  if (names.size() > most_names)
+    text += " and " + std::to_string(names.size() - most_names) + " more";
   return text;
 }
 

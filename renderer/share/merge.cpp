@@ -141,14 +141,23 @@ class SampleSum {
   int samples_ = 0;  ///< those that are there
 };
 
-/// "a, b, c and 5 more".
-std::string listed(const std::vector<std::string>& names) {
-  constexpr std::size_t most = 20;
-  std::string list;
-  for (std::size_t i = 0; i < std::min(names.size(), most); ++i)
-    list += (i == 0 ? "" : ", ") + names[i];
-  if (names.size() > most) list += " and " + std::to_string(names.size() - most) + " more";
-  return list;
+/// Whether the share has a file, by its tile and its share of the samples.
+using FileOfShare = std::map<std::pair<int, int>, std::string>;
+
+/// The first of the shares that have no file, of `missing`: "a, b, c and 5 more".
+std::string names_of_missing(const FileOfShare& file_of, const PictureShare& split,
+                             std::uint64_t missing) {
+  constexpr std::uint64_t most = 20;
+  std::string names;
+  std::uint64_t named = 0;
+  for (int tile = 1; tile <= split.tile.count && named < std::min(missing, most); ++tile)
+    for (int share = 1; share <= split.sample_share.count && named < std::min(missing, most);
+         ++share)
+      if (!file_of.contains({tile, share}))
+        names += (named++ == 0 ? "" : ", ") +
+                 name_of({{tile, split.tile.count}, {share, split.sample_share.count}});
+  if (missing > most) names += " and " + std::to_string(missing - most) + " more";
+  return names;
 }
 
 }  // namespace
@@ -160,7 +169,7 @@ Merged merge_part_files(const std::vector<std::string>& files, bool allow_partia
   Merged merged;
   Facts facts;
   PictureShare first_share;
-  std::map<std::pair<int, int>, std::string> file_of;
+  FileOfShare file_of;
   for (const std::string& file : files)
     of_file(file, [&] {
       const Facts found = read_exr_texts(file);
@@ -195,12 +204,13 @@ Merged merge_part_files(const std::vector<std::string>& files, bool allow_partia
   const Share& split = first_share.sample_share;
   if (!can_be_tiled(picture, first_share.tile.count) || split.count > SampleBlocks{samples}.count())
     throw BadInput(files.front() + ": its header contradicts itself");
-  for (int tile = 1; tile <= first_share.tile.count; ++tile)
-    for (int share = 1; share <= split.count; ++share)
-      if (!file_of.contains({tile, share}))
-        merged.missing.push_back(name_of({{tile, first_share.tile.count}, {share, split.count}}));
-  if (!merged.missing.empty() && !allow_partial)
-    throw BadInput("merge: missing: " + listed(merged.missing) +
+  // Each file is another share of this split.
+  merged.missing =
+      static_cast<std::uint64_t>(first_share.tile.count) * static_cast<std::uint64_t>(split.count) -
+      file_of.size();
+  merged.missing_names = names_of_missing(file_of, first_share, merged.missing);
+  if (merged.missing > 0 && !allow_partial)
+    throw BadInput("merge: missing: " + merged.missing_names +
                    "; --allow-partial makes a picture without them");
 
   // One part file in memory at a time.
@@ -227,7 +237,7 @@ Merged merge_part_files(const std::vector<std::string>& files, bool allow_partia
   }
   merged.exr = whole.take();
   merged.exr.texts = std::move(facts);
-  if (!merged.missing.empty()) merged.exr.texts["minkray.missing"] = listed(merged.missing);
+  if (merged.missing > 0) merged.exr.texts["minkray.missing"] = merged.missing_names;
   return merged;
 }
 

@@ -20,8 +20,9 @@ struct ShareCost {
 struct Merged {
   ExrImage exr;  ///< all planes of the picture; the facts that its shares have in common
   RayCounts counts;
-  std::vector<std::string> missing;  ///< "tile 3/8", "samples 1/2 of tile 3/8"
-  std::vector<ShareCost> costs;      ///< in the order of the files
+  std::uint64_t missing = 0;     ///< so many shares
+  std::string missing_names;     ///< the first of them: "tile 3/8, samples 1/2 of tile 3/8"
+  std::vector<ShareCost> costs;  ///< in the order of the files
 
   /// The picture's colours.
   Image image() const { return image_of(exr, "R", "G", "B"); }

@@ -145,7 +145,7 @@ std::string check_planes(std::string_view bytes) {
 std::string check_parts(const std::vector<std::string>& files, bool allow_partial) {
   try {
     const Merged merged = merge_part_files(files, allow_partial);
-    if (!allow_partial && !merged.missing.empty()) return "parts are missing, and nothing is said";
+    if (!allow_partial && merged.missing > 0) return "parts are missing, and nothing is said";
     if (merged.costs.size() != files.size()) return "a part that has no cost";
     labels_of(merged.exr.texts);
     return check_again(merged.exr);

@@ -60,6 +60,17 @@ TYPED_TEST(TraverseOf, a_box_is_entered_where_it_should) {
 }
 
 // A ray within the plane of a face, and the same with -0: 0 * infinity must not lose the box.
+// A step is a power of two, of which the next one above is no number.
+TEST(Traverse, the_longest_directions_enter_boxes_too) {
+  const Bounds<double> only = box({1, -1, -1}, {3, 1, 1});
+  for (const double length : {8e307, 9e307, std::numeric_limits<double>::max()}) {
+    EXPECT_TRUE(is_found(only, Ray<double>{{2, 0, 0}, {length, 0, 0}, 0}));  // begins within
+    EXPECT_TRUE(is_found(only, Ray<double>{{0, 0, 0}, {length, 0, 0}}));
+    EXPECT_TRUE(is_found(only, Ray<double>{{0, 0, 0}, {length, 0, 0}, 1}));
+    EXPECT_FALSE(is_found(only, Ray<double>{{0, 0, 0}, {-length, 0, 0}}));
+  }
+}
+
 TYPED_TEST(TraverseOf, rays_that_lie_in_a_face_are_kept) {
   using T = TypeParam;
   using R = Ray<T>;

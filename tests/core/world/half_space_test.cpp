@@ -53,6 +53,32 @@ TYPED_TEST(HalfSpaces, where_a_ray_enters_its_height_is_zero_and_the_interval_ho
   EXPECT_GT(inside, 4000);
 }
 
+// A way that is no number is neither a hit nor a miss, and no world tells of one.
+TYPED_TEST(HalfSpaces, a_plane_that_numbers_do_not_reach_is_told) {
+  using T = TypeParam;
+  const T most = std::numeric_limits<T>::max(), least = std::numeric_limits<T>::denorm_min(),
+          infinity = std::numeric_limits<T>::infinity();
+  const HalfSpaceBody<T> floor{{T(0), T(0), T(1)}, T(0)}, beyond{{T(0), T(0), T(1)}, infinity};
+  const HalfSpaceBody<T> askew{{T(0.6), T(0), T(0.8)}, -most};
+  const auto status = [](const HalfSpaceBody<T>& body, const Vec3<T>& origin,
+                         const Vec3<T>& direction, T t_max) {
+    return cast_ray(body, Ray<T>{origin, direction, t_max}).status;
+  };
+  const Vec3<T> down = {T(0), T(0), T(-1)};
+  EXPECT_EQ(status(floor, {T(0), T(0), T(1)}, least * down, infinity), Status::exhausted);
+  EXPECT_EQ(status(floor, {T(0), T(0), T(1)}, least * down, T(1)), Status::miss);
+  EXPECT_EQ(status(floor, {T(0), T(0), most}, down, infinity), Status::hit);
+  EXPECT_EQ(status(askew, {most, T(0), most}, down, infinity), Status::exhausted);
+  EXPECT_EQ(status(beyond, {T(0), T(0), T(0)}, down, infinity), Status::exhausted);
+
+  Instances<T> instances;
+  instances.add(floor);
+  const World<T> world(std::move(instances));
+  QueryCounts counts;
+  EXPECT_FALSE(world.closest_hit({{T(0), T(0), T(1)}, least * down}, counts).found());
+  EXPECT_EQ(counts.exhausted, 1u);
+}
+
 /// Some balls and half-spaces; the latter neither first nor last.
 template <class T>
 World<T> mixed_world(testing::Random& random) {

@@ -125,5 +125,77 @@ TEST(Exr, attributes_that_end_where_they_do_not_say_are_refused) {
   }
 }
 
+void append_text(std::string& file, std::string_view text) {
+  file += text;
+  file += '\0';
+}
+void append_number(std::string& file, std::uint32_t number) {
+  for (int shift = 0; shift < 32; shift += 8) file += static_cast<char>(number >> shift & 0xff);
+}
+void append_attribute(std::string& file, std::string_view name, std::string_view type,
+                      std::string_view value) {
+  append_text(file, name);
+  append_text(file, type);
+  append_number(file, static_cast<std::uint32_t>(value.size()));
+  file += value;
+}
+
+/// Of a picture one pixel wide, with channels A, B, ... of half numbers and a table of offsets that
+/// is not there.
+std::string header_of_column(std::uint32_t flags, int channels, std::uint32_t lines,
+                             std::string_view type) {
+  std::string file = "\x76\x2f\x31\x01", list, window;
+  append_number(file, 2 | flags);
+  for (int i = 0; i < channels; ++i) {
+    append_text(list,
+                std::string{char('A' + i / 26 % 26), char('A' + i % 26), char('A' + i / 676)});
+    for (const std::uint32_t number : {1u, 0u, 1u, 1u}) append_number(list, number);
+  }
+  list += '\0';
+  for (const std::uint32_t number : {0u, 0u, 0u, lines - 1}) append_number(window, number);
+  std::string zero, one;
+  append_number(zero, 0);
+  append_number(one, 0x3f800000);
+  append_attribute(file, "channels", "chlist", list);
+  append_attribute(file, "compression", "compression", {"\2", 1});
+  append_attribute(file, "dataWindow", "box2i", window);
+  append_attribute(file, "displayWindow", "box2i", window);
+  append_attribute(file, "lineOrder", "lineOrder", {"\0", 1});
+  append_attribute(file, "pixelAspectRatio", "float", one);
+  append_attribute(file, "screenWindowCenter", "v2f", zero + zero);
+  append_attribute(file, "screenWindowWidth", "float", one);
+  if (!type.empty()) append_attribute(file, "type", "string", type);
+  return file + '\0';
+}
+
+std::string refusal_of(std::string_view file) {
+  try {
+    decode_exr(file, "x.exr");
+    return "";
+  } catch (const BadInput& error) {
+    return error.what();
+  }
+}
+
+// What the library would take memory or time for, on the word of a header of a few bytes.
+TEST(Exr, headers_that_promise_more_than_a_file_holds_are_refused) {
+  const auto says = [](const std::string& refusal, std::string_view what) {
+    EXPECT_TRUE(refusal.ends_with(what)) << refusal << "\nwhere it should be said: " << what;
+  };
+  says(refusal_of(header_of_column(0x800, 2, 1 << 25, "deepscanline")), "deep images are not read");
+  says(refusal_of(header_of_column(0x800, 2, 4, "")), "deep images are not read");
+  says(refusal_of(header_of_column(0, 2600, 1536000, "")), "the file ends too early");
+  says(refusal_of(header_of_column(0, 4097, 1, "")), "it has too many channels");
+  // The library reads on at the fifth byte of the value.
+  std::string shifted = "\x76\x2f\x31\x01";
+  append_number(shifted, 2);
+  append_attribute(shifted, "v", "floatvector", std::string_view("\0\0\0\0a", 6));
+  says(refusal_of(shifted + '\0'), "an attribute of it ends where it should not");
+  std::string manifest = "\x76\x2f\x31\x01";
+  append_number(manifest, 2);
+  append_attribute(manifest, "m", "idmanifest", std::string_view("\0\0\0\0\0\0\0\0", 8));
+  says(refusal_of(manifest + '\0'), "an attribute of it ends where it should not");
+}
+
 }  // namespace
 }  // namespace minkray

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// PNG files with chunks of no pixels, which are allowed: they are the same picture, and where they
-// are all there is it is told. stb_image copies the first of them to a null pointer, found by the
-// fuzz target `image`.
+// What stb_image does not read by itself. Chunks of no pixels are allowed in PNG files: they are
+// the same picture, and where they are all there is it is told; stb_image copies the first of them
+// to a null pointer, found by the fuzz target `image`. Colours that a palette has not are black; it
+// took them from memory.
 #include "renderer/io/read_image.h"
 
 #include <gtest/gtest.h>
@@ -64,6 +65,30 @@ TEST_F(EmptyChunks, of_a_file_that_is_cut_off) {
   more.insert(data, empty_chunk);
   for (std::size_t length = 0; length < data + 40; ++length)
     EXPECT_NE(complaint(more.substr(0, length)), "") << length;
+}
+
+/// A chunk, whose CRC nobody reads.
+std::string chunk(const std::string& name, const std::string& data) {
+  return std::string(3, '\0') + static_cast<char>(data.size()) + name + data + "crc.";
+}
+
+/// A palette of one colour, and four pixels in one stored block of deflate.
+std::string picture_of_palette(const std::string& palette, const std::string& indices) {
+  const std::string size = {0, 0, 0, 4, 0, 0, 0, 1, 8, 3, 0, 0, 0};
+  const std::string rows = std::string(1, '\0') + indices;  // of the first filter
+  std::string block = {1, static_cast<char>(rows.size()), 0, static_cast<char>(~rows.size()),
+                       '\xff'};
+  return "\x89PNG\r\n\x1a\n" + chunk("IHDR", size) + chunk("PLTE", palette) +
+         chunk("IDAT", "\x78\x01" + block + rows + "adle") + chunk("IEND", "");
+}
+
+TEST(Palettes, have_black_where_they_have_no_colour) {
+  const TemporaryFolder folder;
+  const std::string indices = {0, 1, '\x80', '\xff'};
+  const Image image =
+      read_image(folder.write("picture.png", picture_of_palette("\xff\xff\xff", indices)));
+  const Vec3<float> white = {1, 1, 1}, black = {0, 0, 0};
+  EXPECT_EQ(image.pixels, (std::vector<Vec3<float>>{white, black, black, black}));
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "renderer/json/object_reader.h"
+
 namespace minkray {
 namespace {
 
@@ -73,6 +75,22 @@ TEST(ParseJson, endless_numbers_that_are_not_finite_end) {
   EXPECT_EQ(found[0], "x: /0: must be a finite number (got NaN)");
   EXPECT_EQ(found[99], "x: /99: must be a finite number (got NaN)");
   EXPECT_EQ(found[100].find("x: /100: not valid JSON at line:column 1:502: "), 0u) << found[100];
+}
+
+TEST(ParseJson, of_very_many_mistakes_the_first_are_told) {
+  Mistakes mistakes("x");
+  for (int i = 0; i < 10'007; ++i) mistakes.add(JsonPath() / static_cast<std::size_t>(i), "bad");
+  mistakes.add("worse");
+  EXPECT_EQ(mistakes.messages().size(), 10'000u);
+  EXPECT_TRUE(mistakes.text().ends_with("\nx: /9999: bad\nx: and 8 more mistakes"));
+}
+
+TEST(ParseJson, of_very_many_names_the_first_are_told) {
+  std::vector<std::string> names;
+  for (int i = 0; i < 43; ++i) names.push_back("name_" + std::to_string(i));
+  const std::string told = suggestion("nothing alike", names);
+  EXPECT_TRUE(told.ends_with("name_38, name_39 and 3 more")) << told;
+  EXPECT_EQ(suggestion("nmae_42", names), "did you mean \"name_42\"?");
 }
 
 /// What ends lines or turns the order of the letters around it, as "\u202egnp.exe" does.

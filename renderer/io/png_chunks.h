@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// A look at the chunks of PNG files before stb_image reads them: its releases up to 2.27 copy empty
+// ones to a null pointer, and take colours that a palette does not have from memory.
+#pragma once
+
+#include <string>
+
+namespace minkray {
+
+/// Checks the size that the file's header says, and makes the chunks of pixels and the palette what
+/// stb_image can read. What does not begin as PNG files do stays as it is. Throws
+/// std::runtime_error if there are no pixels, or too many.
+void mend_png(std::string& bytes);
+
+}  // namespace minkray
