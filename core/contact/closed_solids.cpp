@@ -83,9 +83,8 @@ CoreDistance point_and_disks(const Vec3<double>& size, const Vec3<double>& p) {
     const Vec3<double> c = gap[face] * axis;
     return closed_answer(gap[face], axis, p - c, c);
   }
-  const double to_below = length_of(rho - below, z + half),
-               to_above = length_of(rho - above, z - half);
-  const bool is_below = to_below < to_above || (to_below == to_above && z < 0);
+  // Not by the lengths to the two: from far away they are the same number.
+  const bool is_below = face == 0 || (face == 1 && along < 0);
   const int rim = is_below ? 0 : 2;
   const double at0 = is_below ? below : above, at1 = is_below ? -half : half;
   const double d0 = rho - at0, d1 = z - at1;

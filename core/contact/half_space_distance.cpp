@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "core/contact/half_space_distance.h"
 
+#include <cmath>
+
+#include "core/contact/closed_answer.h"
+
 namespace minkray {
 
 SignedDistance distance_to_half_space(const Vec3<double>& normal, double offset,
@@ -12,10 +16,12 @@ SignedDistance distance_to_half_space(const Vec3<double>& normal, double offset,
   const Vec3<double> lowest = frame.turn * support_of_core<CoreKind::other>(core, down).point;
   SignedDistance result;
   result.supports = 1;
-  result.normal = normal;
-  result.value = normal.dot(frame.middle) - offset + normal.dot(lowest) - core.radius;
+  const double value = normal.dot(frame.middle) - offset + normal.dot(lowest) - core.radius;
   const double allowed =
-      rounding * (core.ball + core.radius + frame.middle.norm() + std::abs(offset));
+      rounding * (core.ball + core.radius + length_of(frame.middle) + std::abs(offset));
+  if (!std::isfinite(value) || !std::isfinite(allowed)) return result;  // nothing is known
+  result.normal = normal;
+  result.value = value;
   result.lower = result.value - allowed;
   result.upper = result.value + allowed;
   result.status = result.lower > 0   ? SignedStatus::separated

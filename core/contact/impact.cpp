@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/contact/closed_answer.h"
 #include "core/contact/swept_time.h"
 
 namespace minkray {
@@ -52,6 +53,7 @@ class Advance {
     PairMemory of_steps;
     if (!memory_) memory_ = &of_steps;
     SignedDistance now = at(0);
+    if (gave_up(now)) return give_up(0, now);
     // The contact at the start counts unless the two part.
     if (now.upper < 0 || (now.value <= touching_ && approach(now, 0) <= parting()))
       return finish(ImpactStatus::inside, 0, 0, now);
@@ -61,9 +63,10 @@ class Advance {
       if (t < 0) return finish(ImpactStatus::hit, 0, -t, now);
       if (!may_go_on()) return give_up(0, now);
       now = at(t);
+      if (gave_up(now)) return give_up(0, now);
     }
     double t_end = t_max_;
-    while (may_go_on()) {
+    while (may_go_on() && !gave_up(now)) {
       if (now.value <= touching_) return meet(t, t_end, now);
       const double next = proven_until(t, t_end, now);
       if (next >= t_end) return miss(t_end, now.normal);
@@ -79,6 +82,13 @@ class Advance {
     return result_.steps < options_.max_steps && exhausted_ < most_exhausted;
   }
 
+  /// Whether a distance looks like a contact only since its search ended without an upper bound, or
+  /// with one too far away to be a contact.
+  bool gave_up(const SignedDistance& now) const {
+    return now.is_unknown() || (now.status == SignedStatus::undecided && now.value <= touching_ &&
+                                now.upper > touching_);
+  }
+
   /// After a time until which they do not meet.
   Impact give_up(double t, const SignedDistance& now) {
     return finish(ImpactStatus::undecided, t, std::numeric_limits<double>::infinity(), now);
@@ -87,9 +97,10 @@ class Advance {
   void find_speeds() {
     const double about_a = a_.middle().norm() + a_.ball_radius(),
                  about_b = b_.middle().norm() + b_.ball_radius();
-    turning_a_ = of_a_.angular_velocity.norm();
-    turning_b_ = of_b_.angular_velocity.norm();
-    speed_ = (of_b_.velocity - of_a_.velocity).norm() + turning_a_ * about_a + turning_b_ * about_b;
+    turning_a_ = length_of(of_a_.angular_velocity);
+    turning_b_ = length_of(of_b_.angular_velocity);
+    speed_ =
+        length_of(of_b_.velocity - of_a_.velocity) + turning_a_ * about_a + turning_b_ * about_b;
   }
 
   SignedDistance at(double t, bool only_sign = false) {
@@ -175,13 +186,16 @@ class Advance {
   }
 
   Impact miss(double t_end, const Vec3<double>& normal) {
-    if (!options_.points_of_misses) {
-      result_.normal = normal;
-      result_.status = ImpactStatus::miss;
-      result_.t_lo = result_.t_hi = t_end;
-      return result_;
+    if (options_.points_of_misses) {
+      const SignedDistance there = at(t_end);
+      if (!there.is_unknown()) return finish(ImpactStatus::miss, t_end, t_end, there);
+      // By then they have gone further apart than distances are numbers.
+      result_.distance = std::numeric_limits<double>::infinity();
     }
-    return finish(ImpactStatus::miss, t_end, t_end, at(t_end));
+    result_.normal = normal;
+    result_.status = ImpactStatus::miss;
+    result_.t_lo = result_.t_hi = t_end;
+    return result_;
   }
 
   /// Without turns it is where a ray meets the difference of the two. Returns whether that told:
@@ -202,7 +216,7 @@ class Advance {
       miss(t_max_, normal);
       return true;
     }
-    if (swept.t_lo * velocity.norm() <= touching_ || swept.t_lo > t_max_) return false;
+    if (swept.t_lo * length_of(velocity) <= touching_ || swept.t_lo > t_max_) return false;
     result_.status = ImpactStatus::hit;
     result_.t_lo = swept.t_lo;
     result_.t_hi = std::max(swept.t_lo, swept.t_hi);
@@ -242,7 +256,7 @@ class Advance {
     result_.point_a = now.point_a;
     result_.point_b = now.point_b;
     result_.normal = now.normal;
-    result_.distance = now.value;
+    result_.distance = now.is_unknown() ? std::numeric_limits<double>::infinity() : now.value;
     return result_;
   }
 
@@ -261,7 +275,7 @@ class Advance {
 Affine<double> RigidMotion::at(double time) const {
   Affine<double> moved = pose;
   moved.translation += time * velocity;
-  const double speed = angular_velocity.norm();
+  const double speed = length_of(angular_velocity);
   if (speed > 0)
     moved.linear =
         Eigen::AngleAxis<double>(time * speed, angular_velocity / speed).toRotationMatrix() *

@@ -58,7 +58,7 @@ struct Impact {
   Vec3<double> point_a = Vec3<double>::Zero();
   Vec3<double> point_b = Vec3<double>::Zero();
   Vec3<double> normal = Vec3<double>::Zero();
-  double distance = 0;  ///< between them at t_lo
+  double distance = 0;  ///< between them at t_lo; infinite where it is not known, without points
   int steps = 0;        ///< distances asked for
 };
 

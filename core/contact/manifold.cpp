@@ -199,7 +199,7 @@ class Manifold {
 ContactManifold contact_manifold(const ContactShape& a, const Affine<double>& pose_a,
                                  const ContactShape& b, const Affine<double>& pose_b,
                                  const SignedDistance& nearest, const ManifoldOptions& options) {
-  if (nearest.normal.isZero(0)) return {};
+  if (nearest.normal.isZero(0) || nearest.is_unknown()) return {};
   constexpr double same = 1e-6;
   const double size = std::min(a.ball_radius(), b.ball_radius()), near = same * size;
   Manifold manifold(nearest, options);

@@ -33,7 +33,7 @@ struct ManifoldOptions {
   double within = 0.02;
 };
 
-/// `nearest` is the signed distance of the two, with its points.
+/// `nearest` is the signed distance of the two, with its points. No points if it is unknown.
 ContactManifold contact_manifold(const ContactShape& a, const Affine<double>& pose_a,
                                  const ContactShape& b, const Affine<double>& pose_b,
                                  const SignedDistance& nearest,

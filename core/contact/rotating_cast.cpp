@@ -1,10 +1,22 @@
 // SPDX-License-Identifier: MIT
 #include "core/contact/rotating_cast.h"
 
+#include <cmath>
+
 #include "core/contact/distance.h"
 
 namespace minkray {
 namespace {
+
+/// The length, also where the squares of its components under- or overflow, in float soon.
+template <class T>
+T length_of(const Vec3<T>& v) {
+  // As of unit() (core/math/vec.h): squares of what counts are normal numbers in between.
+  constexpr T smallest = std::numeric_limits<T>::min() / std::numeric_limits<T>::epsilon() * T(16);
+  constexpr T largest = T(1) / smallest;
+  const T squared = v.squaredNorm();
+  return squared > smallest && squared < largest ? std::sqrt(squared) : v.stableNorm();
+}
 
 /// The orientation in the middle of the step, the position at its beginning.
 template <class T>
@@ -18,7 +30,7 @@ CentredShape<T> frozen(const MovingBody<T>& body, T begin, T middle) {
 template <class T>
 T radius_about_pivot(const MovingBody<T>& body) {
   const CentredShape<T> placed = centred(body.shape, body.pose);
-  return (placed.centre - body.pose.translation).norm() + placed.radius;
+  return length_of<T>(placed.centre - body.pose.translation) + placed.radius;
 }
 
 }  // namespace
@@ -27,11 +39,10 @@ template <class T>
 Affine<T> pose_at(const MovingBody<T>& body, T time) {
   Affine<T> pose = body.pose;
   pose.translation += time * body.velocity;
-  const T angle = time * body.angular_velocity.norm();
+  const T speed = length_of<T>(body.angular_velocity), angle = time * speed;
   if (angle > T(0))
-    pose.linear =
-        Eigen::AngleAxis<T>(angle, body.angular_velocity.normalized()).toRotationMatrix() *
-        body.pose.linear;
+    pose.linear = Eigen::AngleAxis<T>(angle, body.angular_velocity / speed).toRotationMatrix() *
+                  body.pose.linear;
   return pose;
 }
 
@@ -40,8 +51,8 @@ RotatingCastResult<T> cast_rotating(const MovingBody<T>& a, const MovingBody<T>&
                                     int steps, const CastOptions<T>& options) {
   RotatingCastResult<T> result;
   const T step = duration / T(steps);
-  result.position_error = (radius_about_pivot(a) * a.angular_velocity.norm() +
-                           radius_about_pivot(b) * b.angular_velocity.norm()) *
+  result.position_error = (radius_about_pivot(a) * length_of<T>(a.angular_velocity) +
+                           radius_about_pivot(b) * length_of<T>(b.angular_velocity)) *
                           step / T(2);
   const Vec3<T> relative = b.velocity - a.velocity;
   bool lower_found = false;

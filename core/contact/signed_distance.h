@@ -39,7 +39,7 @@ constexpr std::string_view name_of(SignedStatus status) {
 
 struct SignedDistance {
   SignedStatus status = SignedStatus::undecided;
-  double value = 0;  ///< in [lower, upper], which allow for rounding
+  double value = 0;  ///< in [lower, upper], which allow for rounding; see is_unknown()
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
   /// They are points of A and B, in the world, with point_b - point_a = value * normal but for what
@@ -52,6 +52,12 @@ struct SignedDistance {
   /// The support points that may be asked for ran out: the bounds hold, but are not as near to each
   /// other as was asked.
   bool is_exhausted = false;
+
+  /// The search gave up with nothing: neither is it known that they are apart or overlap, nor has
+  /// the distance an upper bound. `value` is no distance then, and there are no points.
+  bool is_unknown() const {
+    return status == SignedStatus::undecided && !(upper < std::numeric_limits<double>::infinity());
+  }
 };
 
 struct SignedDistanceOptions {

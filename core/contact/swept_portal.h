@@ -51,7 +51,7 @@ class SweptPortal {
       portal_[count] = query_.support(d);
       const SweptPoint& w = portal_[count];
       const double reach = w.p * dp + w.q * dq, length = std::sqrt(dp * dp + dq * dq);
-      if (reach > query_.near * length) {
+      if (reach > (query_.near + query_.rounding) * length) {
         query_.end(SweptStatus::miss, d);
         return false;
       }

@@ -84,12 +84,12 @@ struct SweptQuery {
     return true;
   }
 
-  /// The balls around both miss each other.
+  /// The balls around both miss each other, whatever rounding made of how far aside they are.
   bool passes_by() {
     const double towards = pair.x.dot(along);
     const Vec3<double> aside = pair.x - towards * along;
     const double distance = towards >= 0 ? pair.x.norm() : aside.norm();
-    if (!(distance > size + near)) return false;
+    if (!(distance > size + near + rounding)) return false;
     end(SweptStatus::miss, towards >= 0 ? pair.x : aside);
     return true;
   }

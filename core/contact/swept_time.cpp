@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/contact/swept_time.h"
 
+#include <cmath>
+
 #include "core/contact/core_kinds.h"
 #include "core/contact/swept_boxes.h"
 #include "core/contact/swept_closed.h"
@@ -17,7 +19,9 @@ SweptTime of_balls(const CorePair& pair, const Vec3<double>& velocity, double t_
                towards = -pair.x.dot(velocity);
   const Vec3<double> aside = pair.x + (towards / squared) * velocity;
   const double distance = towards > 0 ? aside.norm() : pair.x.norm();
-  if (!(squared > 0) || std::abs(distance - radius) <= near) return result;
+  constexpr double epsilons = 16 * std::numeric_limits<double>::epsilon();
+  const double rounding = epsilons * (radius + pair.x.norm());
+  if (!(squared > 0) || std::abs(distance - radius) <= near + rounding) return result;
   const auto miss = [&](const Vec3<double>& axis) {
     result.status = SweptStatus::miss;
     result.axis = unit<double>(axis);
@@ -28,9 +32,8 @@ SweptTime of_balls(const CorePair& pair, const Vec3<double>& velocity, double t_
   const double t = towards / squared - std::sqrt(deep);
   const Vec3<double> there = pair.x + t * velocity;
   const double speed = std::sqrt(squared), approach = -there.dot(velocity) / there.norm();
-  constexpr double epsilons = 16 * std::numeric_limits<double>::epsilon();
   // What is wrong of the distance there, by the speed at which it changes.
-  const double off = std::abs(there.norm() - radius) + epsilons * (radius + pair.x.norm());
+  const double off = std::abs(there.norm() - radius) + rounding;
   if (!(t * speed > near) || !(approach > 0)) return result;
   if ((t - t_max) * approach > near + off) return miss(pair.x + t_max * velocity);
   result.status = SweptStatus::hit;
@@ -42,10 +45,9 @@ SweptTime of_balls(const CorePair& pair, const Vec3<double>& velocity, double t_
   return result;
 }
 
-}  // namespace
-
-SweptTime swept_time(const CorePair& pair, const Vec3<double>& velocity, double t_max, double near,
-                     PairMemory* memory) {
+/// Speeds whose squares are ordinary numbers.
+SweptTime of_ordinary_speeds(const CorePair& pair, const Vec3<double>& velocity, double t_max,
+                             double near, PairMemory* memory) {
   if (pair.a.kind == CoreKind::point && pair.b.kind == CoreKind::point)
     return of_balls(pair, velocity, t_max, near);
   SweptTime swept;
@@ -59,6 +61,37 @@ SweptTime swept_time(const CorePair& pair, const Vec3<double>& velocity, double 
     return SweptPortal<A, B>(pair, velocity, t_max, near).run(memory);
   });
   if (memory && !swept.axis.isZero(0)) memory->axis = swept.axis;
+  return swept;
+}
+
+/// t * 2^power, rounded towards `outward` where it has no such number.
+double rescaled(double t, int power, double outward) {
+  const double scaled = std::ldexp(t, power);
+  return std::ldexp(scaled, -power) == t ? scaled : std::nextafter(scaled, outward);
+}
+
+}  // namespace
+
+SweptTime swept_time(const CorePair& pair, const Vec3<double>& velocity, double t_max, double near,
+                     PairMemory* memory) {
+  // Beyond these squares of speeds come near to the ends of the numbers' range, 2^-1074 and 2^1024.
+  constexpr double slowest = 0x1p-400, fastest = 0x1p400;
+  const double most = velocity.cwiseAbs().maxCoeff();
+  if (most > slowest && most < fastest)
+    return of_ordinary_speeds(pair, velocity, t_max, near, memory);
+  if (!(most > 0) || !velocity.allFinite()) return {};
+  // Time in another unit, by a power of two, rounds no digit of a speed.
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  int power = 0;
+  std::frexp(most, &power);
+  const Vec3<double> slower =
+      velocity.unaryExpr([power](double speed) { return std::ldexp(speed, -power); });
+  SweptTime swept =
+      of_ordinary_speeds(pair, slower, rescaled(t_max, power, infinity), near, memory);
+  swept.t_lo = rescaled(swept.t_lo, -power, -infinity);
+  swept.t_hi = rescaled(swept.t_hi, -power, infinity);
+  const bool is_late = swept.status == SweptStatus::hit && !std::isfinite(swept.t_hi);
+  if (is_late) swept.status = SweptStatus::open;  // at a time that is no number
   return swept;
 }
 

@@ -7,10 +7,12 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "core/files/regular_file.h"
 
@@ -75,16 +77,84 @@ Vec3<double> coordinates(std::string_view line, std::size_t line_number) {
   return vertex;
 }
 
+/// Makes triangles of faces that are told corner by corner; if nobody wants them, nothing.
+class TriangleFans {
+ public:
+  explicit TriangleFans(MeshTriangles* triangles) : triangles_(triangles) {}
+
+  bool are_wanted() const { return triangles_ != nullptr; }
+
+  /// The faces from here on are in this group.
+  void begin_group(std::uint32_t group) { group_ = group; }
+
+  void add_corner(std::size_t vertex) {
+    // No file is large enough for a vertex beyond 32 bits: an OBJ that names one is refused.
+    const auto corner = static_cast<std::uint32_t>(vertex);
+    if (count_ == 0) first_ = corner;
+    if (count_ >= 2) add_triangle(corner);
+    last_ = corner;
+    ++count_;
+  }
+
+  void end_face() {
+    if (count_ == 1 || count_ == 2) add_triangle(last_);
+    count_ = 0;
+  }
+
+ private:
+  void add_triangle(std::uint32_t corner) {
+    if (!are_wanted()) return;
+    triangles_->corners.push_back({first_, last_, corner});
+    triangles_->groups.push_back(group_);
+  }
+
+  MeshTriangles* triangles_;
+  std::uint32_t group_ = 0;
+  std::size_t count_ = 0;  // corners of the face so far
+  std::uint32_t first_ = 0, last_ = 0;
+};
+
+/// Numbers the groups of an OBJ, one for each pair of an object's and a group's name. What is above
+/// the first name has none, as have the faces below a "g" alone.
+class ObjGroups {
+ public:
+  ObjGroups() { number(); }
+
+  /// The number of what is below the keyword, "o" or "g", and its name on the rest of the line,
+  /// which may be several words. An object begins without a group.
+  std::uint32_t below(std::string_view keyword, std::string_view line) {
+    if (keyword == "o") object_.clear();
+    group_.clear();
+    std::string& name = keyword == "o" ? object_ : group_;
+    for (std::string_view word = next_word(line); !word.empty(); word = next_word(line)) {
+      if (!name.empty()) name += ' ';
+      name += word;
+    }
+    return number();
+  }
+
+ private:
+  std::uint32_t number() {
+    const auto next = static_cast<std::uint32_t>(numbers_.size());
+    return numbers_.emplace(std::pair(object_, group_), next).first->second;
+  }
+
+  std::string object_, group_;
+  std::map<std::pair<std::string, std::string>, std::uint32_t> numbers_;
+};
+
 /// The vertices that the faces of an OBJ name. They may stand below the faces: only at the end is
 /// it known which are missing.
 class ObjFaces {
  public:
+  explicit ObjFaces(TriangleFans& fans) : fans_(&fans) {}
+
   /// Takes the words of a face ("7", "7/1", "7//2" or "-1/2/3"), above which `count` vertices
   /// stand.
   void add(std::string_view line, std::size_t count, std::size_t line_number) {
     for (;;) {
       const std::string_view word = next_word(line);
-      if (word.empty()) return;
+      if (word.empty()) break;
       long long index = 0;
       if (!read_number(word.substr(0, word.find('/')), index) || index == 0) {
         throw std::runtime_error(place(line_number) +
@@ -99,7 +169,10 @@ class ObjFaces {
         largest_ = index;
         line_of_largest_ = line_number;
       }
+      const auto offset = static_cast<std::size_t>(index);
+      fans_->add_corner(index < 0 ? count + offset : offset - 1);
     }
+    fans_->end_face();
   }
 
   /// All faces must find theirs among `count` vertices.
@@ -111,6 +184,7 @@ class ObjFaces {
   }
 
  private:
+  TriangleFans* fans_;
   long long largest_ = 0;
   std::size_t line_of_largest_ = 0;
 };
@@ -122,18 +196,26 @@ std::string_view next_obj_line(std::string_view& text) {
   return line.substr(0, line.find_last_not_of(" \t") + 1);
 }
 
-Vertices vertices_of_obj(std::string_view text) {
+Vertices vertices_of_obj(std::string_view text, TriangleFans fans) {
   Vertices vertices;
-  ObjFaces faces;
+  ObjFaces faces(fans);
+  ObjGroups groups;
   std::string whole_line;
   text = without_byte_order_mark(text);
   for (std::size_t lines_read = 0; !text.empty();) {
     const std::size_t line_number = ++lines_read;
     std::string_view line = next_obj_line(text);
-    const std::string_view word = next_word(line);
+    std::string_view word = next_word(line);
+    if (fans.are_wanted() && (word == "o" || word == "g"))
+      fans.begin_group(groups.below(word, line));
+    // A backslash at its end joins the next line, to the keyword alone, too. Only here: the path in
+    // "mtllib C:\a\" does not.
+    if (line.empty() && (word == "v\\" || word == "f\\")) {
+      line = word.substr(1);
+      word.remove_suffix(1);
+    }
     if (word != "v" && word != "f") continue;
 
-    // A backslash at its end joins the next line. Only here: the path in "mtllib C:\a\" does not.
     whole_line = line;
     for (; whole_line.ends_with('\\') && !text.empty(); ++lines_read) {
       whole_line.back() = ' ';
@@ -179,8 +261,10 @@ std::string_view behind_name(std::string_view line) {
 
 /// There may be several solids, each from its "solid" to its "endsolid". The first line neither
 /// blank nor a comment must begin with "solid"; between and behind solids all but facets may stand.
-Vertices vertices_of_text_stl(std::string_view text) {
+/// The corners of a facet are what stands before the next facet, or before the end of this one.
+Vertices vertices_of_text_stl(std::string_view text, TriangleFans fans) {
   Vertices vertices;
+  std::uint32_t solids_read = 0;
   std::size_t line_of_solid = 0;  // 0 outside of solids
   for (std::size_t line_number = 1; !text.empty(); ++line_number) {
     std::string_view line = next_line(text);
@@ -202,8 +286,13 @@ Vertices vertices_of_text_stl(std::string_view text) {
       const bool ends = begins_endsolid(line);
       const std::string_view word = next_word(line);
       if (word.empty() || word[0] == '#') break;
-      if (is_keyword(word, "vertex")) vertices.push_back(coordinates(line, line_number));
+      if (is_keyword(word, "vertex")) {
+        fans.add_corner(vertices.size());
+        vertices.push_back(coordinates(line, line_number));
+      }
+      if (ends || is_keyword(word, "facet") || is_keyword(word, "endfacet")) fans.end_face();
       if (!ends) continue;
+      fans.begin_group(++solids_read);
       // Facets on the line of an "endsolid" are the next solid's.
       line = behind_name(line);
       line_of_solid = line.empty() ? 0 : line_number;
@@ -237,7 +326,7 @@ bool is_text_stl(std::string_view bytes) {
   return false;
 }
 
-Vertices vertices_of_binary_stl(std::string_view bytes) {
+Vertices vertices_of_binary_stl(std::string_view bytes, TriangleFans fans) {
   constexpr std::size_t least_bytes = stl_header_bytes + 4;
   const std::string got = " (got " + std::to_string(bytes.size());
   const std::size_t triangles =
@@ -267,29 +356,32 @@ Vertices vertices_of_binary_stl(std::string_view bytes) {
         throw std::runtime_error("triangle " + std::to_string(vertices.size() / 3 + 1) +
                                  ": a vertex must be three finite numbers");
       }
+      fans.add_corner(vertices.size());
       vertices.push_back(corner);
     }
+    fans.end_face();
   }
   return vertices;
 }
 
 }  // namespace
 
-Vertices read_mesh_vertices(const std::filesystem::path& path) {
+Vertices read_mesh_vertices(const std::filesystem::path& path, MeshTriangles* triangles) {
   std::string extension = path.extension().string();
   for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   if (extension != ".obj" && extension != ".stl") {
     throw std::runtime_error("must be a mesh file that ends in .obj or .stl");
   }
   return mesh_vertices(read_regular_file(path, most_bytes),
-                       extension == ".obj" ? MeshFormat::obj : MeshFormat::stl);
+                       extension == ".obj" ? MeshFormat::obj : MeshFormat::stl, triangles);
 }
 
-Vertices mesh_vertices(std::string_view contents, MeshFormat format) {
-  Vertices vertices = format == MeshFormat::obj ? vertices_of_obj(contents)
+Vertices mesh_vertices(std::string_view contents, MeshFormat format, MeshTriangles* triangles) {
+  const TriangleFans fans(triangles);
+  Vertices vertices = format == MeshFormat::obj ? vertices_of_obj(contents, fans)
                       : is_text_stl(contents)
-                          ? vertices_of_text_stl(without_byte_order_mark(contents))
-                          : vertices_of_binary_stl(contents);
+                          ? vertices_of_text_stl(without_byte_order_mark(contents), fans)
+                          : vertices_of_binary_stl(contents, fans);
   if (vertices.empty()) throw std::runtime_error("has no vertices");
   return vertices;
 }

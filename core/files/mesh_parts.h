@@ -7,8 +7,10 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string_view>
 #include <vector>
 
+#include "core/files/mesh_file.h"
 #include "core/math/vec.h"
 
 namespace minkray {
@@ -21,9 +23,13 @@ struct MeshParts {
   std::vector<std::vector<std::uint32_t>> parts = {};  ///< vertices of each; empty: all are one
 };
 
-/// Reads OBJ and STL. Groups are what follows an "o" or "g" with another name, and STL's solids.
-/// Throws std::runtime_error without the file's name.
+/// Reads OBJ and STL as read_mesh_vertices() does. Groups are what follows an "o" or "g" with
+/// another name, and STL's solids. Each vertex that a face names is in a part; of a file without
+/// faces all are one. Throws std::runtime_error without the file's name.
 MeshParts read_mesh_parts(const std::filesystem::path& file, MeshSplit split);
+
+/// Reads a file's contents.
+MeshParts mesh_parts(std::string_view contents, MeshFormat format, MeshSplit split);
 
 /// The vertices of each connected part, parts in the order of their first triangle. Vertices at the
 /// same place are one. Vertices of no triangle are left out.

@@ -152,9 +152,13 @@ std::vector<NearPair> nearest_bodies(const ContactBody& to, const ContactWorld& 
                                      std::size_t count) {
   std::vector<NearPair> best;
   if (count == 0 || world.bodies().empty()) return best;
-  const auto is_nearer = [](const NearPair& a, const NearPair& b) {
-    return a.distance.value < b.distance.value ||
-           (a.distance.value == b.distance.value && a.b < b.b);
+  const auto value_of = [](const NearPair& pair) {
+    return pair.distance.is_unknown() ? std::numeric_limits<double>::infinity()
+                                      : pair.distance.value;
+  };
+  const auto is_nearer = [&](const NearPair& a, const NearPair& b) {
+    const double of_a = value_of(a), of_b = value_of(b);
+    return of_a < of_b || (of_a == of_b && a.b < b.b);
   };
   // The nearest box first: what is further than the worst of those kept ends the search.
   struct Open {
@@ -170,7 +174,7 @@ std::vector<NearPair> nearest_bodies(const ContactBody& to, const ContactWorld& 
     open.pop();
     const bool is_full = best.size() == count;
     // Boxes that meet say nothing of how deep the bodies are in each other.
-    if (is_full && top.distance > std::max(best.back().distance.value, 0.0)) break;
+    if (is_full && top.distance > std::max(value_of(best.back()), 0.0)) break;
     if ((top.what & BvhNode::leaf) == 0) {
       const BvhNode& node = world.hierarchy().nodes[top.what];
       for (int i = 0; i < bvh_width && node.children[i] != BvhNode::none; ++i)
@@ -181,7 +185,7 @@ std::vector<NearPair> nearest_bodies(const ContactBody& to, const ContactWorld& 
     const ContactBody& body = world.bodies()[index];
     if (!to.is_pair_with(body)) continue;
     SignedDistanceOptions how;
-    if (is_full) how.at_most = best.back().distance.value;
+    if (is_full) how.at_most = value_of(best.back());
     const NearPair pair{0, index, signed_distance(to.shape, to.pose, body.shape, body.pose, how)};
     if (is_full && !is_nearer(pair, best.back())) continue;
     best.insert(std::ranges::upper_bound(best, pair, is_nearer), pair);

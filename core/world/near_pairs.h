@@ -55,7 +55,7 @@ struct NearPairsOptions {
 };
 
 /// All pairs of a world whose signed distance is not proven to be above `at_most`, in the order of
-/// their indices, whatever the number of threads.
+/// their indices, whatever the number of threads. Those whose distance is unknown are among them.
 std::vector<NearPair> near_pairs(const ContactWorld& world, const NearPairsOptions& options);
 
 /// All pairs of a body of one world and one of the other.
@@ -63,7 +63,8 @@ std::vector<NearPair> near_pairs(const ContactWorld& first, const ContactWorld& 
                                  const NearPairsOptions& options);
 
 /// The `count` bodies nearest to another one, the nearest first; fewer if there are not so many.
-/// `a` is 0. Masks are heeded.
+/// `a` is 0. Masks are heeded. Bodies whose distance is unknown (SignedDistance::is_unknown()) come
+/// last, and only if there are not so many others: whether they are near nobody knows.
 std::vector<NearPair> nearest_bodies(const ContactBody& to, const ContactWorld& world,
                                      std::size_t count);
 

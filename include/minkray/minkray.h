@@ -596,6 +596,7 @@ class Scene {
       detail::check(
           minkray_scene_set_joint(scene_, group_, joint.c_str(), values.data(), values.size()));
     }
+    /// Not of a file with particles.
     void set_pose(const Pose& pose) {
       detail::check(minkray_scene_set_group_pose(scene_, group_, detail::plain(&pose)));
     }

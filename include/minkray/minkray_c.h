@@ -166,7 +166,8 @@ MINKRAY_API int minkray_scene_add_half_space(minkray_scene scene, const double n
 
 typedef struct minkray_file_options {
   size_t size;                     /* sizeof(minkray_file_options) */
-  const minkray_pose* pose;        /* of all that the file holds, after its own; or NULL */
+  const minkray_pose* pose;        /* of all that the file holds, after its own; or NULL, as it
+                                      must be for one with particles */
   const char* geometry;            /* of robots: "visual" (or NULL), "collision" or "all" */
   const char* keyframe;            /* or NULL */
   const char* const* package_dirs; /* where package:// and model:// are looked for */
@@ -183,7 +184,7 @@ MINKRAY_API int minkray_scene_add_file(minkray_scene scene, const char* file,
 MINKRAY_API int minkray_scene_set_pose(minkray_scene scene, uint32_t object,
                                        const minkray_pose* pose);
 
-/* Moves all that came from a file. */
+/* Moves all that came from a file. One with particles cannot be moved: MINKRAY_WRONG_USE. */
 MINKRAY_API int minkray_scene_set_group_pose(minkray_scene scene, uint32_t group,
                                              const minkray_pose* pose);
 
@@ -424,7 +425,7 @@ typedef enum minkray_impact_status {
 typedef struct minkray_impact {
   double t_lo;     /* they are apart before this: proven */
   double t_hi;     /* they touch here; infinite if they do not */
-  double distance; /* between them at t_lo */
+  double distance; /* between them at t_lo; infinite if it is not known */
   double point_a[3];
   double point_b[3];
   double normal[3];
@@ -455,8 +456,8 @@ typedef struct minkray_clearance {
   double row;   /* 2.25: a quarter of the way from path[2] to path[3] */
   double point_a[3];
   double point_b[3];
-  double normal[3]; /* from a to b, of length 1 */
-  uint32_t object_a;
+  double normal[3];  /* from a to b, of length 1 */
+  uint32_t object_a; /* particles are numbered as in a minkray_hit */
   uint32_t object_b;
   int32_t is_settled; /* 0 if the bounds are further apart than was asked */
   int32_t reserved;
@@ -466,7 +467,8 @@ typedef struct minkray_clearance {
  * from row to row each joint goes at a constant rate. `steps` (or NULL) are one for each two rows
  * that follow each other, or one if there is one row; `least` (or NULL) is of all of them. The
  * shapes looked at are those that the file was added with: see `geometry` of minkray_file_options.
- * The scene must be committed; where the robot's joints are by now does not matter. */
+ * With more than 1,000,000 objects and particles, or 10,000,000 pairs, it is MINKRAY_BAD_INPUT. The
+ * scene must be committed; where the robot's joints are by now does not matter. */
 MINKRAY_API int minkray_scene_clearance(minkray_scene scene, uint32_t group, const double* path,
                                         size_t rows, size_t numbers,
                                         const minkray_clearance_options* options,

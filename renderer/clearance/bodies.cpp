@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/clearance/bodies.h"
 
+#include <algorithm>
+
+#include "renderer/base/errors.h"
 #include "renderer/import/scene_of_model.h"
+#include "renderer/scene/scene_instances.h"
 
 namespace minkray {
 namespace {
@@ -29,43 +33,70 @@ std::vector<ClearanceBody> bodies_of(const Model& model, GeometryChoice geometry
 }
 
 std::vector<ClearanceBody> bodies_of(const Scene& scene) {
+  const std::size_t count = instance_count(scene);
+  if (count > most_obstacles)
+    throw BadInput(
+        "distances from more than 1,000,000 objects and particles are not measured (got " +
+        std::to_string(count) + ")");
   std::vector<ClearanceBody> bodies;
-  for (const Object& object : scene.objects) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const Object object = instance_object(scene, i);
     bodies.push_back({object.name, "", -1, {}, ContactShape(object.shape, object.pose)});
     if (object.half_space) bodies.back().half_space = object.half_space->posed(object.pose);
   }
   return bodies;
 }
 
+namespace {
+
+/// What decides whether a body moves against another.
+struct Place {
+  int group;   ///< of links that are fixed to each other; -1: an obstacle
+  int parent;  ///< the group that it hangs on; of the world, and of what is fixed to it, none: -2
+  bool is_still;
+};
+
+Place place_of(const ClearanceBody& body, const Model& model, const std::vector<int>& groups) {
+  if (body.link_index < 0) return {-1, -2, true};
+  const int group = groups[static_cast<std::size_t>(body.link_index)];
+  const ModelLink& link = model.links[static_cast<std::size_t>(group)];
+  const bool is_fixed = std::ranges::all_of(
+      link.joints, [](const ModelJoint& joint) { return joint.kind == JointKind::fixed; });
+  return {group, link.parent < 0 ? -2 : groups[static_cast<std::size_t>(link.parent)],
+          link.parent < 0 && is_fixed};
+}
+
+}  // namespace
+
 std::vector<BodyPair> pairs_of(const std::vector<ClearanceBody>& bodies, const Model& model,
                                const AllowedPairs& allowed, bool self) {
   const std::vector<int> groups = rigid_groups(model);
-  const auto group = [&](const ClearanceBody& body) {
-    return body.link_index < 0 ? -1 : groups[static_cast<std::size_t>(body.link_index)];
-  };
-  // The group that a group hangs on; of the world, and of what is fixed to it, there is none.
-  const auto parent = [&](int of) {
-    const int link = of < 0 ? -1 : model.links[static_cast<std::size_t>(of)].parent;
-    return link < 0 ? -2 : groups[static_cast<std::size_t>(link)];
-  };
-  const auto is_still = [&](int of) {
-    if (of < 0) return true;
-    const ModelLink& link = model.links[static_cast<std::size_t>(of)];
-    return link.parent < 0 && std::ranges::all_of(link.joints, [](const ModelJoint& joint) {
-             return joint.kind == JointKind::fixed;
-           });
-  };
+  std::vector<Place> places;
+  // Obstacles are not looked at in pairs: there may be a million of them.
+  std::vector<std::size_t> all, links, obstacles;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    places.push_back(place_of(bodies[i], model, groups));
+    all.push_back(i);
+    (places[i].group < 0 ? obstacles : links).push_back(i);
+  }
   std::vector<BodyPair> pairs;
-  for (std::size_t i = 0; i < bodies.size(); ++i)
-    for (std::size_t j = i + 1; j < bodies.size(); ++j) {
-      const ClearanceBody &a = bodies[i], &b = bodies[j];
-      const int of_a = group(a), of_b = group(b);
-      if (of_a == of_b || (is_still(of_a) && is_still(of_b))) continue;
-      const bool is_self = of_a >= 0 && of_b >= 0;
-      if (is_self && (!self || parent(of_a) == of_b || parent(of_b) == of_a)) continue;
-      if (is_self && allowed.allows(a.link, b.link)) continue;
-      pairs.push_back({i, j});
+  for (const std::size_t i : all) {
+    const Place& a = places[i];
+    const std::vector<std::size_t>& others = a.group < 0 ? links : self ? all : obstacles;
+    for (auto j = std::ranges::upper_bound(others, i); j != others.end(); ++j) {
+      const Place& b = places[*j];
+      if (a.group == b.group || (a.is_still && b.is_still)) continue;
+      if (a.group >= 0 && b.group >= 0 &&
+          (a.parent == b.group || b.parent == a.group ||
+           allowed.allows(bodies[i].link, bodies[*j].link)))
+        continue;
+      if (pairs.size() == most_pairs)
+        throw BadInput(
+            "more than 10,000,000 pairs of bodies move against each other; --allow, --srdf and "
+            "--only-obstacles (only_obstacles in the library) leave some out");
+      pairs.push_back({i, *j});
     }
+  }
   return pairs;
 }
 

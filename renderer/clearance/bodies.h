@@ -31,7 +31,12 @@ struct ClearanceBody {
 /// The shapes that `geometry` chooses.
 std::vector<ClearanceBody> bodies_of(const Model& model, GeometryChoice geometry);
 
-/// All of a scene's objects, at the scene's time.
+/// They are held all at once, some hundred bytes each, and looked at one by one in each step.
+inline constexpr std::size_t most_obstacles = 1'000'000;
+inline constexpr std::size_t most_pairs = 10'000'000;
+
+/// All of a scene's objects and particles, at the scene's time, in the order in which worlds number
+/// them. Throws BadInput if there are more than most_obstacles.
 std::vector<ClearanceBody> bodies_of(const Scene& scene);
 
 struct BodyPair {
@@ -39,7 +44,8 @@ struct BodyPair {
 };
 
 /// Pairs of which one moves against the other; not of links that a joint connects, nor of allowed
-/// ones. Without `self` only those of the robot and an obstacle.
+/// ones. Without `self` only those of the robot and an obstacle. Throws BadInput if there are more
+/// than most_pairs.
 std::vector<BodyPair> pairs_of(const std::vector<ClearanceBody>& bodies, const Model& model,
                                const AllowedPairs& allowed, bool self);
 

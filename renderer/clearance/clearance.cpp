@@ -2,6 +2,8 @@
 #include "renderer/clearance/clearance.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "core/contact/half_space_distance.h"
 #include "core/contact/least_distance.h"
@@ -25,6 +27,7 @@ class StepPair : public MovingPair {
     for (const ClearanceBody* body : {&a, &b}) {
       if (body->half_space) continue;
       const MotionBound bound = motion.bound(body->link_index, frame_, body->reach());
+      is_within_numbers_ &= bound.is_within_numbers();
       speed += bound.speed;
       acceleration += bound.acceleration;
       size += body->shape.ball_radius();
@@ -62,13 +65,18 @@ class StepPair : public MovingPair {
     return frame_ < 0 ? Affine<double>{} : motion_.links_at(s)[static_cast<std::size_t>(frame_)];
   }
 
+  /// If not, nothing can be said of the step.
+  bool is_within_numbers() const { return is_within_numbers_; }
+
   /// No distance of the step is less, by the balls around the two alone.
   double lower_by_balls() const {
     if (a_.half_space || b_.half_space) return -std::numeric_limits<double>::infinity();
     const auto middle = [&](const ClearanceBody& body) {
       return pose(body, 0.5)(body.shape.middle());
     };
-    return (middle(b_) - middle(a_)).norm() - size - speed / 2;
+    const double lower = (middle(b_) - middle(a_)).norm() - size - speed / 2;
+    // Beyond the numbers' range nothing is known.
+    return std::isfinite(lower) ? lower : -std::numeric_limits<double>::infinity();
   }
 
  private:
@@ -82,6 +90,7 @@ class StepPair : public MovingPair {
   const ClearanceBody &a_, &b_;
   StepMotion& motion_;
   int frame_;
+  bool is_within_numbers_ = true;
 };
 
 SignedDistance in_world(SignedDistance found, const Affine<double>& frame) {
@@ -163,6 +172,11 @@ class Search {
     how.relative_gap = options_.tolerance;
     for (const BodyPair& pair : pairs_) {
       const StepPair moving(bodies_[pair.a], bodies_[pair.b], motion);
+      if (!moving.is_within_numbers()) {
+        closest.lower = -std::numeric_limits<double>::infinity();
+        closest.is_settled = false;
+        continue;
+      }
       how.enough = std::min(enough, closest.upper);
       const double by_balls = moving.lower_by_balls();
       if (by_balls > how.enough) {

@@ -3,6 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+
+#include "renderer/base/errors.h"
+#include "renderer/json/mistakes.h"
 
 namespace minkray {
 namespace {
@@ -15,9 +19,16 @@ int quaternion_at(JointKind kind) {
 
 using Quaternion = Eigen::Quaterniond;
 
+/// As link_poses takes it: one of any length is its direction, and one of length zero turns
+/// nothing.
 Quaternion quaternion_of(const std::vector<double>& values, int at) {
   const auto i = static_cast<std::size_t>(at);
-  return Quaternion(values[i], values[i + 1], values[i + 2], values[i + 3]).normalized();
+  Quaternion q(values[i], values[i + 1], values[i + 2], values[i + 3]);
+  const double largest = q.coeffs().cwiseAbs().maxCoeff();
+  if (!(largest > 0)) return Quaternion::Identity();
+  // The squares of others could leave the range of numbers.
+  if (largest > 2 || largest < 0.25) q.coeffs() /= largest;
+  return q.normalized();
 }
 
 std::vector<double> between(JointKind kind, const std::vector<double>& first,
@@ -36,6 +47,29 @@ Vec3<double> first_three(const std::vector<double>& values) {
   return {values[0], values[1], values[2]};
 }
 
+/// What is wrong with a joint's way from one row to the next; empty if nothing is. Of a quaternion
+/// only the direction matters.
+std::string mistake_of(const ModelJoint& joint, const std::vector<double>& before) {
+  const std::vector<double>& now = joint.value;
+  const int quaternion = quaternion_at(joint.kind);
+  const auto told = [&](const char* what) {
+    return "the joint \"" + printable(joint.name, 60) + "\" " + what;
+  };
+  if (before.empty() && !now.empty()) return told("must have a value from the first row on");
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    char text[100] = "";
+    if (!std::isfinite(now[i]))
+      std::snprintf(text, sizeof text, "must be a finite number (got %g)", now[i]);
+    else if (i < before.size() && (quaternion < 0 || i < static_cast<std::size_t>(quaternion)) &&
+             !std::isfinite(now[i] - before[i]))
+      std::snprintf(text, sizeof text,
+                    "must not go further in one step than numbers reach (%g to %g)", before[i],
+                    now[i]);
+    if (*text) return told(text);
+  }
+  return "";
+}
+
 }  // namespace
 
 JointPath::JointPath(const Model& model, const std::vector<JointRow>& rows) : skeleton(model) {
@@ -47,9 +81,17 @@ JointPath::JointPath(const Model& model, const std::vector<JointRow>& rows) : sk
       if (ModelJoint* joint = find_joint(posed, name)) joint->value = numbers;
     follow_mimics(posed);
     times.push_back(row.time);
-    values.emplace_back();
+    std::vector<std::vector<double>> of_row;
     for (const ModelLink& link : posed.links)
-      for (const ModelJoint& joint : link.joints) values.back().push_back(joint.value);
+      for (const ModelJoint& joint : link.joints) {
+        const std::string mistake =
+            mistake_of(joint, values.empty() ? joint.value : values.back()[of_row.size()]);
+        if (!mistake.empty())
+          throw BadInput("path: row " + std::to_string(times.size()) + " of " +
+                         std::to_string(rows.size()) + ": " + mistake);
+        of_row.push_back(joint.value);
+      }
+    values.push_back(std::move(of_row));
   }
 }
 
@@ -125,8 +167,11 @@ MotionBound StepMotion::bound(int link, int ancestor, double reach) const {
       const bool has_anchor = joint.kind == JointKind::hinge || joint.kind == JointKind::ball;
       const double arm = has_anchor ? joint.anchor.norm() : 0;
       bound.reach += arm;
-      bound.acceleration += rate.turn * (rate.turn * bound.reach + 2 * bound.speed);
-      bound.speed += rate.turn * bound.reach + rate.slide;
+      if (rate.turn > 0) {  // zero times a bound that is infinite is no number
+        bound.acceleration += rate.turn * (rate.turn * bound.reach + 2 * bound.speed);
+        bound.speed += rate.turn * bound.reach;
+      }
+      bound.speed += rate.slide;
       bound.reach += arm + rate.offset;
       is_in_world = rate.is_absolute;
     }

@@ -4,6 +4,7 @@
 // links' points, by which what was seen at some times is proven for all.
 #pragma once
 
+#include <limits>
 #include <map>
 #include <vector>
 
@@ -14,6 +15,8 @@ namespace minkray {
 
 /// All joints' values in each row, in the model's order; mimics follow.
 struct JointPath {
+  /// Throws BadInput if a value, or how far a joint goes in a step, is beyond numbers, or if a
+  /// joint gets its first value after the first row: nobody knows how it comes there.
   JointPath(const Model& model, const std::vector<JointRow>& rows);
 
   Model skeleton;  ///< links and joints alone
@@ -29,6 +32,11 @@ struct MotionBound {
   double reach = 0;  ///< no point is further from the other's origin
   double speed = 0;
   double acceleration = 0;
+
+  /// Whether all is so far from where numbers end that squares of lengths do not leave them.
+  bool is_within_numbers() const {
+    return reach < 1e150 && speed < 1e150 && acceleration < std::numeric_limits<double>::infinity();
+  }
 };
 
 class StepMotion {

@@ -7,7 +7,6 @@
 #include "core/contact/contact_shape.h"
 #include "core/contact/swept.h"
 #include "renderer/import/framing.h"
-#include "renderer/scene/scene_instances.h"
 
 namespace minkray {
 
@@ -32,6 +31,11 @@ Scene swept_scene(Model model, const ImportOptions& import, const JointPath& pat
     for (std::size_t step = 0; step < path.steps(); ++step) {
       StepMotion motion(path, step);
       const MotionBound bound = motion.bound(geom.link, -1, reach);
+      if (!bound.is_within_numbers()) {
+        mistakes.add("step " + std::to_string(step + 1) + " of the path moves \"" + posed.name +
+                     "\" further than numbers reach");
+        return scene;
+      }
       const auto pose = [&](double s) {
         return motion.links_at(s)[static_cast<std::size_t>(geom.link)] * geom.pose;
       };
@@ -48,6 +52,11 @@ Scene swept_scene(Model model, const ImportOptions& import, const JointPath& pat
       const double wish = slack > 0 ? std::ceil(std::sqrt(bound.acceleration / (8 * slack))) : 1;
       const auto parts =
           static_cast<std::size_t>(std::clamp(wish, 1.0, static_cast<double>(options.most_parts)));
+      if (objects.size() + parts > options.most_bodies) {
+        mistakes.add("the path sweeps more than " + std::to_string(options.most_bodies) +
+                     " shapes");
+        return scene;
+      }
       const auto n = static_cast<double>(parts);
       for (std::size_t part = 0; part < parts; ++part) {
         const double from = static_cast<double>(part) / n, to = static_cast<double>(part + 1) / n;
@@ -56,10 +65,6 @@ Scene swept_scene(Model model, const ImportOptions& import, const JointPath& pat
         object.shape = swept(*geom.shape, pose(from), pose(to), bound.acceleration / (n * n));
         object.pose = {};
         objects.push_back(object);
-      }
-      if (objects.size() > most_instances) {
-        mistakes.add("the path sweeps more shapes than a scene may have");
-        return scene;
       }
     }
   }

@@ -13,6 +13,8 @@ struct SweptSceneOptions {
   /// relative to the body's own size.
   double slack = 0.01;
   std::size_t most_parts = 64;  ///< of one step
+  /// A scene of more is a mistake: a path of a few megabytes could ask for a thousand million.
+  std::size_t most_bodies = 1'000'000;
 };
 
 /// One object for each shape and part of a step. Each provably holds the link all through its part;

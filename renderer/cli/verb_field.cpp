@@ -81,12 +81,16 @@ void field(FieldVerbOptions& options) {
   show_preview(picture, options.preview);
   if (options.quiet || !options.preview.preview.empty()) return;
   double least = std::numeric_limits<double>::infinity(), widest = 0;
+  std::size_t unknown = 0;
   for (std::size_t i = 0; i < found.value.size(); ++i) {
     least = std::min(least, found.value[i]);
+    unknown += found.is_unknown(i) ? 1 : 0;
     if (std::isfinite(found.upper[i])) widest = std::max(widest, found.upper[i] - found.lower[i]);
   }
   std::cout << "least distance " << least << ", proven to " << widest << "; " << found.supports
             << " support points\n";
+  if (unknown > 0)
+    std::cout << unknown << " pixels (grey) have objects beside them whose distance is unknown\n";
 }
 
 }  // namespace

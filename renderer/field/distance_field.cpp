@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 
+#include "core/contact/closed_answer.h"
 #include "core/contact/half_space_distance.h"
 #include "core/parallel/parallel.h"
 #include "renderer/base/errors.h"
@@ -15,6 +16,19 @@ struct Body {
   ContactShape shape;
   std::optional<HalfSpaceBody<double>> half_space;
 };
+
+/// The gap of the balls around two shapes whose middles are given, as it is computed.
+double gap_of_balls(const ContactShape& a, const Vec3<double>& middle_a, const ContactShape& b,
+                    const Vec3<double>& middle_b) {
+  return length_of(middle_a - middle_b) - a.ball_radius() - b.ball_radius();
+}
+
+/// What rounding may have made of it.
+double rounding_of_gap(const ContactShape& a, const Vec3<double>& middle_a, const ContactShape& b,
+                       const Vec3<double>& middle_b) {
+  constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
+  return rounding * (length_of(middle_a) + length_of(middle_b) + a.ball_radius() + b.ball_radius());
+}
 
 }  // namespace
 
@@ -59,6 +73,7 @@ DistanceField measure_field(const Scene& scene, const Shape<double>& probe, cons
                                   plane.at(static_cast<int>(x), static_cast<int>(y))};
         const Vec3<double> middle = pose(moving.middle());
         double& value = field.value[pixel];
+        double unknown_from = none;  // objects of unknown distance may be as near as this
         for (std::size_t i = 0; i < bodies.size(); ++i) {
           const Body& body = bodies[i];
           SignedDistance found;
@@ -66,21 +81,26 @@ DistanceField measure_field(const Scene& scene, const Shape<double>& probe, cons
             found = distance_to_half_space(body.half_space->normal, body.half_space->offset, moving,
                                            pose);
           } else {
-            const double apart = (middle - body.shape.middle()).norm() - moving.ball_radius() -
-                                 body.shape.ball_radius();
+            const double apart = gap_of_balls(moving, middle, body.shape, body.shape.middle());
             if (apart > value) continue;
             SignedDistanceOptions how;
             how.tolerance = options.tolerance;
             how.at_most = value;
             found = signed_distance(body.shape, {}, moving, pose, how);
+            if (found.is_unknown())
+              found.lower = std::max(
+                  found.lower,
+                  apart - rounding_of_gap(moving, middle, body.shape, body.shape.middle()));
           }
           asked += static_cast<std::size_t>(found.supports);
           field.lower[pixel] = std::min(field.lower[pixel], found.lower);
           field.upper[pixel] = std::min(field.upper[pixel], found.upper);
-          if (!(found.value < value)) continue;
+          if (found.is_unknown()) unknown_from = std::min(unknown_from, found.lower);
+          if (found.is_unknown() || !(found.value < value)) continue;
           value = found.value;
           field.object[pixel] = static_cast<int>(i);
         }
+        if (unknown_from < value) field.object[pixel] = -1;
       }
     }
     supports += asked;

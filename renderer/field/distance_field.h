@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <vector>
 
 #include "core/shape/shape.h"
@@ -25,11 +26,20 @@ FieldPlane plane_facing(const Vec3<double>& middle, const Vec3<double>& normal, 
                         int width, int height);
 
 /// A number a pixel, rows from the top. The truth is between lower and upper.
+///
+/// Of an object so large or far that its distance is unknown (SignedDistance::is_unknown()) `lower`
+/// has what the balls around it and the probe tell, which may be -infinity; `value` is the least
+/// distance of the others, infinite if there are none.
 struct DistanceField {
   FieldPlane plane;
   std::vector<double> value, lower, upper;
-  std::vector<int> object;  ///< the index of the nearest; -1 if the scene has none
+  std::vector<int> object;  ///< the index of the nearest; -1 if the scene has none or is_unknown()
   std::size_t supports = 0;
+
+  /// Whether an object of unknown distance may be nearer than `value`.
+  bool is_unknown(std::size_t pixel) const {
+    return object[pixel] < 0 && lower[pixel] < std::numeric_limits<double>::infinity();
+  }
 };
 
 struct FieldOptions {

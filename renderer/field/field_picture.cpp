@@ -11,7 +11,7 @@
 namespace minkray {
 namespace {
 
-const Vec3<float> ink{0.8f, 0.8f, 0.8f}, ground{0.01f, 0.01f, 0.012f};
+const Vec3<float> ink{0.8f, 0.8f, 0.8f}, ground{0.01f, 0.01f, 0.012f}, unknown{0.3f, 0.3f, 0.3f};
 
 /// What the picture's colours stand for.
 struct Scale {
@@ -71,12 +71,17 @@ Image field_picture(const DistanceField& field, const std::string& title) {
   Image image(std::max(width, static_cast<int>(200 * s)), height + static_cast<int>(48 * s),
               ground);
   const Scale scale(field.value);
-  const auto value = [&](int x, int y) {
-    return field.value[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                       static_cast<std::size_t>(x)];
+  const auto pixel = [&](int x, int y) {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+           static_cast<std::size_t>(x);
   };
+  const auto value = [&](int x, int y) { return field.value[pixel(x, y)]; };
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
+      if (field.is_unknown(pixel(x, y))) {
+        image.at(x, y) = unknown;
+        continue;
+      }
       const double here = value(x, y);
       Vec3<float> colour = scale.colour(here);
       // A line passes between this pixel and the one to the right or below.

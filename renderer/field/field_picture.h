@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A distance field as a picture: colours by distance, blue where the probe overlaps something, with
-// lines of equal distance, a white one where it touches, and a scale below.
+// lines of equal distance, a white one where it touches, and a scale below. Grey is where the
+// distance is unknown.
 #pragma once
 
 #include "renderer/field/distance_field.h"

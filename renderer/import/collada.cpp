@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <unordered_map>
@@ -18,16 +19,28 @@ namespace {
 /// A node may show other nodes, and these others, so that few lines could show meshes without end.
 constexpr std::size_t most_vertices = 20'000'000;
 constexpr int deepest_node = 64;
-constexpr std::size_t most_nodes = 1'000'000;
-constexpr std::size_t most_text_bytes = 1'000'000'000;
+constexpr std::size_t most_shown = 1'000'000;  ///< nodes and meshes
+constexpr std::size_t most_triangles_of_vertex = 8;
 
 using FaceCorners = std::array<std::uint32_t, 3>;
+
+std::size_t count_words(std::string_view text) {
+  std::size_t count = 0;
+  char before = ' ';
+  for (const char c : text) {
+    const auto is_blank = [](char x) { return x == ' ' || x == '\t' || x == '\n' || x == '\r'; };
+    count += is_blank(before) && !is_blank(c) ? 1 : 0;
+    before = c;
+  }
+  return count;
+}
 
 class Collada {
  public:
   Collada(const XmlElement& root, XmlFiles& files, MeshSplit split)
       : root_(root), files_(files), split_(split) {
     index(root);
+    most_ = std::min(most_vertices, most_shown_vertices(numbers_));
   }
 
   MeshParts read() {
@@ -46,13 +59,37 @@ class Collada {
       for (const XmlElement& node : scene->children)
         if (node.name == "node") add_node(node, scale, 0);
     } else if (const XmlElement* library = root_.child("library_geometries")) {
-      for (const XmlElement& geometry : library->children) add_geometry(geometry, scale);
+      for (const XmlElement& geometry : library->children)
+        add_geometry(geometry_of(geometry), scale);
     }
     return std::move(mesh_);
   }
 
  private:
+  /// What a node shows, in the order in which it stands there.
+  struct Shown {
+    const XmlElement* node = nullptr;
+    const XmlElement* geometry = nullptr;        ///< if it is no node
+    std::optional<Affine<double>> in_skin = {};  ///< where the mesh stands, of one in a skin
+  };
+  struct Node {
+    Affine<double> pose;
+    std::vector<Shown> shows;
+  };
+
+  /// Where vertices lie among the numbers of an array.
+  struct Vertices {
+    const std::vector<double>* numbers;
+    std::size_t begin, stride, count;
+  };
+  struct Geometry {
+    std::vector<Vertices> vertices;
+    std::vector<FaceCorners> triangles;  ///< if it is split into what hangs together
+    std::size_t corners_end = 0;         ///< beyond all vertices that they name
+  };
+
   void index(const XmlElement& element) {
+    if (element.name == "float_array") numbers_ += count_words(element.text);
     if (const std::string* id = element.attribute("id")) by_id_.emplace(*id, &element);
     for (const XmlElement& child : element.children) index(child);
   }
@@ -104,56 +141,95 @@ class Collada {
     return all;
   }
 
-  /// A mesh may be shown again and again, and is read each time.
-  void take_text(const std::string& text) {
-    text_bytes_ += text.size();
-    if (text_bytes_ > most_text_bytes)
-      throw std::runtime_error("shows meshes of more than " + std::to_string(most_text_bytes) +
-                               " bytes of text");
-  }
-
-  void add_node(const XmlElement& node, const Affine<double>& outer, int depth) {
-    if (depth > deepest_node) throw std::runtime_error("nodes are nested too deeply, or for ever");
-    if (++nodes_ > most_nodes)
-      throw std::runtime_error("shows more than " + std::to_string(most_nodes) + " nodes");
-    const Affine<double> pose = outer * transform_of(node);
-    for (const XmlElement& child : node.children) {
-      if (child.name == "node") add_node(child, pose, depth + 1);
+  /// Each is read once, however often it is shown.
+  const Node& node_of(const XmlElement& element) {
+    const auto [at, is_new] = nodes_.try_emplace(&element);
+    Node& node = at->second;
+    if (!is_new) return node;
+    node.pose = transform_of(element);
+    for (const XmlElement& child : element.children) {
+      if (child.name == "node") node.shows.push_back({.node = &child});
       if (child.name == "instance_node")
-        if (const XmlElement* other = target(child, "url")) add_node(*other, pose, depth + 1);
+        if (const XmlElement* other = target(child, "url")) node.shows.push_back({.node = other});
       if (child.name == "instance_geometry")
-        if (const XmlElement* geometry = target(child, "url")) add_geometry(*geometry, pose);
+        if (const XmlElement* geometry = target(child, "url"))
+          node.shows.push_back({.geometry = geometry});
       if (child.name == "instance_controller")
         if (const XmlElement* controller = target(child, "url"))
           if (const XmlElement* skin = controller->child("skin"))
             if (const XmlElement* geometry = target(*skin, "source")) {
-              const XmlElement* bind = skin->child("bind_shape_matrix");
-              add_geometry(*geometry, bind ? pose * matrix_of(*bind) : pose);
+              Shown shown{.geometry = geometry};
+              if (const XmlElement* bind = skin->child("bind_shape_matrix"))
+                shown.in_skin = matrix_of(*bind);
+              node.shows.push_back(shown);
             }
     }
+    return node;
   }
 
-  void add_geometry(const XmlElement& geometry, const Affine<double>& pose) {
-    const XmlElement* mesh = geometry.child("mesh");
+  const Geometry& geometry_of(const XmlElement& element) {
+    const auto [at, is_new] = geometries_.try_emplace(&element);
+    Geometry& geometry = at->second;
+    const XmlElement* mesh = is_new ? element.child("mesh") : nullptr;
     const XmlElement* vertices = mesh ? mesh->child("vertices") : nullptr;
-    if (!vertices) return;
+    if (!vertices) return geometry;
     for (const XmlElement& input : vertices->children) {
       if (input.name != "input" || input.attribute_or("semantic") != "POSITION") continue;
       const XmlElement* source = target(input, "source");
       const XmlElement* array = source ? source->child("float_array") : nullptr;
       if (!array) continue;
-      take_text(array->text);
-      const auto numbers =
-          files_.numbers_in(*array, array->text, "float_array", 0, 3 * most_vertices);
-      if (!numbers) return;
-      if (mesh_.vertices.size() + numbers->size() / 3 > most_vertices)
-        throw std::runtime_error("shows more than " + std::to_string(most_vertices) + " vertices");
-      const std::size_t first = mesh_.vertices.size();
+      const std::vector<double>& numbers = numbers_of(*array);
       const auto [begin, stride] = layout_of(*source);
-      for (std::size_t i = begin; i + 2 < numbers->size(); i += stride)
-        mesh_.vertices.push_back(
-            pose(Vec3<double>((*numbers)[i], (*numbers)[i + 1], (*numbers)[i + 2])));
-      add_parts(*mesh, first);
+      if (numbers.size() < begin + 3) continue;
+      const std::size_t count = (numbers.size() - begin - 3) / stride + 1;
+      geometry.vertices.push_back({&numbers, begin, stride, count});
+    }
+    if (split_ == MeshSplit::components && !geometry.vertices.empty())
+      read_triangles(*mesh, geometry);
+    return geometry;
+  }
+
+  /// They are none, and a mistake, if any of them is wrong.
+  const std::vector<double>& numbers_of(const XmlElement& array) {
+    const auto [at, is_new] = arrays_.try_emplace(&array);
+    if (is_new)
+      at->second = files_.numbers_in(array, array.text, "float_array", 0, 3 * most_vertices)
+                       .value_or(std::vector<double>());
+    return at->second;
+  }
+
+  void count_shown() {
+    if (++shown_ > most_shown)
+      throw std::runtime_error("must show at most " + std::to_string(most_shown) +
+                               " nodes and meshes, each again where it is shown again");
+  }
+
+  void add_node(const XmlElement& element, const Affine<double>& outer, int depth) {
+    if (depth > deepest_node) throw std::runtime_error("nodes are nested too deeply, or for ever");
+    count_shown();
+    const Node& node = node_of(element);
+    const Affine<double> pose = outer * node.pose;
+    for (const Shown& shown : node.shows) {
+      if (shown.node)
+        add_node(*shown.node, pose, depth + 1);
+      else
+        add_geometry(geometry_of(*shown.geometry), shown.in_skin ? pose * *shown.in_skin : pose);
+    }
+  }
+
+  void add_geometry(const Geometry& geometry, const Affine<double>& pose) {
+    count_shown();
+    for (const auto& [numbers, begin, stride, count] : geometry.vertices) {
+      const std::size_t first = mesh_.vertices.size();
+      if (first + count > most_)
+        throw std::runtime_error("must show at most " + std::to_string(most_) + " vertices, of " +
+                                 std::to_string(numbers_) + " numbers in the file (got " +
+                                 std::to_string(first + count) + ")");
+      for (std::size_t i = 0; i < count; ++i) {
+        const double* at = numbers->data() + begin + i * stride;
+        mesh_.vertices.push_back(pose(Vec3<double>(at[0], at[1], at[2])));
+      }
+      add_parts(geometry, first);
     }
   }
 
@@ -169,15 +245,21 @@ class Collada {
             static_cast<std::size_t>(number("stride", 3))};
   }
 
-  void add_parts(const XmlElement& mesh, std::size_t first) {
+  void add_parts(const Geometry& geometry, std::size_t first) {
     const std::size_t count = mesh_.vertices.size() - first;
-    if (count == 0) return;
     if (split_ == MeshSplit::groups) {
       std::vector<std::uint32_t>& part = mesh_.parts.emplace_back(count);
       std::iota(part.begin(), part.end(), static_cast<std::uint32_t>(first));
     } else if (split_ == MeshSplit::components) {
+      if (geometry.corners_end > count)
+        throw std::runtime_error("a <p> names a vertex that is not there");
+      triangles_ += geometry.triangles.size();
+      if (triangles_ > most_triangles_of_vertex * most_)
+        throw std::runtime_error("must show at most " +
+                                 std::to_string(most_triangles_of_vertex * most_) +
+                                 " triangles (got " + std::to_string(triangles_) + ")");
       const auto own = std::span(mesh_.vertices).subspan(first);
-      for (std::vector<std::uint32_t>& part : components_of(own, triangles_of(mesh, count))) {
+      for (std::vector<std::uint32_t>& part : components_of(own, geometry.triangles)) {
         for (std::uint32_t& i : part) i += static_cast<std::uint32_t>(first);
         mesh_.parts.push_back(std::move(part));
       }
@@ -185,8 +267,7 @@ class Collada {
   }
 
   /// Triangles that hang together as the mesh's polygons do.
-  std::vector<FaceCorners> triangles_of(const XmlElement& mesh, std::size_t vertices) {
-    std::vector<FaceCorners> triangles;
+  void read_triangles(const XmlElement& mesh, Geometry& geometry) {
     for (const XmlElement& faces : mesh.children) {
       double stride = 1, offset = -1;
       for (const XmlElement& input : faces.children) {
@@ -202,20 +283,19 @@ class Collada {
                      .value_or(std::vector<double>());
       for (const XmlElement& list : faces.children) {
         if (list.name != "p") continue;
-        take_text(list.text);
         const auto p = files_.numbers_in(list, list.text, "p", 0, 16 * most_vertices);
         if (!p) continue;
         std::vector<std::uint32_t> corners;
         for (auto i = static_cast<std::size_t>(offset); i < p->size();
              i += static_cast<std::size_t>(stride)) {
-          if (!((*p)[i] >= 0 && (*p)[i] < static_cast<double>(vertices)))
+          if (!((*p)[i] >= 0 && (*p)[i] < static_cast<double>(most_vertices)))
             throw std::runtime_error("a <p> names a vertex that is not there");
           corners.push_back(static_cast<std::uint32_t>((*p)[i]));
+          geometry.corners_end = std::max<std::size_t>(geometry.corners_end, corners.back() + 1);
         }
-        add_polygons(faces.name, counts, corners, triangles);
+        add_polygons(faces.name, counts, corners, geometry.triangles);
       }
     }
-    return triangles;
   }
 
   static void add_polygons(const std::string& kind, const std::vector<double>& counts,
@@ -241,7 +321,12 @@ class Collada {
   XmlFiles& files_;
   MeshSplit split_;
   std::unordered_map<std::string, const XmlElement*> by_id_;
-  std::size_t nodes_ = 0, text_bytes_ = 0;
+  std::unordered_map<const XmlElement*, Node> nodes_;
+  std::unordered_map<const XmlElement*, Geometry> geometries_;
+  std::unordered_map<const XmlElement*, std::vector<double>> arrays_;
+  std::size_t numbers_ = 0;  ///< in all arrays of the file
+  std::size_t most_ = 0;     ///< vertices that it may show
+  std::size_t shown_ = 0, triangles_ = 0;
   MeshParts mesh_;
 };
 

@@ -67,10 +67,17 @@ void add_mesh(Model& model, XmlFiles& files, const XmlElement& element,
     return;
   }
   if (!answer.complaint.empty()) return files.wrong(element, answer.complaint);
-  add_hulls(model, answer, std::move(geom));
+  if (const auto complaint = add_hulls(model, answer, std::move(geom)))
+    files.wrong(element, *complaint);
 }
 
-void add_hulls(Model& model, const MeshLibrary::Answer& answer, ModelGeom geom) {
+std::optional<std::string> add_hulls(Model& model, const MeshLibrary::Answer& answer,
+                                     ModelGeom geom) {
+  const std::size_t count = model.geoms.size() + answer.hulls.size();
+  if (count > most_geoms)
+    return "shows " + std::to_string(answer.hulls.size()) + " hulls: with the shapes before, a " +
+           "model must have at most " + std::to_string(most_geoms) + " shapes (got " +
+           std::to_string(count) + ")";
   geom.kind = "mesh";
   const std::string name = geom.name;
   for (std::size_t i = 0; i < answer.hulls.size(); ++i) {
@@ -78,6 +85,7 @@ void add_hulls(Model& model, const MeshLibrary::Answer& answer, ModelGeom geom) 
     if (answer.hulls.size() > 1) geom.name = name + "[" + std::to_string(i) + "]";
     model.geoms.push_back(geom);
   }
+  return std::nullopt;
 }
 
 }  // namespace minkray

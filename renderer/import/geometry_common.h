@@ -35,8 +35,10 @@ class ShapeNumbers {
   bool all_good_ = true;
 };
 
-/// Adds a mesh's hulls as geoms like the one given.
-void add_hulls(Model& model, const MeshLibrary::Answer& answer, ModelGeom geom);
+/// Adds a mesh's hulls as geoms like the one given. If the model would have more than most_geoms
+/// then, it adds none and answers with what is wrong.
+[[nodiscard]] std::optional<std::string> add_hulls(Model& model, const MeshLibrary::Answer& answer,
+                                                   ModelGeom geom);
 
 /// Adds a mesh's hulls as geoms like the one given; or tells what is wrong with it, or passes it
 /// over if it is missing and that is allowed.

@@ -115,7 +115,7 @@ class GltfReader {
       geom.collides = !has_colliders_;
       // A skin's vertices stand where they are, wherever its node is.
       if (json.contains("skin")) geom.pose = in_world.inverse() * gltf_z_up();
-      add_mesh_geoms(*mesh, geom);
+      add_mesh_geoms(*mesh, geom, path / "mesh");
     }
     if (collider) add_collider(*collider, path / "extensions" / physics / "collider", link);
     if (physics_of(node, "trigger")) model_.pass_over("triggers", "are no bodies");
@@ -137,10 +137,25 @@ class GltfReader {
     return answer;
   }
 
-  void add_mesh_geoms(std::size_t mesh, const ModelGeom& geom) {
+  /// What the nodes below show as colliders; as one hull if that is asked for.
+  const MeshLibrary::Answer& hulls_of_node(std::size_t node, bool is_one) {
+    const auto [at, is_new] = hulls_of_nodes_.try_emplace({node, is_one});
+    if (!is_new) return at->second;
+    MeshParts all;
+    meshes_.add_shown(std::span(&node, 1), {}, false, all);
+    if (is_one) all.parts.clear();
+    if (!all.vertices.empty())
+      at->second =
+          library_.hulls_of_parts(all, Vec3<double>::Ones(), "collider of " + name_of_node(node));
+    return at->second;
+  }
+
+  /// `path` is where the mesh is named.
+  void add_mesh_geoms(std::size_t mesh, const ModelGeom& geom, const JsonPath& path) {
     const MeshLibrary::Answer& answer = hulls_of(mesh);
     const std::size_t before = model_.geoms.size();
-    add_hulls(model_, answer, geom);
+    if (const auto complaint = add_hulls(model_, answer, geom))
+      return document_.mistakes().add(path, *complaint);
     const Json* primitives = document_.item("meshes", mesh).find("primitives");
     const std::vector<std::size_t>& of_part = meshes_.primitives_of_parts(mesh);
     for (std::size_t i = before; i < model_.geoms.size(); ++i) {
@@ -169,18 +184,14 @@ class GltfReader {
       geom.pose = shape->pose;
       model_.geoms.push_back(std::move(geom));
     } else if (const auto mesh = document_.index(*geometry, at, "mesh", "meshes")) {
-      add_mesh_geoms(*mesh, geom);
+      add_mesh_geoms(*mesh, geom, at / "mesh");
     } else if (const auto node = document_.index(*geometry, at, "node", "nodes")) {
-      MeshParts all;
-      add_shown_meshes(document_, meshes_, std::span(&*node, 1), {}, false, all);
-      if (all.vertices.empty()) return;
-      if (const Json* convex = geometry->find("convexHull");
-          convex && convex->is_boolean() && convex->get<bool>())
-        all.parts.clear();
-      const auto answer =
-          library_.hulls_of_parts(all, Vec3<double>::Ones(), "collider of " + name_of_node(*node));
+      const Json* convex = geometry->find("convexHull");
+      const MeshLibrary::Answer& answer =
+          hulls_of_node(*node, convex && convex->is_boolean() && convex->get<bool>());
       if (!answer.complaint.empty()) return document_.mistakes().add(at, answer.complaint);
-      add_hulls(model_, answer, geom);
+      if (const auto complaint = add_hulls(model_, answer, geom))
+        document_.mistakes().add(at, *complaint);
     } else {
       document_.mistakes().add(at, "must name a \"shape\" or a \"node\"");
     }
@@ -192,6 +203,7 @@ class GltfReader {
   MeshSplit splits_;
   Model model_;
   std::map<std::size_t, MeshLibrary::Answer> hulls_;
+  std::map<std::pair<std::size_t, bool>, MeshLibrary::Answer> hulls_of_nodes_;
   bool has_colliders_ = false;
 };
 
@@ -211,7 +223,7 @@ MeshParts read_gltf_mesh(const std::filesystem::path& file, MeshSplit split) {
   if (document.root() && mistakes.none()) {
     GltfMeshes meshes(document, split);
     const std::vector<std::size_t> roots = gltf_roots(document);
-    if (mistakes.none()) add_shown_meshes(document, meshes, roots, gltf_z_up(), true, all);
+    if (mistakes.none()) meshes.add_shown(roots, gltf_z_up(), true, all);
   }
   if (!mistakes.none()) {
     const std::string first = mistakes.messages().front();

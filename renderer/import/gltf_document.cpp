@@ -211,6 +211,7 @@ const std::string* GltfDocument::buffer(std::size_t index) {
                             std::to_string(bytes->size()) + ")");
     return nullptr;
   }
+  buffer_bytes_ += bytes->size();
   return &(buffers_[index] = std::move(*bytes));
 }
 

@@ -40,6 +40,9 @@ class GltfDocument {
   /// Whole numbers of an accessor (SCALAR), each less than `limit`.
   std::optional<std::vector<std::uint32_t>> indices(std::size_t accessor, std::size_t limit);
 
+  /// Of the buffers that were asked for so far.
+  std::size_t bytes_of_buffers() const { return buffer_bytes_; }
+
   /// Hashes of all that was read.
   const std::string& hash_text() const { return hash_text_; }
   Mistakes& mistakes() { return mistakes_; }
@@ -65,6 +68,7 @@ class GltfDocument {
   bool has_binary_ = false;
   std::optional<Json> root_;
   std::map<std::size_t, std::string> buffers_;
+  std::size_t buffer_bytes_ = 0;
   std::size_t numbers_read_ = 0;  ///< accessors may share what they read, and be asked again
   std::string hash_text_;
 };

@@ -5,6 +5,7 @@
 #include <array>
 #include <numeric>
 
+#include "renderer/import/mesh_library.h"
 #include "renderer/json/values.h"
 
 namespace minkray {
@@ -114,10 +115,7 @@ void GltfMeshes::add_primitive(const Json& primitive, const JsonPath& path, std:
   std::ranges::sort(used);
   used.erase(std::unique(used.begin(), used.end()), used.end());
   vertices_ += used.size();
-  if (vertices_ > most_gltf_vertices) {
-    document_.mistakes().add("shows more than " + std::to_string(most_gltf_vertices) + " vertices");
-    return;
-  }
+  if (has_too_many(vertices_)) return;
   MeshParts& mesh = read.parts;
   const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
   for (const std::uint32_t i : used) mesh.vertices.push_back((*points)[i]);
@@ -205,44 +203,56 @@ std::vector<std::size_t> gltf_roots(GltfDocument& document) {
   return document.mistakes().none() ? roots : std::vector<std::size_t>();
 }
 
-void add_shown_meshes(GltfDocument& document, GltfMeshes& meshes,
-                      std::span<const std::size_t> nodes, const Affine<double>& pose,
-                      bool with_own_pose, MeshParts& all) {
+/// Whether so many are more than the file may have or show, which is a mistake.
+bool GltfMeshes::has_too_many(std::size_t vertices) {
+  constexpr std::size_t bytes_of_number = 4;
+  const std::size_t most = std::min(
+      most_gltf_vertices, most_shown_vertices(document_.bytes_of_buffers() / bytes_of_number));
+  if (vertices <= most) return false;
+  document_.mistakes().add(JsonPath() / "meshes",
+                           "must show at most " + std::to_string(most) + " vertices, of " +
+                               std::to_string(document_.bytes_of_buffers()) +
+                               " bytes of buffers (got " + std::to_string(vertices) + ")");
+  return true;
+}
+
+void GltfMeshes::add_shown(std::span<const std::size_t> nodes, const Affine<double>& pose,
+                           bool with_own_pose, MeshParts& all) {
   struct Open {
     std::size_t node;
     Affine<double> pose;
   };
   std::vector<Open> open;
   for (const std::size_t node : nodes)
-    open.push_back({node, with_own_pose ? pose * gltf_pose(document, node) : pose});
+    open.push_back({node, with_own_pose ? pose * gltf_pose(document_, node) : pose});
   // A node that a collider names may be in a circle.
   std::size_t visits = 0;
   while (!open.empty()) {
     const Open at = open.back();
     open.pop_back();
-    if (++visits > document.count("nodes")) {
-      document.mistakes().add(JsonPath() / "nodes" / at.node, "must not be below itself");
-      return;
-    }
-    const Json& json = document.item("nodes", at.node);
-    if (const auto index = document.index(json, JsonPath() / "nodes" / at.node, "mesh", "meshes")) {
-      const MeshParts& mesh = meshes.mesh(*index);
-      if (all.vertices.size() + mesh.vertices.size() > most_gltf_vertices) {
-        document.mistakes().add("shows more than " + std::to_string(most_gltf_vertices) +
-                                " vertices");
-        return;
-      }
+    const JsonPath path = JsonPath() / "nodes" / at.node;
+    if (++visits > document_.count("nodes"))
+      return document_.mistakes().add(path, "must not be below itself");
+    if (const std::size_t most = most_gltf_visits + document_.count("nodes"); ++visits_ > most)
+      return document_.mistakes().add(
+          path, "must not be below so many colliders' nodes: with it, more than " +
+                    std::to_string(most) + " nodes are below all of them");
+    const Json& json = document_.item("nodes", at.node);
+    if (const auto index = document_.index(json, path, "mesh", "meshes")) {
+      const MeshParts& shown = mesh(*index);
+      shown_ += shown.vertices.size();
+      if (has_too_many(shown_)) return;
       const auto first = static_cast<std::uint32_t>(all.vertices.size());
       // A skin's vertices stand where they are, wherever its node is.
       const Affine<double> there = json.contains("skin") ? pose : at.pose;
-      for (const Vec3<double>& vertex : mesh.vertices) all.vertices.push_back(there(vertex));
-      for (std::vector<std::uint32_t> part : mesh.parts) {
+      for (const Vec3<double>& vertex : shown.vertices) all.vertices.push_back(there(vertex));
+      for (std::vector<std::uint32_t> part : shown.parts) {
         for (std::uint32_t& i : part) i += first;
         all.parts.push_back(std::move(part));
       }
     }
-    for (const std::size_t child : gltf_children(document, at.node))
-      open.push_back({child, at.pose * gltf_pose(document, child)});
+    for (const std::size_t child : gltf_children(document_, at.node))
+      open.push_back({child, at.pose * gltf_pose(document_, child)});
   }
 }
 

@@ -15,6 +15,9 @@ namespace minkray {
 /// No file shows more vertices, meshes that are shown again counted again.
 inline constexpr std::size_t most_gltf_vertices = 8'000'000;
 
+/// Colliders may each name a node with many below it; these are visited so often, beside once each.
+inline constexpr std::size_t most_gltf_visits = 100'000;
+
 /// Turns y up to z up.
 Affine<double> gltf_z_up();
 
@@ -32,6 +35,10 @@ class GltfMeshes {
   /// How many primitives were points or lines.
   std::size_t left_out() const { return left_out_; }
 
+  /// Adds all meshes that are shown by nodes and those below them.
+  void add_shown(std::span<const std::size_t> nodes, const Affine<double>& pose, bool with_own_pose,
+                 MeshParts& all);
+
  private:
   struct Read {
     MeshParts parts;
@@ -39,11 +46,14 @@ class GltfMeshes {
   };
   const Read& read(std::size_t index);
   void add_primitive(const Json& primitive, const JsonPath& path, std::size_t number, Read& read);
+  bool has_too_many(std::size_t vertices);
 
   GltfDocument& document_;
   MeshSplit split_;
   std::map<std::size_t, Read> read_;
-  std::size_t vertices_ = 0, left_out_ = 0;
+  std::size_t vertices_ = 0;  ///< of all meshes
+  std::size_t shown_ = 0;     ///< by all nodes that were asked for
+  std::size_t visits_ = 0, left_out_ = 0;
 };
 
 /// What a node is by itself.
@@ -55,10 +65,5 @@ std::vector<std::size_t> gltf_children(GltfDocument& document, std::size_t node)
 /// The nodes without a parent that are shown: those of the file's scene, or all. A mistake if nodes
 /// are no forest.
 std::vector<std::size_t> gltf_roots(GltfDocument& document);
-
-/// Adds all meshes that are shown by nodes and those below them.
-void add_shown_meshes(GltfDocument& document, GltfMeshes& meshes,
-                      std::span<const std::size_t> nodes, const Affine<double>& pose,
-                      bool with_own_pose, MeshParts& all);
 
 }  // namespace minkray

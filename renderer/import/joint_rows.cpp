@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Joints' values from files: CSV with names in its first line, or JSON.
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <sstream>
+#include <unordered_map>
 
 #include "renderer/import/scene_of_model.h"
 #include "renderer/json/parse.h"
@@ -13,6 +15,12 @@ namespace {
 
 /// Rows follow each other so fast unless they say when they are.
 constexpr double rows_a_second = 24;
+
+/// Whoever has more has one mistake many times.
+constexpr std::size_t most_mistakes = 20;
+
+/// In each row each link, joint and shape of the model has its place: some hundred bytes.
+constexpr std::size_t most_keys = 10'000'000;
 
 std::vector<std::string> cells_of(const std::string& line) {
   std::vector<std::string> cells;
@@ -25,116 +33,154 @@ std::vector<std::string> cells_of(const std::string& line) {
   return cells;
 }
 
-std::vector<JointRow> rows_of_csv(const std::string& text, Model& model, Mistakes& of_file) {
-  std::vector<JointRow> rows;
-  std::istringstream lines(text);
-  std::string line;
-  std::getline(lines, line);
-  const std::vector<std::string> names = cells_of(line);
-  // Joints of several numbers take several columns of their name.
-  std::vector<std::size_t> width_so_far(names.size());
-  for (std::size_t c = 0; c < names.size(); ++c) {
-    const ModelJoint* joint = find_joint(model, names[c]);
-    if (names[c] == "time") continue;
-    if (!joint) {
-      of_file.add("line 1: there is no joint \"" + printable(names[c], 60) + "\"");
-      continue;
-    }
-    std::size_t columns = 0;
-    for (const std::string& other : names) columns += other == names[c] ? 1 : 0;
-    if (columns != width_of(joint->kind))
-      of_file.add("line 1: the joint \"" + printable(names[c], 60) + "\" takes " +
-                  std::to_string(width_of(joint->kind)) + " columns");
+class RowReader {
+ public:
+  RowReader(Model& model, Mistakes& of_file)
+      : model_(model), of_file_(of_file), joints_(joints_by_name(model)) {
+    size_ = std::max(model.links.size(), model.geoms.size());
+    std::size_t joints = 0;
+    for (const ModelLink& link : model.links) joints += link.joints.size();
+    size_ = std::max<std::size_t>({size_, joints, 1});
+    most_ = std::max<std::size_t>(most_keys / size_, 1);
   }
-  for (std::size_t number = 2; std::getline(lines, line) && of_file.messages().size() < 20;
-       ++number) {
-    const std::vector<std::string> cells = cells_of(line);
-    if (cells.empty() || (cells.size() == 1 && cells[0].empty())) continue;
-    if (cells.size() != names.size()) {
-      of_file.add("line " + std::to_string(number) + ": must have " + std::to_string(names.size()) +
-                  " cells (got " + std::to_string(cells.size()) + ")");
-      continue;
+
+  std::vector<JointRow> read(const std::string& text) {
+    const std::size_t begin = text.find_first_not_of(" \t\r\n");
+    const bool is_json = begin != text.npos && (text[begin] == '[' || text[begin] == '{');
+    if (is_json)
+      read_json(text);
+    else
+      read_csv(text);
+    if (rows_.empty() && of_file_.none()) of_file_.add("must have rows of values");
+    if (of_file_.none()) leave_out_mimics();
+    return std::move(rows_);
+  }
+
+ private:
+  bool has_most_mistakes() const { return of_file_.messages().size() >= most_mistakes; }
+
+  const ModelJoint* joint_of(const std::string& name) const {
+    const auto found = joints_.find(name);
+    return found == joints_.end() ? nullptr : found->second;
+  }
+
+  std::string complaint_of_count(const std::string& got) const {
+    return "must have at most " + std::to_string(most_) + " rows, for a model of " +
+           std::to_string(size_) + " links, shapes or joints (got " + got + ")";
+  }
+
+  void read_csv(const std::string& text) {
+    std::istringstream lines(text);
+    std::string line;
+    std::getline(lines, line);
+    const std::vector<std::string> names = cells_of(line);
+    // Joints of several numbers take several columns of their name.
+    std::unordered_map<std::string, std::size_t> columns;
+    for (const std::string& name : names) ++columns[name];
+    for (const std::string& name : names) {
+      if (name == "time" || has_most_mistakes()) continue;
+      const ModelJoint* joint = joint_of(name);
+      if (!joint)
+        of_file_.add("line 1: there is no joint \"" + printable(name, 60) + "\"");
+      else if (columns[name] != width_of(joint->kind))
+        of_file_.add("line 1: the joint \"" + printable(name, 60) + "\" takes " +
+                     std::to_string(width_of(joint->kind)) + " columns");
     }
-    JointRow row{static_cast<double>(rows.size()) / rows_a_second, {}};
-    for (std::size_t c = 0; c < cells.size(); ++c) {
-      double value = 0;
-      const char* const end = cells[c].data() + cells[c].size();
-      const auto [next, error] = std::from_chars(cells[c].data(), end, value);
-      if (error != std::errc() || next != end || !std::isfinite(value)) {
-        of_file.add("line " + std::to_string(number) + ": must be finite numbers (got \"" +
-                    printable(cells[c], 40) + "\")");
-        break;
-      }
-      if (names[c] == "time") {
-        row.time = value;
+    JointRow pattern;
+    std::unordered_map<std::string, std::size_t> places;
+    std::vector<std::size_t> place_of_column;
+    for (const std::string& name : names) {
+      const auto [at, is_new] = places.try_emplace(name, pattern.values.size());
+      if (is_new && name != "time") pattern.values.push_back({name, {}});
+      place_of_column.push_back(at->second);
+    }
+    for (std::size_t number = 2; std::getline(lines, line) && !has_most_mistakes(); ++number) {
+      const std::string where = "line " + std::to_string(number) + ": ";
+      const std::vector<std::string> cells = cells_of(line);
+      if (cells.empty() || (cells.size() == 1 && cells[0].empty())) continue;
+      if (rows_.size() == most_) return of_file_.add(where + complaint_of_count("one more"));
+      if (cells.size() != names.size()) {
+        of_file_.add(where + "must have " + std::to_string(names.size()) + " cells (got " +
+                     std::to_string(cells.size()) + ")");
         continue;
       }
-      std::vector<double>* values = nullptr;
-      for (auto& [name, known] : row.values)
-        if (name == names[c]) values = &known;
-      if (!values) values = &row.values.emplace_back(names[c], std::vector<double>()).second;
-      values->push_back(value);
-    }
-    if (!rows.empty() && !(row.time > rows.back().time))
-      of_file.add("line " + std::to_string(number) + ": times must rise");
-    rows.push_back(std::move(row));
-  }
-  return rows;
-}
-
-/// {"time": 0.5, "elbow": 1.2, "ball": [1, 0, 0, 0]}
-void add_row(const Json& json, const JsonPath& path, Model& model, Mistakes& of_file,
-             std::vector<JointRow>& rows) {
-  if (!json.is_object()) return of_file.add(path, "must be an object (" + found(json) + ")");
-  JointRow row{static_cast<double>(rows.size()) / rows_a_second, {}};
-  for (const auto& [name, value] : json.members()) {
-    const JsonPath at = path / name;
-    if (name == "time") {
-      row.time = read_number(value, at, of_file).value_or(row.time);
-      continue;
-    }
-    const ModelJoint* joint = find_joint(model, name);
-    if (!joint) {
-      of_file.add(at, "there is no joint of this name");
-      continue;
-    }
-    const std::size_t width = width_of(joint->kind);
-    if (width == 1 && !value.is_array()) {
-      if (const auto number = read_number(value, at, of_file))
-        row.values.push_back({name, {*number}});
-    } else if (auto numbers = read_numbers(value, at, of_file, width)) {
-      row.values.emplace_back(name, std::move(*numbers));
+      JointRow row = pattern;
+      row.time = time_of_next();
+      for (std::size_t c = 0; c < cells.size(); ++c) {
+        double value = 0;
+        const char* const end = cells[c].data() + cells[c].size();
+        const auto [next, error] = std::from_chars(cells[c].data(), end, value);
+        if (error != std::errc() || next != end || !std::isfinite(value)) {
+          of_file_.add(where + "must be finite numbers (got \"" + printable(cells[c], 40) + "\")");
+          break;
+        }
+        if (names[c] == "time")
+          row.time = value;
+        else
+          row.values[place_of_column[c]].second.push_back(value);
+      }
+      if (!rows_.empty() && !(row.time > rows_.back().time))
+        of_file_.add(where + "times must rise");
+      rows_.push_back(std::move(row));
     }
   }
-  if (!rows.empty() && !(row.time > rows.back().time)) of_file.add(path / "time", "must rise");
-  rows.push_back(std::move(row));
-}
 
-std::vector<JointRow> rows_of_json(const std::string& text, Model& model, Mistakes& of_file) {
-  std::vector<JointRow> rows;
-  const auto json = parse_json(text, of_file);
-  if (!json) return rows;
-  if (!json->is_array()) add_row(*json, JsonPath(), model, of_file, rows);
-  for (std::size_t i = 0; json->is_array() && i < json->size(); ++i)
-    if (of_file.messages().size() < 20) add_row((*json)[i], JsonPath() / i, model, of_file, rows);
-  return rows;
-}
+  void read_json(const std::string& text) {
+    const auto json = parse_json(text, of_file_);
+    if (!json) return;
+    if (!json->is_array()) return add_row(*json, JsonPath());
+    if (json->size() > most_) return of_file_.add(complaint_of_count(std::to_string(json->size())));
+    for (std::size_t i = 0; i < json->size() && !has_most_mistakes(); ++i)
+      add_row((*json)[i], JsonPath() / i);
+  }
 
-}  // namespace
+  /// {"time": 0.5, "elbow": 1.2, "ball": [1, 0, 0, 0]}
+  void add_row(const Json& json, const JsonPath& path) {
+    if (!json.is_object()) return of_file_.add(path, "must be an object (" + found(json) + ")");
+    JointRow row{time_of_next(), {}};
+    for (const auto& [name, value] : json.members()) {
+      const JsonPath at = path / name;
+      if (name == "time") {
+        row.time = read_number(value, at, of_file_).value_or(row.time);
+        continue;
+      }
+      const ModelJoint* joint = joint_of(name);
+      if (!joint) {
+        of_file_.add(at, "there is no joint of this name");
+        continue;
+      }
+      const std::size_t width = width_of(joint->kind);
+      if (width == 1 && !value.is_array()) {
+        if (const auto number = read_number(value, at, of_file_))
+          row.values.push_back({name, {*number}});
+      } else if (auto numbers = read_numbers(value, at, of_file_, width)) {
+        row.values.emplace_back(name, std::move(*numbers));
+      }
+    }
+    if (!rows_.empty() && !(row.time > rows_.back().time)) of_file_.add(path / "time", "must rise");
+    rows_.push_back(std::move(row));
+  }
 
-namespace {
+  double time_of_next() const { return static_cast<double>(rows_.size()) / rows_a_second; }
 
-/// Files that were recorded have joints that follow others, too.
-void leave_out_mimics(std::vector<JointRow>& rows, Model& model) {
-  for (JointRow& row : rows)
-    std::erase_if(row.values, [&](const auto& value) {
-      const ModelJoint* joint = find_joint(model, value.first);
-      if (!joint->mimic) return false;
-      model.pass_over("values of the joint \"" + printable(value.first, 60) + "\"",
-                      "it follows \"" + printable(joint->mimic->joint, 60) + "\"");
-      return true;
-    });
-}
+  /// Files that were recorded have joints that follow others, too.
+  void leave_out_mimics() {
+    for (JointRow& row : rows_)
+      std::erase_if(row.values, [&](const auto& value) {
+        const ModelJoint* joint = joint_of(value.first);
+        if (!joint->mimic) return false;
+        model_.pass_over("values of the joint \"" + printable(value.first, 60) + "\"",
+                         "it follows \"" + printable(joint->mimic->joint, 60) + "\"");
+        return true;
+      });
+  }
+
+  Model& model_;
+  Mistakes& of_file_;
+  const JointsByName joints_;
+  std::size_t size_ = 1, most_ = 1;  ///< of the model; of rows
+  std::vector<JointRow> rows_;
+};
 
 }  // namespace
 
@@ -142,13 +188,7 @@ std::vector<JointRow> read_joint_rows(const std::string& file, Model& model, Mis
                                       const std::string& option) {
   std::vector<JointRow> rows;
   Mistakes of_file(file);
-  if (const auto text = read_text_file(file, of_file)) {
-    const std::size_t begin = text->find_first_not_of(" \t\r\n");
-    const bool is_json = begin != text->npos && ((*text)[begin] == '[' || (*text)[begin] == '{');
-    rows = is_json ? rows_of_json(*text, model, of_file) : rows_of_csv(*text, model, of_file);
-    if (rows.empty() && of_file.none()) of_file.add("must have rows of values");
-  }
-  if (of_file.none()) leave_out_mimics(rows, model);
+  if (const auto text = read_text_file(file, of_file)) rows = RowReader(model, of_file).read(*text);
   for (const std::string& message : of_file.messages()) mistakes.add(option + ": " + message);
   return rows;
 }

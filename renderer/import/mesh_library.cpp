@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <exception>
 #include <stdexcept>
 
@@ -10,10 +11,16 @@
 #include "renderer/import/collada.h"
 #include "renderer/import/gltf.h"
 #include "renderer/import/msh.h"
+#include "renderer/import/plane_tree.h"
 #include "renderer/json/mistakes.h"
 
 namespace minkray {
 namespace {
+
+/// A mesh has a hull for each scale that it is shown at. Robots have one or two of them, and small
+/// meshes may have more: Qhull takes up to 50 us for a vertex.
+constexpr std::size_t most_scales = 8;
+constexpr std::size_t most_rescaled_vertices = 1'000'000;
 
 std::string lower_ending(const std::filesystem::path& file) {
   std::string ending = file.extension().string();
@@ -39,21 +46,29 @@ std::string mesh_endings() {
 double deepest_below(const std::vector<Vec3<double>>& vertices, const PointCloud<double>& hull) {
   const FacetMesh<double>* facets = hull.facets();
   if (!facets) return 0;
-  // One plane is enough for facets that are fans of one polygon.
-  std::vector<std::pair<Vec3<double>, double>> planes;
-  for (std::size_t i = 0; i < facets->size(); ++i) {
-    const Vec3<double> normal = (*facets)[i].normal();
-    if (normal.isZero(0)) continue;
-    planes.emplace_back(normal, normal.dot((*facets)[i].corner(0)));
+  Vec3<double> lower = hull.points()[0], upper = lower;
+  for (const Vec3<double>& vertex : hull.points()) {
+    lower = lower.cwiseMin(vertex);
+    upper = upper.cwiseMax(vertex);
   }
+  const Vec3<double> half = (upper - lower) / 2, centre = lower + half;
+  std::vector<PlaneTree::Plane> planes;
+  for (std::size_t i = 0; i < facets->size(); ++i) {
+    const Vec3<double> n = (*facets)[i].normal();
+    if (!n.isZero(0))
+      planes.push_back({n.x(), n.y(), n.z(), n.dot((*facets)[i].corner(0) - centre)});
+  }
+  const PlaneTree tree(std::move(planes), half.maxCoeff());
   double deepest = 0;
+  // The hull has its own points in the vertices' order; they lie below nothing.
+  auto own = hull.points().begin();
   for (const Vec3<double>& vertex : vertices) {
-    double least = std::numeric_limits<double>::infinity();
-    for (const auto& [normal, offset] : planes) {
-      least = std::min(least, offset - normal.dot(vertex));
-      if (least <= deepest) break;  // it cannot be deeper than the deepest so far
+    if (own != hull.points().end() && vertex == *own) {
+      ++own;
+      continue;
     }
-    if (std::isfinite(least)) deepest = std::max(deepest, least);
+    const double depth = tree.least_depth(vertex - centre, deepest);
+    if (std::isfinite(depth)) deepest = std::max(deepest, depth);
   }
   return deepest;
 }
@@ -119,7 +134,8 @@ std::optional<std::filesystem::path> MeshLibrary::find(
   return std::nullopt;
 }
 
-MeshLibrary::Answer MeshLibrary::hulls_of(const std::string& uri, const Vec3<double>& scale) {
+const MeshLibrary::Answer& MeshLibrary::hulls_of(const std::string& uri,
+                                                 const Vec3<double>& scale) {
   std::string key = uri;
   for (const double s : scale) key += " " + std::to_string(std::bit_cast<std::uint64_t>(s));
   const auto made = made_.find(key);
@@ -161,11 +177,21 @@ MeshLibrary::Answer MeshLibrary::hulls_of(const std::string& uri, const Vec3<dou
       hash.add({reinterpret_cast<const char*>(parts.vertices.data()),
                 parts.vertices.size() * sizeof parts.vertices[0]});
       hash_text_ += hash.text();
+      read_vertices_ += parts.vertices.size();
       known = read_.emplace(file->string(), std::move(parts)).first;
     } catch (const std::exception& error) {
       answer.complaint = "the mesh " + printable(file->string(), 160) + ": " + error.what();
       return made_[key] = answer;
     }
+  }
+  shown_vertices_ += known->second.vertices.size();
+  const std::size_t most = std::max(most_rescaled_vertices, most_scales * read_vertices_);
+  if (shown_vertices_ > most) {
+    answer.complaint = "the mesh \"" + printable(title, 100) + "\": with the meshes before, each " +
+                       "once for each of its scales, hulls are made of at most " +
+                       std::to_string(most) + " vertices (got " + std::to_string(shown_vertices_) +
+                       ")";
+    return made_[key] = answer;
   }
   return made_[key] = add(known->second, scale, title);
 }

@@ -3,6 +3,7 @@
 // made convex hulls of. The list of formats that are read is mesh_formats, and nowhere else.
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -22,6 +23,12 @@ struct MeshFormatReader {
 };
 const std::vector<MeshFormatReader>& mesh_formats();
 
+/// How many vertices a file of meshes may show that holds so many numbers: what is shown again and
+/// again makes vertices without end of few bytes, and Qhull takes up to 50 us for each of them.
+constexpr std::size_t most_shown_vertices(std::size_t numbers) {
+  return std::max<std::size_t>(200'000, 8 * numbers);
+}
+
 /// The places between commas; of many, the first ones.
 std::string list_of_places(const std::vector<std::filesystem::path>& places);
 
@@ -38,7 +45,7 @@ class MeshLibrary {
   };
   /// The hulls of a mesh file, its vertices scaled. Names may be paths, or begin with package://,
   /// model:// or file://.
-  Answer hulls_of(const std::string& uri, const Vec3<double>& scale);
+  const Answer& hulls_of(const std::string& uri, const Vec3<double>& scale);
 
   /// The vertices stand in the file itself.
   Answer hulls_of_parts(const MeshParts& mesh, const Vec3<double>& scale, const std::string& name);
@@ -57,6 +64,8 @@ class MeshLibrary {
   const ImportOptions* options_;
   std::map<std::string, MeshParts> read_;
   std::map<std::string, Answer> made_;
+  std::size_t read_vertices_ = 0;   ///< of files
+  std::size_t shown_vertices_ = 0;  ///< of files, again for each scale
   std::vector<ModelMesh> meshes_;
   std::string hash_text_;
 };

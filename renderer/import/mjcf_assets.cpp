@@ -33,6 +33,9 @@ void MjcfAssets::read(const XmlElement& assets, const MjcfDefaults& defaults) {
       std::string name = asset.attribute_or("name");
       if (name.empty()) name = std::filesystem::path(asset.attribute_or("file")).stem().string();
       if (name.empty()) files_.wrong(written, "must have a name or a file");
+      // As in MuJoCo: of a mesh, defaults say no more than the scale.
+      if (asset.attribute("vertex") && !written.attribute("vertex"))
+        files_.wrong(written, "vertex: must stand in the <mesh> itself, not in its defaults");
       if (!mesh_assets_.emplace(name, asset).second)
         files_.wrong(written, "name: must not be the name of two meshes");
     } else if (asset.name == "material") {
@@ -67,7 +70,12 @@ void MjcfAssets::add_mesh_geom(const XmlElement& written, const XmlElement& e, M
   if (found == mesh_assets_.end())
     return files_.wrong(written,
                         "mesh: there is no <mesh> of the name \"" + printable(name, 60) + "\"");
-  const XmlElement& asset = found->second;
+  const auto [at, is_new] = made_.try_emplace(name);
+  if (is_new) at->second = hulls_of(name, found->second);
+  add_mesh(model_, files_, written, at->second, std::move(geom), options_);
+}
+
+MeshLibrary::Answer MjcfAssets::hulls_of(const std::string& name, const XmlElement& asset) {
   const Vec3<double> scale = files_.vector(asset, "scale").value_or(Vec3<double>::Ones());
   MeshLibrary::Answer answer;
   // Vertices are moved and turned before they are scaled.
@@ -79,7 +87,7 @@ void MjcfAssets::add_mesh_geom(const XmlElement& written, const XmlElement& e, M
   const Vec3<double> scale_of_vertices = moves ? Vec3<double>::Ones() : scale;
   if (asset.attribute("vertex")) {
     const auto numbers = files_.numbers(asset, "vertex", 12, 3'000'000);
-    if (!numbers) return;
+    if (!numbers) return answer;  // which was told
     std::vector<Vec3<double>> vertices;
     for (std::size_t i = 0; i + 2 < numbers->size(); i += 3)
       vertices.emplace_back((*numbers)[i], (*numbers)[i + 1], (*numbers)[i + 2]);
@@ -92,7 +100,7 @@ void MjcfAssets::add_mesh_geom(const XmlElement& written, const XmlElement& e, M
   if (moves)
     for (Shape<double>& hull : answer.hulls)
       hull = Transform<double>{hull, Affine<double>{scale.asDiagonal(), {0, 0, 0}} * before};
-  add_mesh(model_, files_, written, answer, std::move(geom), options_);
+  return answer;
 }
 
 void MjcfAssets::hand_over_meshes() {

@@ -41,13 +41,15 @@ class MjcfAssets {
 
  private:
   std::optional<Rgba> read_rgba(const XmlElement& element) const;
+  MeshLibrary::Answer hulls_of(const std::string& name, const XmlElement& asset);
 
   Model& model_;
   XmlFiles& files_;
   const ImportOptions& options_;
   MeshLibrary meshes_;
   bool strips_path_ = false;
-  std::map<std::string, XmlElement> mesh_assets_;  ///< with their defaults
+  std::map<std::string, XmlElement> mesh_assets_;    ///< with their defaults
+  std::map<std::string, MeshLibrary::Answer> made_;  ///< of these, for each geom of one
   std::map<std::string, Rgba> materials_;
 };
 

@@ -17,12 +17,7 @@ class PlanReader {
     if (!read_type() || !read_counts()) return false;
     if (const auto offset = files_.vector(element_, "offset")) plan_.offset = *offset;
     for (const XmlElement& child : element_.children) {
-      if (child.name == "pin") {
-        const auto at = files_.numbers(child, "coord", 1, 2);
-        if (at)
-          plan_.pins.insert(
-              {static_cast<int>((*at)[0]), at->size() > 1 ? static_cast<int>((*at)[1]) : 0});
-      }
+      if (child.name == "pin" && !read_pin(child)) return false;
       if (child.name == "joint") {
         plan_.twists |= child.attribute_or("kind") == "twist";
         plan_.stretches |= child.attribute_or("kind") == "stretch";
@@ -49,6 +44,18 @@ class PlanReader {
                    "cylinder and ellipsoid (got \"" +
                        printable(plan_.type, 40) + "\")");
     plan_.prefix = element_.attribute_or("prefix");
+    return true;
+  }
+
+  bool read_pin(const XmlElement& pin) {
+    const auto at = files_.numbers(pin, "coord", 1, 2);
+    if (!at) return pin.attribute("coord") ? false : wrong(pin, "coord: must be there");
+    for (const double place : *at)
+      if (!(place >= 0 && place <= most_composite_elements) || place != std::floor(place))
+        return wrong(pin, "coord: must be whole numbers from 0 to 100,000 (got \"" +
+                              printable(pin.attribute_or("coord"), 60) + "\")");
+    plan_.pins.insert(
+        {static_cast<int>((*at)[0]), at->size() > 1 ? static_cast<int>((*at)[1]) : 0});
     return true;
   }
 

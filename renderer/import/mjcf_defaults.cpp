@@ -1,14 +1,25 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/import/mjcf_defaults.h"
 
+#include <algorithm>
 #include <set>
-#include <sstream>
+#include <string_view>
 
 namespace minkray {
 namespace {
 
 constexpr const char* main_class = "main";
 constexpr int deepest_include = 32;
+
+/// Each file is nested a hundred deep at most (tinyxml2), which those that are included add to.
+/// Each level is one of the stack when bodies are read.
+constexpr int deepest_nesting = 500;
+
+/// What an element gets from its classes, names with values: few lines ask for it again and again.
+constexpr std::size_t most_default_bytes = 10'000;
+
+/// What all classes hold, with what each has from those around it. Robots' files have a hundredth.
+constexpr std::size_t most_bytes_of_classes = std::size_t{64} << 20;
 
 class Includes {
  public:
@@ -18,11 +29,17 @@ class Includes {
     seen_.insert(whole(first));
   }
 
-  void expand(XmlElement& element, int depth) {
+  /// `nesting`: how many elements there are around its children.
+  void expand(XmlElement& element, int depth, int nesting) {
+    if (nesting > deepest_nesting) {
+      files_.wrong(element, "elements must be nested at most " + std::to_string(deepest_nesting) +
+                                " deep, with the files that are included");
+      element.children.clear();
+    }
     std::vector<XmlElement> children;
     for (XmlElement& child : element.children) {
       if (child.name != "include") {
-        expand(child, depth);
+        expand(child, depth, nesting + 1);
         children.push_back(std::move(child));
         continue;
       }
@@ -41,7 +58,7 @@ class Includes {
         files_.wrong(child, "includes a file that cannot be read");
         continue;
       }
-      expand(*root, depth + 1);
+      expand(*root, depth + 1, nesting);
       for (XmlElement& included : root->children) children.push_back(std::move(included));
     }
     element.children = std::move(children);
@@ -58,19 +75,22 @@ class Includes {
   std::set<std::string> seen_;
 };
 
-std::vector<std::string> words_of(const std::string& text) {
-  std::istringstream stream(text);
-  std::vector<std::string> words;
-  for (std::string word; stream >> word;) words.push_back(word);
-  return words;
+constexpr std::string_view blanks = " \t\r\n";
+
+/// Takes the first word off a text, and the blanks before it; answers whether there was one.
+bool take_word(std::string_view& text) {
+  text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
+  const bool any = !text.empty();
+  text.remove_prefix(std::min(text.find_first_of(blanks), text.size()));
+  return any;
 }
 
 /// The words of `own`, and behind them those of `other` that it has not.
 std::string filled_up(const std::string& own, const std::string& other) {
-  const std::vector<std::string> given = words_of(own), rest = words_of(other);
-  std::string text = own;
-  for (std::size_t i = given.size(); i < rest.size(); ++i) text += " " + rest[i];
-  return text;
+  std::string_view rest = other;
+  for (std::string_view given = own; take_word(given);)
+    if (!take_word(rest)) break;
+  return rest.empty() ? own : own + " " + std::string(rest);
 }
 
 /// Attributes of which any one says the same thing as the others: an element's own one is not
@@ -83,22 +103,44 @@ bool is_orientation(const std::string& name) {
 void merge(std::vector<XmlAttribute>& own, const std::vector<XmlAttribute>& defaults) {
   bool has_orientation = false;
   for (const XmlAttribute& attribute : own) has_orientation |= is_orientation(attribute.name);
+  // No name is twice among the defaults: what is added of them need not be looked at again.
+  const std::size_t written = own.size();
   for (const XmlAttribute& given : defaults) {
     if (given.name == "class" || (has_orientation && is_orientation(given.name))) continue;
-    XmlAttribute* known = nullptr;
-    for (XmlAttribute& attribute : own)
-      if (attribute.name == given.name) known = &attribute;
-    if (!known)
+    const auto end = own.begin() + static_cast<std::ptrdiff_t>(written);
+    const auto known = std::find_if(
+        own.begin(), end, [&](const XmlAttribute& one) { return one.name == given.name; });
+    if (known == end)
       own.push_back(given);
     else if (given.name == "size")
       known->value = filled_up(known->value, given.value);
   }
 }
 
+std::size_t bytes_of(const std::vector<XmlAttribute>& attributes) {
+  std::size_t bytes = 0;
+  for (const XmlAttribute& one : attributes) bytes += one.name.size() + one.value.size();
+  return bytes;
+}
+
+/// In memory, about.
+std::size_t memory_of(const std::vector<XmlAttribute>& attributes) {
+  return sizeof attributes + attributes.size() * sizeof(XmlAttribute) + bytes_of(attributes);
+}
+
 }  // namespace
 
 void expand_includes(XmlElement& root, XmlFiles& files) {
-  Includes(files).expand(root, 0);
+  Includes(files).expand(root, 0, 1);
+}
+
+bool MjcfDefaults::takes(std::size_t bytes, const XmlElement& element, XmlFiles& files) {
+  if (bytes_ <= most_bytes_of_classes && bytes_ + bytes > most_bytes_of_classes)
+    files.wrong(element, "all classes must hold at most " + std::to_string(most_bytes_of_classes) +
+                             " bytes, with what each has from those around it (got " +
+                             std::to_string(bytes_ + bytes) + " up to here)");
+  bytes_ += bytes;
+  return bytes_ <= most_bytes_of_classes;
 }
 
 void MjcfDefaults::read(const XmlElement& element, XmlFiles& files, const std::string& parent) {
@@ -108,10 +150,12 @@ void MjcfDefaults::read(const XmlElement& element, XmlFiles& files, const std::s
     name = main_class;
   }
   if (!classes_.contains(name)) {
-    if (parent.empty())
-      classes_.emplace(name, Class());
-    else
-      classes_.emplace(name, Class(classes_[parent]));
+    const auto outer = classes_.find(parent);
+    std::size_t bytes = 0;
+    if (outer != classes_.end())
+      for (const auto& [kind, attributes] : outer->second) bytes += memory_of(attributes);
+    if (!takes(bytes, element, files)) return;
+    classes_.emplace(name, outer != classes_.end() ? outer->second : Class());
   }
   if (parent.empty() && name != main_class && !classes_.contains(main_class))
     classes_.emplace(main_class, Class());
@@ -120,6 +164,16 @@ void MjcfDefaults::read(const XmlElement& element, XmlFiles& files, const std::s
     std::vector<XmlAttribute> attributes = child.attributes;
     std::vector<XmlAttribute>& known = classes_[name][child.name];
     merge(attributes, known);
+    const std::size_t bytes = bytes_of(attributes);
+    if (attributes.size() > most_xml_attributes || bytes > most_default_bytes) {
+      files.wrong(child, "must have at most " + std::to_string(most_xml_attributes) +
+                             " attributes of " + std::to_string(most_default_bytes) +
+                             " bytes, with those of the classes around it (got " +
+                             std::to_string(attributes.size()) + " of " + std::to_string(bytes) +
+                             ")");
+      continue;
+    }
+    if (!takes(memory_of(attributes), child, files)) return;
     known = std::move(attributes);
   }
   for (const XmlElement& child : element.children)

@@ -27,7 +27,12 @@ class MjcfDefaults {
  private:
   /// The keys are elements' names.
   using Class = std::map<std::string, std::vector<XmlAttribute>>;
+
+  /// Counts what is put into a class. False, and once a mistake, if it is too much.
+  bool takes(std::size_t bytes, const XmlElement& element, XmlFiles& files);
+
   std::map<std::string, Class> classes_;
+  std::size_t bytes_ = 0;  ///< that were put into classes
 };
 
 }  // namespace minkray

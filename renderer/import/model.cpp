@@ -2,7 +2,6 @@
 #include "renderer/import/model.h"
 
 #include <cmath>
-#include <unordered_map>
 
 #include "renderer/import/orientation.h"
 
@@ -120,6 +119,14 @@ std::vector<Affine<double>> link_poses(const Model& model) {
   return poses;
 }
 
+JointsByName joints_by_name(Model& model) {
+  JointsByName joints;
+  for (ModelLink& link : model.links)
+    for (ModelJoint& joint : link.joints)
+      if (joint.kind != JointKind::fixed) joints.emplace(joint.name, &joint);
+  return joints;
+}
+
 ModelJoint* find_joint(Model& model, const std::string& name) {
   for (ModelLink& link : model.links)
     for (ModelJoint& joint : link.joints)
@@ -169,7 +176,7 @@ std::string follow_mimics(Model& model) {
         offset += multiplier * other->mimic->offset;
         multiplier *= other->mimic->multiplier;
         const auto next = by_name.find(other->mimic->joint);
-        if (next == by_name.end() || ++steps > by_name.size()) return other->mimic->joint;
+        if (next == by_name.end() || ++steps > longest_mimicry) return other->mimic->joint;
         other = next->second;
       }
       const bool is_scalar = width_of(joint.kind) == 1 && width_of(other->kind) == 1;

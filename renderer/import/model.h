@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "core/math/affine.h"
@@ -75,6 +77,9 @@ struct ModelKeyframe {
   std::vector<double> values;  ///< of all joints in their order; empty: all are at rest
 };
 
+/// Few lines can show a mesh of many parts again and again.
+inline constexpr std::size_t most_geoms = 1'000'000;
+
 struct Model {
   std::string format, name;
   std::vector<ModelLink> links;
@@ -90,6 +95,11 @@ struct Model {
 /// Where the links stand in the world, by the joints' values.
 std::vector<Affine<double>> link_poses(const Model& model);
 
+/// The joints that have a value, by name: of several of one name the first. It holds as long as the
+/// model's links and names do.
+using JointsByName = std::unordered_map<std::string_view, ModelJoint*>;
+JointsByName joints_by_name(Model& model);
+
 /// The joint of that name, or null.
 ModelJoint* find_joint(Model& model, const std::string& name);
 
@@ -102,8 +112,11 @@ std::vector<std::string> keyframe_names(const Model& model);
 /// Gives all joints the values of a keyframe, as far as they reach.
 void set_values(Model& model, const std::vector<double>& values);
 
-/// Gives joints that mimic others their values. Answers the name of a joint that mimics itself,
-/// or one that is not there; "" if there is none.
+/// A joint may mimic one that mimics another one, and so on.
+inline constexpr std::size_t longest_mimicry = 100;
+
+/// Gives joints that mimic others their values. Answers the name of a joint that is not there, or
+/// that mimics itself or through too many others; "" if there is none.
 std::string follow_mimics(Model& model);
 
 }  // namespace minkray

@@ -57,9 +57,9 @@ class Materials {
   std::map<std::array<double, 4>, std::uint32_t> known_;
 };
 
-void apply(Model& model, const JointRow& row) {
+void apply(Model& model, const JointsByName& joints, const JointRow& row) {
   for (const auto& [name, value] : row.values)
-    if (ModelJoint* joint = find_joint(model, name)) joint->value = value;
+    if (const auto joint = joints.find(name); joint != joints.end()) joint->second->value = value;
   follow_mimics(model);
 }
 
@@ -173,9 +173,10 @@ std::optional<MovingFrame> frame_of_link(Model& model, const std::vector<JointRo
   if (link == model.links.end()) return std::nullopt;
   const auto index = static_cast<std::size_t>(link - model.links.begin());
   if (rows.empty()) return MovingFrame{link_poses(model)[index]};
+  const JointsByName joints = joints_by_name(model);
   Motion motion;
   for (const JointRow& row : rows) {
-    apply(model, row);
+    apply(model, joints, row);
     const Affine<double> pose = link_poses(model)[index];
     motion.keys.push_back({row.time, pose.translation, quaternion_of(pose.linear)});
   }
@@ -220,8 +221,9 @@ Scene scene_of(Model& model, const ImportOptions& options, const std::vector<Joi
   if (left_out > 0) model.pass_over("shapes", "--geometry asks for others", left_out);
   if (scene.materials.empty()) materials.of({0.7, 0.7, 0.7, 1});
 
+  const JointsByName joints = joints_by_name(model);
   for (const JointRow& row : rows) {
-    apply(model, row);
+    apply(model, joints, row);
     const std::vector<Affine<double>> at = link_poses(model);
     for (std::size_t k = 0; k < scene.objects.size(); ++k) {
       const ModelGeom& geom = model.geoms[geom_of_object[k]];

@@ -72,6 +72,9 @@ class SdfReader {
     if (!placed.empty()) pose = pose * frames.pose_of(placed, model).inverse();
     const std::string name = model.attribute_or("name");
     const std::string inner = at.prefix + (name.empty() ? "" : name + "::");
+    // Each link and joint carries it.
+    if (const auto complaint = complaint_of_length(inner))
+      return files_.wrong(model, "name: with those of the models around it, " + *complaint);
 
     for (const XmlElement& child : model.children) {
       const std::string own = child.attribute_or("name");

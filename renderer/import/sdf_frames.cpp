@@ -14,6 +14,12 @@ bool is_of_model(const std::string& name) {
   return name.empty() || name == "__model__" || name == "world";
 }
 
+std::string canonical_link(const XmlElement& model) {
+  if (const std::string* named = model.attribute("canonical_link")) return *named;
+  const XmlElement* first = model.child("link");
+  return first ? first->attribute_or("name") : "";
+}
+
 std::string relative_to(const XmlElement& element) {
   const XmlElement* pose = element.child("pose");
   if (!pose) return "";
@@ -121,16 +127,10 @@ bool SdfFrames::is_relative(const XmlElement& element) const {
   return !relative_to(element).empty();
 }
 
-std::string SdfFrames::canonical_link() const {
-  if (const std::string* named = model_.attribute("canonical_link")) return *named;
-  const XmlElement* first = model_.child("link");
-  return first ? first->attribute_or("name") : "";
-}
-
 std::string SdfFrames::link_of(const std::string& name) const {
   std::string at = name;
   for (std::size_t steps = 0; steps <= frames_.size(); ++steps) {
-    if (at == "__model__" || at.empty()) return canonical_link();
+    if (at == "__model__" || at.empty()) return canonical_link(model_);
     const auto found = frames_.find(at);
     if (found == frames_.end()) return at;
     const XmlElement& element = *found->second.element;
@@ -139,7 +139,7 @@ std::string SdfFrames::link_of(const std::string& name) const {
     else if (element.name == "joint")
       at = sdf_text(element, "child");
     else if (element.name == "model")
-      return at + "::" + SdfFrames(element, files_).canonical_link();
+      return at + "::" + canonical_link(element);
     else
       return at;
   }

@@ -55,7 +55,6 @@ class SdfFrames {
 
   void find(Frame& frame);
   SdfFrames& inner_of(const XmlElement& model);
-  std::string canonical_link() const;
 
   const XmlElement& model_;
   XmlFiles& files_;

@@ -89,11 +89,13 @@ void SdfGeometry::add_shape(const XmlElement& shape, ModelGeom geom) {
   if (is_good) model_.geoms.push_back(std::move(geom));
 }
 
-/// Each file looks for meshes beside itself. All of them share one list of meshes' facts.
+/// Each file looks for meshes beside itself; a world may include one file a thousand times. All of
+/// them share one list of meshes' facts.
 MeshLibrary& SdfGeometry::library_of(const XmlElement& element) {
-  auto& library = libraries_[element.file];
-  if (!library)
-    library = std::make_unique<MeshLibrary>(files_.files()[element.file].parent_path(), options_);
+  const std::filesystem::path folder = files_.files()[element.file].parent_path();
+  const std::uint32_t first = first_in_folder_.try_emplace(folder, element.file).first->second;
+  auto& library = libraries_[first];
+  if (!library) library = std::make_unique<MeshLibrary>(folder, options_);
   return *library;
 }
 

@@ -31,7 +31,8 @@ class SdfGeometry {
   Model& model_;
   XmlFiles& files_;
   const ImportOptions& options_;
-  std::map<std::uint32_t, std::unique_ptr<MeshLibrary>> libraries_;  ///< by file
+  std::map<std::filesystem::path, std::uint32_t> first_in_folder_;   ///< file
+  std::map<std::uint32_t, std::unique_ptr<MeshLibrary>> libraries_;  ///< by it
 };
 
 }  // namespace minkray

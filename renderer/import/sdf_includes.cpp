@@ -83,8 +83,10 @@ std::optional<XmlElement> SdfIncludes::model_for(const XmlElement& include) {
   // What is wrong with its pose or name is wrong with the <include>.
   model.line = include.line;
   model.file = include.file;
-  if (const std::string name = sdf_text(include, "name"); !name.empty())
+  if (const std::string name = sdf_text(include, "name"); !name.empty()) {
+    if (const auto complaint = complaint_of_length(name)) return refuse("name: " + *complaint);
     set_attribute(model, "name", name);
+  }
   if (const std::string frame = sdf_text(include, "placement_frame"); !frame.empty())
     set_attribute(model, "placement_frame", frame);
   if (const XmlElement* pose = include.child("pose")) {

@@ -44,7 +44,9 @@ class UrdfReader {
     add_links();
     if (const std::string lost = follow_mimics(model_); !lost.empty())
       files_.wrong(robot, "mimic: the joint \"" + printable(lost, 60) +
-                              "\" is not there, or joints mimic each other in a circle");
+                              "\" is not there, or joints mimic each other in a circle or "
+                              "through more than " +
+                              std::to_string(longest_mimicry) + " others");
     model_.meshes = meshes_.take_meshes();
     model_.hash = files_.hash_text() + meshes_.hash_text();
     return std::move(model_);

@@ -4,6 +4,7 @@
 #include <tinyxml2.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <exception>
@@ -20,18 +21,49 @@ constexpr std::size_t most_reported = 100;
 /// A piece of what was found, for messages.
 constexpr std::size_t longest_quote = 60;
 
-/// tinyxml2 compares each attribute of an element with all before it.
-constexpr std::size_t most_attributes = 10'000;
+/// What names something: many elements of a model may carry one of these that the file says once.
+constexpr std::array<std::string_view, 4> multiplied_names = {"name", "class", "childclass",
+                                                              "prefix"};
 
-/// How many attributes an element has at most: values in quotes behind an equals sign.
-std::size_t attributes_at_once(std::string_view text) {
-  std::size_t most = 0, here = 0;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (text[i] == '<' || text[i] == '>') here = 0;
-    if ((text[i] == '"' || text[i] == '\'') && i > 0 && text[i - 1] == '=')
-      most = std::max(most, ++here);
+/// What may hold quotes and angle brackets that mean nothing; the last one is told by what the
+/// others leave.
+struct Markup {
+  std::string_view opens, closes;
+};
+constexpr std::array<Markup, 4> no_elements = {
+    {{"<!--", "-->"}, {"<![CDATA[", "]]>"}, {"<?", "?>"}, {"<!", ">"}}};
+
+/// The tag with the most attributes of a text.
+struct LargestTag {
+  std::size_t attributes = 0;
+  std::size_t at = 0;  ///< where it begins
+};
+
+/// tinyxml2 compares each attribute of an element with all before it, so that these are counted
+/// first: quotes that open in a tag. What a tag is, is told as tinyxml2 tells it. Of what is no XML
+/// any number is right.
+LargestTag largest_tag(std::string_view text) {
+  LargestTag largest;
+  std::size_t at = text.find('<');
+  while (at < text.size()) {
+    const std::string_view rest = text.substr(at);
+    const auto other = std::ranges::find_if(
+        no_elements, [&](const Markup& markup) { return rest.starts_with(markup.opens); });
+    std::size_t end = at + 1;
+    if (other != no_elements.end()) {
+      end = text.find(other->closes, at + other->opens.size());
+    } else {
+      std::size_t here = 0;
+      while ((end = text.find_first_of("\"'>", end)) < text.size() && text[end] != '>') {
+        ++here;
+        end = text.find(text[end], end + 1);
+        if (end < text.size()) ++end;
+      }
+      if (here > largest.attributes) largest = {here, at};
+    }
+    at = text.find('<', end);
   }
-  return most;
+  return largest;
 }
 
 XmlElement converted(const tinyxml2::XMLElement& from, std::uint32_t file) {
@@ -79,6 +111,12 @@ std::string name_of(const XmlElement& element) {
   return text + ">";
 }
 
+std::optional<std::string> complaint_of_length(std::string_view name) {
+  if (name.size() <= longest_xml_name) return std::nullopt;
+  return "must have at most " + std::to_string(longest_xml_name) + " bytes (got " +
+         std::to_string(name.size()) + ")";
+}
+
 std::optional<XmlElement> XmlFiles::read(const std::filesystem::path& file,
                                          std::size_t most_bytes) {
   try {
@@ -113,9 +151,11 @@ std::optional<XmlElement> XmlFiles::parse(const std::string& text,
     mistakes_.add(where + "declares entities (<!ENTITY), which are not read");
     return std::nullopt;
   }
-  if (attributes_at_once(text) > most_attributes) {
-    mistakes_.add(where + "has an element of more than " + std::to_string(most_attributes) +
-                  " attributes");
+  if (const LargestTag largest = largest_tag(text); largest.attributes > most_xml_attributes) {
+    const auto begin = text.begin(), tag = begin + static_cast<std::ptrdiff_t>(largest.at);
+    mistakes_.add(where + "line " + std::to_string(1 + std::count(begin, tag, '\n')) +
+                  ": an element must have at most " + std::to_string(most_xml_attributes) +
+                  " attributes (got " + std::to_string(largest.attributes) + ")");
     return std::nullopt;
   }
   tinyxml2::XMLDocument document;
@@ -134,7 +174,23 @@ std::optional<XmlElement> XmlFiles::parse(const std::string& text,
     mistakes_.add(where + "has no element");
     return std::nullopt;
   }
-  return converted(*document.RootElement(), index);
+  XmlElement root = converted(*document.RootElement(), index);
+  if (tell_long_names(root)) return std::nullopt;
+  return root;
+}
+
+/// Whether there are any.
+bool XmlFiles::tell_long_names(const XmlElement& element) {
+  bool any = false;
+  for (const XmlAttribute& one : element.attributes) {
+    if (std::ranges::find(multiplied_names, one.name) == multiplied_names.end()) continue;
+    if (const auto complaint = complaint_of_length(one.value)) {
+      wrong(element, one.name + ": " + *complaint);
+      any = true;
+    }
+  }
+  for (const XmlElement& child : element.children) any |= tell_long_names(child);
+  return any;
 }
 
 void XmlFiles::wrong(const XmlElement& element, std::string_view message) {

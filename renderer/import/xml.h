@@ -40,13 +40,20 @@ inline constexpr std::size_t most_xml_bytes = std::size_t{32} << 20;
 inline constexpr std::size_t most_collada_bytes = std::size_t{256} << 20;
 inline constexpr std::size_t most_xml_elements = 2'000'000;
 
+/// Robots' formats have some fifty for an element. What looks at each of them, or compares each
+/// with each, relies on there being few.
+inline constexpr std::size_t most_xml_attributes = 200;
+
+/// A name, a class or a prefix has at most so many bytes: few lines can make each body carry it.
+inline constexpr std::size_t longest_xml_name = 1000;
+
 /// The files that one model was read from, and what is wrong with them.
 class XmlFiles {
  public:
   explicit XmlFiles(Mistakes& mistakes) : mistakes_(mistakes) {}
 
-  /// The root element of a file. Nothing, and a mistake, if it is no XML, too large, or declares
-  /// entities of its own.
+  /// The root element of a file. Nothing, and a mistake, if it is no XML, too large, declares
+  /// entities of its own, or has an element of too many attributes or too long a name.
   std::optional<XmlElement> read(const std::filesystem::path& file,
                                  std::size_t most_bytes = most_xml_bytes);
 
@@ -74,11 +81,17 @@ class XmlFiles {
   std::optional<Vec3<double>> vector(const XmlElement& element, std::string_view key);
 
  private:
+  bool tell_long_names(const XmlElement& element);
+
   Mistakes& mistakes_;
   std::vector<std::filesystem::path> files_;
   std::string hash_text_;
   std::size_t reported_ = 0, elements_ = 0, bytes_ = 0;
 };
+
+/// What is wrong with the length of a name: "must have at most 1000 bytes (got 5000)"; nothing if
+/// it is not too long.
+std::optional<std::string> complaint_of_length(std::string_view name);
 
 /// "<geom name="x">": an element as messages name it.
 std::string name_of(const XmlElement& element);

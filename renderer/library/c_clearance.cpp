@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The function of the C interface that bounds how near a robot comes to what is around it.
+#include <algorithm>
 #include <cmath>
 
 #include "core/parallel/parallel.h"
+#include "renderer/base/errors.h"
 #include "renderer/clearance/clearance.h"
 #include "renderer/library/call.h"
 #include "renderer/library/held_scene.h"
@@ -38,8 +40,18 @@ std::vector<JointRow> rows_of(const HeldScene::Group& robot, const double* path,
       wrong_use("path[" + std::to_string(i / width) + "][" + std::to_string(i % width) +
                 "]: must be a finite number (got " + std::to_string(path[i]) + ")");
   std::vector<JointRow> read;
-  for (std::size_t i = 0; i < rows; ++i) read.push_back(row_of(robot, path + i * width, i));
+  // A robot without joints stands still all the time: rows of nothing cost its caller nothing.
+  for (std::size_t i = 0; i < (width > 0 ? rows : 1); ++i)
+    read.push_back(row_of(robot, path + i * width, i));
   return read;
+}
+
+JointPath path_of(const Model& model, const std::vector<JointRow>& rows) {
+  try {
+    return JointPath(model, rows);
+  } catch (const BadInput& error) {
+    wrong_use(error.what());
+  }
 }
 
 /// Everything else in the scene as the robot's own frame has it.
@@ -47,13 +59,12 @@ void add_obstacles(const HeldScene& held, const HeldScene::Group& robot,
                    std::vector<ClearanceBody>& bodies, std::vector<std::uint32_t>& objects) {
   const Mat3<double> turned_back = robot.pose.linear.transpose();
   const Affine<double> to_robot = {turned_back, -(turned_back * robot.pose.translation)};
-  for (std::uint32_t i = 0; i < held.plain().objects.size(); ++i) {
+  std::vector<ClearanceBody> all = bodies_of(held.plain());
+  for (std::uint32_t i = 0; i < all.size(); ++i) {
     if (i >= robot.first && i - robot.first < robot.count) continue;
-    Object object = held.plain().objects[i];
-    object.pose = to_robot * object.pose;
-    Scene alone;
-    alone.objects.push_back(std::move(object));
-    bodies.push_back(std::move(bodies_of(alone).front()));
+    all[i].pose = to_robot;
+    if (all[i].half_space) all[i].half_space = all[i].half_space->posed(to_robot);
+    bodies.push_back(std::move(all[i]));
     objects.push_back(i);
   }
 }
@@ -80,8 +91,9 @@ minkray_clearance plain_clearance(const Closest& found, const Affine<double>& ro
 }
 
 void find_clearance(const HeldScene& held, const HeldScene::Group& robot,
-                    const std::vector<JointRow>& rows, const minkray_clearance_options& given,
-                    minkray_clearance* steps, minkray_clearance* least) {
+                    const std::vector<JointRow>& read, std::size_t rows,
+                    const minkray_clearance_options& given, minkray_clearance* steps,
+                    minkray_clearance* least) {
   std::vector<ClearanceBody> bodies = bodies_of(*robot.model, robot.options.geometry);
   std::vector<std::uint32_t> objects;
   for (std::uint32_t i = 0; i < bodies.size(); ++i) objects.push_back(robot.first + i);
@@ -90,13 +102,16 @@ void find_clearance(const HeldScene& held, const HeldScene::Group& robot,
   ClearanceOptions options;
   if (given.tolerance > 0) options.tolerance = given.tolerance;
   options.every_step = steps != nullptr;
-  const JointPath path(*robot.model, rows);
+  const JointPath path = path_of(*robot.model, read);
   const Clearance found = clearance_of(path, bodies, pairs, options);
   throw_if_lied(held.customs());
   if (least) *least = plain_clearance(found.closest, robot.pose, objects);
-  for (std::size_t i = 0; steps && i < path.steps(); ++i)
-    steps[i] =
-        plain_clearance(i < found.steps.size() ? found.steps[i] : Closest{}, robot.pose, objects);
+  for (std::size_t i = 0; steps && i < std::max<std::size_t>(rows - 1, 1); ++i) {
+    const std::size_t step = std::min(i, path.steps() - 1);
+    steps[i] = plain_clearance(step < found.steps.size() ? found.steps[step] : Closest{},
+                               robot.pose, objects);
+    steps[i].row += static_cast<double>(i - step);
+  }
 }
 
 }  // namespace
@@ -125,6 +140,6 @@ extern "C" int minkray_scene_clearance(minkray_scene scene, uint32_t group, cons
                 std::to_string(given.tolerance) + ")");
     const std::vector<JointRow> read = rows_of(robot, path, rows, numbers);
     with_threads(checked_threads(given.threads),
-                 [&] { find_clearance(held, robot, read, given, steps, least); });
+                 [&] { find_clearance(held, robot, read, rows, given, steps, least); });
   });
 }

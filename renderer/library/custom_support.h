@@ -74,7 +74,7 @@ class CustomSupport final : public SupportSource, public BatchSource {
   mutable std::string complaint_;
 };
 
-/// The custom shapes that a shape is made of.
+/// The custom shapes that a shape is made of, each once.
 std::vector<std::shared_ptr<const CustomSupport>> customs_of(const Shape<double>& shape);
 
 /// Whether one of them wants to be asked for many directions at once.

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <unordered_set>
+#include <utility>
 
 #include "renderer/library/call.h"
 #include "renderer/library/custom_support.h"
@@ -9,34 +11,43 @@ namespace {
 
 using Customs = std::vector<std::shared_ptr<const CustomSupport>>;
 
-void collect(const Shape<double>& shape, Customs& customs);
+/// Each once, however often it stands in the shape: a sum of a shape with itself, made twenty times
+/// over, has it a million times.
+class Walk {
+ public:
+  void of(const Shape<double>& shape) {
+    std::visit(
+        [&]<class S>(const S& kind) {
+          if constexpr (declared_by<S>.by_program)
+            add(std::dynamic_pointer_cast<const CustomSupport>(kind.source));
+          else
+            for_each_field<S>([&](const auto& field) { of_member(kind.*(field.member)); });
+        },
+        shape.kind);
+  }
 
-void collect_of(const Nested<double>& operand, Customs& customs) {
-  collect(*operand, customs);
-}
-void collect_of(const ShapeList<double>& operands, Customs& customs) {
-  for (const Nested<double>& operand : operands) collect(*operand, customs);
-}
-template <class Member>
-void collect_of(const Member&, Customs&) {}
+  Customs customs;
 
-void collect(const Shape<double>& shape, Customs& customs) {
-  std::visit(
-      [&]<class S>(const S& kind) {
-        if constexpr (declared_by<S>.by_program)
-          customs.push_back(std::dynamic_pointer_cast<const CustomSupport>(kind.source));
-        else
-          for_each_field<S>([&](const auto& field) { collect_of(kind.*(field.member), customs); });
-      },
-      shape.kind);
-}
+ private:
+  void add(std::shared_ptr<const CustomSupport> custom) {
+    if (known_.insert(custom.get()).second) customs.push_back(std::move(custom));
+  }
+  void of_member(const Nested<double>& operand) { of(*operand); }
+  void of_member(const ShapeList<double>& operands) {
+    for (const Nested<double>& operand : operands) of(*operand);
+  }
+  template <class Member>
+  void of_member(const Member&) {}
+
+  std::unordered_set<const CustomSupport*> known_;
+};
 
 }  // namespace
 
 Customs customs_of(const Shape<double>& shape) {
-  Customs customs;
-  collect(shape, customs);
-  return customs;
+  Walk walk;
+  walk.of(shape);
+  return std::move(walk.customs);
 }
 
 bool are_gathered(const Customs& customs) {

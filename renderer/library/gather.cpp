@@ -3,7 +3,6 @@
 
 #include <sys/mman.h>
 #include <ucontext.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <exception>
@@ -13,29 +12,35 @@
 namespace minkray {
 namespace {
 
-/// Each piece of work has so many: traversal and solvers take some ten thousand, nested shapes a
-/// few hundred each. Memory that is never touched costs nothing.
-constexpr std::size_t stack_bytes = std::size_t{1} << 19;
+/// Each piece of work has so many: traversal and solvers take some ten thousand, and each level of
+/// nested shapes, of which there may be a thousand (nesting.h), up to 1632 where hulls of shapes
+/// are asked in lanes of doubles; as much again is for other compilers. Memory that is never
+/// touched costs nothing but addresses.
+constexpr std::size_t stack_bytes = std::size_t{1} << 22;
+
+/// Below a stack, so that a frame of several pages that is too much does not reach beyond it.
+constexpr std::size_t guard_bytes = std::size_t{1} << 16;
 
 /// Pieces of work that stand still at once.
 constexpr std::size_t most_turns = 256;
 
-/// Memory for a stack, above a page that must not be touched.
+/// Memory for a stack, above what must not be touched.
 class Stack {
  public:
-  Stack() : page_(static_cast<std::size_t>(sysconf(_SC_PAGESIZE))) {
-    memory_ = mmap(nullptr, page_ + stack_bytes, PROT_READ | PROT_WRITE,
-                   MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  Stack()
+      : memory_(mmap(nullptr, guard_bytes + stack_bytes, PROT_READ | PROT_WRITE,
+                     MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0)) {
     if (memory_ == MAP_FAILED) throw std::bad_alloc();
-    mprotect(memory_, page_, PROT_NONE);
+    if (mprotect(memory_, guard_bytes, PROT_NONE) == 0) return;
+    munmap(memory_, guard_bytes + stack_bytes);
+    throw std::bad_alloc();
   }
-  ~Stack() { munmap(memory_, page_ + stack_bytes); }
+  ~Stack() { munmap(memory_, guard_bytes + stack_bytes); }
   Stack(const Stack&) = delete;
   Stack& operator=(const Stack&) = delete;
-  void* lowest() const { return static_cast<char*>(memory_) + page_; }
+  void* lowest() const { return static_cast<char*>(memory_) + guard_bytes; }
 
  private:
-  std::size_t page_;
   void* memory_;
 };
 
@@ -59,8 +64,13 @@ class Gathering::Turns {
     work_ = &work;
     thrown_ = nullptr;
     while (turns_.size() < std::min(count, most_turns)) turns_.push_back(std::make_unique<Turn>());
-    Turns* const outer = std::exchange(of_this_thread(), this);
     std::vector<Turn*> ready, waiting;
+    ready.reserve(turns_.size());
+    waiting.reserve(turns_.size());
+    struct Guard {
+      ~Guard() { of_this_thread() = outer; }
+      Turns* outer;
+    } guard{std::exchange(of_this_thread(), this)};
     for (std::size_t i = 0; i < std::min(count, most_turns); ++i) {
       begin(*turns_[i]);
       ready.push_back(turns_[i].get());
@@ -73,10 +83,13 @@ class Gathering::Turns {
         swapcontext(&caller_, &turn->context);
         if (turn->source) waiting.push_back(turn);
       }
-      answer(waiting);
+      try {
+        answer(waiting);
+      } catch (...) {  // those that wait are told, and end: nothing of theirs stays on their stacks
+        thrown_ = std::current_exception();
+      }
       ready.swap(waiting);
     }
-    of_this_thread() = outer;
     if (thrown_) std::rethrow_exception(thrown_);
   }
 
@@ -88,6 +101,7 @@ class Gathering::Turns {
     turn.directions = directions;
     turn.points = points;
     swapcontext(&turn.context, &caller_);
+    if (thrown_) std::rethrow_exception(thrown_);
   }
 
   /// Whose work this thread is doing; null if none's. It is what a support mapping, deep in a
@@ -112,7 +126,7 @@ class Gathering::Turns {
     try {
       while (turns.next_ < turns.count_ && !turns.thrown_) (*turns.work_)(turns.next_++);
     } catch (...) {
-      turns.thrown_ = std::current_exception();
+      if (!turns.thrown_) turns.thrown_ = std::current_exception();
     }
   }
 

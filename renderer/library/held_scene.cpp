@@ -49,12 +49,12 @@ std::uint32_t HeldScene::append(Object object, const char* name) {
 
 std::uint32_t HeldScene::add(const Nested<double>& shape, const Affine<double>& pose,
                              const char* name) {
+  for (const auto& custom : customs_of(*shape))
+    if (known_customs_.insert(custom.get()).second) customs_.push_back(custom);
   Object object;
   object.shape = *shape;
   object.pose = pose;
-  const std::uint32_t index = append(std::move(object), name);
-  for (const auto& custom : customs_of(*shape)) customs_.push_back(custom);
-  return index;
+  return append(std::move(object), name);
 }
 
 std::uint32_t HeldScene::add(const HalfSpaceBody<double>& half_space, const char* name) {
@@ -97,6 +97,7 @@ std::uint32_t HeldScene::add_file(const std::string& file, const ImportOptions& 
   Group group;
   group.first = static_cast<std::uint32_t>(scene_.objects.size());
   group.count = static_cast<std::uint32_t>(imported.scene.objects.size());
+  group.has_particles = !imported.scene.particles.empty();
   group.model = std::move(imported.model);
   group.options = options;
   for (const Object& object : imported.scene.objects) group.in_file.push_back(object.pose);
@@ -137,7 +138,8 @@ void HeldScene::set_pose(std::uint32_t object, const Affine<double>& pose) {
 }
 
 void HeldScene::set_group_pose(std::uint32_t group, const Affine<double>& pose) {
-  this->group(group);
+  if (this->group(group).has_particles)
+    wrong_use("pose: must not be given to a group with particles");
   groups_[group].pose = pose;
   place(groups_[group]);
 }

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 #include "renderer/base/real.h"
@@ -26,6 +27,7 @@ class HeldScene {
     std::uint32_t first = 0, count = 0;
     Affine<double> pose;                  ///< of all of them
     std::vector<Affine<double>> in_file;  ///< where they stand in the file's frame
+    bool has_particles = false;           ///< which have no poses of their own
     std::optional<Model> model;           ///< if it is a robot's
     ImportOptions options;
     std::vector<std::pair<std::string, std::size_t>> joints;  ///< that move: names and widths
@@ -78,7 +80,8 @@ class HeldScene {
   std::optional<std::uint32_t> grey_;  ///< the material of what is added without one
   bool has_camera_ = false;            ///< and lights, of the first file that has them
   std::vector<Group> groups_;
-  std::vector<std::shared_ptr<const CustomSupport>> customs_;
+  std::vector<std::shared_ptr<const CustomSupport>> customs_;  ///< each once
+  std::unordered_set<const CustomSupport*> known_customs_;
   RenderWorld world_;
   Due due_ = Due::build;
   std::atomic<bool> is_changing_ = false;

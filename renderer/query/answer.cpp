@@ -209,6 +209,12 @@ Json bound_json(double value, T outward) {
   return number_json(rounded);
 }
 
+/// Null where nothing is known.
+template <class T>
+Json value_json(const SignedDistance& distance) {
+  return distance.is_unknown() ? Json() : Json(number_json(static_cast<T>(distance.value)));
+}
+
 template <class T>
 void solve(const SignedDistanceQuery& query, const AnswerOptions& options, Answer& answer) {
   SignedDistanceOptions how;
@@ -222,7 +228,7 @@ void solve(const SignedDistanceQuery& query, const AnswerOptions& options, Answe
   answer.facts.hit = result.status == SignedStatus::overlapping;
   answer.facts.distance = result.value;
   answer.json["status"] = answer.facts.status;
-  answer.json["value"] = number_json(static_cast<T>(result.value));
+  answer.json["value"] = value_json<T>(result);
   answer.json["lower"] = bound_json<T>(result.lower, -infinity);
   answer.json["upper"] = bound_json<T>(result.upper, infinity);
   if (!result.normal.isZero(0)) {
@@ -252,7 +258,7 @@ void solve(const ManifoldQuery& query, const AnswerOptions& options, Answer& ans
   answer.facts.distance = nearest.value;
   answer.facts.normal = found.normal;
   answer.json["status"] = answer.facts.status;
-  answer.json["value"] = number_json(static_cast<T>(nearest.value));
+  answer.json["value"] = value_json<T>(nearest);
   answer.json["normal"] = point_json(Vec3<T>(found.normal.cast<T>()));
   Json points = Json::array();
   for (int i = 0; i < found.count; ++i) {

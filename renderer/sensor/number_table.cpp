@@ -28,7 +28,7 @@ std::string_view next_piece(std::string_view& text, char separator) {
 std::string letters_of(std::string_view title) {
   std::string letters;
   for (const char c : title)
-    if (std::isalpha(static_cast<unsigned char>(c)))
+    if (std::isalnum(static_cast<unsigned char>(c)))
       letters += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return letters;
 }
@@ -50,19 +50,37 @@ std::optional<std::vector<double>> numbers_between(std::string_view text, char s
   }
 }
 
-std::optional<std::size_t> NumberTable::column(std::string_view begin) const {
-  for (std::size_t c = 0; c < titles.size(); ++c)
-    if (titles[c].starts_with(begin)) return c;
-  return std::nullopt;
+std::optional<std::size_t> NumberTable::column(std::string_view name) const {
+  const auto among = [&](auto&& fits) {
+    std::optional<std::size_t> found;
+    for (std::size_t c = 0; c < titles.size(); ++c) {
+      if (!fits(titles[c])) continue;
+      if (found)
+        throw BadInput(printable(file, 200) + ": line 1: must name one column " +
+                       std::string(name) + " (got " + std::to_string(*found + 1) + " and " +
+                       std::to_string(c + 1) + ", \"" + printable(titles[*found].letters, 40) +
+                       "\" and \"" + printable(titles[c].letters, 40) + "\")");
+      found = c;
+    }
+    return found;
+  };
+  if (const auto named = among([&](const Title& title) { return title.name == name; }))
+    return named;
+  return among([&](const Title& title) { return title.letters.starts_with(name); });
 }
 
 NumberTable read_number_table(const std::string& file, Mistakes& mistakes) {
   NumberTable table;
+  table.file = file;
   const auto text = read_text_file(file, mistakes);
   if (!text) return table;
   std::string_view rest = *text;
   std::string_view first = next_piece(rest, '\n');
-  while (!first.empty()) table.titles.push_back(letters_of(next_piece(first, ',')));
+  while (!first.empty()) {
+    const std::string_view title = next_piece(first, ',');
+    table.titles.push_back(
+        {letters_of(title.substr(0, title.find_first_of("/([{"))), letters_of(title)});
+  }
   for (std::size_t number = 2; !rest.empty(); ++number) {
     const std::string_view line = without_blanks(next_piece(rest, '\n'));
     if (line.empty()) continue;

@@ -23,17 +23,22 @@ std::string check_message(const std::string& message) {
   return "";
 }
 
-std::string check_parts(const MeshParts& mesh, MeshSplit split) {
+/// If all are held, each vertex is in a part.
+std::string check_parts(const MeshParts& mesh, MeshSplit split, bool all_are_held) {
   if (mesh.vertices.empty()) return "no vertices, and no message";
   for (const Vec3<double>& vertex : mesh.vertices)
     if (!vertex.allFinite()) return "a vertex that is not finite";
   if (split == MeshSplit::none && !mesh.parts.empty()) return "parts that nobody asked for";
+  std::size_t held = 0;
   for (const std::vector<std::uint32_t>& part : mesh.parts) {
     if (part.empty()) return "a part of nothing";
+    held += part.size();
     if (!std::ranges::is_sorted(part, std::ranges::less_equal()))
       return "a part that names a vertex twice, or not in order";
     if (part.back() >= mesh.vertices.size()) return "a part of vertices that are not there";
   }
+  if (all_are_held && split != MeshSplit::none && held < mesh.vertices.size())
+    return "a vertex that is in no part";
   return "";
 }
 
@@ -87,7 +92,9 @@ std::string check_mesh_parts(std::string_view bytes) {
   const MeshLibrary::Answer answer = library.hulls_of(name, scale);
   if (!answer.complaint.empty()) return check_message(answer.complaint);
   if (!refused.empty()) return "hulls of a mesh that is refused";
-  if (const std::string bad = check_parts(mesh, options.split); !bad.empty()) return bad;
+  if (const std::string bad = check_parts(mesh, options.split, format.ending == ".stl");
+      !bad.empty())
+    return bad;
   for (const ModelMesh& facts : library.take_meshes())
     if (!(facts.deepest >= 0) || !std::isfinite(facts.deepest)) return "vertices outside the hull";
   return check_hulls(mesh, answer, scale);

@@ -103,5 +103,40 @@ TEST(Impact, what_grazes_is_a_hit_and_what_passes_is_a_miss) {
   EXPECT_EQ(pass(2 + 1e-6), ImpactStatus::miss);
 }
 
+const ContactShape ball{Shape<double>(Sphere<double>{1})};
+
+/// A distance that gave up has the value 0, which counted as touching: balls 1e200 from each other
+/// were `inside` of each other, and one beside an infinite one was hit in the end.
+TEST(Impact, is_given_up_where_the_distance_is_unknown) {
+  const ContactShape infinite{
+      Shape<double>(Sphere<double>{std::numeric_limits<double>::infinity()})};
+  const RigidMotion rest = at(0, 0, 0, {0, 0, 0});
+  for (const double apart : {1e155, 1e200, 1e307})
+    for (const Vec3<double>& turn : {Vec3<double>(0, 0, 0), Vec3<double>(0, 1, 0)}) {
+      const Impact impact = first_impact(ball, rest, ball, at(apart, 0, 0, {0, 0, 0}, turn), 1);
+      EXPECT_EQ(impact.status, ImpactStatus::undecided) << apart;
+      EXPECT_EQ(impact.t_lo, 0) << apart;
+    }
+  EXPECT_EQ(first_impact(infinite, rest, ball, at(4, 0, 0, {0, 0, 0}), 1).status,
+            ImpactStatus::undecided);
+  EXPECT_EQ(first_impact(ball, rest, ball, at(1e153, 0, 0, {0, 0, 0}), 1).status,
+            ImpactStatus::miss);
+}
+
+/// The length of 1e-165 is no square root of its square, 0: such turns were none.
+TEST(Impact, slow_and_fast_turns_are_turns) {
+  const ContactShape rod{Shape<double>(Capsule<double>{0.1, 5})};
+  const Impact ordinary =
+      first_impact(rod, at(0, 0, 0, {0, 0, 0}, {0, 1, 0}), ball, at(4, 0, 0, {0, 0, 0}), 3);
+  ASSERT_EQ(ordinary.status, ImpactStatus::hit);
+  for (const double turn : {1e-300, 1e-170, 1e-165, 1e-160, 1e155, 1e170, 1e300}) {
+    const Impact impact = first_impact(rod, at(0, 0, 0, {0, 0, 0}, {0, turn, 0}), ball,
+                                       at(4, 0, 0, {0, 0, 0}), 3 / turn);
+    ASSERT_EQ(impact.status, ImpactStatus::hit) << turn;
+    EXPECT_NEAR(impact.t_lo * turn, ordinary.t_lo, 1e-9) << turn;
+    EXPECT_NEAR(impact.t_hi * turn, ordinary.t_hi, 1e-9) << turn;
+  }
+}
+
 }  // namespace
 }  // namespace minkray::testing

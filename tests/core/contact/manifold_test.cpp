@@ -90,5 +90,10 @@ TEST(ContactManifold, of_any_two_shapes_is_of_both) {
   EXPECT_GT(many, 100);
 }
 
+TEST(ContactManifold, of_an_unknown_distance_has_no_points) {
+  const Shape<double> ball = Sphere<double>{1};
+  EXPECT_EQ(manifold_of(Body(ball, at(0, 0, 0)), Body(ball, at(1e200, 0, 0))).count, 0);
+}
+
 }  // namespace
 }  // namespace minkray::testing

@@ -81,5 +81,35 @@ TEST(RotatingCast, a_miss_clear_of_the_bound_is_proven) {
   EXPECT_TRUE(cast_rotating(bar(), far, 6.0, 512).proven);
 }
 
+/// Squares of 1e-23 are 0 in float: such turns were none, and the hit was a proven miss.
+template <class T>
+void expect_turns_of_any_speed(const std::vector<int>& powers) {
+  const auto cast = [](int power) {
+    const auto speed = [power](double x) { return static_cast<T>(std::ldexp(x, power)); };
+    const MovingBody<T> rod{
+        Capsule<T>{T(0.1), T(5)}, {}, Vec3<T>::Zero(), {speed(0.01), speed(1), speed(-0.02)}};
+    const MovingBody<T> beside{Sphere<T>{1},
+                               {Mat3<T>::Identity(), {4, 0, 0}},
+                               {speed(-0.1), 0, speed(0.05)},
+                               Vec3<T>::Zero()};
+    return cast_rotating(rod, beside, static_cast<T>(std::ldexp(3.0, -power)), 64);
+  };
+  const auto once = cast(0);
+  ASSERT_EQ(once.status, Status::hit);
+  constexpr double allowed = 100 * std::numeric_limits<T>::epsilon();
+  for (const int power : powers) {
+    const auto other = cast(power);
+    ASSERT_EQ(other.status, Status::hit) << power;
+    EXPECT_NEAR(std::ldexp(double(other.t), power), double(once.t), allowed) << power;
+    EXPECT_NEAR(std::ldexp(double(other.t_lo), power), double(once.t_lo), allowed) << power;
+    EXPECT_NEAR(double(other.position_error), double(once.position_error), allowed) << power;
+  }
+}
+
+TEST(RotatingCast, slow_and_fast_turns_are_turns) {
+  expect_turns_of_any_speed<float>({-110, -76, -60, 60, 76, 110});
+  expect_turns_of_any_speed<double>({-1000, -565, -500, 500, 565, 1000});
+}
+
 }  // namespace
 }  // namespace minkray

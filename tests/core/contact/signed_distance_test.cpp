@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/contact/half_space_distance.h"
 #include "tests/core/contact/pair_judge.h"
 
 namespace minkray {
@@ -122,6 +123,62 @@ TEST(SignedDistance, is_undecided_where_squares_of_lengths_overflow) {
     EXPECT_LE(found.lower, found.value);
     EXPECT_LE(found.value, found.upper);
   }
+}
+
+/// Of a cone's two rims that of the wrong end was taken where both were as far to rounding, with a
+/// normal that was off by up to 26 degrees: its planes were not as far apart as they should be.
+TEST(SignedDistance, of_what_is_far_away_is_proven_by_its_plane) {
+  RandomShapes random(17);
+  const Affine<double> origin;
+  for (const double far : {1e3, 1e7, 1e9, 1e12, 1e17, 1e50, 1e150})
+    for (int kind = 0; kind < kinds_of_bodies; ++kind)
+      for (int k = 0; k < 20; ++k) {
+        const Body ball(Sphere<double>{0.5}, origin),
+            other(random_shape(kind, 1, random), {random.turn(), far * random.direction()});
+        const SignedDistance found =
+            signed_distance(ball.ready, ball.pose, other.ready, other.pose);
+        ASSERT_EQ(found.status, SignedStatus::separated) << kind << " at " << far;
+        ASSERT_GE(double(testing::gap(ball, other, found.normal)), found.lower)
+            << kind << " at " << far;
+        ASSERT_LE(found.upper - found.lower, 1e-14 * far + 1e-9) << kind << " at " << far;
+      }
+}
+
+/// Where nothing is known the value is 0, which is told from a contact by is_unknown() alone.
+TEST(SignedDistance, is_unknown_only_where_it_gave_up_without_bounds) {
+  const ContactShape ball(Shape<double>(Sphere<double>{1})),
+      box(Shape<double>(Box<double>{{1, 1, 1}}));
+  const auto at = [](double x) {
+    return Affine<double>{Mat3<double>::Identity(), Vec3<double>(x, 0, 0)};
+  };
+  SignedDistanceOptions near, sign;
+  near.at_most = 1;
+  sign.only_sign = true;
+  for (const ContactShape& shape : {ball, box}) {
+    for (const double x : {0.0, 0.5, 2.0, 3.0, 1e6, 1e150})
+      for (const SignedDistanceOptions& options : {SignedDistanceOptions{}, near, sign})
+        EXPECT_FALSE(signed_distance(ball, at(0), shape, at(x), options).is_unknown()) << x;
+    for (const double x : {1e155, 1e200, 1e308})
+      EXPECT_TRUE(signed_distance(ball, at(0), shape, at(x)).is_unknown()) << x;
+  }
+}
+
+/// Where squares of lengths are no numbers a ball far above the plane touched it.
+TEST(SignedDistance, of_a_half_space_is_known_as_far_as_numbers_go) {
+  const ContactShape ball(Shape<double>(Sphere<double>{1}));
+  const Vec3<double> up(0, 0, 1);
+  const auto above = [&](double z, double offset) {
+    return distance_to_half_space(up, offset, ball,
+                                  {Mat3<double>::Identity(), Vec3<double>(0, 0, z)});
+  };
+  for (const double z : {3.0, 1e100, 1e155, 1e300}) {
+    EXPECT_EQ(above(z, 0).status, SignedStatus::separated) << z;
+    EXPECT_EQ(above(-z, 0).status, SignedStatus::overlapping) << z;
+  }
+  EXPECT_TRUE(above(1.5e308, -1.5e308).is_unknown());
+  const ContactShape infinite(
+      Shape<double>(Sphere<double>{std::numeric_limits<double>::infinity()}));
+  EXPECT_TRUE(distance_to_half_space(up, 0, infinite, {}).is_unknown());
 }
 
 }  // namespace

@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cctype>
 #include <cstring>
 #include <fstream>
+
+#include "core/files/mesh_parts.h"
 
 namespace minkray {
 namespace {
@@ -218,6 +221,8 @@ TEST(MeshFile, obj_lines_have_plus_signs_comments_and_continuations) {
   EXPECT_EQ(mesh_vertices("# C:\\\nv 1 2 3#\\\nmtllib C:\\\nv 4 \\\r\n5\\ \n\t6\nf +1 2 -1#c\n",
                           MeshFormat::obj),
             expected);
+  EXPECT_EQ(mesh_vertices("v\\\n1 2 3\n v\\ \n4 5 6\nf\\\n1 2\nv\\ 9\nf\\ 9\n", MeshFormat::obj),
+            expected);
   // A blank line ends what is continued.
   EXPECT_EQ(mesh_vertices("v 1 2 3 \\\n\nv 4 5 6\n", MeshFormat::obj), expected);
   const auto obj = [](std::string_view text) { return complaint(text, MeshFormat::obj); };
@@ -266,6 +271,214 @@ TEST(MeshFile, bytes_that_are_not_utf_8_matter_only_in_numbers) {
   EXPECT_EQ(complaint("solid\nvertex 1 2 3" + wild + "\nendsolid", MeshFormat::stl),
             "line 2: a vertex must be three finite numbers");
   EXPECT_EQ(complaint("solid\nvertex 1 2 3\nendsolid\n" + wild, MeshFormat::stl), "");
+}
+
+// A second reader once found the parts. It took another language than the first for OBJ and STL, so
+// that bodies of valid files were in no part, or in another body's, and nothing was said.
+
+constexpr std::array splits = {MeshSplit::groups, MeshSplit::components};
+
+std::string complaint(std::string_view contents, MeshFormat format, MeshSplit split) {
+  try {
+    mesh_parts(contents, format, split);
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+using Parts = std::vector<std::vector<std::uint32_t>>;
+
+/// With each kind of line ends, and with a byte order mark.
+std::vector<std::string> as_editors_write(const std::string& text) {
+  std::vector<std::string> files;
+  for (const std::string mark : {"", "\xef\xbb\xbf"}) {
+    for (const std::string line_end : {"\n", "\r", "\r\n"}) {
+      files.push_back(mark);
+      for (const char c : text) files.back() += c == '\n' ? line_end : std::string(1, c);
+    }
+  }
+  return files;
+}
+
+/// The file has these parts, by its groups and by its components, of the vertices that it has
+/// unsplit.
+void expect_parts(MeshFormat format, const std::string& text, const Parts& expected) {
+  for (const std::string& file : as_editors_write(text)) {
+    for (const MeshSplit split : splits) {
+      const MeshParts mesh = mesh_parts(file, format, split);
+      EXPECT_EQ(mesh.parts, expected) << file;
+      EXPECT_EQ(mesh.vertices, mesh_vertices(file, format)) << file;
+    }
+  }
+}
+
+const std::string eight_vertices =
+    "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 10 0 0\nv +1.1e1 0 0\nv\t10 1e0 0 1\n v 10 0 1#\n";
+const Parts two_bodies = {{0, 1, 2, 3}, {4, 5, 6, 7}};
+
+TEST(MeshParts, an_obj_has_its_bodies_however_their_faces_are_written) {
+  for (const std::string faces :
+       {"f 5 6 7 8", "f 5 6 7 \\\n 8", "f\\\n5 \\ \n\t6 7\\\n\\\n8", "f +5 +6 +7 +8",
+        "f -4 -3 -2 -1", "f 5/1 6/1/1 7//1 8/", "f +5/+1 -3//-1 7 8", " \tf\t5  6\t7 8 \t",
+        "f 5 6 7 8#9", "f 5 6 7 8 # 1 \\", "# f 1 5 \\\nf 5 6 7 8", "f 5 6 7\nf\nf 5 7 8",
+        "f 5 6\nf 6 7\nf 8 7", "f 5 6 7\nf 8 8 6", "l 1 8\np 1 5\nvn 0 0 1\nf 5 6 7 8",
+        "usemtl f\ns 1\nmtllib C:\\\nf 5 6 7 8"}) {
+    for (const std::string name : {"g second", "o second", " \tg\tsecond # f 1 5", "g f 1 5"}) {
+      const std::string second = name + "\n" + faces;
+      expect_parts(MeshFormat::obj, eight_vertices + "f 1 2 3 4\n" + second, two_bodies);
+      expect_parts(MeshFormat::obj, eight_vertices + "g first\nf 1 2 3 4\n" + second + "\n",
+                   two_bodies);
+    }
+  }
+  // Vertices may stand below the faces that name them, or between.
+  expect_parts(MeshFormat::obj, "f 1 2 3 4\ng second\nf 5 6 7 8\n" + eight_vertices, two_bodies);
+  expect_parts(MeshFormat::obj,
+               "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf -1 -2 -3 -4\n"
+               "v 10 0 0\nv 11 0 0\nv 10 1 0\nv 10 0 1\no second\nf -1 -2 -3 -4\n",
+               two_bodies);
+}
+
+TEST(MeshParts, the_corners_of_a_face_hang_together_however_few_they_are) {
+  const std::string four = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
+  expect_parts(MeshFormat::obj, four + "f 2\n", {{1}});
+  expect_parts(MeshFormat::obj, four + "f 1 3\n", {{0, 2}});
+  expect_parts(MeshFormat::obj, four + "f 1 3\ng a\nf 2\n", {{0, 2}, {1}});
+  // Without any face all vertices are one.
+  expect_parts(MeshFormat::obj, four + "l 1 2\nf\n", {});
+}
+
+TEST(MeshParts, are_read_from_files) {
+  const TemporaryFile obj("parts.OBJ", eight_vertices + "f 1 2 3 4\ng second\nf 5 6 7 \\\n8\n");
+  const TemporaryFile stl("parts.Stl", "solid\nfacet normal 0 0 1\nvertex 1 2 3\nENDSOLID\n");
+  EXPECT_EQ(read_mesh_parts(obj.path(), MeshSplit::none).parts, Parts{});
+  for (const MeshSplit split : splits) {
+    EXPECT_EQ(read_mesh_parts(obj.path(), split).parts, two_bodies);
+    EXPECT_EQ(read_mesh_parts(stl.path(), split).parts, Parts{{0}});
+  }
+}
+
+TEST(MeshParts, groups_of_an_obj_are_told_apart_by_all_that_their_names_say) {
+  const std::string first = "f 1 2 3 4\n", second = "f 5 6 7 8\n";
+  const auto groups = [&](const std::string& faces) {
+    return mesh_parts(eight_vertices + faces, MeshFormat::obj, MeshSplit::groups).parts;
+  };
+  EXPECT_EQ(groups("g body 1\n" + first + "g body 2\n" + second), two_bodies);
+  EXPECT_EQ(groups("g a\n" + first + "g\n" + second), two_bodies);
+  EXPECT_EQ(groups("o a\ng x\n" + first + "o b\ng x\n" + second), two_bodies);
+  EXPECT_EQ(groups("o a\ng x\n" + first + "o a\n" + second), two_bodies);
+  // A name is one group, wherever it stands; and no name is one, too.
+  EXPECT_EQ(groups("g a b\nf 1 2 3\ng c\n" + second + "g\ta  b # c\nf 4\n"), two_bodies);
+  EXPECT_EQ(groups("f 1 2 3\ng a\n" + second + "g\nf 4\n"), two_bodies);
+  EXPECT_EQ(groups("o\nf 1 2 3\ng a\n" + second + "g\nf 4\n"), two_bodies);
+  EXPECT_EQ(groups("g a\n" + first + "g a\n" + second), (Parts{{0, 1, 2, 3, 4, 5, 6, 7}}));
+}
+
+TEST(MeshParts, faces_whose_corners_are_not_there_are_refused_as_without_parts) {
+  for (const MeshSplit split : {MeshSplit::none, MeshSplit::groups, MeshSplit::components}) {
+    const auto obj = [&](const std::string& text) {
+      return complaint("v 0 0 0\nv 1 0 0\nv 0 1 0\n" + text, MeshFormat::obj, split);
+    };
+    EXPECT_EQ(obj("f 1 2 3 9\n"),
+              "line 4: a face names vertex 9, but the file has 3 vertices (is it cut off?)");
+    EXPECT_EQ(obj("f 1 2 3\ng a\nf 1 2 \\\n4294967297\n"),
+              "line 6: a face names vertex 4294967297, but the file has 3 vertices (is it cut "
+              "off?)");
+    EXPECT_EQ(obj("f 1 2 3 -4\n"),
+              "line 4: a face names vertex -4, but there are 3 vertices above it");
+    for (const std::string word : {"x", "0", "3x", "1.0", "1e0", "/1", "+-1", "3\f"})
+      EXPECT_EQ(obj("f 1 2 " + word + "\n"),
+                "line 4: a face must name its vertices by whole numbers, from 1 or -1 on")
+          << word;
+    EXPECT_EQ(obj("f 1 2 3 \\"), "line 4: is cut off: no line follows its \"\\\"");
+  }
+}
+
+/// A facet of a text STL with these corners, and two that share an edge.
+std::string facet(const std::vector<std::string>& corners) {
+  std::string text = "facet normal 0 0 1\nouter loop\n";
+  for (const std::string& corner : corners) text += "vertex " + corner + "\n";
+  return text + "endloop\nendfacet\n";
+}
+const std::string two_facets =
+    facet({"0 0 0", "1 0 0", "0 1 0"}) + facet({"1 0 0", "0 1 0", "0 0 1"});
+const std::string far_facet = facet({"10 0 0", "1.1e1 0 0", "+10 1 0"});
+const Parts six_and_three = {{0, 1, 2, 3, 4, 5}, {6, 7, 8}};
+
+TEST(MeshParts, a_text_stl_has_its_solids_however_they_are_written) {
+  for (const std::string name : {"", " b", " facet endsolid 3 solid", "\tb # solid"}) {
+    for (const std::string end : {"endsolid", "end solid", "END\tSOLID", "EndSolid \t"}) {
+      const std::string text = "solid a\n" + two_facets + end + name + "\nsolid" + name + "\n" +
+                               far_facet + end + name + "\n";
+      std::string capitals = text, line = text, indented;
+      for (char& c : capitals) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+      std::ranges::replace(line, '\n', ' ');
+      for (const char c : "\n" + text)
+        indented += c == '\n' ? "\n # endsolid facet\n\t " : std::string(1, c);
+      for (const std::string& written : {text, capitals, indented})
+        expect_parts(MeshFormat::stl, written, six_and_three);
+      // On one line a # would hide the rest.
+      if (name.find('#') == std::string::npos) expect_parts(MeshFormat::stl, line, six_and_three);
+    }
+  }
+  // Solids of one name are two, and one without facets is none.
+  expect_parts(MeshFormat::stl,
+               "solid a\n" + two_facets + "endsolid a\nsolid\nendsolid\nmade by hand\nsolid a\n" +
+                   far_facet + "endsolid a\n\x1a",
+               six_and_three);
+}
+
+// Three corners each were once a facet, wherever the facets began.
+TEST(MeshParts, facets_of_a_text_stl_end_where_the_file_says) {
+  const std::string four = facet({"0 0 0", "1 0 0", "1 1 0", "0 1 0"}), one = facet({"5 5 5"});
+  const Parts expected = {{0, 1, 2, 3}, {4, 5, 6}, {7}};
+  const auto solid = [](const std::string& facets) { return "solid\n" + facets + "endsolid\n"; };
+  expect_parts(MeshFormat::stl, solid(four) + solid(far_facet) + solid(one), expected);
+  EXPECT_EQ(mesh_parts(solid(four + far_facet + one), MeshFormat::stl, MeshSplit::components).parts,
+            expected);
+  expect_parts(MeshFormat::stl, solid("vertex 1 2 3\n") + solid("vertex 4 5 6\nvertex 7 8 9\n"),
+               {{0}, {1, 2}});
+}
+
+TEST(MeshParts, the_header_of_a_binary_stl_is_no_text) {
+  std::string bytes = binary_stl({0, 0, 0, 1, 0, 0, 0, 1, 0}) +
+                      binary_stl({10, 0, 0, 11, 0, 0, 10, 1, 0}).substr(84);
+  const std::string header = "solid\nfacet\nendsolid\nfacet\n";
+  bytes.replace(0, header.size(), header);
+  bytes[80] = '\2';
+  EXPECT_EQ(mesh_parts(bytes, MeshFormat::stl, MeshSplit::groups).parts,
+            (Parts{{0, 1, 2, 3, 4, 5}}));
+  EXPECT_EQ(mesh_parts(bytes, MeshFormat::stl, MeshSplit::components).parts,
+            (Parts{{0, 1, 2}, {3, 4, 5}}));
+}
+
+TEST(MeshParts, files_cut_off_anywhere_are_refused_as_without_parts_or_lose_no_vertex) {
+  const std::string obj = "\xef\xbb\xbf" + eight_vertices + "f 1 +2 \\\n3 4\r\ng 2\rf -4/1 6 7 8";
+  const std::string stl =
+      "SOLID\r" + two_facets + "endsolid\n# x\nsolid b\r\n" + far_facet + "END SOLID";
+  const auto check = [&](MeshFormat format, const std::string& text) {
+    int refused = 0;
+    for (std::size_t length = 0; length <= text.size(); ++length) {
+      const std::string_view file = std::string_view(text).substr(0, length);
+      const std::string told = complaint(file, format);
+      refused += !told.empty();
+      for (const MeshSplit split : splits) {
+        EXPECT_EQ(complaint(file, format, split), told) << length;
+        if (!told.empty()) continue;
+        const MeshParts mesh = mesh_parts(file, format, split);
+        EXPECT_EQ(mesh.vertices, mesh_vertices(file, format)) << length;
+        std::size_t held = 0;
+        for (const std::vector<std::uint32_t>& part : mesh.parts) held += part.size();
+        // In a text STL each vertex is a facet's.
+        EXPECT_EQ(held == mesh.vertices.size(), format == MeshFormat::stl || length == text.size())
+            << length;
+      }
+    }
+    return refused;
+  };
+  EXPECT_GT(check(MeshFormat::obj, obj), 20);
+  EXPECT_LT(check(MeshFormat::obj, obj), 100);
+  EXPECT_GT(check(MeshFormat::stl, stl), 100);
 }
 
 }  // namespace

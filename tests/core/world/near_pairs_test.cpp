@@ -90,5 +90,37 @@ TEST(NearPairs, the_nearest_bodies_are_those_of_a_look_at_all) {
   }
 }
 
+/// A distance that gave up has the value 0: the ball at 1e200 was nearest, and with it nothing else
+/// was looked for.
+TEST(NearPairs, what_is_at_an_unknown_distance_is_not_the_nearest) {
+  const auto ball_at = [](double x) {
+    return ContactBody{ContactShape(Shape<double>(Sphere<double>{1})),
+                       {Mat3<double>::Identity(), Vec3<double>(x, 0, 0)}};
+  };
+  for (const bool is_first : {true, false}) {
+    std::vector<ContactBody> bodies = {ball_at(5), ball_at(9)};
+    bodies.insert(is_first ? bodies.begin() : bodies.end(), ball_at(1e200));
+    const std::size_t unknown = is_first ? 0 : 2, nearest = is_first ? 1 : 0;
+    const ContactWorld world(bodies);
+    for (const std::size_t count : {1u, 2u, 3u, 4u}) {
+      const std::vector<NearPair> found = nearest_bodies(ball_at(0), world, count);
+      ASSERT_EQ(found.size(), std::min<std::size_t>(count, 3));
+      EXPECT_NEAR(found[0].distance.value, 3, 1e-12);
+      const std::size_t order[] = {nearest, nearest + 1, unknown};
+      for (std::size_t i = 0; i < found.size(); ++i) EXPECT_EQ(found[i].b, order[i]) << i;
+    }
+    // The one at 1e200 is alone there.
+    const std::vector<NearPair> far = nearest_bodies(ball_at(-1e200), world, 1);
+    ASSERT_EQ(far.size(), 1u);
+    EXPECT_TRUE(far[0].distance.is_unknown());
+  }
+  // An infinite body may be near.
+  const ContactBody infinite{
+      ContactShape(Shape<double>(Sphere<double>{std::numeric_limits<double>::infinity()})), {}};
+  const ContactWorld world({infinite, ball_at(9)});
+  EXPECT_EQ(nearest_bodies(ball_at(0), world, 1).at(0).b, 1u);
+  EXPECT_EQ(near_pairs(world, {}).size(), 1u);
+}
+
 }  // namespace
 }  // namespace minkray

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/contact/swept.h"
+#include "renderer/base/errors.h"
 #include "renderer/clearance/swept_scene.h"
 #include "tests/renderer/clearance/arm.h"
 
@@ -261,6 +262,163 @@ TEST(Clearance, links_that_may_touch_are_left_out) {
   allowed.allow("hand", "base");
   EXPECT_EQ(pairs_of(bodies, model, allowed, true).size(), 2u);
   EXPECT_EQ(pairs_of(bodies, model, allowed, false).size(), 0u);
+}
+
+/// A robot's paths said "clear" with particles in their way.
+TEST(Clearance, particles_are_obstacles_as_objects_are) {
+  const Model model = arm_model();
+  const JointPath path(model, {{0, {{"elbow", {0.0}}}}, {1, {{"elbow", {1.5}}}}});
+  Object ball;
+  ball.name = "ball";
+  ball.shape = Sphere<double>{0.5};
+  ball.pose.translation = {0.2, -1.2, 1.6};
+  Scene with_objects, with_particles;
+  with_objects.objects = {ball};
+  ParticleSet grains;
+  grains.name = "grains";
+  grains.shape = Sphere<double>{0.25};
+  grains.materials = {0};
+  grains.scale_numbers = 1;
+  grains.poses = {9, 9, 9, 1, 0.2, -1.2, 1.6, 2};
+  with_particles.particles = {grains};
+  Clearance found[2];
+  for (const Scene* scene : {&with_objects, &with_particles}) {
+    std::vector<ClearanceBody> bodies = bodies_of(model, GeometryChoice::collision);
+    for (const ClearanceBody& body : bodies_of(*scene)) bodies.push_back(body);
+    const std::vector<BodyPair> pairs = pairs_of(bodies, model, {}, false);
+    Clearance& one = found[scene == &with_particles];
+    one = clearance_of(path, bodies, pairs, {});
+    if (scene == &with_particles) {
+      ASSERT_EQ(bodies.size(), 6u);
+      EXPECT_EQ(bodies[one.closest.b].name, "grains[1]");
+    }
+  }
+  EXPECT_LT(found[0].closest.upper, 0);
+  EXPECT_EQ(found[0].closest.lower, found[1].closest.lower);
+  EXPECT_EQ(found[0].closest.upper, found[1].closest.upper);
+}
+
+/// Of rows of quaternions 1e200 times as long the clearance was "proven" to be 2.9: the squares of
+/// their numbers are none, so the arm was taken to stand still while it passes the ball.
+TEST(Clearance, quaternions_turn_alike_whatever_their_length) {
+  Model model;
+  ModelLink link;
+  link.name = "arm";
+  link.joints.push_back({.name = "ball", .kind = JointKind::ball});
+  model.links = {link};
+  ModelGeom rod;
+  rod.link = 0;
+  rod.kind = "capsule";
+  rod.shape = Shape<double>(Capsule<double>{0.1, 2.5});
+  rod.pose = {rotation_matrix(0.0, std::sqrt(0.5), 0.0, std::sqrt(0.5)), {2.5, 0, 0}};
+  model.geoms = {rod};
+  Scene scene;
+  Object ball;
+  ball.shape = Sphere<double>{1};
+  ball.pose.translation = {0, 4, 0};
+  scene.objects = {ball};
+  std::vector<ClearanceBody> bodies = bodies_of(model, GeometryChoice::collision);
+  bodies.push_back(bodies_of(scene).front());
+  const std::vector<BodyPair> pairs = pairs_of(bodies, model, {}, true);
+  ASSERT_EQ(pairs.size(), 1u);
+  // From along x by 170 degrees about z: half way the arm stands in the ball.
+  const double w = std::cos(1.48), z = std::sin(1.48);
+  for (const double length : {1.0, 0.3, 7.0, 1e200, 1e-200, 1e308, 1e-320})
+    for (const double first : {length, 0.0}) {  // of length zero it turns nothing
+      const JointPath path(model, {{0, {{"ball", {first, 0.0, 0.0, 0.0}}}},
+                                   {1, {{"ball", {length * w, 0.0, 0.0, length * z}}}}});
+      const Clearance found = clearance_of(path, bodies, pairs, {});
+      EXPECT_TRUE(found.closest.is_settled);
+      EXPECT_NEAR(found.closest.upper, -1.1, 0.01) << length;
+      EXPECT_LE(found.closest.lower, -1.1 + 1e-9) << length;
+    }
+}
+
+/// What making a path says; empty if it is taken.
+std::string refusal(const std::vector<JointRow>& rows) {
+  try {
+    JointPath(arm_model(), rows);
+  } catch (const BadInput& error) {
+    return error.what();
+  }
+  return "";
+}
+
+/// The way between such rows is infinite, which became 2^63 parts of a sweep.
+TEST(Clearance, rows_that_nobody_can_go_between_are_refused) {
+  EXPECT_EQ(refusal({{0, {{"elbow", {-1e308}}}}, {1, {{"elbow", {1e308}}}}}),
+            "path: row 2 of 2: the joint \"elbow\" must not go further in one step than numbers "
+            "reach (-1e+308 to 1e+308)");
+  EXPECT_EQ(refusal({{0, {{"elbow", {1e308}}}}, {1, {{"elbow", {1.1e308}}}}}), "");
+  EXPECT_NE(refusal({{0, {{"wrist", {std::numeric_limits<double>::infinity()}}}}}).find("finite"),
+            std::string::npos);
+  // It was taken to be at rest through the first step, and where it is told from there on.
+  EXPECT_NE(refusal({{0, {{"elbow", {0.0}}}}, {1, {{"elbow", {0.0}}, {"wrist", {0.5}}}}})
+                .find("row 2 of 2: the joint \"wrist\" must have a value from the first row on"),
+            std::string::npos);
+}
+
+/// Two slides that go as far as numbers reach, and together further.
+TEST(Clearance, nothing_is_proven_of_what_goes_further_than_numbers_reach) {
+  Model model;
+  for (const char* name : {"one", "two"}) {
+    ModelLink link;
+    link.name = name;
+    link.parent = static_cast<int>(model.links.size()) - 1;
+    link.joints.push_back({.name = name, .kind = JointKind::slide, .axis = {1, 0, 0}});
+    model.links.push_back(link);
+  }
+  ModelGeom ball;
+  ball.name = "ball";
+  ball.link = 1;
+  ball.shape = Shape<double>(Sphere<double>{1});
+  model.geoms = {ball};
+  std::vector<ClearanceBody> bodies = bodies_of(model, GeometryChoice::collision);
+  Scene scene;
+  scene.objects.emplace_back().shape = Sphere<double>{1};
+  scene.objects[0].pose.translation = {9, 0, 0};
+  bodies.push_back(bodies_of(scene).front());
+  const std::vector<BodyPair> pairs = pairs_of(bodies, model, {}, true);
+  ASSERT_EQ(pairs.size(), 1u);
+  const JointPath path(model, {{0, {{"one", {0.0}}, {"two", {0.0}}}},
+                               {1, {{"one", {1.5e308}}, {"two", {1.5e308}}}}});
+  const Clearance found = clearance_of(path, bodies, pairs, {});
+  EXPECT_EQ(found.closest.lower, -std::numeric_limits<double>::infinity());
+  EXPECT_FALSE(found.closest.is_settled);
+  Mistakes mistakes("robot");
+  swept_scene(model, {}, path, {}, mistakes);
+  EXPECT_EQ(mistakes.text(), "robot: step 1 of the path moves \"ball\" further than numbers reach");
+}
+
+TEST(Clearance, a_sweep_of_more_bodies_than_are_allowed_is_a_mistake_before_they_are_made) {
+  ImportOptions import;
+  import.geometry = GeometryChoice::collision;
+  const JointPath path(arm_model(), {{0, {{"elbow", {0.0}}}}, {1, {{"elbow", {3.0}}}}});
+  SweptSceneOptions options;
+  options.most_bodies = 10;
+  Mistakes mistakes("arm.urdf");
+  const Scene scene = swept_scene(arm_model(), import, path, options, mistakes);
+  EXPECT_EQ(mistakes.text(), "arm.urdf: the path sweeps more than 10 shapes");
+  EXPECT_EQ(scene.objects.size(), 4u);  // the arm itself
+}
+
+/// 150 bytes of MJCF, a composite of 100,000 particles, have 5,000,000,000 pairs.
+TEST(Clearance, more_pairs_than_ten_million_are_refused) {
+  Model model;
+  ModelLink link;
+  link.joints.push_back({.name = "slide", .kind = JointKind::slide});
+  model.links.assign(100'000, link);
+  const ContactShape ball(Shape<double>(Sphere<double>{1}));
+  std::vector<ClearanceBody> bodies;
+  for (int i = 0; i < 100'000; ++i) bodies.push_back({"ball", "link", i, {}, ball});
+  EXPECT_THROW(pairs_of(bodies, model, {}, true), BadInput);
+  EXPECT_TRUE(pairs_of(bodies, model, {}, false).empty());
+  Scene scene;
+  ParticleSet grains;
+  grains.materials = {0};
+  grains.poses.assign(3 * (most_obstacles + 1), 0.0);
+  scene.particles = {grains};
+  EXPECT_THROW(bodies_of(scene), BadInput);
 }
 
 }  // namespace

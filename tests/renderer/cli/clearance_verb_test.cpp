@@ -84,6 +84,24 @@ TEST(ClearanceVerb, obstacles_are_scenes_and_a_collision_is_told_with_its_depth)
   EXPECT_EQ(collision["b"].text(), "ball");
 }
 
+/// It said "clear", with infinite bounds.
+TEST(ClearanceVerb, particles_are_obstacles) {
+  const TemporaryFolder folder;
+  write_pendulum(folder);
+  std::ofstream(folder / "grains.json") << R"({"version": 1, "lights": [],
+    "camera": {"position": [0, -9, 1], "look_at": [0, 0, 0]},
+    "materials": [{"name": "m", "type": "lambert", "color": [1, 1, 1]}], "objects": [],
+    "particles": [{"name": "grains", "shape": {"type": "sphere", "radius": 0.3}, "material": "m",
+                   "columns": ["position"], "count": 2, "poses": [[9, 0, 0], [-1, 0, 0]]}]})";
+  std::ofstream(folder / "other.csv") << "swing\n0\n3\n";
+  const Json answer = Json::parse(
+      clearance(folder, "--path other.csv --obstacle grains.json --only-obstacles").out);
+  EXPECT_EQ(answer["status"].text(), "collides");
+  EXPECT_EQ(answer["b"].text(), "grains[1]");
+  EXPECT_NEAR(answer["upper"].get<double>(), -0.4, 0.01);
+  EXPECT_EQ(answer["pairs"].get<int>(), 2);
+}
+
 TEST(ClearanceVerb, fails_where_less_is_proven_than_is_asked_for) {
   const TemporaryFolder folder;
   write_pendulum(folder);
@@ -123,6 +141,13 @@ TEST(ClearanceVerb, what_is_wrong_is_told) {
   const ProgramOutcome srdf = clearance(folder, "--path swing.csv --srdf wrong.srdf");
   EXPECT_EQ(srdf.exit_code, 3);
   EXPECT_NE(srdf.err.find("link2: there is no link \"nobody\""), std::string::npos) << srdf.err;
+  // The way between the rows is infinite, and became 2^63 parts of a sweep.
+  std::ofstream(folder / "far.csv") << "swing\n-1e308\n1e308\n";
+  const ProgramOutcome far = clearance(folder, "--path far.csv --sweep sweep.json");
+  EXPECT_EQ(far.exit_code, 3);
+  EXPECT_NE(far.err.find("path: row 2 of 2: the joint \"swing\" must not go further"),
+            std::string::npos)
+      << far.err;
   EXPECT_EQ(clearance(folder, "--path swing.csv --allow bob").exit_code, 3);
   EXPECT_EQ(clearance(folder, "--path swing.csv --at-least much").exit_code, 2);
   EXPECT_EQ(clearance(folder, "").exit_code, 2);

@@ -91,6 +91,53 @@ TEST(Collada, nodes_that_show_each_other_again_and_again_are_refused_in_seconds)
   EXPECT_THROW(dae_mesh(wrong, MeshSplit::components), std::runtime_error);
 }
 
+std::string refused_dae(const std::string& nodes, MeshSplit split = MeshSplit::none) {
+  try {
+    dae_mesh(dae_document(nodes), split);
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+/// Each level shows the next one as it is, and moved by `step`; `leaf` is the last one.
+std::string shown_twice(int levels, const std::string& step, const std::string& leaf) {
+  std::string nodes;
+  for (int i = 0; i < levels; ++i) {
+    const std::string next = "<instance_node url='#n" + std::to_string(i + 1) + "'/>";
+    nodes +=
+        "<node id='n" + std::to_string(i) + "'>" + next + "<node>" + step + next + "</node></node>";
+  }
+  return nodes + "<node id='n" + std::to_string(levels) + "'>" + leaf + "</node>";
+}
+
+TEST(Collada, a_node_is_read_once_however_often_it_is_shown) {
+  // 400 transforms were read for each of 2^17 times that the leaf is shown: 4.7 s of 12.7 kB.
+  std::string leaf;
+  for (int i = 0; i < 400; ++i) leaf += "<translate>0 0 1</translate>";
+  constexpr int levels = 8;
+  const std::string nodes =
+      shown_twice(levels, "<translate>0 1 0</translate>", leaf + "<instance_geometry url='#g'/>");
+  const MeshParts mesh = dae_mesh(dae_document(nodes), MeshSplit::components);
+  // Each of the levels' nodes is a root, too.
+  std::size_t shown = 0;
+  for (int i = 0; i <= levels; ++i) shown += std::size_t{1} << i;
+  EXPECT_EQ(mesh.vertices.size(), 8 * shown);
+  EXPECT_EQ(mesh.parts.size(), 2 * shown);
+  EXPECT_EQ(largest_corner(mesh), Vec3<double>(11, 2 + levels, 3 + 400));
+}
+
+TEST(Collada, what_is_shown_again_and_again_is_told) {
+  // 4 kB made 18 million vertices, all of them corners of their hull.
+  EXPECT_NE(
+      refused_dae(shown_twice(16, "<rotate>0 0 1 7</rotate>", "<instance_geometry url='#g'/>"))
+          .find("must show at most 200000 vertices, of 24 numbers in the file (got 200008)"),
+      std::string::npos);
+  EXPECT_NE(refused_dae(shown_twice(20, "", ""))
+                .find("must show at most 1000000 nodes and meshes, each again where"),
+            std::string::npos);
+}
+
 TEST(Collada, a_robots_file_finds_its_meshes) {
   if (!has_robot_models()) GTEST_SKIP() << "run scenes/fetch-models";
   ImportOptions options;

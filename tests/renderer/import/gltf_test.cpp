@@ -7,6 +7,7 @@
 #include <map>
 
 #include "renderer/image/colour.h"
+#include "renderer/import/gltf.h"
 #include "renderer/import/gltf_text.h"
 #include "tests/renderer/import/imports.h"
 #include "tests/support/program.h"
@@ -279,6 +280,48 @@ TEST(Gltf, a_hundred_thousand_nodes_in_a_chain_are_read) {
     nodes += R"({"translation": [1, 0, 0], "children": [)" + std::to_string(i + 1) + "]}, ";
   const Model model = gltf_model(gltf_document(nodes + R"({"mesh": 0}])"));
   EXPECT_NEAR(reach_of_geom(model, 0, along_x), count + 1, 1e-6);
+}
+
+TEST(Gltf, what_is_shown_again_and_again_is_told) {
+  // Of a hundred bytes each, nodes show the same mesh: as one mesh, it had vertices without end.
+  const TemporaryFolder folder;
+  std::string children, nodes;
+  for (int i = 1; i <= 25'001; ++i) {
+    children += (i > 1 ? "," : "") + std::to_string(i);
+    nodes += R"(,{"mesh":0})";
+  }
+  std::ofstream(folder / "m.gltf")
+      << gltf_document("[{\"children\": [" + children + "]}" + nodes + "]");
+  std::string told;
+  try {
+    read_gltf_mesh(folder / "m.gltf", MeshSplit::none);
+  } catch (const std::runtime_error& error) {
+    told = error.what();
+  }
+  EXPECT_NE(told.find("/meshes: must show at most 200000 vertices, of 132 bytes of buffers (got "
+                      "200008)"),
+            told.npos)
+      << told;
+  // Each collider names a node with all those behind it below it.
+  constexpr int count = 500;
+  nodes = "[";
+  for (int i = 0; i < count; ++i) {
+    std::string node = gltf_collider(R"({"node": )" + std::to_string(i) + "}");
+    if (i + 1 < count) node.insert(1, R"("children": [)" + std::to_string(i + 1) + "], ");
+    nodes += (i > 0 ? ", " : "") + node;
+  }
+  told = mistakes_of(gltf_document(nodes + "]"), "m.gltf");
+  EXPECT_NE(told.find("must not be below so many colliders' nodes: with it, more than 100500"),
+            told.npos)
+      << told;
+}
+
+TEST(Gltf, colliders_of_one_node_have_one_hull) {
+  const std::string collider = gltf_collider(R"({"node": 0, "convexHull": true})");
+  const Model model = gltf_model(gltf_document(
+      R"([{"mesh": 0, "children": [1, 2]}, )" + collider + ", " + collider + "]", implicit_shapes));
+  EXPECT_EQ(model.geoms.size(), 3u);
+  EXPECT_EQ(model.meshes.size(), 2u);
 }
 
 TEST(Gltf, base64_is_read_with_and_without_its_end) {

@@ -78,6 +78,22 @@ TEST_F(JointRows, mistakes_are_told_with_their_place) {
   EXPECT_NE(told(R"({"push": 1e999})").find("push"), std::string::npos);
 }
 
+TEST_F(JointRows, are_as_many_as_a_model_takes) {
+  // 33,000 rows of nothing for 7000 shapes were 231 million places.
+  std::ofstream(folder_ / "r.xml")
+      << "<mujoco><worldbody><body><composite type='particle' count='20 35 10' spacing='1'>"
+         "<geom size='.1'/></composite></body></worldbody></mujoco>";
+  std::string json = "[{}", csv = "time\n0\n";
+  for (int i = 1; i <= 476; ++i) {
+    json += ",{}";
+    csv += std::to_string(i) + "\n";
+  }
+  const std::string complaint =
+      "must have at most 476 rows, for a model of 21000 links, shapes or joints (got ";
+  EXPECT_NE(told(json + "]").find(complaint + "477)"), std::string::npos) << told(json + "]");
+  EXPECT_NE(told(csv).find("line 478: " + complaint + "one more)"), std::string::npos) << told(csv);
+}
+
 TEST_F(JointRows, a_quaternion_of_length_zero_turns_nothing) {
   const Scene scene = with(R"({"ball": [0, 0, 0, 0]})");
   EXPECT_LT((scene.objects[1].pose.translation - Vec3<double>(0, 0, 2)).norm(), 1e-15);

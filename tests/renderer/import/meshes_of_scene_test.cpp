@@ -6,8 +6,11 @@
 
 #include <fstream>
 
+#include "renderer/import/mesh_library.h"
 #include "renderer/import/model_info.h"
+#include "renderer/import/plane_tree.h"
 #include "tests/support/program.h"
+#include "tests/support/random.h"
 
 namespace minkray {
 namespace {
@@ -39,6 +42,53 @@ TEST(MeshesOfScene, are_told_with_how_deep_a_vertex_lies_under_the_hull) {
   EXPECT_NE(meshes_as_text(meshes).find("8 of 2 hulls; vertices up to 0.577 under the hull"),
             std::string::npos)
       << meshes_as_text(meshes);
+}
+
+TEST(MeshesOfScene, the_deepest_vertex_is_that_which_a_look_at_all_planes_finds) {
+  testing::Random random(11);
+  for (const double offset : {0.0, 1000.0}) {
+    std::vector<PlaneTree::Plane> planes;
+    std::vector<Vec3<double>> points;
+    for (int i = 0; i < 2000; ++i) {
+      const Vec3<double> n = random.direction();
+      planes.push_back({n.x(), n.y(), n.z(), 1 + random.uniform() + offset * n.x()});
+      points.push_back(1.2 * random.in_cube() + Vec3<double>(offset, 0, 0));
+    }
+    planes.push_back({std::nan(""), 0, 0, -10});
+    const PlaneTree tree(planes, 1 + offset);
+    planes.pop_back();
+    int outside = 0;
+    for (const Vec3<double>& point : points) {
+      double least = std::numeric_limits<double>::infinity();
+      for (const PlaneTree::Plane& p : planes)
+        least = std::min(least, p[3] - (p[0] * point.x() + p[1] * point.y() + p[2] * point.z()));
+      EXPECT_EQ(tree.least_depth(point, -1e9), least);
+      const double enough = tree.least_depth(point, 0.1);
+      EXPECT_TRUE(least <= 0.1 ? enough >= least && enough <= 0.1 : enough == least) << least;
+      outside += least < 0 ? 1 : 0;
+    }
+    EXPECT_GT(outside, 200);
+    EXPECT_LT(outside, 1800);
+  }
+  EXPECT_EQ(PlaneTree({}, 1).least_depth({0, 0, 0}, 0), std::numeric_limits<double>::infinity());
+}
+
+TEST(MeshesOfScene, vertices_of_the_hull_lie_below_nothing) {
+  const TemporaryFolder folder;
+  testing::Random random(12);
+  std::ofstream obj(folder / "m.obj");
+  obj.precision(17);
+  for (int i = 0; i < 300; ++i) {
+    const Vec3<double> n = random.direction();
+    obj << "v " << n.x() << " " << n.y() << " " << n.z() << "\n";
+  }
+  obj.close();
+  MeshLibrary library(folder.path(), {});
+  EXPECT_EQ(library.hulls_of("m.obj", Vec3<double>(1, 2, -3)).complaint, "");
+  const std::vector<ModelMesh> meshes = library.take_meshes();
+  ASSERT_EQ(meshes.size(), 1u);
+  EXPECT_EQ(meshes[0].corners, 300u);
+  EXPECT_EQ(meshes[0].deepest, 0);
 }
 
 }  // namespace

@@ -227,6 +227,29 @@ TEST(Mjcf, composites_of_a_file_have_a_hundred_thousand_elements_at_most_togethe
   }
 }
 
+TEST(Mjcf, geoms_of_one_mesh_have_one_hull) {
+  const auto file_with = [](const std::string& defaults, const std::string& mesh) {
+    return "<mujoco><default>" + defaults + "</default><asset>\n<mesh name='t' " + mesh +
+           " refpos='0 0 1'/></asset><worldbody><geom type='mesh' mesh='t'/>" +
+           "<geom type='mesh' mesh='t' pos='1 0 0'/></worldbody></mujoco>";
+  };
+  const std::string vertices = "vertex='0 0 0 1 0 0 0 1 0 0 0 1'";
+  Mistakes mistakes("robot.xml");
+  const std::optional<Model> model =
+      parse_model(file_with("", vertices), "robot.xml", {}, mistakes);
+  ASSERT_TRUE(model) << mistakes.text();
+  ASSERT_EQ(model->geoms.size(), 2u);
+  EXPECT_EQ(model->meshes.size(), 1u);
+  for (const ModelGeom& geom : model->geoms)
+    EXPECT_EQ(geom.shape->support(Vec3<double>(0, 0, -1)).z(), -1);
+  // Few lines of it could give many meshes many vertices.
+  mistakes = Mistakes("robot.xml");
+  EXPECT_FALSE(parse_model(file_with("<mesh " + vertices + "/>", ""), "robot.xml", {}, mistakes));
+  EXPECT_NE(mistakes.text().find("line 2: <mesh name=\"t\">: vertex: must stand in the <mesh>"),
+            std::string::npos)
+      << mistakes.text();
+}
+
 TEST(Mjcf, mistakes_are_told_all_at_once_with_their_lines) {
   const std::string text = R"(<mujoco>
   <compiler angle="degrees"/>

@@ -3,10 +3,12 @@
 // function that is no support function is found, and told.
 #include <gtest/gtest.h>
 #include <minkray/minkray.h>
+#include <sys/resource.h>
 
 #include <atomic>
 #include <cmath>
 #include <cstring>
+#include <new>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -249,6 +251,60 @@ TEST(CustomShape, that_is_gathered_and_throws_ends_the_cast_with_an_error) {
   fails = true;
   EXPECT_THROW(scene.cast(rays, hits), mk::Error);
   EXPECT_THROW(scene.cast(rays, hits), mk::Error);  // and is not forgotten
+}
+
+/// A ball's support function in C that throws when it is told to, as no memory does.
+struct Thrower {
+  bool throws = false;
+  static int support(void* user, std::size_t count, const double (*n)[3], double (*p)[3]) {
+    if (static_cast<Thrower*>(user)->throws) throw std::bad_alloc();
+    std::memcpy(p, n, count * sizeof *p);
+    return 0;
+  }
+};
+
+/// The thread went on to gather for the batch that was gone, and so did all that it asked later.
+TEST(CustomShape, that_is_gathered_answers_again_once_there_is_memory) {
+  Thrower thrower;
+  const minkray_support function = {Thrower::support, &thrower, nullptr, nullptr, nullptr};
+  minkray_shape shape = {0};
+  ASSERT_EQ(minkray_shape_custom_gathered(&function, 100, &shape), MINKRAY_OK);
+  minkray_scene scene = {0};
+  ASSERT_EQ(minkray_scene_make(&scene), MINKRAY_OK);
+  ASSERT_EQ(minkray_scene_add(scene, shape, nullptr, nullptr, nullptr), MINKRAY_OK);
+  ASSERT_EQ(minkray_scene_commit(scene), MINKRAY_OK);
+  const std::vector<mk::Ray> rays = rays_around({0, 0, 0}, 1, 500);
+  std::vector<minkray_hit> hits(rays.size());
+  const auto* plain = reinterpret_cast<const minkray_ray*>(rays.data());
+  const minkray_options options = {sizeof options, 1, 0, nullptr, nullptr};  // on this thread
+  for (const bool throws : {true, false, true, false}) {
+    thrower.throws = throws;
+    EXPECT_EQ(minkray_scene_cast(scene, plain, rays.size(), hits.data(), &options),
+              throws ? MINKRAY_NO_MEMORY : MINKRAY_OK);
+    thrower.throws = false;
+    const double x[1][3] = {{1, 0, 0}};
+    double point[1][3] = {};
+    EXPECT_EQ(minkray_shape_support(shape, 1, x, point), MINKRAY_OK);
+    EXPECT_EQ(point[0][0], 1);
+  }
+  minkray_scene_release(scene);
+  minkray_shape_release(shape);
+}
+
+/// A sum of a shape with itself, made nineteen times over, was a custom shape 2^19 times, and a
+/// scene of twenty such sums kept ten million.
+TEST(CustomShape, is_watched_once_however_often_it_stands_in_a_scene) {
+  mk::Shape sum = mk::custom(box_support);
+  for (int i = 0; i < 19; ++i) sum = mk::sum(sum, sum);
+  const auto most_memory = [] {
+    rusage usage;
+    getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_maxrss;  // in KiB
+  };
+  const long before = most_memory();
+  mk::Scene scene;
+  for (int i = 0; i < 20; ++i) scene.add(sum);
+  EXPECT_LT(most_memory() - before, 20'000);
 }
 
 }  // namespace

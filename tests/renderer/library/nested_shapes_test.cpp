@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 #include <minkray/minkray_c.h>
 
+#include <cmath>
+#include <cstring>
 #include <string>
+#include <vector>
 
 namespace {
 
@@ -59,6 +62,51 @@ TEST(NestedShapes, are_at_most_a_million) {
   EXPECT_EQ(sums_of(2, 10, made), MINKRAY_OK);
   EXPECT_EQ(sums_of(2, 40, made), MINKRAY_WRONG_USE);
   EXPECT_EQ(made, 19);
+}
+
+int on_a_ball(void*, std::size_t count, const double (*n)[3], double (*p)[3]) {
+  std::memcpy(p, n, count * sizeof *p);
+  return 0;
+}
+
+minkray_shape superellipsoid(double size) {
+  const double radii[3] = {size, 0.9 * size, 0.8 * size}, exponent = 3;
+  const minkray_parameter parameters[2] = {{"radii", radii, 3, nullptr, 0},
+                                           {"exponent", &exponent, 1, nullptr, 0}};
+  minkray_shape shape = {0};
+  EXPECT_EQ(minkray_shape_make("superellipsoid", parameters, 2, &shape), MINKRAY_OK);
+  return shape;
+}
+
+/// Where support points are gathered, casts run on stacks of their own; shapes 499 deep ran over
+/// them.
+TEST(NestedShapes, are_a_thousand_deep_beside_shapes_that_are_gathered) {
+  const minkray_shape small = superellipsoid(1e-4);
+  minkray_shape shape = superellipsoid(1);
+  for (int i = 1; i < 1000; ++i) {
+    const minkray_shape operands[2] = {shape, small};
+    const minkray_parameter parameter = {"shapes", nullptr, 0, operands, 2};
+    minkray_shape next = {0};
+    ASSERT_EQ(minkray_shape_make("hull_of", &parameter, 1, &next), MINKRAY_OK)
+        << minkray_last_error();
+    minkray_shape_release(shape);
+    shape = next;
+  }
+  const minkray_support function = {on_a_ball, nullptr, nullptr, nullptr, nullptr};
+  minkray_shape gathered = {0};
+  ASSERT_EQ(minkray_shape_custom_gathered(&function, 100, &gathered), MINKRAY_OK);
+  minkray_scene scene = {0};
+  ASSERT_EQ(minkray_scene_make(&scene), MINKRAY_OK);
+  const minkray_pose above = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 9}}};
+  ASSERT_EQ(minkray_scene_add(scene, shape, nullptr, nullptr, nullptr), MINKRAY_OK);
+  ASSERT_EQ(minkray_scene_add(scene, gathered, &above, nullptr, nullptr), MINKRAY_OK);
+  ASSERT_EQ(minkray_scene_commit(scene), MINKRAY_OK);
+  const std::vector<minkray_ray> rays(33, {{-5, 0.1, 0.2}, {1, 0, 0}, HUGE_VAL});
+  std::vector<minkray_hit> hits(rays.size());
+  ASSERT_EQ(minkray_scene_cast(scene, rays.data(), rays.size(), hits.data(), nullptr), MINKRAY_OK);
+  for (const minkray_hit& hit : hits) EXPECT_EQ(hit.object, 0u);
+  minkray_scene_release(scene);
+  for (const minkray_shape one : {shape, small, gathered}) minkray_shape_release(one);
 }
 
 }  // namespace

@@ -224,6 +224,87 @@ TEST(LibraryScene, robots_move_by_their_joints) {
   }
 }
 
+/// A ball on a slide along x from the origin, and one particle in its way.
+struct BallAndParticle {
+  mk::Scene scene;
+  mk::Scene::Group robot, particles;
+  BallAndParticle() : robot(scene.add_file(robot_file())), particles(scene.add_file(file())) {
+    scene.commit();
+  }
+  static std::string robot_file() {
+    const std::string file = testing::TempDir() + "minkray_library_slide.urdf";
+    std::ofstream(file) << R"(<robot name="slide"><link name="base"/><link name="ball">
+      <visual><geometry><sphere radius="0.5"/></geometry></visual></link>
+      <joint name="way" type="prismatic"><parent link="base"/><child link="ball"/>
+        <axis xyz="1 0 0"/><limit lower="0" upper="9" effort="1" velocity="1"/></joint></robot>)";
+    return file;
+  }
+  static std::string file() {
+    const std::string file = testing::TempDir() + "minkray_library_particle.json";
+    std::ofstream(file) << R"({"version": 1, "lights": [],
+      "camera": {"position": [0, -9, 1], "look_at": [0, 0, 0]},
+      "materials": [{"name": "m", "type": "lambert", "color": [1, 1, 1]}], "objects": [],
+      "particles": [{"name": "p", "shape": {"type": "sphere", "radius": 0.25}, "material": "m",
+                     "columns": ["position"], "count": 1, "poses": [[5, 0, 0]]}]})";
+    return file;
+  }
+};
+
+/// It was proven to be infinitely clear of a particle that rays meet.
+TEST(LibraryScene, a_robot_does_not_pass_through_particles) {
+  BallAndParticle both;
+  EXPECT_NEAR(both.scene.cast({{5, -9, 0}, {0, 1, 0}}).t, 8.75, 1e-12);
+  const std::vector<double> near = {0, 3}, through = {0, 9};
+  const mk::Clearance clear = both.scene.clearance(both.robot, near, 2);
+  EXPECT_LE(clear.lower, 1.25);
+  EXPECT_NEAR(clear.upper, 1.25, 1e-9);
+  EXPECT_EQ(clear.object_b, 1u);  // numbered as rays number it: after all objects
+  EXPECT_NEAR(clear.point_b[0], 4.75, 1e-9);
+  const mk::Clearance met = both.scene.clearance(both.robot, through, 2);
+  EXPECT_NEAR(met.upper, -0.75, 0.01);
+  EXPECT_LE(met.lower, -0.75);
+  // The robot elsewhere: the particle stays where it is.
+  both.robot.set_pose(mk::translation({-2, 0, 0}));
+  both.scene.commit();
+  const mk::Clearance further = both.scene.clearance(both.robot, near, 2);
+  EXPECT_NEAR(further.upper, 3.25, 1e-9);
+  EXPECT_NEAR(further.point_b[0], 4.75, 1e-9);
+}
+
+/// The pose was taken, and nothing moved.
+TEST(LibraryScene, particles_take_no_pose) {
+  BallAndParticle both;
+  try {
+    both.particles.set_pose(mk::translation({0, 0, 100}));
+    FAIL();
+  } catch (const mk::Error& error) {
+    EXPECT_EQ(error.code(), MINKRAY_WRONG_USE);
+    EXPECT_NE(std::string(error.what()).find("pose: must not be given to a group with particles"),
+              std::string::npos);
+  }
+  EXPECT_NEAR(both.scene.cast({{5, -9, 0}, {0, 1, 0}}).t, 8.75, 1e-12);
+}
+
+/// Rows of a robot without joints have no numbers: 2^30 of them took tens of gigabytes.
+TEST(LibraryScene, a_robot_without_joints_stands_still_for_as_many_rows_as_are_asked_for) {
+  const std::string file = testing::TempDir() + "minkray_library_fixed.urdf";
+  std::ofstream(file) << R"(<robot name="post"><link name="base">
+    <visual><geometry><sphere radius="0.5"/></geometry></visual></link></robot>)";
+  mk::Scene scene;
+  const auto post = scene.add_file(file);
+  scene.add(mk::sphere(1), mk::translation({4, 0, 0}));
+  scene.commit();
+  mk::Clearance steps[2];
+  scene.clearance(post, {}, 3, steps);
+  EXPECT_EQ(steps[0].lower, steps[1].lower);
+  EXPECT_EQ(steps[1].row, steps[0].row + 1);
+  mk::Clearance least;
+  EXPECT_EQ(minkray_scene_clearance(scene.handle(), post.number(), nullptr, std::size_t{1} << 30, 0,
+                                    nullptr, nullptr, &least),
+            MINKRAY_OK);
+  EXPECT_EQ(least.lower, steps[0].lower);
+}
+
 TEST(LibraryScene, shapes_go_through_text_and_stay_the_same) {
   const mk::Shape shape = mk::hull_of(
       {mk::rounded(mk::box({0.1, 0.2, 0.3}), 1.0 / 3), mk::translated(mk::cone(1, 2), {0, 0, 1})});

@@ -10,6 +10,7 @@
 #include "renderer/film/render.h"
 #include "renderer/sensor/npy.h"
 #include "renderer/sensor/scan_files.h"
+#include "renderer/sensor/sensor_path.h"
 #include "tests/support/program.h"
 #include "tests/support/random.h"
 
@@ -194,6 +195,34 @@ TEST(SensorRaysTest, patterns_cameras_and_arrays_are_read) {
   EXPECT_EQ(rays.rays[1].ray.origin, Vec3<double>(1, 2, 3));
   std::ofstream(folder / "short.npy", std::ios::binary) << array.substr(0, array.size() - 1);
   EXPECT_THROW(rays_of_npy(folder / "short.npy"), BadInput);
+}
+
+TEST(SensorPathTest, a_column_is_that_of_its_name_before_one_that_begins_so) {
+  const TemporaryFolder folder;
+  const auto path = [&](const std::string& text) {
+    std::ofstream(folder / "path.csv") << text;
+    return read_sensor_path(folder / "path.csv").motion->keys.at(0).translate;
+  };
+  const auto told = [&](const std::string& text) -> std::string {
+    try {
+      path(text);
+    } catch (const BadInput& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const Vec3<double> expected(4, 5, 6);
+  // The deviations were taken for the path.
+  EXPECT_EQ(path("time,x_std,y_std,z_std,x,y,z\n0,1,2,3,4,5,6\n"), expected);
+  EXPECT_EQ(path("time_ns,Time/s,x1/m,x [m],Y/m,z(m)\n7,0,1,4,5,6\n"), expected);
+  EXPECT_EQ(path("timestamp,x_position,y_position,z_position\n0,4,5,6\n"), expected);
+  EXPECT_NE(told("time,x_std,x_mean,y,z\n0,1,4,5,6\n")
+                .find("path.csv: line 1: must name one column x (got 2 and 3, \"xstd\" and "
+                      "\"xmean\")"),
+            std::string::npos);
+  EXPECT_NE(told("time,x,y,z,X/m\n0,4,5,6,4\n").find("must name one column x (got 2 and 5"),
+            std::string::npos);
+  EXPECT_NE(told("time,x,y\n0,4,5\n").find("line 1: must name the column z"), std::string::npos);
 }
 
 TEST(ScanFiles, hold_a_record_of_each_ray) {
