@@ -27,9 +27,9 @@ FieldPlane plane_facing(const Vec3<double>& middle, const Vec3<double>& normal, 
 
 /// A number a pixel, rows from the top. The truth is between lower and upper.
 ///
-/// Of an object so large or far that its distance is unknown (SignedDistance::is_unknown()) `lower`
-/// has what the balls around it and the probe tell, which may be -infinity; `value` is the least
-/// distance of the others, infinite if there are none.
+/// An object may be so large or far that its distance is unknown (SignedDistance::is_unknown()):
+/// `lower` has what the balls around it and the probe tell, which may be -infinity; `value` is the
+/// least distance of the others, infinite if there are none.
 struct DistanceField {
   FieldPlane plane;
   std::vector<double> value, lower, upper;

@@ -40,7 +40,7 @@ class GltfDocument {
   /// Whole numbers of an accessor (SCALAR), each less than `limit`.
   std::optional<std::vector<std::uint32_t>> indices(std::size_t accessor, std::size_t limit);
 
-  /// Of the buffers that were asked for so far.
+  /// How many the buffers hold that were asked for so far.
   std::size_t bytes_of_buffers() const { return buffer_bytes_; }
 
   /// Hashes of all that was read.

@@ -77,19 +77,25 @@ class Includes {
 
 constexpr std::string_view blanks = " \t\r\n";
 
-/// Takes the first word off a text, and the blanks before it; answers whether there was one.
-bool take_word(std::string_view& text) {
+/// Takes the blanks off that a text begins with.
+void take_blanks(std::string_view& text) {
   text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
-  const bool any = !text.empty();
+}
+
+/// Takes its first word off, of a text that begins with one.
+void take_word(std::string_view& text) {
   text.remove_prefix(std::min(text.find_first_of(blanks), text.size()));
-  return any;
 }
 
 /// The words of `own`, and behind them those of `other` that it has not.
 std::string filled_up(const std::string& own, const std::string& other) {
-  std::string_view rest = other;
-  for (std::string_view given = own; take_word(given);)
-    if (!take_word(rest)) break;
+  std::string_view given = own, rest = other;
+  take_blanks(given);
+  take_blanks(rest);
+  for (; !given.empty() && !rest.empty(); take_blanks(given), take_blanks(rest)) {
+    take_word(given);
+    take_word(rest);
+  }
   return rest.empty() ? own : own + " " + std::string(rest);
 }
 

@@ -80,7 +80,8 @@ class Reader {
   void value(std::string_view type, std::uint32_t length) {
     const auto* fixed = std::ranges::find(types_of_one_length, type, &TypeOfOneLength::name);
     if (fixed != types_of_one_length.end() && length != fixed->length) is_whole_ = false;
-    // Of these the library reads whole numbers only, and four bytes more than they have.
+    // The library reads whole numbers only of the one, and four bytes more than it has of the
+    // other.
     if ((type == "floatvector" && length % sizeof(float) != 0) || type == "idmanifest")
       is_whole_ = false;
     if (type == type_of_channels)

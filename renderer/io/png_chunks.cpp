@@ -12,9 +12,9 @@ namespace minkray {
 namespace {
 
 constexpr std::string_view signature = "\x89PNG\r\n\x1a\n";
-/// Of a chunk: its length, name and CRC.
+/// A chunk begins with its length and name, and ends with a CRC.
 constexpr std::size_t frame = 12, name_at = 4, name_length = 4, data_at = 8;
-/// Of three bytes each, as many as an index may name.
+/// It has as many colours of three bytes as an index may name.
 constexpr std::size_t whole_palette = 768;
 
 /// Four bytes, the highest first.

@@ -11,7 +11,7 @@ namespace {
 
 /// Longer words are not compared: nobody mistypes those.
 constexpr std::size_t longest_word = 64;
-/// Of longer lists the beginning is told.
+/// The beginning is told of longer lists.
 constexpr std::size_t most_names = 40;
 
 /// How many letters must be added, removed, changed or swapped with their neighbour to turn one

@@ -292,11 +292,13 @@ void solve(const ImpactQuery& query, const AnswerOptions&, Answer& answer) {
   answer.json["status"] = answer.facts.status;
   answer.json["t_lo"] = bound_json<T>(result.t_lo, -infinity);
   if (answer.facts.hit) answer.json["t_hi"] = bound_json<T>(result.t_hi, infinity);
-  answer.json["distance"] = number_json(static_cast<T>(result.distance));
   answer.facts.normal = result.normal;
   answer.json["normal"] = point_json(Vec3<T>(result.normal.cast<T>()));
-  answer.json["point_a"] = point_json(Vec3<T>(result.point_a.cast<T>()));
-  answer.json["point_b"] = point_json(Vec3<T>(result.point_b.cast<T>()));
+  if (std::isfinite(result.distance)) {  // where it is known
+    answer.json["distance"] = number_json(static_cast<T>(result.distance));
+    answer.json["point_a"] = point_json(Vec3<T>(result.point_a.cast<T>()));
+    answer.json["point_b"] = point_json(Vec3<T>(result.point_b.cast<T>()));
+  }
   answer.json["steps"] = result.steps;
 }
 

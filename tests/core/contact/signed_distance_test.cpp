@@ -125,8 +125,8 @@ TEST(SignedDistance, is_undecided_where_squares_of_lengths_overflow) {
   }
 }
 
-/// Of a cone's two rims that of the wrong end was taken where both were as far to rounding, with a
-/// normal that was off by up to 26 degrees: its planes were not as far apart as they should be.
+/// The rim of a cone's other end was taken where both were as far to rounding, with a normal that
+/// was off by up to 26 degrees: its planes were not as far apart as they should be.
 TEST(SignedDistance, of_what_is_far_away_is_proven_by_its_plane) {
   RandomShapes random(17);
   const Affine<double> origin;

@@ -147,8 +147,8 @@ TEST(SweptImpact, does_not_depend_on_how_fast_the_two_are) {
   EXPECT_FALSE(std::isfinite(gone.distance));
 }
 
-/// Of what comes from 1e18 sizes away, straight at the other, rounding says that it passes by at
-/// a hundred sizes: that was told as a miss.
+/// Rounding says of a body that comes straight at the other from 1e18 sizes away that it passes by
+/// at a hundred sizes: that was told as a miss.
 TEST(SweptImpact, what_comes_straight_at_the_other_from_far_away_is_no_miss) {
   const std::array<Shape<double>, 5> shapes = {Sphere<double>{1}, Box<double>{{1, 1, 1}},
                                                Cone<double>{1, 1}, Cylinder<double>{1, 0.7},
@@ -168,7 +168,7 @@ TEST(SweptImpact, what_comes_straight_at_the_other_from_far_away_is_no_miss) {
       }
 }
 
-/// The same way in a time that is 2^power times as short.
+/// They go the same way in a time that is 2^power times as short.
 Moving in_other_time(Moving pair, int power) {
   const auto scaled = [power](const Vec3<double>& v) -> Vec3<double> {
     return v.unaryExpr([power](double x) { return std::ldexp(x, power); });

@@ -298,7 +298,7 @@ TEST(Clearance, particles_are_obstacles_as_objects_are) {
   EXPECT_EQ(found[0].closest.upper, found[1].closest.upper);
 }
 
-/// Of rows of quaternions 1e200 times as long the clearance was "proven" to be 2.9: the squares of
+/// The clearance was "proven" to be 2.9 for rows of quaternions 1e200 times as long: the squares of
 /// their numbers are none, so the arm was taken to stand still while it passes the ball.
 TEST(Clearance, quaternions_turn_alike_whatever_their_length) {
   Model model;

@@ -283,7 +283,7 @@ TEST(Gltf, a_hundred_thousand_nodes_in_a_chain_are_read) {
 }
 
 TEST(Gltf, what_is_shown_again_and_again_is_told) {
-  // Of a hundred bytes each, nodes show the same mesh: as one mesh, it had vertices without end.
+  // Nodes of ten bytes each show the same mesh, whose vertices were all taken for one hull.
   const TemporaryFolder folder;
   std::string children, nodes;
   for (int i = 1; i <= 25'001; ++i) {

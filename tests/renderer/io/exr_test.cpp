@@ -140,8 +140,8 @@ void append_attribute(std::string& file, std::string_view name, std::string_view
   file += value;
 }
 
-/// Of a picture one pixel wide, with channels A, B, ... of half numbers and a table of offsets that
-/// is not there.
+/// It says that there is a picture one pixel wide, of half numbers; its table of offsets is not
+/// there.
 std::string header_of_column(std::uint32_t flags, int channels, std::uint32_t lines,
                              std::string_view type) {
   std::string file = "\x76\x2f\x31\x01", list, window;
