@@ -83,7 +83,8 @@ TEST(MeshesOfScene, vertices_of_the_hull_lie_below_nothing) {
     obj << "v " << n.x() << " " << n.y() << " " << n.z() << "\n";
   }
   obj.close();
-  MeshLibrary library(folder.path(), {});
+  const ImportOptions options;
+  MeshLibrary library(folder.path(), options);
   EXPECT_EQ(library.hulls_of("m.obj", Vec3<double>(1, 2, -3)).complaint, "");
   const std::vector<ModelMesh> meshes = library.take_meshes();
   ASSERT_EQ(meshes.size(), 1u);
