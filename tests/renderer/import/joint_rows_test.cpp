@@ -91,7 +91,8 @@ TEST_F(JointRows, are_as_many_as_a_model_takes) {
   const std::string complaint =
       "must have at most 4761 rows, for a model of 21000 links, shapes or joints (got ";
   EXPECT_NE(told(json + "]").find(complaint + "4762)"), std::string::npos) << told(json + "]");
-  EXPECT_NE(told(csv).find("line 4763: " + complaint + "one more)"), std::string::npos) << told(csv);
+  EXPECT_NE(told(csv).find("line 4763: " + complaint + "one more)"), std::string::npos)
+      << told(csv);
 }
 
 TEST_F(JointRows, a_quaternion_of_length_zero_turns_nothing) {
