@@ -19,8 +19,8 @@ constexpr double rows_a_second = 24;
 /// Whoever has more has one mistake many times.
 constexpr std::size_t most_mistakes = 20;
 
-/// In each row each link, joint and shape of the model has its place. Ten minutes of a humanoid at a
-/// thousand rows a second have a fifth of these.
+/// In each row each link, joint and shape of the model has its place. Ten minutes of a humanoid at
+/// a thousand rows a second have a fifth of these.
 constexpr std::size_t most_keys = 100'000'000;
 
 std::vector<std::string> cells_of(const std::string& line) {
