@@ -43,10 +43,10 @@ void check_size(std::string_view bytes) {
   check_image_size(number_at(bytes, width_at), number_at(bytes, height_at));
 }
 
-/// Chunks of no pixels are allowed.
+/// Chunks of no pixels are allowed. Of one whose CRC is cut off stb_image would copy them as well.
 void drop_empty_data(std::string& bytes) {
   std::size_t to = signature.size(), from = to;
-  while (bytes.size() - from >= frame) {
+  while (bytes.size() - from >= data_at) {
     const Chunk chunk = chunk_at(bytes, from);
     const std::size_t kept = chunk.length == 0 && chunk.name == "IDAT" ? 0 : chunk.end - from;
     if (to != from)

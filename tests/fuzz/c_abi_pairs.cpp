@@ -49,7 +49,9 @@ void CallProgram::impact() {
   double t_max = 4 * bytes_.fraction();
   if (hostile()) twist.turn[1] = INFINITY, sure = Sure::wrong;
   if (hostile()) t_max = bytes_.below(2) == 0 ? INFINITY : -1, sure = Sure::wrong;
-  Answers<minkray_impact> found;
+  // Of another unit of time, some 10^6 times as long or as short: rounding is then the same.
+  const double unit = std::ldexp(1.0, t_max < 2 ? 20 : -20);
+  Answers<minkray_impact> found, again;
   const int code = minkray_time_of_impact(a.value, of_a.value, &twist, b.value, of_b.value, nullptr,
                                           t_max, found.data());
   if (!promises_.call("minkray_time_of_impact", code, sure, found.is_untouched())) return;
@@ -60,6 +62,17 @@ void CallProgram::impact() {
     promises_.expect(of.t_lo <= of.t_hi && of.t_lo >= 0 && of.t_lo <= t_max,
                      "an impact at no time: " + std::to_string(of.t_lo) + ", " +
                          std::to_string(of.t_hi) + ", at most " + std::to_string(t_max));
+  if (wild_) return;
+  for (double& x : twist.velocity) x /= unit;
+  for (double& x : twist.turn) x /= unit;
+  if (minkray_time_of_impact(a.value, of_a.value, &twist, b.value, of_b.value, nullptr,
+                             unit * t_max, again.data()) == MINKRAY_OK)
+    promises_.expect(again[0].status == of.status && again[0].t_lo == unit * of.t_lo &&
+                         again[0].t_hi == unit * of.t_hi,
+                     "another impact in another unit of time: " + std::to_string(of.t_lo) + ", " +
+                         std::to_string(of.t_hi) + ", times 2^" + std::to_string(std::ilogb(unit)) +
+                         ": " + std::to_string(again[0].t_lo) + ", " +
+                         std::to_string(again[0].t_hi));
 }
 
 void CallProgram::clearance() {
