@@ -49,7 +49,7 @@ void CallProgram::impact() {
   double t_max = 4 * bytes_.fraction();
   if (hostile()) twist.turn[1] = INFINITY, sure = Sure::wrong;
   if (hostile()) t_max = bytes_.below(2) == 0 ? INFINITY : -1, sure = Sure::wrong;
-  // Of another unit of time, some 10^6 times as long or as short: rounding is then the same.
+  // In a unit of time 2^20 times as long, or as short, all is rounded alike.
   const double unit = std::ldexp(1.0, t_max < 2 ? 20 : -20);
   Answers<minkray_impact> found, again;
   const int code = minkray_time_of_impact(a.value, of_a.value, &twist, b.value, of_b.value, nullptr,

@@ -39,8 +39,9 @@ std::vector<ShownCommand> shown_commands() {
   const std::regex quoted("`([^`]+)`"), cut(R"re(;|\||&&|\s#\s|\n)re"), blank(R"re(\s+)re");
   std::vector<ShownCommand> commands;
   for (const SourceFile& page : pages()) {
-    std::string text = std::regex_replace(page.text, std::regex("```"), "\n");
-    for (std::sregex_iterator span(text.begin(), text.end(), quoted), end; span != end; ++span)
+    const std::string lines = std::regex_replace(page.text, std::regex("```"), "\n");
+    std::string text = lines;
+    for (std::sregex_iterator span(lines.begin(), lines.end(), quoted), end; span != end; ++span)
       text += "\n" + std::regex_replace((*span)[1].str(), blank, " ");
     for (std::sregex_token_iterator piece(text.begin(), text.end(), cut, -1), end; piece != end;
          ++piece) {
