@@ -23,7 +23,7 @@ pid_t start_program(std::vector<std::string> words) {
   // Who kills process -1 kills all there are.
   if (child < 0) throw std::runtime_error("cannot start a process");
   if (child == 0) {
-    // Under nohup, or in a shell's background, it would ignore what the test sends it, and never end.
+    // Under nohup, or in a shell's background, it would ignore what the test sends it.
     for (const int signal : {SIGHUP, SIGINT, SIGQUIT}) std::signal(signal, SIG_DFL);
     if (std::freopen("/dev/null", "w", stdout) == nullptr) ::_exit(126);
     if (std::freopen("/dev/null", "w", stderr) == nullptr) ::_exit(126);
