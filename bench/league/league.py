@@ -120,7 +120,10 @@ def machine():
             model = next(line.split(':', 1)[1].strip() for line in file if line.startswith('model name'))
     except (OSError, StopIteration):
         model = platform.processor()
-    commit = subprocess.run(['git', '-C', HERE, 'rev-parse', '--short', 'HEAD'], capture_output=True, text=True).stdout.strip()
+    try:
+        commit = subprocess.run(['git', '-C', HERE, 'rev-parse', '--short', 'HEAD'], capture_output=True, text=True).stdout.strip()
+    except FileNotFoundError:  # a machine without git
+        commit = 'unknown'
     return model, commit
 
 

@@ -7,10 +7,12 @@ import subprocess
 import sys
 import tempfile
 import unittest
+from unittest import mock
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, HERE)
 import judge  # noqa: E402
+import league  # noqa: E402
 from solver_process import Solver  # noqa: E402
 
 BALL = {'name': 'ball', 'query': 'ray', 'shape': {'type': 'sphere', 'radius': 2}, 'ray': {'origin': [-5, 0, 0], 'direction': [1, 0, 0]},
@@ -94,6 +96,10 @@ class Verdicts(unittest.TestCase):
 
 
 class Program(unittest.TestCase):
+    def test_a_machine_without_git_is_no_error(self):
+        with mock.patch.dict(os.environ, PATH='/nowhere'):
+            self.assertEqual(league.machine()[1], 'unknown')
+
     def test_a_stranger_s_solver_is_in_the_table_and_the_report(self):
         with tempfile.TemporaryDirectory() as folder:
             cases, page = os.path.join(folder, 'c.jsonl'), os.path.join(folder, 'r.html')
