@@ -103,8 +103,8 @@ class Page {
     return reply.result.value;
   }
 
-  /** Waits until an expression is true: so long because a picture by a program under sanitizers takes minutes. */
-  async until(expression, seconds = 900) {
+  /** Waits until an expression is true, for so long as the program may take (under sanitizers a picture takes minutes). */
+  async until(expression, seconds = Number(process.env.MINKRAY_PATIENCE ?? 120)) {
     for (const end = Date.now() + 1000 * seconds; Date.now() < end;) {
       if (await this.value(expression).catch(() => false)) return;  // the page may still be on its way
       await new Promise(resolve => setTimeout(resolve, 30));

@@ -47,6 +47,7 @@ const open = async () => {
   await page.until("document.documentElement?.dataset.ready === 'yes'");
   return page;
 };
+const asAsked = page => page.until("document.getElementById('served-state').textContent === 'As asked.'");
 const place = (page, x, y) => page.value(`(() => {
   const canvas = document.getElementById('picture'), box = canvas.getBoundingClientRect();
   const side = canvas.clientWidth / 320;
@@ -99,11 +100,11 @@ test('another solver and a coarser tolerance change what the pixels tell', async
   const before = await hovered();
   assert.equal(before, trace(...at).iterations);
   await change('ask-solver', 'paper');
-  await page.until("document.getElementById('served-state').textContent === 'As asked.'");
+  await asAsked(page);
   const fine = await hovered();
   assert.equal(fine, trace(...at, '--solver', 'paper').iterations);
   await change('ask-tolerance', '1e-4');
-  await page.until("document.getElementById('served-state').textContent === 'As asked.'");
+  await asAsked(page);
   const coarse = await hovered();
   assert.ok(before < coarse && coarse < fine, [before, coarse, fine].join(' < '));
   assert.deepEqual(page.complaints, []);
@@ -114,11 +115,11 @@ test('the camera goes around, and the picture with it', async () => {
   const colours = () => page.value("document.getElementById('picture').toDataURL()");
   const before = await colours(), t = await page.text('hover-t');
   await page.value("document.getElementById('turn-left').click()");
-  await page.until("document.getElementById('served-state').textContent === 'As asked.'");
+  await asAsked(page);
   const after = await colours();
   assert.notEqual(after, before);
   await page.value("document.getElementById('camera-back').click()");
-  await page.until("document.getElementById('served-state').textContent === 'As asked.'");
+  await asAsked(page);
   assert.equal(await page.text('hover-t'), t);
   const asked = page.requests.filter(url => url.includes('picture?'));
   assert.ok(asked.some(url => url.includes('samples=1&')) && asked.some(url => url.includes('samples=16&')), 'pictures get better');
@@ -139,7 +140,7 @@ test('a point within a magnified pixel is replayed', async () => {
   const [px, py] = (await page.text('replay-summary')).match(/pixel ([\d.]+), ([\d.]+):/).slice(1).map(Number);
   assert.ok(px % 1 !== 0 && py % 1 !== 0, px + ', ' + py);
   assert.match(await page.value('location.hash'), new RegExp('pixel=' + px + ',' + py));
-  await page.until("document.getElementById('served-state').textContent === 'As asked.'");
+  await asAsked(page);
   assert.deepEqual(page.complaints, []);
 });
 
@@ -150,7 +151,7 @@ test('dragging turns the camera', async () => {
   await page.mouse('mousePressed', x, y, 'left');
   for (let k = 1; k <= 5; ++k) await page.mouse('mouseMoved', x + 12 * k, y + 3 * k, 'left');
   await page.mouse('mouseReleased', x + 60, y + 15, 'left');
-  await page.until("document.getElementById('served-state').textContent === 'As asked.'");
+  await asAsked(page);
   const views = page.requests.filter(url => url.includes('/view?'));
   assert.equal(views.length, 1, 'maps are asked for once, when it has come to rest');
   assert.match(views[0], /eye=/);
