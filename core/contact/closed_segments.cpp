@@ -81,27 +81,31 @@ Vec3<double> across(const Vec3<double>& p, const Vec3<double>& q, const Vec3<dou
 /// far. Where c is as good as zero, it is one of rounding: that is taken out, twice where that is
 /// most of it, since the first time leaves some.
 Vec3<double> direction_between(const Vec3<double>& p, const Vec3<double>& q, double pp, double qq,
-                               const Vec3<double>& c, double s, double t, const Vec3<double>& n) {
+                               const Vec3<double>& c, double s, double t, const Vec3<double>& n,
+                               bool is_crossing) {
+  const auto leans_to_a = [&](const Vec3<double>& m) {
+    return pp > 0 && (std::abs(s) < 1 || s * m.dot(p) < 0);
+  };
+  const auto leans_to_b = [&](const Vec3<double>& m) {
+    return qq > 0 && (std::abs(t) < 1 || t * m.dot(q) > 0);
+  };
   Vec3<double> axis = unit<double>(c);
   for (int i = 0; i < 2; ++i) {
-    const double along_a = axis.dot(p);
-    bool is_turned = false;
-    if (pp > 0 && (std::abs(s) < 1 || s * along_a < 0)) {
-      axis -= (along_a / pp) * p;
-      is_turned = true;
-    }
+    const bool is_turned_a = leans_to_a(axis);
+    if (is_turned_a) axis -= (axis.dot(p) / pp) * p;
     // Nearly parallel ones are at right angles to both only in this order.
-    const double along_b = axis.dot(q);
-    if (qq > 0 && (std::abs(t) < 1 || t * along_b > 0)) {
-      axis -= (along_b / qq) * q;
-      is_turned = true;
-    }
+    const bool is_turned_b = leans_to_b(axis);
+    if (is_turned_b) axis -= (axis.dot(q) / qq) * q;
     const double left = axis.squaredNorm();
     if (!(left > 0.25)) {
       axis = across(p, q, n);
       continue;
     }
-    if (is_turned) axis /= std::sqrt(left);
+    if (is_crossing && is_turned_b && leans_to_a(axis)) {  // at right angles to both
+      const Vec3<double> across_both = n / std::sqrt(n.squaredNorm());
+      return axis.dot(across_both) < 0 ? Vec3<double>(-across_both) : across_both;
+    }
+    if (is_turned_a || is_turned_b) axis /= std::sqrt(left);
     constexpr double most_of_it = 1 - 1e-6;
     if (left > most_of_it) break;
   }
@@ -116,12 +120,14 @@ CoreDistance point_and_segment(const Vec3<double>& q, const Vec3<double>& x) {
   constexpr double touching = 1e-10;
   if (!(length > touching * std::sqrt(qq))) {
     const Vec3<double> zero = Vec3<double>::Zero();
-    return closed_answer(length, direction_between(zero, q, 0, qq, c, 0, t, zero), zero, c);
+    return closed_answer(length, direction_between(zero, q, 0, qq, c, 0, t, zero, false), zero, c);
   }
-  // At right angles to the segment, where the nearest point is no end.
+  // At right angles to the segment where the nearest point is no end, and where rounding has turned
+  // it towards the other end.
   Vec3<double> axis = c / length;
-  if (std::abs(t) < 1) {
-    axis -= (axis.dot(q) / qq) * q;
+  const double along = axis.dot(q);
+  if (std::abs(t) < 1 || t * along > 0) {
+    axis -= (along / qq) * q;
     axis /= std::sqrt(axis.squaredNorm());
   }
   return closed_answer(length, axis, Vec3<double>::Zero(), c);
@@ -151,7 +157,7 @@ CoreDistance between_segments(const Vec3<double>& p, const Vec3<double>& q, cons
     return closed_answer(std::abs(gap), towards, a, std::abs(gap) * towards);
   }
   const Vec3<double> c = x + on.t * q - a;
-  Vec3<double> axis = direction_between(p, q, pp, qq, c, on.s, on.t, n);
+  Vec3<double> axis = direction_between(p, q, pp, qq, c, on.s, on.t, n, is_crossing);
   const auto gap = [&](const Vec3<double>& m) {
     return m.dot(x) - std::abs(m.dot(p)) - std::abs(m.dot(q));
   };
@@ -164,7 +170,7 @@ CoreDistance between_segments(const Vec3<double>& p, const Vec3<double>& q, cons
   }
   CoreDistance found = closed_answer(length_of(c), axis, a, c);
   // The direction is short of digits if they are near each other.
-  if (!is_crossing) found.lower = std::min(found.lower, gap(axis));
+  found.lower = std::min(found.lower, gap(axis));
   return found;
 }
 

@@ -115,11 +115,6 @@ class Advance {
     return there;
   }
 
-  bool touches(double t) {
-    const SignedDistance there = at(t, true);
-    return there.status == SignedStatus::overlapping || there.value <= touching_;
-  }
-
   /// The speed at which the nearest points part, negative if they approach.
   double approach(const SignedDistance& now, double t) const {
     const auto velocity = [&](const RigidMotion& motion,

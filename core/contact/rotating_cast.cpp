@@ -4,19 +4,10 @@
 #include <cmath>
 
 #include "core/contact/distance.h"
+#include "core/contact/lengths.h"
 
 namespace minkray {
 namespace {
-
-/// The length, also where the squares of its components under- or overflow, in float soon.
-template <class T>
-T length_of(const Vec3<T>& v) {
-  // As of unit() (core/math/vec.h): squares of what counts are normal numbers in between.
-  constexpr T smallest = std::numeric_limits<T>::min() / std::numeric_limits<T>::epsilon() * T(16);
-  constexpr T largest = T(1) / smallest;
-  const T squared = v.squaredNorm();
-  return squared > smallest && squared < largest ? std::sqrt(squared) : v.stableNorm();
-}
 
 /// The orientation in the middle of the step, the position at its beginning.
 template <class T>

@@ -47,8 +47,13 @@ SignedDistance told(const CoreDistance& found, const ContactShape& a, const Cont
   const Vec3<double>& on_a = to_world(found.a);
   const Vec3<double>& between = to_world(found.c);
   result.normal = unit<double>(axis);
-  result.point_a = middle + (on_a + radius_a * axis);
-  result.point_b = middle + (on_a + between - radius_b * axis);
+  // Where the points of the cores lead a little aside of the normal, those of the bodies still lead
+  // along it, by a path as long as the value. Closed forms end with one direction for both.
+  const bool is_aside = is_from_points && found.lower < found.upper && radii > 0;
+  const Vec3<double> outwards =
+      is_aside ? unit<double>(between - std::min(result.value, 0.0) * result.normal) : axis;
+  result.point_a = middle + (on_a + radius_a * outwards);
+  result.point_b = middle + (on_a + between - radius_b * outwards);
   return result;
 }
 

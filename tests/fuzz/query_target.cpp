@@ -8,7 +8,7 @@ namespace minkray::fuzz {
 namespace {
 
 /// A step more is a cast more: inputs must be answered fast enough to try many.
-constexpr int most_steps = 200;
+constexpr int most_steps_of_motions = 200;
 
 std::string check_answer(const Query& query, const AnswerOptions& options) {
   const Answer result = answer(query, options);
@@ -35,7 +35,7 @@ std::string check_line(std::string_view line) {
   if (const std::string bad = check_messages(mistakes); !bad.empty()) return bad;
   if (!query) return "";
   if (const auto* shapes = std::get_if<ShapeQuery>(&query->kind))
-    if (shapes->turns() && shapes->steps > most_steps) return "";
+    if (shapes->turns() && shapes->steps > most_steps_of_motions) return "";
   for (const Precision precision : {Precision::in_float, Precision::in_double})
     for (const bool trace : {false, true})
       if (const std::string bad =

@@ -10,6 +10,14 @@ namespace minkray::testing {
 
 using Long = long double;
 
+namespace {
+
+/// How far from the silhouette hit and miss may be mistaken, in units of R.
+template <class T>
+constexpr double band = std::is_same_v<T, float> ? 1e-6 : 1e-12;
+
+}  // namespace
+
 CastJudge::CastJudge(const Shape<double>& shape)
     : shape_(shape), ball_(ball_around(bounds_of<double>(shape))), entries_(shape) {}
 
@@ -42,7 +50,7 @@ Judgement CastJudge::operator()(const Ray<double>& ray, const CastResult<T>& ans
   if (answer.status == Status::exhausted) return {Verdict::exhausted};
   if (truth.entry.answer == LineEntry::Answer::undecided) return {Verdict::undecided};
   const auto is_at_silhouette = [&] {
-    return std::abs(room_in_shadow(shape_, ray)) <= silhouette_band<T> * ball_.radius;
+    return std::abs(room_in_shadow(shape_, ray)) <= band<T> * ball_.radius;
   };
   const bool is_hit = answer.status == Status::hit;
   if (is_hit != (truth.entry.answer == LineEntry::Answer::hit))
@@ -54,7 +62,7 @@ Judgement CastJudge::operator()(const Ray<double>& ray, const CastResult<T>& ans
   const double error =
       std::abs(static_cast<double>(late)) * ray.direction.norm() * cosine / ball_.radius;
   // Along a side: entered anywhere, or not at all.
-  if (!(error <= silhouette_band<T>)&&is_at_silhouette()) return {Verdict::at_silhouette, error};
+  if (!(error <= band<T>)&&is_at_silhouette()) return {Verdict::at_silhouette, error};
   return {Verdict::right, error};
 }
 

@@ -11,12 +11,8 @@
 
 namespace minkray::testing {
 
-/// How far from the silhouette hit and miss may be mistaken, in units of R, the radius of the ball
-/// around the shape's bounds.
-template <class T>
-constexpr double silhouette_band = std::is_same_v<T, float> ? 1e-6 : 1e-12;
-
-/// The greatest error of a hit that is allowed, along the normal, in units of R.
+/// The greatest error of a hit that is allowed, along the normal, in units of R, the radius of the
+/// ball around the shape's bounds.
 template <class T>
 constexpr double allowed_error = std::is_same_v<T, float> ? 5e-7 : 1e-12;
 

@@ -46,9 +46,7 @@ Mat3<double> shear() {
   return m;
 }
 
-}  // namespace
-
-std::vector<SampleShape> sample_shapes() {
+std::vector<SampleShape> made_shapes() {
   const S box = Box<double>{{1, 0.5, 0.25}};
   const S egg = Ellipsoid<double>{{1, 0.5, 0.25}};
   const S flat_triangle = Triangle<double>{{P(0, 0, 0), P(2, 0, 0.5), P(0.3, 1.5, 0)}};
@@ -134,6 +132,13 @@ std::vector<SampleShape> sample_shapes() {
        as_custom(CutCylinder<double>{0.7, {-0.5, 0.6}, {0.2, -0.3}, {-0.5, 0.4}})},
       {"custom in a sum", MinkowskiSum<double>{{as_custom(egg), S(Sphere<double>{0.3})}}},
   };
+}
+
+}  // namespace
+
+const std::vector<SampleShape>& sample_shapes() {
+  static const std::vector<SampleShape> shapes = made_shapes();
+  return shapes;
 }
 
 Shape<double> random_nesting(std::uint64_t seed, int depth) {

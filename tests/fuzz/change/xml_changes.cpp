@@ -11,7 +11,7 @@ namespace {
 using tinyxml2::XMLElement;
 
 /// One of so many documents is learned from.
-constexpr std::size_t one_learned = 4;
+constexpr std::size_t one_of_xml_learned = 4;
 
 std::string text_of_number(double x) {
   std::array<char, 40> text;
@@ -148,7 +148,7 @@ void XmlChanges::change_element(XMLElement& element, const std::vector<XMLElemen
 std::optional<std::string> XmlChanges::change(std::string_view bytes, Choice& choice) {
   tinyxml2::XMLDocument document;
   if (document.Parse(bytes.data(), bytes.size()) != tinyxml2::XML_SUCCESS) return std::nullopt;
-  const bool learns = choice.one_in(one_learned);
+  const bool learns = choice.one_in(one_of_xml_learned);
   for (std::size_t count = 1 + choice.below(3); count > 0; --count) {
     std::vector<XMLElement*> elements;
     for (XMLElement* e = document.FirstChildElement(); e; e = e->NextSiblingElement()) {
