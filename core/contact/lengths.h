@@ -23,7 +23,7 @@ T length_of(const Vec3<T>& v) {
   return is_ordinary_square(squared) ? std::sqrt(squared) : v.stableNorm();
 }
 
-/// Of what is worked out to a vector of doubles.
+/// This one takes expressions, which are worked out first.
 inline double length_of(const Vec3<double>& v) {
   return length_of<double>(v);
 }
