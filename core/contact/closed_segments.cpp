@@ -115,22 +115,9 @@ Vec3<double> direction_between(const Vec3<double>& p, const Vec3<double>& q, dou
 /// A point, and a segment from x - q to x + q.
 CoreDistance point_and_segment(const Vec3<double>& q, const Vec3<double>& x) {
   const double qq = q.squaredNorm(), t = std::clamp(-x.dot(q) / qq, -1.0, 1.0);
-  const Vec3<double> c = x + t * q;
-  const double length = length_of(c);
-  constexpr double touching = 1e-10;
-  if (!(length > touching * std::sqrt(qq))) {
-    const Vec3<double> zero = Vec3<double>::Zero();
-    return closed_answer(length, direction_between(zero, q, 0, qq, c, 0, t, zero, false), zero, c);
-  }
-  // At right angles to the segment where the nearest point is no end, and where rounding has turned
-  // it towards the other end.
-  Vec3<double> axis = c / length;
-  const double along = axis.dot(q);
-  if (std::abs(t) < 1 || t * along > 0) {
-    axis -= (along / qq) * q;
-    axis /= std::sqrt(axis.squaredNorm());
-  }
-  return closed_answer(length, axis, Vec3<double>::Zero(), c);
+  const Vec3<double> c = x + t * q, zero = Vec3<double>::Zero();
+  return closed_answer(length_of(c), direction_between(zero, q, 0, qq, c, 0, t, zero, false), zero,
+                       c);
 }
 
 }  // namespace

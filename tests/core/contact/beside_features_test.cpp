@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Bodies beside a corner, an edge or a rim of another, in a direction in which the nearest feature
 // changes, from touching to far away. Rounding tells which feature it is there, and turns the
-// direction by the more, the nearer the two are: of segments beside segments one in fourteen had a
+// direction by the more, the nearer the two are: of segments beside segments one in thirteen had a
 // lower bound beyond its plane.
 #include <gtest/gtest.h>
 
@@ -67,14 +67,20 @@ Feature feature(int kind, RandomShapes& random) {
 }
 constexpr int kinds_of_features = 9;
 
+/// A turn that leads z to `up`.
+Mat3<double> upright(const P& up) {
+  Mat3<double> turn;
+  turn.col(0) = up.unitOrthogonal();
+  turn.col(1) = up.cross(turn.col(0));
+  turn.col(2) = up;
+  return turn;
+}
+
 /// A body that touches the plane through `at` with this normal from above, there with a point, an
 /// end or an edge.
 Body beside(int kind, const P& at, const P& normal, double away, const Mat3<double>& turn,
             RandomShapes& random) {
-  Mat3<double> upright;
-  upright.col(0) = normal.unitOrthogonal();
-  upright.col(1) = normal.cross(upright.col(0));
-  upright.col(2) = normal;
+  const Mat3<double> up = upright(normal);
   const double side = random.in(0, 1) < 0.5 ? 1 : -1, r = random.in(0.1, 1);
   switch (kind) {
     case 0:
@@ -83,17 +89,15 @@ Body beside(int kind, const P& at, const P& normal, double away, const Mat3<doub
       return {Shape<double>(Sphere<double>{0.25 * away}), {Mat3<double>::Identity(), at}};
     case 2: {
       const double angle = random.in(0, 7);
-      const P across = random.in(0, 1) < 0.2 ? P(turn.col(2))
-                                             : P(upright * P(std::cos(angle), std::sin(angle), 0));
+      const P across =
+          random.in(0, 1) < 0.2 ? P(turn.col(2)) : P(up * P(std::cos(angle), std::sin(angle), 0));
       return {Shape<double>(Segment<double>{{P::Zero(), random.in(0.1, 1) * across}}),
               {Mat3<double>::Identity(), at}};
     }
     case 3:
-      return {Shape<double>(Box<double>{{r, 0.3, 0.2}}),
-              {upright, at + upright * P(side * r, 0.3, 0.2)}};
+      return {Shape<double>(Box<double>{{r, 0.3, 0.2}}), {up, at + up * P(side * r, 0.3, 0.2)}};
     default:
-      return {Shape<double>(Cylinder<double>{r, 0.2}),
-              {upright, at + upright * P(side * r, 0, 0.2)}};
+      return {Shape<double>(Cylinder<double>{r, 0.2}), {up, at + up * P(side * r, 0, 0.2)}};
   }
 }
 constexpr int kinds_beside = 5;
@@ -128,13 +132,6 @@ TEST(BesideFeatures, bodies_that_turn_their_axes_to_each_other_have_points_that_
                           P(1, 1, 0).normalized(),
                           P(1, 0, 1).normalized()};
   const auto one_direction = [&] { return directions[static_cast<int>(random.in(0, 7))]; };
-  const auto frame = [](const P& up) {
-    Mat3<double> upright;
-    upright.col(0) = up.unitOrthogonal();
-    upright.col(1) = up.cross(upright.col(0));
-    upright.col(2) = up;
-    return upright;
-  };
   for (int k = 0; k < 20 * kinds_of_bodies * kinds_of_bodies; ++k) {
     const Shape<double> of_a = testing::random_shape(k % kinds_of_bodies, 1, random),
                         of_b =
@@ -145,7 +142,7 @@ TEST(BesideFeatures, bodies_that_turn_their_axes_to_each_other_have_points_that_
     const double quarters[] = {0, std::numbers::pi / 2, random.in(0, 7)};
     const Mat3<double> spin =
         Eigen::AngleAxis<double>(quarters[k % 3], P::UnitZ()).toRotationMatrix();
-    const Mat3<double> turn_b = frame(-normal) * spin * frame(to_a).transpose();
+    const Mat3<double> turn_b = upright(-normal) * spin * upright(to_a).transpose();
     const double away = std::pow(10, random.in(-9, 0));
     const Body a(of_a, {turn, P::Zero()});
     const P touched = turn * of_a.support(to_b) - turn_b * of_b.support(to_a);
