@@ -35,7 +35,7 @@ class Ranks {
  private:
   int rank_ = 0;
   int count_ = 1;
-  int exceptions_ = 0;  ///< those under way when this was made
+  [[maybe_unused]] int exceptions_ = 0;  ///< those under way when this was made
 };
 
 /// Whether this program was built with MPI.

@@ -19,6 +19,14 @@ std::string build_name() {
   return compiler + " glibc-" + std::to_string(__GLIBC__) + "." + std::to_string(__GLIBC_MINOR__);
 }
 
+bool has_recorded_sines() {
+#if defined(__x86_64__)
+  return __builtin_cpu_supports("fma") && __builtin_cpu_supports("avx2");
+#else
+  return false;
+#endif
+}
+
 bool is_recording() {
   return std::getenv("MINKRAY_RECORD_GOLDEN") != nullptr;
 }

@@ -12,6 +12,10 @@ namespace minkray::testing {
 /// Another machine may make other last bits; there hashes are not compared.
 std::string build_name();
 
+/// Whether the C library's sines and powers have the last bits that they had when hashes were
+/// recorded: it takes fused multiplications for them where the processor has any.
+bool has_recorded_sines();
+
 /// Whether this process is to record what it finds in place of comparing it.
 bool is_recording();
 

@@ -11,6 +11,7 @@
 #include "tests/support/measured_shapes.h"
 #include "tests/support/ray_families.h"
 #include "tests/support/rounded.h"
+#include "tests/support/values_asked_for.h"
 
 namespace minkray::testing {
 namespace {
@@ -50,7 +51,7 @@ TEST_P(MillionCasts, are_right) {
   expect_right<double>(GetParam(), RayFamily::grazing, 4000);
 }
 
-INSTANTIATE_TEST_SUITE_P(Shapes, MillionCasts, ::testing::ValuesIn(measured_shapes()),
+INSTANTIATE_TEST_SUITE_P(Shapes, MillionCasts, values_asked_for("MillionCasts", measured_shapes),
                          [](const auto& tested) {
                            std::string name = tested.param.name;
                            for (char& c : name)

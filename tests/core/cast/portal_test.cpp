@@ -8,6 +8,7 @@
 #include "tests/support/ray_families.h"
 #include "tests/support/rounded.h"
 #include "tests/support/sample_shapes.h"
+#include "tests/support/values_asked_for.h"
 
 namespace minkray::testing {
 namespace {
@@ -103,7 +104,8 @@ TEST_P(BesidePortal, casts_in_float) {
   compare<float>(GetParam().shape, RayFamily::random, 200);
 }
 
-INSTANTIATE_TEST_SUITE_P(Shapes, BesidePortal, ::testing::ValuesIn(without_closed_form()));
+INSTANTIATE_TEST_SUITE_P(Shapes, BesidePortal,
+                         values_asked_for("BesidePortal", without_closed_form));
 
 }  // namespace
 }  // namespace minkray::testing

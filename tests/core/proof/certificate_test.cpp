@@ -10,6 +10,7 @@
 #include "tests/proof/certified_casts.h"
 #include "tests/support/random.h"
 #include "tests/support/sample_shapes.h"
+#include "tests/support/values_asked_for.h"
 
 namespace minkray::testing {
 namespace {
@@ -216,7 +217,8 @@ std::vector<SampleShape> solids() {
   return all;
 }
 
-INSTANTIATE_TEST_SUITE_P(SampleShapes, CertifiedShapes, ::testing::ValuesIn(solids()));
+INSTANTIATE_TEST_SUITE_P(SampleShapes, CertifiedShapes,
+                         values_asked_for("CertifiedShapes", solids));
 
 }  // namespace
 }  // namespace minkray::testing

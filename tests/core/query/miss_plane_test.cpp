@@ -8,6 +8,7 @@
 #include "core/cast/cast.h"
 #include "tests/support/aimed_rays.h"
 #include "tests/support/sample_shapes.h"
+#include "tests/support/values_asked_for.h"
 
 namespace minkray::testing {
 namespace {
@@ -54,7 +55,7 @@ TEST_P(MissPlanes, separate_ray_and_shape) {
   EXPECT_GT(misses, 100);
 }
 
-INSTANTIATE_TEST_SUITE_P(Shapes, MissPlanes, ::testing::ValuesIn(sample_shapes()),
+INSTANTIATE_TEST_SUITE_P(Shapes, MissPlanes, values_asked_for("MissPlanes", sample_shapes),
                          [](const auto& instance) {
                            std::string name = instance.param.name;
                            for (char& c : name)

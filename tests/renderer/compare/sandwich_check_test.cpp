@@ -9,6 +9,7 @@
 
 #include "tests/support/sample_shapes.h"
 #include "tests/support/solvers.h"
+#include "tests/support/values_asked_for.h"
 
 namespace minkray::testing {
 namespace {
@@ -50,7 +51,7 @@ TEST_P(EmbreeSandwich, holds) {
   RecordProperty("to_inner", report.to_inner.text());
 }
 
-INSTANTIATE_TEST_SUITE_P(Shapes, EmbreeSandwich, ::testing::ValuesIn(sample_shapes()),
+INSTANTIATE_TEST_SUITE_P(Shapes, EmbreeSandwich, values_asked_for("EmbreeSandwich", sample_shapes),
                          [](const auto& instance) {
                            std::string name;
                            for (const char c : instance.param.name)
