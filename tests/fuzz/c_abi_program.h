@@ -46,6 +46,7 @@ class CallProgram {
   };
   struct HeldGroup {
     bool is_robot = false;
+    bool has_particles = false;  ///< it cannot be moved then
     std::uint32_t joints = 0;
     std::size_t numbers = 0;  ///< of all joints together
   };

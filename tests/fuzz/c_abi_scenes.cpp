@@ -137,6 +137,7 @@ void CallProgram::add_file() {
     promises_.expect(group[0] == held->groups.size(), "a group that is not numbered by its place");
     HeldGroup& added = held->groups.emplace_back();
     added.is_robot = file.is_robot;
+    added.has_particles = file.particles > 0;
     std::uint32_t first = 0, count = 0;
     promises_.call("minkray_scene_group",
                    minkray_scene_group(held->scene, group[0], &first, &count, &added.joints),
@@ -167,7 +168,8 @@ void CallProgram::move() {
   const std::size_t count = !held ? 0 : is_group ? held->groups.size() : held->objects;
   const int code = is_group ? minkray_scene_set_group_pose(of.value, which, where.value)
                             : minkray_scene_set_pose(of.value, which, where.value);
-  const Sure sure = both(both(of.sure, where.sure), right_if(which < count));
+  Sure sure = both(both(of.sure, where.sure), right_if(which < count));
+  if (is_group && which < count && held->groups[which].has_particles) sure = Sure::wrong;
   if (!promises_.call(is_group ? "minkray_scene_set_group_pose" : "minkray_scene_set_pose", code,
                       sure, true))
     return;
