@@ -81,8 +81,8 @@ int main(int argc, char** argv) {
     return wrong_usage("SOLVER: must be one of minkray cast --help", name);
   const SolverKind solver = solver_row->kind;
   std::vector<SampleShape> samples;
-  for (const SampleShape& sample : sample_shapes())
-    if (sample.name.find(wanted) != std::string::npos) samples.push_back(sample);
+  for (SampleShape& sample : sample_shapes())
+    if (sample.name.find(wanted) != std::string::npos) samples.push_back(std::move(sample));
   if (samples.empty()) return wrong_usage("NAME: must be in the name of a sample shape", wanted);
   std::cout << "Extremes in machine epsilons times the size, of which " << certificate_rounding
             << " are allowed; supports a certificate.\n"

@@ -46,7 +46,9 @@ Mat3<double> shear() {
   return m;
 }
 
-std::vector<SampleShape> made_shapes() {
+}  // namespace
+
+std::vector<SampleShape> sample_shapes() {
   const S box = Box<double>{{1, 0.5, 0.25}};
   const S egg = Ellipsoid<double>{{1, 0.5, 0.25}};
   const S flat_triangle = Triangle<double>{{P(0, 0, 0), P(2, 0, 0.5), P(0.3, 1.5, 0)}};
@@ -132,13 +134,6 @@ std::vector<SampleShape> made_shapes() {
        as_custom(CutCylinder<double>{0.7, {-0.5, 0.6}, {0.2, -0.3}, {-0.5, 0.4}})},
       {"custom in a sum", MinkowskiSum<double>{{as_custom(egg), S(Sphere<double>{0.3})}}},
   };
-}
-
-}  // namespace
-
-const std::vector<SampleShape>& sample_shapes() {
-  static const std::vector<SampleShape> shapes = made_shapes();
-  return shapes;
 }
 
 Shape<double> random_nesting(std::uint64_t seed, int depth) {

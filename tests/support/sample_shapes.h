@@ -22,8 +22,8 @@ inline void PrintTo(const SampleShape& sample, std::ostream* out) {
   *out << sample.name;
 }
 
-/// There is at least one of every kind. They are made once in a process, since each test is one.
-const std::vector<SampleShape>& sample_shapes();
+/// There is at least one of every kind.
+std::vector<SampleShape> sample_shapes();
 
 /// A shape of up to `depth` operators inside each other, of sizes near 1, solid or flat.
 Shape<double> random_nesting(std::uint64_t seed, int depth = 3);

@@ -13,7 +13,6 @@
 #include "tests/support/hashed_bits.h"
 #include "tests/support/measured_shapes.h"
 #include "tests/support/ray_families.h"
-#include "tests/support/recorded_hashes.h"
 #include "tests/support/rounded.h"
 #include "tests/support/sample_shapes.h"
 #include "tests/support/values_asked_for.h"
@@ -152,23 +151,11 @@ TEST_P(GoldenCasts, are_as_recorded) {
     cast_all<float>(shape, pose, bits);
     cast_all<double>(shape, pose, bits);
   }
-  std::map<std::string, std::string> found;
-  for (const auto& [way, hashes] : bits) {
-    found[GetParam().name + ": " + way + " answers"] = hashes.answers.text();
-    found[GetParam().name + ": " + way + " costs"] = hashes.costs.text();
-  }
   RecordedHashes recorded("casts.txt", "the casts of golden_casts_test.cpp answer");
-  if (is_recording()) return recorded.replace(GetParam().name + ": ", found);
-  if (!recorded.is_comparable())
-    GTEST_SKIP() << "recorded with " << recorded.build() << ": other last bits are no mistake";
-  if (!has_recorded_sines()) GTEST_SKIP() << "recorded on a processor with FMA and AVX2";
-  for (const auto& [name, hash] : found)
-    EXPECT_EQ(hash, recorded.find(name))
-        << name << (recorded.find(name).empty() ? " were never recorded" : " have changed")
-        << "; see ./run golden";
+  expect_as_recorded(recorded, GetParam().name, bits);
 }
 
-INSTANTIATE_TEST_SUITE_P(Shapes, GoldenCasts, values_asked_for("GoldenCasts", golden_shapes),
+INSTANTIATE_TEST_SUITE_P(Shapes, GoldenCasts, values_asked_for<GoldenCasts>(golden_shapes),
                          [](const auto& instance) {
                            std::string name = std::to_string(instance.index);
                            for (const char c : instance.param.name)

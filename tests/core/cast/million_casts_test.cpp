@@ -51,7 +51,7 @@ TEST_P(MillionCasts, are_right) {
   expect_right<double>(GetParam(), RayFamily::grazing, 4000);
 }
 
-INSTANTIATE_TEST_SUITE_P(Shapes, MillionCasts, values_asked_for("MillionCasts", measured_shapes),
+INSTANTIATE_TEST_SUITE_P(Shapes, MillionCasts, values_asked_for<MillionCasts>(measured_shapes),
                          [](const auto& tested) {
                            std::string name = tested.param.name;
                            for (char& c : name)

@@ -104,8 +104,7 @@ TEST_P(BesidePortal, casts_in_float) {
   compare<float>(GetParam().shape, RayFamily::random, 200);
 }
 
-INSTANTIATE_TEST_SUITE_P(Shapes, BesidePortal,
-                         values_asked_for("BesidePortal", without_closed_form));
+INSTANTIATE_TEST_SUITE_P(Shapes, BesidePortal, values_asked_for<BesidePortal>(without_closed_form));
 
 }  // namespace
 }  // namespace minkray::testing

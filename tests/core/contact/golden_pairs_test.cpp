@@ -16,7 +16,6 @@
 #include "tests/core/contact/pair_judge.h"
 #include "tests/core/contact/random_poses.h"
 #include "tests/support/hashed_bits.h"
-#include "tests/support/recorded_hashes.h"
 
 namespace minkray::testing {
 namespace {
@@ -151,21 +150,9 @@ void ask_casts(const Body& a, const Body& b, AllBits& bits, RandomShapes& random
         place<T>(a.shape, a.pose), place<T>(b.shape, b.pose), {}, subalgorithm.kind));
 }
 
-void compare(const std::string& of, const AllBits& bits) {
-  std::map<std::string, std::string> found;
-  for (const auto& [way, hashes] : bits) {
-    found[of + ": " + way + " answers"] = hashes.answers.text();
-    found[of + ": " + way + " costs"] = hashes.costs.text();
-  }
+void expect_as_recorded(const std::string& of, const AllBits& bits) {
   RecordedHashes recorded("pairs.txt", "the queries of golden_pairs_test.cpp answer");
-  if (is_recording()) return recorded.replace(of + ": ", found);
-  if (!recorded.is_comparable())
-    GTEST_SKIP() << "recorded with " << recorded.build() << ": other last bits are no mistake";
-  if (!has_recorded_sines()) GTEST_SKIP() << "recorded on a processor with FMA and AVX2";
-  for (const auto& [name, hash] : found)
-    EXPECT_EQ(hash, recorded.find(name))
-        << name << (recorded.find(name).empty() ? " were never recorded" : " have changed")
-        << "; see ./run golden";
+  testing::expect_as_recorded(recorded, of, bits);
 }
 
 class GoldenPairs : public ::testing::TestWithParam<int> {};
@@ -182,7 +169,7 @@ TEST_P(GoldenPairs, are_as_recorded) {
       ask_casts<float>(a, b, bits, random);
       ask_casts<double>(a, b, bits, random);
     }
-  compare("kind " + std::to_string(GetParam()), bits);
+  expect_as_recorded("kind " + std::to_string(GetParam()), bits);
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, GoldenPairs, ::testing::Range(0, kinds_of_bodies));
@@ -209,7 +196,7 @@ TEST(GoldenAlignedPairs, are_as_recorded) {
     of_b.angular_velocity = Vec3<double>(0, 0, 1);
     bits["turning impacts"].add(first_impact(a.ready, of_a, b.ready, of_b, 1));
   }
-  compare("aligned", bits);
+  expect_as_recorded("aligned", bits);
 }
 
 TEST(GoldenHiddenPairs, are_as_recorded) {
@@ -229,7 +216,7 @@ TEST(GoldenHiddenPairs, are_as_recorded) {
     ask_distances(a, b, k, bits);
     if (k % 20 == 0) ask_impacts(a, b, bits, random);
   }
-  compare("hidden", bits);
+  expect_as_recorded("hidden", bits);
 }
 
 TEST(GoldenCoaxialPairs, are_as_recorded) {
@@ -248,7 +235,7 @@ TEST(GoldenCoaxialPairs, are_as_recorded) {
                   turn * Vec3<double>(x, y, random.in(-2, 2))});
     ask_distances(a, b, k, bits);
   }
-  compare("coaxial", bits);
+  expect_as_recorded("coaxial", bits);
 }
 
 TEST(GoldenSlenderPairs, are_as_recorded) {
@@ -261,7 +248,7 @@ TEST(GoldenSlenderPairs, are_as_recorded) {
       if (k % 20 == 0) ask_impacts(a, b, bits, random);
     }
   }
-  compare("slender", bits);
+  expect_as_recorded("slender", bits);
 }
 
 }  // namespace

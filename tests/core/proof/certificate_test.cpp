@@ -217,8 +217,7 @@ std::vector<SampleShape> solids() {
   return all;
 }
 
-INSTANTIATE_TEST_SUITE_P(SampleShapes, CertifiedShapes,
-                         values_asked_for("CertifiedShapes", solids));
+INSTANTIATE_TEST_SUITE_P(SampleShapes, CertifiedShapes, values_asked_for<CertifiedShapes>(solids));
 
 }  // namespace
 }  // namespace minkray::testing

@@ -55,7 +55,7 @@ TEST_P(MissPlanes, separate_ray_and_shape) {
   EXPECT_GT(misses, 100);
 }
 
-INSTANTIATE_TEST_SUITE_P(Shapes, MissPlanes, values_asked_for("MissPlanes", sample_shapes),
+INSTANTIATE_TEST_SUITE_P(Shapes, MissPlanes, values_asked_for<MissPlanes>(sample_shapes),
                          [](const auto& instance) {
                            std::string name = instance.param.name;
                            for (char& c : name)

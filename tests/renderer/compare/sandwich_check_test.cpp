@@ -51,7 +51,7 @@ TEST_P(EmbreeSandwich, holds) {
   RecordProperty("to_inner", report.to_inner.text());
 }
 
-INSTANTIATE_TEST_SUITE_P(Shapes, EmbreeSandwich, values_asked_for("EmbreeSandwich", sample_shapes),
+INSTANTIATE_TEST_SUITE_P(Shapes, EmbreeSandwich, values_asked_for<EmbreeSandwich>(sample_shapes),
                          [](const auto& instance) {
                            std::string name;
                            for (const char c : instance.param.name)
