@@ -49,22 +49,21 @@ class Collector {
 };
 
 }  // namespace
+}  // namespace minkray::testing
 
-std::optional<SdformatLinks> sdformat_links(const std::string& file, std::string& why) {
+extern "C" bool minkray_sdformat_links(const std::string& file,
+                                       minkray::testing::SdformatLinks& all, std::string& why) {
   sdf::Console::Instance()->SetQuiet(true);
   sdf::Root root;
   const sdf::Errors errors = root.Load(file);
   if (!errors.empty()) {
     why = errors.front().Message();
-    return std::nullopt;
+    return false;
   }
-  SdformatLinks all;
-  Collector collector(all);
+  minkray::testing::Collector collector(all);
   if (root.Model()) collector.add(*root.Model(), {}, "");
   for (std::uint64_t w = 0; w < root.WorldCount(); ++w)
     for (std::uint64_t i = 0; i < root.WorldByIndex(w)->ModelCount(); ++i)
       collector.add(*root.WorldByIndex(w)->ModelByIndex(i), {}, "");
-  return all;
+  return true;
 }
-
-}  // namespace minkray::testing

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <map>
-#include <optional>
 #include <string>
 
 #include "core/math/affine.h"
@@ -15,7 +14,9 @@ struct SdformatLinks {
   std::map<std::string, Vec3<double>> axes;     ///< of joints, in the child link's frame
 };
 
-/// Nothing, and why, if it does not read the file.
-std::optional<SdformatLinks> sdformat_links(const std::string& file, std::string& why);
-
 }  // namespace minkray::testing
+
+/// False, and why, if it does not read the file. Tests load this where they ask it, as libsdformat
+/// makes all its tables at once: half of what it takes to begin a test.
+extern "C" bool minkray_sdformat_links(const std::string& file,
+                                       minkray::testing::SdformatLinks& all, std::string& why);

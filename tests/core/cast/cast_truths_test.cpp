@@ -12,7 +12,7 @@
 namespace minkray::testing {
 namespace {
 
-std::vector<SampleShape> shapes() {
+std::vector<SampleShape> certified_shapes() {
   std::vector<SampleShape> all = sample_shapes();
   for (std::uint64_t seed = 300; seed < 340; ++seed) {
     const Shape<double> shape = random_nesting(seed);
@@ -23,7 +23,7 @@ std::vector<SampleShape> shapes() {
 
 /// It is in epsilons of the shape's radius, as a distance between planes: what closed_form_test.cpp
 /// allows a cast, for each of the two casts that are compared.
-constexpr double allowed = 2 * 512;
+constexpr double allowed_epsilons = 2 * 512;
 
 /// Whether the support points span space.
 bool is_solid(const Shape<double>& shape) {
@@ -46,14 +46,14 @@ Chord<T> chord_of(const PreparedShape<T>& shape, const Ray<T>& ray, SolverKind s
   return {cast_ray(shape, ray, options), cast_exit(shape, ray, options)};
 }
 
-struct Counted {
+struct CountedCasts {
   int rays = 0, hits = 0;
 };
 
 /// visit(name, shape, ray, solver) for many rays at all solid shapes, about half of which hit.
 template <class T, class Visit>
 void for_rays(int count, double distance, const Visit& visit) {
-  for (const SampleShape& sample : shapes()) {
+  for (const SampleShape& sample : certified_shapes()) {
     const Shape<T> shape = convert<T>(sample.shape);
     const Bounds<double> bounds = bounds_of<double>(convert<double>(shape));
     if (!is_solid(sample.shape)) continue;
@@ -64,7 +64,7 @@ void for_rays(int count, double distance, const Visit& visit) {
     };
     const double spread = rays.spread_for_half(
         [&](const Ray<double>& ray) { return cast_ray(prepared, in_T(ray)).found(); });
-    Counted counted;
+    CountedCasts counted;
     for (const SolverDescription& solver : accurate_solvers()) {
       for (int i = 0; i < count; ++i) {
         ++counted.rays;
@@ -92,37 +92,37 @@ double radius_of(const PreparedShape<T>& shape) {
 TYPED_TEST(CastTruths, planes_of_hits_touch_and_planes_of_misses_separate) {
   using T = TypeParam;
   const double epsilon = double(std::numeric_limits<T>::epsilon());
-  for_rays<T>(
-      60, 3,
-      [&](const std::string& name, const Shape<T>& shape, const PreparedShape<T>& prepared,
-          const Ray<T>& ray, SolverKind solver) {
-        CastOptions<T> options;
-        options.solver = solver;
-        const CastResult<T> result = cast_ray(prepared, ray, options);
-        const Shape<double> same = convert<double>(shape);
-        const Ray<double> exact{ray.origin.template cast<double>(),
-                                ray.direction.template cast<double>()};
-        const Vec3<double> n = result.normal.template cast<double>();
-        const double radius = radius_of(prepared);
-        // In float the GJK ray cast gives up on about one of 10,000 rays at polytopes; the
-        // automatic choice then asks the jet cast.
-        if (std::is_same_v<T, double> || solver != SolverKind::paper) {
-          EXPECT_NE(result.status, Status::exhausted) << name;
-        }
-        EXPECT_NE(result.status, Status::inside) << name;
-        if (result.status == Status::hit) {
-          const double t = double(result.t_base) + double(result.t_offset);
-          EXPECT_NEAR(n.dot(exact.at(t)), n.dot(same.support(n)), allowed * epsilon * radius)
-              << name;
-          EXPECT_LE(n.dot(exact.direction), 8 * epsilon * exact.direction.norm()) << name;
-        }
-        if (result.status == Status::miss) {
-          const double above = n.dot(exact.origin - same.support(n));
-          EXPECT_GE(above, -allowed * epsilon * radius) << name;
-          EXPECT_GE(n.dot(exact.direction), -16 * epsilon * exact.direction.norm()) << name;
-        }
-        return result.found();
-      });
+  for_rays<T>(60, 3,
+              [&](const std::string& name, const Shape<T>& shape, const PreparedShape<T>& prepared,
+                  const Ray<T>& ray, SolverKind solver) {
+                CastOptions<T> options;
+                options.solver = solver;
+                const CastResult<T> result = cast_ray(prepared, ray, options);
+                const Shape<double> same = convert<double>(shape);
+                const Ray<double> exact{ray.origin.template cast<double>(),
+                                        ray.direction.template cast<double>()};
+                const Vec3<double> n = result.normal.template cast<double>();
+                const double radius = radius_of(prepared);
+                // In float the GJK ray cast gives up on about one of 10,000 rays at polytopes; the
+                // automatic choice then asks the jet cast.
+                if (std::is_same_v<T, double> || solver != SolverKind::paper) {
+                  EXPECT_NE(result.status, Status::exhausted) << name;
+                }
+                EXPECT_NE(result.status, Status::inside) << name;
+                if (result.status == Status::hit) {
+                  const double t = double(result.t_base) + double(result.t_offset);
+                  EXPECT_NEAR(n.dot(exact.at(t)), n.dot(same.support(n)),
+                              allowed_epsilons * epsilon * radius)
+                      << name;
+                  EXPECT_LE(n.dot(exact.direction), 8 * epsilon * exact.direction.norm()) << name;
+                }
+                if (result.status == Status::miss) {
+                  const double above = n.dot(exact.origin - same.support(n));
+                  EXPECT_GE(above, -allowed_epsilons * epsilon * radius) << name;
+                  EXPECT_GE(n.dot(exact.direction), -16 * epsilon * exact.direction.norm()) << name;
+                }
+                return result.found();
+              });
 }
 
 TYPED_TEST(CastTruths, a_reversed_ray_enters_where_the_ray_leaves) {
@@ -147,7 +147,7 @@ TYPED_TEST(CastTruths, a_reversed_ray_enters_where_the_ray_leaves) {
               std::min(std::abs(exit.normal.template cast<double>().dot(direction)),
                        std::abs(entry.normal.template cast<double>().dot(direction)));
           EXPECT_LE((double(entry.t()) - double(exit.t())) * shallow,
-                    allowed * epsilon * radius_of(prepared))
+                    allowed_epsilons * epsilon * radius_of(prepared))
               << name;
           // Both normals may be used where an edge leaves a choice.
           const double towards =
@@ -160,7 +160,7 @@ TYPED_TEST(CastTruths, a_reversed_ray_enters_where_the_ray_leaves) {
           // Known to be weaker: one ray in float at a plate of 1:2:0.001 leaves 1.8e3 epsilon off.
           const double known = std::is_same_v<T, float> && name.starts_with("box, a plate") ? 2 : 1;
           EXPECT_LE(difference * towards,
-                    known * allowed * epsilon * radius_of(prepared) + 4 * moved)
+                    known * allowed_epsilons * epsilon * radius_of(prepared) + 4 * moved)
               << name;
         }
         return entry.found();
@@ -199,7 +199,7 @@ TYPED_TEST(CastTruths, t_does_not_change_under_affine_maps) {
                                (ray.origin.template cast<double>().norm() + by.norm() +
                                 ray.direction.template cast<double>().norm());
           EXPECT_LE(std::abs(double(plain.t()) - double(mapped.t())) * towards,
-                    9 * allowed * epsilon * radius_of(prepared) + 9 * moved)
+                    9 * allowed_epsilons * epsilon * radius_of(prepared) + 9 * moved)
               << name;
         }
         return plain.found();
@@ -208,7 +208,7 @@ TYPED_TEST(CastTruths, t_does_not_change_under_affine_maps) {
 
 TYPED_TEST(CastTruths, a_ray_from_within_says_inside) {
   using T = TypeParam;
-  for (const SampleShape& sample : shapes()) {
+  for (const SampleShape& sample : certified_shapes()) {
     const Shape<T> shape = convert<T>(sample.shape);
     if (!is_solid(sample.shape)) continue;
     const PreparedShape<T> prepared(shape);
@@ -269,7 +269,7 @@ TYPED_TEST(CastTruths, rays_at_the_corners_and_along_the_faces_of_a_box_are_answ
       const CastResult<T> result = cast_ray(box, Ray<T>{origin, Vec3<T>(1, 0, 0)}, options);
       EXPECT_NE(result.status, Status::exhausted) << solver.name;
       if (result.status == Status::hit) {
-        EXPECT_NEAR(double(result.t()), 2, allowed * epsilon) << solver.name;
+        EXPECT_NEAR(double(result.t()), 2, allowed_epsilons * epsilon) << solver.name;
       }
     }
   }

@@ -23,12 +23,12 @@ S ellipsoid(double a, double b, double c) {
   return Ellipsoid<double>{{a, b, c}};
 }
 
-struct Named {
+struct NamedSum {
   std::string name;
   S shape;
 };
 
-std::vector<Named> ordinary() {
+std::vector<NamedSum> ordinary() {
   const S egg = ellipsoid(1, 0.5, 0.25), other = turned(ellipsoid(0.3, 0.5, 1), {1, 2, 3}, 1.1);
   return {
       {"two, aligned", MinkowskiSum<double>{{egg, ellipsoid(0.3, 0.5, 1)}}},
@@ -39,20 +39,20 @@ std::vector<Named> ordinary() {
 }
 
 /// Radii of which one is nothing beside the others.
-std::vector<Named> extreme() {
+std::vector<NamedSum> extreme() {
   const S needle = turned(ellipsoid(1, 0.01, 0.01), {1, 2, 3}, 1.1);
   return {{"needles", MinkowskiSum<double>{{needle, ellipsoid(0.01, 1, 0.01)}}},
           {"plate and ball", MinkowskiSum<double>{{turned(ellipsoid(1, 0.03, 0.001), {1, 2, 3}, 1),
                                                    S(Sphere<double>{0.2})}}}};
 }
 
-struct Outcome {
+struct SumsOutcome {
   int hits = 0, misses = 0, undecided = 0, wrong = 0, exhausted = 0, supports = 0, most = 0;
   double worst = 0;  ///< error of t times cosine, in units of R
 };
 
 template <class T>
-Outcome cast_at(const S& wanted, RayFamily family, int count) {
+SumsOutcome cast_at(const S& wanted, RayFamily family, int count) {
   const Shape<T> shape = convert<T>(wanted);
   const S same = convert<double>(shape);
   const PreparedShape<T> prepared(shape);
@@ -61,7 +61,7 @@ Outcome cast_at(const S& wanted, RayFamily family, int count) {
   const double R = rays.ball().radius;
   // How near to the silhouette either answer is right, in units of R.
   const double band = std::is_same_v<T, float> ? 1e-6 : 1e-14;
-  Outcome outcome;
+  SumsOutcome outcome;
   for (int i = 0; i < count; ++i) {
     const Ray<T> ray = rounded_to<T>(rays.next());
     const Ray<double> known = in_double(ray);
@@ -95,10 +95,10 @@ Outcome cast_at(const S& wanted, RayFamily family, int count) {
 }
 
 template <class T>
-void check(const Named& named, RayFamily family, double supports, int most) {
+void check(const NamedSum& named, RayFamily family, double supports, int most) {
   SCOPED_TRACE(named.name);
   const int count = 300;
-  const Outcome outcome = cast_at<T>(named.shape, family, count);
+  const SumsOutcome outcome = cast_at<T>(named.shape, family, count);
   EXPECT_EQ(outcome.wrong, 0);
   EXPECT_EQ(outcome.exhausted, 0);
   EXPECT_LT(outcome.undecided, count / 4);
@@ -110,7 +110,7 @@ void check(const Named& named, RayFamily family, double supports, int most) {
 }
 
 TEST(SumOfEllipsoids, is_hit_to_rounding_by_one_support_call) {
-  for (const Named& named : ordinary()) {
+  for (const NamedSum& named : ordinary()) {
     check<float>(named, RayFamily::far, 1, 1);
     for (const RayFamily family : {RayFamily::random, RayFamily::grazing}) {
       check<double>(named, family, 1, 1);
@@ -120,27 +120,27 @@ TEST(SumOfEllipsoids, is_hit_to_rounding_by_one_support_call) {
 }
 
 TEST(SumOfEllipsoids, is_hit_by_degenerate_rays) {
-  for (const Named& named : ordinary()) {
+  for (const NamedSum& named : ordinary()) {
     check<double>(named, RayFamily::degenerate, 2, 10);
     check<float>(named, RayFamily::degenerate, 2, 10);
   }
 }
 
 TEST(SumOfEllipsoids, of_needles_and_plates_is_hit_to_rounding) {
-  for (const Named& named : extreme()) {
+  for (const NamedSum& named : extreme()) {
     check<double>(named, RayFamily::random, 4, 60);
     check<float>(named, RayFamily::random, 4, 60);
   }
 }
 
 TEST(SumOfEllipsoids, is_told_from_other_shapes) {
-  for (const Named& named : ordinary()) EXPECT_TRUE(is_ellipsoid_sum(named.shape)) << named.name;
+  for (const NamedSum& named : ordinary()) EXPECT_TRUE(is_ellipsoid_sum(named.shape)) << named.name;
   const S egg = ellipsoid(1, 0.5, 0.25), box = Box<double>{{1, 1, 1}}, disk = Disk<double>{1};
-  const std::vector<Named> others = {
+  const std::vector<NamedSum> others = {
       {"with a box", MinkowskiSum<double>{{egg, box}}},
       {"with a disk", MinkowskiSum<double>{{egg, disk}}},
       {"beside another", HullOf<double>{{egg, turned(egg, {1, 0, 0}, 1)}}}};
-  for (const Named& named : others) EXPECT_FALSE(is_ellipsoid_sum(named.shape)) << named.name;
+  for (const NamedSum& named : others) EXPECT_FALSE(is_ellipsoid_sum(named.shape)) << named.name;
 }
 
 }  // namespace

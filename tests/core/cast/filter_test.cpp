@@ -12,12 +12,12 @@ namespace {
 
 using S = Shape<double>;
 
-struct Named {
+struct NamedShape {
   std::string name;
   S shape;
 };
 
-std::vector<Named> shapes() {
+std::vector<NamedShape> filtered_shapes() {
   const S box = Box<double>{{1, 0.7, 0.5}};
   return {
       {"sphere", Sphere<double>{0.3}},
@@ -72,7 +72,7 @@ TYPED_TEST_SUITE(Filter, Scalars);
 template <class T, class Next>
 Counted judge_all(int count, std::uint64_t seed, const Next& make_next) {
   Counted counted;
-  for (const Named& named : shapes()) {
+  for (const NamedShape& named : filtered_shapes()) {
     for (const Posed& posed : poses()) {
       // Elsewhere, floats are further apart than it is large.
       if (named.name == "a minute sphere" && posed.name != "as it is") continue;
@@ -136,7 +136,7 @@ TYPED_TEST(Filter, ties_are_answered_truly_or_are_in_doubt) {
 /// The checker knows nothing but supports.
 TYPED_TEST(Filter, answers_are_certified) {
   using T = TypeParam;
-  for (const Named& named : shapes()) {
+  for (const NamedShape& named : filtered_shapes()) {
     if (named.name == "a minute sphere") continue;
     SCOPED_TRACE(named.name);
     const Shape<T> shape = convert<T>(named.shape);
@@ -149,7 +149,7 @@ TYPED_TEST(Filter, answers_are_certified) {
 TYPED_TEST(Filter, misses_have_a_separating_plane) {
   using T = TypeParam;
   constexpr double epsilon = std::numeric_limits<T>::epsilon();
-  for (const Named& named : shapes()) {
+  for (const NamedShape& named : filtered_shapes()) {
     SCOPED_TRACE(named.name);
     const Shape<T> shape = convert<T>(named.shape);
     const PreparedShape<T> prepared(shape);

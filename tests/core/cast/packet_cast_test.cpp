@@ -19,7 +19,7 @@ std::vector<InstructionSet> instruction_sets() {
   return sets;
 }
 
-std::vector<SampleShape> shapes() {
+std::vector<SampleShape> packed_shapes() {
   std::vector<SampleShape> all = sample_shapes();
   for (std::uint64_t seed = 500; seed < 540; ++seed) {
     const Shape<double> shape = random_nesting(seed);
@@ -83,7 +83,7 @@ std::vector<RayPacket<T>> packets_at(const Shape<T>& shape, int count) {
 template <class T>
 void check_all() {
   int hits = 0, rays = 0;
-  for (const SampleShape& sample : shapes()) {
+  for (const SampleShape& sample : packed_shapes()) {
     const Shape<T> shape = convert<T>(sample.shape);
     const PreparedShape<T> prepared(shape);
     for (const RayPacket<T>& packet : packets_at(shape, 1000 / packet_lanes<T>)) {

@@ -20,7 +20,7 @@ using Scalars = ::testing::Types<float, double>;
 TYPED_TEST_SUITE(PacketKernel, Scalars);
 
 /// Shapes without a closed form: smooth ones, and one with edges.
-std::vector<Shape<double>> shapes() {
+std::vector<Shape<double>> packet_shapes() {
   using S = Shape<double>;
   const S egg = Ellipsoid<double>{{1, 0.5, 0.25}};
   return {Superellipsoid<double>{{1, 0.7, 0.5}, 3},
@@ -58,7 +58,7 @@ TYPED_TEST(PacketKernel, settles_nearly_all_lanes_it_is_asked_for_and_no_other) 
       best_instruction_set() == InstructionSet::avx2
           ? std::vector{InstructionSet::sse2, InstructionSet::avx2}
           : std::vector{InstructionSet::sse2};
-  for (const Shape<double>& kind : shapes()) {
+  for (const Shape<double>& kind : packet_shapes()) {
     const PreparedShape<T> shape(convert<T>(kind));
     ASSERT_EQ(shape.definition().form().kind, FormKind::none);
     for (const InstructionSet set : sets) {

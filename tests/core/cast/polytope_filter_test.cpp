@@ -57,7 +57,7 @@ Counted judge_hulls(int count, const Next& make_next) {
 }
 
 template <class T>
-Counted judge_family(RayFamily family, int count) {
+Counted judge_hulls_by(RayFamily family, int count) {
   return judge_hulls<T>(count, [&](const S& shape, const Points&) {
     auto rays = std::make_shared<FamilyRays>(shape, family, 82);
     return [rays] { return rays->next(); };
@@ -65,7 +65,7 @@ Counted judge_family(RayFamily family, int count) {
 }
 
 TYPED_TEST(PolytopeFilter, random_rays_are_hardly_ever_in_doubt_and_no_bound_is_broken) {
-  const Counted counted = judge_family<TypeParam>(RayFamily::random, 400);
+  const Counted counted = judge_hulls_by<TypeParam>(RayFamily::random, 400);
   EXPECT_LE(counted.in_doubt, 0.001 * counted.answered);
   EXPECT_GT(counted.hits, 0.2 * counted.answered);
   EXPECT_GT(counted.misses, 0.2 * counted.answered);
@@ -73,20 +73,20 @@ TYPED_TEST(PolytopeFilter, random_rays_are_hardly_ever_in_doubt_and_no_bound_is_
 }
 
 TYPED_TEST(PolytopeFilter, no_bound_of_a_grazing_ray_is_broken_and_few_are_in_doubt) {
-  const Counted counted = judge_family<TypeParam>(RayFamily::grazing, 400);
+  const Counted counted = judge_hulls_by<TypeParam>(RayFamily::grazing, 400);
   EXPECT_LT(counted.in_doubt, 0.05 * counted.answered);
   EXPECT_GT(counted.hits, 0.2 * counted.answered);
   EXPECT_GT(counted.misses, 0.3 * counted.answered);
 }
 
 TYPED_TEST(PolytopeFilter, no_bound_of_a_degenerate_ray_is_broken) {
-  const Counted counted = judge_family<TypeParam>(RayFamily::degenerate, 400);
+  const Counted counted = judge_hulls_by<TypeParam>(RayFamily::degenerate, 400);
   // In double most of them are ties, which no bound tells apart.
   EXPECT_GT(counted.answered, counted.in_doubt / 2);
 }
 
 TYPED_TEST(PolytopeFilter, no_bound_of_a_ray_from_afar_is_broken) {
-  const Counted counted = judge_family<TypeParam>(RayFamily::far, 400);
+  const Counted counted = judge_hulls_by<TypeParam>(RayFamily::far, 400);
   EXPECT_GT(counted.answered, counted.in_doubt);
 }
 

@@ -99,7 +99,7 @@ Counted judge_rounded(int count, const Next& make_next) {
 }
 
 template <class T>
-Counted judge_family(RayFamily family, int count) {
+Counted judge_rounded_by(RayFamily family, int count) {
   return judge_rounded<T>(count, [&](const S& shape, const Points&) {
     auto rays = std::make_shared<FamilyRays>(shape, family, 92);
     return [rays] { return rays->next(); };
@@ -107,7 +107,7 @@ Counted judge_family(RayFamily family, int count) {
 }
 
 TYPED_TEST(RoundedPolytopeFilter, random_rays_are_hardly_ever_in_doubt_and_no_bound_is_broken) {
-  const Counted counted = judge_family<TypeParam>(RayFamily::random, 60);
+  const Counted counted = judge_rounded_by<TypeParam>(RayFamily::random, 60);
   EXPECT_LE(counted.in_doubt, 0.001 * counted.answered);
   EXPECT_GT(counted.hits, 0.2 * counted.answered);
   EXPECT_GT(counted.misses, 0.1 * counted.answered);
@@ -115,19 +115,19 @@ TYPED_TEST(RoundedPolytopeFilter, random_rays_are_hardly_ever_in_doubt_and_no_bo
 }
 
 TYPED_TEST(RoundedPolytopeFilter, no_bound_of_a_grazing_ray_is_broken_and_few_are_in_doubt) {
-  const Counted counted = judge_family<TypeParam>(RayFamily::grazing, 60);
+  const Counted counted = judge_rounded_by<TypeParam>(RayFamily::grazing, 60);
   EXPECT_LT(counted.in_doubt, 0.01 * counted.answered);
   EXPECT_GT(counted.hits, 0.2 * counted.answered);
   EXPECT_GT(counted.misses, 0.3 * counted.answered);
 }
 
 TYPED_TEST(RoundedPolytopeFilter, no_bound_of_a_degenerate_ray_is_broken) {
-  const Counted counted = judge_family<TypeParam>(RayFamily::degenerate, 60);
+  const Counted counted = judge_rounded_by<TypeParam>(RayFamily::degenerate, 60);
   EXPECT_GT(counted.answered, counted.in_doubt);
 }
 
 TYPED_TEST(RoundedPolytopeFilter, no_bound_of_a_ray_from_afar_is_broken) {
-  const Counted counted = judge_family<TypeParam>(RayFamily::far, 60);
+  const Counted counted = judge_rounded_by<TypeParam>(RayFamily::far, 60);
   EXPECT_GT(counted.answered, counted.in_doubt);
 }
 

@@ -73,7 +73,7 @@ CastOutcome cast_at(const Superellipsoid<double>& wanted, RayFamily family, int 
   return outcome;
 }
 
-std::vector<Superellipsoid<double>> shapes() {
+std::vector<Superellipsoid<double>> superellipsoids() {
   std::vector<Superellipsoid<double>> all;
   for (const double p : {1.2, 1.5, 1.9, 2.001, 2.5, 3.0, 4.0, 5.5, 8.0, 12.0, 60.0})
     for (const Vec3<double>& radii : {Vec3<double>(1, 1, 1), Vec3<double>(0.3, 2, 0.7)})
@@ -95,7 +95,7 @@ constexpr double exactness = 6 * std::numeric_limits<T>::epsilon();
 template <class T>
 void check_ordinary(RayFamily family) {
   int misses = 0;
-  for (const Superellipsoid<double>& shape : shapes()) {
+  for (const Superellipsoid<double>& shape : superellipsoids()) {
     SCOPED_TRACE(name_of(shape));
     const int count = 100;
     const CastOutcome outcome = cast_at<T>(shape, family, count);
@@ -127,7 +127,7 @@ TEST(Superellipsoid, is_grazed_to_rounding_by_one_support_call) {
 /// middle of flat sides and tangential there.
 template <class T>
 void check_degenerate() {
-  for (const Superellipsoid<double>& shape : shapes()) {
+  for (const Superellipsoid<double>& shape : superellipsoids()) {
     SCOPED_TRACE(name_of(shape));
     const CastOutcome outcome = cast_at<T>(shape, RayFamily::degenerate, 100);
     EXPECT_EQ(outcome.wrong, 0);

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // SDF's frames: as the specification has them, and beside libsdformat where it is installed.
+#include <dlfcn.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
 #include <map>
+#include <stdexcept>
 
 #include "tests/oracle/sdformat_links.h"
 #include "tests/renderer/import/imports.h"
@@ -105,17 +107,25 @@ TEST(Sdf, frames_in_circles_are_told) {
     EXPECT_NE(mistakes_of(text, "m.sdf"), "") << text;
 }
 
-#ifdef MINKRAY_SDFORMAT
+#ifdef MINKRAY_SDFORMAT_LINKS
+
+decltype(minkray_sdformat_links)* sdformat_links() {
+  void* module = dlopen(MINKRAY_SDFORMAT_LINKS, RTLD_NOW);
+  if (!module) throw std::runtime_error(dlerror());
+  return reinterpret_cast<decltype(minkray_sdformat_links)*>(
+      dlsym(module, "minkray_sdformat_links"));
+}
 
 /// How many links and axes both know.
 int expect_libsdformats(const std::string& file, const Model& model) {
+  static const auto read_links = sdformat_links();
   std::string why;
-  const auto theirs = testing::sdformat_links(file, why);
-  if (!theirs) return 0;
+  testing::SdformatLinks theirs;
+  if (!read_links(file, theirs, why)) return 0;
   int both = 0;
   for (const auto& [name, pose] : links_of(model)) {
-    const auto found = theirs->links.find(name);
-    if (found == theirs->links.end()) {
+    const auto found = theirs.links.find(name);
+    if (found == theirs.links.end()) {
       ADD_FAILURE() << file << ": libsdformat has no link " << name;
       continue;
     }
@@ -125,8 +135,8 @@ int expect_libsdformats(const std::string& file, const Model& model) {
   }
   for (const ModelLink& link : model.links)
     for (const ModelJoint& joint : link.joints) {
-      const auto found = theirs->axes.find(joint.name);
-      if (found == theirs->axes.end() || width_of(joint.kind) != 1) continue;
+      const auto found = theirs.axes.find(joint.name);
+      if (found == theirs.axes.end() || width_of(joint.kind) != 1) continue;
       ++both;
       EXPECT_LT((joint.axis - unit(found->second)).norm(), 1e-12) << file << " " << joint.name;
     }
