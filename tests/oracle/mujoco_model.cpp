@@ -31,8 +31,10 @@ std::unique_ptr<MujocoModel> MujocoModel::load(const std::string& file, std::str
   for (int i = 0; i < parts->model->ngeom; ++i)
     if (parts->model->geom_type[i] == mjGEOM_PLANE)
       parts->model->geom_size[3 * i] = parts->model->geom_size[3 * i + 1] = 0;
+  // Nothing asks for contacts or constraints, whose memory would be cleared each time.
+  parts->model->nconmax = parts->model->njmax = 0;
+  parts->model->nstack = std::min(parts->model->nstack, 1 << 16);
   parts->data = mj_makeData(parts->model);
-  mj_resetData(parts->model, parts->data);
   mj_kinematics(parts->model, parts->data);
   return std::unique_ptr<MujocoModel>(new MujocoModel(std::move(parts)));
 }
