@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+// When moving boxes first touch, told by what is looked at before anything else: each answer is
+// judged by its plane and its point, and next to none is left open.
+#include "core/contact/swept_boxes.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/core/contact/random_bodies.h"
+
+namespace minkray {
+namespace {
+
+using testing::RandomShapes;
+constexpr double eps = std::numeric_limits<double>::epsilon();
+
+struct TwoBoxes {
+  Vec3<double> half_a, half_b;
+  Affine<double> pose_b;  ///< as A sees B
+  Vec3<double> velocity;
+  double t_max = 2;
+
+  SweptTime swept(double near = 1e-9) const {
+    const ContactShape a{Shape<double>(Box<double>{half_a})}, b{Shape<double>(Box<double>{half_b})};
+    const Affine<double> pose_a;
+    return swept_boxes(pair_of(a, pose_a, pose_a.linear, b, pose_b), velocity, t_max, near);
+  }
+  /// Between planes with normal n at a time, A behind the one and B before the other.
+  double gap(const Vec3<double>& n, double t) const {
+    return n.dot(pose_b.translation + t * velocity) - n.cwiseAbs().dot(half_a) -
+           (pose_b.linear.transpose() * n).cwiseAbs().dot(half_b);
+  }
+  bool both_hold(const Vec3<double>& p, double t) const {
+    const Vec3<double> in_b = pose_b.linear.transpose() * (p - pose_b.translation - t * velocity);
+    return (p.cwiseAbs() - half_a).maxCoeff() <= 1e-9 &&
+           (in_b.cwiseAbs() - half_b).maxCoeff() <= 1e-9;
+  }
+};
+
+std::string complaint(const TwoBoxes& boxes, const SweptTime& found) {
+  if (std::abs(found.axis.norm() - 1) > 4 * eps) return "a normal that is none";
+  if (found.status == SweptStatus::miss)
+    return boxes.gap(found.axis, 0) > 0 && boxes.gap(found.axis, boxes.t_max) > 0
+               ? ""
+               : "a plane that lets them through";
+  if (std::abs(boxes.gap(found.axis, found.t_lo)) > 1e-12) return "a plane that is not touched";
+  if (!(found.axis.dot(boxes.velocity) < 0)) return "a plane that is not approached";
+  if (!(found.t_lo <= found.t_hi) || found.t_hi - found.t_lo > 1e-9) return "wide";
+  return boxes.both_hold(found.a, found.t_hi) ? "" : "a point of only one";
+}
+
+TEST(SweptBoxes, are_told_by_a_plane_and_a_point) {
+  RandomShapes random(41);
+  int hits = 0, misses = 0, open = 0;
+  for (int k = 0; k < 4000; ++k) {
+    const auto half = [&]() -> Vec3<double> {
+      return {random.in(0.1, 1), random.in(0.1, 1), random.in(0.1, 1)};
+    };
+    TwoBoxes boxes{half(), half(), {random.turn(), 4 * random.direction().normalized()}, {}};
+    // Towards A, or beside it, and some too slow to come there.
+    boxes.velocity =
+        random.in(0.2, 4) * (random.in(0, 2) * random.direction() - boxes.pose_b.translation / 4);
+    const SweptTime found = boxes.swept();
+    if (found.status == SweptStatus::open) {
+      ++open;
+      continue;
+    }
+    (found.status == SweptStatus::hit ? hits : misses) += 1;
+    ASSERT_EQ(complaint(boxes, found), "") << k;
+  }
+  EXPECT_GT(hits, 400);
+  EXPECT_GT(misses, 1500);
+  EXPECT_EQ(open, 0);
+}
+
+TEST(SweptBoxes, with_parallel_sides_that_pass_beside_or_behind_each_other_miss) {
+  const Vec3<double> half{1, 1, 1};
+  for (const auto& [place, velocity] :
+       {std::pair{Vec3<double>(5, 3, 0), Vec3<double>(-1, 0, 0)},  // beside the way
+        std::pair{Vec3<double>(5, -3, 0), Vec3<double>(-1, 0, 0)},
+        std::pair{Vec3<double>(5, 0, 0), Vec3<double>(1, 0, 0)},         // away
+        std::pair{Vec3<double>(9, 0, 0), Vec3<double>(-1, 0, 0)},        // later than that
+        std::pair{Vec3<double>(3, 5, 0), Vec3<double>(-1, -0.5, 0)}}) {  // past a corner
+    const TwoBoxes boxes{half, half, {Mat3<double>::Identity(), place}, velocity, 5};
+    const SweptTime found = boxes.swept();
+    EXPECT_EQ(found.status, SweptStatus::miss) << place.transpose();
+    EXPECT_EQ(complaint(boxes, found), "") << place.transpose();
+  }
+}
+
+TEST(SweptBoxes, that_meet_with_a_corner_do_so_where_it_is) {
+  // B's diagonal lies along x.
+  Mat3<double> turn;
+  turn.col(0) = Vec3<double>(1, std::sqrt(2), 0) / std::sqrt(3);
+  turn.col(1) = Vec3<double>(1, -1 / std::sqrt(2), std::sqrt(1.5)) / std::sqrt(3);
+  turn.col(2) = Vec3<double>(1, -1 / std::sqrt(2), -std::sqrt(1.5)) / std::sqrt(3);
+  const TwoBoxes boxes{{1, 1, 1}, {1, 1, 1}, {turn, {5, 0.25, 0.5}}, {-1, 0, 0}, 10};
+  const SweptTime found = boxes.swept();
+  ASSERT_EQ(found.status, SweptStatus::hit);
+  EXPECT_EQ(complaint(boxes, found), "");
+  EXPECT_NEAR(found.t_lo, 4 - std::sqrt(3), 1e-13);
+  EXPECT_LT((found.a - Vec3<double>(1, 0.25, 0.5)).norm(), 1e-12);
+}
+
+TEST(SweptBoxes, that_begin_in_contact_or_graze_are_left_to_others) {
+  const Mat3<double> I = Mat3<double>::Identity();
+  for (const TwoBoxes& boxes :
+       {TwoBoxes{{1, 1, 1}, {1, 1, 1}, {I, {1.5, 0.5, 0}}, {0, 0, 0}},   // at rest
+        TwoBoxes{{1, 1, 1}, {1, 1, 1}, {I, {5, 2, 0}}, {-1, 0, 0}, 9}})  // along a side
+    EXPECT_EQ(boxes.swept().status, SweptStatus::open);
+}
+
+}  // namespace
+}  // namespace minkray
