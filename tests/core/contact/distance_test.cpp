@@ -183,5 +183,24 @@ TEST(Distance, begun_with_the_answers_axis_ends_at_once_and_separation_needs_one
   EXPECT_TRUE(std::isinf(separation.distance)) << "none is asked for";
 }
 
+TEST(Distance, is_looked_for_no_longer_than_asked_and_each_step_is_told) {
+  testing::RandomPoses random(17);
+  const Shape<double> flat = Ellipsoid<double>{{1, 1, 0.01}},
+                      thin = Ellipsoid<double>{{0.01, 1, 1}};
+  for (const int most : {1, 3, 100}) {
+    for (int k = 0; k < 50; ++k) {
+      DistanceOptions<double, 3> options;
+      options.max_iterations = most;
+      int told = 0;
+      const auto result = distance_between<double>(
+          place<double>(flat), place<double>(thin, random.pose(2)), options,
+          SubalgorithmKind::projection, [&](const auto&) { ++told; });
+      ASSERT_GT(told, 0) << k;
+      ASSERT_LE(told, result.iterations) << k;
+      if (most < 100) ASSERT_LE(result.iterations, most) << k;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace minkray

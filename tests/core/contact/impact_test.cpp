@@ -37,6 +37,25 @@ RigidMotion at(double x, double y, double z, const Vec3<double>& velocity,
   return {{Mat3<double>::Identity(), Vec3<double>(x, y, z)}, velocity, angular};
 }
 
+TEST(Impact, of_a_rod_that_leaves_with_one_end_is_that_of_the_other) {
+  // It lies on a cube with its left end. The right one is next to nothing above it, and comes down
+  // as the rod turns.
+  constexpr double tilt = 1e-7;
+  ImpactOptions options;
+  options.touching = 1e-6;
+  const ContactShape rod{Shape<double>(Capsule<double>{0.125, 0.5})};
+  RigidMotion motion = at(0, 0, 1.125 + tilt / 2, {0, 0, 0}, {0, 1, 0});
+  motion.pose.linear << tilt, 0, 1, 0, 1, 0, -1, 0, tilt;  // its axis along x
+  motion.pose.linear.col(2) = Vec3<double>(1, 0, tilt);
+  const Impact found = first_impact(cube, at(0, 0, 0, {0, 0, 0}), rod, motion, 1, options);
+  ASSERT_EQ(found.status, ImpactStatus::hit);
+  EXPECT_GE(found.t_lo, 0);
+  EXPECT_LE(found.t_lo, 2 * tilt);
+  EXPECT_GT(found.t_hi, 0);
+  EXPECT_LT(found.t_hi, 1e-4);
+  EXPECT_LT(signed_distance(cube, {}, rod, motion.at(found.t_hi)).lower, 0);
+}
+
 TEST(Impact, a_cube_that_turns_by_a_corner_meets_a_wall_when_its_diagonal_does) {
   // The corner's height above the middle is sqrt(2) sin(pi/4 + t): the wall is 1.3 away.
   const Impact impact =

@@ -68,6 +68,28 @@ TEST(RotatingCast, without_turning_is_the_shape_cast) {
   EXPECT_NEAR(result.t_lo, result.t, 1e-14);
 }
 
+TEST(RotatingCast, bodies_go_straight_while_they_turn) {
+  MovingBody<double> body = bar();
+  body.pose.translation = V(1, 2, 3);
+  body.velocity = V(0.5, -1, 0.25);
+  const Affine<double> then = pose_at(body, 2.0);
+  EXPECT_EQ(then.translation, V(2, 0, 3.5));
+  EXPECT_NEAR(then.linear(1, 0), std::sin(2), 1e-15);
+}
+
+TEST(RotatingCast, the_points_of_contact_are_where_the_bodies_are_by_then) {
+  // The first runs into the second.
+  MovingBody<double> a = ball(), b = ball();
+  a.velocity = V(0, 3, 0.25);
+  b.pose.translation = V(0, 4, 0.25);
+  b.velocity = V(0, 1, 0);
+  const auto result = cast_rotating(a, b, 2.0, 5);
+  ASSERT_EQ(result.status, Status::hit);
+  EXPECT_NEAR(result.t, 1, 1e-14);
+  EXPECT_LT((result.point_a - V(0, 4.75, 0.25)).norm(), 1e-13);
+  EXPECT_LT((result.point_b - V(0, 4.75, 0.25)).norm(), 1e-13);
+}
+
 TEST(RotatingCast, a_miss_clear_of_the_bound_is_proven) {
   MovingBody<double> far = ball();
   far.pose.translation = V(0, 3, 0);
