@@ -73,6 +73,22 @@ TEST(ContactManifold, of_other_things_has_as_many_points_as_touch) {
   EXPECT_EQ(count(box, turned(x, 0.5, {0, 0, 2})), 2);
 }
 
+TEST(ContactManifold, of_a_box_that_leans_over_an_edge_is_of_its_face_there_too) {
+  const double tilt = 0.01;
+  const Body a(plate, at(0, 0, 0)),
+      b(Shape<double>(Box<double>{{1, 0.5, 0.25}}), turned({0, 1, 0}, -tilt, {5, 0, 0.76}));
+  const ContactManifold found = manifold_of(a, b);
+  ASSERT_EQ(found.count, 4);
+  int at_edge = 0;
+  for (const ContactPoint& point : found.points) {
+    const Vec3<double> in_b = b.pose.linear.transpose() * (point.point_b - b.pose.translation);
+    EXPECT_NEAR(in_b.z(), -0.25, 1e-9);
+    EXPECT_NEAR(point.point_a.z(), 0.5, 1e-9);
+    at_edge += std::abs(point.point_a.x() - 5) < 1e-9 ? 1 : 0;
+  }
+  EXPECT_EQ(at_edge, 2);
+}
+
 TEST(ContactManifold, of_any_two_shapes_is_of_both) {
   RandomShapes random(7);
   int many = 0;

@@ -140,5 +140,20 @@ TEST(PairMemory, garbage_moves_no_time_of_impact_beyond_its_bounds) {
   EXPECT_GT(misses, 500);
 }
 
+TEST(PairMemory, cores_have_so_many_features) {
+  const auto count = [](const Shape<double>& shape) {
+    const ContactShape ready(shape);
+    int found = 0;
+    for (int feature = -20; feature < 20; ++feature)
+      found += is_feature_of(ready.core(), feature) ? 1 : 0;
+    return found;
+  };
+  EXPECT_EQ(count(Sphere<double>{1}), 1);
+  EXPECT_EQ(count(Ellipsoid<double>{{1, 2, 3}}), 1);
+  EXPECT_EQ(count(Capsule<double>{1, 1}), 2);
+  EXPECT_EQ(count(Cylinder<double>{1, 1}), 2);
+  EXPECT_EQ(count(Box<double>{{1, 1, 1}}), 8);
+}
+
 }  // namespace
 }  // namespace minkray::testing

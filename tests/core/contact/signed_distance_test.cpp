@@ -179,6 +179,15 @@ TEST(SignedDistance, of_a_half_space_is_known_as_far_as_numbers_go) {
   const ContactShape infinite(
       Shape<double>(Sphere<double>{std::numeric_limits<double>::infinity()}));
   EXPECT_TRUE(distance_to_half_space(up, 0, infinite, {}).is_unknown());
+  // It touches the plane, but what rounding amounts to is no number.
+  const ContactShape huge(Shape<double>(Sphere<double>{1e308}));
+  EXPECT_TRUE(
+      distance_to_half_space(up, 0, huge, {Mat3<double>::Identity(), Vec3<double>(0, 0, 1e308)})
+          .is_unknown());
+  // Bounds that are open to both sides of 0 are known all the same.
+  SignedDistance undecided;
+  undecided.upper = 1;
+  EXPECT_FALSE(undecided.is_unknown());
 }
 
 }  // namespace
