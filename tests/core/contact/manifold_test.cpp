@@ -74,19 +74,22 @@ TEST(ContactManifold, of_other_things_has_as_many_points_as_touch) {
 }
 
 TEST(ContactManifold, of_a_box_that_leans_over_an_edge_is_of_its_face_there_too) {
-  const double tilt = 0.01;
-  const Body a(plate, at(0, 0, 0)),
-      b(Shape<double>(Box<double>{{1, 0.5, 0.25}}), turned({0, 1, 0}, -tilt, {5, 0, 0.76}));
-  const ContactManifold found = manifold_of(a, b);
-  ASSERT_EQ(found.count, 4);
-  int at_edge = 0;
-  for (const ContactPoint& point : found.points) {
-    const Vec3<double> in_b = b.pose.linear.transpose() * (point.point_b - b.pose.translation);
-    EXPECT_NEAR(in_b.z(), -0.25, 1e-9);
-    EXPECT_NEAR(point.point_a.z(), 0.5, 1e-9);
-    at_edge += std::abs(point.point_a.x() - 5) < 1e-9 ? 1 : 0;
+  const Body below(plate, at(0, 0, 0)),
+      box(Shape<double>(Box<double>{{1, 0.5, 0.25}}), turned({0, 1, 0}, -0.01, {5, 0, 0.76}));
+  for (const bool is_box_first : {false, true}) {
+    const ContactManifold found = is_box_first ? manifold_of(box, below) : manifold_of(below, box);
+    ASSERT_EQ(found.count, 4);
+    int at_edge = 0;
+    for (const ContactPoint& point : found.points) {
+      const Vec3<double>&on_box = is_box_first ? point.point_a : point.point_b,
+            &on_plate = is_box_first ? point.point_b : point.point_a;
+      const Vec3<double> in_box = box.pose.linear.transpose() * (on_box - box.pose.translation);
+      EXPECT_NEAR(in_box.z(), -0.25, 1e-9);
+      EXPECT_NEAR(on_plate.z(), 0.5, 1e-9);
+      at_edge += std::abs(on_plate.x() - 5) < 1e-9 ? 1 : 0;
+    }
+    EXPECT_EQ(at_edge, 2);
   }
-  EXPECT_EQ(at_edge, 2);
 }
 
 TEST(ContactManifold, of_any_two_shapes_is_of_both) {
