@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 #include "core/contact/contact_shape.h"
 
 namespace minkray {
@@ -23,15 +25,17 @@ struct KnownPair {
   }
 };
 
-const Shape<double> cube = Box<double>{{1, 1, 1}}, cylinder = Cylinder<double>{1, 1};
-const KnownPair known_pairs[] = {
-    {cube, cube, {1.5, 0.25, 0.125}, -0.5},        {cube, cube, {3, 0.25, 0.125}, 1},
-    {cube, cube, {1.99, 0.25, 0.125}, -0.01},      {cube, cube, {2.01, 0.25, 0.125}, 0.01},
-    {cube, cube, {3, 4, 0.125}, std::sqrt(5)},     {cylinder, cube, {0.25, 0.125, 1.75}, -0.25},
-    {cylinder, cylinder, {3, 0, 3}, std::sqrt(2)}, {cylinder, cylinder, {1.5, 0, 0.5}, -0.5}};
+std::vector<KnownPair> known_pairs() {
+  const Shape<double> cube = Box<double>{{1, 1, 1}}, cylinder = Cylinder<double>{1, 1};
+  return {
+      {cube, cube, {1.5, 0.25, 0.125}, -0.5},        {cube, cube, {3, 0.25, 0.125}, 1},
+      {cube, cube, {1.99, 0.25, 0.125}, -0.01},      {cube, cube, {2.01, 0.25, 0.125}, 0.01},
+      {cube, cube, {3, 4, 0.125}, std::sqrt(5)},     {cylinder, cube, {0.25, 0.125, 1.75}, -0.25},
+      {cylinder, cylinder, {3, 0, 3}, std::sqrt(2)}, {cylinder, cylinder, {1.5, 0, 0.5}, -0.5}};
+}
 
 TEST(DirectionBounds, are_around_distances_and_depths_and_as_near_as_asked) {
-  for (const KnownPair& pair : known_pairs) {
+  for (const KnownPair& pair : known_pairs()) {
     const CoreDistance found = pair.bounded({});
     EXPECT_LE(found.lower, pair.distance + 1e-14);
     EXPECT_GE(found.upper, pair.distance - 1e-14);
@@ -45,7 +49,7 @@ TEST(DirectionBounds, are_around_distances_and_depths_and_as_near_as_asked) {
 TEST(DirectionBounds, end_with_the_sign_where_that_is_all_that_is_asked) {
   DirectionSearch search;
   search.only_sign = true;
-  for (const KnownPair& pair : known_pairs) {
+  for (const KnownPair& pair : known_pairs()) {
     const CoreDistance found = pair.bounded(search);
     EXPECT_EQ(found.status, pair.distance > 0 ? CoreStatus::separated : CoreStatus::overlapping);
     EXPECT_FALSE(found.is_exhausted);
@@ -56,7 +60,7 @@ TEST(DirectionBounds, end_with_the_sign_where_that_is_all_that_is_asked) {
 TEST(DirectionBounds, hold_where_cells_become_too_small_to_be_halved) {
   DirectionSearch search;
   search.gap = 0;
-  for (const KnownPair& pair : known_pairs) {
+  for (const KnownPair& pair : known_pairs()) {
     const CoreDistance found = pair.bounded(search);
     EXPECT_LE(found.lower, pair.distance + 1e-14);
     EXPECT_GE(found.upper, pair.distance - 1e-14);

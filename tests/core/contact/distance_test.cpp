@@ -197,7 +197,7 @@ TEST(Distance, is_looked_for_no_longer_than_asked_and_each_step_is_told) {
           SubalgorithmKind::projection, [&](const auto&) { ++told; });
       ASSERT_GT(told, 0) << k;
       ASSERT_LE(told, result.iterations) << k;
-      if (most < 100) ASSERT_LE(result.iterations, most) << k;
+      ASSERT_LE(result.iterations, most < 100 ? most : 1000) << k;
     }
   }
 }

@@ -10,9 +10,10 @@ namespace minkray {
 namespace {
 
 std::optional<CoreDistance> bounded(const Shape<double>& a, const Shape<double>& b,
-                                    const Vec3<double>& place) {
+                                    const Vec3<double>& place, double tilt = 0) {
   const ContactShape ready_a{a}, ready_b{b};
-  const Affine<double> pose_a, pose_b{Mat3<double>::Identity(), place};
+  const Affine<double> pose_a,
+      pose_b{Eigen::AngleAxis<double>(tilt, Vec3<double>::UnitX()).toRotationMatrix(), place};
   return bound_along_meridian(pair_of(ready_a, pose_a, pose_a.linear, ready_b, pose_b), {}, 1e-10);
 }
 
@@ -42,6 +43,22 @@ TEST(MeridianBounds, are_around_distances_and_depths_and_as_near_as_asked) {
     EXPECT_EQ(found->status, distance > 0 ? CoreStatus::separated : CoreStatus::overlapping) << k;
     EXPECT_FALSE(found->is_exhausted) << k;
     ++k;
+  }
+}
+
+TEST(MeridianBounds, of_axes_that_lean_by_a_millionth_are_apart_by_what_that_moves) {
+  const Shape<double> cylinder = Cylinder<double>{1, 1};
+  for (const double tilt : {1e-13, 3e-9, -3e-7, 3e-6, -0.1}) {
+    const std::optional<CoreDistance> found = bounded(cylinder, cylinder, {0, 0, 3}, tilt);
+    const double leans = std::abs(tilt);
+    ASSERT_EQ(found.has_value(), leans < 1e-6) << tilt;
+    if (!found) continue;
+    // Of the rim of the upper one that is lower by now, over the disk that is the lower one's top.
+    const double distance = 2 - std::cos(leans) - std::sin(leans);
+    EXPECT_LE(found->lower, distance + 1e-14) << tilt;
+    EXPECT_GE(found->upper, distance - 1e-14) << tilt;
+    EXPECT_LE(found->upper - found->lower, 12 * leans + 1e-9) << tilt;
+    EXPECT_EQ(found->is_exhausted, leans > 1e-10) << tilt;
   }
 }
 

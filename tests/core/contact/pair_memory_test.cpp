@@ -140,6 +140,18 @@ TEST(PairMemory, garbage_moves_no_time_of_impact_beyond_its_bounds) {
   EXPECT_GT(misses, 500);
 }
 
+TEST(PairMemory, has_an_axis_if_that_is_of_unit_length_but_for_single_precision) {
+  PairMemory memory;
+  EXPECT_FALSE(memory.has_axis());
+  const Vec3<double> unit_length = Vec3<double>(2, -3, 6) / 7;
+  for (const double longer : {0.0, 3e-7, -3e-7, 3e-6, -3e-6, 1.0}) {
+    memory.axis = (1 + longer) * unit_length;
+    EXPECT_EQ(memory.has_axis(), std::abs(longer) < 1e-6) << longer;
+  }
+  memory.axis.y() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(memory.has_axis());
+}
+
 TEST(PairMemory, cores_have_so_many_features) {
   const auto count = [](const Shape<double>& shape) {
     const ContactShape ready(shape);

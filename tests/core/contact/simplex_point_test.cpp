@@ -22,7 +22,7 @@ TEST(SimplexPoint, is_what_its_weights_say_and_no_vertex_is_nearer_along_it) {
     double weights = 0;
     for (int i = 0; i < n; ++i) {
       ASSERT_GE(found.weight[i], 0) << k;
-      if ((found.kept >> i & 1) == 0) ASSERT_EQ(found.weight[i], 0) << k;
+      ASSERT_TRUE((found.kept >> i & 1) != 0 || found.weight[i] == 0) << k;
       weights += found.weight[i];
       sum += found.weight[i] * y[i];
       // The plane through the point, at right angles to it, has all of the simplex behind it.

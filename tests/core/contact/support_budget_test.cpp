@@ -20,7 +20,7 @@ Shape<double> hull_of(const Shape<double>& shape) {
 }
 
 /// What is asked beside branch and bound: searches before it, and the points of contact after it.
-constexpr int beside = 1500;
+constexpr int beside_each = 1500;
 
 TEST(SupportBudget, directions_that_are_all_as_good_end_with_bounds_that_hold) {
   // The middle of a ball: no number of support points is enough.
@@ -34,7 +34,7 @@ TEST(SupportBudget, directions_that_are_all_as_good_end_with_bounds_that_hold) {
     EXPECT_GE(found.upper, -1) << budget;
     EXPECT_NEAR(found.lower, -1, 1e-14) << budget;
     EXPECT_TRUE(found.is_exhausted) << budget;
-    EXPECT_LE(found.supports, budget + beside) << budget;
+    EXPECT_LE(found.supports, budget + beside_each) << budget;
     EXPECT_EQ(found.status == SignedStatus::overlapping, found.upper < 0) << budget;
     // What more of them are for.
     EXPECT_LT(found.upper - found.lower, before) << budget;
@@ -66,7 +66,7 @@ TEST(SupportBudget, bounds_hold_for_any_pair_and_any_budget) {
     options.max_supports = 1 + static_cast<int>(std::pow(10, random.in(0, 2)));
     const SignedDistance found = signed_distance(a.ready, a.pose, b.ready, b.pose, options);
     const double size = a.ready.ball_radius() + b.ready.ball_radius();
-    ASSERT_LE(found.supports, options.max_supports + beside) << k;
+    ASSERT_LE(found.supports, options.max_supports + beside_each) << k;
     ASSERT_LE(found.lower, testing::gap(a, b, found.normal) + 1e-14) << k;
     ASSERT_GE(found.upper, testing::best_gap(a, b, found.normal, random) - 1e-14) << k;
     const double width = found.is_exhausted ? size : 1e-9 * size;

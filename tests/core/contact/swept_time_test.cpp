@@ -11,8 +11,6 @@
 namespace minkray {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 /// The first stands at the origin, the second is moved and not turned.
 struct TwoBodies {
   ContactShape a, b;
@@ -29,10 +27,13 @@ SweptTime swept(const Shape<double>& a, const Shape<double>& b, const Vec3<doubl
   return swept_time(two.pair(), velocity, t_max, near, nullptr);
 }
 
-const Shape<double> ball = Sphere<double>{1}, capsule = Capsule<double>{1, 1},
-                    cylinder = Cylinder<double>{1, 1};
+struct Bodies {
+  Shape<double> ball = Sphere<double>{1}, capsule = Capsule<double>{1, 1},
+                cylinder = Cylinder<double>{1, 1};
+};
 
 TEST(SweptTime, of_what_touches_at_the_start_closed_forms_do_not_tell) {
+  const auto [ball, capsule, cylinder] = Bodies();
   // In each other, and less apart than what is near enough.
   for (const double apart : {-0.5, 1e-10}) {
     const Vec3<double> place{2 + apart, 0.25, 0}, velocity{-1, 0, 0};
@@ -46,6 +47,7 @@ TEST(SweptTime, of_what_touches_at_the_start_closed_forms_do_not_tell) {
 }
 
 TEST(SweptTime, of_two_balls_is_a_hit_only_where_its_bounds_are_near_enough) {
+  const Shape<double> ball = Bodies().ball;
   const SweptTime known = swept(ball, ball, {4, 1, 0}, {-1, 0, 0}, 1e-12);
   ASSERT_EQ(known.status, SweptStatus::hit);
   EXPECT_LE(known.t_hi - known.t_lo, 1e-12);
@@ -54,7 +56,9 @@ TEST(SweptTime, of_two_balls_is_a_hit_only_where_its_bounds_are_near_enough) {
 }
 
 TEST(SweptTime, of_speeds_that_are_no_numbers_is_not_known) {
-  const double nan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN(),
+                   infinity = std::numeric_limits<double>::infinity();
+  const Shape<double> ball = Bodies().ball;
   for (const Vec3<double>& velocity :
        {Vec3<double>(-infinity, 0, 0), Vec3<double>(-1e300, infinity, 0), Vec3<double>(nan, 0, 0),
         Vec3<double>(0, 0, 0)}) {
