@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <stdexcept>
 #include <string_view>
 
 #include "renderer/io/image_size.h"
@@ -43,6 +44,18 @@ void check_size(std::string_view bytes) {
   check_image_size(number_at(bytes, width_at), number_at(bytes, height_at));
 }
 
+/// stb_image makes room for all bytes that a chunk says it has, up to 2 GB, before it sees that the
+/// file has not so many.
+void check_data(std::string_view bytes) {
+  for (std::size_t at = signature.size(); bytes.size() - at >= data_at;) {
+    const Chunk chunk = chunk_at(bytes, at);
+    if (chunk.name == "IEND") return;
+    if (chunk.name == "IDAT" && data_at + chunk.length > bytes.size() - at)
+      throw std::runtime_error("cannot be read: its pixels are cut off");
+    at = chunk.end;
+  }
+}
+
 /// Chunks of no pixels are allowed. Of one whose CRC is cut off stb_image would copy them as well.
 void drop_empty_data(std::string& bytes) {
   std::size_t to = signature.size(), from = to;
@@ -78,6 +91,7 @@ void complete_palette(std::string& bytes) {
 void mend_png(std::string& bytes) {
   if (!bytes.starts_with(signature)) return;
   check_size(bytes);
+  check_data(bytes);
   drop_empty_data(bytes);
   complete_palette(bytes);
 }

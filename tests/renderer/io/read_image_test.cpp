@@ -91,5 +91,27 @@ TEST(Palettes, have_black_where_they_have_no_colour) {
   EXPECT_EQ(image.pixels, (std::vector<Vec3<float>>{white, black, black, black}));
 }
 
+TEST(Chunks, of_pixels_that_the_file_does_not_hold_are_refused_before_there_is_room_for_them) {
+  const TemporaryFolder folder;
+  const std::string whole = picture_of_palette("\xff\xff\xff", std::string(4, '\0'));
+  const auto read = [&](const std::string& bytes) -> std::string {
+    try {
+      read_image(folder.write("picture.png", bytes));
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(read(whole), "");
+  const std::size_t name = whole.find("IDAT"), pixels = name + 4, checked = whole.find("IEND") - 8;
+  std::string huge = whole;
+  huge[name - 4] = '\x7a';  // the length's highest byte: 2 GB
+  EXPECT_NE(read(huge).find("cut off"), std::string::npos);
+  for (std::size_t length = pixels; length < checked; ++length)
+    EXPECT_NE(read(whole.substr(0, length)).find("cut off"), std::string::npos) << length;
+  // What stands behind the end is nobody's.
+  EXPECT_EQ(read(whole + huge.substr(name - 4, 8)), "");
+}
+
 }  // namespace
 }  // namespace minkray
