@@ -68,6 +68,28 @@ TEST(Distance, scales_to_the_ends_of_the_number_range) {
   EXPECT_EQ(none.status, DistanceStatus::exhausted);
 }
 
+/// Neither the way between the middles nor the difference of the sizes tells how large they are.
+template <class T>
+void expect_overlap_in_one_place(const std::vector<int>& powers) {
+  for (const int power : powers) {
+    const T size = static_cast<T>(std::pow(10.0, power));
+    const Shape<T> ball = Sphere<T>{size}, box = Box<T>{Vec3<T>::Constant(size)};
+    for (const auto& [a, b] : {std::pair(ball, ball), std::pair(box, box), std::pair(ball, box)})
+      for (const T away : {T(0), std::numeric_limits<T>::min()}) {
+        const auto result = distance_between(
+            centred<T>(a), centred<T>(b, {Mat3<T>::Identity(), {T(0), away, T(0)}}));
+        ASSERT_EQ(name_of(result.status), name_of(DistanceStatus::overlapping)) << power;
+        ASSERT_LE(double((result.point_a - result.point_b).norm() / size), 1e-5) << power;
+        ASSERT_LE(double(result.point_a.cwiseAbs().maxCoeff() / size), 1 + 1e-5) << power;
+      }
+  }
+}
+
+TEST(Distance, of_equal_shapes_in_one_place_is_none) {
+  expect_overlap_in_one_place<float>({-15, 0, 15});
+  expect_overlap_in_one_place<double>({-150, 0, 150});
+}
+
 /// Simplices on curved surfaces are slivers, with which the loop ended 1e-7 too early in double,
 /// and 2e-3 in float. The bounds here are what more digits for the simplices leave.
 template <class T>
@@ -93,8 +115,6 @@ TEST(Distance, of_curved_shapes_is_precise) {
   expect_precise<float>(4e-6);  // a few epsilon of sizes eight times the distance
   expect_precise<double>(5e-9);
 }
-
-/// The rim of a cone's base touches a box's side.
 
 }  // namespace
 }  // namespace minkray

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/contact/shape_cast.h"
+#include "tests/core/contact/pair_judge.h"
 #include "tests/support/random.h"
 #include "tests/support/sample_shapes.h"
 
@@ -53,6 +54,32 @@ TEST(GrazingContacts, are_one_point_of_both_shapes) {
       }
   }
   EXPECT_GT(hits, 5000);
+}
+
+// Polytopes that grow around an origin so near to their surface end with faces that rounding has
+// put on it or beyond it, about one pair in a hundred.
+TEST(GrazingContacts, that_overlap_by_little_more_than_rounding_are_as_deep_as_asked) {
+  testing::RandomShapes random(71);
+  constexpr int kinds = testing::kinds_of_bodies;
+  int overlapping = 0, exhausted = 0;
+  for (int k = 0; k < 3 * kinds * kinds; ++k) {
+    auto [a, b] = testing::random_pair(k % kinds, k / kinds % kinds, 0, random);
+    if (k % 2 == 1) b.pose.linear = a.pose.linear;
+    const double size = a.ready.ball_radius() + b.ready.ball_radius();
+    testing::bring_near(a, b, -std::pow(10, random.in(-14, -9)), size);
+    SignedDistanceOptions options;
+    options.tolerance = 1e-14;
+    options.max_supports = 2000;
+    const SignedDistance found = signed_distance(a.ready, a.pose, b.ready, b.pose, options);
+    exhausted += found.is_exhausted;
+    if (found.is_exhausted) continue;
+    ASSERT_EQ(testing::complaint(a, b, found, random), "") << k;
+    if (found.status != SignedStatus::overlapping) continue;
+    ++overlapping;
+    ASSERT_LE(found.upper - found.lower, 1e-13 * size) << k;
+  }
+  EXPECT_GT(overlapping, 500);
+  EXPECT_LT(exhausted, 100);
 }
 
 }  // namespace

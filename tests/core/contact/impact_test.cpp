@@ -124,6 +124,24 @@ TEST(Impact, what_grazes_is_a_hit_and_what_passes_is_a_miss) {
 
 const ContactShape ball{Shape<double>(Sphere<double>{1})};
 
+TEST(Impact, of_a_ball_that_leaves_and_comes_round_is_found_in_the_longest_time) {
+  // Around (2, 1) with an arm of 1, from (2, 0): it is as far from the middle again as at the
+  // start where that is mirrored on the line to (2, 1), at (1.2, 1.6).
+  const Affine<double> arm{Mat3<double>::Identity(), {0, -1, 0}};
+  const ContactShape on_arm{
+      Shape<double>(Transform<double>{Shape<double>(Sphere<double>{1}), AffineMap<double>(arm)})};
+  const double exact = std::acos(-1.0) + std::asin(0.8);
+  for (const double t_max : {10.0, 1e20, 1e30}) {
+    const Impact found = first_impact(ball, at(0, 0, 0, {0, 0, 0}), on_arm,
+                                      at(2, 1, 0, {0, 0, 0}, {0, 0, 1}), t_max);
+    ASSERT_EQ(found.status, ImpactStatus::hit) << t_max;
+    EXPECT_LE(found.t_lo, exact + 1e-9) << t_max;
+    EXPECT_GE(found.t_hi, exact - 1e-9) << t_max;
+    EXPECT_LE(found.t_hi - found.t_lo, 1e-6) << t_max;
+    EXPECT_LT((found.normal - Vec3<double>(0.6, 0.8, 0)).norm(), 1e-6) << t_max;
+  }
+}
+
 /// A distance that gave up has the value 0, which counted as touching: balls 1e200 from each other
 /// were `inside` of each other, and one beside an infinite one was hit in the end.
 TEST(Impact, is_given_up_where_the_distance_is_unknown) {

@@ -173,6 +173,35 @@ TEST(LeastDistance, is_known_by_the_speed_where_planes_tell_nothing) {
   EXPECT_EQ(found.distances, 2);
 }
 
+/// It comes nearer at one speed, by numbers that subtract without rounding.
+class Nearing : public MovingPair {
+ public:
+  Nearing(double from, double to) : from_(from) { size = 1, speed = from - to; }
+  SignedDistance at(double s, double) const override {
+    return exactly(from_ - s * speed, Vec3<double>::UnitX());
+  }
+  double gap(const Vec3<double>&, double) const override { return -infinity; }
+
+ private:
+  double from_;
+};
+
+TEST(LeastDistance, has_no_lower_bound_above_the_upper_one_by_rounding) {
+  // The sum of the two is a tie, which rounds up.
+  const LeastDistance found = least_distance(Nearing(1.5 + 3 * eps, 0.75), as_near_as(1e-12));
+  EXPECT_TRUE(found.is_settled);
+  EXPECT_EQ(found.distances, 2);
+  EXPECT_EQ(found.upper, 0.75);
+  EXPECT_EQ(found.lower, 0.75);
+}
+
+TEST(LeastDistance, that_was_not_looked_for_is_bounded_by_nothing) {
+  const LeastDistance found;
+  EXPECT_EQ(found.lower, -infinity);
+  EXPECT_EQ(found.upper, infinity);
+  EXPECT_FALSE(found.is_settled);
+}
+
 TEST(LeastDistance, that_is_left_unsettled_has_bounds_that_hold) {
   const Path path = [](double s) { return Vec3<double>(4 * s - 1.4, 2, 0); };
   LeastDistanceOptions options = as_near_as(1e-12);

@@ -90,6 +90,23 @@ TEST(RotatingCast, the_points_of_contact_are_where_the_bodies_are_by_then) {
   EXPECT_LT((result.point_b - V(0, 4.75, 0.25)).norm(), 1e-13);
 }
 
+/// A step ends a rounding error before the contact, and the next one begins with it.
+TEST(RotatingCast, contacts_at_the_seam_of_two_steps_have_the_normal_of_the_face) {
+  MovingBody<double> a = bar(), b = ball();
+  a.angular_velocity.setZero();
+  a.pose.translation = V(5, 7, 3);
+  b.velocity = V(0, -1, 0);
+  for (const int seam : {1, 3, 6, 7, 9})
+    for (int k = -20; k <= 20; ++k) {
+      const double above = 0.35 + 0.1 * seam + std::ldexp(k, -51);
+      b.pose.translation = a.pose.translation + V(0, above, 0);
+      const auto result = cast_rotating(a, b, 1.0, 10);
+      ASSERT_EQ(result.status, Status::hit) << seam << " " << k;
+      EXPECT_NEAR(result.t, 0.1 * seam, 1e-13) << seam << " " << k;
+      EXPECT_LT((result.normal - V(0, 1, 0)).norm(), 1e-12) << seam << " " << k;
+    }
+}
+
 TEST(RotatingCast, a_miss_clear_of_the_bound_is_proven) {
   MovingBody<double> far = ball();
   far.pose.translation = V(0, 3, 0);

@@ -154,6 +154,14 @@ TEST(ShapeCast, of_two_moving_shapes_is_that_of_their_relative_motion) {
   EXPECT_LT((result.point_b - V(5, 4, 0)).norm(), 1e-13);
 }
 
+TEST(ShapeCast, of_two_moving_shapes_that_miss_has_no_points) {
+  const auto pair = pair_of(Sphere<double>{1}, {}, Sphere<double>{1}, at(V(10, 0, 0)));
+  const auto result = cast_shapes<double>(pair, V(1, 1, 0), V(2, 1, 0), 10);
+  ASSERT_EQ(result.cast.status, Status::miss);
+  EXPECT_EQ(result.point_a, V(0, 0, 0));
+  EXPECT_EQ(result.point_b, V(0, 0, 0));
+}
+
 TEST(ShapeCast, contact_points_of_the_largest_bodies_are_numbers) {
   const double most = 1.7e308;
   for (const Shape<double>& moving :
