@@ -53,7 +53,7 @@ TEST(MeridianBounds, of_axes_that_lean_by_a_millionth_are_apart_by_what_that_mov
     const double leans = std::abs(tilt);
     ASSERT_EQ(found.has_value(), leans < 1e-6) << tilt;
     if (!found) continue;
-    // Of the rim of the upper one that is lower by now, over the disk that is the lower one's top.
+    // The rim of the upper one comes so near to the disk that is the lower one's top.
     const double distance = 2 - std::cos(leans) - std::sin(leans);
     EXPECT_LE(found->lower, distance + 1e-14) << tilt;
     EXPECT_GE(found->upper, distance - 1e-14) << tilt;
