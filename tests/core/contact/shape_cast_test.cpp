@@ -155,11 +155,16 @@ TEST(ShapeCast, of_two_moving_shapes_is_that_of_their_relative_motion) {
 }
 
 TEST(ShapeCast, of_two_moving_shapes_that_miss_has_no_points) {
-  const auto pair = pair_of(Sphere<double>{1}, {}, Sphere<double>{1}, at(V(10, 0, 0)));
-  const auto result = cast_shapes<double>(pair, V(1, 1, 0), V(2, 1, 0), 10);
-  ASSERT_EQ(result.cast.status, Status::miss);
-  EXPECT_EQ(result.point_a, V(0, 0, 0));
-  EXPECT_EQ(result.point_b, V(0, 0, 0));
+  // They pass by each other at 2.12, 10 from where they begin; a box around both would be met.
+  const auto pair = pair_of(Sphere<double>{1}, {}, Sphere<double>{1}, at(V(10, 1.5, 1.5)));
+  for (const SolverDescription& solver : solver_descriptions) {
+    CastOptions<double> options;
+    options.solver = solver.kind;
+    const auto result = cast_shapes<double>(pair, V(1, 1, 0), V(-1, 1, 0), 10, options);
+    ASSERT_EQ(result.cast.status, Status::miss) << solver.name;
+    EXPECT_EQ(result.point_a, V(0, 0, 0)) << solver.name;
+    EXPECT_EQ(result.point_b, V(0, 0, 0)) << solver.name;
+  }
 }
 
 TEST(ShapeCast, contact_points_of_the_largest_bodies_are_numbers) {
