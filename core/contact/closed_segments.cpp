@@ -124,10 +124,14 @@ CoreDistance point_and_segment(const Vec3<double>& q, const Vec3<double>& x) {
 
 CoreDistance between_segments(const Vec3<double>& p, const Vec3<double>& q, const Vec3<double>& x) {
   const double pp = p.squaredNorm(), qq = q.squaredNorm();
-  if (!(pp > 0)) {
-    if (!(qq > 0)) return closed_between(Vec3<double>::Zero(), x, Vec3<double>::UnitX());
-    return point_and_segment(q, x);
-  }
+  // Products of squares of what is shorter are no normal numbers, and beside the smallest length
+  // that counts it is less than a rounding.
+  constexpr double shortest = smallest_length * 0x1p-60;
+  const bool is_point_a = !(pp > shortest * shortest), is_point_b = !(qq > shortest * shortest);
+  if (is_point_a && is_point_b)
+    return closed_between(Vec3<double>::Zero(), x, Vec3<double>::UnitX());
+  if (is_point_a) return point_and_segment(q, x);
+  if (is_point_b && qq > 0) return between_segments(p, Vec3<double>::Zero(), x);
   const double pq = p.dot(q);
   // Products of nearly parallel ones have too few digits for the nearest points.
   constexpr double parallel = 1e-2;
@@ -154,6 +158,16 @@ CoreDistance between_segments(const Vec3<double>& p, const Vec3<double>& q, cons
     const Vec3<double> beside = across(p, q, n);
     const Vec3<double> turned = beside.dot(x) < 0 ? Vec3<double>(-beside) : beside;
     if (gap(turned) > gap(axis)) axis = turned;
+  }
+  // Rounding may hide of nearly parallel ones which of their ends count: the best plane is the one.
+  if (!is_crossing) {
+    const auto try_axis = [&](const Vec3<double>& m) {
+      if (!m.isZero(0) && gap(m) > gap(axis)) axis = m;
+    };
+    const Vec3<double> beside = across(p, q, n), towards = unit<double>(c);
+    try_axis(beside.dot(x) < 0 ? Vec3<double>(-beside) : beside);
+    try_axis(unit<double>(towards - (towards.dot(p) / pp) * p));
+    if (qq > 0) try_axis(unit<double>(towards - (towards.dot(q) / qq) * q));
   }
   CoreDistance found = closed_answer(length_of(c), axis, a, c);
   // The direction is short of digits if they are near each other.

@@ -13,7 +13,8 @@ namespace {
 /// A body's own rounding, relative to its size and its pivot's way.
 constexpr double rounding = 32 * std::numeric_limits<double>::epsilon();
 
-/// Bodies that part are looked at again after at least this part of the time asked for.
+/// Bodies that part are looked at again after at least this part of the time asked for, or of that
+/// in which they turn by a radian.
 constexpr double first_step = 1e-30;
 
 /// So many distances at single times may run out of support points before the impact is given up:
@@ -128,14 +129,18 @@ class Advance {
   double parting() const { return options_.touching * speed_; }
 
   /// After a contact at time 0 that parts, it finds a time at which they are apart, or less a time
-  /// at which they overlap.
+  /// at which they overlap. What turns may come back: the first look is when they may be apart at
+  /// the earliest, and the time is doubled from there.
   double leave(const SignedDistance& now) {
-    const double speed = approach(now, 0);
+    const double turning = std::max(turning_a_, turning_b_), apart = 4 * touching_;
+    const double at_this_speed = apart / approach(now, 0);
+    const double first = turning > 0 ? apart / speed_ : at_this_speed;
     // Points are of no size, and nothing is near to nothing: the way begins somewhere.
-    double t = std::max(4 * touching_ / speed, first_step * t_max_);
+    double t = std::max(first, first_step * std::min(t_max_, 1 / turning));
     while (t < t_max_ && may_go_on()) {
       const SignedDistance then = at(t);
-      if (then.upper < 0) return -t;
+      // Before they should be apart, as much as touches is the contact at the start.
+      if (then.upper < (t < at_this_speed ? -touching_ : 0)) return -t;
       if (then.lower > 2 * touching_) return t;
       t *= 2;
     }

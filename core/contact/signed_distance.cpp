@@ -6,12 +6,20 @@
 
 #include "core/contact/closed_pairs.h"
 #include "core/contact/core_signed_distance.h"
+#include "core/contact/lengths.h"
 
 namespace minkray {
 namespace {
 
 /// What all roundings of a query amount to, relative to the sizes and the middles' distance.
 constexpr double core_rounding = 16 * std::numeric_limits<double>::epsilon();
+
+/// Searches go by products of lengths, which must be numbers. Bodies far apart need none of them,
+/// and balls no search.
+bool is_searchable(const ContactShape& a, const ContactShape& b, double size, double distance) {
+  if (a.core().kind == CoreKind::point && b.core().kind == CoreKind::point) return true;
+  return size < largest_length && size + distance > smallest_length;
+}
 
 /// Bounds and points of the shapes, with their radii. `distance` is that of the middles; `to_world`
 /// turns from the frame of what was found, which stands about A's middle.
@@ -26,6 +34,7 @@ SignedDistance told(const CoreDistance& found, const ContactShape& a, const Cont
   result.supports = found.supports;
   result.is_exhausted = found.is_exhausted;
   if (!std::isfinite(allowed)) return result;  // squares of such lengths are no numbers
+  if (!is_searchable(a, b, size, distance)) return result;
   result.lower = found.lower - radii - allowed;
   result.upper = found.upper - radii + allowed;
   if (found.status == CoreStatus::overlapping && found.upper >= 0)

@@ -53,7 +53,7 @@ void certify_hit(Finder& finder, const Claim& claim, const Vec3<double>& n) {
   best.take(finder.enter(n, lambda), n, finder);
   if (std::abs(lambda - claimed) * slope <= tolerance::proof_close_to_claim * allowed) {
     if (best.off <= tolerance::proof_good_enough * finder.rounding()) return best.give(finder);
-    best.take(finder.refine(lambda, best.certificate.plane), n, finder);
+    best.take(finder.refine(lambda, finder.certificate.plane), n, finder);
     if (best.off <= tolerance::proof_good_enough * finder.rounding()) return best.give(finder);
   } else {
     best.off = std::numeric_limits<double>::infinity();

@@ -63,6 +63,7 @@ class Checker {
     for (const WeightedSupport& term : certificate_.spanning) {
       if (!(term.weight >= 0) || !std::isfinite(term.weight)) return false;
       if (term.weight == 0) continue;
+      if (!is_direction(term.direction)) return false;
       q += term.weight * (support_(term.direction) - near_.centre);
       sum += term.weight;
     }

@@ -131,7 +131,7 @@ TEST(Impact, of_a_ball_that_leaves_and_comes_round_is_found_in_the_longest_time)
   const ContactShape on_arm{
       Shape<double>(Transform<double>{Shape<double>(Sphere<double>{1}), AffineMap<double>(arm)})};
   const double exact = std::acos(-1.0) + std::asin(0.8);
-  for (const double t_max : {10.0, 1e20, 1e30}) {
+  for (const double t_max : {10.0, 1e20, 1e30, 1e31, 1e33, 1e100, 1e300}) {
     const Impact found = first_impact(ball, at(0, 0, 0, {0, 0, 0}), on_arm,
                                       at(2, 1, 0, {0, 0, 0}, {0, 0, 1}), t_max);
     ASSERT_EQ(found.status, ImpactStatus::hit) << t_max;
@@ -139,6 +139,24 @@ TEST(Impact, of_a_ball_that_leaves_and_comes_round_is_found_in_the_longest_time)
     EXPECT_GE(found.t_hi, exact - 1e-9) << t_max;
     EXPECT_LE(found.t_hi - found.t_lo, 1e-6) << t_max;
     EXPECT_LT((found.normal - Vec3<double>(0.6, 0.8, 0)).norm(), 1e-6) << t_max;
+  }
+}
+
+/// It parts so slowly that it is back, and into the other, before it would be apart at that speed.
+TEST(Impact, of_a_ball_that_leaves_slowly_and_comes_back_is_not_leapt_over) {
+  const RigidMotion rest = at(0, 0, 0, {0, 0, 0});
+  for (const double slow : {1e-1, 1e-2, 1e-6, 1e-8, 2e-8}) {
+    // Its arm is (1, -slow) at first, from a pivot to the left, so that it moves by (slow, 1). It
+    // is furthest where the arm leads along the way from the middle to the pivot.
+    const Affine<double> arm{Mat3<double>::Identity(), {1, -slow, 0}};
+    const ContactShape on_arm{
+        Shape<double>(Transform<double>{Shape<double>(Sphere<double>{1}), AffineMap<double>(arm)})};
+    const double exact = 4 * std::atan(slow);
+    const Impact found = first_impact(ball, rest, on_arm, at(1, slow, 0, {0, 0, 0}, {0, 0, 1}), 10);
+    ASSERT_EQ(found.status, ImpactStatus::hit) << slow;
+    EXPECT_LE(found.t_lo, exact + 1e-9) << slow;
+    EXPECT_GE(found.t_hi, exact - 1e-9) << slow;
+    EXPECT_LE(found.t_hi, exact + 1e-3) << slow;
   }
 }
 

@@ -115,24 +115,27 @@ TEST(SignedDistance, shapes_in_the_middle_of_each_other_are_as_deep_as_their_thi
 }
 
 TEST(SignedDistance, of_what_has_a_part_without_length_is_known) {
-  // A capsule that is a ball, on the axis of one that lies along x; two disks without a height.
-  const Affine<double> along_x{
-      Eigen::AngleAxis<double>(std::acos(-1.0) / 2, Vec3<double>::UnitY()).toRotationMatrix(),
-      {0, 0, 0}};
-  const ContactShape rod(Capsule<double>{0.5, 2}), ball(Capsule<double>{0.25, 0});
-  for (const double x : {0.0, 0.75}) {
-    const SignedDistance inside =
-        signed_distance(rod, along_x, ball, {Mat3<double>::Identity(), {x, 0, 0}});
-    EXPECT_NEAR(inside.lower, -0.75, 1e-13) << x;
-    EXPECT_NEAR(inside.upper, -0.75, 1e-13) << x;
-  }
-  const ContactShape point(Point<double>{{0.75, 0, 1}});
-  for (const std::array<double, 2>& radii : {std::array{0.5, 1.0}, std::array{1.0, 0.5}}) {
-    const SignedDistance above =
-        signed_distance(ContactShape(Frustum<double>{radii, 0}), {}, point, {});
-    EXPECT_NEAR(above.value, 1, 1e-14);
-    EXPECT_LE(above.upper - above.lower, 1e-13);
-  }
+  // A capsule that is a ball, or whose length has no square, in one that lies along x as it does.
+  const Mat3<double> along_x =
+      Eigen::AngleAxis<double>(std::acos(-1.0) / 2, Vec3<double>::UnitY()).toRotationMatrix();
+  const ContactShape rod(Capsule<double>{0.5, 2});
+  for (const double half_height : {0.0, 1e-200})
+    for (const double x : {0.0, 0.75}) {
+      const ContactShape ball(Capsule<double>{0.25, half_height});
+      const SignedDistance inside =
+          signed_distance(rod, {along_x, {0, 0, 0}}, ball, {along_x, {x, 0, 0}});
+      EXPECT_NEAR(inside.lower, -0.75, 1e-13) << half_height << ", " << x;
+      EXPECT_NEAR(inside.upper, -0.75, 1e-13) << half_height << ", " << x;
+    }
+  // Where two disks have no height the larger one is all there is, from above and from below.
+  for (const std::array<double, 2>& radii : {std::array{0.5, 1.0}, std::array{1.0, 0.5}})
+    for (const double rho : {0.25, 0.75, 1.5})
+      for (const double z : {-1.0, 1.0}) {
+        const SignedDistance aside = signed_distance(ContactShape(Frustum<double>{radii, 0}),
+                                                     ContactShape(Point<double>{{rho, 0, z}}));
+        EXPECT_NEAR(aside.value, std::hypot(std::max(rho - 1, 0.0), 1), 1e-14) << rho << ", " << z;
+        EXPECT_LE(aside.upper - aside.lower, 1e-13);
+      }
 }
 
 }  // namespace

@@ -42,6 +42,51 @@ TEST(ParallelSegments, nearly_so_have_planes_and_points_that_hold) {
   EXPECT_LT(overlapping, all * 3 / 4);
 }
 
+/// Where two lean by some dozens of roundings of a direction, their ends are already further apart
+/// than lengths are rounded by.
+TEST(ParallelSegments, that_cross_in_their_middle_touch_however_little_they_lean) {
+  RandomShapes random(3);
+  constexpr double epsilon = tolerance::epsilon<double>;
+  for (int k = 0; k < 100; ++k) {
+    const Affine<double> pose{random.turn(), Vec3<double>::Zero()};
+    const Vec3<double> p(0, 0, 1), q(random.in(56, 64) * epsilon, 0, 1);
+    const SignedDistance found = signed_distance(ContactShape(Segment<double>{{-p, p}}), pose,
+                                                 ContactShape(Segment<double>{{-q, q}}), pose);
+    EXPECT_EQ(found.status, SignedStatus::touching);
+    EXPECT_NEAR(found.value, 0, 16 * epsilon * (p.norm() + q.norm())) << k;
+  }
+}
+
+/// An end of one is next to the other, or to its end, at up to 0.8e-10 of the lengths. The way from
+/// one to the other, rounded, is no direction for a plane then: the best plane is at right angles
+/// to both, and others were up to 5e-4 of the sizes nearer than that.
+TEST(ParallelSegments, that_nearly_touch_at_an_end_have_planes_and_points_that_hold) {
+  RandomShapes random(15), judge(16);
+  const auto segment = [](double half) -> Shape<double> {
+    return Segment<double>{{Vec3<double>(0, 0, -half), Vec3<double>(0, 0, half)}};
+  };
+  for (int k = 0; k < 4000; ++k) {
+    const auto near_end = [&] {
+      const double end = random.in(0, 1) < 0.5 ? 1 : -1;
+      return random.in(0, 1) < 0.5 ? end
+                                   : end + random.in(-1, 1) * std::pow(10, random.in(-16, -1));
+    };
+    const Mat3<double> turn = random.turn(),
+                       lean = rotation_matrix(std::pow(10, random.in(-16, -1)), 0.0, 0.0, 1.0);
+    const double half_a = random.in(0.1, 1), half_b = random.in(0.1, 1), s = half_a * near_end(),
+                 t = half_b * (k % 3 > 0 ? near_end() : random.in(-1, 1)),
+                 apart = std::pow(10, k % 2 > 0 ? random.in(-20, -1) : random.in(-10.4, -10.1)),
+                 angle = k % 4 < 2 ? 0 : random.in(-3, 3);
+    const Vec3<double> aside =
+        std::hypot(half_a, half_b) * apart * Vec3<double>(std::cos(angle), std::sin(angle), 0);
+    const Body a(segment(half_a), {turn, Vec3<double>::Zero()}),
+        b(segment(half_b),
+          {turn * lean, turn * (aside + Vec3<double>(0, 0, s) - lean * Vec3<double>(0, 0, t))});
+    const SignedDistance found = signed_distance(a.ready, a.pose, b.ready, b.pose);
+    ASSERT_EQ(testing::complaint(a, b, found, judge), "") << k;
+  }
+}
+
 TEST(ParallelSegments, capsules_on_one_line_leave_it_sideways) {
   const ContactShape capsule(Shape<double>(Capsule<double>{0.25, 1}));
   const Mat3<double> turn = rotation_matrix(0.3, -0.2, 0.7, 0.6);

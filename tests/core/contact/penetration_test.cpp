@@ -131,6 +131,30 @@ TEST(Penetration, one_body_in_the_middle_of_another_leaves_by_the_nearest_face) 
   EXPECT_NEAR(signed_distance(rod, {}, rod, {}).value, -0.5, 1e-9);
 }
 
+/// A corner of the upper cube stands over an edge of the lower one, or beside it by `out`.
+///       ______
+///      |      |
+///      |______|_____
+///      |______|     |   where they touch first: all that the two faces have in common
+///             |_____|
+TEST(Penetration, of_cubes_is_seen_at_points_of_both_where_a_corner_stands_out) {
+  const ContactShape cube(Shape<double>(Box<double>{{1, 1, 1}}));
+  const double size = 2 * cube.ball_radius();
+  for (const double out : {1e-12, -1e-12, 1.5e-11, -1.5e-11}) {
+    const Vec3<double> middle(out, 0, 1.875);
+    const SignedDistance found =
+        signed_distance(cube, {}, cube, {Mat3<double>::Identity(), middle});
+    EXPECT_NEAR(found.value, -0.125, 1e-14);
+    const double of_a = found.point_a.cwiseAbs().maxCoeff() - 1,
+                 of_b = (found.point_b - middle).cwiseAbs().maxCoeff() - 1;
+    EXPECT_LE(std::max(of_a, of_b), 1e-12 * size + 1e-15) << out;
+    // What stands out by no more than that is no reason to search.
+    if (std::abs(out) < 1e-12 * size) {
+      EXPECT_EQ(found.supports, 0) << out;
+    }
+  }
+}
+
 TEST(Penetration, of_curved_pairs_next_to_touching_seldom_takes_branch_and_bound) {
   // What was a third of cones that overlap by less than a millionth took half a millisecond.
   using testing::Body;

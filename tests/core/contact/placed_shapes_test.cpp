@@ -2,6 +2,7 @@
 // Shapes that were scaled, moved, turned and placed: distances and casts are of where they are now.
 #include <gtest/gtest.h>
 
+#include "core/cast/cast.h"
 #include "core/contact/distance.h"
 #include "core/contact/shape_cast.h"
 #include "tests/support/random.h"
@@ -47,6 +48,22 @@ TEST(Distance, of_balls_that_are_scaled_and_moved_has_its_closed_form) {
   }
   EXPECT_GT(apart, 50);
   EXPECT_LT(apart, 190);
+}
+
+// The middle of two neighbouring numbers is rounded to one of them: the ball around it that holds
+// both is twice as large as that around half of the way between them.
+TEST(RayCast, meets_a_capsule_one_rounding_long_far_from_its_origin_at_its_end) {
+  const double step = 0x1p-32, low = 0x1p20 + step, high = low + step, radius = step / 4;
+  const PreparedShape<double> capsule(Shape<double>(Rounded<double>{
+      radius, Nested<double>(Shape<double>(Segment<double>{{V(low, 0, 0), V(high, 0, 0)}}))}));
+  const auto expect_hit = [&](const V& from, const V& direction) {
+    const CastResult<double> result = cast_ray(capsule, {from, direction});
+    ASSERT_EQ(result.status, Status::hit) << direction.transpose();
+    EXPECT_NEAR(result.t(), 1 - radius, 1e-14) << direction.transpose();
+  };
+  expect_hit({low - 1, 0, 0}, {1, 0, 0});
+  expect_hit({high + 1, 0, 0}, {-1, 0, 0});
+  for (const double x : {low, high}) expect_hit({x, 0, 1}, {0, 0, -1});
 }
 
 // The new place of the first shape was forgotten.

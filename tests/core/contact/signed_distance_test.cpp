@@ -86,6 +86,55 @@ TEST(SignedDistance, early_answers_agree_with_whole_ones) {
   EXPECT_GT(overlapping, 300);
 }
 
+/// A search that ends between a plane and a common point has neither: it must go on.
+TEST(SignedDistance, the_sign_alone_is_that_of_the_whole_answer_where_bodies_overlap_by_little) {
+  RandomShapes random(19);
+  constexpr int cone = 8, frustum = 10, hull = 11, tapered_capsule = 15, all = 450;
+  int overlapping = 0;
+  SignedDistanceOptions sign;
+  sign.only_sign = true;
+  for (int k = 0; k < all; ++k) {
+    const int other = k % 3 == 0 ? frustum : k % 3 == 1 ? hull : tapered_capsule;
+    const Mat3<double> turn = random.turn();  // of both: their axes are parallel
+    const Body a(random_shape(cone, 1, random), {turn, Vec3<double>::Zero()});
+    Body b(random_shape(other, 1, random), {turn, 3 * random.direction()});
+    const double size = a.ready.ball_radius() + b.ready.ball_radius();
+    testing::bring_near(a, b, -std::pow(10, random.in(-8.5, -4)), size);
+    const SignedDistance whole = signed_distance(a.ready, a.pose, b.ready, b.pose);
+    if (whole.status != SignedStatus::overlapping) continue;
+    ++overlapping;
+    EXPECT_EQ(signed_distance(a.ready, a.pose, b.ready, b.pose, sign).status,
+              SignedStatus::overlapping)
+        << k << ": " << whole.value / size;
+  }
+  EXPECT_GT(overlapping, all * 9 / 10);
+}
+
+/// Those beside the ball are known by their support mappings only, so that the search comes as near
+/// as it must and no nearer.
+TEST(SignedDistance, bounds_are_as_near_to_each_other_as_is_asked) {
+  RandomShapes random(8);
+  int all = 0, nearer = 0;
+  for (const double asked : {1e-13, 1e-14})
+    for (const int kind : {15, 16})
+      for (int k = 0; k < 40; ++k, ++all) {
+        const Body ball(Sphere<double>{random.in(0.2, 1)},
+                        {Mat3<double>::Identity(), Vec3<double>::Zero()}),
+            other(random_shape(kind, 1, random), {random.turn(), 5 * random.direction()});
+        SignedDistanceOptions options;
+        options.tolerance = asked;
+        const SignedDistance found =
+            signed_distance(ball.ready, ball.pose, other.ready, other.pose, options);
+        ASSERT_EQ(found.status, SignedStatus::separated);
+        const double size = ball.ready.ball_radius() + other.ready.ball_radius(),
+                     middles = middle_in_world(other.ready, other.pose).norm();
+        const double rounding =
+            16 * tolerance::epsilon<double> * (size + middles) + other.ready.core().rounding;
+        nearer += found.upper - found.lower <= 1.01 * asked * size + 2 * rounding;
+      }
+  EXPECT_GE(nearer, all * 95 / 100);
+}
+
 TEST(SignedDistance, small_shapes_far_from_their_origin_have_bounds_in_order) {
   // Known by its support mapping only, whose digits such a body has lost: lower was above upper.
   RandomShapes random(17);
@@ -107,6 +156,24 @@ TEST(SignedDistance, small_shapes_far_from_their_origin_have_bounds_in_order) {
     ASSERT_LE(found.lower, found.value) << k;
     ASSERT_LE(found.value, found.upper) << k;
   }
+}
+
+/// Its bounds are as far apart as its own digits make them: that is no reason to be undecided.
+TEST(SignedDistance, of_what_touches_far_from_its_own_origin_is_known_to_its_digits) {
+  constexpr double far = 0x1p22;
+  ShapeList<double> balls;
+  for (const double x : {far, far + 1})
+    balls.push_back(Shape<double>(
+        Transform<double>{Nested<double>(Shape<double>(Sphere<double>{0.5})),
+                          Affine<double>{Mat3<double>::Identity(), Vec3<double>(x, 0, 0.5)}}));
+  const ContactShape rod(Shape<double>(HullOf<double>{balls})), table(Box<double>{{2, 2, 0.5}});
+  const Affine<double> here{Mat3<double>::Identity(), {-far, 0, 0}},
+      below{Mat3<double>::Identity(), {0, 0, -0.5}};
+  const SignedDistance found = signed_distance(table, below, rod, here);
+  EXPECT_EQ(found.status, SignedStatus::touching);
+  EXPECT_LE(found.lower, 0);
+  EXPECT_GE(found.upper, 0);
+  EXPECT_LE(found.upper - found.lower, 32 * tolerance::epsilon<double> * far);
 }
 
 TEST(SignedDistance, is_undecided_where_squares_of_lengths_overflow) {
@@ -161,6 +228,47 @@ TEST(SignedDistance, is_unknown_only_where_it_gave_up_without_bounds) {
     for (const double x : {1e155, 1e200, 1e308})
       EXPECT_TRUE(signed_distance(ball, at(0), shape, at(x)).is_unknown()) << x;
   }
+}
+
+/// A third of all pairs was told to be elsewhere, or to overlap, at sizes of 1e-90 and 1e80.
+TEST(SignedDistance, of_any_size_is_the_same_or_unknown) {
+  for (const int power : {-500, -300, -200, -158, -100, 100, 155, 200, 300, 500})
+    for (int k = 0; k < kinds_of_bodies * kinds_of_bodies; ++k) {
+      RandomShapes random(k + 1), again(k + 1);
+      const double scale = std::ldexp(1.0, power);
+      const int kind_a = k % kinds_of_bodies, kind_b = k / kinds_of_bodies;
+      const auto found = [&](RandomShapes& numbers, double size) {
+        const ContactShape a(random_shape(kind_a, size, numbers)),
+            b(random_shape(kind_b, size, numbers));
+        const Affine<double> pose{numbers.turn(), size * numbers.in(0, 3) * numbers.direction()};
+        return signed_distance(a, {}, b, pose);
+      };
+      const SignedDistance of_one = found(random, 1), scaled = found(again, scale);
+      if (scaled.is_unknown()) {
+        ASSERT_GE(std::abs(power), 155) << kind_a << ", " << kind_b;
+        continue;
+      }
+      ASSERT_LE(scaled.lower / scale, of_one.upper + 1e-12)
+          << power << ": " << kind_a << ", " << kind_b;
+      ASSERT_GE(scaled.upper / scale, of_one.lower - 1e-12)
+          << power << ": " << kind_a << ", " << kind_b;
+      ASSERT_LE(scaled.lower, scaled.upper);
+    }
+}
+
+/// Beside lengths that count they are points.
+TEST(SignedDistance, of_segments_too_short_for_products_is_that_of_points) {
+  RandomShapes random(18);
+  for (const double length : {1e-60, 1e-66, 1e-70, 1e-100, 1e-155, 1e-200, 1e-300})
+    for (const double other : {1.0, length}) {
+      const ContactShape a(random_shape(1, other, random)), b(random_shape(1, length, random));
+      const Affine<double> pose{random.turn(), 3 * random.direction()};
+      const SignedDistance found = signed_distance(a, {}, b, pose),
+                           of_point = signed_distance(a, {}, ContactShape(Point<double>{}), pose);
+      EXPECT_NEAR(found.value, of_point.value, 1e-14) << length << " beside " << other;
+      EXPECT_LT((found.normal - of_point.normal).norm(), 1e-14) << length << " beside " << other;
+      EXPECT_LE(found.upper - found.lower, 1e-13) << length << " beside " << other;
+    }
 }
 
 /// Where squares of lengths are no numbers a ball far above the plane touched it.

@@ -28,10 +28,10 @@ struct TwoBoxes {
     return n.dot(pose_b.translation + t * velocity) - n.cwiseAbs().dot(half_a) -
            (pose_b.linear.transpose() * n).cwiseAbs().dot(half_b);
   }
-  bool both_hold(const Vec3<double>& p, double t) const {
+  /// How far a point is outside of one of them.
+  double outside(const Vec3<double>& p, double t) const {
     const Vec3<double> in_b = pose_b.linear.transpose() * (p - pose_b.translation - t * velocity);
-    return (p.cwiseAbs() - half_a).maxCoeff() <= 1e-9 &&
-           (in_b.cwiseAbs() - half_b).maxCoeff() <= 1e-9;
+    return std::max((p.cwiseAbs() - half_a).maxCoeff(), (in_b.cwiseAbs() - half_b).maxCoeff());
   }
 };
 
@@ -44,7 +44,7 @@ std::string complaint(const TwoBoxes& boxes, const SweptTime& found) {
   if (std::abs(boxes.gap(found.axis, found.t_lo)) > 1e-12) return "a plane that is not touched";
   if (!(found.axis.dot(boxes.velocity) < 0)) return "a plane that is not approached";
   if (!(found.t_lo <= found.t_hi) || found.t_hi - found.t_lo > 1e-9) return "wide";
-  return boxes.both_hold(found.a, found.t_hi) ? "" : "a point of only one";
+  return boxes.outside(found.a, found.t_hi) <= 1e-9 ? "" : "a point of only one";
 }
 
 TEST(SweptBoxes, are_told_by_a_plane_and_a_point) {
@@ -106,6 +106,91 @@ TEST(SweptBoxes, that_begin_in_contact_or_graze_are_left_to_others) {
        {TwoBoxes{{1, 1, 1}, {1, 1, 1}, {I, {1.5, 0.5, 0}}, {0, 0, 0}},   // at rest
         TwoBoxes{{1, 1, 1}, {1, 1, 1}, {I, {5, 2, 0}}, {-1, 0, 0}, 9}})  // along a side
     EXPECT_EQ(boxes.swept().status, SweptStatus::open);
+}
+
+/// The least gap between planes with normal n from 0 to t_max, to more digits.
+long double gap_of_all_times(const TwoBoxes& boxes, const Vec3<double>& normal) {
+  using Long = long double;
+  const Vec3<Long> n = normal.cast<Long>(), place = boxes.pose_b.translation.cast<Long>(),
+                   in_b = boxes.pose_b.linear.cast<Long>().transpose() * n;
+  const Long first = n.dot(place) - n.cwiseAbs().dot(boxes.half_a.cast<Long>()) -
+                     in_b.cwiseAbs().dot(boxes.half_b.cast<Long>());
+  return (first + std::min<Long>(0, boxes.t_max * n.dot(boxes.velocity.cast<Long>()))) / n.norm();
+}
+
+/// The planes' own gap is asked for as what is near enough, so that it is not more than that.
+TEST(SweptBoxes, that_are_no_further_apart_than_is_near_enough_are_no_miss) {
+  RandomShapes random(43);
+  int misses = 0;
+  for (int k = 0; k < 1000; ++k) {
+    TwoBoxes boxes{{1, 0.7, 0.4}, {0.6, 0.9, 0.3}, {random.turn(), 4 * random.direction()}, {}};
+    boxes.velocity = random.in(0.2, 4) * random.direction();
+    const SweptTime found = boxes.swept();
+    if (found.status != SweptStatus::miss) continue;
+    ++misses;
+    const long double gap = gap_of_all_times(boxes, found.axis);
+    ASSERT_GT(gap, 1e-9) << k;
+    const double near = std::nextafter(static_cast<double>(gap), 1e300);
+    const SweptTime again = boxes.swept(near);
+    if (again.status == SweptStatus::miss) {
+      EXPECT_GT(gap_of_all_times(boxes, again.axis), near) << k;
+    }
+    // A little less is enough for a miss.
+    EXPECT_EQ(boxes.swept(near - 1e-12).status, SweptStatus::miss) << k;
+  }
+  EXPECT_GT(misses, 800);
+}
+
+/// Looked at along the motion, two edges are in one line: what they would do if they came so far
+/// nobody can tell, but they do not.
+TEST(SweptBoxes, that_would_graze_with_two_edges_but_do_not_come_so_far_miss) {
+  RandomShapes random(44);
+  for (int k = 0; k < 200; ++k) {
+    const Mat3<double> turn = random.turn();
+    TwoBoxes boxes{{1, 1, 1}, {1, 1, 1}, {turn, {9, 0, 0}}, {-1, 0, 0}};
+    const Vec3<double> across = Vec3<double>::UnitX().cross(turn.col(k % 3)).normalized();
+    boxes.pose_b.translation -= boxes.gap(across, 0) * across;
+    const SweptTime found = boxes.swept();
+    EXPECT_EQ(found.status, SweptStatus::miss) << k;
+    EXPECT_EQ(complaint(boxes, found), "") << k;
+  }
+}
+
+/// The corner that comes first is by so much beside the other's face.
+TEST(SweptBoxes, that_meet_with_faces_are_told_no_point_beside_one_of_them) {
+  for (const double beside : {-1e-10, -1e-11, 0.0, 1e-11, 1e-10})
+    for (const int side : {1, 2}) {
+      TwoBoxes boxes{{1, 1, 1}, {1, 1, 1}, {Mat3<double>::Identity(), {5, 0, 0}}, {-1, 0, 0}, 9};
+      boxes.pose_b.translation[side] = beside;
+      const SweptTime found = boxes.swept();
+      if (found.status != SweptStatus::hit) continue;
+      EXPECT_LE(boxes.outside(found.a, found.t_hi), 4e-12) << beside;
+    }
+}
+
+/// Rounding moves the crossing along the edges, by 1e-16 over the squared angle, and so across one
+/// of them by 1e-16 over the angle, which is a millionth of a millionth here.
+TEST(SweptBoxes, with_edges_that_are_nearly_parallel_meet_where_these_cross) {
+  RandomShapes random(45);
+  const double h = std::sqrt(0.5);
+  for (int k = 0; k < 200; ++k) {
+    // The edges of both that are along x lead, and B's is turned about the motion.
+    const double angle = random.in(2e-4, 3e-4);
+    const Vec3<double> up(0, h, h),
+        along(std::cos(angle), h * std::sin(angle), -h * std::sin(angle));
+    const Vec3<double> aside = up.cross(along);
+    Mat3<double> turn;
+    turn.col(0) = along;
+    turn.col(1) = h * (up + aside);
+    turn.col(2) = h * (up - aside);
+    if (turn.determinant() < 0) turn.col(2).swap(turn.col(1));
+    const double x = random.in(-0.9, 0.9);
+    const TwoBoxes boxes{{1, 1, 1}, {1, 1, 1}, {turn, 5 * up + x * along}, -up, 9};
+    const SweptTime found = boxes.swept();
+    ASSERT_EQ(found.status, SweptStatus::hit) << k;
+    EXPECT_LE(boxes.outside(found.a, found.t_hi), 4e-12) << k;
+    EXPECT_NEAR(found.t_lo, 5 - 2 * std::sqrt(2), 1e-12) << k;
+  }
 }
 
 }  // namespace

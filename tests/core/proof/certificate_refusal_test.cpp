@@ -53,6 +53,28 @@ TEST(Certificate, of_a_flat_shape_hit_from_behind_its_normal_is_refused) {
   }
 }
 
+// What a support mapping answers to no direction is no proof.
+TEST(Certificate, with_a_support_point_along_no_direction_is_refused) {
+  const Shape<double> ball = Sphere<double>{2};
+  const SupportFunction support = [&](const V& n) {
+    return n.allFinite() && !n.isZero(0) ? ball.support(n) : V(0, 0, 2);
+  };
+  const Ray<double> ray{{0, 0, 5}, {0, 0, -1}};  // hits at (0, 0, 2)
+  const Claim claim = claim_of(cast_ray(PreparedShape<double>(ball), ray));
+  const Certificate right = certify(support, ray, claim);
+  ASSERT_TRUE(check_certificate(support, ray, claim, right).holds);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const V& none : {V(0, 0, 0), V(nan, nan, nan), V(0, nan, 0),
+                        V(0, 0, std::numeric_limits<double>::infinity())}) {
+    Certificate other = right;
+    other.spanning = {};
+    other.spanning[0] = {none, 1};
+    EXPECT_FALSE(check_certificate(support, ray, claim, other).holds) << none.transpose();
+    other.spanning[0] = {V(0, 0, 1), 1};
+    EXPECT_TRUE(check_certificate(support, ray, claim, other).holds);
+  }
+}
+
 // The checker's allowance could be ten times as wide.
 TEST(Certificate, a_hit_is_refused_that_is_two_hundred_roundings_off) {
   const Shape<double> ball = Sphere<double>{2};

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "core/cast/cast.h"
 #include "core/proof/check_certificate.h"
@@ -148,6 +150,32 @@ TEST(Certificate, origins_too_far_away_are_refused) {
     claim.normal = {0, 0, -1};
     EXPECT_FALSE(verdict_on(ball, ray, claim).holds);
   }
+}
+
+TEST(Certificate, of_rays_that_just_touch_ask_for_support_points_along_directions_only) {
+  const Shape<double> box = Box<double>{{1, 2, 3}};
+  std::vector<std::pair<const Shape<double>*, Ray<double>>> rays = {
+      {&box,
+       {{-0.89417536430628464, -2.137556817335728, 2.5962652220212861},
+        {0.55164533704108298, 0.040061009287414739, 0.11758066959911173}}}};
+  Random random(61);
+  for (int i = 0; i < 200; ++i) {
+    const Vec3<double> at = random.direction(), along = at.cross(random.direction());
+    rays.push_back({&ball, {2 * at - 3 * along, along}});
+  }
+  int hits = 0;
+  for (const auto& [shape, ray] : rays) {
+    int no_directions = 0;
+    const SupportFunction support = [&, of = shape](const Vec3<double>& n) {
+      no_directions += n.allFinite() && !n.isZero(0) ? 0 : 1;
+      return of->support(n);
+    };
+    Claim claim = claim_for(*shape, ray);
+    if (claim.status == Status::hit) ++hits;
+    certify(support, ray, claim);
+    ASSERT_EQ(no_directions, 0) << ray.origin.transpose();
+  }
+  EXPECT_GT(hits, 40);
 }
 
 /// On a rim or a seam the search for support points comes to the origin but slowly.
