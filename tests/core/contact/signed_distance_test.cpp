@@ -230,7 +230,7 @@ TEST(SignedDistance, is_unknown_only_where_it_gave_up_without_bounds) {
   }
 }
 
-/// A third of all pairs was told to be elsewhere, or to overlap, at sizes of 1e-90 and 1e80.
+/// A third of all pairs was told to be elsewhere, or to overlap, at sizes of 1e-90 and 2e78.
 TEST(SignedDistance, of_any_size_is_the_same_or_unknown) {
   for (const int power : {-500, -300, -200, -158, -100, 100, 155, 200, 300, 500})
     for (int k = 0; k < kinds_of_bodies * kinds_of_bodies; ++k) {

@@ -158,14 +158,17 @@ TEST(SweptBoxes, that_would_graze_with_two_edges_but_do_not_come_so_far_miss) {
 
 /// The corner that comes first is by so much beside the other's face.
 TEST(SweptBoxes, that_meet_with_faces_are_told_no_point_beside_one_of_them) {
+  int hits = 0;
   for (const double beside : {-1e-10, -1e-11, 0.0, 1e-11, 1e-10})
     for (const int side : {1, 2}) {
       TwoBoxes boxes{{1, 1, 1}, {1, 1, 1}, {Mat3<double>::Identity(), {5, 0, 0}}, {-1, 0, 0}, 9};
       boxes.pose_b.translation[side] = beside;
       const SweptTime found = boxes.swept();
       if (found.status != SweptStatus::hit) continue;
+      ++hits;
       EXPECT_LE(boxes.outside(found.a, found.t_hi), 4e-12) << beside;
     }
+  EXPECT_GT(hits, 0);
 }
 
 /// Rounding moves the crossing along the edges, by 1e-16 over the squared angle, and so across one
