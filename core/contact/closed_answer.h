@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/contact/core_pair.h"
-#include "core/contact/lengths.h"
+#include "core/math/length.h"
 
 namespace minkray {
 

@@ -3,6 +3,7 @@
 
 #include "core/contact/closed_answer.h"
 #include "core/contact/closed_pairs.h"
+#include "core/contact/searchable.h"
 
 namespace minkray {
 namespace {
@@ -152,20 +153,18 @@ CoreDistance between_segments(const Vec3<double>& p, const Vec3<double>& q, cons
   const auto gap = [&](const Vec3<double>& m) {
     return m.dot(x) - std::abs(m.dot(p)) - std::abs(m.dot(q));
   };
-  // Where they touch, a direction at right angles to both may be the better plane.
+  const auto try_axis = [&](const Vec3<double>& m) {
+    if (!m.isZero(0) && gap(m) > gap(axis)) axis = m;
+  };
+  // Where they touch, a direction at right angles to both may be the better plane. Of nearly
+  // parallel ones rounding may hide which ends count: the best plane is the one.
   constexpr double touching = 1e-20;
-  if (c.squaredNorm() <= touching * (pp + qq)) {
+  if (!is_crossing || c.squaredNorm() <= touching * (pp + qq)) {
     const Vec3<double> beside = across(p, q, n);
-    const Vec3<double> turned = beside.dot(x) < 0 ? Vec3<double>(-beside) : beside;
-    if (gap(turned) > gap(axis)) axis = turned;
-  }
-  // Rounding may hide of nearly parallel ones which of their ends count: the best plane is the one.
-  if (!is_crossing) {
-    const auto try_axis = [&](const Vec3<double>& m) {
-      if (!m.isZero(0) && gap(m) > gap(axis)) axis = m;
-    };
-    const Vec3<double> beside = across(p, q, n), towards = unit<double>(c);
     try_axis(beside.dot(x) < 0 ? Vec3<double>(-beside) : beside);
+  }
+  if (!is_crossing) {
+    const Vec3<double> towards = unit<double>(c);
     try_axis(unit<double>(towards - (towards.dot(p) / pp) * p));
     if (qq > 0) try_axis(unit<double>(towards - (towards.dot(q) / qq) * q));
   }

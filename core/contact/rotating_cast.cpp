@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/contact/distance.h"
-#include "core/contact/lengths.h"
+#include "core/math/length.h"
 
 namespace minkray {
 namespace {

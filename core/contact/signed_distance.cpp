@@ -6,7 +6,7 @@
 
 #include "core/contact/closed_pairs.h"
 #include "core/contact/core_signed_distance.h"
-#include "core/contact/lengths.h"
+#include "core/contact/searchable.h"
 
 namespace minkray {
 namespace {
@@ -14,27 +14,23 @@ namespace {
 /// What all roundings of a query amount to, relative to the sizes and the middles' distance.
 constexpr double core_rounding = 16 * std::numeric_limits<double>::epsilon();
 
-/// Searches go by products of lengths, which must be numbers. Bodies far apart need none of them,
-/// and balls no search.
-bool is_searchable(const ContactShape& a, const ContactShape& b, double size, double distance) {
-  if (a.core().kind == CoreKind::point && b.core().kind == CoreKind::point) return true;
-  return size < largest_length && size + distance > smallest_length;
-}
-
-/// Bounds and points of the shapes, with their radii. `distance` is that of the middles; `to_world`
-/// turns from the frame of what was found, which stands about A's middle.
-template <class ToWorld>
-SignedDistance told(const CoreDistance& found, const ContactShape& a, const ContactShape& b,
+/// Bounds and points of the shapes, with their radii, as `search` finds them of the cores; nothing
+/// is searched for at sizes that are out of its range, but for balls. `distance` is that of the
+/// middles; `to_world` turns from the frame of what was found, which stands about A's middle.
+template <class Search, class ToWorld>
+SignedDistance told(const Search& search, const ContactShape& a, const ContactShape& b,
                     double distance, const Affine<double>& pose_a, bool only_sign,
                     const ToWorld& to_world) {
   const double radius_a = a.core().radius, radius_b = b.core().radius, radii = radius_a + radius_b;
   const double size = a.core().ball + b.core().ball + radii;
   const double allowed = core_rounding * (size + distance) + a.core().rounding + b.core().rounding;
   SignedDistance result;
+  if (!std::isfinite(allowed)) return result;  // squares of such lengths are no numbers
+  const bool are_balls = a.core().kind == CoreKind::point && b.core().kind == CoreKind::point;
+  if (!are_balls && !are_searchable(size, distance)) return result;
+  const CoreDistance& found = search();
   result.supports = found.supports;
   result.is_exhausted = found.is_exhausted;
-  if (!std::isfinite(allowed)) return result;  // squares of such lengths are no numbers
-  if (!is_searchable(a, b, size, distance)) return result;
   result.lower = found.lower - radii - allowed;
   result.upper = found.upper - radii + allowed;
   if (found.status == CoreStatus::overlapping && found.upper >= 0)
@@ -74,8 +70,8 @@ SignedDistance of_lines(const ContactShape& a, const Affine<double>& pose_a, con
     return pose.linear * (shape.turn().col(2) * shape.core().size.z());
   };
   const Vec3<double> x = between_middles(a, pose_a, b, pose_b);
-  return told(between_segments(half(a, pose_a), half(b, pose_b), x), a, b, x.norm(), pose_a,
-              only_sign, [](const Vec3<double>& v) -> const Vec3<double>& { return v; });
+  return told([&] { return between_segments(half(a, pose_a), half(b, pose_b), x); }, a, b, x.norm(),
+              pose_a, only_sign, [](const Vec3<double>& v) -> const Vec3<double>& { return v; });
 }
 
 /// A is a point, B a box or disks. A's frame is not needed.
@@ -84,11 +80,14 @@ SignedDistance of_point_and_solid(const ContactShape& a, const Affine<double>& p
                                   bool only_sign) {
   const Mat3<double> turn = turn_in_world(b, pose_b);
   const Vec3<double> x = between_middles(a, pose_a, b, pose_b);
-  CoreDistance found = between_solid_and_point(b.core(), turn.transpose() * -x);
-  found.axis = -found.axis;
-  found.c = -found.c;
-  found.a.setZero();
-  return told(found, a, b, x.norm(), pose_a, only_sign,
+  const auto search = [&] {
+    CoreDistance found = between_solid_and_point(b.core(), turn.transpose() * -x);
+    found.axis = -found.axis;
+    found.c = -found.c;
+    found.a.setZero();
+    return found;
+  };
+  return told(search, a, b, x.norm(), pose_a, only_sign,
               [&](const Vec3<double>& v) -> Vec3<double> { return turn * v; });
 }
 
@@ -101,8 +100,9 @@ SignedDistance in_order(const ContactShape& a, const Affine<double>& pose_a, con
     return of_point_and_solid(a, pose_a, b, pose_b, options.only_sign);
   const Mat3<double> turn = turn_in_world(a, pose_a);
   const CorePair pair = pair_of(a, pose_a, turn, b, pose_b);
-  return told(core_signed_distance(pair, options, memory), a, b, pair.x.norm(), pose_a,
-              options.only_sign, [&](const Vec3<double>& v) -> Vec3<double> { return turn * v; });
+  return told([&] { return core_signed_distance(pair, options, memory); }, a, b, pair.x.norm(),
+              pose_a, options.only_sign,
+              [&](const Vec3<double>& v) -> Vec3<double> { return turn * v; });
 }
 
 SignedDistance in_any_order(const ContactShape& a, const Affine<double>& pose_a,

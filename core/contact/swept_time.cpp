@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/contact/core_kinds.h"
-#include "core/contact/lengths.h"
+#include "core/contact/searchable.h"
 #include "core/contact/swept_boxes.h"
 #include "core/contact/swept_closed.h"
 #include "core/contact/swept_portal.h"
@@ -76,8 +76,7 @@ double rescaled(double t, int power, double outward) {
 SweptTime swept_time(const CorePair& pair, const Vec3<double>& velocity, double t_max, double near,
                      PairMemory* memory) {
   const double size = pair.size() + pair.a.radius + pair.b.radius;
-  if (!(size < largest_length)) return {};
-  if (!(size + pair.x.cwiseAbs().maxCoeff() > smallest_length)) return {};
+  if (!are_searchable(size, pair.x.cwiseAbs().maxCoeff())) return {};
   // Beyond these squares of speeds come near to the ends of the numbers' range, 2^-1074 and 2^1024.
   constexpr double slowest = 0x1p-400, fastest = 0x1p400;
   const double most = velocity.cwiseAbs().maxCoeff();

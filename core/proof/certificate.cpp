@@ -2,6 +2,8 @@
 // Certificates of hits, misses and origins inside: what the finder found, the best of several ways.
 #include "core/proof/certificate.h"
 
+#include <cmath>
+
 #include "core/proof/proof_finder.h"
 #include "core/query/tolerances.h"
 
@@ -53,7 +55,8 @@ void certify_hit(Finder& finder, const Claim& claim, const Vec3<double>& n) {
   best.take(finder.enter(n, lambda), n, finder);
   if (std::abs(lambda - claimed) * slope <= tolerance::proof_close_to_claim * allowed) {
     if (best.off <= tolerance::proof_good_enough * finder.rounding()) return best.give(finder);
-    best.take(finder.refine(lambda, finder.certificate.plane), n, finder);
+    if (std::isfinite(best.off))
+      best.take(finder.refine(lambda, best.certificate.plane), n, finder);
     if (best.off <= tolerance::proof_good_enough * finder.rounding()) return best.give(finder);
   } else {
     best.off = std::numeric_limits<double>::infinity();

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "core/shape/core_and_radius.h"
 
+#include <cmath>
+
+#include "core/math/length.h"
 #include "core/shape/simple_cores.h"
 
 namespace minkray {
@@ -25,7 +28,7 @@ CoreAndRadius of_other(const Shape<double>& shape, const Affine<double>& map, do
   ShapeCore core;
   core.kind = CoreKind::other;
   core.radius = radius;
-  core.ball = ((high - low) / 2).norm() * padding;
+  core.ball = length_of((high - low) / 2) * padding;
   core.shape = about_middle.get();
   // What is far from the origin of its frame has lost those digits before it comes to its middle.
   constexpr double lost = 4 * std::numeric_limits<double>::epsilon();
@@ -39,12 +42,37 @@ Points mapped(const Points& points, const Affine<double>& map) {
   return result;
 }
 
+/// The power of two that brings the numbers below 1: products of what is scaled down by it are
+/// numbers, and no digit is lost.
+template <class Numbers>
+int exponent_of_largest(const Numbers& numbers) {
+  int exponent = 0;
+  std::frexp(numbers.cwiseAbs().maxCoeff(), &exponent);
+  return exponent;
+}
+
+template <class Numbers>
+Numbers scaled_down(const Numbers& numbers, int exponent) {
+  return numbers.unaryExpr([exponent](double x) { return std::ldexp(x, -exponent); });
+}
+
+/// By how much the map scales all lengths; 0 if it does not.
+double similarity_of(const Mat3<double>& linear) {
+  const int exponent = exponent_of_largest(linear);
+  const Affine<double> map{scaled_down(linear, exponent), Vec3<double>::Zero()};
+  return std::ldexp(AffineMap<double>(map).similarity(), exponent);
+}
+
 /// Whether the map keeps the coordinate axes at right angles, but for a few roundings: boxes stay
 /// boxes then, and ellipsoids keep their axes.
 bool keeps_right_angles(const Mat3<double>& linear) {
   constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
+  const auto column = [&](int i) {
+    const Vec3<double> v = linear.col(i);
+    return scaled_down(v, exponent_of_largest(v));
+  };
   for (int i = 0; i < 3; ++i) {
-    const Vec3<double> a = linear.col(i), b = linear.col((i + 1) % 3);
+    const Vec3<double> a = column(i), b = column((i + 1) % 3);
     if (!(std::abs(a.dot(b)) <= rounding * a.norm() * b.norm())) return false;
   }
   return true;
@@ -100,7 +128,7 @@ struct CoreFinder {
   CoreAndRadius along_columns(ShapeCore core) const {
     Mat3<double> turn;
     for (int i = 0; i < 3; ++i) {
-      const double scale = similarity > 0 ? similarity : map.linear.col(i).norm();
+      const double scale = similarity > 0 ? similarity : length_of(map.linear.col(i));
       core.size[i] *= scale;
       turn.col(i) = map.linear.col(i) / scale;
     }
@@ -134,7 +162,7 @@ struct CoreFinder {
     core.size = shape.half_extents;
     if (!keeps_right_angles(map.linear)) return false;
     found = along_columns(core);
-    found.core.ball = found.core.size.norm() * padding;
+    found.core.ball = length_of<double>(found.core.size) * padding;
     return true;
   }
   bool find(const Sphere<double>& shape, CoreAndRadius& found) const {
@@ -225,7 +253,7 @@ struct CoreFinder {
 };
 
 CoreAndRadius find(const Shape<double>& shape, const Affine<double>& map, double radius) {
-  const double similarity = AffineMap<double>(map).similarity();
+  const double similarity = similarity_of(map.linear);
   const CoreFinder finder{map, radius, similarity};
   CoreAndRadius found;
   const bool is_known =

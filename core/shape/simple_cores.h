@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/math/length.h"
 #include "core/shape/core_and_radius.h"
 
 namespace minkray::cores {
@@ -55,7 +56,7 @@ inline CoreAndRadius of_points(const std::vector<Vec3<double>>& points, double r
   core.kind = CoreKind::hull;
   for (std::size_t i = 0; i < count; ++i) {
     const Vec3<double> p = points[std::min(i, points.size() - 1)] - middle;
-    core.ball = std::max(core.ball, p.norm() * padding);
+    core.ball = std::max(core.ball, length_of<double>(p) * padding);
     for (std::size_t k = 0; k < 3; ++k) (*numbers)[k * count + i] = p[static_cast<Eigen::Index>(k)];
   }
   core.count = static_cast<int>(count);

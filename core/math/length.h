@@ -17,10 +17,6 @@ bool is_ordinary_square(T squared) {
   return squared > smallest && squared < largest;
 }
 
-/// Sixth powers of lengths between these are normal numbers, such as squares of triple products.
-inline constexpr double largest_length = 0x1p160;
-inline constexpr double smallest_length = 1 / largest_length;
-
 template <class T>
 T length_of(const Vec3<T>& v) {
   const T squared = v.squaredNorm();
