@@ -15,7 +15,7 @@ inline void tell_figure(const std::string& name, double measured, const std::str
   std::ostringstream text;
   text.precision(3);
   text << measured << " | " << asked;
-  testing::Test::RecordProperty("must_hold_" + name, text.str());
+  ::testing::Test::RecordProperty("must_hold_" + name, text.str());
 }
 
 }  // namespace minkray

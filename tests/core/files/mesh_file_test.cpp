@@ -16,7 +16,7 @@ namespace {
 class TemporaryFile {
  public:
   TemporaryFile(const std::string& name, const std::string& contents)
-      : path_(testing::TempDir() + "minkray-mesh-" + name) {
+      : path_(::testing::TempDir() + "minkray-mesh-" + name) {
     std::ofstream(path_, std::ios::binary) << contents;
   }
   ~TemporaryFile() { std::filesystem::remove(path_); }

@@ -10,17 +10,17 @@ namespace {
 
 using testing::Random;
 __extension__ using Quad = __float128;
-using Point = std::array<Quad, 3>;
+using QuadPoint = std::array<Quad, 3>;
 
-Quad dot(const Point& a, const Point& b) {
+Quad dot(const QuadPoint& a, const QuadPoint& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
-Point plus(const Point& a, const Point& b, Quad times) {
+QuadPoint plus(const QuadPoint& a, const QuadPoint& b, Quad times) {
   return {a[0] + times * b[0], a[1] + times * b[1], a[2] + times * b[2]};
 }
 
-Point nearest_of_edge(const Point& a, const Point& b) {
-  const Point e = plus(b, a, -1);
+QuadPoint nearest_of_edge(const QuadPoint& a, const QuadPoint& b) {
+  const QuadPoint e = plus(b, a, -1);
   const Quad squared = dot(e, e);
   if (!(squared > 0)) return a;
   const Quad k = -dot(a, e) / squared;
@@ -28,11 +28,11 @@ Point nearest_of_edge(const Point& a, const Point& b) {
 }
 
 /// In 113 bits, by the edges and the foot on the face.
-Point nearest_of_triangle(const Point& a, const Point& b, const Point& c) {
-  Point best = nearest_of_edge(a, b);
-  for (const Point& other : {nearest_of_edge(b, c), nearest_of_edge(c, a)})
+QuadPoint nearest_of_triangle(const QuadPoint& a, const QuadPoint& b, const QuadPoint& c) {
+  QuadPoint best = nearest_of_edge(a, b);
+  for (const QuadPoint& other : {nearest_of_edge(b, c), nearest_of_edge(c, a)})
     if (dot(other, other) < dot(best, best)) best = other;
-  const Point e = plus(b, a, -1), f = plus(c, a, -1);
+  const QuadPoint e = plus(b, a, -1), f = plus(c, a, -1);
   const Quad ee = dot(e, e), ef = dot(e, f), ff = dot(f, f), ea = -dot(e, a), fa = -dot(f, a);
   const Quad determinant = ee * ff - ef * ef;
   if (!(determinant > 0)) return best;
@@ -60,11 +60,11 @@ double worst_error(double least_power, double most_power) {
     simplex.y[0] = y[0], simplex.y[1] = y[1], simplex.y[2] = y[2];
     simplex.size = 3;
     const Vec3<T> v = closest_point(simplex).v;
-    std::array<Point, 3> exact;
+    std::array<QuadPoint, 3> exact;
     for (std::size_t k = 0; k < 3; ++k) exact[k] = {Quad(y[k][0]), Quad(y[k][1]), Quad(y[k][2])};
-    const Point nearest = nearest_of_triangle(exact[0], exact[1], exact[2]);
-    const Point found = {Quad(v[0]), Quad(v[1]), Quad(v[2])};
-    const Point off = plus(found, nearest, -1);
+    const QuadPoint nearest = nearest_of_triangle(exact[0], exact[1], exact[2]);
+    const QuadPoint found = {Quad(v[0]), Quad(v[1]), Quad(v[2])};
+    const QuadPoint off = plus(found, nearest, -1);
     worst = std::max(worst, std::sqrt(static_cast<double>(dot(off, off) / dot(nearest, nearest))));
   }
   return worst;

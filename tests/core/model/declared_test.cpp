@@ -81,8 +81,8 @@ CastResult<T> cast_at_rounded_wedge(const Ray<T>& ray, T radius) {
 }
 
 template <class T>
-class Declarations : public testing::Test {};
-using Scalars = testing::Types<float, double>;
+class Declarations : public ::testing::Test {};
+using Scalars = ::testing::Types<float, double>;
 TYPED_TEST_SUITE(Declarations, Scalars);
 
 TYPED_TEST(Declarations, a_wedge_is_no_box_whatever_its_size_is_called) {

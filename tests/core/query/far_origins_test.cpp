@@ -12,40 +12,40 @@ namespace minkray::testing {
 namespace {
 
 __extension__ using Quad = __float128;
-using Point = std::array<Quad, 3>;
+using QuadPoint = std::array<Quad, 3>;
 
 /// origin + t * direction, from `centre`.
 template <class T>
-Point along(const Ray<T>& ray, Quad t, const Vec3<T>& centre) {
-  Point p;
+QuadPoint along(const Ray<T>& ray, Quad t, const Vec3<T>& centre) {
+  QuadPoint p;
   for (int k = 0; k < 3; ++k)
     p[static_cast<std::size_t>(k)] =
         Quad(ray.origin[k]) + t * Quad(ray.direction[k]) - Quad(centre[k]);
   return p;
 }
 
-Quad dot(const Point& a, const Point& b) {
+Quad dot(const QuadPoint& a, const QuadPoint& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-double size_of(const Point& p) {
+double size_of(const QuadPoint& p) {
   return std::sqrt(static_cast<double>(dot(p, p)));
 }
 
 /// The line's point that is nearest to the centre, from there. The first step is to a number of T:
 /// its products with the direction are exact.
 template <class T>
-Point closest_approach(const Ray<T>& ray, T first_step, const Vec3<T>& centre) {
-  Point at = along(ray, Quad(first_step), centre);
-  const Point way = along<T>({{0, 0, 0}, ray.direction}, Quad(1), {0, 0, 0});
+QuadPoint closest_approach(const Ray<T>& ray, T first_step, const Vec3<T>& centre) {
+  QuadPoint at = along(ray, Quad(first_step), centre);
+  const QuadPoint way = along<T>({{0, 0, 0}, ray.direction}, Quad(1), {0, 0, 0});
   const Quad left = -dot(at, way) / dot(way, way);
   for (std::size_t k = 0; k < 3; ++k) at[k] += left * way[k];
   return at;
 }
 
 template <class T>
-double distance(const Vec3<T>& s, const Point& p) {
-  Point apart;
+double distance(const Vec3<T>& s, const QuadPoint& p) {
+  QuadPoint apart;
   for (int k = 0; k < 3; ++k)
     apart[static_cast<std::size_t>(k)] = Quad(s[k]) - p[static_cast<std::size_t>(k)];
   return size_of(apart);
@@ -70,7 +70,7 @@ double worst_position(double least, double most) {
     const Ray<T> ray = from<T>(std::exp2(random.uniform(least, most)), random);
     RayNearBall<T> near = ray_near(centre, ray);
     if (near.is_from_afar(T(1))) near = ray_near_from_afar(centre, ray);
-    const Point nearest = closest_approach(ray, near.t_base, centre);
+    const QuadPoint nearest = closest_approach(ray, near.t_base, centre);
     // The line may pass the ball by, rounded as its origin is.
     const double scale = std::max(1.0, size_of(nearest));
     worst = std::max(worst, distance<T>(near.s, nearest) / scale);
@@ -113,7 +113,7 @@ void check_hits(double limit) {
     ASSERT_LT(away.normal.dot(ray.direction), T(0)) << power;
     if (answer.status != Status::hit) continue;
     ++hits;
-    const Point spot = along<T>(ray, Quad(answer.t_base) + Quad(answer.t_offset), {0, 0, 0});
+    const QuadPoint spot = along<T>(ray, Quad(answer.t_base) + Quad(answer.t_offset), {0, 0, 0});
     ASSERT_NEAR(size_of(spot), 1, 0.2) << power;
   }
   EXPECT_GT(hits, 500);
@@ -150,7 +150,7 @@ TEST(FarOrigins, are_proven_with_all_digits_or_refused) {
     }
     if (near.is_too_far) continue;
     // In two steps, whose products are exact.
-    Point at = along<double>(ray, Quad(near.t_base), near.centre);
+    QuadPoint at = along<double>(ray, Quad(near.t_base), near.centre);
     for (std::size_t k = 0; k < 3; ++k)
       at[k] += Quad(near.t_shift) * Quad(ray.direction[static_cast<int>(k)]);
     worst = std::max(worst, distance(near.s, at) / std::max(1.0, size_of(at)));

@@ -11,8 +11,8 @@ namespace minkray {
 namespace {
 
 template <class T>
-class InstancesOf : public testing::Test {};
-using Scalars = testing::Types<float, double>;
+class InstancesOf : public ::testing::Test {};
+using Scalars = ::testing::Types<float, double>;
 TYPED_TEST_SUITE(InstancesOf, Scalars);
 
 template <class T>

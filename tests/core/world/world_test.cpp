@@ -9,8 +9,8 @@ namespace minkray {
 namespace {
 
 template <class T>
-class WorldOf : public testing::Test {};
-using Scalars = testing::Types<float, double>;
+class WorldOf : public ::testing::Test {};
+using Scalars = ::testing::Types<float, double>;
 TYPED_TEST_SUITE(WorldOf, Scalars);
 
 template <class T>

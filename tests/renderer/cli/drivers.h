@@ -13,7 +13,7 @@
 
 namespace minkray {
 
-class Drivers : public testing::Test {
+class Drivers : public ::testing::Test {
  protected:
   Drivers() { write_ball_scene(folder_ / "scene.json"); }
 

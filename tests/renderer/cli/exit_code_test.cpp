@@ -23,8 +23,8 @@ struct Outcome {
 
 /// Runs minkray with arguments for a shell.
 Outcome run(const std::string& arguments) {
-  const std::string base = testing::TempDir() + "minkray-cli-" +
-                           testing::UnitTest::GetInstance()->current_test_info()->name();
+  const std::string base = ::testing::TempDir() + "minkray-cli-" +
+                           ::testing::UnitTest::GetInstance()->current_test_info()->name();
   const std::string command = "'" MINKRAY_PROGRAM "' " + arguments;
   const int status =
       std::system(("( " + command + " ) >'" + base + ".out' 2>'" + base + ".err'").c_str());
@@ -78,7 +78,7 @@ TEST(Cli, certificates_are_summed_up_on_stderr) {
   const Outcome cast = run("cast --certify '" MINKRAY_TEST_CASES "/hard-casts.jsonl'");
   EXPECT_EQ(cast.exit_code, 0);
   EXPECT_EQ(cast.err, "certificates: 102 hold, 0 do not; 0 answers without (distances, turning)\n");
-  const std::string picture = testing::TempDir() + "minkray-certified.png";
+  const std::string picture = ::testing::TempDir() + "minkray-certified.png";
   const Outcome render =
       run("render " + scene("figure-1.json") + " -r 32x18 -s 1 -q --certify -o '" + picture + "'");
   EXPECT_EQ(render.exit_code, 0) << render.err;
@@ -105,7 +105,7 @@ TEST(Cli, wrong_usage_is_2) {
 }
 
 TEST(Cli, bad_input_is_3_and_all_mistakes_are_on_stderr) {
-  const std::string file = testing::TempDir() + "minkray-cli-bad.json";
+  const std::string file = ::testing::TempDir() + "minkray-cli-bad.json";
   const auto write = [&](const std::string& text) {
     std::FILE* out = std::fopen(file.c_str(), "wb");
     std::fwrite(text.data(), 1, text.size(), out);
@@ -121,7 +121,7 @@ TEST(Cli, bad_input_is_3_and_all_mistakes_are_on_stderr) {
                          ": /objects: must be a list (got an object)\n");
   std::filesystem::remove(file);
   EXPECT_EQ(run("info '" + file + "'").exit_code, 3);
-  EXPECT_EQ(run("info '" + testing::TempDir() + "'").exit_code, 3);
+  EXPECT_EQ(run("info '" + ::testing::TempDir() + "'").exit_code, 3);
 }
 
 TEST(Cli, what_cannot_be_written_is_4) {

@@ -10,7 +10,7 @@
 namespace minkray {
 namespace {
 
-class Frames : public testing::Test {
+class Frames : public ::testing::Test {
  protected:
   Frames() {
     std::ofstream(folder_ / "scene.json") << R"({

@@ -142,7 +142,7 @@ std::vector<float> plane(const std::string& file, const char* name) {
   return found ? std::get<std::vector<float>>(found->values) : std::vector<float>();
 }
 
-class GrowingPicture : public testing::Test {
+class GrowingPicture : public ::testing::Test {
  protected:
   GrowingPicture() { write_ball_scene(folder_ / "scene.json"); }
 

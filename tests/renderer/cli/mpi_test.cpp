@@ -77,7 +77,7 @@ TEST_F(Mpi, four_ranks_make_the_same_picture_as_one) {
 // numbers (inodes) show that what was there is kept. A job that is over before its rank can be
 // killed is begun anew with more samples.
 TEST_F(Mpi, a_job_whose_rank_was_killed_goes_on_to_the_same_picture) {
-  int samples = 2000, kills = 0;
+  int samples = 800, kills = 0;
   const auto start = [&](const char* ranks) {
     return start_program({"mpirun", "--oversubscribe", "-n", ranks, minkray_program(), "render",
                           folder_ / "scene.json", "-t", "1", "-s", std::to_string(samples), "-o",
@@ -95,7 +95,7 @@ TEST_F(Mpi, a_job_whose_rank_was_killed_goes_on_to_the_same_picture) {
     return status != 0 && !has_picture();  // with the picture the job was as good as over
   };
   for (; kills < 2; samples *= 4) {
-    ASSERT_LE(samples, 128000) << "however long it is, the job is over before a rank is killed";
+    ASSERT_LE(samples, 51200) << "however long it is, the job is over before a rank is killed";
     fs::remove(folder_ / "a.pfm");
     fs::remove_all(folder_ / "a.pfm.parts");
     std::map<std::string, ino_t> before;

@@ -15,7 +15,7 @@
 
 namespace minkray {
 
-class NothingLost : public testing::Test {
+class NothingLost : public ::testing::Test {
  protected:
   NothingLost() { write_ball_scene(folder_ / "scene.json"); }
 

@@ -30,7 +30,7 @@ constexpr const char* scene_text = R"({
   "objects": [{"name": "ball", "shape": {"type": "sphere", "radius": 1}, "material": "matt"}]
 })";
 
-class RenderVerb : public testing::Test {
+class RenderVerb : public ::testing::Test {
  protected:
   RenderVerb() { folder_.write("scene.json", scene_text); }
 

@@ -29,7 +29,7 @@ Scene two_objects() {
   return scene;
 }
 
-class DataChannels : public testing::Test {
+class DataChannels : public ::testing::Test {
  protected:
   DataChannels() : scene_(two_objects()), world_(make_world(scene_)) {
     options_.resolution = {48, 36};

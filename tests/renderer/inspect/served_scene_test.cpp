@@ -10,7 +10,7 @@
 namespace minkray {
 namespace {
 
-class AServedScene : public testing::Test {
+class AServedScene : public ::testing::Test {
  protected:
   AServedScene() {
     scene_.camera.position = {0, -5, 1};

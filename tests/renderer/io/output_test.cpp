@@ -30,7 +30,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class Output : public testing::Test {
+class Output : public ::testing::Test {
  protected:
   std::string path(const std::string& name) const { return folder_ / name; }
   std::size_t file_count() const { return folder_.files().size(); }

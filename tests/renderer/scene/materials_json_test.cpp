@@ -19,7 +19,7 @@ namespace minkray {
 namespace {
 
 /// A folder with a few pictures in it.
-class Pictures : public testing::Test {
+class Pictures : public ::testing::Test {
  protected:
   Pictures() {
     Image sky(8, 4, Vec3<float>(0.5F, 2, 8));
@@ -97,14 +97,14 @@ TEST_F(Pictures, all_mistakes_of_materials_are_told_at_once) {
         found.begin(), found.end(),
         [&](const std::string& message) { return message.find(place) != std::string::npos; }))
         << place << "\n"
-        << testing::PrintToString(found);
+        << ::testing::PrintToString(found);
 }
 
 TEST_F(Pictures, reliefs_are_textures) {
   const auto found = complaints(scene(
       R"({"name": "m", "type": "lambert", "color": [1, 1, 1], "bump": [1, 1, 1],
           "normal_map": {"type": "checker"}})"));
-  ASSERT_EQ(found.size(), 2u) << testing::PrintToString(found);
+  ASSERT_EQ(found.size(), 2u) << ::testing::PrintToString(found);
   EXPECT_NE(found[0].find("/materials/0/bump: must be a texture"), std::string::npos);
   EXPECT_NE(found[1].find("/materials/0/normal_map: must be a texture of type"), std::string::npos);
 }
@@ -124,7 +124,7 @@ TEST_F(Pictures, pictures_that_cannot_be_used_are_told_all_at_once) {
   const auto found = complaints(scene(
       image("m", "missing.png") + "," + image("b", "broken.png") + "," + image("t", "text.txt"),
       R"({"type": "environment", "file": "nan.exr"}, {"type": "environment", "file": "gone.hdr"})"));
-  ASSERT_EQ(found.size(), 5u) << testing::PrintToString(found);
+  ASSERT_EQ(found.size(), 5u) << ::testing::PrintToString(found);
   tell_figure("pictures_that_cannot_be_used_told_at_once", static_cast<double>(found.size()),
               "== 5");
   for (const auto& [place, what] : {std::pair{"/lights/0/file", "must hold finite numbers"},
@@ -143,7 +143,7 @@ TEST_F(Pictures, pictures_that_cannot_be_used_are_told_all_at_once) {
 TEST_F(Pictures, skies_and_lenses_are_checked) {
   const auto one = [&](const std::string& lights, const std::string& camera) {
     const auto found = complaints(scene(matt, lights, camera));
-    return found.size() == 1 ? found[0] : testing::PrintToString(found);
+    return found.size() == 1 ? found[0] : ::testing::PrintToString(found);
   };
   EXPECT_NE(one(R"({"type": "sun_sky", "sun": [1, 0, -0.1]})", "").find("above the horizon"),
             std::string::npos);

@@ -29,7 +29,7 @@ std::string scene_text(const std::string& objects, const std::string& particles)
 
 constexpr const char* box = R"("shape": {"type": "box", "half_extents": [0.5, 0.3, 0.2]})";
 
-class Particles : public testing::Test {
+class Particles : public ::testing::Test {
  protected:
   /// The scene; what is wrong with it is kept.
   std::optional<Scene> read(const std::string& block) {

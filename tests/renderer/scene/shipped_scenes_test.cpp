@@ -110,7 +110,7 @@ TEST(ShippedScenes, the_zoo_and_the_bent_pipe_show_every_shape) {
 }
 
 TEST(ShippedScenes, missing_meshes_are_told_with_the_command_that_fetches_them) {
-  const std::filesystem::path folder = testing::TempDir() + "minkray-scene-without-meshes";
+  const std::filesystem::path folder = ::testing::TempDir() + "minkray-scene-without-meshes";
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);
   std::filesystem::copy_file(source_folder() / "scenes/fetch-meshes", folder / "fetch-meshes");

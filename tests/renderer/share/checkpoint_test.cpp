@@ -16,7 +16,7 @@ namespace {
 /// Short enough that every tile is followed by a checkpoint.
 constexpr double always = 1e-9;
 
-class CheckpointFile : public testing::Test {
+class CheckpointFile : public ::testing::Test {
  protected:
   CheckpointFile() {
     write_ball_scene(folder_ / "scene.json");

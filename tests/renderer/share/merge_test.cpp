@@ -13,7 +13,7 @@
 namespace minkray {
 namespace {
 
-class Merge : public testing::Test {
+class Merge : public ::testing::Test {
  protected:
   Merge() {
     write_ball_scene(folder_ / "scene.json");
