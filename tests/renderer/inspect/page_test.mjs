@@ -27,8 +27,8 @@ function trace(x, y, solver = 'auto', object = '') {
 const browser = new Browser();
 const tests = [];
 const test = (name, run) => tests.push({ name, run });
-const open = async (state = '', ...more) => {
-  const page = await browser.open('file://' + file + (state ? '#' + state : ''), ...more);
+const open = async (state = '', width = 1000, height = 1000, ...more) => {
+  const page = await browser.open('file://' + file + (state ? '#' + state : ''), width, height, ...more);
   await page.until("document.documentElement?.dataset.ready === 'yes'");
   return page;
 };
@@ -85,14 +85,17 @@ test('100 hovered pixels show what minkray trace prints', async () => {
 test('the slider has a stop for each iteration, and its bounds are those of the trace', async () => {
   const page = await open();
   const shapes = ['hull', 'rounded', 'ellipsoid', 'minkowski_sum', 'minkowski_difference'];
-  for (const shape of shapes) {
-    const at = await page.value(`(async () => {
-      const all = new Replays();
-      all.add(new TextDecoder().decode(await unpacked(bytesOf(document.getElementById('replays').textContent))));
-      const about = JSON.parse(document.getElementById('about').textContent);
+  const places = await page.value(`(async () => {
+    const all = new Replays();
+    all.add(new TextDecoder().decode(await unpacked(bytesOf(document.getElementById('replays').textContent))));
+    const objects = JSON.parse(document.getElementById('about').textContent).objects;
+    return ${JSON.stringify(shapes)}.map(shape => {
       for (const [key, rays] of all.rays)
-        if (about.objects[rays[0].object - 1] === ${JSON.stringify(shape)} && rays[0].cast.status === 'hit') return key.split(',').map(Number);
-    })()`);
+        if (objects[rays[0].object - 1] === shape && rays[0].cast.status === 'hit') return key.split(',').map(Number);
+    });
+  })()`);
+  for (const [k, shape] of shapes.entries()) {
+    const at = places[k];
     assert.ok(at, 'a hit of ' + shape + ' can be replayed');
     await page.click(...await place(page, ...at));
     for (const solver of ['auto', 'paper']) {
