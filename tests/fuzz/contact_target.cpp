@@ -2,6 +2,7 @@
 // Two shapes made of the bytes, at rigid poses: what their signed distance promises.
 #include <sstream>
 
+#include "core/contact/searchable.h"
 #include "core/contact/signed_distance.h"
 #include "core/query/tolerances.h"
 #include "renderer/scene/shape_json.h"
@@ -48,16 +49,19 @@ class Referee {
  public:
   Referee(const Body& a, const Body& b) : a_(a), b_(b) {
     const Vec3<double> between = b.pose.translation - a.pose.translation;
+    const Vec3<double> middles = b.pose(b.ready.middle()) - a.pose(a.ready.middle());
     size_ = a.ready.ball_radius() + b.ready.ball_radius();
     rounding_ = 64 * tolerance::epsilon<double> *
                 (size_ + a.ready.middle().norm() + b.ready.middle().norm() + between.norm());
+    is_known_ = are_searchable(size_, middles.norm());
   }
 
   double size() const { return size_; }
 
   std::string judge(const SignedDistance& found) const {
     if (!(found.lower <= found.value && found.value <= found.upper)) return "value out of bounds";
-    if (!std::isfinite(found.lower) || !std::isfinite(found.upper)) return "no bounds";
+    if (!std::isfinite(found.lower) || !std::isfinite(found.upper))
+      return is_known_ ? "no bounds" : "";
     if (!(std::abs(found.normal.norm() - 1) <= 1e-14)) return "a normal not of unit length";
     if (!(found.lower <= gap(found.normal) + rounding_)) return "a plane nearer than lower";
     // Around the normal, and anywhere.
@@ -88,6 +92,7 @@ class Referee {
 
   const Body &a_, &b_;
   double size_, rounding_;
+  bool is_known_;  ///< of others it may be said that nothing is known
 };
 
 }  // namespace

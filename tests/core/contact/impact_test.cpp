@@ -160,6 +160,47 @@ TEST(Impact, of_a_ball_that_leaves_slowly_and_comes_back_is_not_leapt_over) {
   }
 }
 
+/// They touch, and part more slowly than the second spins: it takes more steps than there may
+/// be until they are apart, and nothing is known of any later time.
+TEST(Impact, that_runs_out_of_steps_takes_no_more_and_proves_nothing) {
+  const RigidMotion rest = at(0, 0, 0, {0, 0, 0}), spins = at(2, 0, 0, {0.05, 0, 0}, {0, 0, 1});
+  for (int steps = 1; steps <= 4; ++steps) {
+    ImpactOptions few;
+    few.max_steps = steps;
+    const Impact found = first_impact(ball, rest, ball, spins, 1, few);
+    ASSERT_EQ(found.status, ImpactStatus::undecided) << steps;
+    EXPECT_EQ(found.t_lo, 0) << steps;
+    EXPECT_EQ(found.t_hi, std::numeric_limits<double>::infinity()) << steps;
+    EXPECT_LE(found.steps, steps);
+  }
+  EXPECT_EQ(first_impact(ball, rest, ball, spins, 1).status, ImpactStatus::miss);
+}
+
+TEST(Impact, of_a_miss_is_told_at_the_end_of_time) {
+  for (const Vec3<double>& turn : {Vec3<double>(0, 0, 0), Vec3<double>(0, 0, 1)})
+    for (const bool has_points : {false, true}) {
+      ImpactOptions options;
+      options.points_of_misses = has_points;
+      const Impact found = first_impact(cube, at(0, 0, 0, {0, 0, 0}), cube,
+                                        at(5, 0, 0, {0.25, 0, 0}, turn), 3, options);
+      ASSERT_EQ(found.status, ImpactStatus::miss);
+      EXPECT_EQ(found.t_lo, 3);
+      EXPECT_EQ(found.t_hi, 3);
+      EXPECT_GT(found.normal.x(), 0.7);
+    }
+}
+
+TEST(Impact, at_a_time_that_is_no_number_is_no_hit) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  const RigidMotion rest = at(0, 0, 0, {0, 0, 0});
+  const auto comes = [&](double speed) {
+    return first_impact(cube, rest, cube, at(4, 0, 0, {-speed, 0, 0}), infinity);
+  };
+  EXPECT_EQ(comes(1e-300).status, ImpactStatus::hit);
+  EXPECT_NEAR(comes(1e-300).t_lo, 2e300, 1e291);
+  EXPECT_NE(comes(1e-310).status, ImpactStatus::hit);
+}
+
 /// A distance that gave up has the value 0, which counted as touching: balls 1e200 from each other
 /// were `inside` of each other, and one beside an infinite one was hit in the end.
 TEST(Impact, is_given_up_where_the_distance_is_unknown) {

@@ -3,6 +3,7 @@
 // of the shapes' difference.
 #include <gtest/gtest.h>
 
+#include "core/contact/impact.h"
 #include "tests/core/contact/random_bodies.h"
 #include "tests/oracle/wolfe.h"
 
@@ -136,6 +137,43 @@ TEST(SignedDistance, of_what_has_a_part_without_length_is_known) {
         EXPECT_NEAR(aside.value, std::hypot(std::max(rho - 1, 0.0), 1), 1e-14) << rho << ", " << z;
         EXPECT_LE(aside.upper - aside.lower, 1e-13);
       }
+}
+
+/// Searches go by products of six lengths: up to 2^160 they are numbers, beyond nothing is
+/// searched.
+TEST(SignedDistance, is_known_up_to_the_largest_length_and_undecided_beyond) {
+  const auto of_size = [](double unit) {
+    const double half = 0.25 * unit;
+    return std::vector<Shape<double>>{Box<double>{{half, half, half}}, Capsule<double>{half, half},
+                                      Cylinder<double>{half, half},
+                                      Ellipsoid<double>{{half, half / 2, half}}};
+  };
+  // Sizes, of both together, are 0.87 to 1.
+  constexpr double largest = 0x1p160;
+  for (std::size_t i = 0; i < of_size(1).size(); ++i)
+    for (const double unit : {largest * 0.9, largest * 0x1p-3, largest * 0x1p2}) {
+      const ContactShape a(of_size(unit)[i]), b(of_size(unit)[i]);
+      const SignedDistance found =
+          signed_distance(a, {}, b, {Mat3<double>::Identity(), {unit, 0, 0}});
+      if (unit > largest) {
+        EXPECT_EQ(found.status, SignedStatus::undecided) << i;
+        EXPECT_EQ(found.supports, 0) << i;
+        continue;
+      }
+      EXPECT_EQ(found.status, SignedStatus::separated) << i << ", " << unit;
+      EXPECT_NEAR(found.value / unit, 0.5, 1e-9) << i << ", " << unit;
+    }
+}
+
+/// The radius counts as well, where the core itself is small.
+TEST(SignedDistance, of_a_short_capsule_of_more_than_the_largest_length_is_undecided) {
+  const ContactShape capsule(Capsule<double>{0x1p161, 1}), ball(Sphere<double>{0x1p161});
+  const Affine<double> beside{Mat3<double>::Identity(), {0x1p163, 0, 0}};
+  EXPECT_EQ(signed_distance(capsule, {}, capsule, beside).status, SignedStatus::undecided);
+  EXPECT_EQ(signed_distance(ball, {}, ball, beside).status, SignedStatus::separated);
+  const RigidMotion rests, comes{beside, {-0x1p161, 0, 0}, {0, 0, 0}};
+  EXPECT_EQ(first_impact(capsule, rests, capsule, comes, 10).status, ImpactStatus::undecided);
+  EXPECT_EQ(first_impact(ball, rests, ball, comes, 10).status, ImpactStatus::hit);
 }
 
 }  // namespace

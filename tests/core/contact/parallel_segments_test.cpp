@@ -4,6 +4,7 @@
 // deep as their lengths instead of their radii. Of the pairs here every fifth was wrong.
 #include <gtest/gtest.h>
 
+#include "core/contact/closed_pairs.h"
 #include "tests/core/contact/pair_judge.h"
 
 namespace minkray {
@@ -54,6 +55,24 @@ TEST(ParallelSegments, that_cross_in_their_middle_touch_however_little_they_lean
                                                  ContactShape(Segment<double>{{-q, q}}), pose);
     EXPECT_EQ(found.status, SignedStatus::touching);
     EXPECT_NEAR(found.value, 0, 16 * epsilon * (p.norm() + q.norm())) << k;
+  }
+}
+
+/// An end of one is beside the other, across both: the way between them is short of digits where
+/// they lean by little.
+TEST(ParallelSegments, that_lean_by_little_have_bounds_of_a_few_roundings) {
+  RandomShapes random(7);
+  for (int k = 0; k < 200000; ++k) {
+    const auto vector = [&]() -> Vec3<double> { return random.turn().col(0) * random.in(0.1, 1); };
+    const Vec3<double> p = vector(), lean = vector();
+    const Vec3<double> q = random.in(-2, 2) * p + std::pow(10, random.in(-16, -2)) * lean;
+    const Vec3<double> across = (k % 5 < 2 ? -1 : 1) * unit<double>(p.cross(lean)),
+                       aside = k % 3 == 0 ? vector() : across;
+    const double along = random.in(-1, 1), end = k % 2 == 0 ? -1 : 1;
+    const double s = k % 4 < 2 ? along : end, t = k % 4 < 2 ? end : along;
+    const Vec3<double> x = s * p - t * q + std::pow(10, random.in(-16, 0)) * aside;
+    const CoreDistance found = between_segments(p, q, x);
+    ASSERT_LE(found.upper - found.lower, 1e-14 * (p.norm() + q.norm())) << k;
   }
 }
 
