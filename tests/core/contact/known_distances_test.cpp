@@ -148,7 +148,7 @@ TEST(SignedDistance, is_known_up_to_the_largest_length_and_undecided_beyond) {
                                       Cylinder<double>{half, half},
                                       Ellipsoid<double>{{half, half / 2, half}}};
   };
-  // Sizes, of both together, are 0.87 to 1.
+  // Sizes, of both together, are 0.87 to 1 of the unit; distances are asked for to 1e-10 of them.
   constexpr double largest = 0x1p160;
   for (std::size_t i = 0; i < of_size(1).size(); ++i)
     for (const double unit : {largest * 0.9, largest * 0x1p-3, largest * 0x1p2}) {
