@@ -156,14 +156,10 @@ CoreDistance between_segments(const Vec3<double>& p, const Vec3<double>& q, cons
   const auto try_axis = [&](const Vec3<double>& m) {
     if (!m.isZero(0) && gap(m) > gap(axis)) axis = m;
   };
-  // Where they touch, a direction at right angles to both may be the better plane. Of nearly
-  // parallel ones rounding may hide which ends count: the best plane is the one.
-  constexpr double touching = 1e-20;
-  if (!is_crossing || c.squaredNorm() <= touching * (pp + qq)) {
+  // Of nearly parallel ones rounding may hide which ends count: the best plane is the one.
+  if (!is_crossing) {
     const Vec3<double> beside = across(p, q, n);
     try_axis(beside.dot(x) < 0 ? Vec3<double>(-beside) : beside);
-  }
-  if (!is_crossing) {
     const Vec3<double> towards = unit<double>(c);
     try_axis(unit<double>(towards - (towards.dot(p) / pp) * p));
     if (qq > 0) try_axis(unit<double>(towards - (towards.dot(q) / qq) * q));

@@ -8,9 +8,11 @@ namespace minkray {
 inline constexpr double largest_length = 0x1p160;
 inline constexpr double smallest_length = 1 / largest_length;
 
-/// Whether products of a pair's lengths are numbers. Bodies far apart need none of small ones.
+/// Whether products of a pair's lengths are numbers, as those of 0 are. Bodies far apart need none
+/// of small ones.
 inline bool are_searchable(double size, double distance) {
-  return size < largest_length && size + distance > smallest_length;
+  const double length = size + distance;
+  return size < largest_length && (length > smallest_length || length == 0);
 }
 
 }  // namespace minkray

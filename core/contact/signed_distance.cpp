@@ -28,7 +28,7 @@ SignedDistance told(const Search& search, const ContactShape& a, const ContactSh
   if (!std::isfinite(allowed)) return result;  // squares of such lengths are no numbers
   const bool are_balls = a.core().kind == CoreKind::point && b.core().kind == CoreKind::point;
   if (!are_balls && !are_searchable(size, distance)) return result;
-  const CoreDistance& found = search();
+  const CoreDistance found = search();
   result.supports = found.supports;
   result.is_exhausted = found.is_exhausted;
   result.lower = found.lower - radii - allowed;

@@ -43,7 +43,8 @@ Vec3<double> first_direction(const Claim& claim, const Vec3<double>& towards) {
 /// A hit with the normal n at lambda, as claimed. First the hit is found anew, which gives the
 /// tightest bounds. Where rounding decides what is hit (rays that just touch, or run in a face) it
 /// may be found elsewhere; then a point of the shape at the claimed point is the proof, or on the
-/// ray as little beyond it as the plane's slope makes of rounding.
+/// ray as little beyond it as the plane's slope makes of rounding. Last, where the ray cast ended
+/// beside the shape: a point around those that it had come to.
 void certify_hit(Finder& finder, const Claim& claim, const Vec3<double>& n) {
   const NearSegment& near = finder.near();
   const double claimed = near.lambda_of(claim.t_base, claim.t_offset);
@@ -53,10 +54,13 @@ void certify_hit(Finder& finder, const Claim& claim, const Vec3<double>& n) {
   Candidate best;
   double lambda = near.begin;
   best.take(finder.enter(n, lambda), n, finder);
-  if (std::abs(lambda - claimed) * slope <= tolerance::proof_close_to_claim * allowed) {
+  const bool is_found = std::isfinite(best.off);
+  const auto come_to = finder.certificate.spanning;
+  const bool is_close =
+      std::abs(lambda - claimed) * slope <= tolerance::proof_close_to_claim * allowed;
+  if (is_close) {
     if (best.off <= tolerance::proof_good_enough * finder.rounding()) return best.give(finder);
-    if (std::isfinite(best.off))
-      best.take(finder.refine(lambda, best.certificate.plane), n, finder);
+    if (is_found) best.take(finder.refine(lambda, best.certificate.plane), n, finder);
     if (best.off <= tolerance::proof_good_enough * finder.rounding()) return best.give(finder);
   } else {
     best.off = std::numeric_limits<double>::infinity();
@@ -71,6 +75,11 @@ void certify_hit(Finder& finder, const Claim& claim, const Vec3<double>& n) {
   if (best.off <= tolerance::proof_good_enough * allowed) return best.give(finder);
   const double end = std::min(claimed + tolerance::proof_good_enough * allowed / slope, near.end);
   best.take(finder.nearest(claimed, end, n, separating), n, finder);
+  if (!(best.off <= tolerance::proof_good_enough * allowed) && is_close && !is_found) {
+    finder.certificate.spanning = come_to;
+    finder.certificate.plane = n;
+    best.take(finder.refine(lambda, n), n, finder);
+  }
   best.give(finder);
 }
 

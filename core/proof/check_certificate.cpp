@@ -61,14 +61,14 @@ class Checker {
     double sum = 0;
     q.setZero();
     for (const WeightedSupport& term : certificate_.spanning) {
-      if (!(term.weight >= 0) || !std::isfinite(term.weight)) return false;
+      if (!(term.weight >= 0)) return false;
       if (term.weight == 0) continue;
       if (!is_direction(term.direction)) return false;
       q += term.weight * (support_(term.direction) - near_.centre);
       sum += term.weight;
     }
     q /= sum;
-    return sum > 0 && q.allFinite();
+    return sum > 0 && std::isfinite(sum) && q.allFinite();
   }
 
   void check_hit() {

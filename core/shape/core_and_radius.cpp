@@ -42,8 +42,8 @@ Points mapped(const Points& points, const Affine<double>& map) {
   return result;
 }
 
-/// The power of two that brings the numbers below 1: products of what is scaled down by it are
-/// numbers, and no digit is lost.
+/// The exponent of a power of two that is larger than all of the numbers: products of what is
+/// scaled down by it are numbers, and no digit is lost.
 template <class Numbers>
 int exponent_of_largest(const Numbers& numbers) {
   int exponent = 0;

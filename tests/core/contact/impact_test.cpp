@@ -219,6 +219,38 @@ TEST(Impact, is_given_up_where_the_distance_is_unknown) {
             ImpactStatus::miss);
 }
 
+/// Distances end where their squares are no numbers, and what is unknown has the value 0.
+TEST(Impact, of_bodies_that_part_beyond_all_distances_is_not_told) {
+  const RigidMotion rest = at(0, 0, 0, {0, 0, 0});
+  for (const double speed : {1e160, 1e200, 1e250})
+    for (const ContactShape* body : {&ball, &cube}) {
+      const RigidMotion parts = at(5, 0, 0, {speed, 0, 0}, {0, 1, 0});
+      const Impact found = first_impact(*body, rest, *body, parts, 1e6);
+      EXPECT_EQ(found.status, ImpactStatus::undecided) << speed;
+      EXPECT_GT(found.t_lo, 0) << speed;
+      EXPECT_EQ(found.distance, std::numeric_limits<double>::infinity()) << speed;
+    }
+}
+
+/// What comes near enough to be touching does so a little before it meets.
+TEST(Impact, is_never_after_the_time_that_was_asked_for) {
+  const RigidMotion rest = at(0, 0, 0, {0, 0, 0});
+  const ContactShape cylinder{Shape<double>(Cylinder<double>{1, 1})};
+  ImpactOptions coarse;
+  coarse.touching = 1e-3;
+  int hits = 0;
+  for (const Vec3<double>& turn : {Vec3<double>(0, 0, 0), Vec3<double>(0, 0, 1e-9)})
+    for (const ContactShape* body : {&ball, &cube, &cylinder})
+      for (int i = 0; i < 20; ++i) {
+        const double t_max = 3 - i * 2e-4;  // they meet at 3
+        const Impact found =
+            first_impact(*body, rest, *body, at(5, 0, 0, {-1, 0, 0}, turn), t_max, coarse);
+        EXPECT_LE(found.t_lo, t_max);
+        hits += found.status == ImpactStatus::hit;
+      }
+  EXPECT_GE(hits, 6);
+}
+
 /// The length of 1e-165 is no square root of its square, 0: such turns were none.
 TEST(Impact, slow_and_fast_turns_are_turns) {
   const ContactShape rod{Shape<double>(Capsule<double>{0.1, 5})};

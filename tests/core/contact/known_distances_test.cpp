@@ -139,6 +139,27 @@ TEST(SignedDistance, of_what_has_a_part_without_length_is_known) {
       }
 }
 
+/// Products of lengths that are all 0 are numbers, too: a box that is a point was undecided in its
+/// own place.
+TEST(SignedDistance, of_bodies_that_are_points_is_that_of_points) {
+  const std::vector<Shape<double>> points{Point<double>{{0, 0, 0}}, Sphere<double>{0},
+                                          Box<double>{{0, 0, 0}},   Cylinder<double>{0, 0},
+                                          Capsule<double>{0, 0},    Cone<double>{0, 0},
+                                          Disk<double>{0},          Ellipsoid<double>{{0, 0, 0}}};
+  for (const Shape<double>& a : points)
+    for (const Shape<double>& b : points)
+      for (const double away : {0.0, 0x1p-159, 1.0}) {
+        const SignedDistance found = signed_distance(ContactShape(a), {}, ContactShape(b),
+                                                     {Mat3<double>::Identity(), {0, away, 0}});
+        ASSERT_EQ(found.status, away > 0 ? SignedStatus::separated : SignedStatus::touching)
+            << &a - points.data() << ", " << &b - points.data() << ", " << away;
+        EXPECT_LE(found.lower, away);
+        EXPECT_GE(found.upper, away);
+        EXPECT_LE(found.upper - found.lower, 1e-13 * away);
+        EXPECT_NEAR(found.normal.norm(), 1, 1e-15);
+      }
+}
+
 /// Searches go by products of six lengths: up to 2^160 they are numbers, beyond nothing is
 /// searched.
 TEST(SignedDistance, is_known_up_to_the_largest_length_and_undecided_beyond) {

@@ -58,6 +58,13 @@ TEST(SweptTime, of_two_balls_is_a_hit_only_where_its_bounds_are_near_enough) {
   EXPECT_NE(swept(ball, ball, {4, 1, 0}, {-1, 0, 0}, 1e-18).status, SweptStatus::hit);
 }
 
+TEST(SweptTime, of_balls_that_would_meet_later_has_the_axis_of_the_end_of_time) {
+  const Shape<double> ball = Bodies().ball;
+  const SweptTime early = swept(ball, ball, {4, 1, 0}, {-1, 0, 0}, 1e-12, 1.5);
+  ASSERT_EQ(early.status, SweptStatus::miss);
+  EXPECT_LT((early.axis - Vec3<double>(2.5, 1, 0).normalized()).norm(), 1e-15);
+}
+
 TEST(SweptTime, of_speeds_that_are_no_numbers_is_not_known) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN(),
                    infinity = std::numeric_limits<double>::infinity();

@@ -136,6 +136,24 @@ TEST(Certificate, with_negative_weights_is_refused) {
   EXPECT_FALSE(check_certificate(support, beside, claim, certificate).holds);
 }
 
+// All is 0 when divided by an infinite sum: the middle of the bounds was spanned by any corners.
+TEST(Certificate, whose_weights_have_no_finite_sum_is_refused) {
+  const PointCloud<double> corners{{V(0, 0, 0), V(1, 0, 0), V(0, 1, 0), V(0, 0, 1)}};
+  const Shape<double> corner = Hull<double>{corners};
+  const SupportFunction support = supports_of(corner);
+  const Ray<double> ray{{0.5, 0.5, 0.5}, {0, 0, 1}};  // from the middle of the bounds, outside
+  Claim claim;
+  claim.status = Status::inside;
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double weight : {1.0, 1e308, infinity}) {
+    Certificate certificate;
+    certificate.spanning[0] = {V(1, 0, 0), weight};
+    certificate.spanning[1] = {V(0, 1, 0), weight};
+    certificate.spanning[2] = {V(0, 0, 1), 0.5 * weight};
+    EXPECT_FALSE(check_certificate(support, ray, claim, certificate).holds) << weight;
+  }
+}
+
 // The certificate is that of the whole ray: it is the ray's end that refuses.
 TEST(Certificate, of_a_hit_beyond_the_rays_end_is_refused) {
   const Shape<double> ball = Sphere<double>{2};
@@ -166,6 +184,92 @@ TEST(Certificate, without_a_plane_of_its_own_is_judged_by_the_claimed_one) {
   certificate.spanning[0].weight = 0.5;
   certificate.spanning[1] = {{1, 0, 0}, 0.5};  // the middle
   EXPECT_FALSE(check_certificate(support, ray, claim, certificate).holds);
+}
+
+// The plane touches the box, and the ray crosses it, but beside the box.
+TEST(Certificate, of_a_hit_where_a_faces_plane_is_crossed_beside_it_is_refused) {
+  const Shape<double> box = Box<double>{{1, 1, 1}};
+  const SupportFunction support = supports_of(box);
+  const Ray<double> ray{{-2, -3, 0}, {1, 1, 0}};  // enters at (0, -1, 0), t = 2
+  Certificate certificate;
+  certificate.plane = {0, -1, 0};
+  certificate.spanning[0] = {V(-1, -1, -1), 0.5};
+  certificate.spanning[1] = {V(1, -1, 1), 0.5};
+  Claim claim;
+  claim.status = Status::hit;
+  claim.t_offset = 2;
+  claim.normal = {0, -1, 0};
+  EXPECT_EQ(check_certificate(support, ray, claim, certificate).complaint, "");
+  claim.t_offset = 1;
+  claim.normal = {-1, 0, 0};
+  EXPECT_EQ(check_certificate(support, ray, claim, certificate).complaint,
+            "the hit point lies outside the shape");
+}
+
+// In a face, the planes say nothing of where the ray is: what is claimed and what is spanned do.
+TEST(Certificate, of_a_ray_in_a_face_is_of_what_lies_between_its_ends) {
+  const Shape<double> box = Box<double>{{1, 1, 1}};
+  const SupportFunction support = supports_of(box);
+  const Ray<double> ray{{0, 0, 1}, {1, 0, 0}, 0.5};
+  Claim claim;
+  claim.status = Status::hit;
+  claim.normal = {0, 0, 1};
+  Certificate certificate;
+  certificate.plane = {0, 0, 1};
+  const auto complaint = [&](double claimed, double spanned) {
+    claim.t_offset = claimed;
+    certificate.spanning[0] = {V(1, 1, 1), (1 + spanned) / 2};
+    certificate.spanning[1] = {V(-1, -1, 1), (1 - spanned) / 2};
+    certificate.spanning[2] = {V(1, -1, 1), (1 + spanned) / 2};
+    certificate.spanning[3] = {V(-1, 1, 1), (1 - spanned) / 2};
+    return check_certificate(support, ray, claim, certificate).complaint;
+  };
+  for (const double t : {0.0, 0.25, 0.5}) EXPECT_EQ(complaint(t, 0.25), "") << t;
+  EXPECT_EQ(complaint(-0.25, 0.25), "the hit lies before the ray");
+  EXPECT_EQ(complaint(0.75, 0.25), "the hit lies beyond t_max");
+  EXPECT_EQ(complaint(0.25, -0.25), "the support points span no point of the ray");
+  EXPECT_EQ(complaint(0.25, 0.75), "the support points span no point of the ray");
+  // The bounds begin where the ray does, not where its line enters the box.
+  complaint(0.25, 0.25);
+  const CertificateVerdict verdict = check_certificate(support, ray, claim, certificate);
+  EXPECT_EQ(verdict.t_lo(), 0);
+  EXPECT_EQ(verdict.t_hi(), 0.25);
+}
+
+// In no direction everything has the height 0, and 0 separates from 0.
+TEST(Certificate, of_a_miss_without_a_plane_is_refused) {
+  const Shape<double> ball = Sphere<double>{1};
+  const SupportFunction support = supports_of(ball);
+  Claim claim;
+  claim.status = Status::miss;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const double beside : {0.0, 0.5, 1.5}) {
+    const Ray<double> ray{{-3, beside, 0}, {1, 0, 0}};
+    Certificate certificate;
+    for (const V& none : {V(0, 0, 0), V(nan, nan, nan), V(0, nan, 0)}) {
+      certificate.plane = none;
+      EXPECT_EQ(check_certificate(support, ray, claim, certificate).complaint,
+                "a miss without a plane");
+    }
+    certificate.plane = {0, 1, 0};
+    EXPECT_EQ(check_certificate(support, ray, claim, certificate).holds, beside > 1);
+  }
+}
+
+// From there the ray's parameters have no digits for the shape, nor has the segment near it.
+TEST(Certificate, of_a_ray_from_too_far_away_is_refused) {
+  const Shape<double> ball = Sphere<double>{1};
+  const SupportFunction support = supports_of(ball);
+  for (const double away : {1e3, 1e12, 1e20, 1e24}) {
+    const Ray<double> ray{{-1.1 * away, 0.5, 1.1 * away}, {1.1, 0, -1.1}};
+    Claim claim;
+    claim.status = Status::miss;
+    Certificate certificate;
+    certificate.plane = {0, 1, 0};
+    const CertificateVerdict verdict = check_certificate(support, ray, claim, certificate);
+    EXPECT_FALSE(verdict.holds);
+    EXPECT_EQ(verdict.complaint == "the origin is too far away", away > 1e15) << verdict.complaint;
+  }
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The program as a whole: its exit codes, and what goes to stdout and to stderr.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -16,23 +15,9 @@
 namespace minkray {
 namespace {
 
-struct Outcome {
-  int exit_code;
-  std::string out, err;
-};
-
 /// Runs minkray with arguments for a shell.
-Outcome run(const std::string& arguments) {
-  const std::string base = ::testing::TempDir() + "minkray-cli-" +
-                           ::testing::UnitTest::GetInstance()->current_test_info()->name();
-  const std::string command = "'" MINKRAY_PROGRAM "' " + arguments;
-  const int status =
-      std::system(("( " + command + " ) >'" + base + ".out' 2>'" + base + ".err'").c_str());
-  Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of_file(base + ".out"),
-                  text_of_file(base + ".err")};
-  std::filesystem::remove(base + ".out");
-  std::filesystem::remove(base + ".err");
-  return outcome;
+ProgramOutcome run(const std::string& arguments) {
+  return run_shell("\"$MINKRAY\" " + arguments);
 }
 
 std::string scene(const std::string& name) {
@@ -40,15 +25,15 @@ std::string scene(const std::string& name) {
 }
 
 TEST(Cli, results_are_on_stdout_and_done_is_0) {
-  const Outcome help = run("--help");
+  const ProgramOutcome help = run("--help");
   EXPECT_EQ(help.exit_code, 0);
   EXPECT_NE(help.out.find("Exit codes: 0 done"), std::string::npos);
   EXPECT_EQ(help.err, "");
-  const Outcome schema = run("info --schema");
+  const ProgramOutcome schema = run("info --schema");
   EXPECT_EQ(schema.exit_code, 0);
   EXPECT_EQ(schema.out, schema_text());
   EXPECT_EQ(schema.err, "");
-  const Outcome info = run("info " + scene("shape-zoo.json"));
+  const ProgramOutcome info = run("info " + scene("shape-zoo.json"));
   EXPECT_EQ(info.exit_code, 0);
   EXPECT_NE(info.out.find("Every shape and every operator"), std::string::npos);
   EXPECT_EQ(info.err, "");
@@ -61,7 +46,7 @@ TEST(Cli, info_counts_what_objects_are_and_what_they_are_made_of) {
 }
 
 TEST(Cli, the_version_names_the_commit) {
-  const Outcome version = run("--version");
+  const ProgramOutcome version = run("--version");
   EXPECT_EQ(version.exit_code, 0);
   const bool has_history =
       std::filesystem::exists(source_folder() / ".git") &&
@@ -75,11 +60,12 @@ TEST(Cli, the_version_names_the_commit) {
 }
 
 TEST(Cli, certificates_are_summed_up_on_stderr) {
-  const Outcome cast = run("cast --certify '" MINKRAY_TEST_CASES "/hard-casts.jsonl'");
+  const ProgramOutcome cast =
+      run("cast --certify '" + (source_folder() / "tests/cases/hard-casts.jsonl").string() + "'");
   EXPECT_EQ(cast.exit_code, 0);
   EXPECT_EQ(cast.err, "certificates: 102 hold, 0 do not; 0 answers without (distances, turning)\n");
   const std::string picture = ::testing::TempDir() + "minkray-certified.png";
-  const Outcome render =
+  const ProgramOutcome render =
       run("render " + scene("figure-1.json") + " -r 32x18 -s 1 -q --certify -o '" + picture + "'");
   EXPECT_EQ(render.exit_code, 0) << render.err;
   EXPECT_NE(render.err.find("without proof 0\n"), std::string::npos) << render.err;
@@ -87,7 +73,7 @@ TEST(Cli, certificates_are_summed_up_on_stderr) {
 }
 
 TEST(Cli, the_league_is_a_program_of_its_own) {
-  const Outcome outcome = run("league --only 'no such case'");
+  const ProgramOutcome outcome = run("league --only 'no such case'");
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_NE(outcome.err.find("league: "), std::string::npos) << outcome.err;
 }
@@ -97,7 +83,7 @@ TEST(Cli, wrong_usage_is_2) {
        {"no-such-verb", "info", "info --no-such-option", "info --shapes --schema",
         "info a.json --schema", "info a.json --markdown", "league --limit 0",
         "league --random few"}) {
-    const Outcome outcome = run(arguments);
+    const ProgramOutcome outcome = run(arguments);
     EXPECT_EQ(outcome.exit_code, 2) << arguments;
     EXPECT_EQ(outcome.out, "") << arguments;
     EXPECT_NE(outcome.err, "") << arguments;
@@ -113,7 +99,7 @@ TEST(Cli, bad_input_is_3_and_all_mistakes_are_on_stderr) {
   };
   write(R"({"version": 2, "camera": {"position": [0, 0, 0], "look_at": [0, 0, 0]},
             "lights": [], "materials": [], "objects": {}})");
-  const Outcome bad = run("info '" + file + "'");
+  const ProgramOutcome bad = run("info '" + file + "'");
   EXPECT_EQ(bad.exit_code, 3);
   EXPECT_EQ(bad.out, "");
   EXPECT_EQ(bad.err, file + ": /version: must be 1 (got 2)\n" + file +
@@ -140,7 +126,7 @@ TEST(Cli, names_of_files_do_not_steer_the_terminal) {
         "info '--FILE'"}) {
     std::string words = arguments;
     words.replace(words.find("FILE"), 4, folder / name);
-    const Outcome outcome = run(words);
+    const ProgramOutcome outcome = run(words);
     EXPECT_NE(outcome.exit_code, 0) << arguments;
     EXPECT_NE(outcome.err.find("c?[31m?.json"), std::string::npos) << outcome.err;
     EXPECT_EQ(outcome.err, printable_lines(outcome.err)) << arguments;
@@ -162,7 +148,7 @@ TEST(Cli, queries_cut_off_anywhere_are_told_and_all_others_answered) {
     for (std::size_t length = 1; length < short_query.size(); ++length)
       file << short_query.substr(0, length) << "\n" << short_query << "\n";
   }
-  const Outcome outcome = run("cast '" + folder / "q.jsonl" + "'");
+  const ProgramOutcome outcome = run("cast '" + folder / "q.jsonl" + "'");
   EXPECT_EQ(outcome.exit_code, 3);
   EXPECT_EQ(lines_of(outcome.out), short_query.size() - 1);
   EXPECT_EQ(lines_of(outcome.err), short_query.size() - 1);
@@ -180,7 +166,7 @@ TEST(Cli, a_file_of_queries_cut_off_anywhere_is_answered_up_to_there) {
     const std::size_t in_line = length % (short_query.size() + 1);
     if (length % 7 != 0 && in_line > 1 && in_line + 2 < short_query.size()) continue;
     std::ofstream(folder / "q.jsonl", std::ios::binary) << text.substr(0, length);
-    const Outcome outcome = run("cast '" + folder / "q.jsonl" + "'");
+    const ProgramOutcome outcome = run("cast '" + folder / "q.jsonl" + "'");
     const bool is_cut = in_line != 0 && in_line != short_query.size();
     const std::size_t answers = (length + 1) / (short_query.size() + 1);
     EXPECT_EQ(outcome.exit_code, is_cut ? 3 : 0) << length;

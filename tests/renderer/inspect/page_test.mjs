@@ -27,8 +27,10 @@ function trace(x, y, solver = 'auto', object = '') {
 const browser = new Browser();
 const tests = [];
 const test = (name, run) => tests.push({ name, run });
+const pages = [];
 const open = async (state = '', width = 1000, height = 1000, ...more) => {
   const page = await browser.open('file://' + file + (state ? '#' + state : ''), width, height, ...more);
+  pages.push(page);
   await page.until("document.documentElement?.dataset.ready === 'yes'");
   return page;
 };
@@ -196,8 +198,8 @@ test('every map is drawn, magnified and in the dark, and on a small screen nothi
 });
 
 test('no page asked for anything but its file', async () => {
-  const page = await open();
-  assert.deepEqual(page.requests.map(request => request.split('#')[0]), ['file://' + file]);
+  assert.ok(pages.length > 5, pages.length + ' pages');
+  for (const page of pages) assert.deepEqual(page.requests.map(request => request.split('#')[0]), ['file://' + file]);
 });
 
 let failed = 0;

@@ -5,6 +5,7 @@
 
 #include "renderer/query/answer.h"
 #include "renderer/query/query_json.h"
+#include "tests/support/source_files.h"
 
 namespace minkray {
 namespace {
@@ -23,7 +24,7 @@ std::string mistakes_of(const std::string& text) {
 /// All cases of a file, and what is wrong with the answers.
 std::vector<std::string> all_complaints(const std::string& file, const AnswerOptions& options,
                                         int& cases) {
-  std::ifstream in(std::string(MINKRAY_TEST_CASES) + "/" + file);
+  std::ifstream in(source_folder() / "tests/cases" / file);
   std::vector<std::string> all;
   std::string line;
   cases = 0;
@@ -56,7 +57,7 @@ TEST(HardCases, all_are_right_in_double_and_in_float) {
 }
 
 TEST(HardCases, all_are_certified_in_double_and_in_float) {
-  std::ifstream in(std::string(MINKRAY_TEST_CASES) + "/hard-casts.jsonl");
+  std::ifstream in(source_folder() / "tests/cases/hard-casts.jsonl");
   int certified = 0;
   for (std::string line; std::getline(in, line);) {
     Mistakes mistakes("hard-casts.jsonl");
