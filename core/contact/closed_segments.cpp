@@ -156,7 +156,7 @@ CoreDistance between_segments(const Vec3<double>& p, const Vec3<double>& q, cons
   const auto try_axis = [&](const Vec3<double>& m) {
     if (!m.isZero(0) && gap(m) > gap(axis)) axis = m;
   };
-  // Of nearly parallel ones rounding may hide which ends count: the best plane is the one.
+  // Rounding may hide which ends of nearly parallel ones count: the best plane is taken.
   if (!is_crossing) {
     const Vec3<double> beside = across(p, q, n);
     try_axis(beside.dot(x) < 0 ? Vec3<double>(-beside) : beside);
