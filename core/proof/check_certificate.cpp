@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "core/proof/check_certificate.h"
 
+#include "core/math/length.h"
 #include "core/query/near_segment.h"
 
 namespace minkray {
 namespace {
 
+/// Others have no unit vector that is worked out with their square.
 bool is_direction(const Vec3<double>& n) {
-  return n.allFinite() && n.squaredNorm() > 0;
+  return is_ordinary_square(n.squaredNorm());
 }
 
 /// Points are relative to the segment's centre.
@@ -87,6 +89,9 @@ class Checker {
       complain("the hit lies beyond t_max");
     if (!(lambda - near_.lambda_of(0, 0) >= -verdict_.allowed))
       complain("the hit lies before the ray");
+    // Planes along the ray say nothing of where on it.
+    if (!(lambda >= near_.begin - verdict_.allowed && lambda <= near_.end + verdict_.allowed))
+      complain("the hit lies before or behind the shape");
     expect_at_most(std::abs(above), "the hit point is not on the plane of its normal");
 
     // The proven plane: nothing of the shape lies before it.

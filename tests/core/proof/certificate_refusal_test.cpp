@@ -190,17 +190,18 @@ TEST(Certificate, without_a_plane_of_its_own_is_judged_by_the_claimed_one) {
 TEST(Certificate, of_a_hit_where_a_faces_plane_is_crossed_beside_it_is_refused) {
   const Shape<double> box = Box<double>{{1, 1, 1}};
   const SupportFunction support = supports_of(box);
-  const Ray<double> ray{{-2, -3, 0}, {1, 1, 0}};  // enters at (0, -1, 0), t = 2
+  const Ray<double> ray{{-3, -1.5, -0.5}, {1, 0.2, 0.5}};  // enters at (-0.5, -1, 0.75)
   Certificate certificate;
   certificate.plane = {0, -1, 0};
-  certificate.spanning[0] = {V(-1, -1, -1), 0.5};
-  certificate.spanning[1] = {V(1, -1, 1), 0.5};
+  certificate.spanning[0] = {V(1, -1, 1), 0.25};
+  certificate.spanning[1] = {V(-1, -1, 1), 0.625};
+  certificate.spanning[2] = {V(-1, -1, -1), 0.125};
   Claim claim;
   claim.status = Status::hit;
-  claim.t_offset = 2;
+  claim.t_offset = 2.5;
   claim.normal = {0, -1, 0};
   EXPECT_EQ(check_certificate(support, ray, claim, certificate).complaint, "");
-  claim.t_offset = 1;
+  claim.t_offset = 2;
   claim.normal = {-1, 0, 0};
   EXPECT_EQ(check_certificate(support, ray, claim, certificate).complaint,
             "the hit point lies outside the shape");
@@ -234,6 +235,52 @@ TEST(Certificate, of_a_ray_in_a_face_is_of_what_lies_between_its_ends) {
   const CertificateVerdict verdict = check_certificate(support, ray, claim, certificate);
   EXPECT_EQ(verdict.t_lo(), 0);
   EXPECT_EQ(verdict.t_hi(), 0.25);
+}
+
+// All of the ray lies in that plane, in the air as well.
+TEST(Certificate, of_a_hit_in_a_faces_plane_before_or_behind_the_face_is_refused) {
+  const Shape<double> box = Box<double>{{1, 1, 1}};
+  const SupportFunction support = supports_of(box);
+  const Ray<double> ray{{-3, 0, 1}, {1, 0, 0}};
+  Claim claim;
+  claim.status = Status::hit;
+  claim.normal = {0, 0, 1};
+  Certificate certificate;
+  certificate.plane = {0, 0, 1};
+  certificate.spanning[0] = {V(1, 1, 1), 0.5};
+  certificate.spanning[1] = {V(-1, -1, 1), 0.5};
+  for (const double t : {0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 1e17}) {
+    claim.t_offset = t;
+    const CertificateVerdict verdict = check_certificate(support, ray, claim, certificate);
+    EXPECT_EQ(verdict.holds, t >= 2 && t <= 4) << t;
+    if (!verdict.holds) {
+      EXPECT_EQ(verdict.complaint, "the hit lies before or behind the shape") << t;
+    }
+  }
+}
+
+// The squares of their lengths are no numbers, so that their unit vectors were 0.
+TEST(Certificate, of_directions_too_long_or_too_short_is_refused) {
+  const Shape<double> ball = Sphere<double>{1};
+  const SupportFunction support = supports_of(ball);
+  const Ray<double> at_it{{-3, 0, 0}, {1, 0, 0}}, beside{{-3, 0, 2}, {1, 0, 0}};
+  for (const double length : {1e-200, 1e-100, 1.0, 1e100, 1e200}) {
+    const bool is_ordinary = length > 1e-150 && length < 1e150;
+    Certificate certificate;
+    Claim claim;
+    claim.status = Status::miss;
+    certificate.plane = {0, 0, length};
+    EXPECT_FALSE(check_certificate(support, at_it, claim, certificate).holds) << length;
+    EXPECT_EQ(check_certificate(support, beside, claim, certificate).holds, is_ordinary) << length;
+    certificate.plane = {-length, 0, 0};
+    certificate.spanning[0] = {V(-1, 0, 0), 1};
+    claim.status = Status::hit;
+    claim.t_offset = 2;
+    claim.normal = {-length, 0, 0};
+    EXPECT_EQ(check_certificate(support, at_it, claim, certificate).holds, is_ordinary) << length;
+    claim.t_offset = 1.5;
+    EXPECT_FALSE(check_certificate(support, at_it, claim, certificate).holds) << length;
+  }
 }
 
 // In no direction everything has the height 0, and 0 separates from 0.
