@@ -28,9 +28,11 @@ CertificateVerdict verdict_of(const HalfSpaceBody<double>& half_space, const Ray
   if (claim.status == Status::hit) {
     verdict.t_base = static_cast<double>(t);
     verdict.claim_error = static_cast<double>(std::abs(height + t * rise));
-    if (!(verdict.claim_error <= verdict.allowed))
+    if (!std::isfinite(t) || !(verdict.claim_error <= verdict.allowed))
       return complain("the hit point is off the plane");
     if (!(height >= -verdict.allowed) || !(rise < 0)) return complain("the plane is not entered");
+    if (!(t * -rise <= Number(ray.t_max) * -rise + Number(verdict.allowed)))
+      return complain("the hit lies beyond t_max");
     if (!(claim.normal == half_space.normal)) return complain("the normal is not the plane's");
   } else if (claim.status == Status::inside) {
     if (!(height <= verdict.allowed)) return complain("the ray begins above the plane");
