@@ -17,9 +17,9 @@ using V = Vec3<double>;
 constexpr double endless = std::numeric_limits<double>::infinity();
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
-template <std::size_t N>
-double one_of(const std::array<double, N>& numbers, Random& random) {
-  return numbers[static_cast<std::size_t>(random.below(int(N)))];
+template <class Value, std::size_t N>
+Value one_of(const std::array<Value, N>& values, Random& random) {
+  return values[static_cast<std::size_t>(random.below(int(N)))];
 }
 
 /// A third of them are not of ordinary length.
@@ -103,12 +103,10 @@ TEST(Certificate, that_is_forged_proves_nothing_false) {
                                          along.unitOrthogonal(),
                                          V::Unit(random.below(3)),
                                          random.direction()};
-    const auto any_direction = [&] {
-      return of_any_length(directions[static_cast<std::size_t>(random.below(7))], random);
-    };
+    const auto any_direction = [&] { return of_any_length(one_of(directions, random), random); };
     constexpr std::array claims = {Status::hit, Status::miss, Status::inside};
     Claim claim;
-    claim.status = claims[static_cast<std::size_t>(random.below(3))];
+    claim.status = one_of(claims, random);
     claim.normal = random.below(2) > 0 ? normal : any_direction();
     claim.t_base = any_time(std::isfinite(t) ? t : away, random);
     claim.t_offset = random.below(2) > 0 ? 0 : any_time(0, random);
