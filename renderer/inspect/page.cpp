@@ -150,9 +150,9 @@ InspectPage inspect_page(const Scene& scene, const std::vector<InspectedSolver>&
                    {"view", view_json(scene, solvers, answers)}};
 
   std::string& html = result.html;
-  html = page_files::html;
-  put(html, "/* style */", page_files::style);
-  put(html, "/* script */", page_files::script);
+  html = page_files::html();
+  put(html, "/* style */", page_files::style());
+  put(html, "/* script */", page_files::script());
   put(html, "<!-- about -->", for_script(about.dump()));
   put(html, "<!-- picture -->", base64(encode_image(rendering.image, "picture.png")));
   const std::size_t left = options.most_bytes > html.size() ? options.most_bytes - html.size() : 0;

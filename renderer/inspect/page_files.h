@@ -2,12 +2,12 @@
 // The files of renderer/inspect/page, which the build puts into the program.
 #pragma once
 
-#include <string_view>
+#include <string>
 
 namespace minkray::page_files {
 
-extern const std::string_view html;
-extern const std::string_view style;
-extern const std::string_view script;  ///< all scripts, in their order
+std::string html();
+std::string style();
+std::string script();  ///< all scripts, in their order
 
 }  // namespace minkray::page_files

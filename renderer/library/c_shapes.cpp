@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The functions of the C interface that make shapes and ask them.
+#include <cmath>
 #include <cstring>
 
 #include "core/derived/shape_bounds.h"
@@ -31,6 +32,15 @@ namespace {
 minkray_shape hold(Shape<double> shape) {
   check_nesting(shape);
   return {held_shapes().add(std::make_unique<HeldShape>(std::move(shape)))};
+}
+
+/// Divided by a power of two, after which no square of it is too large or too small for a number.
+/// The furthest point is the same.
+Vec3<double> of_ordinary_length(Vec3<double> direction) {
+  int exponent = 0;
+  std::frexp(direction.cwiseAbs().maxCoeff(), &exponent);
+  for (double& x : direction) x = std::ldexp(x, -exponent);
+  return direction;
 }
 
 }  // namespace
@@ -150,7 +160,7 @@ int minkray_shape_support(minkray_shape shape, size_t count, const double (*dire
       if (!direction(i).allFinite())
         wrong_use("directions[" + std::to_string(i) + "]: must be three finite numbers");
     for (size_t i = 0; i < count; ++i) {
-      const Vec3<double> point = held.shape()->support(direction(i));
+      const Vec3<double> point = held.shape()->support(of_ordinary_length(direction(i)));
       for (int k = 0; k < 3; ++k) points[i][k] = point[k];
     }
     throw_if_lied(held.customs());

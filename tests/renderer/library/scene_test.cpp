@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <minkray/minkray.h>
 
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <string>
@@ -313,6 +314,24 @@ TEST(LibraryScene, shapes_go_through_text_and_stay_the_same) {
   EXPECT_EQ(again.json<std::string>(), text);
   for (const mk::Ray& ray : rays_around({0, 0, 0}, 2, 200))
     EXPECT_EQ(shape.support(ray.direction), again.support(ray.direction));
+}
+
+/// An ellipsoid's were no numbers along (1e308, 5, 0.2), whose squares overflow.
+TEST(LibraryScene, support_points_are_the_same_along_directions_of_any_length) {
+  for (const mk::Shape& shape : some_shapes()) {
+    SCOPED_TRACE(shape.kind());
+    for (const mk::Ray& ray : rays_around({0, 0, 0}, 2, 20))
+      for (const int power : {-1000, -500, 500, 1000}) {
+        const mk::Vec3& n = ray.direction;
+        const mk::Vec3 scaled = {std::ldexp(n.x, power), std::ldexp(n.y, power),
+                                 std::ldexp(n.z, power)};
+        EXPECT_EQ(shape.support(scaled), shape.support(n)) << "times 2^" << power;
+      }
+    EXPECT_EQ(shape.support({0, 5e-324, 0}), shape.support({0, 1, 0}));
+    EXPECT_EQ(shape.support({1e308, 5.28, 1.0 / 6}).x, shape.support({1, 0, 0}).x);
+    const mk::Vec3 anywhere = shape.support({0, 0, 0});
+    EXPECT_TRUE(std::isfinite(anywhere.x + anywhere.y + anywhere.z));
+  }
 }
 
 TEST(LibraryScene, what_takes_long_is_told_of_and_can_be_stopped) {
