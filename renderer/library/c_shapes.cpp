@@ -34,8 +34,8 @@ minkray_shape hold(Shape<double> shape) {
   return {held_shapes().add(std::make_unique<HeldShape>(std::move(shape)))};
 }
 
-/// Divided by a power of two, after which no square of it is too large or too small for a number.
-/// The furthest point is the same.
+/// Divided by a power of two, after which its largest coordinate lies between 0.5 and 1, so that
+/// the sum of squares is a number. The furthest point is the same.
 Vec3<double> of_ordinary_length(Vec3<double> direction) {
   int exponent = 0;
   std::frexp(direction.cwiseAbs().maxCoeff(), &exponent);
