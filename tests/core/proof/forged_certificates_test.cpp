@@ -80,7 +80,7 @@ struct Body {
 TEST(Certificate, that_is_forged_proves_nothing_false) {
   Random random(20261126);
   std::array<int, 4> holding{};
-  for (int i = 0; i < 300'000; ++i) {
+  for (int i = 0; i < 1'000'000; ++i) {
     const Body body{random.below(2) > 0, random.below(2) > 0 ? V(0, 0, 0) : V(3, -2, 1)};
     const SupportFunction support = [&](const V& n) { return body.support(n); };
     const V along = random.direction();
@@ -110,7 +110,8 @@ TEST(Certificate, that_is_forged_proves_nothing_false) {
     claim.normal = random.below(2) > 0 ? normal : any_direction();
     claim.t_base = any_time(std::isfinite(t) ? t : away, random);
     claim.t_offset = random.below(2) > 0 ? 0 : any_time(0, random);
-    // From nothing, or what proves the truth with something else put in.
+    // From nothing, or what proves the truth with something else put in; sometimes what comes
+    // nearest to proving the claim, of which the search takes long where it is false.
     const bool is_changed = random.below(4) == 0;
     Certificate certificate;
     if (is_changed) {
@@ -118,7 +119,7 @@ TEST(Certificate, that_is_forged_proves_nothing_false) {
       truth.status = is_hit ? Status::hit : is_miss ? Status::miss : Status::inside;
       truth.normal = normal;
       if (is_hit) truth.t_base = t;
-      certificate = certify(support, ray, truth);
+      certificate = certify(support, ray, random.below(2000) > 0 ? truth : claim);
       if (random.below(2) > 0) claim.status = truth.status;
     }
     if (!is_changed || random.below(2) > 0) certificate.plane = any_direction();
