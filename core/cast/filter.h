@@ -102,6 +102,8 @@ template <bool leaves, class F, class Placed>
     normal = unit_of_ordinary<W>(normal);
   else if (any(answer.miss))
     normal = select<W>(answer.miss, unit_of_ordinary<W>(normal), normal);
+  // A line may be so far off that its distance has no square: then the normal has no length.
+  if (any(answer.miss)) answer.miss &= W(normal.squaredNorm()) > W(0);
   if (any(answer.inside)) normal = select<W>(answer.inside, Vec3<W>::Zero(), normal);
   answer.normal = {convert<T>(normal.x()), convert<T>(normal.y()), convert<T>(normal.z())};
 

@@ -23,11 +23,18 @@ constexpr double most_to_rounding = 0x1p20;
 
 /// The longest over the thinnest; 1 if there is nothing but one length. `flat`: lengths up to it
 /// count as none.
-double ratio_of(Vec3<double> lengths, double flat) {
+double ratio_of(Vec3<long double> lengths, double flat) {
   std::sort(lengths.begin(), lengths.end());
-  for (const double length : lengths)
-    if (length > flat) return lengths[2] / length;
+  for (const long double length : lengths)
+    if (length > flat) return double(lengths[2] / length);
   return 1;
+}
+
+/// Half of a box's sides: in T, and in double, half of the least number is rounded to nothing.
+template <class T>
+Vec3<long double> half_extents_of(const Bounds<T>& bounds) {
+  return (bounds.upper.template cast<long double>() - bounds.lower.template cast<long double>()) /
+         2;
 }
 
 /// Exactly, up to the rounding of long double.
@@ -101,7 +108,7 @@ double ratio_of_points(std::span<const Vec3<T>> points) {
   // it by.
   if (std::is_same_v<T, double> && is_lost_needle(spread, points))
     return std::numeric_limits<double>::infinity();
-  return ratio_of(spread.lengths, spread.flat);
+  return ratio_of(spread.lengths.cast<long double>(), spread.flat);
 }
 
 /// How much maps lengthen and shorten what they map, at most.
@@ -163,9 +170,9 @@ void look_at(const Shape<T>& shape, const Stretch& stretch, Seen& seen) {
         } else if constexpr (std::is_same_v<S, MinkowskiSum<T>> || std::is_same_v<S, HullOf<T>>) {
           for (const Nested<T>& operand : kind.shapes) look_at(*operand, stretch, seen);
         } else {
-          const Vec3<double> lengths = bounds_of<T>(kind).half_extents().template cast<double>();
+          const Vec3<long double> lengths = half_extents_of(bounds_of<T>(kind));
           seen.extreme_operand |= ratio_of(lengths, 0) * stretch.ratio() > most_along_axes<T>;
-          for (const double length : lengths) seen.add(length, stretch);
+          for (const long double length : lengths) seen.add(double(length), stretch);
         }
       },
       shape.kind);

@@ -231,6 +231,64 @@ TEST(ExtremeShapes, needles_thinner_than_rounding_are_met_where_they_are_in_floa
   EXPECT_GT(hits, 3500);
 }
 
+/// The plane of a miss separates: the whole of the ray lies before it.
+template <class T>
+void expect_plane(const Shape<T>& shape, const Ray<T>& ray, const CastResult<T>& miss) {
+  const Shape<Long> same = convert<Long>(shape);
+  const Vec3<Long> n = miss.normal.template cast<Long>(), o = ray.origin.template cast<Long>();
+  EXPECT_NEAR(double(n.norm()), 1, 1e-6);
+  EXPECT_GT(double(n.dot(o - same.support(n))), 0);
+  if (std::isfinite(ray.t_max)) return;
+  EXPECT_GE(double(n.dot(ray.direction.template cast<Long>())), -1e-6);
+}
+
+/// Through the middle of an axis by numbers that are exact, and up to just before it.
+template <class T>
+void expect_needles_of_least_radius_are_met() {
+  for (const T radius : {T(1), T(2), T(3), T(100)})
+    for (const bool is_round : {true, false}) {
+      SCOPED_TRACE(double(radius));
+      const T thin = radius * std::numeric_limits<T>::denorm_min(), half = T(0.1875);
+      const Shape<T> needle =
+          is_round ? Shape<T>(Capsule<T>{thin, half}) : Shape<T>(Cylinder<T>{thin, half});
+      const PreparedShape<T> prepared(needle);
+      Ray<T> ray{{T(1), T(-0.625), T(2.09375)}, {T(-0.5), T(0.3125), T(-1)}};
+      const CastResult<T> hit = cast_ray(prepared, ray);
+      EXPECT_EQ(hit.status, Status::hit);
+      EXPECT_NEAR(double(hit.t()), 2, 1e-5);
+      ray.t_max = T(1.5);
+      const CastResult<T> miss = cast_ray(prepared, ray);
+      ASSERT_EQ(miss.status, Status::miss);
+      expect_plane(needle, ray, miss);
+    }
+}
+
+TEST(ExtremeShapes, needles_of_the_least_radius_are_met) {
+  expect_needles_of_least_radius_are_met<float>();
+  expect_needles_of_least_radius_are_met<double>();
+}
+
+/// A length of 1e160 has no square in double: closed forms answered such a miss without a normal.
+TEST(ExtremeShapes, misses_by_any_number_of_radii_have_planes) {
+  for (const int size : {-1000, -500, -450, -400, -300, 0, 9})
+    for (const int apart : {1, 30, 100, 300, 600, 1000})
+      for (const double turned : {0.0, 1.0}) {
+        if (size + apart > 1000) continue;
+        SCOPED_TRACE(::testing::Message() << size << ", " << apart << ", " << turned);
+        const double radius = std::ldexp(1.0, size), off = std::ldexp(radius, apart);
+        const Vec3<double> middle = Vec3<double>(1, 2, 3) * radius;
+        const Mat3<double> turn =
+            Eigen::AngleAxis<double>(turned, Vec3<double>::UnitZ()).toRotationMatrix();
+        const Shape<double> ball = Sphere<double>{radius};
+        const PreparedShape<double> posed(ball, {turn, middle});
+        const Ray<double> ray{middle + Vec3<double>(off, 0, 0), {0, 0, 1}};
+        const CastResult<double> miss = cast_ray(posed, ray);
+        if (miss.status == Status::exhausted) continue;
+        ASSERT_EQ(miss.status, Status::miss);
+        expect_plane<double>(Transform<double>{ball, Affine<double>{turn, middle}}, ray, miss);
+      }
+}
+
 TEST(ExtremeShapes, packets_say_what_single_casts_say) {
   const Shape<double> shape = Ellipsoid<double>{{1, 1e-5, 1e-9}};
   const PreparedShape<float> prepared{convert<float>(shape)};

@@ -35,6 +35,20 @@ TEST(Proportions, do_not_depend_on_the_size) {
   }
 }
 
+/// Half of the least number is rounded to nothing: capsules and cylinders of that radius counted as
+/// segments, and were missed by rays that met them.
+TEST(Proportions, the_least_number_is_a_length) {
+  const double least = std::numeric_limits<double>::denorm_min();
+  const float least_float = std::numeric_limits<float>::denorm_min();
+  EXPECT_TRUE(is_extreme(Capsule<double>{least, 0.5}));
+  EXPECT_TRUE(is_extreme(Cylinder<double>{least, 0.5}));
+  EXPECT_TRUE(is_extreme(Cylinder<double>{1, least}));
+  EXPECT_TRUE(is_extreme(CutCylinder<double>{1, {0, least}}));
+  EXPECT_TRUE(is_extreme(Box<double>{{1, 2, least}}));
+  EXPECT_FALSE(is_extreme(Box<double>{{least, least, least}}));
+  EXPECT_TRUE(has_extreme_proportions(Shape<float>(Cylinder<float>{least_float, 0.5f})));
+}
+
 TEST(Proportions, what_is_flat_is_not_thin) {
   EXPECT_FALSE(is_extreme(Box<double>{{1, 2, 0}}));
   EXPECT_FALSE(is_extreme(Disk<double>{1}));
