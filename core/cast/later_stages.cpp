@@ -10,6 +10,7 @@
 #include "core/cast/in_double.h"
 #include "core/cast/judge.h"
 #include "core/cast/on_ray.h"
+#include "core/math/least_to_square.h"
 
 namespace minkray {
 namespace {
@@ -81,13 +82,28 @@ CastResult<T> cast_near(const PreparedShape<T>& shape, const RayNearBall<T>& nea
   return result;
 }
 
+/// A shape without size has no scale of its own: where the ray is too near for squares of lengths,
+/// all of them are multiplied by a power of two.
+template <class T>
+RayNearBall<T> with_squares(RayNearBall<T> near) {
+  const T nearest = std::clamp(T(0), near.lambda_min, near.lambda_max);
+  const T longest = (near.s + nearest * near.r).cwiseAbs().maxCoeff();
+  if (!(longest > T(0)) || longest >= least_to_square<T>) return near;
+  constexpr T up = std::is_same_v<T, float> ? T(0x1p100) : T(0x1p900);
+  near.s *= up;
+  near.lambda_min *= up;
+  near.lambda_max *= up;
+  near.t_per_length /= up;
+  return near;
+}
+
 /// The ray in the inner frame, with all its digits wherever it comes from.
 template <class T>
 RayNearBall<T> near_inner(const PreparedShape<T>& shape, const Ray<T>& ray) {
   RayNearBall<T> near = shape.to_inner(ray);
   if (near.is_from_afar(shape.inner_ball().radius) || shape.is_far_out())
     near = shape.to_inner_from_afar(ray);
-  return near;
+  return shape.inner_ball().radius > T(0) ? near : with_squares(near);
 }
 
 /// Exhausted, if the ray has lost its digits even so: but for misses by more than that.

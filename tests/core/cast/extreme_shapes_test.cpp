@@ -289,6 +289,32 @@ TEST(ExtremeShapes, misses_by_any_number_of_radii_have_planes) {
       }
 }
 
+/// A point has no size that lengths could be measured by: those without a square were none.
+template <class T>
+void expect_points_are_missed_from(int smallest) {
+  for (int k = 0; k >= smallest; k -= 7)
+    for (const T behind : {T(0), T(2), T(-2)}) {
+      SCOPED_TRACE(::testing::Message() << k << ", " << double(behind));
+      const T unit = std::ldexp(T(1), k);
+      const Vec3<T> at = Vec3<T>(T(5), T(-1), T(3)) * unit;
+      const Shape<T> point = Point<T>{at};
+      const PreparedShape<T> prepared(point);
+      const Ray<T> past{at + Vec3<T>(T(1), T(2), behind) * unit, {T(0), T(0), T(1)}};
+      const Ray<T> through{at + Vec3<T>(T(0), T(0), T(-2)) * unit, {T(0), T(0), T(1)}};
+      const CastResult<T> miss = cast_ray(prepared, past);
+      EXPECT_EQ(miss.status, Status::miss);
+      EXPECT_EQ(cast_exit(prepared, past).status, Status::miss);
+      expect_plane(point, past, miss);
+      EXPECT_EQ(cast_ray(prepared, through).status, Status::hit);
+      EXPECT_EQ(cast_exit(prepared, through).status, Status::hit);
+    }
+}
+
+TEST(ExtremeShapes, points_are_missed_by_however_little) {
+  expect_points_are_missed_from<float>(-140);
+  expect_points_are_missed_from<double>(-1060);
+}
+
 TEST(ExtremeShapes, packets_say_what_single_casts_say) {
   const Shape<double> shape = Ellipsoid<double>{{1, 1e-5, 1e-9}};
   const PreparedShape<float> prepared{convert<float>(shape)};
