@@ -10,7 +10,6 @@
 #include "core/cast/in_double.h"
 #include "core/cast/judge.h"
 #include "core/cast/on_ray.h"
-#include "core/math/least_to_square.h"
 
 namespace minkray {
 namespace {
@@ -82,13 +81,18 @@ CastResult<T> cast_near(const PreparedShape<T>& shape, const RayNearBall<T>& nea
   return result;
 }
 
-/// A shape without size has no scale of its own: where the ray is too near for squares of lengths,
-/// all of them are multiplied by a power of two.
+/// A shape without size has no scale of its own: where the ray passes it by nearer than lengths
+/// have squares, and by more than what it lies at is rounded by, all lengths are multiplied by a
+/// power of two.
 template <class T>
-RayNearBall<T> with_squares(RayNearBall<T> near) {
+RayNearBall<T> with_squares(const PreparedShape<T>& point, RayNearBall<T> near) {
   const T nearest = std::clamp(T(0), near.lambda_min, near.lambda_max);
-  const T longest = (near.s + nearest * near.r).cwiseAbs().maxCoeff();
-  if (!(longest > T(0)) || longest >= least_to_square<T>) return near;
+  const Vec3<T> to_ray = near.s + nearest * near.r;
+  const Mat3<T>* map = point.linear_to_inner();
+  const T size = map ? map->cwiseAbs().maxCoeff() : T(1);
+  const T rounding =
+      std::numeric_limits<T>::epsilon() * (point.centre().cwiseAbs().maxCoeff() * size);
+  if (to_ray.squaredNorm() > T(0) || !(to_ray.cwiseAbs().maxCoeff() > rounding)) return near;
   constexpr T up = std::is_same_v<T, float> ? T(0x1p100) : T(0x1p900);
   near.s *= up;
   near.lambda_min *= up;
@@ -103,7 +107,7 @@ RayNearBall<T> near_inner(const PreparedShape<T>& shape, const Ray<T>& ray) {
   RayNearBall<T> near = shape.to_inner(ray);
   if (near.is_from_afar(shape.inner_ball().radius) || shape.is_far_out())
     near = shape.to_inner_from_afar(ray);
-  return shape.inner_ball().radius > T(0) ? near : with_squares(near);
+  return shape.inner_ball().radius > T(0) ? near : with_squares(shape, near);
 }
 
 /// Exhausted, if the ray has lost its digits even so: but for misses by more than that.

@@ -126,9 +126,26 @@ Stretch operator*(const Stretch& outer, const Mat3<T>& linear) {
   return {outer.most * size * std::sqrt(squares[2]), outer.least * size * std::sqrt(squares[0])};
 }
 
+/// Whether points are so little apart along an axis that the products of that length and their size
+/// have lost digits: planes through such points lean by more than rounding.
+template <class T>
+bool loses_digits(std::span<const Vec3<T>> points) {
+  using Long = long double;
+  Vec3<Long> lower = points[0].template cast<Long>(), upper = lower;
+  for (const Vec3<T>& p : points) {
+    lower = lower.cwiseMin(p.template cast<Long>());
+    upper = upper.cwiseMax(p.template cast<Long>());
+  }
+  const Vec3<Long> lengths = upper - lower;
+  constexpr Long least = std::numeric_limits<T>::min() / std::numeric_limits<T>::epsilon();
+  const Long limit = least * lengths.maxCoeff();
+  return std::any_of(lengths.begin(), lengths.end(),
+                     [&](Long length) { return length > 0 && length < limit; });
+}
+
 /// What the walk over a shape's operands has seen.
 struct Seen {
-  bool extreme_operand = false;
+  bool extreme_operand = false, lost_digits = false;
   double longest = 0, shortest = std::numeric_limits<double>::infinity();
   double least_rounding = std::numeric_limits<double>::infinity();
 
@@ -142,6 +159,7 @@ template <class T>
 void look_at(const Shape<T>& shape, const Stretch& stretch, Seen& seen) {
   const auto look_at_points = [&](const auto& kind, std::span<const Vec3<T>> points) {
     seen.extreme_operand |= ratio_of_points<T>(points) * stretch.ratio() > most_askew;
+    seen.lost_digits |= loses_digits<T>(points);
     seen.add(double(bounds_of<T>(kind).half_extents().maxCoeff()), stretch);
   };
   std::visit(
@@ -157,6 +175,9 @@ void look_at(const Shape<T>& shape, const Stretch& stretch, Seen& seen) {
           const double radius = double(kind.radius);
           const double size = double(bounds_of<T>(*kind.shape).half_extents().maxCoeff());
           if (radius * most_askew > size) {
+            Seen core;
+            look_at(*kind.shape, stretch, core);
+            seen.lost_digits |= core.lost_digits;
             seen.add(size + radius, stretch);
             seen.add(radius, stretch);
           } else {
@@ -184,7 +205,8 @@ template <class T>
 bool has_extreme_proportions(const Shape<T>& shape) {
   Seen seen;
   look_at(shape, Stretch(), seen);
-  return seen.extreme_operand || seen.longest > most_along_axes<T> * seen.shortest ||
+  return seen.extreme_operand || seen.lost_digits ||
+         seen.longest > most_along_axes<T> * seen.shortest ||
          seen.longest > most_to_rounding * seen.least_rounding;
 }
 

@@ -49,6 +49,22 @@ TEST(Proportions, the_least_number_is_a_length) {
   EXPECT_TRUE(has_extreme_proportions(Shape<float>(Cylinder<float>{least_float, 0.5f})));
 }
 
+/// Products of such a thickness have few digits: planes through three corners leaned by 3e-4.
+TEST(Proportions, what_is_flat_but_for_a_number_without_digits_is_thin) {
+  const auto plate = [](double size, double thickness) {
+    const double half = thickness / 2;
+    return hull({P(size, -half, -size), P(size, half, size), P(-size, -half, size)});
+  };
+  for (const double size : {1e-20, 1.0, 1e20})
+    for (const double thickness : {1e-320, 1e-300}) {
+      EXPECT_EQ(is_extreme(plate(size, thickness)), thickness < 1e-292 * size) << size;
+      EXPECT_FALSE(is_extreme(plate(size, 0))) << size;
+    }
+  EXPECT_TRUE(is_extreme(Rounded<double>{1, plate(1, 1e-320)}));
+  EXPECT_TRUE(has_extreme_proportions(convert<float>(plate(1, 1e-42))));
+  EXPECT_FALSE(has_extreme_proportions(convert<float>(plate(1, 1e-30))));
+}
+
 TEST(Proportions, what_is_flat_is_not_thin) {
   EXPECT_FALSE(is_extreme(Box<double>{{1, 2, 0}}));
   EXPECT_FALSE(is_extreme(Disk<double>{1}));
