@@ -65,13 +65,15 @@ inline constexpr std::array policies = {
            with_form,
            steep,
            {filter, in_double, bounds, model, gjk, support_portal, finer}},
-    Policy{Kind::automatic, with_model, steep, {bounds, model, gjk, support_portal, finer}},
+    // Flat slivers in float are asked in double: their models lose as many digits as they are thin.
+    Policy{
+        Kind::automatic, with_model, steep, {in_double, bounds, model, gjk, support_portal, finer}},
     Policy{Kind::automatic, osculated, steep, {gjk, model, support_portal, finer}},
     Policy{Kind::automatic, lost, steep, {gjk, support_portal, finer}},
     Policy{Kind::automatic, extreme, always, {in_double, model, gjk, finer}},
     // Hulls of two features need digits: their models are asked in double.
     Policy{Kind::jet, with_form, steep, {in_double, bounds, model, gjk, support_portal, finer}},
-    Policy{Kind::jet, ordinary, steep, {bounds, model, gjk, support_portal, finer}},
+    Policy{Kind::jet, ordinary, steep, {in_double, bounds, model, gjk, support_portal, finer}},
     Policy{Kind::jet, extreme, always, {in_double, model, gjk, finer}},
     Policy{Kind::portal, ordinary, steep, {bounds, support_portal, gjk}},
     Policy{Kind::portal, extreme, always, {in_double, support_portal, gjk}},

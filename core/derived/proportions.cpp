@@ -18,6 +18,9 @@ constexpr double most_along_axes = std::is_same_v<T, float> ? 0x1p13 : 0x1p20;
 /// Points may lie askew: their coordinates are rounded to the longest.
 constexpr double most_askew = 0x1p12;
 
+/// The longest to the thinnest of points in float that are answered in float.
+constexpr double most_in_float = 0x1p8;
+
 /// The longest to what it is rounded by: what is hardly rounded is nearly a sharp edge.
 constexpr double most_to_rounding = 0x1p20;
 
@@ -192,9 +195,29 @@ void look_at(const Shape<T>& shape, const Stretch& stretch, Seen& seen) {
           for (const Nested<T>& operand : kind.shapes) look_at(*operand, stretch, seen);
         } else {
           const Vec3<long double> lengths = half_extents_of(bounds_of<T>(kind));
-          seen.extreme_operand |= ratio_of(lengths, 0) * stretch.ratio() > most_along_axes<T>;
+          // Slanted faces' rims lie askew.
+          constexpr double most =
+              std::is_same_v<S, CutCylinder<T>> ? most_askew : most_along_axes<T>;
+          seen.extreme_operand |= ratio_of(lengths, 0) * stretch.ratio() > most;
           for (const long double length : lengths) seen.add(double(length), stretch);
         }
+      },
+      shape.kind);
+}
+
+/// Whether the shape is a hull or a triangle, mapped or not, whose points are so.
+template <class AreThey>
+bool are_points_that(const Shape<float>& shape, const AreThey& are_they) {
+  return std::visit(
+      [&]<class S>(const S& kind) {
+        if constexpr (std::is_same_v<S, Transform<float>>)
+          return are_points_that(*kind.shape, are_they);
+        else if constexpr (std::is_same_v<S, Hull<float>>)
+          return are_they(kind.points.points());
+        else if constexpr (std::is_same_v<S, Triangle<float>>)
+          return are_they(std::span<const Vec3<float>>(kind.points));
+        else
+          return false;
       },
       shape.kind);
 }
@@ -211,22 +234,23 @@ bool has_extreme_proportions(const Shape<T>& shape) {
 }
 
 bool is_lost_in_rounding(const Shape<float>& shape) {
-  return std::visit(
-      []<class S>(const S& kind) {
-        const auto is_lost = [](std::span<const Vec3<float>> points) {
-          const Spread spread = spread_of(points);
-          return spread.size > 0 && std::isfinite(spread.size) && is_lost_needle(spread, points);
-        };
-        if constexpr (std::is_same_v<S, Transform<float>>)
-          return is_lost_in_rounding(*kind.shape);
-        else if constexpr (std::is_same_v<S, Hull<float>>)
-          return is_lost(kind.points.points());
-        else if constexpr (std::is_same_v<S, Triangle<float>>)
-          return is_lost(kind.points);
-        else
-          return false;
-      },
-      shape.kind);
+  return are_points_that(shape, [](std::span<const Vec3<float>> points) {
+    const Spread spread = spread_of(points);
+    return spread.size > 0 && std::isfinite(spread.size) && is_lost_needle(spread, points);
+  });
+}
+
+bool is_sliver(const Shape<float>& shape) {
+  return are_points_that(shape, [](std::span<const Vec3<float>> points) {
+    return ratio_of_points<float>(points) > most_in_float;
+  });
+}
+
+bool is_flat_but_for_rounding(const Shape<float>& shape) {
+  return are_points_that(shape, [](std::span<const Vec3<float>> points) {
+    const Spread spread = spread_of(points);
+    return spread.lengths[0] <= spread.flat;
+  });
 }
 
 template bool has_extreme_proportions(const Shape<float>&);

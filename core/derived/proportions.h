@@ -17,6 +17,13 @@ bool has_extreme_proportions(const Shape<T>& shape);
 /// in float still meet it, and only the GJK ray cast says where.
 bool is_lost_in_rounding(const Shape<float>& shape);
 
+/// Whether the shape is made of points in float that are a sliver: what a ray in its plane comes to
+/// is off by the rounding of its length times how thin it is.
+bool is_sliver(const Shape<float>& shape);
+
+/// Whether the shape is made of points in float that lie in a plane but for their rounding.
+bool is_flat_but_for_rounding(const Shape<float>& shape);
+
 extern template bool has_extreme_proportions(const Shape<float>&);
 extern template bool has_extreme_proportions(const Shape<double>&);
 

@@ -125,9 +125,14 @@ ShapeDefinition<T>::ShapeDefinition(Shape<T> shape) : original_(shape), inner_(s
   if constexpr (std::is_same_v<T, float>)
     is_lost_in_rounding_ = !is_extreme_ && minkray::is_lost_in_rounding(inner_);
   if (!is_extreme_) form_ = exact_form_of(inner_, ball_.centre.template cast<double>());
-  const bool has_small_form = form_.kind != FormKind::none && form_.kind != FormKind::polytope;
-  if (std::is_same_v<T, float> && (is_extreme_ || has_small_form))
-    in_double_ = std::make_shared<InDouble>();
+  if constexpr (std::is_same_v<T, float>) {
+    const bool has_form = form_.kind != FormKind::none,
+               is_polytope = form_.kind == FormKind::polytope;
+    is_sliver_ = !has_form && !is_extreme_ && !is_lost_in_rounding_ && is_sliver(inner_);
+    const bool is_plate = is_polytope && is_flat_but_for_rounding(inner_);
+    if (is_extreme_ || is_sliver_ || is_plate || (has_form && !is_polytope))
+      in_double_ = std::make_shared<InDouble>();
+  }
   if (is_extreme_)
     in_long_double_ = std::make_shared<const Shape<long double>>(convert<long double>(inner_));
 }

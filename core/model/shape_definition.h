@@ -33,8 +33,9 @@ class ShapeDefinition {
   bool is_extreme() const { return is_extreme_; }
   bool is_lost_in_rounding() const { return is_lost_in_rounding_; }
   /// It is the inner shape in double, made when it is first asked for, of float shapes of which
-  /// some casts are asked there: extreme ones, and those with a closed form but polytopes, whose
-  /// facets would take more memory than the uncertain few are worth. It is null for others.
+  /// some casts are asked there: extreme ones, flat slivers, and those with a closed form but
+  /// polytopes, whose facets would take more memory than the uncertain few are worth: of these only
+  /// plates that are flat but for rounding. It is null for others.
   const ShapeDefinition<double>* in_double() const;
   /// It is the inner shape of extreme shapes in long double; it is null for others.
   const Shape<long double>* in_long_double() const { return in_long_double_.get(); }
@@ -48,7 +49,8 @@ class ShapeDefinition {
   /// Whether packets of rays have a solver of their own.
   bool has_packets() const {
     if (form_.kind != FormKind::none) return true;  // an extreme shape has none
-    return !is_extreme_ && !is_lost_in_rounding_ && model_ != ModelKind::osculating_sums;
+    return !is_extreme_ && !is_sliver_ && !is_lost_in_rounding_ &&
+           model_ != ModelKind::osculating_sums;
   }
 
   /// Bounds of the whole shape (the transforms on) under a pose.
@@ -78,6 +80,7 @@ class ShapeDefinition {
   EllipsoidSum<T> ellipsoid_sum_;
   bool is_extreme_;
   bool is_lost_in_rounding_ = false;
+  bool is_sliver_ = false;
   exact::Form form_;
   struct InDouble;
   std::shared_ptr<InDouble> in_double_;

@@ -231,6 +231,21 @@ TEST(ExtremeShapes, needles_thinner_than_rounding_are_met_where_they_are_in_floa
   EXPECT_GT(hits, 3500);
 }
 
+/// A ray in a sliver's plane that touches its corner left it by 3e-4 of its length.
+TEST(ExtremeShapes, slivers_in_float_are_touched_where_they_are) {
+  const Shape<float> sliver = Triangle<float>{
+      {Vec3<float>(-1, -7.3272705078125f, -0.65130615234375f), Vec3<float>(-8.766845703125f, 2, 0),
+       Vec3<float>(12437, -0.017554283142089844f, 0.0647897720336914f)}};
+  const PreparedShape<float> prepared(sliver);
+  const Ray<float> ray{{-4472.3876953125f, -19.181909561157227f, -0.6308512687683105f},
+                       {4471.3876953125f, 11.854639053344727f, -0.020454883575439453f}};
+  for (const SolverKind solver : {SolverKind::automatic, SolverKind::jet}) {
+    EXPECT_NEAR(cast_ray(prepared, ray, {.solver = solver}).t(), 1, 1e-6);
+    EXPECT_NEAR(cast_exit(prepared, ray, {.solver = solver}).t(), 1, 1e-6);
+  }
+  EXPECT_FALSE(prepared.definition().has_packets());
+}
+
 /// The plane of a miss separates: the whole of the ray lies before it.
 template <class T>
 void expect_plane(const Shape<T>& shape, const Ray<T>& ray, const CastResult<T>& miss) {

@@ -35,6 +35,24 @@ TEST(Proportions, do_not_depend_on_the_size) {
   }
 }
 
+TEST(Proportions, needles_with_slanted_ends_lie_askew) {
+  EXPECT_TRUE(is_extreme(CutCylinder<double>{1e-5, {0, 1}, {0.5, 0}, {5e4, 0}}));
+  EXPECT_FALSE(is_extreme(CutCylinder<double>{1e-3, {0, 1}, {0.5, 0}, {0.5, 0}}));
+  EXPECT_FALSE(is_extreme(Cylinder<double>{1e-5, 1}));
+}
+
+TEST(Proportions, plates_that_are_a_few_roundings_thick_are_flat_but_for_rounding) {
+  const auto plate = [](double thickness) {
+    std::vector<P> corners;
+    for (int i = 0; i < 8; ++i)
+      corners.emplace_back(i & 1 ? 1 : -1, i & 2 ? 1 : -1, (i & 4 ? 1 : -1) * thickness / 2);
+    return convert<float>(hull(corners));
+  };
+  EXPECT_TRUE(is_flat_but_for_rounding(plate(1e-6)));
+  EXPECT_FALSE(is_flat_but_for_rounding(plate(1e-4)));
+  EXPECT_FALSE(is_flat_but_for_rounding(Shape<float>(Box<float>{{1, 1, 1e-6f}})));
+}
+
 /// Half of the least number is rounded to nothing: capsules and cylinders of that radius counted as
 /// segments, and were missed by rays that met them.
 TEST(Proportions, the_least_number_is_a_length) {
@@ -120,6 +138,19 @@ TEST(Proportions, slivers_are_found_however_they_lie) {
     EXPECT_TRUE(is_extreme(Triangle<double>{{a, -a, 1e-4 * b}})) << i;
     EXPECT_FALSE(is_extreme(Triangle<double>{{a, -a, b}})) << i;
   }
+}
+
+TEST(Proportions, slivers_in_float_are_thinner_than_1_in_256) {
+  const auto sliver = [](double thin) -> Shape<float> {
+    return convert<float>(
+        Shape<double>(Triangle<double>{{P(-1, 0.1, 0), P(1, 0.1, 0), P(0, 0.1 + thin, 0)}}));
+  };
+  EXPECT_FALSE(is_sliver(sliver(1.0 / 100)));
+  EXPECT_TRUE(is_sliver(sliver(1.0 / 150)));
+  EXPECT_TRUE(is_sliver(sliver(1e-3)));
+  EXPECT_FALSE(
+      is_sliver(Shape<float>(Segment<float>{{Vec3<float>(1, 2, 3), Vec3<float>(4, 5, 6)}})));
+  EXPECT_FALSE(is_sliver(Shape<float>(Box<float>{{1, 1, 1e-3f}})));
 }
 
 TEST(Proportions, parts_and_the_maps_around_them_count) {
