@@ -298,7 +298,6 @@ TEST(ExtremeShapes, misses_by_any_number_of_radii_have_planes) {
         const PreparedShape<double> posed(ball, {turn, middle});
         const Ray<double> ray{middle + Vec3<double>(off, 0, 0), {0, 0, 1}};
         const CastResult<double> miss = cast_ray(posed, ray);
-        if (miss.status == Status::exhausted) continue;
         ASSERT_EQ(miss.status, Status::miss);
         expect_plane<double>(Transform<double>{ball, Affine<double>{turn, middle}}, ray, miss);
       }
