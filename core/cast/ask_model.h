@@ -31,7 +31,7 @@ CastResult<T> cast_with_model(Stage stage, const StageQuestion<T>& question, Obs
                                        max_iterations, observer);
     // A portal's plane that is no more than a direction tells nothing about a curved shape.
     if (is_portal && !(lanes.offset_hi < std::numeric_limits<T>::infinity())) lanes.hit = false;
-    if (lanes.uncertain && !shape.definition().is_smooth()) lanes.inside = false;
+    if (lanes.uncertain && shape.definition().uncertain_slope() > T(0)) lanes.inside = false;
     return result_of(lanes);
   };
   if (!is_portal) return with_model<T>(shape.definition(), cast);

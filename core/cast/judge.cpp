@@ -8,17 +8,17 @@ namespace minkray {
 namespace {
 
 /// Proves with the question's shape and ray in double.
-ProvenCast proven_in_double(const StageQuestion<double>& question,
-                            const CastResult<double>& answer) {
+ProvenCast proven_in_double(const StageQuestion<double>& question, const CastResult<double>& answer,
+                            bool before) {
   const PreparedShape<double>& shape = question.shape;
-  return proven(shape.inner_shape(), shape.inner_ball(), question.near, answer);
+  return proven(shape.inner_shape(), shape.inner_ball(), question.near, answer, before);
 }
 
-ProvenCast proven_in_double(const StageQuestion<float>& question,
-                            const CastResult<double>& answer) {
+ProvenCast proven_in_double(const StageQuestion<float>& question, const CastResult<double>& answer,
+                            bool before) {
   const PreparedShape<float>& shape = question.shape;
   return proven(convert<double>(shape.inner_shape()), in_precision<double>(shape.inner_ball()),
-                in_precision<double>(question.near), answer);
+                in_precision<double>(question.near), answer, before);
 }
 
 }  // namespace
@@ -27,13 +27,12 @@ template <class T>
 bool Judge<T>::has_to_be_proven(const CastResult<T>& answer) const {
   if (proof_ == Proof::all) return true;
   return proof_ == Proof::steep_hits && answer.status == Status::hit &&
-         !question_.shape.definition().is_smooth() &&
-         -answer.normal.dot(question_.near.r) < tolerance::uncertain_slope<T>;
+         -answer.normal.dot(question_.near.r) < question_.shape.definition().uncertain_slope();
 }
 
 template <class T>
-bool Judge<T>::is_sharply_proven(const CastResult<double>& answer) {
-  const ProvenCast cast = proven_in_double(question_, answer);
+bool Judge<T>::is_sharply_proven(const CastResult<double>& answer, bool before) {
+  const ProvenCast cast = proven_in_double(question_, answer, before);
   iterations_ += cast.answer.iterations;
   supports_ += cast.answer.supports;
   if (!proven_ || cast.is_sharp || (cast.holds && !proven_->holds)) proven_ = cast;
@@ -70,12 +69,14 @@ bool Judge<T>::accepts_finer(const CastResult<double>& answer) {
 }
 
 template <class T>
-void Judge<T>::try_where_given_up() {
-  if (unproven_ || (proven_ && proven_->holds) || !given_up_) return;
-  CastResult<double> claim = in_precision<double>(*given_up_);
+void Judge<T>::try_once_more() {
+  if (proven_ && proven_->holds) return;
+  const bool before = unproven_ && unproven_->status == Status::hit;
+  if (!before && (unproven_ || !given_up_)) return;
+  CastResult<double> claim = in_precision<double>(before ? *unproven_ : *given_up_);
   claim.status = Status::hit;
   claim.iterations = claim.supports = 0;
-  is_sharply_proven(claim);
+  is_sharply_proven(claim, before);
 }
 
 template <class T>

@@ -19,15 +19,16 @@ class Judge {
   bool accepts(CastResult<T> answer);
   /// Does what accepts() does with an answer in wider numbers, which always has to be proven.
   bool accepts_finer(const CastResult<double>& answer);
-  /// It comes last, for rims and edges that are just touched: a proof tells whether the last stage
-  /// that gave up with a plane did so at a hit.
-  void try_where_given_up();
+  /// It comes last, for rims and edges that are just touched: a proof tells whether a hit that has
+  /// none is one before where it was claimed, past an edge, or else whether the last stage that
+  /// gave up with a plane did so at a hit.
+  void try_once_more();
   /// What to answer once a stage was accepted, or there is none left; with the work of all stages.
   CastResult<T> verdict() const;
 
  private:
   bool has_to_be_proven(const CastResult<T>& answer) const;
-  bool is_sharply_proven(const CastResult<double>& answer);
+  bool is_sharply_proven(const CastResult<double>& answer, bool before = false);
 
   const StageQuestion<T>& question_;
   Proof proof_;

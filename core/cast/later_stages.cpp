@@ -56,7 +56,7 @@ CastResult<T> ask_stages(const StageQuestion<T>& question) {
       case Stage::finer:
         if (!exact) continue;
         if (judge.accepts_finer(ask_finer(question))) return judge.verdict();
-        judge.try_where_given_up();
+        judge.try_once_more();
         continue;
       default:
         if (judge.accepts(ask_gjk(stage, question))) return judge.verdict();
@@ -65,11 +65,9 @@ CastResult<T> ask_stages(const StageQuestion<T>& question) {
   return judge.verdict();
 }
 
-/// Answers in the outer frame; it is exhausted where the numbers' range was left.
+/// The answer in the outer frame; it is exhausted where the numbers' range was left.
 template <class T>
-CastResult<T> cast_near(const PreparedShape<T>& shape, const RayNearBall<T>& near,
-                        const CastOptions<T>& options, const CastObserver<T>& observer) {
-  CastResult<T> result = ask_stages<T>({shape, near, options, observer});
+CastResult<T> in_outer_frame(const PreparedShape<T>& shape, CastResult<T> result) {
   result.normal = shape.normal_to_outer(result.normal);
   // A direction so short that the hit's t is no number of T.
   if (result.status == Status::hit && !std::isfinite(result.t())) result.status = Status::exhausted;
@@ -143,7 +141,28 @@ std::optional<CastResult<T>> ask_bounds(const PreparedShape<T>& shape, const Ray
 template <class T>
 bool asks_in_double(const PreparedShape<T>& shape, const CastOptions<T>& options) {
   return std::is_same_v<T, float> && is_exact(options) &&
-         has_stage(shape, options, Stage::in_double) && shape.definition().in_double();
+         has_stage(shape, options, Stage::in_double) && shape.definition().is_asked_in_double();
+}
+
+CastResult<float> cast_in_double(const PreparedShape<float>& shape, const Ray<float>& ray,
+                                 const CastOptions<float>& options,
+                                 const CastObserver<float>& observer) {
+  const auto cast = [&](const PreparedShape<double>& same, const Ray<double>& same_ray,
+                        const CastOptions<double>& same_options) {
+    return cast_ray(same, same_ray, same_options, in_double(observer));
+  };
+  return ask_in_double(shape, ray, options, cast);
+}
+
+/// Whether rounding across a hit's plane is so much longer along the ray that it is asked in double
+/// in place of proven.
+template <class T>
+bool is_steep_in_float(const StageQuestion<T>& question, const CastResult<T>& answer) {
+  const ShapeDefinition<T>& definition = question.shape.definition();
+  return std::is_same_v<T, float> && answer.status == Status::hit &&
+         -answer.normal.dot(question.near.r) < definition.uncertain_slope() &&
+         policy_of(question.options.solver, kind_of(definition)).proof == Proof::steep_hits &&
+         is_exact(question.options) && definition.in_double();
 }
 
 }  // namespace
@@ -152,16 +171,14 @@ template <class T>
 CastResult<T> cast_by_later_stages(const PreparedShape<T>& shape, const Ray<T>& ray,
                                    const CastOptions<T>& options, const CastObserver<T>& observer) {
   if constexpr (std::is_same_v<T, float>)
-    if (asks_in_double(shape, options)) {
-      const auto cast = [&](const PreparedShape<double>& same, const Ray<double>& same_ray,
-                            const CastOptions<double>& same_options) {
-        return cast_ray(same, same_ray, same_options, in_double(observer));
-      };
-      return ask_in_double(shape, ray, options, cast);
-    }
+    if (asks_in_double(shape, options)) return cast_in_double(shape, ray, options, observer);
   if (const auto miss = ask_bounds(shape, ray, options)) return *miss;
   const RayNearBall<T> near = near_inner(shape, ray);
-  CastResult<T> result = cast_near(shape, near, options, observer);
+  const StageQuestion<T> question{shape, near, options, observer};
+  CastResult<T> result = ask_stages(question);
+  if constexpr (std::is_same_v<T, float>)
+    if (is_steep_in_float(question, result)) return cast_in_double(shape, ray, options, observer);
+  result = in_outer_frame(shape, result);
   end_far_cast(shape, near, result);
   if (result.status == Status::hit) keep_on_ray(ray, result);
   if (result.status == Status::inside)
@@ -175,8 +192,14 @@ CastResult<T> exit_by_later_stages(const PreparedShape<T>& shape, const Ray<T>& 
   if constexpr (std::is_same_v<T, float>)
     if (asks_in_double(shape, options))
       return ask_in_double(shape, ray, options, cast_exit<double>);
-  const RayNearBall<T> near = near_inner(shape, ray);
-  CastResult<T> result = cast_near(shape, near.reversed(), options, {});
+  const RayNearBall<T> near = near_inner(shape, ray), back = near.reversed();
+  const CastObserver<T> nobody;
+  const StageQuestion<T> question{shape, back, options, nobody};
+  CastResult<T> result = ask_stages(question);
+  if constexpr (std::is_same_v<T, float>)
+    if (is_steep_in_float(question, result))
+      return ask_in_double(shape, ray, options, cast_exit<double>);
+  result = in_outer_frame(shape, result);
   end_far_cast(shape, near, result);
   std::swap(result.offset_lo, result.offset_hi);
   if (result.status == Status::hit) keep_on_ray(ray, result);

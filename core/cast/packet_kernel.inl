@@ -56,8 +56,7 @@ void part(const PreparedShape<Lane<W>>& shape, const RayPacket<Lane<W>>& rays, L
   const Mask<W> numbers = has_numbers(result, normal);
   // What is uncertain is left to the single casts.
   Mask<W> hit = result.hit & in_range & numbers, inside = result.inside & numbers;
-  constexpr T uncertain = tolerance::uncertain_slope<T>;
-  if (uncertain != T(0) && !shape.definition().is_smooth()) {
+  if (const T uncertain = shape.definition().uncertain_slope(); uncertain > T(0)) {
     hit &= -result.normal.dot(near.r) >= W(uncertain);
     inside &= !result.uncertain;
   }

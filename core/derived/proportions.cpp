@@ -18,9 +18,9 @@ constexpr double most_along_axes = std::is_same_v<T, float> ? 0x1p13 : 0x1p20;
 /// Points may lie askew: their coordinates are rounded to the longest.
 constexpr double most_askew = 0x1p12;
 
-/// The longest to the thinnest of flat points in float that are answered in float: at 1 : 1000 a
-/// ray in their plane was seen to leave them 3e-4 of their length outside.
-constexpr double most_in_float = 0x1p8;
+/// The longest to the thinnest of flat points in float that are answered in float: at 1 : 80 a ray
+/// nearly in their plane was seen to leave them 6e-4 of their length outside.
+constexpr double most_in_float = 0x1p6;
 
 /// The longest to what it is rounded by: what is hardly rounded is nearly a sharp edge.
 constexpr double most_to_rounding = 0x1p20;

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "core/derived/recentred.h"
 
+#include <array>
 #include <span>
 
+#include "core/derived/shape_bounds.h"
 #include "core/math/bounds.h"
 
 namespace minkray {
@@ -57,6 +59,13 @@ std::optional<Recentred<T>> recentred(const Shape<T>& shape) {
           if (!core) return {};
           return Recentred<T>{Rounded<T>{kind.radius, Nested<T>(std::move(core->shape))},
                               core->moved};
+        } else if constexpr (std::is_same_v<S, CutCylinder<T>>) {
+          const Bounds<T> bounds = bounds_of<T>(kind);
+          const Vec3<T> way = way_to<T>(std::array{bounds.lower, bounds.upper});
+          if (way.isZero(0)) return {};
+          S moved = kind;
+          for (T& height : moved.heights) height -= way.z();
+          return Recentred<T>{moved, way};
         } else {
           return {};
         }

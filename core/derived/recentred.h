@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Points far from their own origin, moved to it without rounding: what solvers work out of them is
+// Shapes far from their own origin, moved to it without rounding: what solvers work out of them is
 // rounded to the shape's size then, not to how far away it stands.
 #pragma once
 
@@ -16,8 +16,8 @@ struct Recentred {
   Vec3<T> moved;  ///< zero along axes on which the shape is about as large as it is far away
 };
 
-/// Moves hulls, triangles and segments, and those rounded, which lie further away than they are
-/// large; it returns nothing for others.
+/// Moves hulls, triangles and segments, those rounded, and cut cylinders, which lie further away
+/// than they are large; it returns nothing for others.
 template <class T>
 std::optional<Recentred<T>> recentred(const Shape<T>& shape);
 

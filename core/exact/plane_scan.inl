@@ -21,8 +21,10 @@ void scan(const PlaneRows& planes, const Line<double>& line, PlaneScan& found) {
     for (std::size_t from = 0; from < a_row; from += lanes) {
       const double* const row = planes.row(r) + from;
       const W x = W::load(row), y = W::load(row + a_row), z = W::load(row + 2 * a_row);
-      const W slope = x * d.x() + y * d.y() + z * d.z();
-      const W room = W::load(row + 3 * a_row) - (x * s.x() + y * s.y() + z * s.z());
+      // In the order in which settle_hit() has them: where planes are nearly along the line, sums
+      // in another order are elsewhere.
+      const W slope = x * d.x() + (y * d.y() + z * d.z());
+      const W room = W::load(row + 3 * a_row) - (x * s.x() + (y * s.y() + z * s.z()));
       const W inv = W(1) / max(abs(slope), least);
       const W t = room * inv, e = (E + W::load(row + 4 * a_row)) * inv;
       const auto enters = slope < W(0);

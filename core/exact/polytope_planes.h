@@ -28,13 +28,15 @@ struct PlaneRow {
   }
 };
 
-/// Where the line enters a plane that is entered last.
+/// Where the line enters a plane that is entered last, if that is not steeper: the cosine of the
+/// angle between the line and the normal is more than `steepest`.
 template <class W>
 void settle_hit(const PolytopeTables& of, const W& plane, const Line<W>& line, const Mask<W>& open,
-                Entry<W>& entry) {
+                Lane<W> steepest, Entry<W>& entry) {
   const PlaneRow<W> at(of, plane);
   const W slope = at.normal.dot(line.d);
-  const Mask<W> hit = open & (slope < W(-least_component<W>));
+  const Mask<W> hit =
+      open & (slope < W(-least_component<W>)) & (slope * slope >= W(steepest * steepest) * line.dd);
   const W inv = W(-1) / slope;
   if (all(hit)) {
     entry = {hit, Mask<W>(false), -(at.offset - at.normal.dot(line.s)) * inv,
@@ -92,8 +94,8 @@ PlanesPassed<W> pass_planes(const PolytopeTables& of, const Line<W>& line) {
     for (std::size_t i = 0; i < of.plane_count(); ++i) {
       const double* const row = of.planes.data() + i * of.plane_row;
       const W x(row[0]), y(row[1]), z(row[2]), index(static_cast<double>(i));
-      const W slope = x * line.d.x() + y * line.d.y() + z * line.d.z();
-      const W room = W(row[3]) - (x * line.s.x() + y * line.s.y() + z * line.s.z());
+      const W slope = x * line.d.x() + (y * line.d.y() + z * line.d.z());
+      const W room = W(row[3]) - (x * line.s.x() + (y * line.s.y() + z * line.s.z()));
       const W inv = W(1) / max(abs(slope), W(least_component<W>));
       const W t = room * inv, e = (line.E + W(row[4])) * inv;
       const Mask<W> enters = slope < W(0);

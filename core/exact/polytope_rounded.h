@@ -17,6 +17,9 @@ namespace feature {
 inline constexpr double none = 0, face = 1, edge = 2, vertex = 3;
 }
 
+/// The error E by the radius from which on normals are known less well than points.
+inline constexpr double least_rounding = 0x1p-40;
+
 template <class W>
 class RoundedWalk {
  public:
@@ -123,13 +126,16 @@ class RoundedWalk {
   }
 
   /// Hit or miss, unless so near to where another feature begins that its formula might be the
-  /// right one, and is further apart than E (docs/theory.md, section 13).
+  /// right one, and is further apart than E (docs/theory.md, section 13); or leans over the next
+  /// feature, since its normal is only known to E over a radius that is small.
   void settle(const Mask<W>& which, const Contact& found, const W& nearest_end) {
     feature_ = select(which, W(feature::none), feature_);
     const W width = found.e * found.e * line_.dd;
     const Mask<W> is_vague =
         found.meets & (width > W(r_) * line_.E) & (nearest_end * nearest_end < width);
-    const Mask<W> settled = which & !is_vague;
+    const Mask<W> leans =
+        found.meets & (line_.E > W(least_rounding * r_)) & (nearest_end < W(4) * line_.E);
+    const Mask<W> settled = which & !is_vague & !leans;
     entry_.hit |= settled & found.meets;
     entry_.miss |= settled & !found.meets;
     entry_.t = select(settled, found.t, entry_.t);

@@ -171,6 +171,12 @@ inline WalkEnd<double> follow(const PolytopeTables& of, const Line<double>& line
   return end;
 }
 
+/// A line that runs so nearly in a triangle's plane enters it within the triangle, but where is
+/// only known to be before or beyond its edges by rounding: among all planes, it is within all of
+/// them.
+template <class W>
+inline constexpr Lane<W> steepest_of = tolerance::uncertain_slope<Lane<W>>;
+
 /// Where lines enter the polytope as it is, those that meet its ball.
 template <class W>
 Entry<W> enter_planes(const PolytopeTables& of, const Line<W>& line, const Mask<W>& open) {
@@ -183,7 +189,7 @@ Entry<W> enter_planes(const PolytopeTables& of, const Line<W>& line, const Mask<
     const WalkEnd<W> end = follow(of, line, open);
     const Mask<W> through = end.in_triangle & end.is_clear;
     const W plane = plane_of(of, end.edge);
-    if (any(through)) settle_hit(of, plane, line, through, entry);
+    if (any(through)) settle_hit(of, plane, line, through, steepest_of<W>, entry);
     if (any(end.past_edge))
       settle_miss(of, plane, plane_of(of, end.beyond), line, end.past_edge, entry);
     unsure &= !(entry.hit | entry.miss);
@@ -192,7 +198,7 @@ Entry<W> enter_planes(const PolytopeTables& of, const Line<W>& line, const Mask<
   const PlanesPassed<W> passed = pass_planes(of, line);
   const Mask<W> through = unsure & (passed.in_hi <= passed.out_lo), past = unsure & !through;
   if (any(through)) {
-    settle_hit(of, passed.entered, line, through, entry);
+    settle_hit(of, passed.entered, line, through, 0, entry);
     entry.e = select(through, max(entry.e, W(passed.in_hi - entry.t)), entry.e);
   }
   if (any(past)) settle_miss(of, passed.entered, passed.left, line, past, entry);

@@ -128,7 +128,7 @@ CastLanes<W> model_cast(const MakeModel& make_model, const RayNearBall<W>& near,
   result.miss |= left;
   result.normal = select<W>(left, exit.normal, result.normal);
   result.inside = began & exit.hit & !left;
-  constexpr T uncertain = tolerance::uncertain_slope<T>;
+  constexpr T uncertain = tolerance::uncertain_smooth_slope<T>;
   if (uncertain != T(0))
     result.uncertain =
         result.inside & !((z >= W(uncertain)) & (exit.normal.dot(r) >= W(uncertain)));

@@ -53,6 +53,19 @@ exact::Form exact_form_of(const Shape<T>& inner, const Vec3<double>& ball_centre
       shape.kind);
 }
 
+/// Rounded hulls and triangles may be rounded by next to nothing.
+template <class T>
+T uncertain_slope_of(ModelKind model, FormKind form) {
+  const bool has_faces = form == FormKind::polytope || form == FormKind::triangle;
+  const bool is_round = form == FormKind::ball || form == FormKind::ellipsoid ||
+                        form == FormKind::capsule || form == FormKind::tapered_capsule ||
+                        form == FormKind::segment;
+  if (model == ModelKind::smooth || model == ModelKind::gauge ||
+      model == ModelKind::ellipsoid_sum || (model == ModelKind::rounded_points && !has_faces))
+    return T(0);
+  return is_round ? tolerance::uncertain_smooth_slope<T> : tolerance::uncertain_slope<T>;
+}
+
 /// A Transform that holds no shape: as many poses as there are instances ask for bounds, and to
 /// share a shape among threads costs more than its supports.
 template <class T>
@@ -125,12 +138,14 @@ ShapeDefinition<T>::ShapeDefinition(Shape<T> shape) : original_(shape), inner_(s
   if constexpr (std::is_same_v<T, float>)
     is_lost_in_rounding_ = !is_extreme_ && minkray::is_lost_in_rounding(inner_);
   if (!is_extreme_) form_ = exact_form_of(inner_, ball_.centre.template cast<double>());
+  uncertain_slope_ = uncertain_slope_of<T>(model_, form_.kind);
   if constexpr (std::is_same_v<T, float>) {
     const bool has_form = form_.kind != FormKind::none,
                is_polytope = form_.kind == FormKind::polytope;
     is_sliver_ = !has_form && !is_extreme_ && !is_lost_in_rounding_ && is_sliver(inner_);
     const bool is_plate = is_polytope && is_flat_but_for_rounding(inner_);
-    if (is_extreme_ || is_sliver_ || is_plate || (has_form && !is_polytope))
+    is_asked_in_double_ = is_extreme_ || is_sliver_ || is_plate || (has_form && !is_polytope);
+    if (is_asked_in_double_ || (uncertain_slope_ > 0 && !is_lost_in_rounding_))
       in_double_ = std::make_shared<InDouble>();
   }
   if (is_extreme_)

@@ -33,19 +33,21 @@ class ShapeDefinition {
   bool is_extreme() const { return is_extreme_; }
   bool is_lost_in_rounding() const { return is_lost_in_rounding_; }
   /// It is the inner shape in double, made when it is first asked for, of float shapes of which
-  /// some casts are asked there: extreme ones, flat slivers, and those with a closed form but
-  /// polytopes, whose facets would take more memory than the uncertain few are worth: of these only
-  /// plates that are flat but for rounding. It is null for others.
+  /// some casts are asked there: all but smooth ones without a closed form, and needles that are
+  /// lost in rounding. It is null for those.
   const ShapeDefinition<double>* in_double() const;
+  /// Whether all casts in float that the filter is in doubt of are asked there, and not only hits
+  /// at planes nearly along the ray: those of extreme shapes, flat slivers and what has a form. Not
+  /// of polytopes, whose facets would take more memory than the uncertain few are worth, but for
+  /// plates that are flat but for rounding.
+  bool is_asked_in_double() const { return is_asked_in_double_; }
   /// It is the inner shape of extreme shapes in long double; it is null for others.
   const Shape<long double>* in_long_double() const { return in_long_double_.get(); }
   /// The inner shape's closed form, if it declares one; none of extreme shapes.
   const exact::Form& form() const { return form_; }
-  /// Whether it is known to have no corners, for hits that just touch; not all such are known.
-  bool is_smooth() const {
-    return model_ == ModelKind::smooth || model_ == ModelKind::gauge ||
-           model_ == ModelKind::ellipsoid_sum || model_ == ModelKind::rounded_points;
-  }
+  /// Hits whose normal's component against the ray is less are looked at again: none, if it is
+  /// known that the surface has neither corners nor flat faces.
+  T uncertain_slope() const { return uncertain_slope_; }
   /// Whether packets of rays have a solver of their own.
   bool has_packets() const {
     if (form_.kind != FormKind::none) return true;  // an extreme shape has none
@@ -78,9 +80,11 @@ class ShapeDefinition {
   Vec3<T> half_extents_;
   ModelKind model_;
   EllipsoidSum<T> ellipsoid_sum_;
+  T uncertain_slope_;
   bool is_extreme_;
   bool is_lost_in_rounding_ = false;
   bool is_sliver_ = false;
+  bool is_asked_in_double_ = false;
   exact::Form form_;
   struct InDouble;
   std::shared_ptr<InDouble> in_double_;

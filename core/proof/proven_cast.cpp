@@ -4,12 +4,13 @@
 #include <algorithm>
 
 #include "core/proof/check_certificate.h"
+#include "core/query/near_segment.h"
 #include "core/query/tolerances.h"
 
 namespace minkray {
 
 ProvenCast proven(const Shape<double>& shape, const Ball<double>& ball,
-                  const RayNearBall<double>& near, const CastResult<double>& answer) {
+                  const RayNearBall<double>& near, const CastResult<double>& answer, bool before) {
   ProvenCast proof{answer};
   if (answer.status == Status::exhausted) return proof;
   const double reach = tolerance::proof_reach * ball.radius;
@@ -22,6 +23,9 @@ ProvenCast proven(const Shape<double>& shape, const Ball<double>& ball,
   claim.t_base = 0;
   claim.t_offset = (answer.t_offset - near.t_shift) / near.t_per_length - begin;
   const SupportFunction support = supports_of(shape);
+  const double size = near_segment(support, ray).size,
+               slope = std::max(-answer.normal.dot(near.r), tolerance::least_slope<double>);
+  if (before) claim.t_offset -= tolerance::proof_good_enough * claim.epsilon * size / slope;
   const Certificate certificate = certify(support, ray, claim);
   proof.answer.supports += certificate.supports;
   CertificateVerdict verdict = check_certificate(support, ray, claim, certificate);
@@ -31,9 +35,12 @@ ProvenCast proven(const Shape<double>& shape, const Ball<double>& ball,
     claim.t_offset = std::clamp(spanned, 0.0, ray.t_max);
     verdict = check_certificate(support, ray, claim, certificate);
     if (verdict.holds) {
+      // The point is beside the ray, and the plane is rounded, by so much along it.
+      const double along =
+          (verdict.lateral + std::numeric_limits<double>::epsilon() * size) / slope;
       proof.answer.t_offset = near.t_offset(begin + claim.t_offset);
-      proof.answer.offset_lo = near.t_offset(begin + std::min(first, claim.t_offset));
-      proof.answer.offset_hi = proof.answer.t_offset;
+      proof.answer.offset_lo = near.t_offset(begin + std::min(first, claim.t_offset) - along);
+      proof.answer.offset_hi = near.t_offset(begin + claim.t_offset + along);
     }
   }
   proof.holds = verdict.holds;

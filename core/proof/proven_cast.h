@@ -20,8 +20,10 @@ struct ProvenCast {
 
 /// The answer, and whether and how well a certificate of it holds. A hit is moved to the point that
 /// its certificate spans, if it has one. `near` is relative to the ball's centre, the ball holds
-/// the shape, and the normal is in the shape's frame.
+/// the shape, and the normal is in the shape's frame. A point that the ray passes is looked for at
+/// the claimed one, and beyond it as far as rounding is along the ray; if `before`, as far before.
 ProvenCast proven(const Shape<double>& shape, const Ball<double>& ball,
-                  const RayNearBall<double>& near, const CastResult<double>& answer);
+                  const RayNearBall<double>& near, const CastResult<double>& answer,
+                  bool before = false);
 
 }  // namespace minkray

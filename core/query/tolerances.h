@@ -57,12 +57,17 @@ inline constexpr T jet_gap = T(4) * epsilon<T>;
 template <class T>
 inline constexpr T least_slope = std::is_same_v<T, float> ? T(0x1p-16) : T(0x1p-36);
 
-/// Hits in double whose normal's component against the ray is less than this are looked at again
-/// where the shape may have corners: rounding across the plane is so much longer along the ray, and
-/// past a corner the ray leaves the shape's neighbourhood. Rays within 3e-8 R of a round
-/// silhouette; what is not looked at is known along the ray to 2^12 times what it is across.
+/// Hits whose normal's component against the ray is less than this are looked at again where the
+/// shape may have corners: rounding across the plane is so much longer along the ray, and past a
+/// corner the ray leaves the shape's neighbourhood. Rays within 3e-5 R of a round silhouette; what
+/// is not looked at is known along the ray to 2^7 times what it is across.
 template <class T>
-inline constexpr T uncertain_slope = std::is_same_v<T, float> ? T(0) : T(0x1p-12);
+inline constexpr T uncertain_slope = T(0x1p-7);
+
+/// This is the same of shapes without flat faces, whose surface turns away from the ray as their
+/// planes become steep, and of the planes between which an origin is inside; float needs none.
+template <class T>
+inline constexpr T uncertain_smooth_slope = std::is_same_v<T, float> ? T(0) : T(0x1p-12);
 
 /// The last word on a hit, whatever the planes' slopes: model and best plane agree so well along
 /// the ray, in units of the bounding radius. A gap of jet_gap at a slope of 1e-3 in float and 1e-6

@@ -140,13 +140,13 @@ TEST(Proportions, slivers_are_found_however_they_lie) {
   }
 }
 
-TEST(Proportions, slivers_in_float_are_thinner_than_1_in_256) {
+TEST(Proportions, slivers_in_float_are_thinner_than_1_in_64) {
   const auto sliver = [](double thin) -> Shape<float> {
     return convert<float>(
         Shape<double>(Triangle<double>{{P(-1, 0.1, 0), P(1, 0.1, 0), P(0, 0.1 + thin, 0)}}));
   };
-  EXPECT_FALSE(is_sliver(sliver(1.0 / 100)));
-  EXPECT_TRUE(is_sliver(sliver(1.0 / 150)));
+  EXPECT_FALSE(is_sliver(sliver(1.0 / 25)));
+  EXPECT_TRUE(is_sliver(sliver(1.0 / 40)));
   EXPECT_TRUE(is_sliver(sliver(1e-3)));
   EXPECT_FALSE(
       is_sliver(Shape<float>(Segment<float>{{Vec3<float>(1, 2, 3), Vec3<float>(4, 5, 6)}})));
