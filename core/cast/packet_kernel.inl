@@ -44,7 +44,6 @@ void part(const PreparedShape<Lane<W>>& shape, const RayPacket<Lane<W>>& rays, L
   });
   result.miss |= bounds.miss;
   result.normal = select<W>(bounds.miss, bounds.normal, result.normal);
-  keep_on_ray(ray, result);
   const Vec3<W> normal = shape.template normal_to_outer<W>(result.normal);
   const bool some_inside = any(result.inside);
   const auto at_origin = [&](const W& x) {
@@ -54,6 +53,7 @@ void part(const PreparedShape<Lane<W>>& shape, const RayPacket<Lane<W>>& rays, L
   const Mask<W> in_range =
       abs(result.t_base + result.t_offset) < W(std::numeric_limits<T>::infinity());
   const Mask<W> numbers = has_numbers(result, normal);
+  keep_on_ray(ray, result);
   // What is uncertain is left to the single casts.
   Mask<W> hit = result.hit & in_range & numbers, inside = result.inside & numbers;
   if (const T uncertain = shape.definition().uncertain_slope(); uncertain > T(0)) {
