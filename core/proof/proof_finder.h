@@ -118,13 +118,8 @@ class Finder {
     for (const WeightedSupport& term : certificate.spanning)
       if (term.weight > 0) see(term.direction);
     see(n);
-    const Vec3<double> a = n.unitOrthogonal(), b = n.cross(a);
-    for (const double delta : tilts) {
-      for (int i = 0; i < tilt_directions; ++i) {
-        const double angle = 2 * std::numbers::pi * i / tilt_directions;
-        see(n + delta * (std::cos(angle) * a + std::sin(angle) * b));
-      }
-    }
+    for (const double delta : tilts)
+      for (int i = 0; i < tilt_directions; ++i) see(n + delta * around(n, i));
     // The nearest triangle of all; then more support points where it is not near enough.
     ClosestPoint<Long> best;
     Long best_squared = std::numeric_limits<Long>::infinity();
@@ -165,8 +160,12 @@ class Finder {
         found = true;
         try_with_last();
       };
+      const Long before = best_squared;
       for (const double delta : tilts) look(n + delta * aside);
       look(v);
+      // Along an edge the support point of v may be at the other end.
+      if (best_squared > before / 4)
+        for (int i = 0; i < tilt_directions; ++i) look(v + tilts.front() * around(v, i));
       if (!found) break;
     }
     certificate.spanning = {};
@@ -185,6 +184,13 @@ class Finder {
     Vec3<Long> y;
     Vec3<double> direction;
   };
+
+  /// The i-th of the directions at right angles to n in which it is tilted.
+  static Vec3<double> around(const Vec3<double>& n, int i) {
+    const Vec3<double> a = n.unitOrthogonal(), b = n.cross(a);
+    const double angle = 2 * std::numbers::pi * i / tilt_directions;
+    return std::cos(angle) * a + std::sin(angle) * b;
+  }
 
   /// A direction whose support point is nearer to x than n's, where the surface bends, as along a
   /// rim: the secant method, since the point wanders along with the direction.
