@@ -24,10 +24,10 @@ enum class Stage : unsigned char {
   algorithm_1,     ///< the paper's slow reference
 };
 
-/// Which hits have to be proven before they are answered.
+/// Which hits have to be proven before they are answered, where shapes may have corners.
 enum class Proof : unsigned char {
   none,
-  steep_hits,  ///< those in double, at shapes that may have corners, that nearly touch
+  steep_hits,  ///< those whose plane is nearly along the ray; in float they are asked in double
   all,
 };
 
