@@ -129,7 +129,7 @@ void check_steep_rays(std::uint64_t seed, int rounds) {
   EXPECT_GT(cast, rounds * 60);
 }
 
-/// Before such hits were asked in double, one in sixteen of those of triangles at slopes of 2^-12 to
+/// Before such hits were asked in double, one in 16 of those of triangles at slopes of 2^-12 to
 /// 2^-16 was off, by up to 1e-2 of the size.
 TEST(SteepHits, are_where_they_are_in_float) {
   check_steep_rays<float>(1, 120);
