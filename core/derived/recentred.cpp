@@ -30,47 +30,118 @@ Vec3<T> way_to(std::span<const Vec3<T>> points) {
   return way;
 }
 
+template <class T, class S>
+Vec3<T> way_to_shape(const S& shape) {
+  const Bounds<T> bounds = bounds_of<T>(shape);
+  return way_to<T>(std::array{bounds.lower, bounds.upper});
+}
+
+template <class T, class S>
+bool is_far_away(const S& shape) {
+  return !way_to_shape<T>(shape).isZero(0);
+}
+
+/// Whether the sums of `a` and `b` are not rounded (the error of Knuth's two-sum is zero).
 template <class T>
-std::vector<Vec3<T>> moved_back(std::span<const Vec3<T>> points, const Vec3<T>& way) {
-  std::vector<Vec3<T>> moved;
-  for (const Vec3<T>& p : points) moved.push_back(p - way);
-  return moved;
+bool is_exact_sum(const Vec3<T>& a, const Vec3<T>& b) {
+  const Vec3<T> sum = a + b, of_b = sum - a;
+  return ((a - (sum - of_b)) + (b - of_b)).isZero(0);
+}
+
+/// What is `way` nearer to the origin, if nothing of it is rounded.
+template <class T>
+class MovedBack {
+ public:
+  explicit MovedBack(Vec3<T> way) : way_(std::move(way)) {}
+
+  std::optional<Shape<T>> operator()(const Hull<T>& hull) const {
+    std::vector<Vec3<T>> moved;
+    for (const Vec3<T>& p : hull.points.points()) moved.push_back(p - way_);
+    return Hull<T>{PointCloud<T>(std::move(moved))};
+  }
+
+  std::optional<Shape<T>> operator()(const Triangle<T>& triangle) const {
+    return points_of(triangle);
+  }
+  std::optional<Shape<T>> operator()(const Segment<T>& segment) const { return points_of(segment); }
+
+  std::optional<Shape<T>> operator()(const CutCylinder<T>& cylinder) const {
+    if (way_.x() != T(0) || way_.y() != T(0)) return {};
+    CutCylinder<T> moved = cylinder;
+    for (T& height : moved.heights) height -= way_.z();
+    return moved;
+  }
+
+  std::optional<Shape<T>> operator()(const Transform<T>& shape) const {
+    Affine<T> map = shape.map.affine();
+    const Transform<T> turned{shape.shape, Affine<T>{map.linear, Vec3<T>::Zero()}};
+    if (is_far_away<T>(turned)) return {};  // its map rounds to that
+    if (!is_exact_sum<T>(map.translation, -way_)) return {};
+    map.translation -= way_;
+    return Transform<T>{shape.shape, map};
+  }
+
+  std::optional<Shape<T>> operator()(const HullOf<T>& hull) const {
+    HullOf<T> moved;
+    for (const Nested<T>& shape : hull.shapes) {
+      std::optional<Shape<T>> nearer = std::visit(*this, shape->kind);
+      if (!nearer) return {};
+      moved.shapes.push_back(*std::move(nearer));
+    }
+    return moved;
+  }
+
+  template <class S>
+  std::optional<Shape<T>> operator()(const S&) const {
+    return {};
+  }
+
+ private:
+  template <class S>
+  Shape<T> points_of(S shape) const {
+    for (Vec3<T>& point : shape.points) point -= way_;
+    return shape;
+  }
+
+  Vec3<T> way_;
+};
+
+/// Each by its own way, where the sum of the ways is not rounded.
+template <class T>
+std::optional<Recentred<T>> recentred_sum(const MinkowskiSum<T>& sum) {
+  if (!is_far_away<T>(sum)) return {};
+  MinkowskiSum<T> nearer;
+  Vec3<T> moved = Vec3<T>::Zero();
+  for (const Nested<T>& shape : sum.shapes) {
+    std::optional<Recentred<T>> part = recentred(*shape);
+    if (part && is_exact_sum<T>(moved, part->moved)) {
+      moved += part->moved;
+      nearer.shapes.push_back(std::move(part->shape));
+    } else {
+      nearer.shapes.push_back(shape);
+    }
+  }
+  if (is_far_away<T>(nearer)) return {};
+  return Recentred<T>{std::move(nearer), moved};
 }
 
 }  // namespace
 
 template <class T>
 std::optional<Recentred<T>> recentred(const Shape<T>& shape) {
-  return std::visit(
-      [&]<class S>(const S& kind) -> std::optional<Recentred<T>> {
-        if constexpr (std::is_same_v<S, Hull<T>>) {
-          const Vec3<T> way = way_to<T>(kind.points.points());
-          if (way.isZero(0)) return {};
-          return Recentred<T>{Hull<T>{PointCloud<T>(moved_back<T>(kind.points.points(), way))},
-                              way};
-        } else if constexpr (std::is_same_v<S, Triangle<T>> || std::is_same_v<S, Segment<T>>) {
-          const Vec3<T> way = way_to<T>(kind.points);
-          if (way.isZero(0)) return {};
-          S moved = kind;
-          for (Vec3<T>& point : moved.points) point -= way;
-          return Recentred<T>{moved, way};
-        } else if constexpr (std::is_same_v<S, Rounded<T>>) {
-          auto core = recentred(*kind.shape);
-          if (!core) return {};
-          return Recentred<T>{Rounded<T>{kind.radius, Nested<T>(std::move(core->shape))},
-                              core->moved};
-        } else if constexpr (std::is_same_v<S, CutCylinder<T>>) {
-          const Bounds<T> bounds = bounds_of<T>(kind);
-          const Vec3<T> way = way_to<T>(std::array{bounds.lower, bounds.upper});
-          if (way.isZero(0)) return {};
-          S moved = kind;
-          for (T& height : moved.heights) height -= way.z();
-          return Recentred<T>{moved, way};
-        } else {
-          return {};
-        }
-      },
-      shape.kind);
+  if (const auto* sum = std::get_if<MinkowskiSum<T>>(&shape.kind)) return recentred_sum(*sum);
+  if (const auto* rounded = std::get_if<Rounded<T>>(&shape.kind)) {
+    auto core = recentred(*rounded->shape);
+    if (!core) return {};
+    return Recentred<T>{Rounded<T>{rounded->radius, Nested<T>(std::move(core->shape))},
+                        core->moved};
+  }
+  if (std::holds_alternative<Custom<T>>(shape.kind)) return {};  // whose supports may be dear
+  const Vec3<T> way = way_to_shape<T>(shape);
+  if (way.isZero(0)) return {};
+  std::optional<Shape<T>> nearer = std::visit(MovedBack<T>(way), shape.kind);
+  if (!nearer) return {};
+  return Recentred<T>{*std::move(nearer), way};
 }
 
 template std::optional<Recentred<float>> recentred(const Shape<float>&);

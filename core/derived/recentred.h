@@ -16,8 +16,9 @@ struct Recentred {
   Vec3<T> moved;  ///< zero along axes on which the shape is about as large as it is far away
 };
 
-/// Moves hulls, triangles and segments, those rounded, and cut cylinders, which lie further away
-/// than they are large; it returns nothing for others.
+/// Moves what lies further away than it is large and can be moved without rounding: hulls,
+/// triangles, segments and cut cylinders, what a map moves away, and what is rounded, summed or the
+/// hull of such. It returns nothing for others.
 template <class T>
 std::optional<Recentred<T>> recentred(const Shape<T>& shape);
 

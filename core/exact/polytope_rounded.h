@@ -17,9 +17,6 @@ namespace feature {
 inline constexpr double none = 0, face = 1, edge = 2, vertex = 3;
 }
 
-/// The error E by the radius from which on normals are known less well than points.
-inline constexpr double least_rounding = 0x1p-40;
-
 template <class W>
 class RoundedWalk {
  public:
@@ -133,8 +130,8 @@ class RoundedWalk {
     const W width = found.e * found.e * line_.dd;
     const Mask<W> is_vague =
         found.meets & (width > W(r_) * line_.E) & (nearest_end * nearest_end < width);
-    const Mask<W> leans =
-        found.meets & (line_.E > W(least_rounding * r_)) & (nearest_end < W(4) * line_.E);
+    const Mask<W> leans = found.meets & (line_.E > W(tolerance::rounded_line_error * r_)) &
+                          (nearest_end < W(4) * line_.E);
     const Mask<W> settled = which & !is_vague & !leans;
     entry_.hit |= settled & found.meets;
     entry_.miss |= settled & !found.meets;

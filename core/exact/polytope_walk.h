@@ -171,12 +171,6 @@ inline WalkEnd<double> follow(const PolytopeTables& of, const Line<double>& line
   return end;
 }
 
-/// A line that runs so nearly in a triangle's plane enters it within the triangle, but where is
-/// only known to be before or beyond its edges by rounding: among all planes, it is within all of
-/// them.
-template <class W>
-inline constexpr Lane<W> steepest_of = tolerance::uncertain_slope<Lane<W>>;
-
 /// Where lines enter the polytope as it is, those that meet its ball.
 template <class W>
 Entry<W> enter_planes(const PolytopeTables& of, const Line<W>& line, const Mask<W>& open) {
@@ -189,7 +183,10 @@ Entry<W> enter_planes(const PolytopeTables& of, const Line<W>& line, const Mask<
     const WalkEnd<W> end = follow(of, line, open);
     const Mask<W> through = end.in_triangle & end.is_clear;
     const W plane = plane_of(of, end.edge);
-    if (any(through)) settle_hit(of, plane, line, through, steepest_of<W>, entry);
+    // So nearly in a triangle's plane, whether a line enters before or beyond its edges is known by
+    // rounding alone; among all planes, it is within all of them.
+    constexpr Lane<W> steepest = tolerance::uncertain_slope<Lane<W>>;
+    if (any(through)) settle_hit(of, plane, line, through, steepest, entry);
     if (any(end.past_edge))
       settle_miss(of, plane, plane_of(of, end.beyond), line, end.past_edge, entry);
     unsure &= !(entry.hit | entry.miss);

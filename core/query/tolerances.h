@@ -193,6 +193,10 @@ inline constexpr double polytope_rounding = 12 * 0x1p-53;
 /// answered by their features: what rounding hides of the features beside grows by its inverse.
 inline constexpr double rounded_polytope_height = 0x1p-12;
 
+/// The error E of a line, in units of the radius that a polytope is grown by, from which on the
+/// normals of its features are known less well than points.
+inline constexpr double rounded_line_error = 0x1p-40;
+
 /// How far a polytope's corner, seen along a line that is known to E, may lie beside where it
 /// should be, in units of E: E of the line, and 20 * 2^-53 of the radius for the view's axes and
 /// its products, of which E holds 12.

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+// Shapes far from their own origin, and the same moved to it: the same points, but for rounding
+// that is as coarse as they are far away, and none left out there.
+#include "core/derived/recentred.h"
+
+#include <gtest/gtest.h>
+
+#include "core/cast/cast.h"
+#include "core/derived/convert.h"
+#include "core/derived/shape_bounds.h"
+#include "tests/support/random.h"
+
+namespace minkray::testing {
+namespace {
+
+using S = Shape<double>;
+
+S mapped(S shape, const Vec3<double>& by, const Mat3<double>& linear) {
+  return Transform<double>{std::move(shape), Affine<double>{linear, by}};
+}
+
+Vec3<long double> furthest(const S& shape, const Vec3<double>& n) {
+  return convert<long double>(shape).support(Vec3<long double>(n.cast<long double>()));
+}
+
+/// Moves the shape, which lies 1 away, and looks at what has come of it.
+void expect_same_points(const S& shape, double size) {
+  const std::optional<Recentred<double>> nearer = recentred(shape);
+  ASSERT_TRUE(nearer);
+  const Bounds<double> bounds = bounds_of<double>(nearer->shape);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (nearer->moved[axis] == 0) continue;  // not so far away along it
+    EXPECT_LE(std::abs(bounds.lower[axis]), size);
+    EXPECT_LE(std::abs(bounds.upper[axis]), size);
+  }
+  Random random(2);
+  for (int k = 0; k < 50; ++k) {
+    const Vec3<double> n = random.direction();
+    const Vec3<long double> there = furthest(nearer->shape, n) + nearer->moved.cast<long double>();
+    // Long double has 64 bits beside one length; flat sides have many furthest points.
+    EXPECT_LE(std::abs((furthest(shape, n) - there).dot(n.cast<long double>())), 0x1p-62L);
+  }
+}
+
+TEST(Recentred, has_the_same_points) {
+  Random random(4);
+  for (int i = 0; i < 50; ++i) {
+    const double size = std::exp2(random.uniform(-40, -6));
+    const auto small = [&] { return Mat3<double>(random.rotation() * (size / 8)); };
+    const auto off = [&] { return Vec3<double>(random.direction() * (size / 8)); };
+    const Vec3<double> there = random.direction();
+    const S disk = mapped(Disk<double>{1}, there, small());
+    expect_same_points(disk, size);
+    expect_same_points(Rounded<double>{size / 8, disk}, size);
+    expect_same_points(MinkowskiSum<double>{{disk, mapped(Box<double>{{1, 1, 1}}, off(), small())}},
+                       size);
+    expect_same_points(HullOf<double>{{disk, mapped(Sphere<double>{1}, there + off(), small())}},
+                       size);
+    expect_same_points(Segment<double>{{there, Vec3<double>(there + off())}}, size);
+  }
+}
+
+TEST(Recentred, leaves_what_is_as_large_as_far_away_and_what_would_be_rounded) {
+  const Mat3<double> one = Mat3<double>::Identity();
+  const S ball = Sphere<double>{1};
+  EXPECT_FALSE(recentred(ball));
+  EXPECT_FALSE(recentred(mapped(ball, {3, 0, 0}, one)));
+  EXPECT_FALSE(recentred(S(MinkowskiSum<double>{{ball, mapped(ball, {9, 0, 0}, one * 0.1)}})));
+  const S far = Triangle<double>{{Vec3<double>(100, 0, 0), {100, 1, 0}, {100, 0, 1}}};
+  ASSERT_TRUE(recentred(far));
+  const S turned = mapped(far, {0, 0, 0}, Random(3).rotation());
+  EXPECT_FALSE(recentred(turned));
+  EXPECT_FALSE(recentred(S(MinkowskiSum<double>{{mapped(ball, {8, 0, 0}, one * 1e-3), turned}})));
+}
+
+/// Found by fuzzing: the paper's solver missed it, by a plane through the ray.
+TEST(Recentred, a_small_disk_far_out_in_a_sum_is_hit_by_all_solvers) {
+  Mat3<double> inner, outer;
+  inner << -0.0007054550329165243, -0.09976394373753071, 0.07531041005818077,  //
+      -0.09976394373753071, -0.04492533161691871, -0.06044725063263579,        //
+      -0.07531041005818077, 0.06044725063263579, 0.07936921335016478;
+  outer << -0.0019345998739611764, 0.003020158832482917, 0.00019343736941614424,  //
+      -0.003020158832482917, -0.002344600656111179, 0.00010002167362302456,       //
+      -0.001547498955329154, 0.0008001733889841965, -0.0004370311522312498;
+  const S disk =
+      mapped(Disk<double>{8.763308869674802e-07}, {1.4529082380179551e-25, 1, -1}, inner);
+  const S shape = mapped(Rounded<double>{0, S(MinkowskiSum<double>{{disk}})}, {0, 0, 0}, outer);
+  const Ray<double> ray{{1.005653442745567, -0.004889244888332973, 5.449373823054858},
+                        {-1.0028267213727835, 0.0024446224441664866, -5.448136618558679}};
+  for (const SolverKind solver : {SolverKind::automatic, SolverKind::jet, SolverKind::paper}) {
+    CastOptions<double> options;
+    options.solver = solver;
+    const CastResult<double> answer = cast_ray<double>(PreparedShape<double>(shape), ray, options);
+    EXPECT_EQ(answer.status, Status::hit) << static_cast<int>(solver);
+  }
+}
+
+}  // namespace
+}  // namespace minkray::testing
