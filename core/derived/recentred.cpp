@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/derived/recentred.h"
 
-#include <array>
-#include <span>
-
 #include "core/derived/shape_bounds.h"
 #include "core/math/bounds.h"
 
@@ -16,11 +13,10 @@ namespace {
 template <class T>
 constexpr T far_away = T(8);
 
-/// Tells by how much to move them; zero if there is nothing to gain.
-template <class T>
-Vec3<T> way_to(std::span<const Vec3<T>> points) {
-  Bounds<T> bounds;
-  for (const Vec3<T>& p : points) bounds.extend(p);
+/// Tells by how much to move it; zero if there is nothing to gain.
+template <class T, class S>
+Vec3<T> way_to(const S& shape) {
+  const Bounds<T> bounds = bounds_of<T>(shape);
   Vec3<T> way = Vec3<T>::Zero();
   for (int axis = 0; axis < 3; ++axis) {
     const T low = bounds.lower[axis], high = bounds.upper[axis];
@@ -31,14 +27,8 @@ Vec3<T> way_to(std::span<const Vec3<T>> points) {
 }
 
 template <class T, class S>
-Vec3<T> way_to_shape(const S& shape) {
-  const Bounds<T> bounds = bounds_of<T>(shape);
-  return way_to<T>(std::array{bounds.lower, bounds.upper});
-}
-
-template <class T, class S>
 bool is_far_away(const S& shape) {
-  return !way_to_shape<T>(shape).isZero(0);
+  return !way_to<T>(shape).isZero(0);
 }
 
 /// Whether the sums of `a` and `b` are not rounded (the error of Knuth's two-sum is zero).
@@ -137,7 +127,7 @@ std::optional<Recentred<T>> recentred(const Shape<T>& shape) {
                         core->moved};
   }
   if (std::holds_alternative<Custom<T>>(shape.kind)) return {};  // whose supports may be dear
-  const Vec3<T> way = way_to_shape<T>(shape);
+  const Vec3<T> way = way_to<T>(shape);
   if (way.isZero(0)) return {};
   std::optional<Shape<T>> nearer = std::visit(MovedBack<T>(way), shape.kind);
   if (!nearer) return {};
