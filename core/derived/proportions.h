@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Shapes whose proportions are beyond what the solvers' rounding was made for: needles, plates and
-// slivers of more than 1 : 10^4 to 10^6.
+// slivers of more than 1 : 10^4 to 10^6, and edges as sharp beside faces.
 #pragma once
 
 #include "core/shape/shape.h"
@@ -10,6 +10,7 @@ namespace minkray {
 /// Whether any of the shapes it is made of is so much longer than it is thick, the maps around it
 /// included, or so much larger than another of them. Operands without any thickness (disks,
 /// segments, flat hulls) are not thin; points in double that lie on a line but for rounding are.
+/// So are superellipsoids whose edges are nearly, but not quite, sharp.
 template <class T>
 bool has_extreme_proportions(const Shape<T>& shape);
 

@@ -153,6 +153,20 @@ TEST(Proportions, slivers_in_float_are_thinner_than_1_in_64) {
   EXPECT_FALSE(is_sliver(Shape<float>(Box<float>{{1, 1, 1e-3f}})));
 }
 
+TEST(Proportions, superellipsoids_with_nearly_sharp_edges_are_extreme) {
+  const auto with = [](double exponent) -> Shape<double> {
+    return Superellipsoid<double>{{1, 2, 3}, exponent};
+  };
+  const Shape<double> ball = Sphere<double>{1};
+  for (const double beyond : {0x1p-40, 0x1p-20, 0x1p-11}) {
+    EXPECT_TRUE(is_extreme(with(1 + beyond)));
+    EXPECT_TRUE(is_extreme(Shape<double>(Rounded<double>{1, with(1 + beyond)})));
+    EXPECT_TRUE(is_extreme(Shape<double>(MinkowskiSum<double>{{ball, with(1 + beyond)}})));
+  }
+  for (const double exponent : {1.0, 1.001, 2.0, 1e3}) EXPECT_FALSE(is_extreme(with(exponent)));
+  EXPECT_TRUE(has_extreme_proportions(convert<float>(with(1.0003))));
+}
+
 TEST(Proportions, parts_and_the_maps_around_them_count) {
   const Nested<double> ball = Shape<double>(Sphere<double>{1});
   const auto squeezed = [&](double by) -> Shape<double> {
