@@ -46,6 +46,29 @@ Vec3<long double> half_extents_of(const Bounds<T>& bounds) {
          2;
 }
 
+/// Half of a shape's lengths: those of its box.
+template <class T, class S>
+Vec3<long double> half_lengths_of(const S& shape) {
+  return half_extents_of(bounds_of<T>(shape));
+}
+
+/// Slanted planes lie nearer to one another than their box is high: half of the way across them
+/// takes the place of the least length, where they are furthest apart.
+template <class T>
+Vec3<long double> half_lengths_of(const CutCylinder<T>& shape) {
+  using Long = long double;
+  Vec3<Long> lengths = half_extents_of(bounds_of<T>(shape));
+  std::sort(lengths.begin(), lengths.end());
+  const auto slope = [](Long x, Long y) { return std::hypot(x, y); };
+  const auto& [lower, upper] = std::pair(shape.lower_slope, shape.upper_slope);
+  const Long apart =
+      Long(shape.heights[1]) - Long(shape.heights[0]) +
+      Long(shape.radius) * slope(Long(upper[0]) - lower[0], Long(upper[1]) - lower[1]);
+  const Long steepness = std::min(slope(lower[0], lower[1]), slope(upper[0], upper[1]));
+  lengths[0] = std::min(lengths[0], apart / 2 / std::hypot(Long(1), steepness));
+  return lengths;
+}
+
 /// Exactly, up to the rounding of long double.
 template <class T>
 bool is_on_a_line(std::span<const Vec3<T>> points) {
@@ -198,7 +221,7 @@ void look_at(const Shape<T>& shape, const Stretch& stretch, Seen& seen) {
         } else {
           if constexpr (std::is_same_v<S, Superellipsoid<T>>)
             seen.nearly_sharp |= kind.exponent > T(1) && kind.exponent < T(1 + least_above_1);
-          const Vec3<long double> lengths = half_extents_of(bounds_of<T>(kind));
+          const Vec3<long double> lengths = half_lengths_of<T>(kind);
           // Slanted faces' rims lie askew.
           constexpr double most =
               std::is_same_v<S, CutCylinder<T>> ? most_askew : most_along_axes<T>;

@@ -185,8 +185,8 @@ Entry<W> enter_planes(const PolytopeTables& of, const Line<W>& line, const Mask<
     const W plane = plane_of(of, end.edge);
     // So nearly in a triangle's plane, whether a line enters before or beyond its edges is known by
     // rounding alone; among all planes, it is within all of them.
-    constexpr Lane<W> steepest = tolerance::uncertain_slope<Lane<W>>;
-    if (any(through)) settle_hit(of, plane, line, through, steepest, entry);
+    if (any(through))
+      settle_hit(of, plane, line, through, tolerance::uncertain_slope<Lane<W>>, entry);
     if (any(end.past_edge))
       settle_miss(of, plane, plane_of(of, end.beyond), line, end.past_edge, entry);
     unsure &= !(entry.hit | entry.miss);

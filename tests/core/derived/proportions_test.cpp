@@ -41,6 +41,17 @@ TEST(Proportions, needles_with_slanted_ends_lie_askew) {
   EXPECT_FALSE(is_extreme(Cylinder<double>{1e-5, 1}));
 }
 
+TEST(Proportions, slanted_plates_are_as_thin_as_their_planes_are_apart) {
+  const auto plate = [](double apart) {
+    return CutCylinder<double>{0.05, {0.2, 0.2 + apart}, {0.7, -0.9}, {0.7, -0.9}};
+  };
+  EXPECT_TRUE(is_extreme(plate(3e-10)));
+  EXPECT_FALSE(is_extreme(plate(1e-3)));
+  EXPECT_FALSE(is_extreme(plate(0)));  // an ellipse
+  EXPECT_TRUE(is_extreme(CutCylinder<double>{1, {0, 1e-4}, {0, 0.5}, {0, 0.5 + 1e-5}}));
+  EXPECT_FALSE(is_extreme(CutCylinder<double>{1, {0, 0.1}, {0, 0}, {0, 0.1}}));  // a wedge
+}
+
 TEST(Proportions, plates_that_are_a_few_roundings_thick_are_flat_but_for_rounding) {
   const auto plate = [](double thickness) {
     std::vector<P> corners;
