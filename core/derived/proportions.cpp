@@ -59,12 +59,12 @@ Vec3<long double> half_lengths_of(const CutCylinder<T>& shape) {
   using Long = long double;
   Vec3<Long> lengths = half_extents_of(bounds_of<T>(shape));
   std::sort(lengths.begin(), lengths.end());
-  const auto slope = [](Long x, Long y) { return std::hypot(x, y); };
-  const auto& [lower, upper] = std::pair(shape.lower_slope, shape.upper_slope);
-  const Long apart =
-      Long(shape.heights[1]) - Long(shape.heights[0]) +
-      Long(shape.radius) * slope(Long(upper[0]) - lower[0], Long(upper[1]) - lower[1]);
-  const Long steepness = std::min(slope(lower[0], lower[1]), slope(upper[0], upper[1]));
+  const auto& lower = shape.lower_slope;
+  const auto& upper = shape.upper_slope;
+  const Long apart = Long(shape.heights[1]) - Long(shape.heights[0]) +
+                     Long(shape.radius) * std::hypot(Long(upper[0]) - Long(lower[0]),
+                                                     Long(upper[1]) - Long(lower[1]));
+  const Long steepness = std::min(std::hypot(lower[0], lower[1]), std::hypot(upper[0], upper[1]));
   lengths[0] = std::min(lengths[0], apart / 2 / std::hypot(Long(1), steepness));
   return lengths;
 }

@@ -10,7 +10,7 @@ namespace minkray {
 /// Whether any of the shapes it is made of is so much longer than it is thick, the maps around it
 /// included, or so much larger than another of them. Operands without any thickness (disks,
 /// segments, flat hulls) are not thin; points in double that lie on a line but for rounding are.
-/// So are superellipsoids whose edges are nearly, but not quite, sharp.
+/// Superellipsoids whose edges are nearly, but not quite, sharp count as well.
 template <class T>
 bool has_extreme_proportions(const Shape<T>& shape);
 
