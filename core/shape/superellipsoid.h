@@ -49,8 +49,9 @@ struct Superellipsoid {
   }
 
   /// With u = m/|m|_q and g_i = sign(n_i) u_i^(q-1), the osculating ellipsoid has the shape matrix
-  /// diag(a) ((q-1) diag(u^(q-2)) - (q-2) g g^T) diag(a). Where p > 2 the radius of curvature is
-  /// infinite on the coordinate planes; u is kept above a small number there.
+  /// diag(a) ((q-1) diag(u^(q-2)) - (q-2) g g^T) diag(a). On the coordinate planes the radius of
+  /// curvature is infinite where p > 2, so that g is kept above a small number there; where p < 2
+  /// it is 0 and has to be, as a model with a larger radius agrees with planes that cut it off.
   template <class W>
   Jet<W> jet(const Vec3<W>& n) const {
     using std::abs;
@@ -61,10 +62,11 @@ struct Superellipsoid {
     const Vec3<W> s = support(n);
     const Vec3<W> g = s.cwiseQuotient(a);
     const T q = exponent / (exponent - T(1));
+    const T least = exponent > T(2) ? least_of_jet : T(0);
     Mat3<W> A = g * g.transpose() * W(T(2) - q);
     for (int i = 0; i < 3; ++i) {
       // |g_i| = u_i^(q-1), so u_i^(q-2) = |g_i|^((q-2)/(q-1)).
-      const W size = max(W(abs(g[i])), W(least_of_jet));
+      const W size = max(W(abs(g[i])), W(least));
       A(i, i) += W(q - T(1)) * power<W>(size, (q - T(2)) / (q - T(1)));
     }
     return {Vec3<W>::Zero(), a.asDiagonal() * factor<W>(A), Mask<W>(false), s};

@@ -157,5 +157,23 @@ TEST(Superellipsoid, of_extreme_exponents_is_hit_and_missed) {
   }
 }
 
+/// Beside the creases of exponents below 2 the radius of curvature falls to nothing. A jet of a
+/// larger one agreed with planes that cut off what lies on the crease. How the support point moves
+/// with the direction, by the jet and by the difference of two support points.
+TEST(Superellipsoid, has_the_curvature_of_its_jet_up_to_its_creases) {
+  const Superellipsoid<Long> shape{{0.045L, 0.09L, 9.7L}, 1.16L};
+  for (Long slope = 0.3L; slope > 1e-6L; slope /= 4) {
+    SCOPED_TRACE(static_cast<double>(slope));
+    const Vec3<Long> n(4, 7, slope * 0.06L), across(0, 0, n.z() * 0.0001L);
+    const Jet<Long> jet = shape.jet<Long>(n);
+    const Vec3<Long> moved =
+        (shape.support<Long>(n + across) - shape.support<Long>(n - across)) / 2;
+    const Vec3<Long> u = jet.F.transpose() * n, g = jet.F * u.normalized();
+    const Vec3<Long> by_jet = (jet.F * (jet.F.transpose() * across) - g * g.dot(across)) / u.norm();
+    EXPECT_NEAR(static_cast<double>(by_jet.z() / moved.z()), 1, 1e-6);
+    EXPECT_LE((g - jet.s).norm(), 1e-15L * jet.s.norm());
+  }
+}
+
 }  // namespace
 }  // namespace minkray::testing

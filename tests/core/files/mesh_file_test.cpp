@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "core/files/mesh_parts.h"
+#include "tests/support/temporary_folder.h"
 
 namespace minkray {
 namespace {
@@ -16,13 +17,11 @@ namespace {
 class TemporaryFile {
  public:
   TemporaryFile(const std::string& name, const std::string& contents)
-      : path_(::testing::TempDir() + "minkray-mesh-" + name) {
-    std::ofstream(path_, std::ios::binary) << contents;
-  }
-  ~TemporaryFile() { std::filesystem::remove(path_); }
+      : path_(folder_.write(name, contents)) {}
   const std::filesystem::path& path() const { return path_; }
 
  private:
+  TemporaryFolder folder_;
   std::filesystem::path path_;
 };
 

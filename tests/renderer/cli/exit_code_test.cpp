@@ -11,6 +11,7 @@
 #include "renderer/json/mistakes.h"
 #include "tests/support/program.h"
 #include "tests/support/source_files.h"
+#include "tests/support/temporary_folder.h"
 
 namespace minkray {
 namespace {
@@ -64,12 +65,12 @@ TEST(Cli, certificates_are_summed_up_on_stderr) {
       run("cast --certify '" + (source_folder() / "tests/cases/hard-casts.jsonl").string() + "'");
   EXPECT_EQ(cast.exit_code, 0);
   EXPECT_EQ(cast.err, "certificates: 102 hold, 0 do not; 0 answers without (distances, turning)\n");
-  const std::string picture = ::testing::TempDir() + "minkray-certified.png";
+  const TemporaryFolder folder;
+  const std::string picture = folder / "certified.png";
   const ProgramOutcome render =
       run("render " + scene("figure-1.json") + " -r 32x18 -s 1 -q --certify -o '" + picture + "'");
   EXPECT_EQ(render.exit_code, 0) << render.err;
   EXPECT_NE(render.err.find("without proof 0\n"), std::string::npos) << render.err;
-  std::filesystem::remove(picture);
 }
 
 TEST(Cli, the_league_is_a_program_of_its_own) {
@@ -91,7 +92,8 @@ TEST(Cli, wrong_usage_is_2) {
 }
 
 TEST(Cli, bad_input_is_3_and_all_mistakes_are_on_stderr) {
-  const std::string file = ::testing::TempDir() + "minkray-cli-bad.json";
+  const TemporaryFolder folder;
+  const std::string file = folder / "bad.json";
   const auto write = [&](const std::string& text) {
     std::FILE* out = std::fopen(file.c_str(), "wb");
     std::fwrite(text.data(), 1, text.size(), out);
@@ -107,7 +109,7 @@ TEST(Cli, bad_input_is_3_and_all_mistakes_are_on_stderr) {
                          ": /objects: must be a list (got an object)\n");
   std::filesystem::remove(file);
   EXPECT_EQ(run("info '" + file + "'").exit_code, 3);
-  EXPECT_EQ(run("info '" + ::testing::TempDir() + "'").exit_code, 3);
+  EXPECT_EQ(run("info '" + folder.path().string() + "'").exit_code, 3);
 }
 
 TEST(Cli, what_cannot_be_written_is_4) {

@@ -6,13 +6,13 @@
 
 #include <cmath>
 #include <cstring>
-#include <fstream>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "tests/renderer/library/rays.h"
 #include "tests/renderer/library/shapes.h"
+#include "tests/support/temporary_folder.h"
 
 namespace {
 
@@ -157,11 +157,11 @@ TEST(LibraryScene, tells_inside_and_miss_apart) {
 
 /// It had the first material of a file that was there before it.
 TEST(LibraryScene, what_is_added_is_grey_whatever_came_before_it) {
-  const std::string file = testing::TempDir() + "minkray_library_red.json";
-  std::ofstream(file) << R"({"version": 1, "lights": [],
+  const mk::TemporaryFolder folder;
+  const std::string file = folder.write("red.json", R"({"version": 1, "lights": [],
     "camera": {"position": [0, -5, 0], "look_at": [0, 0, 0]},
     "materials": [{"name": "red", "type": "lambert", "color": [1, 0, 0]}],
-    "objects": [{"name": "ball", "material": "red", "shape": {"type": "sphere", "radius": 1}}]})";
+    "objects": [{"name": "ball", "material": "red", "shape": {"type": "sphere", "radius": 1}}]})");
   for (const bool file_first : {true, false}) {
     minkray_scene scene;
     ASSERT_EQ(minkray_scene_make(&scene), MINKRAY_OK);
@@ -196,12 +196,12 @@ TEST(LibraryScene, what_is_added_is_grey_whatever_came_before_it) {
 }
 
 TEST(LibraryScene, robots_move_by_their_joints) {
-  const std::string file = testing::TempDir() + "minkray_library_robot.urdf";
-  std::ofstream(file) << R"(<robot name="arm">
+  const mk::TemporaryFolder folder;
+  const std::string file = folder.write("robot.urdf", R"(<robot name="arm">
     <link name="base"><visual><geometry><sphere radius="0.1"/></geometry></visual></link>
     <link name="hand"><visual><origin xyz="1 0 0"/><geometry><sphere radius="0.2"/></geometry></visual></link>
     <joint name="elbow" type="revolute"><parent link="base"/><child link="hand"/><axis xyz="0 0 1"/>
-      <limit lower="-3" upper="3" effort="1" velocity="1"/></joint></robot>)";
+      <limit lower="-3" upper="3" effort="1" velocity="1"/></joint></robot>)");
   mk::Scene scene;
   scene.add(mk::sphere(0.01), mk::translation({9, 9, 9}));
   auto robot = scene.add_file(file);
@@ -227,27 +227,24 @@ TEST(LibraryScene, robots_move_by_their_joints) {
 
 /// A ball on a slide along x from the origin, and one particle in its way.
 struct BallAndParticle {
+  mk::TemporaryFolder folder;
   mk::Scene scene;
   mk::Scene::Group robot, particles;
   BallAndParticle() : robot(scene.add_file(robot_file())), particles(scene.add_file(file())) {
     scene.commit();
   }
-  static std::string robot_file() {
-    const std::string file = testing::TempDir() + "minkray_library_slide.urdf";
-    std::ofstream(file) << R"(<robot name="slide"><link name="base"/><link name="ball">
+  std::string robot_file() const {
+    return folder.write("slide.urdf", R"(<robot name="slide"><link name="base"/><link name="ball">
       <visual><geometry><sphere radius="0.5"/></geometry></visual></link>
       <joint name="way" type="prismatic"><parent link="base"/><child link="ball"/>
-        <axis xyz="1 0 0"/><limit lower="0" upper="9" effort="1" velocity="1"/></joint></robot>)";
-    return file;
+        <axis xyz="1 0 0"/><limit lower="0" upper="9" effort="1" velocity="1"/></joint></robot>)");
   }
-  static std::string file() {
-    const std::string file = testing::TempDir() + "minkray_library_particle.json";
-    std::ofstream(file) << R"({"version": 1, "lights": [],
+  std::string file() const {
+    return folder.write("particle.json", R"({"version": 1, "lights": [],
       "camera": {"position": [0, -9, 1], "look_at": [0, 0, 0]},
       "materials": [{"name": "m", "type": "lambert", "color": [1, 1, 1]}], "objects": [],
       "particles": [{"name": "p", "shape": {"type": "sphere", "radius": 0.25}, "material": "m",
-                     "columns": ["position"], "count": 1, "poses": [[5, 0, 0]]}]})";
-    return file;
+                     "columns": ["position"], "count": 1, "poses": [[5, 0, 0]]}]})");
   }
 };
 
@@ -288,9 +285,9 @@ TEST(LibraryScene, particles_take_no_pose) {
 
 /// Rows of a robot without joints have no numbers: 2^30 of them took tens of gigabytes.
 TEST(LibraryScene, a_robot_without_joints_stands_still_for_as_many_rows_as_are_asked_for) {
-  const std::string file = testing::TempDir() + "minkray_library_fixed.urdf";
-  std::ofstream(file) << R"(<robot name="post"><link name="base">
-    <visual><geometry><sphere radius="0.5"/></geometry></visual></link></robot>)";
+  const mk::TemporaryFolder folder;
+  const std::string file = folder.write("fixed.urdf", R"(<robot name="post"><link name="base">
+    <visual><geometry><sphere radius="0.5"/></geometry></visual></link></robot>)");
   mk::Scene scene;
   const auto post = scene.add_file(file);
   scene.add(mk::sphere(1), mk::translation({4, 0, 0}));

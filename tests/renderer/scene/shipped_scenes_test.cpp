@@ -13,6 +13,7 @@
 #include "renderer/scene/tagged_json.h"
 #include "renderer/scene/textures.h"
 #include "tests/support/source_files.h"
+#include "tests/support/temporary_folder.h"
 
 namespace minkray {
 namespace {
@@ -110,9 +111,8 @@ TEST(ShippedScenes, the_zoo_and_the_bent_pipe_show_every_shape) {
 }
 
 TEST(ShippedScenes, missing_meshes_are_told_with_the_command_that_fetches_them) {
-  const std::filesystem::path folder = ::testing::TempDir() + "minkray-scene-without-meshes";
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
+  const TemporaryFolder temporary;
+  const std::filesystem::path& folder = temporary.path();
   std::filesystem::copy_file(source_folder() / "scenes/fetch-meshes", folder / "fetch-meshes");
   Mistakes mistakes("robot-arm.json");
   const std::string text = text_of_file(source_folder() / "scenes/robot-arm.json");
@@ -122,7 +122,6 @@ TEST(ShippedScenes, missing_meshes_are_told_with_the_command_that_fetches_them) 
   EXPECT_TRUE(
       mistakes.messages()[0].ends_with("; fetch it with: " + (folder / "fetch-meshes").string()))
       << mistakes.messages()[0];
-  std::filesystem::remove_all(folder);
 }
 
 }  // namespace
