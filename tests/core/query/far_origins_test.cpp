@@ -124,6 +124,43 @@ TEST(FarOrigins, are_answered_up_to_where_t_tells_the_spot) {
   check_hits<double>(62);
 }
 
+/// From further away, by the most that a position may be wrong there: what passes the ball by more
+/// than that misses it, and nothing is said of what passes by less.
+template <class T>
+void check_misses(double limit) {
+  const PreparedShape<T> ball{Shape<T>(Sphere<T>{T(1)})};
+  CastOptions<T> options;
+  options.solver = SolverKind::paper;
+  Random random(53);
+  int missed = 0, unknown = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const double error = std::exp2(1 + i % 4), distance = std::exp2(limit) * error;
+    // Along an axis, where all of the way aside is kept.
+    const double beside = random.uniform(1, 8), turn = random.uniform(0, 6);
+    const Ray<T> ray = {
+        Vec3<double>(-distance, beside * error * std::cos(turn), beside * error * std::sin(turn))
+            .cast<T>(),
+        {T(distance), 0, 0}};
+    const Status status = cast_ray(ball, ray, options).status;
+    // By the bounding ball, of a radius from 1 to the diagonal of the shape's box.
+    const double least = 1 / error + 4, most = std::sqrt(3) / error + 4;
+    if (beside > most + 0.01) {
+      ASSERT_EQ(name_of(status), name_of(Status::miss)) << beside;
+      ++missed;
+    } else if (beside < least - 0.01) {
+      ASSERT_EQ(name_of(status), name_of(Status::exhausted)) << beside;
+      ++unknown;
+    }
+  }
+  EXPECT_GT(missed, 200);
+  EXPECT_GT(unknown, 200);
+}
+
+TEST(FarOrigins, from_too_far_miss_by_more_than_positions_may_be_wrong_by) {
+  check_misses<float>(46);
+  check_misses<double>(62);
+}
+
 /// Along an axis past the origin, from so far away: most t's on the way are no numbers of double.
 Ray<double> along_axis(double distance, Random& random) {
   Vec3<double> origin = random.in_cube(), way = Vec3<double>::Zero();
