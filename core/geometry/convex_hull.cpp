@@ -2,6 +2,7 @@
 #include "core/geometry/convex_hull.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <numeric>
@@ -112,22 +113,25 @@ class QhullRun {
   FILE* message_file_ = nullptr;
 };
 
-/// Facets of a solid set as Qhull gives them. Where its arithmetic fails on a degenerate set, it
-/// runs again on slightly joggled copies of the points.
+/// How Qhull is asked, in this order, until it does not give up on a degenerate set: merging all
+/// facets that are not clearly convex as it goes; merging only those that are concave until the
+/// end, so that none becomes too wide; and on copies of the points that are joggled by some
+/// roundings, or by as much more as it takes.
+constexpr std::array ways_to_ask = {"Pp", "Pp Qx", "Pp QJ1e-14"};
+
+/// Facets of a solid set.
 Polygons solid_facets(std::span<const Vec3<double>> points) {
   std::vector<double> coordinates;
   coordinates.reserve(points.size() * 3);
   for (const Vec3<double>& p : points) coordinates.insert(coordinates.end(), p.begin(), p.end());
-  {
-    QhullRun run(coordinates, "Pp");
+  std::string message;
+  for (const char* options : ways_to_ask) {
+    std::vector<double> copy = coordinates;  // some options change them
+    QhullRun run(copy, options);
     if (!run.failed()) return run.facets();
+    message = run.message();
   }
-  QhullRun run(coordinates, "Pp QJ");
-  if (run.failed()) {
-    const std::string message = run.message();
-    throw std::runtime_error("Qhull failed: " + message.substr(0, message.find('\n')));
-  }
-  return run.facets();
+  throw std::runtime_error("Qhull failed: " + message.substr(0, message.find('\n')));
 }
 
 /// Twice the area times the normal of a polygon, by Newell's method about its first corner.

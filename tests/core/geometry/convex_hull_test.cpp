@@ -151,6 +151,48 @@ TEST(ConvexHull, nothing_depends_on_the_unit_of_length) {
   }
 }
 
+/// Found by fuzzing: Qhull gives up on them, since what it merges becomes too wide. Joggled copies
+/// of them lost points that lie up to 1e-11 of the size outside of the others' hull.
+TEST(ConvexHull, that_is_all_but_degenerate_reaches_as_far_as_its_points) {
+  const Points found = {{4.157870105926285e+21, -2.482915696275264e+28, 1.3687887984099695e+20},
+                        {1.4918507370244733e-19, -1.7056587599640507e-32, 3.6075740289679864e+22},
+                        {7.307768629384415e+28, -1.4039402161708091e+33, 3.6073988389424817e+22},
+                        {5.827747173725584e-10, -1.4013926903124647e+33, 3.6073988389424817e+22},
+                        {1.4918522879881218e-19, -1.7249187940918923e-32, 5.523128206128051e+26},
+                        {1.1576537995914607e-32, -5.393679888796925e+23, 3.63480109950867e+31},
+                        {0.1719977855682373, -1.4532168440162992e+23, -2.153241069115035e+21},
+                        {9.169870534975396e-33, -1.1923869406897765e+32, 8.720200346330153e+27},
+                        {1.817679811618666e+31, -6.0691867336024696e+32, 1.2837956844157216e-18},
+                        {4.3064810123301633e+21, -6852.27978515625, 433931887312896.0},
+                        {7.524370357327494e+28, -1.3426106889678935e+23, 4.135931751882883e+32},
+                        {2.823095837936003e+23, -1.4543170641863671e+32, 1.1935286694926833e-18},
+                        {2.7369928325558226e+20, -8.612962024660327e+21, 1729175168.0},
+                        {50672968.0, -8.403306630863063e-41, 1.7095841264762768e-43},
+                        {0.0, -2.384185791015625e-07, 9.3664053054889e+19}};
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (int round = 0; round < 300; ++round) {
+    Points points = found;
+    // Some of them twice, but for up to as many digits as they have.
+    for (int i = 0; i < 8; ++i) {
+      Vec3<double> beside = found[random() % found.size()];
+      for (double& x : beside)
+        x *= 1 + uniform(random) * std::exp2(-46 * std::abs(uniform(random)));
+      points.push_back(beside);
+    }
+    const ConvexHull hull = convex_hull(points);
+    double largest = 0;
+    for (const Vec3<double>& p : points) largest = std::max(largest, p.cwiseAbs().maxCoeff());
+    for (int i = 0; i < 6; ++i) {
+      const Vec3<double> n = (i % 2 == 0 ? 1.0 : -1.0) * Vec3<double>::Unit(i / 2);
+      double all = n.dot(points[0]), kept = n.dot(points[hull.vertices[0]]);
+      for (const Vec3<double>& p : points) all = std::max(all, n.dot(p));
+      for (const std::uint32_t v : hull.vertices) kept = std::max(kept, n.dot(points[v]));
+      EXPECT_LE(all - kept, 64 * std::numeric_limits<double>::epsilon() * largest) << round;
+    }
+  }
+}
+
 TEST(ConvexHull, that_is_wider_than_the_largest_number_is_refused) {
   const Points huge = {{-1e300, 1e300, -5e-324}, {1.7e308, -1.7e308, -1e-30},
                        {-1e-45, 5e-324, 1e300},  {-5e-324, -1e-45, -1e-300},
