@@ -158,8 +158,8 @@ TEST(Superellipsoid, of_extreme_exponents_is_hit_and_missed) {
 }
 
 /// Beside the creases of exponents below 2 the radius of curvature falls to nothing. A jet of a
-/// larger one agreed with planes that cut off what lies on the crease. How the support point moves
-/// with the direction, by the jet and by the difference of two support points.
+/// larger one agreed with planes that cut off what lies on the crease. The jet must say how the
+/// support point moves with the direction, which the difference of two support points tells.
 TEST(Superellipsoid, has_the_curvature_of_its_jet_up_to_its_creases) {
   const Superellipsoid<Long> shape{{0.045L, 0.09L, 9.7L}, 1.16L};
   for (Long slope = 0.3L; slope > 1e-6L; slope /= 4) {

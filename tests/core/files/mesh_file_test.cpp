@@ -5,7 +5,6 @@
 
 #include <cctype>
 #include <cstring>
-#include <fstream>
 
 #include "core/files/mesh_parts.h"
 #include "tests/support/temporary_folder.h"

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "core/geometry/point_cloud.h"
+#include "tests/fuzz/hull_rounding.h"
 
 namespace minkray {
 namespace {
@@ -188,7 +189,7 @@ TEST(ConvexHull, that_is_all_but_degenerate_reaches_as_far_as_its_points) {
       double all = n.dot(points[0]), kept = n.dot(points[hull.vertices[0]]);
       for (const Vec3<double>& p : points) all = std::max(all, n.dot(p));
       for (const std::uint32_t v : hull.vertices) kept = std::max(kept, n.dot(points[v]));
-      EXPECT_LE(all - kept, 64 * std::numeric_limits<double>::epsilon() * largest) << round;
+      EXPECT_LE(all - kept, fuzz::hull_rounding * largest) << round;
     }
   }
 }

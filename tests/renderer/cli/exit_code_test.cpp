@@ -93,14 +93,8 @@ TEST(Cli, wrong_usage_is_2) {
 
 TEST(Cli, bad_input_is_3_and_all_mistakes_are_on_stderr) {
   const TemporaryFolder folder;
-  const std::string file = folder / "bad.json";
-  const auto write = [&](const std::string& text) {
-    std::FILE* out = std::fopen(file.c_str(), "wb");
-    std::fwrite(text.data(), 1, text.size(), out);
-    std::fclose(out);
-  };
-  write(R"({"version": 2, "camera": {"position": [0, 0, 0], "look_at": [0, 0, 0]},
-            "lights": [], "materials": [], "objects": {}})");
+  const std::string file = folder.write("bad.json", R"({"version": 2,
+            "camera": {"position": [0, 0, 0], "look_at": [0, 0, 0]}, "lights": [], "materials": [], "objects": {}})");
   const ProgramOutcome bad = run("info '" + file + "'");
   EXPECT_EQ(bad.exit_code, 3);
   EXPECT_EQ(bad.out, "");
