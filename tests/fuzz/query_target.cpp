@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include <cmath>
+#include <limits>
+
 #include "renderer/query/answer.h"
 #include "renderer/query/query_json.h"
 #include "tests/fuzz/messages.h"
@@ -10,15 +13,38 @@ namespace {
 /// A step more is a cast more: inputs must be answered fast enough to try many.
 constexpr int most_steps_of_motions = 200;
 
+bool has_null(const Json& numbers) {
+  return numbers.dump().find("null") != std::string::npos;
+}
+
+/// Whether numbers, one or a point's three, are null in float only where the same ones in double
+/// are beyond all floats: what is not finite is written as null.
+bool are_null_beyond_floats(const Json& in_float, const Json& in_double) {
+  if (in_float.is_array()) {
+    if (!in_double.is_array() || in_double.size() != in_float.size()) return false;
+    for (std::size_t i = 0; i < in_float.size(); ++i)
+      if (!are_null_beyond_floats(in_float[i], in_double[i])) return false;
+    return true;
+  }
+  constexpr double largest = std::numeric_limits<float>::max();
+  return !in_float.is_null() ||
+         (in_double.is_number() && std::abs(in_double.get<double>()) > largest);
+}
+
 std::string check_answer(const Query& query, const AnswerOptions& options) {
   const Answer result = answer(query, options);
   const std::string status = result.facts.status;
   if (status.empty() || status == "unknown") return "no status";
-  // What is not finite is written as null.
   if (status != "exhausted")
-    for (const char* key : {"t", "point", "normal", "distance", "point_a", "point_b"})
-      if (result.json.contains(key) && result.json[key].dump().find("null") != std::string::npos)
+    for (const char* key : {"t", "point", "normal", "distance", "point_a", "point_b"}) {
+      const Json* numbers = result.json.find(key);
+      if (!numbers || !has_null(*numbers)) continue;
+      AnswerOptions in_double = options;
+      in_double.precision = Precision::in_double;
+      const Json again = answer(query, in_double).json;
+      if (!again.contains(key) || !are_null_beyond_floats(*numbers, again[key]))
         return std::string(key) + " is not a number: " + result.json.dump();
+    }
   // Throws on anything that JSON cannot hold.
   if (result.json.dump().find('\n') != std::string::npos) return "an answer of several lines";
   for (const std::string& complaint : complaints(query, result.facts, options.precision))
