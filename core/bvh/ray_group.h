@@ -123,12 +123,28 @@ struct RayGroup {
 
   /// Boxes beyond that are of no interest to a ray any more. Call `narrow` behind such calls.
   void set_t_max(int ray, float limit) { t_max[static_cast<std::size_t>(ray)] = limit; }
-  void narrow() {
-    whole.t_max = t_max[0];
-    for (int i = 1; i < count; ++i)
-      whole.t_max = t_max[static_cast<std::size_t>(i)] > whole.t_max
-                        ? t_max[static_cast<std::size_t>(i)]
-                        : whole.t_max;
+  void narrow() { whole.t_max = greatest(t_max.data(), count); }
+
+ private:
+  using Four __attribute__((vector_size(16))) = float;
+  /// Of what is filled up, four at a time.
+  template <class Better>
+  static float best(const float* from, int rays, const Better& better) {
+    Four all = *reinterpret_cast<const Four*>(from);
+    for (int i = 4; i < (rays + 7) / 8 * 8; i += 4) {
+      const Four next = *reinterpret_cast<const Four*>(from + i);
+      all = better(next, all) ? next : all;
+    }
+    float one = all[0];
+    for (int i = 1; i < 4; ++i)
+      if (better(all[i], one)) one = all[i];
+    return one;
+  }
+  static float greatest(const float* from, int rays) {
+    return best(from, rays, [](const auto& a, const auto& b) { return a > b; });
+  }
+  static float least(const float* from, int rays) {
+    return best(from, rays, [](const auto& a, const auto& b) { return a < b; });
   }
 };
 
@@ -142,19 +158,8 @@ inline void RayGroup::add(const SlabNumbers& ray) {
     origin_far[i][at] = ray.origin_far[i];
     inverse_near[i][at] = ray.inverse_near[i];
     inverse_far[i][at] = ray.inverse_far[i];
-    // The origin that meets first planes earliest and last planes latest. Planes in front of it:
-    // the first ones by the steepest ray, the last ones by the flattest.
-    const bool down = ray.near[i] == 1;
-    const auto pick = [&](float& all, float one, bool greatest) {
-      if (greatest ? one > all : one < all) all = one;
-    };
-    pick(whole.origin_near[i], ray.origin_near[i], !down);
-    pick(whole.origin_far[i], ray.origin_far[i], down);
-    pick(whole.inverse_near[i], ray.inverse_near[i], down);
-    pick(whole.inverse_far[i], ray.inverse_far[i], !down);
   }
   t_max[at] = ray.t_max;
-  whole.t_max = std::max(whole.t_max, ray.t_max);
 }
 
 inline void RayGroup::fill_up() {
@@ -164,6 +169,19 @@ inline void RayGroup::fill_up() {
         (*numbers)[i][at] = (*numbers)[i][0];
     t_max[at] = -1;
   }
+  // The origin that meets first planes earliest and last planes latest. Planes in front of it: the
+  // first ones by the steepest ray, the last ones by the flattest.
+  for (std::size_t i = 0; i < 3; ++i) {
+    const bool down = whole.near[i] == 1;
+    const auto pick = [&](const auto& numbers, bool is_greatest) {
+      return is_greatest ? greatest(numbers[i].data(), count) : least(numbers[i].data(), count);
+    };
+    whole.origin_near[i] = pick(origin_near, !down);
+    whole.origin_far[i] = pick(origin_far, down);
+    whole.inverse_near[i] = pick(inverse_near, down);
+    whole.inverse_far[i] = pick(inverse_far, !down);
+  }
+  narrow();
 }
 
 }  // namespace minkray

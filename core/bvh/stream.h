@@ -10,7 +10,7 @@
 namespace minkray {
 
 /// So many pairs are told at once, or fewer.
-inline constexpr std::size_t most_pairs_at_once = 2 * std::size_t{bvh_width};
+inline constexpr std::size_t most_pairs_at_once = 5 * std::size_t{bvh_width};
 
 /// Told which rays meet which boxes, pair by pair. Rounding may add some. A plain function, so that
 /// kernels share no code.
@@ -25,6 +25,10 @@ struct PairVisitor {
 /// particular order. Answers how many nodes were visited.
 std::uint64_t walk_stream(const Bvh& bvh, std::span<SlabRay> rays, const PairVisitor& visitor,
                           WalkSet set = best_walk_set());
+
+/// SlabRay(ray) of rays in double, the same bits; only on machines that have AVX2 and FMA. They
+/// follow each other `stride` bytes apart.
+void make_slabs_avx2(const char* rays, std::size_t stride, std::size_t count, SlabRay* slabs);
 
 /// Only on machines that have AVX2 and FMA.
 std::uint64_t walk_stream_avx2(const BvhNode* nodes, SlabRay* rays, std::size_t count,

@@ -19,9 +19,8 @@ constexpr std::uint32_t turns = 32;
 constexpr int sentinels = 8;
 constexpr int stack_size = sentinels + bvh_max_depth * (bvh_width - 1) + 1 + bvh_width;
 
-/// Pairs wait until there are so many; a step adds up to eight.
-constexpr std::uint32_t pairs_at_once = 8, queue_size = pairs_at_once + 2 * bvh_width;
-static_assert(pairs_at_once - 1 + bvh_width <= most_pairs_at_once);
+/// Pairs wait until there are so many; each of the steps abreast adds up to eight.
+constexpr std::uint32_t pairs_at_once = 8, queue_size = 2 * most_pairs_at_once;
 
 /// The nodes that a ray has yet to visit, the nearest on top, and where it enters their boxes.
 struct Turn {
@@ -53,17 +52,6 @@ __m256i compared(__m256i keys, __m256i others) {
                             upper_lanes);
 }
 
-/// The greatest first, by a bitonic network.
-__m256i sorted(__m256i keys) {
-  keys = compared<0x55>(keys, _mm256_shuffle_epi32(keys, 0xB1));
-  keys = compared<0x33>(keys, _mm256_shuffle_epi32(keys, 0x1B));
-  keys = compared<0x55>(keys, _mm256_shuffle_epi32(keys, 0xB1));
-  keys = compared<0x0F>(
-      keys, _mm256_permutevar8x32_epi32(keys, _mm256_setr_epi32(7, 6, 5, 4, 3, 2, 1, 0)));
-  keys = compared<0x33>(keys, _mm256_shuffle_epi32(keys, 0x4E));
-  return compared<0x55>(keys, _mm256_shuffle_epi32(keys, 0xB1));
-}
-
 void store(std::uint32_t* to, __m256i lanes) {
   _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), lanes);
 }
@@ -93,6 +81,179 @@ bool drop_distant(Turn& turn, float t_max) {
 
 }  // namespace
 
+namespace {
+
+/// Steps of so many rays at once, phase by phase, so that their chains of operations run side by
+/// side: the processor looks ahead no further than about one step (docs/decisions/streams.md).
+constexpr std::uint32_t abreast = 4;
+
+/// What a step knows between its phases.
+template <std::uint32_t count>
+struct Steps {
+  Turn* turn[count];
+  const SlabNumbers* ray[count];
+  const BvhNode* node[count];
+  __m256 enter[count], leave[count];
+  __m256i children[count], keys[count];
+  std::uint32_t boxes[count], inner[count];
+};
+
+template <std::uint32_t count>
+[[gnu::always_inline]] inline void take_steps(Steps<count>& at, const BvhNode* nodes,
+                                              std::uint32_t* pair_rays, std::uint32_t* pair_boxes,
+                                              std::uint32_t& pairs) {
+  const __m256i lane_numbers = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
+  const __m256i lane_bit = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
+  const __m256i without_lane = _mm256_set1_epi32(~7);
+#pragma GCC unroll 8
+  for (std::uint32_t k = 0; k < count; ++k) {
+    at.enter[k] = _mm256_setzero_ps();
+    at.leave[k] = _mm256_set1_ps(at.ray[k]->t_max);
+  }
+#pragma GCC unroll 3
+  for (int axis = 0; axis < 3; ++axis)
+#pragma GCC unroll 8
+    for (std::uint32_t k = 0; k < count; ++k) {
+      const SlabNumbers& ray = *at.ray[k];
+      const float* const near_plane = at.node[k]->planes[ray.near[axis]][axis];
+      const float* const far_plane = at.node[k]->planes[1 - ray.near[axis]][axis];
+      const __m256 in = _mm256_mul_ps(
+          _mm256_sub_ps(_mm256_load_ps(near_plane), _mm256_set1_ps(ray.origin_near[axis])),
+          _mm256_set1_ps(ray.inverse_near[axis]));
+      const __m256 out = _mm256_mul_ps(
+          _mm256_sub_ps(_mm256_load_ps(far_plane), _mm256_set1_ps(ray.origin_far[axis])),
+          _mm256_set1_ps(ray.inverse_far[axis]));
+      // As std::max and std::min: NaN falls through.
+      at.enter[k] = _mm256_max_ps(in, at.enter[k]);
+      at.leave[k] = _mm256_min_ps(out, at.leave[k]);
+    }
+#pragma GCC unroll 8
+  for (std::uint32_t k = 0; k < count; ++k) {
+    const __m256 padded =
+        _mm256_add_ps(_mm256_mul_ps(at.leave[k], _mm256_set1_ps(slab_padding)), _mm256_set1_ps(slab_tiny));
+    const auto met = static_cast<std::uint32_t>(
+        _mm256_movemask_ps(_mm256_cmp_ps(at.enter[k], padded, _CMP_LE_OQ)));
+    at.children[k] = _mm256_load_si256(reinterpret_cast<const __m256i*>(at.node[k]->children));
+    const auto leaves =
+        static_cast<std::uint32_t>(_mm256_movemask_ps(_mm256_castsi256_ps(at.children[k])));
+    const auto absent = static_cast<std::uint32_t>(_mm256_movemask_ps(
+        _mm256_castsi256_ps(_mm256_cmpeq_epi32(at.children[k], _mm256_set1_epi32(-1)))));
+    at.boxes[k] = met & leaves & ~absent;
+    at.inner[k] = met & ~leaves;
+  }
+  // Nodes, the furthest first: where they are entered, cut off to make room for the lane's number,
+  // is not negative, and so in order as a whole number. Others come last.
+#pragma GCC unroll 8
+  for (std::uint32_t k = 0; k < count; ++k) {
+    const __m256i is_other = _mm256_cmpeq_epi32(
+        _mm256_and_si256(_mm256_set1_epi32(static_cast<int>(at.inner[k])), lane_bit),
+        _mm256_setzero_si256());
+    at.keys[k] = _mm256_or_si256(
+        _mm256_or_si256(_mm256_and_si256(_mm256_castps_si256(at.enter[k]), without_lane), lane_numbers),
+        is_other);
+  }
+  // Boxes to the queue.
+#pragma GCC unroll 8
+  for (std::uint32_t k = 0; k < count; ++k) {
+    store(pair_boxes + pairs,
+          _mm256_and_si256(_mm256_permutevar8x32_epi32(at.children[k], lanes_of(at.boxes[k])),
+                           _mm256_set1_epi32(~static_cast<int>(BvhNode::leaf))));
+    store(pair_rays + pairs, _mm256_set1_epi32(static_cast<int>(at.turn[k]->ray)));
+    pairs += static_cast<std::uint32_t>(__builtin_popcount(at.boxes[k]));
+  }
+#define MINKRAY_LAYER(upper, shuffled)              \
+  _Pragma("GCC unroll 8") for (std::uint32_t k = 0; k < count; ++k) { \
+    const __m256i keys = at.keys[k];                \
+    at.keys[k] = compared<upper>(keys, shuffled);   \
+  }
+  MINKRAY_LAYER(0x55, _mm256_shuffle_epi32(keys, 0xB1))
+  MINKRAY_LAYER(0x33, _mm256_shuffle_epi32(keys, 0x1B))
+  MINKRAY_LAYER(0x55, _mm256_shuffle_epi32(keys, 0xB1))
+  MINKRAY_LAYER(0x0F,
+                _mm256_permutevar8x32_epi32(keys, _mm256_setr_epi32(7, 6, 5, 4, 3, 2, 1, 0)))
+  MINKRAY_LAYER(0x33, _mm256_shuffle_epi32(keys, 0x4E))
+  MINKRAY_LAYER(0x55, _mm256_shuffle_epi32(keys, 0xB1))
+#undef MINKRAY_LAYER
+#pragma GCC unroll 8
+  for (std::uint32_t k = 0; k < count; ++k) {
+    Turn& turn = *at.turn[k];
+    _mm256_storeu_ps(turn.enter + turn.top,
+                     _mm256_castsi256_ps(_mm256_and_si256(at.keys[k], without_lane)));
+    store(turn.node + turn.top, _mm256_permutevar8x32_epi32(at.children[k], at.keys[k]));
+    turn.top += __builtin_popcount(at.inner[k]);
+  }
+#pragma GCC unroll 8
+  for (std::uint32_t k = 0; k < count; ++k) {
+    const Turn& turn = *at.turn[k];
+    const char* const ahead = reinterpret_cast<const char*>(
+        nodes + turn.node[turn.top > sentinels ? turn.top - 1 : sentinels]);
+    for (int line = 0; line < 4; ++line) __builtin_prefetch(ahead + 64 * line);
+  }
+}
+
+}  // namespace
+
+namespace {
+
+/// detail::float_above, for four; `nearest` is x in float.
+[[gnu::always_inline]] inline __m128 floats_above(__m256d x) {
+  const __m128 nearest = _mm256_cvtpd_ps(x);
+  const __m256d is_below = _mm256_cmp_pd(_mm256_cvtps_pd(nearest), x, _CMP_LT_OQ);
+  // -1 where it is, else 0.
+  const __m128i step = _mm256_castsi256_si128(_mm256_permutevar8x32_epi32(
+      _mm256_castpd_si256(is_below), _mm256_setr_epi32(0, 2, 4, 6, 0, 2, 4, 6)));
+  // A zero counts as positive.
+  const __m128i bits = _mm_castps_si128(
+      _mm_andnot_ps(_mm_cmpeq_ps(nearest, _mm_setzero_ps()), nearest));
+  const __m128i is_negative = _mm_srai_epi32(bits, 31);
+  // step or -step: (step ^ n) - n, with the other sign.
+  return _mm_castsi128_ps(
+      _mm_sub_epi32(bits, _mm_sub_epi32(_mm_xor_si128(step, is_negative), is_negative)));
+}
+
+}  // namespace
+
+void make_slabs_avx2(const char* rays, std::size_t stride, std::size_t count, SlabRay* slabs) {
+  static_assert(offsetof(SlabNumbers, origin_far) == 12 && offsetof(SlabNumbers, inverse_near) == 24 &&
+                offsetof(SlabNumbers, inverse_far) == 36 && offsetof(SlabNumbers, t_max) == 48 &&
+                offsetof(SlabNumbers, near) == 52 && offsetof(SlabRay, steps) >= 64);
+  const __m256d sign = _mm256_set1_pd(-0.0);
+  for (std::size_t i = 0; i < count; ++i, rays += stride) {
+    const double* const from = reinterpret_cast<const double*>(rays);
+    const __m256d o = _mm256_loadu_pd(from), d = _mm256_loadu_pd(from + 3);
+    const double x = std::abs(from[3]), y = std::abs(from[4]), z = std::abs(from[5]);
+    const double xy = x > y ? x : y, largest = xy > z ? xy : z;
+    SlabRay& to = slabs[i];
+    if (!(largest >= 0.5 && largest < 2)) [[unlikely]] {
+      to = SlabRay(*reinterpret_cast<const Ray<double>*>(from));
+      continue;
+    }
+    const __m256d turn = _mm256_and_pd(d, sign), turned = _mm256_xor_pd(o, turn);
+    const __m128 turn_float = _mm256_cvtpd_ps(turn);  // +0 or -0
+    const __m128 origin_near = _mm_xor_ps(floats_above(turned), turn_float);
+    const __m128 origin_far = _mm_xor_ps(
+        _mm_xor_ps(floats_above(_mm256_xor_pd(turned, sign)), _mm_set1_ps(-0.0f)), turn_float);
+    const __m128 inverse = _mm256_cvtpd_ps(_mm256_div_pd(_mm256_set1_pd(1), d));
+    // Too large for float, but not without end.
+    const __m128 absolute = _mm_andnot_ps(_mm_set1_ps(-0.0f), inverse);
+    const __m128 bounded = _mm_or_ps(
+        _mm_min_ps(absolute, _mm_set1_ps(std::numeric_limits<float>::max())),
+        _mm_and_ps(inverse, _mm_set1_ps(-0.0f)));
+    const __m256d is_zero = _mm256_cmp_pd(d, _mm256_setzero_pd(), _CMP_EQ_OQ);
+    const __m128 zero = _mm_castsi128_ps(_mm256_castsi256_si128(_mm256_permutevar8x32_epi32(
+        _mm256_castpd_si256(is_zero), _mm256_setr_epi32(0, 2, 4, 6, 0, 2, 4, 6))));
+    float* const numbers = to.numbers.origin_near;
+    _mm_storeu_ps(numbers, origin_near);
+    _mm_storeu_ps(numbers + 3, origin_far);
+    _mm_storeu_ps(numbers + 6, _mm_blendv_ps(bounded, inverse, zero));
+    _mm_storeu_ps(numbers + 9, inverse);
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(to.numbers.near),
+                     _mm_srli_epi32(_mm_castps_si128(turn_float), 31));
+    to.steps = 1;
+    to.numbers.t_max = to.limit(from[6]);
+  }
+}
+
 std::uint64_t walk_stream_avx2(const BvhNode* nodes, SlabRay* rays, std::size_t count,
                                const PairVisitor& visitor) {
   Turn all[turns];
@@ -109,58 +270,46 @@ std::uint64_t walk_stream_avx2(const BvhNode* nodes, SlabRay* rays, std::size_t 
     begin(all[opened], next++);
     open[opened] = opened;
   }
-  const __m256i lane_numbers = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
-  const __m256i lane_bit = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
-  const __m256i without_lane = _mm256_set1_epi32(~7);
+  // Readies the k-th step of the turn at open[i]; false if that turn has no more rays.
+  const auto ready = [&](auto& steps, std::uint32_t k, std::uint32_t i) {
+    Turn& turn = all[open[i]];
+    while (!drop_distant(turn, rays[turn.ray].numbers.t_max)) {
+      if (next >= rays_left) return false;
+      begin(turn, next++);
+    }
+    steps.turn[k] = &turn;
+    steps.ray[k] = &rays[turn.ray].numbers;
+    steps.node[k] = nodes + turn.node[--turn.top];
+    return true;
+  };
+  const auto tell = [&] {
+    if (pairs < pairs_at_once) return;
+    visitor.visit(visitor.context, pair_rays, pair_boxes, pairs);
+    pairs = 0;
+  };
   while (opened != 0) {
     for (std::uint32_t i = 0; i < opened;) {
-      Turn& turn = all[open[i]];
-      const SlabNumbers& ray = rays[turn.ray].numbers;
-      const float t_max = ray.t_max;
-      if (!drop_distant(turn, t_max)) {
-        if (next < rays_left)
-          begin(turn, next++);
-        else
+      Steps<abreast> steps;
+      std::uint32_t k = 0;
+      for (; k < abreast && i < opened;) {
+        if (ready(steps, k, i)) {
+          ++k;
+          ++i;
+        } else
           open[i] = open[--opened];
-        continue;
       }
-      const BvhNode& node = nodes[turn.node[--turn.top]];
-      ++visited;
-      alignas(32) float enters[bvh_width];
-      const std::uint32_t met = boxes_met<Lanes>(node, ray, t_max, enters);
-      const __m256i children = _mm256_load_si256(reinterpret_cast<const __m256i*>(node.children));
-      const auto leaves =
-          static_cast<std::uint32_t>(_mm256_movemask_ps(_mm256_castsi256_ps(children)));
-      const auto absent = static_cast<std::uint32_t>(_mm256_movemask_ps(
-          _mm256_castsi256_ps(_mm256_cmpeq_epi32(children, _mm256_set1_epi32(-1)))));
-      const std::uint32_t boxes = met & leaves & ~absent, inner = met & ~leaves;
-      // Boxes to the queue.
-      store(pair_boxes + pairs,
-            _mm256_and_si256(_mm256_permutevar8x32_epi32(children, lanes_of(boxes)),
-                             _mm256_set1_epi32(~static_cast<int>(BvhNode::leaf))));
-      store(pair_rays + pairs, _mm256_set1_epi32(static_cast<int>(turn.ray)));
-      pairs += static_cast<std::uint32_t>(__builtin_popcount(boxes));
-      // Nodes to the stack, the furthest first: where they are entered, cut off to make room for
-      // the lane's number, is not negative, and so in order as a whole number. Others come last.
-      const __m256i is_other =
-          _mm256_cmpeq_epi32(_mm256_and_si256(_mm256_set1_epi32(static_cast<int>(inner)), lane_bit),
-                             _mm256_setzero_si256());
-      const __m256i keys = sorted(_mm256_or_si256(
-          _mm256_or_si256(
-              _mm256_and_si256(_mm256_castps_si256(_mm256_load_ps(enters)), without_lane),
-              lane_numbers),
-          is_other));
-      _mm256_storeu_ps(turn.enter + turn.top,
-                       _mm256_castsi256_ps(_mm256_and_si256(keys, without_lane)));
-      store(turn.node + turn.top, _mm256_permutevar8x32_epi32(children, keys));
-      turn.top += __builtin_popcount(inner);
-      const char* const ahead = reinterpret_cast<const char*>(
-          nodes + turn.node[turn.top > sentinels ? turn.top - 1 : sentinels]);
-      for (int line = 0; line < 4; ++line) __builtin_prefetch(ahead + 64 * line);
-      ++i;
-      if (pairs < pairs_at_once) continue;
-      visitor.visit(visitor.context, pair_rays, pair_boxes, pairs);
-      pairs = 0;
+      visited += k;
+      if (k == abreast) [[likely]]
+        take_steps<abreast>(steps, nodes, pair_rays, pair_boxes, pairs);
+      else
+        for (std::uint32_t alone = 0; alone < k; ++alone) {
+          Steps<1> step;
+          step.turn[0] = steps.turn[alone];
+          step.ray[0] = steps.ray[alone];
+          step.node[0] = steps.node[alone];
+          take_steps<1>(step, nodes, pair_rays, pair_boxes, pairs);
+        }
+      tell();
     }
   }
   if (pairs != 0) visitor.visit(visitor.context, pair_rays, pair_boxes, pairs);
@@ -172,6 +321,7 @@ std::uint64_t walk_stream_avx2(const BvhNode* nodes, SlabRay* rays, std::size_t 
 namespace minkray {
 
 /// Other machines never ask.
+void make_slabs_avx2(const char*, std::size_t, std::size_t, SlabRay*) {}
 std::uint64_t walk_stream_avx2(const BvhNode*, SlabRay*, std::size_t, const PairVisitor&) {
   return 0;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/exact/polytope.h"
 #include "core/query/tolerances.h"
 
 namespace minkray {
@@ -60,6 +61,38 @@ exact::Form box_around(const ShapeDefinition<T>& definition) {
   return form;
 }
 
+ScreenForm screen_form(const exact::Form& form) {
+  ScreenForm screen;
+  const auto in_float = [](double x) { return static_cast<float>(x); };
+  for (std::size_t i = 0; i < screen.sizes.size(); ++i) screen.sizes[i] = in_float(form.sizes[i]);
+  screen.slope = in_float(form.slope);
+  screen.sine = in_float(form.sine);
+  screen.R = in_float(form.R);
+  screen.least = in_float(least_round(form));
+  for (int axis = 0; axis < 3; ++axis) {
+    screen.scale[static_cast<std::size_t>(axis)] = in_float(form.scale[axis]);
+    screen.offset[static_cast<std::size_t>(axis)] = in_float(form.offset[axis]);
+  }
+  screen.extent = in_float(form.largest_scale * (form.inner_R + form.offset.norm()));
+  screen.up = form.is_upside_down ? -1.0f : 1.0f;
+  return screen;
+}
+
+/// Polytopes of up to so many planes are looked at by all of them.
+constexpr std::size_t most_planes = 128;
+
+std::shared_ptr<const std::vector<float>> planes_of(const exact::Polytope& polytope) {
+  const exact::PolytopeTables& of = polytope.tables();
+  if (of.rounded_by > 0 || polytope.planes() > most_planes || polytope.planes() < 4) return {};
+  auto planes = std::make_shared<std::vector<float>>();
+  for (std::size_t i = 0; i < polytope.planes(); ++i) {
+    const double* const row = &of.planes[i * of.plane_row];
+    for (int k = 0; k < 4; ++k) planes->push_back(static_cast<float>(row[k]));
+    planes->push_back(static_cast<float>((row[4] + polytope.rounding()) * (1 + 0x1p-20)));
+  }
+  return planes;
+}
+
 }  // namespace
 
 template <class T>
@@ -70,19 +103,18 @@ Screen screen_of(const ShapeDefinition<T>& definition) {
   const exact::Form form = screen.is_whole ? definition.form() : box_around(definition);
   if (!is_in_range(form.R) || !is_in_range(form.inner_R)) return screen;
   screen.kind = form.kind;
-  const auto in_float = [](double x) { return static_cast<float>(x); };
-  for (std::size_t i = 0; i < screen.form.sizes.size(); ++i)
-    screen.form.sizes[i] = in_float(form.sizes[i]);
-  screen.form.slope = in_float(form.slope);
-  screen.form.sine = in_float(form.sine);
-  screen.form.R = in_float(form.R);
-  screen.form.least = in_float(least_round(form));
-  for (int axis = 0; axis < 3; ++axis) {
-    screen.form.scale[static_cast<std::size_t>(axis)] = in_float(form.scale[axis]);
-    screen.form.offset[static_cast<std::size_t>(axis)] = in_float(form.offset[axis]);
+  screen.form = screen_form(form);
+  if (screen.is_whole) {
+    screen.alike = screen.kind;
+    screen.alike_form = screen.form;
+  } else if (definition.form().kind == FormKind::polytope && definition.form().polytope &&
+             is_in_range(definition.form().R) && is_in_range(definition.form().inner_R)) {
+    screen.planes = planes_of(*definition.form().polytope);
+    if (screen.planes) {
+      screen.alike = FormKind::polytope;
+      screen.alike_form = screen_form(definition.form());
+    }
   }
-  screen.form.extent = in_float(form.largest_scale * (form.inner_R + form.offset.norm()));
-  screen.form.up = form.is_upside_down ? -1.0f : 1.0f;
   return screen;
 }
 

@@ -7,6 +7,8 @@
 
 #include <array>
 #include <limits>
+#include <memory>
+#include <vector>
 
 #include "core/math/ray.h"
 #include "core/model/shape_definition.h"
@@ -34,6 +36,11 @@ struct Screen {
   ScreenForm form;
   FormKind kind = FormKind::none;  ///< none: it cannot be screened
   bool is_whole = false;           ///< the form is the shape, and not a box around it
+  /// As it is screened where all lanes have one definition: polytopes by all their planes.
+  FormKind alike = FormKind::none;
+  ScreenForm alike_form;
+  /// Rows of planes: normal, offset, depth.
+  std::shared_ptr<const std::vector<float>> planes = {};
 };
 
 /// So many kinds of forms there are lanes for: a queue may be kept for each.
@@ -56,6 +63,36 @@ struct ScreenPairs {
 struct alignas(32) Screened {
   std::array<float, screen_lanes> first, last;
 };
+
+/// Pairs of rays and of instances of one kind as they lie in memory (LanePlace in core/world).
+template <class T>
+struct ScreenList {
+  const char* rays;  ///< the first ray; the others follow `stride` bytes after each other
+  std::size_t stride;
+  const char* places;
+  const Screen* screens;
+  const float* limits;  ///< by ray: what is met beyond that is of no interest
+};
+
+/// What came of them: bits of lanes that may be met up to their limit, and of those that surely are.
+struct ScreenBits {
+  std::uint32_t open, sure;
+};
+
+/// Rays that are looked at together at one instance: coordinate by coordinate, 32 of them.
+struct alignas(32) ScreenBlock {
+  double origin[3][32], direction[3][32];
+  float t[32];  ///< limits
+};
+
+/// Only on machines that have AVX2 and FMA.
+template <class T>
+ScreenBits screen_list_avx2(FormKind kind, const ScreenList<T>& list, const std::uint32_t* rays,
+                            const std::uint32_t* instances, Screened& answers);
+/// Eight of the rays, from `first` on, at one instance.
+template <class T>
+ScreenBits screen_block_avx2(FormKind kind, const ScreenBlock& block, int first, const char* place,
+                             const Screen* screens, Screened& answers);
 
 /// All lanes are of one kind, not `none`; only on machines that have AVX2 and FMA.
 void screen_avx2(FormKind kind, const ScreenPairs<float>& pairs, Screened& answers);

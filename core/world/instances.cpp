@@ -34,6 +34,59 @@ std::uint32_t Instances<T>::define(Shape<T> shape) {
 }
 
 template <class T>
+std::uint32_t Instances<T>::define(const std::shared_ptr<const ShapeDefinition<T>>& shared) {
+  const auto next = static_cast<std::uint32_t>(definitions_.size());
+  const auto [at, is_new] = shared_.try_emplace(shared.get(), next);
+  if (!is_new) return at->second;
+  definitions_.push_back(shared);
+  screens_.push_back(minkray::screen_of(*shared));
+  return next;
+}
+
+template <class T>
+void Instances<T>::make_lane_places() {
+  kind_of_all_ = FormKind::none;
+  if (places_.empty() || !movements_.empty() || !half_spaces_.empty() || !shown_to_.empty()) return;
+  kind_of_all_ = screens_[places_[0].definition].alike;
+  for (const Screen& screen : screens_)
+    if (screen.alike != kind_of_all_) kind_of_all_ = FormKind::none;
+  if (kind_of_all_ == FormKind::none) return lane_places_.clear();
+  lane_places_.resize(places_.size());
+  parallel_for(places_.size(), poses_a_range, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      LanePlace<T>& to = lane_places_[i];
+      const Mat3<T>& map = to_inner(i);
+      for (int axis = 0; axis < 3; ++axis) to.centre[axis] = places_[i].centre[axis];
+      for (int k = 0; k < 9; ++k) to.to_inner[k] = static_cast<float>(map.data()[k]);
+      to.definition = places_[i].definition;
+    }
+  });
+}
+
+template <class T>
+void Instances<T>::make_leaf_places(const Bvh& bvh) {
+  leaf_places_.clear();
+  first_leaves_.clear();
+  if (kind_of_all_ == FormKind::none) return;
+  leaf_places_.reserve(places_.size());
+  first_leaves_.reserve(bvh.nodes.size());
+  for (const BvhNode& node : bvh.nodes) {
+    first_leaves_.push_back(static_cast<std::uint32_t>(leaf_places_.size()));
+    for (const std::uint32_t what : node.children) {
+      if (what == BvhNode::none) break;
+      if (!(what & BvhNode::leaf)) continue;
+      const std::uint32_t i = what & ~BvhNode::leaf;
+      LeafPlace<T> to;
+      for (int axis = 0; axis < 3; ++axis) to.centre[axis] = places_[i].centre[axis];
+      for (int k = 0; k < 9; ++k) to.to_inner[k] = to_inner(i).data()[k];
+      to.definition = places_[i].definition;
+      to.instance = i;
+      leaf_places_.push_back(to);
+    }
+  }
+}
+
+template <class T>
 void Instances<T>::reserve(std::size_t count) {
   places_.reserve(places_.size() + count);
   boxes_.reserve(boxes_.size() + count);

@@ -7,12 +7,15 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <unordered_map>
 #include <vector>
 
+#include "core/bvh/bvh.h"
 #include "core/cast/prepared_shape.h"
 #include "core/cast/screen.h"
 #include "core/parallel/first_touch.h"
 #include "core/world/half_space.h"
+#include "core/world/leaf_place.h"
 #include "core/world/movement.h"
 
 namespace minkray {
@@ -21,6 +24,15 @@ namespace minkray {
 using RayKinds = std::uint8_t;
 inline constexpr RayKinds all_ray_kinds = 0xff;
 
+/// What lanes of floats read of an instance, in one line of the cache.
+template <class T>
+struct alignas(64) LanePlace {
+  T centre[3];
+  float to_inner[9];  ///< column by column
+  std::uint32_t definition;
+};
+static_assert(sizeof(LanePlace<double>) == 64 && sizeof(LanePlace<float>) == 64);
+
 /// In double an instance takes 32 bytes, and 80 more if it is turned or scaled otherwise than the
 /// one before.
 template <class T>
@@ -28,6 +40,9 @@ class Instances {
  public:
   /// A shape for `add` to pose, named by the answer.
   std::uint32_t define(Shape<T> shape);
+
+  /// One that others have made: the same number each time.
+  std::uint32_t define(const std::shared_ptr<const ShapeDefinition<T>>& shared);
 
   /// `pose` maps the frame of the definition's shape to the world; it must be invertible.
   void add(std::uint32_t definition, const Affine<T>& pose);
@@ -113,6 +128,19 @@ class Instances {
     return is_turned(i) ? linear_[places_[i].linear].to_inner : unturned_;
   }
 
+  /// If all instances are screened by forms of one kind that are their shapes, stand still and are
+  /// shown to all rays: the kind, else none. Both are of what `make_lane_places` found.
+  FormKind kind_of_all() const { return kind_of_all_; }
+  const LanePlace<T>* lane_places() const { return lane_places_.data(); }
+  const Screen* screens() const { return screens_.data(); }
+  /// Once all have been added, and after each change.
+  void make_lane_places();
+  /// Once the hierarchy is built: places in the order of its leaves, and for each node which is the
+  /// first of its own.
+  void make_leaf_places(const Bvh& bvh);
+  const LeafPlace<T>* leaf_places() const { return leaf_places_.data(); }
+  const std::uint32_t* first_leaves() const { return first_leaves_.data(); }
+
   /// Brings near what `at` will read: first the place, and, when that has come, the map.
   [[gnu::always_inline]] void prefetch_place(std::size_t i) const {
     __builtin_prefetch(&places_[i]);
@@ -168,6 +196,11 @@ class Instances {
 
   std::vector<std::shared_ptr<const ShapeDefinition<T>>> definitions_;
   std::vector<Screen> screens_;  ///< of each definition
+  std::unordered_map<const void*, std::uint32_t> shared_;  ///< definitions that others have made
+  FirstTouchVector<LanePlace<T>> lane_places_;
+  FirstTouchVector<LeafPlace<T>> leaf_places_;
+  FirstTouchVector<std::uint32_t> first_leaves_;
+  FormKind kind_of_all_ = FormKind::none;
   Mat3<T> unturned_ = Mat3<T>::Identity();
   FirstTouchVector<Place> places_;
   FirstTouchVector<Linear> linear_;

@@ -84,10 +84,35 @@ class PairCaster {
     PosePacket<T> poses;
     poses.are_turned = are_turned;
     const int used = queue.size();
-    for (int i = 0; i < packet_lanes<T>; ++i) {
-      const int pair = i < used ? i : 0;
-      packet.set(i, seen(queue.ray(pair), queue.instance(pair)));
-      poses.set(i, instances_.at(queue.instance(pair)));
+    if (instances_.move()) {
+      for (int i = 0; i < packet_lanes<T>; ++i) {
+        const int pair = i < used ? i : 0;
+        packet.set(i, seen(queue.ray(pair), queue.instance(pair)));
+        poses.set(i, instances_.at(queue.instance(pair)));
+      }
+    } else {
+      // Number by number, as the lanes are read.
+      constexpr auto lanes = static_cast<std::size_t>(packet_lanes<T>);
+      const T *ray[lanes], *centre[lanes], *map[lanes];
+      for (std::size_t i = 0; i < lanes; ++i) {
+        const int pair = static_cast<int>(i) < used ? static_cast<int>(i) : 0;
+        ray[i] = rays_[queue.ray(pair)].ray.origin.data();
+        centre[i] = instances_.centre(queue.instance(pair)).data();
+        map[i] = instances_.to_inner(queue.instance(pair)).data();
+      }
+      static_assert(offsetof(Ray<T>, direction) == 3 * sizeof(T) &&
+                    offsetof(Ray<T>, t_max) == 6 * sizeof(T));
+      for (std::size_t k = 0; k < 3; ++k)
+        for (std::size_t i = 0; i < lanes; ++i) {
+          poses.centre[k][i] = centre[i][k];
+          packet.origin[k][i] = ray[i][k];
+          packet.direction[k][i] = ray[i][3 + k];
+        }
+      for (std::size_t i = 0; i < lanes; ++i) packet.t_max[i] = ray[i][6];
+      if (are_turned)
+        for (std::size_t k = 0; k < 9; ++k)
+          for (std::size_t i = 0; i < lanes; ++i)
+            poses.to_inner[k][i] = map[i][3 * (k % 3) + k / 3];
     }
     CastPacket<T> answers;
     cast_packet(instances_.definition(instances_.definition_of(queue.instance(0))), poses, packet,

@@ -23,11 +23,17 @@ struct RayLimits {
 
   template <class T>
   explicit RayLimits(std::span<const WorldRay<T>> rays) : sure(rays.size()) {
-    slabs.reserve(rays.size());
-    t.reserve(rays.size());
-    for (const WorldRay<T>& one : rays) {
-      slabs.emplace_back(one.ray);
-      t.push_back(detail::float_above(static_cast<double>(one.ray.t_max)));
+    t.resize(rays.size());
+    for (std::size_t i = 0; i < rays.size(); ++i)
+      t[i] = detail::float_above(static_cast<double>(rays[i].ray.t_max));
+    // Streams are asked for on machines with AVX2 alone.
+    if constexpr (std::is_same_v<T, double>) {
+      slabs.resize(rays.size());
+      make_slabs_avx2(reinterpret_cast<const char*>(&rays.data()->ray), sizeof(WorldRay<T>),
+                      rays.size(), slabs.data());
+    } else {
+      slabs.reserve(rays.size());
+      for (const WorldRay<T>& one : rays) slabs.emplace_back(one.ray);
     }
   }
   /// Nothing else is asked of this ray.

@@ -38,6 +38,8 @@ World<T>::World(Instances<T> instances, const CastOptions<T>& options, BvhBuild 
       options_(options),
       in_packets_(are_default(options)) {
   bvh_ = build_bvh(instances_.take_boxes(), build);
+  if (has_screen()) instances_.make_lane_places();
+  if (has_screen()) instances_.make_leaf_places(bvh_);
 }
 
 template <class T>
@@ -126,10 +128,13 @@ void World<T>::pose_all(const std::function<Affine<T>(std::size_t)>& pose_of,
   instances_.pose_all(pose_of, movement_of);
   const FirstTouchVector<Bounds<float>> boxes = instances_.take_boxes();
   if (visits_as_built_ == 0) visits_as_built_ = visits();
+  if (has_screen()) instances_.make_lane_places();
   refit(bvh_, boxes);
-  if (visits() <= most_visits_after_refit * visits_as_built_) return;
-  bvh_ = build_bvh(boxes, build_);
-  visits_as_built_ = visits();
+  if (visits() > most_visits_after_refit * visits_as_built_) {
+    bvh_ = build_bvh(boxes, build_);
+    visits_as_built_ = visits();
+  }
+  if (has_screen()) instances_.make_leaf_places(bvh_);
 }
 
 template class World<float>;

@@ -16,6 +16,7 @@
 
 namespace minkray {
 
+struct BlockHits;
 struct SlabRay;
 
 /// "No instance": as an answer, nothing was met; as the instance to leave out, none is.
@@ -136,6 +137,16 @@ class World {
   void occluded_in_stream(std::span<const WorldRay<T>> rays, std::span<std::uint8_t> met,
                           QueryCounts& counts) const;
 
+  /// Answers any number of rays, those that follow each other and run alike together, others as
+  /// a stream.
+  void closest_hits_of_all(std::span<const WorldRay<T>> rays, std::span<WorldHit<T>> hits,
+                           QueryCounts& counts) const;
+
+  /// Answers up to 64 rays from one point that run nearly alike (core/world/ray_block.h), which follow
+  /// each other `stride` bytes apart; false if they do not run so, or instances are not alike.
+  bool closest_of_block(const Ray<T>* rays, std::size_t stride, std::size_t count, BlockHits& hits,
+                        QueryCounts& counts) const;
+
   /// Moves all instances: the i-th to pose_of(i), which is asked from several threads at once, and
   /// if there is a movement_of, from there as that says while time goes from 0 to 1. The
   /// hierarchy stays the same tree around other boxes, unless these make rays visit half as much
@@ -164,6 +175,11 @@ class World {
   void closest_of_pairs(std::span<const WorldRay<T>> rays, std::span<WorldHit<T>> hits,
                         QueryCounts& counts) const;
   void occluded_of_pairs(std::span<const WorldRay<T>> rays, std::span<std::uint8_t> met,
+                         QueryCounts& counts) const;
+  /// Likewise, where lanes look at all instances alike (Instances::kind_of_all).
+  void closest_of_alike(std::span<const WorldRay<T>> rays, std::span<WorldHit<T>> hits,
+                        QueryCounts& counts) const;
+  void occluded_of_alike(std::span<const WorldRay<T>> rays, std::span<std::uint8_t> met,
                          QueryCounts& counts) const;
   /// What walks call with instances that they may come to.
   auto prefetching() const {

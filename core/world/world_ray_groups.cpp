@@ -3,6 +3,7 @@
 // of those that come to the same instance.
 #include <array>
 
+#include "core/bvh/stream.h"
 #include "core/bvh/traverse.h"
 #include "core/cast/packet_cast.h"
 #include "core/world/world.h"
@@ -37,11 +38,11 @@ constexpr double widest_ray_group = 0.25;
 /// costs alone. By measurement, see docs/decisions/rays-together.md.
 constexpr int patience_a_ray = 2;
 
-template <class T>
-bool diverges(const Ray<T>& a, const SlabRay& slabs_a, const Ray<T>& b, const SlabRay& slabs_b) {
-  const Vec3<double> difference = a.direction.template cast<double>() * (1 / slabs_a.steps) -
-                                  b.direction.template cast<double>() * (1 / slabs_b.steps);
-  return difference.cwiseAbs().maxCoeff() > widest_ray_group;
+/// Directions whose largest component is about 1.
+bool diverge(const Vec3<double>& a, const Vec3<double>& b) {
+  using std::abs;
+  return abs(a.x() - b.x()) > widest_ray_group || abs(a.y() - b.y()) > widest_ray_group ||
+         abs(a.z() - b.z()) > widest_ray_group;
 }
 
 /// on_group(group) for all rays that run along with others, on_single(i) for the rest. `slabs` gets
@@ -50,8 +51,16 @@ template <class T, class OnGroup, class OnSingle>
 void in_groups(std::span<const WorldRay<T>> rays, std::array<SlabRay, capacity>& slabs,
                const OnGroup& on_group, const OnSingle& on_single) {
   if (rays.empty()) return;
-  for (std::size_t i = 0; i < rays.size(); ++i) slabs[i] = SlabRay(rays[i].ray);
+  if (std::is_same_v<T, double> && best_walk_set() == WalkSet::avx2)
+    make_slabs_avx2(reinterpret_cast<const char*>(&rays.data()->ray), sizeof(WorldRay<T>),
+                    rays.size(), slabs.data());
+  else
+    for (std::size_t i = 0; i < rays.size(); ++i) slabs[i] = SlabRay(rays[i].ray);
   if (rays.size() == 1) return on_single(0);
+  std::array<Vec3<double>, capacity> directions;
+  for (std::size_t i = 0; i < rays.size(); ++i)
+    directions[i] = rays[i].ray.direction.template cast<double>() *
+                    (slabs[i].steps == 1 ? 1 : 1 / slabs[i].steps);
   Group group;
   for (RayGroupMask open = ~RayGroupMask(0) >> (capacity - rays.size()); open != 0;) {
     const auto first = static_cast<std::size_t>(next_of(open));
@@ -59,8 +68,7 @@ void in_groups(std::span<const WorldRay<T>> rays, std::array<SlabRay, capacity>&
     group.add(slabs[first].numbers, first);
     for (RayGroupMask others = open; others != 0;) {
       const auto i = static_cast<std::size_t>(next_of(others));
-      if (slabs[i].octant() != slabs[first].octant() ||
-          diverges(rays[i].ray, slabs[i], rays[first].ray, slabs[first]))
+      if (slabs[i].octant() != slabs[first].octant() || diverge(directions[i], directions[first]))
         continue;
       group.add(slabs[i].numbers, i);
       open &= ~(RayGroupMask(1) << i);
@@ -173,11 +181,110 @@ void World<T>::closest_hits(std::span<const WorldRay<T>> rays, std::span<WorldHi
     if (walk.complete) return;
     for (int lane = 0; lane < group.rays.count; ++lane) on_single(index(lane));
   };
+  // Lanes of floats look at each instance first; what is left and may come first is cast at.
+  const auto on_group_of_alike = [&](Group& group) {
+    ScreenBlock block;
+    const auto index = [&](int lane) { return group.ray_of[static_cast<std::size_t>(lane)]; };
+    const int lanes = (group.rays.count + screen_lanes - 1) / screen_lanes * screen_lanes;
+    for (int lane = 0; lane < lanes; ++lane) {
+      const int from = lane < group.rays.count ? lane : 0;
+      const Ray<T>& ray = rays[index(from)].ray;
+      for (int axis = 0; axis < 3; ++axis) {
+        block.origin[axis][lane] = static_cast<double>(ray.origin[axis]);
+        block.direction[axis][lane] = static_cast<double>(ray.direction[axis]);
+      }
+      block.t[lane] = detail::float_above(static_cast<double>(ray.t_max));
+    }
+    struct Left {
+      float first;
+      std::uint8_t lane;
+      std::uint32_t instance;
+    };
+    constexpr std::size_t most_left = 1024;
+    std::array<Left, most_left> left;
+    std::size_t left_count = 0;
+    RayGroupMask sure_rays = 0;
+    const bool have_own_maps = instances_.have_own_maps();
+    const FormKind kind = instances_.kind_of_all();
+    const LanePlace<T>* const places = instances_.lane_places();
+    const auto found = [&](int lane, std::uint32_t instance, T t, const auto& result) {
+      WorldHit<T>& hit = hits[index(lane)];
+      if (!hit.yields_to(instance, t)) return;
+      hit = {instance, result()};
+      const float above = detail::float_above(static_cast<double>(t));
+      if (above < block.t[lane]) block.t[lane] = above;
+    };
+    const auto cast_left = [&] {
+      for (std::size_t i = 0; i < left_count;) {
+        const std::uint32_t instance = left[i].instance;
+        RayGroupMask which = 0;
+        for (; i < left_count && left[i].instance == instance; ++i)
+          if (left[i].first <= block.t[left[i].lane]) which |= RayGroupMask(1) << left[i].lane;
+        if (which == 0) continue;
+        const auto ray_of = [&](int lane) { return rays[index(lane)].ray; };
+        cast_all<T>(instances_.at(instance), which, ray_of, options_, in_packets_, counts,
+                    [&](int lane, T t, const auto& result) { found(lane, instance, t, result); });
+      }
+      left_count = 0;
+    };
+    auto on_instance = [&](std::uint32_t instance, RayGroupMask meeting) {
+      bool nearer = false, fetches = false;
+      if (left_count + ray_group_capacity > most_left) cast_left();
+      for (int first = 0; first < lanes; first += screen_lanes) {
+        const std::uint32_t here = meeting >> first & 0xffu;
+        if (here == 0) continue;
+        Screened answers;
+        const ScreenBits bits =
+            screen_block_avx2<T>(kind, block, first, reinterpret_cast<const char*>(places + instance),
+                                 instances_.screens(), answers);
+        for (std::uint32_t open = bits.open & here; open != 0; open &= open - 1) {
+          const int at = __builtin_ctz(open), lane = first + at;
+          if (rays[index(lane)].skip == instance) continue;
+          left[left_count++] = {answers.first[static_cast<std::size_t>(at)],
+                                static_cast<std::uint8_t>(lane), instance};
+          const float last = answers.last[static_cast<std::size_t>(at)];
+          fetches = true;
+          if (!(bits.sure >> at & 1u) || !(last < block.t[lane])) continue;
+          block.t[lane] = last;
+          sure_rays |= RayGroupMask(1) << lane;
+          group.rays.set_t_max(lane, slabs[index(lane)].limit(static_cast<double>(last)));
+          nearer = true;
+        }
+      }
+      if (fetches) {
+        instances_.prefetch_place(instance);
+        if (have_own_maps) instances_.prefetch_own_map(instance);
+      }
+      if (nearer) group.rays.narrow();
+      return false;
+    };
+    const auto ahead = [&](std::uint32_t instance) { __builtin_prefetch(places + instance); };
+    const Walk walk = traverse(bvh_, group.rays, on_instance, ahead);
+    counts.nodes += walk.visited;
+    cast_left();
+    for (int lane = 0; lane < group.rays.count; ++lane) {
+      const WorldHit<T>& hit = hits[index(lane)];
+      if (!walk.complete)
+        on_single(index(lane));
+      else if ((sure_rays >> lane & 1u) && !(hit.found() && hit.cast.t() <= T(block.t[lane])))
+        hits[index(lane)] = closest_hit(rays[index(lane)], counts);
+    }
+  };
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    hits[i] = {};
+    hits[i].instance = no_instance;
+    hits[i].cast = {};
     hits[i].cast.status = Status::miss;
   }
-  in_groups(rays, slabs, on_group, on_single);
+  // Of many planes, packets that walk over facets are sooner done than lanes of which half are idle.
+  constexpr std::size_t most_planes_alike = 48;
+  const auto has_few_planes = [&] {
+    const auto& planes = instances_.screens()[0].planes;
+    return !planes || planes->size() <= most_planes_alike * 5;
+  };
+  if (has_screen() && instances_.kind_of_all() != FormKind::none && has_few_planes())
+    in_groups(rays, slabs, on_group_of_alike, on_single);
+  else
+    in_groups(rays, slabs, on_group, on_single);
 }
 
 template <class T>

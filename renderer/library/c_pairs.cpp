@@ -18,13 +18,22 @@ void store(const Vec3<double>& from, double (&to)[3]) {
 /// A shape and where it stands, as queries on pairs want it: what keeps lengths is the pose, any
 /// other map is part of the shape.
 struct PosedShape {
-  ContactShape shape;
+  std::optional<ContactShape> own;  ///< where the map is part of it
+  const ContactShape& shape;
   Affine<double> pose;
 
   PosedShape(const HeldShape& held, const Affine<double>& map)
-      : shape(is_rigid(map) ? held.contact()
-                            : ContactShape(*held.shape(), {map.linear, Vec3<double>::Zero()})),
-        pose(is_rigid(map) ? map : Affine<double>{Mat3<double>::Identity(), map.translation}) {}
+      : PosedShape(held, map, is_rigid(map)) {}
+  PosedShape(const PosedShape&) = delete;
+  PosedShape& operator=(const PosedShape&) = delete;
+
+ private:
+  PosedShape(const HeldShape& held, const Affine<double>& map, bool keeps_lengths)
+      : own(keeps_lengths ? std::nullopt
+                          : std::optional<ContactShape>(std::in_place, *held.shape(),
+                                                        Affine<double>{map.linear, Vec3<double>::Zero()})),
+        shape(own ? *own : held.contact()),
+        pose(keeps_lengths ? map : Affine<double>{Mat3<double>::Identity(), map.translation}) {}
 };
 
 SignedDistanceOptions distance_options(const minkray_distance_options* given) {

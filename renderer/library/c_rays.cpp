@@ -2,6 +2,7 @@
 // The functions of the C interface that cast rays.
 #include <algorithm>
 #include <array>
+#include <vector>
 
 #include "renderer/library/call.h"
 #include "renderer/library/held_scene.h"
@@ -21,19 +22,30 @@ template <class Tell>
 void cast_rays(const HeldScene& scene, const RaySource& rays, const minkray_options* options,
                Tell&& tell) {
   const RenderWorld& world = scene.world();
+  const bool gathered = are_gathered(scene.customs());
   const auto one = [&](std::size_t i, const Ray<double>& ray) {
     QueryCounts counts;
     const WorldHit<double> hit = world.closest_hit(ray, counts);
     tell(i, ray, plain_hit(ray, hit, counts.exhausted > 0));
   };
-  const auto group = [&](std::size_t first, std::size_t end) {
-    std::array<WorldRay<double>, at_once> asked;
-    std::array<WorldHit<double>, at_once> hits;
+  const auto others = [&](std::size_t first, std::size_t end) {
     const std::size_t count = end - first;
+    if (count == 0) return;
     if (count == 1) return one(first, rays[first]);
+    // Pieces of work that take turns on one thread each have room of their own.
+    std::vector<WorldRay<double>> own_rays;
+    std::vector<WorldHit<double>> own_hits;
+    thread_local std::vector<WorldRay<double>> thread_rays(rays_a_part);
+    thread_local std::vector<WorldHit<double>> thread_hits(rays_a_part);
+    if (gathered) {
+      own_rays.resize(count);
+      own_hits.resize(count);
+    }
+    std::vector<WorldRay<double>>& asked = gathered ? own_rays : thread_rays;
+    std::vector<WorldHit<double>>& hits = gathered ? own_hits : thread_hits;
     for (std::size_t i = 0; i < count; ++i) asked[i] = {rays[first + i]};
     QueryCounts counts;
-    world.closest_hits(std::span(asked).first(count), std::span(hits).first(count), counts);
+    world.closest_hits_of_all(std::span(asked).first(count), std::span(hits).first(count), counts);
     for (std::size_t i = 0; i < count; ++i) {
       if (counts.exhausted > 0)
         one(first + i, asked[i].ray);
@@ -41,7 +53,29 @@ void cast_rays(const HeldScene& scene, const RaySource& rays, const minkray_opti
         tell(first + i, asked[i].ray, plain_hit(asked[i].ray, hits[i], false));
     }
   };
-  work_on_groups(rays.size(), at_once, are_gathered(scene.customs()), options, group);
+  // Blocks of rays that run alike are read and answered where the caller has them.
+  const auto group = [&](std::size_t first, std::size_t end) {
+    std::size_t waiting = first;
+    BlockHits hits;
+    std::array<Ray<double>, rays_of_block> room;
+    for (std::size_t at = first; !gathered && at < end; at += rays_of_block) {
+      const std::size_t count = std::min(rays_of_block, end - at);
+      if (count < at_once) break;
+      const Ray<double>* const block = rays.in_a_row(at, count, room.data());
+      QueryCounts counts;
+      if (!world.closest_of_block(block, sizeof(Ray<double>), count, hits, counts)) continue;
+      others(waiting, at);
+      waiting = at + count;
+      for (std::size_t i = 0; i < count; ++i) {
+        if (hits.alone >> i & 1u)
+          one(at + i, block[i]);
+        else
+          tell(at + i, block[i], hits, i);
+      }
+    }
+    others(waiting, end);
+  };
+  work_on_groups(rays.size(), gathered ? at_once : rays_a_part, gathered, options, group);
   throw_if_lied(scene.customs());
 }
 
@@ -95,8 +129,23 @@ int minkray_scene_cast(minkray_scene scene, const minkray_ray* rays, size_t coun
   return call("minkray_scene_cast", [&] {
     const HeldScene& held = scene_of(scene);
     if (count > 0) require(hits, "hits");
-    cast_rays(held, RaySource(rays, count), options,
-              [&](size_t i, const Ray<double>&, const minkray_hit& hit) { hits[i] = hit; });
+    if (count == 1 && !options && held.customs().empty()) {
+      const Ray<double> ray = RaySource(rays, 1)[0];
+      QueryCounts counts;
+      const WorldHit<double> hit = held.world().closest_hit(ray, counts);
+      *hits = plain_hit(ray, hit, counts.exhausted > 0);
+      return;
+    }
+    struct {
+      minkray_hit* hits;
+      void operator()(size_t i, const Ray<double>&, const minkray_hit& hit) const {
+        hits[i] = hit;
+      }
+      void operator()(size_t i, const Ray<double>& ray, const BlockHits& block, size_t k) const {
+        plain_hit(ray, block, k, hits[i]);
+      }
+    } const tell{hits};
+    cast_rays(held, RaySource(rays, count), options, tell);
   });
 }
 
@@ -107,10 +156,18 @@ int minkray_scene_cast_arrays(minkray_scene scene, const minkray_ray_arrays* ray
     require(hits, "hits");
     if (hits->size < sizeof(minkray_hit_arrays))
       wrong_use("hits.size: must be sizeof(minkray_hit_arrays)");
-    cast_rays(held, RaySource(rays, count), options,
-              [&](size_t i, const Ray<double>& ray, const minkray_hit& hit) {
-                store(*hits, i, ray, hit);
-              });
+    struct {
+      const minkray_hit_arrays& hits;
+      void operator()(size_t i, const Ray<double>& ray, const minkray_hit& hit) const {
+        store(hits, i, ray, hit);
+      }
+      void operator()(size_t i, const Ray<double>& ray, const BlockHits& block, size_t k) const {
+        minkray_hit hit;
+        plain_hit(ray, block, k, hit);
+        store(hits, i, ray, hit);
+      }
+    } const tell{*hits};
+    cast_rays(held, RaySource(rays, count), options, tell);
   });
 }
 
@@ -147,6 +204,19 @@ int minkray_shape_cast(minkray_shape shape, const minkray_pose* pose, const mink
   return call("minkray_shape_cast", [&] {
     const HeldShape& held = shape_of(shape, "shape");
     if (count > 0) require(hits, "hits");
+    if (count == 1 && !options && held.customs().empty()) {
+      const Ray<double> ray = RaySource(rays, 1)[0];
+      // Nothing is counted: the handle's owner keeps the definition.
+      const ShapeDefinition<double>& definition = *held.definition();
+      const auto placement = definition.placed(pose_of(pose, "pose"));
+      const PreparedShape<double> prepared(
+          definition, placement.centre,
+          placement.is_rigid_identity ? nullptr : &placement.to_inner);
+      WorldHit<double> hit{no_instance, cast_ray(prepared, ray)};
+      if (hit.cast.found()) hit.instance = 0;
+      *hits = plain_hit(ray, hit, hit.cast.status == Status::exhausted);
+      return;
+    }
     const PreparedShape<double> prepared(held.definition(), pose_of(pose, "pose"));
     cast_at_one(prepared, 0, RaySource(rays, count), hits, options,
                 [](const PreparedShape<double>& one, const Ray<double>& ray) {

@@ -73,7 +73,7 @@ int minkray_scene_add(minkray_scene scene, minkray_shape shape, const minkray_po
     const HeldShape& added = shape_of(shape, "shape");
     const Affine<double> map = pose_of(pose, "pose");
     const HeldScene::Change change(held);
-    const uint32_t index = held.add(added.shape(), map, name);
+    const uint32_t index = held.add(added, map, name);
     if (object) *object = index;
   });
 }

@@ -47,12 +47,13 @@ std::uint32_t HeldScene::append(Object object, const char* name) {
   return index;
 }
 
-std::uint32_t HeldScene::add(const Nested<double>& shape, const Affine<double>& pose,
+std::uint32_t HeldScene::add(const HeldShape& shape, const Affine<double>& pose,
                              const char* name) {
-  for (const auto& custom : customs_of(*shape))
+  for (const auto& custom : shape.customs())
     if (known_customs_.insert(custom.get()).second) customs_.push_back(custom);
   Object object;
-  object.shape = *shape;
+  object.shape = *shape.shape();
+  if (shape.customs().empty()) object.definition = shape.definition();
   object.pose = pose;
   return append(std::move(object), name);
 }

@@ -15,6 +15,7 @@
 #include "renderer/library/call.h"
 #include "renderer/library/custom_support.h"
 #include "renderer/library/handles.h"
+#include "renderer/library/held_shape.h"
 #include "renderer/scene/scene.h"
 
 namespace minkray {
@@ -45,7 +46,7 @@ class HeldScene {
     HeldScene& scene_;
   };
 
-  std::uint32_t add(const Nested<double>& shape, const Affine<double>& pose, const char* name);
+  std::uint32_t add(const HeldShape& shape, const Affine<double>& pose, const char* name);
   std::uint32_t add(const HalfSpaceBody<double>& half_space, const char* name);
   std::uint32_t add_file(const std::string& file, const ImportOptions& options,
                          const std::optional<Affine<double>>& pose);

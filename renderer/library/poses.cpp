@@ -31,6 +31,7 @@ Affine<double> pose_of(const minkray_pose* pose, const char* argument) {
     for (int j = 0; j < 3; ++j) map.linear(i, j) = pose->rows[i][j];
     map.translation[i] = pose->rows[i][3];
   }
+  if (is_rigid(map)) return map;
   const Mat3<double> off = map.linear * inverse_of(map.linear) - Mat3<double>::Identity();
   if (!(off.cwiseAbs().maxCoeff() <= most_off_identity))
     wrong_use(std::string(argument) + ": must be invertible (got a singular matrix)");

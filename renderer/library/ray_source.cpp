@@ -39,6 +39,10 @@ RaySource::RaySource(const minkray_ray_arrays* rays, std::size_t count) : count_
 void RaySource::check() const {
   for (std::size_t i = 0; i < count_; ++i) {
     const Ray<double> ray = (*this)[i];
+    // What is finite times zero is zero, anything else is not.
+    const double zero = 0 * ((ray.origin.x() + 0 * ray.origin.y()) + 0 * ray.origin.z()) +
+                        0 * ((ray.direction.x() + 0 * ray.direction.y()) + 0 * ray.direction.z());
+    if (zero == 0 && ray.t_max >= 0) [[likely]] continue;
     if (ray.origin.allFinite() && ray.direction.allFinite() && ray.t_max >= 0) continue;
     const std::string place = "rays[" + std::to_string(i) + "].";
     if (!(ray.t_max >= 0))
@@ -76,6 +80,32 @@ minkray_hit plain_hit(const Ray<double>& ray, const WorldHit<double>& hit, bool 
         (ray.origin[k] + cast.t_base * ray.direction[k]) + cast.t_offset * ray.direction[k];
   }
   return plain;
+}
+
+void plain_hit(const Ray<double>& ray, const BlockHits& hits, std::size_t i, minkray_hit& to) {
+  to.object = hits.instance[i];
+  to.supports = to.reserved = 0;
+  if (!(hits.found >> i & 1u)) {
+    to.status = MINKRAY_MISS;
+    to.t = to.t_lo = to.t_hi = to.t_base = std::numeric_limits<double>::infinity();
+    to.t_offset = 0;
+    for (double& x : to.point) x = std::numeric_limits<double>::quiet_NaN();
+    for (double& x : to.normal) x = 0;
+    return;
+  }
+  const CastPacket<double>& casts = hits.casts[i / 4];
+  const std::size_t lane = i % 4;
+  to.status = casts.hit >> lane & 1u ? MINKRAY_HIT : MINKRAY_INSIDE;
+  const double base = casts.t_base[lane], offset = casts.t_offset[lane];
+  to.t = base + offset;
+  to.t_lo = base + casts.offset_lo[lane];
+  to.t_hi = base + casts.offset_hi[lane];
+  to.t_base = base;
+  to.t_offset = offset;
+  for (int k = 0; k < 3; ++k) {
+    to.normal[k] = casts.normal[static_cast<std::size_t>(k)][lane];
+    to.point[k] = (ray.origin[k] + base * ray.direction[k]) + offset * ray.direction[k];
+  }
 }
 
 void store(const minkray_hit_arrays& arrays, std::size_t i, const Ray<double>& ray,

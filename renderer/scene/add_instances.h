@@ -11,7 +11,10 @@ template <class T>
 void add_object(Instances<T>& instances, const Object& object) {
   if (object.half_space)
     instances.add(*object.half_space, object.pose);
-  else
+  else if (std::is_same_v<T, double> && object.definition) {
+    if constexpr (std::is_same_v<T, double>)
+      instances.add(instances.define(object.definition), object.pose);
+  } else
     instances.add(object.shape, object.pose);
 }
 

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -24,6 +25,9 @@
 
 namespace minkray {
 
+template <class T>
+class ShapeDefinition;
+
 struct Object {
   std::string name;
   Shape<double> shape = Point<double>();
@@ -34,6 +38,7 @@ struct Object {
   std::optional<HalfSpaceBody<double>> half_space =
       {};                               ///< if there is one it is that, not `shape`
   RayKinds visible_to = all_ray_kinds;  ///< and to no rays that its material is not visible to
+  std::shared_ptr<const ShapeDefinition<double>> definition = {};  ///< of the shape, if shared
 };
 
 /// What "type" says in the place of a shape's name for a half-space, which is none.
