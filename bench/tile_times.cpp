@@ -18,7 +18,7 @@ using Clock = std::chrono::steady_clock;
 
 int print_times(char** argv) {
   const Scene scene = load_scene(argv[1]);
-  const RenderWorld world = make_world(scene);
+  const World world = make_world(scene);
   RenderOptions options;
   options.resolution = {std::stoi(argv[2]), std::stoi(argv[3])};
   options.samples = std::stoi(argv[4]);

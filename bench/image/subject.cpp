@@ -112,6 +112,6 @@ Instances<T> instances_of(const Scene& scene) {
 }
 
 template Instances<float> instances_of(const Scene&);
-template Instances<double> instances_of(const Scene&);
+template Instances instances_of(const Scene&);
 
 }  // namespace minkray::bench

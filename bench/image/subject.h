@@ -38,6 +38,6 @@ template <class T>
 Instances<T> instances_of(const Scene& scene);
 
 extern template Instances<float> instances_of(const Scene&);
-extern template Instances<double> instances_of(const Scene&);
+extern template Instances instances_of(const Scene&);
 
 }  // namespace minkray::bench

@@ -22,15 +22,6 @@ using W = Wide<float, screen_lanes, IsaAvx2>;
 inline __m128 four(const float* from) {
   return _mm_loadu_ps(from);
 }
-inline __m128 four(const double* from) {
-  return _mm256_cvtpd_ps(_mm256_loadu_pd(from));
-}
-inline __m256d four_in_double(const float* from) {
-  return _mm256_cvtps_pd(_mm_loadu_ps(from));
-}
-inline __m256d four_in_double(const double* from) {
-  return _mm256_loadu_pd(from);
-}
 
 /// Four numbers of each lane, read by four_of(lane), side by side.
 template <class FourOf>
@@ -47,21 +38,6 @@ template <class FourOf>
           w(_mm256_shuffle_ps(ab_high, cd_high, 0xEE))};
 }
 
-template <class T>
-[[gnu::always_inline]] inline Mat3<W> maps(const ScreenPairs<T>& pairs) {
-  const auto column_by_column = [&](std::size_t lane) { return pairs.to_inner[lane]->data(); };
-  const auto first = side_by_side([&](std::size_t i) { return four(column_by_column(i)); });
-  const auto second = side_by_side([&](std::size_t i) { return four(column_by_column(i) + 4); });
-  const auto last = [&](std::size_t i) { return static_cast<float>(column_by_column(i)[8]); };
-  Mat3<W> map;
-  for (int k = 0; k < 4; ++k) {
-    map(k % 3, k / 3) = first[static_cast<std::size_t>(k)];
-    map((k + 4) % 3, (k + 4) / 3) = second[static_cast<std::size_t>(k)];
-  }
-  map(2, 2) = W(W::Lanes{last(0), last(1), last(2), last(3), last(4), last(5), last(6), last(7)});
-  return map;
-}
-
 /// Numbers of ScreenForm, lane by lane.
 struct FormInLanes {
   std::array<W, 4> sizes;
@@ -70,7 +46,7 @@ struct FormInLanes {
   const std::vector<float>* planes = nullptr;  ///< of all lanes
 
   /// One for all lanes.
-  explicit FormInLanes(const Screen& screen) : FormInLanes(screen.alike_form) {
+  explicit FormInLanes(const Screen& screen) : FormInLanes(screen.form) {
     planes = screen.planes.get();
   }
   explicit FormInLanes(const ScreenForm& form)
@@ -84,11 +60,11 @@ struct FormInLanes {
         scale(W(form.scale[0]), W(form.scale[1]), W(form.scale[2])),
         offset(W(form.offset[0]), W(form.offset[1]), W(form.offset[2])) {}
 
-  template <class T>
-  explicit FormInLanes(const ScreenPairs<T>& pairs) {
+  /// One in each lane.
+  explicit FormInLanes(const ScreenForm* const (&forms)[screen_lanes]) {
     const auto from = [&](std::size_t place) {
       return side_by_side([&](std::size_t lane) {
-        return four(reinterpret_cast<const float*>(pairs.form[lane]) + 4 * place);
+        return four(reinterpret_cast<const float*>(forms[lane]) + 4 * place);
       });
     };
     sizes = from(0);

@@ -48,20 +48,19 @@ double least_round(const exact::Form& form) {
 }
 
 /// A box around the shape, as a form.
-template <class T>
-exact::Form box_around(const ShapeDefinition<T>& definition) {
+exact::Form box_around(const ShapeDefinition<double>& definition) {
   exact::Form form;
   form.kind = FormKind::box;
-  const auto R = static_cast<double>(definition.inner_ball().radius);
+  const double R = definition.inner_ball().radius;
   for (int axis = 0; axis < 3; ++axis)
     form.sizes[static_cast<std::size_t>(axis)] =
-        static_cast<double>(definition.inner_half_extents()[axis]) +
-        tolerance::screen_box_margin * R;
+        definition.inner_half_extents()[axis] + tolerance::screen_box_margin * R;
   form.R = form.inner_R = R * (1 + 2 * tolerance::screen_box_margin);
   return form;
 }
 
-ScreenForm screen_form(const exact::Form& form) {
+ScreenForm screen_form(const exact::Form& form, const Vec3<double>& centre) {
+  const Vec3<double> offset = form.offset - centre;
   ScreenForm screen;
   const auto in_float = [](double x) { return static_cast<float>(x); };
   for (std::size_t i = 0; i < screen.sizes.size(); ++i) screen.sizes[i] = in_float(form.sizes[i]);
@@ -71,14 +70,14 @@ ScreenForm screen_form(const exact::Form& form) {
   screen.least = in_float(least_round(form));
   for (int axis = 0; axis < 3; ++axis) {
     screen.scale[static_cast<std::size_t>(axis)] = in_float(form.scale[axis]);
-    screen.offset[static_cast<std::size_t>(axis)] = in_float(form.offset[axis]);
+    screen.offset[static_cast<std::size_t>(axis)] = in_float(offset[axis]);
   }
-  screen.extent = in_float(form.largest_scale * (form.inner_R + form.offset.norm()));
+  screen.extent = in_float(form.largest_scale * (form.inner_R + offset.norm()));
   screen.up = form.is_upside_down ? -1.0f : 1.0f;
   return screen;
 }
 
-/// Polytopes of up to so many planes are looked at by all of them.
+/// Polytopes of more planes are looked at by their box.
 constexpr std::size_t most_planes = 128;
 
 std::shared_ptr<const std::vector<float>> planes_of(const exact::Polytope& polytope) {
@@ -95,30 +94,19 @@ std::shared_ptr<const std::vector<float>> planes_of(const exact::Polytope& polyt
 
 }  // namespace
 
-template <class T>
-Screen screen_of(const ShapeDefinition<T>& definition) {
+Screen screen_of(const ShapeDefinition<double>& definition, const Vec3<double>& centre) {
   Screen screen;
   if (definition.is_extreme() || definition.is_lost_in_rounding()) return screen;
-  screen.is_whole = has_lanes(definition.form().kind);
-  const exact::Form form = screen.is_whole ? definition.form() : box_around(definition);
-  if (!is_in_range(form.R) || !is_in_range(form.inner_R)) return screen;
+  const exact::Form& own = definition.form();
+  const bool is_in_reach = is_in_range(own.R) && is_in_range(own.inner_R);
+  if (own.kind == FormKind::polytope && own.polytope && is_in_reach)
+    screen.planes = planes_of(*own.polytope);
+  screen.is_whole = has_lanes(own.kind) || screen.planes;
+  const exact::Form form = screen.is_whole ? own : box_around(definition);
+  if (!is_in_range(form.R) || !is_in_range(form.inner_R)) return {};
   screen.kind = form.kind;
-  screen.form = screen_form(form);
-  if (screen.is_whole) {
-    screen.alike = screen.kind;
-    screen.alike_form = screen.form;
-  } else if (definition.form().kind == FormKind::polytope && definition.form().polytope &&
-             is_in_range(definition.form().R) && is_in_range(definition.form().inner_R)) {
-    screen.planes = planes_of(*definition.form().polytope);
-    if (screen.planes) {
-      screen.alike = FormKind::polytope;
-      screen.alike_form = screen_form(definition.form());
-    }
-  }
+  screen.form = screen_form(form, centre);
   return screen;
 }
-
-template Screen screen_of(const ShapeDefinition<float>&);
-template Screen screen_of(const ShapeDefinition<double>&);
 
 }  // namespace minkray

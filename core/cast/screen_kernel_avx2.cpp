@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The closed forms in float lanes. Everything here has internal linkage or the type of the lanes in
+// Everything here has internal linkage or the type of the lanes in its name: see core/math/wide.h.
 #include "core/cast/form_in_lanes.h"
 
 #if defined(__AVX2__)
@@ -74,34 +74,48 @@ template <FormKind kind>
           lane_bits(last <= limit & (last < W(std::numeric_limits<float>::infinity())))};
 }
 
-template <class T>
-struct PlaceOf {
-  T centre[3];
-  float to_inner[9];
-  std::uint32_t definition;
-};
+/// Polytopes in the lanes, one definition after the other.
+[[gnu::noinline]] ScreenBits look_at_polytopes(const Seen& seen,
+                                               const Screen* const (&screens)[screen_lanes],
+                                               const W& limits, Screened& answers) {
+  ScreenBits all{0, 0};
+  for (std::uint32_t left = 0xffu; left != 0;) {
+    const Screen* const screen = screens[__builtin_ctz(left)];
+    Screened theirs;
+    const ScreenBits bits = look<FormKind::polytope>(seen, FormInLanes(*screen), limits, theirs);
+    for (std::size_t lane = 0; lane < screen_lanes; ++lane) {
+      if (screens[lane] != screen) continue;
+      const std::uint32_t bit = 1u << lane;
+      all.open |= bits.open & bit;
+      all.sure |= bits.sure & bit;
+      answers.first[lane] = theirs.first[lane];
+      answers.last[lane] = theirs.last[lane];
+      left &= ~bit;
+    }
+  }
+  return all;
+}
 
-template <FormKind kind, class T>
-ScreenBits screen_list(const ScreenList<T>& list, const std::uint32_t* rays,
-                       const std::uint32_t* instances, Screened& answers) {
-  const PlaceOf<T>* place[screen_lanes];
-  const Ray<T>* ray[screen_lanes];
+template <FormKind kind>
+ScreenBits screen(const ScreenList& list, const std::uint32_t* rays, const std::uint32_t* instances,
+                  Screened& answers) {
+  const InstancePlace* place[screen_lanes];
+  const double* ray[screen_lanes];
   __m256d from_centre[screen_lanes];
   std::uint32_t others = 0;
   for (std::size_t lane = 0; lane < screen_lanes; ++lane) {
-    place[lane] =
-        reinterpret_cast<const PlaceOf<T>*>(list.places + std::size_t{64} * instances[lane]);
-    ray[lane] = reinterpret_cast<const Ray<T>*>(list.rays + list.stride * rays[lane]);
-    from_centre[lane] = _mm256_sub_pd(four_in_double(ray[lane]->origin.data()),
-                                      four_in_double(place[lane]->centre));
-    others |= place[lane]->definition ^ place[0]->definition;
+    place[lane] = list.places + instances[lane];
+    ray[lane] = reinterpret_cast<const double*>(list.rays + list.stride * rays[lane]);
+    from_centre[lane] =
+        _mm256_sub_pd(_mm256_loadu_pd(ray[lane]), _mm256_loadu_pd(place[lane]->origin));
+    others |= place[lane]->body ^ place[0]->body;
   }
   const auto vector = [](const std::array<W, 4>& v) { return Vec3<W>(v[0], v[1], v[2]); };
   Seen seen;
   const Vec3<W> outer =
       vector(side_by_side([&](std::size_t lane) { return _mm256_cvtpd_ps(from_centre[lane]); }));
-  seen.d =
-      vector(side_by_side([&](std::size_t lane) { return four(ray[lane]->direction.data()); }));
+  seen.d = vector(side_by_side(
+      [&](std::size_t lane) { return _mm256_cvtpd_ps(_mm256_loadu_pd(ray[lane] + 3)); }));
   seen.d_squared = seen.d.squaredNorm();
   seen.k = -outer.dot(seen.d) / seen.d_squared;
   alignas(32) float steps[screen_lanes];
@@ -109,7 +123,7 @@ ScreenBits screen_list(const ScreenList<T>& list, const std::uint32_t* rays,
   seen.near = vector(side_by_side([&](std::size_t lane) {
     const __m256d step = _mm256_set1_pd(static_cast<double>(steps[lane]));
     return _mm256_cvtpd_ps(
-        _mm256_fmadd_pd(four_in_double(ray[lane]->direction.data()), step, from_centre[lane]));
+        _mm256_fmadd_pd(_mm256_loadu_pd(ray[lane] + 3), step, from_centre[lane]));
   }));
   const auto one = side_by_side([&](std::size_t lane) { return four(place[lane]->to_inner); });
   const auto two = side_by_side([&](std::size_t lane) { return four(place[lane]->to_inner + 4); });
@@ -118,166 +132,42 @@ ScreenBits screen_list(const ScreenList<T>& list, const std::uint32_t* rays,
     seen.map((k + 4) % 3, (k + 4) / 3) = two[static_cast<std::size_t>(k)];
   }
   const auto last = [&](std::size_t i) { return place[i]->to_inner[8]; };
-  seen.map(2, 2) = W(W::Lanes{last(0), last(1), last(2), last(3), last(4), last(5), last(6), last(7)});
+  seen.map(2, 2) =
+      W(W::Lanes{last(0), last(1), last(2), last(3), last(4), last(5), last(6), last(7)});
   const auto limit = [&](std::size_t i) { return list.limits[rays[i]]; };
-  const W limits(W::Lanes{limit(0), limit(1), limit(2), limit(3), limit(4), limit(5), limit(6), limit(7)});
+  const W limits(
+      W::Lanes{limit(0), limit(1), limit(2), limit(3), limit(4), limit(5), limit(6), limit(7)});
   if (others == 0) [[likely]]
-    return look<kind>(seen, FormInLanes(list.screens[place[0]->definition]), limits, answers);
+    return look<kind>(seen, FormInLanes(list.screens[place[0]->body]), limits, answers);
   if constexpr (kind == FormKind::polytope) {
-    // One definition after the other.
-    ScreenBits all{0, 0};
-    Screened theirs;
-    for (std::uint32_t left = 0xffu; left != 0;) {
-      const std::uint32_t definition = place[__builtin_ctz(left)]->definition;
-      std::uint32_t these = 0;
-      for (std::uint32_t lane = 0; lane < screen_lanes; ++lane)
-        these |= (place[lane]->definition == definition ? 1u : 0u) << lane;
-      const ScreenBits bits =
-          look<kind>(seen, FormInLanes(list.screens[definition]), limits, theirs);
-      all.open |= bits.open & these;
-      all.sure |= bits.sure & these;
-      for (std::size_t lane = 0; lane < screen_lanes; ++lane)
-        if (these >> lane & 1u) {
-          answers.first[lane] = theirs.first[lane];
-          answers.last[lane] = theirs.last[lane];
-        }
-      left &= ~these;
-    }
-    return all;
-  }
-  ScreenPairs<T> forms;
-  for (std::size_t lane = 0; lane < screen_lanes; ++lane)
-    forms.form[lane] = &list.screens[place[lane]->definition].form;
-  return look<kind>(seen, FormInLanes(forms), limits, answers);
-}
-
-/// Eight numbers in double, in float.
-[[gnu::always_inline]] inline W in_float(const __m256d& low, const __m256d& high) {
-  return W(W::Lanes(_mm256_set_m128(_mm256_cvtpd_ps(high), _mm256_cvtpd_ps(low))));
-}
-
-template <FormKind kind, class T>
-ScreenBits screen_block(const ScreenBlock& block, int first, const char* where,
-                        const Screen* screens, Screened& answers) {
-  const PlaceOf<T>& place = *reinterpret_cast<const PlaceOf<T>*>(where);
-  __m256d low[3], high[3];
-  Seen seen;
-  Vec3<W> outer;
-  for (int axis = 0; axis < 3; ++axis) {
-    const __m256d centre = _mm256_set1_pd(static_cast<double>(place.centre[axis]));
-    low[axis] = _mm256_sub_pd(_mm256_load_pd(block.origin[axis] + first), centre);
-    high[axis] = _mm256_sub_pd(_mm256_load_pd(block.origin[axis] + first + 4), centre);
-    outer[axis] = in_float(low[axis], high[axis]);
-    seen.d[axis] = in_float(_mm256_load_pd(block.direction[axis] + first),
-                            _mm256_load_pd(block.direction[axis] + first + 4));
-  }
-  seen.d_squared = seen.d.squaredNorm();
-  seen.k = -outer.dot(seen.d) / seen.d_squared;
-  const __m256d k_low = _mm256_cvtps_pd(_mm256_castps256_ps128(__m256(seen.k.lanes))),
-                k_high = _mm256_cvtps_pd(_mm256_extractf128_ps(__m256(seen.k.lanes), 1));
-  for (int axis = 0; axis < 3; ++axis)
-    seen.near[axis] =
-        in_float(_mm256_fmadd_pd(_mm256_load_pd(block.direction[axis] + first), k_low, low[axis]),
-                 _mm256_fmadd_pd(_mm256_load_pd(block.direction[axis] + first + 4), k_high, high[axis]));
-  for (int k = 0; k < 9; ++k) seen.map(k % 3, k / 3) = W(place.to_inner[k]);
-  return look<kind>(seen, FormInLanes(screens[place.definition]), W::load(block.t + first),
-                    answers);
-}
-
-template <FormKind kind, class T>
-void screen(const ScreenPairs<T>& pairs, Screened& answers) {
-  __m256d from_centre[screen_lanes];
-  for (std::size_t lane = 0; lane < screen_lanes; ++lane)
-    from_centre[lane] = _mm256_sub_pd(four_in_double(pairs.ray[lane]->origin.data()),
-                                      four_in_double(pairs.centre[lane]->data()));
-  const auto vector = [](const std::array<W, 4>& v) { return Vec3<W>(v[0], v[1], v[2]); };
-  const Vec3<W> outer =
-      vector(side_by_side([&](std::size_t lane) { return _mm256_cvtpd_ps(from_centre[lane]); }));
-  const Vec3<W> d = vector(
-      side_by_side([&](std::size_t lane) { return four(pairs.ray[lane]->direction.data()); }));
-  // To where the ray comes near, in double: what float loses of a ray from afar is on the ray.
-  const W d_squared = d.squaredNorm(), k = -outer.dot(d) / d_squared;
-  alignas(32) float steps[screen_lanes];
-  k.store(steps);
-  const Vec3<W> near = vector(side_by_side([&](std::size_t lane) {
-    const __m256d step = _mm256_set1_pd(static_cast<double>(steps[lane]));
-    return _mm256_cvtpd_ps(_mm256_fmadd_pd(four_in_double(pairs.ray[lane]->direction.data()), step,
-                                           from_centre[lane]));
-  }));
-  const FormInLanes form(pairs);
-  W first, last;
-  look<kind>(Seen{near, d, k, d_squared, maps(pairs)}, form, first, last);
-  first.store(answers.first.data());
-  last.store(answers.last.data());
-}
-
-template <class T>
-void screen_kind(FormKind kind, const ScreenPairs<T>& pairs, Screened& answers) {
-  switch (kind) {
-    case FormKind::ball:
-      return screen<FormKind::ball>(pairs, answers);
-    case FormKind::box:
-      return screen<FormKind::box>(pairs, answers);
-    case FormKind::rounded_box:
-      return screen<FormKind::rounded_box>(pairs, answers);
-    case FormKind::capsule:
-      return screen<FormKind::capsule>(pairs, answers);
-    case FormKind::tapered_capsule:
-      return screen<FormKind::tapered_capsule>(pairs, answers);
-    case FormKind::cylinder:
-      return screen<FormKind::cylinder>(pairs, answers);
-    case FormKind::frustum:
-      return screen<FormKind::frustum>(pairs, answers);
-    default:
-      return;
+    const Screen* screens[screen_lanes];
+    for (std::size_t lane = 0; lane < screen_lanes; ++lane)
+      screens[lane] = &list.screens[place[lane]->body];
+    return look_at_polytopes(seen, screens, limits, answers);
+  } else {
+    const ScreenForm* forms[screen_lanes];
+    for (std::size_t lane = 0; lane < screen_lanes; ++lane)
+      forms[lane] = &list.screens[place[lane]->body].form;
+    return look<kind>(seen, FormInLanes(forms), limits, answers);
   }
 }
 
 }  // namespace
 
-template <class T>
-ScreenBits screen_list_avx2(FormKind kind, const ScreenList<T>& list, const std::uint32_t* rays,
-                            const std::uint32_t* instances, Screened& answers) {
-  return for_kind(kind, [&]<FormKind of>() {
-    return screen_list<of, T>(list, rays, instances, answers);
-  });
-}
-template <class T>
-ScreenBits screen_block_avx2(FormKind kind, const ScreenBlock& block, int first, const char* place,
-                             const Screen* screens, Screened& answers) {
-  return for_kind(kind, [&]<FormKind of>() {
-    return screen_block<of, T>(block, first, place, screens, answers);
-  });
-}
-template ScreenBits screen_list_avx2(FormKind, const ScreenList<float>&, const std::uint32_t*,
-                                     const std::uint32_t*, Screened&);
-template ScreenBits screen_list_avx2(FormKind, const ScreenList<double>&, const std::uint32_t*,
-                                     const std::uint32_t*, Screened&);
-template ScreenBits screen_block_avx2<float>(FormKind, const ScreenBlock&, int, const char*,
-                                             const Screen*, Screened&);
-template ScreenBits screen_block_avx2<double>(FormKind, const ScreenBlock&, int, const char*,
-                                              const Screen*, Screened&);
-
-void screen_avx2(FormKind kind, const ScreenPairs<float>& pairs, Screened& answers) {
-  screen_kind(kind, pairs, answers);
-}
-void screen_avx2(FormKind kind, const ScreenPairs<double>& pairs, Screened& answers) {
-  screen_kind(kind, pairs, answers);
+ScreenBits screen_avx2(FormKind kind, const ScreenList& list, const std::uint32_t* rays,
+                       const std::uint32_t* instances, Screened& answers) {
+  return for_kind(kind, [&]<FormKind of>() { return screen<of>(list, rays, instances, answers); });
 }
 
 }  // namespace minkray
 #else
 namespace minkray {
 
-/// Other machines never ask.
-template <class T>
-ScreenBits screen_list_avx2(FormKind, const ScreenList<T>&, const std::uint32_t*,
-                            const std::uint32_t*, Screened&) { return {0, 0}; }
-template <class T>
-ScreenBits screen_block_avx2(FormKind, const ScreenBlock&, int, const char*, const Screen*,
-                             Screened&) { return {0, 0}; }
-void screen_avx2(FormKind, const ScreenPairs<float>&, Screened&) {}
-void screen_avx2(FormKind, const ScreenPairs<double>&, Screened&) {}
+/// Never called on other machines.
+ScreenBits screen_avx2(FormKind, const ScreenList&, const std::uint32_t*, const std::uint32_t*,
+                       Screened&) {
+  return {0, 0};
+}
 
 }  // namespace minkray
 #endif

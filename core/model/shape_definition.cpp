@@ -168,9 +168,17 @@ Vec3<T> ShapeDefinition<T>::centre_under(const Affine<T>& pose) const {
 
 template <class T>
 typename ShapeDefinition<T>::Placement ShapeDefinition<T>::placed(const Affine<T>& pose) const {
+  Placement placement;
+  placement.is_plain = maps_.empty() && up_ == T(1) && keeps_lengths(pose.linear);
+  if (placement.is_plain) {
+    placement.to_inner = pose.linear.transpose();
+    placement.centre = pose.translation;
+    if (!ball_.centre.isZero(T(0))) placement.centre += times(pose.linear, ball_.centre);
+    placement.is_rigid_identity = pose.linear == Mat3<T>::Identity();
+    return placement;
+  }
   Affine<T> to_outer = pose;
   for (const Affine<T>& map : maps_) to_outer = to_outer * map;
-  Placement placement;
   placement.to_inner = inverse_of(to_outer.linear);
   to_outer.linear *= up_;
   placement.to_inner *= down_;

@@ -22,6 +22,7 @@ class ShapeDefinition {
  public:
   explicit ShapeDefinition(Shape<T> shape);
 
+  const Shape<T>& original_shape() const { return *original_; }
   const Shape<T>& inner_shape() const { return inner_; }
   const Ball<T>& inner_ball() const { return ball_; }
   /// They are those of the inner shape's axis-aligned bounds, around the ball's centre.
@@ -63,6 +64,9 @@ class ShapeDefinition {
     Vec3<T> centre;    ///< the inner ball's, in the frame of the pose
     Mat3<T> to_inner;  ///< of directions
     bool is_rigid_identity;
+    /// The pose keeps lengths and no outer map was taken off: to_inner is the transposed linear part
+    /// of the pose, and the centre is the pose of the inner ball's.
+    bool is_plain;
   };
 
   /// `pose` maps the frame of the shape to the outer one; it must be invertible.

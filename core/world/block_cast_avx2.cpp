@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The exact casts of a block's rays, four by four, read where they lie.
+// Exact casts, four by four, with rays and places read where they lie. Everything here has internal
+// linkage or the type of the lanes in its name: see core/math/wide.h.
 #include "core/cast/filter.h"
 #include "core/cast/packet_lanes.h"
 #include "core/world/ray_block.h"
@@ -10,49 +11,80 @@ namespace {
 
 using D = Wide<double, 4, IsaAvx2>;
 
-[[gnu::always_inline]] inline void columns(const double* const (&from)[4], std::size_t at,
-                                           D (&column)[4]) {
-  const __m256d r0 = _mm256_loadu_pd(from[0] + at), r1 = _mm256_loadu_pd(from[1] + at),
-                r2 = _mm256_loadu_pd(from[2] + at), r3 = _mm256_loadu_pd(from[3] + at);
-  const __m256d a = _mm256_unpacklo_pd(r0, r1), b = _mm256_unpackhi_pd(r0, r1);
-  const __m256d c = _mm256_unpacklo_pd(r2, r3), d = _mm256_unpackhi_pd(r2, r3);
+/// Rows to columns.
+[[gnu::always_inline]] inline void transpose(const __m256d (&row)[4], D (&column)[4]) {
+  const __m256d a = _mm256_unpacklo_pd(row[0], row[1]), b = _mm256_unpackhi_pd(row[0], row[1]);
+  const __m256d c = _mm256_unpacklo_pd(row[2], row[3]), d = _mm256_unpackhi_pd(row[2], row[3]);
   column[0] = D(D::Lanes(_mm256_permute2f128_pd(a, c, 0x20)));
   column[1] = D(D::Lanes(_mm256_permute2f128_pd(b, d, 0x20)));
   column[2] = D(D::Lanes(_mm256_permute2f128_pd(a, c, 0x31)));
   column[3] = D(D::Lanes(_mm256_permute2f128_pd(b, d, 0x31)));
 }
 
-/// A definition under a pose in each lane.
-struct PlacedHere {
+[[gnu::always_inline]] inline Vec3<D> vectors(const double* const (&from)[4], std::size_t at,
+                                              D* fourth) {
+  __m256d row[4];
+  for (std::size_t i = 0; i < 4; ++i) row[i] = _mm256_loadu_pd(from[i] + at);
+  D column[4];
+  transpose(row, column);
+  if (fourth) *fourth = column[3];
+  return {column[0], column[1], column[2]};
+}
+
+/// `joined` of core/cast/instance_place.h for four numbers of a place.
+[[gnu::always_inline]] inline __m256d joined(const float* leading, const std::int32_t* trailing) {
+  const __m256d number = _mm256_cvtps_pd(_mm_loadu_ps(leading));
+  if (!trailing) return number;
+  const __m256i digits =
+      _mm256_cvtepi32_epi64(_mm_loadu_si128(reinterpret_cast<const __m128i*>(trailing)));
+  return _mm256_castsi256_pd(_mm256_add_epi64(_mm256_castpd_si256(number), digits));
+}
+
+/// A body at a place in each lane, as the filter reads it.
+struct Placed {
   const ShapeDefinition<double>& of;
   Vec3<D> at;
   Mat3<D> map;
+  bool is_turned;
   const ShapeDefinition<double>& definition() const { return of; }
   const Vec3<D>& centre() const { return at; }
-  const Mat3<D>* linear_to_inner() const { return &map; }
+  const Mat3<D>* linear_to_inner() const { return is_turned ? &map : nullptr; }
 };
+
+[[gnu::always_inline]] inline void read_map(const FourPairs& pairs, Mat3<D>& map) {
+  for (std::size_t k = 0; k < 8; k += 4) {
+    __m256d row[4];
+    for (std::size_t i = 0; i < 4; ++i)
+      row[i] =
+          joined(pairs.place[i]->to_inner + k, pairs.digits[i] ? pairs.digits[i]->of + k : nullptr);
+    D column[4];
+    transpose(row, column);
+    for (std::size_t i = 0; i < 4; ++i)
+      map(static_cast<int>((k + i) % 3), static_cast<int>((k + i) / 3)) = column[i];
+  }
+  const auto last = [&](std::size_t i) {
+    return minkray::joined(pairs.place[i]->to_inner[8],
+                           pairs.digits[i] ? pairs.digits[i]->of[8] : 0);
+  };
+  map(2, 2) = D(D::Lanes{last(0), last(1), last(2), last(3)});
+}
 
 }  // namespace
 
-void cast_four_avx2(const ShapeDefinition<double>& definition, const FourPairs& pairs,
-                    LaneBits lanes, CastPacket<double>& answers) {
-  D c[4];
+void cast_four_avx2(const InstanceBody& body, const FourPairs& pairs, LaneBits lanes,
+                    CastPacket<double>& answers) {
   Ray<D> ray;
-  columns(pairs.ray, 0, c);
-  ray.origin = {c[0], c[1], c[2]};
-  columns(pairs.ray, 3, c);
-  ray.direction = {c[0], c[1], c[2]};
-  ray.t_max = c[3];
-  PlacedHere placed{definition, {}, {}};
-  columns(pairs.centre, 0, c);
-  placed.at = {c[0], c[1], c[2]};
-  for (std::size_t k = 0; k < 8; k += 4) {
-    columns(pairs.to_inner, k, c);
-    for (std::size_t i = 0; i < 4; ++i)
-      placed.map(static_cast<int>((k + i) % 3), static_cast<int>((k + i) / 3)) = c[i];
+  ray.origin = vectors(pairs.ray, 0, nullptr);
+  ray.direction = vectors(pairs.ray, 3, &ray.t_max);
+  Placed placed{*body.definition, {}, {}, body.is_turned};
+  const double* const origins[4] = {pairs.place[0]->origin, pairs.place[1]->origin,
+                                    pairs.place[2]->origin, pairs.place[3]->origin};
+  placed.at = vectors(origins, 0, nullptr);
+  if (body.is_turned) read_map(pairs, placed.map);
+  if (!body.is_centred) {
+    const Vec3<D> centre = widen<D>(body.centre);
+    placed.at += body.is_turned ? times<D, D>(placed.map.transpose(), centre) : centre;
   }
-  placed.map(2, 2) = D(D::Lanes{pairs.to_inner[0][8], pairs.to_inner[1][8], pairs.to_inner[2][8],
-                                pairs.to_inner[3][8]});
   const Filtered<D> answer = filter<false>(placed, ray, mask_of<D>(lanes));
   answers.hit = lane_bits(answer.hit) & lanes;
   answers.inside = lane_bits(answer.inside) & lanes;
@@ -70,7 +102,7 @@ void cast_four_avx2(const ShapeDefinition<double>& definition, const FourPairs& 
 }  // namespace minkray
 #else
 namespace minkray {
-void cast_four_avx2(const ShapeDefinition<double>&, const FourPairs&, LaneBits,
-                    CastPacket<double>&) {}
+/// Never called on other machines.
+void cast_four_avx2(const InstanceBody&, const FourPairs&, LaneBits, CastPacket<double>&) {}
 }  // namespace minkray
 #endif

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "core/world/instances.h"
 
+#include <algorithm>
+#include <atomic>
+#include <mutex>
 #include <utility>
 
+#include "core/derived/shape_key.h"
 #include "core/parallel/parallel.h"
 #include "core/query/tolerances.h"
 
@@ -17,193 +21,259 @@ constexpr int bounds_padding = 32;
 /// Poses that one thread takes at a time: some hundred microseconds of work.
 constexpr std::size_t poses_a_range = 4096;
 
-template <class T>
-Bounds<T> padded(const Bounds<T>& bounds) {
-  const T size = bounds.lower.cwiseAbs().cwiseMax(bounds.upper.cwiseAbs()).maxCoeff();
-  const T padding = T(bounds_padding) * tolerance::epsilon<T> * size;
+/// In Defined::bodies: 1 if turned, 2 if plain, and one with a wide map.
+constexpr std::size_t wide_body = 4;
+
+Bounds<double> padded(const Bounds<double>& bounds) {
+  const double size = bounds.lower.cwiseAbs().cwiseMax(bounds.upper.cwiseAbs()).maxCoeff();
+  const double padding = bounds_padding * tolerance::epsilon<double> * size;
   return {(bounds.lower.array() - padding).matrix(), (bounds.upper.array() + padding).matrix()};
 }
 
 }  // namespace
 
-template <class T>
-std::uint32_t Instances<T>::define(Shape<T> shape) {
-  definitions_.push_back(std::make_shared<const ShapeDefinition<T>>(std::move(shape)));
-  screens_.push_back(minkray::screen_of(*definitions_.back()));
+std::uint32_t Instances::number_of(std::shared_ptr<const ShapeDefinition<double>> definition) {
+  Defined defined{std::move(definition), {}};
+  defined.bodies.fill(no_body);
+  definitions_.push_back(std::move(defined));
   return static_cast<std::uint32_t>(definitions_.size() - 1);
 }
 
-template <class T>
-std::uint32_t Instances<T>::define(const std::shared_ptr<const ShapeDefinition<T>>& shared) {
-  const auto next = static_cast<std::uint32_t>(definitions_.size());
-  const auto [at, is_new] = shared_.try_emplace(shared.get(), next);
-  if (!is_new) return at->second;
-  definitions_.push_back(shared);
-  screens_.push_back(minkray::screen_of(*shared));
-  return next;
+std::uint32_t Instances::define(Shape<double> shape) {
+  const std::vector<std::uint64_t> key = key_of(shape);
+  const std::size_t hash = hash_of(key);
+  const auto [first, end] = equal_.equal_range(hash);
+  for (auto at = first; at != end; ++at)
+    if (key_of(definition(at->second).original_shape()) == key) return at->second;
+  const std::uint32_t number =
+      number_of(std::make_shared<const ShapeDefinition<double>>(std::move(shape)));
+  equal_.emplace(hash, number);
+  return number;
 }
 
-template <class T>
-void Instances<T>::make_lane_places() {
-  kind_of_all_ = FormKind::none;
-  if (places_.empty() || !movements_.empty() || !half_spaces_.empty() || !shown_to_.empty()) return;
-  kind_of_all_ = screens_[places_[0].definition].alike;
-  for (const Screen& screen : screens_)
-    if (screen.alike != kind_of_all_) kind_of_all_ = FormKind::none;
-  if (kind_of_all_ == FormKind::none) return lane_places_.clear();
-  lane_places_.resize(places_.size());
-  parallel_for(places_.size(), poses_a_range, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      LanePlace<T>& to = lane_places_[i];
-      const Mat3<T>& map = to_inner(i);
-      for (int axis = 0; axis < 3; ++axis) to.centre[axis] = places_[i].centre[axis];
-      for (int k = 0; k < 9; ++k) to.to_inner[k] = static_cast<float>(map.data()[k]);
-      to.definition = places_[i].definition;
-    }
-  });
-}
-
-template <class T>
-void Instances<T>::make_leaf_places(const Bvh& bvh) {
-  leaf_places_.clear();
-  first_leaves_.clear();
-  if (kind_of_all_ == FormKind::none) return;
-  leaf_places_.reserve(places_.size());
-  first_leaves_.reserve(bvh.nodes.size());
-  for (const BvhNode& node : bvh.nodes) {
-    first_leaves_.push_back(static_cast<std::uint32_t>(leaf_places_.size()));
-    for (const std::uint32_t what : node.children) {
-      if (what == BvhNode::none) break;
-      if (!(what & BvhNode::leaf)) continue;
-      const std::uint32_t i = what & ~BvhNode::leaf;
-      LeafPlace<T> to;
-      for (int axis = 0; axis < 3; ++axis) to.centre[axis] = places_[i].centre[axis];
-      for (int k = 0; k < 9; ++k) to.to_inner[k] = to_inner(i).data()[k];
-      to.definition = places_[i].definition;
-      to.instance = i;
-      leaf_places_.push_back(to);
-    }
+std::uint32_t Instances::define(const std::shared_ptr<const ShapeDefinition<double>>& shared) {
+  const auto known = shared_.find(shared.get());
+  if (known != shared_.end()) return known->second;
+  const std::vector<std::uint64_t> key = key_of(shared->original_shape());
+  const std::size_t hash = hash_of(key);
+  std::uint32_t number = no_body;
+  const auto [first, end] = equal_.equal_range(hash);
+  for (auto at = first; at != end && number == no_body; ++at)
+    if (key_of(definition(at->second).original_shape()) == key) number = at->second;
+  if (number == no_body) {
+    number = number_of(shared);
+    equal_.emplace(hash, number);
   }
+  // The address stays that of this definition only while someone holds it.
+  if (definitions_[number].shared == shared) shared_.emplace(shared.get(), number);
+  return number;
 }
 
-template <class T>
-void Instances<T>::reserve(std::size_t count) {
+std::uint32_t Instances::body_with(std::uint32_t definition, std::size_t which) {
+  std::uint32_t& number = definitions_[definition].bodies[which];
+  if (number != no_body) return number;
+  number = static_cast<std::uint32_t>(bodies_.size());
+  InstanceBody body;
+  body.definition = definitions_[definition].shared;
+  body.number = definition;
+  body.is_wide = which == wide_body;
+  body.is_turned = body.is_wide || (which & 1u) != 0;
+  body.is_plain = !body.is_wide && (which & 2u) != 0;
+  if (body.is_plain) body.centre = body.definition->inner_ball().centre;
+  body.is_centred = body.centre.isZero(0);
+  screens_.push_back(body.is_wide ? Screen() : screen_of(*body.definition, body.centre));
+  bodies_.push_back(std::move(body));
+  return number;
+}
+
+Instances::Placed Instances::placed(std::size_t i, std::uint32_t definition,
+                                    const Affine<double>& pose) {
+  const auto placement = this->definition(definition).placed(pose);
+  InstancePlace& to = places_[i];
+  Placed placed;
+  bool is_wide = false;
+  for (int k = 0; k < 9; ++k)
+    is_wide |= !split(placement.to_inner.data()[k], to.to_inner[k], placed.digits.of[k]);
+  const bool is_plain = placement.is_plain && !is_wide;
+  const Vec3<double>& origin = is_plain ? pose.translation : placement.centre;
+  for (int axis = 0; axis < 3; ++axis) to.origin[axis] = origin[axis];
+  placed.which =
+      is_wide ? wide_body : 2u * (is_plain ? 1u : 0u) + (placement.is_rigid_identity ? 0u : 1u);
+  if (is_wide) {
+    placed.wide = placement.to_inner;
+    placed.digits = {};
+  }
+  placed.has_digits = std::any_of(std::begin(placed.digits.of), std::end(placed.digits.of),
+                                  [](std::int32_t digit) { return digit != 0; });
+  return placed;
+}
+
+void Instances::keep(std::size_t i, std::uint32_t definition, const Placed& placed) {
+  places_[i].body = body_with(definition, placed.which);
+  if (placed.which == wide_body) wide_[static_cast<std::uint32_t>(i)] = placed.wide;
+}
+
+void Instances::put(std::size_t i, std::uint32_t definition, const Affine<double>& pose) {
+  const Placed placed = this->placed(i, definition, pose);
+  keep(i, definition, placed);
+  if (digits_.empty() && !placed.has_digits) return;
+  digits_.resize(places_.size(), TrailingDigits{});
+  digits_[i] = placed.digits;
+}
+
+void Instances::reserve(std::size_t count) {
   places_.reserve(places_.size() + count);
   boxes_.reserve(boxes_.size() + count);
 }
 
-template <class T>
-void Instances<T>::add(std::uint32_t definition, const Affine<T>& pose) {
-  const ShapeDefinition<T>& shape = *definitions_[definition];
-  const auto placement = shape.placed(pose);
-  const Bounds<T> bounds = shape.bounds_of(pose);
-  std::uint32_t linear = identity;
-  if (!placement.is_rigid_identity) {
-    const Linear own{placement.to_inner, bounds.half_extents().maxCoeff()};
-    // Boxes of one shape with one linear part are of one size but for rounding.
-    const bool as_before = !places_.empty() && places_.back().definition == definition &&
-                           places_.back().linear != identity &&
-                           linear_[places_.back().linear].to_inner == own.to_inner;
-    if (!as_before) linear_.push_back(own);
-    linear = as_before ? places_.back().linear : static_cast<std::uint32_t>(linear_.size() - 1);
-  }
-  places_.push_back({placement.centre, definition, linear});
-  boxes_.push_back(rounded_outwards(padded(bounds)));
+void Instances::add(std::uint32_t definition, const Affine<double>& pose) {
+  places_.push_back({});
+  put(places_.size() - 1, definition, pose);
+  boxes_.push_back(rounded_outwards(padded(this->definition(definition).bounds_of(pose))));
 }
 
-template <class T>
-void Instances<T>::add(const HalfSpaceBody<T>& half_space, const Affine<T>& pose) {
+void Instances::add(const HalfSpaceBody<double>& half_space, const Affine<double>& pose) {
   half_spaces_.push_back(
       {static_cast<std::uint32_t>(places_.size()), half_space, half_space.posed(pose)});
-  places_.push_back({Vec3<T>::Zero(), no_definition, identity});
+  places_.push_back({});
+  places_.back().body = no_body;
+  if (!digits_.empty()) digits_.push_back({});
   boxes_.push_back({});
 }
 
-/// Half-spaces get a point of another box, which makes the hierarchy no larger.
-template <class T>
-FirstTouchVector<Bounds<float>> Instances<T>::take_boxes() {
-  if (!half_spaces_.empty()) {
-    Vec3<float> corner = Vec3<float>::Zero();
-    for (std::size_t i = 0; i < places_.size(); ++i) {
-      if (is_half_space(i)) continue;
-      corner = boxes_[i].lower;
-      break;
-    }
-    for (const PosedHalfSpace& one : half_spaces_) boxes_[one.instance] = {corner, corner};
-  }
-  return std::exchange(boxes_, {});
-}
-
-template <class T>
-void Instances<T>::add_many(std::uint32_t definition, std::size_t count, bool linear_alike,
-                            const std::function<Affine<T>(std::size_t)>& pose_of) {
-  if (count == 0) return;
-  const ShapeDefinition<T>& shape = *definitions_[definition];
-  const std::size_t first = places_.size(), first_linear = linear_.size();
+void Instances::add_many(std::uint32_t definition, std::size_t count,
+                         const std::function<Affine<double>(std::size_t)>& pose_of) {
+  const std::size_t first = places_.size();
   places_.resize(first + count);
   boxes_.resize(first + count);
-  // Alike: the first one's linear part is that of all, or the identity.
-  const auto placement = shape.placed(pose_of(0));
-  if (linear_alike && !placement.is_rigid_identity)
-    linear_.push_back({placement.to_inner, shape.bounds_of(pose_of(0)).half_extents().maxCoeff()});
-  if (!linear_alike) linear_.resize(first_linear + count);
-  parallel_for(count, poses_a_range, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      place(first + i, definition, pose_of(i), first_linear + (linear_alike ? 0 : i),
-            !linear_alike);
-  });
+  place_many(
+      first, count, [&](std::size_t) { return definition; },
+      [&](std::size_t i) { return pose_of(i - first); });
 }
 
-template <class T>
-void Instances<T>::show_to(std::size_t i, RayKinds kinds) {
+void Instances::place_many(std::size_t first, std::size_t count,
+                           const std::function<std::uint32_t(std::size_t)>& definition_of,
+                           const std::function<Affine<double>(std::size_t)>& pose_of) {
+  const bool had_digits = !digits_.empty();
+  if (!had_digits) digits_.resize(first, TrailingDigits{});
+  digits_.resize(places_.size());
+  std::atomic<bool> has_digits = had_digits;
+  std::mutex bodies;
+  parallel_for(count, poses_a_range, [&](std::size_t begin, std::size_t end) {
+    std::uint32_t last_definition = no_body, last_body = no_body;
+    std::size_t last_which = wide_body;
+    for (std::size_t i = first + begin; i < first + end; ++i) {
+      digits_[i] = {};
+      const std::uint32_t definition = definition_of(i);
+      if (definition == no_body) continue;  // a half-space
+      const Affine<double> pose = pose_of(i);
+      const Placed placed = this->placed(i, definition, pose);
+      digits_[i] = placed.digits;
+      if (placed.has_digits) has_digits.store(true, std::memory_order_relaxed);
+      boxes_[i] = rounded_outwards(padded(this->definition(definition).bounds_of(pose)));
+      if (definition == last_definition && placed.which == last_which && last_which != wide_body) {
+        places_[i].body = last_body;
+        continue;
+      }
+      const std::lock_guard lock(bodies);
+      keep(i, definition, placed);
+      last_definition = definition;
+      last_which = placed.which;
+      last_body = places_[i].body;
+    }
+  });
+  if (!has_digits) digits_ = {};
+}
+
+void Instances::truncate(std::size_t count) {
+  places_.resize(std::min(count, places_.size()));
+  if (!digits_.empty()) digits_.resize(places_.size());
+  boxes_.resize(std::min(boxes_.size(), places_.size()));
+  std::erase_if(wide_, [&](const auto& one) { return one.first >= places_.size(); });
+  shown_to_.clear();
+  movements_.clear();
+}
+
+void Instances::set_pose(std::size_t i, const Affine<double>& pose) {
+  put(i, definition_of(i), pose);
+}
+
+Mat3<double> Instances::to_inner(std::size_t i) const {
+  const InstancePlace& place = places_[i];
+  if (bodies_[place.body].is_wide) return wide_.at(static_cast<std::uint32_t>(i));
+  Mat3<double> map;
+  if (digits_.empty())
+    for (int k = 0; k < 9; ++k) map.data()[k] = static_cast<double>(place.to_inner[k]);
+  else
+    for (int k = 0; k < 9; ++k) map.data()[k] = joined(place.to_inner[k], digits_[i].of[k]);
+  return map;
+}
+
+std::optional<Affine<double>> Instances::plain_pose(std::size_t i) const {
+  const InstancePlace& place = places_[i];
+  if (place.body == no_body) return {};
+  if (!bodies_[place.body].is_plain) return {};
+  return Affine<double>{to_inner(i).transpose(),
+                        {place.origin[0], place.origin[1], place.origin[2]}};
+}
+
+double Instances::half_extent(std::size_t i) const {
+  if (is_half_space(i)) return 0;
+  const InstanceBody& body = body_of(i);
+  if (!body.is_turned) return body.definition->inner_half_extents().maxCoeff();
+  const Mat3<double> to_world = inverse_of(to_inner(i));
+  const Shape<double>& shape = body.definition->inner_shape();
+  double largest = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vec3<double> along = to_world.row(axis).transpose();
+    const Vec3<double> across = shape.support(along) - shape.support(Vec3<double>(-along));
+    largest = std::max(largest, along.dot(across) / 2);
+  }
+  return largest;
+}
+
+FormKind Instances::kind_of_all() const {
+  if (screens_.empty()) return FormKind::none;
+  const FormKind kind = screens_[0].kind;
+  for (const Screen& screen : screens_)
+    if (screen.kind != kind || !screen.is_whole) return FormKind::none;
+  return kind;
+}
+
+void Instances::show_to(std::size_t i, RayKinds kinds) {
   shown_to_.resize(places_.size(), all_ray_kinds);
   shown_to_[i] = kinds;
 }
 
-template <class T>
-void Instances<T>::pose_all(const std::function<Affine<T>(std::size_t)>& pose_of,
-                            const std::function<Movement<T>(std::size_t)>& movement_of) {
-  linear_.resize(places_.size());
+void Instances::pose_all(const std::function<Affine<double>(std::size_t)>& pose_of,
+                         const std::function<Movement<double>(std::size_t)>& movement_of) {
   boxes_.resize(places_.size());
   movements_.resize(movement_of ? places_.size() : 0);
   for (PosedHalfSpace& one : half_spaces_) one.in_world = one.at_rest.posed(pose_of(one.instance));
+  std::vector<std::uint32_t> definitions(places_.size(), no_body);
+  for (std::size_t i = 0; i < places_.size(); ++i)
+    if (!is_half_space(i)) definitions[i] = definition_of(i);
+  place_many(
+      0, places_.size(), [&](std::size_t i) { return definitions[i]; }, pose_of);
+  if (!movement_of) return;
   parallel_for(places_.size(), poses_a_range, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      if (movement_of) movements_[i] = movement_of(i);
+      movements_[i] = movement_of(i);
       if (is_half_space(i)) continue;
-      const Affine<T> pose = pose_of(i);
-      place(i, places_[i].definition, pose, i, true);
-      if (!movement_of) continue;
-      const ShapeDefinition<T>& shape = *definitions_[places_[i].definition];
-      const Bounds<T> at_end = shape.bounds_of(movements_[i].moved(pose, T(1)));
+      const Affine<double> pose = pose_of(i);
+      const ShapeDefinition<double>& shape = definition(definition_of(i));
+      const Bounds<double> at_end = shape.bounds_of(movements_[i].moved(pose, 1));
       boxes_[i] = rounded_outwards(padded(movements_[i].swept(shape.bounds_of(pose), at_end)));
     }
   });
 }
 
-template <class T>
-void Instances<T>::place(std::size_t i, std::uint32_t definition, const Affine<T>& pose,
-                         std::size_t linear, bool writes) {
-  const ShapeDefinition<T>& shape = *definitions_[definition];
-  const auto placed = shape.placed(pose);
-  const Bounds<T> bounds = shape.bounds_of(pose);
-  boxes_[i] = rounded_outwards(padded(bounds));
-  if (writes && !placed.is_rigid_identity)
-    linear_[linear] = {placed.to_inner, bounds.half_extents().maxCoeff()};
-  places_[i] = {placed.centre, definition,
-                placed.is_rigid_identity ? identity : static_cast<std::uint32_t>(linear)};
-}
-
-template <class T>
-std::size_t Instances<T>::bytes() const {
-  return definitions_.size() *
-             (sizeof(ShapeDefinition<T>) + sizeof(definitions_[0]) + sizeof(Screen)) +
-         places_.capacity() * sizeof(Place) + linear_.capacity() * sizeof(Linear) +
+std::size_t Instances::bytes() const {
+  return definitions_.size() * (sizeof(ShapeDefinition<double>) + sizeof(Defined)) +
+         bodies_.size() * (sizeof(InstanceBody) + sizeof(Screen)) +
+         places_.capacity() * sizeof(InstancePlace) + digits_.capacity() * sizeof(TrailingDigits) +
          movements_.capacity() * sizeof(movements_[0]) + shown_to_.capacity() * sizeof(RayKinds) +
          half_spaces_.capacity() * sizeof(PosedHalfSpace) + boxes_.capacity() * sizeof(boxes_[0]);
 }
-
-template class Instances<float>;
-template class Instances<double>;
 
 }  // namespace minkray

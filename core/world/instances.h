@@ -3,214 +3,202 @@
 // where it stands, so that there may be tens of millions.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
 #include "core/bvh/bvh.h"
+#include "core/cast/instance_place.h"
 #include "core/cast/prepared_shape.h"
 #include "core/cast/screen.h"
 #include "core/parallel/first_touch.h"
 #include "core/world/half_space.h"
-#include "core/world/leaf_place.h"
+#include "core/world/instance_body.h"
 #include "core/world/movement.h"
 
 namespace minkray {
+
+/// "No instance": as a result, none was met; as the instance to leave out, none is.
+inline constexpr std::uint32_t no_instance = std::numeric_limits<std::uint32_t>::max();
 
 /// Kinds of rays, a bit for each; which is which is the caller's.
 using RayKinds = std::uint8_t;
 inline constexpr RayKinds all_ray_kinds = 0xff;
 
-/// What lanes of floats read of an instance, in one line of the cache.
-template <class T>
-struct alignas(64) LanePlace {
-  T centre[3];
-  float to_inner[9];  ///< column by column
-  std::uint32_t definition;
-};
-static_assert(sizeof(LanePlace<double>) == 64 && sizeof(LanePlace<float>) == 64);
-
-/// In double an instance takes 32 bytes, and 80 more if it is turned or scaled otherwise than the
-/// one before.
-template <class T>
+/// An instance takes 64 bytes, and 36 more if its map has more digits than float.
 class Instances {
  public:
-  /// A shape for `add` to pose, named by the answer.
-  std::uint32_t define(Shape<T> shape);
-
-  /// One that others have made: the same number each time.
-  std::uint32_t define(const std::shared_ptr<const ShapeDefinition<T>>& shared);
+  /// A shape for `add` to pose; returns its number. Equal shapes get the same number.
+  std::uint32_t define(Shape<double> shape);
+  /// A definition made elsewhere: the same number each time.
+  std::uint32_t define(const std::shared_ptr<const ShapeDefinition<double>>& shared);
 
   /// `pose` maps the frame of the definition's shape to the world; it must be invertible.
-  void add(std::uint32_t definition, const Affine<T>& pose);
-  void add(Shape<T> shape, const Affine<T>& pose = {}) { add(define(std::move(shape)), pose); }
+  void add(std::uint32_t definition, const Affine<double>& pose);
+  void add(Shape<double> shape, const Affine<double>& pose = {}) {
+    add(define(std::move(shape)), pose);
+  }
 
-  /// An instance that is a half-space under a pose. It has no definition: `at` is not to be asked
-  /// for it. The hierarchy holds a point in its place, which stands for nothing.
-  void add(const HalfSpaceBody<T>& half_space, const Affine<T>& pose = {});
+  /// Adds a half-space under a pose. It has no definition and no box; `at` must not be called.
+  void add(const HalfSpaceBody<double>& half_space, const Affine<double>& pose = {});
 
-  /// `count` instances, the i-th at pose_of(i), which is asked from several threads at once.
-  /// `linear_alike`: the poses differ in their translation alone.
-  void add_many(std::uint32_t definition, std::size_t count, bool linear_alike,
-                const std::function<Affine<T>(std::size_t)>& pose_of);
+  /// Adds `count` instances, the i-th at pose_of(i), which several threads call at once.
+  void add_many(std::uint32_t definition, std::size_t count,
+                const std::function<Affine<double>(std::size_t)>& pose_of);
 
-  /// From now on the i-th is met by rays of these kinds alone; once all have been added.
+  /// Removes all instances from the count-th on, which must not be half-spaces.
+  void truncate(std::size_t count);
+
+  /// Moves one instance. Its box is stale until pose_all.
+  void set_pose(std::size_t i, const Affine<double>& pose);
+
+  /// The pose of an instance whose body is not moved or scaled by outer maps and whose pose keeps
+  /// lengths, exactly as it was given; else none.
+  std::optional<Affine<double>> plain_pose(std::size_t i) const;
+
+  /// Shows the i-th instance to rays of these kinds only; call when all have been added.
   void show_to(std::size_t i, RayKinds kinds);
-  /// Whether rays of one of the kinds meet it.
   bool is_shown_to(std::size_t i, RayKinds kinds) const {
     return shown_to_.empty() || (shown_to_[i] & kinds) != 0;
   }
+  /// By instance; null if all are shown to all rays.
+  const RayKinds* shown_to() const { return shown_to_.empty() ? nullptr : shown_to_.data(); }
 
-  /// Moves every instance: the i-th to pose_of(i), which is asked from several threads at once.
-  /// There are boxes to take again. If there is a movement_of, instances are on the move: while
-  /// time goes from 0 to 1 the i-th does what movement_of(i) says, and its box holds all of that.
-  void pose_all(const std::function<Affine<T>(std::size_t)>& pose_of,
-                const std::function<Movement<T>(std::size_t)>& movement_of = {});
+  /// Moves every instance: the i-th to pose_of(i), which several threads call at once. With a
+  /// movement_of, the i-th does what movement_of(i) says while time goes from 0 to 1, and its box
+  /// holds all of that. Boxes are due to be taken again.
+  void pose_all(const std::function<Affine<double>(std::size_t)>& pose_of,
+                const std::function<Movement<double>(std::size_t)>& movement_of = {});
 
-  /// Whether any instance is on the move.
+  /// True if any instance moves.
   bool move() const { return !movements_.empty(); }
 
   /// The ray as the i-th instance sees it at that time, from where it stands at time 0.
-  Ray<T> seen_by(std::size_t i, const Ray<T>& ray, T time) const {
+  Ray<double> seen_by(std::size_t i, const Ray<double>& ray, double time) const {
     return movements_.empty() ? ray : movements_[i].unmoved(ray, time);
   }
-  /// The point as it sees it.
-  Vec3<T> seen_by(std::size_t i, const Vec3<T>& point, T time) const {
+  Vec3<double> seen_by(std::size_t i, const Vec3<double>& point, double time) const {
     return movements_.empty() ? point : movements_[i].unmoved(point, time);
   }
   /// A direction as it sees it, and the way back: it may have turned since time 0.
-  Vec3<T> unturned(std::size_t i, const Vec3<T>& direction, T time) const {
+  Vec3<double> unturned(std::size_t i, const Vec3<double>& direction, double time) const {
     return movements_.empty() ? direction : movements_[i].unturned(direction, time);
   }
-  Vec3<T> turned(std::size_t i, const Vec3<T>& direction, T time) const {
+  Vec3<double> turned(std::size_t i, const Vec3<double>& direction, double time) const {
     return movements_.empty() ? direction : movements_[i].turned(direction, time);
   }
-  /// What was cast at the ray as the instance sees it, in the world.
-  CastResult<T> turned(std::size_t i, CastResult<T> cast, T time) const {
+  /// The result of a cast at the ray as the instance sees it, in the world.
+  CastResult<double> turned(std::size_t i, CastResult<double> cast, double time) const {
     if (!movements_.empty()) cast.normal = movements_[i].turned(cast.normal, time);
     return cast;
   }
 
-  /// Room for so many more instances of `add`.
+  /// Makes room for `count` more instances.
   void reserve(std::size_t count);
 
   std::size_t size() const { return places_.size(); }
 
-  /// One of the half-spaces: which instance it is, and where it lies in the world.
   struct PosedHalfSpace {
     std::uint32_t instance;
-    HalfSpaceBody<T> at_rest, in_world;
+    HalfSpaceBody<double> at_rest, in_world;
   };
   const std::vector<PosedHalfSpace>& half_spaces() const { return half_spaces_; }
-  bool is_half_space(std::size_t i) const { return places_[i].definition == no_definition; }
+  bool is_half_space(std::size_t i) const { return places_[i].body == no_body; }
 
-  /// Refers to this, which must outlive it.
-  PreparedShape<T> at(std::size_t i) const {
-    const Place& place = places_[i];
-    return {*definitions_[place.definition], place.centre,
-            place.linear == identity ? nullptr : &linear_[place.linear].to_inner};
+  /// Refers to this object, which must outlive it.
+  PreparedShape<double> at(std::size_t i) const {
+    const InstancePlace& place = places_[i];
+    const InstanceBody& body = bodies_[place.body];
+    const Mat3<double> map = to_inner(i);
+    const Vec3<double> origin(place.origin[0], place.origin[1], place.origin[2]);
+    return {*body.definition,
+            body.is_centred
+                ? origin
+                : Vec3<double>(origin + times<double, double>(map.transpose(), body.centre)),
+            body.is_turned ? &map : nullptr};
   }
 
-  /// Which definition the i-th instance has, which is not a half-space, and whether it is more than
-  /// moved.
-  std::uint32_t definition_of(std::size_t i) const { return places_[i].definition; }
-  bool is_turned(std::size_t i) const { return places_[i].linear != identity; }
-  const ShapeDefinition<T>& definition(std::uint32_t k) const { return *definitions_[k]; }
+  const InstanceBody& body_of(std::size_t i) const { return bodies_[places_[i].body]; }
+  std::uint32_t definition_of(std::size_t i) const { return body_of(i).number; }
 
-  /// What the i-th instance, which is no half-space, is screened by: its definition's numbers, and
-  /// its place as PreparedShape has it.
-  const Screen& screen_of(std::size_t i) const { return screens_[places_[i].definition]; }
-  const Vec3<T>& centre(std::size_t i) const { return places_[i].centre; }
-  const Mat3<T>& to_inner(std::size_t i) const {
-    return is_turned(i) ? linear_[places_[i].linear].to_inner : unturned_;
-  }
-
-  /// If all instances are screened by forms of one kind that are their shapes, stand still and are
-  /// shown to all rays: the kind, else none. Both are of what `make_lane_places` found.
-  FormKind kind_of_all() const { return kind_of_all_; }
-  const LanePlace<T>* lane_places() const { return lane_places_.data(); }
+  // What kernels read.
+  const InstancePlace* places() const { return places_.data(); }
+  /// Null if no map has more digits than float.
+  const TrailingDigits* digits() const { return digits_.empty() ? nullptr : digits_.data(); }
+  const std::vector<InstanceBody>& bodies() const { return bodies_; }
   const Screen* screens() const { return screens_.data(); }
-  /// Once all have been added, and after each change.
-  void make_lane_places();
-  /// Once the hierarchy is built: places in the order of its leaves, and for each node which is the
-  /// first of its own.
-  void make_leaf_places(const Bvh& bvh);
-  const LeafPlace<T>* leaf_places() const { return leaf_places_.data(); }
-  const std::uint32_t* first_leaves() const { return first_leaves_.data(); }
 
-  /// Brings near what `at` will read: first the place, and, when that has come, the map.
-  [[gnu::always_inline]] void prefetch_place(std::size_t i) const {
-    __builtin_prefetch(&places_[i]);
-  }
-  [[gnu::always_inline]] void prefetch_map(std::size_t i) const {
-    if (is_turned(i)) prefetch_linear(places_[i].linear);
+  /// If all instances but half-spaces are screened by forms of one kind that are their shapes: that
+  /// kind, else none.
+  FormKind kind_of_all() const;
+
+  [[gnu::always_inline]] void prefetch(std::size_t i) const { __builtin_prefetch(&places_[i]); }
+  [[gnu::always_inline]] void prefetch_digits(std::size_t i) const {
+    if (digits_.empty()) return;
+    const auto* const from = reinterpret_cast<const char*>(&digits_[i]);
+    __builtin_prefetch(from);
+    __builtin_prefetch(from + sizeof(TrailingDigits) - 1);
   }
 
-  /// Where each instance has a map of its own its place need not be read to find it.
-  bool have_own_maps() const { return linear_.size() == places_.size(); }
-  [[gnu::always_inline]] void prefetch_own_map(std::size_t i) const { prefetch_linear(i); }
+  /// Half the longest side of the instance's box in the world, up to rounding; 0 of a half-space.
+  double half_extent(std::size_t i) const;
 
-  /// Half the longest side of the instance's box in the world, but for rounding.
-  T half_extent(std::size_t i) const {
-    const Place& place = places_[i];
-    if (place.definition == no_definition) return T(0);
-    return place.linear == identity
-               ? definitions_[place.definition]->inner_half_extents().maxCoeff()
-               : linear_[place.linear].half_extent;
-  }
-
-  /// Boxes that hold the instances and what rounding makes of them; once after each change, since
-  /// they are given away.
-  FirstTouchVector<Bounds<float>> take_boxes();
+  /// Boxes that hold the instances and their rounding; those of half-spaces have no meaning. Call
+  /// once after each change, since they are given away.
+  FirstTouchVector<Bounds<float>> take_boxes() { return std::exchange(boxes_, {}); }
 
   std::size_t definitions() const { return definitions_.size(); }
+  const ShapeDefinition<double>& definition(std::uint32_t number) const {
+    return *definitions_[number].shared;
+  }
 
   /// Leaves out the points of hulls, which shapes share.
   std::size_t bytes() const;
 
  private:
-  static constexpr std::uint32_t identity = std::numeric_limits<std::uint32_t>::max();
-  static constexpr std::uint32_t no_definition = std::numeric_limits<std::uint32_t>::max();
-  struct Place {
-    Vec3<T> centre;
-    std::uint32_t definition;
-    std::uint32_t linear;  ///< into linear_, or identity
+  struct Defined {
+    std::shared_ptr<const ShapeDefinition<double>> shared;
+    /// Its bodies, or no_body.
+    std::array<std::uint32_t, 5> bodies;
   };
-  struct Linear {
-    Mat3<T> to_inner;
-    T half_extent;
+
+  /// An instance's map, and which body it has.
+  struct Placed {
+    std::size_t which = 0;
+    TrailingDigits digits = {};
+    bool has_digits = false;
+    Mat3<double> wide;
   };
-  [[gnu::always_inline]] void prefetch_linear(std::size_t entry) const {
-    const auto* const map = reinterpret_cast<const char*>(&linear_[entry]);
-    __builtin_prefetch(map);
-    __builtin_prefetch(map + sizeof(Linear) - 1);
-  }
 
-  /// Places the i-th instance; its linear part, unless it is the identity, is to be the given entry
-  /// of linear_, and is written there if `writes`.
-  void place(std::size_t i, std::uint32_t definition, const Affine<T>& pose, std::size_t linear,
-             bool writes);
+  Mat3<double> to_inner(std::size_t i) const;
+  std::uint32_t number_of(std::shared_ptr<const ShapeDefinition<double>> definition);
+  std::uint32_t body_with(std::uint32_t definition, std::size_t which);
+  /// Writes the place but for its body, which `keep` finds. Only `keep` is not for several threads.
+  Placed placed(std::size_t i, std::uint32_t definition, const Affine<double>& pose);
+  void keep(std::size_t i, std::uint32_t definition, const Placed& placed);
+  void put(std::size_t i, std::uint32_t definition, const Affine<double>& pose);
+  /// definition_of returns no_body for half-spaces.
+  void place_many(std::size_t first, std::size_t count,
+                  const std::function<std::uint32_t(std::size_t)>& definition_of,
+                  const std::function<Affine<double>(std::size_t)>& pose_of);
 
-  std::vector<std::shared_ptr<const ShapeDefinition<T>>> definitions_;
-  std::vector<Screen> screens_;  ///< of each definition
-  std::unordered_map<const void*, std::uint32_t> shared_;  ///< definitions that others have made
-  FirstTouchVector<LanePlace<T>> lane_places_;
-  FirstTouchVector<LeafPlace<T>> leaf_places_;
-  FirstTouchVector<std::uint32_t> first_leaves_;
-  FormKind kind_of_all_ = FormKind::none;
-  Mat3<T> unturned_ = Mat3<T>::Identity();
-  FirstTouchVector<Place> places_;
-  FirstTouchVector<Linear> linear_;
-  std::vector<Movement<T>> movements_;  ///< by instance; empty if all stand still
+  std::vector<Defined> definitions_;
+  std::unordered_map<const void*, std::uint32_t> shared_;      ///< by address
+  std::unordered_multimap<std::size_t, std::uint32_t> equal_;  ///< by hash of the shape
+  std::vector<InstanceBody> bodies_;
+  std::vector<Screen> screens_;  ///< of each body
+  FirstTouchVector<InstancePlace> places_;
+  FirstTouchVector<TrailingDigits> digits_;               ///< by instance; empty if all are zero
+  std::unordered_map<std::uint32_t, Mat3<double>> wide_;  ///< maps that float does not hold
+  std::vector<Movement<double>> movements_;               ///< by instance; empty if all stand still
   FirstTouchVector<Bounds<float>> boxes_;
   std::vector<PosedHalfSpace> half_spaces_;  ///< in the order of their instances
   std::vector<RayKinds> shown_to_;           ///< by instance; empty if all are shown to all rays
 };
-
-extern template class Instances<float>;
-extern template class Instances<double>;
 
 }  // namespace minkray

@@ -1,139 +1,148 @@
 // SPDX-License-Identifier: MIT
-// Casts at pairs of a ray and an instance: as soon as there are enough of them at one definition
-// they are cast in a packet, a ray and a pose in each lane.
+// Exact casts at pairs of a ray and an instance: four of a body at a time where it has a closed
+// form, rays at one instance together where it has none.
 #pragma once
 
-#include <array>
-#include <span>
+#include <algorithm>
 #include <vector>
 
-#include "core/cast/posed_packet.h"
-#include "core/world/world.h"
+#include "core/world/ray_block.h"
+#include "core/world/world_ray.h"
 
 namespace minkray {
 
-/// Pairs of ray and instance that wait until there are `lanes` of them.
-template <int lanes>
-class PairQueue {
- public:
-  /// True when it is full.
-  bool add(std::uint32_t ray, std::uint32_t instance) {
-    const auto i = static_cast<std::size_t>(count_++);
-    ray_[i] = ray;
-    instance_[i] = instance;
-    return count_ == lanes;
-  }
-  int size() const { return count_; }
-  std::uint32_t ray(int i) const { return ray_[static_cast<std::size_t>(i)]; }
-  std::uint32_t instance(int i) const { return instance_[static_cast<std::size_t>(i)]; }
-  void clear() { count_ = 0; }
-
- private:
-  int count_ = 0;
-  std::array<std::uint32_t, static_cast<std::size_t>(lanes)> ray_, instance_;
+/// A pair, and where it is met at the earliest.
+struct OpenPair {
+  std::uint32_t ray, instance;
+  float first;
 };
 
-/// Casts at pairs, alone or in packets. on_found(ray, instance, t, result) is told of those that
-/// meet; result() makes the CastResult.
-template <class T, class OnFound>
+/// Calls on_found(ray, instance, t, result) for pairs that meet; result() makes the CastResult.
+template <class OnFound>
 class PairCaster {
  public:
-  /// Definitions have queues where there are rays enough to fill them, two for each
-  /// (docs/decisions/streams.md); where not, they are cast at one by one.
-  PairCaster(const Instances<T>& instances, const CastOptions<T>& options,
-             std::span<const WorldRay<T>> rays, QueryCounts& counts, OnFound on_found)
+  PairCaster(const Instances& instances, const CastOptions<double>& options, const RaySpan& rays,
+             QueryCounts& counts, OnFound on_found)
       : instances_(instances),
         options_(options),
         rays_(rays),
         counts_(counts),
         on_found_(std::move(on_found)) {
-    if (2 * instances.definitions() <= rays.size()) queues_.resize(2 * instances.definitions());
+    // Bodies have queues where there are rays enough to fill them.
+    if (instances.bodies().size() <= rays.size() && !instances.move())
+      queues_.resize(instances.bodies().size());
   }
 
-  /// The instance is no half-space.
   void add(std::uint32_t ray, std::uint32_t instance) {
-    const std::uint32_t definition = instances_.definition_of(instance);
-    if (queues_.empty() || instances_.definition(definition).form().kind == FormKind::none)
+    const std::uint32_t body = instances_.places()[instance].body;
+    const InstanceBody& of = instances_.bodies()[body];
+    if (queues_.empty() || of.is_wide || of.definition->form().kind == FormKind::none)
       return cast_alone(ray, instance);
-    const bool is_turned = instances_.is_turned(instance);
-    Queue& queue = queues_[2 * definition + (is_turned ? 1 : 0)];
-    if (queue.add(ray, instance)) cast_together(queue, is_turned);
+    Queue& queue = queues_[body];
+    queue.ray[queue.count] = ray;
+    queue.instance[queue.count++] = instance;
+    if (queue.count == lanes) cast_together(queue, of);
   }
 
   /// Casts at all that still wait.
   void finish() {
-    for (std::size_t i = 0; i < queues_.size(); ++i)
-      if (queues_[i].size() != 0) cast_together(queues_[i], i % 2 == 1);
+    for (std::size_t body = 0; body < queues_.size(); ++body)
+      if (queues_[body].count != 0) cast_together(queues_[body], instances_.bodies()[body]);
   }
 
- private:
-  using Queue = PairQueue<packet_lanes<T>>;
+  /// Casts at pairs whose bodies have no closed form, those that are met first before others.
+  /// is_due(pair) says if a pair still matters.
+  template <class IsDue>
+  void cast_formless(std::vector<OpenPair>& pairs, const IsDue& is_due) {
+    std::sort(pairs.begin(), pairs.end(), [](const OpenPair& a, const OpenPair& b) {
+      return a.instance != b.instance ? a.instance < b.instance : a.first < b.first;
+    });
+    for (std::size_t i = 0; i < pairs.size();) {
+      const std::uint32_t instance = pairs[i].instance;
+      RayPacket<double> packet;
+      std::uint32_t ray_of[lanes];
+      int used = 0;
+      for (; i < pairs.size() && pairs[i].instance == instance && used < int{lanes}; ++i) {
+        if (!is_due(pairs[i])) continue;
+        ray_of[used] = pairs[i].ray;
+        packet.set(used++, seen(pairs[i].ray, instance));
+      }
+      if (used == 0) continue;
+      const PreparedShape<double> shape = instances_.at(instance);
+      if (used == 1 || !shape.definition().has_packets()) {
+        for (int lane = 0; lane < used; ++lane) cast_alone(ray_of[lane], instance);
+        continue;
+      }
+      for (int lane = used; lane < int{lanes}; ++lane) packet.set(lane, packet.ray(0));
+      CastPacket<double> answers;
+      cast_packet(shape, packet, (LaneBits(1) << used) - 1, answers);
+      for (int lane = 0; lane < used; ++lane) {
+        const CastResult<double> result = answers.result(lane);
+        counts_.add_cast(result);
+        if (result.found()) on_found_(ray_of[lane], instance, result.t(), [&] { return result; });
+      }
+    }
+    pairs.clear();
+  }
 
-  Ray<T> seen(std::uint32_t ray, std::uint32_t instance) const {
-    return instances_.seen_by(instance, rays_[ray].ray, rays_[ray].time);
+  /// Rays with a cast that did not converge; some of them more than once.
+  const std::vector<std::uint32_t>& exhausted() const { return exhausted_; }
+
+ private:
+  static constexpr std::uint8_t lanes = 4;
+  struct Queue {
+    std::size_t count = 0;
+    std::uint32_t ray[lanes], instance[lanes];
+  };
+
+  Ray<double> seen(std::uint32_t ray, std::uint32_t instance) const {
+    return instances_.seen_by(instance, rays_.ray(ray), rays_.time(ray));
   }
 
   void cast_alone(std::uint32_t ray, std::uint32_t instance) {
-    const CastResult<T> result = cast_ray(instances_.at(instance), seen(ray, instance), options_);
-    counts_.add_cast(result);
+    const CastResult<double> result =
+        cast_ray(instances_.at(instance), seen(ray, instance), options_);
+    count(ray, result);
     if (result.found()) on_found_(ray, instance, result.t(), [&] { return result; });
   }
 
-  void cast_together(Queue& queue, bool are_turned) {
-    RayPacket<T> packet;
-    PosePacket<T> poses;
-    poses.are_turned = are_turned;
-    const int used = queue.size();
-    if (instances_.move()) {
-      for (int i = 0; i < packet_lanes<T>; ++i) {
-        const int pair = i < used ? i : 0;
-        packet.set(i, seen(queue.ray(pair), queue.instance(pair)));
-        poses.set(i, instances_.at(queue.instance(pair)));
-      }
-    } else {
-      // Number by number, as the lanes are read.
-      constexpr auto lanes = static_cast<std::size_t>(packet_lanes<T>);
-      const T *ray[lanes], *centre[lanes], *map[lanes];
-      for (std::size_t i = 0; i < lanes; ++i) {
-        const int pair = static_cast<int>(i) < used ? static_cast<int>(i) : 0;
-        ray[i] = rays_[queue.ray(pair)].ray.origin.data();
-        centre[i] = instances_.centre(queue.instance(pair)).data();
-        map[i] = instances_.to_inner(queue.instance(pair)).data();
-      }
-      static_assert(offsetof(Ray<T>, direction) == 3 * sizeof(T) &&
-                    offsetof(Ray<T>, t_max) == 6 * sizeof(T));
-      for (std::size_t k = 0; k < 3; ++k)
-        for (std::size_t i = 0; i < lanes; ++i) {
-          poses.centre[k][i] = centre[i][k];
-          packet.origin[k][i] = ray[i][k];
-          packet.direction[k][i] = ray[i][3 + k];
-        }
-      for (std::size_t i = 0; i < lanes; ++i) packet.t_max[i] = ray[i][6];
-      if (are_turned)
-        for (std::size_t k = 0; k < 9; ++k)
-          for (std::size_t i = 0; i < lanes; ++i)
-            poses.to_inner[k][i] = map[i][3 * (k % 3) + k / 3];
-    }
-    CastPacket<T> answers;
-    cast_packet(instances_.definition(instances_.definition_of(queue.instance(0))), poses, packet,
-                (LaneBits(1) << used) - 1, answers);
-    const LaneBits answered = answers.found() | answers.miss;
-    for (int i = 0; i < used; ++i) {
-      const auto lane = static_cast<std::size_t>(i);
-      const int supports = static_cast<int>(answers.supports[lane]);
-      counts_.add_cast(supports, supports, answers.path[lane], !(answered >> i & 1));
-      if (answers.found() >> i & 1)
-        on_found_(queue.ray(i), queue.instance(i), answers.t(i), [&] { return answers.result(i); });
-    }
-    queue.clear();
+  void count(std::uint32_t ray, const CastResult<double>& result) {
+    counts_.add_cast(result);
+    if (result.status == Status::exhausted) exhausted_.push_back(ray);
   }
 
-  const Instances<T>& instances_;
-  const CastOptions<T>& options_;
-  std::span<const WorldRay<T>> rays_;
+  void cast_together(Queue& queue, const InstanceBody& body) {
+    FourPairs pairs;
+    for (std::size_t i = 0; i < lanes; ++i) {
+      const std::size_t from = i < queue.count ? i : 0;
+      const std::uint32_t instance = queue.instance[from];
+      pairs.ray[i] = reinterpret_cast<const double*>(&rays_.ray(queue.ray[from]));
+      pairs.place[i] = instances_.places() + instance;
+      pairs.digits[i] = instances_.digits() ? instances_.digits() + instance : nullptr;
+    }
+    CastPacket<double> answers;
+    const std::size_t used = queue.count;
+    cast_four_avx2(body, pairs, (LaneBits(1) << used) - 1, answers);
+    const LaneBits answered = answers.found() | answers.miss;
+    counts_.add_filtered(static_cast<std::uint64_t>(__builtin_popcount(answered)));
+    for (std::size_t i = 0; i < used; ++i) {
+      const int lane = static_cast<int>(i);
+      if (!(answered >> i & 1u))
+        cast_alone(queue.ray[i], queue.instance[i]);
+      else if (answers.found() >> i & 1u)
+        on_found_(queue.ray[i], queue.instance[i], answers.t(lane),
+                  [&] { return answers.result(lane); });
+    }
+    queue.count = 0;
+  }
+
+  const Instances& instances_;
+  const CastOptions<double>& options_;
+  RaySpan rays_;
   QueryCounts& counts_;
   OnFound on_found_;
-  std::vector<Queue> queues_;  ///< two for each definition, or none
+  std::vector<Queue> queues_;             ///< by body, or none
+  std::vector<std::uint32_t> exhausted_;  ///< rays with a cast that did not converge
 };
 
 }  // namespace minkray

@@ -1,42 +1,29 @@
 // SPDX-License-Identifier: MIT
-// Sorts out pairs of a ray and an instance before any is cast at: queues by the kind of closed
-// form, whatever the sizes, and eight pairs at a time in float lanes, whose intervals say who can
-// be met first. What is left over is about one pair a ray.
+// Pairs of a ray and an instance as a walk finds them: eight of a kind at a time go to float lanes,
+// which sort most of them out. What may be met is passed on.
 #pragma once
 
 #include <array>
-#include <span>
+#include <cstring>
 #include <vector>
 
-#include "core/bvh/ray_group.h"
 #include "core/bvh/stream.h"
 #include "core/cast/screen.h"
-#include "core/world/pair_caster.h"
+#include "core/world/world_ray.h"
 
 namespace minkray {
 
 /// How far each ray goes on: what it may still meet lies no further than what it surely meets.
 struct RayLimits {
   std::vector<SlabRay> slabs;
-  std::vector<float> t;            ///< not below the T that it stands for
-  std::vector<std::uint8_t> sure;  ///< 1: it is that of a pair which has not been cast at yet
+  std::vector<float> t;            ///< not below the double that it stands for
+  std::vector<std::uint8_t> sure;  ///< 1: it is that of a pair that is not cast at yet
 
-  template <class T>
-  explicit RayLimits(std::span<const WorldRay<T>> rays) : sure(rays.size()) {
-    t.resize(rays.size());
-    for (std::size_t i = 0; i < rays.size(); ++i)
-      t[i] = detail::float_above(static_cast<double>(rays[i].ray.t_max));
-    // Streams are asked for on machines with AVX2 alone.
-    if constexpr (std::is_same_v<T, double>) {
-      slabs.resize(rays.size());
-      make_slabs_avx2(reinterpret_cast<const char*>(&rays.data()->ray), sizeof(WorldRay<T>),
-                      rays.size(), slabs.data());
-    } else {
-      slabs.reserve(rays.size());
-      for (const WorldRay<T>& one : rays) slabs.emplace_back(one.ray);
-    }
+  explicit RayLimits(const RaySpan& rays) : slabs(rays.size()), t(rays.size()), sure(rays.size()) {
+    for (std::size_t i = 0; i < rays.size(); ++i) t[i] = detail::float_above(rays.ray(i).t_max);
+    make_slabs_avx2(rays.data(), rays.stride(), rays.size(), slabs.data());
   }
-  /// Nothing else is asked of this ray.
+  /// Nothing else matters to this ray.
   void end(std::size_t ray) {
     t[ray] = -1;
     slabs[ray].numbers.t_max = -1;
@@ -50,109 +37,123 @@ struct RayLimits {
   }
 };
 
-/// Caster is a PairCaster. on_sure(ray, t) is told of pairs that surely meet, at t at the latest,
-/// before they are cast at; it says whether they are to be cast at then.
-template <class T, class Caster, class OnSure>
+/// Calls on_open(ray, instance, first, last, is_sure) for pairs that may be met: at `first` at the
+/// earliest, and if that is sure, at `last` at the latest.
+template <class OnOpen>
 class PairScreen {
  public:
-  PairScreen(const Instances<T>& instances, std::span<const WorldRay<T>> rays, RayLimits& limits,
-             Caster& caster, OnSure on_sure)
+  /// kind_of_all: of all bodies, or none.
+  PairScreen(const Instances& instances, FormKind kind_of_all, const RaySpan& rays,
+             const RayLimits& limits, OnOpen on_open)
       : instances_(instances),
+        kind_of_all_(instances.move() ? FormKind::none : kind_of_all),
+        list_{rays.data(), rays.stride(), instances.places(), instances.screens(), limits.t.data()},
         rays_(rays),
-        limits_(limits),
-        caster_(caster),
-        on_sure_(std::move(on_sure)) {}
+        on_open_(std::move(on_open)) {}
 
-  /// Pairs wait until the next ones come, and their instances' places with them.
+  /// Pairs wait until the next ones come, and meanwhile their places are fetched.
   void take(const std::uint32_t* rays, const std::uint32_t* instances, std::size_t pairs) {
-    sort_waiting();
-    for (std::size_t i = 0; i < pairs; ++i) {
-      instances_.prefetch_place(instances[i]);
-      waiting_[waiting_count_++] = {rays[i], instances[i]};
+    if (kind_of_all_ != FormKind::none) {
+      std::size_t from = 0;
+      for (; from + screen_lanes <= count_; from += screen_lanes)
+        look_at(kind_of_all_, ray_ + from, instance_ + from, screen_lanes);
+      count_ -= from;
+      std::memmove(ray_, ray_ + from, sizeof(std::uint32_t) * screen_lanes);
+      std::memmove(instance_, instance_ + from, sizeof(std::uint32_t) * screen_lanes);
+    } else {
+      sort_waiting();
     }
+    std::memcpy(ray_ + count_, rays, sizeof(std::uint32_t) * most_pairs_at_once);
+    std::memcpy(instance_ + count_, instances, sizeof(std::uint32_t) * most_pairs_at_once);
+    for (std::size_t i = 0; i < pairs; ++i) instances_.prefetch(instances[i]);
+    count_ += pairs;
   }
 
-  /// Looks at all that still wait, and casts at what is left of all.
   void finish() {
+    if (kind_of_all_ != FormKind::none) {
+      for (std::size_t from = 0; from < count_; from += screen_lanes)
+        look_at(kind_of_all_, ray_ + from, instance_ + from,
+                std::min<std::size_t>(screen_lanes, count_ - from));
+      count_ = 0;
+      return;
+    }
     sort_waiting();
-    for (std::size_t kind = 0; kind < form_kinds; ++kind)
-      if (queues_[kind].size() != 0) look_at(queues_[kind], static_cast<FormKind>(kind));
-    caster_.finish();
-    for (const auto& [ray, instance, first] : left_)
-      if (first <= limits_.t[ray]) caster_.add(ray, instance);
-    left_.clear();
-    caster_.finish();
+    for (std::size_t kind = 0; kind < form_kinds; ++kind) {
+      Queue& queue = queues_[kind];
+      if (queue.count != 0)
+        look_at(static_cast<FormKind>(kind), queue.ray, queue.instance, queue.count);
+      queue.count = 0;
+    }
   }
 
  private:
-  struct Pair {
-    std::uint32_t ray, instance;
+  struct Queue {
+    std::size_t count = 0;
+    std::uint32_t ray[screen_lanes], instance[screen_lanes];
   };
-  struct Left {
-    std::uint32_t ray, instance;
-    float first;
-  };
-  using Queue = PairQueue<screen_lanes>;
 
+  /// By kind.
   void sort_waiting() {
-    for (std::size_t i = 0; i < waiting_count_; ++i) {
-      const auto [ray, instance] = waiting_[i];
-      instances_.prefetch_map(instance);
-      sort(ray, instance);
-    }
-    waiting_count_ = 0;
-  }
-
-  void sort(std::uint32_t ray, std::uint32_t instance) {
-    if (instances_.is_half_space(instance) || rays_[ray].passes(instances_, instance)) return;
-    const FormKind kind = instances_.screen_of(instance).kind;
-    if (kind == FormKind::none) return caster_.add(ray, instance);
-    Queue& queue = queues_[static_cast<std::size_t>(kind)];
-    if (queue.add(ray, instance)) look_at(queue, kind);
-  }
-
-  void look_at(Queue& queue, FormKind kind) {
-    ScreenPairs<T> pairs;
-    std::array<Ray<T>, screen_lanes> seen;
-    const int used = queue.size();
-    for (int i = 0; i < screen_lanes; ++i) {
-      const auto lane = static_cast<std::size_t>(i);
-      const int pair = i < used ? i : 0;
-      const std::uint32_t ray = queue.ray(pair), instance = queue.instance(pair);
-      pairs.ray[lane] = &rays_[ray].ray;
-      if (instances_.move()) {
-        seen[lane] = instances_.seen_by(instance, rays_[ray].ray, rays_[ray].time);
-        pairs.ray[lane] = &seen[lane];
+    for (std::size_t i = 0; i < count_; ++i) {
+      const std::uint32_t ray = ray_[i], instance = instance_[i];
+      const FormKind kind = list_.screens[list_.places[instance].body].kind;
+      if (kind == FormKind::none) {
+        if (!rays_.passes(instances_, ray, instance)) on_open_(ray, instance, 0.0f, 0.0f, false);
+        continue;
       }
-      pairs.centre[lane] = &instances_.centre(instance);
-      pairs.to_inner[lane] = &instances_.to_inner(instance);
-      pairs.form[lane] = &instances_.screen_of(instance).form;
+      Queue& queue = queues_[static_cast<std::size_t>(kind)];
+      queue.ray[queue.count] = ray;
+      queue.instance[queue.count++] = instance;
+      if (queue.count < screen_lanes) continue;
+      look_at(kind, queue.ray, queue.instance, screen_lanes);
+      queue.count = 0;
+    }
+    count_ = 0;
+  }
+
+  /// Eight are read, of which `used` count.
+  void look_at(FormKind kind, std::uint32_t* ray, std::uint32_t* instance, std::size_t used) {
+    for (std::size_t i = used; i < screen_lanes; ++i) {
+      ray[i] = ray[0];
+      instance[i] = instance[0];
     }
     Screened answers;
-    screen_avx2(kind, pairs, answers);
-    for (int i = 0; i < used; ++i) {
-      const auto lane = static_cast<std::size_t>(i);
-      const std::uint32_t ray = queue.ray(i), instance = queue.instance(i);
-      const float first = answers.first[lane], last = answers.last[lane];
-      constexpr float never = std::numeric_limits<float>::infinity();
-      if (first == never || !(first <= limits_.t[ray])) continue;
-      if (!instances_.screen_of(instance).is_whole)
-        caster_.add(ray, instance);
-      else if (last == never || last > limits_.t[ray] || on_sure_(ray, last))
-        left_.push_back({ray, instance, first});
+    const ScreenBits bits = instances_.move() ? of_moving(kind, ray, instance, answers)
+                                              : screen_avx2(kind, list_, ray, instance, answers);
+    for (std::uint32_t open = bits.open & ((1u << used) - 1u); open != 0; open &= open - 1) {
+      const auto lane = static_cast<std::size_t>(__builtin_ctz(open));
+      if (rays_.passes(instances_, ray[lane], instance[lane])) continue;
+      const bool is_sure = (bits.sure >> lane & 1u) != 0 &&
+                           list_.screens[list_.places[instance[lane]].body].is_whole;
+      on_open_(ray[lane], instance[lane], answers.first[lane], answers.last[lane], is_sure);
     }
-    queue.clear();
   }
 
-  const Instances<T>& instances_;
-  std::span<const WorldRay<T>> rays_;
-  RayLimits& limits_;
-  Caster& caster_;
-  OnSure on_sure_;
-  std::array<Pair, most_pairs_at_once> waiting_;
-  std::size_t waiting_count_ = 0;
+  /// Rays as instances on the move see them.
+  ScreenBits of_moving(FormKind kind, const std::uint32_t* ray, const std::uint32_t* instance,
+                       Screened& answers) const {
+    std::array<Ray<double>, screen_lanes + 1> seen;  // one more is read beyond the last
+    std::array<float, screen_lanes> limits;
+    std::array<std::uint32_t, screen_lanes> number;
+    for (std::uint32_t i = 0; i < screen_lanes; ++i) {
+      seen[i] = instances_.seen_by(instance[i], rays_.ray(ray[i]), rays_.time(ray[i]));
+      limits[i] = list_.limits[ray[i]];
+      number[i] = i;
+    }
+    const ScreenList list{reinterpret_cast<const char*>(seen.data()), sizeof(Ray<double>),
+                          list_.places, list_.screens, limits.data()};
+    return screen_avx2(kind, list, number.data(), instance, answers);
+  }
+
+  const Instances& instances_;
+  FormKind kind_of_all_;
+  ScreenList list_;
+  RaySpan rays_;
+  OnOpen on_open_;
+  std::size_t count_ = 0;
+  std::uint32_t ray_[2 * screen_lanes + 2 * most_pairs_at_once] = {};
+  std::uint32_t instance_[2 * screen_lanes + 2 * most_pairs_at_once] = {};
   std::array<Queue, form_kinds> queues_;
-  std::vector<Left> left_;
 };
 
 }  // namespace minkray

@@ -4,179 +4,11 @@
 
 #include "core/cast/form_in_lanes.h"
 #include "core/query/tolerances.h"
+#include "core/world/block_of_rays.h"
 
 #if defined(__AVX2__)
 namespace minkray {
 namespace {
-
-using W = Wide<float, 8, IsaAvx2>;
-constexpr int all_rays = static_cast<int>(rays_of_block);
-constexpr float infinity = std::numeric_limits<float>::infinity();
-
-/// Directions further apart than this, in units of the first one's largest component, gain nothing
-/// together.
-constexpr double widest = 0.25;
-
-/// Each comparison of two planes' parameters is of numbers rounded five times: 16 roundings' room.
-constexpr float block_padding = 1 + 8 * std::numeric_limits<float>::epsilon();
-
-struct alignas(32) Block {
-  /// Of each ray: its direction less the middle's, and 1 / direction, which is never infinite.
-  float delta[3][all_rays], inverse[3][all_rays];
-  double origin[4], middle[4];
-  double middle_squared;
-  double widest;  ///< the greatest length of delta
-  /// The origin from both sides, and of all inverses the bounds; see `Bounds`.
-  float above[3], below[3];
-  float inverse_near[3], inverse_far[3];
-  float least_up[3], least_down[3];
-  bool down[3], mixed[3];
-};
-
-__m256d load(const double* from) { return _mm256_loadu_pd(from); }
-
-/// Rows to columns.
-[[gnu::always_inline]] inline void transpose(const __m256d (&row)[4], __m256d (&column)[4]) {
-  const __m256d a = _mm256_unpacklo_pd(row[0], row[1]), b = _mm256_unpackhi_pd(row[0], row[1]);
-  const __m256d c = _mm256_unpacklo_pd(row[2], row[3]), d = _mm256_unpackhi_pd(row[2], row[3]);
-  column[0] = _mm256_permute2f128_pd(a, c, 0x20);
-  column[1] = _mm256_permute2f128_pd(b, d, 0x20);
-  column[2] = _mm256_permute2f128_pd(a, c, 0x31);
-  column[3] = _mm256_permute2f128_pd(b, d, 0x31);
-}
-
-float least_of(__m256 v) {
-  __m128 x = _mm_min_ps(_mm256_castps256_ps128(v), _mm256_extractf128_ps(v, 1));
-  x = _mm_min_ps(x, _mm_movehl_ps(x, x));
-  return _mm_cvtss_f32(_mm_min_ss(x, _mm_shuffle_ps(x, x, 1)));
-}
-float greatest_of(__m256 v) {
-  __m128 x = _mm_max_ps(_mm256_castps256_ps128(v), _mm256_extractf128_ps(v, 1));
-  x = _mm_max_ps(x, _mm_movehl_ps(x, x));
-  return _mm_cvtss_f32(_mm_max_ss(x, _mm_shuffle_ps(x, x, 1)));
-}
-
-float above(double x) {
-  const auto f = static_cast<float>(x);
-  return static_cast<double>(f) < x ? std::nextafterf(f, infinity) : f;
-}
-float below(double x) { return -above(-x); }
-
-bool make_block(const char* rays, std::size_t stride, std::size_t count, Block& block,
-                float* limits) {
-  const auto ray = [&](std::size_t i) {
-    return reinterpret_cast<const double*>(rays + stride * i);
-  };
-  const double *const first = ray(0), *const last = ray(count - 1);
-  for (int axis = 0; axis < 3; ++axis) {
-    block.origin[axis] = first[axis];
-    if (first[axis] != last[axis]) return false;
-    block.middle[axis] = 0.5 * (first[3 + axis] + last[3 + axis]);
-  }
-  block.origin[3] = block.middle[3] = 0;
-  const double* const m = block.middle;
-  const double size = std::max(std::max(std::abs(m[0]), std::abs(m[1])), std::abs(m[2]));
-  if (!(size > 0x1p-20 && size < 0x1p20)) return false;
-  block.middle_squared = m[0] * m[0] + m[1] * m[1] + m[2] * m[2];
-
-  const __m256d origin[3] = {_mm256_set1_pd(first[0]), _mm256_set1_pd(first[1]),
-                             _mm256_set1_pd(first[2])};
-  const __m256d middle[3] = {_mm256_set1_pd(m[0]), _mm256_set1_pd(m[1]), _mm256_set1_pd(m[2])};
-  __m256d differ = _mm256_setzero_pd();
-  __m256 wide = _mm256_setzero_ps();
-  __m256 least[3], most[3];
-  for (int axis = 0; axis < 3; ++axis) {
-    least[axis] = _mm256_set1_ps(infinity);
-    most[axis] = _mm256_set1_ps(-infinity);
-  }
-  const __m256 sign = _mm256_set1_ps(-0.0f);
-  const __m256 tiny = _mm256_set1_ps(static_cast<float>(size * 0x1p-60));
-  for (std::size_t from = 0; from < rays_of_block; from += 8) {
-    __m128 direction[3][2], delta[3][2], limit[2];
-    for (std::size_t half = 0; half < 2; ++half) {
-      __m256d row[4], column[4];
-      const double* at[4];
-      for (std::size_t i = 0; i < 4; ++i) {
-        const std::size_t k = from + 4 * half + i;
-        at[i] = ray(k < count ? k : 0);
-        row[i] = load(at[i]);
-      }
-      transpose(row, column);
-      for (int axis = 0; axis < 3; ++axis)
-        differ = _mm256_or_pd(differ, _mm256_cmp_pd(column[axis], origin[axis], _CMP_NEQ_UQ));
-      for (std::size_t i = 0; i < 4; ++i) row[i] = load(at[i] + 3);
-      transpose(row, column);
-      for (int axis = 0; axis < 3; ++axis) {
-        direction[axis][half] = _mm256_cvtpd_ps(column[axis]);
-        delta[axis][half] = _mm256_cvtpd_ps(_mm256_sub_pd(column[axis], middle[axis]));
-      }
-      limit[half] = _mm256_cvtpd_ps(column[3]);
-    }
-    __m256 squared = _mm256_setzero_ps();
-    for (int axis = 0; axis < 3; ++axis) {
-      const __m256 d = _mm256_set_m128(direction[axis][1], direction[axis][0]);
-      const __m256 e = _mm256_set_m128(delta[axis][1], delta[axis][0]);
-      const __m256 safe = _mm256_or_ps(_mm256_max_ps(_mm256_andnot_ps(sign, d), tiny),
-                                       _mm256_and_ps(sign, d));
-      const __m256 inverse = _mm256_div_ps(_mm256_set1_ps(1), safe);
-      _mm256_store_ps(block.delta[axis] + from, e);
-      _mm256_store_ps(block.inverse[axis] + from, inverse);
-      squared = _mm256_fmadd_ps(e, e, squared);
-      least[axis] = _mm256_min_ps(least[axis], inverse);
-      most[axis] = _mm256_max_ps(most[axis], inverse);
-    }
-    wide = _mm256_max_ps(wide, squared);
-    _mm256_store_ps(limits + from, _mm256_mul_ps(_mm256_set_m128(limit[1], limit[0]),
-                                                 _mm256_set1_ps(1 + 0x1p-22f)));
-  }
-  if (_mm256_movemask_pd(differ) != 0) return false;
-  for (std::size_t i = count; i < rays_of_block; ++i) limits[i] = -1;
-  block.widest = std::sqrt(static_cast<double>(greatest_of(wide))) * (1 + 0x1p-20);
-  if (!(block.widest < widest * size)) return false;
-  for (int axis = 0; axis < 3; ++axis) {
-    const float low = least_of(least[axis]), high = greatest_of(most[axis]);
-    block.above[axis] = above(first[axis]);
-    block.below[axis] = below(first[axis]);
-    block.mixed[axis] = low < 0 && high > 0;
-    block.down[axis] = low < 0;
-    // Near planes by the steepest, far ones by the flattest.
-    block.inverse_near[axis] = low < 0 ? high : low;
-    block.inverse_far[axis] = low < 0 ? low : high;
-    if (!block.mixed[axis]) continue;
-    block.least_up[axis] = infinity;
-    block.least_down[axis] = -infinity;
-    for (const float inverse : block.inverse[axis]) {
-      if (inverse > 0) block.least_up[axis] = std::min(block.least_up[axis], inverse);
-      if (inverse < 0) block.least_down[axis] = std::max(block.least_down[axis], inverse);
-    }
-  }
-  return true;
-}
-
-/// Which of a node's boxes any of the rays may meet up to t_max, and where.
-[[gnu::always_inline]] inline std::uint32_t boxes_met(const BvhNode& node, const Block& block,
-                                                      float t_max, float* enters) {
-  __m256 enter = _mm256_setzero_ps(), leave = _mm256_set1_ps(t_max);
-  for (int axis = 0; axis < 3; ++axis) {
-    const __m256 lower = _mm256_sub_ps(_mm256_load_ps(node.planes[0][axis]),
-                                       _mm256_set1_ps(block.above[axis]));
-    const __m256 upper = _mm256_sub_ps(_mm256_load_ps(node.planes[1][axis]),
-                                       _mm256_set1_ps(block.below[axis]));
-    if (block.mixed[axis]) {
-      enter = _mm256_max_ps(_mm256_mul_ps(lower, _mm256_set1_ps(block.least_up[axis])), enter);
-      enter = _mm256_max_ps(_mm256_mul_ps(upper, _mm256_set1_ps(block.least_down[axis])), enter);
-      continue;
-    }
-    const __m256 near = block.down[axis] ? upper : lower, far = block.down[axis] ? lower : upper;
-    enter = _mm256_max_ps(_mm256_mul_ps(near, _mm256_set1_ps(block.inverse_near[axis])), enter);
-    leave = _mm256_min_ps(_mm256_mul_ps(far, _mm256_set1_ps(block.inverse_far[axis])), leave);
-  }
-  _mm256_store_ps(enters, enter);
-  const __m256 padded = _mm256_add_ps(_mm256_mul_ps(leave, _mm256_set1_ps(block_padding)),
-                                      _mm256_set1_ps(std::numeric_limits<float>::min()));
-  return static_cast<std::uint32_t>(
-      _mm256_movemask_ps(_mm256_cmp_ps(enter, padded, _CMP_LE_OQ)));
-}
 
 /// An instance as all rays of a block see it: at parameter k the middle one is at `near`, in the
 /// form's frame, and runs along `d`; others run along d + map delta.
@@ -186,11 +18,11 @@ struct Seen {
   bool is_bounded;
 };
 
-void see(const Block& block, const LeafPlace<double>& place, const ScreenForm& form, Seen& seen) {
+void see(const Block& block, const InstancePlace& place, const ScreenForm& form, Seen& seen) {
   double outer[3], near[3];
   double along = 0, near_squared = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    outer[axis] = block.origin[axis] - place.centre[axis];
+    outer[axis] = block.origin[axis] - place.origin[axis];
     along += outer[axis] * block.middle[axis];
   }
   const auto k = static_cast<float>(-along / block.middle_squared);
@@ -204,9 +36,7 @@ void see(const Block& block, const LeafPlace<double>& place, const ScreenForm& f
   float map_squared = 0, dd = 0;
   const float largest_scale = std::max(std::max(form.scale[0], form.scale[1]), form.scale[2]);
   for (int row = 0; row < 3; ++row) {
-    const float m[7] = {static_cast<float>(place.to_inner[row]), 0, 0,
-                        static_cast<float>(place.to_inner[row + 3]), 0, 0,
-                        static_cast<float>(place.to_inner[row + 6])};
+    const float* const m = place.to_inner + row;
     const float turn = row == 2 ? form.up : 1.0f;
     const float scale = form.scale[static_cast<std::size_t>(row)] * turn;
     map_squared += m[0] * m[0] + m[3] * m[3] + m[6] * m[6];
@@ -218,8 +48,8 @@ void see(const Block& block, const LeafPlace<double>& place, const ScreenForm& f
     dd += d * d;
     for (int column = 0; column < 3; ++column) seen.map[row][column] = W(scale * m[3 * column]);
   }
-  // How large all is that was added up: see `look` of core/cast/screen_kernel_avx2.cpp, at the worst
-  // of the rays.
+  // How large all is that was added up: see `look` of core/cast/screen_kernel_avx2.cpp, at the
+  // worst of the rays.
   const auto wide = static_cast<float>(block.widest);
   const float size = std::sqrt(map_squared) * largest_scale;
   const float reach_near = static_cast<float>(std::sqrt(near_squared)) + std::abs(k) * wide;
@@ -236,8 +66,8 @@ void see(const Block& block, const LeafPlace<double>& place, const ScreenForm& f
       least_d > 0 && E < tolerance::screen_largest_share * std::min(form.least, form.R);
 }
 
-/// Eight rays: where they meet the form at the earliest and at the latest; `box` is where they enter
-/// its box. Not open: they miss. Latest infinite: not sure.
+/// Eight rays: where they meet the form at the earliest and at the latest; `box` is where they
+/// enter its box. Not open: they miss. Latest infinite: not sure.
 template <FormKind kind>
 [[gnu::always_inline]] inline void look(const Seen& seen, const FormInLanes& form,
                                         const Vec3<W>& delta, const W& box, W& first, W& last,
@@ -275,63 +105,141 @@ template <FormKind kind>
   last = select(sure, hi, W(infinity));
 }
 
-/// For each set of lanes, their numbers from the lowest up.
-struct LanesOfSet {
-  std::uint64_t lanes[256] = {};
-  constexpr LanesOfSet() {
-    for (std::uint32_t set = 0; set < 256; ++set)
-      for (std::uint32_t lane = 0, count = 0; lane < 8; ++lane)
-        if (set >> lane & 1) lanes[set] |= static_cast<std::uint64_t>(lane) << (8 * count++);
-  }
-};
-constexpr LanesOfSet lanes_of_set;
-
-__m256i lanes_of(std::uint32_t set) {
-  return _mm256_cvtepu8_epi32(
-      _mm_cvtsi64_si128(static_cast<std::int64_t>(lanes_of_set.lanes[set])));
-}
-
 /// Eight more are written behind the last.
 constexpr int room = all_rays + 8;
 
+/// Rays of a block that meet the box of one instance, side by side.
+struct MeetingRays {
+  std::uint32_t count = 0;
+  alignas(32) float boxes[room], limits[room], los[room], deltas[3][room];
+  alignas(32) std::uint32_t rays[room];
+};
+
+/// Tests the rays against a child's box, by their own limits.
+void gather_meeting(const Block& block, const BvhNode& node, int child, const BlockAnswer& answer,
+                    MeetingRays& meeting) {
+  __m256 lower[3], upper[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    lower[axis] = _mm256_set1_ps(node.planes[0][axis][child] - block.above[axis]);
+    upper[axis] = _mm256_set1_ps(node.planes[1][axis][child] - block.below[axis]);
+  }
+  alignas(32) float enters[all_rays];
+  std::uint32_t met_by[all_rays / 8], rows = 0;
+#pragma GCC unroll 8
+  for (int from = 0; from < all_rays; from += 8) {
+    __m256 enter = _mm256_setzero_ps(), leave = _mm256_load_ps(answer.limit + from);
+    for (int axis = 0; axis < 3; ++axis) {
+      const __m256 inverse = _mm256_load_ps(block.inverse[axis] + from);
+      const __m256 a = _mm256_mul_ps(lower[axis], inverse), b = _mm256_mul_ps(upper[axis], inverse);
+      enter = _mm256_max_ps(enter, _mm256_min_ps(a, b));
+      leave = _mm256_min_ps(leave, _mm256_max_ps(a, b));
+    }
+    const __m256 padded = _mm256_add_ps(_mm256_mul_ps(leave, _mm256_set1_ps(block_padding)),
+                                        _mm256_set1_ps(std::numeric_limits<float>::min()));
+    _mm256_store_ps(enters + from, _mm256_mul_ps(enter, _mm256_set1_ps(1 - 0x1p-20f)));
+    const auto here =
+        static_cast<std::uint32_t>(_mm256_movemask_ps(_mm256_cmp_ps(enter, padded, _CMP_LE_OQ)));
+    met_by[from / 8] = here;
+    rows |= (here != 0 ? 1u : 0u) << (from / 8);
+  }
+  std::uint32_t count = 0;
+  for (; rows != 0; rows &= rows - 1) {
+    const int row = __builtin_ctz(rows), from = 8 * row;
+    const std::uint32_t here = met_by[row];
+    const __m256i lanes = lanes_of(here);
+    const auto gather = [&](float* to, const float* all) {
+      _mm256_storeu_ps(to + count, _mm256_permutevar8x32_ps(_mm256_load_ps(all + from), lanes));
+    };
+    gather(meeting.boxes, enters);
+    gather(meeting.limits, answer.limit);
+    gather(meeting.los, answer.lo);
+    for (int axis = 0; axis < 3; ++axis) gather(meeting.deltas[axis], block.delta[axis]);
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(meeting.rays + count),
+                        _mm256_add_epi32(lanes, _mm256_set1_epi32(from)));
+    count += static_cast<std::uint32_t>(__builtin_popcount(here));
+  }
+  meeting.count = count;
+}
+
+/// False if there is no room for another.
+bool add_other(BlockAnswer& answer, float first, std::uint32_t ray, std::uint32_t instance) {
+  if (answer.other_count == BlockAnswer::most_others) return false;
+  answer.others[answer.other_count++] = {first, ray, instance};
+  return true;
+}
+
+enum class Looked { nothing_nearer, nearer, too_much };
+
 template <FormKind kind>
-void look_at_block(const BlockWorld& world, const Block& block, BlockAnswer& answer) {
+Looked look_at_instance(const Seen& seen, const Screen& screen, const MeetingRays& meeting,
+                        std::uint32_t instance, BlockAnswer& answer) {
+  const FormInLanes form(screen);
+  bool nearer = false;
+  for (std::uint32_t at = 0; at < meeting.count; at += 8) {
+    W first, last;
+    Mask<W> open;
+    const Vec3<W> delta(W::load(meeting.deltas[0] + at), W::load(meeting.deltas[1] + at),
+                        W::load(meeting.deltas[2] + at));
+    look<kind>(seen, form, delta, W::load(meeting.boxes + at), first, last, open);
+    const W limit = W::load(meeting.limits + at), lo = W::load(meeting.los + at);
+    open &= first <= limit;
+    const std::uint32_t used = meeting.count - at < 8 ? (1u << (meeting.count - at)) - 1u : 0xffu;
+    const std::uint32_t open_bits = lane_bits(open) & used;
+    if (open_bits == 0) continue;
+    Mask<W> sure = open & (last <= limit) & (last < W(infinity));
+    if (!screen.is_whole) sure = Mask<W>(false);
+    const std::uint32_t replaces = lane_bits(sure & (last < lo)) & used;
+    alignas(32) float firsts[8], lasts[8];
+    first.store(firsts);
+    select(sure, last, limit).store(lasts);
+    nearer = true;
+    for (std::uint32_t left = replaces; left != 0; left &= left - 1) {
+      const int lane = __builtin_ctz(left);
+      const std::uint32_t ray = meeting.rays[at + static_cast<std::uint32_t>(lane)];
+      answer.limit[ray] = lasts[lane];
+      answer.lo[ray] = firsts[lane];
+      answer.instance[ray] = instance;
+    }
+    for (std::uint32_t left = open_bits & ~replaces; left != 0; left &= left - 1) {
+      const int lane = __builtin_ctz(left);
+      const std::uint32_t ray = meeting.rays[at + static_cast<std::uint32_t>(lane)];
+      answer.limit[ray] = lasts[lane];
+      if (!add_other(answer, firsts[lane], ray, instance)) return Looked::too_much;
+    }
+  }
+  return nearer ? Looked::nearer : Looked::nothing_nearer;
+}
+
+/// False if too much is undecided.
+bool walk_block(const BlockWorld& world, const Block& block, RayKinds kinds, BlockAnswer& answer) {
   struct alignas(16) Waiting {
     float enter;
     int child;
-    std::uint32_t node, what;  ///< what: a node, or the bit of leaves and a place
+    std::uint32_t node, what;  ///< what: a node, or the bit of leaves and an instance
   };
   Waiting stack[bvh_max_depth * (bvh_width - 1) + 1];
   int top = 0;
   const BvhNode* const nodes = world.nodes;
   const auto greatest_limit = [&] {
     __m256 all = _mm256_load_ps(answer.limit);
-    for (int i = 8; i < all_rays; i += 8) all = _mm256_max_ps(all, _mm256_load_ps(answer.limit + i));
+    for (int i = 8; i < all_rays; i += 8)
+      all = _mm256_max_ps(all, _mm256_load_ps(answer.limit + i));
     return greatest_of(all);
   };
   float t_max = greatest_limit();
+  MeetingRays meeting = {};  // lanes beyond the last are read
+  Seen seen;
   std::uint32_t node = 0;
   for (;;) {
     ++answer.nodes;
     alignas(32) float enters[bvh_width];
     std::uint32_t met = boxes_met(nodes[node], block, t_max, enters);
-    const __m256i children =
-        _mm256_load_si256(reinterpret_cast<const __m256i*>(nodes[node].children));
-    const auto leaves =
-        static_cast<std::uint32_t>(_mm256_movemask_ps(_mm256_castsi256_ps(children)));
-    const std::uint32_t first_leaf = world.first_leaves[node];
     for (const int bottom = top; met != 0; met &= met - 1) {
       const int child = __builtin_ctz(met);
-      std::uint32_t what = nodes[node].children[child];
+      const std::uint32_t what = nodes[node].children[child];
       if (what == BvhNode::none) break;
       if (what & BvhNode::leaf) {
-        const std::uint32_t place =
-            first_leaf +
-            static_cast<std::uint32_t>(__builtin_popcount(leaves & ((1u << child) - 1u)));
-        const char* const ahead = reinterpret_cast<const char*>(world.places + place);
-        __builtin_prefetch(ahead);
-        __builtin_prefetch(ahead + sizeof(LeafPlace<double>) - 1);
-        what = BvhNode::leaf | place;
+        __builtin_prefetch(world.places + (what & ~BvhNode::leaf));
       } else {
         const char* const ahead = reinterpret_cast<const char*>(nodes + what);
         for (int line = 0; line < 4; ++line) __builtin_prefetch(ahead + 64 * line);
@@ -341,136 +249,60 @@ void look_at_block(const BlockWorld& world, const Block& block, BlockAnswer& ans
       stack[at] = {enters[child], child, node, what};
     }
     for (;;) {
-      if (top == 0) return;
-      const Waiting& next = stack[--top];
+      if (top == 0) return true;
+      const Waiting next = stack[--top];
       if (!(next.enter <= t_max)) continue;
-      const BvhNode& parent = nodes[next.node];
-      const std::uint32_t what = next.what;
-      if (!(what & BvhNode::leaf)) {
-        node = what;
+      if (!(next.what & BvhNode::leaf)) {
+        node = next.what;
         break;
       }
-      // Which rays meet the box, eight by eight.
-      const std::uint32_t leaf = what & ~BvhNode::leaf;
-      __m256 lower[3], upper[3];
-      for (int axis = 0; axis < 3; ++axis) {
-        lower[axis] = _mm256_set1_ps(parent.planes[0][axis][next.child] - block.above[axis]);
-        upper[axis] = _mm256_set1_ps(parent.planes[1][axis][next.child] - block.below[axis]);
-      }
-      // They are gathered, so that lanes are full.
-      alignas(32) float boxes[room], limits[room], los[room], deltas[3][room];
-      alignas(32) std::uint32_t rays[room];
-      alignas(32) float enters_of[all_rays];
-      std::uint32_t met_by[all_rays / 8], rows = 0;
-#pragma GCC unroll 8
-      for (int from = 0; from < all_rays; from += 8) {
-        __m256 enter = _mm256_setzero_ps(), leave = _mm256_load_ps(answer.limit + from);
-        for (int axis = 0; axis < 3; ++axis) {
-          const __m256 inverse = _mm256_load_ps(block.inverse[axis] + from);
-          const __m256 a = _mm256_mul_ps(lower[axis], inverse),
-                       b = _mm256_mul_ps(upper[axis], inverse);
-          enter = _mm256_max_ps(enter, _mm256_min_ps(a, b));
-          leave = _mm256_min_ps(leave, _mm256_max_ps(a, b));
-        }
-        const __m256 padded = _mm256_add_ps(_mm256_mul_ps(leave, _mm256_set1_ps(block_padding)),
-                                            _mm256_set1_ps(std::numeric_limits<float>::min()));
-        _mm256_store_ps(enters_of + from, _mm256_mul_ps(enter, _mm256_set1_ps(1 - 0x1p-20f)));
-        const auto here = static_cast<std::uint32_t>(
-            _mm256_movemask_ps(_mm256_cmp_ps(enter, padded, _CMP_LE_OQ)));
-        met_by[from / 8] = here;
-        rows |= (here != 0 ? 1u : 0u) << (from / 8);
-      }
-      std::uint32_t meeting = 0;
-      for (; rows != 0; rows &= rows - 1) {
-        const int row = __builtin_ctz(rows), from = 8 * row;
-        const std::uint32_t here = met_by[row];
-        const __m256i lanes = lanes_of(here);
-        const auto gather = [&](float* to, const float* all) {
-          _mm256_storeu_ps(to + meeting,
-                           _mm256_permutevar8x32_ps(_mm256_load_ps(all + from), lanes));
-        };
-        gather(boxes, enters_of);
-        gather(limits, answer.limit);
-        gather(los, answer.lo);
-        for (int axis = 0; axis < 3; ++axis) gather(deltas[axis], block.delta[axis]);
-        _mm256_storeu_si256(reinterpret_cast<__m256i*>(rays + meeting),
-                            _mm256_add_epi32(lanes, _mm256_set1_epi32(from)));
-        meeting += static_cast<std::uint32_t>(__builtin_popcount(here));
-      }
-      if (meeting == 0) continue;
-      const LeafPlace<double>& place = world.places[leaf];
-      const Screen& screen = world.screens[place.definition];
-      const FormInLanes form(screen);
-      Seen seen;
-      see(block, place, screen.alike_form, seen);
+      const std::uint32_t instance = next.what & ~BvhNode::leaf;
+      if (world.shown_to && (world.shown_to[instance] & kinds) == 0) continue;
+      gather_meeting(block, nodes[next.node], next.child, answer, meeting);
+      if (meeting.count == 0) continue;
+      const InstancePlace& place = world.places[instance];
+      const Screen& screen = world.screens[place.body];
+      seen.is_bounded = false;
+      if (screen.kind != FormKind::none) see(block, place, screen.form, seen);
       if (!seen.is_bounded) {
-        for (std::uint32_t i = 0; i < meeting; ++i) {
-          if (answer.other_count == BlockAnswer::most_others) return;
-          answer.others[answer.other_count++] = {boxes[i], rays[i], leaf};
-        }
+        for (std::uint32_t i = 0; i < meeting.count; ++i)
+          if (!add_other(answer, meeting.boxes[i], meeting.rays[i], instance)) return false;
         continue;
       }
-      bool nearer = false;
-      for (std::uint32_t at = 0; at < meeting; at += 8) {
-        W first, last;
-        Mask<W> open;
-        const Vec3<W> delta(W::load(deltas[0] + at), W::load(deltas[1] + at),
-                            W::load(deltas[2] + at));
-        look<kind>(seen, form, delta, W::load(boxes + at), first, last, open);
-        const W limit = W::load(limits + at), lo = W::load(los + at);
-        open &= first <= limit;
-        const std::uint32_t used = meeting - at < 8 ? (1u << (meeting - at)) - 1u : 0xffu;
-        const std::uint32_t open_bits = lane_bits(open) & used;
-        if (open_bits == 0) continue;
-        const Mask<W> sure = open & (last <= limit) & (last < W(infinity));
-        const std::uint32_t replaces = lane_bits(sure & (last < lo)) & used;
-        alignas(32) float firsts[8], lasts[8];
-        first.store(firsts);
-        select(sure, last, limit).store(lasts);
-        nearer = true;
-        for (std::uint32_t left = replaces; left != 0; left &= left - 1) {
-          const int lane = __builtin_ctz(left);
-          const std::uint32_t ray = rays[at + static_cast<std::uint32_t>(lane)];
-          answer.limit[ray] = lasts[lane];
-          answer.lo[ray] = firsts[lane];
-          answer.leaf[ray] = leaf;
-        }
-        for (std::uint32_t left = open_bits & ~replaces; left != 0; left &= left - 1) {
-          const int lane = __builtin_ctz(left);
-          const std::uint32_t ray = rays[at + static_cast<std::uint32_t>(lane)];
-          answer.limit[ray] = lasts[lane];
-          if (answer.other_count == BlockAnswer::most_others) return;
-          answer.others[answer.other_count++] = {firsts[lane], ray, leaf};
-        }
-      }
-      if (nearer) t_max = greatest_limit();
+      Looked looked = Looked::nothing_nearer;
+      for_kind(screen.kind, [&]<FormKind kind>() {
+        looked = look_at_instance<kind>(seen, screen, meeting, instance, answer);
+        return ScreenBits{0, 0};
+      });
+      if (looked == Looked::too_much) return false;
+      if (looked == Looked::nearer) t_max = greatest_limit();
     }
   }
 }
 
 }  // namespace
 
-bool look_at_block_avx2(const BlockWorld& world, const char* rays, std::size_t stride,
-                        std::size_t count, BlockAnswer& answer) {
+bool trace_block_avx2(const BlockWorld& world, const char* rays, std::size_t stride,
+                      std::size_t count, RayKinds kinds, const float* limits, BlockAnswer& answer) {
   Block block;
   if (!make_block(rays, stride, count, block, answer.limit)) return false;
   for (std::size_t i = 0; i < rays_of_block; i += 8) {
     _mm256_store_ps(answer.lo + i, _mm256_set1_ps(infinity));
-    _mm256_store_si256(reinterpret_cast<__m256i*>(answer.leaf + i), _mm256_set1_epi32(-1));
+    _mm256_store_si256(reinterpret_cast<__m256i*>(answer.instance + i), _mm256_set1_epi32(-1));
   }
+  for (std::size_t i = 0; limits && i < count; ++i)
+    answer.limit[i] = std::min(answer.limit[i], limits[i]);
   answer.other_count = 0;
   answer.nodes = 0;
-  for_kind(world.kind, [&]<FormKind kind>() {
-    look_at_block<kind>(world, block, answer);
-    return ScreenBits{0, 0};
-  });
-  return answer.other_count < BlockAnswer::most_others;
+  return walk_block(world, block, kinds, answer);
 }
 
 }  // namespace minkray
 #else
 namespace minkray {
-bool look_at_block_avx2(const BlockWorld&, const char*, std::size_t, std::size_t, BlockAnswer&) {
+/// Never called on other machines.
+bool trace_block_avx2(const BlockWorld&, const char*, std::size_t, std::size_t, RayKinds,
+                      const float*, BlockAnswer&) {
   return false;
 }
 }  // namespace minkray

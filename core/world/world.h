@@ -1,205 +1,122 @@
 // SPDX-License-Identifier: MIT
-// Many shapes and the question which of them a ray meets: joins the hierarchy of boxes with the
-// solvers.
+// Many shapes, and which of them a ray meets: joins the hierarchy of boxes with the solvers.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <span>
 
 #include "core/bvh/bvh.h"
 #include "core/cast/cast.h"
-#include "core/math/ray.h"
+#include "core/cast/packet_cast.h"
 #include "core/world/instances.h"
+#include "core/world/world_ray.h"
 
 namespace minkray {
 
-struct BlockHits;
 struct SlabRay;
 
-/// "No instance": as an answer, nothing was met; as the instance to leave out, none is.
-inline constexpr std::uint32_t no_instance = std::numeric_limits<std::uint32_t>::max();
-
-/// What queries cost, and how often a solver gave up. Adds up over rays.
-struct QueryCounts {
-  std::uint64_t nodes = 0;  ///< visited; by rays that go together, once for all of them
-  std::uint64_t casts = 0;  ///< shapes cast at
-  std::uint64_t iterations = 0;
-  std::uint64_t supports = 0;
-  std::array<std::uint64_t, path_count> by_path = {};  ///< of `casts`, those that a path answered
-  std::uint64_t exhausted = 0;  ///< casts that neither hit nor missed; the shape was passed through
-
-  std::uint64_t answered_by(Path path) const { return by_path[static_cast<std::size_t>(path)]; }
-
-  /// The furthest path that any cast needed; the first, if there was none.
-  Path furthest_path() const {
-    std::size_t path = path_count - 1;
-    while (path > 0 && by_path[path] == 0) --path;
-    return static_cast<Path>(path);
-  }
-
-  /// One more cast.
-  void add_cast(int its_supports, int its_iterations, Path path, bool is_exhausted) {
-    ++casts;
-    iterations += static_cast<std::uint64_t>(its_iterations);
-    supports += static_cast<std::uint64_t>(its_supports);
-    ++by_path[static_cast<std::size_t>(path)];
-    exhausted += is_exhausted ? 1 : 0;
-  }
-  template <class T>
-  void add_cast(const CastResult<T>& result) {
-    add_cast(result.supports, result.iterations, result.path, result.status == Status::exhausted);
-  }
-
-  QueryCounts& operator+=(const QueryCounts& other) {
-    nodes += other.nodes;
-    casts += other.casts;
-    iterations += other.iterations;
-    supports += other.supports;
-    for (std::size_t i = 0; i < by_path.size(); ++i) by_path[i] += other.by_path[i];
-    exhausted += other.exhausted;
-    return *this;
-  }
+/// Answers of up to 64 rays that follow each other, in packets of four.
+struct BlockHits {
+  std::array<CastPacket<double>, 16> casts;
+  std::array<std::uint32_t, 64> instance;
+  std::uint64_t found;  ///< bits of rays whose answers are hits, or inside
 };
 
-/// The first instance that a ray meets.
-template <class T>
-struct WorldHit {
-  std::uint32_t instance = no_instance;
-  CastResult<T> cast;  ///< of that instance (status hit or inside); if none was met, status miss
-
-  bool found() const { return instance != no_instance; }
-  /// Whether another instance, met at t, comes before this.
-  bool yields_to(std::uint32_t other, T t) const {
-    return !found() || t < cast.t() || (t == cast.t() && other < instance);
-  }
+/// Receives the answers of many rays, in parts, in any order. Each ray is answered once.
+class HitReceiver {
+ public:
+  virtual ~HitReceiver() = default;
+  /// `exhausted`: a solver failed to converge at any instance.
+  virtual void take(std::size_t ray, const WorldHit& hit, bool exhausted) = 0;
+  /// Rays from `first` on whose bits are set in `which`.
+  virtual void take(std::size_t first, std::uint64_t which, const BlockHits& hits) = 0;
 };
 
-/// A ray, the instance that it leaves, when it is cast (from 0 to 1), and of which kinds it is: it
-/// meets what is shown to one of them.
-template <class T>
-struct WorldRay {
-  Ray<T> ray;
-  std::uint32_t skip = no_instance;
-  T time = T(0);
-  RayKinds kinds = all_ray_kinds;
-
-  /// Whether it goes through the instance, whatever that is like.
-  bool passes(const Instances<T>& instances, std::uint32_t instance) const {
-    return instance == skip || !instances.is_shown_to(instance, kinds);
-  }
-};
-
-/// So many rays can be asked for at once.
-inline constexpr int most_rays_at_once = ray_group_capacity;
-
-/// It is immutable but for pose_all, so any number of threads may ask. An answer depends on nothing
-/// but the ray: the same bit for bit whether it is asked for alone or with others, and for whatever
+/// Any number of threads may query it while none changes it. An answer depends on nothing but the
+/// ray: it is the same bit for bit whether the ray is asked alone or with others, and for whatever
 /// hierarchy.
-template <class T>
 class World {
  public:
   World() = default;
-  explicit World(Instances<T> instances, const CastOptions<T>& options = {},
+  explicit World(Instances instances, const CastOptions<double>& options = {},
                  BvhBuild build = BvhBuild::quality);
 
   /// The instance that the ray meets first, with 0 <= t <= t_max; where several are met at the same
   /// t, that of the least index. `skip` is left out: a ray that leaves a convex shape does not meet
-  /// it again. Casts that exhaust their solver are counted and taken for neither: the caller must
-  /// look.
-  WorldHit<T> closest_hit(const Ray<T>& ray, QueryCounts& counts, std::uint32_t skip = no_instance,
-                          T time = T(0)) const {
-    return closest_hit(WorldRay<T>{ray, skip, time}, counts);
+  /// it again. A cast that does not converge is neither a hit nor a miss; check `counts.exhausted`.
+  WorldHit closest_hit(const Ray<double>& ray, QueryCounts& counts,
+                       std::uint32_t skip = no_instance, double time = 0) const {
+    return closest_hit(WorldRay{ray, skip, time}, counts);
   }
-  WorldHit<T> closest_hit(const WorldRay<T>& ray, QueryCounts& counts) const;
+  WorldHit closest_hit(const WorldRay& ray, QueryCounts& counts) const;
 
-  /// Whether any instance but `skip` is met with 0 <= t <= t_max.
-  bool occluded(const Ray<T>& ray, QueryCounts& counts, std::uint32_t skip = no_instance,
-                T time = T(0)) const {
-    return occluded(WorldRay<T>{ray, skip, time}, counts);
+  /// True if any instance but `skip` is met with 0 <= t <= t_max.
+  bool occluded(const Ray<double>& ray, QueryCounts& counts, std::uint32_t skip = no_instance,
+                double time = 0) const {
+    return occluded(WorldRay{ray, skip, time}, counts);
   }
-  bool occluded(const WorldRay<T>& ray, QueryCounts& counts) const;
+  bool occluded(const WorldRay& ray, QueryCounts& counts) const;
 
-  /// Answers up to most_rays_at_once rays, faster the closer together they run. hits[i] answers
-  /// rays[i].
-  void closest_hits(std::span<const WorldRay<T>> rays, std::span<WorldHit<T>> hits,
+  /// Answers any number of rays; faster the more there are, and the closer neighbours run together.
+  void closest_hits(const RaySpan& rays, HitReceiver& to, QueryCounts& counts) const;
+  /// hits[i] answers rays[i].
+  void closest_hits(std::span<const WorldRay> rays, std::span<WorldHit> hits,
                     QueryCounts& counts) const;
-
-  /// Bit i answers rays[i].
-  RayGroupMask occluded(std::span<const WorldRay<T>> rays, QueryCounts& counts) const;
-
-  /// Answer any number of rays that go each their own way.
-  void closest_hits_in_stream(std::span<const WorldRay<T>> rays, std::span<WorldHit<T>> hits,
-                              QueryCounts& counts) const;
   /// met[i] becomes 1 if rays[i] is occluded, 0 if not.
-  void occluded_in_stream(std::span<const WorldRay<T>> rays, std::span<std::uint8_t> met,
-                          QueryCounts& counts) const;
+  void occluded(const RaySpan& rays, std::span<std::uint8_t> met, QueryCounts& counts) const;
+  void occluded(std::span<const WorldRay> rays, std::span<std::uint8_t> met,
+                QueryCounts& counts) const {
+    occluded(RaySpan(rays), met, counts);
+  }
 
-  /// Answers any number of rays, those that follow each other and run alike together, others as
-  /// a stream.
-  void closest_hits_of_all(std::span<const WorldRay<T>> rays, std::span<WorldHit<T>> hits,
-                           QueryCounts& counts) const;
+  /// Moves all instances: the i-th to pose_of(i), which several threads call at once, and with a
+  /// movement_of, from there as that says while time goes from 0 to 1. The hierarchy stays the same
+  /// tree around other boxes, unless these make rays visit half as much again: then it is rebuilt.
+  void pose_all(const std::function<Affine<double>(std::size_t)>& pose_of,
+                const std::function<Movement<double>(std::size_t)>& movement_of = {});
 
-  /// Answers up to 64 rays from one point that run nearly alike (core/world/ray_block.h), which follow
-  /// each other `stride` bytes apart; false if they do not run so, or instances are not alike.
-  bool closest_of_block(const Ray<T>* rays, std::size_t stride, std::size_t count, BlockHits& hits,
-                        QueryCounts& counts) const;
-
-  /// Moves all instances: the i-th to pose_of(i), which is asked from several threads at once, and
-  /// if there is a movement_of, from there as that says while time goes from 0 to 1. The
-  /// hierarchy stays the same tree around other boxes, unless these make rays visit half as much
-  /// again: then it is built anew.
-  void pose_all(const std::function<Affine<T>(std::size_t)>& pose_of,
-                const std::function<Movement<T>(std::size_t)>& movement_of = {});
-
-  const Instances<T>& instances() const { return instances_; }
+  const Instances& instances() const { return instances_; }
+  /// Takes the instances out, to be changed and made a world of again.
+  Instances release() && { return std::move(instances_); }
   const Bvh& bvh() const { return bvh_; }
-  const CastOptions<T>& options() const { return options_; }
+  const CastOptions<double>& options() const { return options_; }
 
   /// Memory of instances and hierarchy, without the points of hulls, which shapes share.
   std::size_t bytes() const { return bvh_.bytes() + instances_.bytes(); }
 
  private:
-  /// The ray is made ready. They tell what comes before the closest hit so far, if any; and whether
-  /// anything is met.
-  void closer_hit(const WorldRay<T>& ray, SlabRay& slabs, WorldHit<T>& closest,
+  void build(const FirstTouchVector<Bounds<float>>& boxes);
+  void closer_hit(const WorldRay& ray, SlabRay& slabs, WorldHit& closest,
                   QueryCounts& counts) const;
-  bool is_blocked(const WorldRay<T>& ray, const SlabRay& slabs, QueryCounts& counts) const;
-  /// They look at half-spaces alone, which are in no hierarchy.
-  bool closer_half_space(const WorldRay<T>& ray, WorldHit<T>& closest, QueryCounts& counts) const;
-  bool blocked_by_half_space(const WorldRay<T>& ray, QueryCounts& counts) const;
+  /// Half-spaces are in no hierarchy.
+  bool closer_half_space(const WorldRay& ray, WorldHit& closest, QueryCounts& counts) const;
+  bool blocked_by_half_space(const WorldRay& ray, QueryCounts& counts) const;
 
-  /// Answer so many rays of a stream as stay in the cache.
-  void closest_of_pairs(std::span<const WorldRay<T>> rays, std::span<WorldHit<T>> hits,
-                        QueryCounts& counts) const;
-  void occluded_of_pairs(std::span<const WorldRay<T>> rays, std::span<std::uint8_t> met,
-                         QueryCounts& counts) const;
-  /// Likewise, where lanes look at all instances alike (Instances::kind_of_all).
-  void closest_of_alike(std::span<const WorldRay<T>> rays, std::span<WorldHit<T>> hits,
-                        QueryCounts& counts) const;
-  void occluded_of_alike(std::span<const WorldRay<T>> rays, std::span<std::uint8_t> met,
-                         QueryCounts& counts) const;
-  /// What walks call with instances that they may come to.
-  auto prefetching() const {
-    return [this, have_own_maps = instances_.have_own_maps()](std::uint32_t instance) {
-      instances_.prefetch_place(instance);
-      if (have_own_maps) instances_.prefetch_own_map(instance);
-    };
-  }
-  /// Whether lanes of floats may look at pairs first.
+  /// False if the rays are no block: nothing was answered.
+  bool answer_block(const RaySpan& rays, std::size_t first, HitReceiver& to,
+                    QueryCounts& counts) const;
+  /// At most rays_of_stream rays that go each their own way; they are the caller's from `first` on.
+  void answer_stream(const RaySpan& rays, std::size_t first, HitReceiver& to,
+                     QueryCounts& counts) const;
+  void occluded_in_stream(const RaySpan& rays, std::span<std::uint8_t> met,
+                          QueryCounts& counts) const;
+  /// True if float lanes may look at pairs first.
   bool has_screen() const;
+  auto prefetching() const {
+    return [this](std::uint32_t instance) { instances_.prefetch(instance); };
+  }
 
-  Instances<T> instances_;
+  Instances instances_;
   Bvh bvh_;
   BvhBuild build_ = BvhBuild::quality;
-  double visits_as_built_ = 0;  ///< expected of a ray; 0: not asked for yet
-  CastOptions<T> options_;
-  bool in_packets_ = true;  ///< whether the options are those of packets
+  double visits_as_built_ = 0;  ///< expected per ray; 0: not known yet
+  CastOptions<double> options_;
+  bool is_default_ = true;  ///< the options are those of packets and closed forms
+  FormKind kind_of_all_ = FormKind::none;
 };
 
-extern template class World<float>;
-extern template class World<double>;
+/// Rays whose numbers stay in the cache while they are under way.
+inline constexpr std::size_t rays_of_stream = 1024;
 
 }  // namespace minkray

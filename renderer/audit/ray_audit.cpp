@@ -48,7 +48,7 @@ std::string query_line(const Object& object, const Shape<double>& in_world,
 
 }  // namespace
 
-RayAudit::RayAudit(const Scene& scene, const RenderWorld& world) : scene_(scene), world_(world) {
+RayAudit::RayAudit(const Scene& scene, const World& world) : scene_(scene), world_(world) {
   for (std::size_t i = 0; i < instance_count(scene); ++i) {
     const Object object = instance_object(scene, i);
     if (object.half_space) {
@@ -115,8 +115,8 @@ bool RayAudit::all_missed(RayKind kind, const Ray<double>& ray, std::uint32_t sk
   return true;
 }
 
-void RayAudit::closest(RayKind kind, const Ray<Real>& ray, std::uint32_t skip,
-                       const WorldHit<Real>& answer) {
+void RayAudit::closest(RayKind kind, const Ray<double>& ray, std::uint32_t skip,
+                       const WorldHit& answer) {
   ++rays_[index(kind)];
   if (!answer.found()) {
     all_missed(kind, ray, skip, no_instance);
@@ -131,7 +131,7 @@ void RayAudit::closest(RayKind kind, const Ray<Real>& ray, std::uint32_t skip,
              answer.instance);
 }
 
-void RayAudit::occluded(RayKind kind, const Ray<Real>& ray, std::uint32_t skip, bool answer) {
+void RayAudit::occluded(RayKind kind, const Ray<double>& ray, std::uint32_t skip, bool answer) {
   ++rays_[index(kind)];
   if (!answer) {
     all_missed(kind, ray, skip, no_instance);
@@ -139,7 +139,7 @@ void RayAudit::occluded(RayKind kind, const Ray<Real>& ray, std::uint32_t skip, 
   }
   for (std::uint32_t i = 0; i < targets_.size(); ++i) {
     if (i == skip || !may_meet(kind, i, ray)) continue;
-    const CastResult<Real> cast = targets_[i].half_space
+    const CastResult<double> cast = targets_[i].half_space
                                       ? cast_ray(*targets_[i].half_space, ray)
                                       : cast_ray(world_.instances().at(i), ray, world_.options());
     if (cast.found() && verdict(i, ray, claim_of(cast)).holds) return;

@@ -30,11 +30,11 @@ struct AuditFailure {
 /// Refers to scene and world, object by object. Any number of threads may ask.
 class RayAudit final : public RayObserver {
  public:
-  RayAudit(const Scene& scene, const RenderWorld& world);
+  RayAudit(const Scene& scene, const World& world);
 
-  void closest(RayKind kind, const Ray<Real>& ray, std::uint32_t skip,
-               const WorldHit<Real>& answer) override;
-  void occluded(RayKind kind, const Ray<Real>& ray, std::uint32_t skip, bool answer) override;
+  void closest(RayKind kind, const Ray<double>& ray, std::uint32_t skip,
+               const WorldHit& answer) override;
+  void occluded(RayKind kind, const Ray<double>& ray, std::uint32_t skip, bool answer) override;
 
   std::uint64_t rays(RayKind kind) const { return rays_[index(kind)]; }
   std::uint64_t failed(RayKind kind) const { return failed_[index(kind)]; }
@@ -56,7 +56,7 @@ class RayAudit final : public RayObserver {
   void fail(RayKind kind, std::uint32_t instance, const Ray<double>& ray, std::string_view what);
 
   const Scene& scene_;
-  const RenderWorld& world_;
+  const World& world_;
   std::vector<Target> targets_;
   std::array<std::atomic<std::uint64_t>, 4> rays_{}, failed_{};
   std::atomic<std::uint64_t> certificates_ = 0;

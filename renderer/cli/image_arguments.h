@@ -74,7 +74,7 @@ void check_outputs_beside(const Scene& scene, const std::vector<std::string>& ou
 bool is_same_file(const std::string& a, const std::string& b);
 
 /// Options for the casts of a solver by name. Throws WrongUsage with the names there are.
-CastOptions<Real> cast_options(const std::string& solver, const std::string& option = "--solver");
+CastOptions<double> cast_options(const std::string& solver, const std::string& option = "--solver");
 
 /// Encodes and writes to each of the paths: `floats` to the formats that keep them, `picture` to
 /// the others. Ends the process early if it was interrupted.

@@ -14,7 +14,7 @@ namespace minkray {
 /// What is the same for all shares of a picture.
 struct RenderJob {
   Scene scene;
-  RenderWorld world;
+  World world;
   RenderOptions options;
   std::vector<std::string_view> channels;  ///< names of data channels
   std::string command;

@@ -87,7 +87,7 @@ void print(const RenderStatistics& s) {
 
 }  // namespace
 
-void RenderStatistics::describe(const Scene& scene, const RenderWorld& world) {
+void RenderStatistics::describe(const Scene& scene, const World& world) {
   objects = instance_count(scene);
   threads = thread_count();
   world_bytes = world.bytes();

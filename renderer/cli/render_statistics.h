@@ -17,7 +17,7 @@ struct RenderStatistics {
   double noise = -1;  ///< Rendering::noise
 
   /// Fills in what is known before the first ray.
-  void describe(const Scene& scene, const RenderWorld& world);
+  void describe(const Scene& scene, const World& world);
 
   double per_object(std::size_t bytes) const {
     return static_cast<double>(bytes) / static_cast<double>(std::max<std::size_t>(objects, 1));

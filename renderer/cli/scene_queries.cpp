@@ -59,7 +59,7 @@ std::optional<Json> SceneQueries::answer(std::string_view line, Mistakes& mistak
 
   const std::shared_ptr<const Loaded> loaded = load(file);
   QueryCounts counts;
-  const WorldHit<Real> hit = loaded->world.closest_hit(ray, counts);
+  const WorldHit hit = loaded->world.closest_hit(ray, counts);
   Json result = Json::object();
   if (!name.empty()) result["name"] = name;
   // What a solver gave up on may have been in front of anything.

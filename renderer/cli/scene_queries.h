@@ -10,7 +10,7 @@
 #include <optional>
 #include <string_view>
 
-#include "renderer/base/real.h"
+#include "core/world/world.h"
 #include "renderer/json/json.h"
 #include "renderer/json/mistakes.h"
 #include "renderer/scene/scene.h"
@@ -33,7 +33,7 @@ class SceneQueries {
  private:
   struct Loaded {
     Scene scene;
-    RenderWorld world;
+    World world;
   };
   std::shared_ptr<const Loaded> load(const std::string& name);
 

@@ -62,7 +62,7 @@ void run(HeatmapVerbOptions& options) {
     const InterruptGuard guard;
     fields.reserve(solvers.size());
     for (const std::string& solver : solvers) {
-      const RenderWorld world = make_world(scene, cast_options(solver));
+      const World world = make_world(scene, cast_options(solver));
       ProgressLine line(!options.image.quiet);
       fields.push_back(
           measure_heat(scene, world, channel, render_options,

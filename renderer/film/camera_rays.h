@@ -15,7 +15,7 @@ namespace minkray {
 
 class CameraRays {
  public:
-  CameraRays(const Scene& scene, const RenderWorld& world, const RenderOptions& options)
+  CameraRays(const Scene& scene, const World& world, const RenderOptions& options)
       : camera_(scene.camera, options.resolution),
         seed_(options.seed),
         blurs_(world.instances().move()),

@@ -103,7 +103,7 @@ float cryptomatte_id(std::string_view name) {
   return std::bit_cast<float>(bits_of_id(name));
 }
 
-Cryptomatte measure_cryptomatte(const Scene& scene, const RenderWorld& world,
+Cryptomatte measure_cryptomatte(const Scene& scene, const World& world,
                                 const RenderOptions& options, const RenderWatch& watch) {
   const Names names(scene);
   const CameraRays rays(scene, world, options);
@@ -122,10 +122,11 @@ Cryptomatte measure_cryptomatte(const Scene& scene, const RenderWorld& world,
   RayCounts counts;
   for_pixels(region, counts, watch, [&](const Pixel& pixel, RayCounts& of_tile) {
     Met met;
-    std::array<WorldRay<Real>, most_in_ray_group> asked;
-    std::array<WorldHit<Real>, most_in_ray_group> hits;
+    constexpr int at_once = 64;
+    std::array<WorldRay, at_once> asked;
+    std::array<WorldHit, at_once> hits;
     for (int first = 0; first < options.samples && !watch.stopped();) {
-      const int count = std::min(options.samples - first, most_in_ray_group);
+      const int count = std::min(options.samples - first, at_once);
       for (int i = 0; i < count; ++i) {
         const TracedRay ray = rays.ray(pixel, first + i);
         asked[static_cast<std::size_t>(i)] = {ray.ray, ray.left, ray.time, camera_rays};

@@ -29,7 +29,7 @@ struct Cryptomatte {
 
 /// It is of the region that `options` ask for, by all threads, and of no use if the watch said
 /// stop.
-Cryptomatte measure_cryptomatte(const Scene& scene, const RenderWorld& world,
+Cryptomatte measure_cryptomatte(const Scene& scene, const World& world,
                                 const RenderOptions& options, const RenderWatch& watch = {});
 
 }  // namespace minkray

@@ -21,8 +21,8 @@ using Integers = std::vector<std::uint32_t>;
 
 /// What the ray through a pixel's centre found.
 struct Found {
-  Ray<Real> ray;
-  WorldHit<Real> hit;
+  Ray<double> ray;
+  WorldHit hit;
   QueryCounts work;
   Colour albedo = Colour::Zero(), emission = Colour::Zero();
   double thickness = 0;
@@ -198,7 +198,7 @@ std::vector<ExrPlane> light_planes(const Rendering& rendering,
   return planes.planes;
 }
 
-std::vector<ExrPlane> measure_data_channels(const Scene& scene, const RenderWorld& world,
+std::vector<ExrPlane> measure_data_channels(const Scene& scene, const World& world,
                                             const std::vector<std::string_view>& channels,
                                             const RenderOptions& options,
                                             const RenderWatch& watch) {

@@ -78,7 +78,7 @@ std::vector<ExrPlane> light_planes(const Rendering& rendering,
 
 /// The planes of those of the channels that the rays through pixels' centres tell, of the region
 /// that `options` ask for; all threads. They are of no use if the watch said stop.
-std::vector<ExrPlane> measure_data_channels(const Scene& scene, const RenderWorld& world,
+std::vector<ExrPlane> measure_data_channels(const Scene& scene, const World& world,
                                             const std::vector<std::string_view>& channels,
                                             const RenderOptions& options,
                                             const RenderWatch& watch = {});

@@ -12,7 +12,7 @@ constexpr int most_rays = 16;
 
 }  // namespace
 
-NoisyPicture noisy_picture(const Scene& scene, const RenderWorld& world,
+NoisyPicture noisy_picture(const Scene& scene, const World& world,
                            const RenderOptions& options, const Rendering& rendering,
                            const RenderWatch& watch) {
   NoisyPicture picture{rendering.image, rendering.variance, rendering.image, rendering.image,
@@ -28,7 +28,7 @@ NoisyPicture noisy_picture(const Scene& scene, const RenderWorld& world,
     int met = 0;
     for (int sample = 0; sample < count; ++sample) {
       const TracedRay ray = rays.ray(pixel, sample);
-      const WorldHit<Real> hit =
+      const WorldHit hit =
           world.closest_hit({ray.ray, ray.left, ray.time, camera_rays}, of_tile.work);
       ++of_tile.camera;
       if (hit.cast.status != Status::hit) continue;

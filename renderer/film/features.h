@@ -10,7 +10,7 @@
 namespace minkray {
 
 /// The rendering, which must have its variance, made ready for `denoised`.
-NoisyPicture noisy_picture(const Scene& scene, const RenderWorld& world,
+NoisyPicture noisy_picture(const Scene& scene, const World& world,
                            const RenderOptions& options, const Rendering& rendering,
                            const RenderWatch& watch = {});
 

@@ -16,10 +16,10 @@ float status_number(Status status) {
   return static_cast<float>(at - heat_statuses.begin());
 }
 
-float heat_of_ray(const RenderWorld& world, const Ray<Real>& ray, HeatChannel channel,
+float heat_of_ray(const World& world, const Ray<double>& ray, HeatChannel channel,
                   QueryCounts& counts) {
   QueryCounts work;
-  const WorldHit<Real> hit = world.closest_hit({ray, no_instance, 0, camera_rays}, work);
+  const WorldHit hit = world.closest_hit({ray, no_instance, 0, camera_rays}, work);
   counts += work;
   switch (channel) {
     case HeatChannel::iterations:
@@ -57,7 +57,7 @@ std::string bar(double fraction, int width) {
 
 }  // namespace
 
-HeatField measure_heat(const Scene& scene, const RenderWorld& world, HeatChannel channel,
+HeatField measure_heat(const Scene& scene, const World& world, HeatChannel channel,
                        const RenderOptions& options, const RenderWatch& watch) {
   const Camera camera(scene.camera, options.resolution);
   const PixelRect region = options.region();
@@ -73,7 +73,7 @@ HeatField measure_heat(const Scene& scene, const RenderWorld& world, HeatChannel
       Sampler sampler(options.seed, pixel.x, pixel.y, static_cast<std::uint32_t>(sample));
       const std::array<double, 2> at =
           options.samples == 1 ? std::array<double, 2>{0.5, 0.5} : sampler.next();
-      const Ray<Real> ray = camera.ray(pixel.x + at[0], pixel.y + at[1]);
+      const Ray<double> ray = camera.ray(pixel.x + at[0], pixel.y + at[1]);
       const float heat = heat_of_ray(world, ray, channel, of_tile.work);
       ++of_tile.camera;
       sum += static_cast<double>(heat);

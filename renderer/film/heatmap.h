@@ -49,7 +49,7 @@ struct HeatField {
 
 /// Casts one ray through each pixel's centre (samples 1), or samples evenly spread over it, of
 /// which counts are averaged and statuses give way to the gravest.
-HeatField measure_heat(const Scene& scene, const RenderWorld& world, HeatChannel channel,
+HeatField measure_heat(const Scene& scene, const World& world, HeatChannel channel,
                        const RenderOptions& options, const RenderWatch& watch = {});
 
 struct HeatSummary {

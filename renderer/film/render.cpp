@@ -23,10 +23,6 @@ struct RayGroupShape {
   }
 };
 
-/// So many camera rays are traced at once, so that what they scatter makes streams; groups of
-/// neighbours among them walk the hierarchy together.
-constexpr int most_in_wave = 512;
-
 /// While the shutter is open.
 bool is_on_the_move(const Scene& scene) {
   return std::any_of(scene.objects.begin(), scene.objects.end(),
@@ -75,7 +71,7 @@ class MeanNoise {
 /// Renders passes over a picture's pixels into one rendering.
 class Rendered {
  public:
-  Rendered(const Scene& scene, const RenderWorld& world, const RenderOptions& options,
+  Rendered(const Scene& scene, const World& world, const RenderOptions& options,
            const RenderWatch& watch, RenderJournal& journal)
       : options_(options),
         watch_(watch),
@@ -122,10 +118,8 @@ class Rendered {
   /// Only the last pass finishes tiles. False if the watch said stop.
   bool render(const Pass& pass, bool is_last) {
     // The rays of a group: samples of one pixel first, they are the closest together; then pixels.
-    // A wave has several groups, where those are of one pixel each.
-    const int samples = pass.end - pass.first, together = options_.integrator.ray_group;
-    const bool has_waves = together > 1 && samples >= together;
-    const RayGroupShape group(has_waves ? most_in_wave : together, samples);
+    const int samples = pass.end - pass.first;
+    const RayGroupShape group(options_.integrator.ray_group, samples);
     TileJournal tiles{journal_.done, {}};
     if (journal_.finished && is_last)
       tiles.finished = [&](std::size_t tile) { journal_.finished(rendering_, tile); };
@@ -232,18 +226,18 @@ class Rendered {
 
 }  // namespace
 
-RenderWorld make_world(const Scene& scene, const CastOptions<Real>& options, BvhBuild build) {
-  Instances<Real> instances;
+World make_world(const Scene& scene, const CastOptions<double>& options, BvhBuild build) {
+  Instances instances;
   instances.reserve(instance_count(scene));
   for (const Object& object : scene.objects) add_object(instances, object);
   add_particles(instances, scene);
   show_instances(instances, scene);
-  RenderWorld world(std::move(instances), options, build);
+  World world(std::move(instances), options, build);
   if (is_on_the_move(scene)) follow(world, scene);
   return world;
 }
 
-void follow(RenderWorld& world, const Scene& scene) {
+void follow(World& world, const Scene& scene) {
   const auto pose = [&](std::size_t i) { return instance_pose(scene, i); };
   if (is_on_the_move(scene))
     world.pose_all(pose, [&](std::size_t i) { return instance_movement(scene, i); });
@@ -251,7 +245,7 @@ void follow(RenderWorld& world, const Scene& scene) {
     world.pose_all(pose);
 }
 
-Rendering render(const Scene& scene, const RenderWorld& world, const RenderOptions& options,
+Rendering render(const Scene& scene, const World& world, const RenderOptions& options,
                  const RenderWatch& watch, RenderJournal journal) {
   return Rendered(scene, world, options, watch, journal).run();
 }

@@ -11,11 +11,11 @@
 namespace minkray {
 
 /// The scene's objects, then its particles, in order.
-RenderWorld make_world(const Scene& scene, const CastOptions<Real>& options = {},
+World make_world(const Scene& scene, const CastOptions<double>& options = {},
                        BvhBuild build = BvhBuild::quality);
 
 /// Moves a world's instances to where the scene, of which it was made, has them by now.
-void follow(RenderWorld& world, const Scene& scene);
+void follow(World& world, const Scene& scene);
 
 struct RenderOptions {
   Resolution resolution;
@@ -65,7 +65,7 @@ struct RenderJournal {
 };
 
 /// Refers to `world` made of `scene`.
-Rendering render(const Scene& scene, const RenderWorld& world, const RenderOptions& options,
+Rendering render(const Scene& scene, const World& world, const RenderOptions& options,
                  const RenderWatch& watch = {}, RenderJournal journal = {});
 
 }  // namespace minkray

@@ -87,7 +87,7 @@ std::string info_as_json(const Scene& scene, Json model, Json meshes) {
   json["hull_points"] = summary.hull_points;
   if (!meshes.is_null()) json["meshes"] = std::move(meshes);
   json["bytes"] = summary.bytes;
-  const RenderWorld world = make_world(scene);
+  const World world = make_world(scene);
   json["world_bytes"] = world.bytes();
   json["hierarchy_bytes"] = world.bvh().bytes();
   json["bounds"] = nullptr;
@@ -131,7 +131,7 @@ std::string info_as_text(const Scene& scene) {
     text += line("bounds", text_of(summary.bounds.lower) + " to " + text_of(summary.bounds.upper));
   }
   // What is read, and what is made of it for rays.
-  const RenderWorld world = make_world(scene);
+  const World world = make_world(scene);
   const auto per_object = [&](std::size_t bytes) {
     const std::size_t objects = std::max<std::size_t>(summary.instances, 1);
     return std::to_string((bytes + objects / 2) / objects);

@@ -14,7 +14,7 @@ namespace {
 /// A ray is asked so often for its time; others run on the machine, too.
 constexpr int tries = 3;
 
-RayCost cost_of(const SceneCasts& casts, const Ray<Real>& ray) {
+RayCost cost_of(const SceneCasts& casts, const Ray<double>& ray) {
   using Clock = std::chrono::steady_clock;
   RayCost cost;
   double least = std::numeric_limits<double>::infinity();
@@ -51,12 +51,12 @@ auto plane_of(const std::vector<From>& from, const Get& get) {
 
 }  // namespace
 
-ShownCast shown_cast(const SceneCasts& casts, const Ray<Real>& ray, std::size_t most_looked_at) {
+ShownCast shown_cast(const SceneCasts& casts, const Ray<double>& ray, std::size_t most_looked_at) {
   const SceneAnswer answer = casts.answer(ray);
   ShownCast shown;
   const auto instance = casts.shown(ray, answer, most_looked_at);
   // Without iterations to show it is the picture's own answer.
-  const CastResult<Real> result = instance ? casts.trace(*instance, ray).result : answer.hit.cast;
+  const CastResult<double> result = instance ? casts.trace(*instance, ray).result : answer.hit.cast;
   if (instance) shown.object = static_cast<std::uint32_t>(*instance + 1);
   if (!instance && answer.hit.found()) shown.object = answer.hit.instance + 1;
   shown.status = number_of(result.status);
@@ -81,7 +81,7 @@ PixelAnswers measure_pixels(const Scene& scene, const std::vector<const SceneCas
   answers.of_ray.assign(solvers.size(), std::vector<RayCost>(pixel_count(all)));
   RayCounts counts;
   answers.complete = for_pixels(all, counts, watch, [&](const Pixel& pixel, RayCounts& of_tile) {
-    const Ray<Real> ray = camera.ray(pixel.x + 0.5, pixel.y + 0.5);
+    const Ray<double> ray = camera.ray(pixel.x + 0.5, pixel.y + 0.5);
     answers.shown[pixel.index] = shown_cast(*solvers.front(), ray, most_looked_at_in_picture);
     for (std::size_t k = 0; k < solvers.size(); ++k)
       answers.of_ray[k][pixel.index] = cost_of(*solvers[k], ray);

@@ -38,7 +38,7 @@ PixelAnswers measure_pixels(const Scene& scene, const std::vector<const SceneCas
                             const Resolution& resolution, const RenderWatch& watch);
 
 /// The cast that is shown of a ray: what the page says of a pixel.
-ShownCast shown_cast(const SceneCasts& casts, const Ray<Real>& ray, std::size_t most_looked_at);
+ShownCast shown_cast(const SceneCasts& casts, const Ray<double>& ray, std::size_t most_looked_at);
 
 /// How many instances are looked at for the hardest miss of a pixel in a picture, and of a single
 /// one.

@@ -15,7 +15,7 @@ namespace minkray {
 /// A ray of the picture: the pixel, and where it passes through it.
 struct PixelRay {
   double x, y;  ///< pixel centres lie at halves
-  Ray<Real> ray;
+  Ray<double> ray;
 };
 
 class ReplayLines {

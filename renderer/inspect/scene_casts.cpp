@@ -5,18 +5,18 @@
 
 namespace minkray {
 
-SceneCasts::SceneCasts(const Scene& scene, const CastOptions<Real>& options)
+SceneCasts::SceneCasts(const Scene& scene, const CastOptions<double>& options)
     : world_(make_world(scene, options)) {}
 
-SceneAnswer SceneCasts::answer(const Ray<Real>& ray) const {
+SceneAnswer SceneCasts::answer(const Ray<double>& ray) const {
   SceneAnswer answer;
   answer.hit = world_.closest_hit({ray, no_instance, 0, camera_rays}, answer.work);
   return answer;
 }
 
-std::optional<std::size_t> SceneCasts::shown(const Ray<Real>& ray, const SceneAnswer& answer,
+std::optional<std::size_t> SceneCasts::shown(const Ray<double>& ray, const SceneAnswer& answer,
                                              std::size_t most_looked_at) const {
-  const Instances<Real>& instances = world_.instances();
+  const Instances& instances = world_.instances();
   if (answer.hit.found()) {
     if (instances.is_half_space(answer.hit.instance)) return std::nullopt;
     return answer.hit.instance;
@@ -26,7 +26,7 @@ std::optional<std::size_t> SceneCasts::shown(const Ray<Real>& ray, const SceneAn
   int iterations = -1;
   for (std::size_t i = 0; i < instances.size(); ++i) {
     if (instances.is_half_space(i)) continue;
-    const CastResult<Real> result = cast_ray(instances.at(i), ray, world_.options());
+    const CastResult<double> result = cast_ray(instances.at(i), ray, world_.options());
     if (result.iterations <= iterations) continue;
     hardest = i;
     iterations = result.iterations;

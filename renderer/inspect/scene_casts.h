@@ -6,7 +6,7 @@
 
 #include <optional>
 
-#include "renderer/base/real.h"
+#include "core/world/world.h"
 #include "renderer/query/trace.h"
 #include "renderer/scene/scene.h"
 
@@ -14,32 +14,32 @@ namespace minkray {
 
 /// What a ray through the scene met, and what it cost.
 struct SceneAnswer {
-  WorldHit<Real> hit;
+  WorldHit hit;
   QueryCounts work;
 };
 
 class SceneCasts {
  public:
-  SceneCasts(const Scene& scene, const CastOptions<Real>& options);
+  SceneCasts(const Scene& scene, const CastOptions<double>& options);
 
-  SceneAnswer answer(const Ray<Real>& ray) const;
+  SceneAnswer answer(const Ray<double>& ray) const;
 
   /// The instance whose cast is to be shown: the first that the ray meets; else, of up to
   /// `most_looked_at` instances, the one whose miss took most iterations. None: a half-space is
   /// met, which takes no iterations, or nothing is and there are more instances.
-  std::optional<std::size_t> shown(const Ray<Real>& ray, const SceneAnswer& answer,
+  std::optional<std::size_t> shown(const Ray<double>& ray, const SceneAnswer& answer,
                                    std::size_t most_looked_at) const;
 
   /// Refers to this.
-  PreparedShape<Real> shape(std::size_t instance) const { return world_.instances().at(instance); }
-  CastTrace<Real> trace(std::size_t instance, const Ray<Real>& ray) const {
+  PreparedShape<double> shape(std::size_t instance) const { return world_.instances().at(instance); }
+  CastTrace<double> trace(std::size_t instance, const Ray<double>& ray) const {
     return trace_ray(shape(instance), ray, world_.options());
   }
 
-  const RenderWorld& world() const { return world_; }
+  const World& world() const { return world_; }
 
  private:
-  RenderWorld world_;
+  World world_;
 };
 
 }  // namespace minkray

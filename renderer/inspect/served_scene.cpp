@@ -100,7 +100,7 @@ struct ServedScene::Asked {
 };
 
 const std::vector<InspectedSolver>& ServedScene::solvers_for(const Asked& asked) {
-  CastOptions<Real> options;
+  CastOptions<double> options;
   const std::string* const named = asked.find("solver");
   const std::string solver = named ? *named : solvers_.front().name;
   const double tolerance = asked.number_within("tolerance", options.eps_tol, 0, 1);
@@ -111,7 +111,7 @@ const std::vector<InspectedSolver>& ServedScene::solvers_for(const Asked& asked)
   const auto make = [&](const std::string& name) {
     for (const SolverDescription& description : solver_descriptions) {
       if (description.name != name) continue;
-      CastOptions<Real> of_solver;
+      CastOptions<double> of_solver;
       of_solver.solver = description.kind;
       of_solver.eps_tol = tolerance;
       made.push_back({name, SceneCasts(scene_, of_solver)});
@@ -129,7 +129,7 @@ const std::vector<InspectedSolver>& ServedScene::solvers_for(const Asked& asked)
 WebReply ServedScene::cast(const Asked& asked) {
   const auto& solvers = solvers_for(asked);
   const double x = asked.number("x", 0), y = asked.number("y", 0);
-  const Ray<Real> ray = Camera(asked.camera, options_.picture.resolution).ray(x, y);
+  const Ray<double> ray = Camera(asked.camera, options_.picture.resolution).ray(x, y);
   const SceneCasts& first = solvers.front().casts;
   const auto instance = first.shown(ray, first.answer(ray), most_looked_at_alone);
   WebReply reply{200, "application/jsonl", ""};

@@ -149,7 +149,7 @@ void interleave(const std::vector<ExrPlane>& planes, const Channel& channel, dou
 void render(const HeldScene& held, const minkray_picture_options& given,
             std::span<const minkray_channel> asked, const minkray_options* how) {
   const Scene scene = seen(held, given);
-  const RenderWorld& world = held.world();
+  const World& world = held.world();
   RenderOptions options = render_options(scene, given);
   const auto pixels = static_cast<std::size_t>(options.resolution.width) *
                       static_cast<std::size_t>(options.resolution.height);

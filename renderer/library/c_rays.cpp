@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The functions of the C interface that cast rays.
 #include <algorithm>
-#include <array>
+#include <bit>
+#include <span>
 #include <vector>
 
 #include "renderer/library/call.h"
@@ -14,92 +15,68 @@
 namespace minkray {
 namespace {
 
-constexpr std::size_t at_once = most_rays_at_once;
+/// Rays of a call that waits for others' support points: few, so that there is much to gather.
+constexpr std::size_t gathered_at_once = 32;
 
-/// Calls tell(i, ray, hit) for each ray. Those that go together are asked for together; if a solver
-/// gave up for any of them, each is asked for again to know whose.
-template <class Tell>
+/// Calls write(i, ray, hit) or write(i, ray, block, k) for each ray.
+template <class Write>
+class Writer : public HitReceiver {
+ public:
+  Writer(const RaySource& rays, std::size_t first, const Write& write)
+      : rays_(rays), first_(first), write_(write) {}
+
+  void take(std::size_t ray, const WorldHit& hit, bool exhausted) override {
+    const Ray<double> of = rays_[first_ + ray];
+    write_(first_ + ray, of, plain_hit(of, hit, exhausted));
+  }
+  void take(std::size_t first, std::uint64_t which, const BlockHits& hits) override {
+    for (; which != 0; which &= which - 1) {
+      const auto k = static_cast<std::size_t>(std::countr_zero(which));
+      write_(first_ + first + k, rays_[first_ + first + k], hits, k);
+    }
+  }
+
+ private:
+  const RaySource& rays_;
+  std::size_t first_;
+  const Write& write_;
+};
+
+template <class Write>
 void cast_rays(const HeldScene& scene, const RaySource& rays, const minkray_options* options,
-               Tell&& tell) {
-  const RenderWorld& world = scene.world();
+               const Write& write) {
+  const World& world = scene.world();
   const bool gathered = are_gathered(scene.customs());
-  const auto one = [&](std::size_t i, const Ray<double>& ray) {
+  const auto part = [&](std::size_t first, std::size_t end) {
+    std::vector<Ray<double>> room;
+    Writer<Write> writer(rays, first, write);
     QueryCounts counts;
-    const WorldHit<double> hit = world.closest_hit(ray, counts);
-    tell(i, ray, plain_hit(ray, hit, counts.exhausted > 0));
+    world.closest_hits(rays.part(first, end - first, room), writer, counts);
   };
-  const auto others = [&](std::size_t first, std::size_t end) {
-    const std::size_t count = end - first;
-    if (count == 0) return;
-    if (count == 1) return one(first, rays[first]);
-    // Pieces of work that take turns on one thread each have room of their own.
-    std::vector<WorldRay<double>> own_rays;
-    std::vector<WorldHit<double>> own_hits;
-    thread_local std::vector<WorldRay<double>> thread_rays(rays_a_part);
-    thread_local std::vector<WorldHit<double>> thread_hits(rays_a_part);
-    if (gathered) {
-      own_rays.resize(count);
-      own_hits.resize(count);
-    }
-    std::vector<WorldRay<double>>& asked = gathered ? own_rays : thread_rays;
-    std::vector<WorldHit<double>>& hits = gathered ? own_hits : thread_hits;
-    for (std::size_t i = 0; i < count; ++i) asked[i] = {rays[first + i]};
-    QueryCounts counts;
-    world.closest_hits_of_all(std::span(asked).first(count), std::span(hits).first(count), counts);
-    for (std::size_t i = 0; i < count; ++i) {
-      if (counts.exhausted > 0)
-        one(first + i, asked[i].ray);
-      else
-        tell(first + i, asked[i].ray, plain_hit(asked[i].ray, hits[i], false));
-    }
-  };
-  // Blocks of rays that run alike are read and answered where the caller has them.
-  const auto group = [&](std::size_t first, std::size_t end) {
-    std::size_t waiting = first;
-    BlockHits hits;
-    std::array<Ray<double>, rays_of_block> room;
-    for (std::size_t at = first; !gathered && at < end; at += rays_of_block) {
-      const std::size_t count = std::min(rays_of_block, end - at);
-      if (count < at_once) break;
-      const Ray<double>* const block = rays.in_a_row(at, count, room.data());
-      QueryCounts counts;
-      if (!world.closest_of_block(block, sizeof(Ray<double>), count, hits, counts)) continue;
-      others(waiting, at);
-      waiting = at + count;
-      for (std::size_t i = 0; i < count; ++i) {
-        if (hits.alone >> i & 1u)
-          one(at + i, block[i]);
-        else
-          tell(at + i, block[i], hits, i);
-      }
-    }
-    others(waiting, end);
-  };
-  work_on_groups(rays.size(), gathered ? at_once : rays_a_part, gathered, options, group);
+  work_on_groups(rays.size(), gathered ? gathered_at_once : rays_a_part, gathered, options, part);
   throw_if_lied(scene.customs());
 }
 
 void find_occluded(const HeldScene& scene, const RaySource& rays, std::uint8_t* blocked,
                    const minkray_options* options) {
-  const RenderWorld& world = scene.world();
-  const auto group = [&](std::size_t first, std::size_t end) {
-    std::array<WorldRay<double>, at_once> asked;
-    const std::size_t count = end - first;
-    for (std::size_t i = 0; i < count; ++i) asked[i] = {rays[first + i]};
+  const World& world = scene.world();
+  const bool gathered = are_gathered(scene.customs());
+  const auto part = [&](std::size_t first, std::size_t end) {
+    std::vector<Ray<double>> room;
     QueryCounts counts;
-    const RayGroupMask met = world.occluded(std::span(asked).first(count), counts);
-    for (std::size_t i = 0; i < count; ++i) {
-      const bool is_met = (met >> i & 1u) != 0;
-      bool gave_up = !is_met && counts.exhausted > 0;
-      if (gave_up) {
+    const std::span met(blocked + first, end - first);
+    world.occluded(rays.part(first, end - first, room), met, counts);
+    for (std::size_t i = 0; i < met.size(); ++i) {
+      bool is_exhausted = false;
+      if (met[i] == 0 && counts.exhausted > 0) {
         QueryCounts alone;
-        world.occluded(asked[i].ray, alone);
-        gave_up = alone.exhausted > 0;
+        world.occluded(rays[first + i], alone);
+        is_exhausted = alone.exhausted > 0;
       }
-      blocked[first + i] = is_met ? MINKRAY_HIT : gave_up ? MINKRAY_EXHAUSTED : MINKRAY_MISS;
+      met[i] = met[i] != 0 ? MINKRAY_HIT : is_exhausted ? MINKRAY_EXHAUSTED : MINKRAY_MISS;
     }
   };
-  work_on_groups(rays.size(), at_once, are_gathered(scene.customs()), options, group);
+  work_on_groups(rays.size(), gathered ? gathered_at_once : rays_a_part, gathered, options, part);
   throw_if_lied(scene.customs());
 }
 
@@ -110,7 +87,7 @@ void cast_at_one(const PreparedShape<double>& shape, std::uint32_t object, const
   work_on_rays(rays.size(), options, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Ray<double> ray = rays[i];
-      WorldHit<double> hit{no_instance, cast(shape, ray)};
+      WorldHit hit{no_instance, cast(shape, ray)};
       if (hit.cast.found()) hit.instance = object;
       hits[i] = plain_hit(ray, hit, hit.cast.status == Status::exhausted);
     }
@@ -132,7 +109,7 @@ int minkray_scene_cast(minkray_scene scene, const minkray_ray* rays, size_t coun
     if (count == 1 && !options && held.customs().empty()) {
       const Ray<double> ray = RaySource(rays, 1)[0];
       QueryCounts counts;
-      const WorldHit<double> hit = held.world().closest_hit(ray, counts);
+      const WorldHit hit = held.world().closest_hit(ray, counts);
       *hits = plain_hit(ray, hit, counts.exhausted > 0);
       return;
     }
@@ -185,7 +162,7 @@ int minkray_scene_exit(minkray_scene scene, uint32_t object, const minkray_ray* 
   return call("minkray_scene_exit", [&] {
     const HeldScene& held = scene_of(scene);
     if (count > 0) require(hits, "hits");
-    const Instances<double>& instances = held.world().instances();
+    const Instances& instances = held.world().instances();
     if (object >= instances.size())
       wrong_use("object: must be less than " + std::to_string(instances.size()) + " (got " +
                 std::to_string(object) + ")");
@@ -212,7 +189,7 @@ int minkray_shape_cast(minkray_shape shape, const minkray_pose* pose, const mink
       const PreparedShape<double> prepared(
           definition, placement.centre,
           placement.is_rigid_identity ? nullptr : &placement.to_inner);
-      WorldHit<double> hit{no_instance, cast_ray(prepared, ray)};
+      WorldHit hit{no_instance, cast_ray(prepared, ray)};
       if (hit.cast.found()) hit.instance = 0;
       *hits = plain_hit(ray, hit, hit.cast.status == Status::exhausted);
       return;

@@ -179,7 +179,7 @@ void HeldScene::commit() {
   throw_if_lied(customs_);
 }
 
-const RenderWorld& HeldScene::world() const {
+const World& HeldScene::world() const {
   if (is_changing_.load(std::memory_order_acquire))
     wrong_use("scene: another thread is changing it");
   if (due_ != Due::nothing)

@@ -10,7 +10,7 @@
 #include <unordered_set>
 #include <vector>
 
-#include "renderer/base/real.h"
+#include "core/world/world.h"
 #include "renderer/import/import.h"
 #include "renderer/library/call.h"
 #include "renderer/library/custom_support.h"
@@ -66,7 +66,7 @@ class HeldScene {
 
   /// What rays are cast at. Throws CallError if the scene was not committed since it was changed,
   /// or is being changed.
-  const RenderWorld& world() const;
+  const World& world() const;
 
  private:
   /// What the next commit has to do.
@@ -83,7 +83,7 @@ class HeldScene {
   std::vector<Group> groups_;
   std::vector<std::shared_ptr<const CustomSupport>> customs_;  ///< each once
   std::unordered_set<const CustomSupport*> known_customs_;
-  RenderWorld world_;
+  World world_;
   Due due_ = Due::build;
   std::atomic<bool> is_changing_ = false;
 };

@@ -33,7 +33,7 @@ class Prover {
   /// Whether it is proven that the ray does not meet the body before t_lo.
   bool keeps_off(std::uint32_t index, const Ray<double>& ray, double t_lo) const;
 
-  const RenderWorld& world_;
+  const World& world_;
   std::vector<Body> bodies_;
 };
 

@@ -56,7 +56,7 @@ void RaySource::check() const {
   }
 }
 
-minkray_hit plain_hit(const Ray<double>& ray, const WorldHit<double>& hit, bool gave_up) {
+minkray_hit plain_hit(const Ray<double>& ray, const WorldHit& hit, bool gave_up) {
   minkray_hit plain = {};
   const CastResult<double>& cast = hit.cast;
   // What a solver gave up on may have been in front of anything.

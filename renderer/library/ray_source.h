@@ -3,8 +3,8 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
-#include "core/world/ray_block.h"
 #include "core/world/world.h"
 #include "renderer/library/c_header.h"
 
@@ -25,14 +25,16 @@ class RaySource {
     return ray;
   }
 
-  /// So many, from the i-th on, one behind the other: `room` if the caller has them otherwise.
-  const Ray<double>* in_a_row(std::size_t i, std::size_t count, Ray<double>* room) const {
+  /// `count` rays from the i-th on, where they lie, or copied to `room` if coordinates lie apart.
+  RaySpan part(std::size_t i, std::size_t count, std::vector<Ray<double>>& room) const {
     static_assert(sizeof(Ray<double>) == sizeof(minkray_ray));
-    if (t_max_ == directions_ + 3 && directions_ == origins_ + 3 &&
-        origin_stride_ == sizeof(minkray_ray) && t_max_stride_ == sizeof(minkray_ray))
-      return reinterpret_cast<const Ray<double>*>(at(origins_, origin_stride_, i));
+    if (origin_stride_ >= 0 && t_max_ == directions_ + 3 && directions_ == origins_ + 3 &&
+        origin_stride_ == direction_stride_ && origin_stride_ == t_max_stride_)
+      return {reinterpret_cast<const Ray<double>*>(at(origins_, origin_stride_, i)),
+              static_cast<std::size_t>(origin_stride_), count};
+    room.resize(count);
     for (std::size_t k = 0; k < count; ++k) room[k] = (*this)[i + k];
-    return room;
+    return {room.data(), sizeof(Ray<double>), count};
   }
 
   /// Throws CallError that names the first ray which is none.
@@ -50,7 +52,7 @@ class RaySource {
 };
 
 /// The answer to one ray. `gave_up`: a solver did, at any object.
-minkray_hit plain_hit(const Ray<double>& ray, const WorldHit<double>& hit, bool gave_up);
+minkray_hit plain_hit(const Ray<double>& ray, const WorldHit& hit, bool gave_up);
 
 /// The i-th answer of a block that needs not be asked for alone.
 void plain_hit(const Ray<double>& ray, const BlockHits& hits, std::size_t i, minkray_hit& to);

@@ -27,7 +27,6 @@ struct AmbientTransport::Path {
 
   bool at_camera() const { return bounces == 0 && mirrors == 0; }
   /// Camera rays of neighbouring pixels go side by side, and shadow rays of what they see.
-  RaysGo rays_go() const { return at_camera() ? RaysGo::side_by_side : RaysGo::each_its_way; }
 };
 
 /// Rays that go on together, and what each of them is a continuation of: a place in the wave
@@ -51,10 +50,10 @@ struct AmbientTransport::HitPoint {
   Vec3<double> w_out;  ///< where the ray came from, in the frame
   const Surface& surface;
   std::uint32_t instance;
-  Real time;
+  double time;
 };
 
-AmbientTransport::AmbientTransport(const Scene& scene, const RenderWorld& world,
+AmbientTransport::AmbientTransport(const Scene& scene, const World& world,
                                    const IntegratorOptions& options)
     : world_(world),
       casts_(world, options),
@@ -79,12 +78,12 @@ void AmbientTransport::trace(std::span<TracedRay> rays, RayCounts& counts) const
 void AmbientTransport::follow(std::span<TracedRay> rays, const Path& path,
                               RayCounts& counts) const {
   if (rays.empty()) return;
-  std::vector<WorldRay<Real>> asked;
-  std::vector<WorldHit<Real>> hits;
+  std::vector<WorldRay> asked;
+  std::vector<WorldHit> hits;
   asked.reserve(rays.size());
   const auto kind = path.at_camera() ? RayKind::camera : RayKind::indirect;
   for (const TracedRay& ray : rays) asked.push_back({ray.ray, ray.left, ray.time, kinds_of(kind)});
-  casts_.find_hits([&](std::size_t) { return kind; }, asked, path.rays_go(), hits, counts.work);
+  casts_.find_hits([&](std::size_t) { return kind; }, asked, hits, counts.work);
 
   HitPoints points(rays.size());
   for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -102,7 +101,7 @@ void AmbientTransport::follow(std::span<TracedRay> rays, const Path& path,
 }
 
 /// What a ray sees that meets nothing, or begins in a shape.
-Colour AmbientTransport::off_surface(const Ray<Real>& ray, const WorldHit<Real>& hit,
+Colour AmbientTransport::off_surface(const Ray<double>& ray, const WorldHit& hit,
                                      const Path& path, RayCounts& counts) const {
   // Nothing there: cameras see the background. Surfaces are lit by the environment, and mirror it,
   // so that no light is counted twice; without one they still mirror the background.
@@ -118,10 +117,10 @@ Colour AmbientTransport::off_surface(const Ray<Real>& ray, const WorldHit<Real>&
 }
 
 AmbientTransport::HitPoint AmbientTransport::hit_point(const TracedRay& ray,
-                                                       const WorldHit<Real>& hit) const {
-  const Real t = hit.cast.t();
-  const Vec3<Real> on_surface = ray.ray.at(t);
-  const Real offset = rounding_at(world_, hit.instance, on_surface, t);
+                                                       const WorldHit& hit) const {
+  const double t = hit.cast.t();
+  const Vec3<double> on_surface = ray.ray.at(t);
+  const double offset = rounding_at(world_, hit.instance, on_surface, t);
   const Frame frame(hit.cast.normal.template cast<double>());
   Vec3<double> w_out = frame.to_local(-ray.ray.direction);
   // A grazing normal may be rounded to the far side.
@@ -144,7 +143,7 @@ void AmbientTransport::add_direct(std::span<TracedRay> rays, const HitPoints& po
     Vec3<double> w_in;
     Colour irradiance;
   };
-  std::vector<WorldRay<Real>> asked;
+  std::vector<WorldRay> asked;
   std::vector<Arriving> arriving;
   std::vector<std::uint8_t> met;
   const double least_alpha = path.bounces == 0 ? 0 : least_alpha_behind_bounce;
@@ -165,7 +164,7 @@ void AmbientTransport::add_direct(std::span<TracedRay> rays, const HitPoints& po
       arriving.push_back({i, w_in, sample->weight});
     }
     counts.shadow += asked.size();
-    casts_.find_blocked(RayKind::shadow, asked, path.rays_go(), met, counts.work);
+    casts_.find_blocked(RayKind::shadow, asked, met, counts.work);
     for (std::size_t k = 0; k < asked.size(); ++k) {
       if (met[k]) continue;
       const auto& [i, w_in, irradiance] = arriving[k];
@@ -215,11 +214,11 @@ void AmbientTransport::add_scattered(std::span<TracedRay> rays, const HitPoints&
   }
   if (last) {
     counts.ambient += wave.rays.size();
-    std::vector<WorldRay<Real>> asked;
+    std::vector<WorldRay> asked;
     for (const TracedRay& ray : wave.rays)
       asked.push_back({ray.ray, ray.left, ray.time, kinds_of(RayKind::ambient)});
     std::vector<std::uint8_t> met;
-    casts_.find_blocked(RayKind::ambient, asked, RaysGo::each_its_way, met, counts.work);
+    casts_.find_blocked(RayKind::ambient, asked, met, counts.work);
     for (std::size_t k = 0; k < asked.size(); ++k)
       if (!met[k]) wave.rays[k].radiance = lights_.environment(wave.rays[k].ray.direction);
   } else {

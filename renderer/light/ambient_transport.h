@@ -20,7 +20,7 @@ namespace minkray {
 /// Refers to the scene's world; keeps everything else itself.
 class AmbientTransport final : public LightTransport {
  public:
-  AmbientTransport(const Scene& scene, const RenderWorld& world, const IntegratorOptions& options);
+  AmbientTransport(const Scene& scene, const World& world, const IntegratorOptions& options);
 
   void trace(std::span<TracedRay> rays, RayCounts& counts) const override;
 
@@ -32,9 +32,9 @@ class AmbientTransport final : public LightTransport {
   using HitPoints = std::vector<std::optional<HitPoint>>;
 
   void follow(std::span<TracedRay> rays, const Path& path, RayCounts& counts) const;
-  Colour off_surface(const Ray<Real>& ray, const WorldHit<Real>& hit, const Path& path,
+  Colour off_surface(const Ray<double>& ray, const WorldHit& hit, const Path& path,
                      RayCounts& counts) const;
-  HitPoint hit_point(const TracedRay& ray, const WorldHit<Real>& hit) const;
+  HitPoint hit_point(const TracedRay& ray, const WorldHit& hit) const;
   void add_direct(std::span<TracedRay> rays, const HitPoints& points, const Path& path,
                   RayCounts& counts) const;
   void add_indirect(std::span<TracedRay> rays, const HitPoints& points, const Path& path,
@@ -52,7 +52,7 @@ class AmbientTransport final : public LightTransport {
   static void take_back(const Wave& wave, std::span<TracedRay> rays,
                         std::span<const double> chances);
 
-  const RenderWorld& world_;
+  const World& world_;
   WaveCasts casts_;
   IntegratorOptions options_;
   std::vector<Surface> surfaces_;

@@ -14,7 +14,7 @@
 #include <optional>
 #include <vector>
 
-#include "renderer/base/real.h"
+#include "core/world/world.h"
 #include "renderer/light/light_tree.h"
 #include "renderer/light/sampler.h"
 #include "renderer/scene/materials.h"
@@ -39,7 +39,7 @@ struct AroundBody {
 };
 
 /// The least of those that are known about an instance of a world.
-AroundBody around(const PreparedShape<Real>& body);
+AroundBody around(const PreparedShape<double>& body);
 
 /// A direction towards an emitter.
 struct EmitterSample {
@@ -52,7 +52,7 @@ struct EmitterSample {
 class Emitters {
  public:
   /// By instance: the radiance; none where it is zero. Refers to the world.
-  Emitters(const RenderWorld& world, const std::vector<Colour>& radiance_of_instance);
+  Emitters(const World& world, const std::vector<Colour>& radiance_of_instance);
 
   bool none() const { return emitters_.empty(); }
   std::uint32_t instance(std::size_t emitter) const { return emitters_[emitter].instance; }
@@ -77,7 +77,7 @@ class Emitters {
   /// In proportion to the chance to draw it, as long as there are few.
   double weight(const Emitter& emitter, const Vec3<double>& point, double time) const;
 
-  const RenderWorld& world_;
+  const World& world_;
   std::vector<Emitter> emitters_;           ///< in the order of their instances
   std::vector<std::uint32_t> of_instance_;  ///< an index into them, or none
   LightTree tree_;                          ///< of them, if they are many

@@ -12,13 +12,13 @@ namespace {
 /// times the largest coordinate that went into the hit point). Hit points are off by a few dozen
 /// units (docs/decisions/leaving-a-surface.md); the shape itself is left out of the cast, so this
 /// only keeps other shapes with a face in the same plane from shading each other.
-constexpr Real surface_offset = 256;
+constexpr double surface_offset = 256;
 
 /// Where the ray leaves a body that it is in.
-Boundary exit_of(const RenderWorld& world, const WorldRay<Real>& ray, std::uint32_t body,
+Boundary exit_of(const World& world, const WorldRay& ray, std::uint32_t body,
                  QueryCounts& counts) {
-  const Instances<Real>& instances = world.instances();
-  const Ray<Real> seen = instances.seen_by(body, ray.ray, ray.time);
+  const Instances& instances = world.instances();
+  const Ray<double> seen = instances.seen_by(body, ray.ray, ray.time);
   Boundary exit;
   exit.instance = body;
   exit.leaves = true;
@@ -26,26 +26,26 @@ Boundary exit_of(const RenderWorld& world, const WorldRay<Real>& ray, std::uint3
   if (instances.is_half_space(body)) {
     for (const auto& half_space : instances.half_spaces()) {
       if (half_space.instance != body) continue;
-      const Vec3<Real>& normal = half_space.in_world.normal;
-      const Real rise = normal.dot(seen.direction);
-      const Real depth = half_space.in_world.offset - normal.dot(seen.origin);
+      const Vec3<double>& normal = half_space.in_world.normal;
+      const double rise = normal.dot(seen.direction);
+      const double depth = half_space.in_world.offset - normal.dot(seen.origin);
       exit.normal = instances.turned(body, normal, ray.time);
-      exit.t = rise > 0 ? std::max(depth / rise, Real(0)) : std::numeric_limits<Real>::infinity();
+      exit.t = rise > 0 ? std::max(depth / rise, double(0)) : std::numeric_limits<double>::infinity();
     }
     return exit;
   }
-  const CastResult<Real> cast = cast_exit(instances.at(body), seen, world.options());
+  const CastResult<double> cast = cast_exit(instances.at(body), seen, world.options());
   counts.iterations += static_cast<std::uint64_t>(cast.iterations);
   counts.supports += static_cast<std::uint64_t>(cast.supports);
   ++counts.by_path[static_cast<std::size_t>(cast.path)];
   if (cast.status == Status::hit) {
-    exit.t = std::max(cast.t(), Real(0));
+    exit.t = std::max(cast.t(), double(0));
     exit.normal = cast.normal;
   } else if (cast.status == Status::miss) {
     // On the surface and going along it: by rounding, out of it at once.
     exit.normal = cast.normal.dot(seen.direction) > 0 && cast.normal.allFinite()
-                      ? unit<Real>(cast.normal)
-                      : unit<Real>(seen.direction);
+                      ? unit<double>(cast.normal)
+                      : unit<double>(seen.direction);
   } else {
     ++counts.exhausted;
     exit.is_lost = true;
@@ -55,16 +55,16 @@ Boundary exit_of(const RenderWorld& world, const WorldRay<Real>& ray, std::uint3
 }
 
 /// The closest hit but of some instances.
-WorldHit<Real> closest_but(const RenderWorld& world, const WorldRay<Real>& ray,
+WorldHit closest_but(const World& world, const WorldRay& ray,
                            std::span<const std::uint32_t> but, QueryCounts& counts) {
-  const Instances<Real>& instances = world.instances();
-  WorldHit<Real> closest;
+  const Instances& instances = world.instances();
+  WorldHit closest;
   closest.cast.status = Status::miss;
   const auto is_left_out = [&](std::uint32_t instance) {
     return ray.passes(instances, instance) ||
            std::find(but.begin(), but.end(), instance) != but.end();
   };
-  const auto meet = [&](std::uint32_t instance, const CastResult<Real>& cast) {
+  const auto meet = [&](std::uint32_t instance, const CastResult<double>& cast) {
     counts.add_cast(cast);
     if (!cast.found() || !closest.yields_to(instance, cast.t())) return false;
     closest = {instance, instances.turned(instance, cast, ray.time)};
@@ -105,7 +105,7 @@ void Inside::leave(std::uint32_t body) {
   count_ = static_cast<std::size_t>(std::remove(bodies_.begin(), end, body) - bodies_.begin());
 }
 
-Boundary boundary_of(const WorldHit<Real>& hit) {
+Boundary boundary_of(const WorldHit& hit) {
   Boundary boundary;
   if (!hit.found()) return boundary;
   boundary.instance = hit.instance;
@@ -115,22 +115,22 @@ Boundary boundary_of(const WorldHit<Real>& hit) {
   return boundary;
 }
 
-Real rounding_at(const RenderWorld& world, std::uint32_t instance, const Vec3<Real>& point,
-                 Real t) {
-  const Real largest =
+double rounding_at(const World& world, std::uint32_t instance, const Vec3<double>& point,
+                 double t) {
+  const double largest =
       std::max({point.cwiseAbs().maxCoeff(), t, world.instances().half_extent(instance)});
-  return surface_offset * tolerance::epsilon<Real> * largest;
+  return surface_offset * tolerance::epsilon<double> * largest;
 }
 
-Real length_within(const RenderWorld& world, const Ray<Real>& ray, const WorldHit<Real>& hit) {
+double length_within(const World& world, const Ray<double>& ray, const WorldHit& hit) {
   if (!hit.found()) return 0;
   QueryCounts counts;
   const Boundary exit = exit_of(world, {ray}, hit.instance, counts);
-  const Real entry = hit.cast.status == Status::hit ? hit.cast.t() : Real(0);
-  return exit.is_lost ? Real(0) : std::max(exit.t - entry, Real(0));
+  const double entry = hit.cast.status == Status::hit ? hit.cast.t() : double(0);
+  return exit.is_lost ? double(0) : std::max(exit.t - entry, double(0));
 }
 
-Boundary next_boundary(const RenderWorld& world, const WorldRay<Real>& ray, const Inside& inside,
+Boundary next_boundary(const World& world, const WorldRay& ray, const Inside& inside,
                        QueryCounts& counts) {
   Boundary next;
   next.t = ray.ray.t_max;
@@ -139,10 +139,10 @@ Boundary next_boundary(const RenderWorld& world, const WorldRay<Real>& ray, cons
     if (exit.is_lost) return exit;
     if (exit.t < next.t) next = exit;
   }
-  WorldRay<Real> ahead = ray;
+  WorldRay ahead = ray;
   if (next.leaves)
     ahead.ray.t_max = next.t + rounding_at(world, next.instance, ray.ray.at(next.t), next.t);
-  const WorldHit<Real> entered = closest_but(world, ahead, inside.bodies(), counts);
+  const WorldHit entered = closest_but(world, ahead, inside.bodies(), counts);
   if (entered.found()) return boundary_of(entered);
   return next;
 }

@@ -8,7 +8,7 @@
 #include <array>
 #include <span>
 
-#include "renderer/base/real.h"
+#include "core/world/world.h"
 
 namespace minkray {
 
@@ -37,24 +37,24 @@ struct Boundary {
   bool leaves = false;                   ///< goes out of the body, not in
   bool is_within = false;  ///< the ray begins in a body that it was not known to be in
   bool is_lost = false;    ///< the solver gave up
-  Real t = 0;
-  Vec3<Real> normal = Vec3<Real>::Zero();  ///< outward
+  double t = 0;
+  Vec3<double> normal = Vec3<double>::Zero();  ///< outward
 };
 
 /// The first body entered or left. `left` is the instance whose surface the ray begins on. Where a
 /// body is entered within rounding of where another is left, it is entered: what stands on glass is
 /// seen through it.
-Boundary next_boundary(const RenderWorld& world, const WorldRay<Real>& ray, const Inside& inside,
+Boundary next_boundary(const World& world, const WorldRay& ray, const Inside& inside,
                        QueryCounts& counts);
 
 /// How far a ray goes within the body that it has met, or begins in; 0 where it met none.
-Real length_within(const RenderWorld& world, const Ray<Real>& ray, const WorldHit<Real>& hit);
+double length_within(const World& world, const Ray<double>& ray, const WorldHit& hit);
 
 /// A hit of the world as the boundary that it is.
-Boundary boundary_of(const WorldHit<Real>& hit);
+Boundary boundary_of(const WorldHit& hit);
 
 /// How far hit points may be off, in lengths: a few hundred roundings of the largest number that
 /// went into it.
-Real rounding_at(const RenderWorld& world, std::uint32_t instance, const Vec3<Real>& point, Real t);
+double rounding_at(const World& world, std::uint32_t instance, const Vec3<double>& point, double t);
 
 }  // namespace minkray

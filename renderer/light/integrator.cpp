@@ -10,7 +10,7 @@
 namespace minkray {
 namespace {
 
-std::unique_ptr<const LightTransport> transport(const Scene& scene, const RenderWorld& world,
+std::unique_ptr<const LightTransport> transport(const Scene& scene, const World& world,
                                                 IntegratorOptions options) {
   switch (settled(options.kind, scene)) {
     case IntegratorKind::direct:
@@ -45,7 +45,7 @@ IntegratorKind settled(IntegratorKind kind, const Scene& scene) {
   return wants_paths ? IntegratorKind::path : IntegratorKind::ambient;
 }
 
-Integrator::Integrator(const Scene& scene, const RenderWorld& world,
+Integrator::Integrator(const Scene& scene, const World& world,
                        const IntegratorOptions& options)
     : transport_(transport(scene, world, options)) {}
 

@@ -18,7 +18,7 @@ IntegratorKind settled(IntegratorKind kind, const Scene& scene);
 /// Instances of the scene and of the world share their indices.
 class Integrator {
  public:
-  Integrator(const Scene& scene, const RenderWorld& world, const IntegratorOptions& options = {});
+  Integrator(const Scene& scene, const World& world, const IntegratorOptions& options = {});
 
   /// As LightTransport says.
   void trace(std::span<TracedRay> rays, RayCounts& counts) const {

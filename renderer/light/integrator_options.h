@@ -37,9 +37,9 @@ struct IntegratorOptions {
   int bounces = 1;
   /// How many mirrors in a row are followed; behind the last, the environment is seen.
   int mirrors = 4;
-  /// How many camera rays are traced together, with the shadow rays of what they meet; 1: each by
-  /// itself. The picture is the same bit for bit.
-  int ray_group = 16;
+  /// How many camera rays are traced together, with all rays that follow from them. The picture is
+  /// the same bit for bit.
+  int ray_group = 512;
   /// It is called for every ray and its answer, if it is there.
   RayObserver* observer = nullptr;
   IntegratorKind kind = IntegratorKind::automatic;

@@ -4,18 +4,14 @@
 namespace minkray {
 
 void NormalsTransport::trace(std::span<TracedRay> rays, RayCounts& counts) const {
-  while (rays.size() > most_in_ray_group) {
-    trace(rays.first(most_in_ray_group), counts);
-    rays = rays.subspan(most_in_ray_group);
-  }
-  std::array<WorldRay<Real>, most_in_ray_group> asked;
-  std::array<WorldHit<Real>, most_in_ray_group> hits;
+  std::vector<WorldRay> asked(rays.size());
+  std::vector<WorldHit> hits(rays.size());
   counts.camera += rays.size();
   for (std::size_t i = 0; i < rays.size(); ++i)
     asked[i] = {rays[i].ray, rays[i].left, rays[i].time, camera_rays};
-  world_.closest_hits(std::span(asked).first(rays.size()), hits, counts.work);
+  world_.closest_hits(asked, hits, counts.work);
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    const WorldHit<Real>& hit = hits[i];
+    const WorldHit& hit = hits[i];
     if (observer_) observer_->closest(RayKind::camera, rays[i].ray, rays[i].left, hit);
     rays[i].met = hit.found();
     rays[i].radiance = Colour::Ones();

@@ -9,13 +9,13 @@ namespace minkray {
 
 class NormalsTransport final : public LightTransport {
  public:
-  NormalsTransport(const RenderWorld& world, const IntegratorOptions& options)
+  NormalsTransport(const World& world, const IntegratorOptions& options)
       : world_(world), observer_(options.observer) {}
 
   void trace(std::span<TracedRay> rays, RayCounts& counts) const override;
 
  private:
-  const RenderWorld& world_;
+  const World& world_;
   RayObserver* observer_;
 };
 

@@ -27,7 +27,7 @@ const Medium& PathTransport::Wave::medium(const Inside& inside, std::uint32_t* w
   return *found;
 }
 
-Colour PathTransport::Wave::left_after(const Medium& medium, Real length) {
+Colour PathTransport::Wave::left_after(const Medium& medium, double length) {
   if (medium.absorption.isZero(0)) return Colour::Ones();
   return (-medium.absorption * length).array().exp();
 }
@@ -76,7 +76,7 @@ void PathTransport::Wave::arrive(std::size_t i) {
     path.goes_on = false;
     return;
   }
-  const Vec3<Real> position = path.ray.at(at.t);
+  const Vec3<double> position = path.ray.at(at.t);
   TexturePoint place;
   if (of_.surfaces_.has_textures())
     place = of_.surfaces_.place(of_.world_, at.instance, position, at.normal, path.time,

@@ -18,7 +18,7 @@ void PathTransport::Wave::ask_for(const Draw& draw, const Part& part) {
     if (!(reflected.maxCoeff() > 0)) continue;
     const double counts = part(point, w, *sample);
     if (!(counts > 0)) continue;
-    Ray<Real> ray = point.ray(w, sample->direction);
+    Ray<double> ray = point.ray(w, sample->direction);
     ray.t_max = sample->distance;
     shadows_.add({ray, point.instance, paths_[i].time, shadow_rays},
                  {i, counts * sample->weight.cwiseProduct(reflected), no_instance});
@@ -43,7 +43,7 @@ void PathTransport::Wave::ask_sky(const SkySource& sky) {
 
 void PathTransport::Wave::ask_shadows() {
   counts_.shadow += shadows_.rays.size();
-  of_.casts_.find_blocked(RayKind::shadow, shadows_.rays, rays_go_, blocked_, counts_.work);
+  of_.casts_.find_blocked(RayKind::shadow, shadows_.rays, blocked_, counts_.work);
   for (std::size_t k = 0; k < blocked_.size(); ++k)
     if (!blocked_[k]) add(shadows_.arriving[k]);
 }
@@ -63,7 +63,7 @@ void PathTransport::Wave::ask_emitters() {
     const double part = share(sample->pdf, point.bsdf->pdf(point.shading, w)) / sample->pdf;
     const Arriving light{i, part * of_.emitters_.radiance(sample->emitter).cwiseProduct(reflected),
                          of_.emitters_.instance(sample->emitter)};
-    const WorldRay<Real> ray{point.ray(w, sample->direction), point.instance, path.time,
+    const WorldRay ray{point.ray(w, sample->direction), point.instance, path.time,
                              shadow_rays};
     if (point.inside(w).none())
       shadows_.add(ray, light);
@@ -71,14 +71,14 @@ void PathTransport::Wave::ask_emitters() {
       ask_within(ray, point.inside(w), light);
   }
   counts_.shadow += shadows_.rays.size();
-  of_.casts_.find_hits([](std::size_t) { return RayKind::shadow; }, shadows_.rays, rays_go_, hits_,
+  of_.casts_.find_hits([](std::size_t) { return RayKind::shadow; }, shadows_.rays, hits_,
                        counts_.work);
   for (std::size_t k = 0; k < hits_.size(); ++k)
     if (hits_[k].instance == shadows_.arriving[k].emitter && hits_[k].cast.status == Status::hit)
       add(shadows_.arriving[k]);
 }
 
-void PathTransport::Wave::ask_within(const WorldRay<Real>& ray, const Inside& inside,
+void PathTransport::Wave::ask_within(const WorldRay& ray, const Inside& inside,
                                      Arriving light) {
   ++counts_.shadow;
   const Boundary met = next_boundary(of_.world_, ray, inside, counts_.work);

@@ -12,9 +12,9 @@ namespace minkray {
 
 /// A path, and the ray that goes on from its end.
 struct PathTransport::Path {
-  Ray<Real> ray;
+  Ray<double> ray;
   Sampler sampler;
-  Real time = 0;
+  double time = 0;
   std::uint32_t left = no_instance;
   Inside inside;
   RayCone cone;  ///< of the ray
@@ -27,16 +27,16 @@ struct PathTransport::Path {
   bool is_straight = true;      ///< nothing was passed since the last scattering
   bool only_sharp = true;       ///< all directions so far had none
   double pdf = 0;               ///< of the ray's direction
-  Vec3<Real> from = {0, 0, 0};  ///< where it was scattered last
+  Vec3<double> from = {0, 0, 0};  ///< where it was scattered last
   double gathered = 1;          ///< eta^2 of where the path is: dense media gather radiance
   bool goes_on = true;
 };
 
 /// Where a path met a surface that scatters light.
 struct PathTransport::Point {
-  Vec3<Real> position;
-  Real rounding;
-  Vec3<Real> normal;  ///< outward; the frame's may be bent by a relief
+  Vec3<double> position;
+  double rounding;
+  Vec3<double> normal;  ///< outward; the frame's may be bent by a relief
   Frame frame;
   Shading shading;
   const Bsdf* bsdf;
@@ -46,8 +46,8 @@ struct PathTransport::Point {
   bool is_bent;         ///< by a relief
 
   /// A ray that goes from here; what holds it is `inside(w)`.
-  Ray<Real> ray(const Vec3<double>& w, const Vec3<double>& direction) const {
-    return {w.z() > 0 ? Vec3<Real>(position + rounding * normal) : position, direction};
+  Ray<double> ray(const Vec3<double>& w, const Vec3<double>& direction) const {
+    return {w.z() > 0 ? Vec3<double>(position + rounding * normal) : position, direction};
   }
   /// Whether the surface lies between the two sides for its relief as well.
   bool is_on_side(const Vec3<double>& w, const Vec3<double>& direction) const {
@@ -66,14 +66,14 @@ struct PathTransport::Arriving {
 /// Rays towards lights, asked together. Whatever order they are asked in, a path's sum is the same:
 /// it takes one ray of each of these.
 struct PathTransport::ShadowRays {
-  std::vector<WorldRay<Real>> rays;
+  std::vector<WorldRay> rays;
   std::vector<Arriving> arriving;
 
   void clear() {
     rays.clear();
     arriving.clear();
   }
-  void add(const WorldRay<Real>& ray, const Arriving& light) {
+  void add(const WorldRay& ray, const Arriving& light) {
     rays.push_back(ray);
     arriving.push_back(light);
   }

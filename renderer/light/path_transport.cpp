@@ -12,7 +12,7 @@ constexpr int sure_depth = 4;
 /// A body is one sheet if it is so thin, over its largest extent.
 constexpr double sheet_thickness = 1e-6;
 
-bool is_flat(const RenderWorld& world, std::uint32_t instance) {
+bool is_flat(const World& world, std::uint32_t instance) {
   if (world.instances().is_half_space(instance)) return false;
   const Vec3<double> half = world.instances().at(instance).definition().inner_half_extents();
   return half.minCoeff() <= sheet_thickness * half.maxCoeff();
@@ -53,7 +53,6 @@ void PathTransport::Wave::run() {
     if (!of_.emitters_.none()) ask_emitters();
     for (const std::size_t i : scattering_) scatter(paths_[i], *points_[i]);
     std::erase_if(going_on_, [&](std::size_t i) { return !paths_[i].goes_on; });
-    rays_go_ = RaysGo::each_its_way;
   }
   for (std::size_t i = 0; i < rays_.size(); ++i) {
     rays_[i].radiance = paths_[i].radiance;
@@ -66,7 +65,7 @@ void PathTransport::Wave::find_boundaries() {
   whose_.clear();
   for (const std::size_t i : going_on_) {
     const Path& path = paths_[i];
-    const WorldRay<Real> ray{path.ray, path.left, path.time, kinds_of(kind(path))};
+    const WorldRay ray{path.ray, path.left, path.time, kinds_of(kind(path))};
     if (path.inside.none()) {
       asked_.push_back(ray);
       whose_.push_back(i);
@@ -75,7 +74,7 @@ void PathTransport::Wave::find_boundaries() {
     }
   }
   const auto kind_of = [&](std::size_t k) { return kind(paths_[whose_[k]]); };
-  of_.casts_.find_hits(kind_of, asked_, rays_go_, hits_, counts_.work);
+  of_.casts_.find_hits(kind_of, asked_, hits_, counts_.work);
   for (std::size_t k = 0; k < whose_.size(); ++k) boundaries_[whose_[k]] = boundary_of(hits_[k]);
 }
 
@@ -114,7 +113,7 @@ void PathTransport::Wave::scatter(Path& path, const Point& point) {
   path.throughput /= chance;
 }
 
-PathTransport::PathTransport(const Scene& scene, const RenderWorld& world,
+PathTransport::PathTransport(const Scene& scene, const World& world,
                              const IntegratorOptions& options)
     : world_(world),
       casts_(world, options),

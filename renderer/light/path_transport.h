@@ -20,7 +20,7 @@ namespace minkray {
 /// numbers and sums, so that it does not matter which go together.
 class PathTransport final : public LightTransport {
  public:
-  PathTransport(const Scene& scene, const RenderWorld& world, const IntegratorOptions& options);
+  PathTransport(const Scene& scene, const World& world, const IntegratorOptions& options);
 
   void trace(std::span<TracedRay> rays, RayCounts& counts) const override;
 
@@ -35,7 +35,7 @@ class PathTransport final : public LightTransport {
     return !is_flat_sheet_.empty() && is_flat_sheet_[instance];
   }
 
-  const RenderWorld& world_;
+  const World& world_;
   WaveCasts casts_;
   IntegratorOptions options_;
   SceneSurfaces surfaces_;

@@ -33,7 +33,7 @@ class PathTransport::Wave {
   /// The clear body that counts where bodies overlap: of the greatest priority, of equals that
   /// which was entered last.
   const Medium& medium(const Inside& inside, std::uint32_t* which = nullptr) const;
-  static Colour left_after(const Medium& medium, Real length);
+  static Colour left_after(const Medium& medium, double length);
   /// Light that the ray finds by itself, and the point where it is to be scattered.
   void arrive(std::size_t i);
   /// Adds light that was scattered so often; what the camera sees directly and what is lit directly
@@ -61,22 +61,21 @@ class PathTransport::Wave {
   /// before anything else, is one question.
   void ask_emitters();
   /// Asks within clear bodies.
-  void ask_within(const WorldRay<Real>& ray, const Inside& inside, Arriving light);
+  void ask_within(const WorldRay& ray, const Inside& inside, Arriving light);
   void add(const Arriving& arriving);
 
   const PathTransport& of_;
   std::span<TracedRay> rays_;
   RayCounts& counts_;
   const Medium air_;
-  RaysGo rays_go_ = RaysGo::side_by_side;  ///< until they have come to something
   std::vector<Path> paths_;
   std::vector<std::size_t> going_on_;  ///< the paths that have not ended
   std::vector<Boundary> boundaries_;   ///< by path: where it has come to
   std::vector<std::optional<Point>> points_;
   std::vector<std::size_t> scattering_;  ///< the paths that are at a point
-  std::vector<WorldRay<Real>> asked_;
+  std::vector<WorldRay> asked_;
   std::vector<std::size_t> whose_;
-  std::vector<WorldHit<Real>> hits_;
+  std::vector<WorldHit> hits_;
   std::vector<std::uint8_t> blocked_;
   ShadowRays shadows_;
 };

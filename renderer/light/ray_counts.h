@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "renderer/base/real.h"
+#include "core/world/world.h"
 
 namespace minkray {
 

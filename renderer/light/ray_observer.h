@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "renderer/base/real.h"
+#include "core/world/world.h"
 #include "renderer/scene/visible_to.h"
 
 namespace minkray {
@@ -30,9 +30,9 @@ class RayObserver {
 
   /// The ray leaves the instance `skip`; the answer is that of World::closest_hit, or of
   /// World::occluded.
-  virtual void closest(RayKind kind, const Ray<Real>& ray, std::uint32_t skip,
-                       const WorldHit<Real>& answer) = 0;
-  virtual void occluded(RayKind kind, const Ray<Real>& ray, std::uint32_t skip, bool answer) = 0;
+  virtual void closest(RayKind kind, const Ray<double>& ray, std::uint32_t skip,
+                       const WorldHit& answer) = 0;
+  virtual void occluded(RayKind kind, const Ray<double>& ray, std::uint32_t skip, bool answer) = 0;
 };
 
 }  // namespace minkray

@@ -112,11 +112,11 @@ SceneSurfaces::SceneSurfaces(const Scene& scene) : of_instance_(material_of_inst
   }
 }
 
-TexturePoint SceneSurfaces::place(const RenderWorld& world, std::uint32_t instance,
-                                  const Vec3<Real>& point, const Vec3<Real>& normal, Real time,
+TexturePoint SceneSurfaces::place(const World& world, std::uint32_t instance,
+                                  const Vec3<double>& point, const Vec3<double>& normal, double time,
                                   const Vec3<double>& direction, const RayCone& cone) const {
-  const Instances<Real>& instances = world.instances();
-  const auto [at_rest, n, unused] = instances.seen_by(instance, Ray<Real>{point, normal}, time);
+  const Instances& instances = world.instances();
+  const auto [at_rest, n, unused] = instances.seen_by(instance, Ray<double>{point, normal}, time);
   SurfaceFootprint footprint = footprint_of(cone, direction, normal);
   for (Vec3<double>& axis : footprint) axis = instances.unturned(instance, axis, time);
   if (instance >= to_object_.size())
@@ -128,8 +128,8 @@ TexturePoint SceneSurfaces::place(const RenderWorld& world, std::uint32_t instan
           footprint};
 }
 
-void SceneSurfaces::describe(const RenderWorld& world, const Ray<Real>& ray, const RayCone& cone,
-                             const WorldHit<Real>& hit, Colour& albedo, Colour& emission) const {
+void SceneSurfaces::describe(const World& world, const Ray<double>& ray, const RayCone& cone,
+                             const WorldHit& hit, Colour& albedo, Colour& emission) const {
   if (hit.cast.status != Status::hit) return;
   const PreparedMaterial& material = of(hit.instance);
   emission = material.radiance;
@@ -140,8 +140,8 @@ void SceneSurfaces::describe(const RenderWorld& world, const Ray<Real>& ray, con
                                         0, ray.direction, cone.at(hit.cast.t())));
 }
 
-Vec3<double> SceneSurfaces::uv(const RenderWorld& world, const Ray<Real>& ray,
-                               const WorldHit<Real>& hit) const {
+Vec3<double> SceneSurfaces::uv(const World& world, const Ray<double>& ray,
+                               const WorldHit& hit) const {
   if (hit.cast.status != Status::hit) return Vec3<double>::Zero();
   return radial_place(
       place(world, hit.instance, ray.at(hit.cast.t()), hit.cast.normal, 0, ray.direction, {})

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "renderer/base/real.h"
+#include "core/world/world.h"
 #include "renderer/light/bsdf.h"
 #include "renderer/scene/scene.h"
 
@@ -42,15 +42,15 @@ class SceneSurfaces {
   }
   /// The place in the object's frame; for particles it is not turned. The footprint is what a cone
   /// around a ray of that direction lights of the plane that touches the surface.
-  TexturePoint place(const RenderWorld& world, std::uint32_t instance, const Vec3<Real>& point,
-                     const Vec3<Real>& normal, Real time, const Vec3<double>& direction,
+  TexturePoint place(const World& world, std::uint32_t instance, const Vec3<double>& point,
+                     const Vec3<double>& normal, double time, const Vec3<double>& direction,
                      const RayCone& cone) const;
   /// The colour of what a ray has met, and what it shines; nothing is changed where it met nothing.
-  void describe(const RenderWorld& world, const Ray<Real>& ray, const RayCone& cone,
-                const WorldHit<Real>& hit, Colour& albedo, Colour& emission) const;
+  void describe(const World& world, const Ray<double>& ray, const RayCone& cone,
+                const WorldHit& hit, Colour& albedo, Colour& emission) const;
   /// Longitude and latitude around the origin of the object that a ray has met, as the mapping
   /// radial has them; zero where it met nothing.
-  Vec3<double> uv(const RenderWorld& world, const Ray<Real>& ray, const WorldHit<Real>& hit) const;
+  Vec3<double> uv(const World& world, const Ray<double>& ray, const WorldHit& hit) const;
   /// The normal of the instance's relief in the world, where the place in the object's frame is
   /// given.
   Vec3<double> relief_normal_at(std::uint32_t instance, const TexturePoint& at) const;

@@ -11,17 +11,17 @@ namespace minkray {
 
 /// A ray and where its light comes to.
 struct TracedRay {
-  Ray<Real> ray;  ///< of unit direction
+  Ray<double> ray;  ///< of unit direction
   Sampler sampler;
   Colour radiance = Colour::Zero();
   Colour direct = Colour::Zero();    ///< of it: what was scattered at most once
   bool met = false;                  ///< whether it met an object
-  Real time = 0;                     ///< while the shutter is open: from 0 to 1
+  double time = 0;                     ///< while the shutter is open: from 0 to 1
   std::uint32_t left = no_instance;  ///< the instance that it leaves
   RayCone cone = {};                 ///< what textures are the means over
 };
 
 /// No more rays can be traced together.
-inline constexpr int most_in_ray_group = most_rays_at_once;
+inline constexpr int most_in_ray_group = 4096;
 
 }  // namespace minkray

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How the rays of a wave are cast: neighbours that go side by side in groups, others, each their
-// own way, as a stream. The bits are the same. The observer, if there is one, is told.
+// Casts the rays of a wave, and reports them to the observer, if there is one.
 #pragma once
 
 #include <span>
@@ -10,37 +9,28 @@
 
 namespace minkray {
 
-enum class RaysGo : unsigned char { side_by_side, each_its_way };
-
 /// Refers to the world.
 class WaveCasts {
  public:
-  WaveCasts(const RenderWorld& world, const IntegratorOptions& options)
-      : world_(world),
-        observer_(options.observer),
-        group_(static_cast<std::size_t>(options.ray_group)) {}
+  WaveCasts(const World& world, const IntegratorOptions& options)
+      : world_(world), observer_(options.observer) {}
 
   /// hits[i] answers rays[i], which is of the kind kind_of(i).
   template <class KindOf>
-  void find_hits(const KindOf& kind_of, std::span<const WorldRay<Real>> rays, RaysGo how,
-                 std::vector<WorldHit<Real>>& hits, QueryCounts& counts) const {
-    cast(rays, how, hits, counts);
+  void find_hits(const KindOf& kind_of, std::span<const WorldRay> rays, std::vector<WorldHit>& hits,
+                 QueryCounts& counts) const {
+    hits.resize(rays.size());
+    world_.closest_hits(rays, hits, counts);
     for (std::size_t i = 0; observer_ && i < rays.size(); ++i)
       observer_->closest(kind_of(i), rays[i].ray, rays[i].skip, hits[i]);
   }
   /// met[i] answers rays[i].
-  void find_blocked(RayKind kind, std::span<const WorldRay<Real>> rays, RaysGo how,
-                    std::vector<std::uint8_t>& met, QueryCounts& counts) const;
+  void find_blocked(RayKind kind, std::span<const WorldRay> rays, std::vector<std::uint8_t>& met,
+                    QueryCounts& counts) const;
 
  private:
-  void cast(std::span<const WorldRay<Real>> rays, RaysGo how, std::vector<WorldHit<Real>>& hits,
-            QueryCounts& counts) const;
-  template <class Cast>
-  void in_groups(std::size_t rays, const Cast& cast) const;
-
-  const RenderWorld& world_;
+  const World& world_;
   RayObserver* observer_;
-  std::size_t group_;  ///< how many neighbours at most are cast together
 };
 
 }  // namespace minkray

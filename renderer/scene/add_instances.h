@@ -7,27 +7,23 @@
 
 namespace minkray {
 
-template <class T>
-void add_object(Instances<T>& instances, const Object& object) {
+inline void add_object(Instances& instances, const Object& object) {
   if (object.half_space)
     instances.add(*object.half_space, object.pose);
-  else if (std::is_same_v<T, double> && object.definition) {
-    if constexpr (std::is_same_v<T, double>)
-      instances.add(instances.define(object.definition), object.pose);
-  } else
+  else if (object.definition)
+    instances.add(instances.define(object.definition), object.pose);
+  else
     instances.add(object.shape, object.pose);
 }
 
-template <class T>
-void add_particles(Instances<T>& instances, const Scene& scene) {
+inline void add_particles(Instances& instances, const Scene& scene) {
   for (const ParticleSet& set : scene.particles)
-    instances.add_many(instances.define(set.shape), set.size(), set.linear_alike(),
+    instances.add_many(instances.define(set.shape), set.size(),
                        [&](std::size_t i) { return set.pose(i); });
 }
 
-/// Once all are added: tells which rays meet which of them.
-template <class T>
-void show_instances(Instances<T>& instances, const Scene& scene) {
+/// Call when all are added: sets which rays meet which of them.
+inline void show_instances(Instances& instances, const Scene& scene) {
   if (!any_is_hidden(scene)) return;
   for (std::size_t i = 0; i < instances.size(); ++i)
     instances.show_to(i, instance_visible_to(scene, i));

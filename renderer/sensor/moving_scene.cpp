@@ -15,22 +15,6 @@ namespace {
 /// is swept: some hundred roundings of double are less, and a float holds no smaller share.
 constexpr double box_slack = 1e-7;
 
-/// Whether most rays are like the ones before them, as a camera's and a lidar's are: these are
-/// faster in groups, others in streams. The answers have the same bits.
-bool run_together(std::span<const WorldRay<Real>> rays) {
-  constexpr std::size_t step = 16;
-  constexpr double alike = 0.1;  // radians, about
-  std::size_t asked = 0, together = 0;
-  for (std::size_t i = 1; i < rays.size(); i += step) {
-    const Ray<Real>&a = rays[i - 1].ray, &b = rays[i].ray;
-    const double across = a.direction.cross(b.direction).squaredNorm();
-    const double along = a.direction.dot(b.direction);
-    ++asked;
-    together += a.origin == b.origin && along > 0 && across < alike * alike * along * along ? 1 : 0;
-  }
-  return 2 * together > asked;
-}
-
 /// How far a body may go from `begin` to `end`, whose points are up to `reach` from what the keys
 /// move: positions go along lines, and turns by an angle move a point by no more than the arc.
 double longest_way(const Motion& motion, double begin, double end, double reach) {
@@ -53,9 +37,9 @@ double longest_way(const Motion& motion, double begin, double end, double reach)
 }
 
 /// A box of all places that the body takes meanwhile.
-Bounds<float> swept_box(const ShapeDefinition<Real>& shape, const Motion& motion, double begin,
+Bounds<float> swept_box(const ShapeDefinition<double>& shape, const Motion& motion, double begin,
                         double end) {
-  Bounds<Real> box = shape.bounds_of(motion.pose_at(begin));
+  Bounds<double> box = shape.bounds_of(motion.pose_at(begin));
   const Vec3<double> pivot = motion.translation_at(begin);
   const Vec3<double> farthest =
       (box.lower - pivot).cwiseAbs().cwiseMax((box.upper - pivot).cwiseAbs());
@@ -70,7 +54,7 @@ Bounds<float> swept_box(const ShapeDefinition<Real>& shape, const Motion& motion
 }  // namespace
 
 MovingScene::MovingScene(const Scene& scene) : scene_(scene) {
-  Instances<Real> instances;
+  Instances instances;
   instances.reserve(instance_count(scene));
   const bool has_movers = minkray::moves(scene);
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
@@ -80,7 +64,7 @@ MovingScene::MovingScene(const Scene& scene) : scene_(scene) {
       movers_.push_back({static_cast<std::uint32_t>(i),
                          object.half_space
                              ? nullptr
-                             : std::make_shared<const ShapeDefinition<Real>>(object.shape)});
+                             : std::make_shared<const ShapeDefinition<double>>(object.shape)});
       continue;
     }
     place_.push_back(static_cast<std::uint32_t>(instances.size()));
@@ -92,7 +76,7 @@ MovingScene::MovingScene(const Scene& scene) : scene_(scene) {
   if (has_movers)
     for (std::size_t i = object_of_still_.size(); i < instances.size(); ++i)
       object_of_still_.push_back(static_cast<std::uint32_t>(i + movers_.size()));
-  still_ = RenderWorld(std::move(instances));
+  still_ = World(std::move(instances));
 }
 
 SceneWhile::SceneWhile(const MovingScene& scene, double begin, double end) : scene_(scene) {
@@ -121,8 +105,8 @@ bool SceneWhile::is_half_space(std::uint32_t instance) const {
   return instance < objects.size() && objects[instance].half_space.has_value();
 }
 
-PreparedShape<Real> SceneWhile::mover_at(std::size_t mover, double time) {
-  const ShapeDefinition<Real>& definition = *scene_.movers_[mover].definition;
+PreparedShape<double> SceneWhile::mover_at(std::size_t mover, double time) {
+  const ShapeDefinition<double>& definition = *scene_.movers_[mover].definition;
   Placed& placed = placed_[mover];
   if (!placed.is_known || placed.time != time) {
     const Object& object = scene_.scene_.objects[scene_.movers_[mover].object];
@@ -133,9 +117,9 @@ PreparedShape<Real> SceneWhile::mover_at(std::size_t mover, double time) {
 }
 
 /// Tells what comes before the closest hit so far, if any: as a world does.
-void SceneWhile::meet_movers(const WorldRay<Real>& ray, double time, WorldHit<Real>& closest,
+void SceneWhile::meet_movers(const WorldRay& ray, double time, WorldHit& closest,
                              QueryCounts& counts) {
-  const auto meet = [&](std::uint32_t object, const CastResult<Real>& result) {
+  const auto meet = [&](std::uint32_t object, const CastResult<double>& result) {
     counts.add_cast(result);
     if (!result.found() || !closest.yields_to(object, result.t())) return false;
     closest = {object, result};
@@ -160,17 +144,9 @@ void SceneWhile::meet_movers(const WorldRay<Real>& ray, double time, WorldHit<Re
   });
 }
 
-void SceneWhile::closest_hits(std::span<const WorldRay<Real>> rays, std::span<const double> times,
-                              std::span<WorldHit<Real>> hits, QueryCounts& counts) {
-  if (run_together(rays)) {
-    constexpr auto together = static_cast<std::size_t>(most_rays_at_once);
-    for (std::size_t first = 0; first < rays.size(); first += together) {
-      const std::size_t count = std::min(together, rays.size() - first);
-      scene_.still_.closest_hits(rays.subspan(first, count), hits.subspan(first, count), counts);
-    }
-  } else {
-    scene_.still_.closest_hits_in_stream(rays, hits, counts);
-  }
+void SceneWhile::closest_hits(std::span<const WorldRay> rays, std::span<const double> times,
+                              std::span<WorldHit> hits, QueryCounts& counts) {
+  scene_.still_.closest_hits(rays, hits, counts);
   if (scene_.movers_.empty()) return;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     if (hits[i].found()) hits[i].instance = scene_.object_of_still_[hits[i].instance];
@@ -178,19 +154,19 @@ void SceneWhile::closest_hits(std::span<const WorldRay<Real>> rays, std::span<co
   }
 }
 
-WorldHit<Real> SceneWhile::closest_hit(const WorldRay<Real>& ray, double time,
+WorldHit SceneWhile::closest_hit(const WorldRay& ray, double time,
                                        QueryCounts& counts) {
   const bool all_still = scene_.movers_.empty();
   std::uint32_t skip = ray.skip;
   if (skip != no_instance) skip = moves(skip) ? no_instance : scene_.still_number(skip);
-  WorldHit<Real> closest = scene_.still_.closest_hit(ray.ray, counts, skip);
+  WorldHit closest = scene_.still_.closest_hit(ray.ray, counts, skip);
   if (all_still) return closest;
   if (closest.found()) closest.instance = scene_.object_of_still_[closest.instance];
   meet_movers(ray, time, closest, counts);
   return closest;
 }
 
-CastResult<Real> SceneWhile::exit(std::uint32_t instance, const Ray<Real>& ray, double time) {
+CastResult<double> SceneWhile::exit(std::uint32_t instance, const Ray<double>& ray, double time) {
   if (moves(instance)) return cast_exit(mover_at(scene_.place_[instance], time), ray);
   return cast_exit(scene_.still_.instances().at(scene_.still_number(instance)), ray);
 }

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/bvh/bvh.h"
-#include "renderer/base/real.h"
+#include "core/world/world.h"
 #include "renderer/scene/scene.h"
 
 namespace minkray {
@@ -26,7 +26,7 @@ class MovingScene {
   friend class SceneWhile;
   struct Mover {
     std::uint32_t object = 0;
-    std::shared_ptr<const ShapeDefinition<Real>> definition;  ///< null: a half-space
+    std::shared_ptr<const ShapeDefinition<double>> definition;  ///< null: a half-space
   };
 
   /// What an instance that stands still is called in still_.
@@ -36,7 +36,7 @@ class MovingScene {
   }
 
   const Scene& scene_;
-  RenderWorld still_;
+  World still_;
   std::vector<std::uint32_t> object_of_still_;  ///< empty: all stand still
   std::vector<std::uint32_t> place_;            ///< by object: in still_ or in movers_
   std::vector<Mover> movers_;
@@ -49,13 +49,13 @@ class SceneWhile {
 
   /// hits[i] answers rays[i], which is cast at times[i], within the while; a ray's own time and
   /// what it skips are not looked at. The more rays, the faster, up to some thousand.
-  void closest_hits(std::span<const WorldRay<Real>> rays, std::span<const double> times,
-                    std::span<WorldHit<Real>> hits, QueryCounts& counts);
+  void closest_hits(std::span<const WorldRay> rays, std::span<const double> times,
+                    std::span<WorldHit> hits, QueryCounts& counts);
 
-  WorldHit<Real> closest_hit(const WorldRay<Real>& ray, double time, QueryCounts& counts);
+  WorldHit closest_hit(const WorldRay& ray, double time, QueryCounts& counts);
 
   /// Where the ray leaves an instance, which is not a half-space.
-  CastResult<Real> exit(std::uint32_t instance, const Ray<Real>& ray, double time);
+  CastResult<double> exit(std::uint32_t instance, const Ray<double>& ray, double time);
 
   bool is_half_space(std::uint32_t instance) const;
 
@@ -63,13 +63,13 @@ class SceneWhile {
   struct Placed {
     double time = 0;
     bool is_known = false;
-    Vec3<Real> centre;
-    Mat3<Real> to_inner;
+    Vec3<double> centre;
+    Mat3<double> to_inner;
     bool is_identity = false;
   };
   bool moves(std::uint32_t instance) const;
-  PreparedShape<Real> mover_at(std::size_t mover, double time);
-  void meet_movers(const WorldRay<Real>& ray, double time, WorldHit<Real>& closest,
+  PreparedShape<double> mover_at(std::size_t mover, double time);
+  void meet_movers(const WorldRay& ray, double time, WorldHit& closest,
                    QueryCounts& counts);
 
   const MovingScene& scene_;

@@ -62,8 +62,8 @@ class Scanner {
   /// Casts rays in the order of their times.
   void cast(std::span<const std::uint32_t> order, QueryCounts& counts) const {
     SceneWhile scene(scene_, time_of(order.front()), time_of(order.back()));
-    std::vector<WorldRay<Real>> asked(order.size());
-    std::vector<WorldHit<Real>> hits(order.size());
+    std::vector<WorldRay> asked(order.size());
+    std::vector<WorldHit> hits(order.size());
     std::vector<double> times(order.size());
     double time_of_pose = time_of(order.front());
     Affine<double> pose = pose_at(time_of_pose);
@@ -100,7 +100,7 @@ class Scanner {
     return {pose(own.origin), pose.linear * direction, own.t_max};
   }
 
-  void keep(std::uint32_t index, const TimedRay& at, WorldHit<Real> hit, SceneWhile& scene,
+  void keep(std::uint32_t index, const TimedRay& at, WorldHit hit, SceneWhile& scene,
             QueryCounts& counts) const {
     const Ray<double>& ray = at.ray;
     RayRandom random(options_.seed + 1, index);
@@ -116,7 +116,7 @@ class Scanner {
       if (!hit.found()) return;
       const double noise =
           options_.range_noise > 0 ? options_.range_noise * random.normals()[0] : 0;
-      const CastResult<Real>& cast = hit.cast;
+      const CastResult<double>& cast = hit.cast;
       echo.status = cast.status == Status::hit ? 0 : 2;
       echo.t = speed > 0 ? std::max(0.0, cast.t() + noise / speed) : cast.t();
       echo.distance = speed > 0 ? echo.t * speed : 0;
@@ -131,20 +131,20 @@ class Scanner {
 
   /// What the ray enters next, behind where it leaves what it met: bodies that overlap are passed
   /// as one.
-  static WorldHit<Real> behind(const TimedRay& at, const WorldHit<Real>& hit, SceneWhile& scene,
+  static WorldHit behind(const TimedRay& at, const WorldHit& hit, SceneWhile& scene,
                                QueryCounts& counts) {
     const Ray<double>& ray = at.ray;
     double passed = 0;
     std::uint32_t left = hit.instance;
-    WorldHit<Real> none;
+    WorldHit none;
     none.cast.status = Status::miss;
     if (scene.is_half_space(left)) return none;
     for (int i = 0; i < 64; ++i) {
-      const CastResult<Real> exit = scene.exit(left, ray, at.time);
+      const CastResult<double> exit = scene.exit(left, ray, at.time);
       if (exit.status != Status::hit) return none;  // the ray ends in it
       passed = std::max(passed, exit.t());
       const Ray<double> rest{ray.at(passed), ray.direction, ray.t_max - passed};
-      WorldHit<Real> next = scene.closest_hit({rest, left}, at.time, counts);
+      WorldHit next = scene.closest_hit({rest, left}, at.time, counts);
       if (!next.found()) return none;
       if (next.cast.status == Status::hit) {
         next.cast.t_base += passed;

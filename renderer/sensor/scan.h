@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/math/affine.h"
-#include "renderer/base/real.h"
+#include "core/world/world.h"
 #include "renderer/scene/moving_frame.h"
 #include "renderer/scene/scene.h"
 #include "renderer/sensor/sensor_rays.h"

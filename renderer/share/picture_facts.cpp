@@ -45,7 +45,7 @@ std::string integrator_text(const Scene& scene, const IntegratorOptions& options
 
 }  // namespace
 
-Facts picture_facts(const Scene& scene, const RenderWorld& world, const RenderOptions& options) {
+Facts picture_facts(const Scene& scene, const World& world, const RenderOptions& options) {
   const PixelRect picture = options.picture();
   std::string solver;
   for (const SolverDescription& description : solver_descriptions)

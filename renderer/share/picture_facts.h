@@ -34,7 +34,7 @@ inline constexpr const char* sample_share = "minkray.sample_share";
 }  // namespace fact
 
 /// The facts of a picture, without command, data channels, tile and share of the samples.
-Facts picture_facts(const Scene& scene, const RenderWorld& world, const RenderOptions& options);
+Facts picture_facts(const Scene& scene, const World& world, const RenderOptions& options);
 
 /// The names of the facts that all shares of one picture have in common.
 std::vector<std::string> common_facts();

@@ -14,7 +14,6 @@
 namespace minkray {
 namespace {
 
-template <class T>
 class ScreenOf : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -28,48 +27,54 @@ class ScreenOf : public ::testing::Test {
     return {within(-size, size), within(-size, size), within(-size, size)};
   }
   /// Turned and moved; stretched and sheared where `is_affine`.
-  Affine<T> pose(double size, double away, bool is_affine) {
+  Affine<double> pose(double size, double away, bool is_affine) {
     const Vec3<double> axis = point(1);
     Mat3<double> linear = rotation_matrix(axis.x(), axis.y(), axis.z(), within(-1, 1));
     if (is_affine)
       linear *= Vec3<double>(1, within(0.3, 3), within(0.3, 3)).asDiagonal() *
                 rotation_matrix(axis.y(), axis.z(), axis.x(), within(-1, 1));
-    return {(linear * size).cast<T>(), point(away).template cast<T>()};
+    return {(linear * size).cast<double>(), point(away).cast<double>()};
   }
 
   std::mt19937 random_{11};
 };
-using Scalars = ::testing::Types<float, double>;
-TYPED_TEST_SUITE(ScreenOf, Scalars);
 
 struct Seen {
   int pairs = 0, misses = 0, sure = 0, wrong = 0;
 };
 
+InstancePlace place_of(const PreparedShape<double>& shape, std::uint32_t body) {
+  InstancePlace place;
+  const Mat3<double> map =
+      shape.linear_to_inner() ? *shape.linear_to_inner() : Mat3<double>::Identity();
+  for (int axis = 0; axis < 3; ++axis) place.origin[axis] = shape.centre()[axis];
+  for (int k = 0; k < 9; ++k) place.to_inner[k] = static_cast<float>(map.data()[k]);
+  place.body = body;
+  return place;
+}
+
 /// A pair in each lane, each of its own sizes, and what a cast says of it.
-template <class T>
-void compare(const std::vector<PreparedShape<T>>& shapes, const std::vector<Ray<T>>& rays,
+void compare(const std::vector<PreparedShape<double>>& shapes, const std::vector<Ray<double>>& rays,
              Seen& seen) {
+  std::vector<InstancePlace> places;
   std::vector<Screen> screens;
-  for (const auto& shape : shapes) screens.push_back(screen_of(shape.definition()));
-  const Mat3<T> unturned = Mat3<T>::Identity();
-  struct alignas(32) Centre {
-    Vec3<T> at;
-    T unused = T(0);
-  };
-  std::array<Centre, screen_lanes> centres;
-  ScreenPairs<T> pairs;
-  for (std::size_t i = 0; i < screen_lanes; ++i) {
-    centres[i].at = shapes[i].centre();
-    pairs.ray[i] = &rays[i];
-    pairs.centre[i] = &centres[i].at;
-    pairs.to_inner[i] = shapes[i].linear_to_inner() ? shapes[i].linear_to_inner() : &unturned;
-    pairs.form[i] = &screens[i].form;
+  std::array<float, screen_lanes> limits;
+  std::array<std::uint32_t, screen_lanes> number;
+  for (std::uint32_t i = 0; i < screen_lanes; ++i) {
+    screens.push_back(screen_of(shapes[i].definition(), Vec3<double>::Zero()));
+    places.push_back(place_of(shapes[i], i));
+    limits[i] = std::numeric_limits<float>::infinity();
+    number[i] = i;
   }
+  std::vector<Ray<double>> padded(rays);
+  padded.push_back(rays[0]);  // one number is read beyond the last ray
   Screened answers;
-  screen_avx2(screens[0].kind, pairs, answers);
+  screen_avx2(screens[0].kind,
+              {reinterpret_cast<const char*>(padded.data()), sizeof(Ray<double>), places.data(),
+               screens.data(), limits.data()},
+              number.data(), number.data(), answers);
   for (std::size_t i = 0; i < screen_lanes; ++i) {
-    const CastResult<T> cast = cast_ray(shapes[i], rays[i]);
+    const CastResult<double> cast = cast_ray(shapes[i], rays[i]);
     const auto t = static_cast<double>(cast.t());
     const double first = static_cast<double>(answers.first[i]),
                  last = static_cast<double>(answers.last[i]);
@@ -77,7 +82,7 @@ void compare(const std::vector<PreparedShape<T>>& shapes, const std::vector<Ray<
     const bool misses = std::isinf(first), sure = screens[i].is_whole && std::isfinite(last);
     seen.misses += misses ? 1 : 0;
     seen.sure += sure ? 1 : 0;
-    const bool in_range = rays[i].t_max >= T(last);
+    const bool in_range = rays[i].t_max >= double(last);
     const bool is_wrong = (cast.found() && !(first <= t)) ||
                           (sure && in_range && !(cast.found() && t <= last)) || std::isnan(first) ||
                           std::isnan(last);
@@ -88,65 +93,63 @@ void compare(const std::vector<PreparedShape<T>>& shapes, const std::vector<Ray<
 }
 
 /// Shapes of one kind, whose sizes are drawn anew.
-template <class T>
-std::vector<std::function<Shape<T>(const std::function<T()>&)>> kinds() {
-  using Size = std::function<T()>;
+std::vector<std::function<Shape<double>(const std::function<double()>&)>> kinds() {
+  using Size = std::function<double()>;
   return {
-      [](const Size& s) { return Shape<T>(Sphere<T>{s()}); },
+      [](const Size& s) { return Shape<double>(Sphere<double>{s()}); },
       [](const Size& s) {
-        return Shape<T>(Ellipsoid<T>{{s(), s(), s()}});
+        return Shape<double>(Ellipsoid<double>{{s(), s(), s()}});
       },
       [](const Size& s) {
-        return Shape<T>(Box<T>{{s(), s(), s()}});
+        return Shape<double>(Box<double>{{s(), s(), s()}});
       },
       [](const Size& s) {
-        return Shape<T>(Rounded<T>{s() / 3, Shape<T>(Box<T>{{s(), s(), s()}})});
+        return Shape<double>(Rounded<double>{s() / 3, Shape<double>(Box<double>{{s(), s(), s()}})});
       },
       [](const Size& s) {
-        return Shape<T>(Capsule<T>{s(), s()});
+        return Shape<double>(Capsule<double>{s(), s()});
       },
       [](const Size& s) {
-        return Shape<T>(TaperedCapsule<T>{s(), s(), T(2) + s()});
+        return Shape<double>(TaperedCapsule<double>{s(), s(), 2 + s()});
       },
       [](const Size& s) {
-        return Shape<T>(Cylinder<T>{s(), s()});
+        return Shape<double>(Cylinder<double>{s(), s()});
       },
       [](const Size& s) {
-        return Shape<T>(Cone<T>{s(), s()});
+        return Shape<double>(Cone<double>{s(), s()});
       },
       [](const Size& s) {
-        return Shape<T>(Frustum<T>{T(1) + s(), s() / 4, s()});
+        return Shape<double>(Frustum<double>{1 + s(), s() / 4, s()});
       },
   };
 }
 
-TYPED_TEST(ScreenOf, says_of_casts_at_all_kinds_what_they_answer) {
-  using T = TypeParam;
-  for (const auto& kind : kinds<T>()) {
+TEST_F(ScreenOf, says_of_casts_at_all_kinds_what_they_answer) {
+  for (const auto& kind : kinds()) {
     Seen seen;
     for (int round = 0; round < 3000; ++round) {
-      const double scale = std::exp2(this->within(-9, 9)),
-                   away = this->within(0, 1) < 0.3 ? 300 : 3;
-      std::vector<PreparedShape<T>> shapes;
-      std::vector<Ray<T>> rays;
+      const double scale = std::exp2(within(-9, 9)), away = within(0, 1) < 0.3 ? 300 : 3;
+      std::vector<PreparedShape<double>> shapes;
+      std::vector<Ray<double>> rays;
       FormKind first = FormKind::none;
       while (shapes.size() < screen_lanes) {
-        const Shape<T> shape = kind([&] { return static_cast<T>(std::exp2(this->within(-2, 1))); });
-        const Affine<T> pose = this->pose(scale, away * scale, round % 3 == 0);
-        PreparedShape<T> prepared(shape, pose);
-        const Screen screen = screen_of(prepared.definition());
+        const Shape<double> shape =
+            kind([&] { return static_cast<double>(std::exp2(within(-2, 1))); });
+        const Affine<double> pose = this->pose(scale, away * scale, round % 3 == 0);
+        PreparedShape<double> prepared(shape, pose);
+        const Screen screen = screen_of(prepared.definition(), Vec3<double>::Zero());
         if (!shapes.empty() && screen.kind != first) continue;  // a frustum with ends alike
         first = screen.kind;
-        const Vec3<double> centre = prepared.centre().template cast<double>();
+        const Vec3<double> centre = prepared.centre().cast<double>();
         // Some go by the edge, some begin within, some lie in a plane of the axes.
-        Vec3<double> from = centre + this->point(away * scale);
-        const Vec3<double> aim = centre + this->point(1.2 * scale);
-        if (round % 7 == 0) from = centre + this->point(0.3 * scale);
-        Vec3<double> direction = (aim - from) * std::exp2(this->within(-3, 3)) / scale;
+        Vec3<double> from = centre + point(away * scale);
+        const Vec3<double> aim = centre + point(1.2 * scale);
+        if (round % 7 == 0) from = centre + point(0.3 * scale);
+        Vec3<double> direction = (aim - from) * std::exp2(within(-3, 3)) / scale;
         if (round % 5 == 0) direction[round % 3] = 0;
-        Ray<T> ray{from.cast<T>(), direction.template cast<T>()};
+        Ray<double> ray{from.cast<double>(), direction.cast<double>()};
         if (ray.direction.isZero(0)) continue;
-        if (round % 11 == 0) ray.t_max = static_cast<T>(this->within(0, 2));
+        if (round % 11 == 0) ray.t_max = static_cast<double>(within(0, 2));
         shapes.push_back(std::move(prepared));
         rays.push_back(ray);
       }
@@ -158,17 +161,16 @@ TYPED_TEST(ScreenOf, says_of_casts_at_all_kinds_what_they_answer) {
   }
 }
 
-TYPED_TEST(ScreenOf, is_seldom_undecided) {
-  using T = TypeParam;
-  const PreparedShape<T> shape{
-      Shape<T>(Rounded<T>{T(0.1), Shape<T>(Box<T>{{T(0.5), T(0.3), T(0.2)}})})};
-  const std::vector<PreparedShape<T>> shapes(screen_lanes, shape);
+TEST_F(ScreenOf, is_seldom_undecided) {
+  const PreparedShape<double> shape{
+      Shape<double>(Rounded<double>{0.1, Shape<double>(Box<double>{{0.5, 0.3, 0.2}})})};
+  const std::vector<PreparedShape<double>> shapes(screen_lanes, shape);
   Seen seen;
   for (int round = 0; round < 2000; ++round) {
-    std::vector<Ray<T>> rays;
+    std::vector<Ray<double>> rays;
     for (int i = 0; i < screen_lanes; ++i) {
-      const Vec3<double> from = unit<double>(this->point(1)) * 50.0, aim = this->point(0.7);
-      rays.push_back({from.cast<T>(), (aim - from).template cast<T>()});
+      const Vec3<double> from = unit<double>(point(1)) * 50.0, aim = point(0.7);
+      rays.push_back({from.cast<double>(), (aim - from).cast<double>()});
     }
     compare(shapes, rays, seen);
   }
@@ -176,20 +178,19 @@ TYPED_TEST(ScreenOf, is_seldom_undecided) {
   EXPECT_LT(seen.pairs - seen.misses - seen.sure, seen.pairs / 500);
 }
 
-TYPED_TEST(ScreenOf, shapes_without_a_form_have_a_box_around_them) {
-  using T = TypeParam;
-  const Shape<T> sum = MinkowskiSum<T>{
-      {Shape<T>(Ellipsoid<T>{{T(0.4), T(0.3), T(0.2)}}), Shape<T>(Cone<T>{T(0.3), T(0.5)})}};
-  const std::vector<PreparedShape<T>> shapes(screen_lanes, PreparedShape<T>{sum});
-  const Screen screen = screen_of(shapes[0].definition());
+TEST_F(ScreenOf, shapes_without_a_form_have_a_box_around_them) {
+  const Shape<double> sum = MinkowskiSum<double>{
+      {Shape<double>(Ellipsoid<double>{{0.4, 0.3, 0.2}}), Shape<double>(Cone<double>{0.3, 0.5})}};
+  const std::vector<PreparedShape<double>> shapes(screen_lanes, PreparedShape<double>{sum});
+  const Screen screen = screen_of(shapes[0].definition(), Vec3<double>::Zero());
   EXPECT_EQ(screen.kind, FormKind::box);
   EXPECT_FALSE(screen.is_whole);
   Seen seen;
   for (int round = 0; round < 2000; ++round) {
-    std::vector<Ray<T>> rays;
+    std::vector<Ray<double>> rays;
     for (int i = 0; i < screen_lanes; ++i) {
-      const Vec3<double> from = unit<double>(this->point(1)) * 5.0, aim = this->point(1);
-      rays.push_back({from.cast<T>(), (aim - from).template cast<T>()});
+      const Vec3<double> from = unit<double>(point(1)) * 5.0, aim = point(1);
+      rays.push_back({from.cast<double>(), (aim - from).cast<double>()});
     }
     compare(shapes, rays, seen);
   }
@@ -207,17 +208,16 @@ struct Said {
 
 Said said_of(const Shape<double>& shape, const Ray<double>& ray) {
   const PreparedShape<double> prepared{shape};
-  const Screen screen = screen_of(prepared.definition());
-  const Mat3<double> unturned = Mat3<double>::Identity();
-  const std::array<double, 4> centre = {prepared.centre().x(), prepared.centre().y(),
-                                        prepared.centre().z(), 0};
-  ScreenPairs<double> pairs;
-  pairs.ray.fill(&ray);
-  pairs.centre.fill(reinterpret_cast<const Vec3<double>*>(centre.data()));
-  pairs.to_inner.fill(prepared.linear_to_inner() ? prepared.linear_to_inner() : &unturned);
-  pairs.form.fill(&screen.form);
+  const Screen screen = screen_of(prepared.definition(), Vec3<double>::Zero());
+  const InstancePlace place = place_of(prepared, 0);
+  const std::array<Ray<double>, 2> rays = {ray, ray};
+  const float limit = std::numeric_limits<float>::infinity();
+  const std::array<std::uint32_t, screen_lanes> first = {};
   Screened answers;
-  screen_avx2(screen.kind, pairs, answers);
+  screen_avx2(
+      screen.kind,
+      {reinterpret_cast<const char*>(rays.data()), sizeof(Ray<double>), &place, &screen, &limit},
+      first.data(), first.data(), answers);
   return {static_cast<double>(answers.first[0]), static_cast<double>(answers.last[0])};
 }
 
@@ -270,7 +270,9 @@ TEST_F(ScreenBounds, directions_of_unusual_length_and_shapes_of_unusual_size_are
   EXPECT_TRUE(along(0.7e4).is_sure());
   EXPECT_TRUE(along(1.5e4).is_undecided());
   const auto kind = [](double radius) {
-    return screen_of(ShapeDefinition<double>(Shape<double>(Sphere<double>{radius}))).kind;
+    return screen_of(ShapeDefinition<double>(Shape<double>(Sphere<double>{radius})),
+                     Vec3<double>::Zero())
+        .kind;
   };
   EXPECT_EQ(kind(0.7e-7), FormKind::none);
   EXPECT_EQ(kind(1.5e-7), FormKind::ball);

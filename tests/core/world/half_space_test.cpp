@@ -71,18 +71,20 @@ TYPED_TEST(HalfSpaces, a_plane_that_numbers_do_not_reach_is_told) {
   EXPECT_EQ(status(askew, {most, T(0), most}, down, infinity), Status::exhausted);
   EXPECT_EQ(status(beyond, {T(0), T(0), T(0)}, down, infinity), Status::exhausted);
 
-  Instances<T> instances;
-  instances.add(floor);
-  const World<T> world(std::move(instances));
-  QueryCounts counts;
-  EXPECT_FALSE(world.closest_hit({{T(0), T(0), T(1)}, least * down}, counts).found());
-  EXPECT_EQ(counts.exhausted, 1u);
+  if constexpr (std::is_same_v<T, double>) {
+    Instances instances;
+    instances.add(floor);
+    const World world(std::move(instances));
+    QueryCounts counts;
+    EXPECT_FALSE(world.closest_hit({{0, 0, 1}, least * down}, counts).found());
+    EXPECT_EQ(counts.exhausted, 1u);
+  }
 }
 
 /// Some balls and half-spaces; the latter neither first nor last.
-template <class T>
-World<T> mixed_world(testing::Random& random) {
-  Instances<T> instances;
+World mixed_world(testing::Random& random) {
+  using T = double;
+  Instances instances;
   for (int i = 0; i < 40; ++i) {
     if (i % 10 == 5) {
       instances.add(HalfSpaceBody<T>{random.direction().template cast<T>(), T(-4 - i * 0.02)});
@@ -92,18 +94,18 @@ World<T> mixed_world(testing::Random& random) {
     ball.radius = T(0.4);
     instances.add(Shape<T>(ball), {Mat3<T>::Identity(), (3 * random.in_cube()).template cast<T>()});
   }
-  return World<T>(std::move(instances));
+  return World(std::move(instances));
 }
 
-TYPED_TEST(HalfSpaces, a_world_answers_as_each_of_its_instances_alone_would) {
-  using T = TypeParam;
+TEST(HalfSpacesInWorlds, a_world_answers_as_each_of_its_instances_alone_would) {
+  using T = double;
   testing::Random random(2);
-  const World<T> world = mixed_world<T>(random);
+  const World world = mixed_world(random);
   int of_half_spaces = 0;
   for (int i = 0; i < 5000; ++i) {
     const Ray<T> ray = random_ray<T>(random);
     const auto skip = i % 3 == 0 ? static_cast<std::uint32_t>(random.below(40)) : no_instance;
-    WorldHit<T> expected;
+    WorldHit expected;
     for (std::uint32_t k = 0; k < world.instances().size(); ++k) {
       if (k == skip) continue;
       CastResult<T> cast;
@@ -116,7 +118,7 @@ TYPED_TEST(HalfSpaces, a_world_answers_as_each_of_its_instances_alone_would) {
       if (cast.found() && expected.yields_to(k, cast.t())) expected = {k, cast};
     }
     QueryCounts counts;
-    const WorldHit<T> hit = world.closest_hit(ray, counts, skip);
+    const WorldHit hit = world.closest_hit(ray, counts, skip);
     ASSERT_EQ(hit.instance, expected.instance);
     if (hit.found()) {
       ASSERT_EQ(hit.cast.t(), expected.cast.t());
@@ -127,27 +129,28 @@ TYPED_TEST(HalfSpaces, a_world_answers_as_each_of_its_instances_alone_would) {
   EXPECT_GT(of_half_spaces, 500);
 }
 
-TYPED_TEST(HalfSpaces, rays_together_answer_as_rays_alone) {
-  using T = TypeParam;
+TEST(HalfSpacesInWorlds, rays_together_answer_as_rays_alone) {
+  using T = double;
   testing::Random random(3);
-  const World<T> world = mixed_world<T>(random);
+  const World world = mixed_world(random);
   for (int i = 0; i < 300; ++i) {
-    const auto count = static_cast<std::size_t>(1 + random.below(most_rays_at_once));
+    const auto count = static_cast<std::size_t>(1 + random.below(100));
     const Vec3<double> from = 3 * random.in_cube(), along = random.direction();
-    std::vector<WorldRay<T>> rays;
+    std::vector<WorldRay> rays;
     for (std::size_t k = 0; k < count; ++k)
       rays.push_back(
           {{from.cast<T>(), unit<double>(along + 0.1 * random.in_cube()).template cast<T>()},
            k % 7 == 0 ? static_cast<std::uint32_t>(random.below(40)) : no_instance});
-    std::vector<WorldHit<T>> hits(count);
+    std::vector<WorldHit> hits(count);
     QueryCounts counts;
     world.closest_hits(rays, hits, counts);
-    const RayGroupMask met = world.occluded(rays, counts);
+    std::vector<std::uint8_t> met(count);
+    world.occluded(std::span<const WorldRay>(rays), met, counts);
     for (std::size_t k = 0; k < count; ++k) {
-      const WorldHit<T> alone = world.closest_hit(rays[k].ray, counts, rays[k].skip);
+      const WorldHit alone = world.closest_hit(rays[k].ray, counts, rays[k].skip);
       ASSERT_EQ(hits[k].instance, alone.instance);
       ASSERT_EQ(hits[k].cast.t(), alone.cast.t());
-      ASSERT_EQ(met >> k & 1, alone.found() ? 1u : 0u);
+      ASSERT_EQ(met[k] != 0, alone.found());
     }
   }
 }
@@ -171,9 +174,9 @@ TYPED_TEST(HalfSpaces, turning_and_moving_it_turns_and_moves_the_hit) {
 }
 
 TEST(HalfSpaces, they_move_with_their_world_and_while_the_shutter_is_open) {
-  Instances<double> instances;
+  Instances instances;
   instances.add(HalfSpaceBody<double>{{0, 0, 1}, 0});
-  World<double> world(std::move(instances));
+  World world(std::move(instances));
   const Ray<double> down{{0, 0, 5}, {0, 0, -1}};
   QueryCounts counts;
   EXPECT_EQ(world.closest_hit(down, counts).cast.t(), 5);

@@ -12,78 +12,72 @@ namespace {
 
 using namespace testing;
 
-template <class T>
-class WorldRayGroupsOf : public ::testing::Test {};
-using Scalars = ::testing::Types<float, double>;
-TYPED_TEST_SUITE(WorldRayGroupsOf, Scalars);
-
-TYPED_TEST(WorldRayGroupsOf, answers_are_those_of_single_rays) {
-  using T = TypeParam;
-  Scatter<T> random;
-  const World<T> world(scattered_shapes(300, random));
+TEST(WorldRayGroups, answers_are_those_of_single_rays) {
+  Scatter random;
+  const World world(scattered_shapes(300, random));
   std::size_t rays = 0, hits = 0, blocked = 0;
   QueryCounts alone, together;
-  for (const std::size_t count : {1u, 2u, 5u, 8u, 16u, 32u})
+  for (const std::size_t count : {1u, 2u, 5u, 16u, 33u, 64u, 100u})
     for (int kind = 0; kind < 3; ++kind)
       for (int i = 0; i < 15; ++i) {
         const auto asked = bundle(random, kind, count, world.instances().size());
-        std::vector<WorldHit<T>> answers(count);
+        std::vector<WorldHit> answers(count);
         world.closest_hits(asked, answers, together);
-        const RayGroupMask met = world.occluded(asked, together);
-        EXPECT_TRUE(count == 32 || met >> count == 0);
+        std::vector<std::uint8_t> met(count);
+        world.occluded(std::span<const WorldRay>(asked), met, together);
         for (std::size_t k = 0; k < count; ++k, ++rays) {
-          const WorldHit<T> hit = world.closest_hit(asked[k].ray, alone, asked[k].skip);
+          const WorldHit hit = world.closest_hit(asked[k].ray, alone, asked[k].skip);
           EXPECT_TRUE(same(answers[k], hit)) << count << " rays of kind " << kind;
-          EXPECT_EQ(bool(met >> k & 1), world.occluded(asked[k].ray, alone, asked[k].skip));
-          EXPECT_EQ(bool(met >> k & 1), hit.found());
+          EXPECT_EQ(met[k] != 0, world.occluded(asked[k].ray, alone, asked[k].skip));
+          EXPECT_EQ(met[k] != 0, hit.found());
           hits += hit.found();
-          blocked += met >> k & 1;
+          blocked += met[k];
         }
       }
   EXPECT_GT(hits, rays * 3 / 10);
   EXPECT_LT(hits, rays * 9 / 10);
   EXPECT_EQ(blocked, hits);
-  EXPECT_LT(together.nodes, alone.nodes);
 }
 
-TYPED_TEST(WorldRayGroupsOf, no_rays_and_no_world) {
-  using T = TypeParam;
-  Scatter<T> random;
-  const World<T> world(scattered_shapes(20, random)), empty;
+TEST(WorldRayGroups, no_rays_and_no_world) {
+  Scatter random;
+  const World world(scattered_shapes(20, random)), empty;
   QueryCounts counts;
-  EXPECT_EQ(world.occluded(std::span<const WorldRay<T>>(), counts), 0u);
+  world.occluded(std::span<const WorldRay>(), {}, counts);
   world.closest_hits({}, {}, counts);
   EXPECT_EQ(counts.nodes, 0u);
-  const auto asked = bundle<T>(random, 0, 8, 1);
-  std::vector<WorldHit<T>> answers(asked.size());
+  const auto asked = bundle(random, 0, 8, 1);
+  std::vector<WorldHit> answers(asked.size());
   empty.closest_hits(asked, answers, counts);
-  EXPECT_EQ(empty.occluded(asked, counts), 0u);
-  for (const WorldHit<T>& hit : answers) {
+  std::vector<std::uint8_t> met(asked.size(), 1);
+  empty.occluded(std::span<const WorldRay>(asked), met, counts);
+  EXPECT_EQ(std::count(met.begin(), met.end(), 0), 8);
+  for (const WorldHit& hit : answers) {
     EXPECT_FALSE(hit.found());
     EXPECT_EQ(hit.cast.status, Status::miss);
   }
 }
 
-TYPED_TEST(WorldRayGroupsOf, of_instances_at_the_same_t_the_first_is_met) {
-  using T = TypeParam;
-  Scatter<T> random;
+TEST(WorldRayGroups, of_instances_at_the_same_t_the_first_is_met) {
+  Scatter random;
   for (const bool backwards : {false, true}) {
-    Instances<T> pairs;
-    std::vector<Affine<T>> poses;
+    Instances pairs;
+    std::vector<Affine<double>> poses;
     for (int i = 0; i < 50; ++i) poses.push_back(random.pose(5));
     for (int copy = 0; copy < 3; ++copy) {
-      for (const Affine<T>& pose : poses) pairs.add(Shape<T>(Box<T>{{1, T(0.5), T(0.4)}}), pose);
+      for (const Affine<double>& pose : poses)
+        pairs.add(Shape<double>(Box<double>{{1, 0.5, 0.4}}), pose);
       if (backwards) std::reverse(poses.begin(), poses.end());
     }
-    const World<T> world(std::move(pairs));
+    const World world(std::move(pairs));
     QueryCounts counts;
     int hits = 0;
     for (int i = 0; i < 100; ++i) {
-      auto asked = bundle<T>(random, i % 2, 8, 1);
-      for (WorldRay<T>& ray : asked) ray.skip = no_instance;
-      std::vector<WorldHit<T>> answers(asked.size());
+      auto asked = bundle(random, i % 2, 8, 1);
+      for (WorldRay& ray : asked) ray.skip = no_instance;
+      std::vector<WorldHit> answers(asked.size());
       world.closest_hits(asked, answers, counts);
-      for (const WorldHit<T>& hit : answers) {
+      for (const WorldHit& hit : answers) {
         if (!hit.found()) continue;
         EXPECT_LT(hit.instance, 50u);
         ++hits;
@@ -94,17 +88,16 @@ TYPED_TEST(WorldRayGroupsOf, of_instances_at_the_same_t_the_first_is_met) {
 }
 
 // Rays that come together find what is exhausted, too.
-TYPED_TEST(WorldRayGroupsOf, other_solvers_are_asked_one_by_one) {
-  using T = TypeParam;
-  Scatter<T> random;
-  CastOptions<T> impatient;
+TEST(WorldRayGroups, other_solvers_are_asked_one_by_one) {
+  Scatter random;
+  CastOptions<double> impatient;
   impatient.solver = SolverKind::paper;
   impatient.max_iterations = 3;
-  const World<T> world(scattered_shapes(100, random), impatient);
+  const World world(scattered_shapes(100, random), impatient);
   QueryCounts together, alone;
   for (int i = 0; i < 100; ++i) {
-    const auto asked = bundle<T>(random, 0, 16, 1);
-    std::vector<WorldHit<T>> answers(asked.size());
+    const auto asked = bundle(random, 0, 16, 1);
+    std::vector<WorldHit> answers(asked.size());
     world.closest_hits(asked, answers, together);
     for (std::size_t k = 0; k < asked.size(); ++k)
       EXPECT_TRUE(same(answers[k], world.closest_hit(asked[k].ray, alone, asked[k].skip)));
@@ -112,49 +105,121 @@ TYPED_TEST(WorldRayGroupsOf, other_solvers_are_asked_one_by_one) {
   EXPECT_GT(together.exhausted, 0u);
 }
 
-TYPED_TEST(WorldRayGroupsOf, the_build_of_the_hierarchy_does_not_show) {
-  using T = TypeParam;
-  Scatter<T> random, again;
-  const World<T> quality(scattered_shapes(300, random)),
+TEST(WorldRayGroups, the_build_of_the_hierarchy_does_not_show) {
+  Scatter random, again;
+  const World quality(scattered_shapes(300, random)),
       speed(scattered_shapes(300, again), {}, BvhBuild::speed);
   QueryCounts counts;
   for (int i = 0; i < 1000; ++i) {
-    const WorldRay<T> ray = bundle<T>(random, 2, 1, 300)[0];
+    const WorldRay ray = bundle(random, 2, 1, 300)[0];
     EXPECT_TRUE(same(quality.closest_hit(ray.ray, counts, ray.skip),
                      speed.closest_hit(ray.ray, counts, ray.skip)));
   }
 }
 
+/// Rays from one point through neighbouring pixels, as blocks take them.
+std::vector<WorldRay> camera_rays(Scatter& random, std::size_t count) {
+  const Vec3<double> from = random.point(20), towards = -from * random.within(0.01, 10);
+  std::vector<WorldRay> rays;
+  for (std::size_t i = 0; i < count; ++i)
+    rays.push_back({{from, towards + 0.1 * towards.norm() * random.point(1)}});
+  if (random.within(0, 1) < 0.3)
+    for (WorldRay& ray : rays) ray.ray.t_max = random.within(0.2, 2);
+  return rays;
+}
+
+void expect_single_answers(const World& world, std::span<const WorldRay> rays, int& hits) {
+  QueryCounts counts;
+  std::vector<WorldHit> answers(rays.size());
+  world.closest_hits(rays, answers, counts);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const WorldHit alone = world.closest_hit(rays[i], counts);
+    ASSERT_TRUE(same(answers[i], alone)) << i;
+    hits += alone.found();
+  }
+}
+
+TEST(WorldRayGroups, blocks_of_camera_rays_answer_as_single_rays) {
+  Scatter random;
+  std::vector<World> worlds;
+  worlds.emplace_back(scattered_instances(2000, random));  // of all kinds, moved, turned and scaled
+  {
+    Instances with_planes = scattered_instances(300, random);
+    with_planes.add(HalfSpaceBody<double>{Vec3<double>(0, 0, 1), -9});
+    with_planes.add(HalfSpaceBody<double>{Vec3<double>(0, 1, 0), -11});
+    worlds.emplace_back(std::move(with_planes));
+  }
+  for (const Shape<double>& shape :
+       {Shape<double>(Sphere<double>{0.7}),
+        Shape<double>(Rounded<double>{0.1, Shape<double>(Box<double>{{0.6, 0.5, 0.3}})}),
+        Shape<double>(Cone<double>{0.5, 0.8})}) {
+    Instances one_kind;
+    for (int i = 0; i < 500; ++i) one_kind.add(shape, random.pose(8));
+    worlds.emplace_back(std::move(one_kind));
+  }
+  {
+    Instances hulls;  // each of its own points
+    for (int i = 0; i < 200; ++i) {
+      std::vector<Vec3<double>> points;
+      for (int k = 0; k < 8 + i % 90; ++k) points.push_back(random.point(0.8));
+      hulls.add(Shape<double>(Hull<double>{PointCloud<double>(points)}), random.pose(6));
+    }
+    worlds.emplace_back(std::move(hulls));
+  }
+  for (const World& world : worlds) {
+    int hits = 0;
+    for (const std::size_t count : {16u, 40u, 64u, 100u, 640u})
+      for (int round = 0; round < 40; ++round)
+        expect_single_answers(world, camera_rays(random, count), hits);
+    EXPECT_GT(hits, 40 * 860 / 50);
+  }
+}
+
+TEST(WorldRayGroups, rays_of_a_block_meet_what_is_shown_to_their_kind) {
+  Scatter random;
+  Instances shapes = scattered_instances(500, random);
+  for (std::size_t i = 0; i < shapes.size(); ++i)
+    shapes.show_to(i, static_cast<RayKinds>(1 + i % 3));
+  const World world(std::move(shapes));
+  int hits = 0;
+  for (int round = 0; round < 60; ++round) {
+    auto rays = camera_rays(random, 64);
+    for (WorldRay& ray : rays) ray.kinds = static_cast<RayKinds>(1 << round % 2);
+    if (round % 3 == 0) rays[round].kinds = 3;
+    expect_single_answers(world, rays, hits);
+  }
+  EXPECT_GT(hits, 300);
+}
+
 // One world is the tree around what has moved, the other a tree built of it anew.
-TYPED_TEST(WorldRayGroupsOf, moved_instances_answer_as_if_built_where_they_are) {
-  using T = TypeParam;
-  Scatter<T> random;
-  std::vector<Affine<T>> poses(400);
-  const Shape<T> shape = Rounded<T>{T(0.1), Shape<T>(Box<T>{{T(0.6), T(0.5), T(0.3)}})};
+TEST(WorldRayGroups, moved_instances_answer_as_if_built_where_they_are) {
+  Scatter random;
+  std::vector<Affine<double>> poses(400);
+  const Shape<double> shape = Rounded<double>{0.1, Shape<double>(Box<double>{{0.6, 0.5, 0.3}})};
   const auto pose_of = [&](std::size_t i) { return poses[i]; };
-  const auto instances = [&](bool alike) {
-    Instances<T> made;
-    made.add_many(made.define(shape), poses.size(), alike, pose_of);
+  const auto instances = [&] {
+    Instances made;
+    made.add_many(made.define(shape), poses.size(), pose_of);
     return made;
   };
   int hits = 0;
   for (const bool alike : {false, true}) {
-    for (Affine<T>& pose : poses) pose = random.pose(6);
+    for (Affine<double>& pose : poses) pose = random.pose(6);
     if (alike)
-      for (Affine<T>& pose : poses) pose.linear = poses[0].linear;
-    World<T> world(instances(alike));
+      for (Affine<double>& pose : poses) pose.linear = poses[0].linear;
+    World world(instances());
     for (int step = 0; step < 3; ++step) {
-      for (Affine<T>& pose : poses) {
-        const Affine<T> turn = random.pose(T(0.5));
+      for (Affine<double>& pose : poses) {
+        const Affine<double> turn = random.pose(0.5);
         pose = {turn.linear * pose.linear, pose.translation + turn.translation};
       }
       poses[7].linear.setIdentity();
       world.pose_all(pose_of);
-      const World<T> anew(instances(false));
+      const World anew(instances());
       QueryCounts counts;
       for (int i = 0; i < 300; ++i) {
-        const WorldRay<T> ray = bundle<T>(random, 2, 1, poses.size())[0];
-        const WorldHit<T> hit = anew.closest_hit(ray.ray, counts, ray.skip);
+        const WorldRay ray = bundle(random, 2, 1, poses.size())[0];
+        const WorldHit hit = anew.closest_hit(ray.ray, counts, ray.skip);
         EXPECT_TRUE(same(world.closest_hit(ray.ray, counts, ray.skip), hit));
         hits += hit.found();
         if (!hit.found()) continue;

@@ -23,24 +23,24 @@ Scene row_of_balls() {
 
 struct Audited {
   Scene scene = row_of_balls();
-  RenderWorld world = make_world(scene);
+  World world = make_world(scene);
   RayAudit audit{scene, world};
 
   /// How many failures the answers to one ray make, as told by `lie`.
   template <class Lie>
-  std::uint64_t failures(const Ray<Real>& ray, const Lie& lie) {
+  std::uint64_t failures(const Ray<double>& ray, const Lie& lie) {
     const std::uint64_t before = audit.failed(RayKind::camera);
     QueryCounts counts;
-    WorldHit<Real> answer = world.closest_hit(ray, counts);
+    WorldHit answer = world.closest_hit(ray, counts);
     lie(answer);
     audit.closest(RayKind::camera, ray, no_instance, answer);
     return audit.failed(RayKind::camera) - before;
   }
 };
 
-const Ray<Real> along_row{{-5, 0, 1}, {1, 0, 0}};
-const Ray<Real> above{{-5, 0, 3}, {1, 0, 0}};
-const auto no_lie = [](WorldHit<Real>&) {};
+const Ray<double> along_row{{-5, 0, 1}, {1, 0, 0}};
+const Ray<double> above{{-5, 0, 3}, {1, 0, 0}};
+const auto no_lie = [](WorldHit&) {};
 
 TEST(RayAudit, true_answers_are_proven) {
   Audited audited;
@@ -57,10 +57,10 @@ TEST(RayAudit, true_answers_are_proven) {
 TEST(RayAudit, an_object_that_was_overlooked_is_named) {
   Audited audited;
   QueryCounts counts;
-  const WorldHit<Real> behind = audited.world.closest_hit(along_row, counts, 0);
+  const WorldHit behind = audited.world.closest_hit(along_row, counts, 0);
   ASSERT_EQ(behind.instance, 1u);
-  EXPECT_EQ(audited.failures(along_row, [&](WorldHit<Real>& answer) { answer = behind; }), 1u);
-  EXPECT_EQ(audited.failures(along_row, [](WorldHit<Real>& answer) { answer = {}; }), 1u);
+  EXPECT_EQ(audited.failures(along_row, [&](WorldHit& answer) { answer = behind; }), 1u);
+  EXPECT_EQ(audited.failures(along_row, [](WorldHit& answer) { answer = {}; }), 1u);
   ASSERT_EQ(audited.audit.failures().size(), 2u);
   for (const AuditFailure& failure : audited.audit.failures()) {
     EXPECT_NE(failure.message.find("near"), std::string::npos) << failure.message;
@@ -71,9 +71,9 @@ TEST(RayAudit, an_object_that_was_overlooked_is_named) {
 TEST(RayAudit, a_wrong_hit_is_found) {
   Audited audited;
   EXPECT_EQ(
-      audited.failures(along_row, [](WorldHit<Real>& answer) { answer.cast.t_offset += 1e-9; }),
+      audited.failures(along_row, [](WorldHit& answer) { answer.cast.t_offset += 1e-9; }),
       1u);
-  EXPECT_EQ(audited.failures(along_row, [](WorldHit<Real>& answer) { answer.instance = 1; }), 1u);
+  EXPECT_EQ(audited.failures(along_row, [](WorldHit& answer) { answer.instance = 1; }), 1u);
   audited.audit.occluded(RayKind::shadow, along_row, no_instance, false);
   audited.audit.occluded(RayKind::shadow, above, no_instance, true);
   EXPECT_EQ(audited.audit.failed(RayKind::shadow), 2u);
@@ -86,7 +86,7 @@ TEST(RayAudit, every_ray_of_a_picture_is_proven) {
   scene.materials.push_back({});
   scene.lights.push_back(DirectionalLight{{0.3, 0.2, -1}, Colour::Constant(1)});
   scene.lights.push_back(EnvironmentLight{Colour::Constant(1), Colour::Constant(1)});
-  const RenderWorld world = make_world(scene);
+  const World world = make_world(scene);
   RayAudit audit(scene, world);
   RenderOptions options;
   options.resolution = {48, 27};

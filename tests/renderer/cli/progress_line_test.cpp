@@ -30,7 +30,7 @@ RenderOptions small_picture(int samples) {
 // The spread of samples that are drawn evenly tells more than the error is, never much less.
 TEST(Progress, the_noise_is_about_the_error_of_the_picture) {
   const Scene scene = lit_ball({40, 30});
-  const RenderWorld world = make_world(scene);
+  const World world = make_world(scene);
   const Image truth = render(scene, world, small_picture(4096)).image;
   double told = -1;
   int times = 0;

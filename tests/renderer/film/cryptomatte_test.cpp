@@ -30,7 +30,7 @@ TEST(Cryptomatte, covers_what_the_picture_covers) {
                              Sphere<double>{0.8},
                              {Mat3<double>::Identity(), {x, 0.1 * x, 0}},
                              0});
-  const RenderWorld world = make_world(scene);
+  const World world = make_world(scene);
   RenderOptions options;
   options.resolution = {40, 30};
   options.samples = 37;

@@ -50,7 +50,7 @@ class DataChannels : public ::testing::Test {
   }
 
   Scene scene_;
-  RenderWorld world_;
+  World world_;
   RenderOptions options_;
   std::vector<ExrPlane> planes_;
 };
@@ -104,7 +104,7 @@ TEST(DataChannelsOfOneCast, are_its_iterations_supports_gap_and_status) {
   scene.materials = {{"matt", LambertMaterial{}}};
   const Shape<double> shape = Ellipsoid<double>{{2, 0.5, 1}};
   scene.objects = {{"egg", shape, Affine<double>{Mat3<double>::Identity(), {0, 0, 0}}, 0}};
-  CastOptions<Real> cast_options;
+  CastOptions<double> cast_options;
   cast_options.solver = SolverKind::paper;
   RenderOptions options;
   options.resolution = {32, 24};
@@ -117,12 +117,12 @@ TEST(DataChannelsOfOneCast, are_its_iterations_supports_gap_and_status) {
     const auto number = [&](std::size_t plane, std::size_t pixel) {
       return std::get<std::vector<std::uint32_t>>(planes[plane].values)[pixel];
     };
-    const PreparedShape<Real> prepared(shape);
+    const PreparedShape<double> prepared(shape);
     const Camera camera(scene.camera, options.resolution);
     for (std::size_t i = 0; i < 32 * 24; ++i) {
-      const Ray<Real> ray =
+      const Ray<double> ray =
           camera.ray(static_cast<double>(i % 32) + 0.5, static_cast<double>(i / 32) + 0.5);
-      const CastResult<Real> cast = cast_ray(prepared, ray, cast_options);
+      const CastResult<double> cast = cast_ray(prepared, ray, cast_options);
       const bool is_asked = number(1, i) > 0;  // rays past the bounds are not cast
       if (!is_asked) {
         EXPECT_NE(cast.status, Status::hit) << i;
@@ -147,7 +147,7 @@ TEST(DataChannelsOfOneCast, are_its_iterations_supports_gap_and_status) {
   cast_options.max_iterations = 2;  // it gives up
   check();
   EXPECT_TRUE(statuses.contains(3u));
-  cast_options.max_iterations = CastOptions<Real>().max_iterations;
+  cast_options.max_iterations = CastOptions<double>().max_iterations;
   scene.camera.position = {0.1, 0.1, 0.1};  // from within
   check();
   EXPECT_EQ(statuses, (std::set<std::uint32_t>{0, 1, 2, 3}));

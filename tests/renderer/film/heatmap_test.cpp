@@ -22,7 +22,7 @@ Scene two_balls() {
   return scene;
 }
 
-HeatField measure(const Scene& scene, HeatChannel channel, const CastOptions<Real>& cast = {},
+HeatField measure(const Scene& scene, HeatChannel channel, const CastOptions<double>& cast = {},
                   int samples = 1) {
   RenderOptions options;
   options.resolution = {60, 40};
@@ -31,8 +31,8 @@ HeatField measure(const Scene& scene, HeatChannel channel, const CastOptions<Rea
 }
 
 /// Asks the models: a ball's closed form costs no iteration.
-CastOptions<Real> by_models() {
-  CastOptions<Real> options;
+CastOptions<double> by_models() {
+  CastOptions<double> options;
   options.solver = SolverKind::jet;
   return options;
 }
@@ -78,7 +78,7 @@ TEST(Heatmap, status_tells_hit_inside_and_exhausted) {
   inside.camera.position = {0.8, 0, 0};
   EXPECT_EQ(statuses(measure(inside, HeatChannel::status)), std::set<float>{2});
 
-  CastOptions<Real> impatient;
+  CastOptions<double> impatient;
   impatient.solver = SolverKind::paper;
   impatient.max_iterations = 2;
   const HeatField field = measure(two_balls(), HeatChannel::status, impatient);

@@ -18,7 +18,7 @@ constexpr double normal_error = 4e-8;
 /// The radiance of the ray through a point of the picture, many samples.
 Colour radiance(const Scene& scene, double x, double y, int samples = 1,
                 const IntegratorOptions& options = {}) {
-  const RenderWorld world = make_world(scene);
+  const World world = make_world(scene);
   const Integrator integrator(scene, world, options);
   const Camera camera(scene.camera, scene.camera.resolution);
   Colour sum = Colour::Zero();

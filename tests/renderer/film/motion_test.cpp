@@ -101,7 +101,7 @@ TEST(Motion, while_the_shutter_is_open_things_go_and_turn_as_their_keys_say) {
 TEST(Motion, a_frame_with_a_closed_shutter_is_the_picture_of_the_scene_posed_at_that_time) {
   const double time = 0.4;
   Scene moving = flight(0);
-  RenderWorld world = make_world(moving);
+  World world = make_world(moving);
   set_time(moving, time);
   follow(world, moving);
 
@@ -120,7 +120,7 @@ TEST(Motion, a_frame_with_a_closed_shutter_is_the_picture_of_the_scene_posed_at_
 // Frame after frame the hierarchy is refitted and at times built anew; no picture shows it.
 TEST(Motion, a_frame_does_not_depend_on_the_frames_before_it) {
   Scene scene = flight(0.1);
-  RenderWorld world = make_world(scene);
+  World world = make_world(scene);
   for (const double time : {0.1, 0.9, 0.3}) {
     set_time(scene, time);
     follow(world, scene);
@@ -134,7 +134,7 @@ TEST(Motion, a_frame_does_not_depend_on_the_frames_before_it) {
 TEST(Motion, every_ray_of_a_blurred_picture_sees_the_scene_as_it_stands_at_its_moment) {
   Scene blurred = flight(0.5);
   set_time(blurred, 0.3);
-  const RenderWorld world = make_world(blurred);
+  const World world = make_world(blurred);
   ASSERT_TRUE(world.instances().move());
   const Camera camera(blurred.camera, {64, 48});
   const Integrator integrator(blurred, world);
@@ -146,7 +146,7 @@ TEST(Motion, every_ray_of_a_blurred_picture_sees_the_scene_as_it_stands_at_its_m
       object.movement = {};
       object.motion.reset();
     }
-    const RenderWorld still_world = make_world(still);
+    const World still_world = make_world(still);
     ASSERT_FALSE(still_world.instances().move());
     const Integrator still_integrator(still, still_world);
     for (int y = 0; y < 48; ++y) {
@@ -163,8 +163,8 @@ TEST(Motion, every_ray_of_a_blurred_picture_sees_the_scene_as_it_stands_at_its_m
       for (std::size_t x = 0; x < together.size(); x += most_in_ray_group)
         integrator.trace(std::span(together).subspan(x, most_in_ray_group), counts);
       for (int x = 0; x < 64; ++x) {
-        const Ray<Real> ray = camera.ray(x + 0.5, y + 0.5);
-        const auto seen = [&](const Integrator& by, RayCounts& of, Real time) {
+        const Ray<double> ray = camera.ray(x + 0.5, y + 0.5);
+        const auto seen = [&](const Integrator& by, RayCounts& of, double time) {
           TracedRay one{ray, Sampler(1, x, y, 0)};
           one.time = time;
           by.trace(std::span(&one, 1), of);
@@ -223,10 +223,10 @@ TEST(Motion, a_moving_ball_is_blurred_into_the_mean_of_pictures_of_it_standing) 
 
 TEST(Motion, boxes_hold_all_of_the_way) {
   Scene scene = flight(0.5);
-  const RenderWorld world = make_world(scene);
+  const World world = make_world(scene);
   // Far beyond the box at the beginning, the ray meets the box at the end only.
   const Vec3<double> end = scene.objects[1].pose.translation + scene.objects[1].movement.shift;
-  const Ray<Real> ray{end + Vec3<double>(0, 0, 5), {0, 0, -1}};
+  const Ray<double> ray{end + Vec3<double>(0, 0, 5), {0, 0, -1}};
   QueryCounts counts;
   EXPECT_EQ(world.closest_hit(ray, counts, no_instance, 1).instance, 1u);
   EXPECT_EQ(world.closest_hit(ray, counts, no_instance, 0).instance, 0u);

@@ -23,7 +23,7 @@ Rendering rendering(const Scene& scene, int samples, double noise, std::uint64_t
   options.noise = noise;
   options.seed = seed;
   options.integrator.ray_group = packet;
-  const RenderWorld world = make_world(scene);
+  const World world = make_world(scene);
   return render(scene, world, options);
 }
 

@@ -25,7 +25,7 @@ RenderOptions options_for(const Scene& scene, int samples) {
 
 TEST(Progressive, the_last_picture_has_the_same_bits_as_in_one_go) {
   const Scene scene = ball_out_of_focus();
-  const RenderWorld world = make_world(scene);
+  const World world = make_world(scene);
   for (const int samples : {1, 6, 16, 100})
     for (const double noise : {0.0, 0.1}) {
       RenderOptions options = options_for(scene, samples);
@@ -49,7 +49,7 @@ TEST(Progressive, the_last_picture_has_the_same_bits_as_in_one_go) {
 
 TEST(Progressive, each_pass_is_a_picture_of_its_samples) {
   const Scene scene = ball_out_of_focus();
-  const RenderWorld world = make_world(scene);
+  const World world = make_world(scene);
   RenderJournal journal;
   int compared = 0;
   journal.passed = [&](const Rendering& so_far, int samples) {
@@ -69,7 +69,7 @@ TEST(Progressive, each_pass_is_a_picture_of_its_samples) {
 // Pixels of tiles that are done, from a checkpoint, are left as they are.
 TEST(Progressive, goes_on_where_a_checkpoint_ended) {
   const Scene scene = ball_out_of_focus();
-  const RenderWorld world = make_world(scene);
+  const World world = make_world(scene);
   const RenderOptions options = options_for(scene, 20);
   const Rendering whole = render(scene, world, options);
   RenderJournal journal;
@@ -87,7 +87,7 @@ TEST(Progressive, goes_on_where_a_checkpoint_ended) {
 
 TEST(LightChannels, direct_light_is_that_of_the_direct_integrator) {
   const Scene scene = ball_out_of_focus();
-  const RenderWorld world = make_world(scene);
+  const World world = make_world(scene);
   RenderOptions options = options_for(scene, 8);
   const Rendering all = render(scene, world, options);
   options.integrator.kind = IntegratorKind::direct;
@@ -104,7 +104,7 @@ TEST(LightChannels, direct_light_is_that_of_the_direct_integrator) {
 // of one pixel are spread evenly, so that it says somewhat too much.
 TEST(LightChannels, the_variance_is_about_how_pictures_differ) {
   const Scene scene = ball_out_of_focus();
-  const RenderWorld world = make_world(scene);
+  const World world = make_world(scene);
   RenderOptions options = options_for(scene, 16);
   const Rendering reference = render(scene, world, options_for(scene, 2048));
   double told = 0, seen = 0;

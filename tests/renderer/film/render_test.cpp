@@ -40,7 +40,7 @@ RenderOptions small_picture() {
 
 TEST(Render, the_same_bits_for_any_number_of_threads) {
   const Scene scene = still_life();
-  const RenderWorld world = make_world(scene);
+  const World world = make_world(scene);
   Image first;
   for (const int threads : {1, 2, 3, 7}) {
     Rendering rendering;
@@ -73,7 +73,7 @@ Scene heap() {
 // Rays that are traced together must not know of each other.
 TEST(Render, the_same_bits_for_any_ray_group) {
   const Scene scene = heap();
-  const RenderWorld world = make_world(scene), other_tree = make_world(scene, {}, BvhBuild::speed);
+  const World world = make_world(scene), other_tree = make_world(scene, {}, BvhBuild::speed);
   for (const int samples : {1, 3, 70}) {
     RenderOptions options = small_picture();
     options.samples = samples;
@@ -97,7 +97,7 @@ TEST(Render, the_same_bits_for_any_ray_group) {
 
 TEST(Render, shares_of_samples_do_not_depend_on_ray_groups) {
   const Scene scene = heap();
-  const RenderWorld world = make_world(scene);
+  const World world = make_world(scene);
   RenderOptions options = small_picture();
   options.crop = {30, 20, 50, 31};
   options.samples = 7;
@@ -117,7 +117,7 @@ TEST(Render, shares_of_samples_do_not_depend_on_ray_groups) {
 // Proof is asked for every ray, in groups or not.
 TEST(Render, ray_groups_are_audited) {
   const Scene scene = still_life();
-  const RenderWorld world = make_world(scene);
+  const World world = make_world(scene);
   RenderOptions options = small_picture();
   options.crop = {20, 20, 31, 29};
   std::array<std::uint64_t, 4> rays_alone{};
@@ -138,7 +138,7 @@ TEST(Render, ray_groups_are_audited) {
 
 TEST(Render, a_crop_is_a_part_of_the_whole_picture) {
   const Scene scene = still_life();
-  const RenderWorld world = make_world(scene);
+  const World world = make_world(scene);
   RenderOptions options = small_picture();
   const Image whole = render(scene, world, options).image;
   options.crop = {13, 7, 60, 41};
@@ -151,7 +151,7 @@ TEST(Render, a_crop_is_a_part_of_the_whole_picture) {
 
 TEST(Render, another_seed_gives_another_picture_of_the_same_thing) {
   const Scene scene = still_life();
-  const RenderWorld world = make_world(scene);
+  const World world = make_world(scene);
   RenderOptions options = small_picture();
   options.samples = 16;
   const Image one = render(scene, world, options).image;
@@ -168,7 +168,7 @@ TEST(Render, another_seed_gives_another_picture_of_the_same_thing) {
 
 TEST(Render, stops_when_told_to) {
   const Scene scene = still_life();
-  const RenderWorld world = make_world(scene);
+  const World world = make_world(scene);
   RenderOptions options = small_picture();
   options.samples = 1 << 24;  // minutes for one pixel
   std::atomic<int> asked = 0;
@@ -179,7 +179,7 @@ TEST(Render, stops_when_told_to) {
 
 TEST(Render, tells_how_far_it_is) {
   const Scene scene = still_life();
-  const RenderWorld world = make_world(scene);
+  const World world = make_world(scene);
   double last = 0;
   const auto progress = [&](double fraction, std::uint64_t rays) {
     EXPECT_GT(fraction, last);

@@ -163,7 +163,7 @@ TEST(Mjcf, rays_meet_what_mujocos_rays_meet) {
     ImportOptions options;
     options.geometry = GeometryChoice::all;
     const Scene scene = import_scene(file, options).scene;
-    const RenderWorld world = make_world(scene);
+    const World world = make_world(scene);
     bool has_mesh = false;
     for (const auto& geom : theirs->geoms()) has_mesh |= geom.kind == "mesh";
     const Vec3<double> centre = scene.camera.look_at;
@@ -176,7 +176,7 @@ TEST(Mjcf, rays_meet_what_mujocos_rays_meet) {
       int geom = -1;
       const double t = theirs->ray(ray, geom);
       QueryCounts counts;
-      const WorldHit<Real> hit = world.closest_hit(ray, counts);
+      const WorldHit hit = world.closest_hit(ray, counts);
       // MuJoCo's rays pass surfaces from behind: they do not begin inside.
       if (hit.cast.status == Status::inside) continue;
       if (has_mesh) {  // a hull is met no later than its mesh

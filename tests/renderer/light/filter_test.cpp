@@ -235,7 +235,7 @@ TEST(FilteredTexture, fields_to_the_horizon_are_calm_at_one_sample_a_pixel) {
   const Image truth = picture_of(scene, 1024, 1), one = picture_of(scene, 1, 2);
   // As points are: what a ray finds that stands for nothing around it.
   const Image points = [&] {
-    const RenderWorld world = make_world(scene);
+    const World world = make_world(scene);
     const Camera camera(scene.camera, {48, 32});
     const PixelFilter filter;
     const SceneSurfaces surfaces(scene);
@@ -244,7 +244,7 @@ TEST(FilteredTexture, fields_to_the_horizon_are_calm_at_one_sample_a_pixel) {
       for (int x = 0; x < 48; ++x) {
         Sampler sampler(2, x, y, 0);
         const auto u = sampler.next();
-        const Ray<Real> ray =
+        const Ray<double> ray =
             camera.ray(x + 0.5 + filter.offset(u[0]), y + 0.5 + filter.offset(u[1]));
         QueryCounts counts;
         Colour albedo = Colour::Ones(), emission;

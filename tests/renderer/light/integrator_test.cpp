@@ -33,18 +33,18 @@ Scene two_balls() {
 /// Counts what it is told, and asks the world again.
 class Listener final : public RayObserver {
  public:
-  explicit Listener(const RenderWorld& world) : world_(world) {}
+  explicit Listener(const World& world) : world_(world) {}
 
-  void closest(RayKind kind, const Ray<Real>& ray, std::uint32_t skip,
-               const WorldHit<Real>& answer) override {
+  void closest(RayKind kind, const Ray<double>& ray, std::uint32_t skip,
+               const WorldHit& answer) override {
     ++told_[static_cast<std::size_t>(kind)];
-    const WorldHit<Real> again = world_.closest_hit(ray, counts_, skip);
+    const WorldHit again = world_.closest_hit(ray, counts_, skip);
     EXPECT_EQ(answer.instance, again.instance);
     if (again.found()) {
       EXPECT_EQ(answer.cast.t(), again.cast.t());
     }
   }
-  void occluded(RayKind kind, const Ray<Real>& ray, std::uint32_t skip, bool answer) override {
+  void occluded(RayKind kind, const Ray<double>& ray, std::uint32_t skip, bool answer) override {
     ++told_[static_cast<std::size_t>(kind)];
     EXPECT_EQ(answer, world_.occluded(ray, counts_, skip));
     blocked_ += answer ? 1 : 0;
@@ -54,7 +54,7 @@ class Listener final : public RayObserver {
   std::uint64_t blocked() const { return blocked_; }
 
  private:
-  const RenderWorld& world_;
+  const World& world_;
   QueryCounts counts_;
   std::array<std::uint64_t, 4> told_{};
   std::uint64_t blocked_ = 0;
@@ -62,7 +62,7 @@ class Listener final : public RayObserver {
 
 TEST(Integrator, an_observer_is_told_of_every_ray_and_its_own_answer) {
   const Scene scene = two_balls();
-  const RenderWorld world = make_world(scene);
+  const World world = make_world(scene);
   const Camera camera(scene.camera, scene.camera.resolution);
   std::vector<TracedRay> rays;
   for (int y = 0; y < 32; ++y)

@@ -36,9 +36,9 @@ struct Seen {
 };
 
 /// What a ray sees, by so many samples.
-Seen look(const Scene& scene, const Ray<Real>& ray, int samples, IntegratorOptions options = {}) {
+Seen look(const Scene& scene, const Ray<double>& ray, int samples, IntegratorOptions options = {}) {
   options.kind = IntegratorKind::path;
-  const RenderWorld world = make_world(scene);
+  const World world = make_world(scene);
   const Integrator integrator(scene, world, options);
   RayCounts counts;
   Seen seen;
@@ -54,7 +54,7 @@ Seen look(const Scene& scene, const Ray<Real>& ray, int samples, IntegratorOptio
 }
 
 /// From the side to the middle of the floor.
-Ray<Real> to_floor() {
+Ray<double> to_floor() {
   return {{-3, 0, 0.5}, unit<double>({3, 0, -0.5})};
 }
 
@@ -123,13 +123,13 @@ TEST(PathTransport, lamps_of_any_shape_light_as_brute_force_says_with_a_20th_of_
   for (const Shape<double>& shape : odd_lamps()) {
     Scene scene = floor_and_lamp();
     scene.objects.push_back(object(shape, {0.4, 0.7, 2.5}, 1));
-    const RenderWorld world = make_world(scene);
+    const World world = make_world(scene);
     QueryCounts counts;
     constexpr int samples = 1 << 18;
     int met = 0;
     for (int i = 0; i < samples; ++i) {
       Sampler sampler(4, 0, 0, static_cast<std::uint32_t>(i));
-      const Ray<Real> ray{{0, 0, 0}, cosine_direction(sampler.next())};
+      const Ray<double> ray{{0, 0, 0}, cosine_direction(sampler.next())};
       met += world.closest_hit(ray, counts, 0).instance == 1 ? 1 : 0;
     }
     const double part = static_cast<double>(met) / samples;
@@ -166,7 +166,7 @@ TEST(PathTransport, a_furnace_of_lamps_is_even) {
         at[axis] = 3 * side;
         scene.objects.push_back(object(Box<double>{half}, at, 1));
       }
-    const Ray<Real> ray{{0, -2, 0.3}, unit<double>({0.1, 2, 0.2})};
+    const Ray<double> ray{{0, -2, 0.3}, unit<double>({0.1, 2, 0.2})};
     // What gets into a hollow body comes out again much later or soon: it takes more samples.
     const int samples = std::holds_alternative<TranslucentMaterial>(kind) ? 1 << 16 : 1 << 12;
     EXPECT_NEAR(look(scene, ray, samples, {.max_depth = 200}).mean.x(), 1, 0.012) << kind.index();
@@ -183,7 +183,7 @@ TEST(PathTransport, a_flat_sheet_lets_light_through_once) {
       scene.materials = {{"paper", TranslucentMaterial{Colour::Constant(albedo), transmission}}};
       scene.objects = {object(shape, {0, 0, 0}, 0)};
       scene.lights = {DirectionalLight{{0, 0, from_behind ? 1.0 : -1.0}, Colour::Ones()}};
-      const Ray<Real> ray{{0.1, -1, 2}, unit<double>({0, 1, -2})};
+      const Ray<double> ray{{0.1, -1, 2}, unit<double>({0, 1, -2})};
       const double part = from_behind ? transmission : 1 - transmission;
       EXPECT_NEAR(look(scene, ray, 4).mean.x(), part * albedo / std::numbers::pi, 1e-12);
     }
@@ -198,7 +198,7 @@ TEST(PathTransport, a_lamp_in_a_white_lantern_shines_with_all_of_its_light) {
                    object(Sphere<double>{0.02}, {0, 0, 0}, 1)};
   // The lamp sends pi * area; of an even sphere as much leaves each part. The lamp itself absorbs
   // what falls back on it, a few parts in 10^4.
-  const Ray<Real> ray{{0.2, -4, 0.3}, {0, 1, 0}};
+  const Ray<double> ray{{0.2, -4, 0.3}, {0, 1, 0}};
   const double expected = 0.02 * 0.02;
   EXPECT_NEAR(look(scene, ray, 1 << 12, {.max_depth = 200}).mean.x() / expected, 1, 0.03);
 }
@@ -221,7 +221,7 @@ void for_rays_at_ball(double scale, const Visit& visit) {
     for (int x = -64; x <= 64; ++x) {
       const Vec3<double> at(x / 63.5 * scale, y / 63.5 * scale, 0);
       const Vec3<double> eye(0.1 * scale, 0.2 * scale, 7 * scale);
-      visit(Ray<Real>{eye, unit<double>(at - eye)});
+      visit(Ray<double>{eye, unit<double>(at - eye)});
     }
 }
 
@@ -231,12 +231,12 @@ TEST(PathTransport, a_shell_of_glass_4e_5_thick_does_not_leak_at_any_scale) {
   int all_leaks = 0;
   for (const double scale : {1e-3, 1.0, 1e6}) {
     const Scene scene = shell(scale, EmissiveMaterial{{1, 0, 0}});
-    const RenderWorld world = make_world(scene);
+    const World world = make_world(scene);
     const Integrator integrator(scene, world, {.kind = IntegratorKind::path, .max_depth = 1});
     RayCounts counts;
     int red = 0, blue = 0, leaks = 0;
     std::uint32_t i = 0;
-    for_rays_at_ball(scale, [&](const Ray<Real>& ray) {
+    for_rays_at_ball(scale, [&](const Ray<double>& ray) {
       TracedRay traced{ray, Sampler(1, 0, 0, i++)};
       integrator.trace(std::span(&traced, 1), counts);
       const Colour& c = traced.radiance;
@@ -256,11 +256,11 @@ TEST(PathTransport, a_shell_of_glass_4e_5_thick_does_not_leak_at_any_scale) {
 TEST(PathTransport, an_empty_shell_of_glass_loses_nothing_at_any_scale) {
   for (const double scale : {1e-3, 1.0, 1e6}) {
     const Scene scene = shell(scale, DielectricMaterial{1.0});
-    const RenderWorld world = make_world(scene);
+    const World world = make_world(scene);
     const Integrator integrator(scene, world, {.kind = IntegratorKind::path, .max_depth = 1000});
     RayCounts counts;
     std::uint32_t i = 0;
-    for_rays_at_ball(scale, [&](const Ray<Real>& ray) {
+    for_rays_at_ball(scale, [&](const Ray<double>& ray) {
       TracedRay traced{ray, Sampler(1, 0, 0, i++)};
       integrator.trace(std::span(&traced, 1), counts);
       EXPECT_NEAR(traced.radiance.z(), 1, 1e-9);
@@ -274,9 +274,9 @@ TEST(PathTransport, a_ball_lens_focuses_where_its_formula_says) {
     Scene scene;
     scene.materials = {{"glass", DielectricMaterial{eta}}};
     scene.objects = {object(Sphere<double>{2}, {0, 0, 0}, 0)};
-    const RenderWorld world = make_world(scene);
+    const World world = make_world(scene);
     const auto glass = make_bsdf(scene.materials[0]);
-    WorldRay<Real> ray{{{0.01, 0, -9}, {0, 0, 1}}};
+    WorldRay ray{{{0.01, 0, -9}, {0, 0, 1}}};
     Inside inside;
     QueryCounts counts;
     for (const bool leaves : {false, true}) {
@@ -305,7 +305,7 @@ TEST(PathTransport, glass_dims_by_the_exact_length_of_the_way_through_it) {
   scene.materials = {{"smoke", DielectricMaterial{1.0, 0, {0.3, 0.7, 1.1}}}};
   scene.objects = {object(Superellipsoid<double>{{1, 1, 1}, 5}, {0, 0, 0}, 0)};
   scene.background = {Colour::Ones(), Colour::Ones()};
-  const Ray<Real> ray{{0.2, -4, 0.1}, {0, 1, 0}};
+  const Ray<double> ray{{0.2, -4, 0.1}, {0, 1, 0}};
   const double half = std::pow(1 - std::pow(0.2, 5) - std::pow(0.1, 5), 0.2);
   const Colour seen = look(scene, ray, 16).mean;
   EXPECT_NEAR(seen.x(), std::exp(-0.3 * 2 * half), 1e-12);
@@ -338,7 +338,7 @@ TEST(PathTransport, a_ray_sees_the_same_bits_alone_and_with_others) {
   scene.lights = {PointLight{{0, -2, 3}, {2, 2, 2}}, EnvironmentLight{{0.2, 0.3, 0.4}, {0, 0, 0}}};
   scene.camera.position = {0, -4, 2};
   scene.camera.resolution = {32, 32};
-  const RenderWorld world = make_world(scene);
+  const World world = make_world(scene);
   const Camera camera(scene.camera, scene.camera.resolution);
   const Integrator integrator(scene, world);
   RayCounts counts, counts_together;

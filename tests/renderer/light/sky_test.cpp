@@ -51,7 +51,7 @@ TEST(SkyImage, its_middle_is_towards_y_and_it_turns_against_the_clock) {
 
 /// What the middle of a matt floor sends up, by so many samples, and its variance.
 std::pair<double, double> floor_under(const Scene& scene, int samples, std::uint64_t seed) {
-  const RenderWorld world = make_world(scene);
+  const World world = make_world(scene);
   const Integrator integrator(scene, world, {.kind = IntegratorKind::path, .max_depth = 1});
   RayCounts counts;
   double sum = 0, squares = 0;

@@ -75,14 +75,14 @@ TEST(Texture, noise_is_smooth_and_has_no_trend) {
 
 // A textured body of any pose: what is painted on it turns and moves with it.
 TEST(Texture, paint_sticks_to_its_object) {
-  const auto look = [](const Affine<double>& pose, const Ray<Real>& ray) {
+  const auto look = [](const Affine<double>& pose, const Ray<double>& ray) {
     Scene scene;
     auto board = two_colours<CheckerTexture>();
     board.scale = 0.31;
     scene.materials = {{"board", LambertMaterial{Paint(board)}}};
     scene.objects = {{"body", Superellipsoid<double>{{1, 1, 1}, 4}, pose, 0}};
     scene.lights = {EnvironmentLight{}};
-    const RenderWorld world = make_world(scene);
+    const World world = make_world(scene);
     const Integrator integrator(scene, world);
     TracedRay traced{ray, Sampler(1, 0, 0, 0)};
     RayCounts counts;
@@ -95,7 +95,7 @@ TEST(Texture, paint_sticks_to_its_object) {
   const Affine<double> pose{turn, {5, 6, 7}};
   int black = 0, white = 0;
   for (int i = 0; i < 40; ++i) {
-    const Ray<Real> ray{{-0.8 + 0.041 * i, -4, 0.3}, {0, 1, 0}};
+    const Ray<double> ray{{-0.8 + 0.041 * i, -4, 0.3}, {0, 1, 0}};
     const double value = look({}, ray);
     EXPECT_EQ(value, look(pose, {pose(ray.origin), turn * ray.direction}));
     (value > 0.5 ? white : black) += 1;

@@ -154,7 +154,7 @@ TEST(VisibleToRays, of_a_material_and_of_particles_as_of_an_object) {
 TEST(VisibleToRays, pictures_of_data_show_what_the_camera_sees) {
   const auto planes = [](const std::string& ball) {
     const Scene scene = read(written_scene("matt", ball));
-    const RenderWorld world = make_world(scene);
+    const World world = make_world(scene);
     RenderOptions options;
     options.resolution = {width, height};
     std::vector<std::vector<float>> values;

@@ -57,15 +57,15 @@ TEST(MovingScenes, answers_have_the_bits_of_a_world_posed_at_each_rays_time) {
     EXPECT_EQ(moving.movers(), 31u);
     const double begin = random.uniform(-0.2, 1.2), end = begin + random.uniform(0, 1);
     SceneWhile between(moving, begin, end);
-    RenderWorld world = make_world(scene);
+    World world = make_world(scene);
     for (int i = 0; i < 300; ++i) {
       const double time = random.uniform(begin, end);
       const Ray<double> ray{8 * random.direction(), random.direction()};
       set_time(scene, time);
       follow(world, scene);
       QueryCounts counts;
-      const WorldHit<Real> expected = world.closest_hit(ray, counts);
-      const WorldHit<Real> hit = between.closest_hit({ray}, time, counts);
+      const WorldHit expected = world.closest_hit(ray, counts);
+      const WorldHit hit = between.closest_hit({ray}, time, counts);
       ASSERT_EQ(hit.instance, expected.instance);
       if (!hit.found()) continue;
       ++hits;
@@ -74,7 +74,7 @@ TEST(MovingScenes, answers_have_the_bits_of_a_world_posed_at_each_rays_time) {
       ASSERT_EQ(std::memcmp(&a, &b, sizeof a), 0);
       EXPECT_EQ(hit.cast.normal, expected.cast.normal);
       // Behind it, too.
-      const WorldHit<Real> next = between.closest_hit({ray, hit.instance}, time, counts);
+      const WorldHit next = between.closest_hit({ray, hit.instance}, time, counts);
       EXPECT_EQ(next.instance, world.closest_hit(ray, counts, hit.instance).instance);
     }
   }

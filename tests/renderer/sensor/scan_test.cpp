@@ -57,11 +57,11 @@ TEST(Scans, a_ray_answers_what_the_world_answers_it_alone) {
   Scene scene = balls();
   const SensorRays rays = random_rays(5000);
   const Scan result = scan(scene, rays, {});
-  const RenderWorld world = make_world(scene);
+  const World world = make_world(scene);
   int hits = 0;
   for (std::size_t i = 0; i < rays.rays.size(); ++i) {
     QueryCounts counts;
-    const WorldHit<Real> hit = world.closest_hit(rays.rays[i].ray, counts);
+    const WorldHit hit = world.closest_hit(rays.rays[i].ray, counts);
     const Echo& echo = result.echoes[i];
     ASSERT_EQ(echo.object, hit.found() ? static_cast<int>(hit.instance) : -1);
     if (!hit.found()) {

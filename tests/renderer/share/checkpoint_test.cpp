@@ -62,7 +62,7 @@ class CheckpointFile : public ::testing::Test {
   TemporaryFolder folder_;
   const std::string path_ = folder_ / "x.png.checkpoint";
   Scene scene_;
-  RenderWorld world_;
+  World world_;
   RenderOptions options_;
 };
 

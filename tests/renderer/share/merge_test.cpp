@@ -60,7 +60,7 @@ class Merge : public ::testing::Test {
 
   TemporaryFolder folder_;
   Scene scene_;
-  RenderWorld world_;
+  World world_;
   RenderOptions options_;
   int files_ = 0;
 };

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// What the instances of one definition share: the definition, and how their places refer to it.
+#pragma once
+
+#include <memory>
+
+#include "core/cast/screen.h"
+#include "core/model/shape_definition.h"
+
+namespace minkray {
+
+/// The frame of places is the inner frame of the definition. Its origin is that of the shape's own
+/// frame if the body is plain, else the inner ball's centre.
+struct InstanceBody {
+  std::shared_ptr<const ShapeDefinition<double>> definition;
+  std::uint32_t number = 0;                    ///< of the definition
+  Vec3<double> centre = Vec3<double>::Zero();  ///< of the inner ball, in the frame of places
+  bool is_centred = true;                      ///< centre is zero
+  bool is_turned = false;                      ///< the map is not the identity
+  bool is_plain = false;  ///< the pose keeps lengths, and no outer map was taken off
+  bool is_wide = false;   ///< the map has numbers that float does not hold
+};
+
+}  // namespace minkray

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// Chooses how rays are traced by checking how they run: blocks of neighbours, a stream of the
+// others, or one by one where there are few.
+#include "core/world/ray_block.h"
+#include "core/world/world.h"
+
+namespace minkray {
+namespace {
+
+/// Fewer rays are faster one by one.
+constexpr std::size_t least_stream = 4, least_block = 16;
+
+/// True if the first and the last ray of a block have one origin and nearly one direction, as all
+/// of a block must.
+bool may_be_block(const RaySpan& rays) {
+  const Ray<double>&first = rays.ray(0), &last = rays.ray(rays.size() - 1);
+  if (first.origin != last.origin) return false;
+  const double size = first.direction.cwiseAbs().maxCoeff();
+  return (last.direction - first.direction).cwiseAbs().maxCoeff() <= 0.5 * size;
+}
+
+class Into : public HitReceiver {
+ public:
+  explicit Into(std::span<WorldHit> hits) : hits_(hits) {}
+  void take(std::size_t ray, const WorldHit& hit, bool) override { hits_[ray] = hit; }
+  void take(std::size_t first, std::uint64_t which, const BlockHits& block) override {
+    for (; which != 0; which &= which - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(which));
+      if (block.found >> i & 1u)
+        hits_[first + i] = {block.instance[i], block.casts[i / 4].result(static_cast<int>(i % 4))};
+      else
+        hits_[first + i] = WorldHit::miss();
+    }
+  }
+
+ private:
+  std::span<WorldHit> hits_;
+};
+
+}  // namespace
+
+void World::closest_hits(const RaySpan& rays, HitReceiver& to, QueryCounts& counts) const {
+  if (!has_screen() || rays.size() < least_stream) {
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      QueryCounts own;
+      const WorldHit hit = closest_hit(rays[i], own);
+      to.take(i, hit, own.exhausted > 0);
+      counts += own;
+    }
+    return;
+  }
+  std::size_t waiting = 0;  ///< rays from here on wait for a stream
+  const auto stream_up_to = [&](std::size_t end) {
+    for (; waiting < end; waiting += std::min(rays_of_stream, end - waiting))
+      answer_stream(rays.part(waiting, std::min(rays_of_stream, end - waiting)), waiting, to,
+                    counts);
+  };
+  for (std::size_t first = 0; first < rays.size(); first += rays_of_block) {
+    const std::size_t count = std::min(rays_of_block, rays.size() - first);
+    const RaySpan part = rays.part(first, count);
+    if (count < least_block || !may_be_block(part)) continue;
+    if (!answer_block(part, first, to, counts)) continue;
+    stream_up_to(first);
+    waiting = first + count;
+  }
+  stream_up_to(rays.size());
+}
+
+void World::closest_hits(std::span<const WorldRay> rays, std::span<WorldHit> hits,
+                         QueryCounts& counts) const {
+  Into into(hits);
+  closest_hits(RaySpan(rays), into, counts);
+}
+
+void World::occluded(const RaySpan& rays, std::span<std::uint8_t> met, QueryCounts& counts) const {
+  if (!has_screen() || rays.size() < least_stream) {
+    for (std::size_t i = 0; i < rays.size(); ++i) met[i] = occluded(rays[i], counts) ? 1 : 0;
+    return;
+  }
+  for (std::size_t first = 0; first < rays.size(); first += rays_of_stream) {
+    const std::size_t count = std::min(rays_of_stream, rays.size() - first);
+    occluded_in_stream(rays.part(first, count), met.subspan(first, count), counts);
+  }
+}
+
+}  // namespace minkray

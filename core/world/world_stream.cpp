@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+// Rays that go each their own way: the hierarchy finds pairs of ray and instance, float lanes sort
+// most of them out, and what is left is cast at.
+#include "core/world/pair_caster.h"
+#include "core/world/pair_screen.h"
+#include "core/world/world.h"
+
+namespace minkray {
+namespace {
+
+/// Pairs without a closed form wait until there are this many: more share packets, fewer are spared
+/// by what is met before them.
+constexpr std::size_t formless_at_once = 128;
+
+/// Casts come this many after their places are fetched.
+constexpr std::size_t fetched_ahead = 16;
+
+template <class Screen>
+void walk_pairs(const Bvh& bvh, std::span<SlabRay> slabs, Screen& screen, QueryCounts& counts) {
+  const auto visit = [](void* context, const std::uint32_t* rays, const std::uint32_t* boxes,
+                        std::size_t pairs) {
+    static_cast<Screen*>(context)->take(rays, boxes, pairs);
+  };
+  counts.nodes += walk_stream(bvh, slabs, {visit, &screen});
+  screen.finish();
+}
+
+/// True if pairs with the instance wait for packets.
+bool is_formless(const Instances& instances, std::uint32_t instance) {
+  return instances.body_of(instance).definition->form().kind == FormKind::none;
+}
+
+}  // namespace
+
+void World::answer_stream(const RaySpan& rays, std::size_t first, HitReceiver& to,
+                          QueryCounts& counts) const {
+  RayLimits limits(rays);
+  std::vector<WorldHit> hits(rays.size(), WorldHit::miss());
+  QueryCounts own;
+  std::vector<std::uint8_t> is_alone(rays.size());  ///< single rays decide
+  for (std::size_t i = 0; i < rays.size() && !instances_.half_spaces().empty(); ++i) {
+    const std::uint64_t before = own.exhausted;
+    if (closer_half_space(rays[i], hits[i], own)) limits.lower(i, hits[i].cast.t());
+    is_alone[i] = own.exhausted > before;
+  }
+  const auto keep = [&](std::uint32_t ray, std::uint32_t instance, double t, const auto& result) {
+    if (!hits[ray].yields_to(instance, t)) return;
+    hits[ray] = {instance, instances_.turned(instance, result(), rays.time(ray))};
+    limits.lower(ray, t);
+  };
+  PairCaster<decltype(keep)> caster(instances_, options_, rays, own, keep);
+  std::vector<OpenPair> open, formless;
+  open.reserve(4 * rays.size());
+  const auto is_due = [&](const OpenPair& pair) { return pair.first <= limits.t[pair.ray]; };
+  const auto on_open = [&](std::uint32_t ray, std::uint32_t instance, float from, float last,
+                           bool is_sure) {
+    if (is_sure) {
+      if (last <= limits.t[ray]) {
+        limits.lower(ray, static_cast<double>(last));
+        limits.sure[ray] = 1;
+      }
+    } else if (is_formless(instances_, instance)) {
+      formless.push_back({ray, instance, from});
+      if (formless.size() >= formless_at_once) caster.cast_formless(formless, is_due);
+      return;
+    }
+    open.push_back({ray, instance, from});
+  };
+  PairScreen<decltype(on_open)> screen(instances_, kind_of_all_, rays, limits, on_open);
+  walk_pairs(bvh_, limits.slabs, screen, own);
+  caster.cast_formless(formless, is_due);
+
+  std::erase_if(open, [&](const OpenPair& pair) { return !is_due(pair); });
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    if (i + fetched_ahead < open.size()) {
+      instances_.prefetch(open[i + fetched_ahead].instance);
+      instances_.prefetch_digits(open[i + fetched_ahead].instance);
+    }
+    caster.add(open[i].ray, open[i].instance);
+  }
+  caster.finish();
+  for (const std::uint32_t ray : caster.exhausted()) is_alone[ray] = 1;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const bool is_met = hits[i].found() && hits[i].cast.t() <= static_cast<double>(limits.t[i]);
+    if (!is_alone[i] && (!limits.sure[i] || is_met)) {
+      to.take(first + i, hits[i], false);
+      continue;
+    }
+    // A solver failed to converge, or what was sure to be met was not.
+    QueryCounts alone;
+    const WorldHit hit = closest_hit(rays[i], alone);
+    to.take(first + i, hit, alone.exhausted > 0);
+    own += alone;
+  }
+  counts += own;
+}
+
+void World::occluded_in_stream(const RaySpan& rays, std::span<std::uint8_t> met,
+                               QueryCounts& counts) const {
+  RayLimits limits(rays);
+  const auto end = [&](std::uint32_t ray) {
+    met[ray] = 1;
+    limits.end(ray);
+  };
+  for (std::uint32_t i = 0; i < rays.size(); ++i) {
+    met[i] = 0;
+    if (!instances_.half_spaces().empty() && blocked_by_half_space(rays[i], counts)) end(i);
+  }
+  const auto end_when_found = [&](std::uint32_t ray, std::uint32_t, double, const auto&) {
+    end(ray);
+  };
+  PairCaster<decltype(end_when_found)> caster(instances_, options_, rays, counts, end_when_found);
+  std::vector<OpenPair> open, formless;
+  const auto is_due = [&](const OpenPair& pair) { return met[pair.ray] == 0; };
+  const auto on_open = [&](std::uint32_t ray, std::uint32_t instance, float from, float,
+                           bool is_sure) {
+    if (is_sure) return end(ray);
+    if (!is_formless(instances_, instance)) return open.push_back({ray, instance, from});
+    formless.push_back({ray, instance, from});
+    if (formless.size() >= formless_at_once) caster.cast_formless(formless, is_due);
+  };
+  PairScreen<decltype(on_open)> screen(instances_, kind_of_all_, rays, limits, on_open);
+  walk_pairs(bvh_, limits.slabs, screen, counts);
+  caster.cast_formless(formless, is_due);
+  for (const OpenPair& pair : open)
+    if (is_due(pair)) caster.add(pair.ray, pair.instance);
+  caster.finish();
+}
+
+}  // namespace minkray
