@@ -11,7 +11,7 @@
 namespace minkray {
 namespace {
 
-constexpr double grey = 0.7;  ///< of what is added without a material
+constexpr double grey_of_added = 0.7;  ///< of what is added without a material
 
 std::vector<std::pair<std::string, std::size_t>> moving_joints(const Model& model) {
   std::vector<std::pair<std::string, std::size_t>> joints;
@@ -24,22 +24,26 @@ std::vector<std::pair<std::string, std::size_t>> moving_joints(const Model& mode
 
 }  // namespace
 
-HeldScene::Change::Change(HeldScene& scene) : scene_(scene) {
-  if (scene_.is_changing_.exchange(true, std::memory_order_acquire))
-    wrong_use("scene: another thread is changing it");
-}
-
 void HeldScene::check_room(std::size_t more) const {
   if (instance_count(scene_) + more > most_instances) wrong_use("scene: has too many objects");
 }
 
-std::uint32_t HeldScene::append(Object object, const char* name) {
-  check_room(1);
+std::uint32_t HeldScene::grey() {
   if (!grey_) {
     grey_ = static_cast<std::uint32_t>(scene_.materials.size());
-    scene_.materials.push_back({"grey", LambertMaterial{Colour::Constant(grey)}});
+    scene_.materials.push_back({"grey", LambertMaterial{Colour::Constant(grey_of_added)}});
   }
-  object.material = *grey_;
+  return *grey_;
+}
+
+void HeldScene::keep_customs(const std::vector<std::shared_ptr<const CustomSupport>>& customs) {
+  for (const auto& custom : customs)
+    if (known_customs_.insert(custom.get()).second) customs_.push_back(custom);
+}
+
+std::uint32_t HeldScene::append(Object object, const char* name) {
+  check_room(1);
+  object.material = grey();
   const auto index = static_cast<std::uint32_t>(scene_.objects.size());
   object.name = name ? name : "object " + std::to_string(index);
   scene_.objects.push_back(std::move(object));
@@ -47,10 +51,8 @@ std::uint32_t HeldScene::append(Object object, const char* name) {
   return index;
 }
 
-std::uint32_t HeldScene::add(const HeldShape& shape, const Affine<double>& pose,
-                             const char* name) {
-  for (const auto& custom : shape.customs())
-    if (known_customs_.insert(custom.get()).second) customs_.push_back(custom);
+std::uint32_t HeldScene::add(const HeldShape& shape, const Affine<double>& pose, const char* name) {
+  keep_customs(shape.customs());
   Object object;
   object.shape = *shape.shape();
   if (shape.customs().empty()) object.definition = shape.definition();
@@ -122,7 +124,15 @@ const Object& HeldScene::object(std::uint32_t object) const {
   if (object >= scene_.objects.size())
     wrong_use("object: must be less than " + std::to_string(scene_.objects.size()) + " (got " +
               std::to_string(object) + ")");
+  if (is_removed(object))
+    wrong_use("object: must not be one that was removed (got " + std::to_string(object) + ")");
   return scene_.objects[object];
+}
+
+const char* HeldScene::name(std::uint32_t object) const {
+  const std::string& found = this->object(object).name;
+  const std::lock_guard lock(names_mutex_);
+  return names_.try_emplace(object, found).first->second.c_str();
 }
 
 const HeldScene::Group& HeldScene::group(std::uint32_t group) const {
@@ -170,6 +180,28 @@ void HeldScene::set_joint(std::uint32_t group, const std::string& name,
   place(robot);
 }
 
+std::vector<double> HeldScene::joint_value(const Group& group, const std::string& name) const {
+  for (const ModelLink& link : group.model->links)
+    for (const ModelJoint& joint : link.joints)
+      if (joint.name == name && joint.kind != JointKind::fixed) return value_of(link, joint);
+  return {};
+}
+
+void HeldScene::remove(std::uint32_t object) {
+  this->object(object);
+  // Its place stays, so that all numbers do: a point that no ray meets and that gives no light.
+  Object nothing;
+  nothing.material = grey();
+  nothing.visible_to = 0;
+  scene_.objects[object] = std::move(nothing);
+  removed_.insert(object);
+  due_ = Due::build;
+  if (customs_.empty()) return;
+  known_customs_.clear();
+  customs_.clear();
+  for (const Object& left : scene_.objects) keep_customs(customs_of(left.shape));
+}
+
 void HeldScene::commit() {
   if (due_ == Due::build)
     world_ = make_world(scene_);
@@ -180,10 +212,9 @@ void HeldScene::commit() {
 }
 
 const RenderWorld& HeldScene::world() const {
-  if (is_changing_.load(std::memory_order_acquire))
-    wrong_use("scene: another thread is changing it");
   if (due_ != Due::nothing)
-    wrong_use("scene: must be committed before it is asked, and after each change");
+    wrong_use("scene: must be committed: call commit() after changes and before queries");
+  refuse_if_running(customs_, "scene");
   return world_;
 }
 

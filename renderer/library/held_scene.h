@@ -4,9 +4,11 @@
 #pragma once
 
 #include <atomic>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <string>
+#include <unordered_map>
 #include <unordered_set>
 #include <vector>
 
@@ -16,11 +18,12 @@
 #include "renderer/library/custom_support.h"
 #include "renderer/library/handles.h"
 #include "renderer/library/held_shape.h"
+#include "renderer/library/scene_use.h"
 #include "renderer/scene/scene.h"
 
 namespace minkray {
 
-/// One thread changes it, or any number ask.
+/// One call changes it, or any number ask: see scene_use.h.
 class HeldScene {
  public:
   /// Objects that came from one file.
@@ -34,18 +37,6 @@ class HeldScene {
     std::vector<std::pair<std::string, std::size_t>> joints;  ///< that move: names and widths
   };
 
-  /// While one exists, no other thread can change the scene. Throws CallError if one does.
-  class Change {
-   public:
-    explicit Change(HeldScene& scene);
-    ~Change() { scene_.is_changing_.store(false, std::memory_order_release); }
-    Change(const Change&) = delete;
-    Change& operator=(const Change&) = delete;
-
-   private:
-    HeldScene& scene_;
-  };
-
   std::uint32_t add(const HeldShape& shape, const Affine<double>& pose, const char* name);
   std::uint32_t add(const HalfSpaceBody<double>& half_space, const char* name);
   std::uint32_t add_file(const std::string& file, const ImportOptions& options,
@@ -53,11 +44,19 @@ class HeldScene {
   void set_pose(std::uint32_t object, const Affine<double>& pose);
   void set_group_pose(std::uint32_t group, const Affine<double>& pose);
   void set_joint(std::uint32_t group, const std::string& name, std::span<const double> values);
+  void remove(std::uint32_t object);
   void commit();
 
-  /// Throws CallError if the number is that of no object; of no group.
+  /// Throws CallError if the number is that of no object, or of a removed one; of no group.
   const Object& object(std::uint32_t object) const;
   const Group& group(std::uint32_t group) const;
+  bool is_removed(std::uint32_t object) const {
+    return !removed_.empty() && removed_.contains(object);
+  }
+  /// What a joint of the group is set to.
+  std::vector<double> joint_value(const Group& group, const std::string& name) const;
+  /// The object's name, at a place where it stays as long as the scene.
+  const char* name(std::uint32_t object) const;
 
   const Scene& plain() const { return scene_; }
   /// Whether a file had one.
@@ -65,7 +64,7 @@ class HeldScene {
   const std::vector<std::shared_ptr<const CustomSupport>>& customs() const { return customs_; }
 
   /// What rays are cast at. Throws CallError if the scene was not committed since it was changed,
-  /// or is being changed.
+  /// or if this is called from within the support function of a shape in it.
   const RenderWorld& world() const;
 
  private:
@@ -73,6 +72,8 @@ class HeldScene {
   enum class Due { nothing, refit, build };
 
   void check_room(std::size_t more) const;
+  std::uint32_t grey();
+  void keep_customs(const std::vector<std::shared_ptr<const CustomSupport>>& customs);
   std::uint32_t append(Object object, const char* name);
   void append(Scene&& from);
   void place(Group& group);
@@ -83,14 +84,21 @@ class HeldScene {
   std::vector<Group> groups_;
   std::vector<std::shared_ptr<const CustomSupport>> customs_;  ///< each once
   std::unordered_set<const CustomSupport*> known_customs_;
+  std::unordered_set<std::uint32_t> removed_;
   RenderWorld world_;
   Due due_ = Due::build;
+
+  mutable std::mutex names_mutex_;
+  mutable std::unordered_map<std::uint32_t, std::string> names_;  ///< that were asked for
+
+  friend class SceneQuery;
+  friend class SceneChange;
   std::atomic<bool> is_changing_ = false;
 };
 
 Handles<HeldScene>& held_scenes();
 
-/// Throws CallError if there is none of that number.
+/// Throws CallError if there is none of that number. It may be released at once: see SceneUse.
 HeldScene& scene_of(minkray_scene scene);
 
 }  // namespace minkray

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 
 #include "core/world/ray_block.h"
 #include "core/world/world.h"
@@ -22,23 +23,25 @@ class RaySource {
     const double* d = at(directions_, direction_stride_, i);
     Ray<double> ray{{o[0], o[1], o[2]}, {d[0], d[1], d[2]}};
     if (t_max_) ray.t_max = *at(t_max_, t_max_stride_, i);
+    if (zero_is_endless_ && ray.t_max == 0) ray.t_max = std::numeric_limits<double>::infinity();
     return ray;
   }
 
   /// So many, from the i-th on, one behind the other: `room` if the caller has them otherwise.
   const Ray<double>* in_a_row(std::size_t i, std::size_t count, Ray<double>* room) const {
     static_assert(sizeof(Ray<double>) == sizeof(minkray_ray));
-    if (t_max_ == directions_ + 3 && directions_ == origins_ + 3 &&
+    if (!has_zero_ends_ && t_max_ == directions_ + 3 && directions_ == origins_ + 3 &&
         origin_stride_ == sizeof(minkray_ray) && t_max_stride_ == sizeof(minkray_ray))
       return reinterpret_cast<const Ray<double>*>(at(origins_, origin_stride_, i));
     for (std::size_t k = 0; k < count; ++k) room[k] = (*this)[i + k];
     return room;
   }
 
-  /// Throws CallError that names the first ray which is none.
-  void check() const;
-
  private:
+  /// Throws CallError that names the first ray which is none.
+  void check();
+  [[noreturn]] void complain(std::size_t i) const;
+
   static const double* at(const double* first, std::ptrdiff_t stride, std::size_t i) {
     return reinterpret_cast<const double*>(reinterpret_cast<const char*>(first) +
                                            stride * static_cast<std::ptrdiff_t>(i));
@@ -47,6 +50,8 @@ class RaySource {
   std::size_t count_;
   const double *origins_ = nullptr, *directions_ = nullptr, *t_max_ = nullptr;
   std::ptrdiff_t origin_stride_ = 0, direction_stride_ = 0, t_max_stride_ = 0;
+  bool zero_is_endless_ = false;  ///< of t_max, in structs
+  bool has_zero_ends_ = false;    ///< of those, some
 };
 
 /// The answer to one ray. `gave_up`: a solver did, at any object.
