@@ -188,7 +188,7 @@ void Instances::place_many(std::size_t first, std::size_t count,
 void Instances::truncate(std::size_t count) {
   places_.resize(std::min(count, places_.size()));
   if (!digits_.empty()) digits_.resize(places_.size());
-  boxes_.resize(std::min(boxes_.size(), places_.size()));
+  if (boxes_.size() > places_.size()) boxes_.resize(places_.size());
   std::erase_if(wide_, [&](const auto& one) { return one.first >= places_.size(); });
   shown_to_.clear();
   movements_.clear();
@@ -196,6 +196,7 @@ void Instances::truncate(std::size_t count) {
 
 void Instances::set_pose(std::size_t i, const Affine<double>& pose) {
   put(i, definition_of(i), pose);
+  are_boxes_stale_ = true;
 }
 
 Mat3<double> Instances::to_inner(std::size_t i) const {
@@ -248,6 +249,7 @@ void Instances::show_to(std::size_t i, RayKinds kinds) {
 void Instances::pose_all(const std::function<Affine<double>(std::size_t)>& pose_of,
                          const std::function<Movement<double>(std::size_t)>& movement_of) {
   boxes_.resize(places_.size());
+  are_boxes_stale_ = false;
   movements_.resize(movement_of ? places_.size() : 0);
   for (PosedHalfSpace& one : half_spaces_) one.in_world = one.at_rest.posed(pose_of(one.instance));
   std::vector<std::uint32_t> definitions(places_.size(), no_body);

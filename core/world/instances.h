@@ -57,6 +57,12 @@ class Instances {
   /// Moves one instance. Its box is stale until pose_all.
   void set_pose(std::size_t i, const Affine<double>& pose);
 
+  /// Puts another definition in the place of one, at the origin. Its box is stale until pose_all.
+  void replace(std::size_t i, std::uint32_t definition) {
+    put(i, definition, {});
+    are_boxes_stale_ = true;
+  }
+
   /// The pose of an instance whose body is not moved or scaled by outer maps and whose pose keeps
   /// lengths, exactly as it was given; else none.
   std::optional<Affine<double>> plain_pose(std::size_t i) const;
@@ -152,6 +158,9 @@ class Instances {
   /// once after each change, since they are given away.
   FirstTouchVector<Bounds<float>> take_boxes() { return std::exchange(boxes_, {}); }
 
+  /// True if no box was taken or is stale.
+  bool has_boxes() const { return boxes_.size() == places_.size() && !are_boxes_stale_; }
+
   std::size_t definitions() const { return definitions_.size(); }
   const ShapeDefinition<double>& definition(std::uint32_t number) const {
     return *definitions_[number].shared;
@@ -197,6 +206,7 @@ class Instances {
   std::unordered_map<std::uint32_t, Mat3<double>> wide_;  ///< maps that float does not hold
   std::vector<Movement<double>> movements_;               ///< by instance; empty if all stand still
   FirstTouchVector<Bounds<float>> boxes_;
+  bool are_boxes_stale_ = false;
   std::vector<PosedHalfSpace> half_spaces_;  ///< in the order of their instances
   std::vector<RayKinds> shown_to_;           ///< by instance; empty if all are shown to all rays
 };

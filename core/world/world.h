@@ -76,6 +76,9 @@ class World {
   void pose_all(const std::function<Affine<double>(std::size_t)>& pose_of,
                 const std::function<Movement<double>(std::size_t)>& movement_of = {});
 
+  /// Moves one instance; rays find it there once pose_all was called.
+  void set_pose(std::size_t i, const Affine<double>& pose) { instances_.set_pose(i, pose); }
+
   const Instances& instances() const { return instances_; }
   /// Takes the instances out, to be changed and made a world of again.
   Instances release() && { return std::move(instances_); }

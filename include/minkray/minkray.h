@@ -16,9 +16,11 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <exception>
 #include <initializer_list>
 #include <limits>
+#include <type_traits>
 #include <utility>
 
 #include "minkray/minkray_c.h"
@@ -30,6 +32,10 @@ inline namespace v0 {
 
 struct Vec3 {
   double x = 0, y = 0, z = 0;
+  constexpr double& operator[](std::size_t axis) { return axis == 0 ? x : axis == 1 ? y : z; }
+  constexpr const double& operator[](std::size_t axis) const {
+    return axis == 0 ? x : axis == 1 ? y : z;
+  }
   friend bool operator==(const Vec3&, const Vec3&) = default;
 };
 static_assert(sizeof(Vec3) == 3 * sizeof(double));
@@ -80,10 +86,11 @@ class Text {
 /// What went wrong: what() names the function, the argument and what it must be.
 class Error : public std::exception {
  public:
-  explicit Error(int code) : code_(static_cast<minkray_code>(code)) {
-    const char* from = minkray_last_error();
+  /// Takes the text of this thread's last call that failed.
+  explicit Error(int code) : Error(code, minkray_last_error()) {}
+  Error(int code, const char* text) : code_(static_cast<minkray_code>(code)) {
     std::size_t i = 0;
-    for (; i + 1 < sizeof text_ && from[i]; ++i) text_[i] = from[i];
+    for (; i + 1 < sizeof text_ && text[i]; ++i) text_[i] = text[i];
     text_[i] = '\0';
   }
   const char* what() const noexcept override { return text_; }
@@ -95,8 +102,12 @@ class Error : public std::exception {
 };
 
 namespace detail {
+[[noreturn]] inline void fail(int code) {
+  throw Error(code);
+}
 inline void check(int code) {
-  if (code != MINKRAY_OK) throw Error(code);
+  if (code != MINKRAY_OK) [[unlikely]]
+    fail(code);
 }
 }  // namespace detail
 
@@ -107,11 +118,11 @@ inline const char* version() {
 
 // ---- poses ----
 
-/// x -> linear x + translation, as three rows of four numbers.
+/// x -> linear x + translation, as three rows of four numbers; the identity unless they are given.
 struct Pose {
-  double rows[3][4];
+  double rows[3][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
 };
-static_assert(sizeof(Pose) == sizeof(minkray_pose));
+static_assert(sizeof(Pose) == sizeof(minkray_pose) && std::is_standard_layout_v<Pose>);
 
 namespace detail {
 inline const minkray_pose* plain(const Pose* pose) {
@@ -124,7 +135,7 @@ struct Quaternion {
 };
 
 inline Pose identity() {
-  return {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+  return {};
 }
 inline Pose translation(const Vec3& by) {
   return {{{1, 0, 0, by.x}, {0, 1, 0, by.y}, {0, 0, 1, by.z}}};
@@ -220,6 +231,8 @@ struct Parameter {
 inline Shape make(Text kind, std::initializer_list<Parameter> parameters) {
   constexpr std::size_t most = 8;
   minkray_parameter plain[most] = {};
+  if (parameters.size() > most)
+    throw Error(MINKRAY_WRONG_USE, "minkray::make: parameters: must be at most 8");
   std::size_t count = 0, shapes = 0;
   for (const Parameter& one : parameters) shapes += one.shapes.size();
   struct Handles {
@@ -231,7 +244,6 @@ inline Shape make(Text kind, std::initializer_list<Parameter> parameters) {
   } handles(shapes);
   minkray_shape* next = handles.at;
   for (const Parameter& one : parameters) {
-    if (count == most) break;
     plain[count++] = {one.name, one.numbers.data(), one.numbers.size(), next, one.shapes.size()};
     for (const Shape& shape : one.shapes) *next++ = shape.handle();
   }
@@ -366,6 +378,20 @@ inline Shape read_shape(Text json, Text folder = {}) {
 }
 
 namespace detail {
+/// Runs a support function; what it throws is told by the query that called it.
+template <class Work>
+int answer(Work&& work) {
+  try {
+    work();
+    return 0;
+  } catch (const std::exception& error) {
+    minkray_support_failed(error.what());
+  } catch (...) {
+    minkray_support_failed("an exception that is no std::exception");
+  }
+  return 1;
+}
+
 template <class Support>
 Shape custom_within(Support support, const double* lower, const double* upper) {
   minkray_support given = {};
@@ -373,7 +399,7 @@ Shape custom_within(Support support, const double* lower, const double* upper) {
   given.lower = lower;
   given.upper = upper;
   given.function = [](void* user, std::size_t count, const double(*n)[3], double(*p)[3]) -> int {
-    try {
+    return answer([&] {
       const Support& function = *static_cast<const Support*>(user);
       for (std::size_t i = 0; i < count; ++i) {
         const Vec3 at = function(Vec3{n[i][0], n[i][1], n[i][2]});
@@ -381,10 +407,7 @@ Shape custom_within(Support support, const double* lower, const double* upper) {
         p[i][1] = at.y;
         p[i][2] = at.z;
       }
-      return 0;
-    } catch (...) {
-      return 1;
-    }
+    });
   };
   given.release = [](void* user) { delete static_cast<Support*>(user); };
   minkray_shape made;
@@ -395,7 +418,7 @@ Shape custom_within(Support support, const double* lower, const double* upper) {
 template <class Function>
 int answer_jets(const Function& function, std::size_t count, const double (*n)[3], double (*p)[3],
                 double (*derivatives)[9]) {
-  try {
+  return answer([&] {
     for (std::size_t i = 0; i < count; ++i) {
       const auto jet = function(Vec3{n[i][0], n[i][1], n[i][2]});
       p[i][0] = jet.point.x;
@@ -404,16 +427,13 @@ int answer_jets(const Function& function, std::size_t count, const double (*n)[3
       if (!derivatives) continue;
       for (int k = 0; k < 9; ++k) derivatives[i][k] = jet.derivative[k / 3][k % 3];
     }
-    return 0;
-  } catch (...) {
-    return 1;
-  }
+  });
 }
 }  // namespace detail
 
 /// Your own shape: `support(const Vec3& n)` is to answer the point furthest along n, which has
-/// length 1. It is called by several threads at once. What it throws ends the query with an Error,
-/// and so does any answer that no convex shape can have.
+/// length 1. It is called by several threads at once. What it throws ends the query with an Error
+/// that has its text, and so does any answer that no convex shape can have.
 template <class Support>
 Shape custom(Support support) {
   return detail::custom_within(std::move(support), nullptr, nullptr);
@@ -426,14 +446,11 @@ Shape custom_batched(Support support, std::size_t gathered = 0) {
   minkray_support given = {};
   given.user = new Support(std::move(support));
   given.function = [](void* user, std::size_t count, const double(*n)[3], double(*p)[3]) -> int {
-    try {
+    return detail::answer([&] {
       const Support& function = *static_cast<const Support*>(user);
       function(View<const Vec3>(reinterpret_cast<const Vec3*>(n), count),
                View<Vec3>(reinterpret_cast<Vec3*>(p), count));
-      return 0;
-    } catch (...) {
-      return 1;
-    }
+    });
   };
   given.release = [](void* user) { delete static_cast<Support*>(user); };
   minkray_shape made;
@@ -479,7 +496,8 @@ enum Status : std::int32_t {
   exhausted = MINKRAY_EXHAUSTED  ///< gave up: neither a hit nor a miss
 };
 
-/// The points origin + t direction, 0 <= t <= t_max.
+/// The points origin + t direction, 0 <= t <= t_max; a direction of zero is an Error. As in
+/// minkray_ray, a t_max of 0 is no limit.
 struct Ray {
   Vec3 origin, direction;
   double t_max = std::numeric_limits<double>::infinity();
@@ -518,14 +536,14 @@ inline const minkray_ray* plain(View<const Ray> rays) {
 inline minkray_hit* plain(View<Hit> hits) {
   return reinterpret_cast<minkray_hit*>(hits.data());
 }
-/// Throws unless there is an answer for each ray.
-inline void check_sizes(std::size_t rays, std::size_t answers) {
-  struct SizesDiffer : std::exception {
-    const char* what() const noexcept override {
-      return "minkray: as many answers are needed as there are rays";
-    }
-  };
-  if (rays != answers) throw SizesDiffer();
+/// Throws unless there are as many of one as of the other.
+inline void check_sizes(const char* function, const char* argument, std::size_t size,
+                        const char* other, std::size_t must_be) {
+  if (size == must_be) return;
+  char text[160];
+  std::snprintf(text, sizeof text, "%s: %s: must be as many as %s, %zu (got %zu)", function,
+                argument, other, must_be, size);
+  throw Error(MINKRAY_WRONG_USE, text);
 }
 }  // namespace detail
 
@@ -571,9 +589,19 @@ struct PictureOptions {
   bool denoise = false;
 };
 using Channel = minkray_channel;
-using Clearance = minkray_clearance;
+/// The least signed distance of a robot on its way; see minkray_clearance.
+struct Clearance {
+  double lower = 0, upper = 0;
+  double row = 0;
+  Vec3 point_a, point_b, normal;
+  std::uint32_t object_a = no_object, object_b = no_object;
+  std::int32_t is_settled = 0, reserved = 0;
+};
+static_assert(sizeof(Clearance) == sizeof(minkray_clearance) &&
+              offsetof(Clearance, is_settled) == offsetof(minkray_clearance, is_settled));
 
-/// Shapes with poses. Any number of threads may ask one; only one may change it, while none asks.
+/// Shapes with poses. Any number of threads may ask one. Changing one that is asked, or asking one
+/// that is changed, is an Error.
 class Scene {
  public:
   /// What came from a file: objects with numbers that follow each other.
@@ -587,6 +615,13 @@ class Scene {
       const char* name = nullptr;
       detail::check(minkray_scene_joint(scene_, group_, i, &name, nullptr));
       return name;
+    }
+    /// Writes what a joint is set to, as far as there is room. Returns how many numbers it has.
+    std::size_t value(std::uint32_t i, View<double> values) const {
+      std::size_t count = 0;
+      detail::check(minkray_scene_joint(scene_, group_, i, nullptr, &count));
+      detail::check(minkray_scene_joint_value(scene_, group_, i, values.data(), values.size()));
+      return count;
     }
     /// Sets a joint that has one number: radians or a length. The next commit moves the robot.
     void set(Text joint, double value) {
@@ -651,6 +686,8 @@ class Scene {
   void set_pose(std::uint32_t object, const Pose& pose) {
     detail::check(minkray_scene_set_pose(handle_, object, detail::plain(&pose)));
   }
+  /// Takes an object out: its number is never used again, all others stay.
+  void remove(std::uint32_t object) { detail::check(minkray_scene_remove(handle_, object)); }
   /// Builds or refits, whichever is due.
   void commit() { detail::check(minkray_scene_commit(handle_)); }
 
@@ -659,7 +696,7 @@ class Scene {
     detail::check(minkray_scene_size(handle_, &objects, nullptr));
     return objects;
   }
-  /// Valid until the scene is changed.
+  /// Valid as long as the scene lives.
   const char* name(std::uint32_t object) const {
     const char* found = nullptr;
     detail::check(minkray_scene_name(handle_, object, &found));
@@ -679,7 +716,7 @@ class Scene {
   }
   /// The answers are the same bits for any cut of the rays and any number of threads.
   void cast(View<const Ray> rays, View<Hit> hits, const Options& options = {}) const {
-    detail::check_sizes(rays.size(), hits.size());
+    detail::check_sizes("minkray::Scene::cast", "hits", hits.size(), "rays", rays.size());
     const minkray_options how = detail::plain(options);
     detail::check(
         minkray_scene_cast(handle_, detail::plain(rays), rays.size(), detail::plain(hits), &how));
@@ -687,20 +724,16 @@ class Scene {
   /// Whether anything is met: hit, miss, or exhausted.
   Status occluded(const Ray& ray) const {
     std::uint8_t answer = 0;
-    occluded({&ray, 1}, {&answer, 1});
+    detail::check(
+        minkray_scene_occluded_rays(handle_, detail::plain({&ray, 1}), 1, &answer, nullptr));
     return static_cast<Status>(answer);
   }
   void occluded(View<const Ray> rays, View<std::uint8_t> answers,
                 const Options& options = {}) const {
-    detail::check_sizes(rays.size(), answers.size());
+    detail::check_sizes("minkray::Scene::occluded", "answers", answers.size(), "rays", rays.size());
     const minkray_options how = detail::plain(options);
-    const Ray* first = rays.data();
-    constexpr std::ptrdiff_t stride = sizeof(Ray);
-    const Ray none;
-    if (!first) first = &none;
-    const minkray_ray_arrays arrays = {sizeof arrays, &first->origin.x, stride, &first->direction.x,
-                                       stride,        &first->t_max,    stride};
-    detail::check(minkray_scene_occluded(handle_, &arrays, rays.size(), answers.data(), &how));
+    detail::check(minkray_scene_occluded_rays(handle_, detail::plain(rays), rays.size(),
+                                              answers.data(), &how));
   }
   /// Where a ray leaves an object.
   Hit exit(std::uint32_t object, const Ray& ray) const {
@@ -712,8 +745,8 @@ class Scene {
   /// Proves answers of `cast`.
   void prove(View<const Ray> rays, View<const Hit> hits, View<Proof> proofs,
              const Options& options = {}) const {
-    detail::check_sizes(rays.size(), hits.size());
-    detail::check_sizes(rays.size(), proofs.size());
+    detail::check_sizes("minkray::Scene::prove", "hits", hits.size(), "rays", rays.size());
+    detail::check_sizes("minkray::Scene::prove", "proofs", proofs.size(), "rays", rays.size());
     const minkray_options how = detail::plain(options);
     detail::check(minkray_scene_prove(handle_, detail::plain(rays),
                                       reinterpret_cast<const minkray_hit*>(hits.data()),
@@ -734,11 +767,17 @@ class Scene {
   /// one answer for each two rows, and the least of all.
   Clearance clearance(const Group& robot, View<const double> path, std::size_t rows,
                       View<Clearance> steps = {}) const {
-    detail::check_sizes(steps.size(), steps.size() == 0 ? 0 : rows > 1 ? rows - 1 : 1);
+    constexpr const char* function = "minkray::Scene::clearance";
+    if (steps.size() > 0)
+      detail::check_sizes(function, "steps", steps.size(), "steps of the path",
+                          rows > 1 ? rows - 1 : 1);
+    const std::size_t numbers = rows > 0 ? path.size() / rows : 0;
+    detail::check_sizes(function, "path", path.size(), "numbers in its rows", rows * numbers);
     Clearance least;
-    detail::check(minkray_scene_clearance(handle_, robot.number(), path.data(), rows,
-                                          rows > 0 ? path.size() / rows : 0, nullptr, steps.data(),
-                                          &least));
+    detail::check(minkray_scene_clearance(handle_, robot.number(), path.data(), rows, numbers,
+                                          nullptr,
+                                          reinterpret_cast<minkray_clearance*>(steps.data()),
+                                          reinterpret_cast<minkray_clearance*>(&least)));
     return least;
   }
   Proof prove(const Ray& ray, const Hit& hit) const {
@@ -753,9 +792,46 @@ class Scene {
 
 // ---- pairs of shapes ----
 
-using Distance = minkray_distance;
-using Impact = minkray_impact;
-using Twist = minkray_twist;
+/// What Distance::status is.
+enum DistanceStatus : std::int32_t {
+  separated = MINKRAY_SEPARATED,
+  touching = MINKRAY_TOUCHING,  ///< the bounds are on both sides of 0
+  overlapping = MINKRAY_OVERLAPPING,
+  undecided = MINKRAY_UNDECIDED  ///< the bounds hold, but are further apart than was asked
+};
+/// What Impact::status is.
+enum ImpactStatus : std::int32_t {
+  impact = MINKRAY_IMPACT,
+  no_impact = MINKRAY_NO_IMPACT,  ///< proven
+  begins_inside = MINKRAY_BEGINS_INSIDE,
+  impact_undecided = MINKRAY_IMPACT_UNDECIDED  ///< none before t_lo; no more is known
+};
+
+/// How far apart two shapes are; see minkray_distance.
+struct Distance {
+  double value = 0, lower = 0, upper = 0;
+  Vec3 point_a, point_b, normal;
+  std::int32_t status = undecided, supports = 0;
+};
+static_assert(sizeof(Distance) == sizeof(minkray_distance) &&
+              offsetof(Distance, status) == offsetof(minkray_distance, status));
+
+/// How a shape moves: the origin of its frame by `velocity`, and about that by `turn`, a rotation
+/// vector in the world, radians per unit of time.
+struct Twist {
+  Vec3 velocity, turn;
+};
+static_assert(sizeof(Twist) == sizeof(minkray_twist));
+
+/// When two shapes first touch; see minkray_impact.
+struct Impact {
+  double t_lo = 0, t_hi = std::numeric_limits<double>::infinity();
+  double distance = 0;
+  Vec3 point_a, point_b, normal;
+  std::int32_t status = impact_undecided, steps = 0;
+};
+static_assert(sizeof(Impact) == sizeof(minkray_impact) &&
+              offsetof(Impact, status) == offsetof(minkray_impact, status));
 
 /// How far apart, or how deep in each other (less than zero): lower <= value <= upper, proven.
 inline Distance signed_distance(const Shape& a, const Pose& pose_a, const Shape& b,
@@ -763,7 +839,8 @@ inline Distance signed_distance(const Shape& a, const Pose& pose_a, const Shape&
   const minkray_distance_options options = {sizeof options, tolerance, 0, 0, 0};
   Distance found;
   detail::check(minkray_signed_distance(a.handle(), detail::plain(&pose_a), b.handle(),
-                                        detail::plain(&pose_b), &options, &found));
+                                        detail::plain(&pose_b), &options,
+                                        reinterpret_cast<minkray_distance*>(&found)));
   return found;
 }
 
@@ -772,8 +849,12 @@ inline Impact time_of_impact(const Shape& a, const Pose& pose_a, const Twist& tw
                              const Shape& b, const Pose& pose_b, const Twist& twist_b,
                              double t_max) {
   Impact found;
-  detail::check(minkray_time_of_impact(a.handle(), detail::plain(&pose_a), &twist_a, b.handle(),
-                                       detail::plain(&pose_b), &twist_b, t_max, &found));
+  const auto plain = [](const Twist& twist) {
+    return reinterpret_cast<const minkray_twist*>(&twist);
+  };
+  detail::check(minkray_time_of_impact(a.handle(), detail::plain(&pose_a), plain(twist_a),
+                                       b.handle(), detail::plain(&pose_b), plain(twist_b), t_max,
+                                       reinterpret_cast<minkray_impact*>(&found)));
   return found;
 }
 

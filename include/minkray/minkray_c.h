@@ -10,9 +10,9 @@
  * told, whatever was made since.
  *
  * Threads: functions that take a scene and do not say that they change it may be called for it by
- * any number of threads at once, and so may all functions of shapes. Those that change a scene are
- * to be called by one thread at a time, while no other uses that scene; two that change one at once
- * get MINKRAY_WRONG_USE.
+ * any number of threads at once, and so may all functions of shapes. A call that changes or
+ * releases a scene while another call uses it, from any thread or from a callback, returns
+ * MINKRAY_WRONG_USE and changes nothing; so does a call that uses a scene while it is changed.
  *
  * All points, directions and poses are in the frame of the world, of one unit of length, in double.
  */
@@ -86,8 +86,9 @@ MINKRAY_API int minkray_shape_make(const char* kind, const minkray_parameter* pa
 MINKRAY_API int minkray_shape_read(const char* json, const char* folder, minkray_shape* shape);
 
 /* Your own shape: points[i] is to be the point of it furthest along directions[i], which has length
- * 1. Equal directions must get equal points. It is called by several threads at once and must not
- * call Minkray; it answers 0, or anything else if it failed. */
+ * 1. Equal directions must get equal points. It is called by several threads at once. Queries of
+ * the shape itself, or of what it is part of, return MINKRAY_WRONG_USE from within it. It answers
+ * 0, or anything else if it failed: see minkray_support_failed. */
 typedef int (*minkray_support_function)(void* user, size_t count, const double (*directions)[3],
                                         double (*points)[3]);
 
@@ -98,6 +99,10 @@ typedef struct minkray_support {
   const double* lower;         /* corners of a box that holds the shape; both may be NULL */
   const double* upper;
 } minkray_support;
+
+/* For support functions: why this call of yours fails, for the error of the query that called it.
+ * Ignored anywhere else. */
+MINKRAY_API void minkray_support_failed(const char* reason);
 
 /* The function is asked in some hundred directions at once, and its answers are held against each
  * other: MINKRAY_BAD_SUPPORT if no convex shape has them. Whatever it answers later on is checked
@@ -192,15 +197,19 @@ MINKRAY_API int minkray_scene_set_group_pose(minkray_scene scene, uint32_t group
 MINKRAY_API int minkray_scene_set_joint(minkray_scene scene, uint32_t group, const char* joint,
                                         const double* values, size_t count);
 
+/* Takes an object out: rays no longer meet it. Its number is never used again, and calls that name
+ * it return MINKRAY_WRONG_USE; all other numbers stay. */
+MINKRAY_API int minkray_scene_remove(minkray_scene scene, uint32_t object);
+
 /* Makes rays meet what was added and moved since the last commit: builds the hierarchy, or if
  * things only moved, refits it. */
 MINKRAY_API int minkray_scene_commit(minkray_scene scene);
 
-/* How many objects were added. Particles of scene files are numbered after all objects, once the
- * scene is committed. */
+/* How many objects were added, removed ones included. Particles of scene files are numbered after
+ * all objects, once the scene is committed. */
 MINKRAY_API int minkray_scene_size(minkray_scene scene, uint32_t* objects, uint32_t* particles);
 
-/* Valid until the scene is changed. */
+/* The name is valid as long as the scene lives. */
 MINKRAY_API int minkray_scene_name(minkray_scene scene, uint32_t object, const char** name);
 MINKRAY_API int minkray_scene_pose(minkray_scene scene, uint32_t object, minkray_pose* pose);
 
@@ -209,11 +218,15 @@ MINKRAY_API int minkray_scene_group(minkray_scene scene, uint32_t group, uint32_
                                     uint32_t* objects, uint32_t* joints);
 MINKRAY_API int minkray_scene_joint(minkray_scene scene, uint32_t group, uint32_t joint,
                                     const char** name, size_t* number_count);
+/* What the joint is set to: as many numbers as minkray_scene_joint reports, at most `size`. */
+MINKRAY_API int minkray_scene_joint_value(minkray_scene scene, uint32_t group, uint32_t joint,
+                                          double* values, size_t size);
 
 /* ---- rays ------------------------------------------------------------------------------------ */
 
-/* The points origin + t direction, 0 <= t <= t_max. The direction may have any length but zero;
- * t_max may be infinite. */
+/* The points origin + t direction, 0 <= t <= t_max. The direction may have any length but zero,
+ * which is MINKRAY_WRONG_USE. A t_max of 0, as structs of zeros have it, is no limit, as is
+ * infinity. */
 typedef struct minkray_ray {
   double origin[3];
   double direction[3];
@@ -265,7 +278,7 @@ typedef struct minkray_ray_arrays {
   ptrdiff_t origin_stride;
   const double* directions;
   ptrdiff_t direction_stride;
-  const double* t_max; /* NULL: infinite */
+  const double* t_max; /* NULL: no limit. A 0 in the array ends its ray at the origin */
   ptrdiff_t t_max_stride;
 } minkray_ray_arrays;
 
@@ -291,6 +304,11 @@ MINKRAY_API int minkray_scene_cast_arrays(minkray_scene scene, const minkray_ray
 MINKRAY_API int minkray_scene_occluded(minkray_scene scene, const minkray_ray_arrays* rays,
                                        size_t count, uint8_t* blocked,
                                        const minkray_options* options);
+
+/* Occlusion of rays in structs. */
+MINKRAY_API int minkray_scene_occluded_rays(minkray_scene scene, const minkray_ray* rays,
+                                            size_t count, uint8_t* blocked,
+                                            const minkray_options* options);
 
 /* Where rays leave one object: MINKRAY_HIT at the greatest t, MINKRAY_INSIDE if they end in it at
  * t_max, MINKRAY_MISS if they never meet it. Not for half-spaces, which have no end. */
@@ -408,8 +426,9 @@ MINKRAY_API int minkray_signed_distance(minkray_shape a, const minkray_pose* pos
                                         const minkray_distance_options* options,
                                         minkray_distance* distance);
 
-/* How a shape moves: its frame's origin by `velocity`, and about that by `turn`, a rotation vector
- * in the world, radians a unit of time. */
+/* How a shape moves: its frame's origin, which the pose's translation is, by `velocity`; about
+ * that point by `turn`, a rotation vector in the world, radians per unit of time. `minkray cast`
+ * turns shapes about the same point, unless a query names another. */
 typedef struct minkray_twist {
   double velocity[3];
   double turn[3];
@@ -423,8 +442,8 @@ typedef enum minkray_impact_status {
 } minkray_impact_status;
 
 typedef struct minkray_impact {
-  double t_lo;     /* they are apart before this: proven */
-  double t_hi;     /* they touch here; infinite if they do not */
+  double t_lo;     /* they are apart before this, which is proven; t_max of MINKRAY_NO_IMPACT */
+  double t_hi;     /* they touch here; infinite of MINKRAY_NO_IMPACT and MINKRAY_IMPACT_UNDECIDED */
   double distance; /* between them at t_lo; infinite if it is not known */
   double point_a[3];
   double point_b[3];

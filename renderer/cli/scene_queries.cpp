@@ -49,6 +49,8 @@ std::optional<Json> SceneQueries::answer(std::string_view line, Mistakes& mistak
     };
     ray.origin = vector("origin");
     ray.direction = vector("direction");
+    if (mistakes.none() && ray.direction.isZero(0))
+      mistakes.add(object.path("direction"), "must not be zero (got [0, 0, 0])");
     if (const Json* limit = object.find("t_max"))
       ray.t_max = read_number(*limit, object.path("t_max"), mistakes, Range::not_negative)
                       .value_or(ray.t_max);

@@ -12,9 +12,8 @@ constexpr int most_rays = 16;
 
 }  // namespace
 
-NoisyPicture noisy_picture(const Scene& scene, const World& world,
-                           const RenderOptions& options, const Rendering& rendering,
-                           const RenderWatch& watch) {
+NoisyPicture noisy_picture(const Scene& scene, const World& world, const RenderOptions& options,
+                           const Rendering& rendering, const RenderWatch& watch) {
   NoisyPicture picture{rendering.image, rendering.variance, rendering.image, rendering.image,
                        std::vector<float>(rendering.image.pixels.size())};
   const CameraRays rays(scene, world, options);

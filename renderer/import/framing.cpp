@@ -49,7 +49,7 @@ double turn_between(const PoseKey& a, const PoseKey& b) {
 std::vector<PlacedBody> placings(const Scene& scene) {
   std::vector<PlacedBody> bodies;
   for (const Object& object : scene.objects) {
-    if (object.half_space) continue;
+    if (object.half_space || object.visible_to == 0) continue;
     if (!object.motion || object.motion->keys.empty()) {
       bodies.push_back({&object.shape, object.pose});
       continue;

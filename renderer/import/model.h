@@ -103,6 +103,9 @@ JointsByName joints_by_name(Model& model);
 /// The joint of that name, or null.
 ModelJoint* find_joint(Model& model, const std::string& name);
 
+/// The joint's numbers; those at which the link rests if none are set.
+std::vector<double> value_of(const ModelLink& link, const ModelJoint& joint);
+
 /// The keyframe of that name, or of that number, counted from 0; or null.
 const ModelKeyframe* find_keyframe(const Model& model, const std::string& name);
 

@@ -59,9 +59,9 @@ void add_obstacles(const HeldScene& held, const HeldScene::Group& robot,
                    std::vector<ClearanceBody>& bodies, std::vector<std::uint32_t>& objects) {
   const Mat3<double> turned_back = robot.pose.linear.transpose();
   const Affine<double> to_robot = {turned_back, -(turned_back * robot.pose.translation)};
-  std::vector<ClearanceBody> all = bodies_of(held.plain());
+  std::vector<ClearanceBody> all = bodies_of(held.whole());
   for (std::uint32_t i = 0; i < all.size(); ++i) {
-    if (i >= robot.first && i - robot.first < robot.count) continue;
+    if (held.is_removed(i) || (i >= robot.first && i - robot.first < robot.count)) continue;
     all[i].pose = to_robot;
     if (all[i].half_space) all[i].half_space = all[i].half_space->posed(to_robot);
     bodies.push_back(std::move(all[i]));
@@ -94,9 +94,15 @@ void find_clearance(const HeldScene& held, const HeldScene::Group& robot,
                     const std::vector<JointRow>& read, std::size_t rows,
                     const minkray_clearance_options& given, minkray_clearance* steps,
                     minkray_clearance* least) {
-  std::vector<ClearanceBody> bodies = bodies_of(*robot.model, robot.options.geometry);
+  std::vector<ClearanceBody> bodies;
   std::vector<std::uint32_t> objects;
-  for (std::uint32_t i = 0; i < bodies.size(); ++i) objects.push_back(robot.first + i);
+  std::uint32_t index = 0;
+  for (ClearanceBody& body : bodies_of(*robot.model, robot.options.geometry)) {
+    const std::uint32_t object = robot.first + index++;
+    if (held.is_removed(object)) continue;
+    bodies.push_back(std::move(body));
+    objects.push_back(object);
+  }
   add_obstacles(held, robot, bodies, objects);
   const std::vector<BodyPair> pairs = pairs_of(bodies, *robot.model, {}, given.only_obstacles == 0);
   ClearanceOptions options;
@@ -124,9 +130,9 @@ extern "C" int minkray_scene_clearance(minkray_scene scene, uint32_t group, cons
                                        const minkray_clearance_options* options,
                                        minkray_clearance* steps, minkray_clearance* least) {
   return call("minkray_scene_clearance", [&] {
-    const HeldScene& held = scene_of(scene);
-    held.world();  // it is not being changed
-    const HeldScene::Group& robot = held.group(group);
+    const SceneQuery held(scene);
+    held->world();  // it is committed
+    const HeldScene::Group& robot = held->group(group);
     if (!robot.model) wrong_use("group: must be a robot's, from URDF, MJCF, SDF or glTF");
     if (!is_rigid(robot.pose)) wrong_use("group: must have a pose that keeps lengths");
     minkray_clearance_options given = {sizeof given, 0, 0, 0};
@@ -140,6 +146,6 @@ extern "C" int minkray_scene_clearance(minkray_scene scene, uint32_t group, cons
                 std::to_string(given.tolerance) + ")");
     const std::vector<JointRow> read = rows_of(robot, path, rows, numbers);
     with_threads(checked_threads(given.threads),
-                 [&] { find_clearance(held, robot, read, rows, given, steps, least); });
+                 [&] { find_clearance(*held, robot, read, rows, given, steps, least); });
   });
 }

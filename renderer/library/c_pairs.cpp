@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The functions of the C interface about pairs of shapes.
 #include <cmath>
+#include <limits>
+#include <memory>
 
 #include "core/contact/impact.h"
 #include "core/contact/signed_distance.h"
@@ -17,23 +19,29 @@ void store(const Vec3<double>& from, double (&to)[3]) {
 
 /// A shape and where it stands, as queries on pairs want it: what keeps lengths is the pose, any
 /// other map is part of the shape.
-struct PosedShape {
-  std::optional<ContactShape> own;  ///< where the map is part of it
-  const ContactShape& shape;
-  Affine<double> pose;
+class PosedShape {
+ public:
+  PosedShape(const HeldShape& held, const minkray_pose* pose, const char* argument) {
+    refuse_if_running(held.customs(), argument);
+    const ReadPose read = read_pose(pose, argument);
+    if (read.is_rigid) [[likely]] {
+      shape_ = &held.contact();
+      pose_ = read.map;
+      return;
+    }
+    own_ = std::make_unique<const ContactShape>(
+        *held.shape(), Affine<double>{read.map.linear, Vec3<double>::Zero()});
+    shape_ = own_.get();
+    pose_.translation = read.map.translation;
+  }
 
-  PosedShape(const HeldShape& held, const Affine<double>& map)
-      : PosedShape(held, map, is_rigid(map)) {}
-  PosedShape(const PosedShape&) = delete;
-  PosedShape& operator=(const PosedShape&) = delete;
+  const ContactShape& shape() const { return *shape_; }
+  const Affine<double>& pose() const { return pose_; }
 
  private:
-  PosedShape(const HeldShape& held, const Affine<double>& map, bool keeps_lengths)
-      : own(keeps_lengths ? std::nullopt
-                          : std::optional<ContactShape>(std::in_place, *held.shape(),
-                                                        Affine<double>{map.linear, Vec3<double>::Zero()})),
-        shape(own ? *own : held.contact()),
-        pose(keeps_lengths ? map : Affine<double>{Mat3<double>::Identity(), map.translation}) {}
+  std::unique_ptr<const ContactShape> own_;  ///< where the map is part of it
+  const ContactShape* shape_;
+  Affine<double> pose_;
 };
 
 SignedDistanceOptions distance_options(const minkray_distance_options* given) {
@@ -53,10 +61,10 @@ SignedDistanceOptions distance_options(const minkray_distance_options* given) {
 }
 
 RigidMotion motion_of(const PosedShape& posed, const minkray_twist* twist, const char* argument) {
-  RigidMotion motion{posed.pose};
+  RigidMotion motion{posed.pose()};
   if (!twist) return motion;
-  motion.velocity = vector_of(twist->velocity, (std::string(argument) + ".velocity").c_str());
-  motion.angular_velocity = vector_of(twist->turn, (std::string(argument) + ".turn").c_str());
+  motion.velocity = vector_of(twist->velocity, argument, ".velocity");
+  motion.angular_velocity = vector_of(twist->turn, argument, ".turn");
   return motion;
 }
 
@@ -101,22 +109,19 @@ int minkray_signed_distance(minkray_shape a, const minkray_pose* pose_a, minkray
   return call("minkray_signed_distance", [&] {
     const HeldShape &held_a = shape_of(a, "a"), &held_b = shape_of(b, "b");
     require(distance, "distance");
-    const PosedShape posed_a(held_a, pose_of(pose_a, "pose_a"));
-    const PosedShape posed_b(held_b, pose_of(pose_b, "pose_b"));
-    const SignedDistance found = signed_distance(posed_a.shape, posed_a.pose, posed_b.shape,
-                                                 posed_b.pose, distance_options(options));
+    const PosedShape posed_a(held_a, pose_a, "pose_a"), posed_b(held_b, pose_b, "pose_b");
+    const SignedDistance found = signed_distance(posed_a.shape(), posed_a.pose(), posed_b.shape(),
+                                                 posed_b.pose(), distance_options(options));
     throw_if_lied(held_a.customs());
     throw_if_lied(held_b.customs());
-    minkray_distance plain = {};
-    plain.value = found.value;
-    plain.lower = found.lower;
-    plain.upper = found.upper;
-    store(found.point_a, plain.point_a);
-    store(found.point_b, plain.point_b);
-    store(found.normal, plain.normal);
-    plain.status = code_of(found.status);
-    plain.supports = found.supports;
-    *distance = plain;
+    distance->value = found.value;
+    distance->lower = found.lower;
+    distance->upper = found.upper;
+    store(found.point_a, distance->point_a);
+    store(found.point_b, distance->point_b);
+    store(found.normal, distance->normal);
+    distance->status = code_of(found.status);
+    distance->supports = found.supports;
   });
 }
 
@@ -129,22 +134,21 @@ int minkray_time_of_impact(minkray_shape a, const minkray_pose* pose_a,
     require(impact, "impact");
     if (!std::isfinite(t_max) || !(t_max >= 0))
       wrong_use("t_max: must be finite and >= 0 (got " + std::to_string(t_max) + ")");
-    const PosedShape posed_a(held_a, pose_of(pose_a, "pose_a"));
-    const PosedShape posed_b(held_b, pose_of(pose_b, "pose_b"));
-    const Impact found = first_impact(posed_a.shape, motion_of(posed_a, twist_a, "twist_a"),
-                                      posed_b.shape, motion_of(posed_b, twist_b, "twist_b"), t_max);
+    const PosedShape posed_a(held_a, pose_a, "pose_a"), posed_b(held_b, pose_b, "pose_b");
+    const Impact found =
+        first_impact(posed_a.shape(), motion_of(posed_a, twist_a, "twist_a"), posed_b.shape(),
+                     motion_of(posed_b, twist_b, "twist_b"), t_max);
     throw_if_lied(held_a.customs());
     throw_if_lied(held_b.customs());
-    minkray_impact plain = {};
-    plain.t_lo = found.t_lo;
-    plain.t_hi = found.t_hi;
-    plain.distance = found.distance;
-    store(found.point_a, plain.point_a);
-    store(found.point_b, plain.point_b);
-    store(found.normal, plain.normal);
-    plain.status = code_of(found.status);
-    plain.steps = found.steps;
-    *impact = plain;
+    const bool touch = found.status == ImpactStatus::hit || found.status == ImpactStatus::inside;
+    impact->t_lo = found.t_lo;
+    impact->t_hi = touch ? found.t_hi : std::numeric_limits<double>::infinity();
+    impact->distance = found.distance;
+    store(found.point_a, impact->point_a);
+    store(found.point_b, impact->point_b);
+    store(found.normal, impact->normal);
+    impact->status = code_of(found.status);
+    impact->steps = found.steps;
   });
 }
 

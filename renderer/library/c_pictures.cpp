@@ -48,7 +48,7 @@ Channel channel_of(const char* name, const std::string& argument) {
 /// The scene with the camera and the light that the options ask for, or else those of its files, or
 /// of robots if it has none.
 Scene seen(const HeldScene& held, const minkray_picture_options& options) {
-  Scene scene = held.plain();
+  Scene scene = held.whole();
   Json json = Json::object();
   if (options.view) {
     Mistakes mistakes("options.view");
@@ -173,8 +173,7 @@ void render(const HeldScene& held, const minkray_picture_options& given,
 
   std::atomic<bool> stopped = false;
   const RenderWatch watch{[&](double done, std::uint64_t) {
-                            if (how && how->progress && how->progress(how->user, done) != 0)
-                              stopped = true;
+                            if (wants_stop(how, done)) stopped = true;
                           },
                           [&] { return stopped.load(std::memory_order_relaxed); }};
   const auto go_on = [&] {
@@ -232,9 +231,9 @@ int minkray_picture_channel(const char* name, uint32_t* numbers, int32_t* is_int
 int minkray_scene_picture_size(minkray_scene scene, const minkray_picture_options* options,
                                uint32_t* width, uint32_t* height) {
   return call("minkray_scene_picture_size", [&] {
-    const HeldScene& held = scene_of(scene);
+    const SceneQuery held(scene);
     const minkray_picture_options& given = checked(options);
-    const Resolution found = render_options(seen(held, given), given).resolution;
+    const Resolution found = render_options(seen(*held, given), given).resolution;
     if (width) *width = static_cast<uint32_t>(found.width);
     if (height) *height = static_cast<uint32_t>(found.height);
   });
@@ -244,10 +243,10 @@ int minkray_scene_render(minkray_scene scene, const minkray_picture_options* opt
                          const minkray_channel* channels, size_t count,
                          const minkray_options* how) {
   return call("minkray_scene_render", [&] {
-    const HeldScene& held = scene_of(scene);
+    const SceneQuery held(scene);
     if (count > 0) require(channels, "channels");
     require_room(count, sizeof(minkray_channel), "count");
-    render(held, checked(options), {channels, count}, how);
+    render(*held, checked(options), {channels, count}, how);
   });
 }
 

@@ -104,32 +104,30 @@ extern "C" {
 int minkray_scene_cast(minkray_scene scene, const minkray_ray* rays, size_t count,
                        minkray_hit* hits, const minkray_options* options) {
   return call("minkray_scene_cast", [&] {
-    const HeldScene& held = scene_of(scene);
+    const SceneQuery held(scene);
     if (count > 0) require(hits, "hits");
-    if (count == 1 && !options && held.customs().empty()) {
+    if (count == 1 && !options && held->customs().empty()) {
       const Ray<double> ray = RaySource(rays, 1)[0];
       QueryCounts counts;
-      const WorldHit hit = held.world().closest_hit(ray, counts);
+      const WorldHit hit = held->world().closest_hit(ray, counts);
       *hits = plain_hit(ray, hit, counts.exhausted > 0);
       return;
     }
     struct {
       minkray_hit* hits;
-      void operator()(size_t i, const Ray<double>&, const minkray_hit& hit) const {
-        hits[i] = hit;
-      }
+      void operator()(size_t i, const Ray<double>&, const minkray_hit& hit) const { hits[i] = hit; }
       void operator()(size_t i, const Ray<double>& ray, const BlockHits& block, size_t k) const {
         plain_hit(ray, block, k, hits[i]);
       }
     } const tell{hits};
-    cast_rays(held, RaySource(rays, count), options, tell);
+    cast_rays(*held, RaySource(rays, count), options, tell);
   });
 }
 
 int minkray_scene_cast_arrays(minkray_scene scene, const minkray_ray_arrays* rays, size_t count,
                               const minkray_hit_arrays* hits, const minkray_options* options) {
   return call("minkray_scene_cast_arrays", [&] {
-    const HeldScene& held = scene_of(scene);
+    const SceneQuery held(scene);
     require(hits, "hits");
     if (hits->size < sizeof(minkray_hit_arrays))
       wrong_use("hits.size: must be sizeof(minkray_hit_arrays)");
@@ -144,35 +142,45 @@ int minkray_scene_cast_arrays(minkray_scene scene, const minkray_ray_arrays* ray
         store(hits, i, ray, hit);
       }
     } const tell{*hits};
-    cast_rays(held, RaySource(rays, count), options, tell);
+    cast_rays(*held, RaySource(rays, count), options, tell);
   });
 }
 
 int minkray_scene_occluded(minkray_scene scene, const minkray_ray_arrays* rays, size_t count,
                            uint8_t* blocked, const minkray_options* options) {
   return call("minkray_scene_occluded", [&] {
-    const HeldScene& held = scene_of(scene);
+    const SceneQuery held(scene);
     if (count > 0) require(blocked, "blocked");
-    find_occluded(held, RaySource(rays, count), blocked, options);
+    find_occluded(*held, RaySource(rays, count), blocked, options);
+  });
+}
+
+int minkray_scene_occluded_rays(minkray_scene scene, const minkray_ray* rays, size_t count,
+                                uint8_t* blocked, const minkray_options* options) {
+  return call("minkray_scene_occluded_rays", [&] {
+    const SceneQuery held(scene);
+    if (count > 0) require(blocked, "blocked");
+    find_occluded(*held, RaySource(rays, count), blocked, options);
   });
 }
 
 int minkray_scene_exit(minkray_scene scene, uint32_t object, const minkray_ray* rays, size_t count,
                        minkray_hit* hits, const minkray_options* options) {
   return call("minkray_scene_exit", [&] {
-    const HeldScene& held = scene_of(scene);
+    const SceneQuery held(scene);
     if (count > 0) require(hits, "hits");
-    const Instances& instances = held.world().instances();
+    const Instances& instances = held->world().instances();
     if (object >= instances.size())
       wrong_use("object: must be less than " + std::to_string(instances.size()) + " (got " +
                 std::to_string(object) + ")");
+    if (object < held->size()) held->check_object(object);
     if (instances.is_half_space(object))
       wrong_use("object: must not be a half-space, which rays never leave");
     cast_at_one(instances.at(object), object, RaySource(rays, count), hits, options,
                 [](const PreparedShape<double>& shape, const Ray<double>& ray) {
                   return cast_exit(shape, ray);
                 });
-    throw_if_lied(held.customs());
+    throw_if_lied(held->customs());
   });
 }
 
@@ -180,6 +188,7 @@ int minkray_shape_cast(minkray_shape shape, const minkray_pose* pose, const mink
                        size_t count, minkray_hit* hits, const minkray_options* options) {
   return call("minkray_shape_cast", [&] {
     const HeldShape& held = shape_of(shape, "shape");
+    refuse_if_running(held.customs(), "shape");
     if (count > 0) require(hits, "hits");
     if (count == 1 && !options && held.customs().empty()) {
       const Ray<double> ray = RaySource(rays, 1)[0];

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 // The functions of the C interface that make scenes and change them.
+#include <algorithm>
+#include <cmath>
+
 #include "renderer/library/call.h"
 #include "renderer/library/held_scene.h"
 #include "renderer/library/held_shape.h"
 #include "renderer/library/poses.h"
+#include "renderer/library/scene_use.h"
 
 namespace minkray {
 
@@ -46,6 +50,14 @@ ImportOptions import_options(const minkray_file_options* given) {
   return options;
 }
 
+const std::pair<std::string, std::size_t>& joint_of(const HeldScene::Group& group,
+                                                    std::uint32_t joint) {
+  if (joint >= group.joints.size())
+    wrong_use("joint: must be less than " + std::to_string(group.joints.size()) + " (got " +
+              std::to_string(joint) + ")");
+  return group.joints[joint];
+}
+
 }  // namespace
 }  // namespace minkray
 
@@ -61,19 +73,15 @@ int minkray_scene_make(minkray_scene* scene) {
 }
 
 int minkray_scene_release(minkray_scene scene) {
-  return call("minkray_scene_release", [&] {
-    if (!held_scenes().release(scene.id)) scene_of(scene);
-  });
+  return call("minkray_scene_release", [&] { SceneChange(scene).release(scene); });
 }
 
 int minkray_scene_add(minkray_scene scene, minkray_shape shape, const minkray_pose* pose,
                       const char* name, uint32_t* object) {
   return call("minkray_scene_add", [&] {
-    HeldScene& held = scene_of(scene);
+    const SceneChange held(scene);
     const HeldShape& added = shape_of(shape, "shape");
-    const Affine<double> map = pose_of(pose, "pose");
-    const HeldScene::Change change(held);
-    const uint32_t index = held.add(added, map, name);
+    const uint32_t index = held->add(added, pose_of(pose, "pose"), name);
     if (object) *object = index;
   });
 }
@@ -81,12 +89,12 @@ int minkray_scene_add(minkray_scene scene, minkray_shape shape, const minkray_po
 int minkray_scene_add_half_space(minkray_scene scene, const double normal[3], double offset,
                                  const char* name, uint32_t* object) {
   return call("minkray_scene_add_half_space", [&] {
-    HeldScene& held = scene_of(scene);
+    const SceneChange held(scene);
     const Vec3<double> n = vector_of(normal, "normal");
     if (n.isZero(0)) wrong_use("normal: must not be zero");
-    vector_of(std::array{offset, 0.0, 0.0}.data(), "offset");
-    const HeldScene::Change change(held);
-    const uint32_t index = held.add(HalfSpaceBody<double>{unit(n), offset}, name);
+    if (!std::isfinite(offset))
+      wrong_use("offset: must be a finite number (got " + std::to_string(offset) + ")");
+    const uint32_t index = held->add(HalfSpaceBody<double>{unit(n), offset}, name);
     if (object) *object = index;
   });
 }
@@ -94,86 +102,82 @@ int minkray_scene_add_half_space(minkray_scene scene, const double normal[3], do
 int minkray_scene_add_file(minkray_scene scene, const char* file,
                            const minkray_file_options* options, uint32_t* group) {
   return call("minkray_scene_add_file", [&] {
-    HeldScene& held = scene_of(scene);
+    const SceneChange held(scene);
     require(file, "file");
     const ImportOptions import = import_options(options);
     std::optional<Affine<double>> pose;
     if (options && options->pose) pose = pose_of(options->pose, "options.pose");
-    const HeldScene::Change change(held);
-    const uint32_t index = held.add_file(file, import, pose);
+    const uint32_t index = held->add_file(file, import, pose);
     if (group) *group = index;
   });
 }
 
 int minkray_scene_set_pose(minkray_scene scene, uint32_t object, const minkray_pose* pose) {
   return call("minkray_scene_set_pose", [&] {
-    HeldScene& held = scene_of(scene);
+    const SceneChange held(scene);
     require(pose, "pose");
-    const Affine<double> map = pose_of(pose, "pose");
-    const HeldScene::Change change(held);
-    held.set_pose(object, map);
+    held->set_pose(object, pose_of(pose, "pose"));
   });
 }
 
 int minkray_scene_set_group_pose(minkray_scene scene, uint32_t group, const minkray_pose* pose) {
   return call("minkray_scene_set_group_pose", [&] {
-    HeldScene& held = scene_of(scene);
+    const SceneChange held(scene);
     require(pose, "pose");
-    const Affine<double> map = pose_of(pose, "pose");
-    const HeldScene::Change change(held);
-    held.set_group_pose(group, map);
+    held->set_group_pose(group, pose_of(pose, "pose"));
   });
 }
 
 int minkray_scene_set_joint(minkray_scene scene, uint32_t group, const char* joint,
                             const double* values, size_t count) {
   return call("minkray_scene_set_joint", [&] {
-    HeldScene& held = scene_of(scene);
+    const SceneChange held(scene);
     require(joint, "joint");
     if (count > 0) require(values, "values");
-    const HeldScene::Change change(held);
-    held.set_joint(group, joint, {values, count});
+    held->set_joint(group, joint, {values, count});
   });
 }
 
+int minkray_scene_remove(minkray_scene scene, uint32_t object) {
+  return call("minkray_scene_remove", [&] { SceneChange(scene)->remove(object); });
+}
+
 int minkray_scene_commit(minkray_scene scene) {
-  return call("minkray_scene_commit", [&] {
-    HeldScene& held = scene_of(scene);
-    const HeldScene::Change change(held);
-    held.commit();
-  });
+  return call("minkray_scene_commit", [&] { SceneChange(scene)->commit(); });
 }
 
 int minkray_scene_size(minkray_scene scene, uint32_t* objects, uint32_t* particles) {
   return call("minkray_scene_size", [&] {
-    const HeldScene& held = scene_of(scene);
-    if (objects) *objects = static_cast<uint32_t>(held.plain().objects.size());
+    const SceneQuery held(scene);
+    if (objects) *objects = held->size();
     size_t count = 0;
-    for (const ParticleSet& set : held.plain().particles) count += set.size();
+    for (const ParticleSet& set : held->particles()) count += set.size();
     if (particles) *particles = static_cast<uint32_t>(count);
   });
 }
 
 int minkray_scene_name(minkray_scene scene, uint32_t object, const char** name) {
   return call("minkray_scene_name", [&] {
-    const HeldScene& held = scene_of(scene);
+    const SceneQuery held(scene);
     require(name, "name");
-    *name = held.object(object).name.c_str();
+    *name = held->name(object);
   });
 }
 
 int minkray_scene_pose(minkray_scene scene, uint32_t object, minkray_pose* pose) {
   return call("minkray_scene_pose", [&] {
-    const HeldScene& held = scene_of(scene);
+    const SceneQuery held(scene);
     require(pose, "pose");
-    *pose = plain_pose(held.object(object).pose);
+    held->check_object(object);
+    *pose = plain_pose(held->pose(object));
   });
 }
 
 int minkray_scene_group(minkray_scene scene, uint32_t group, uint32_t* first_object,
                         uint32_t* objects, uint32_t* joints) {
   return call("minkray_scene_group", [&] {
-    const HeldScene::Group& found = scene_of(scene).group(group);
+    const SceneQuery held(scene);
+    const HeldScene::Group& found = held->group(group);
     if (first_object) *first_object = found.first;
     if (objects) *objects = found.count;
     if (joints) *joints = static_cast<uint32_t>(found.joints.size());
@@ -183,12 +187,21 @@ int minkray_scene_group(minkray_scene scene, uint32_t group, uint32_t* first_obj
 int minkray_scene_joint(minkray_scene scene, uint32_t group, uint32_t joint, const char** name,
                         size_t* number_count) {
   return call("minkray_scene_joint", [&] {
-    const HeldScene::Group& found = scene_of(scene).group(group);
-    if (joint >= found.joints.size())
-      wrong_use("joint: must be less than " + std::to_string(found.joints.size()) + " (got " +
-                std::to_string(joint) + ")");
-    if (name) *name = found.joints[joint].first.c_str();
-    if (number_count) *number_count = found.joints[joint].second;
+    const SceneQuery held(scene);
+    const auto& [found, numbers] = joint_of(held->group(group), joint);
+    if (name) *name = found.c_str();
+    if (number_count) *number_count = numbers;
+  });
+}
+
+int minkray_scene_joint_value(minkray_scene scene, uint32_t group, uint32_t joint, double* values,
+                              size_t size) {
+  return call("minkray_scene_joint_value", [&] {
+    const SceneQuery held(scene);
+    const HeldScene::Group& robot = held->group(group);
+    const std::vector<double> numbers = held->joint_value(robot, joint_of(robot, joint).first);
+    if (size > 0) require(values, "values");
+    std::copy_n(numbers.begin(), std::min(size, numbers.size()), values);
   });
 }
 

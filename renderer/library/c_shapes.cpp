@@ -82,6 +82,10 @@ int minkray_shape_read(const char* json, const char* folder, minkray_shape* shap
   });
 }
 
+void minkray_support_failed(const char* reason) {
+  call("minkray_support_failed", [&] { keep_support_failure(reason); });
+}
+
 int minkray_shape_custom(const minkray_support* support, minkray_shape* shape) {
   return call("minkray_shape_custom", [&] {
     require(support, "support");
@@ -148,6 +152,7 @@ int minkray_shape_support(minkray_shape shape, size_t count, const double (*dire
                           double (*points)[3]) {
   return call("minkray_shape_support", [&] {
     const HeldShape& held = shape_of(shape, "shape");
+    refuse_if_running(held.customs(), "shape");
     if (count > 0) {
       require(directions, "directions");
       require(points, "points");
@@ -170,6 +175,7 @@ int minkray_shape_support(minkray_shape shape, size_t count, const double (*dire
 int minkray_shape_bounds(minkray_shape shape, double lower[3], double upper[3]) {
   return call("minkray_shape_bounds", [&] {
     const HeldShape& held = shape_of(shape, "shape");
+    refuse_if_running(held.customs(), "shape");
     require(lower, "lower");
     require(upper, "upper");
     const Bounds<double> bounds = bounds_of<double>(*held.shape());

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/library/custom_support.h"
 
+#include <cxxabi.h>
+
 #include <algorithm>
 #include <cmath>
+#include <new>
 #include <numbers>
 
 #include "renderer/library/call.h"
@@ -50,6 +53,26 @@ std::string text_of(const Coordinates& p) {
   return text;
 }
 
+/// A function of the user's that this thread is running. They are linked from the innermost to the
+/// outermost, for a support function may query other shapes.
+struct Running {
+  const CustomSupport& custom;
+  Running* outer;
+  std::string reason = {};  ///< why it fails, if it says so
+
+  explicit Running(const CustomSupport& one) : custom(one), outer(innermost()) {
+    innermost() = this;
+  }
+  ~Running() { innermost() = outer; }
+  Running(const Running&) = delete;
+  Running& operator=(const Running&) = delete;
+
+  static Running*& innermost() {
+    thread_local Running* running = nullptr;
+    return running;
+  }
+};
+
 std::string contradiction(const Coordinates& n, const Coordinates& point, const Coordinates& other,
                           double beyond) {
   char length[32];
@@ -91,7 +114,10 @@ CustomSupport::CustomSupport(const minkray_support& function, std::size_t gather
 }
 
 CustomSupport::~CustomSupport() {
-  if (function_.release) function_.release(function_.user);
+  try {
+    if (function_.release) function_.release(function_.user);
+  } catch (...) {  // nobody is left to hear of it
+  }
 }
 
 void CustomSupport::probe() {
@@ -171,10 +197,11 @@ void CustomSupport::jets(std::size_t count, const Coordinates* directions, Coord
   std::fill_n(points, count, nan);
   std::fill_n(derivatives, count, Derivative{});
   if (!has_lied()) {
-    const int failed =
-        jets_(function_.user, count, reinterpret_cast<const double(*)[3]>(directions),
-              reinterpret_cast<double(*)[3]>(points), reinterpret_cast<double(*)[9]>(derivatives));
-    if (failed) complain("the function with derivatives failed");
+    run("the function with derivatives", [&] {
+      return jets_(function_.user, count, reinterpret_cast<const double(*)[3]>(directions),
+                   reinterpret_cast<double(*)[3]>(points),
+                   reinterpret_cast<double(*)[9]>(derivatives));
+    });
     for (std::size_t i = 0; i < count && !has_lied(); ++i) {
       check(directions[i], points[i]);
       if (!std::ranges::all_of(derivatives[i], [](double x) { return std::isfinite(x); }))
@@ -204,10 +231,31 @@ void CustomSupport::answer(std::size_t count, const Coordinates* directions,
   const Coordinates nan = {NAN, NAN, NAN};
   std::fill_n(points, count, nan);
   if (has_lied()) return;
-  const int failed =
-      function_.function(function_.user, count, reinterpret_cast<const double(*)[3]>(directions),
-                         reinterpret_cast<double(*)[3]>(points));
-  if (failed) complain("the support function failed");
+  run("the support function", [&] {
+    return function_.function(function_.user, count,
+                              reinterpret_cast<const double(*)[3]>(directions),
+                              reinterpret_cast<double(*)[3]>(points));
+  });
+}
+
+template <class Call>
+void CustomSupport::run(const char* function, Call&& call) const {
+  Running running(*this);
+  int failed = 1;
+  try {
+    failed = call();
+  } catch (const abi::__forced_unwind&) {  // the thread is being ended
+    throw;
+  } catch (const std::bad_alloc&) {  // which says nothing of the shape
+    throw;
+  } catch (const std::exception& error) {
+    running.reason = error.what();
+  } catch (...) {
+    running.reason = "an exception without a text";
+  }
+  if (failed == 0) return;
+  complain(std::string(function) + " failed" + (running.reason.empty() ? "" : ": ") +
+           running.reason);
 }
 
 void CustomSupport::check(const Coordinates& n, const Coordinates& point) const {
@@ -253,6 +301,19 @@ void CustomSupport::complain(const std::string& what) const {
   const std::lock_guard lock(mutex_);
   if (complaint_.empty()) complaint_ = what;
   lied_.store(true, std::memory_order_release);
+}
+
+void refuse_running(const std::vector<std::shared_ptr<const CustomSupport>>& customs,
+                    const char* argument) {
+  for (const Running* one = Running::innermost(); one; one = one->outer)
+    for (const auto& custom : customs)
+      if (custom.get() == &one->custom)
+        wrong_use(std::string(argument) +
+                  ": must not be queried from within its own support function");
+}
+
+void keep_support_failure(const char* reason) {
+  if (Running* const running = Running::innermost()) running->reason = reason ? reason : "";
 }
 
 std::string CustomSupport::complaint() const {

@@ -60,6 +60,9 @@ class CustomSupport final : public SupportSource, public BatchSource {
   void probe_jets(const Coordinates* directions, const Coordinates* points, std::size_t count);
   void check(const Coordinates& n, const Coordinates& point) const;
   void complain(const std::string& what) const;
+  /// Runs a function of the user's, which is named in the complaint if it fails.
+  template <class Call>
+  void run(const char* function, Call&& call) const;
 
   minkray_support function_;
   minkray_jet_function jets_;
@@ -81,6 +84,23 @@ std::vector<std::shared_ptr<const CustomSupport>> customs_of(const Shape<double>
 bool are_gathered(const std::vector<std::shared_ptr<const CustomSupport>>& customs);
 
 /// Throws CallError if one of them has lied.
-void throw_if_lied(const std::vector<std::shared_ptr<const CustomSupport>>& customs);
+void throw_lie(const std::vector<std::shared_ptr<const CustomSupport>>& customs);
+inline void throw_if_lied(const std::vector<std::shared_ptr<const CustomSupport>>& customs) {
+  if (!customs.empty()) [[unlikely]]
+    throw_lie(customs);
+}
+
+/// Throws CallError if this thread is running the function of one of them: a query from within it
+/// would never end.
+void refuse_running(const std::vector<std::shared_ptr<const CustomSupport>>& customs,
+                    const char* argument);
+inline void refuse_if_running(const std::vector<std::shared_ptr<const CustomSupport>>& customs,
+                              const char* argument) {
+  if (!customs.empty()) [[unlikely]]
+    refuse_running(customs, argument);
+}
+
+/// Keeps why the support function that this thread is running fails.
+void keep_support_failure(const char* reason);
 
 }  // namespace minkray

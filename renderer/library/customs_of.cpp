@@ -54,7 +54,7 @@ bool are_gathered(const Customs& customs) {
   return std::ranges::any_of(customs, [](const auto& one) { return one->most_at_once() > 0; });
 }
 
-void throw_if_lied(const Customs& customs) {
+void throw_lie(const Customs& customs) {
   for (const auto& custom : customs)
     if (custom->has_lied()) throw CallError(MINKRAY_BAD_SUPPORT, custom->complaint());
 }

@@ -60,13 +60,15 @@ class Handles {
     const std::lock_guard lock(mutex_);
     Slot* slot = slot_of(id);
     if (!slot) return false;
-    if (--slot->owners > 0) return true;
-    slot->id.store(0, std::memory_order_release);
-    last = std::move(slot->thing);
-    // Numbers are not used again: a slot whose uses are used up stays empty.
-    if ((std::uint64_t{slot->uses} << 32 & use_bits) != use_bits)
-      free_.push_back(static_cast<std::uint32_t>(id) - 1u);
+    if (--slot->owners == 0) last = emptied(*slot, id);
     return true;
+  }
+
+  /// Releases a thing with one owner, and returns it; null if there is no such thing.
+  std::unique_ptr<Thing> take(std::uint64_t id) {
+    const std::lock_guard lock(mutex_);
+    Slot* slot = slot_of(id);
+    return slot ? emptied(*slot, id) : nullptr;
   }
 
  private:
@@ -78,6 +80,14 @@ class Handles {
     std::unique_ptr<Thing> thing;
     std::uint32_t owners = 0, uses = 0;
   };
+
+  std::unique_ptr<Thing> emptied(Slot& slot, std::uint64_t id) {
+    slot.id.store(0, std::memory_order_seq_cst);
+    // Numbers are not used again: a slot whose uses are used up stays empty.
+    if ((std::uint64_t{slot.uses} << 32 & use_bits) != use_bits)
+      free_.push_back(static_cast<std::uint32_t>(id) - 1u);
+    return std::move(slot.thing);
+  }
 
   static std::size_t chunk_of(std::uint32_t place) {
     const auto width = static_cast<int>(std::bit_width(place / first_chunk));
@@ -95,7 +105,7 @@ class Handles {
     const auto index = static_cast<std::uint32_t>(id) - 1u;
     if (id == 0 || index >= size_.load(std::memory_order_acquire)) return nullptr;
     Slot& slot = slot_at(index);
-    return slot.id.load(std::memory_order_acquire) == id ? &slot : nullptr;
+    return slot.id.load(std::memory_order_seq_cst) == id ? &slot : nullptr;
   }
 
   void grow() {

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/library/held_scene.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
-#include "renderer/film/render.h"
 #include "renderer/import/scene_of_model.h"
 #include "renderer/library/call.h"
+#include "renderer/scene/add_instances.h"
 #include "renderer/scene/scene_instances.h"
 
 namespace minkray {
 namespace {
 
-constexpr double grey = 0.7;  ///< of what is added without a material
+constexpr double grey_of_added = 0.7;  ///< of what is added without a material
 
 std::vector<std::pair<std::string, std::size_t>> moving_joints(const Model& model) {
   std::vector<std::pair<std::string, std::size_t>> joints;
@@ -24,44 +26,56 @@ std::vector<std::pair<std::string, std::size_t>> moving_joints(const Model& mode
 
 }  // namespace
 
-HeldScene::Change::Change(HeldScene& scene) : scene_(scene) {
-  if (scene_.is_changing_.exchange(true, std::memory_order_acquire))
-    wrong_use("scene: another thread is changing it");
-}
-
 void HeldScene::check_room(std::size_t more) const {
-  if (instance_count(scene_) + more > most_instances) wrong_use("scene: has too many objects");
+  std::size_t particles = 0;
+  for (const ParticleSet& set : scene_.particles) particles += set.size();
+  if (size_ + particles + more > most_instances) wrong_use("scene: has too many objects");
 }
 
-std::uint32_t HeldScene::append(Object object, const char* name) {
-  check_room(1);
+std::uint32_t HeldScene::grey() {
   if (!grey_) {
     grey_ = static_cast<std::uint32_t>(scene_.materials.size());
-    scene_.materials.push_back({"grey", LambertMaterial{Colour::Constant(grey)}});
+    scene_.materials.push_back({"grey", LambertMaterial{Colour::Constant(grey_of_added)}});
   }
-  object.material = *grey_;
-  const auto index = static_cast<std::uint32_t>(scene_.objects.size());
-  object.name = name ? name : "object " + std::to_string(index);
-  scene_.objects.push_back(std::move(object));
-  due_ = Due::build;
-  return index;
+  return *grey_;
 }
 
-std::uint32_t HeldScene::add(const HeldShape& shape, const Affine<double>& pose,
-                             const char* name) {
-  for (const auto& custom : shape.customs())
+void HeldScene::keep_customs(const std::vector<std::shared_ptr<const CustomSupport>>& customs) {
+  for (const auto& custom : customs)
     if (known_customs_.insert(custom.get()).second) customs_.push_back(custom);
-  Object object;
-  object.shape = *shape.shape();
-  if (shape.customs().empty()) object.definition = shape.definition();
-  object.pose = pose;
-  return append(std::move(object), name);
+}
+
+Instances& HeldScene::changed() {
+  if (due_ != Due::build) {
+    instances_ = std::move(world_).release();
+    world_ = World();
+    instances_.truncate(size_);  // particles are added again
+    due_ = Due::build;
+  }
+  return instances_;
+}
+
+std::uint32_t HeldScene::number_of_added(const char* name) {
+  if (name) names_.emplace(size_, name);
+  return size_++;
+}
+
+std::uint32_t HeldScene::add(const HeldShape& shape, const Affine<double>& pose, const char* name) {
+  check_room(1);
+  keep_customs(shape.customs());
+  Instances& instances = changed();
+  const bool is_custom = !shape.customs().empty();
+  instances.add(is_custom ? instances.define(*shape.shape()) : instances.define(shape.definition()),
+                pose);
+  if (!instances.plain_pose(size_)) poses_.emplace(size_, pose);
+  return number_of_added(name);
 }
 
 std::uint32_t HeldScene::add(const HalfSpaceBody<double>& half_space, const char* name) {
-  Object object;
-  object.half_space = half_space;
-  return append(std::move(object), name);
+  check_room(1);
+  changed().add(half_space);
+  poses_.emplace(size_, Affine<double>());
+  return number_of_added(name);
 }
 
 void HeldScene::append(Scene&& from) {
@@ -71,9 +85,12 @@ void HeldScene::append(Scene&& from) {
       for (std::uint32_t& index : mix->materials.indices) index += shift;
     scene_.materials.push_back(std::move(material));
   }
+  Instances& instances = changed();
   for (Object& object : from.objects) {
     object.material += shift;
+    add_object(instances, object);
     scene_.objects.push_back(std::move(object));
+    ++size_;
   }
   for (ParticleSet& set : from.particles) {
     for (std::uint32_t& material : set.materials) material += shift;
@@ -86,7 +103,6 @@ void HeldScene::append(Scene&& from) {
     scene_.background_is_sky = from.background_is_sky;
     has_camera_ = true;
   }
-  due_ = Due::build;
 }
 
 std::uint32_t HeldScene::add_file(const std::string& file, const ImportOptions& options,
@@ -96,7 +112,8 @@ std::uint32_t HeldScene::add_file(const std::string& file, const ImportOptions& 
   if (pose && !imported.scene.particles.empty())
     wrong_use("options.pose: must be NULL for a file with particles");
   Group group;
-  group.first = static_cast<std::uint32_t>(scene_.objects.size());
+  group.first = size_;
+  group.first_in_scene = static_cast<std::uint32_t>(scene_.objects.size());
   group.count = static_cast<std::uint32_t>(imported.scene.objects.size());
   group.has_particles = !imported.scene.particles.empty();
   group.model = std::move(imported.model);
@@ -114,15 +131,83 @@ std::uint32_t HeldScene::add_file(const std::string& file, const ImportOptions& 
 
 void HeldScene::place(Group& group) {
   for (std::uint32_t i = 0; i < group.count; ++i)
-    scene_.objects[group.first + i].pose = group.pose * group.in_file[i];
+    place(group.first + i, scene_.objects[group.first_in_scene + i], group.pose * group.in_file[i]);
+}
+
+void HeldScene::place(std::uint32_t number, Object& object, const Affine<double>& pose) {
+  object.pose = pose;
+  if (is_removed(number)) return;
+  if (!object.half_space) set_instance_pose(number, pose);
   if (due_ == Due::nothing) due_ = Due::refit;
 }
 
-const Object& HeldScene::object(std::uint32_t object) const {
-  if (object >= scene_.objects.size())
-    wrong_use("object: must be less than " + std::to_string(scene_.objects.size()) + " (got " +
-              std::to_string(object) + ")");
-  return scene_.objects[object];
+void HeldScene::set_instance_pose(std::uint32_t number, const Affine<double>& pose) {
+  if (due_ == Due::build)
+    instances_.set_pose(number, pose);
+  else
+    world_.set_pose(number, pose);
+}
+
+const Object* HeldScene::of_file(std::uint32_t number) const {
+  const auto after = std::upper_bound(
+      groups_.begin(), groups_.end(), number,
+      [](std::uint32_t sought, const Group& group) { return sought < group.first; });
+  if (after == groups_.begin()) return nullptr;
+  const Group& group = *std::prev(after);
+  if (number - group.first >= group.count) return nullptr;
+  return &scene_.objects[group.first_in_scene + (number - group.first)];
+}
+
+void HeldScene::check_object(std::uint32_t number) const {
+  if (number >= size_)
+    wrong_use("object: must be less than " + std::to_string(size_) + " (got " +
+              std::to_string(number) + ")");
+  if (is_removed(number))
+    wrong_use("object: must not be one that was removed (got " + std::to_string(number) + ")");
+}
+
+Affine<double> HeldScene::pose(std::uint32_t number) const {
+  if (const Object* object = of_file(number)) return object->pose;
+  const auto kept = poses_.find(number);
+  return kept != poses_.end() ? kept->second : *instances().plain_pose(number);
+}
+
+const char* HeldScene::name(std::uint32_t number) const {
+  check_object(number);
+  const std::lock_guard lock(names_mutex_);
+  const auto known = names_.find(number);
+  if (known != names_.end()) return known->second.c_str();
+  const Object* object = of_file(number);
+  return names_.emplace(number, object ? object->name : "object " + std::to_string(number))
+      .first->second.c_str();
+}
+
+Object HeldScene::object(std::uint32_t number) const {
+  if (const Object* object = of_file(number)) return *object;
+  Object object;
+  object.name = name(number);
+  object.material = *grey_;
+  object.pose = pose(number);
+  if (!instances().is_half_space(number)) {
+    object.shape = instances().body_of(number).definition->original_shape();
+    object.definition = instances().body_of(number).definition;
+    return object;
+  }
+  for (const Instances::PosedHalfSpace& one : instances().half_spaces())
+    if (one.instance == number) object.half_space = one.at_rest;
+  return object;
+}
+
+Scene HeldScene::whole() const {
+  Scene scene = scene_;
+  scene.objects.clear();
+  scene.objects.reserve(size_);
+  Object nothing;  // what no ray meets and gives no light
+  nothing.material = grey_.value_or(0);
+  nothing.visible_to = 0;
+  for (std::uint32_t i = 0; i < size_; ++i)
+    scene.objects.push_back(is_removed(i) ? nothing : object(i));
+  return scene;
 }
 
 const HeldScene::Group& HeldScene::group(std::uint32_t group) const {
@@ -132,10 +217,21 @@ const HeldScene::Group& HeldScene::group(std::uint32_t group) const {
   return groups_[group];
 }
 
-void HeldScene::set_pose(std::uint32_t object, const Affine<double>& pose) {
-  this->object(object);
-  scene_.objects[object].pose = pose;
+void HeldScene::set_pose(std::uint32_t number, const Affine<double>& pose) {
+  check_object(number);
+  if (const Object* object = of_file(number))
+    return place(number, scene_.objects[static_cast<std::size_t>(object - scene_.objects.data())],
+                 pose);
   if (due_ == Due::nothing) due_ = Due::refit;
+  if (instances().is_half_space(number)) {
+    poses_[number] = pose;
+    return;
+  }
+  set_instance_pose(number, pose);
+  if (instances().plain_pose(number))
+    poses_.erase(number);
+  else
+    poses_[number] = pose;
 }
 
 void HeldScene::set_group_pose(std::uint32_t group, const Affine<double>& pose) {
@@ -170,20 +266,86 @@ void HeldScene::set_joint(std::uint32_t group, const std::string& name,
   place(robot);
 }
 
+std::vector<double> HeldScene::joint_value(const Group& group, const std::string& name) const {
+  for (const ModelLink& link : group.model->links)
+    for (const ModelJoint& joint : link.joints)
+      if (joint.name == name && joint.kind != JointKind::fixed) return value_of(link, joint);
+  return {};
+}
+
+void HeldScene::remove(std::uint32_t number) {
+  check_object(number);
+  // Its place stays, so that all numbers do.
+  removed_.insert(number);
+  poses_.erase(number);
+  Instances& instances = changed();
+  if (!instances.is_half_space(number))
+    instances.replace(number, instances.define(Shape<double>(Point<double>())));
+  if (customs_.empty()) return;
+  known_customs_.clear();
+  customs_.clear();
+  std::unordered_set<std::uint32_t> definitions;
+  for (std::uint32_t i = 0; i < size_; ++i)
+    if (!is_removed(i) && !instances.is_half_space(i))
+      definitions.insert(instances.definition_of(i));
+  for (const std::uint32_t definition : definitions)
+    keep_customs(customs_of(instances.definition(definition).original_shape()));
+}
+
+void HeldScene::show_instances(Instances& instances) const {
+  const auto visible_to = [&](const auto& thing, std::uint32_t material) {
+    return static_cast<RayKinds>(thing.visible_to & scene_.materials[material].visible_to);
+  };
+  const auto show = [&](std::size_t i, RayKinds kinds) {
+    if (kinds != all_ray_kinds) instances.show_to(i, kinds);
+  };
+  for (const Group& group : groups_)
+    for (std::uint32_t i = 0; i < group.count; ++i) {
+      const Object& object = scene_.objects[group.first_in_scene + i];
+      show(group.first + i, visible_to(object, object.material));
+    }
+  std::size_t first = size_;
+  for (const ParticleSet& set : scene_.particles) {
+    for (std::size_t i = 0; i < set.size(); ++i) show(first + i, visible_to(set, set.material(i)));
+    first += set.size();
+  }
+  for (const std::uint32_t number : removed_) instances.show_to(number, 0);
+}
+
 void HeldScene::commit() {
-  if (due_ == Due::build)
-    world_ = make_world(scene_);
-  else if (due_ == Due::refit)
-    follow(world_, scene_);
+  grey();  // of objects without a material
+  const auto pose_of = [&](std::size_t i) {
+    const auto number = static_cast<std::uint32_t>(i);
+    if (number >= size_) return particle_pose(scene_, i - size_);
+    return is_removed(number) ? Affine<double>() : pose(number);
+  };
+  const bool moves = std::any_of(scene_.objects.begin(), scene_.objects.end(),
+                                 [](const Object& one) { return !one.movement.stands(); });
+  const auto movement_of = [&](std::size_t i) {
+    const Object* object = i < size_ ? of_file(static_cast<std::uint32_t>(i)) : nullptr;
+    return object ? object->movement : Movement<double>();
+  };
+  if (due_ == Due::build) {
+    add_particles(instances_, scene_);
+    show_instances(instances_);
+    if (!instances_.has_boxes()) instances_.pose_all(pose_of);
+    world_ = World(std::exchange(instances_, Instances()));
+    due_ = moves ? Due::refit : Due::nothing;
+  }
+  if (due_ == Due::refit) {
+    if (moves)
+      world_.pose_all(pose_of, movement_of);
+    else
+      world_.pose_all(pose_of);
+  }
   due_ = Due::nothing;
   throw_if_lied(customs_);
 }
 
 const World& HeldScene::world() const {
-  if (is_changing_.load(std::memory_order_acquire))
-    wrong_use("scene: another thread is changing it");
   if (due_ != Due::nothing)
-    wrong_use("scene: must be committed before it is asked, and after each change");
+    wrong_use("scene: must be committed: call commit() after changes and before queries");
+  refuse_if_running(customs_, "scene");
   return world_;
 }
 

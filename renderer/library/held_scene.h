@@ -4,9 +4,11 @@
 #pragma once
 
 #include <atomic>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <string>
+#include <unordered_map>
 #include <unordered_set>
 #include <vector>
 
@@ -16,34 +18,24 @@
 #include "renderer/library/custom_support.h"
 #include "renderer/library/handles.h"
 #include "renderer/library/held_shape.h"
+#include "renderer/library/scene_use.h"
 #include "renderer/scene/scene.h"
 
 namespace minkray {
 
-/// One thread changes it, or any number ask.
+/// One call changes it, or any number ask: see scene_use.h.
 class HeldScene {
  public:
   /// Objects that came from one file.
   struct Group {
     std::uint32_t first = 0, count = 0;
+    std::uint32_t first_in_scene = 0;     ///< among the objects with all that files say
     Affine<double> pose;                  ///< of all of them
     std::vector<Affine<double>> in_file;  ///< where they stand in the file's frame
     bool has_particles = false;           ///< which have no poses of their own
     std::optional<Model> model;           ///< if it is a robot's
     ImportOptions options;
     std::vector<std::pair<std::string, std::size_t>> joints;  ///< that move: names and widths
-  };
-
-  /// While one exists, no other thread can change the scene. Throws CallError if one does.
-  class Change {
-   public:
-    explicit Change(HeldScene& scene);
-    ~Change() { scene_.is_changing_.store(false, std::memory_order_release); }
-    Change(const Change&) = delete;
-    Change& operator=(const Change&) = delete;
-
-   private:
-    HeldScene& scene_;
   };
 
   std::uint32_t add(const HeldShape& shape, const Affine<double>& pose, const char* name);
@@ -53,19 +45,34 @@ class HeldScene {
   void set_pose(std::uint32_t object, const Affine<double>& pose);
   void set_group_pose(std::uint32_t group, const Affine<double>& pose);
   void set_joint(std::uint32_t group, const std::string& name, std::span<const double> values);
+  void remove(std::uint32_t object);
   void commit();
 
-  /// Throws CallError if the number is that of no object; of no group.
-  const Object& object(std::uint32_t object) const;
+  /// How many objects were ever added.
+  std::uint32_t size() const { return size_; }
+  const std::vector<ParticleSet>& particles() const { return scene_.particles; }
+  /// Throws CallError if the number is that of no object, or of a removed one.
+  void check_object(std::uint32_t number) const;
+  Affine<double> pose(std::uint32_t number) const;
+  /// Throws CallError if the number is that of no group.
   const Group& group(std::uint32_t group) const;
+  bool is_removed(std::uint32_t object) const {
+    return !removed_.empty() && removed_.contains(object);
+  }
+  /// What a joint of the group is set to.
+  std::vector<double> joint_value(const Group& group, const std::string& name) const;
+  /// The object's name, at a place where it stays as long as the scene.
+  const char* name(std::uint32_t object) const;
 
-  const Scene& plain() const { return scene_; }
+  /// The scene as files describe it. Objects are written out: for pictures and proofs, not for
+  /// rays.
+  Scene whole() const;
   /// Whether a file had one.
   bool has_camera() const { return has_camera_; }
   const std::vector<std::shared_ptr<const CustomSupport>>& customs() const { return customs_; }
 
   /// What rays are cast at. Throws CallError if the scene was not committed since it was changed,
-  /// or is being changed.
+  /// or if this is called from within the support function of a shape in it.
   const World& world() const;
 
  private:
@@ -73,24 +80,49 @@ class HeldScene {
   enum class Due { nothing, refit, build };
 
   void check_room(std::size_t more) const;
-  std::uint32_t append(Object object, const char* name);
+  std::uint32_t grey();
+  void keep_customs(const std::vector<std::shared_ptr<const CustomSupport>>& customs);
   void append(Scene&& from);
+  std::uint32_t number_of_added(const char* name);
+  /// The object with all that its file says; null if it is of no file.
+  const Object* of_file(std::uint32_t number) const;
+  Object object(std::uint32_t number) const;
+  const Instances& instances() const {
+    return due_ == Due::build ? instances_ : world_.instances();
+  }
+  /// The objects' instances, to be built again.
+  Instances& changed();
   void place(Group& group);
+  void place(std::uint32_t number, Object& object, const Affine<double>& pose);
+  void set_instance_pose(std::uint32_t number, const Affine<double>& pose);
+  void show_instances(Instances& instances) const;
 
-  Scene scene_;
+  // An object that is added to the scene is no more than an instance: its shape and pose are there.
+  // Names and poses that instances do not hold are kept beside; objects of files are, too.
+  std::uint32_t size_ = 0;
+  Instances instances_;  ///< of objects, while a build is due; else the world has them
+  std::unordered_map<std::uint32_t, Affine<double>> poses_;
+  Scene scene_;                        ///< what came from files
   std::optional<std::uint32_t> grey_;  ///< the material of what is added without one
   bool has_camera_ = false;            ///< and lights, of the first file that has them
   std::vector<Group> groups_;
   std::vector<std::shared_ptr<const CustomSupport>> customs_;  ///< each once
   std::unordered_set<const CustomSupport*> known_customs_;
+  std::unordered_set<std::uint32_t> removed_;
   World world_;
   Due due_ = Due::build;
+
+  mutable std::mutex names_mutex_;
+  mutable std::unordered_map<std::uint32_t, std::string> names_;  ///< given or asked for
+
+  friend class SceneQuery;
+  friend class SceneChange;
   std::atomic<bool> is_changing_ = false;
 };
 
 Handles<HeldScene>& held_scenes();
 
-/// Throws CallError if there is none of that number.
+/// Throws CallError if there is none of that number. It may be released at once: see SceneUse.
 HeldScene& scene_of(minkray_scene scene);
 
 }  // namespace minkray

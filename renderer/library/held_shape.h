@@ -2,9 +2,9 @@
 // A shape as programs in other languages hold it.
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <mutex>
-#include <optional>
 
 #include "core/contact/contact_shape.h"
 #include "core/model/shape_definition.h"
@@ -24,22 +24,39 @@ class HeldShape {
 
   /// For queries on pairs.
   const ContactShape& contact() const {
-    std::call_once(has_contact_, [&] { contact_.emplace(*shape_); });
-    return *contact_;
+    return *contact_.get([&] { return std::make_shared<const ContactShape>(*shape_); });
   }
   /// For rays.
   const std::shared_ptr<const ShapeDefinition<double>>& definition() const {
-    std::call_once(has_definition_,
-                   [&] { definition_ = std::make_shared<const ShapeDefinition<double>>(*shape_); });
-    return definition_;
+    return definition_.get(
+        [&] { return std::make_shared<const ShapeDefinition<double>>(*shape_); });
   }
 
  private:
+  /// Made by the first call that needs it; later ones cost one load.
+  template <class Thing>
+  class Once {
+   public:
+    template <class Make>
+    const std::shared_ptr<const Thing>& get(Make&& make) const {
+      if (!is_made_.load(std::memory_order_acquire)) [[unlikely]] {
+        const std::lock_guard lock(mutex_);
+        if (!thing_) thing_ = make();
+        is_made_.store(true, std::memory_order_release);
+      }
+      return thing_;
+    }
+
+   private:
+    mutable std::atomic<bool> is_made_ = false;
+    mutable std::mutex mutex_;
+    mutable std::shared_ptr<const Thing> thing_;
+  };
+
   Nested<double> shape_;
   std::vector<std::shared_ptr<const CustomSupport>> customs_;
-  mutable std::once_flag has_contact_, has_definition_;
-  mutable std::optional<ContactShape> contact_;
-  mutable std::shared_ptr<const ShapeDefinition<double>> definition_;
+  Once<ContactShape> contact_;
+  Once<ShapeDefinition<double>> definition_;
 };
 
 /// All that there are.

@@ -7,13 +7,22 @@
 
 namespace minkray {
 
+/// A map, and whether it keeps lengths.
+struct ReadPose {
+  Affine<double> map;
+  bool is_rigid = true;
+};
+
 /// The identity for null. Throws CallError unless the numbers are finite and the map invertible.
-Affine<double> pose_of(const minkray_pose* pose, const char* argument);
+ReadPose read_pose(const minkray_pose* pose, const char* argument);
+inline Affine<double> pose_of(const minkray_pose* pose, const char* argument) {
+  return read_pose(pose, argument).map;
+}
 
 minkray_pose plain_pose(const Affine<double>& pose);
 
-/// Throws CallError unless the numbers are finite.
-Vec3<double> vector_of(const double* numbers, const char* argument);
+/// Throws CallError unless the numbers are finite. `member` is that of the argument which they are.
+Vec3<double> vector_of(const double* numbers, const char* argument, const char* member = "");
 
 /// Whether lengths stay what they are, but for a few roundings.
 bool is_rigid(const Affine<double>& pose);

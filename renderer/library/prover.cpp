@@ -79,10 +79,12 @@ void complain(minkray_proof& proof, std::string_view complaint, std::uint32_t ag
 
 Prover::Prover(const HeldScene& scene) : world_(scene.world()), bodies_(world_.instances().size()) {
   const bool has_customs = !scene.customs().empty();
+  const Scene whole = scene.whole();
   parallel_for(bodies_.size(), grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const Object object = instance_object(scene.plain(), i);
+      const Object object = instance_object(whole, i);
       Body& body = bodies_[i];
+      body.is_removed = scene.is_removed(static_cast<std::uint32_t>(i));
       if (object.half_space) {
         body.half_space = object.half_space->posed(object.pose);
         continue;
@@ -137,7 +139,7 @@ minkray_proof Prover::prove(const Ray<double>& ray, const minkray_hit& hit) cons
   }
   const bool is_met = hit.status == MINKRAY_HIT || hit.status == MINKRAY_INSIDE;
   if (is_met) {
-    if (hit.object >= bodies_.size()) {
+    if (hit.object >= bodies_.size() || bodies_[hit.object].is_removed) {
       complain(proof, "there is no such object", hit.object);
       return proof;
     }
@@ -164,8 +166,8 @@ minkray_proof Prover::prove(const Ray<double>& ray, const minkray_hit& hit) cons
   if (hit.status == MINKRAY_INSIDE) return proof;
   const double end = is_met ? proof.t_lo : ray.t_max;
   for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
-    if (is_met && i == hit.object) continue;
     const Body& body = bodies_[i];
+    if (body.is_removed || (is_met && i == hit.object)) continue;
     if (body.shape && misses_box(body.bounds, ray, end)) continue;
     ++proof.checked;
     if (!keeps_off(i, ray, end)) {

@@ -22,6 +22,7 @@ class Prover {
  private:
   /// One instance in the world.
   struct Body {
+    bool is_removed = false;
     std::optional<Shape<double>> shape;  ///< none: a half-space
     HalfSpaceBody<double> half_space;
     Bounds<double> bounds;

@@ -15,6 +15,7 @@ RaySource::RaySource(const minkray_ray* rays, std::size_t count) : count_(count)
   origins_ = rays->origin;
   directions_ = rays->direction;
   t_max_ = &rays->t_max;
+  zero_is_endless_ = true;
   origin_stride_ = direction_stride_ = t_max_stride_ = sizeof(minkray_ray);
   check();
 }
@@ -36,24 +37,33 @@ RaySource::RaySource(const minkray_ray_arrays* rays, std::size_t count) : count_
   check();
 }
 
-void RaySource::check() const {
+void RaySource::check() {
   for (std::size_t i = 0; i < count_; ++i) {
-    const Ray<double> ray = (*this)[i];
+    const double* o = at(origins_, origin_stride_, i);
+    const double* d = at(directions_, direction_stride_, i);
+    const double t_max = t_max_ ? *at(t_max_, t_max_stride_, i) : 1;
     // What is finite times zero is zero, anything else is not.
-    const double zero = 0 * ((ray.origin.x() + 0 * ray.origin.y()) + 0 * ray.origin.z()) +
-                        0 * ((ray.direction.x() + 0 * ray.direction.y()) + 0 * ray.direction.z());
-    if (zero == 0 && ray.t_max >= 0) [[likely]] continue;
-    if (ray.origin.allFinite() && ray.direction.allFinite() && ray.t_max >= 0) continue;
-    const std::string place = "rays[" + std::to_string(i) + "].";
-    if (!(ray.t_max >= 0))
-      wrong_use(place + "t_max: must be >= 0 (got " + std::to_string(ray.t_max) + ")");
-    const bool is_origin = !ray.origin.allFinite();
-    const Vec3<double>& v = is_origin ? ray.origin : ray.direction;
-    for (int k = 0; k < 3; ++k)
-      if (!std::isfinite(v[k]))
-        wrong_use(place + (is_origin ? "origin[" : "direction[") + std::to_string(k) +
-                  "]: must be a finite number (got " + std::to_string(v[k]) + ")");
+    const double zero = 0 * ((o[0] + 0 * o[1]) + 0 * o[2]) + 0 * ((d[0] + 0 * d[1]) + 0 * d[2]);
+    const bool has_direction = d[0] != 0 || d[1] != 0 || d[2] != 0;
+    if (zero != 0 || !has_direction || !(t_max >= 0)) [[unlikely]]
+      complain(i);
+    has_zero_ends_ |= zero_is_endless_ && t_max == 0;
   }
+}
+
+void RaySource::complain(std::size_t i) const {
+  const std::string place = "rays[" + std::to_string(i) + "].";
+  const auto check_finite = [&](const char* member, const double* numbers) {
+    for (int k = 0; k < 3; ++k)
+      if (!std::isfinite(numbers[k]))
+        wrong_use(place + member + "[" + std::to_string(k) + "]: must be a finite number (got " +
+                  std::to_string(numbers[k]) + ")");
+  };
+  check_finite("origin", at(origins_, origin_stride_, i));
+  check_finite("direction", at(directions_, direction_stride_, i));
+  const double t_max = t_max_ ? *at(t_max_, t_max_stride_, i) : 0;
+  if (!(t_max >= 0)) wrong_use(place + "t_max: must be >= 0 (got " + std::to_string(t_max) + ")");
+  wrong_use(place + "direction: must not be zero (got [0, 0, 0])");
 }
 
 minkray_hit plain_hit(const Ray<double>& ray, const WorldHit& hit, bool gave_up) {

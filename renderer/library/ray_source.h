@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "core/world/world.h"
@@ -22,14 +23,16 @@ class RaySource {
     const double* d = at(directions_, direction_stride_, i);
     Ray<double> ray{{o[0], o[1], o[2]}, {d[0], d[1], d[2]}};
     if (t_max_) ray.t_max = *at(t_max_, t_max_stride_, i);
+    if (zero_is_endless_ && ray.t_max == 0) ray.t_max = std::numeric_limits<double>::infinity();
     return ray;
   }
 
   /// `count` rays from the i-th on, where they lie, or copied to `room` if coordinates lie apart.
   RaySpan part(std::size_t i, std::size_t count, std::vector<Ray<double>>& room) const {
     static_assert(sizeof(Ray<double>) == sizeof(minkray_ray));
-    if (origin_stride_ >= 0 && t_max_ == directions_ + 3 && directions_ == origins_ + 3 &&
-        origin_stride_ == direction_stride_ && origin_stride_ == t_max_stride_)
+    if (!has_zero_ends_ && origin_stride_ >= 0 && t_max_ == directions_ + 3 &&
+        directions_ == origins_ + 3 && origin_stride_ == direction_stride_ &&
+        origin_stride_ == t_max_stride_)
       return {reinterpret_cast<const Ray<double>*>(at(origins_, origin_stride_, i)),
               static_cast<std::size_t>(origin_stride_), count};
     room.resize(count);
@@ -37,10 +40,11 @@ class RaySource {
     return {room.data(), sizeof(Ray<double>), count};
   }
 
-  /// Throws CallError that names the first ray which is none.
-  void check() const;
-
  private:
+  /// Throws CallError that names the first ray which is none.
+  void check();
+  [[noreturn]] void complain(std::size_t i) const;
+
   static const double* at(const double* first, std::ptrdiff_t stride, std::size_t i) {
     return reinterpret_cast<const double*>(reinterpret_cast<const char*>(first) +
                                            stride * static_cast<std::ptrdiff_t>(i));
@@ -49,6 +53,8 @@ class RaySource {
   std::size_t count_;
   const double *origins_ = nullptr, *directions_ = nullptr, *t_max_ = nullptr;
   std::ptrdiff_t origin_stride_ = 0, direction_stride_ = 0, t_max_stride_ = 0;
+  bool zero_is_endless_ = false;  ///< of t_max, in structs
+  bool has_zero_ends_ = false;    ///< of those, some
 };
 
 /// The answer to one ray. `gave_up`: a solver did, at any object.

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <atomic>
+#include <exception>
 #include <mutex>
+#include <string>
 
 #include "core/parallel/parallel.h"
 #include "renderer/library/call.h"
@@ -26,8 +28,7 @@ class Progress {
     if (!options_ || !options_->progress) return;
     const std::unique_lock lock(mutex_, std::try_to_lock);
     if (!lock || stopped()) return;
-    if (options_->progress(options_->user,
-                           static_cast<double>(done) / static_cast<double>(count_)) != 0)
+    if (wants_stop(options_, static_cast<double>(done) / static_cast<double>(count_)))
       stopped_ = true;
   }
 
@@ -40,6 +41,15 @@ class Progress {
 };
 
 }  // namespace
+
+bool wants_stop(const minkray_options* options, double done) {
+  if (!options || !options->progress) return false;
+  try {
+    return options->progress(options->user, done) != 0;
+  } catch (const std::exception& error) {
+    wrong_use(std::string("options.progress: must not throw (got \"") + error.what() + "\")");
+  }
+}
 
 int checked_threads(int threads) {
   if (threads < 0 || threads > most_threads)

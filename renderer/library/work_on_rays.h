@@ -17,6 +17,9 @@ int checked_threads(int threads);
 /// How many threads the options ask for; throws CallError if they are wrong. They may be null.
 int threads_of(const minkray_options* options);
 
+/// Tells the caller how far it is; whether he wants it to stop. Throws CallError if he throws.
+bool wants_stop(const minkray_options* options, double done);
+
 /// Calls body(begin, end) for parts of [0, count), at once. Throws CallError if the options are
 /// wrong, or if the caller stops it.
 void work_on_rays(std::size_t count, const minkray_options* options,

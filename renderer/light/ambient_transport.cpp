@@ -101,8 +101,8 @@ void AmbientTransport::follow(std::span<TracedRay> rays, const Path& path,
 }
 
 /// What a ray sees that meets nothing, or begins in a shape.
-Colour AmbientTransport::off_surface(const Ray<double>& ray, const WorldHit& hit,
-                                     const Path& path, RayCounts& counts) const {
+Colour AmbientTransport::off_surface(const Ray<double>& ray, const WorldHit& hit, const Path& path,
+                                     RayCounts& counts) const {
   // Nothing there: cameras see the background. Surfaces are lit by the environment, and mirror it,
   // so that no light is counted twice; without one they still mirror the background.
   if (!hit.found()) {

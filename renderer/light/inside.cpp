@@ -15,8 +15,7 @@ namespace {
 constexpr double surface_offset = 256;
 
 /// Where the ray leaves a body that it is in.
-Boundary exit_of(const World& world, const WorldRay& ray, std::uint32_t body,
-                 QueryCounts& counts) {
+Boundary exit_of(const World& world, const WorldRay& ray, std::uint32_t body, QueryCounts& counts) {
   const Instances& instances = world.instances();
   const Ray<double> seen = instances.seen_by(body, ray.ray, ray.time);
   Boundary exit;
@@ -30,7 +29,8 @@ Boundary exit_of(const World& world, const WorldRay& ray, std::uint32_t body,
       const double rise = normal.dot(seen.direction);
       const double depth = half_space.in_world.offset - normal.dot(seen.origin);
       exit.normal = instances.turned(body, normal, ray.time);
-      exit.t = rise > 0 ? std::max(depth / rise, double(0)) : std::numeric_limits<double>::infinity();
+      exit.t =
+          rise > 0 ? std::max(depth / rise, double(0)) : std::numeric_limits<double>::infinity();
     }
     return exit;
   }
@@ -55,8 +55,8 @@ Boundary exit_of(const World& world, const WorldRay& ray, std::uint32_t body,
 }
 
 /// The closest hit but of some instances.
-WorldHit closest_but(const World& world, const WorldRay& ray,
-                           std::span<const std::uint32_t> but, QueryCounts& counts) {
+WorldHit closest_but(const World& world, const WorldRay& ray, std::span<const std::uint32_t> but,
+                     QueryCounts& counts) {
   const Instances& instances = world.instances();
   WorldHit closest;
   closest.cast.status = Status::miss;
@@ -116,7 +116,7 @@ Boundary boundary_of(const WorldHit& hit) {
 }
 
 double rounding_at(const World& world, std::uint32_t instance, const Vec3<double>& point,
-                 double t) {
+                   double t) {
   const double largest =
       std::max({point.cwiseAbs().maxCoeff(), t, world.instances().half_extent(instance)});
   return surface_offset * tolerance::epsilon<double> * largest;

@@ -45,8 +45,7 @@ IntegratorKind settled(IntegratorKind kind, const Scene& scene) {
   return wants_paths ? IntegratorKind::path : IntegratorKind::ambient;
 }
 
-Integrator::Integrator(const Scene& scene, const World& world,
-                       const IntegratorOptions& options)
+Integrator::Integrator(const Scene& scene, const World& world, const IntegratorOptions& options)
     : transport_(transport(scene, world, options)) {}
 
 }  // namespace minkray

@@ -63,8 +63,7 @@ void PathTransport::Wave::ask_emitters() {
     const double part = share(sample->pdf, point.bsdf->pdf(point.shading, w)) / sample->pdf;
     const Arriving light{i, part * of_.emitters_.radiance(sample->emitter).cwiseProduct(reflected),
                          of_.emitters_.instance(sample->emitter)};
-    const WorldRay ray{point.ray(w, sample->direction), point.instance, path.time,
-                             shadow_rays};
+    const WorldRay ray{point.ray(w, sample->direction), point.instance, path.time, shadow_rays};
     if (point.inside(w).none())
       shadows_.add(ray, light);
     else
@@ -78,8 +77,7 @@ void PathTransport::Wave::ask_emitters() {
       add(shadows_.arriving[k]);
 }
 
-void PathTransport::Wave::ask_within(const WorldRay& ray, const Inside& inside,
-                                     Arriving light) {
+void PathTransport::Wave::ask_within(const WorldRay& ray, const Inside& inside, Arriving light) {
   ++counts_.shadow;
   const Boundary met = next_boundary(of_.world_, ray, inside, counts_.work);
   if (met.instance != light.emitter || met.leaves || met.is_within || met.is_lost) return;

@@ -23,12 +23,12 @@ struct PathTransport::Path {
   Colour radiance = Colour::Zero();
   Colour direct = Colour::Zero();  ///< of the radiance: what was scattered at most once
   int depth = 0, passages = 0;
-  bool is_sharp = true;         ///< the ray's direction had no density
-  bool is_straight = true;      ///< nothing was passed since the last scattering
-  bool only_sharp = true;       ///< all directions so far had none
-  double pdf = 0;               ///< of the ray's direction
+  bool is_sharp = true;           ///< the ray's direction had no density
+  bool is_straight = true;        ///< nothing was passed since the last scattering
+  bool only_sharp = true;         ///< all directions so far had none
+  double pdf = 0;                 ///< of the ray's direction
   Vec3<double> from = {0, 0, 0};  ///< where it was scattered last
-  double gathered = 1;          ///< eta^2 of where the path is: dense media gather radiance
+  double gathered = 1;            ///< eta^2 of where the path is: dense media gather radiance
   bool goes_on = true;
 };
 

@@ -113,8 +113,9 @@ SceneSurfaces::SceneSurfaces(const Scene& scene) : of_instance_(material_of_inst
 }
 
 TexturePoint SceneSurfaces::place(const World& world, std::uint32_t instance,
-                                  const Vec3<double>& point, const Vec3<double>& normal, double time,
-                                  const Vec3<double>& direction, const RayCone& cone) const {
+                                  const Vec3<double>& point, const Vec3<double>& normal,
+                                  double time, const Vec3<double>& direction,
+                                  const RayCone& cone) const {
   const Instances& instances = world.instances();
   const auto [at_rest, n, unused] = instances.seen_by(instance, Ray<double>{point, normal}, time);
   SurfaceFootprint footprint = footprint_of(cone, direction, normal);

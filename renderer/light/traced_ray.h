@@ -16,7 +16,7 @@ struct TracedRay {
   Colour radiance = Colour::Zero();
   Colour direct = Colour::Zero();    ///< of it: what was scattered at most once
   bool met = false;                  ///< whether it met an object
-  double time = 0;                     ///< while the shutter is open: from 0 to 1
+  double time = 0;                   ///< while the shutter is open: from 0 to 1
   std::uint32_t left = no_instance;  ///< the instance that it leaves
   RayCone cone = {};                 ///< what textures are the means over
 };

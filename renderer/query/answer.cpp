@@ -114,11 +114,8 @@ template <class T>
 void solve_turning(const ShapeQuery& query, const AnswerOptions& options, Answer& answer) {
   const auto body = [](const Shape<double>& shape, const Vec3<double>& velocity,
                        const Vec3<double>& turn) {
-    const CentredShape<T> centred_shape = centred(convert<T>(shape));
-    return MovingBody<T>{centred_shape.about_centre,
-                         {Mat3<T>::Identity(), centred_shape.centre},
-                         velocity.template cast<T>(),
-                         turn.template cast<T>()};
+    return MovingBody<T>{
+        convert<T>(shape), {}, velocity.template cast<T>(), turn.template cast<T>()};
   };
   const RotatingCastResult<T> result =
       cast_rotating(body(query.obstacle, query.obstacle_direction, query.obstacle_turn),
@@ -275,9 +272,8 @@ template <class T>
 std::pair<ContactShape, RigidMotion> body_of(const Shape<double>& shape,
                                              const ImpactMotion& motion) {
   const Shape<double> rounded = convert<double>(convert<T>(shape));
-  const Vec3<double> pivot = motion.pivot ? *motion.pivot : ContactShape(rounded).middle();
-  return {ContactShape(rounded, {Mat3<double>::Identity(), -pivot}),
-          RigidMotion{{Mat3<double>::Identity(), pivot}, motion.velocity, motion.turn}};
+  return {ContactShape(rounded, {Mat3<double>::Identity(), -motion.pivot}),
+          RigidMotion{{Mat3<double>::Identity(), motion.pivot}, motion.velocity, motion.turn}};
 }
 
 template <class T>

@@ -19,7 +19,7 @@ struct RayQuery {
 };
 
 /// When the moving shape first touches the obstacle. Each is moved by t times its direction and, if
-/// it has a turn, turned by t times that (a rotation vector, radians) about the middle of its box.
+/// it has a turn, turned by t times that (a rotation vector, radians) about its frame's origin.
 struct ShapeQuery {
   Shape<double> moving;
   Shape<double> obstacle;
@@ -55,11 +55,11 @@ struct ManifoldQuery {
   std::optional<double> within;  ///< in sizes of the smaller shape
 };
 
-/// How a shape of an impact moves: about `pivot`, which is part of it (by default its middle).
+/// How a shape of an impact moves: its pivot by `velocity`, and about that by `turn`.
 struct ImpactMotion {
   Vec3<double> velocity = Vec3<double>::Zero();
-  Vec3<double> turn = Vec3<double>::Zero();  ///< a rotation vector a unit of time, radians
-  std::optional<Vec3<double>> pivot;
+  Vec3<double> turn = Vec3<double>::Zero();   ///< rotation vector, radians per unit of time
+  Vec3<double> pivot = Vec3<double>::Zero();  ///< by default the origin of the shape's frame
 };
 
 /// When two shapes that move and turn first touch, with proof (core/contact/impact.h).

@@ -30,6 +30,16 @@ class QueryReader {
     if (const auto read = read_vector(*json, from.path(key), from.mistakes())) value = *read;
   }
 
+  /// A ray's: not zero.
+  void direction(ObjectReader& from, Vec3<double>& value) {
+    const Json* json = from.require("direction", "a list of 3 numbers");
+    if (!json) return;
+    const auto read = read_vector(*json, from.path("direction"), from.mistakes());
+    if (read && read->isZero(0))
+      from.mistakes().add(from.path("direction"), "must not be zero (got [0, 0, 0])");
+    if (read) value = *read;
+  }
+
   void t_max(ObjectReader& from, double& value) {
     if (const Json* json = from.find("t_max"))
       if (const auto read =
@@ -43,7 +53,7 @@ class QueryReader {
     if (const Json* json = object_.require("ray", "an object")) {
       ObjectReader ray(*json, object_.path("ray"), object_.mistakes());
       vector(ray, "origin", read.ray.origin, true);
-      vector(ray, "direction", read.ray.direction, true);
+      direction(ray, read.ray.direction);
       t_max(ray, read.ray.t_max);
       ray.finish();
     }

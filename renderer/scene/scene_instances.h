@@ -18,15 +18,19 @@ inline std::size_t instance_count(const Scene& scene) {
   return count;
 }
 
-/// Where the i-th instance stands.
-inline Affine<double> instance_pose(const Scene& scene, std::size_t i) {
-  if (i < scene.objects.size()) return scene.objects[i].pose;
-  i -= scene.objects.size();
+/// Where the i-th of all particles stands.
+inline Affine<double> particle_pose(const Scene& scene, std::size_t i) {
   for (const ParticleSet& set : scene.particles) {
     if (i < set.size()) return set.pose(i);
     i -= set.size();
   }
   return {};
+}
+
+/// Where the i-th instance stands.
+inline Affine<double> instance_pose(const Scene& scene, std::size_t i) {
+  return i < scene.objects.size() ? scene.objects[i].pose
+                                  : particle_pose(scene, i - scene.objects.size());
 }
 
 /// What it does while the shutter is open.

@@ -154,8 +154,7 @@ void SceneWhile::closest_hits(std::span<const WorldRay> rays, std::span<const do
   }
 }
 
-WorldHit SceneWhile::closest_hit(const WorldRay& ray, double time,
-                                       QueryCounts& counts) {
+WorldHit SceneWhile::closest_hit(const WorldRay& ray, double time, QueryCounts& counts) {
   const bool all_still = scene_.movers_.empty();
   std::uint32_t skip = ray.skip;
   if (skip != no_instance) skip = moves(skip) ? no_instance : scene_.still_number(skip);

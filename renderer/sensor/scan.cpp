@@ -132,7 +132,7 @@ class Scanner {
   /// What the ray enters next, behind where it leaves what it met: bodies that overlap are passed
   /// as one.
   static WorldHit behind(const TimedRay& at, const WorldHit& hit, SceneWhile& scene,
-                               QueryCounts& counts) {
+                         QueryCounts& counts) {
     const Ray<double>& ray = at.ray;
     double passed = 0;
     std::uint32_t left = hit.instance;

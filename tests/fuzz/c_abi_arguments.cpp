@@ -101,7 +101,7 @@ Given<std::vector<minkray_ray>> CallProgram::rays() {
                        {direction.x(), direction.y(), direction.z()},
                        infinity};
     const unsigned end = bytes_.byte();
-    if (end < 32) ray.t_max = bytes_.length<double>(wild_);
+    if (end < 32) ray.t_max = bytes_.positive<double>(wild_);
     if (end >= 252) {
       static constexpr std::array odd = {nan, infinity, -infinity};
       const int at = bytes_.below(7);

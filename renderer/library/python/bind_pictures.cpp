@@ -78,7 +78,7 @@ py::dict clearance(const Scene& scene, const Scene::Group& robot, const Doubles&
                                              threads};
   int code = MINKRAY_OK;
   {
-    const py::gil_scoped_release unlock;
+    const Unlocked unlock;
     code = minkray_scene_clearance(scene.handle(), robot.number(), path.data(), rows,
                                    static_cast<std::size_t>(path.shape(1)), &options, steps.data(),
                                    nullptr);

@@ -3,6 +3,7 @@
 #include <pybind11/stl.h>
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "renderer/library/python/bind.h"
@@ -97,6 +98,8 @@ py::dict certify(const Scene& scene, const py::object& rays, const py::object& t
     plain[i].t_max = !source.arrays.t_max              ? std::numeric_limits<double>::infinity()
                      : source.arrays.t_max_stride == 0 ? *source.arrays.t_max
                                                        : source.arrays.t_max[i];
+    // In a struct a zero is no end. Nothing lies between it and the next number.
+    if (plain[i].t_max == 0) plain[i].t_max = std::numeric_limits<double>::denorm_min();
   }
   std::vector<minkray_hit> hits(count);
   std::vector<minkray_proof> proofs(count);
@@ -142,16 +145,12 @@ Scene::Group add_file(Scene& scene, const std::string& file, const py::object& p
   std::vector<const char*> folders;
   for (const std::string& folder : package_dirs) folders.push_back(folder.c_str());
   options.package_dirs = {folders.data(), folders.size()};
-  const py::gil_scoped_release unlock;
+  const Unlocked unlock;
   return scene.add_file(file, options);
 }
 
-/// An object's; C would take it to end at a zero.
-std::string name_of(const py::object& name) {
-  std::string text = name.is_none() ? "" : py::cast<std::string>(name);
-  if (text.find('\0') != std::string::npos)
-    throw py::value_error("name: must have no zero character");
-  return text;
+minkray::Text text_of(const std::optional<std::string>& name) {
+  return name ? minkray::Text(*name) : minkray::Text();
 }
 
 }  // namespace
@@ -168,6 +167,13 @@ void bind_scenes(py::module_& module) {
                                  names.emplace_back(group.joint(i));
                                return names;
                              })
+      .def("value",
+           [](const Scene::Group& group, std::uint32_t joint) {
+             const std::size_t width = group.value(joint, {});
+             py::array_t<double> values(static_cast<py::ssize_t>(width));
+             group.value(joint, {values.mutable_data(), width});
+             return values;
+           })
       .def("set",
            [](Scene::Group& group, const std::string& joint, const Doubles& values) {
              group.set(joint, {values.data(), static_cast<std::size_t>(values.size())});
@@ -179,17 +185,13 @@ void bind_scenes(py::module_& module) {
       .def(py::init())
       .def("add",
            [](Scene& scene, const minkray::Shape& shape, const py::object& pose,
-              const py::object& name) {
-             const minkray::Pose map = pose_of(pose, "pose");
-             const std::string text = name_of(name);
-             return scene.add(shape, map, name.is_none() ? minkray::Text() : minkray::Text(text));
+              const std::optional<std::string>& name) {
+             return scene.add(shape, pose_of(pose, "pose"), text_of(name));
            })
       .def("add_half_space",
            [](Scene& scene, const std::array<double, 3>& normal, double offset,
-              const py::object& name) {
-             const std::string text = name_of(name);
-             return scene.add_half_space({normal[0], normal[1], normal[2]}, offset,
-                                         name.is_none() ? minkray::Text() : minkray::Text(text));
+              const std::optional<std::string>& name) {
+             return scene.add_half_space({normal[0], normal[1], normal[2]}, offset, text_of(name));
            })
       .def("add_file", &add_file, py::keep_alive<0, 1>())
       .def("set_pose",
@@ -207,7 +209,8 @@ void bind_scenes(py::module_& module) {
            })
       .def("name", &Scene::name)
       .def("__len__", &Scene::size)
-      .def("commit", &Scene::commit, py::call_guard<py::gil_scoped_release>())
+      .def("remove", &Scene::remove)
+      .def("commit", &Scene::commit, py::call_guard<Unlocked>())
       .def("cast", &cast)
       .def("occluded", &occluded)
       .def("certify", &certify);

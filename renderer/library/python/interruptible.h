@@ -5,7 +5,7 @@
 #include <chrono>
 #include <thread>
 
-#include "renderer/library/python/arrays.h"
+#include "renderer/library/python/interpreter_lock.h"
 
 namespace minkray_python {
 
@@ -26,7 +26,7 @@ class Interruptible {
   void run(Work&& work) {
     int code = MINKRAY_OK;
     {
-      const py::gil_scoped_release unlock;
+      const Unlocked unlock;
       code = work(options());
     }
     if (code == MINKRAY_STOPPED && PyErr_Occurred()) throw py::error_already_set();
@@ -41,8 +41,8 @@ class Interruptible {
     const Clock::time_point now = Clock::now();
     if (now < self->next_look_) return 0;
     self->next_look_ = now + std::chrono::milliseconds(20);
-    const py::gil_scoped_acquire lock;
-    return PyErr_CheckSignals() != 0 ? 1 : 0;
+    const Locked lock;
+    return !lock || PyErr_CheckSignals() != 0 ? 1 : 0;
   }
   using Clock = std::chrono::steady_clock;
   Clock::time_point next_look_ = Clock::now();

@@ -2,6 +2,7 @@
 // The extension module minkray._minkray, over the public C++ header alone. What users see is
 // __init__.py.
 #include "renderer/library/python/bind.h"
+#include "renderer/library/python/interpreter_lock.h"
 #include "renderer/library/python/support.h"
 
 PYBIND11_MODULE(_minkray, module) {
@@ -13,12 +14,11 @@ PYBIND11_MODULE(_minkray, module) {
     try {
       if (thrown) std::rethrow_exception(thrown);
     } catch (const minkray::Error& what) {
-      std::string text = what.what();
-      if (what.code() == MINKRAY_BAD_SUPPORT)
-        if (const std::string raised = raised_by_support(); !raised.empty()) text += ": " + raised;
-      error(text.c_str());
+      error(what.what());
     }
   });
+  watch_end_of_interpreter();
+  module.def("is_in_support", &is_in_support);
   bind_shapes(module);
   bind_scenes(module);
   bind_pictures(module);

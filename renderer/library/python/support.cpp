@@ -2,7 +2,9 @@
 #include "renderer/library/python/support.h"
 
 #include <cstring>
-#include <utility>
+#include <string>
+
+#include "renderer/library/python/interpreter_lock.h"
 
 namespace minkray_python {
 namespace {
@@ -10,10 +12,10 @@ namespace {
 /// Directions that are asked for at once at most: by then a call of the interpreter costs nothing.
 constexpr std::size_t gathered = 4096;
 
-/// Guarded by the interpreter's lock.
-std::string& last_raised() {
-  static std::string text;
-  return text;
+/// How many of them this thread is running, one called by the other.
+int& depth() {
+  thread_local int running = 0;
+  return running;
 }
 
 /// Calls the function; answers 1, with a reason, if its answer has another shape.
@@ -25,8 +27,10 @@ int answer_once(const py::function& support, std::size_t count, const double (*d
   const py::object answer = support(asked);
   const Doubles array = Doubles::ensure(answer);
   if (!array || array.ndim() != 2 || array.shape(0) != rows || array.shape(1) != 3) {
-    last_raised() =
+    PyErr_Clear();
+    const std::string text =
         "it must answer an array of numbers of the shape (" + std::to_string(count) + ", 3)";
+    minkray_support_failed(text.c_str());
     return 1;
   }
   std::memcpy(points, array.data(), count * sizeof *points);
@@ -34,7 +38,15 @@ int answer_once(const py::function& support, std::size_t count, const double (*d
 }
 
 int ask(void* user, std::size_t count, const double (*directions)[3], double (*points)[3]) {
-  const py::gil_scoped_acquire lock;
+  const Locked lock;
+  if (!lock) {
+    minkray_support_failed("the interpreter is ending");
+    return 1;
+  }
+  struct Depth {
+    Depth() { ++depth(); }
+    ~Depth() { --depth(); }
+  } const running;
   const auto& support = *static_cast<const py::function*>(user);
   try {
     try {
@@ -47,7 +59,7 @@ int ask(void* user, std::size_t count, const double (*directions)[3], double (*p
     PyErr_SetInterrupt();
     return failed;
   } catch (const std::exception& error) {
-    last_raised() = error.what();
+    minkray_support_failed(error.what());
     return 1;
   }
 }
@@ -68,21 +80,21 @@ minkray::Shape custom(const py::function& support, const py::object& bounds) {
   given.user = new py::function(support);
   given.function = ask;
   given.release = [](void* user) {
-    const py::gil_scoped_acquire lock;
-    delete static_cast<py::function*>(user);
+    const Locked lock;
+    if (lock) delete static_cast<py::function*>(user);
   };
   minkray_shape shape;
   int code = MINKRAY_OK;
   {
-    const py::gil_scoped_release unlock;
+    const Unlocked unlock;
     code = minkray_shape_custom_gathered(&given, gathered, &shape);
   }
   if (code != MINKRAY_OK) throw minkray::Error(code);
   return minkray::Shape(shape);
 }
 
-std::string raised_by_support() {
-  return std::exchange(last_raised(), std::string());
+bool is_in_support() {
+  return depth() > 0;
 }
 
 }  // namespace minkray_python

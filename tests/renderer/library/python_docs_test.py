@@ -2,6 +2,7 @@
 """Types and docs of the Python module are true: python_docs_test.py SOURCES (PYTHONPATH: the module's folder)."""
 import ast
 import doctest
+import enum
 import importlib
 import inspect
 import os
@@ -72,6 +73,10 @@ class Stubs(unittest.TestCase):
             if not isinstance(node, ast.ClassDef) or name == "Error":
                 continue
             kind = getattr(mk, name)
+            if issubclass(kind, enum.Enum):
+                members = {one.targets[0].id: one.value.value for one in node.body}
+                self.assertEqual(members, {one.name: one.value for one in kind}, name)
+                continue
             methods = {one.name: one for one in node.body if isinstance(one, ast.FunctionDef)}
             fields = {one.target.id for one in node.body if isinstance(one, ast.AnnAssign)}
             there = {member for member in public(dir(kind))}

@@ -94,7 +94,7 @@ class Pictures(unittest.TestCase):
                 scene.render(camera)
         with self.assertRaisesRegex(mk.Error, "must be one of rgb, Z"):
             scene.render(view, aovs=["depth"])
-        with self.assertRaisesRegex(mk.Error, "options.width"):
+        with self.assertRaisesRegex(mk.Error, "width: must be at most"):
             scene.render(view, width=10 ** 6)
 
     def test_are_stopped_by_ctrl_c(self):

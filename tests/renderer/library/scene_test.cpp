@@ -296,7 +296,7 @@ TEST(LibraryScene, a_robot_without_joints_stands_still_for_as_many_rows_as_are_a
   scene.clearance(post, {}, 3, steps);
   EXPECT_EQ(steps[0].lower, steps[1].lower);
   EXPECT_EQ(steps[1].row, steps[0].row + 1);
-  mk::Clearance least;
+  minkray_clearance least;
   EXPECT_EQ(minkray_scene_clearance(scene.handle(), post.number(), nullptr, std::size_t{1} << 30, 0,
                                     nullptr, nullptr, &least),
             MINKRAY_OK);

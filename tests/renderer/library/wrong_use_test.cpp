@@ -312,12 +312,12 @@ TEST(WrongUse, of_a_scene_by_two_threads_that_change_it) {
   gate.closed = true;
   std::thread other([&] { EXPECT_EQ(minkray_scene_commit(scene), MINKRAY_OK); });
   while (!gate.waiting) std::this_thread::yield();
-  expect_error(minkray_scene_commit(scene), MINKRAY_WRONG_USE, "another thread is changing it");
+  expect_error(minkray_scene_commit(scene), MINKRAY_WRONG_USE, "while another call is changing it");
   expect_error(minkray_scene_add(scene, shape, nullptr, nullptr, nullptr), MINKRAY_WRONG_USE,
-               "another thread is changing it");
+               "while another call is changing it");
   minkray_hit hit;
   expect_error(minkray_scene_cast(scene, &along_x, 1, &hit, nullptr), MINKRAY_WRONG_USE,
-               "another thread is changing it");
+               "while another call is changing it");
   gate.closed = false;
   other.join();
   EXPECT_EQ(minkray_scene_cast(scene, &along_x, 1, &hit, nullptr), MINKRAY_OK);

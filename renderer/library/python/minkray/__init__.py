@@ -14,14 +14,14 @@ float64; others are converted. What is wrong is a `minkray.Error`, which is a `V
 """
 from . import _minkray
 from ._minkray import Error, Shape
-from .answers import EXHAUSTED, HIT, INSIDE, MISS, NO_OBJECT, Clearance, Hits, Proofs
+from .answers import EXHAUSTED, HIT, INSIDE, MISS, NO_OBJECT, Clearance, Hits, Proofs, Status
 from .scene import Robot, Scene
 from .rays import lidar, pinhole
 from .shapes import (box, capsule, cone, custom, cut_cylinder, cylinder, difference, disk, ellipsoid,
                      frustum, hull, hull_of, make, point, read_shape, rounded, scaled, segment, sphere,
                      sum, superellipsoid, swept, tapered_capsule, transformed, translated, triangle)
 from .pairs import (BEGINS_INSIDE, IMPACT, NO_IMPACT, OVERLAPPING, SEPARATED, TOUCHING, UNDECIDED,
-                    Distance, Impact, signed_distance, time_of_impact)
+                    Distance, DistanceStatus, Impact, ImpactStatus, signed_distance, time_of_impact)
 from .files import write
 
 __version__ = _minkray.version

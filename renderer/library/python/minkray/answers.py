@@ -1,9 +1,23 @@
 # SPDX-License-Identifier: MIT
 """What scenes answer: arrays by name."""
+import enum
+
 import numpy as np
 
-HIT, MISS, INSIDE, EXHAUSTED = range(4)
 NO_OBJECT = 0xFFFFFFFF
+
+
+class Status(enum.IntEnum):
+    """What became of a ray: HIT, MISS, INSIDE (it begins in the object), or EXHAUSTED: the solver gave
+    up, which is neither a hit nor a miss."""
+
+    HIT = 0
+    MISS = 1
+    INSIDE = 2
+    EXHAUSTED = 3
+
+
+HIT, MISS, INSIDE, EXHAUSTED = Status
 
 
 class _Arrays:
@@ -12,8 +26,20 @@ class _Arrays:
     def __init__(self, fields):
         self.__dict__.update(fields)
 
+    def _first(self):
+        return next(iter(vars(self).values()))
+
     def __len__(self):
-        return len(next(iter(vars(self).values())))
+        return len(self._first())
+
+    def __getitem__(self, key):
+        """The same of some rays: an index, a slice, a mask, or an array of indices."""
+        shape = self._first().shape
+        return type(self)({name: values[key] if isinstance(values, np.ndarray)
+                           else _of_list(values, shape, key) for name, values in vars(self).items()})
+
+    def __iter__(self):
+        return (self[i] for i in range(len(self)))
 
     def __eq__(self, other):
         if type(other) is not type(self):
@@ -24,8 +50,19 @@ class _Arrays:
     __hash__ = None
 
 
+def _of_list(values, shape, key):
+    """Of a flat list which belongs to arrays of that shape."""
+    array = np.empty(len(values), object)
+    array[:] = values
+    found = array.reshape(shape)[key]
+    return found.ravel().tolist() if isinstance(found, np.ndarray) else found
+
+
 class Hits(_Arrays):
     """What rays met, in arrays of the rays' own shape.
+
+    ``hits[mask]``, ``hits[i]``, ``hits[2:5]`` and iteration give the same of some of them;
+    ``np.savez(file, **vars(hits))`` keeps all arrays.
 
     Attributes
     ----------
@@ -38,17 +75,17 @@ class Hits(_Arrays):
     point, normal : float64, three numbers each
         In the world; the point is NaN where nothing is met.
     object : uint32
-        Number of what is met; NO_OBJECT where nothing is.
+        Number of what is met; NO_OBJECT where nothing is. ``scene.names[hits.object]`` are names.
     status : uint8
-        HIT, MISS, INSIDE (the ray begins in the object), or EXHAUSTED: the solver gave up, which is
+        A `Status`: HIT, MISS, INSIDE (the ray begins in the object), or EXHAUSTED: the solver gave up, which is
         neither a hit nor a miss.
     supports : int32
         How often the object's support mapping was asked.
     """
 
     def __repr__(self):
-        counts = np.bincount(self.status.ravel(), minlength=4)
-        return (f"<minkray.Hits of {self.t.shape}: {counts[HIT]} hit, {counts[MISS]} missed, "
+        counts = np.bincount(np.ravel(self.status), minlength=4)
+        return (f"<minkray.Hits of {np.shape(self.t)}: {counts[HIT]} hit, {counts[MISS]} missed, "
                 f"{counts[INSIDE]} inside, {counts[EXHAUSTED]} exhausted>")
 
 
@@ -69,7 +106,7 @@ class Proofs(_Arrays):
     """
 
     def __repr__(self):
-        return f"<minkray.Proofs: {int(self.holds.sum())} of {self.holds.size} hold>"
+        return f"<minkray.Proofs: {int(np.sum(self.holds))} of {np.size(self.holds)} hold>"
 
 
 class Clearance(_Arrays):
@@ -89,6 +126,8 @@ class Clearance(_Arrays):
     """
 
     def __repr__(self):
+        if np.size(self.lower) == 0:
+            return "<minkray.Clearance of 0 steps>"
         least = int(np.argmin(self.lower))
-        return (f"<minkray.Clearance of {len(self)} steps: at least {self.lower[least]:.6g}, at row "
-                f"{self.row[least]:.6g}>")
+        return (f"<minkray.Clearance of {np.size(self.lower)} steps: at least "
+                f"{np.ravel(self.lower)[least]:.6g}, at row {np.ravel(self.row)[least]:.6g}>")

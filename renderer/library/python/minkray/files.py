@@ -7,28 +7,24 @@ import zlib
 
 import numpy as np
 
-
-def name_of(file):
-    """The file's name as the system has it: bytes without a zero, where C would take it to end."""
-    name = os.fsencode(file)
-    if b"\0" in name:
-        raise ValueError(f"{file!r}: a file's name must have no zero byte")
-    return name
+from .calls import Error, array_of, name_of, public
 
 
 def _check_columns(columns, count):
     """Their names become words in the file's header, their whole numbers have 32 bits."""
     for name, values in columns.items():
+        array_of(values, name)
         if not re.fullmatch(r"[A-Za-z_][A-Za-z0-9_.]*", name) or name in ("x", "y", "z"):
-            raise ValueError(f"{name!r}: a column's name must be letters, digits, dots and lines below,"
+            raise Error(f"{name!r}: a column's name must be letters, digits, dots and lines below,"
                              " and other than x, y and z")
         if np.shape(values) != (count,):
-            raise ValueError(f"{name}: must be one number for each point (got the shape {np.shape(values)})")
+            raise Error(f"{name}: must be one number for each point (got the shape {np.shape(values)})")
         values = np.asarray(values)
         if values.dtype.kind in "iu" and count and not (values.min() >= -2**31 and values.max() < 2**32):
-            raise ValueError(f"{name}: must be numbers of 32 bits (got {values.min()} to {values.max()})")
+            raise Error(f"{name}: must be numbers of 32 bits (got {values.min()} to {values.max()})")
 
 
+@public
 def write(file, points, **columns):
     """Writes a point cloud, or a picture.
 
@@ -44,8 +40,8 @@ def write(file, points, **columns):
 
     Raises
     ------
-    ValueError
-        If the array has another shape, or the file another ending.
+    Error
+        If the array has another shape, the file another ending, or a picture is empty or holds NaN.
 
     Examples
     --------
@@ -53,18 +49,18 @@ def write(file, points, **columns):
     >>> file = os.path.join(tempfile.mkdtemp(), "two.pcd")
     >>> mk.write(file, np.zeros((2, 3)), object=[0, 1])
     """
-    file = os.fspath(file)
-    points = np.asarray(points, float)
+    file = os.fsdecode(name_of(file))
+    points = array_of(points, "points")
     if points.ndim == 3 and not columns:
         return _write_picture(file, points)
     if points.ndim != 2 or points.shape[1] != 3:
-        raise ValueError(f"points: must have the shape (N, 3) (got {points.shape})")
+        raise Error(f"points: must have the shape (N, 3) (got {points.shape})")
     _check_columns(columns, len(points))
     fields = {"x": points[:, 0], "y": points[:, 1], "z": points[:, 2],
               **{name: np.asarray(values) for name, values in columns.items()}}
     ending = os.path.splitext(file)[1].lower()
     if ending not in (".pcd", ".ply", ".npy"):
-        raise ValueError(f"{file}: must end in .pcd, .ply or .npy")
+        raise Error(f"{file}: must end in .pcd, .ply or .npy")
     dtype = [(name, "<f4" if values.dtype.kind == "f" else "<i4") for name, values in fields.items()]
     rows = np.empty(len(points), dtype)
     for name, values in fields.items():
@@ -90,8 +86,13 @@ def write(file, points, **columns):
 
 def _write_picture(file, picture):
     if picture.shape[2] != 3:
-        raise ValueError(f"points: a picture must have the shape (height, width, 3) (got {picture.shape})")
+        raise Error(f"points: a picture must have the shape (height, width, 3) (got {picture.shape})")
     height, width, _ = picture.shape
+    if height == 0 or width == 0:
+        raise Error(f"points: a picture must have at least one pixel (got the shape {picture.shape})")
+    if np.isnan(picture).any():
+        y, x, _ = np.argwhere(np.isnan(picture))[0]
+        raise Error(f"points[{y}][{x}]: a picture must not hold NaN")
     ending = os.path.splitext(file)[1].lower()
     if ending == ".npy":
         np.save(file, picture.astype("<f4"))
@@ -100,7 +101,7 @@ def _write_picture(file, picture):
             out.write(f"PF\n{width} {height}\n-1.0\n".encode())
             out.write(picture[::-1].astype("<f4").tobytes())
     elif ending == ".png":
-        light = np.clip(np.nan_to_num(picture), 0, 1)
+        light = np.clip(picture, 0, 1)
         shown = np.where(light <= 0.0031308, 12.92 * light, 1.055 * light ** (1 / 2.4) - 0.055)
         rows = np.zeros((height, 1 + 3 * width), np.uint8)  # each row begins with its filter: none
         rows[:, 1:] = np.round(255 * shown).astype(np.uint8).reshape(height, 3 * width)
@@ -112,4 +113,4 @@ def _write_picture(file, picture):
             out.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0))
                       + chunk(b"IDAT", zlib.compress(rows.tobytes())) + chunk(b"IEND", b""))
     else:
-        raise ValueError(f"{file}: a picture must end in .png, .pfm or .npy")
+        raise Error(f"{file}: a picture must end in .png, .pfm or .npy")

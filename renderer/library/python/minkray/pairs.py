@@ -1,9 +1,35 @@
 # SPDX-License-Identifier: MIT
 """Distances and times of impact of pairs of shapes."""
-from . import _minkray
+import enum
 
-SEPARATED, TOUCHING, OVERLAPPING, UNDECIDED = range(4)
-IMPACT, NO_IMPACT, BEGINS_INSIDE = range(3)
+import numpy as np
+
+from . import _minkray
+from .calls import Error, Shape, array_of, number_of, poses_of, public, shape_of, vectors_of
+
+
+class DistanceStatus(enum.IntEnum):
+    """What two shapes are: SEPARATED, TOUCHING (the bounds are on both sides of 0), OVERLAPPING, or
+    UNDECIDED: the bounds hold, but are further apart than was asked."""
+
+    SEPARATED = 0
+    TOUCHING = 1
+    OVERLAPPING = 2
+    UNDECIDED = 3
+
+
+class ImpactStatus(enum.IntEnum):
+    """What becomes of two that move: IMPACT, NO_IMPACT (proven), BEGINS_INSIDE, or UNDECIDED: there is
+    no contact before t_lo, and no more is known."""
+
+    IMPACT = 0
+    NO_IMPACT = 1
+    BEGINS_INSIDE = 2
+    UNDECIDED = 3
+
+
+SEPARATED, TOUCHING, OVERLAPPING, UNDECIDED = DistanceStatus
+IMPACT, NO_IMPACT, BEGINS_INSIDE, _ = ImpactStatus
 
 
 class _Answer:
@@ -22,15 +48,15 @@ class Distance(_Answer):
 
     Attributes
     ----------
-    value : float or (N,) array
+    value : float or (...) array
         Less than zero where they overlap: how deep.
-    lower, upper : float or (N,) array
+    lower, upper : float or (...) array
         Proven: ``lower <= value <= upper``.
-    point_a, point_b : (3,) or (N, 3) array
+    point_a, point_b : (..., 3) array
         The nearest points: ``point_b - point_a = value * normal``.
-    normal : (3,) or (N, 3) array
+    normal : (..., 3) array
         From a to b, of length 1.
-    status : int or (N,) array
+    status : DistanceStatus or (...) array
         SEPARATED, TOUCHING, OVERLAPPING or UNDECIDED.
     """
 
@@ -40,51 +66,124 @@ class Impact(_Answer):
 
     Attributes
     ----------
-    t_lo, t_hi : float
-        They are apart before t_lo, which is proven, and touch at t_hi; inf if they do not.
-    point_a, point_b, normal : (3,) array
+    t_lo, t_hi : float or (...) array
+        They are apart before t_lo, which is proven, and touch at t_hi. Of those that do not touch
+        t_lo is t_max, and t_hi is inf.
+    point_a, point_b, normal : (..., 3) array
         At t_lo.
-    distance : float
-        At t_lo.
-    status : int
+    distance : float or (...) array
+        At t_lo; inf where it is not known.
+    status : ImpactStatus or (...) array
         IMPACT, NO_IMPACT (proven), BEGINS_INSIDE or UNDECIDED.
     """
 
 
+def _shapes(value, argument):
+    """Shapes, as an array of them."""
+    if isinstance(value, Shape):
+        array = np.empty((), object)
+        array[()] = value
+        return array
+    if not isinstance(value, (list, tuple, np.ndarray)):
+        shape_of(value, argument)
+    rows = [_shapes(one, f"{argument}[{i}]") for i, one in enumerate(value)]
+    if any(row.shape != rows[0].shape for row in rows):
+        raise Error(f"{argument}: must be a Shape, or lists of as many each")
+    return np.stack(rows) if rows else np.empty(0, object)
+
+
+class _Pairs:
+    """Arguments that go together, as NumPy's rules of broadcasting have it."""
+
+    def __init__(self, **arguments):
+        """Takes an array and how many axes of it are of one pair, for each argument."""
+        self._given = arguments
+        shapes = {name: array.shape[:array.ndim - own] for name, (array, own) in arguments.items()}
+        try:
+            self.shape = np.broadcast_shapes(*shapes.values())
+        except ValueError:
+            raise Error(f"{', '.join(shapes)}: must have shapes that go together (got "
+                        f"{', '.join(map(str, shapes.values()))})") from None
+        self.count = int(np.prod(self.shape))
+
+    def __getitem__(self, name):
+        """Numbers, or a list of shapes: of one pair if all have the same, else of each."""
+        array, own = self._given[name]
+        tail = array.shape[array.ndim - own:]
+        if array.size != int(np.prod(tail)):
+            array = np.broadcast_to(array, self.shape + tail)
+        return array.ravel().tolist() if array.dtype == object else np.ascontiguousarray(array)
+
+    def answer(self, kind, status, fields):
+        """Its fields in the arguments' shape; of one pair they are numbers."""
+        fields = {name: values.reshape(self.shape + values.shape[1:]) for name, values in fields.items()}
+        if self.shape == ():
+            fields = {name: status(int(value)) if name == "status" else value if value.ndim else float(value)
+                      for name, value in fields.items()}
+        return kind(fields)
+
+
+@public
 def signed_distance(a, pose_a, b, pose_b, tolerance=1e-10):
     """How far apart two shapes are, or how deep in each other.
 
     Parameters
     ----------
-    a, b : Shape
-    pose_a, pose_b : (4, 4) or (N, 4, 4) array, or None
-        Where they stand; None for the identity.
+    a, b : Shape, or list of them
+    pose_a, pose_b : (4, 4) or (..., 4, 4) array, or None
+        Where they stand; None for the identity. Lists of shapes and poses go together by NumPy's
+        rules of broadcasting: one shape at N poses, N shapes at one, N at N.
     tolerance : float
-        How near the bounds shall be to each other, in sizes of the shapes.
+        Relative tolerance of the bounds, in sizes of the shapes.
 
     Returns
     -------
     Distance
-        Of arrays, if any of the poses are.
+        Of arrays, if there is a list of shapes or of poses.
+
+    Examples
+    --------
+    >>> import minkray as mk, numpy as np
+    >>> poses = np.tile(np.eye(4), (3, 1, 1))
+    >>> poses[:, 0, 3] = 3, 4, 5
+    >>> mk.signed_distance(mk.sphere(1), None, mk.sphere(1), list(poses)).value
+    array([1., 2., 3.])
     """
-    fields = _minkray.signed_distance(a, pose_a, b, pose_b, tolerance)
-    if all(getattr(pose, "ndim", 2) != 3 for pose in (pose_a, pose_b)):
-        fields = {name: values[0] for name, values in fields.items()}
-    return Distance(fields)
+    pairs = _Pairs(a=(_shapes(a, "a"), 0), pose_a=(poses_of(pose_a, "pose_a"), 2),
+                   b=(_shapes(b, "b"), 0), pose_b=(poses_of(pose_b, "pose_b"), 2))
+    return pairs.answer(Distance, DistanceStatus, _minkray.signed_distance(
+        pairs["a"], pairs["pose_a"], pairs["b"], pairs["pose_b"], number_of(tolerance, "tolerance"),
+        pairs.count))
 
 
+def _twists(value, argument):
+    return np.zeros(6) if value is None else vectors_of(value, argument, 6)
+
+
+@public
 def time_of_impact(a, pose_a, twist_a, b, pose_b, twist_b, t_max=1.0):
     """The first contact of two shapes that move and turn, at times from 0 to `t_max`.
 
     Parameters
     ----------
-    pose_a, pose_b : (4, 4) array or None
-        At time 0.
-    twist_a, twist_b : (6,) array or None
-        A velocity, and a rotation vector a unit of time, about the origin of the shape's frame.
+    a, b : Shape, or list of them
+    pose_a, pose_b : (4, 4) or (..., 4, 4) array, or None
+        At time 0. All arguments go together as those of `signed_distance`.
+    twist_a, twist_b : (6,) or (..., 6) array, or None
+        A velocity, and a rotation vector per unit of time, in the world, about the origin of the
+        shape's frame: the point that the pose's last column says.
+    t_max : float or (...) array
+        At least 0, and finite.
 
     Returns
     -------
     Impact
+        Of arrays, if any argument is a list.
     """
-    return Impact(_minkray.time_of_impact(a, pose_a, twist_a, b, pose_b, twist_b, t_max))
+    pairs = _Pairs(a=(_shapes(a, "a"), 0), pose_a=(poses_of(pose_a, "pose_a"), 2),
+                   twist_a=(_twists(twist_a, "twist_a"), 1), b=(_shapes(b, "b"), 0),
+                   pose_b=(poses_of(pose_b, "pose_b"), 2), twist_b=(_twists(twist_b, "twist_b"), 1),
+                   t_max=(array_of(t_max, "t_max", "a number"), 0))
+    return pairs.answer(Impact, ImpactStatus, _minkray.time_of_impact(
+        pairs["a"], pairs["pose_a"], pairs["twist_a"], pairs["b"], pairs["pose_b"], pairs["twist_b"],
+        pairs["t_max"], pairs.count))

@@ -3,9 +3,10 @@
 import numpy as np
 
 from . import _minkray
-from .files import name_of
+from .calls import Error, name_of, pose_of, public, vectors_of, whole_number_of
 
 
+@public
 def pinhole(K, pose, width, height):
     """The rays of a pinhole camera through the middles of its pixels.
 
@@ -31,8 +32,11 @@ def pinhole(K, pose, width, height):
     >>> rays.shape
     (480, 640, 6)
     """
-    K = np.asarray(K, float)
-    pose = np.eye(4) if pose is None else np.asarray(pose, float)
+    K = vectors_of(K, "K", 3, 2)
+    if K.shape != (3, 3) or K[0, 0] == 0 or K[1, 1] == 0:
+        raise Error(f"K: must be a (3, 3) matrix whose focal lengths are not zero (got {K.tolist()})")
+    pose = np.eye(4) if pose is None else pose_of(pose)
+    width, height = whole_number_of(width, "width"), whole_number_of(height, "height")
     x = (np.arange(width) + 0.5 - K[0, 2]) / K[0, 0]
     y = (np.arange(height) + 0.5 - K[1, 2]) / K[1, 1]
     directions = np.empty((height, width, 3))
@@ -45,6 +49,7 @@ def pinhole(K, pose, width, height):
     return rays
 
 
+@public
 def lidar(pattern, pose=None):
     """The rays of a lidar.
 
@@ -72,7 +77,7 @@ def lidar(pattern, pose=None):
     if isinstance(pattern, (tuple, list)):
         channels, steps, *limits = pattern
         if len(limits) not in (0, 2):
-            raise ValueError("pattern: must be (channels, steps) or (channels, steps, lowest, highest)"
+            raise Error("pattern: must be (channels, steps) or (channels, steps, lowest, highest)"
                              f" (got {pattern})")
         pattern = f"spinning:{channels}x{steps}" + (":{},{}".format(*limits) if limits else "")
-    return _minkray.lidar(name_of(pattern), pose)
+    return _minkray.lidar(name_of(pattern, "pattern"), pose_of(pose))

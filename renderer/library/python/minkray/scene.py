@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: MIT
 """Scenes, and what is asked of them."""
 import json
+import threading
 
 import numpy as np
 
 from . import _minkray
-from .answers import EXHAUSTED, HIT, Clearance, Hits, Proofs
-from .files import name_of
+from .answers import EXHAUSTED, HIT, NO_OBJECT, Clearance, Hits, Proofs
+from .calls import (Error, array_of, name_of, number_of, pose_of, public, shape_of, text_of, vectors_of,
+                    whole_number_of)
 from .rays import pinhole
 
 
@@ -14,21 +16,72 @@ class _Joints:
     """Values of joints by name: assigning moves the robot at the next question."""
 
     def __init__(self, group, changed):
-        self._group, self._changed, self._values = group, changed, {}
+        self._group, self._changed = group, changed
 
-    def __setitem__(self, name, value):
-        self._group.set(name, np.atleast_1d(np.asarray(value, float)))
-        self._values[name] = value
+    def set(self, name, value):
+        """Sets one, by the name of the joint."""
+        names = self._group.joints
+        if name not in names:
+            raise Error(f"must be the name of one that moves: {', '.join(names) or 'there is none'} "
+                        f"(got {name!r})")
+        numbers = array_of(value, name)
+        if not np.isfinite(numbers).all():
+            raise Error(f"{name}: must be finite (got {value})")
+        self._group.set(name, np.atleast_1d(numbers))
         self._changed()
 
+    def get(self, name):
+        """What one is set to."""
+        names = self._group.joints
+        if name not in names:
+            raise Error(f"must be the name of one that moves: {', '.join(names) or 'there is none'} "
+                        f"(got {name!r})")
+        value = self._group.value(names.index(name))
+        return float(value[0]) if len(value) == 1 else value
+
+    def __setitem__(self, name, value):
+        public(self.set, "Robot.joints")(name, value)
+
     def __getitem__(self, name):
-        return self._values[name]
+        return public(self.get, "Robot.joints")(name)
+
+    def __iter__(self):
+        return iter(self._group.joints)
+
+    def __len__(self):
+        return len(self._group.joints)
+
+    def __contains__(self, name):
+        return name in self._group.joints
 
     def keys(self):
         return self._group.joints
 
+    def values(self):
+        return [self[name] for name in self]
+
+    def items(self):
+        return [(name, self[name]) for name in self]
+
     def __repr__(self):
-        return f"<joints {', '.join(self._group.joints)}>"
+        shown = ", ".join(f"{name}: {np.array2string(np.asarray(value), separator=', ')}"
+                          for name, value in self.items())
+        return f"<joints {shown}>"
+
+
+def _threads(number):
+    return whole_number_of(number, "threads", 1024)
+
+
+class _Names(list):
+    """Names by number. Of a miss and of a removed object it is None; of an array of numbers, a list."""
+
+    def __getitem__(self, number):
+        if isinstance(number, np.ndarray) and number.ndim > 0:
+            return [self[one] for one in number]
+        if not isinstance(number, slice) and number == NO_OBJECT:
+            return None
+        return super().__getitem__(number)
 
 
 class Robot:
@@ -41,11 +94,11 @@ class Robot:
     joint_names : list of str
     joints : mapping
         ``robot.joints["elbow"] = 0.4``, or ``robot.joints = {...}``, or an array in the order of
-        `joint_names`: radians or lengths.
+        `joint_names`: radians or lengths. ``robot.joints["elbow"]`` is what it is set to.
     """
 
-    def __init__(self, group, changed):
-        self._group, self._changed = group, changed
+    def __init__(self, group, scene, changed):
+        self._group, self._scene, self._changed = group, scene, changed
         self._joints = _Joints(group, changed)
         self.objects = range(group.first, group.first + group.size)
 
@@ -61,11 +114,24 @@ class Robot:
 
     @joints.setter
     def joints(self, values):
-        if not hasattr(values, "items"):
-            values = dict(zip(self.joint_names, values, strict=True))
-        for name, value in values.items():
-            self._joints[name] = value
+        public(self._set_joints, "Robot.joints")(values)
 
+    def _set_joints(self, values):
+        names = self.joint_names
+        if not hasattr(values, "items"):
+            values = list(values)
+            if len(values) != len(names):
+                raise Error(f"must be {len(names)} values, of {', '.join(names) or 'no joints'} "
+                            f"(got {len(values)})")
+            values = dict(zip(names, values))
+        unknown = [name for name in values.keys() if name not in names]
+        if unknown:
+            raise Error(f"must be names of those that move: {', '.join(names) or 'there is none'} "
+                        f"(got {unknown[0]!r})")
+        for name, value in values.items():
+            self._joints.set(name, value)
+
+    @public
     def set_pose(self, pose):
         """Moves all of it.
 
@@ -74,27 +140,42 @@ class Robot:
         pose : (4, 4) array
             From the file's frame to the world.
         """
-        self._group.set_pose(pose)
+        self._group.set_pose(_given(pose))
         self._changed()
 
     def __repr__(self):
         return f"<minkray.Robot of {len(self.objects)} objects, {len(self.joint_names)} joints>"
 
 
+def _given(pose):
+    """A pose that must be there."""
+    if pose is None:
+        raise Error("pose: must be a (4, 4) matrix (got None)")
+    return pose_of(pose)
+
+
 class Scene:
     """Shapes with poses, that rays are cast at.
 
-    What is added or moved is met from the next question on. Any number of threads may ask a scene
-    that nobody changes.
+    What is added, moved or removed counts from the next question on. Any number of threads may ask a
+    scene. Changing one while another thread, or the caller of a callback, asks it is an Error, and
+    changes nothing.
     """
 
     def __init__(self):
         self._scene = _minkray.Scene()
-        self._is_committed = False
+        self._changes = 1  # counted, so that one that comes while another thread commits is seen
+        self._committed = 0
+        self._commits = threading.Lock()
+        self._removed = set()
+
+    def __reduce__(self):
+        raise Error("Scene: cannot be pickled")
 
     def _changed(self):
-        self._is_committed = False
+        self._changes += 1
 
+    @public
     def add(self, shape, pose=None, name=None):
         """Adds a shape.
 
@@ -110,9 +191,12 @@ class Scene:
         int
             Its number.
         """
+        name = name if name is None else text_of(name, "name")
+        number = self._scene.add(shape_of(shape, "shape"), pose_of(pose), name)
         self._changed()
-        return self._scene.add(shape, pose, name)
+        return number
 
+    @public
     def add_half_space(self, normal, offset=0.0, name=None):
         """Adds all points x with ``normal . x <= offset * |normal|``.
 
@@ -129,9 +213,13 @@ class Scene:
         int
             Its number.
         """
+        name = name if name is None else text_of(name, "name")
+        number = self._scene.add_half_space(vectors_of(normal, "normal", 3, 1), number_of(offset, "offset"),
+                                            name)
         self._changed()
-        return self._scene.add_half_space(normal, offset, name)
+        return number
 
+    @public
     def add_file(self, file, pose=None, geometry="visual", keyframe="", package_dirs=(),
                  skip_missing_meshes=False):
         """Adds what is in a file: a scene of Minkray's (.json), or a robot (URDF, MJCF, SDF, glTF).
@@ -153,11 +241,15 @@ class Scene:
         -------
         Robot
         """
+        if isinstance(package_dirs, (str, bytes)):
+            raise Error("package_dirs: must be a list of folders (got one)")
+        folders = [name_of(folder, f"package_dirs[{i}]") for i, folder in enumerate(package_dirs)]
+        group = self._scene.add_file(name_of(file), pose_of(pose), text_of(geometry, "geometry"),
+                                     text_of(keyframe, "keyframe"), folders, bool(skip_missing_meshes))
         self._changed()
-        group = self._scene.add_file(name_of(file), pose, geometry, keyframe,
-                                     [name_of(folder) for folder in package_dirs], skip_missing_meshes)
-        return Robot(group, self._changed)
+        return Robot(group, self._scene, self._changed)
 
+    @public
     def add_json(self, file, pose=None):
         """Adds a scene file of Minkray's; see `add_file`.
 
@@ -174,6 +266,7 @@ class Scene:
         """
         return self.add_file(file, pose)
 
+    @public
     def add_urdf(self, file, pose=None, geometry="visual", package_dirs=(), skip_missing_meshes=False):
         """Adds a robot from a URDF file; see `add_file`.
 
@@ -193,6 +286,7 @@ class Scene:
         """
         return self.add_file(file, pose, geometry, "", package_dirs, skip_missing_meshes)
 
+    @public
     def add_mjcf(self, file, pose=None, geometry="visual", keyframe="", skip_missing_meshes=False):
         """Adds what is in an MJCF file, MuJoCo's format; see `add_file`.
 
@@ -212,6 +306,7 @@ class Scene:
         """
         return self.add_file(file, pose, geometry, keyframe, (), skip_missing_meshes)
 
+    @public
     def add_sdf(self, file, pose=None, geometry="visual", package_dirs=(), skip_missing_meshes=False):
         """Adds what is in an SDF file, Gazebo's format; see `add_file`.
 
@@ -231,6 +326,7 @@ class Scene:
         """
         return self.add_file(file, pose, geometry, "", package_dirs, skip_missing_meshes)
 
+    @public
     def add_gltf(self, file, pose=None):
         """Adds what is in a glTF file; see `add_file`.
 
@@ -246,6 +342,7 @@ class Scene:
         """
         return self.add_file(file, pose)
 
+    @public
     def set_pose(self, object, pose):
         """Moves an object.
 
@@ -256,9 +353,24 @@ class Scene:
         pose : (4, 4) array
             From the shape's frame to the world; any invertible map.
         """
+        self._scene.set_pose(whole_number_of(object, "object"), _given(pose))
         self._changed()
-        self._scene.set_pose(object, pose)
 
+    @public
+    def remove(self, object):
+        """Takes an object out, so that rays no longer meet it.
+
+        Parameters
+        ----------
+        object : int
+            Its number, which is never used again. All other numbers stay.
+        """
+        number = whole_number_of(object, "object")
+        self._scene.remove(number)
+        self._removed.add(number)
+        self._changed()
+
+    @public
     def pose(self, object):
         """Where an object stands.
 
@@ -272,38 +384,55 @@ class Scene:
         (4, 4) array of float64
             From the shape's frame to the world.
         """
-        return self._scene.pose(object)
+        return self._scene.pose(whole_number_of(object, "object"))
 
     @property
+    @public
     def names(self):
-        """list of str : the objects' names, by their numbers."""
-        return [self._scene.name(i) for i in range(len(self._scene))]
+        """list of str : the objects' names, by their numbers.
+
+        ``names[hits.object]`` is a list of names; that of a miss (NO_OBJECT), and of an object that was
+        removed, is None.
+        """
+        return _Names(None if i in self._removed else self._scene.name(i) for i in range(len(self)))
 
     def __len__(self):
         return len(self._scene)
 
     def __repr__(self):
-        names = self.names
+        names = [name for name in self.names if name is not None]
         shown = ", ".join(names[:5]) + (", ..." if len(names) > 5 else "")
-        return f"<minkray.Scene of {len(names)} objects: {shown}>"
+        return f"<minkray.Scene of {len(names)} objects{': ' if names else ''}{shown}>"
 
+    @public
     def commit(self):
         """Makes ready what was added or moved. Questions do it themselves where it is due."""
+        changes = self._changes
         self._scene.commit()
-        self._is_committed = True
+        self._committed = changes
 
     def _ready(self):
-        if not self._is_committed:
-            self.commit()
+        if self._committed != self._changes:
+            # From within a support function that the commit itself calls, waiting would have no end.
+            if _minkray.is_in_support():
+                self.commit()
+            with self._commits:
+                if self._committed != self._changes:
+                    self.commit()
         return self._scene
 
     @staticmethod
     def _rows(rays, t_max):
-        rays = np.asarray(rays, float)
+        rays = array_of(rays, "rays")
         if rays.ndim == 0 or rays.shape[-1] != 6:
-            raise ValueError(f"rays: must have the shape (..., 6) (got {rays.shape})")
-        if t_max is not None and np.ndim(t_max) > 0:
-            t_max = np.broadcast_to(t_max, rays.shape[:-1]).ravel()
+            raise Error(f"rays: must have the shape (..., 6) (got {rays.shape})")
+        if t_max is not None:
+            t_max = array_of(t_max, "t_max", "a number, or one for each ray")
+            try:
+                t_max = np.broadcast_to(t_max, rays.shape[:-1]).ravel() if t_max.ndim > 0 else t_max
+            except ValueError:
+                raise Error(f"t_max: must be a number, or one for each ray (got the shape {t_max.shape} "
+                            f"for rays of {rays.shape[:-1]})") from None
         rows = rays if rays.ndim == 2 else rays.reshape(-1, 6)
         return rows, t_max, rays.shape[:-1]
 
@@ -312,15 +441,16 @@ class Scene:
         return {name: values.reshape(shape + values.shape[1:]) if isinstance(values, np.ndarray)
                 else values for name, values in fields.items()}
 
+    @public
     def cast_rays(self, rays, t_max=None, threads=0):
         """What rays meet first.
 
         Parameters
         ----------
         rays : (N, 6) or (..., 6) array
-            Origin and direction, of any length. Not copied if of float64.
+            Origin and direction, of any length but zero. Not copied if of float64.
         t_max : float or (...) array, optional
-            In lengths of the direction; None for no end.
+            In lengths of the direction; None for no end. With 0 a ray is its origin.
         threads : int
             0 for one a core. The answers are the same bits for any number.
 
@@ -331,8 +461,9 @@ class Scene:
 
         Raises
         ------
-        ValueError
-            If the rays have another shape, or numbers that are not finite: it says which.
+        Error
+            If the rays have another shape, a direction of zero, or numbers that are not finite: it
+            says which.
 
         Examples
         --------
@@ -343,8 +474,9 @@ class Scene:
         array([1.5, inf])
         """
         rows, ends, shape = self._rows(rays, t_max)
-        return Hits(self._shaped(self._ready().cast(rows, ends, threads), shape))
+        return Hits(self._shaped(self._ready().cast(rows, ends, _threads(threads)), shape))
 
+    @public
     def occluded(self, rays, t_max=None, threads=0):
         """Whether rays meet anything.
 
@@ -363,11 +495,12 @@ class Scene:
             If a solver gave up, so that nobody knows.
         """
         rows, t_max, shape = self._rows(rays, t_max)
-        blocked = self._ready().occluded(rows, t_max, threads)
+        blocked = self._ready().occluded(rows, t_max, _threads(threads))
         if (blocked == EXHAUSTED).any():
             raise RuntimeError(f"the solver gave up at ray {int(np.argmax(blocked == EXHAUSTED))}")
         return (blocked == HIT).reshape(shape)
 
+    @public
     def certify(self, rays, hits=None, t_max=None, threads=0):
         """Casts rays, and proves what they meet by planes and support points alone, of all objects.
 
@@ -387,15 +520,18 @@ class Scene:
         Proofs
         """
         rows, ends, shape = self._rows(rays, t_max)
-        proofs = Proofs(self._shaped(self._ready().certify(rows, ends, threads), shape))
+        proofs = Proofs(self._shaped(self._ready().certify(rows, ends, _threads(threads)), shape))
         if hits is not None:
+            if not isinstance(hits, Hits) or np.shape(hits.t) != shape:
+                raise Error(f"hits: must be the Hits of these rays, of the shape {shape}")
             met = self.cast_rays(rays, t_max, threads)
             differs = (met.t != hits.t) | (met.object != hits.object) | (met.status != hits.status)
-            proofs.holds &= ~differs
+            proofs.holds[...] &= ~differs
             for i in np.flatnonzero(differs):
                 proofs.complaint[i] = "the answer is not what the ray meets"
         return proofs
 
+    @public
     def depth(self, K, pose, width, height, threads=0):
         """A depth image of a pinhole camera.
 
@@ -415,6 +551,7 @@ class Scene:
         hits = self.cast_rays(pinhole(K, pose, width, height), threads=threads)
         return np.where(hits.status == EXHAUSTED, np.nan, hits.t), hits.object
 
+    @public
     def render(self, camera=None, spp=16, bounces=None, aovs=(), *, lights=None, background=None,
                width=0, height=0, integrator="auto", max_depth=None, denoise=False, seed=0, threads=0):
         """A picture.
@@ -468,16 +605,21 @@ class Scene:
         def plain(value):
             if hasattr(value, "tolist"):
                 return value.tolist()
-            raise TypeError(f"camera, lights, background: cannot hold a {type(value).__name__}")
+            raise Error(f"camera, lights, background: cannot hold a {type(value).__name__}")
 
-        def often(number):
-            return 0 if number is None else number if number > 0 else -1
+        def often(number, name):
+            return 0 if number is None else whole_number_of(number, name, 1000) or -1
 
-        scene = self._ready()
-        return _minkray.render(scene, json.dumps(view, default=plain) if view else "", width, height,
-                               spp, seed, integrator, often(bounces), often(max_depth), denoise,
-                               ["rgb", *aovs], threads)
+        if isinstance(aovs, str):
+            raise Error(f"aovs: must be a list of names, such as [{aovs!r}]")
+        names = ["rgb", *(text_of(name, f"aovs[{i}]") for i, name in enumerate(aovs))]
+        return _minkray.render(self._ready(), json.dumps(view, default=plain) if view else "",
+                               whole_number_of(width, "width"), whole_number_of(height, "height"),
+                               whole_number_of(spp, "spp"), whole_number_of(seed, "seed", 2**64 - 1),
+                               text_of(integrator, "integrator"), often(bounces, "bounces"),
+                               often(max_depth, "max_depth"), bool(denoise), names, _threads(threads))
 
+    @public
     def clearance(self, robot, path, tolerance=0.01, only_obstacles=False, threads=0):
         """How near a robot comes to itself and to all else on its way, proven.
 
@@ -500,6 +642,11 @@ class Scene:
         Clearance
             Of each of the K - 1 steps from row to row; of one step that stands still if K is 1.
         """
-        return Clearance(_minkray.clearance(self._ready(), robot._group,
-                                            np.atleast_2d(np.asarray(path, float)), tolerance,
-                                            only_obstacles, threads))
+        if not isinstance(robot, Robot) or robot._scene is not self._scene:
+            raise Error("robot: must be a Robot of this scene")
+        path = np.atleast_2d(array_of(path, "path"))
+        if path.ndim != 2:
+            raise Error(f"path: must have the shape (rows, joint values) (got {path.shape})")
+        return Clearance(_minkray.clearance(self._ready(), robot._group, path,
+                                            number_of(tolerance, "tolerance"), bool(only_obstacles),
+                                            _threads(threads)))

@@ -3,8 +3,16 @@
 import numpy as np
 
 from . import _minkray
+from .calls import (Error, Shape, array_of, name_of, pose_of, public, shape_of, shapes_of,
+                    text_of, vectors_of)
 
 
+def _made(kind, shapes=None, **numbers):
+    return _minkray.make(kind, {name: array_of(value, name) for name, value in numbers.items()},
+                         shapes or {})
+
+
+@public
 def make(kind, shapes=None, **numbers):
     """A shape of any kind that scene files know, by the names they have there.
 
@@ -28,10 +36,15 @@ def make(kind, shapes=None, **numbers):
     array([[-2., -2., -2.],
            [ 2.,  2.,  2.]])
     """
-    return _minkray.make(kind, {name: np.asarray(value, float) for name, value in numbers.items()},
-                         shapes or {})
+    shapes = {} if shapes is None else shapes
+    if not hasattr(shapes, "items"):
+        raise Error(f"shapes: must be a dict of lists of shapes (got {type(shapes).__name__})")
+    operands = {text_of(name, "shapes"): shapes_of((one,), f"shapes[{name!r}]")
+                for name, one in shapes.items()}
+    return _made(text_of(kind, "kind"), operands, **numbers)
 
 
+@public
 def point(position):
     """A point, of shape (3,).
 
@@ -44,9 +57,10 @@ def point(position):
     -------
     Shape
     """
-    return make("point", position=position)
+    return _made("point", position=position)
 
 
+@public
 def segment(a, b):
     """The points between two.
 
@@ -59,9 +73,10 @@ def segment(a, b):
     -------
     Shape
     """
-    return make("segment", points=[a, b])
+    return _made("segment", points=[vectors_of(a, "a", 3, 1), vectors_of(b, "b", 3, 1)])
 
 
+@public
 def triangle(a, b, c):
     """A flat triangle.
 
@@ -74,9 +89,11 @@ def triangle(a, b, c):
     -------
     Shape
     """
-    return make("triangle", points=[a, b, c])
+    return _made("triangle", points=[vectors_of(point, name, 3, 1)
+                                     for name, point in (("a", a), ("b", b), ("c", c))])
 
 
+@public
 def sphere(radius):
     """A ball around the origin.
 
@@ -89,9 +106,10 @@ def sphere(radius):
     -------
     Shape
     """
-    return make("sphere", radius=radius)
+    return _made("sphere", radius=radius)
 
 
+@public
 def ellipsoid(radii):
     """An ellipsoid around the origin, its three radii along x, y and z.
 
@@ -104,9 +122,10 @@ def ellipsoid(radii):
     -------
     Shape
     """
-    return make("ellipsoid", radii=radii)
+    return _made("ellipsoid", radii=radii)
 
 
+@public
 def box(half_extents):
     """A box around the origin, half its size along x, y and z.
 
@@ -119,9 +138,10 @@ def box(half_extents):
     -------
     Shape
     """
-    return make("box", half_extents=half_extents)
+    return _made("box", half_extents=half_extents)
 
 
+@public
 def disk(radius):
     """A flat disk around the z axis, at z = 0.
 
@@ -134,9 +154,10 @@ def disk(radius):
     -------
     Shape
     """
-    return make("disk", radius=radius)
+    return _made("disk", radius=radius)
 
 
+@public
 def cylinder(radius, half_height):
     """A cylinder around the z axis, from -half_height to half_height.
 
@@ -149,9 +170,10 @@ def cylinder(radius, half_height):
     -------
     Shape
     """
-    return make("cylinder", radius=radius, half_height=half_height)
+    return _made("cylinder", radius=radius, half_height=half_height)
 
 
+@public
 def cut_cylinder(radius, heights, lower_slope=(0, 0), upper_slope=(0, 0)):
     """A cylinder around the z axis between two planes ``z = height + slope . (x, y)``.
 
@@ -168,10 +190,11 @@ def cut_cylinder(radius, heights, lower_slope=(0, 0), upper_slope=(0, 0)):
     -------
     Shape
     """
-    return make("cut_cylinder", radius=radius, heights=heights, lower_slope=lower_slope,
+    return _made("cut_cylinder", radius=radius, heights=heights, lower_slope=lower_slope,
                 upper_slope=upper_slope)
 
 
+@public
 def cone(radius, half_height):
     """A cone around the z axis, its base at -half_height, its tip at half_height.
 
@@ -184,9 +207,10 @@ def cone(radius, half_height):
     -------
     Shape
     """
-    return make("cone", radius=radius, half_height=half_height)
+    return _made("cone", radius=radius, half_height=half_height)
 
 
+@public
 def capsule(radius, half_height):
     """All points not further than `radius` from a segment of the z axis.
 
@@ -199,9 +223,10 @@ def capsule(radius, half_height):
     -------
     Shape
     """
-    return make("capsule", radius=radius, half_height=half_height)
+    return _made("capsule", radius=radius, half_height=half_height)
 
 
+@public
 def tapered_capsule(radii, half_height):
     """The hull of two balls on the z axis, at -half_height and half_height.
 
@@ -216,9 +241,10 @@ def tapered_capsule(radii, half_height):
     -------
     Shape
     """
-    return make("tapered_capsule", radii=radii, half_height=half_height)
+    return _made("tapered_capsule", radii=radii, half_height=half_height)
 
 
+@public
 def frustum(radii, half_height):
     """A cone cut off by two disks of the given radii, at -half_height and half_height.
 
@@ -233,9 +259,10 @@ def frustum(radii, half_height):
     -------
     Shape
     """
-    return make("frustum", radii=radii, half_height=half_height)
+    return _made("frustum", radii=radii, half_height=half_height)
 
 
+@public
 def superellipsoid(radii, exponent):
     """All points with ``sum(abs(x / radii) ** exponent) <= 1``; exponent >= 1.
 
@@ -250,9 +277,10 @@ def superellipsoid(radii, exponent):
     -------
     Shape
     """
-    return make("superellipsoid", radii=radii, exponent=exponent)
+    return _made("superellipsoid", radii=radii, exponent=exponent)
 
 
+@public
 def hull(points):
     """The convex hull of points, of shape (N, 3).
 
@@ -264,9 +292,10 @@ def hull(points):
     -------
     Shape
     """
-    return make("hull", points=points)
+    return _made("hull", points=vectors_of(points, "points", 3, 2))
 
 
+@public
 def rounded(shape, radius):
     """The shape, grown by a radius: its sum with a ball.
 
@@ -280,23 +309,26 @@ def rounded(shape, radius):
     -------
     Shape
     """
-    return make("rounded", {"shape": [shape]}, radius=radius)
+    return _made("rounded", {"shape": [shape_of(shape, "shape")]}, radius=radius)
 
 
+@public
 def sum(*shapes):
     """The Minkowski sum: all sums of a point of each of the shapes.
 
     Parameters
     ----------
     *shapes : Shape
+        Or one list of them.
 
     Returns
     -------
     Shape
     """
-    return make("minkowski_sum", {"shapes": list(shapes)})
+    return _made("minkowski_sum", {"shapes": shapes_of(shapes)})
 
 
+@public
 def difference(a, b):
     """All differences of a point of a and a point of b: the configuration space obstacle.
 
@@ -308,23 +340,33 @@ def difference(a, b):
     -------
     Shape
     """
-    return make("minkowski_difference", {"a": [a], "b": [b]})
+    return _made("minkowski_difference", {"a": [shape_of(a, "a")], "b": [shape_of(b, "b")]})
 
 
+@public
 def hull_of(*shapes):
     """The convex hull of shapes.
 
     Parameters
     ----------
     *shapes : Shape
+        Or one list of them.
 
     Returns
     -------
     Shape
     """
-    return make("hull_of", {"shapes": list(shapes)})
+    return _made("hull_of", {"shapes": shapes_of(shapes)})
 
 
+def _transformed(shape, matrix, argument):
+    try:
+        return _made("transform", {"shape": [shape_of(shape, "shape")]}, map=matrix)
+    except Error as error:
+        raise Error(str(error).replace("map: must be invertible", f"{argument}: must be invertible")) from None
+
+
+@public
 def transformed(shape, matrix):
     """The shape under an invertible map: a (3, 4) or (4, 4) matrix.
 
@@ -338,9 +380,12 @@ def transformed(shape, matrix):
     -------
     Shape
     """
-    return make("transform", {"shape": [shape]}, map=np.asarray(matrix, float)[:3])
+    if matrix is None:
+        raise Error("matrix: must be a (4, 4) matrix (got None)")
+    return _transformed(shape, pose_of(matrix, "matrix"), "matrix")
 
 
+@public
 def translated(shape, by):
     """The shape, moved.
 
@@ -354,9 +399,10 @@ def translated(shape, by):
     -------
     Shape
     """
-    return transformed(shape, np.column_stack([np.eye(3), by]))
+    return _transformed(shape, np.column_stack([np.eye(3), vectors_of(by, "by", 3, 1)]), "by")
 
 
+@public
 def scaled(shape, by):
     """The shape, scaled by a number, or by one along each axis.
 
@@ -370,9 +416,13 @@ def scaled(shape, by):
     -------
     Shape
     """
-    return transformed(shape, np.column_stack([np.diag(np.ones(3) * by), np.zeros(3)]))
+    by = array_of(by, "by", "a number or three")
+    if by.ndim > 0:
+        by = vectors_of(by, "by", 3, 1)
+    return _transformed(shape, np.column_stack([np.diag(np.ones(3) * by), np.zeros(3)]), "by")
 
 
+@public
 def swept(shape, way):
     """All that the shape comes through that goes along `way` without turning.
 
@@ -386,9 +436,11 @@ def swept(shape, way):
     -------
     Shape
     """
-    return sum(shape, segment([0, 0, 0], way))
+    way = _made("segment", points=[np.zeros(3), vectors_of(way, "way", 3, 1)])
+    return _made("minkowski_sum", {"shapes": [shape_of(shape, "shape"), way]})
 
 
+@public
 def custom(support, bounds=None):
     """A shape of your own, by its support function.
 
@@ -423,9 +475,16 @@ def custom(support, bounds=None):
     >>> mine.support([[1, 1, 1]])
     array([[0.5, 0.3, 0.2]])
     """
+    if not callable(support):
+        raise Error(f"support: must be callable (got {type(support).__name__})")
+    if bounds is not None:
+        bounds = vectors_of(bounds, "bounds", 3, 2)
+        if len(bounds) != 2:
+            raise Error(f"bounds: must have the shape (2, 3) (got {bounds.shape})")
     return _minkray.custom(support, bounds)
 
 
+@public
 def read_shape(json, folder=""):
     """The shape that a text in the scene files' format describes.
 
@@ -440,4 +499,42 @@ def read_shape(json, folder=""):
     -------
     Shape
     """
-    return _minkray.read_shape(json, folder)
+    return _minkray.read_shape(text_of(json, "json"), name_of(folder, "folder"))
+
+
+def _init(self, *arguments, **named):
+    """Refuses: shapes are made by functions such as `minkray.box`."""
+    raise Error("Shape: must be made by functions such as minkray.box")
+
+
+def support(self, directions):
+    """Points of the shape furthest along directions.
+
+    Parameters
+    ----------
+    directions : (N, 3) array
+        Of any length.
+
+    Returns
+    -------
+    (N, 3) array
+    """
+    return self._support(vectors_of(directions, "directions", 3, 2))
+
+
+def bounds(self):
+    """The lower and the upper corner of the tightest box along the axes, of shape (2, 3)."""
+    return self._bounds()
+
+
+def json(self):
+    """The shape as scene files have it."""
+    return self._json()
+
+
+Shape.__init__ = _init
+Shape.support = public(support, "Shape.support")
+Shape.bounds = public(bounds, "Shape.bounds")
+Shape.json = public(json, "Shape.json")
+Shape.__getstate__ = public(Shape.__getstate__, "Shape.__getstate__")
+del support, bounds, json

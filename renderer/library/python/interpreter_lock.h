@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// Python's lock, released and taken so that the interpreter may end while a thread is at work.
+//
+// A thread that asks an ending interpreter for its lock is ended on the spot, which C++ cannot
+// unwind. So when the interpreter is about to end, no thread but its own asks any more: those at
+// work stand still for the rest of the process.
+#pragma once
+
+#include <optional>
+
+#include "renderer/library/python/arrays.h"
+
+namespace minkray_python {
+
+/// Releases the lock of this thread, which holds it, for as long as it exists.
+class Unlocked {
+ public:
+  Unlocked() : state_(PyEval_SaveThread()) {}
+  ~Unlocked();
+  Unlocked(const Unlocked&) = delete;
+  Unlocked& operator=(const Unlocked&) = delete;
+
+ private:
+  PyThreadState* state_;
+};
+
+/// Takes the lock on any thread for as long as it exists; false if the interpreter is ending.
+class Locked {
+ public:
+  Locked();
+  ~Locked();
+  Locked(const Locked&) = delete;
+  Locked& operator=(const Locked&) = delete;
+  explicit operator bool() const { return state_.has_value(); }
+
+ private:
+  bool is_outer_ = false;
+  std::optional<PyGILState_STATE> state_;
+};
+
+/// Whether the interpreter is ending, and this is not the thread that ends it.
+bool is_interpreter_ending();
+
+/// Has the module told when the interpreter is about to end.
+void watch_end_of_interpreter();
+
+}  // namespace minkray_python

@@ -1,0 +1,167 @@
+# SPDX-License-Identifier: MIT
+"""Arguments, checked before they are used, and errors that name the function that was called."""
+import functools
+import inspect
+import operator
+import os
+import re
+
+import numpy as np
+
+from ._minkray import Error, Shape
+
+
+def _called(function, name, arguments, named):
+    """What is wrong with how it was called; None if nothing is."""
+    try:
+        signature = inspect.signature(function)
+    except ValueError:  # of what is not written in Python
+        return None
+    try:
+        signature.bind(*arguments, **named)
+    except TypeError as error:
+        shown = re.sub(r"\(self(, )?", "(", str(signature))
+        return f"must be called as {name.split('.')[-1]}{shown} ({error})"
+    return None
+
+
+def _plain(text):
+    """A message of the C interface, without the C function's name and that of the shape's kind."""
+    text = re.sub(r"^minkray(_\w+|::[\w:]+): ", "", text)
+    text = re.sub(r"^\w+: /(?=\w)", "/", text)
+    return re.sub(r"(?m)^/(?=\w)", "", text).replace("options.", "")
+
+
+def public(function, name=None):
+    """The function, but what is wrong with a call of it is an `Error` that begins with its name."""
+    name = name or function.__qualname__
+
+    def failed(detail):
+        error = Error(f"{name}: {detail}")
+        error.detail = detail
+        return error
+
+    @functools.wraps(function)
+    def call(*arguments, **named):
+        try:
+            return function(*arguments, **named)
+        except Error as error:
+            raise failed(getattr(error, "detail", None) or _plain(str(error))) from None
+        except (TypeError, ValueError, OverflowError, AttributeError) as error:
+            detail = _called(function, name, arguments, named)
+            if not detail and "incompatible function arguments" in str(error):
+                kinds = ", ".join(type(one).__name__ for one in (*arguments, *named.values()))
+                detail = f"an argument has a type that it cannot have (got {kinds})"
+            raise failed(detail or str(error)) from (None if detail else error)
+
+    return call
+
+
+def shape_of(value, argument):
+    """The value, which must be a shape."""
+    if not isinstance(value, Shape):
+        raise Error(f"{argument}: must be a Shape (got {type(value).__name__})")
+    return value
+
+
+def shapes_of(values, argument="shapes"):
+    """A list of shapes: of several arguments, or of one that is a list."""
+    if len(values) == 1 and isinstance(values[0], (list, tuple, np.ndarray)):
+        values = list(values[0])
+    if not len(values):
+        raise Error(f"{argument}: must be at least one Shape")
+    return [shape_of(value, f"{argument}[{i}]") for i, value in enumerate(values)]
+
+
+def text_of(value, argument):
+    """The value, which must be text that C can have."""
+    if not isinstance(value, str):
+        raise Error(f"{argument}: must be a str (got {type(value).__name__})")
+    try:
+        value.encode()
+    except UnicodeEncodeError:
+        raise Error(f"{argument}: must be text that UTF-8 can hold (got {value!r})") from None
+    if "\0" in value:
+        raise Error(f"{argument}: must have no zero character (got {value!r})")
+    return value
+
+
+def name_of(file, argument="file"):
+    """The file's name as the system has it: bytes without a zero, where C would take it to end."""
+    try:
+        name = os.fsencode(file)
+    except (TypeError, UnicodeEncodeError):
+        raise Error(f"{argument}: must be the name of a file (got {file!r})") from None
+    if b"\0" in name:
+        raise Error(f"{argument}: must have no zero byte (got {file!r})")
+    return name
+
+
+def whole_number_of(value, argument, most=2**32 - 1):
+    """The value, which must be a whole number from 0 on."""
+    try:
+        number = operator.index(value)
+    except TypeError:
+        raise Error(f"{argument}: must be a whole number (got {value!r})") from None
+    if not 0 <= number <= most:
+        raise Error(f"{argument}: must be from 0 to {most} (got {number})")
+    return number
+
+
+def array_of(value, argument, must_be="an array of numbers"):
+    """The value as an array of doubles, if it is one of plain numbers."""
+    parts = value if isinstance(value, (list, tuple)) else [value]
+    if any(np.ma.isMaskedArray(part) for part in parts):
+        raise Error(f"{argument}: must not be a masked array: fill it first")
+    try:
+        array = np.asarray(value)
+        if array.dtype.kind == "O":  # None would become NaN
+            array = np.array([float(one) for one in array.ravel()]).reshape(array.shape)
+    except (TypeError, ValueError, OverflowError):
+        raise Error(f"{argument}: must be {must_be} (got {type(value).__name__})") from None
+    if array.dtype.kind not in "fiub":
+        raise Error(f"{argument}: must be {must_be} (got values of {array.dtype})")
+    return array if array.dtype == np.float64 else array.astype(float)
+
+
+def number_of(value, argument):
+    """The value as a float."""
+    array = array_of(value, argument, "a number")
+    if array.ndim > 0:
+        raise Error(f"{argument}: must be a number (got the shape {array.shape})")
+    return float(array)
+
+
+def vectors_of(value, argument, width, ndim=None):
+    """Finite numbers in rows of `width`: of the shape (..., width), or with `ndim` axes."""
+    array = array_of(value, argument)
+    if array.ndim == 0 or array.shape[-1] != width or (ndim is not None and array.ndim != ndim):
+        shape = {None: f"(..., {width})", 1: f"({width},)", 2: f"(N, {width})"}[ndim]
+        raise Error(f"{argument}: must have the shape {shape} (got {array.shape})")
+    if not np.isfinite(array).all():
+        at = np.argwhere(~np.isfinite(array))[0]
+        place = "".join(f"[{i}]" for i in at)
+        raise Error(f"{argument}{place}: must be a finite number (got {array[tuple(at)]})")
+    return array
+
+
+def poses_of(value, argument):
+    """Matrices (..., 3, 4) of one such as (..., 4, 4); the identity for None."""
+    if value is None:
+        return np.eye(4)[:3]
+    if isinstance(value, (list, tuple)) and any(one is None for one in value):
+        value = [np.eye(4) if one is None else one for one in value]
+    array = array_of(value, argument, "a (4, 4) matrix")
+    if array.ndim < 2 or array.shape[-2:] not in ((3, 4), (4, 4)):
+        raise Error(f"{argument}: must be a (4, 4) matrix (got the shape {array.shape})")
+    if not (array[..., 3:, :] == (0, 0, 0, 1)).all():
+        raise Error(f"{argument}: the last row must be (0, 0, 0, 1)")
+    return array[..., :3, :]
+
+
+def pose_of(value, argument="pose"):
+    """One such matrix, or None."""
+    poses = None if value is None else poses_of(value, argument)
+    if poses is not None and poses.ndim != 2:
+        raise Error(f"{argument}: must be a (4, 4) matrix (got the shape {np.shape(value)})")
+    return poses

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT
+// What is left out means what the headers say, and what cannot be meant is an error: a Pose was
+// singular by default, a ray of zeros a miss, and a miss of moving shapes had a time.
+#include <gtest/gtest.h>
+#include <minkray/minkray.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace mk = minkray;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+template <class Work>
+void expect_error(const std::string& text, Work&& work) {
+  try {
+    work();
+    ADD_FAILURE() << "no error: " << text;
+  } catch (const mk::Error& error) {
+    EXPECT_NE(std::string(error.what()).find(text), std::string::npos) << error.what();
+  }
+}
+
+TEST(Defaults, a_pose_is_the_identity) {
+  const mk::Pose by_default{}, identity = mk::identity();
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 4; ++j) {
+      EXPECT_EQ(by_default.rows[i][j], i == j ? 1 : 0);
+      EXPECT_EQ(identity.rows[i][j], i == j ? 1 : 0);
+    }
+  const mk::Pose given = {{{1, 0, 0, 5}, {0, 1, 0, 6}, {0, 0, 1, 7}}};  // it is an aggregate
+  EXPECT_EQ(given.rows[2][3], 7);
+  EXPECT_EQ(mk::signed_distance(mk::sphere(1), {}, mk::sphere(1), mk::translation({4, 0, 0})).value,
+            2);
+}
+
+TEST(Defaults, a_limit_of_zero_in_a_struct_is_no_limit) {
+  mk::Scene scene;
+  const mk::Shape ball = mk::sphere(1);
+  scene.add(ball);
+  scene.commit();
+  const minkray_ray c_ray = {{-5, 0, 0}, {1, 0, 0}, 0};
+  minkray_hit c_hit;
+  ASSERT_EQ(minkray_scene_cast(scene.handle(), &c_ray, 1, &c_hit, nullptr), MINKRAY_OK);
+  EXPECT_EQ(c_hit.status, MINKRAY_HIT);
+  EXPECT_EQ(c_hit.t, 4);
+  const mk::Ray ray = {{-5, 0, 0}, {1, 0, 0}, 0};
+  EXPECT_EQ(mk::cast(ball, ray).t, 4);
+  EXPECT_EQ(scene.exit(0, ray).t, 6);
+  EXPECT_EQ(scene.occluded(ray), mk::hit);
+  // In any number, with others: as rays without an end.
+  std::vector<mk::Ray> zero, endless;
+  for (int i = 0; i < 5000; ++i) {
+    const mk::Vec3 origin = {-5, i % 71 * 0.04 - 1.4, i / 71 * 0.04 - 1.4};
+    zero.push_back({origin, {1, 0, 0}, i % 3 == 0 ? 4.2 : 0});
+    endless.push_back({origin, {1, 0, 0}, i % 3 == 0 ? 4.2 : infinity});
+  }
+  std::vector<mk::Hit> of_zero(zero.size()), of_endless(zero.size());
+  std::vector<std::uint8_t> blocked(zero.size());
+  std::vector<mk::Proof> proofs(zero.size());
+  scene.cast(zero, of_zero);
+  scene.cast(endless, of_endless);
+  scene.occluded(zero, blocked);
+  scene.prove(zero, of_zero, proofs);
+  std::size_t met = 0;
+  for (std::size_t i = 0; i < zero.size(); ++i) {
+    EXPECT_EQ(of_zero[i].t, of_endless[i].t);
+    EXPECT_EQ(blocked[i] == mk::hit, of_zero[i].found());
+    EXPECT_TRUE(proofs[i].holds) << proofs[i].complaint;
+    met += of_zero[i].found();
+  }
+  EXPECT_GT(met, 1000u);
+  EXPECT_LT(met, 4000u);
+  // In an array it ends the ray.
+  const double end = 0;
+  double t = 0;
+  const minkray_ray_arrays arrays = {sizeof arrays, c_ray.origin, 0, c_ray.direction, 0, &end, 0};
+  minkray_hit_arrays hits = {};
+  hits.size = sizeof hits;
+  hits.t = &t;
+  ASSERT_EQ(minkray_scene_cast_arrays(scene.handle(), &arrays, 1, &hits, nullptr), MINKRAY_OK);
+  EXPECT_EQ(t, infinity);
+}
+
+TEST(Defaults, a_direction_of_zero_is_an_error_wherever_a_ray_is_given) {
+  mk::Scene scene;
+  const mk::Shape ball = mk::sphere(1);
+  scene.add(ball);
+  scene.commit();
+  const std::string text = "rays[0].direction: must not be zero";
+  expect_error(text, [&] { (void)scene.cast(mk::Ray{}); });
+  expect_error(text, [&] { (void)scene.cast({{0, 0, 0}, {0, -0.0, 0}}); });
+  expect_error(text, [&] { (void)scene.occluded(mk::Ray{}); });
+  expect_error(text, [&] { (void)scene.exit(0, mk::Ray{}); });
+  expect_error(text, [&] { (void)scene.prove(mk::Ray{}, mk::Hit{}); });
+  expect_error(text, [&] { (void)mk::cast(ball, mk::Ray{}); });
+  std::vector<mk::Ray> rays(3000, {{-5, 0, 0}, {1, 0, 0}});
+  rays[2047].direction = {};
+  std::vector<mk::Hit> hits(rays.size());
+  expect_error("minkray_scene_cast: rays[2047].direction: must not be zero",
+               [&] { scene.cast(rays, hits); });
+  const double zeros[3] = {0, 0, 0};
+  const minkray_ray_arrays arrays = {sizeof arrays, zeros, 0, zeros, 0, nullptr, 0};
+  minkray_hit_arrays found = {};
+  found.size = sizeof found;
+  EXPECT_EQ(minkray_scene_cast_arrays(scene.handle(), &arrays, 1, &found, nullptr),
+            MINKRAY_WRONG_USE);
+  // The least number is a direction.
+  EXPECT_NO_THROW((void)scene.cast({{0, 0, 0}, {0, 0, 5e-324}}));
+}
+
+TEST(Defaults, shapes_that_do_not_meet_have_no_time_of_impact) {
+  const mk::Shape ball = mk::sphere(1);
+  const auto impact = [&](const mk::Twist& of_a, const mk::Twist& of_b, double t_max) {
+    return mk::time_of_impact(ball, {}, of_a, ball, mk::translation({4, 0, 0}), of_b, t_max);
+  };
+  for (const mk::Vec3& turn : {mk::Vec3{}, mk::Vec3{0, 0, 0.1}}) {
+    const mk::Impact miss = impact({}, {{9, 0, 0}, turn}, 10);
+    EXPECT_EQ(miss.status, mk::no_impact);
+    EXPECT_EQ(miss.t_lo, 10);
+    EXPECT_EQ(miss.t_hi, infinity);
+    const mk::Impact hit = impact({}, {{-1, 0, 0}, turn}, 10);
+    EXPECT_EQ(hit.status, mk::impact);
+    EXPECT_NEAR(hit.t_lo, 2, 1e-8);
+    EXPECT_GE(hit.t_hi, hit.t_lo);
+    EXPECT_LT(hit.t_hi, 2.1);
+    EXPECT_NEAR(hit.point_a.x, 1, 1e-6);
+    EXPECT_NEAR(hit.point_a[0], 1, 1e-6);
+  }
+  const mk::Impact inside = mk::time_of_impact(ball, {}, {}, ball, {}, {}, 1);
+  EXPECT_EQ(inside.status, mk::begins_inside);
+  EXPECT_TRUE(std::isfinite(inside.t_hi));
+}
+
+TEST(Defaults, statuses_of_pairs_have_names) {
+  const mk::Shape ball = mk::sphere(1);
+  const auto status = [&](double x) {
+    return mk::signed_distance(ball, {}, ball, mk::translation({x, 0, 0})).status;
+  };
+  EXPECT_EQ(status(3), mk::separated);
+  EXPECT_EQ(status(2), mk::touching);
+  EXPECT_EQ(status(1), mk::overlapping);
+  EXPECT_EQ(status(3), MINKRAY_SEPARATED);
+}
+
+TEST(Defaults, views_of_other_sizes_are_errors_that_say_both) {
+  mk::Scene scene;
+  scene.add(mk::sphere(1));
+  scene.commit();
+  const std::vector<mk::Ray> rays(3, {{-5, 0, 0}, {1, 0, 0}});
+  std::vector<mk::Hit> hits(2);
+  std::vector<std::uint8_t> blocked(4);
+  std::vector<mk::Proof> proofs(3);
+  expect_error("minkray::Scene::cast: hits: must be as many as rays, 3 (got 2)",
+               [&] { scene.cast(rays, hits); });
+  expect_error("minkray::Scene::occluded: answers: must be as many as rays, 3 (got 4)",
+               [&] { scene.occluded(rays, blocked); });
+  expect_error("minkray::Scene::prove: hits: must be as many as rays, 3 (got 2)",
+               [&] { scene.prove(rays, hits, proofs); });
+  try {
+    scene.cast(rays, hits);
+  } catch (const mk::Error& error) {
+    EXPECT_EQ(error.code(), MINKRAY_WRONG_USE);
+  }
+}
+
+TEST(Defaults, what_a_support_function_throws_is_told) {
+  bool throws = true;
+  const auto support = [&](const mk::Vec3& n) {
+    if (throws) throw std::runtime_error("boom");
+    return n;
+  };
+  expect_error("the support function failed: boom", [&] { (void)mk::custom(support); });
+  const auto batched = [&](mk::View<const mk::Vec3> n, mk::View<mk::Vec3> p) {
+    for (std::size_t i = 0; i < n.size(); ++i) p[i] = support(n[i]);
+  };
+  expect_error("failed: boom", [&] { (void)mk::custom_batched(batched, 64); });
+  throws = false;
+  const mk::Shape ball = mk::custom(support);
+  throws = true;
+  expect_error("minkray_shape_cast: the support function failed: boom", [&] {
+    (void)mk::cast(ball, {{-5, 0.1, 0}, {1, 0, 0}});
+  });
+  // A function for C that throws is its caller's fault, too; and one that says why it fails.
+  minkray_support given = {};
+  given.function = [](void*, size_t, const double(*)[3], double(*)[3]) -> int {
+    throw std::runtime_error("thrown through C");
+  };
+  minkray_shape shape;
+  EXPECT_EQ(minkray_shape_custom(&given, &shape), MINKRAY_BAD_SUPPORT);
+  EXPECT_NE(std::string(minkray_last_error()).find("failed: thrown through C"), std::string::npos);
+  given.function = [](void*, size_t, const double(*)[3], double(*)[3]) -> int {
+    minkray_support_failed("no file");
+    return 7;
+  };
+  EXPECT_EQ(minkray_shape_custom(&given, &shape), MINKRAY_BAD_SUPPORT);
+  EXPECT_NE(std::string(minkray_last_error()).find("failed: no file"), std::string::npos);
+}
+
+TEST(Defaults, what_a_progress_callback_throws_is_its_own_fault) {
+  mk::Scene scene;
+  scene.add(mk::sphere(1));
+  scene.commit();
+  const std::vector<mk::Ray> rays(5000, {{-5, 0, 0}, {1, 0, 0}});
+  std::vector<mk::Hit> hits(rays.size());
+  mk::Options options;
+  options.progress = [](void*, double) -> int { throw std::runtime_error("late"); };
+  expect_error("options.progress: must not throw (got \"late\")",
+               [&] { scene.cast(rays, hits, options); });
+}
+
+}  // namespace
