@@ -23,7 +23,7 @@ Mat3<T> inverse_of(const Mat3<T>& linear) {
 /// is as good an inverse as `inverse_of` makes.
 template <class T>
 bool keeps_lengths(const Mat3<T>& linear) {
-  constexpr T rounding = T(3) * std::numeric_limits<T>::epsilon();
+  constexpr T rounding = T(4) * std::numeric_limits<T>::epsilon();
   const Mat3<T> off = linear * linear.transpose() - Mat3<T>::Identity();
   return off.squaredNorm() <= rounding * rounding;
 }

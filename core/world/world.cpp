@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/bvh/traverse.h"
+#include "core/world/single_ray.h"
 
 namespace minkray {
 namespace {
@@ -91,13 +92,56 @@ void World::closer_hit(const WorldRay& ray, SlabRay& slabs, WorldHit& closest,
 
 WorldHit World::closest_hit(const WorldRay& ray, QueryCounts& counts) const {
   WorldHit closest = WorldHit::miss();
-  SlabRay slabs(ray.ray);
-  closer_hit(ray, slabs, closest, counts);
+  if (!closer_candidate(ray, closest, counts)) {
+    SlabRay slabs(ray.ray);
+    closer_hit(ray, slabs, closest, counts);
+  }
   return closest;
+}
+
+bool World::closer_candidate(const WorldRay& ray, WorldHit& closest, QueryCounts& counts) const {
+  if (!has_screen() || instances_.move() || bvh_.nodes.empty()) return false;
+  SingleRay single = single_ray(ray);
+  WorldHit found = WorldHit::miss();
+  QueryCounts own;
+  if (closer_half_space(ray, found, own)) {
+    single.limit = std::min(single.limit, detail::float_above(found.cast.t()));
+    single.slabs.numbers.t_max = single.slabs.limit(found.cast.t());
+  }
+  if (!trace_single_avx2(single_world(), single)) return false;
+  own.nodes += single.nodes;
+  for (std::size_t i = 0; i < single.candidate_count; ++i) {
+    const auto [instance, first] = single.candidates[i];
+    if (!(first <= single.limit)) continue;
+    const CastResult<double> result = cast_ray(instances_.at(instance), ray.ray, options_);
+    own.add_cast(result);
+    if (result.found() && found.yields_to(instance, result.t())) found = {instance, result};
+  }
+  const bool is_met = found.found() && found.cast.t() <= static_cast<double>(single.limit);
+  if (single.is_sure && !is_met) return false;  // a solver failed to converge: nothing is sure
+  closest = found;
+  counts += own;
+  return true;
 }
 
 bool World::occluded(const WorldRay& ray, QueryCounts& counts) const {
   if (blocked_by_half_space(ray, counts)) return true;
+  if (has_screen() && !instances_.move() && !bvh_.nodes.empty()) {
+    SingleRay single = single_ray(ray);
+    single.ends_if_sure = true;
+    const bool is_complete = trace_single_avx2(single_world(), single);
+    counts.nodes += single.nodes;
+    if (single.is_sure) return true;
+    if (is_complete) {
+      for (std::size_t i = 0; i < single.candidate_count; ++i) {
+        const CastResult<double> result =
+            cast_ray(instances_.at(single.candidates[i].instance), ray.ray, options_);
+        counts.add_cast(result);
+        if (result.found()) return true;
+      }
+      return false;
+    }
+  }
   bool met = false;
   auto on_instance = [&](std::uint32_t instance) {
     if (ray.passes(instances_, instance)) return false;
@@ -109,6 +153,20 @@ bool World::occluded(const WorldRay& ray, QueryCounts& counts) const {
   };
   counts.nodes += traverse(bvh_, SlabRay(ray.ray), on_instance, prefetching());
   return met;
+}
+
+SingleRay World::single_ray(const WorldRay& ray) const {
+  SingleRay single;
+  single.ray = &ray.ray;
+  single.slabs = SlabRay(ray.ray);
+  single.skip = ray.skip;
+  single.kinds = ray.kinds;
+  single.limit = detail::float_above(ray.ray.t_max);
+  return single;
+}
+
+SingleWorld World::single_world() const {
+  return {bvh_.nodes.data(), instances_.places(), instances_.screens(), instances_.shown_to()};
 }
 
 bool World::has_screen() const {

@@ -14,6 +14,8 @@
 
 namespace minkray {
 
+struct SingleRay;
+struct SingleWorld;
 struct SlabRay;
 
 /// Answers of up to 64 rays that follow each other, in packets of four.
@@ -90,6 +92,10 @@ class World {
 
  private:
   void build(const FirstTouchVector<Bounds<float>>& boxes);
+  /// By float lanes first; false if they do not decide.
+  bool closer_candidate(const WorldRay& ray, WorldHit& closest, QueryCounts& counts) const;
+  SingleRay single_ray(const WorldRay& ray) const;
+  SingleWorld single_world() const;
   void closer_hit(const WorldRay& ray, SlabRay& slabs, WorldHit& closest,
                   QueryCounts& counts) const;
   /// Half-spaces are in no hierarchy.
