@@ -192,13 +192,18 @@ int minkray_shape_cast(minkray_shape shape, const minkray_pose* pose, const mink
     if (count > 0) require(hits, "hits");
     if (count == 1 && !options && held.customs().empty()) {
       const Ray<double> ray = RaySource(rays, 1)[0];
-      // Nothing is counted: the handle's owner keeps the definition.
-      const ShapeDefinition<double>& definition = *held.definition();
-      const auto placement = definition.placed(pose_of(pose, "pose"));
-      const PreparedShape<double> prepared(
-          definition, placement.centre,
-          placement.is_rigid_identity ? nullptr : &placement.to_inner);
-      WorldHit hit{no_instance, cast_ray(prepared, ray)};
+      WorldHit hit;
+      if (!pose || is_identity(*pose)) {
+        hit.cast = cast_ray(held.prepared(), ray);
+      } else {
+        // Nothing is counted: the handle's owner keeps the definition.
+        const ShapeDefinition<double>& definition = *held.definition();
+        const auto placement = definition.placed(pose_of(pose, "pose"));
+        hit.cast = cast_ray(
+            PreparedShape<double>(definition, placement.centre,
+                                  placement.is_rigid_identity ? nullptr : &placement.to_inner),
+            ray);
+      }
       if (hit.cast.found()) hit.instance = 0;
       *hits = plain_hit(ray, hit, hit.cast.status == Status::exhausted);
       return;

@@ -6,6 +6,7 @@
 #include <memory>
 #include <mutex>
 
+#include "core/cast/prepared_shape.h"
 #include "core/contact/contact_shape.h"
 #include "core/model/shape_definition.h"
 #include "renderer/library/custom_support.h"
@@ -25,6 +26,12 @@ class HeldShape {
   /// For queries on pairs.
   const ContactShape& contact() const {
     return *contact_.get([&] { return std::make_shared<const ContactShape>(*shape_); });
+  }
+  /// For rays at the shape where it is.
+  const PreparedShape<double>& prepared() const {
+    return *prepared_.get([&] {
+      return std::make_shared<const PreparedShape<double>>(definition(), Affine<double>());
+    });
   }
   /// For rays.
   const std::shared_ptr<const ShapeDefinition<double>>& definition() const {
@@ -57,6 +64,7 @@ class HeldShape {
   std::vector<std::shared_ptr<const CustomSupport>> customs_;
   Once<ContactShape> contact_;
   Once<ShapeDefinition<double>> definition_;
+  Once<PreparedShape<double>> prepared_;
 };
 
 /// All that there are.

@@ -2,10 +2,18 @@
 // Poses, points and numbers that come over the border, looked at before anything is made of them.
 #pragma once
 
+#include <cstring>
+
 #include "core/math/affine.h"
 #include "renderer/library/c_header.h"
 
 namespace minkray {
+
+/// Whether it is the identity, number by number.
+inline bool is_identity(const minkray_pose& pose) {
+  static constexpr minkray_pose identity = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+  return std::memcmp(&pose, &identity, sizeof pose) == 0;
+}
 
 /// A map, and whether it keeps lengths.
 struct ReadPose {

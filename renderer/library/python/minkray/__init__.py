@@ -15,7 +15,8 @@ float64; others are converted. What is wrong is a `minkray.Error`, which is a `V
 from . import _minkray
 from ._minkray import Error, Shape
 from .answers import EXHAUSTED, HIT, INSIDE, MISS, NO_OBJECT, Clearance, Hits, Proofs, Status
-from .scene import Robot, Scene
+from .robots import Robot
+from .scene import Scene
 from .rays import lidar, pinhole
 from .shapes import (box, capsule, cone, custom, cut_cylinder, cylinder, difference, disk, ellipsoid,
                      frustum, hull, hull_of, make, point, read_shape, rounded, scaled, segment, sphere,

@@ -110,8 +110,8 @@ def whole_number_of(value, argument, most=2**32 - 1):
 
 def array_of(value, argument, must_be="an array of numbers"):
     """The value as an array of doubles, if it is one of plain numbers."""
-    parts = value if isinstance(value, (list, tuple)) else [value]
-    if any(np.ma.isMaskedArray(part) for part in parts):
+    parts = value if isinstance(value, (list, tuple)) else (value,)
+    if any(isinstance(part, np.ma.MaskedArray) for part in parts):
         raise Error(f"{argument}: must not be a masked array: fill it first")
     try:
         array = np.asarray(value)
@@ -145,16 +145,20 @@ def vectors_of(value, argument, width, ndim=None):
     return array
 
 
+_LAST_ROW = np.array([0.0, 0, 0, 1])
+_IDENTITY = np.eye(4)[:3]
+
+
 def poses_of(value, argument):
     """Matrices (..., 3, 4) of one such as (..., 4, 4); the identity for None."""
     if value is None:
-        return np.eye(4)[:3]
+        return _IDENTITY
     if isinstance(value, (list, tuple)) and any(one is None for one in value):
         value = [np.eye(4) if one is None else one for one in value]
     array = array_of(value, argument, "a (4, 4) matrix")
     if array.ndim < 2 or array.shape[-2:] not in ((3, 4), (4, 4)):
         raise Error(f"{argument}: must be a (4, 4) matrix (got the shape {array.shape})")
-    if not (array[..., 3:, :] == (0, 0, 0, 1)).all():
+    if array.shape[-2] == 4 and not (array[..., 3, :] == _LAST_ROW).all():
         raise Error(f"{argument}: the last row must be (0, 0, 0, 1)")
     return array[..., :3, :]
 
@@ -165,3 +169,10 @@ def pose_of(value, argument="pose"):
     if poses is not None and poses.ndim != 2:
         raise Error(f"{argument}: must be a (4, 4) matrix (got the shape {np.shape(value)})")
     return poses
+
+
+def given_pose_of(value, argument="pose"):
+    """One such matrix, which must be there."""
+    if value is None:
+        raise Error(f"{argument}: must be a (4, 4) matrix (got None)")
+    return pose_of(value, argument)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Distances and times of impact of pairs of shapes."""
 import enum
+import math
 
 import numpy as np
 
@@ -98,29 +99,30 @@ class _Pairs:
     def __init__(self, **arguments):
         """Takes an array and how many axes of it are of one pair, for each argument."""
         self._given = arguments
-        shapes = {name: array.shape[:array.ndim - own] for name, (array, own) in arguments.items()}
+        shapes = [array.shape[:array.ndim - own] for array, own in arguments.values()]
+        lists = {shape for shape in shapes if shape} or {()}
         try:
-            self.shape = np.broadcast_shapes(*shapes.values())
+            self.shape = lists.pop() if len(lists) == 1 else np.broadcast_shapes(*lists)
         except ValueError:
-            raise Error(f"{', '.join(shapes)}: must have shapes that go together (got "
-                        f"{', '.join(map(str, shapes.values()))})") from None
-        self.count = int(np.prod(self.shape))
+            raise Error(f"{', '.join(arguments)}: must have shapes that go together (got "
+                        f"{', '.join(map(str, shapes))})") from None
+        self.count = math.prod(self.shape)
 
     def __getitem__(self, name):
         """Numbers, or a list of shapes: of one pair if all have the same, else of each."""
         array, own = self._given[name]
         tail = array.shape[array.ndim - own:]
-        if array.size != int(np.prod(tail)):
+        if array.size != math.prod(tail):
             array = np.broadcast_to(array, self.shape + tail)
         return array.ravel().tolist() if array.dtype == object else np.ascontiguousarray(array)
 
     def answer(self, kind, status, fields):
         """Its fields in the arguments' shape; of one pair they are numbers."""
-        fields = {name: values.reshape(self.shape + values.shape[1:]) for name, values in fields.items()}
         if self.shape == ():
-            fields = {name: status(int(value)) if name == "status" else value if value.ndim else float(value)
-                      for name, value in fields.items()}
-        return kind(fields)
+            return kind({name: status(int(values[0])) if name == "status"
+                         else values[0] if values.ndim > 1 else float(values[0])
+                         for name, values in fields.items()})
+        return kind({name: values.reshape(self.shape + values.shape[1:]) for name, values in fields.items()})
 
 
 @public

@@ -7,66 +7,10 @@ import numpy as np
 
 from . import _minkray
 from .answers import EXHAUSTED, HIT, NO_OBJECT, Clearance, Hits, Proofs
-from .calls import (Error, array_of, name_of, number_of, pose_of, public, shape_of, text_of, vectors_of,
-                    whole_number_of)
+from .calls import (Error, array_of, given_pose_of, name_of, number_of, pose_of, public, shape_of,
+                    text_of, vectors_of, whole_number_of)
 from .rays import pinhole
-
-
-class _Joints:
-    """Values of joints by name: assigning moves the robot at the next question."""
-
-    def __init__(self, group, changed):
-        self._group, self._changed = group, changed
-
-    def set(self, name, value):
-        """Sets one, by the name of the joint."""
-        names = self._group.joints
-        if name not in names:
-            raise Error(f"must be the name of one that moves: {', '.join(names) or 'there is none'} "
-                        f"(got {name!r})")
-        numbers = array_of(value, name)
-        if not np.isfinite(numbers).all():
-            raise Error(f"{name}: must be finite (got {value})")
-        self._group.set(name, np.atleast_1d(numbers))
-        self._changed()
-
-    def get(self, name):
-        """What one is set to."""
-        names = self._group.joints
-        if name not in names:
-            raise Error(f"must be the name of one that moves: {', '.join(names) or 'there is none'} "
-                        f"(got {name!r})")
-        value = self._group.value(names.index(name))
-        return float(value[0]) if len(value) == 1 else value
-
-    def __setitem__(self, name, value):
-        public(self.set, "Robot.joints")(name, value)
-
-    def __getitem__(self, name):
-        return public(self.get, "Robot.joints")(name)
-
-    def __iter__(self):
-        return iter(self._group.joints)
-
-    def __len__(self):
-        return len(self._group.joints)
-
-    def __contains__(self, name):
-        return name in self._group.joints
-
-    def keys(self):
-        return self._group.joints
-
-    def values(self):
-        return [self[name] for name in self]
-
-    def items(self):
-        return [(name, self[name]) for name in self]
-
-    def __repr__(self):
-        shown = ", ".join(f"{name}: {np.array2string(np.asarray(value), separator=', ')}"
-                          for name, value in self.items())
-        return f"<joints {shown}>"
+from .robots import Robot
 
 
 def _threads(number):
@@ -82,76 +26,6 @@ class _Names(list):
         if not isinstance(number, slice) and number == NO_OBJECT:
             return None
         return super().__getitem__(number)
-
-
-class Robot:
-    """What came from one file.
-
-    Attributes
-    ----------
-    objects : range
-        Their numbers.
-    joint_names : list of str
-    joints : mapping
-        ``robot.joints["elbow"] = 0.4``, or ``robot.joints = {...}``, or an array in the order of
-        `joint_names`: radians or lengths. ``robot.joints["elbow"]`` is what it is set to.
-    """
-
-    def __init__(self, group, scene, changed):
-        self._group, self._scene, self._changed = group, scene, changed
-        self._joints = _Joints(group, changed)
-        self.objects = range(group.first, group.first + group.size)
-
-    @property
-    def joint_names(self):
-        """list of str : those of the joints that move, in the file's order."""
-        return self._group.joints
-
-    @property
-    def joints(self):
-        """mapping : values by name, in radians or lengths; assigning moves the robot."""
-        return self._joints
-
-    @joints.setter
-    def joints(self, values):
-        public(self._set_joints, "Robot.joints")(values)
-
-    def _set_joints(self, values):
-        names = self.joint_names
-        if not hasattr(values, "items"):
-            values = list(values)
-            if len(values) != len(names):
-                raise Error(f"must be {len(names)} values, of {', '.join(names) or 'no joints'} "
-                            f"(got {len(values)})")
-            values = dict(zip(names, values))
-        unknown = [name for name in values.keys() if name not in names]
-        if unknown:
-            raise Error(f"must be names of those that move: {', '.join(names) or 'there is none'} "
-                        f"(got {unknown[0]!r})")
-        for name, value in values.items():
-            self._joints.set(name, value)
-
-    @public
-    def set_pose(self, pose):
-        """Moves all of it.
-
-        Parameters
-        ----------
-        pose : (4, 4) array
-            From the file's frame to the world.
-        """
-        self._group.set_pose(_given(pose))
-        self._changed()
-
-    def __repr__(self):
-        return f"<minkray.Robot of {len(self.objects)} objects, {len(self.joint_names)} joints>"
-
-
-def _given(pose):
-    """A pose that must be there."""
-    if pose is None:
-        raise Error("pose: must be a (4, 4) matrix (got None)")
-    return pose_of(pose)
 
 
 class Scene:
@@ -353,7 +227,7 @@ class Scene:
         pose : (4, 4) array
             From the shape's frame to the world; any invertible map.
         """
-        self._scene.set_pose(whole_number_of(object, "object"), _given(pose))
+        self._scene.set_pose(whole_number_of(object, "object"), given_pose_of(pose))
         self._changed()
 
     @public

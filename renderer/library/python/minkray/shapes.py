@@ -3,7 +3,7 @@
 import numpy as np
 
 from . import _minkray
-from .calls import (Error, Shape, array_of, name_of, pose_of, public, shape_of, shapes_of,
+from .calls import (Error, Shape, array_of, given_pose_of, name_of, public, shape_of, shapes_of,
                     text_of, vectors_of)
 
 
@@ -380,9 +380,7 @@ def transformed(shape, matrix):
     -------
     Shape
     """
-    if matrix is None:
-        raise Error("matrix: must be a (4, 4) matrix (got None)")
-    return _transformed(shape, pose_of(matrix, "matrix"), "matrix")
+    return _transformed(shape, given_pose_of(matrix, "matrix"), "matrix")
 
 
 @public
