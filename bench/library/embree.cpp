@@ -8,7 +8,7 @@
 namespace bench {
 namespace {
 
-using Number = EmbreeScene::Number;
+using Numbers = EmbreeScene::Numbers;
 
 constexpr float infinite = std::numeric_limits<float>::infinity();
 
@@ -20,9 +20,10 @@ RTCIntersectContext context_for(bool coherent) {
   return context;
 }
 
-Answer answer_of(Number number, float t, unsigned geometry, unsigned primitive, unsigned instance) {
+Answer answer_of(const Numbers& numbers, float t, unsigned geometry, unsigned primitive,
+                 unsigned instance) {
   if (geometry == RTC_INVALID_GEOMETRY_ID) return {};
-  return {t, number == Number::instance ? instance : number == Number::primitive ? primitive : 0};
+  return {t, numbers.are_instances ? instance : primitive / numbers.primitives_an_object};
 }
 
 /// Embree marks an occluded ray by a negative end.
@@ -32,7 +33,7 @@ Answer shadow_of(float t) {
 
 struct Asked {
   RTCScene scene;
-  Number number;
+  Numbers numbers;
   Question question;
   bool coherent;
   const std::vector<mk::Ray>& rays;
@@ -82,7 +83,7 @@ class Singles : public Caster {
     std::vector<Answer> all;
     for (const RTCRayHit& query : queries_)
       all.push_back(asked_.question == Question::first_hit
-                        ? answer_of(asked_.number, query.ray.tfar, query.hit.geomID,
+                        ? answer_of(asked_.numbers, query.ray.tfar, query.hit.geomID,
                                     query.hit.primID, query.hit.instID[0])
                         : shadow_of(query.ray.tfar));
     return all;
@@ -164,7 +165,7 @@ class Packets : public Caster {
       const Packet& packet = packets_[i / N];
       const std::size_t lane = i % N;
       all.push_back(asked_.question == Question::first_hit
-                        ? answer_of(asked_.number, packet.ray.tfar[lane], packet.hit.geomID[lane],
+                        ? answer_of(asked_.numbers, packet.ray.tfar[lane], packet.hit.geomID[lane],
                                     packet.hit.primID[lane], packet.hit.instID[0][lane])
                         : shadow_of(packet.ray.tfar[lane]));
     }
@@ -220,7 +221,7 @@ EmbreeScene::EmbreeScene() : device_(rtcNewDevice("threads=1")), scene_(nullptr)
 EmbreeScene::EmbreeScene(EmbreeScene&& other) noexcept
     : device_(std::exchange(other.device_, nullptr)),
       scene_(std::exchange(other.scene_, nullptr)),
-      number_(other.number_) {}
+      numbers_(other.numbers_) {}
 
 EmbreeScene::~EmbreeScene() {
   if (scene_) rtcReleaseScene(scene_);
@@ -229,7 +230,7 @@ EmbreeScene::~EmbreeScene() {
 
 EmbreeScene EmbreeScene::instances(const Subject& subject, const std::vector<Mesh>& meshes) {
   EmbreeScene made;
-  made.number_ = Number::instance;
+  made.numbers_.are_instances = true;
   std::vector<RTCScene> shapes;
   for (const Mesh& mesh : meshes) {
     shapes.push_back(rtcNewScene(made.device_));
@@ -252,7 +253,6 @@ EmbreeScene EmbreeScene::instances(const Subject& subject, const std::vector<Mes
 
 EmbreeScene EmbreeScene::spheres(const Subject& subject) {
   EmbreeScene made;
-  made.number_ = Number::primitive;
   RTCGeometry geometry = rtcNewGeometry(made.device_, RTC_GEOMETRY_TYPE_SPHERE_POINT);
   rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
   auto* to = static_cast<float*>(buffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT4,
@@ -266,16 +266,30 @@ EmbreeScene EmbreeScene::spheres(const Subject& subject) {
   return made;
 }
 
+EmbreeScene EmbreeScene::flat(const Subject& subject, const Mesh& mesh) {
+  Mesh all;
+  for (const Placed& object : subject.objects) {
+    const auto first = static_cast<std::uint32_t>(all.vertices.size());
+    for (const Vec& vertex : mesh.vertices) all.vertices.push_back(at(object.pose, vertex));
+    for (const auto& [a, b, c] : mesh.triangles)
+      all.triangles.push_back({first + a, first + b, first + c});
+  }
+  EmbreeScene made = triangles(all);
+  made.numbers_.primitives_an_object = static_cast<unsigned>(mesh.triangles.size());
+  return made;
+}
+
 EmbreeScene EmbreeScene::triangles(const Mesh& mesh) {
   EmbreeScene made;
   add_mesh(made.device_, made.scene_, mesh);
   commit(made.scene_);
+  made.numbers_.primitives_an_object = static_cast<unsigned>(mesh.triangles.size());
   return made;
 }
 
 void EmbreeScene::add_casters(Casters& to, const std::vector<mk::Ray>& rays, Question question,
                               bool coherent) const {
-  const Asked asked{scene_, number_, question, coherent, rays};
+  const Asked asked{scene_, numbers_, question, coherent, rays};
   to.push_back(std::make_unique<Singles>(asked, false));
   to.push_back(std::make_unique<Singles>(asked, true));
   to.push_back(std::make_unique<Packets<8>>(asked, false));
@@ -286,7 +300,8 @@ void EmbreeScene::add_casters(Casters& to, const std::vector<mk::Ray>& rays, Que
 }
 
 std::unique_ptr<Caster> EmbreeScene::single(const std::vector<mk::Ray>& rays) const {
-  return std::make_unique<Singles>(Asked{scene_, number_, Question::first_hit, false, rays}, false);
+  return std::make_unique<Singles>(Asked{scene_, numbers_, Question::first_hit, false, rays},
+                                   false);
 }
 
 }  // namespace bench

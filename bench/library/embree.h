@@ -17,6 +17,9 @@ class EmbreeScene {
   static EmbreeScene instances(const Subject& subject, const std::vector<Mesh>& meshes);
   /// One geometry of Embree's own spheres.
   static EmbreeScene spheres(const Subject& subject);
+  /// All triangles of all objects in one geometry: faster than instances where they are few, and
+  /// larger. The subject has one body.
+  static EmbreeScene flat(const Subject& subject, const Mesh& mesh);
   /// The triangles of one mesh, where they are.
   static EmbreeScene triangles(const Mesh& mesh);
 
@@ -31,14 +34,18 @@ class EmbreeScene {
   /// rtcIntersect1 alone.
   std::unique_ptr<Caster> single(const std::vector<mk::Ray>& rays) const;
 
-  enum class Number { instance, primitive, none };  ///< that says which object is met
+  /// Says which object is met: the instance, or so many primitives each.
+  struct Numbers {
+    bool are_instances = false;
+    unsigned primitives_an_object = 1;
+  };
 
  private:
   EmbreeScene();
 
   RTCDevice device_;
   RTCScene scene_;
-  Number number_ = Number::none;
+  Numbers numbers_;
 };
 
 }  // namespace bench

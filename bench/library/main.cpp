@@ -6,6 +6,8 @@
 //
 // Prints a table; exit code 1 if a goal is missed or answers disagree. Each section runs in a
 // process of its own, so that none sees the heap or the threads of another.
+#include <signal.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -83,6 +85,7 @@ std::string output_of(const std::vector<std::string>& words, const std::string& 
   const pid_t child = fork();
   if (child < 0) throw std::runtime_error("no process");
   if (child == 0) {
+    prctl(PR_SET_PDEATHSIG, SIGTERM);  // ends with this process
     dup2(ends[1], STDOUT_FILENO);
     close(ends[0]);
     close(ends[1]);

@@ -19,13 +19,14 @@ struct SceneRow {
   double scattered, camera;  ///< the goals; 0: none
   bool own_spheres = false;  ///< beside Embree's spheres, and not triangles
   double scattered_shadows = 0, light_shadows = 0;
+  bool flat = false;  ///< also beside all triangles in one geometry; that is no goal
 };
 
 const std::vector<SceneRow> scene_rows = {
     {"rounded boxes", 100'000, 2.0, 1.8, false, 1.8, 1.2},
     {"spheres", 100'000, 1.1, 1.9, true},
     {"ellipsoids", 100'000, 4.5, 4.5},
-    {"hulls of 16", 100'000, 2.5, 1.7},
+    {"hulls of 16", 100'000, 2.5, 1.7, false, 0, 0, true},
     {"hulls of 64", 100'000, 1.4, 1.3},
     {"eight kinds", 100'000, 2.0, 1.5},
     {"rounded boxes", 1'000'000, 2.4, 0},
@@ -45,8 +46,10 @@ class Arena {
         row_(row),
         subject_(make_subject(row.kind, row.objects)),
         ours_(scene_of(subject_)),
-        triangles_(EmbreeScene::instances(subject_, meshes())) {
+        meshes_(meshes()),
+        triangles_(EmbreeScene::instances(subject_, meshes_)) {
     if (row.own_spheres) spheres_.emplace(EmbreeScene::spheres(subject_));
+    if (row.flat) flat_.emplace(EmbreeScene::flat(subject_, meshes_[0]));
   }
 
   void run() {
@@ -77,33 +80,30 @@ class Arena {
     for (const Body& body : subject_.bodies) largest = std::max(largest, body.radius);
     return mesh_error * largest;
   }
+  /// "Embree's 3,748 triangles, ": of all meshes.
+  std::string triangles_name() const {
+    std::size_t count = 0;
+    for (const Mesh& mesh : meshes_) count += mesh.triangles.size();
+    return "Embree's " + with_commas(count) + " triangles, ";
+  }
   const EmbreeScene& peer() const { return spheres_ ? *spheres_ : triangles_; }
 
   void first_hits(const std::string& rays_name, const std::vector<mk::Ray>& rays, double goal,
                   bool coherent) {
-    Casters span, single, peers, peer_single;
+    Casters span, single, peers, peer_single, flat;
     span.push_back(minkray_span(ours_, rays, Question::first_hit));
     single.push_back(minkray_single(ours_, rays));
     peer().add_casters(peers, rays, Question::first_hit, coherent);
     peer_single.push_back(triangles_.single(rays));
-    race({&span, &peers, &single, &peer_single}, options_.rounds);
-    const std::string name = spheres_ ? "Embree's spheres, " : "Embree's triangles, ";
-    table_.add(Duel{name_of(row_),
-                    rays_name + ", " + with_commas(rays.size()),
-                    *span[0],
-                    fastest(peers),
-                    name,
-                    rays.size(),
-                    goal,
-                    {error()}});
-    table_.add(Duel{name_of(row_),
-                    rays_name + ", one by one",
-                    *single[0],
-                    *peer_single[0],
-                    "Embree's triangles, ",
-                    rays.size(),
-                    single_goal,
-                    {error()}});
+    if (flat_) flat_->add_casters(flat, rays, Question::first_hit, coherent);
+    race({&span, &peers, &single, &peer_single, &flat}, options_.rounds);
+    const std::string all = rays_name + ", " + with_commas(rays.size());
+    add(all, rays, *span[0], fastest(peers), spheres_ ? "Embree's spheres, " : triangles_name(),
+        goal);
+    add(rays_name + ", one by one", rays, *single[0], *peer_single[0], triangles_name(),
+        single_goal);
+    if (flat_)
+      add(all, rays, *span[0], fastest(flat), "all Embree's triangles in one geometry, ", 0);
     if (hash_of(span[0]->answers()) == hash_of(single[0]->answers())) return;
     Figure different;
     different.what = name_of(row_);
@@ -118,14 +118,14 @@ class Arena {
     ours.push_back(minkray_span(ours_, rays, Question::occlusion));
     peer().add_casters(peers, rays, Question::occlusion, coherent);
     race({&ours, &peers}, options_.rounds);
-    table_.add(Duel{name_of(row_),
-                    rays_name + ", " + with_commas(rays.size()),
-                    *ours[0],
-                    fastest(peers),
-                    "Embree's triangles, ",
-                    rays.size(),
-                    goal,
-                    {error()}});
+    add(rays_name + ", " + with_commas(rays.size()), rays, *ours[0], fastest(peers),
+        triangles_name(), goal);
+  }
+
+  void add(const std::string& rays_name, const std::vector<mk::Ray>& rays, const Caster& ours,
+           const Caster& peer, const std::string& peer_name, double goal) {
+    table_.add(
+        Duel{name_of(row_), rays_name, ours, peer, peer_name, rays.size(), goal, Trust{error()}});
   }
 
   Table& table_;
@@ -133,8 +133,9 @@ class Arena {
   const SceneRow& row_;
   Subject subject_;
   mk::Scene ours_;
+  std::vector<Mesh> meshes_;
   EmbreeScene triangles_;
-  std::optional<EmbreeScene> spheres_;
+  std::optional<EmbreeScene> spheres_, flat_;
 };
 
 }  // namespace

@@ -18,7 +18,8 @@ std::vector<mk::Ray> rays_at(const Body& body, const Vec& middle, std::size_t co
   Random random(3);
   std::vector<mk::Ray> rays;
   for (std::size_t i = 0; i < count; ++i) {
-    const Vec target = 0.6 * body.radius * std::cbrt(random.within(0, 1)) * random.direction();
+    const double reach = 0.6 * body.radius * std::cbrt(random.within(0, 1));
+    const Vec target = reach * random.direction();
     const Vec origin = 5 * body.radius * random.direction();
     const Vec direction = normalized(target - origin);
     const auto as_floats = [](const Vec& v) {

@@ -39,5 +39,12 @@ inline Vec normalized(const Vec& v) {
 inline Vec scaled(const Vec& a, const Vec& b) {
   return {a.x * b.x, a.y * b.y, a.z * b.z};
 }
+/// The place of a point under a pose.
+inline Vec at(const mk::Pose& pose, const Vec& p) {
+  const auto row = [&](int i) {
+    return dot(Vec(pose.rows[i][0], pose.rows[i][1], pose.rows[i][2]), p) + pose.rows[i][3];
+  };
+  return {row(0), row(1), row(2)};
+}
 
 }  // namespace bench
