@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+// A million rays in one NumPy array, beside the same in C++. Python runs beside this program and
+// casts in turn with it.
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+
+#include "rays.h"
+#include "sections.h"
+
+namespace bench {
+namespace {
+
+constexpr std::size_t object_count = 100'000, ray_count = 1'000'000;
+constexpr double goal = 0.85;
+
+/// A folder that is removed at the end.
+class Folder {
+ public:
+  Folder() {
+    std::string name = (std::filesystem::temp_directory_path() / "library-bench-XXXXXX").string();
+    if (!mkdtemp(name.data())) throw std::runtime_error("cannot make a folder: " + name);
+    path_ = name;
+  }
+  ~Folder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+
+  std::string operator/(const char* name) const { return path_ / name; }
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+template <class T>
+void write(const std::string& file, const std::vector<T>& values) {
+  std::ofstream out(file, std::ios::binary);
+  out.write(reinterpret_cast<const char*>(values.data()),
+            static_cast<std::streamsize>(values.size() * sizeof(T)));
+  if (!out.flush()) throw std::runtime_error("cannot write " + file);
+}
+
+template <class T>
+std::vector<T> read(const std::string& file, std::size_t count) {
+  std::vector<T> values(count);
+  std::ifstream in(file, std::ios::binary);
+  in.read(reinterpret_cast<char*>(values.data()), static_cast<std::streamsize>(count * sizeof(T)));
+  if (!in) throw std::runtime_error("cannot read " + file);
+  return values;
+}
+
+/// The interpreter, with a socket for its input and output.
+class Python : public Caster {
+ public:
+  Python(const std::string& interpreter, const Folder& folder, std::size_t rays)
+      : Caster("Python"), folder_(folder), rays_(rays) {
+    int ends[2];
+    if (socketpair(AF_UNIX, SOCK_STREAM, 0, ends) != 0) throw std::runtime_error("no socket");
+    child_ = fork();
+    if (child_ < 0) throw std::runtime_error("cannot start " + interpreter);
+    if (child_ == 0) {
+      dup2(ends[1], STDIN_FILENO);
+      dup2(ends[1], STDOUT_FILENO);
+      close(ends[0]);
+      close(ends[1]);
+      execlp(interpreter.c_str(), interpreter.c_str(), PYTHON_RAYS, folder.path().c_str(), nullptr);
+      _exit(127);
+    }
+    close(ends[1]);
+    socket_ = ends[0];
+    if (line() != "ready") throw std::runtime_error("Python: could not make its scene");
+  }
+  ~Python() override { finish(); }
+  Python(const Python&) = delete;
+  Python& operator=(const Python&) = delete;
+
+  void cast() override { timed_cast(); }
+  double timed_cast() override {
+    if (::write(socket_, "cast\n", 5) != 5) throw std::runtime_error("Python: ended");
+    return 1e-9 * std::stod(line());
+  }
+  /// Lets Python end.
+  std::vector<Answer> answers() const override {
+    finish();
+    const auto t = read<double>(folder_ / "t", rays_);
+    const auto object = read<std::uint32_t>(folder_ / "object", rays_);
+    std::vector<Answer> all;
+    for (std::size_t i = 0; i < rays_; ++i)
+      all.push_back(object[i] == mk::no_object ? Answer{} : Answer{t[i], object[i]});
+    return all;
+  }
+
+ private:
+  std::string line() {
+    std::string text;
+    for (char c = 0; ::read(socket_, &c, 1) == 1 && c != '\n';) text += c;
+    if (text.empty()) throw std::runtime_error("Python: ended");
+    return text;
+  }
+  void finish() const {
+    if (child_ <= 0) return;
+    shutdown(socket_, SHUT_WR);
+    waitpid(child_, nullptr, 0);
+    close(socket_);
+    child_ = 0;
+  }
+
+  const Folder& folder_;
+  std::size_t rays_;
+  mutable pid_t child_ = 0;
+  int socket_ = -1;
+};
+
+void measure(Table& table, const Options& options, bool coherent) {
+  const Subject subject = make_subject("rounded boxes", object_count);
+  const mk::Scene scene = scene_of(subject);
+  // A picture's blocks have 8 x 8 pixels.
+  std::vector<mk::Ray> rays = camera_rays(subject, 1000);
+  if (!coherent) {
+    std::vector<mk::Hit> hits(rays.size());
+    scene.cast(rays, hits, {.threads = 1});
+    rays = scattered_rays(subject, rays, hits, ray_count);
+  }
+  const Folder folder;
+  std::vector<mk::Pose> poses;
+  for (const Placed& object : subject.objects) poses.push_back(object.pose);
+  write(folder / "poses", poses);
+  std::vector<double> rows;
+  for (const mk::Ray& ray : rays)
+    for (const double x : {ray.origin.x, ray.origin.y, ray.origin.z, ray.direction.x,
+                           ray.direction.y, ray.direction.z})
+      rows.push_back(x);
+  write(folder / "rays", rows);
+
+  Casters python, cpp;
+  python.push_back(std::make_unique<Python>(options.python, folder, rays.size()));
+  cpp.push_back(minkray_span(scene, rays, Question::first_hit));
+  race({&python, &cpp}, options.rounds);
+  table.add(Duel{"Python, " + with_commas(object_count) + " rounded boxes",
+                 std::string(coherent ? "camera" : "scattered") + ", " + with_commas(rays.size()),
+                 *python[0],
+                 *cpp[0],
+                 "C++, ",
+                 rays.size(),
+                 goal,
+                 {0, 0}});
+}
+
+}  // namespace
+
+std::vector<Section> python_sections() {
+  std::vector<Section> sections;
+  for (const bool coherent : {false, true})
+    sections.push_back({std::string("Python, ") + (coherent ? "camera" : "scattered"),
+                        [coherent](Table& table, const Options& options) {
+                          if (!options.python.empty()) measure(table, options, coherent);
+                        }});
+  return sections;
+}
+
+}  // namespace bench
