@@ -49,10 +49,6 @@ struct Bvh {
   std::size_t bytes() const { return nodes.capacity() * sizeof(BvhNode); }
 };
 
-/// Rays that walk together: a bit for each, the lowest for ray 0.
-using RayGroupMask = std::uint32_t;
-inline constexpr int ray_group_capacity = 32;
-
 /// No path from the root is longer than this, whatever the boxes.
 inline constexpr int bvh_max_depth = 80;
 

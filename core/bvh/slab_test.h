@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The padded slab tests of core/bvh/ray_group.h in lanes: boxes or rays side by side. All names
+// The padded slab tests of core/bvh/slab_ray.h in lanes: boxes side by side. All names
 // have the type of the lanes in them, and so the instruction set: see core/math/wide.h.
 #pragma once
 
 #include "core/bvh/bvh.h"
-#include "core/bvh/ray_group.h"
+#include "core/bvh/slab_ray.h"
 #include "core/math/wide.h"
 
 namespace minkray {

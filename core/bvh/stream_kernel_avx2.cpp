@@ -129,8 +129,8 @@ template <std::uint32_t count>
     }
 #pragma GCC unroll 8
   for (std::uint32_t k = 0; k < count; ++k) {
-    const __m256 padded =
-        _mm256_add_ps(_mm256_mul_ps(at.leave[k], _mm256_set1_ps(slab_padding)), _mm256_set1_ps(slab_tiny));
+    const __m256 padded = _mm256_add_ps(_mm256_mul_ps(at.leave[k], _mm256_set1_ps(slab_padding)),
+                                        _mm256_set1_ps(slab_tiny));
     const auto met = static_cast<std::uint32_t>(
         _mm256_movemask_ps(_mm256_cmp_ps(at.enter[k], padded, _CMP_LE_OQ)));
     at.children[k] = _mm256_load_si256(reinterpret_cast<const __m256i*>(at.node[k]->children));
@@ -149,7 +149,8 @@ template <std::uint32_t count>
         _mm256_and_si256(_mm256_set1_epi32(static_cast<int>(at.inner[k])), lane_bit),
         _mm256_setzero_si256());
     at.keys[k] = _mm256_or_si256(
-        _mm256_or_si256(_mm256_and_si256(_mm256_castps_si256(at.enter[k]), without_lane), lane_numbers),
+        _mm256_or_si256(_mm256_and_si256(_mm256_castps_si256(at.enter[k]), without_lane),
+                        lane_numbers),
         is_other);
   }
   // Boxes to the queue.
@@ -161,16 +162,15 @@ template <std::uint32_t count>
     store(pair_rays + pairs, _mm256_set1_epi32(static_cast<int>(at.turn[k]->ray)));
     pairs += static_cast<std::uint32_t>(__builtin_popcount(at.boxes[k]));
   }
-#define MINKRAY_LAYER(upper, shuffled)              \
+#define MINKRAY_LAYER(upper, shuffled)                                \
   _Pragma("GCC unroll 8") for (std::uint32_t k = 0; k < count; ++k) { \
-    const __m256i keys = at.keys[k];                \
-    at.keys[k] = compared<upper>(keys, shuffled);   \
+    const __m256i keys = at.keys[k];                                  \
+    at.keys[k] = compared<upper>(keys, shuffled);                     \
   }
   MINKRAY_LAYER(0x55, _mm256_shuffle_epi32(keys, 0xB1))
   MINKRAY_LAYER(0x33, _mm256_shuffle_epi32(keys, 0x1B))
   MINKRAY_LAYER(0x55, _mm256_shuffle_epi32(keys, 0xB1))
-  MINKRAY_LAYER(0x0F,
-                _mm256_permutevar8x32_epi32(keys, _mm256_setr_epi32(7, 6, 5, 4, 3, 2, 1, 0)))
+  MINKRAY_LAYER(0x0F, _mm256_permutevar8x32_epi32(keys, _mm256_setr_epi32(7, 6, 5, 4, 3, 2, 1, 0)))
   MINKRAY_LAYER(0x33, _mm256_shuffle_epi32(keys, 0x4E))
   MINKRAY_LAYER(0x55, _mm256_shuffle_epi32(keys, 0xB1))
 #undef MINKRAY_LAYER
@@ -203,8 +203,8 @@ namespace {
   const __m128i step = _mm256_castsi256_si128(_mm256_permutevar8x32_epi32(
       _mm256_castpd_si256(is_below), _mm256_setr_epi32(0, 2, 4, 6, 0, 2, 4, 6)));
   // A zero counts as positive.
-  const __m128i bits = _mm_castps_si128(
-      _mm_andnot_ps(_mm_cmpeq_ps(nearest, _mm_setzero_ps()), nearest));
+  const __m128i bits =
+      _mm_castps_si128(_mm_andnot_ps(_mm_cmpeq_ps(nearest, _mm_setzero_ps()), nearest));
   const __m128i is_negative = _mm_srai_epi32(bits, 31);
   // step or -step: (step ^ n) - n, with the other sign.
   return _mm_castsi128_ps(
@@ -214,7 +214,8 @@ namespace {
 }  // namespace
 
 void make_slabs_avx2(const char* rays, std::size_t stride, std::size_t count, SlabRay* slabs) {
-  static_assert(offsetof(SlabNumbers, origin_far) == 12 && offsetof(SlabNumbers, inverse_near) == 24 &&
+  static_assert(offsetof(SlabNumbers, origin_far) == 12 &&
+                offsetof(SlabNumbers, inverse_near) == 24 &&
                 offsetof(SlabNumbers, inverse_far) == 36 && offsetof(SlabNumbers, t_max) == 48 &&
                 offsetof(SlabNumbers, near) == 52 && offsetof(SlabRay, steps) >= 64);
   const __m256d sign = _mm256_set1_pd(-0.0);
@@ -236,9 +237,9 @@ void make_slabs_avx2(const char* rays, std::size_t stride, std::size_t count, Sl
     const __m128 inverse = _mm256_cvtpd_ps(_mm256_div_pd(_mm256_set1_pd(1), d));
     // Too large for float, but not without end.
     const __m128 absolute = _mm_andnot_ps(_mm_set1_ps(-0.0f), inverse);
-    const __m128 bounded = _mm_or_ps(
-        _mm_min_ps(absolute, _mm_set1_ps(std::numeric_limits<float>::max())),
-        _mm_and_ps(inverse, _mm_set1_ps(-0.0f)));
+    const __m128 bounded =
+        _mm_or_ps(_mm_min_ps(absolute, _mm_set1_ps(std::numeric_limits<float>::max())),
+                  _mm_and_ps(inverse, _mm_set1_ps(-0.0f)));
     const __m256d is_zero = _mm256_cmp_pd(d, _mm256_setzero_pd(), _CMP_EQ_OQ);
     const __m128 zero = _mm_castsi128_ps(_mm256_castsi256_si128(_mm256_permutevar8x32_epi32(
         _mm256_castpd_si256(is_zero), _mm256_setr_epi32(0, 2, 4, 6, 0, 2, 4, 6))));

@@ -5,7 +5,7 @@
 #include <type_traits>
 
 #include "core/bvh/bvh.h"
-#include "core/bvh/ray_group.h"
+#include "core/bvh/slab_ray.h"
 #include "core/bvh/traverse_kernel.h"
 
 namespace minkray {
@@ -14,10 +14,8 @@ namespace minkray {
 enum class WalkSet : unsigned char { sse2, avx2 };
 WalkSet best_walk_set();
 
-Walk walk(const Bvh& bvh, const SlabNumbers& ray, const BoxVisitor& visitor,
-          WalkSet set = best_walk_set());
-Walk walk(const Bvh& bvh, const RayGroup& group, const BoxVisitor& visitor,
-          WalkSet set = best_walk_set());
+std::uint32_t walk(const Bvh& bvh, const SlabNumbers& ray, const BoxVisitor& visitor,
+                   WalkSet set = best_walk_set());
 
 /// For walks at boxes whose contents are near anyway.
 struct ExpectNothing {
@@ -37,23 +35,10 @@ template <class OnBox, class OnExpected = ExpectNothing>
 std::uint32_t traverse(const Bvh& bvh, const SlabRay& ray, OnBox&& on_box,
                        const OnExpected& on_expected = {}, WalkSet set = best_walk_set()) {
   using Function = std::remove_reference_t<OnBox>;
-  const auto visit = [](void* context, std::uint32_t box, RayGroupMask) -> bool {
+  const auto visit = [](void* context, std::uint32_t box) -> bool {
     return (*static_cast<Function*>(context))(box);
   };
-  return walk(bvh, ray.numbers, {visit, &on_box, expected<OnExpected>, &on_expected}, set).visited;
-}
-
-/// Calls on_box(index, rays) for the boxes that rays of the group meet: to each ray happens what
-/// would happen to it alone, but for the order of boxes, if the walk is complete. It may lower
-/// t_max of rays.
-template <class OnBox, class OnExpected = ExpectNothing>
-Walk traverse(const Bvh& bvh, const RayGroup& group, OnBox&& on_box,
-              const OnExpected& on_expected = {}, WalkSet set = best_walk_set()) {
-  using Function = std::remove_reference_t<OnBox>;
-  const auto visit = [](void* context, std::uint32_t box, RayGroupMask rays) -> bool {
-    return (*static_cast<Function*>(context))(box, rays);
-  };
-  return walk(bvh, group, {visit, &on_box, expected<OnExpected>, &on_expected}, set);
+  return walk(bvh, ray.numbers, {visit, &on_box, expected<OnExpected>, &on_expected}, set);
 }
 
 }  // namespace minkray

@@ -5,7 +5,7 @@
 
 #include <array>
 
-#include "core/bvh/ray_group.h"
+#include "core/bvh/slab_ray.h"
 #include "core/cast/screen.h"
 #include "core/world/instances.h"
 

@@ -205,58 +205,6 @@ TEST(Traverse, loses_nothing_at_shared_faces_and_edges) {
   EXPECT_GT(met, 4500u);
 }
 
-/// Rays of one octant: from about one point, or from anywhere.
-template <class T>
-std::vector<Ray<T>> rays_of_a_group(BoxRandom& random, int count, double spread) {
-  const Vec3<double> from = random.point(12);
-  Vec3<double> towards = random.point(6) - from;
-  std::vector<Ray<T>> rays;
-  int octant = -1;
-  while (static_cast<int>(rays.size()) < count) {
-    Vec3<double> direction = towards + random.point(spread);
-    if (random.below(9) == 0) direction[random.below(3)] = 0;
-    const Ray<T> ray{(from + random.point(spread)).cast<T>(), direction.cast<T>(),
-                     static_cast<T>(random.below(3) ? 1e9 : random.within(0.2, 1))};
-    const int of = SlabRay(ray).octant();
-    if (octant == -1) octant = of;
-    if (of == octant) rays.push_back(ray);
-  }
-  return rays;
-}
-
-// To each ray of a group happens what happens to it alone.
-TYPED_TEST(TraverseOf, ray_groups_find_for_each_ray_what_it_finds_alone) {
-  using T = TypeParam;
-  BoxRandom random;
-  const Boxes boxes = scattered_boxes(3000, random);
-  const Bvh bvh = built(boxes);
-  std::size_t found = 0;
-  for (const double spread : {0.0, 0.1, 4.0})
-    for (const int count : {2, 7, 8, 9, 21, ray_group_capacity})
-      for (int i = 0; i < 10; ++i) {
-        const auto rays = rays_of_a_group<T>(random, count, spread);
-        RayGroup group;
-        for (const Ray<T>& ray : rays) group.add(SlabRay(ray).numbers);
-        group.fill_up();
-        for (const WalkSet set : walk_sets()) {
-          std::vector<BoxSet> together(rays.size());
-          traverse(
-              bvh, group,
-              [&](std::uint32_t index, RayGroupMask which) {
-                for (std::size_t k = 0; k < rays.size(); ++k)
-                  if (which >> k & 1) together[k].insert(index);
-                return false;
-              },
-              ExpectNothing(), set);
-          for (std::size_t k = 0; k < rays.size(); ++k) {
-            EXPECT_EQ(together[k], boxes_found(bvh, rays[k], set));
-            found += together[k].size();
-          }
-        }
-      }
-  EXPECT_GT(found, 3000u);
-}
-
 TEST(Traverse, near_boxes_come_first_and_a_hit_ends_the_search_behind_it) {
   Boxes row;
   for (int i = 0; i < 1024; ++i) row.push_back(box({2.0 * i, 0, 0}, {2.0 * i + 1, 1, 1}));

@@ -12,7 +12,7 @@ namespace {
 
 using namespace testing;
 
-TEST(WorldRayGroups, answers_are_those_of_single_rays) {
+TEST(WorldRays, answers_are_those_of_single_rays) {
   Scatter random;
   const World world(scattered_shapes(300, random));
   std::size_t rays = 0, hits = 0, blocked = 0;
@@ -39,7 +39,7 @@ TEST(WorldRayGroups, answers_are_those_of_single_rays) {
   EXPECT_EQ(blocked, hits);
 }
 
-TEST(WorldRayGroups, no_rays_and_no_world) {
+TEST(WorldRays, no_rays_and_no_world) {
   Scatter random;
   const World world(scattered_shapes(20, random)), empty;
   QueryCounts counts;
@@ -58,7 +58,7 @@ TEST(WorldRayGroups, no_rays_and_no_world) {
   }
 }
 
-TEST(WorldRayGroups, of_instances_at_the_same_t_the_first_is_met) {
+TEST(WorldRays, of_instances_at_the_same_t_the_first_is_met) {
   Scatter random;
   for (const bool backwards : {false, true}) {
     Instances pairs;
@@ -88,7 +88,7 @@ TEST(WorldRayGroups, of_instances_at_the_same_t_the_first_is_met) {
 }
 
 // Rays that come together find what is exhausted, too.
-TEST(WorldRayGroups, other_solvers_are_asked_one_by_one) {
+TEST(WorldRays, other_solvers_are_asked_one_by_one) {
   Scatter random;
   CastOptions<double> impatient;
   impatient.solver = SolverKind::paper;
@@ -105,7 +105,7 @@ TEST(WorldRayGroups, other_solvers_are_asked_one_by_one) {
   EXPECT_GT(together.exhausted, 0u);
 }
 
-TEST(WorldRayGroups, the_build_of_the_hierarchy_does_not_show) {
+TEST(WorldRays, the_build_of_the_hierarchy_does_not_show) {
   Scatter random, again;
   const World quality(scattered_shapes(300, random)),
       speed(scattered_shapes(300, again), {}, BvhBuild::speed);
@@ -139,7 +139,7 @@ void expect_single_answers(const World& world, std::span<const WorldRay> rays, i
   }
 }
 
-TEST(WorldRayGroups, blocks_of_camera_rays_answer_as_single_rays) {
+TEST(WorldRays, blocks_of_camera_rays_answer_as_single_rays) {
   Scatter random;
   std::vector<World> worlds;
   worlds.emplace_back(scattered_instances(2000, random));  // of all kinds, moved, turned and scaled
@@ -175,7 +175,7 @@ TEST(WorldRayGroups, blocks_of_camera_rays_answer_as_single_rays) {
   }
 }
 
-TEST(WorldRayGroups, rays_of_a_block_meet_what_is_shown_to_their_kind) {
+TEST(WorldRays, rays_of_a_block_meet_what_is_shown_to_their_kind) {
   Scatter random;
   Instances shapes = scattered_instances(500, random);
   for (std::size_t i = 0; i < shapes.size(); ++i)
@@ -192,7 +192,7 @@ TEST(WorldRayGroups, rays_of_a_block_meet_what_is_shown_to_their_kind) {
 }
 
 // One world is the tree around what has moved, the other a tree built of it anew.
-TEST(WorldRayGroups, moved_instances_answer_as_if_built_where_they_are) {
+TEST(WorldRays, moved_instances_answer_as_if_built_where_they_are) {
   Scatter random;
   std::vector<Affine<double>> poses(400);
   const Shape<double> shape = Rounded<double>{0.1, Shape<double>(Box<double>{{0.6, 0.5, 0.3}})};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Rays made ready for slab tests against boxes of floats, eight boxes or eight rays at a time. The
-// tests are padded after Ize, "Robust BVH Ray Traversal" (2013), so that rounding never loses a box
-// that the exact ray meets; a group holds several rays and is tested once for all of them.
+// Rays prepared for slab tests against boxes of floats, eight boxes at a time. The tests are padded
+// after Ize, "Robust BVH Ray Traversal" (2013), so that rounding never loses a box that the exact
+// ray meets.
 //
 // Rays of any scalar are tested in float. What float cannot hold is rounded to the safe side: the
 // origin towards where the first planes come earlier and the last ones later. Along the ray, t is
@@ -21,8 +21,7 @@
 
 namespace minkray {
 
-/// What a slab test needs to know of a ray, or of a group. Planes are met first (near) or last
-/// (far); which of a box's planes is the near one is the same for all rays of a group.
+/// What a slab test needs to know of a ray. Planes are met first (near) or last (far).
 struct SlabNumbers {
   float origin_near[3], origin_far[3];
   float inverse_near[3], inverse_far[3];  ///< 1 / direction: infinite where there is no component
@@ -99,89 +98,6 @@ struct SlabRay {
 
   /// The steps beyond which boxes cannot hold anything that is met up to t.
   float limit(double t) const { return static_cast<float>(t * steps) * hit_padding + slab_tiny; }
-
-  /// Rays with the same octant can share a group.
-  int octant() const { return numbers.near[0] | numbers.near[1] << 1 | numbers.near[2] << 2; }
 };
-
-/// Rays of one octant.
-struct RayGroup {
-  SlabNumbers whole;  ///< t_max included: the greatest
-  int count = 0;
-  /// How many leaves that no ray meets may be tested: a group of rays that run apart costs more
-  /// than its rays alone.
-  int patience = std::numeric_limits<int>::max();
-  // Ray by ray; filled up to a multiple of 8.
-  alignas(32) std::array<std::array<float, ray_group_capacity>, 3> origin_near, origin_far,
-      inverse_near, inverse_far;
-  alignas(32) std::array<float, ray_group_capacity> t_max;
-
-  void add(const SlabNumbers& ray);
-
-  /// It must be called behind the last ray.
-  void fill_up();
-
-  /// Boxes beyond that are of no interest to a ray any more. Call `narrow` behind such calls.
-  void set_t_max(int ray, float limit) { t_max[static_cast<std::size_t>(ray)] = limit; }
-  void narrow() { whole.t_max = greatest(t_max.data(), count); }
-
- private:
-  using Four __attribute__((vector_size(16))) = float;
-  /// Of what is filled up, four at a time.
-  template <class Better>
-  static float best(const float* from, int rays, const Better& better) {
-    Four all = *reinterpret_cast<const Four*>(from);
-    for (int i = 4; i < (rays + 7) / 8 * 8; i += 4) {
-      const Four next = *reinterpret_cast<const Four*>(from + i);
-      all = better(next, all) ? next : all;
-    }
-    float one = all[0];
-    for (int i = 1; i < 4; ++i)
-      if (better(all[i], one)) one = all[i];
-    return one;
-  }
-  static float greatest(const float* from, int rays) {
-    return best(from, rays, [](const auto& a, const auto& b) { return a > b; });
-  }
-  static float least(const float* from, int rays) {
-    return best(from, rays, [](const auto& a, const auto& b) { return a < b; });
-  }
-};
-
-inline void RayGroup::add(const SlabNumbers& ray) {
-  const auto at = static_cast<std::size_t>(count);
-  const bool first = count++ == 0;
-  if (first) whole = ray;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto i = static_cast<std::size_t>(axis);
-    origin_near[i][at] = ray.origin_near[i];
-    origin_far[i][at] = ray.origin_far[i];
-    inverse_near[i][at] = ray.inverse_near[i];
-    inverse_far[i][at] = ray.inverse_far[i];
-  }
-  t_max[at] = ray.t_max;
-}
-
-inline void RayGroup::fill_up() {
-  for (auto at = static_cast<std::size_t>(count); at % 8 != 0; ++at) {
-    for (std::size_t i = 0; i < 3; ++i)
-      for (auto* numbers : {&origin_near, &origin_far, &inverse_near, &inverse_far})
-        (*numbers)[i][at] = (*numbers)[i][0];
-    t_max[at] = -1;
-  }
-  // The origin that meets first planes earliest and last planes latest. Planes in front of it: the
-  // first ones by the steepest ray, the last ones by the flattest.
-  for (std::size_t i = 0; i < 3; ++i) {
-    const bool down = whole.near[i] == 1;
-    const auto pick = [&](const auto& numbers, bool is_greatest) {
-      return is_greatest ? greatest(numbers[i].data(), count) : least(numbers[i].data(), count);
-    };
-    whole.origin_near[i] = pick(origin_near, !down);
-    whole.origin_far[i] = pick(origin_far, down);
-    whole.inverse_near[i] = pick(inverse_near, down);
-    whole.inverse_far[i] = pick(inverse_far, !down);
-  }
-  narrow();
-}
 
 }  // namespace minkray

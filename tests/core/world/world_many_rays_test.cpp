@@ -39,14 +39,14 @@ void expect_answers_of_single_rays(const World& world, std::span<const WorldRay>
   EXPECT_EQ(in_stream.exhausted, 2 * alone.exhausted);
 }
 
-TEST(WorldStreams, a_million_rays_at_all_kinds_of_shapes) {
+TEST(WorldManyRays, a_million_rays_at_all_kinds_of_shapes) {
   Scatter random;
   const World world(scattered_instances(3000, random));
   const auto rays = mixed_rays(random, 1000000, world.instances().size());
   expect_answers_of_single_rays(world, rays, 5000);
 }
 
-TEST(WorldStreams, any_cut_and_order_gives_the_same) {
+TEST(WorldManyRays, any_cut_and_order_gives_the_same) {
   Scatter random;
   const World world(scattered_instances(500, random));
   auto rays = mixed_rays(random, 3000, world.instances().size());
@@ -56,7 +56,7 @@ TEST(WorldStreams, any_cut_and_order_gives_the_same) {
   expect_answers_of_single_rays(world, rays, 3000);
 }
 
-TEST(WorldStreams, a_shape_for_each_instance) {
+TEST(WorldManyRays, a_shape_for_each_instance) {
   Scatter random;
   const World world(scattered_shapes(300, random));
   const auto rays = mixed_rays(random, 3000, world.instances().size());
@@ -64,7 +64,7 @@ TEST(WorldStreams, a_shape_for_each_instance) {
     expect_answers_of_single_rays(world, rays, at_once);
 }
 
-TEST(WorldStreams, half_spaces_and_instances_on_the_move) {
+TEST(WorldManyRays, half_spaces_and_instances_on_the_move) {
   Scatter random;
   Instances shapes = scattered_instances(300, random);
   shapes.add(HalfSpaceBody<double>{Vec3<double>(0, 0, 1), -9});
@@ -87,7 +87,7 @@ TEST(WorldStreams, half_spaces_and_instances_on_the_move) {
   expect_answers_of_single_rays(world, rays, 3000);
 }
 
-TEST(WorldStreams, other_solvers_find_what_they_find_alone) {
+TEST(WorldManyRays, other_solvers_find_what_they_find_alone) {
   Scatter random;
   CastOptions<double> impatient;
   impatient.solver = SolverKind::paper;
@@ -102,7 +102,7 @@ TEST(WorldStreams, other_solvers_find_what_they_find_alone) {
   EXPECT_GT(in_stream.exhausted, 0u);
 }
 
-TEST(WorldStreams, no_rays_and_no_world) {
+TEST(WorldManyRays, no_rays_and_no_world) {
   const World empty;
   QueryCounts counts;
   empty.closest_hits({}, {}, counts);
