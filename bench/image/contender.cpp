@@ -10,11 +10,10 @@ namespace minkray::bench {
 
 std::vector<Contender> contenders_for(const Scene& scene, const ContenderWishes& wishes) {
   std::vector<Contender> all;
-  all.push_back({std::string(ours), [](const Scene& s, int) { return exact_shapes<float>(s); }, 0});
-  all.push_back({"minkray/double", [](const Scene& s, int) { return exact_shapes<double>(s); }, 0});
+  all.push_back({std::string(ours), [](const Scene& s, int) { return exact_shapes(s); }, 0});
   if (wishes.fast_build)
     all.push_back({"minkray, fast build",
-                   [](const Scene& s, int) { return exact_shapes<float>(s, BvhBuild::speed); }, 0});
+                   [](const Scene& s, int) { return exact_shapes(s, BvhBuild::speed); }, 0});
   for (const double error : wishes.mesh_errors) {
     const auto meshes = std::make_shared<const Meshes>(meshes_of(scene, error));
     std::ostringstream name;

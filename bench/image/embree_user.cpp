@@ -98,25 +98,27 @@ class UserGeometry : public Tracer {
 
 class OurCast {
  public:
-  explicit OurCast(const Scene& scene) : instances_(instances_of<float>(scene)) {}
+  explicit OurCast(const Scene& scene) : instances_(instances_of(scene)) {}
 
   FirstTouchVector<Bounds<float>> take_boxes() { return instances_.take_boxes(); }
   std::size_t bytes() const { return instances_.bytes(); }
   FirstHit cast(unsigned instance, const Ray<float>& ray) const {
-    const CastResult<float> result = cast_ray(instances_.at(instance), ray);
-    if (result.status != Status::hit || !(result.t() < ray.t_max)) return {};
-    return {result.t(), instance, result.normal};
+    const CastResult<double> result = cast_ray(
+        instances_.at(instance),
+        Ray<double>{ray.origin.cast<double>(), ray.direction.cast<double>(), double(ray.t_max)});
+    if (result.status != Status::hit || !(result.t() < double(ray.t_max))) return {};
+    return {static_cast<float>(result.t()), instance, result.normal.cast<float>()};
   }
 
  private:
-  Instances<float> instances_;
+  Instances instances_;
 };
 
 /// Rounded boxes by the formula.
 class ClosedForm {
  public:
   explicit ClosedForm(const Scene& scene) {
-    boxes_ = instances_of<float>(scene).take_boxes();
+    boxes_ = instances_of(scene).take_boxes();
     for (const Shape<double>& shape : shapes_of(scene)) {
       const auto& rounded = std::get<Rounded<double>>(shape.kind);
       const auto& box = std::get<Box<double>>(rounded.shape->kind);

@@ -37,7 +37,7 @@ MemoryOfUnshared measure_memory(std::size_t exact_objects, std::size_t meshes,
   {
     const Scene scene = unshared_boxes(exact_objects);
     const double before = heap_bytes();
-    const std::unique_ptr<Tracer> tracer = exact_shapes<float>(scene);
+    const std::unique_ptr<Tracer> tracer = exact_shapes(scene);
     memory.our_heap_bytes = (heap_bytes() - before) / static_cast<double>(exact_objects);
     memory.our_bytes = static_cast<double>(tracer->bytes()) / static_cast<double>(exact_objects);
   }

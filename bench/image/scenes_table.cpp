@@ -77,7 +77,7 @@ Json measure_scenes(const ImageBenchOptions& options, std::vector<Goal>& goals) 
                          asked.at_least, false, one.best_ratio(asked.other)});
       }
     }
-    const std::size_t bytes = exact_shapes<float>(subject.scene)->bytes();
+    const std::size_t bytes = exact_shapes(subject.scene)->bytes();
     const double each = static_cast<double>(bytes) / static_cast<double>(row.objects);
     goals.push_back({name + ": bytes an object, shapes shared", "<= 90", 90, true, each});
     list.push_back({{"scene", name}, {"bytes_an_object", each}, {"casts", std::move(results)}});

@@ -99,19 +99,14 @@ void for_each_instance(const Scene& scene,
   }
 }
 
-template <class T>
-Instances<T> instances_of(const Scene& scene) {
-  Instances<T> instances;
+Instances instances_of(const Scene& scene) {
+  Instances instances;
   instances.reserve(instance_count(scene));
-  for (const Object& object : scene.objects)
-    instances.add(convert<T>(object.shape), object.pose.cast<T>());
+  for (const Object& object : scene.objects) instances.add(object.shape, object.pose);
   for (const ParticleSet& set : scene.particles)
-    instances.add_many(instances.define(convert<T>(set.shape)), set.size(), set.linear_alike(),
-                       [&](std::size_t i) { return set.pose(i).cast<T>(); });
+    instances.add_many(instances.define(set.shape), set.size(),
+                       [&](std::size_t i) { return set.pose(i); });
   return instances;
 }
-
-template Instances<float> instances_of(const Scene&);
-template Instances instances_of(const Scene&);
 
 }  // namespace minkray::bench

@@ -33,11 +33,7 @@ std::vector<Shape<double>> shapes_of(const Scene& scene);
 void for_each_instance(const Scene& scene,
                        const std::function<void(std::uint32_t, const Affine<double>&)>& take);
 
-/// The world is in T.
-template <class T>
-Instances<T> instances_of(const Scene& scene);
+Instances instances_of(const Scene& scene);
 
-extern template Instances<float> instances_of(const Scene&);
-extern template Instances instances_of(const Scene&);
 
 }  // namespace minkray::bench

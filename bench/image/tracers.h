@@ -8,12 +8,9 @@
 
 namespace minkray::bench {
 
-/// Minkray's world in T: exact shapes.
-template <class T>
+/// Minkray's world: exact shapes.
 std::unique_ptr<Tracer> exact_shapes(const Scene& scene, BvhBuild build = BvhBuild::quality);
 
-extern template std::unique_ptr<Tracer> exact_shapes<float>(const Scene&, BvhBuild);
-extern template std::unique_ptr<Tracer> exact_shapes<double>(const Scene&, BvhBuild);
 
 /// Embree on instances of triangle meshes, one mesh for each of the scene's shapes; the meshes'
 /// hierarchies at its highest quality, which is slow to build, or at its default.
@@ -21,7 +18,7 @@ std::unique_ptr<Tracer> embree_triangles(const Scene& scene, const Meshes& meshe
                                          bool highest_quality, int threads);
 
 /// Embree on user geometry: its hierarchy over the boxes of our instances, and in it our cast of
-/// one ray at one shape, in float.
+/// one ray at one shape.
 std::unique_ptr<Tracer> embree_with_our_cast(const Scene& scene, int threads);
 
 /// Whether all shapes of a scene are rounded boxes.
