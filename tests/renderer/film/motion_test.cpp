@@ -151,7 +151,7 @@ TEST(Motion, every_ray_of_a_blurred_picture_sees_the_scene_as_it_stands_at_its_m
     const Integrator still_integrator(still, still_world);
     for (int y = 0; y < 48; ++y) {
       // Both alone and together with others.
-      static_assert(64 % most_in_ray_group == 0);
+      constexpr std::size_t at_once = 32;
       std::array<TracedRay, 64> together;
       RayCounts counts, still_counts;
       for (int x = 0; x < 64; ++x) {
@@ -160,8 +160,8 @@ TEST(Motion, every_ray_of_a_blurred_picture_sees_the_scene_as_it_stands_at_its_m
         ray.sampler = Sampler(1, x, y, 0);
         ray.time = moment;
       }
-      for (std::size_t x = 0; x < together.size(); x += most_in_ray_group)
-        integrator.trace(std::span(together).subspan(x, most_in_ray_group), counts);
+      for (std::size_t x = 0; x < together.size(); x += at_once)
+        integrator.trace(std::span(together).subspan(x, at_once), counts);
       for (int x = 0; x < 64; ++x) {
         const Ray<double> ray = camera.ray(x + 0.5, y + 0.5);
         const auto seen = [&](const Integrator& by, RayCounts& of, double time) {
