@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What users of the installed library get, beside Embree 3 and Bullet:
+// Compares the installed library, as its users get it, with Embree 3 and Bullet:
 //
 //   library-bench [--rounds N] [--only REGEX] [--quick] [-o FILE] [--python COMMAND] [--commit
 //   TEXT]
