@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The shapes that are measured: what Minkray is given, and how triangles are made of it.
+// Shapes that are measured, as Minkray's and as triangles.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Shapes in Bullet's words beside ours.
+// Shapes as Bullet's and as ours.
 #pragma once
 
 #include <BulletCollision/CollisionShapes/btConvexShape.h>

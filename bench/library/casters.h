@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Everyone who casts the same rays, in turn.
+// Casters of the same rays: each is one way to query one library.
 #pragma once
 
 #include <functional>
@@ -15,7 +15,7 @@ namespace bench {
 
 enum class Question { first_hit, occlusion };
 
-/// One way to ask one library for all rays.
+/// Answers all rays by one library in one way.
 class Caster {
  public:
   explicit Caster(std::string name_) : name(std::move(name_)) {}

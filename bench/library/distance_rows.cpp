@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Signed distances of two shapes, beside Bullet's GJK and EPA.
+// Signed distances of two shapes, compared with Bullet's GJK and EPA.
 #include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>
 #include <BulletCollision/NarrowPhaseCollision/btPointCollector.h>

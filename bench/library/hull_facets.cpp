@@ -28,7 +28,7 @@ std::vector<std::array<std::uint32_t, 3>> hull_facets(const std::vector<Vec>& po
     // The fourth point comes first; the two facets of the beginning are a flat hull.
     const Index now = p == 3 ? fourth : p == fourth ? 3 : p;
     std::vector<Facet> kept;
-    std::set<std::pair<Index, Index>> edges;  // of what is seen
+    std::set<std::pair<Index, Index>> edges;  // of the facets that are seen
     for (const Facet& f : facets) {
       if (!(seen_from(points[now], f, points) > 0)) {
         kept.push_back(f);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Times of impact of two shapes that move and do not turn, beside Bullet's three casts.
+// Times of impact of two shapes that move and do not turn, compared with Bullet's three casts.
 #include <BulletCollision/NarrowPhaseCollision/btContinuousConvexCollision.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkConvexCast.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>

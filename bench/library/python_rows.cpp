@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A million rays in one NumPy array, beside the same in C++. Python runs beside this program and
-// casts in turn with it.
+// A million rays in one NumPy array, compared with the same in C++. Python runs as a child process
+// and casts in turn with this one.
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rays at scenes, beside Embree: all in one call, and one by one.
+// Rays at scenes, compared with Embree's: all in one call, and one by one.
 #include <algorithm>
 #include <optional>
 
@@ -17,9 +17,9 @@ struct SceneRow {
   std::string kind;
   std::size_t objects;
   double scattered, camera;  ///< the goals; 0: none
-  bool own_spheres = false;  ///< beside Embree's spheres, and not triangles
+  bool own_spheres = false;  ///< compared with Embree's spheres, not triangles
   double scattered_shadows = 0, light_shadows = 0;
-  bool flat = false;  ///< also beside all triangles in one geometry; that is no goal
+  bool flat = false;  ///< also compared with one geometry of all triangles; no goal
 };
 
 const std::vector<SceneRow> scene_rows = {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rays one by one at one shape: beside Bullet's ray, and, at hulls, beside Embree's triangles.
+// Rays one by one at one shape, compared with Bullet's ray and, at hulls, with Embree's triangles.
 #include <BulletCollision/CollisionShapes/btSphereShape.h>
 #include <BulletCollision/NarrowPhaseCollision/btSubSimplexConvexCast.h>
 #include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>
@@ -72,7 +72,7 @@ class BulletRays : public Caster {
 
 constexpr std::size_t ray_count = 4096;
 
-void beside_bullet(Table& table, const Options& options, const BulletBody& body, double goal) {
+void against_bullet(Table& table, const Options& options, const BulletBody& body, double goal) {
   Random random(5);
   const Vec place = random.in_cube(3);
   const mk::Pose pose = mk::pose(place, random.rotation());
@@ -92,7 +92,7 @@ void beside_bullet(Table& table, const Options& options, const BulletBody& body,
                  "Bullet's subsimplex, ", rays.size(), goal, trust});
 }
 
-void beside_embree(Table& table, const Options& options, int points, double goal) {
+void against_embree(Table& table, const Options& options, int points, double goal) {
   const Body body = hull(random_points(points, {0.75, 0.5, 0.35}, 7));
   const EmbreeScene triangles = EmbreeScene::triangles(body.mesh(1e-4));
   const std::vector<mk::Ray> rays = rays_at(body, {}, ray_count);
@@ -117,7 +117,7 @@ std::vector<Section> shape_sections() {
   const auto add = [&](BulletBody body, double goal) {
     sections.push_back({"ray at a " + body.ours.name + ", Bullet",
                         [body = std::move(body), goal](Table& table, const Options& options) {
-                          beside_bullet(table, options, body, goal);
+                          against_bullet(table, options, body, goal);
                         }});
   };
   add(bullet_sphere(0.5), 4);
@@ -128,7 +128,7 @@ std::vector<Section> shape_sections() {
   for (const auto& [points, goal] : {std::pair(16, 1.5), {64, 1.5}, {256, 1.2}})
     sections.push_back({"ray at a hull " + std::to_string(points) + ", Embree",
                         [points = points, goal = goal](Table& table, const Options& options) {
-                          beside_embree(table, options, points, goal);
+                          against_embree(table, options, points, goal);
                         }});
   return sections;
 }

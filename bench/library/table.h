@@ -9,7 +9,7 @@
 
 namespace bench {
 
-/// Ours beside a peer.
+/// Minkray compared with a peer.
 struct Duel {
   std::string what, rays;
   const Caster& ours;
