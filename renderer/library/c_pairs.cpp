@@ -23,16 +23,14 @@ class PosedShape {
  public:
   PosedShape(const HeldShape& held, const minkray_pose* pose, const char* argument) {
     refuse_if_running(held.customs(), argument);
-    const ReadPose read = read_pose(pose, argument);
-    if (read.is_rigid) [[likely]] {
+    if (read_pose(pose, argument, pose_)) [[likely]] {
       shape_ = &held.contact();
-      pose_ = read.map;
       return;
     }
-    own_ = std::make_unique<const ContactShape>(
-        *held.shape(), Affine<double>{read.map.linear, Vec3<double>::Zero()});
+    own_ = std::make_unique<const ContactShape>(*held.shape(),
+                                                Affine<double>{pose_.linear, Vec3<double>::Zero()});
     shape_ = own_.get();
-    pose_.translation = read.map.translation;
+    pose_.linear.setIdentity();
   }
 
   const ContactShape& shape() const { return *shape_; }

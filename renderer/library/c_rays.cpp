@@ -107,10 +107,10 @@ int minkray_scene_cast(minkray_scene scene, const minkray_ray* rays, size_t coun
     const SceneQuery held(scene);
     if (count > 0) require(hits, "hits");
     if (count == 1 && !options && held->customs().empty()) {
-      const Ray<double> ray = RaySource(rays, 1)[0];
+      const Ray<double> ray = ray_of(rays);
       QueryCounts counts;
       const WorldHit hit = held->world().closest_hit(ray, counts);
-      *hits = plain_hit(ray, hit, counts.exhausted > 0);
+      plain_hit(ray, hit, counts.exhausted > 0, *hits);
       return;
     }
     struct {
@@ -191,7 +191,7 @@ int minkray_shape_cast(minkray_shape shape, const minkray_pose* pose, const mink
     refuse_if_running(held.customs(), "shape");
     if (count > 0) require(hits, "hits");
     if (count == 1 && !options && held.customs().empty()) {
-      const Ray<double> ray = RaySource(rays, 1)[0];
+      const Ray<double> ray = ray_of(rays);
       WorldHit hit;
       if (!pose || is_identity(*pose)) {
         hit.cast = cast_ray(held.prepared(), ray);
@@ -205,7 +205,7 @@ int minkray_shape_cast(minkray_shape shape, const minkray_pose* pose, const mink
             ray);
       }
       if (hit.cast.found()) hit.instance = 0;
-      *hits = plain_hit(ray, hit, hit.cast.status == Status::exhausted);
+      plain_hit(ray, hit, hit.cast.status == Status::exhausted, *hits);
       return;
     }
     const PreparedShape<double> prepared(held.definition(), pose_of(pose, "pose"));

@@ -11,11 +11,6 @@
 
 namespace minkray {
 
-Handles<HeldScene>& held_scenes() {
-  static Handles<HeldScene>& scenes = *new Handles<HeldScene>(2);  // as those of shapes
-  return scenes;
-}
-
 HeldScene& scene_of(minkray_scene scene) {
   HeldScene* held = held_scenes().find(scene.id);
   if (!held)

@@ -13,12 +13,6 @@
 
 namespace minkray {
 
-Handles<HeldShape>& held_shapes() {
-  // Never destroyed: what a program still holds when it ends may call back into what has ended.
-  static Handles<HeldShape>& shapes = *new Handles<HeldShape>(1);
-  return shapes;
-}
-
 const HeldShape& shape_of(minkray_shape shape, const char* argument) {
   const HeldShape* held = held_shapes().find(shape.id);
   if (!held)

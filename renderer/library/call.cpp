@@ -28,8 +28,8 @@ void wrong_use(const std::string& what) {
   throw CallError(MINKRAY_WRONG_USE, what);
 }
 
-void require(const void* pointer, const char* argument) {
-  if (!pointer) wrong_use(std::string(argument) + ": must not be NULL");
+void wrong_null(const char* argument) {
+  wrong_use(std::string(argument) + ": must not be NULL");
 }
 
 void require_room(std::size_t count, std::size_t bytes_each, const char* argument) {

@@ -24,7 +24,11 @@ class CallError : public std::runtime_error {
 [[noreturn]] void wrong_use(const std::string& what);
 
 /// Throws unless the pointer is set.
-void require(const void* pointer, const char* argument);
+[[noreturn]] void wrong_null(const char* argument);
+inline void require(const void* pointer, const char* argument) {
+  if (!pointer) [[unlikely]]
+    wrong_null(argument);
+}
 
 /// Throws unless so many things of so many bytes can be in memory: a count of less than zero, taken
 /// for one without a sign, cannot.

@@ -19,10 +19,7 @@ template <class Thing>
 class Handles {
  public:
   /// `kind` tells the numbers of one kind of thing from those of another: less than 256.
-  explicit Handles(std::uint64_t kind) : kind_(kind << 56) {}
-
-  /// Lives as long as the program.
-  ~Handles() = delete;
+  constexpr explicit Handles(std::uint64_t kind) : kind_(kind << 56) {}
   Handles(const Handles&) = delete;
   Handles& operator=(const Handles&) = delete;
 
@@ -122,6 +119,15 @@ class Handles {
   std::array<std::atomic<Slot*>, 24> chunks_ = {};
   std::atomic<std::uint32_t> size_ = 0;
   std::vector<std::uint32_t> free_;
+};
+
+/// Handles that are there before anything runs and are never destroyed: what a program still holds
+/// when it ends may call back into what has ended.
+template <class Thing>
+union HandlesForEver {
+  constexpr explicit HandlesForEver(std::uint64_t kind) : handles(kind) {}
+  constexpr ~HandlesForEver() {}
+  Handles<Thing> handles;
 };
 
 }  // namespace minkray

@@ -120,7 +120,10 @@ class HeldScene {
   std::atomic<bool> is_changing_ = false;
 };
 
-Handles<HeldScene>& held_scenes();
+inline constinit HandlesForEver<HeldScene> scenes_for_ever(2);
+inline Handles<HeldScene>& held_scenes() {
+  return scenes_for_ever.handles;
+}
 
 /// Throws CallError if there is none of that number. It may be released at once: see SceneUse.
 HeldScene& scene_of(minkray_scene scene);

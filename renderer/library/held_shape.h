@@ -68,7 +68,10 @@ class HeldShape {
 };
 
 /// All that there are.
-Handles<HeldShape>& held_shapes();
+inline constinit HandlesForEver<HeldShape> shapes_for_ever(1);
+inline Handles<HeldShape>& held_shapes() {
+  return shapes_for_ever.handles;
+}
 
 /// Throws CallError, which begins with the argument's name, if there is none of that number.
 const HeldShape& shape_of(minkray_shape shape, const char* argument);

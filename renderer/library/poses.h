@@ -2,7 +2,9 @@
 // Poses, points and numbers that come over the border, looked at before anything is made of them.
 #pragma once
 
+#include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "core/math/affine.h"
 #include "renderer/library/c_header.h"
@@ -15,22 +17,55 @@ inline bool is_identity(const minkray_pose& pose) {
   return std::memcmp(&pose, &identity, sizeof pose) == 0;
 }
 
-/// A map, and whether it keeps lengths.
-struct ReadPose {
-  Affine<double> map;
-  bool is_rigid = true;
-};
+/// Whether the rows are of length 1 and square to each other, but for a few roundings; false if any
+/// number is not finite.
+inline bool are_orthonormal(const double (&rows)[3][4]) {
+  constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
+  const auto off = [&](int i, int j) {
+    const double dot = rows[i][0] * rows[j][0] + rows[i][1] * rows[j][1] + rows[i][2] * rows[j][2];
+    return std::abs(dot - (i == j ? 1 : 0));
+  };
+  // One branch for all six.
+  return (off(0, 0) <= rounding) & (off(1, 1) <= rounding) & (off(2, 2) <= rounding) &
+         (off(0, 1) <= rounding) & (off(1, 2) <= rounding) & (off(2, 0) <= rounding);
+}
 
-/// The identity for null. Throws CallError unless the numbers are finite and the map invertible.
-ReadPose read_pose(const minkray_pose* pose, const char* argument);
+/// Throws CallError, which names the number, unless the numbers are finite and the map invertible.
+void check_pose(const minkray_pose& pose, const char* argument);
+
+/// Writes the map, which is the identity already, unless it is given as null. Returns whether it
+/// keeps lengths. Throws CallError as check_pose does.
+inline bool read_pose(const minkray_pose* pose, const char* argument, Affine<double>& to) {
+  if (!pose) return true;
+  const bool is_rigid = are_orthonormal(pose->rows);
+  const double x = pose->rows[0][3], y = pose->rows[1][3], z = pose->rows[2][3];
+  // What is finite times zero is zero, anything else is not.
+  if (!is_rigid || 0 * x + 0 * y + 0 * z != 0) [[unlikely]]
+    check_pose(*pose, argument);
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) to.linear(i, j) = pose->rows[i][j];
+  to.translation = {x, y, z};
+  return is_rigid;
+}
+
+/// The identity for null. Throws CallError as check_pose does.
 inline Affine<double> pose_of(const minkray_pose* pose, const char* argument) {
-  return read_pose(pose, argument).map;
+  Affine<double> map;
+  read_pose(pose, argument, map);
+  return map;
 }
 
 minkray_pose plain_pose(const Affine<double>& pose);
 
-/// Throws CallError unless the numbers are finite. `member` is that of the argument which they are.
-Vec3<double> vector_of(const double* numbers, const char* argument, const char* member = "");
+/// Throws CallError that names the first of three numbers which is not finite, or null. `member` is
+/// that of the argument which they are.
+void check_vector(const double* numbers, const char* argument, const char* member);
+inline Vec3<double> vector_of(const double* numbers, const char* argument,
+                              const char* member = "") {
+  if (!numbers || 0 * numbers[0] + 0 * numbers[1] + 0 * numbers[2] != 0) [[unlikely]]
+    check_vector(numbers, argument, member);
+  return {numbers[0], numbers[1], numbers[2]};
+}
 
 /// Whether lengths stay what they are, but for a few roundings.
 bool is_rigid(const Affine<double>& pose);

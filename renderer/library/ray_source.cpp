@@ -66,30 +66,31 @@ void RaySource::complain(std::size_t i) const {
   wrong_use(place + "direction: must not be zero (got [0, 0, 0])");
 }
 
-minkray_hit plain_hit(const Ray<double>& ray, const WorldHit& hit, bool gave_up) {
-  minkray_hit plain = {};
+void plain_hit(const Ray<double>& ray, const WorldHit& hit, bool gave_up, minkray_hit& to) {
   const CastResult<double>& cast = hit.cast;
   // What a solver gave up on may have been in front of anything.
-  plain.status = gave_up ? MINKRAY_EXHAUSTED : static_cast<int>(cast.status);
-  plain.object = hit.instance;
-  plain.supports = cast.supports;
+  to.status = gave_up ? MINKRAY_EXHAUSTED : static_cast<int>(cast.status);
+  to.object = hit.instance;
+  to.supports = cast.supports;
+  to.reserved = 0;
   if (!hit.found()) {
-    plain.t = plain.t_lo = plain.t_hi = plain.t_base = std::numeric_limits<double>::infinity();
-    for (double& x : plain.point) x = std::numeric_limits<double>::quiet_NaN();
-    return plain;
+    to.t = to.t_lo = to.t_hi = to.t_base = std::numeric_limits<double>::infinity();
+    to.t_offset = 0;
+    for (double& x : to.point) x = std::numeric_limits<double>::quiet_NaN();
+    for (double& x : to.normal) x = 0;
+    return;
   }
-  plain.t = cast.t();
-  plain.t_lo = cast.t_base + cast.offset_lo;
-  plain.t_hi = cast.t_base + cast.offset_hi;
-  plain.t_base = cast.t_base;
-  plain.t_offset = cast.t_offset;
+  to.t = cast.t();
+  to.t_lo = cast.t_base + cast.offset_lo;
+  to.t_hi = cast.t_base + cast.offset_hi;
+  to.t_base = cast.t_base;
+  to.t_offset = cast.t_offset;
   for (int k = 0; k < 3; ++k) {
-    plain.normal[k] = cast.normal[k];
+    to.normal[k] = cast.normal[k];
     // In this order: from far away the first two nearly cancel.
-    plain.point[k] =
+    to.point[k] =
         (ray.origin[k] + cast.t_base * ray.direction[k]) + cast.t_offset * ray.direction[k];
   }
-  return plain;
 }
 
 void plain_hit(const Ray<double>& ray, const BlockHits& hits, std::size_t i, minkray_hit& to) {

@@ -8,6 +8,7 @@
 
 #include "core/world/world.h"
 #include "renderer/library/c_header.h"
+#include "renderer/library/call.h"
 
 namespace minkray {
 
@@ -57,8 +58,25 @@ class RaySource {
   bool has_zero_ends_ = false;    ///< of those, some
 };
 
+/// The one ray of a struct; throws CallError as RaySource does. Most calls have one.
+inline Ray<double> ray_of(const minkray_ray* given) {
+  require(given, "rays");
+  const double* const o = given->origin;
+  const double* const d = given->direction;
+  const double zero = 0 * (o[0] + 0 * o[1] + 0 * o[2]) + 0 * (d[0] + 0 * d[1] + 0 * d[2]);
+  const bool has_direction = d[0] != 0 || d[1] != 0 || d[2] != 0;
+  if (zero != 0 || !has_direction || !(given->t_max > 0)) [[unlikely]]
+    return RaySource(given, 1)[0];
+  return {{o[0], o[1], o[2]}, {d[0], d[1], d[2]}, given->t_max};
+}
+
 /// The answer to one ray. `gave_up`: a solver did, at any object.
-minkray_hit plain_hit(const Ray<double>& ray, const WorldHit& hit, bool gave_up);
+void plain_hit(const Ray<double>& ray, const WorldHit& hit, bool gave_up, minkray_hit& to);
+inline minkray_hit plain_hit(const Ray<double>& ray, const WorldHit& hit, bool gave_up) {
+  minkray_hit plain;
+  plain_hit(ray, hit, gave_up, plain);
+  return plain;
+}
 
 /// The i-th answer of a block that needs not be asked for alone.
 void plain_hit(const Ray<double>& ray, const BlockHits& hits, std::size_t i, minkray_hit& to);
