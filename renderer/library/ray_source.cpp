@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "core/math/outward_sum.h"
 #include "renderer/library/call.h"
 
 namespace minkray {
@@ -42,7 +43,8 @@ void RaySource::check() const {
     // What is finite times zero is zero, anything else is not.
     const double zero = 0 * ((ray.origin.x() + 0 * ray.origin.y()) + 0 * ray.origin.z()) +
                         0 * ((ray.direction.x() + 0 * ray.direction.y()) + 0 * ray.direction.z());
-    if (zero == 0 && ray.t_max >= 0) [[likely]] continue;
+    if (zero == 0 && ray.t_max >= 0) [[likely]]
+      continue;
     if (ray.origin.allFinite() && ray.direction.allFinite() && ray.t_max >= 0) continue;
     const std::string place = "rays[" + std::to_string(i) + "].";
     if (!(ray.t_max >= 0))
@@ -69,8 +71,8 @@ minkray_hit plain_hit(const Ray<double>& ray, const WorldHit<double>& hit, bool 
     return plain;
   }
   plain.t = cast.t();
-  plain.t_lo = cast.t_base + cast.offset_lo;
-  plain.t_hi = cast.t_base + cast.offset_hi;
+  plain.t_lo = sum_or_less(cast.t_base, cast.offset_lo);
+  plain.t_hi = sum_or_more(cast.t_base, cast.offset_hi);
   plain.t_base = cast.t_base;
   plain.t_offset = cast.t_offset;
   for (int k = 0; k < 3; ++k) {
@@ -98,8 +100,8 @@ void plain_hit(const Ray<double>& ray, const BlockHits& hits, std::size_t i, min
   to.status = casts.hit >> lane & 1u ? MINKRAY_HIT : MINKRAY_INSIDE;
   const double base = casts.t_base[lane], offset = casts.t_offset[lane];
   to.t = base + offset;
-  to.t_lo = base + casts.offset_lo[lane];
-  to.t_hi = base + casts.offset_hi[lane];
+  to.t_lo = sum_or_less(base, casts.offset_lo[lane]);
+  to.t_hi = sum_or_more(base, casts.offset_hi[lane]);
   to.t_base = base;
   to.t_offset = offset;
   for (int k = 0; k < 3; ++k) {
