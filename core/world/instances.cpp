@@ -107,7 +107,11 @@ void Instances<T>::add(std::uint32_t definition, const Affine<T>& pose) {
     if (!as_before) linear_.push_back(own);
     linear = as_before ? places_.back().linear : static_cast<std::uint32_t>(linear_.size() - 1);
   }
-  places_.push_back({placement.centre, definition, linear});
+  places_.push_back({placement.centre.high, definition, linear});
+  if (!lows_.empty() || !placement.centre.low.isZero(0) || placement.loss > T(0)) {
+    lows_.resize(places_.size(), Low());
+    lows_.back() = {placement.centre.low, placement.loss};
+  }
   boxes_.push_back(rounded_outwards(padded(bounds)));
 }
 
@@ -116,6 +120,7 @@ void Instances<T>::add(const HalfSpaceBody<T>& half_space, const Affine<T>& pose
   half_spaces_.push_back(
       {static_cast<std::uint32_t>(places_.size()), half_space, half_space.posed(pose)});
   places_.push_back({Vec3<T>::Zero(), no_definition, identity});
+  if (!lows_.empty()) lows_.resize(places_.size(), Low());
   boxes_.push_back({});
 }
 
@@ -142,6 +147,7 @@ void Instances<T>::add_many(std::uint32_t definition, std::size_t count, bool li
   const std::size_t first = places_.size(), first_linear = linear_.size();
   places_.resize(first + count);
   boxes_.resize(first + count);
+  if (!lows_.empty() || !shape.is_centred()) lows_.resize(first + count, Low());
   // Alike: the first one's linear part is that of all, or the identity.
   const auto placement = shape.placed(pose_of(0));
   if (linear_alike && !placement.is_rigid_identity)
@@ -166,6 +172,8 @@ void Instances<T>::pose_all(const std::function<Affine<T>(std::size_t)>& pose_of
   linear_.resize(places_.size());
   boxes_.resize(places_.size());
   movements_.resize(movement_of ? places_.size() : 0);
+  for (const auto& definition : definitions_)
+    if (!definition->is_centred()) lows_.resize(places_.size(), Low());
   for (PosedHalfSpace& one : half_spaces_) one.in_world = one.at_rest.posed(pose_of(one.instance));
   parallel_for(places_.size(), poses_a_range, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
@@ -190,7 +198,8 @@ void Instances<T>::place(std::size_t i, std::uint32_t definition, const Affine<T
   boxes_[i] = rounded_outwards(padded(bounds));
   if (writes && !placed.is_rigid_identity)
     linear_[linear] = {placed.to_inner, bounds.half_extents().maxCoeff()};
-  places_[i] = {placed.centre, definition,
+  if (!lows_.empty()) lows_[i] = {placed.centre.low, placed.loss};
+  places_[i] = {placed.centre.high, definition,
                 placed.is_rigid_identity ? identity : static_cast<std::uint32_t>(linear)};
 }
 
@@ -199,7 +208,8 @@ std::size_t Instances<T>::bytes() const {
   return definitions_.size() *
              (sizeof(ShapeDefinition<T>) + sizeof(definitions_[0]) + sizeof(Screen)) +
          places_.capacity() * sizeof(Place) + linear_.capacity() * sizeof(Linear) +
-         movements_.capacity() * sizeof(movements_[0]) + shown_to_.capacity() * sizeof(RayKinds) +
+         lows_.capacity() * sizeof(lows_[0]) + movements_.capacity() * sizeof(movements_[0]) +
+         shown_to_.capacity() * sizeof(RayKinds) +
          half_spaces_.capacity() * sizeof(PosedHalfSpace) + boxes_.capacity() * sizeof(boxes_[0]);
 }
 

@@ -110,8 +110,10 @@ class Instances {
   /// Refers to this, which must outlive it.
   PreparedShape<T> at(std::size_t i) const {
     const Place& place = places_[i];
-    return {*definitions_[place.definition], place.centre,
-            place.linear == identity ? nullptr : &linear_[place.linear].to_inner};
+    const Mat3<T>* const map = place.linear == identity ? nullptr : &linear_[place.linear].to_inner;
+    const ShapeDefinition<T>& definition = *definitions_[place.definition];
+    if (lows_.empty()) return {definition, place.centre, map, T(0)};
+    return {definition, TwoFoldVec3<T>(place.centre, lows_[i].centre), map, lows_[i].loss};
   }
 
   /// Which definition the i-th instance has, which is not a half-space, and whether it is more than
@@ -124,6 +126,12 @@ class Instances {
   /// its place as PreparedShape has it.
   const Screen& screen_of(std::size_t i) const { return screens_[places_[i].definition]; }
   const Vec3<T>& centre(std::size_t i) const { return places_[i].centre; }
+  /// What the centres lack, as PreparedShape has it; null if none lacks anything.
+  struct Low {
+    Vec3<T> centre = Vec3<T>::Zero();
+    T loss = T(0);
+  };
+  const Low* lows() const { return lows_.empty() ? nullptr : lows_.data(); }
   const Mat3<T>& to_inner(std::size_t i) const {
     return is_turned(i) ? linear_[places_[i].linear].to_inner : unturned_;
   }
@@ -195,7 +203,7 @@ class Instances {
              bool writes);
 
   std::vector<std::shared_ptr<const ShapeDefinition<T>>> definitions_;
-  std::vector<Screen> screens_;  ///< of each definition
+  std::vector<Screen> screens_;                            ///< of each definition
   std::unordered_map<const void*, std::uint32_t> shared_;  ///< definitions that others have made
   FirstTouchVector<LanePlace<T>> lane_places_;
   FirstTouchVector<LeafPlace<T>> leaf_places_;
@@ -204,6 +212,7 @@ class Instances {
   Mat3<T> unturned_ = Mat3<T>::Identity();
   FirstTouchVector<Place> places_;
   FirstTouchVector<Linear> linear_;
+  FirstTouchVector<Low> lows_;          ///< by instance; empty if all are zero
   std::vector<Movement<T>> movements_;  ///< by instance; empty if all stand still
   FirstTouchVector<Bounds<float>> boxes_;
   std::vector<PosedHalfSpace> half_spaces_;  ///< in the order of their instances

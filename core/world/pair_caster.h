@@ -109,6 +109,14 @@ class PairCaster {
           packet.direction[k][i] = ray[i][3 + k];
         }
       for (std::size_t i = 0; i < lanes; ++i) packet.t_max[i] = ray[i][6];
+      if (const auto* const lows = instances_.lows())
+        for (std::size_t i = 0; i < lanes; ++i) {
+          const auto& low =
+              lows[queue.instance(static_cast<int>(i) < used ? static_cast<int>(i) : 0)];
+          for (std::size_t k = 0; k < 3; ++k)
+            poses.centre_low[k][i] = low.centre[static_cast<Eigen::Index>(k)];
+          poses.loss[i] = low.loss;
+        }
       if (are_turned)
         for (std::size_t k = 0; k < 9; ++k)
           for (std::size_t i = 0; i < lanes; ++i)

@@ -138,9 +138,7 @@ int minkray_scene_cast(minkray_scene scene, const minkray_ray* rays, size_t coun
     }
     struct {
       minkray_hit* hits;
-      void operator()(size_t i, const Ray<double>&, const minkray_hit& hit) const {
-        hits[i] = hit;
-      }
+      void operator()(size_t i, const Ray<double>&, const minkray_hit& hit) const { hits[i] = hit; }
       void operator()(size_t i, const Ray<double>& ray, const BlockHits& block, size_t k) const {
         plain_hit(ray, block, k, hits[i]);
       }
@@ -209,9 +207,7 @@ int minkray_shape_cast(minkray_shape shape, const minkray_pose* pose, const mink
       // Nothing is counted: the handle's owner keeps the definition.
       const ShapeDefinition<double>& definition = *held.definition();
       const auto placement = definition.placed(pose_of(pose, "pose"));
-      const PreparedShape<double> prepared(
-          definition, placement.centre,
-          placement.is_rigid_identity ? nullptr : &placement.to_inner);
+      const PreparedShape<double> prepared(definition, placement);
       WorldHit<double> hit{no_instance, cast_ray(prepared, ray)};
       if (hit.cast.found()) hit.instance = 0;
       *hits = plain_hit(ray, hit, hit.cast.status == Status::exhausted);

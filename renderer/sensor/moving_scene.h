@@ -63,9 +63,7 @@ class SceneWhile {
   struct Placed {
     double time = 0;
     bool is_known = false;
-    Vec3<Real> centre;
-    Mat3<Real> to_inner;
-    bool is_identity = false;
+    ShapeDefinition<Real>::Placement placement;
   };
   bool moves(std::uint32_t instance) const;
   PreparedShape<Real> mover_at(std::size_t mover, double time);
