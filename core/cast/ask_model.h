@@ -30,7 +30,7 @@ CastResult<T> cast_with_model(Stage stage, const StageQuestion<T>& question, Obs
     CastLanes<T> lanes = model_cast<T>(make_model, near, ball, shape.inner_half_extents(), true,
                                        max_iterations, observer);
     // A portal's plane that is no more than a direction tells nothing about a curved shape.
-    if (is_portal && !(lanes.offset_hi < std::numeric_limits<T>::infinity())) lanes.hit = false;
+    if (is_portal && lanes.by_model) lanes.hit = false;
     if (lanes.uncertain && shape.definition().uncertain_slope() > T(0)) lanes.inside = false;
     return result_of(lanes);
   };

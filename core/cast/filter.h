@@ -116,7 +116,7 @@ template <bool leaves, class F, class Placed>
   const W tau = leaves ? W(-entry.t) : entry.t;
   W offset = (rest + near.shift) + tau * near.per;
   W bound = entry.e * near.per * W(1 + tolerance::form_margin) +
-            abs(offset) * W(tolerance::form_digits<T>);
+            (abs(offset) + abs(near.shift)) * W(tolerance::form_digits<T>);
   if (any(answer.inside)) {  // some lanes of a packet
     offset = select(answer.inside, W(0), offset);
     bound = select(answer.inside, W(0), bound);

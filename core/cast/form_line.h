@@ -144,6 +144,7 @@ template <class W, class Placed>
   const P inner_R(form.inner_R), distance = sqrt(P(shape.centre().squaredNorm()));
   // Rounding of the two steps is that of positions as large as the form and its centre.
   W reach(inner_R + distance / P(4));
+  Mask<W> well_mapped(true);
   if (map) {
     const P squared = squared_size(*map), size = sqrt(squared);
     const RayNearBall<W> mapped = seen.mapped(*map);
@@ -152,7 +153,9 @@ template <class W, class Placed>
     const W step = (mapped.t_shift - seen.t_shift) / seen.t_per_length;
     const W across = W(form.inner_R) / length;
     const W spread = seen.s.squaredNorm() + step * step + across * across;
-    reach = W(inner_R + size * distance / P(4)) + W(size / P(4)) * sqrt(spread);
+    const W by_map = W(size / P(2)) * sqrt(spread);
+    reach = W(inner_R + size * distance / P(4)) + by_map;
+    well_mapped = by_map < W(tolerance::form_worst_map * form.inner_R);
     seen = mapped;
   }
   const W E = reach * W(tolerance::form_rounding<double> * form.largest_scale);
@@ -181,8 +184,8 @@ template <class W, class Placed>
     near.end -= k;
   }
   near.line = {s, d, dd, inv, E, W(tolerance::form_parallel<double>) * dd};
-  near.bounded = (abs(seen.lambda_min) <= W(tolerance::form_far * form.inner_R)) & (dd > W(0)) &
-                 (seen.t_per_length > W(1 / tolerance::form_longest_step)) &
+  near.bounded = well_mapped & (abs(seen.lambda_min) <= W(tolerance::form_far * form.inner_R)) &
+                 (dd > W(0)) & (seen.t_per_length > W(1 / tolerance::form_longest_step)) &
                  (seen.t_per_length < W(tolerance::form_longest_step));
   near.slack = W(8 * std::numeric_limits<double>::epsilon()) * (abs(near.begin) + W(form.inner_R));
   return near;

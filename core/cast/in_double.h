@@ -26,11 +26,11 @@ template <class Cast>
 CastResult<float> ask_in_double(const PreparedShape<float>& shape, const Ray<float>& ray,
                                 const CastOptions<float>& options, const Cast& cast) {
   const ShapeDefinition<double>& definition = *shape.definition().in_double();
-  const auto placement = definition.placed({});
-  const PreparedShape<double> same(definition, placement.centre,
-                                   placement.is_rigid_identity ? nullptr : &placement.to_inner);
+  const PreparedShape<double> same(definition, definition.placed({}));
   // The ray in the float shape's inner frame, with the same parameter.
-  Vec3<double> origin = ray.origin.cast<double>() - shape.centre().cast<double>();
+  const TwoFoldVec3<float>& centre = shape.two_fold_centre();
+  Vec3<double> origin =
+      (ray.origin.cast<double>() - centre.high.cast<double>()) - centre.low.cast<double>();
   Vec3<double> direction = ray.direction.cast<double>();
   if (const Mat3<float>* map = shape.linear_to_inner()) {
     origin = map->cast<double>() * origin;

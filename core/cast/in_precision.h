@@ -15,7 +15,8 @@ RayNearBall<To> in_precision(const RayNearBall<From>& near) {
           To(near.lambda_max),
           To(near.t_base),
           To(near.t_shift),
-          To(near.t_per_length)};
+          To(near.t_per_length),
+          To(near.loss)};
 }
 
 template <class To, class From>

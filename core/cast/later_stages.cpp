@@ -10,6 +10,7 @@
 #include "core/cast/in_double.h"
 #include "core/cast/judge.h"
 #include "core/cast/on_ray.h"
+#include "core/cast/within_loss.h"
 
 namespace minkray {
 namespace {
@@ -63,6 +64,17 @@ CastResult<T> ask_stages(const StageQuestion<T>& question) {
     }
   }
   return judge.verdict();
+}
+
+/// The stages' answer for all that the ray may be.
+template <class T>
+CastResult<T> ask_stages_about_place(const StageQuestion<T>& question) {
+  const PreparedShape<T>& shape = question.shape;
+  if (question.near.loss <= tolerance::small_loss<T> * shape.inner_ball().radius)
+    return ask_stages(question);
+  return ask_within_loss(shape, question.near, [&](const RayNearBall<T>& near) {
+    return ask_stages(StageQuestion<T>{shape, near, question.options, question.observer});
+  });
 }
 
 /// The answer in the outer frame; it is exhausted where the numbers' range was left.
@@ -128,7 +140,7 @@ void end_far_cast(const PreparedShape<T>& shape, const RayNearBall<T>& near,
 template <class T>
 std::optional<CastResult<T>> ask_bounds(const PreparedShape<T>& shape, const Ray<T>& ray,
                                         const CastOptions<T>& options) {
-  if (!has_stage(shape, options, Stage::bounds)) return {};
+  if (!has_stage(shape, options, Stage::bounds) || shape.definition().has_large_loss()) return {};
   const BoundsCast<T> bounds = cast_at_box(shape.line_to_inner(ray), shape.inner_half_extents(),
                                            shape.inner_ball().radius, true);
   if (!bounds.miss) return {};
@@ -175,7 +187,7 @@ CastResult<T> cast_by_later_stages(const PreparedShape<T>& shape, const Ray<T>& 
   if (const auto miss = ask_bounds(shape, ray, options)) return *miss;
   const RayNearBall<T> near = near_inner(shape, ray);
   const StageQuestion<T> question{shape, near, options, observer};
-  CastResult<T> result = ask_stages(question);
+  CastResult<T> result = ask_stages_about_place(question);
   if constexpr (std::is_same_v<T, float>)
     if (is_steep_in_float(question, result)) return cast_in_double(shape, ray, options, observer);
   result = in_outer_frame(shape, result);
@@ -195,7 +207,7 @@ CastResult<T> exit_by_later_stages(const PreparedShape<T>& shape, const Ray<T>& 
   const RayNearBall<T> near = near_inner(shape, ray), back = near.reversed();
   const CastObserver<T> nobody;
   const StageQuestion<T> question{shape, back, options, nobody};
-  CastResult<T> result = ask_stages(question);
+  CastResult<T> result = ask_stages_about_place(question);
   if constexpr (std::is_same_v<T, float>)
     if (is_steep_in_float(question, result))
       return ask_in_double(shape, ray, options, cast_exit<double>);

@@ -94,9 +94,12 @@ void cast_packet(const ShapeDefinition<T>& definition, const PosePacket<T>& pose
     Mat3<T> to_inner;
     for (std::size_t k = 0; k < 9; ++k)
       to_inner(static_cast<int>(k / 3), static_cast<int>(k % 3)) = poses.to_inner[k][i];
+    const auto lane_of = [&](const std::array<PacketNumbers<T>, 3>& v) {
+      return Vec3<T>(v[0][i], v[1][i], v[2][i]);
+    };
     const PreparedShape<T> shape(definition,
-                                 {poses.centre[0][i], poses.centre[1][i], poses.centre[2][i]},
-                                 poses.are_turned ? &to_inner : nullptr);
+                                 TwoFoldVec3<T>(lane_of(poses.centre), lane_of(poses.centre_low)),
+                                 poses.are_turned ? &to_inner : nullptr, poses.loss[i]);
     const int lane = static_cast<int>(i);
     answers.set(lane, cast_by_later_stages<T>(shape, rays.ray(lane), {}, {}));
   }

@@ -35,7 +35,9 @@ void part(const PreparedShape<Lane<W>>& shape, const RayPacket<Lane<W>>& rays, L
                                      ball.radius, mask_of<W>(lanes >> from));
   if (!any(bounds.open)) return all_miss(bounds);
   const RayNearBall<W> near = shape.template to_inner<W>(ray);
-  bounds.open &= !near.is_from_afar(ball.radius);  // left to the single casts
+  // Left to the single casts.
+  bounds.open &=
+      (!near.is_from_afar(ball.radius)) & (near.loss <= W(tolerance::small_loss<T> * ball.radius));
   cast_at_ball(near, ball.radius, bounds);
   if (!any(bounds.open)) return all_miss(bounds);
   CastLanes<W> result = with_model<W>(shape.definition(), [&](const auto& make_model) {

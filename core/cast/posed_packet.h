@@ -11,13 +11,19 @@ namespace minkray {
 template <class T>
 struct alignas(32) PosePacket {
   std::array<PacketNumbers<T>, 3> centre;
-  std::array<PacketNumbers<T>, 9> to_inner;  ///< of no meaning unless they are turned
-  bool are_turned = false;                   ///< otherwise all are moved only
+  std::array<PacketNumbers<T>, 3> centre_low = {};  ///< what that lacks
+  std::array<PacketNumbers<T>, 9> to_inner;         ///< of no meaning unless they are turned
+  PacketNumbers<T> loss = {};
+  bool are_turned = false;  ///< otherwise all are moved only
 
   void set(int lane, const PreparedShape<T>& shape) {
     const auto i = static_cast<std::size_t>(lane);
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      centre[axis][i] = shape.centre()[static_cast<int>(axis)];
+    const TwoFoldVec3<T>& of_shape = shape.two_fold_centre();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      centre[axis][i] = of_shape.high[static_cast<int>(axis)];
+      centre_low[axis][i] = of_shape.low[static_cast<int>(axis)];
+    }
+    loss[i] = shape.place_loss();
     if (const Mat3<T>* map = shape.linear_to_inner())
       for (std::size_t k = 0; k < 9; ++k)
         to_inner[k][i] = (*map)(static_cast<int>(k / 3), static_cast<int>(k % 3));

@@ -30,20 +30,34 @@ class PreparedShape {
     centre_ = placement.centre;
     to_inner_ = placement.to_inner;
     is_rigid_identity_ = placement.is_rigid_identity;
+    loss_ = placement.loss;
+  }
+
+  /// Does not own the definition either, which must outlive it.
+  PreparedShape(const Definition& definition, const typename Definition::Placement& placement)
+      : PreparedShape(definition, placement.centre,
+                      placement.is_rigid_identity ? nullptr : &placement.to_inner, placement.loss) {
   }
 
   /// This lasts for a moment, and the definition outlives it; no references are counted: it is what
-  /// worlds of millions make for each cast. `to_inner` is null for the identity.
-  PreparedShape(const Definition& definition, const Vec3<T>& centre, const Mat3<T>* to_inner)
+  /// worlds of millions make for each cast. `to_inner` is null for the identity; `loss` is
+  /// Placement's.
+  PreparedShape(const Definition& definition, const TwoFoldVec3<T>& centre, const Mat3<T>* to_inner,
+                T loss)
       : definition_(std::shared_ptr<const Definition>(), &definition),
         centre_(centre),
-        is_rigid_identity_(!to_inner) {
+        is_rigid_identity_(!to_inner),
+        loss_(loss) {
     if (to_inner) to_inner_ = *to_inner;
   }
 
   const Definition& definition() const { return *definition_; }
   const std::shared_ptr<const Definition>& shared_definition() const { return definition_; }
-  const Vec3<T>& centre() const { return centre_; }
+  /// The ball's centre in the outer frame: as forms take it, and all of it.
+  const Vec3<T>& centre() const { return centre_.high; }
+  const TwoFoldVec3<T>& two_fold_centre() const { return centre_; }
+  /// What rounding of the pose may have moved that by, in the inner frame.
+  T place_loss() const { return loss_; }
   /// It is null for the identity.
   const Mat3<T>* linear_to_inner() const { return is_rigid_identity_ ? nullptr : &to_inner_; }
 
@@ -58,7 +72,7 @@ class PreparedShape {
     if constexpr (std::is_same_v<T, double>) return false;
     const T size = is_rigid_identity_ ? T(1) : to_inner_.cwiseAbs().maxCoeff();
     const T R = inner_ball().radius;
-    return R > T(0) && centre_.cwiseAbs().maxCoeff() * size > T(tolerance::far_out) * R;
+    return R > T(0) && centre_.high.cwiseAbs().maxCoeff() * size > T(tolerance::far_out) * R;
   }
 
   /// What the solvers on jets model it as.
@@ -67,17 +81,15 @@ class PreparedShape {
   /// The ray in the inner frame, relative to the ball's centre; W is T or a packet of it.
   template <class W>
   RayNearBall<W> to_inner(const Ray<W>& ray) const {
-    RayNearBall<W> near = ray_near(centre_, ray);
-    if (!is_rigid_identity_) near = near.mapped(to_inner_);
-    near.lambda_max += W(end_slack());
+    RayNearBall<W> near = ray_near<W>(centre_, ray);
+    map_to_inner(near);
     return near;  // not copied: a processor reads slowly what it has just written in parts
   }
 
   /// Does what to_inner does for one ray from anywhere.
   RayNearBall<T> to_inner_from_afar(const Ray<T>& ray) const {
     RayNearBall<T> near = ray_near_from_afar(centre_, ray);
-    if (!is_rigid_identity_) near = near.mapped(to_inner_);
-    near.lambda_max += end_slack();
+    map_to_inner(near);
     return near;
   }
 
@@ -90,7 +102,7 @@ class PreparedShape {
                          const Vec3<W>& d) -> LineFromCentre<W> {
       return {origin, direction, W(o.x() + o.y() + o.z()), W(d.x() + d.y() + d.z())};
     };
-    const Vec3<W> origin = ray.origin - widen<W>(centre_);
+    const Vec3<W> origin = detail::way_from<W>(centre_, ray.origin).rounded();
     const Vec3<W> o = sizes(origin), d = sizes(ray.direction);
     if (is_rigid_identity_) return line(origin, ray.direction, o, d);
     const Mat3<T> map_sizes = to_inner_.cwiseAbs();
@@ -110,13 +122,21 @@ class PreparedShape {
   }
 
  private:
+  template <class W>
+  void map_to_inner(RayNearBall<W>& near) const {
+    if (!is_rigid_identity_) near = near.mapped_with_loss(to_inner_, inner_ball().radius);
+    near.loss += W(definition_->support_loss() + loss_);
+    near.lambda_max += W(end_slack());
+  }
+
   /// A ray that ends on the surface hits it, however the two were rounded.
   T end_slack() const { return tolerance::end_slack<T> * inner_ball().radius; }
 
   std::shared_ptr<const Definition> definition_;
-  Vec3<T> centre_;
+  TwoFoldVec3<T> centre_;
   Mat3<T> to_inner_;
   bool is_rigid_identity_;
+  T loss_ = T(0);
 };
 
 }  // namespace minkray

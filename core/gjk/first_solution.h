@@ -38,7 +38,8 @@ requires SupportMapped<S, T> CastResult<T> first_solution(
   // The bounding ball, as in gjk_ray_cast.
   const T nearest = std::clamp(T(0), near.lambda_min, near.lambda_max);
   const Vec3<T> to_ray = s + nearest * r;
-  if (to_ray.norm() > ball.radius * (T(1) + tolerance::ball_padding<T>)) return miss(to_ray);
+  if (to_ray.norm() > ball.radius * (T(1) + tolerance::ball_padding<T>)+near.loss)
+    return miss(to_ray);
   const T depth = std::sqrt(std::max(ball.radius * ball.radius - s.squaredNorm(), T(0)));
   const bool from_origin = near.lambda_min >= -depth;
   T lambda = std::max(near.lambda_min, -depth);

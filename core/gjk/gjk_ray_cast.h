@@ -73,7 +73,8 @@ requires SupportMapped<S, T> CastResult<T> gjk_ray_cast(const S& shape, const Ra
   // ball's surface.
   const T nearest = std::clamp(T(0), near.lambda_min, near.lambda_max);
   const Vec3<T> to_ray = s + nearest * r;
-  if (to_ray.norm() > ball.radius * (T(1) + tolerance::ball_padding<T>)) return miss(to_ray);
+  if (to_ray.norm() > ball.radius * (T(1) + tolerance::ball_padding<T>)+near.loss)
+    return miss(to_ray);
   const T depth = std::sqrt(std::max(ball.radius * ball.radius - s.squaredNorm(), T(0)));
   const bool from_origin = near.lambda_min >= -depth;
   T lambda = std::max(near.lambda_min, -depth);
@@ -97,6 +98,9 @@ requires SupportMapped<S, T> CastResult<T> gjk_ray_cast(const S& shape, const Ra
     result.status = Status::hit;
     result.t_offset = result.offset_lo = near.t_offset(lambda);
     result.normal = unit(has_advanced ? n : x);
+    // The simplex' point is so far beside x, which is longer along a slanted ray.
+    const T slope = std::max(T(-result.normal.dot(r)), tolerance::least_slope<T>);
+    result.offset_hi = near.t_offset(lambda + v.norm() / slope);
     return result;
   };
 

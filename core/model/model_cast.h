@@ -14,6 +14,8 @@ struct CastLanes {
   Mask<W> hit = Mask<W>(false);
   Mask<W> inside = Mask<W>(false);
   Mask<W> miss = Mask<W>(false);
+  /// Hit, but no point of the shape is known that bounds it: a model does, to what it settled for.
+  Mask<W> by_model = Mask<W>(false);
   /// Inside, but between planes so steep that rounding decides, as where the line runs in a side.
   Mask<W> uncertain = Mask<W>(false);
   W t_base = W(0), t_offset = W(0), offset_lo = W(0), offset_hi = W(0);
@@ -28,6 +30,7 @@ template <class W, class MakeModel, class Observer>
 CastLanes<W> model_cast(const MakeModel& make_model, const RayNearBall<W>& near,
                         const Ball<Lane<W>>& ball, const Vec3<Lane<W>>& half_extents,
                         const Mask<W>& castable, int max_iterations, Observer&& observer) {
+  using std::copysign;
   using std::max;
   using std::min;
   using std::sqrt;
@@ -114,9 +117,16 @@ CastLanes<W> model_cast(const MakeModel& make_model, const RayNearBall<W>& near,
   result.hit &= bounded | !(entry.lambda_above < W(std::numeric_limits<T>::infinity()));
   result.t_offset = near.t_offset(select(bounded, entry.lambda_above, entry.lambda));
   // Both ends are known to the rounding of a plane's offset, which is longer along a slanted ray.
-  const W rounding = W(tolerance::jet_gap<T> * R) / max(z, W(tolerance::least_slope<T>));
-  result.offset_lo = near.t_offset(entry.lambda - rounding);
-  result.offset_hi = near.t_offset(entry.lambda_above + rounding);
+  const W rounding =
+      (W(tolerance::jet_gap<T> * R) + near.loss) / max(z, W(tolerance::least_slope<T>));
+  // Rays that were turned round are counted down.
+  const W digits = copysign(near.offset_rounding(result.t_offset), near.t_per_length);
+  result.offset_lo = near.t_offset(entry.lambda - rounding) - digits;
+  // A model that only osculates ends where what it leaves is hardly more than that.
+  result.by_model = result.hit & !(entry.lambda_above < W(std::numeric_limits<T>::infinity()));
+  const W latest = select(result.by_model, W(entry.lambda + rounding * W(T(8))),
+                          W(entry.lambda_above + rounding));
+  result.offset_hi = near.t_offset(latest) + digits;
 
   // The line enters before the ray begins: where does it leave?
   const Mask<W> began = entry.hit & !enters;

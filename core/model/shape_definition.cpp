@@ -76,6 +76,13 @@ struct Posed {
   Vec3<T> support(const Vec3<T>& n) const { return map(shape.support(map.inner_direction(n))); }
 };
 
+/// The outer map under a pose; either is mostly none.
+template <class T>
+TwoFoldMat3<T> linear_under(const Affine<T>& pose, const TwoFoldMat3<T>& outer) {
+  if (outer.is_identity()) return pose.linear;
+  return pose.linear == Mat3<T>::Identity() ? outer : TwoFoldMat3<T>(pose.linear) * outer;
+}
+
 }  // namespace
 
 /// Made once, by whichever thread is first.
@@ -94,22 +101,30 @@ const ShapeDefinition<double>* ShapeDefinition<T>::in_double() const {
 }
 
 template <class T>
-ShapeDefinition<T>::ShapeDefinition(Shape<T> shape) : original_(shape), inner_(std::move(shape)) {
+void ShapeDefinition<T>::take_off() {
   for (bool simpler = true; simpler;) {
     std::optional<Shape<T>> next = as_rounded_box(inner_);
     if (const auto* transform = std::get_if<Transform<T>>(&inner_.kind)) {
-      maps_.push_back(transform->map.affine());
+      const Affine<T>& map = transform->map.affine();
+      moved_ = moved_ + outer_ * TwoFoldVec3<T>(map.translation);
+      moved_loss_ += loss_of_turning(outer_.high, T(map.translation.stableNorm()));
+      outer_ = outer_ * TwoFoldMat3<T>(map.linear);
       next = *transform->shape;
     }
     simpler = next.has_value();
     if (simpler) inner_ = *std::move(next);
   }
-  Vec3<T> moved = Vec3<T>::Zero();
+}
+
+template <class T>
+ShapeDefinition<T>::ShapeDefinition(Shape<T> shape) : original_(shape), inner_(std::move(shape)) {
+  take_off();
   if (std::optional<Recentred<T>> nearer = recentred(inner_)) {
-    moved = nearer->moved;
+    moved_ = moved_ + outer_ * nearer->moved;
+    moved_loss_ += stretch_of(outer_.high) * nearer->loss +
+                   loss_of_turning(outer_.high, T(nearer->moved.high.stableNorm()));
     inner_ = std::move(nearer->shape);
-    maps_.push_back({Mat3<T>::Identity(), moved});
-    is_recentred_ = true;
+    take_off();
   }
   Bounds<T> bounds = minkray::bounds_of<T>(inner_);
   // Very small and very large shapes are brought to about unit size by a power of two, which is
@@ -122,14 +137,15 @@ ShapeDefinition<T>::ShapeDefinition(Shape<T> shape) : original_(shape), inner_(s
     inner_ = Transform<T>{Nested<T>(inner_), Affine<T>{Mat3<T>::Identity() * down_, {0, 0, 0}}};
     bounds = minkray::bounds_of<T>(inner_);
   }
-  // The way back to where the shape was leads to the ball's centre, lest its sum with that were
-  // rounded to how far away it is.
-  for (int axis = 0; axis < 3; ++axis) {
-    if (moved[axis] == T(0)) continue;
-    bounds.upper[axis] = std::max(bounds.upper[axis], -bounds.lower[axis]);
-    bounds.lower[axis] = -bounds.upper[axis];
-  }
   ball_ = ball_around(bounds);
+  middle_ = moved_ + outer_ * TwoFoldVec3<T>(ball_.centre * up_);
+  if (!(ball_.radius > T(0))) outer_ = {};  // no map matters to a point
+  support_loss_ =
+      tolerance::support_rounding<T> * std::max(T(largest_coordinate(inner_) - ball_.radius), T(0));
+  if (moved_loss_ > T(0))
+    support_loss_ += stretch_of(accurate_inverse(outer_)) * down_ * moved_loss_;
+  plain_loss_ = tolerance::transposed_rounding<T> * ball_.radius +
+                tolerance::turned_rounding<T> * T(middle_.high.stableNorm());
   half_extents_ = bounds.reach_of_centre();
   model_ = model_kind_of<T>(inner_);
   if (model_ == ModelKind::ellipsoid_sum)
@@ -152,38 +168,43 @@ ShapeDefinition<T>::ShapeDefinition(Shape<T> shape) : original_(shape), inner_(s
     in_long_double_ = std::make_shared<const Shape<long double>>(convert<long double>(inner_));
 }
 
+/// Of the shape about its middle: what rounds them is the shape's size, until that is added.
 template <class T>
 Bounds<T> ShapeDefinition<T>::bounds_of(const Affine<T>& pose) const {
-  return minkray::bounds_of<T>(Posed<T>{*original_, pose});
+  const Mat3<T> linear = linear_under(pose, outer_).high * up_;
+  const Bounds<T> about_middle =
+      minkray::bounds_of<T>(Posed<T>{inner_, Affine<T>{linear, Vec3<T>(-(linear * ball_.centre))}});
+  const Vec3<T> middle = image_of(pose, middle_).high;
+  return {about_middle.lower + middle, about_middle.upper + middle};
 }
 
-/// Takes more digits: the maps' shifts may be far larger than the shape.
 template <class T>
-Vec3<T> ShapeDefinition<T>::centre_under(const Affine<T>& pose) const {
-  using Finer = std::conditional_t<std::is_same_v<T, float>, double, long double>;
-  Affine<Finer> to_outer = pose.template cast<Finer>();
-  for (const Affine<T>& map : maps_) to_outer = to_outer * map.template cast<Finer>();
-  return to_outer(Vec3<Finer>(ball_.centre.template cast<Finer>() * Finer(up_))).template cast<T>();
+TwoFoldVec3<T> ShapeDefinition<T>::plain_centre(const Affine<T>& pose, const Vec3<T>& ball_centre) {
+  if (ball_centre.isZero(T(0))) return TwoFoldVec3<T>(pose.translation);
+  const Vec3<T> rounded = pose.translation + times<T, T>(pose.linear, ball_centre);
+  const TwoFoldVec3<T> exact = image_of(pose, TwoFoldVec3<T>(ball_centre));
+  return {rounded, (exact - TwoFoldVec3<T>(rounded)).rounded()};
 }
 
 template <class T>
 typename ShapeDefinition<T>::Placement ShapeDefinition<T>::placed(const Affine<T>& pose) const {
-  Placement placement;
-  placement.is_plain = maps_.empty() && up_ == T(1) && keeps_lengths(pose.linear);
-  if (placement.is_plain) {
-    placement.to_inner = pose.linear.transpose();
-    placement.centre = pose.translation;
-    if (!ball_.centre.isZero(T(0))) placement.centre += times(pose.linear, ball_.centre);
-    placement.is_rigid_identity = pose.linear == Mat3<T>::Identity();
-    return placement;
+  if (outer_.is_identity() && moved_.is_zero() && up_ == T(1) && keeps_lengths(pose.linear)) {
+    Placement plain;
+    plain.is_plain = true;
+    plain.centre = plain_centre(pose, ball_.centre);
+    plain.to_inner = pose.linear.transpose();
+    plain.is_rigid_identity = pose.linear == Mat3<T>::Identity();
+    plain.loss = plain.is_rigid_identity ? T(0) : plain_loss_;
+    return plain;
   }
-  Affine<T> to_outer = pose;
-  for (const Affine<T>& map : maps_) to_outer = to_outer * map;
-  placement.to_inner = inverse_of(to_outer.linear);
-  to_outer.linear *= up_;
-  placement.to_inner *= down_;
-  placement.centre = is_recentred_ ? centre_under(pose) : to_outer(ball_.centre);
-  placement.is_rigid_identity = to_outer.linear == Mat3<T>::Identity();
+  const TwoFoldMat3<T> to_outer = linear_under(pose, outer_);
+  Placement placement;
+  placement.centre = image_of(pose, middle_);
+  placement.to_inner = accurate_inverse(to_outer) * down_;
+  placement.is_rigid_identity = to_outer.high * up_ == Mat3<T>::Identity();
+  if (!is_centred() && !placement.is_rigid_identity)
+    placement.loss =
+        stretch_of(placement.to_inner) * loss_of_turning(pose.linear, T(middle_.high.stableNorm()));
   return placement;
 }
 

@@ -5,12 +5,13 @@
 #pragma once
 
 #include <memory>
-#include <vector>
 
 #include "core/exact/form.h"
 #include "core/math/affine.h"
 #include "core/math/bounds.h"
+#include "core/math/two_fold.h"
 #include "core/model/model_kind.h"
+#include "core/query/tolerances.h"
 #include "core/shape/ellipsoid_sum.h"
 #include "core/shape/shape.h"
 
@@ -49,42 +50,60 @@ class ShapeDefinition {
   /// Hits whose normal's component against the ray is less are looked at again: none, if it is
   /// known that the surface has neither corners nor flat faces.
   T uncertain_slope() const { return uncertain_slope_; }
+  /// Whether the ball's centre is the origin of the shape's own frame: where a pose moves it to is
+  /// one of the pose's numbers then.
+  bool is_centred() const { return middle_.is_zero(); }
+  /// How much coarser support points are rounded than their distance from the ball's centre is, and
+  /// what rounding of maps may have moved them all by: a length in the inner frame.
+  T support_loss() const { return support_loss_; }
+  bool has_large_loss() const { return support_loss_ > tolerance::small_loss<T> * ball_.radius; }
   /// Whether packets of rays have a solver of their own.
   bool has_packets() const {
     if (form_.kind != FormKind::none) return true;  // an extreme shape has none
-    return !is_extreme_ && !is_sliver_ && !is_lost_in_rounding_ &&
+    return !is_extreme_ && !is_sliver_ && !is_lost_in_rounding_ && !has_large_loss() &&
            model_ != ModelKind::osculating_sums;
   }
 
   /// Bounds of the whole shape (the transforms on) under a pose.
   Bounds<T> bounds_of(const Affine<T>& pose) const;
 
-  /// Where an instance stands.
+  /// Where an instance stands. Each number of `to_inner` is rounded about once.
   struct Placement {
-    Vec3<T> centre;    ///< the inner ball's, in the frame of the pose
-    Mat3<T> to_inner;  ///< of directions
+    TwoFoldVec3<T> centre;  ///< the inner ball's, in the frame of the pose
+    Mat3<T> to_inner;       ///< of directions
     bool is_rigid_identity;
-    /// The pose keeps lengths and no outer map was taken off: to_inner is the transposed linear part
-    /// of the pose, and the centre is the pose of the inner ball's.
-    bool is_plain;
+    /// The pose keeps lengths and there is no outer map: to_inner is the transposed linear part of
+    /// the pose, and the centre is the pose of the inner ball's.
+    bool is_plain = false;
+    T loss = T(0);  ///< what rounding of the pose may have moved the centre by, in the inner frame
   };
+
+  /// The ball's centre under a plain pose: the rounded part is what lanes make of it.
+  static TwoFoldVec3<T> plain_centre(const Affine<T>& pose, const Vec3<T>& ball_centre);
+  /// The loss of plain placements that are turned.
+  T plain_loss() const { return plain_loss_; }
 
   /// `pose` maps the frame of the shape to the outer one; it must be invertible.
   Placement placed(const Affine<T>& pose) const;
 
  private:
-  Vec3<T> centre_under(const Affine<T>& pose) const;
+  /// Takes off outer transforms, which are what `outer_` and `moved_` then say.
+  void take_off();
 
   Nested<T> original_;
   Shape<T> inner_;
-  std::vector<Affine<T>> maps_;  ///< taken off, the outermost first
-  bool is_recentred_ = false;    ///< the last of them moves points that are far away
+  TwoFoldMat3<T> outer_;  ///< the shape is outer_ * up * inner + moved_
+  TwoFoldVec3<T> moved_;
+  TwoFoldVec3<T> middle_;  ///< the ball's centre in the shape's frame
+  T moved_loss_ = T(0);    ///< what rounding of maps may have moved that by
   T up_ = T(1), down_ = T(1);
   Ball<T> ball_;
   Vec3<T> half_extents_;
   ModelKind model_;
   EllipsoidSum<T> ellipsoid_sum_;
   T uncertain_slope_;
+  T support_loss_;
+  T plain_loss_ = T(0);
   bool is_extreme_;
   bool is_lost_in_rounding_ = false;
   bool is_sliver_ = false;

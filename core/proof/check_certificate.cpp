@@ -24,6 +24,7 @@ class Checker {
         near_(near_segment(support, ray)) {
     verdict_.t_base = near_.t_base;
     verdict_.allowed = certificate_rounding * claim.epsilon * near_.size;
+    rounding_ = certificate_rounding * std::numeric_limits<double>::epsilon() * near_.size;
   }
 
   CertificateVerdict run() {
@@ -73,17 +74,24 @@ class Checker {
     return sum > 0 && std::isfinite(sum) && q.allFinite();
   }
 
+  /// The ray comes to a plane that it crosses at `lambda` no earlier than that less this.
+  double rounding_along(double slope) const { return rounding_ / std::abs(slope); }
+
   void check_hit() {
     const double lambda = near_.lambda_of(claim_.t_base, claim_.t_offset);
     const Vec3<double> hit_point = near_.at(lambda);
-    double lower = std::max(near_.first, near_.lambda_of(0, 0));
+    double lower = std::max(near_.first, near_.lambda_of(0, 0)), earliest = lower;
 
     // The claimed plane touches the shape and holds the claimed point; the ray comes from outside.
     if (!is_direction(claim_.normal)) return complain("a hit without a normal");
     const Vec3<double> n = claim_.normal.normalized();
     const double above = n.dot(hit_point) - support_function(n), slope = n.dot(near_.r);
     verdict_.claim_error = std::abs(above);
-    if (slope < 0) lower = std::max(lower, lambda - above / slope);
+    double least_slope = std::abs(slope);
+    if (slope < 0) {
+      lower = std::max(lower, lambda - above / slope);
+      earliest = std::max(earliest, lambda - above / slope - rounding_along(slope));
+    }
     if (!(slope <= certificate_rounding * claim_.epsilon)) complain("the normal looks backwards");
     if (!(near_.lambda_of(ray_.t_max, 0) - lambda >= -verdict_.allowed))
       complain("the hit lies beyond t_max");
@@ -103,7 +111,11 @@ class Checker {
       const double h = support_function(m);
       depth_above = m.dot(hit_point) - h;
       const double steep = m.dot(near_.r);
-      if (steep < 0) lower = std::max(lower, lambda - depth_above / steep);
+      if (steep < 0) {
+        lower = std::max(lower, lambda - depth_above / steep);
+        earliest = std::max(earliest, lambda - depth_above / steep - rounding_along(steep));
+      }
+      least_slope = std::min(least_slope, std::abs(steep));
       if (spans) verdict_.gap = h - m.dot(q);
     } else if (spans) {
       verdict_.gap = (n.dot(hit_point) - above) - n.dot(q);
@@ -121,8 +133,14 @@ class Checker {
         !(at_q <= near_.lambda_of(ray_.t_max, 0) + verdict_.allowed))
       complain("the support points span no point of the ray");
     verdict_.offset_spanned = near_.t_offset(at_q);
-    verdict_.offset_lo = near_.t_offset(std::min(lower, at_q));
-    verdict_.offset_hi = near_.t_offset(std::max(lower, at_q));
+    // The shape's surface bends away from its plane: twice what the plane says, up to the shape's
+    // end.
+    const double beside = 2 * (verdict_.lateral + rounding_) / least_slope;
+    const double latest = std::max(lower, at_q);
+    const double end = std::max(latest, near_.end) + rounding_;
+    verdict_.offset_planes = near_.t_offset(std::min(lower, at_q));
+    verdict_.offset_lo = near_.t_offset(std::min(earliest, at_q));
+    verdict_.offset_hi = near_.t_offset(std::min(latest + beside, end));
     verdict_.late = lambda - std::max(lower, at_q);
   }
 
@@ -149,6 +167,7 @@ class Checker {
   const Claim& claim_;
   const Certificate& certificate_;
   NearSegment near_;
+  double rounding_;  ///< across a plane: of what is worked out here, whatever the claim's precision
   CertificateVerdict verdict_;
 };
 

@@ -6,6 +6,7 @@
 
 #include <string_view>
 
+#include "core/math/outward_sum.h"
 #include "core/proof/certificate.h"
 
 namespace minkray {
@@ -20,10 +21,12 @@ struct CertificateVerdict {
   bool holds = false;
   std::string_view complaint;  ///< what does not hold, first of all; empty if it holds
 
-  /// Hit: t lies in t_base + [lo, hi], where hi is up to `lateral`: the ray passes so near to a
-  /// point of the shape there.
+  /// Hit: t lies in t_base + [lo, hi], what is rounded allowed for: planes and the spanned point
+  /// are
+  /// known to so much across the plane, which is longer along the ray.
   double t_base = 0, offset_lo = 0, offset_hi = 0;
-  double offset_spanned = 0;  ///< hit: where that point is; rounding may put planes beyond it
+  double offset_planes = 0;   ///< hit: where the ray crosses the last of the planes
+  double offset_spanned = 0;  ///< hit: where the point is; rounding may put planes beyond it
   double gap = 0;      ///< hit: how deep that point lies under the plane: (t_hi - t_lo) * cosine
   double lateral = 0;  ///< hit, inside: the distance of the spanned point from ray or origin
   double margin = 0;   ///< miss: from the plane to the ray; negative if the ray crosses it
@@ -32,8 +35,8 @@ struct CertificateVerdict {
   double late = 0;     ///< hit: how far beyond the proven t_hi the claimed t is, along the ray
   double allowed = 0;  ///< what gap, lateral, -margin and claim_error may be
 
-  double t_lo() const { return t_base + offset_lo; }
-  double t_hi() const { return t_base + offset_hi; }
+  double t_lo() const { return sum_or_less(t_base, offset_lo); }
+  double t_hi() const { return sum_or_more(t_base, offset_hi); }
 };
 
 /// Exhausted claims nothing, and so nothing holds of it.

@@ -2,6 +2,7 @@
 #include "core/proof/proven_cast.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/proof/check_certificate.h"
 #include "core/query/near_segment.h"
@@ -31,16 +32,20 @@ ProvenCast proven(const Shape<double>& shape, const Ball<double>& ball,
   CertificateVerdict verdict = check_certificate(support, ray, claim, certificate);
   const bool is_bounded = verdict.lateral <= verdict.allowed && verdict.gap <= verdict.allowed;
   if (answer.status == Status::hit && is_bounded) {
-    const double first = verdict.t_lo(), spanned = verdict.t_base + verdict.offset_spanned;
+    const double first = verdict.t_base + verdict.offset_planes,
+                 spanned = verdict.t_base + verdict.offset_spanned;
     claim.t_offset = std::clamp(spanned, 0.0, ray.t_max);
     verdict = check_certificate(support, ray, claim, certificate);
     if (verdict.holds) {
       // The point is beside the ray, and the plane is rounded, by so much along it.
       const double along =
-          (verdict.lateral + std::numeric_limits<double>::epsilon() * size) / slope;
+          (verdict.lateral + std::numeric_limits<double>::epsilon() * size + near.loss) / slope;
       proof.answer.t_offset = near.t_offset(begin + claim.t_offset);
-      proof.answer.offset_lo = near.t_offset(begin + std::min(first, claim.t_offset) - along);
-      proof.answer.offset_hi = near.t_offset(begin + claim.t_offset + along);
+      const double digits =
+          std::copysign(near.offset_rounding(proof.answer.t_offset), near.t_per_length);
+      proof.answer.offset_lo =
+          near.t_offset(begin + std::min(first, claim.t_offset) - along) - digits;
+      proof.answer.offset_hi = near.t_offset(begin + claim.t_offset + along) + digits;
     }
   }
   proof.holds = verdict.holds;

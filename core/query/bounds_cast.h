@@ -72,7 +72,7 @@ void cast_at_ball(const RayNearBall<W>& near, Lane<W> R, BoundsCast<W>& bounds) 
   using T = Lane<W>;
   const W nearest = min(max(W(0), near.lambda_min), near.lambda_max);
   const Vec3<W> to_ray = near.s + near.r * nearest;
-  const W reached = W(R * (T(1) + tolerance::ball_padding<T>));
+  const W reached = W(R * (T(1) + tolerance::ball_padding<T>)) + near.loss;
   const Mask<W> passes = bounds.open & (to_ray.squaredNorm() > reached * reached);
   if (any(passes)) bounds.normal = select<W>(passes, unit<W>(to_ray), bounds.normal);
   bounds.miss |= passes;

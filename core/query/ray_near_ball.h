@@ -6,6 +6,7 @@
 
 #include "core/math/bounds.h"
 #include "core/math/ray.h"
+#include "core/math/two_fold.h"
 #include "core/query/tolerances.h"
 
 namespace minkray {
@@ -21,8 +22,16 @@ struct RayNearBall {
   W t_base;      ///< the ray's own parameter at s is t_base + t_shift
   W t_shift;
   W t_per_length;
+  /// How far a point of these may lie beside where it should be, near the shape and beyond what
+  /// rounds the shape's own points: what its place and its map are known to.
+  W loss = W(0);
 
   W t_offset(W lambda) const { return t_shift + lambda * t_per_length; }
+  /// What that is rounded by: the parts, their sum, and the length.
+  W offset_rounding(W offset) const {
+    using std::abs;
+    return (abs(t_shift) + abs(offset)) * W(tolerance::offset_rounding<Lane<W>>);
+  }
 
   /// Whether s lost digits to the distance of the ray's origin, beside a shape of radius R: the
   /// first step's parameter is rounded as coarsely as that, and its remainder must be small.
@@ -33,7 +42,7 @@ struct RayNearBall {
 
   /// Walks through these points the other way.
   RayNearBall reversed() const {
-    return {s, -r, -lambda_max, -lambda_min, t_base, t_shift, -t_per_length};
+    return {s, -r, -lambda_max, -lambda_min, t_base, t_shift, -t_per_length, loss};
   }
 
   /// The ray's image under a linear map that takes the old centre to the new one; parameters stay.
@@ -43,17 +52,39 @@ struct RayNearBall {
     return mapped_by(linear);
   }
 
+  /// Does what `mapped` does, and says what it loses at a ball of radius R around the new centre,
+  /// if the map's numbers have been rounded once.
+  RayNearBall mapped_with_loss(const Mat3<Lane<W>>& linear, Lane<W> R) const {
+    using std::abs;
+    W length, correction;
+    RayNearBall image = mapped_by(linear, length, correction);
+    const W along = (abs(correction) + W(R)) / length;
+    const Vec3<W> reach(abs(s.x()) + abs(r.x()) * along, abs(s.y()) + abs(r.y()) * along,
+                        abs(s.z()) + abs(r.z()) * along);
+    const Mat3<Lane<W>> sizes = linear.cwiseAbs();
+    image.loss = times(sizes, reach).norm() * W(tolerance::map_rounding<Lane<W>>);
+    return image;
+  }
+
  private:
   template <class M>
   RayNearBall mapped_by(const Mat3<M>& linear) const {
+    W length, correction;
+    return mapped_by(linear, length, correction);
+  }
+
+  /// The new length of r, and how far the new closest approach is along it.
+  template <class M>
+  [[gnu::always_inline]] RayNearBall mapped_by(const Mat3<M>& linear, W& safe_length,
+                                               W& correction) const {
     const Vec3<W> direction = times(linear, r);
     RayNearBall image = *this;
     image.s = times(linear, s);
     image.r = unit(direction);
     const W length = image.r.dot(direction);
     const Mask<W> has_direction = length > W(0);
-    const W safe_length = select(has_direction, length, W(1));
-    const W correction = -image.s.dot(image.r);
+    safe_length = select(has_direction, length, W(1));
+    correction = -image.s.dot(image.r);
     image.s += correction * image.r;
     image.t_per_length = t_per_length / safe_length;
     image.t_shift = t_shift + correction * image.t_per_length;
@@ -65,16 +96,30 @@ struct RayNearBall {
 
 namespace detail {
 
-/// One centre for all lanes, or one in each.
+template <class Centre>
+inline constexpr bool is_two_fold = false;
+template <class C>
+inline constexpr bool is_two_fold<TwoFoldVec3<C>> = true;
+
+/// The way from a centre in numbers of their own to a point, and what it lacks.
 template <class W, class C>
-[[gnu::always_inline]] inline RayNearBall<W> ray_near_here(const Vec3<C>& centre_of_ball,
+[[gnu::always_inline]] inline TwoFoldVec3<W> way_from(const TwoFoldVec3<C>& centre,
+                                                      const Vec3<W>& point) {
+  TwoFoldVec3<W> way = exact_difference<W>(point, widen<W>(centre.high));
+  way.low -= widen<W>(centre.low);
+  return way;
+}
+
+/// One centre for all lanes, or one in each. From a two-fold centre the ray is seen to all digits,
+/// wherever that is; from another, to those that points there have.
+template <class W, class Centre>
+[[gnu::always_inline]] inline RayNearBall<W> ray_near_here(const Centre& centre_of_ball,
                                                            const Ray<W>& ray) {
   using std::abs;
   using std::fma;
   using std::max;
   using std::sqrt;
   using T = Lane<W>;
-  const Vec3<W> centre = widen<W>(centre_of_ball);
 
   // Powers of two keep the scaled direction exact, and its square in range; denormal
   // directions take two of them, since their numbers have no leading power.
@@ -93,8 +138,17 @@ template <class W, class C>
     return {fma(steps, direction.x(), from.x()), fma(steps, direction.y(), from.y()),
             fma(steps, direction.z(), from.z())};
   };
-  const W steps = -(ray.origin - centre).dot(direction) / squared;
-  const Vec3<W> close = along(ray.origin, steps) - centre;
+  W steps;
+  Vec3<W> close;
+  if constexpr (is_two_fold<Centre>) {
+    const TwoFoldVec3<W> way = way_from<W>(centre_of_ball, ray.origin);
+    steps = -way.high.dot(direction) / squared;
+    close = along(way.high, steps) + way.low;
+  } else {
+    const Vec3<W> centre = widen<W>(centre_of_ball);
+    steps = -(ray.origin - centre).dot(direction) / squared;
+    close = along(ray.origin, steps) - centre;
+  }
   const W more_steps = -close.dot(direction) / squared;
   RayNearBall<W> near;
   near.s = along(close, more_steps);
@@ -115,16 +169,20 @@ template <class W, class C>
 /// over. It is compiled in one place, so that no other flags give other bits.
 RayNearBall<float> ray_near_with_fma(const Vec3<float>& centre, const Ray<float>& ray);
 RayNearBall<double> ray_near_with_fma(const Vec3<double>& centre, const Ray<double>& ray);
+RayNearBall<float> ray_near_with_fma(const TwoFoldVec3<float>& centre, const Ray<float>& ray);
+RayNearBall<double> ray_near_with_fma(const TwoFoldVec3<double>& centre, const Ray<double>& ray);
 #endif
 
 }  // namespace detail
 
-/// The ray moved to its closest approach to `centre`. Two steps, since the rounding of the first
-/// one's parameter is as coarse as the origin is far; s itself is rounded only as coarsely as
-/// centre and shape are large, because fma rounds once and walks along the direction as given, not
-/// along a rounded unit vector.
-template <class W>
-RayNearBall<W> ray_near(const Vec3<Lane<W>>& centre, const Ray<W>& ray) {
+/// The ray moved to its closest approach to `centre`, which is a Vec3 or a TwoFoldVec3 of lanes.
+/// Two steps, since the rounding of the first one's parameter is as coarse as the origin is far; s
+/// itself is rounded only as coarsely as centre (unless that is two-fold) and shape are large,
+/// because fma rounds once and walks along the direction as given, not along a rounded unit vector.
+template <class W, class Centre>
+requires(std::is_same_v<Centre, Vec3<Lane<W>>> ||
+         std::is_same_v<Centre, TwoFoldVec3<Lane<W>>>) RayNearBall<W> ray_near(const Centre& centre,
+                                                                               const Ray<W>& ray) {
 #if defined(__x86_64__)
   if constexpr (std::is_same_v<W, float> || std::is_same_v<W, double>)
     if (__builtin_cpu_supports("fma")) return detail::ray_near_with_fma(centre, ray);
@@ -141,12 +199,14 @@ requires(LaneOf<W>::count > 1) RayNearBall<W> ray_near(const Vec3<W>& centre, co
 /// Moves one ray whose origin is further away than far_origin, with digits to spare; it is no
 /// better beyond farthest_origin.
 template <class T>
-RayNearBall<T> ray_near_from_afar(const Vec3<T>& centre, const Ray<T>& ray) {
+RayNearBall<T> ray_near_from_afar(const std::type_identity_t<TwoFoldVec3<T>>& centre,
+                                  const Ray<T>& ray) {
   using Finer = std::conditional_t<std::is_same_v<T, float>, double, long double>;
   const Ray<Finer> same{ray.origin.template cast<Finer>(), ray.direction.template cast<Finer>(),
                         Finer(ray.t_max)};
-  const RayNearBall<Finer> fine =
-      detail::ray_near_here<Finer>(Vec3<Finer>(centre.template cast<Finer>()), same);
+  const TwoFoldVec3<Finer> same_centre(centre.high.template cast<Finer>(),
+                                       centre.low.template cast<Finer>());
+  const RayNearBall<Finer> fine = detail::ray_near_here<Finer>(same_centre, same);
   RayNearBall<T> near;
   near.s = fine.s.template cast<T>();
   near.r = fine.r.template cast<T>();

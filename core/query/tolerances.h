@@ -69,6 +69,36 @@ inline constexpr T uncertain_slope = T(0x1p-7);
 template <class T>
 inline constexpr T uncertain_smooth_slope = std::is_same_v<T, float> ? T(0) : T(0x1p-12);
 
+/// How coarsely maps round their images, in units of what the sums of products are as large as:
+/// three products and their sums, the inverse map's numbers, half an epsilon each; and as much for
+/// the entries of a rotation that was made of a quaternion.
+template <class T>
+inline constexpr T map_rounding = T(4) * epsilon<T>;
+
+/// How coarsely a support point is rounded that is made of larger coordinates than it ends up with.
+template <class T>
+inline constexpr T support_rounding = T(2) * epsilon<T>;
+
+/// How far the transpose of a matrix that keeps lengths (core/math/affine.h) may move a point, in
+/// units of its distance from the centre.
+template <class T>
+inline constexpr T transposed_rounding = T(4) * epsilon<T>;
+
+/// How far the rounding of a rotation's entries may move a shape, in units of the distance of its
+/// centre from the origin of its frame.
+template <class T>
+inline constexpr T turned_rounding = T(8) * epsilon<T>;
+
+/// How coarsely a near ray's parameter is rounded, in units of its parts.
+template <class T>
+inline constexpr T offset_rounding = T(4) * epsilon<T>;
+
+/// Losses of a ray's place, in units of the bounding radius, up to which they only widen a hit's
+/// interval; beyond that, rays beside it by as much must agree on what is answered. A thousand
+/// roundings: rays that pass an edge so near are as rare.
+template <class T>
+inline constexpr T small_loss = T(1024) * epsilon<T>;
+
 /// The last word on a hit, whatever the planes' slopes: model and best plane agree so well along
 /// the ray, in units of the bounding radius. A gap of jet_gap at a slope of 1e-3 in float and 1e-6
 /// in double.
@@ -159,6 +189,10 @@ inline constexpr double form_parallel = form_rounding<T>* form_rounding<T> / 16;
 /// Distances of origins, in units of the form's radius, up to which closed forms are asked: from
 /// there 2^-53 is form_rounding's 2^-33 for float rays.
 inline constexpr double form_far = 0x1p20;
+
+/// How much coarser than a form's own points a map may make them for forms to be asked, whose
+/// bounds leave out squares of errors: 2^-30 of the radius.
+inline constexpr double form_worst_map = 0x1p19;
 
 /// What the rounding of t's bound and of t adds to the bound: a share of itself, and epsilons of
 /// the offset; for double rays also what the ray's length and its inverse were rounded by.

@@ -8,6 +8,7 @@
 
 #include "core/math/affine.h"
 #include "core/math/ray.h"
+#include "core/math/two_fold.h"
 #include "core/query/result.h"
 
 namespace minkray {
@@ -17,16 +18,25 @@ template <class T>
 struct HalfSpaceBody {
   Vec3<T> normal = {T(0), T(0), T(1)};  ///< outward, of unit length
   T offset = T(0);
+  /// A pose's own rounding: of the normal, whose entries may be off by this, and of the offset.
+  T normal_error = T(0), offset_error = T(0);
 
   /// Under an invertible map.
   HalfSpaceBody posed(const Affine<T>& pose) const {
-    const Vec3<T> turned = unit<T>(inverse_of(pose.linear).transpose() * normal);
-    return {turned, turned.dot(pose(offset * normal))};
+    constexpr T rounding = T(4) * std::numeric_limits<T>::epsilon();
+    const Vec3<T> turned = unit<T>(accurate_inverse<T>(pose.linear).transpose() * normal);
+    const Vec3<T> point = pose(offset * normal);
+    const bool is_turned = pose.linear != Mat3<T>::Identity();
+    const T size = Vec3<T>(pose.linear * (offset * normal)).stableNorm();
+    return {turned, turned.dot(point), is_turned ? rounding : T(0),
+            rounding * (is_turned ? T(point.template lpNorm<1>() + size)
+                                  : T(turned.cwiseAbs().dot(point.cwiseAbs())))};
   }
 
   template <class U>
   HalfSpaceBody<U> cast() const {
-    return {normal.template cast<U>(), static_cast<U>(offset)};
+    return {normal.template cast<U>(), static_cast<U>(offset), static_cast<U>(normal_error),
+            static_cast<U>(offset_error)};
   }
 };
 
@@ -58,8 +68,10 @@ CastResult<T> cast_ray(const HalfSpaceBody<T>& half_space, const Ray<T>& ray) {
     return result;
   }
   const T height_error =
-      rounding * (n.cwiseAbs().dot(ray.origin.cwiseAbs()) + abs(half_space.offset));
-  const T fall_error = rounding * n.cwiseAbs().dot(ray.direction.cwiseAbs());
+      rounding * (n.cwiseAbs().dot(ray.origin.cwiseAbs()) + abs(half_space.offset)) +
+      half_space.normal_error * ray.origin.template lpNorm<1>() + half_space.offset_error;
+  const T fall_error = rounding * n.cwiseAbs().dot(ray.direction.cwiseAbs()) +
+                       half_space.normal_error * ray.direction.template lpNorm<1>();
   result.status = Status::hit;
   result.t_offset = t;
   result.normal = n;

@@ -95,7 +95,8 @@ Instances::Placed Instances::placed(std::size_t i, std::uint32_t definition,
   for (int k = 0; k < 9; ++k)
     is_wide |= !split(placement.to_inner.data()[k], to.to_inner[k], placed.digits.of[k]);
   const bool is_plain = placement.is_plain && !is_wide;
-  const Vec3<double>& origin = is_plain ? pose.translation : placement.centre;
+  const Vec3<double>& origin = is_plain ? pose.translation : placement.centre.high;
+  if (!is_plain) placed.rest = {placement.centre.low, placement.loss};
   for (int axis = 0; axis < 3; ++axis) to.origin[axis] = origin[axis];
   placed.which =
       is_wide ? wide_body : 2u * (is_plain ? 1u : 0u) + (placement.is_rigid_identity ? 0u : 1u);
@@ -110,7 +111,12 @@ Instances::Placed Instances::placed(std::size_t i, std::uint32_t definition,
 
 void Instances::keep(std::size_t i, std::uint32_t definition, const Placed& placed) {
   places_[i].body = body_with(definition, placed.which);
-  if (placed.which == wide_body) wide_[static_cast<std::uint32_t>(i)] = placed.wide;
+  const auto number = static_cast<std::uint32_t>(i);
+  if (placed.which == wide_body) wide_[number] = placed.wide;
+  if (!placed.rest.is_zero())
+    rests_[number] = placed.rest;
+  else if (!rests_.empty())
+    rests_.erase(number);
 }
 
 void Instances::put(std::size_t i, std::uint32_t definition, const Affine<double>& pose) {
@@ -158,6 +164,7 @@ void Instances::place_many(std::size_t first, std::size_t count,
   if (!had_digits) digits_.resize(first, TrailingDigits{});
   digits_.resize(places_.size());
   std::atomic<bool> has_digits = had_digits;
+  const bool had_rests = !rests_.empty();
   std::mutex bodies;
   parallel_for(count, poses_a_range, [&](std::size_t begin, std::size_t end) {
     std::uint32_t last_definition = no_body, last_body = no_body;
@@ -171,7 +178,8 @@ void Instances::place_many(std::size_t first, std::size_t count,
       digits_[i] = placed.digits;
       if (placed.has_digits) has_digits.store(true, std::memory_order_relaxed);
       boxes_[i] = rounded_outwards(padded(this->definition(definition).bounds_of(pose)));
-      if (definition == last_definition && placed.which == last_which && last_which != wide_body) {
+      const bool is_simple = placed.which != wide_body && placed.rest.is_zero() && !had_rests;
+      if (definition == last_definition && placed.which == last_which && is_simple) {
         places_[i].body = last_body;
         continue;
       }
@@ -189,7 +197,9 @@ void Instances::truncate(std::size_t count) {
   places_.resize(std::min(count, places_.size()));
   if (!digits_.empty()) digits_.resize(places_.size());
   if (boxes_.size() > places_.size()) boxes_.resize(places_.size());
-  std::erase_if(wide_, [&](const auto& one) { return one.first >= places_.size(); });
+  const auto is_gone = [&](const auto& one) { return one.first >= places_.size(); };
+  std::erase_if(wide_, is_gone);
+  std::erase_if(rests_, is_gone);
   shown_to_.clear();
   movements_.clear();
 }

@@ -120,13 +120,19 @@ class Instances {
   PreparedShape<double> at(std::size_t i) const {
     const InstancePlace& place = places_[i];
     const InstanceBody& body = bodies_[place.body];
+    const ShapeDefinition<double>& definition = *body.definition;
     const Mat3<double> map = to_inner(i);
+    const Mat3<double>* const turn = body.is_turned ? &map : nullptr;
     const Vec3<double> origin(place.origin[0], place.origin[1], place.origin[2]);
-    return {*body.definition,
-            body.is_centred
-                ? origin
-                : Vec3<double>(origin + times<double, double>(map.transpose(), body.centre)),
-            body.is_turned ? &map : nullptr};
+    if (!body.is_plain) {
+      const auto rest = rests_.find(static_cast<std::uint32_t>(i));
+      if (rest == rests_.end()) return {definition, origin, turn, 0};
+      return {definition, TwoFoldVec3<double>(origin, rest->second.centre), turn,
+              rest->second.loss};
+    }
+    return {definition,
+            ShapeDefinition<double>::plain_centre({map.transpose(), origin}, body.centre), turn,
+            body.is_turned ? definition.plain_loss() : 0};
   }
 
   const InstanceBody& body_of(std::size_t i) const { return bodies_[places_[i].body]; }
@@ -176,12 +182,20 @@ class Instances {
     std::array<std::uint32_t, 5> bodies;
   };
 
+  /// What the origin of an instance that is not plain lacks, and what its pose is known to.
+  struct Rest {
+    Vec3<double> centre = Vec3<double>::Zero();
+    double loss = 0;
+    bool is_zero() const { return loss == 0 && centre.isZero(0); }
+  };
+
   /// An instance's map, and which body it has.
   struct Placed {
     std::size_t which = 0;
     TrailingDigits digits = {};
     bool has_digits = false;
     Mat3<double> wide;
+    Rest rest;
   };
 
   Mat3<double> to_inner(std::size_t i) const;
@@ -202,7 +216,8 @@ class Instances {
   std::vector<InstanceBody> bodies_;
   std::vector<Screen> screens_;  ///< of each body
   FirstTouchVector<InstancePlace> places_;
-  FirstTouchVector<TrailingDigits> digits_;               ///< by instance; empty if all are zero
+  FirstTouchVector<TrailingDigits> digits_;  ///< by instance; empty if all are zero
+  std::unordered_map<std::uint32_t, Rest> rests_;
   std::unordered_map<std::uint32_t, Mat3<double>> wide_;  ///< maps that float does not hold
   std::vector<Movement<double>> movements_;               ///< by instance; empty if all stand still
   FirstTouchVector<Bounds<float>> boxes_;

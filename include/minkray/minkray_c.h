@@ -328,10 +328,11 @@ typedef struct minkray_proof {
   int32_t reserved;
   uint32_t against; /* the object that the proof failed at, or MINKRAY_NO_OBJECT */
   uint32_t checked; /* objects for which something had to be proven */
-  double t_lo;      /* of hits: what is proven of t */
+  double t_lo;      /* of hits: what is proven of t, rounding allowed for */
   double t_hi;
   double plane[3]; /* of hits: nothing of the object lies beyond this plane through t_lo */
-  char complaint[64];
+  char complaint[56];
+  double allowed; /* how far across a plane what is proven may be rounded, as a length */
 } minkray_proof;
 
 /* Proves answers of minkray_scene_cast: that the object is hit where it is said to be, and that all

@@ -26,7 +26,12 @@ CertificateVerdict verdict_of(const HalfSpaceBody<double>& half_space, const Ray
   const Number end = claim.status == Status::hit ? t : 0;
   verdict.allowed = static_cast<double>(unit_of_rounding * size_at(end));
   if (claim.status == Status::hit) {
+    // Where the plane is crossed, to what is allowed across it.
+    const Number crossing = height / -rise - t, along_ray = Number(verdict.allowed) / -rise;
     verdict.t_base = static_cast<double>(t);
+    verdict.offset_planes = verdict.offset_spanned = static_cast<double>(crossing);
+    verdict.offset_lo = static_cast<double>(crossing - along_ray);
+    verdict.offset_hi = static_cast<double>(crossing + along_ray);
     verdict.claim_error = static_cast<double>(std::abs(height + t * rise));
     if (!std::isfinite(t) || !(verdict.claim_error <= verdict.allowed))
       return complain("the hit point is off the plane");

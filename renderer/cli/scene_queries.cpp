@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/cli/scene_queries.h"
 
+#include "core/math/outward_sum.h"
 #include "renderer/film/render.h"
 #include "renderer/import/import.h"
 #include "renderer/json/number_json.h"
@@ -69,8 +70,8 @@ std::optional<Json> SceneQueries::answer(std::string_view line, Mistakes& mistak
   result["status"] = std::string(name_of(status));
   if (hit.found()) {
     result["t"] = number_json(hit.cast.t());
-    result["t_lo"] = number_json(hit.cast.t_base + hit.cast.offset_lo);
-    result["t_hi"] = number_json(hit.cast.t_base + hit.cast.offset_hi);
+    result["t_lo"] = number_json(sum_or_less(hit.cast.t_base, hit.cast.offset_lo));
+    result["t_hi"] = number_json(sum_or_more(hit.cast.t_base, hit.cast.offset_hi));
     result["normal"] = point_json(hit.cast.normal);
     result["object"] = hit.instance;
     result["object_name"] = instance_object(loaded->scene, hit.instance).name;

@@ -198,11 +198,8 @@ int minkray_shape_cast(minkray_shape shape, const minkray_pose* pose, const mink
       } else {
         // Nothing is counted: the handle's owner keeps the definition.
         const ShapeDefinition<double>& definition = *held.definition();
-        const auto placement = definition.placed(pose_of(pose, "pose"));
-        hit.cast = cast_ray(
-            PreparedShape<double>(definition, placement.centre,
-                                  placement.is_rigid_identity ? nullptr : &placement.to_inner),
-            ray);
+        const PreparedShape<double> prepared(definition, definition.placed(pose_of(pose, "pose")));
+        hit.cast = cast_ray(prepared, ray);
       }
       if (hit.cast.found()) hit.instance = 0;
       plain_hit(ray, hit, hit.cast.status == Status::exhausted, *hits);

@@ -125,7 +125,7 @@ bool Prover::keeps_off(std::uint32_t index, const Ray<double>& ray, double t_lo)
   if (cast.status == Status::miss) return true;
   // Met, but not before: two objects may be met at the same place.
   const double rounding = certificate_rounding * epsilon * std::abs(t_lo);
-  return cast.status == Status::hit && found.t_lo() >= t_lo - rounding;
+  return cast.status == Status::hit && found.t_base + found.offset_planes >= t_lo - rounding;
 }
 
 minkray_proof Prover::prove(const Ray<double>& ray, const minkray_hit& hit) const {
@@ -151,6 +151,7 @@ minkray_proof Prover::prove(const Ray<double>& ray, const minkray_hit& hit) cons
     Certificate certificate;
     const CertificateVerdict found = verdict(bodies_[hit.object], ray, claim, &certificate);
     proof.checked = 1;
+    proof.allowed = found.allowed;
     if (hit.status == MINKRAY_HIT) {
       proof.t_lo = found.t_lo();
       proof.t_hi = found.t_hi();

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "core/math/outward_sum.h"
 #include "renderer/library/call.h"
 
 namespace minkray {
@@ -81,8 +82,8 @@ void plain_hit(const Ray<double>& ray, const WorldHit& hit, bool gave_up, minkra
     return;
   }
   to.t = cast.t();
-  to.t_lo = cast.t_base + cast.offset_lo;
-  to.t_hi = cast.t_base + cast.offset_hi;
+  to.t_lo = sum_or_less(cast.t_base, cast.offset_lo);
+  to.t_hi = sum_or_more(cast.t_base, cast.offset_hi);
   to.t_base = cast.t_base;
   to.t_offset = cast.t_offset;
   for (int k = 0; k < 3; ++k) {
@@ -109,8 +110,8 @@ void plain_hit(const Ray<double>& ray, const BlockHits& hits, std::size_t i, min
   to.status = casts.hit >> lane & 1u ? MINKRAY_HIT : MINKRAY_INSIDE;
   const double base = casts.t_base[lane], offset = casts.t_offset[lane];
   to.t = base + offset;
-  to.t_lo = base + casts.offset_lo[lane];
-  to.t_hi = base + casts.offset_hi[lane];
+  to.t_lo = sum_or_less(base, casts.offset_lo[lane]);
+  to.t_hi = sum_or_more(base, casts.offset_hi[lane]);
   to.t_base = base;
   to.t_offset = offset;
   for (int k = 0; k < 3; ++k) {

@@ -8,6 +8,7 @@
 #include "core/contact/shape_cast.h"
 #include "core/contact/signed_distance.h"
 #include "core/derived/convert.h"
+#include "core/math/outward_sum.h"
 #include "renderer/json/number_json.h"
 #include "renderer/query/trace.h"
 
@@ -36,8 +37,8 @@ void add_cast(Answer& answer, const CastResult<T>& result) {
   answer.json["status"] = answer.facts.status;
   if (result.status != Status::miss) {
     answer.json["t"] = number_json(answer.facts.t);
-    answer.json["t_lo"] = number_json(sum(result.t_base, result.offset_lo));
-    answer.json["t_hi"] = number_json(sum(result.t_base, result.offset_hi));
+    answer.json["t_lo"] = number_json(sum_or_less(double(result.t_base), double(result.offset_lo)));
+    answer.json["t_hi"] = number_json(sum_or_more(double(result.t_base), double(result.offset_hi)));
   }
   if (!result.normal.isZero(T(0))) {
     answer.facts.normal = result.normal.template cast<double>();

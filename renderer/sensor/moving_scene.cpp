@@ -110,10 +110,9 @@ PreparedShape<double> SceneWhile::mover_at(std::size_t mover, double time) {
   Placed& placed = placed_[mover];
   if (!placed.is_known || placed.time != time) {
     const Object& object = scene_.scene_.objects[scene_.movers_[mover].object];
-    const auto placement = definition.placed(object.motion->pose_at(time));
-    placed = {time, true, placement.centre, placement.to_inner, placement.is_rigid_identity};
+    placed = {time, true, definition.placed(object.motion->pose_at(time))};
   }
-  return {definition, placed.centre, placed.is_identity ? nullptr : &placed.to_inner};
+  return {definition, placed.placement};
 }
 
 /// Tells what comes before the closest hit so far, if any: as a world does.

@@ -63,9 +63,7 @@ class SceneWhile {
   struct Placed {
     double time = 0;
     bool is_known = false;
-    Vec3<double> centre;
-    Mat3<double> to_inner;
-    bool is_identity = false;
+    ShapeDefinition<double>::Placement placement;
   };
   bool moves(std::uint32_t instance) const;
   PreparedShape<double> mover_at(std::size_t mover, double time);

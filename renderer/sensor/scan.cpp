@@ -8,6 +8,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "core/math/outward_sum.h"
 #include "core/parallel/parallel.h"
 #include "renderer/sensor/moving_scene.h"
 
@@ -123,8 +124,8 @@ class Scanner {
       echo.point = ray.at(echo.t);
       echo.normal = cast.normal;
       echo.object = static_cast<std::int32_t>(hit.instance);
-      echo.t_lo = cast.t_base + cast.offset_lo;
-      echo.t_hi = cast.t_base + cast.offset_hi;
+      echo.t_lo = sum_or_less(cast.t_base, cast.offset_lo);
+      echo.t_hi = sum_or_more(cast.t_base, cast.offset_hi);
       if (k + 1 < options_.returns) hit = behind(at, hit, scene, counts);
     }
   }

@@ -111,7 +111,7 @@ py::dict certify(const Scene& scene, const py::object& rays, const py::object& t
   });
   const auto n = static_cast<py::ssize_t>(count);
   py::array_t<bool> holds(n);
-  py::array_t<double> t_lo(n), t_hi(n), plane({n, py::ssize_t{3}});
+  py::array_t<double> t_lo(n), t_hi(n), allowed(n), plane({n, py::ssize_t{3}});
   py::array_t<std::uint32_t> checked(n);
   py::list complaints;
   for (std::size_t i = 0; i < count; ++i) {
@@ -120,6 +120,7 @@ py::dict certify(const Scene& scene, const py::object& rays, const py::object& t
     t_lo.mutable_at(k) = proofs[i].t_lo;
     t_hi.mutable_at(k) = proofs[i].t_hi;
     for (py::ssize_t axis = 0; axis < 3; ++axis) plane.mutable_at(k, axis) = proofs[i].plane[axis];
+    allowed.mutable_at(k) = proofs[i].allowed;
     checked.mutable_at(k) = proofs[i].checked;
     complaints.append(py::str(proofs[i].complaint));
   }
@@ -127,6 +128,7 @@ py::dict certify(const Scene& scene, const py::object& rays, const py::object& t
   result["holds"] = holds;
   result["t_lo"] = t_lo;
   result["t_hi"] = t_hi;
+  result["allowed"] = allowed;
   result["plane"] = plane;
   result["checked"] = checked;
   result["complaint"] = complaints;

@@ -234,7 +234,8 @@ TEST(Certificate, of_a_ray_in_a_face_is_of_what_lies_between_its_ends) {
   complaint(0.25, 0.25);
   const CertificateVerdict verdict = check_certificate(support, ray, claim, certificate);
   EXPECT_EQ(verdict.t_lo(), 0);
-  EXPECT_EQ(verdict.t_hi(), 0.25);
+  // Along a plane, its rounding is as long as the ray.
+  EXPECT_NEAR(verdict.t_hi(), 0.5, 1e-12);
 }
 
 // All of the ray lies in that plane, in the air as well.

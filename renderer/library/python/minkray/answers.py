@@ -96,7 +96,9 @@ class Proofs(_Arrays):
     ----------
     holds : bool
     t_lo, t_hi : float64
-        Proven bounds of t; inf where nothing is met.
+                Proven bounds of t, rounding allowed for; inf where nothing is met.
+    allowed : float64
+        How far across a plane what is proven may be rounded, as a length.
     plane : float64, three numbers each
         A normal: nothing of the object lies beyond the plane of this normal through t_lo.
     checked : uint32

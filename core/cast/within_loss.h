@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+// Casts of rays whose place beside the shape is known to a length only (RayNearBall::loss): answers
+// that hold for every ray that is no further off. Along a ray, entry into a convex shape is a
+// convex function of where the ray passes. So if rays through the corners of a triangle enter it,
+// all rays between them do, no later than the latest of those three.
+#pragma once
+
+#include <algorithm>
+
+#include "core/cast/stages.h"
+#include "core/query/ray_frame.h"
+
+namespace minkray {
+
+/// The rays around one, in a triangle that holds all that are no further off than the loss; or
+/// moved by twice the loss along themselves.
+template <class T>
+class RaysAround {
+ public:
+  static constexpr int count = 3;
+
+  explicit RaysAround(const RayNearBall<T>& near) : near_(near), frame_(near.r) {}
+
+  RayNearBall<T> operator[](int corner) const {
+    // The inscribed circle's radius is half the circumscribed one's; some more for rounding.
+    constexpr T to_corner = T(2.125), half = T(0.5), sine = T(0.8660254037844386);
+    const T cosines[count] = {T(1), -half, -half}, sines[count] = {T(0), sine, -sine};
+    RayNearBall<T> moved = near_;
+    moved.s += (frame_.x * cosines[corner] + frame_.y * sines[corner]) * (to_corner * near_.loss);
+    moved.loss = T(0);
+    return moved;
+  }
+
+  /// One that begins later and ends earlier by the loss.
+  RayNearBall<T> shorter(int corner) const {
+    RayNearBall<T> moved = (*this)[corner];
+    moved.lambda_min += near_.loss;
+    moved.lambda_max -= near_.loss;
+    return moved;
+  }
+  /// One that begins earlier or later by the loss (sign = -1 or 1).
+  RayNearBall<T> beginning(int corner, int sign) const {
+    RayNearBall<T> moved = (*this)[corner];
+    moved.lambda_min += T(sign) * near_.loss;
+    return moved;
+  }
+
+ private:
+  const RayNearBall<T>& near_;
+  RayFrame<T> frame_;
+};
+
+/// `ask(near)` casts the ray as if its place were exact. Exhausted, where rays within the loss are
+/// answered otherwise.
+template <class T, class Ask>
+CastResult<T> ask_within_loss(const PreparedShape<T>& shape, const RayNearBall<T>& near,
+                              const Ask& ask) {
+  const Ball<T>& ball = shape.inner_ball();
+  RayNearBall<T> exact = near;
+  exact.loss = T(0);
+  CastResult<T> found = ask(exact);
+  const auto give_up = [&] {
+    found.status = Status::exhausted;
+    found.normal.setZero();
+    return found;
+  };
+  const auto answer = [&](const RayNearBall<T>& beside) {
+    const CastResult<T> other = ask(beside);
+    found.iterations += other.iterations;
+    found.supports += other.supports;
+    return other;
+  };
+  const RaysAround<T> around(near);
+
+  if (found.status == Status::miss) {
+    // The plane must keep off by more than the loss where the shape may be.
+    const T reach = T(2) * (ball.radius + near.loss);
+    const auto height_at = [&](T lambda) {
+      return found.normal.dot(near.s + near.r * std::clamp(lambda, -reach, reach));
+    };
+    ++found.supports;
+    const T of_shape = found.normal.dot(shape.inner_shape().support(found.normal) - ball.centre);
+    const T margin = std::min(height_at(near.lambda_min), height_at(near.lambda_max)) - of_shape;
+    return margin > near.loss + tolerance::jet_gap<T> * ball.radius ? found : give_up();
+  }
+  if (found.status == Status::inside) {
+    for (int corner = 0; corner < RaysAround<T>::count; ++corner)
+      for (const int sign : {-1, 1})
+        if (answer(around.beginning(corner, sign)).status != Status::inside) return give_up();
+    return found;
+  }
+  if (found.status == Status::hit) {
+    // Rays that were turned round are counted down.
+    const T sign = near.t_per_length < T(0) ? T(-1) : T(1);
+    const T first = std::min(sign * found.offset_lo, sign * found.t_offset);
+    T latest = sign * found.t_offset;
+    for (int corner = 0; corner < RaysAround<T>::count; ++corner) {
+      const CastResult<T> other = answer(around.shorter(corner));
+      if (other.status != Status::hit) return give_up();
+      latest = std::max(latest, sign * other.offset_hi);
+    }
+    // A convex function is no further below its value in the middle than it is above it around.
+    found.offset_hi = sign * latest;
+    found.offset_lo = sign * (T(2) * first - latest);
+  }
+  return found;
+}
+
+}  // namespace minkray
