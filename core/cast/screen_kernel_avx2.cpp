@@ -126,20 +126,20 @@ ScreenBits screen_list(const ScreenList<T>& list, const std::uint32_t* rays,
   if constexpr (kind == FormKind::polytope) {
     // One definition after the other.
     ScreenBits all{0, 0};
-    Screened one;
+    Screened theirs;
     for (std::uint32_t left = 0xffu; left != 0;) {
       const std::uint32_t definition = place[__builtin_ctz(left)]->definition;
       std::uint32_t these = 0;
       for (std::uint32_t lane = 0; lane < screen_lanes; ++lane)
         these |= (place[lane]->definition == definition ? 1u : 0u) << lane;
       const ScreenBits bits =
-          look<kind>(seen, FormInLanes(list.screens[definition]), limits, one);
+          look<kind>(seen, FormInLanes(list.screens[definition]), limits, theirs);
       all.open |= bits.open & these;
       all.sure |= bits.sure & these;
       for (std::size_t lane = 0; lane < screen_lanes; ++lane)
         if (these >> lane & 1u) {
-          answers.first[lane] = one.first[lane];
-          answers.last[lane] = one.last[lane];
+          answers.first[lane] = theirs.first[lane];
+          answers.last[lane] = theirs.last[lane];
         }
       left &= ~these;
     }
