@@ -14,7 +14,8 @@ Mat3<double> turn(const Vec3<double>& axis, double angle) {
   return rotation_matrix(axis.x() * s, axis.y() * s, axis.z() * s, std::cos(half));
 }
 
-/// Two directions of a plane with that normal, as a right-handed frame with it.
+}  // namespace
+
 std::array<Vec3<double>, 2> directions_across(const Vec3<double>& normal) {
   const Vec3<double> helper =
       std::abs(normal.x()) < 0.5 ? Vec3<double>(1, 0, 0) : Vec3<double>(0, 1, 0);
@@ -22,7 +23,6 @@ std::array<Vec3<double>, 2> directions_across(const Vec3<double>& normal) {
   return {u, normal.cross(u)};
 }
 
-/// How a joint's value moves its link, in the link's frame at rest.
 Affine<double> motion_of(const ModelJoint& joint) {
   const std::vector<double>& q = joint.value;
   const auto about_anchor = [&](const Mat3<double>& rotation) {
@@ -45,8 +45,6 @@ Affine<double> motion_of(const ModelJoint& joint) {
   }
   return {};
 }
-
-}  // namespace
 
 std::size_t width_of(JointKind kind) {
   switch (kind) {
