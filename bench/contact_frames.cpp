@@ -279,13 +279,13 @@ void walk(const std::string& robot, const std::string& joints) {
     for (int i = 0; i < samples; ++i) {
       const auto& links = motion.links_at(static_cast<double>(i) / samples);
       const auto pose = [&](const ClearanceBody& body) {
-        if (body.link_index < 0) return body.pose;
-        return links[static_cast<std::size_t>(body.link_index)] * body.pose;
+        return body.link_index < 0 ? Affine<double>()
+                                   : links[static_cast<std::size_t>(body.link_index)];
       };
       std::vector<Asked> asked;
       for (std::size_t p = 0; p < pairs.size(); ++p) {
         const ClearanceBody &a = bodies[pairs[p].a], &b = bodies[pairs[p].b];
-        if (a.half_space || b.half_space) continue;
+        if (a.plane || b.plane) continue;
         asked.push_back({&a.shape, &b.shape, {pose(a)}, {pose(b)}, &memories[p]});
       }
       ask_all(asked, costs["links"],

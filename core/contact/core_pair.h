@@ -11,14 +11,21 @@
 
 namespace minkray {
 
+/// What all roundings of a query amount to, relative to the sizes and the middles' distance.
+inline constexpr double core_rounding = 16 * std::numeric_limits<double>::epsilon();
+
 struct CorePair {
   const ShapeCore& a;
   const ShapeCore& b;
   Mat3<double> turn;  ///< from B's frame to A's
   Vec3<double> x;     ///< B's middle in A's frame
+  double loss = 0;    ///< by how much that may be off: what the bodies' places have cost
 
   /// Radii of balls around the middles: what roundings are relative to.
   double size() const { return a.ball + b.ball; }
+  double radii() const { return a.radius + b.radius; }
+  /// What a gap between the grown cores may be off by.
+  double rounding() const { return core_rounding * (size() + radii() + x.norm()) + loss; }
   Vec3<double> to_b(const Vec3<double>& d) const { return turn.transpose() * d; }
 };
 

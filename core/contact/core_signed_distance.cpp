@@ -57,6 +57,22 @@ bool depth_by_polytope(const CorePair& pair, double gap, Enclosure enclosure, Co
   return expand<other, other>(pair, gap, enclosure, found);
 }
 
+/// How deep the origin is within four points of C; negative if that is not known.
+double depth_within(const Enclosure& four) {
+  if (!four.is_found) return -1;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Vec3<double>&p = four.c[i], &q = four.c[(i + 1) % 4], &r = four.c[(i + 2) % 4],
+          &opposite = four.c[(i + 3) % 4];
+    const Vec3<double> n = unit<double>((q - p).cross(r - p));
+    const double side = n.dot(opposite - p) < 0 ? -1 : 1;
+    // With any n: what is beyond the nearest of the three corners along it is within.
+    least = std::min(least, -side * n.dot(p));
+    least = std::min({least, -side * n.dot(q), -side * n.dot(r)});
+  }
+  return least;
+}
+
 /// Where the cores nearly touch, what is between their nearest points is short of digits for a
 /// direction. B stands off along the axis: the plane that is found there is one here, too, and its
 /// axis a better one to stand off along; the points are some here, too.
@@ -163,9 +179,20 @@ CoreDistance core_signed_distance(const CorePair& pair, const SignedDistanceOpti
   const double gap = std::clamp(options.tolerance, 1e-14, 1.0) * size;
   const auto is_settled = [&] {
     const bool overlaps = found.status == CoreStatus::overlapping;
-    if (options.only_sign && (overlaps || found.upper < radii || found.lower > radii)) return true;
+    const double sure = 2 * pair.rounding();
+    if (options.only_sign && (found.upper < radii - sure || found.lower > radii + sure))
+      return true;
     return !overlaps && found.upper - found.lower <= settled_core_gap * size;
   };
+  // A common point tells an overlap if it is deeper than rounding can make it.
+  if (options.only_sign && found.status == CoreStatus::overlapping) {
+    const double depth = std::max(depth_within(enclosure), 0.0);
+    if (depth + radii > 2 * pair.rounding()) {
+      found.upper = -depth;
+      return found;
+    }
+    if (options.max_supports == 0) return found;
+  }
   if (is_settled() && found.status != CoreStatus::unsettled) return found;
   if (found.status != CoreStatus::overlapping && std::isfinite(found.upper)) {
     improve_plane(pair, found);
@@ -174,7 +201,7 @@ CoreDistance core_signed_distance(const CorePair& pair, const SignedDistanceOpti
   // There is no size of two points at one place.
   const double reach = pair.size() + pair.x.norm();
   return depth_of_cores(pair, enclosure, found, options, reach > 0 ? gap / reach : 0,
-                        options.only_sign && radii == 0);
+                        options.only_sign && radii == 0 && found.status != CoreStatus::overlapping);
 }
 
 }  // namespace minkray

@@ -21,14 +21,52 @@ constexpr double first_step = 1e-30;
 /// those of infinite bodies all do, and each takes as long as a thousand others.
 constexpr int most_exhausted = 10;
 
-/// The support function of a body, seen from its pivot, in a direction of the world.
-double support_function(const ContactShape& shape, const Mat3<double>& to_world,
-                        const Vec3<double>& n) {
-  const Mat3<double> turn = to_world * shape.turn();
-  const Vec3<double> d = turn.transpose() * n;
-  const CoreSupport support = support_of_core<CoreKind::other>(shape.core(), d);
-  return n.dot(to_world * shape.middle()) + d.dot(support.point) + shape.core().radius;
-}
+/// A body that may turn, seen from its pivot; one that does not turn is seen from its middle.
+class Turning {
+ public:
+  Turning(const ContactShape& shape, const RigidMotion& motion)
+      : shape_(shape), motion_(motion), speed_(length_of(motion.angular_velocity)) {
+    if (speed_ > 0) axis_ = motion.angular_velocity / speed_;
+    if (speed_ > 0 && shape.is_moved()) arm_ = motion.pose.linear * shape.middle();
+    reach_ = shape.ball_radius() + length_of(arm_);
+  }
+
+  double speed() const { return speed_; }  ///< radians per unit of time
+  /// No point is further from the axis.
+  double reach() const { return reach_; }
+  double arm_length() const { return reach_ - shape_.ball_radius(); }
+
+  PlacedMiddle seen_from() const {
+    if (speed_ > 0) return {motion_.pose.translation, shape_.core().rounding};
+    return placed_middle(shape_, motion_.pose);
+  }
+
+  /// Where the body is at a time: its linear part, and its middle from where it is seen from.
+  Affine<double> at(double time) const {
+    if (!(speed_ > 0)) return {motion_.pose.linear, Vec3<double>::Zero()};
+    const Mat3<double> turn = Eigen::AngleAxis<double>(time * speed_, axis_).toRotationMatrix();
+    return {turn * motion_.pose.linear, turn * arm_};
+  }
+
+  /// The support function in a direction of the world.
+  double support(const Affine<double>& there, const Vec3<double>& n) const {
+    const Mat3<double> turn = turn_in_world(shape_, there.linear);
+    const Vec3<double> d = turn.transpose() * n;
+    const CoreSupport support = support_of_core<CoreKind::other>(shape_.core(), d);
+    return n.dot(there.translation) + d.dot(support.point) + shape_.core().radius;
+  }
+
+  Vec3<double> velocity_of(const Vec3<double>& from_seen) const {
+    return motion_.angular_velocity.cross(from_seen);
+  }
+
+ private:
+  const ContactShape& shape_;
+  const RigidMotion& motion_;
+  double speed_;
+  Vec3<double> axis_ = Vec3<double>::Zero(), arm_ = Vec3<double>::Zero();
+  double reach_;
+};
 
 class Advance {
  public:
@@ -39,6 +77,9 @@ class Advance {
         b_(b),
         of_a_(motion_a),
         of_b_(motion_b),
+        turning_a_(a, motion_a),
+        turning_b_(b, motion_b),
+        velocity_(motion_b.velocity - motion_a.velocity),
         t_max_(t_max),
         memory_(memory),
         options_(options) {
@@ -47,9 +88,9 @@ class Advance {
   }
 
   Impact run() {
-    const bool is_turning = !of_a_.angular_velocity.isZero(0) || !of_b_.angular_velocity.isZero(0);
+    const bool is_turning = turning_a_.speed() > 0 || turning_b_.speed() > 0;
     if (!is_turning && run_swept()) return result_;
-    find_speeds();
+    bring_near();
     // Every step begins with what the one before it has found.
     PairMemory of_steps;
     if (!memory_) memory_ = &of_steps;
@@ -86,8 +127,7 @@ class Advance {
   /// Whether a distance looks like a contact only since its search ended without an upper bound, or
   /// with one too far away to be a contact.
   bool gave_up(const SignedDistance& now) const {
-    return now.is_unknown() || (now.status == SignedStatus::undecided && now.value <= touching_ &&
-                                now.upper > touching_);
+    return now.is_unknown() || (now.value <= touching_ && now.upper > 2 * touching_);
   }
 
   /// After a time until which they do not meet.
@@ -95,13 +135,20 @@ class Advance {
     return finish(ImpactStatus::undecided, t, std::numeric_limits<double>::infinity(), now);
   }
 
-  void find_speeds() {
-    const double about_a = a_.middle().norm() + a_.ball_radius(),
-                 about_b = b_.middle().norm() + b_.ball_radius();
-    turning_a_ = length_of(of_a_.angular_velocity);
-    turning_b_ = length_of(of_b_.angular_velocity);
-    speed_ =
-        length_of(of_b_.velocity - of_a_.velocity) + turning_a_ * about_a + turning_b_ * about_b;
+  /// All that follows is seen from A, so that no number is larger than the bodies' sizes, their
+  /// distance and their ways.
+  void bring_near() {
+    const PlacedMiddle of_a = turning_a_.seen_from(), of_b = turning_b_.seen_from();
+    start_ = {(of_b.at - of_a.at).rounded(), of_a.loss + of_b.loss};
+    constexpr double of_arms = 8 * std::numeric_limits<double>::epsilon();
+    start_.loss += of_arms * (turning_a_.arm_length() + turning_b_.arm_length());
+    speed_ = length_of(velocity_) + turning_a_.speed() * turning_a_.reach() +
+             turning_b_.speed() * turning_b_.reach();
+  }
+
+  /// What times and angles are rounded by moves the bodies by so much.
+  double loss_at(double t) const {
+    return start_.loss + 2 * std::numeric_limits<double>::epsilon() * t * speed_;
   }
 
   SignedDistance at(double t, bool only_sign = false) {
@@ -109,21 +156,23 @@ class Advance {
     SignedDistanceOptions how;
     how.only_sign = only_sign;
     how.tolerance = std::min(1e-9, options_.touching);
+    // An overlap that GJK alone does not prove is proven a little later, when it is deeper.
+    if (only_sign) how.max_supports = 0;
+    const Affine<double> at_a = turning_a_.at(t), at_b = turning_b_.at(t);
+    const Between between{start_.x + t * velocity_ + at_b.translation - at_a.translation,
+                          loss_at(t)};
     const SignedDistance there =
-        memory_ ? signed_distance(a_, of_a_.at(t), b_, of_b_.at(t), *memory_, how)
-                : signed_distance(a_, of_a_.at(t), b_, of_b_.at(t), how);
-    exhausted_ += there.is_exhausted ? 1 : 0;
+        signed_distance(a_, at_a.linear, b_, at_b.linear, between, how, memory_);
+    exhausted_ += there.is_exhausted && !only_sign ? 1 : 0;
     return there;
   }
 
   /// The speed at which the nearest points part, negative if they approach.
   double approach(const SignedDistance& now, double t) const {
-    const auto velocity = [&](const RigidMotion& motion,
-                              const Vec3<double>& point) -> Vec3<double> {
-      const Vec3<double> arm = point - motion.pose.translation - t * motion.velocity;
-      return motion.velocity + motion.angular_velocity.cross(arm);
-    };
-    return now.normal.dot(velocity(of_b_, now.point_b) - velocity(of_a_, now.point_a));
+    const Vec3<double> arm_a = turning_a_.at(t).translation,
+                       arm_b = start_.x + t * velocity_ - arm_a;
+    return now.normal.dot(velocity_ + turning_b_.velocity_of(now.point_b - arm_b) -
+                          turning_a_.velocity_of(now.point_a + arm_a));
   }
   /// Slower is rest.
   double parting() const { return options_.touching * speed_; }
@@ -132,7 +181,7 @@ class Advance {
   /// at which they overlap. What turns may come back: the first look is when they may be apart at
   /// the earliest, and the time is doubled from there.
   double leave(const SignedDistance& now) {
-    const double turning = std::max(turning_a_, turning_b_), apart = 4 * touching_;
+    const double turning = std::max(turning_a_.speed(), turning_b_.speed()), apart = 4 * touching_;
     const double at_this_speed = apart / approach(now, 0);
     const double first = turning > 0 ? apart / speed_ : at_this_speed;
     // Points are of no size, and nothing is near to nothing: the way begins somewhere.
@@ -152,9 +201,9 @@ class Advance {
     double gap, h_a, h_b;
   };
   Gap gap(double t, const Vec3<double>& n) const {
-    const Affine<double> a = of_a_.at(t), b = of_b_.at(t);
-    const double h_a = support_function(a_, a.linear, n), h_b = support_function(b_, b.linear, -n);
-    return {n.dot(b.translation - a.translation) - h_a - h_b, h_a, h_b};
+    const double h_a = turning_a_.support(turning_a_.at(t), n),
+                 h_b = turning_b_.support(turning_b_.at(t), -n);
+    return {n.dot(start_.x + t * velocity_) - h_a - h_b, h_a, h_b};
   }
 
   /// No contact from t to the time returned, which is later unless digits are lacking.
@@ -164,18 +213,18 @@ class Advance {
     const Gap first = gap(t, n);
     double step = t_end - t;
     if (speed_ > 0) step = std::min(step, 16 * (now.value + size_) / speed_);
-    const double turning = std::max(turning_a_, turning_b_);
+    const double turning = std::max(turning_a_.speed(), turning_b_.speed());
     if (turning > 0) step = std::min(step, largest_turn / turning);
     const bool is_last = step == t_end - t;
-    const double allowed =
-        rounding * (size_ + (of_b_.pose.translation - of_a_.pose.translation).norm() + t * speed_);
+    const double of_sizes = rounding * (size_ + start_.x.norm() + t * speed_);
     const auto bulge = [](double angle, double at_first, double at_last) {
       return (1 / std::cos(angle / 2) - 1) * std::max({at_first, at_last, 0.0});
     };
     for (int i = 0; i < 60; ++i) {
       const Gap last = gap(t + step, n);
-      const double worst = last.gap - bulge(turning_a_ * step, first.h_a, last.h_a) -
-                           bulge(turning_b_ * step, first.h_b, last.h_b) - allowed;
+      const double allowed = of_sizes + loss_at(t + step);
+      const double worst = last.gap - bulge(turning_a_.speed() * step, first.h_a, last.h_a) -
+                           bulge(turning_b_.speed() * step, first.h_b, last.h_b) - allowed;
       if (worst > 0 && worst >= last.gap - first.gap) return i == 0 && is_last ? t_end : t + step;
       // The line through the two gaps is 0 there, or a little before.
       const double down = first.gap - worst;
@@ -206,13 +255,14 @@ class Advance {
     const ContactShape &first = is_turned ? b_ : a_, &second = is_turned ? a_ : b_;
     const RigidMotion &of_first = is_turned ? of_b_ : of_a_, &of_second = is_turned ? of_a_ : of_b_;
     const Mat3<double> frame = turn_in_world(first, of_first.pose);
-    const Vec3<double> velocity = of_second.velocity - of_first.velocity;
+    const Vec3<double> velocity = is_turned ? Vec3<double>(-velocity_) : velocity_;
     const SweptTime swept = swept_time(pair_of(first, of_first.pose, frame, second, of_second.pose),
                                        frame.transpose() * velocity, t_max_, touching_, memory_);
     if (swept.status == SweptStatus::open) return false;
     const Vec3<double> axis = frame * swept.axis,
                        normal = unit<double>(is_turned ? Vec3<double>(-axis) : axis);
     if (swept.status == SweptStatus::miss) {
+      bring_near();
       miss(t_max_, normal);
       return true;
     }
@@ -226,20 +276,22 @@ class Advance {
     result_.point_a = result_.point_b =
         middle_in_world(first, of_first.pose) + frame * swept.a + result_.t_lo * of_first.velocity;
     (is_turned ? result_.point_a : result_.point_b) -= back;
-    result_.distance = normal.dot(result_.point_b - result_.point_a);
+    result_.distance = is_turned ? normal.dot(back) : -normal.dot(back);
     return true;
   }
 
-  /// They touch at t; when they do for sure.
+  /// They touch at t, to rounding; when they do for sure.
   Impact meet(double t, double t_end, const SignedDistance& now) {
     double t_hi = t;
-    if (now.upper > touching_ || now.lower > 0) {
+    if (now.upper > 0) {
       // Into each other, if they go on; if not, coming so near is a contact.
       const double speed = -approach(now, t);
-      double later = std::max(2 * now.value / std::max(speed, 1e-6 * speed_), t * rounding);
+      constexpr double deep = 0.5;
+      double later = std::max((2 * now.upper + deep * touching_) / std::max(speed, 1e-6 * speed_),
+                              t * rounding);
       for (int i = 0; i < 40 && t + later <= t_end; ++i, later *= 2) {
         const SignedDistance then = at(t + later, true);
-        if (then.status == SignedStatus::overlapping || then.upper <= 0) {
+        if (then.upper <= 0) {
           t_hi = t + later;
           break;
         }
@@ -249,23 +301,30 @@ class Advance {
     return finish(ImpactStatus::hit, t, t_hi, now);
   }
 
+  /// `now` is the distance at t_lo.
   Impact finish(ImpactStatus status, double t_lo, double t_hi, const SignedDistance& now) {
     result_.status = status;
     result_.t_lo = t_lo;
     result_.t_hi = t_hi;
-    result_.point_a = now.point_a;
-    result_.point_b = now.point_b;
     result_.normal = now.normal;
-    result_.distance = now.is_unknown() ? std::numeric_limits<double>::infinity() : now.value;
+    result_.distance = std::numeric_limits<double>::infinity();
+    if (now.is_unknown()) return result_;
+    const Vec3<double> middle = middle_in_world(a_, of_a_.at(t_lo));
+    result_.point_a = middle + now.point_a;
+    result_.point_b = middle + now.point_b;
+    result_.distance = now.value;
     return result_;
   }
 
   const ContactShape &a_, &b_;
   const RigidMotion &of_a_, &of_b_;
+  Turning turning_a_, turning_b_;
+  Vec3<double> velocity_;  ///< of B, as A sees it
+  Between start_;          ///< from where A is seen from to where B is, at time 0
   double t_max_;
   PairMemory* memory_;
   const ImpactOptions& options_;
-  double size_ = 0, turning_a_ = 0, turning_b_ = 0, speed_ = 0, touching_ = 0;
+  double size_ = 0, speed_ = 0, touching_ = 0;
   int exhausted_ = 0;  ///< of the distances at single times
   Impact result_;
 };

@@ -102,12 +102,15 @@ LeastDistance least_distance(const MovingPair& pair, const LeastDistanceOptions&
 
 double gap_along(const ContactShape& a, const Affine<double>& pose_a, const ContactShape& b,
                  const Affine<double>& pose_b, const Vec3<double>& n) {
-  constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
-  const Mat3<double> turn_a = turn_in_world(a, pose_a);
-  const CorePair pair = pair_of(a, pose_a, turn_a, b, pose_b);
+  return gap_along(a, pose_a.linear, b, pose_b.linear, between_middles(a, pose_a, b, pose_b), n);
+}
+
+double gap_along(const ContactShape& a, const Mat3<double>& linear_a, const ContactShape& b,
+                 const Mat3<double>& linear_b, const Between& between, const Vec3<double>& n) {
+  const Mat3<double> turn_a = turn_in_world(a, linear_a);
+  const CorePair pair = pair_of(a, turn_a, b, turn_in_world(b, linear_b), between);
   const Vec3<double> d = turn_a.transpose() * n;
-  const double radii = pair.a.radius + pair.b.radius;
-  return d.dot(nearest_along(pair, d).c) - radii - rounding * (pair.size() + radii + pair.x.norm());
+  return d.dot(nearest_along(pair, d).c) - pair.radii() - pair.rounding();
 }
 
 }  // namespace minkray

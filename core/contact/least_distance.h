@@ -60,5 +60,7 @@ LeastDistance least_distance(const MovingPair& pair, const LeastDistanceOptions&
 /// The gap of two shapes along a unit vector n of the world, or a little less for rounding.
 double gap_along(const ContactShape& a, const Affine<double>& pose_a, const ContactShape& b,
                  const Affine<double>& pose_b, const Vec3<double>& n);
+double gap_along(const ContactShape& a, const Mat3<double>& linear_a, const ContactShape& b,
+                 const Mat3<double>& linear_b, const Between& between, const Vec3<double>& n);
 
 }  // namespace minkray

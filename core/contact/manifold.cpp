@@ -102,31 +102,40 @@ double height_over(const Polygon& polygon, double x, double y) {
   return best;
 }
 
-/// The shape's support point, rounding included, in the world.
-Vec3<double> support(const ContactShape& shape, const PlacedCore& at, const Vec3<double>& n) {
-  const Vec3<double> d = at.turn.transpose() * n;
-  return at.middle + at.turn * support_of_core<CoreKind::other>(shape.core(), d).point +
-         (shape.core().radius / n.norm()) * n;
-}
+/// A shape whose core's middle is at `middle`, as seen from A's.
+struct Seen {
+  const ContactShape& shape;
+  Mat3<double> turn;
+  Vec3<double> middle;
+
+  /// The support point, the shape's radius included.
+  Vec3<double> support(const Vec3<double>& n) const {
+    const Vec3<double> d = turn.transpose() * n;
+    return middle + turn * support_of_core<CoreKind::other>(shape.core(), d).point +
+           (shape.core().radius / n.norm()) * n;
+  }
+};
 
 class Manifold {
  public:
-  Manifold(const SignedDistance& nearest, const ManifoldOptions& options)
+  /// `point_a` is the nearest one of A, as seen from A's middle.
+  Manifold(const SignedDistance& nearest, const Vec3<double>& point_a,
+           const ManifoldOptions& options)
       : nearest_(nearest),
+        point_a_(point_a),
         options_(options),
         e0_(nearest.normal.unitOrthogonal()),
         e1_(nearest.normal.cross(e0_)) {}
 
   /// What looks along `sign` times the normal, seen from point_a.
-  Polygon face(const ContactShape& shape, const PlacedCore& at, double sign, double near) const {
+  Polygon face(const Seen& seen, double sign, double near) const {
     std::array<Corner, directions> corners;
     const Vec3<double>& n = nearest_.normal;
     for (int k = 0; k < directions; ++k) {
       constexpr double turn = 2 * 3.14159265358979323846 / directions;
       const double angle = turn * (k + 0.5);
       const Vec3<double> aside = std::cos(angle) * e0_ + std::sin(angle) * e1_;
-      const Vec3<double> p =
-          support(shape, at, sign * n + std::tan(options_.tilt) * aside) - nearest_.point_a;
+      const Vec3<double> p = seen.support(sign * n + std::tan(options_.tilt) * aside) - point_a_;
       corners[static_cast<std::size_t>(k)] = {p.dot(e0_), p.dot(e1_), p.dot(n)};
     }
     return hull_of(corners, near);
@@ -188,6 +197,7 @@ class Manifold {
 
  private:
   const SignedDistance& nearest_;
+  Vec3<double> point_a_;
   const ManifoldOptions& options_;
   Vec3<double> e0_, e1_;
   std::array<ContactPoint, most_corners> all_;
@@ -202,9 +212,11 @@ ContactManifold contact_manifold(const ContactShape& a, const Affine<double>& po
   if (nearest.normal.isZero(0) || nearest.is_unknown()) return {};
   constexpr double same = 1e-6;
   const double size = std::min(a.ball_radius(), b.ball_radius()), near = same * size;
-  Manifold manifold(nearest, options);
-  const Polygon of_a = manifold.face(a, placed(a, pose_a), 1, near),
-                of_b = manifold.face(b, placed(b, pose_b), -1, near);
+  const Vec3<double> from_middle = nearest.point_a - middle_in_world(a, pose_a);
+  Manifold manifold(nearest, from_middle, options);
+  const Seen seen_a{a, turn_in_world(a, pose_a), Vec3<double>::Zero()},
+      seen_b{b, turn_in_world(b, pose_b), between_middles(a, pose_a, b, pose_b).x};
+  const Polygon of_a = manifold.face(seen_a, 1, near), of_b = manifold.face(seen_b, -1, near);
   // What lies within the other's face is kept of a point or an edge.
   const Polygon common =
       of_a.count <= of_b.count ? clipped(of_a, of_b, near) : clipped(of_b, of_a, near);

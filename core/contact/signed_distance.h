@@ -77,7 +77,8 @@ struct SignedDistanceOptions {
 };
 
 /// The poses are rigid. Their rounding, and that of all numbers here, is allowed for by 16 epsilons
-/// of the shapes' sizes and of the distance of their middles.
+/// of the shapes' sizes and of the distance of their middles, wherever the two are; shapes that are
+/// far from the origin of their own frames, and turned there, add what that turn was rounded to.
 SignedDistance signed_distance(const ContactShape& a, const Affine<double>& pose_a,
                                const ContactShape& b, const Affine<double>& pose_b,
                                const SignedDistanceOptions& options = {});
@@ -88,6 +89,13 @@ SignedDistance signed_distance(const ContactShape& a, const Affine<double>& pose
 SignedDistance signed_distance(const ContactShape& a, const Affine<double>& pose_a,
                                const ContactShape& b, const Affine<double>& pose_b,
                                PairMemory& memory, const SignedDistanceOptions& options = {});
+
+/// Bodies that have been brought near: `linear_a` and `linear_b` turn to the axes along which
+/// `between` leads from A's middle to B's. Points are seen from A's middle. There may be a memory.
+SignedDistance signed_distance(const ContactShape& a, const Mat3<double>& linear_a,
+                               const ContactShape& b, const Mat3<double>& linear_b,
+                               const Between& between, const SignedDistanceOptions& options,
+                               PairMemory* memory);
 
 /// Both shapes stand in the world.
 SignedDistance signed_distance(const ContactShape& a, const ContactShape& b,

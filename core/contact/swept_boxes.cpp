@@ -16,8 +16,7 @@ class BoxSweep {
   BoxSweep(const CorePair& pair, const Vec3<double>& velocity, double t_max, double near)
       : pair_(pair), velocity_(velocity), t_max_(t_max), near_(near) {
     speed_ = velocity.norm();
-    constexpr double epsilons = 16 * std::numeric_limits<double>::epsilon();
-    rounding_ = epsilons * (pair.size() + pair.x.norm());
+    rounding_ = pair.rounding();
   }
 
   SweptTime run() {

@@ -10,14 +10,12 @@ namespace {
 template <class DistanceAt>
 class ClosedSweep {
  public:
-  /// `x` leads to B's middle at time 0, from A's.
-  ClosedSweep(const CorePair& pair, const Vec3<double>& x, const Vec3<double>& velocity,
-              double t_max, double near, const DistanceAt& distance_at)
+  ClosedSweep(const CorePair& pair, const Vec3<double>& velocity, double t_max, double near,
+              const DistanceAt& distance_at)
       : velocity_(velocity), t_max_(t_max), near_(near), distance_at_(distance_at) {
     radius_of_a_ = pair.a.radius;
     radii_ = pair.a.radius + pair.b.radius;
-    constexpr double epsilons = 16 * std::numeric_limits<double>::epsilon();
-    rounding_ = epsilons * (pair.size() + radii_ + x.norm());
+    rounding_ = pair.rounding();
     speed_ = velocity.norm();
   }
 
@@ -79,9 +77,9 @@ class ClosedSweep {
 };
 
 template <class DistanceAt>
-SweptTime sweep(const CorePair& pair, const Vec3<double>& x, const Vec3<double>& velocity,
-                double t_max, double near, const DistanceAt& distance_at) {
-  return ClosedSweep<DistanceAt>(pair, x, velocity, t_max, near, distance_at).run();
+SweptTime sweep(const CorePair& pair, const Vec3<double>& velocity, double t_max, double near,
+                const DistanceAt& distance_at) {
+  return ClosedSweep<DistanceAt>(pair, velocity, t_max, near, distance_at).run();
 }
 
 }  // namespace
@@ -94,13 +92,13 @@ SweptTime swept_closed(const CorePair& pair, const Vec3<double>& velocity, doubl
                        double near) {
   if (is_line(pair.b)) {
     const Vec3<double> p(0, 0, pair.a.size.z()), q = pair.turn.col(2) * pair.b.size.z();
-    return sweep(pair, pair.x, velocity, t_max, near, [&](double t) {
+    return sweep(pair, velocity, t_max, near, [&](double t) {
       return between_segments(p, q, Vec3<double>(pair.x + t * velocity));
     });
   }
   // As the solid sees it, in whose frame the point moves the other way.
   const Vec3<double> x = pair.to_b(pair.x), v = pair.to_b(velocity);
-  SweptTime found = sweep(pair, x, v, t_max, near, [&](double t) {
+  SweptTime found = sweep(pair, v, t_max, near, [&](double t) {
     CoreDistance at = between_solid_and_point(pair.b, Vec3<double>(-x - t * v));
     at.axis = -at.axis;
     at.c = -at.c;

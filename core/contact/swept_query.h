@@ -46,8 +46,7 @@ struct SweptQuery {
   double speed = velocity.norm();
   Vec3<double> along = velocity / speed;
   Vec3<double> e0 = along.unitOrthogonal(), e1 = along.cross(e0);
-  /// What roundings of a gap amount to.
-  double rounding = 16 * std::numeric_limits<double>::epsilon() * (size + pair.x.norm());
+  double rounding = pair.rounding();
   SweptTime result = {};
 
   SweptQuery(const CorePair& of, const Vec3<double>& v, double most, double nearness)

@@ -20,8 +20,7 @@ SweptTime of_balls(const CorePair& pair, const Vec3<double>& velocity, double t_
                towards = -pair.x.dot(velocity);
   const Vec3<double> aside = pair.x + (towards / squared) * velocity;
   const double distance = towards > 0 ? aside.norm() : pair.x.norm();
-  constexpr double epsilons = 16 * std::numeric_limits<double>::epsilon();
-  const double rounding = epsilons * (radius + pair.x.norm());
+  const double rounding = pair.rounding();
   if (!(squared > 0) || std::abs(distance - radius) <= near + rounding) return result;
   const auto miss = [&](const Vec3<double>& axis) {
     result.status = SweptStatus::miss;

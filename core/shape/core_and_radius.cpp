@@ -10,36 +10,29 @@ namespace minkray {
 namespace {
 
 using namespace cores;
-using Points = std::vector<Vec3<double>>;
-
 /// Goes by the support mapping. A box of it is asked for, about whose middle it then stands.
-CoreAndRadius of_other(const Shape<double>& shape, const Affine<double>& map, double radius) {
-  const Shape<double> in_place =
-      map == Affine<double>{} ? shape : Shape<double>(Transform<double>{shape, map});
+CoreAndRadius of_other(const Shape<double>& shape, const ComposedMap& map, double radius) {
+  const AboutMiddle about = about_middle(shape, map);
   Vec3<double> low, high;
   for (int axis = 0; axis < 3; ++axis) {
-    high[axis] = in_place.support(Vec3<double>(Vec3<double>::Unit(axis)))[axis];
-    low[axis] = in_place.support(Vec3<double>(-Vec3<double>::Unit(axis)))[axis];
+    high[axis] = about.shape.support(Vec3<double>(Vec3<double>::Unit(axis)))[axis];
+    low[axis] = about.shape.support(Vec3<double>(-Vec3<double>::Unit(axis)))[axis];
   }
   const Vec3<double> middle = low + (high - low) / 2;
-  if (low == high) return of_point(middle, radius);
-  auto about_middle = std::make_shared<Shape<double>>(
-      Transform<double>{shape, Affine<double>{map.linear, map.translation - middle}});
+  const TwoFoldVec3<double> place = about.middle + TwoFoldVec3<double>(middle);
+  if (low == high) return of_point(place, radius, about.loss);
+  auto about_middle = std::make_shared<Shape<double>>(moved_by(about.shape, -middle));
   ShapeCore core;
   core.kind = CoreKind::other;
   core.radius = radius;
   core.ball = length_of((high - low) / 2) * padding;
   core.shape = about_middle.get();
-  // What is far from the origin of its frame has lost those digits before it comes to its middle.
+  // What stands beside the middle of its parts has lost those digits before it comes to its own.
   constexpr double lost = 4 * std::numeric_limits<double>::epsilon();
-  core.rounding = lost * (middle.norm() + map.translation.norm());
-  return {core, Mat3<double>::Identity(), middle, std::move(about_middle)};
-}
-
-Points mapped(const Points& points, const Affine<double>& map) {
-  Points result;
-  for (const Vec3<double>& p : points) result.push_back(map(p));
-  return result;
+  CoreAndRadius found =
+      placed(core, Mat3<double>::Identity(), place, about.loss + lost * length_of(middle));
+  found.storage = std::move(about_middle);
+  return found;
 }
 
 /// The exponent of a power of two that is larger than all of the numbers: products of what is
@@ -78,17 +71,29 @@ bool keeps_right_angles(const Mat3<double>& linear) {
   return true;
 }
 
-CoreAndRadius find(const Shape<double>& shape, const Affine<double>& map, double radius);
+CoreAndRadius find(const Shape<double>& shape, const ComposedMap& map, double radius);
+
+/// Whether the shape is about its origin: neither points nor other shapes are put anywhere.
+bool is_about_origin(const Shape<double>& shape) {
+  const auto is_within = []<class... Kinds>(const Shape<double>& one, std::variant<Kinds...>*) {
+    return (std::holds_alternative<Kinds>(one.kind) || ...);
+  };
+  using Others = std::variant<Point<double>, Segment<double>, Triangle<double>, Hull<double>,
+                              Transform<double>, Rounded<double>, HullOf<double>,
+                              MinkowskiSum<double>, MinkowskiDifference<double>>;
+  return !is_within(shape, static_cast<Others*>(nullptr));
+}
 
 /// A Minkowski sum of which all operands but one at most are points and balls: those move that one
 /// and make it rounder.
 class BallsAndOne {
  public:
   /// Whether it still is one.
-  bool add(const Shape<double>& operand, const Mat3<double>& linear) {
-    CoreAndRadius one = find(operand, {linear, Vec3<double>::Zero()}, 0);
-    offset_ += one.middle;
+  bool add(const Shape<double>& operand, const ComposedMap& about_origin) {
+    CoreAndRadius one = find(operand, about_origin, 0);
+    offset_ = offset_ + TwoFoldVec3<double>(one.middle, one.middle_low);
     radius_ += one.core.radius;
+    loss_ += one.core.rounding;
     if (one.core.kind == CoreKind::point) return true;
     if (has_one_) return false;
     has_one_ = true;
@@ -96,44 +101,56 @@ class BallsAndOne {
     return true;
   }
 
-  CoreAndRadius of(const Vec3<double>& translation, double radius) const {
-    if (!has_one_) return of_point(offset_ + translation, radius_ + radius);
+  CoreAndRadius of(const ComposedMap& map, double radius) const {
+    const TwoFoldVec3<double> middle = offset_ + map.translation;
+    const double loss = loss_ + map.loss;
+    if (!has_one_) return of_point(middle, radius_ + radius, loss);
     CoreAndRadius found = one_;
-    found.middle = offset_ + translation;
+    found.middle = middle.high;
+    found.middle_low = middle.low;
     found.core.radius = radius_ + radius;
+    found.core.rounding = loss;
     return found;
   }
 
  private:
-  Vec3<double> offset_ = Vec3<double>::Zero();
-  double radius_ = 0;
+  TwoFoldVec3<double> offset_;
+  double radius_ = 0, loss_ = 0;
   bool has_one_ = false;
   CoreAndRadius one_;
 };
 
 /// Kinds whose core is known. Nothing for others.
 struct CoreFinder {
-  const Affine<double>& map;
+  const ComposedMap& map;
   double radius;
   double similarity;  ///< by how much the map scales all lengths; 0 if it does not
+
+  const Mat3<double>& linear() const { return map.linear.high; }
 
   CoreAndRadius scaled(ShapeCore core) const {
     core.radius = radius;
     core.size *= similarity;
     core.ball *= similarity;
-    return placed(core, map.linear / similarity, map.translation);
+    return placed(core, linear() / similarity, map.translation, map.loss);
   }
 
   /// A core along axes that stay at right angles.
   CoreAndRadius along_columns(ShapeCore core) const {
     Mat3<double> turn;
     for (int i = 0; i < 3; ++i) {
-      const double scale = similarity > 0 ? similarity : length_of(map.linear.col(i));
+      const double scale = similarity > 0 ? similarity : length_of(linear().col(i));
       core.size[i] *= scale;
-      turn.col(i) = map.linear.col(i) / scale;
+      turn.col(i) = linear().col(i) / scale;
     }
     core.radius = radius;
-    return placed(core, turn, map.translation);
+    return placed(core, turn, map.translation, map.loss);
+  }
+
+  /// Along the z axis, about the origin.
+  CoreAndRadius upright_segment(double half_height, double grown_by) const {
+    const Vec3<double> half(0, 0, half_height);
+    return of_segment(map.image(Vec3<double>(-half)), map.image(half), grown_by, map.loss);
   }
 
   template <class S>
@@ -141,26 +158,26 @@ struct CoreFinder {
     return false;
   }
   bool find(const Point<double>& shape, CoreAndRadius& found) const {
-    found = of_point(map(shape.position), radius);
+    found = of_point(map.image(shape.position), radius, map.loss_of_image(shape.position));
     return true;
   }
   bool find(const Segment<double>& shape, CoreAndRadius& found) const {
-    found = of_segment(map(shape.points[0]), map(shape.points[1]), radius);
+    found = of_points({shape.points.begin(), shape.points.end()}, map, radius);
     return true;
   }
   bool find(const Triangle<double>& shape, CoreAndRadius& found) const {
-    found = of_points(mapped({shape.points.begin(), shape.points.end()}, map), radius);
+    found = of_points({shape.points.begin(), shape.points.end()}, map, radius);
     return true;
   }
   bool find(const Hull<double>& shape, CoreAndRadius& found) const {
-    found = of_points(mapped(shape.points.points(), map), radius);
+    found = of_points(shape.points.points(), map, radius);
     return true;
   }
   bool find(const Box<double>& shape, CoreAndRadius& found) const {
     ShapeCore core;
     core.kind = CoreKind::box;
     core.size = shape.half_extents;
-    if (!keeps_right_angles(map.linear)) return false;
+    if (!keeps_right_angles(linear())) return false;
     found = along_columns(core);
     found.core.ball = length_of<double>(found.core.size) * padding;
     return true;
@@ -168,33 +185,31 @@ struct CoreFinder {
   bool find(const Sphere<double>& shape, CoreAndRadius& found) const {
     if (!(similarity > 0))
       return find(Ellipsoid<double>{Vec3<double>::Constant(shape.radius)}, found);
-    found = of_point(map.translation, radius + shape.radius * similarity);
+    found = of_point(map.translation, radius + shape.radius * similarity, map.loss);
     return true;
   }
   bool find(const Ellipsoid<double>& shape, CoreAndRadius& found) const {
     ShapeCore core;
     core.kind = CoreKind::ellipsoid;
     core.size = shape.radii;
-    if (!keeps_right_angles(map.linear)) return false;
+    if (!keeps_right_angles(linear())) return false;
     found = along_columns(core);
     const Vec3<double> radii = found.core.size;
     if (radii.minCoeff() == radii.maxCoeff())
-      found = of_point(map.translation, radius + radii.x());
+      found = of_point(map.translation, radius + radii.x(), map.loss);
     else
       found.core.ball = radii.maxCoeff() * padding;
     return true;
   }
   bool find(const Capsule<double>& shape, CoreAndRadius& found) const {
     if (!(similarity > 0)) return false;
-    const Vec3<double> half(0, 0, shape.half_height);
-    found = of_segment(map(Vec3<double>(-half)), map(half), radius + shape.radius * similarity);
+    found = upright_segment(shape.half_height, radius + shape.radius * similarity);
     return true;
   }
   bool disks(double below, double above, double half_height, CoreAndRadius& found) const {
     if (!(similarity > 0)) return false;
     if (!(below > 0) && !(above > 0)) {
-      const Vec3<double> half(0, 0, half_height);
-      found = of_segment(map(Vec3<double>(-half)), map(half), radius);
+      found = upright_segment(half_height, radius);
       return true;
     }
     found = scaled(of_disks(below, above, half_height));
@@ -218,9 +233,12 @@ struct CoreFinder {
                                          shape.half_height * similarity};
     found = of_other(Shape<double>(upright), {}, radius);
     found.core.is_round = true;
-    const Affine<double> turned{map.linear / similarity, map.translation};
-    found.turn = turned.linear;
-    found.middle = turned(found.middle);
+    found.turn = linear() / similarity;
+    const TwoFoldVec3<double> middle =
+        map.translation + TwoFoldVec3<double>(found.turn * found.middle);
+    found.middle = middle.high;
+    found.middle_low = middle.low;
+    found.core.rounding += map.loss;
     return true;
   }
   bool find(const Rounded<double>& shape, CoreAndRadius& found) const {
@@ -236,35 +254,39 @@ struct CoreFinder {
   bool find(const MinkowskiSum<double>& shape, CoreAndRadius& found) const {
     BallsAndOne sum;
     for (const Nested<double>& operand : shape.shapes)
-      if (!sum.add(*operand, map.linear)) return false;
-    found = sum.of(map.translation, radius);
+      if (!sum.add(*operand, map.about_origin())) return false;
+    found = sum.of(map, radius);
     return true;
   }
   bool find(const MinkowskiDifference<double>& shape, CoreAndRadius& found) const {
     BallsAndOne sum;
-    if (!sum.add(*shape.a, map.linear) || !sum.add(*shape.b, -map.linear)) return false;
-    found = sum.of(map.translation, radius);
+    const ComposedMap about_origin = map.about_origin();
+    if (!sum.add(*shape.a, about_origin) || !sum.add(*shape.b, about_origin.mirrored()))
+      return false;
+    found = sum.of(map, radius);
     return true;
   }
   bool find(const Transform<double>& shape, CoreAndRadius& found) const {
-    found = minkray::find(*shape.shape, map * shape.map.affine(), radius);
+    found = minkray::find(*shape.shape, map * ComposedMap(shape.map.affine()), radius);
     return true;
   }
 };
 
-CoreAndRadius find(const Shape<double>& shape, const Affine<double>& map, double radius) {
-  const double similarity = similarity_of(map.linear);
+CoreAndRadius find(const Shape<double>& shape, const ComposedMap& map, double radius) {
+  const double similarity = similarity_of(map.linear.high);
   const CoreFinder finder{map, radius, similarity};
   CoreAndRadius found;
   const bool is_known =
       std::visit([&](const auto& kind) { return finder.find(kind, found); }, shape.kind);
-  return is_known ? found : of_other(shape, map, radius);
+  if (!is_known) return of_other(shape, map, radius);
+  if (is_about_origin(shape)) found.core.rounding += loss_of_turns(shape, map, similarity);
+  return found;
 }
 
 }  // namespace
 
 CoreAndRadius core_and_radius(const Shape<double>& shape, const Affine<double>& map) {
-  return find(shape, map, 0);
+  return find(shape, ComposedMap(map), 0);
 }
 
 }  // namespace minkray

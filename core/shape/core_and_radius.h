@@ -29,9 +29,9 @@ struct ShapeCore {
   /// A box' half extents, an ellipsoid's radii; of disks the radii below and above; of those and of
   /// segments, z is the half height.
   Vec3<double> size = Vec3<double>::Zero();
-  double radius = 0;    ///< by which the core is grown
-  double rounding = 0;  ///< of `other`: its support points are as far off, for where it stands
-  double ball = 0;      ///< the radius of a ball around the middle that holds the core
+  double radius = 0;          ///< by which the core is grown
+  double rounding = 0;        ///< the core may be off by so much: what its place has cost
+  double ball = 0;            ///< the radius of a ball around the middle that holds the core
   const double* x = nullptr;  ///< a hull's points, coordinate by coordinate
   const double* y = nullptr;
   const double* z = nullptr;
@@ -44,7 +44,8 @@ struct CoreAndRadius {
   /// It leads from the core's frame to the shape's; it keeps lengths: the core has the scales.
   Mat3<double> turn = Mat3<double>::Identity();
   Vec3<double> middle = Vec3<double>::Zero();
-  std::shared_ptr<const void> storage;  ///< of what the core points to
+  Vec3<double> middle_low = Vec3<double>::Zero();  ///< what rounding has left of `middle`
+  std::shared_ptr<const void> storage;             ///< of what the core points to
 };
 
 /// Affine maps that keep angles, and radii, are taken off, also points and balls that are added to

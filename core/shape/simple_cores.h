@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/math/length.h"
+#include "core/shape/about_middle.h"
 #include "core/shape/core_and_radius.h"
 
 namespace minkray::cores {
@@ -12,22 +13,24 @@ namespace minkray::cores {
 /// A box's and ellipsoid's balls are rounded up, so that they hold what they should.
 inline constexpr double padding = 1 + 16 * std::numeric_limits<double>::epsilon();
 
-inline CoreAndRadius placed(const ShapeCore& core, const Mat3<double>& turn,
-                            const Vec3<double>& middle) {
-  return {core, turn, middle, nullptr};
+/// `loss` is by how much the middle may be off.
+inline CoreAndRadius placed(ShapeCore core, const Mat3<double>& turn,
+                            const TwoFoldVec3<double>& middle, double loss) {
+  core.rounding += loss;
+  return {std::move(core), turn, middle.high, middle.low, nullptr};
 }
 
-inline CoreAndRadius of_point(const Vec3<double>& point, double radius) {
+inline CoreAndRadius of_point(const TwoFoldVec3<double>& point, double radius, double loss) {
   ShapeCore core;
   core.radius = radius;
-  return {core, Mat3<double>::Identity(), point, nullptr};
+  return placed(core, Mat3<double>::Identity(), point, loss);
 }
 
-inline CoreAndRadius of_segment(const Vec3<double>& from, const Vec3<double>& to, double radius) {
-  // Halves of differences, so that what is far from the origin keeps its digits.
-  const Vec3<double> half = (to - from) / 2;
+inline CoreAndRadius of_segment(const TwoFoldVec3<double>& from, const TwoFoldVec3<double>& to,
+                                double radius, double loss) {
+  const Vec3<double> half = (to - from).rounded() / 2;
   const double length = half.stableNorm();
-  if (!(length > 0)) return of_point(from, radius);
+  if (!(length > 0)) return of_point(from, radius, loss);
   ShapeCore core;
   core.kind = CoreKind::segment;
   core.size.z() = length;
@@ -37,25 +40,22 @@ inline CoreAndRadius of_segment(const Vec3<double>& from, const Vec3<double>& to
   turn.col(2) = half / length;
   turn.col(0) = turn.col(2).unitOrthogonal();
   turn.col(1) = turn.col(2).cross(turn.col(0));
-  return {core, turn, from + half, nullptr};
+  return placed(core, turn, from + TwoFoldVec3<double>(half), loss);
 }
 
-/// The points' middle is that of their box.
-inline CoreAndRadius of_points(const std::vector<Vec3<double>>& points, double radius) {
-  if (points.size() == 1) return of_point(points[0], radius);
-  if (points.size() == 2) return of_segment(points[0], points[1], radius);
-  Vec3<double> low = points[0], high = points[0];
-  for (const Vec3<double>& p : points) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  const Vec3<double> middle = low + (high - low) / 2;
+/// The hull of points under a map.
+inline CoreAndRadius of_points(const std::vector<Vec3<double>>& points, const ComposedMap& map,
+                               double radius) {
+  const PointsAboutMiddle about = points_about_middle(points, map);
+  if (points.size() == 1) return of_point(map.image(points[0]), radius, about.loss);
+  if (points.size() == 2)
+    return of_segment(map.image(points[0]), map.image(points[1]), radius, about.loss);
   const std::size_t count = (points.size() + 7) / 8 * 8;
   auto numbers = std::make_shared<std::vector<double>>(3 * count);
   ShapeCore core;
   core.kind = CoreKind::hull;
   for (std::size_t i = 0; i < count; ++i) {
-    const Vec3<double> p = points[std::min(i, points.size() - 1)] - middle;
+    const Vec3<double>& p = about.points[std::min(i, points.size() - 1)];
     core.ball = std::max(core.ball, length_of<double>(p) * padding);
     for (std::size_t k = 0; k < 3; ++k) (*numbers)[k * count + i] = p[static_cast<Eigen::Index>(k)];
   }
@@ -64,7 +64,9 @@ inline CoreAndRadius of_points(const std::vector<Vec3<double>>& points, double r
   core.x = numbers->data();
   core.y = core.x + count;
   core.z = core.y + count;
-  return {core, Mat3<double>::Identity(), middle, std::move(numbers)};
+  CoreAndRadius found = placed(core, Mat3<double>::Identity(), about.middle, about.loss);
+  found.storage = std::move(numbers);
+  return found;
 }
 
 inline ShapeCore of_disks(double below, double above, double half_height) {

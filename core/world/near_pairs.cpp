@@ -108,7 +108,8 @@ Bounds<double> bounds_of(const ContactBody& body) {
   Bounds<double> bounds;
   for (int axis = 0; axis < 3; ++axis) {
     const Vec3<double> d = frame.turn.row(axis).transpose();
-    const double allowed = rounding * (core.ball + core.radius + std::abs(frame.middle[axis]));
+    const double allowed =
+        rounding * (core.ball + core.radius + std::abs(frame.middle[axis])) + core.rounding;
     const auto reach = [&](const Vec3<double>& along) {
       return along.dot(support_of_core<CoreKind::other>(core, along).point) + core.radius + allowed;
     };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/shape/composed_map.h"
 #include "renderer/base/errors.h"
 #include "renderer/import/scene_of_model.h"
 #include "renderer/scene/scene_instances.h"
@@ -12,7 +13,33 @@ namespace {
 
 const Shape<double> nothing = Point<double>();
 
+/// The shape under a map, which may scale: it becomes part of the shape.
+ClearanceBody body_of(const std::string& name, const std::string& link, int link_index,
+                      const Shape<double>& shape, const Affine<double>& map) {
+  ClearanceBody body{name, link, link_index, ContactShape(shape, map)};
+  body.middle = placed_middle(body.shape, {});
+  return body;
+}
+
 }  // namespace
+
+ClearanceBody seen_from(const Affine<double>& frame, ClearanceBody obstacle) {
+  const TwoFoldMat3<double> turned_back(frame.linear.transpose());
+  const auto seen = [&](const TwoFoldVec3<double>& point) {
+    return turned_back * (point - TwoFoldVec3<double>(frame.translation));
+  };
+  // What is rigid to rounding has its transpose for an inverse to rounding.
+  constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
+  const bool is_exact = is_along_axes(frame.linear);
+  obstacle.linear = turned_back.high * obstacle.linear;
+  obstacle.middle.at = seen(obstacle.middle.at);
+  if (!is_exact) obstacle.middle.loss += rounding * length_of(obstacle.middle.at.high);
+  if (obstacle.plane) {
+    obstacle.plane->normal = turned_back.high * obstacle.plane->normal;
+    obstacle.plane->point = seen(obstacle.plane->point);
+  }
+  return obstacle;
+}
 
 std::vector<ClearanceBody> bodies_of(const Model& model, GeometryChoice geometry) {
   std::vector<ClearanceBody> bodies;
@@ -24,10 +51,8 @@ std::vector<ClearanceBody> bodies_of(const Model& model, GeometryChoice geometry
         geom.link < 0 ? "" : model.links[static_cast<std::size_t>(geom.link)].name;
     const std::string name =
         !geom.name.empty() ? geom.name : (link.empty() ? "world" : link) + "/" + geom.kind;
-    // The map to the link's frame may scale: it becomes part of the shape.
-    bodies.push_back(
-        {name, link, geom.link, {}, ContactShape(geom.shape ? *geom.shape : nothing, geom.pose)});
-    if (!geom.shape) bodies.back().half_space = HalfSpaceBody<double>().posed(geom.pose);
+    bodies.push_back(body_of(name, link, geom.link, geom.shape ? *geom.shape : nothing, geom.pose));
+    if (!geom.shape) bodies.back().plane = PlacedPlane::of(Vec3<double>::UnitZ(), 0, geom.pose);
   }
   return bodies;
 }
@@ -41,8 +66,10 @@ std::vector<ClearanceBody> bodies_of(const Scene& scene) {
   std::vector<ClearanceBody> bodies;
   for (std::size_t i = 0; i < count; ++i) {
     const Object object = instance_object(scene, i);
-    bodies.push_back({object.name, "", -1, {}, ContactShape(object.shape, object.pose)});
-    if (object.half_space) bodies.back().half_space = object.half_space->posed(object.pose);
+    bodies.push_back(body_of(object.name, "", -1, object.shape, object.pose));
+    if (object.half_space)
+      bodies.back().plane =
+          PlacedPlane::of(object.half_space->normal, object.half_space->offset, object.pose);
   }
   return bodies;
 }

@@ -7,8 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/contact/contact_shape.h"
-#include "core/world/half_space.h"
+#include "core/contact/half_space_distance.h"
 #include "renderer/clearance/allowed_pairs.h"
 #include "renderer/import/import_options.h"
 #include "renderer/scene/scene.h"
@@ -19,14 +18,18 @@ struct ClearanceBody {
   std::string name;
   std::string link;  ///< the name of the robot's link; empty: an obstacle
   int link_index = -1;
-  Affine<double> pose;  ///< rigid, from the shape's frame to the link's, or to the world
   ContactShape shape;
-  /// If there is one it is that, not `shape`, and stands in the world.
-  std::optional<HalfSpaceBody<double>> half_space = {};
+  Mat3<double> linear = Mat3<double>::Identity();  ///< from the shape's frame to the link's axes
+  PlacedMiddle middle = {};  ///< of the shape, in the link's frame or in the world
+  /// If there is one it is the space below, not `shape`; in the link's frame or in the world.
+  std::optional<PlacedPlane> plane = {};
 
   /// The ball of this radius around the link's origin holds the shape.
-  double reach() const { return pose(shape.middle()).norm() + shape.ball_radius(); }
+  double reach() const { return middle.at.high.norm() + shape.ball_radius(); }
 };
+
+/// The same obstacle, seen from a frame that is at `frame` in the world, a rigid pose.
+ClearanceBody seen_from(const Affine<double>& frame, ClearanceBody obstacle);
 
 /// The shapes that `geometry` chooses.
 std::vector<ClearanceBody> bodies_of(const Model& model, GeometryChoice geometry);

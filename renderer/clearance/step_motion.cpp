@@ -5,7 +5,9 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/shape/composed_map.h"
 #include "renderer/base/errors.h"
+#include "renderer/import/orientation.h"
 #include "renderer/json/mistakes.h"
 
 namespace minkray {
@@ -31,16 +33,59 @@ Quaternion quaternion_of(const std::vector<double>& values, int at) {
   return q.normalized();
 }
 
+/// From one number to another, in twice the digits, but for some epsilons of the way.
+TwoFold<double> between(double first, double last, double s) {
+  return two_sum(first, s * (last - first));
+}
+
 std::vector<double> between(JointKind kind, const std::vector<double>& first,
                             const std::vector<double>& last, double s) {
   std::vector<double> values(first.size());
-  for (std::size_t i = 0; i < first.size(); ++i) values[i] = first[i] + s * (last[i] - first[i]);
+  for (std::size_t i = 0; i < first.size(); ++i) values[i] = between(first[i], last[i], s).high;
   if (const int at = quaternion_at(kind); at >= 0 && !values.empty()) {
     const Quaternion q = quaternion_of(first, at).slerp(s, quaternion_of(last, at));
     const double numbers[4] = {q.w(), q.x(), q.y(), q.z()};
     std::copy(numbers, numbers + 4, values.begin() + at);
   }
   return values;
+}
+
+/// Whether it slides along axes of its link's frame, which rounds nothing.
+bool is_exact(const ModelJoint& joint) {
+  return (joint.axis.array() != 0).count() == 1;
+}
+
+/// Whether the joint's values say where it is; at rest it moves nothing.
+bool has_values(const ModelJoint& joint) {
+  return joint.value.size() == width_of(joint.kind) && !joint.value.empty();
+}
+
+/// By how much the joint's values move its link's origin, along the link's axes at rest, or in the
+/// world of a free joint. In twice the digits where lengths may be large.
+TwoFoldVec3<double> shift_of(const ModelJoint& joint, const std::vector<double>& first,
+                             const std::vector<double>& last, double s) {
+  const auto along = [](const Vec3<double>& axis, const TwoFold<double>& length) {
+    return TwoFoldVec3<double>(length.high * axis, length.low * axis);
+  };
+  switch (joint.kind) {
+    case JointKind::slide:
+      return along(joint.axis,
+                   between(first[0], last[0], s) + TwoFold<double>{-joint.reference, 0});
+    case JointKind::planar: {
+      const auto [u, v] = directions_across(joint.axis);
+      return along(u, between(first[0], last[0], s)) + along(v, between(first[1], last[1], s));
+    }
+    case JointKind::free: {
+      TwoFoldVec3<double> origin;
+      for (int i = 0; i < 3; ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        origin.set(i, between(first[k], last[k], s));
+      }
+      return origin;
+    }
+    default:
+      return motion_of(joint).translation;
+  }
 }
 
 Vec3<double> first_three(const std::vector<double>& values) {
@@ -111,10 +156,12 @@ StepMotion::StepMotion(const JointPath& path, std::size_t step)
       ++at;
       Rate rate;
       if (!from.empty() && from.size() == to.size() && from.size() == width_of(joint.kind)) {
+        rate.has_values = true;
         if (const int q = quaternion_at(joint.kind); q >= 0)
           rate.turn = quaternion_of(from, q).angularDistance(quaternion_of(to, q));
         switch (joint.kind) {
           case JointKind::hinge:
+            rate.angle = std::max(std::abs(from[0]), std::abs(to[0])) + std::abs(joint.reference);
             rate.turn = std::abs(to[0] - from[0]);
             break;
           case JointKind::slide:
@@ -125,6 +172,7 @@ StepMotion::StepMotion(const JointPath& path, std::size_t step)
           case JointKind::planar:
             rate.slide = std::hypot(to[0] - from[0], to[1] - from[1]);
             rate.offset = std::max(std::hypot(from[0], from[1]), std::hypot(to[0], to[1]));
+            rate.angle = std::max(std::abs(from[2]), std::abs(to[2]));
             rate.turn = std::abs(to[2] - from[2]);
             break;
           case JointKind::free:
@@ -143,19 +191,47 @@ StepMotion::StepMotion(const JointPath& path, std::size_t step)
   }
 }
 
-const std::vector<Affine<double>>& StepMotion::links_at(double s) {
+const StepMotion::Places& StepMotion::places_at(double s) {
   if (const auto known = kept_.find(s); known != kept_.end()) return known->second;
+  Places places;
   std::size_t at = 0;
-  for (ModelLink& link : model_.links)
+  for (ModelLink& link : model_.links) {
+    Mat3<double> linear = Mat3<double>::Identity();
+    TwoFoldVec3<double> origin;
+    if (link.parent >= 0) {
+      const auto parent = static_cast<std::size_t>(link.parent);
+      linear = places.poses[parent].linear;
+      origin = places.origin(parent);
+    }
+    const auto go_on = [&](const TwoFoldVec3<double>& shift, const Mat3<double>& turn) {
+      origin = origin + TwoFoldVec3<double>(linear * shift.high, linear * shift.low);
+      linear = linear * turn;
+    };
+    go_on(link.rest.translation, link.rest.linear);
     for (ModelJoint& joint : link.joints) {
       const std::vector<double>&from = path_.values[first_][at], &to = path_.values[last_][at];
-      joint.value = between(joint.kind, from, to, s);
       ++at;
+      joint.value = between(joint.kind, from, to, s);
+      if (!has_values(joint)) continue;
+      if (joint.kind == JointKind::free) {
+        linear.setIdentity();
+        origin = {};
+        const std::vector<double>& q = joint.value;
+        go_on(shift_of(joint, from, to, s), rotation_of_quaternion(q[4], q[5], q[6], q[3]));
+      } else {
+        go_on(shift_of(joint, from, to, s), motion_of(joint).linear);
+      }
     }
-  return kept_.emplace(s, link_poses(model_)).first->second;
+    places.poses.push_back({linear, origin.high});
+    places.lows.push_back(origin.low);
+  }
+  return kept_.emplace(s, std::move(places)).first->second;
 }
 
 MotionBound StepMotion::bound(int link, int ancestor, double reach) const {
+  constexpr double epsilon = std::numeric_limits<double>::epsilon();
+  // A turn's numbers, and those of its product with others, are rounded by no more.
+  constexpr double of_turns = 8 * epsilon, of_slides = 8 * epsilon;
   MotionBound bound{reach, 0, 0};
   bool is_in_world = false;
   for (int at = link; at != ancestor && at >= 0 && !is_in_world;) {
@@ -167,6 +243,13 @@ MotionBound StepMotion::bound(int link, int ancestor, double reach) const {
       const bool has_anchor = joint.kind == JointKind::hinge || joint.kind == JointKind::ball;
       const double arm = has_anchor ? joint.anchor.norm() : 0;
       bound.reach += arm;
+      if (rate.has_values) {
+        if (joint.kind != JointKind::slide)
+          bound.rounding += (of_turns + 2 * epsilon * rate.angle) * bound.reach;
+        bound.rounding += of_slides * (arm + rate.slide);
+        const bool is_rounded = joint.kind != JointKind::free && !is_exact(joint);
+        if (is_rounded) bound.rounding += of_slides * rate.offset;
+      }
       if (rate.turn > 0) {  // zero times a bound that is infinite is no number
         bound.acceleration += rate.turn * (rate.turn * bound.reach + 2 * bound.speed);
         bound.speed += rate.turn * bound.reach;
@@ -175,7 +258,10 @@ MotionBound StepMotion::bound(int link, int ancestor, double reach) const {
       bound.reach += arm + rate.offset;
       is_in_world = rate.is_absolute;
     }
-    if (!is_in_world) bound.reach += of.rest.translation.norm();
+    if (!is_in_world) {
+      if (!is_along_axes(of.rest.linear)) bound.rounding += of_turns * bound.reach;
+      bound.reach += of.rest.translation.norm();
+    }
     at = parents_[index];
   }
   // What the poses' own roundings amount to.
@@ -184,6 +270,18 @@ MotionBound StepMotion::bound(int link, int ancestor, double reach) const {
   bound.speed *= padding;
   bound.acceleration *= padding;
   return bound;
+}
+
+double StepMotion::turn_error(int link) const {
+  constexpr double of_turns = 8 * std::numeric_limits<double>::epsilon();
+  double error = 0;
+  for (int at = link; at >= 0; at = parents_[static_cast<std::size_t>(at)]) {
+    const auto index = static_cast<std::size_t>(at);
+    if (!is_along_axes(model_.links[index].rest.linear)) error += of_turns;
+    for (const Rate& rate : rates_[index])
+      if (rate.has_values) error += of_turns;
+  }
+  return error;
 }
 
 int StepMotion::common_ancestor(int a, int b) const {

@@ -8,6 +8,7 @@
 #include <map>
 #include <vector>
 
+#include "core/math/two_fold.h"
 #include "renderer/import/model.h"
 #include "renderer/import/scene_of_model.h"
 
@@ -32,6 +33,7 @@ struct MotionBound {
   double reach = 0;  ///< no point is further from the other's origin
   double speed = 0;
   double acceleration = 0;
+  double rounding = 0;  ///< no point's place is computed wrong by more
 
   /// Whether all is so far from where numbers end that squares of lengths do not leave them.
   bool is_within_numbers() const {
@@ -44,7 +46,18 @@ class StepMotion {
   StepMotion(const JointPath& path, std::size_t step);
 
   /// The links' poses in the world, s from 0 to 1. Kept until this is gone.
-  const std::vector<Affine<double>>& links_at(double s);
+  const std::vector<Affine<double>>& links_at(double s) { return places_at(s).poses; }
+
+  /// Their translations in twice the digits: a robot may be far from the world's origin.
+  struct Places {
+    std::vector<Affine<double>> poses;
+    std::vector<Vec3<double>> lows;  ///< what rounding has left of the poses' translations
+
+    TwoFoldVec3<double> origin(std::size_t link) const {
+      return {poses[link].translation, lows[link]};
+    }
+  };
+  const Places& places_at(double s);
 
   /// The seconds of the path.
   double time_at(double s) const { return begin_ + s * (end_ - begin_); }
@@ -56,6 +69,9 @@ class StepMotion {
   /// own frame, R p moves by alpha |p| + v and accelerates by alpha^2 |p| + 2 alpha v + a.
   MotionBound bound(int link, int ancestor, double reach) const;
 
+  /// By how much the link's linear part may differ from a rotation.
+  double turn_error(int link) const;
+
   /// The link whose frame both stand in, the furthest from the world; -1: the world.
   int common_ancestor(int a, int b) const;
 
@@ -63,7 +79,9 @@ class StepMotion {
   struct Rate {
     double turn = 0;           ///< radians in the step
     double slide = 0;          ///< how far the origin goes in the step
+    double angle = 0;          ///< the largest number that an angle is made of
     double offset = 0;         ///< the furthest that the origin is from where it is at rest
+    bool has_values = false;   ///< it is not at rest
     bool is_absolute = false;  ///< it places the link in the world, whatever it hangs on
   };
 
@@ -73,7 +91,7 @@ class StepMotion {
   Model model_;
   std::vector<std::vector<Rate>> rates_;  ///< link, joint
   std::vector<int> parents_;              ///< what a free joint places has none
-  std::map<double, std::vector<Affine<double>>> kept_;
+  std::map<double, Places> kept_;
 };
 
 }  // namespace minkray

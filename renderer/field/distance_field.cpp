@@ -14,20 +14,16 @@ namespace {
 
 struct Body {
   ContactShape shape;
-  std::optional<HalfSpaceBody<double>> half_space;
+  Affine<double> pose;  ///< that does not turn
+  std::optional<PlacedPlane> plane;
 };
 
-/// The gap of the balls around two shapes whose middles are given, as it is computed.
-double gap_of_balls(const ContactShape& a, const Vec3<double>& middle_a, const ContactShape& b,
-                    const Vec3<double>& middle_b) {
-  return length_of(middle_a - middle_b) - a.ball_radius() - b.ball_radius();
-}
-
-/// What rounding may have made of it.
-double rounding_of_gap(const ContactShape& a, const Vec3<double>& middle_a, const ContactShape& b,
-                       const Vec3<double>& middle_b) {
-  constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
-  return rounding * (length_of(middle_a) + length_of(middle_b) + a.ball_radius() + b.ball_radius());
+/// The gap of the balls around two shapes, or a little less for rounding.
+double gap_of_balls(const ContactShape& a, const Affine<double>& pose_a, const ContactShape& b,
+                    const Affine<double>& pose_b) {
+  const Between between = between_middles(a, pose_a, b, pose_b);
+  const double distance = length_of(between.x), size = a.ball_radius() + b.ball_radius();
+  return distance - size - core_rounding * (distance + size) - between.loss;
 }
 
 }  // namespace
@@ -50,8 +46,13 @@ DistanceField measure_field(const Scene& scene, const Shape<double>& probe, cons
   if (!scene.particles.empty()) throw BadInput("distances from particles are not measured");
   std::vector<Body> bodies;
   for (const Object& object : scene.objects) {
-    bodies.push_back({ContactShape(object.shape, object.pose), {}});
-    if (object.half_space) bodies.back().half_space = object.half_space->posed(object.pose);
+    const Affine<double> about_origin{object.pose.linear, Vec3<double>::Zero()};
+    bodies.push_back({ContactShape(object.shape, about_origin),
+                      {Mat3<double>::Identity(), object.pose.translation},
+                      {}});
+    if (object.half_space)
+      bodies.back().plane =
+          PlacedPlane::of(object.half_space->normal, object.half_space->offset, object.pose);
   }
   const ContactShape moving(probe);
   const auto width = static_cast<std::size_t>(plane.width),
@@ -71,26 +72,22 @@ DistanceField measure_field(const Scene& scene, const Shape<double>& probe, cons
         const std::size_t pixel = y * width + x;
         const Affine<double> pose{Mat3<double>::Identity(),
                                   plane.at(static_cast<int>(x), static_cast<int>(y))};
-        const Vec3<double> middle = pose(moving.middle());
         double& value = field.value[pixel];
         double unknown_from = none;  // objects of unknown distance may be as near as this
         for (std::size_t i = 0; i < bodies.size(); ++i) {
           const Body& body = bodies[i];
           SignedDistance found;
-          if (body.half_space) {
-            found = distance_to_half_space(body.half_space->normal, body.half_space->offset, moving,
-                                           pose);
+          if (body.plane) {
+            found = distance_to_half_space(*body.plane, moving, pose.linear,
+                                           placed_middle(moving, pose));
           } else {
-            const double apart = gap_of_balls(moving, middle, body.shape, body.shape.middle());
+            const double apart = gap_of_balls(moving, pose, body.shape, body.pose);
             if (apart > value) continue;
             SignedDistanceOptions how;
             how.tolerance = options.tolerance;
             how.at_most = value;
-            found = signed_distance(body.shape, {}, moving, pose, how);
-            if (found.is_unknown())
-              found.lower = std::max(
-                  found.lower,
-                  apart - rounding_of_gap(moving, middle, body.shape, body.shape.middle()));
+            found = signed_distance(body.shape, body.pose, moving, pose, how);
+            if (found.is_unknown()) found.lower = std::max(found.lower, apart);
           }
           asked += static_cast<std::size_t>(found.supports);
           field.lower[pixel] = std::min(field.lower[pixel], found.lower);

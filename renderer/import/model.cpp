@@ -15,7 +15,8 @@ Mat3<double> turn(const Vec3<double>& axis, double angle) {
   return rotation_matrix(axis.x() * s, axis.y() * s, axis.z() * s, std::cos(half));
 }
 
-/// Two directions of a plane with that normal, as a right-handed frame with it.
+}  // namespace
+
 std::array<Vec3<double>, 2> directions_across(const Vec3<double>& normal) {
   const Vec3<double> helper =
       std::abs(normal.x()) < 0.5 ? Vec3<double>(1, 0, 0) : Vec3<double>(0, 1, 0);
@@ -23,7 +24,6 @@ std::array<Vec3<double>, 2> directions_across(const Vec3<double>& normal) {
   return {u, normal.cross(u)};
 }
 
-/// How a joint's value moves its link, in the link's frame at rest.
 Affine<double> motion_of(const ModelJoint& joint) {
   const std::vector<double>& q = joint.value;
   const auto about_anchor = [&](const Mat3<double>& rotation) {
@@ -46,6 +46,8 @@ Affine<double> motion_of(const ModelJoint& joint) {
   }
   return {};
 }
+
+namespace {
 
 /// The unit quaternion w, x, y, z of a rotation (S. W. Shepperd, "Quaternion from Rotation Matrix",
 /// 1978): the largest component is found first, the others by division.

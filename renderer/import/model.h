@@ -92,6 +92,13 @@ struct Model {
   void pass_over(const std::string& what, const std::string& why, std::size_t count = 1);
 };
 
+/// How a joint's value moves its link, in the link's frame at rest; not of free joints, whose
+/// values are the link's pose in the world.
+Affine<double> motion_of(const ModelJoint& joint);
+
+/// Two directions of a plane with that normal, along which a planar joint slides.
+std::array<Vec3<double>, 2> directions_across(const Vec3<double>& normal);
+
 /// Where the links stand in the world, by the joints' values.
 std::vector<Affine<double>> link_poses(const Model& model);
 

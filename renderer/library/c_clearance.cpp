@@ -57,14 +57,10 @@ JointPath path_of(const Model& model, const std::vector<JointRow>& rows) {
 /// Everything else in the scene as the robot's own frame has it.
 void add_obstacles(const HeldScene& held, const HeldScene::Group& robot,
                    std::vector<ClearanceBody>& bodies, std::vector<std::uint32_t>& objects) {
-  const Mat3<double> turned_back = robot.pose.linear.transpose();
-  const Affine<double> to_robot = {turned_back, -(turned_back * robot.pose.translation)};
   std::vector<ClearanceBody> all = bodies_of(held.whole());
   for (std::uint32_t i = 0; i < all.size(); ++i) {
     if (held.is_removed(i) || (i >= robot.first && i - robot.first < robot.count)) continue;
-    all[i].pose = to_robot;
-    if (all[i].half_space) all[i].half_space = all[i].half_space->posed(to_robot);
-    bodies.push_back(std::move(all[i]));
+    bodies.push_back(seen_from(robot.pose, std::move(all[i])));
     objects.push_back(i);
   }
 }

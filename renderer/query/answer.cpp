@@ -288,7 +288,7 @@ void solve(const ImpactQuery& query, const AnswerOptions&, Answer& answer) {
   answer.facts.t = result.t_lo;
   answer.json["status"] = answer.facts.status;
   answer.json["t_lo"] = bound_json<T>(result.t_lo, -infinity);
-  if (answer.facts.hit) answer.json["t_hi"] = bound_json<T>(result.t_hi, infinity);
+  answer.json["t_hi"] = answer.facts.hit ? bound_json<T>(result.t_hi, infinity) : Json();
   answer.facts.normal = result.normal;
   answer.json["normal"] = point_json(Vec3<T>(result.normal.cast<T>()));
   if (std::isfinite(result.distance)) {  // where it is known

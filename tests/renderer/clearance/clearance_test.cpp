@@ -410,7 +410,7 @@ TEST(Clearance, more_pairs_than_ten_million_are_refused) {
   model.links.assign(100'000, link);
   const ContactShape ball(Shape<double>(Sphere<double>{1}));
   std::vector<ClearanceBody> bodies;
-  for (int i = 0; i < 100'000; ++i) bodies.push_back({"ball", "link", i, {}, ball});
+  for (int i = 0; i < 100'000; ++i) bodies.push_back({"ball", "link", i, ball});
   EXPECT_THROW(pairs_of(bodies, model, {}, true), BadInput);
   EXPECT_TRUE(pairs_of(bodies, model, {}, false).empty());
   Scene scene;
