@@ -331,10 +331,16 @@ Vertices vertices_of_binary_stl(std::string_view bytes, TriangleFans fans) {
   const std::string got = " (got " + std::to_string(bytes.size());
   const std::size_t triangles =
       bytes.size() < least_bytes ? 0 : little_endian(bytes.substr(stl_header_bytes));
-  if (bytes.size() < least_bytes || triangles > most_bytes / stl_triangle_bytes) {
+  if (bytes.size() < least_bytes) {
     throw std::runtime_error("must begin with \"solid\", or be a binary STL of at least " +
-                             std::to_string(least_bytes) + " bytes" + got +
-                             (triangles == 0 ? ")" : ", for triangles without number)"));
+                             std::to_string(least_bytes) + " bytes" + got + ")");
+  }
+  if (triangles > most_bytes / stl_triangle_bytes) {
+    throw std::runtime_error(
+        "must begin with \"solid\", or be a binary STL: its triangle count must be at most " +
+        std::to_string(most_bytes / stl_triangle_bytes) + " (got " + std::to_string(triangles) +
+        ", in a file that has room for " +
+        std::to_string((bytes.size() - least_bytes) / stl_triangle_bytes) + ")");
   }
   const std::size_t expected = least_bytes + stl_triangle_bytes * triangles;
   if (bytes.size() < expected) {

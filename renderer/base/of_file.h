@@ -10,6 +10,12 @@
 
 namespace minkray {
 
+/// What went wrong while a file was read, in words for the user.
+inline std::string what_of(const std::exception& error) {
+  return dynamic_cast<const std::bad_alloc*>(&error) ? "there is not enough memory to read it"
+                                                     : error.what();
+}
+
 /// Runs `work`, which reads the file. What is wrong is BadInput that begins with the file's name.
 template <class Work>
 auto of_file(const std::string& file, const Work& work) {
@@ -18,8 +24,8 @@ auto of_file(const std::string& file, const Work& work) {
   } catch (const std::runtime_error& error) {
     const std::string what = error.what();
     throw BadInput(what.starts_with(file + ": ") ? what : file + ": " + what);
-  } catch (const std::bad_alloc&) {
-    throw BadInput(file + ": there is not enough memory to read it");
+  } catch (const std::bad_alloc& error) {
+    throw BadInput(file + ": " + what_of(error));
   }
 }
 

@@ -28,7 +28,10 @@ inline Option add_solver_option(const Verb& verb, std::string& solver) {
   std::string help = "How rays are cast:";
   for (const SolverDescription& description : solver_descriptions)
     help += "\n" + std::string(description.name) + ": " + std::string(description.doc);
-  return verb.add_option("--solver", solver, help).one_of(solver_names()).show_default();
+  return verb.add_option("--solver", solver, help)
+      .one_of(solver_names())
+      .show_default()
+      .group(research_group);
 }
 
 /// The name must be one of solver_names.

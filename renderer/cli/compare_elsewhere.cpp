@@ -5,7 +5,7 @@
 namespace minkray {
 
 void compare(const CompareArguments&, ExitCode&) {
-  run_beside("compare", "minkray-compare");
+  run_beside("compare", "minkray-compare", own_words());
 }
 
 }  // namespace minkray

@@ -24,9 +24,9 @@ std::vector<std::string> flags_of(const VerbDescription& verb) {
   return flags;
 }
 
-/// Whether what it takes is likely a file's name.
+/// True if the value is a file or a folder.
 bool takes_file(const OptionDescription& option) {
-  return option.choices.empty() && option.value.starts_with("TEXT");
+  return option.value == "FILE" || option.value == "OUTPUT" || option.value == "FOLDER";
 }
 
 /// Text in the specifications of zsh's _arguments.

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 
 #include "renderer/base/errors.h"
 
@@ -78,25 +77,6 @@ std::string file_of_frame(const std::string& name, int frame) {
   std::string number = std::to_string(frame);
   if (number.size() < end - begin) number.insert(0, end - begin - number.size(), '0');
   return name.substr(0, begin) + number + name.substr(end);
-}
-
-std::optional<int> frame_of_file(const std::string& name, const std::string& file,
-                                 const FrameRange& frames) {
-  const auto whole = [](const std::string& path) {
-    return std::filesystem::absolute(path).lexically_normal().string();
-  };
-  const std::string pattern = whole(name), wanted = whole(file);
-  const auto [begin, end] = run_in(pattern);
-  const std::size_t behind = pattern.size() - end;
-  constexpr std::size_t most_digits = 18;
-  if (wanted.size() <= begin + behind || wanted.size() > begin + behind + most_digits) return {};
-  const std::string digits = wanted.substr(begin, wanted.size() - behind - begin);
-  if (!std::all_of(digits.begin(), digits.end(), [](char c) { return '0' <= c && c <= '9'; }))
-    return {};
-  const long frame = std::stol(digits);
-  if (frame < frames.first || frame > frames.last) return {};
-  if (file_of_frame(pattern, static_cast<int>(frame)) != wanted) return {};
-  return static_cast<int>(frame);
 }
 
 void ContactSheet::add(const Image& frame) {

@@ -2,7 +2,6 @@
 // Pictures of a scene at several times: which, and into which files.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,10 +22,6 @@ FrameRange parse_frames(const std::string& text);
 /// The file of a frame: the run of # in the name becomes the frame's number, with zeros in front up
 /// to the run's length.
 std::string file_of_frame(const std::string& name, int frame);
-
-/// Which of the frames has this file, if any has, whether it is there or not.
-std::optional<int> frame_of_file(const std::string& name, const std::string& file,
-                                 const FrameRange& frames);
 
 /// Throws WrongUsage unless the file name has one run of #.
 void check_frame_name(const std::string& name);

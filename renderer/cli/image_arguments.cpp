@@ -2,7 +2,6 @@
 #include "renderer/cli/image_arguments.h"
 
 #include <charconv>
-#include <filesystem>
 #include <iostream>
 #include <optional>
 
@@ -81,26 +80,28 @@ std::uint64_t parse_seed(const std::string& text) {
 }
 
 void ImageArguments::add_to(const Verb& verb, const std::string& suffix) {
+  files = &verb.files();
   add_scene_option(verb, scene);
-  add_import_options(verb, import);
+  const Option verbose = add_import_options(verb, import);
   add_output_option(verb, outputs, "the scene's name and " + suffix);
   preview.add_to(verb);
-  verb.add_option("-r,--resolution", resolution, "WxH in pixels, instead of the scene's");
-  verb.add_option("-s,--spp", samples, "Samples a pixel").between(1, 1 << 24).show_default();
-  verb.add_option("-t,--threads", threads, "How many threads; 0 for one a core")
+  verb.add_option("-r,--resolution", resolution, "Size in pixels, instead of the scene's")
+      .takes("WxH");
+  verb.add_option("-s,--spp", samples, "Samples per pixel").between(1, 1 << 24).show_default();
+  verb.add_option("-t,--threads", threads, "Threads; 0: one per core")
       .between(0, 1024)
       .show_default();
-  verb.add_option("--crop", crop, "x0,y0,x1,y1 in pixels: just that region of the picture");
+  verb.add_option("--crop", crop, "Render just this region (ROI) of the picture, in pixels")
+      .takes("X0,Y0,X1,Y1");
   // As text: CLI11 takes what does not fit for the largest number.
-  verb.add_option("--seed", seed, "Of the random numbers, from 0 to 2^64 - 1").show_default();
-  const Option quiet_flag = verb.add_flag("-q,--quiet", quiet, "No progress, no report");
-  verb.add_flag("-v,--verbose", verbose, "Tell what is done and how long it takes")
-      .excludes(quiet_flag);
+  verb.add_option("--seed", seed, "Random seed (0 to 2^64 - 1)").takes("N").show_default();
+  verb.add_flag("-q,--quiet", quiet, "No progress, no report").excludes(verbose);
 }
 
 void ImageArguments::choose_output(const std::string& suffix) {
   if (!outputs.empty()) return;
   outputs.push_back(default_output(scene, suffix));
+  files->write(outputs.back(), "--output");
   is_output_chosen = true;
 }
 
@@ -110,7 +111,10 @@ void ImageArguments::tell_output() const {
 }
 
 Option add_scene_option(const Verb& verb, std::string& scene) {
-  return verb.add_option("scene", scene, scene_argument()).required().replace(scene_file);
+  return verb.add_option("scene", scene, scene_argument())
+      .required()
+      .replace(scene_file)
+      .reads_file();
 }
 
 void add_output_option(const Verb& verb, std::vector<std::string>& outputs,
@@ -119,7 +123,8 @@ void add_output_option(const Verb& verb, std::vector<std::string>& outputs,
                   "Where to write the picture (" + image_extensions() + "); may be given again" +
                       (otherwise.empty() ? "" : "; by default " + otherwise))
       .required(otherwise.empty())
-      .one_value_each();
+      .one_value_each()
+      .writes_file();
 }
 
 void check_outputs(const std::vector<std::string>& outputs) {
@@ -128,36 +133,15 @@ void check_outputs(const std::vector<std::string>& outputs) {
       throw WrongUsage("--output: must end in one of " + image_extensions() + " (got " + output +
                        ")");
   for (const std::string& output : outputs) check_writable(output);
-  for (std::size_t i = 0; i < outputs.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      if (is_same_file(outputs[i], outputs[j]))
-        throw WrongUsage("--output: names the same file twice (" + outputs[j] + " and " +
-                         outputs[i] + ")");
-}
-
-void check_outputs_beside(const Scene& scene, const std::vector<std::string>& outputs) {
-  for (const std::string& output : outputs)
-    for (const std::filesystem::path& picture : scene.pictures)
-      if (is_same_file(output, picture))
-        throw WrongUsage("--output: must not be a picture that the scene shows (got " +
-                         printable(output) + ")");
-}
-
-bool is_same_file(const std::string& a, const std::string& b) {
-  std::error_code error;
-  const auto whole = [&error](const std::string& file) {
-    return std::filesystem::weakly_canonical(std::filesystem::absolute(file, error), error);
-  };
-  const auto status = std::filesystem::status(a, error);
-  if (std::filesystem::is_character_file(status) || std::filesystem::is_fifo(status)) return false;
-  return whole(a) == whole(b) || std::filesystem::equivalent(a, b, error);
 }
 
 Scene ImageArguments::load_scene() const {
   ImportOptions options = import;
   if (!resolution.empty()) options.picture = parse_resolution(resolution);
-  Scene loaded = import_scene(scene, options).scene;
-  check_outputs_beside(loaded, outputs);
+  Imported imported = import_scene(scene, options);
+  if (imported.model && !quiet) warn_of_limits(*imported.model, options);
+  Scene loaded = std::move(imported.scene);
+  files->read(imported.files);
   return loaded;
 }
 
@@ -195,6 +179,13 @@ void write_images(const std::vector<std::string>& outputs, const Image& picture,
     write_file(output, bytes);
     InterruptGuard::end_if_interrupted();
   }
+}
+
+void warn_of_limits(const Model& model, const ImportOptions& options) {
+  if (options.joints.empty() && options.joint_rows.empty() && options.keyframe.empty()) return;
+  for (const PassedOver& one : model.passed_over)
+    if (one.what.starts_with("limit of the joint"))
+      std::cerr << "warning: " << one.what << ": " << one.why << "\n";
 }
 
 void warn_of_counts(const RayCounts& counts) {

@@ -12,10 +12,13 @@
 
 namespace minkray {
 
+class CommandFiles;
+struct Model;
 class Option;
 class Verb;
 
 struct ImageArguments {
+  CommandFiles* files = nullptr;  ///< of the command
   std::string scene;
   ImportOptions import;
   std::vector<std::string> outputs;
@@ -26,7 +29,6 @@ struct ImageArguments {
   int samples = 1;
   int threads = 0;
   bool quiet = false;
-  bool verbose = false;
   bool is_output_chosen = false;
 
   PreviewArguments preview;
@@ -40,7 +42,8 @@ struct ImageArguments {
   /// Says where the picture goes, if choose_output chose: once it is known that there will be one.
   void tell_output() const;
 
-  /// The scene. A camera that frames everything does so at the resolution that is asked for.
+  /// The scene, whose files are added to the command's. A camera that frames everything does so at
+  /// the resolution that is asked for.
   Scene load_scene() const;
 
   /// The options for a scene, of which `panels` pictures come beside each other. Throws WrongUsage
@@ -67,12 +70,6 @@ void add_output_option(const Verb& verb, std::vector<std::string>& outputs,
 /// written later.
 void check_outputs(const std::vector<std::string>& outputs);
 
-/// Throws WrongUsage for an output that would take the place of a picture that the scene shows.
-void check_outputs_beside(const Scene& scene, const std::vector<std::string>& outputs);
-
-/// Whether two names are one file's, which need not be there. Devices and pipes are never the same.
-bool is_same_file(const std::string& a, const std::string& b);
-
 /// Options for the casts of a solver by name. Throws WrongUsage with the names there are.
 CastOptions<double> cast_options(const std::string& solver, const std::string& option = "--solver");
 
@@ -80,6 +77,9 @@ CastOptions<double> cast_options(const std::string& solver, const std::string& o
 /// the others. Ends the process early if it was interrupted.
 void write_images(const std::vector<std::string>& outputs, const Image& picture,
                   const Image& floats);
+
+/// Warnings on stderr if joints that were asked to stand somewhere stand beyond their limits.
+void warn_of_limits(const Model& model, const ImportOptions& options);
 
 /// Warnings on stderr if any cast gave up, or a camera ray began in a shape.
 void warn_of_counts(const RayCounts& counts);

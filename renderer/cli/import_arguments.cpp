@@ -11,7 +11,7 @@ std::string scene_argument() {
          foreign_formats();
 }
 
-void add_import_options(const Verb& verb, ImportOptions& options, bool rows) {
+Option add_import_options(const Verb& verb, ImportOptions& options, bool rows) {
   constexpr const char* group = "Robots";
   verb.add_option(
           "--geometry",
@@ -20,9 +20,10 @@ void add_import_options(const Verb& verb, ImportOptions& options, bool rows) {
                                : name == "all"     ? GeometryChoice::all
                                                    : GeometryChoice::visual;
           },
-          std::string("visual: what is seen, and what collides where nothing is") +
-              (options.geometry == GeometryChoice::visual ? " (default); collision; all"
-                                                          : "; collision (default); all"))
+          std::string("Which shapes are taken (default ") +
+              (options.geometry == GeometryChoice::visual ? "visual" : "collision") +
+              "):\nvisual: what is seen; what collides if nothing is seen\n"
+              "collision: what collides\nall: both")
       .one_of({"visual", "collision", "all"})
       .group(group);
   verb.add_option(
@@ -32,15 +33,18 @@ void add_import_options(const Verb& verb, ImportOptions& options, bool rows) {
                             : name == "components" ? MeshSplit::components
                                                    : MeshSplit::none;
           },
-          "A hull for each part of a mesh: groups (as its file names them) or components (as they "
-          "hang together); none: one hull (default)")
+          "How a mesh becomes convex hulls:\nnone: one hull (default)\n"
+          "groups: one for each part that its file names\n"
+          "components: one for each part that hangs together")
       .one_of({"none", "groups", "components"})
       .group(group);
   verb.add_option("--keyframe", options.keyframe, "MJCF: the name of a keyframe, or its number")
+      .takes("NAME")
       .group(group);
   verb.add_option("--joint", options.joints,
-                  "NAME=VALUE, may be given again; angles in radians, several numbers between "
+                  "A joint's value; may be given again. Angles in radians, several numbers between "
                   "commas")
+      .takes("NAME=VALUE")
       .one_value_each()
       .group(group);
   if (rows)
@@ -49,14 +53,21 @@ void add_import_options(const Verb& verb, ImportOptions& options, bool rows) {
             "A CSV file: joints' names in its first line, values in the others; or JSON: a "
             "list of {\"time\": 0, \"elbow\": 1.2}; several rows move the robot (for --frames), "
             "by \"time\" or 24 a second")
+        .reads_file()
         .group(group);
   verb.add_option("--package-dir,--model-dir", options.package_dirs,
                   "Where package:// and model:// are looked for; may be given again")
+      .takes_folder()
       .one_value_each()
+      .group(group);
+  verb.add_flag("--lenient", options.lenient,
+                "Leave out shapes and materials that are wrong; info lists them")
       .group(group);
   verb.add_flag("--skip-missing-meshes", options.skip_missing_meshes,
                 "Leave out meshes that are not there; info tells how many")
       .group(group);
+  return verb.add_flag("-v,--verbose", options.verbose,
+                       "Tell what is done and how long it takes; list each missing mesh");
 }
 
 }  // namespace minkray

@@ -8,13 +8,14 @@
 
 namespace minkray {
 
+class Option;
 class Verb;
 
 /// The help of the argument itself.
 std::string scene_argument();
 
 /// The geometry that `options` has is the default. `rows`: whether a file of joints' values is one
-/// of them.
-void add_import_options(const Verb& verb, ImportOptions& options, bool rows = true);
+/// of them. Returns --verbose.
+Option add_import_options(const Verb& verb, ImportOptions& options, bool rows = true);
 
 }  // namespace minkray

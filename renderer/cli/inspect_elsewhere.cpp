@@ -5,7 +5,7 @@
 namespace minkray {
 
 void inspect(const InspectArguments&, ExitCode&) {
-  run_beside("inspect", "minkray-inspect");
+  run_beside("inspect", "minkray-inspect", own_words());
 }
 
 }  // namespace minkray

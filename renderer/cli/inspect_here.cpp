@@ -5,6 +5,7 @@
 
 #include "renderer/base/errors.h"
 #include "renderer/base/interrupt.h"
+#include "renderer/cli/command_files.h"
 #include "renderer/cli/file_ending.h"
 #include "renderer/cli/inspect_options.h"
 #include "renderer/cli/progress_line.h"
@@ -34,6 +35,7 @@ std::string output_of(const InspectArguments& arguments) {
   std::error_code error;
   if (std::filesystem::exists(output, error))
     throw WrongUsage("--output: " + output + " is there already; name it to have it replaced");
+  arguments.image.files->write(output, "--output");
   return output;
 }
 

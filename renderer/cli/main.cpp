@@ -6,12 +6,14 @@
 #include <iostream>
 #include <new>
 #include <string>
+#include <vector>
 
 #include "renderer/base/build.h"
 #include "renderer/base/errors.h"
 #include "renderer/cli/options.h"
 #include "renderer/cli/program_beside.h"
 #include "renderer/cli/verbs.h"
+#include "renderer/cli/words_meant.h"
 #include "renderer/json/mistakes.h"
 
 namespace {
@@ -27,44 +29,54 @@ constexpr const char* first_page =
     "  minkray heatmap showcase          what each pixel of it costs: showcase-heatmap.png\n"
     "  minkray info --shapes             what a scene's shapes may be\n"
     "\n"
-    "minkray --help lists all verbs, minkray VERB --help tells what one of them takes.\n";
+    "minkray help lists all commands, minkray help COMMAND shows what one of them takes.\n";
 
-/// The parser says of an unknown verb, or of an option before it, only that a verb is required.
-void check_verb(const Parser& parser, const std::string& name) {
-  std::string names;
-  for (const std::string& verb : parser.verb_names()) {
-    if (verb == name) return;
-    names += (names.empty() ? "" : ", ") + verb;
-  }
-  throw minkray::WrongUsage("minkray: the first word must be --help, --version or one of " + names +
-                            " (got " + minkray::printable(name, 40) + ")");
+/// The parser says of an unknown command, or of an option before it, only that one is required.
+void check_command(const Parser& parser, const std::string& name) {
+  std::vector<std::string> known = parser.verb_names();
+  if (std::ranges::find(known, name) != known.end()) return;
+  known.insert(known.end(), {"help", "--help", "--version"});
+  const std::string meant = minkray::command_meant(name, known);
+  throw minkray::WrongUsage(
+      std::string(name.starts_with('-') ? "unknown option `" : "unknown command `") +
+      minkray::printable(name, 40) + "`" +
+      (meant.empty() ? " (minkray --help lists all commands)" : "; " + meant));
+}
+
+/// "help" and "help COMMAND" as the words that they stand for.
+std::vector<std::string> words_of(int argc, char** argv) {
+  std::vector<std::string> words(argv, argv + argc);
+  if (argc < 2 || words[1] != "help") return words;
+  if (argc == 2) return {words[0], "--help"};
+  return {words[0], words[2], "--help"};
 }
 
 ExitCode run(int argc, char** argv) {
   Parser parser("Minkray casts rays at exact convex shapes.", "minkray");
   parser.set_version(std::string(minkray::version_and_commit()));
-  if (argc <= 1) {
+  const std::vector<std::string> words = words_of(argc, argv);
+  if (words.size() <= 1) {
     std::cout << first_page;
     return ExitCode::done;
   }
   parser.set_footer(
       "Exit codes: 0 done, 1 a comparison or certificate failed, 2 wrong usage,\n"
-      "3 bad scene or input, 4 could not write. Results are on stdout, everything else on stderr.");
+      "3 bad scene or input, 4 could not write. Results are on stdout, all else on\nstderr.");
   ExitCode exit_code = ExitCode::done;
   const std::span<const minkray::VerbHere> here = minkray::verbs_here();
   for (const minkray::VerbRow& verb : minkray::verbs) {
     const auto found = std::ranges::find(here, verb.name, &minkray::VerbHere::name);
     if (found != here.end())
       found->add(parser, exit_code);
-    else if (argv[1] == verb.name)
-      minkray::run_beside(std::string(verb.name), verb.program);
+    else if (words[1] == verb.name)
+      minkray::run_beside(std::string(verb.name), verb.program, words);
     else
       parser.add_verb(std::string(verb.name));
   }
 
-  const std::string first = argv[1];
-  if (first != "-h" && first != "--help" && first != "--version") check_verb(parser, first);
-  const std::string complaints = parser.parse(argc, argv);
+  const std::string& first = words[1];
+  if (first != "-h" && first != "--help" && first != "--version") check_command(parser, first);
+  const std::string complaints = parser.parse(words);
   if (!complaints.empty()) exit_code = ExitCode::wrong_usage;
   std::cerr << minkray::printable_lines(complaints);
   std::cout.flush();

@@ -53,10 +53,7 @@ std::string entry(const OptionDescription& option) {
     text = ".TP\n.BR \"" + roff(name_of(option)) + "\" \" " +
            roff(option.is_value_optional ? "[=" + values + "]" : values) + "\"\n";
   }
-  text += roff_lines(option.doc) + "\n";
-  if (!option.default_value.empty()) text += "(default: " + roff(option.default_value) + ")\n";
-  if (option.is_required && !option.flags.empty()) text += "(required)\n";
-  return text;
+  return text + roff_lines(whole_doc(option)) + "\n";
 }
 
 constexpr const char* exit_status =
@@ -72,6 +69,8 @@ std::string man_page(const VerbDescription& verb) {
   std::string page = heading(name) + ".SH NAME\n" + roff(name) + " \\- " + roff(verb.doc) +
                      "\n.SH SYNOPSIS\n" + synopsis(verb) + ".SH OPTIONS\n";
   for (const OptionDescription& option : verb.options) page += entry(option);
+  page += ".SH EXAMPLES\n";
+  for (const std::string& example : verb.examples) page += ".PP\n.B " + roff(example) + "\n";
   return page + exit_status + ".SH SEE ALSO\n.BR minkray (1)\n";
 }
 

@@ -6,11 +6,13 @@
 
 #include <cstddef>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "renderer/cli/command_files.h"
 #include "renderer/cli/verb_description.h"
 
 namespace CLI {
@@ -20,10 +22,18 @@ class Option;
 
 namespace minkray {
 
+enum class FileRole : unsigned char { read, written };
+
+/// An option whose values are files.
+struct FileOption {
+  CLI::Option* option;
+  FileRole role;
+};
+
 /// An option that was added. Each function says more of it and answers the same option.
 class Option {
  public:
-  explicit Option(CLI::Option& option) : option_(&option) {}
+  Option(CLI::Option& option, std::vector<FileOption>& files) : option_(&option), files_(&files) {}
 
   Option required(bool is_required = true) const;
   /// Help shows the value that the variable has now.
@@ -40,17 +50,29 @@ class Option {
   Option excludes(const Option& other) const;
   /// The heading in help that it stands under.
   Option group(const std::string& heading) const;
+  /// Names in help what a value is: "NAME", "WxH". Text that is no file's name must say so.
+  Option takes(const std::string& what) const;
+  /// Values are files that the command reads ("FILE" in help), writes ("OUTPUT"), or folders.
+  Option reads_file() const;
+  Option writes_file() const;
+  Option takes_folder() const;
   /// The variable gets what the function makes of what was given.
   Option replace(const std::function<std::string(const std::string&)>& function) const;
 
  private:
   CLI::Option* option_;
+  std::vector<FileOption>* files_;
 };
 
 /// A subcommand. The variables of its options must outlive the parser.
 class Verb {
  public:
-  explicit Verb(CLI::App& verb) : verb_(&verb) {}
+  struct State;
+  Verb(CLI::App& verb, State& state) : verb_(&verb), state_(&state) {}
+
+  /// The files of this command, which all that it opens are to be added to: before `on_call`'s
+  /// function runs, those that options name have been added.
+  CommandFiles& files() const;
 
   /// `names` is "-o,--output" for what is given by its name, "scene" for what is given by its
   /// place. Lists take all words that follow, unless one_value_each.
@@ -82,6 +104,12 @@ class Verb {
 
  private:
   CLI::App* verb_;
+  State* state_;
+};
+
+struct Verb::State {
+  CommandFiles files;
+  std::vector<FileOption> options;
 };
 
 /// The whole command line.
@@ -103,10 +131,11 @@ class Parser {
 
   /// Reads the options and runs the verb; help and the version go to stdout. Answers what is wrong
   /// with the words, for stderr; empty: nothing. Lets through what the verb throws.
-  std::string parse(int argc, char** argv);
+  std::string parse(const std::vector<std::string>& words);
 
  private:
   std::unique_ptr<CLI::App> app_;
+  std::map<std::string, Verb::State> states_;  ///< by verb
 };
 
 }  // namespace minkray

@@ -5,11 +5,13 @@
 #include "renderer/cli/choices.h"
 #include "renderer/cli/options.h"
 #include "renderer/film/data_channels.h"
+#include "renderer/share/checkpoint.h"
 
 namespace minkray {
 namespace {
 
 constexpr const char* picture_suffix = ".png";
+constexpr const char* several_machines = "Several machines";
 
 }  // namespace
 
@@ -17,15 +19,19 @@ void RenderArguments::choose_output(const Ranks& ranks) {
   if (image.outputs.empty() && (is_share() || frames || ranks.count() > 1))
     throw WrongUsage("--output: is needed with --tile, --sample-share, --frames and MPI");
   image.choose_output(picture_suffix);
+  const bool has_checkpoint = checkpoint_seconds > 0 || resume;
+  if (!frames && ranks.count() == 1 && has_checkpoint)
+    image.files->write(Checkpoint::path_for(image.outputs.front()), "--output");
 }
 
 void RenderArguments::add_to(const Verb& verb) {
   image.samples = 16;
   image.add_to(verb, picture_suffix);
   add_solver_option(verb, image.solver);
-  verb.add_option("--exposure", exposure, "Stops brighter; .pfm keeps the scene's light")
+  verb.add_option("--exposure", exposure,
+                  "Exposure in stops (.pfm and .exr keep the scene's light)")
       .show_default();
-  std::string kinds = "Which light the picture is made of:";
+  std::string kinds = "Rendering method:";
   std::vector<std::string> names;
   for (const IntegratorDescription& kind : integrators) {
     kinds += "\n" + std::string(kind.name) + ": " + std::string(kind.doc);
@@ -42,10 +48,9 @@ void RenderArguments::add_to(const Verb& verb) {
                   "ambient occlusion")
       .between(0, 64)
       .show_default();
-  verb.add_option(
-          "--clamp", clamp,
-          "With --integrator path: light by way of several surfaces counts for no more than "
-          "this; fewer bright specks, and less light. 0: no limit")
+  verb.add_option("--clamp", clamp,
+                  "Clamp indirect light of --integrator path: fewer fireflies, slightly darker "
+                  "(biased). 0: no limit")
       .between(0.0, 1e30)
       .show_default();
   verb.add_option("--noise", noise,
@@ -57,36 +62,43 @@ void RenderArguments::add_to(const Verb& verb) {
       "--denoise", denoise,
       "Less noise: pixels are averaged with others that are of the same thing and about as "
       "bright; made for few samples");
-  std::string maps = "How bright light is shown by .png:";
+  std::string maps = "Tone mapping of PNG output:";
   for (const ToneMapDescription& map : tone_maps)
     maps += "\n" + std::string(map.name) + ": " + std::string(map.doc);
   verb.add_option("--tonemap", tone_map, maps).one_of(tone_map_names()).show_default();
   verb.add_option("--ray-group", ray_group,
                   "Camera rays that are traced together; the picture is the same for any number")
       .between(1, most_in_ray_group)
-      .show_default();
+      .show_default()
+      .group(research_group);
   verb.add_option(
           "--build",
           [this](const std::string& name) {
             build = name == "speed" ? BvhBuild::speed : BvhBuild::quality;
           },
-          "Of the hierarchy: quality, for fast rays, or speed, for a fast build")
-      .one_of({"quality", "speed"});
+          "BVH build, for faster rays or for a faster build")
+      .one_of({"quality", "speed"})
+      .group(research_group);
   std::string channels;
   for (const DataChannelDescription& channel : data_channels)
     channels += "\n" + std::string(channel.name) + ": " + std::string(channel.doc);
-  verb.add_option("--aov", aov,
-                  "Data channels of .exr, between commas, or all; of the ray through the pixel's "
-                  "centre, not filtered:" +
-                      channels);
-  verb.add_option("--tile", tile,
-                  "i/n: just the i-th of n tiles of the picture, for minkray merge");
+  verb.add_option(
+          "--aov", aov,
+          "AOVs (extra EXR channels), comma-separated, or all; one unfiltered ray per pixel:" +
+              channels)
+      .takes("NAMES");
+  verb.add_option("--tile", tile, "Just the i-th of n tiles of the picture, for minkray merge")
+      .takes("I/N")
+      .group(several_machines);
   verb.add_option("--sample-share", sample_share,
-                  "i/n: just the i-th of n shares of each pixel's samples, for minkray merge");
+                  "Just the i-th of n shares of each pixel's samples, for minkray merge")
+      .takes("I/N")
+      .group(several_machines);
   verb.add_option("--tiles", tiles,
                   "Under mpirun: into how many tiles the picture is split; by default each has "
                   "about 64 x 64 pixels")
-      .between(1, 999999);
+      .between(1, 999999)
+      .group(several_machines);
   verb.add_option("--checkpoint", checkpoint_seconds,
                   "Seconds between checkpoints beside the first output; 0 for none")
       .between(0.0, 1e9)
@@ -97,19 +109,23 @@ void RenderArguments::add_to(const Verb& verb) {
       "In passes of 1, 2, 4 ... samples a pixel: each is written to the outputs, and shown "
       "by --preview and --tev; the last picture has the same bits as without");
   verb.add_option(
-      "--tev", tev,
-      "HOST:PORT: show the picture while it grows in the viewer tev that listens there; "
-      "HOST alone for its usual port, 14158");
+          "--tev", tev,
+          "Show the picture while it grows in the viewer tev that listens there; the port is "
+          "14158 if it is left out")
+      .takes("HOST:PORT");
   verb.add_option("--frames", frames,
-                  "a..b: pictures of these frames, into files with the frame's number in the "
+                  "Pictures of these frames, into files with the frame's number in the "
                   "place of #### in the output's name; frame 0 is at 0 s. A record beside them, "
-                  "####.png.frames, tells which are there: with --resume they are left out");
-  verb.add_option("--rate", rate, "Frames a second").between(1e-6, 1e6).show_default();
+                  "####.png.frames, tells which are there: with --resume they are left out")
+      .takes("A..B");
+  verb.add_option("--rate", rate, "Frames per second (fps)").between(1e-6, 1e6).show_default();
   verb.add_option("--contact-sheet", contact_sheet,
-                  "With --frames: all frames, small, in one more picture");
-  verb.add_flag("--stats", stats, "Print rays, speed, work and memory; --stats=json");
-  verb.add_flag("--certify", certify,
-                "Prove the answer to every ray (docs/certificates.md); exit 1 if a proof fails");
+                  "With --frames: all frames, small, in one more picture")
+      .writes_file();
+  verb.add_flag("--stats", stats, "Print rays, speed, work and memory; --stats=json")
+      .group(research_group);
+  verb.add_flag("--certify", certify, "Prove the answer to every ray; exit 1 if a proof fails")
+      .group(research_group);
 }
 
 }  // namespace minkray

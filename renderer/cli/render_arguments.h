@@ -42,7 +42,8 @@ struct RenderArguments {
   /// are the members' values.
   void add_to(const Verb& verb);
 
-  /// Chooses an output if none is given. Throws WrongUsage where it must be given.
+  /// Chooses an output if none is given, and adds the checkpoint beside it to the command's files.
+  /// Throws WrongUsage where an output must be given.
   void choose_output(const Ranks& ranks);
 
   Display display() const { return {exposure, tone_map_named(tone_map)}; }

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "renderer/base/hash.h"
+#include "renderer/cli/command_files.h"
 #include "renderer/cli/render_picture.h"
 #include "renderer/cli/timed.h"
 #include "renderer/cli/write_picture.h"
@@ -26,23 +27,20 @@ std::vector<FramesRecord> records_of(const RenderJob& job, const RenderArguments
   return records;
 }
 
-/// No frame takes the place of a picture that the scene shows.
-void check_frames_beside(const Scene& scene, const RenderArguments& options,
-                         const FrameRange& frames) {
-  if (!options.contact_sheet.empty()) check_outputs_beside(scene, {options.contact_sheet});
-  for (const std::string& name : options.image.outputs)
-    for (const std::filesystem::path& picture : scene.pictures)
-      if (const auto frame = frame_of_file(name, picture.string(), frames))
-        throw WrongUsage("--output: frame " + std::to_string(*frame) +
-                         " must not be a picture that the scene shows (got " +
-                         printable(picture.string()) + ")");
+/// Adds each frame's files to the command's: none may be what is read, or another output.
+void add_frames(const RenderArguments& options, const FrameRange& frames) {
+  for (const std::string& name : options.image.outputs) {
+    options.image.files->write(FramesRecord::path_for(name), "--output");
+    for (int frame = frames.first; frame <= frames.last; ++frame)
+      options.image.files->write(file_of_frame(name, frame), "--output");
+  }
 }
 
 }  // namespace
 
 void render_frames(RenderJob& job, const RenderArguments& options, const FrameRange& frames,
                    RenderStatistics& statistics) {
-  check_frames_beside(job.scene, options, frames);
+  add_frames(options, frames);
   const std::string scene_hash = job.scene.hash;
   std::vector<FramesRecord> records = records_of(job, options);
   ContactSheet sheet;
@@ -55,7 +53,7 @@ void render_frames(RenderJob& job, const RenderArguments& options, const FrameRa
     }
     if (options.resume && is_there) continue;
     if (!options.image.quiet) std::cerr << printable(outputs.front()) << "\n";
-    timed(options.image.verbose, "move", statistics.build_seconds, [&] {
+    timed(options.image.import.verbose, "move", statistics.build_seconds, [&] {
       set_time(job.scene, frame / options.rate);
       follow(job.world, job.scene);
     });

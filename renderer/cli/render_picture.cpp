@@ -16,13 +16,13 @@ Image render_picture(const RenderJob& job, const RenderArguments& options,
   Checkpoint checkpoint = checkpoint_of(job, outputs.front());
   RenderedJob done;
   GrowingPicture growing(job, options, outputs);
-  timed(options.image.verbose, "trace", statistics.trace_seconds,
+  timed(options.image.import.verbose, "trace", statistics.trace_seconds,
         [&] { done = run(job, checkpoint, growing.spectator()); });
   statistics.counts += done.rendering.counts;
   statistics.noise = done.rendering.noise;
   const FinishedPicture picture{std::move(done.rendering.image), std::move(done.labels),
                                 job.options.region(), job.options.resolution, std::move(done.exr)};
-  timed(options.image.verbose, "write", statistics.write_seconds,
+  timed(options.image.import.verbose, "write", statistics.write_seconds,
         [&] { write_picture(outputs, picture, options.display()); });
   checkpoint.remove();
   growing.finish(picture.image);

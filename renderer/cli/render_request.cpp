@@ -3,12 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "renderer/base/errors.h"
 #include "renderer/cli/command_line.h"
+#include "renderer/cli/words_meant.h"
 #include "renderer/cli/write_picture.h"
 #include "renderer/film/data_channels.h"
 #include "renderer/io/image_file.h"
+#include "renderer/json/mistakes.h"
 
 namespace minkray {
 namespace {
@@ -26,6 +29,18 @@ void check_shares(const RenderOptions& options) {
                      " (got " + share.text() + ")");
 }
 
+/// Throws WrongUsage for a channel of another program's name, with the one that it has here.
+void check_channels(const std::string& list) {
+  std::vector<std::string> known;
+  for (const DataChannelDescription& channel : data_channels) known.emplace_back(channel.name);
+  std::istringstream names(list);
+  for (std::string name; std::getline(names, name, ',');) {
+    if (name == "all" || std::ranges::find(known, name) != known.end()) continue;
+    if (const std::string meant = value_meant(name, known); !meant.empty())
+      throw WrongUsage("--aov: there is no channel " + printable(name, 40) + "; " + meant);
+  }
+}
+
 }  // namespace
 
 RenderJob job_of(const RenderArguments& options, const Ranks& ranks) {
@@ -36,7 +51,10 @@ RenderJob job_of(const RenderArguments& options, const Ranks& ranks) {
   if (std::isnan(options.checkpoint_seconds))
     throw WrongUsage("--checkpoint: must be a number of seconds (got nan)");
   if (std::isnan(options.rate)) throw WrongUsage("--rate: must be a number of frames (got nan)");
-  if (options.aov) job.channels = parse_data_channels(*options.aov);
+  if (options.aov) {
+    check_channels(*options.aov);
+    job.channels = parse_data_channels(*options.aov);
+  }
   const std::vector<std::string>& outputs = options.image.outputs;
   if (options.aov && std::none_of(outputs.begin(), outputs.end(), keeps_planes))
     throw WrongUsage("--aov: needs an output that ends in .exr (got " + outputs.front() + ")");
@@ -91,10 +109,6 @@ FrameRange frames_of(const RenderArguments& options, const Ranks& ranks) {
   if (options.resume)
     throw WrongUsage("--contact-sheet: shows the frames of a whole run: not with --resume");
   check_outputs({options.contact_sheet});
-  for (const std::string& name : options.image.outputs)
-    if (const auto frame = frame_of_file(name, options.contact_sheet, frames))
-      throw WrongUsage("--contact-sheet: is the file of frame " + std::to_string(*frame) +
-                       " (got " + options.contact_sheet + ")");
   return frames;
 }
 

@@ -259,7 +259,7 @@ ExitCode cast(const CastVerbOptions& options) {
 void add_cast(Parser& parser, ExitCode& exit_code) {
   const Verb verb = parser.add_verb("cast");
   const auto options = std::make_shared<CastVerbOptions>();
-  verb.add_option("file", options->file, "A file of queries, - for stdin").required();
+  verb.add_option("file", options->file, "A file of queries, - for stdin").required().reads_file();
   verb.add_option("--precision", options->precision, "float or double")
       .one_of({"float", "double"})
       .show_default();
@@ -268,12 +268,12 @@ void add_cast(Parser& parser, ExitCode& exit_code) {
       .one_of(subalgorithm_names())
       .show_default();
   add_tolerance(verb, options->tolerance);
-  verb.add_option("--threads", options->threads, "How many threads; 0 for all")
+  verb.add_option("--threads", options->threads, "Threads; 0: one per core")
       .between(0, 1024)
       .show_default();
   verb.add_flag("--trace", options->trace, "Add every iteration");
   verb.add_flag("--certify", options->certify,
-                "Prove every cast's answer (docs/certificates.md); exit 1 if a proof fails");
+                "Prove every cast's answer; exit 1 if a proof fails");
   verb.add_flag("--check", options->check,
                 "Compare with what each query expects; exit 1 if anything differs");
   verb.on_call([options, &exit_code] {

@@ -21,6 +21,7 @@ namespace minkray {
 namespace {
 
 struct ClearanceVerbOptions {
+  CommandFiles* files = nullptr;
   std::string robot, srdf, steps, sweep;
   std::vector<std::string> obstacles, allowed;
   ImportOptions import;
@@ -131,14 +132,18 @@ void clearance(ClearanceVerbOptions& options, ExitCode& exit_code) {
   throw_if_any(mistakes);
   std::optional<Model> model = load_model(options.robot, options.import, mistakes);
   throw_if_any(mistakes);
+  options.files->read(model->files);
   pose_model(*model, options.import, mistakes);
   const std::vector<JointRow> rows =
       read_joint_rows(options.import.joint_rows, *model, mistakes, "--path");
   const AllowedPairs allowed = allowed_pairs(options, *model, mistakes);
   throw_if_any(mistakes);
   std::vector<ClearanceBody> bodies = bodies_of(*model, options.import.geometry);
-  for (const std::string& file : options.obstacles)
-    for (ClearanceBody& body : bodies_of(import_scene(file).scene)) bodies.push_back(body);
+  for (const std::string& file : options.obstacles) {
+    const Imported obstacle = import_scene(file);
+    options.files->read(obstacle.files);
+    for (ClearanceBody& body : bodies_of(obstacle.scene)) bodies.push_back(body);
+  }
   const std::vector<BodyPair> pairs = pairs_of(bodies, *model, allowed, !options.only_obstacles);
 
   const JointPath path(*model, rows);
@@ -162,32 +167,40 @@ void clearance(ClearanceVerbOptions& options, ExitCode& exit_code) {
 void add_clearance(Parser& parser, ExitCode& exit_code) {
   const Verb verb = parser.add_verb("clearance");
   const auto options = std::make_shared<ClearanceVerbOptions>();
-  verb.add_option("robot", options->robot, foreign_formats()).required();
+  options->files = &verb.files();
+  verb.add_option("robot", options->robot, foreign_formats()).required().reads_file();
   verb.add_option("--path", options->import.joint_rows,
                   "A CSV file: joints' names in its first line, values in the others, perhaps a "
                   "column \"time\"; from row to row each joint goes at a constant rate")
-      .required();
+      .required()
+      .reads_file();
   verb.add_option("--obstacle", options->obstacles,
                   "A scene or a robot's file that stands still; may be given again")
-      .one_value_each();
-  verb.add_option("--srdf", options->srdf, "MoveIt's file of the links that may touch each other");
+      .one_value_each()
+      .reads_file();
+  verb.add_option("--srdf", options->srdf, "MoveIt's file of the links that may touch each other")
+      .reads_file();
   verb.add_option("--allow", options->allowed,
-                  "LINK,LINK that may touch each other; may be given again. Links that a joint "
+                  "Two links that may touch each other; may be given again. Links that a joint "
                   "connects always may")
+      .takes("LINK,LINK")
       .one_value_each();
   verb.add_flag("--only-obstacles", options->only_obstacles,
-                "Not of the robot's links to each other");
+                "Check obstacles only, not self-collision");
   verb.add_option("--tolerance", options->clearance.tolerance,
                   "How near the bounds shall be to each other, relative to the clearance")
       .between(1e-9, 1.0)
       .show_default();
   verb.add_option("--at-least", options->at_least,
-                  "Fails (exit code 1) unless the clearance is proven to be so much");
-  verb.add_option("--steps", options->steps, "A CSV file to write: the least of each step");
+                  "Exit with 1 unless the proven clearance is at least this")
+      .takes("DISTANCE");
+  verb.add_option("--steps", options->steps, "A CSV file to write: the least of each step")
+      .writes_file();
   verb.add_option("--sweep", options->sweep,
-                  "A scene file to write (.json): bodies that hold all that the links pass over");
+                  "A scene file to write (.json): bodies that hold all that the links pass over")
+      .writes_file();
   add_import_options(verb, options->import, false);
-  verb.add_option("-t,--threads", options->threads, "How many threads; 0 for one a core")
+  verb.add_option("-t,--threads", options->threads, "Threads; 0: one per core")
       .between(0, 1024)
       .show_default();
   verb.on_call([options, &exit_code] {

@@ -16,6 +16,7 @@ void add_compare(Parser& parser, ExitCode& exit_code) {
   const auto options = std::make_shared<CompareArguments>();
   ImageArguments& image = options->image;
   image.seed = "1";
+  image.files = &verb.files();
   add_scene_option(verb, image.scene);
   add_import_options(verb, image.import);
   verb.add_option("--rays", options->rays,
@@ -27,12 +28,14 @@ void add_compare(Parser& parser, ExitCode& exit_code) {
       .between(20, 1 << 20);
   verb.add_option("-o,--output", image.outputs,
                   "A picture of how far apart the meshes are, violations marked")
-      .one_value_each();
-  verb.add_option("-r,--resolution", image.resolution, "WxH in pixels, instead of the scene's");
-  verb.add_option("-t,--threads", image.threads, "How many threads; 0 for one a core")
+      .one_value_each()
+      .writes_file();
+  verb.add_option("-r,--resolution", image.resolution, "Size in pixels, instead of the scene's")
+      .takes("WxH");
+  verb.add_option("-t,--threads", image.threads, "Threads; 0: one per core")
       .between(0, 1024)
       .show_default();
-  verb.add_option("--seed", image.seed, "Of the random rays").show_default();
+  verb.add_option("--seed", image.seed, "Random seed (0 to 2^64 - 1)").takes("N").show_default();
   add_solver_option(verb, image.solver);
   verb.add_flag("--json", options->json, "Print JSON, with histograms of the gaps");
   verb.add_flag("-q,--quiet", image.quiet, "No progress");

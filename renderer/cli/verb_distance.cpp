@@ -37,8 +37,10 @@ void distance(const DistanceVerbOptions& options) {
 void add_distance(Parser& parser, ExitCode&) {
   const Verb verb = parser.add_verb("distance");
   const auto options = std::make_shared<DistanceVerbOptions>();
-  verb.add_option("a", options->a, "A file with a shape, as scenes have them").required();
-  verb.add_option("b", options->b, "Another").required();
+  verb.add_option("a", options->a, "A file with a shape, as scenes have them")
+      .required()
+      .reads_file();
+  verb.add_option("b", options->b, "Another").required().reads_file();
   add_tolerance(verb, options->tolerance);
   verb.add_option("--at-most", options->at_most,
                   "Beyond this distance a lower bound of it is enough");

@@ -18,6 +18,7 @@ namespace minkray {
 namespace {
 
 struct Distance2DVerbOptions {
+  CommandFiles* files = nullptr;
   std::string file;
   std::string out;
   std::string subalgorithm = "projection";
@@ -40,6 +41,7 @@ void distance_2d(const Distance2DVerbOptions& options) {
       object.finish();
     }
   throw_if_any(mistakes);
+  options.files->read(meshes.meshes());
   DistanceResult<double, 2> result;
   const std::string svg =
       distance_panels_svg(*a, *b, subalgorithm_named(options.subalgorithm), result);
@@ -54,11 +56,13 @@ void distance_2d(const Distance2DVerbOptions& options) {
 void add_distance_2d(Parser& parser, ExitCode&) {
   const Verb verb = parser.add_verb("distance-2d");
   const auto options = std::make_shared<Distance2DVerbOptions>();
+  options->files = &verb.files();
   verb.add_option("file", options->file,
                   "JSON: {\"a\": shape, \"b\": shape}; of shapes that are not flat, their shadows "
                   "on z = 0")
-      .required();
-  verb.add_option("-o,--output", options->out, "The SVG file").required();
+      .required()
+      .reads_file();
+  verb.add_option("-o,--output", options->out, "The SVG file").required().writes_file();
   verb.add_option("--subalgorithm", options->subalgorithm, "How simplices are reduced")
       .one_of(subalgorithm_names())
       .show_default();

@@ -21,6 +21,7 @@ namespace minkray {
 namespace {
 
 struct FieldVerbOptions {
+  CommandFiles* files = nullptr;
   std::string scene, probe, through, normal = "0,0,1", resolution = "640x480";
   ImportOptions import;
   std::vector<std::string> outputs;
@@ -45,13 +46,17 @@ void field(FieldVerbOptions& options) {
   if (!(normal.norm() > 0)) throw WrongUsage("--normal: must not be 0,0,0");
   if (options.outputs.empty()) {
     options.outputs.push_back(default_output(options.scene, field_suffix));
+    options.files->write(options.outputs.back(), "--output");
     if (!options.quiet)
       std::cerr << "the picture goes to " << printable(options.outputs.front()) << "\n";
   }
   check_outputs(options.outputs);
-  const Scene scene = import_scene(options.scene, options.import).scene;
-  const Shape<double> probe =
-      options.probe.empty() ? Shape<double>(Point<double>()) : shape_in(options.probe);
+  const Imported imported = import_scene(options.scene, options.import);
+  const Scene& scene = imported.scene;
+  options.files->read(imported.files);
+  if (imported.model && !options.quiet) warn_of_limits(*imported.model, options.import);
+  const Shape<double> probe = options.probe.empty() ? Shape<double>(Point<double>())
+                                                    : shape_in(options.probe, options.files);
 
   Bounds<double> bounds;
   for (const Object& object : scene.objects)
@@ -98,22 +103,28 @@ void field(FieldVerbOptions& options) {
 void add_field(Parser& parser, ExitCode&) {
   const Verb verb = parser.add_verb("field");
   const auto options = std::make_shared<FieldVerbOptions>();
+  options->files = &verb.files();
   add_scene_option(verb, options->scene);
   add_import_options(verb, options->import);
   add_output_option(verb, options->outputs, std::string("the scene's name and ") + field_suffix);
   options->preview.add_to(verb);
   verb.add_option("--through", options->through,
-                  "x,y,z of the picture's middle; by default that of the scene");
-  verb.add_option("--normal", options->normal, "x,y,z: the plane is seen from there")
+                  "The picture's middle; by default that of the scene")
+      .takes("X,Y,Z");
+  verb.add_option("--normal", options->normal, "The plane is seen from there")
+      .takes("X,Y,Z")
       .show_default();
   verb.add_option("--extent", options->extent,
                   "How wide the picture is, in the scene's unit; by default it shows everything")
       .between(0.0, 1e300);
   verb.add_option("--probe", options->probe,
-                  "A file with a shape that is moved over the plane, instead of a point");
-  verb.add_option("-r,--resolution", options->resolution, "WxH in pixels").show_default();
+                  "A file with a shape that is moved over the plane, instead of a point")
+      .reads_file();
+  verb.add_option("-r,--resolution", options->resolution, "Size in pixels")
+      .takes("WxH")
+      .show_default();
   add_tolerance(verb, options->tolerance);
-  verb.add_option("-t,--threads", options->threads, "How many threads; 0 for one a core")
+  verb.add_option("-t,--threads", options->threads, "Threads; 0: one per core")
       .between(0, 1024)
       .show_default();
   verb.add_flag("-q,--quiet", options->quiet, "No report");

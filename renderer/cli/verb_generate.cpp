@@ -37,8 +37,10 @@ void add_generate(Parser& parser, ExitCode&) {
   verb.add_option("-o,--output", options->out,
                   "The scene file (JSON); many poses go into a file beside it, with .f32 at the "
                   "end of its name")
-      .required();
+      .required()
+      .writes_file();
   verb.add_option("--seed", options->seed, "Another seed is another scene; from 0 to 2^64 - 1")
+      .takes("N")
       .show_default();
   verb.on_call([options] {
     check_ending(options->out, ".json", "--output");

@@ -94,10 +94,13 @@ void add_heatmap(Parser& parser, ExitCode&) {
   std::string channels;
   for (const HeatChannelDescription& description : heat_channels)
     channels += "\n" + std::string(description.name) + ": " + std::string(description.doc);
-  verb.add_option("--channel", options->channel, "What to show:" + channels).show_default();
+  verb.add_option("--channel", options->channel, "What to show:" + channels)
+      .takes("NAME")
+      .show_default();
   const Option solver = add_solver_option(verb, options->image.solver);
   verb.add_option("--side-by-side", options->side_by_side,
                   "Solvers to show beside each other on one scale, such as paper,auto")
+      .takes("NAMES")
       .excludes(solver);
   verb.on_call([options] { with_threads(options->image.threads, [&] { run(*options); }); });
 }

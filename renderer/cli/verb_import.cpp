@@ -17,6 +17,7 @@ namespace minkray {
 namespace {
 
 struct ImportVerbOptions {
+  CommandFiles* files = nullptr;
   std::string file, output;
   std::string resolution;  ///< empty: the options' own
   ImportOptions import;
@@ -29,6 +30,7 @@ void import(const ImportVerbOptions& options) {
   ImportOptions import = options.import;
   if (!options.resolution.empty()) import.picture = parse_resolution(options.resolution);
   const Imported imported = import_scene(options.file, import);
+  options.files->read(imported.files);
   const std::string text = scene_text(imported.scene);
   write_file(options.output,
              std::span(reinterpret_cast<const unsigned char*>(text.data()), text.size()));
@@ -40,11 +42,15 @@ void import(const ImportVerbOptions& options) {
 void add_import(Parser& parser, ExitCode&) {
   const Verb verb = parser.add_verb("import");
   const auto options = std::make_shared<ImportVerbOptions>();
-  verb.add_option("file", options->file, foreign_formats()).required();
-  verb.add_option("-o,--output", options->output, "The scene file to write (.json)").required();
+  options->files = &verb.files();
+  verb.add_option("file", options->file, foreign_formats()).required().reads_file();
+  verb.add_option("-o,--output", options->output, "The scene file to write (.json)")
+      .required()
+      .writes_file();
   add_import_options(verb, options->import);
   verb.add_option("-r,--resolution", options->resolution,
-                  "WxH of the pictures that the scene's camera frames everything for (960x720)");
+                  "Size of the pictures that the scene's camera frames everything for (960x720)")
+      .takes("WxH");
   verb.add_flag("-q,--quiet", options->quiet, "Do not tell what was read and what passed over");
   verb.on_call([options] { import(*options); });
 }

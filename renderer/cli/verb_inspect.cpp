@@ -16,24 +16,27 @@ void add_inspect(Parser& parser, ExitCode& exit_code) {
   const auto options = std::make_shared<InspectArguments>();
   ImageArguments& image = options->image;
   image.samples = 16;
+  image.files = &verb.files();
   add_scene_option(verb, image.scene);
   add_import_options(verb, image.import);
   const Option output =
       verb.add_option("-o,--output", image.outputs,
                       "The HTML file; by default the scene's name and -inspect.html")
-          .one_value_each();
-  verb.add_option("-r,--resolution", image.resolution, "WxH in pixels, instead of the scene's");
-  verb.add_option("-s,--spp", image.samples, "Samples a pixel of the picture")
+          .one_value_each()
+          .writes_file();
+  verb.add_option("-r,--resolution", image.resolution, "Size in pixels, instead of the scene's")
+      .takes("WxH");
+  verb.add_option("-s,--spp", image.samples, "Samples per pixel of the picture")
       .between(1, 1 << 16)
       .show_default();
-  verb.add_option("-t,--threads", image.threads, "How many threads; 0 for one a core")
+  verb.add_option("-t,--threads", image.threads, "Threads; 0: one per core")
       .between(0, 1024)
       .show_default();
   add_solver_option(verb, image.solver);
   verb.add_option("--beside", options->beside, "The solver that it is shown beside")
       .one_of(solver_names())
       .show_default();
-  verb.add_option("--pairs", options->pairs, "Of how many pairs of objects the distance is shown")
+  verb.add_option("--pairs", options->pairs, "Number of object pairs to show distances for")
       .between(std::size_t{0}, std::size_t{1000})
       .show_default();
   verb.add_option(

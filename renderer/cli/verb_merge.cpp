@@ -27,10 +27,6 @@ struct MergeVerbOptions {
 void run(const MergeVerbOptions& options) {
   check_exposure(options.exposure);
   check_outputs(options.outputs);
-  for (const std::string& output : options.outputs)
-    for (const std::string& file : options.part_files)
-      if (is_same_file(output, file))
-        throw WrongUsage("--output: must be none of the part files (got " + output + ")");
   Merged merged = merge_part_files(options.part_files, options.allow_partial);
   if (merged.missing > 0) std::cerr << "warning: missing: " << merged.missing_names << "\n";
   merged.exr.texts[fact::command] = command_line();
@@ -50,14 +46,16 @@ void run(const MergeVerbOptions& options) {
 void add_merge(Parser& parser, ExitCode&) {
   const Verb verb = parser.add_verb("merge");
   const auto options = std::make_shared<MergeVerbOptions>();
-  verb.add_option("parts", options->part_files, "The part files (.exr), in any order").required();
+  verb.add_option("parts", options->part_files, "The part files (.exr), in any order")
+      .required()
+      .reads_file();
   add_output_option(verb, options->outputs);
   verb.add_option("--exposure", options->exposure, "Stops brighter, for .png").show_default();
   verb.add_option("--tonemap", options->tone_map, "How bright light is shown, for .png")
       .one_of(tone_map_names())
       .show_default();
   verb.add_flag("--allow-partial", options->allow_partial,
-                "Missing tiles are black, of missing samples the mean of the others is taken");
+                "Missing tiles are black, missing samples are ignored");
   verb.add_flag("--times", options->times,
                 "Print what each share took: its name, seconds of all processors together, bytes "
                 "of its file");

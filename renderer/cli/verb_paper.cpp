@@ -86,7 +86,7 @@ void add_paper(Parser& parser, ExitCode&) {
   std::vector<std::string> ids;
   for (const PaperClaim& claim : claims) ids.emplace_back(claim.id);
   verb.add_option("--only", options->only, "One claim").one_of(ids);
-  verb.add_option("--out", options->out, "A folder for the plots (SVG)");
+  verb.add_option("--out", options->out, "A folder for the plots (SVG)").takes_folder();
   verb.add_option("--rays", options->claim.rays, "Random rays for each figure")
       .between(100, 100000000)
       .show_default();

@@ -35,7 +35,7 @@ ExitCode run(RenderArguments& options) {
   const FrameRange frames = frames_of(options, ranks);
 
   RenderStatistics statistics;
-  const bool verbose = options.image.verbose;
+  const bool verbose = options.image.import.verbose;
   timed(verbose, "load", statistics.load_seconds, [&] { job.scene = options.image.load_scene(); });
   set_options(job, options);
   options.image.tell_output();

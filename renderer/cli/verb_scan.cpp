@@ -25,6 +25,7 @@ namespace minkray {
 namespace {
 
 struct ScanVerbOptions {
+  CommandFiles* files = nullptr;
   std::string scene;
   ImportOptions import;
   std::optional<std::string> rays, pattern, pinhole;
@@ -50,25 +51,6 @@ MovingFrame mount_of(Imported& imported, const std::string& name) {
   if (names.size() > enough) names.resize(enough);
   throw WrongUsage("--on: there is no link and no object \"" + printable(name, 60) + "\" (" +
                    suggestion(name, names) + ")");
-}
-
-/// Nothing that is written takes the place of what is read, nor of what else is written.
-void check_places(const ScanVerbOptions& options) {
-  std::vector<std::string> taken = {options.scene,
-                                    options.rays.value_or(""),
-                                    options.pattern.value_or(""),
-                                    options.pinhole.value_or(""),
-                                    options.path,
-                                    options.import.joint_rows};
-  const auto take = [&](const std::string& file, const char* option) {
-    for (const std::string& other : taken)
-      if (!other.empty() && is_same_file(file, other))
-        throw WrongUsage(std::string(option) + ": " + printable(file) +
-                         " is read or written already, as " + printable(other));
-    taken.push_back(file);
-  };
-  for (const std::string& output : options.outputs) take(output, "--output");
-  if (!options.table.empty()) take(options.table, "--ids");
 }
 
 void read_options(ScanVerbOptions& options) {
@@ -100,7 +82,6 @@ void read_options(ScanVerbOptions& options) {
     scan_format_of(output);
     check_writable(output);
   }
-  check_places(options);
 }
 
 /// A sensor that nobody placed may stand in a body, where it sees nothing else.
@@ -123,6 +104,8 @@ void run(ScanVerbOptions& options) {
       throw WrongUsage("--output: rays that are no image's cannot become one (got " + output + ")");
   Imported imported = import_scene(options.scene, options.import);
   const Scene& scene = imported.scene;
+  options.files->read(imported.files);
+  if (imported.model && !options.quiet) warn_of_limits(*imported.model, options.import);
   options.scan.mount = mount_of(imported, options.mount);
   if (!options.path.empty()) options.scan.path = read_sensor_path(options.path);
   const InterruptGuard guard;
@@ -154,33 +137,41 @@ void run(ScanVerbOptions& options) {
 void add_scan(Parser& parser, ExitCode&) {
   const Verb verb = parser.add_verb("scan");
   const auto options = std::make_shared<ScanVerbOptions>();
+  options->files = &verb.files();
   add_scene_option(verb, options->scene);
   verb.add_option("--rays", options->rays,
                   "A .npy array of (N, 6), origin and direction, or (N, 7) with t_max; float32 or "
-                  "float64");
+                  "float64")
+      .reads_file();
   verb.add_option("--pattern", options->pattern,
                   "spinning:CHANNELSxSTEPS[:LOWEST,HIGHEST degrees], or a CSV file with columns "
-                  "time (s), azimuth and zenith or elevation (degrees)");
+                  "time (s), azimuth and zenith or elevation (degrees)")
+      .reads_file();
   verb.add_option("--pinhole", options->pinhole,
                   "A JSON file of a camera: fx, fy, cx, cy, width, height in pixels; x right, y "
-                  "down, z ahead");
-  verb.add_option("--pose", options->pose, "x,y,z[,qx,qy,qz,qw] of the sensor");
+                  "down, z ahead")
+      .reads_file();
+  verb.add_option("--pose", options->pose, "Pose of the sensor").takes("X,Y,Z[,QX,QY,QZ,QW]");
   verb.add_option("--on", options->mount,
                   "The link (of a robot) or object that the sensor is mounted on: poses are in its "
-                  "frame, and the sensor moves with it");
+                  "frame, and the sensor moves with it")
+      .takes("NAME");
   verb.add_option("--path", options->path,
                   "A CSV file of the sensor's poses: columns time (s), x, y, z, and qx, qy, qz, qw "
-                  "if it turns");
+                  "if it turns")
+      .reads_file();
   verb.add_option("--start", options->scan.start, "When the sweep begins, in seconds")
       .between(-1e9, 1e9);
   verb.add_option("--sweep", options->sweep, "How many seconds a turn of spinning takes")
       .between(0.0, 1e9)
       .show_default();
   verb.add_option("--noise", options->noise,
-                  "RANGE[,ANGLE]: standard deviations, in the scene's unit and in radians");
-  verb.add_option("--dropout", options->scan.dropout, "The chance that a ray answers nothing")
+                  "Standard deviations, in the scene's unit and in radians")
+      .takes("RANGE[,ANGLE]");
+  verb.add_option("--dropout", options->scan.dropout, "Probability that a ray returns nothing")
       .between(0.0, 1.0);
-  verb.add_option("--seed", options->seed, "Of noise and dropout, from 0 to 2^64 - 1")
+  verb.add_option("--seed", options->seed, "Random seed of noise and dropout (0 to 2^64 - 1)")
+      .takes("N")
       .show_default();
   verb.add_option("--returns", options->scan.returns,
                   "Echoes of a ray: the bodies that it enters behind each other")
@@ -192,9 +183,11 @@ void add_scan(Parser& parser, ExitCode&) {
   verb.add_option("-o,--output", options->outputs,
                   "Where to write (" + endings + "); may be given again")
       .required()
-      .one_value_each();
-  verb.add_option("--ids", options->table, "A JSON file for the objects' numbers and names");
-  verb.add_option("-t,--threads", options->threads, "How many threads; 0 for one a core")
+      .one_value_each()
+      .writes_file();
+  verb.add_option("--ids", options->table, "A JSON file for the objects' numbers and names")
+      .writes_file();
+  verb.add_option("-t,--threads", options->threads, "Threads; 0: one per core")
       .between(0, 1024)
       .show_default();
   verb.add_flag("-q,--quiet", options->quiet, "No progress");

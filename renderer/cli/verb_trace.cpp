@@ -23,6 +23,7 @@ namespace minkray {
 namespace {
 
 struct TraceVerbOptions {
+  CommandFiles* files = nullptr;
   std::string scene;
   ImportOptions import;
   std::vector<int> pixel;
@@ -70,6 +71,7 @@ template <class T>
 void trace(const TraceVerbOptions& options) {
   if (options.svg) check_ending(*options.svg, ".svg", "--svg");
   ImageArguments picture;
+  picture.files = options.files;
   picture.scene = options.scene;
   picture.import = options.import;
   picture.resolution = options.resolution;
@@ -136,20 +138,23 @@ void trace(const TraceVerbOptions& options) {
 void add_trace(Parser& parser, ExitCode&) {
   const Verb verb = parser.add_verb("trace");
   const auto options = std::make_shared<TraceVerbOptions>();
+  options->files = &verb.files();
   add_scene_option(verb, options->scene);
   add_import_options(verb, options->import);
   verb.add_option("--pixel", options->pixel, "x,y from the upper left corner; through its centre")
       .required()
       .values(2, ',');
   verb.add_option("-r,--resolution", options->resolution,
-                  "WxH of the picture that the pixel is one of, instead of the scene's");
-  verb.add_option("--object", options->object, "The object's name; by default the one that is hit");
+                  "Size of the picture that the pixel is one of, instead of the scene's")
+      .takes("WxH");
+  verb.add_option("--object", options->object, "The object's name; by default the one that is hit")
+      .takes("NAME");
   verb.add_option("--precision", options->precision, "float or double")
       .one_of({"float", "double"})
       .show_default();
   add_solver_option(verb, options->solver);
   verb.add_flag("--json", options->json, "Print JSON");
-  verb.add_option("--svg", options->svg, "Also draw it into this file");
+  verb.add_option("--svg", options->svg, "Also draw it into this file").writes_file();
   verb.on_call([options] {
     if (options->precision == "float")
       trace<float>(*options);

@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <unordered_map>
 
-#include "renderer/import/xml.h"
+#include "renderer/import/collada_looks.h"
 
 namespace minkray {
 namespace {
@@ -43,7 +43,7 @@ class Collada {
     most_ = std::min(most_vertices, most_shown_vertices(numbers_));
   }
 
-  MeshParts read() {
+  MeshContent read() {
     Affine<double> scale;
     if (const XmlElement* asset = root_.child("asset"))
       if (const XmlElement* unit = asset->child("unit"))
@@ -60,9 +60,9 @@ class Collada {
         if (node.name == "node") add_node(node, scale, 0);
     } else if (const XmlElement* library = root_.child("library_geometries")) {
       for (const XmlElement& geometry : library->children)
-        add_geometry(geometry_of(geometry), scale);
+        add_geometry({.geometry = &geometry}, geometry_of(geometry), scale);
     }
-    return std::move(mesh_);
+    return {std::move(mesh_), std::move(looks_)};
   }
 
  private:
@@ -70,6 +70,8 @@ class Collada {
   struct Shown {
     const XmlElement* node = nullptr;
     const XmlElement* geometry = nullptr;        ///< if it is no node
+    const XmlElement* instance = nullptr;        ///< which names the geometry and its materials
+    std::string of_node = {};                    ///< what the node is called
     std::optional<Affine<double>> in_skin = {};  ///< where the mesh stands, of one in a skin
   };
   struct Node {
@@ -153,12 +155,14 @@ class Collada {
         if (const XmlElement* other = target(child, "url")) node.shows.push_back({.node = other});
       if (child.name == "instance_geometry")
         if (const XmlElement* geometry = target(child, "url"))
-          node.shows.push_back({.geometry = geometry});
+          node.shows.push_back(
+              {.geometry = geometry, .instance = &child, .of_node = collada_name(element)});
       if (child.name == "instance_controller")
         if (const XmlElement* controller = target(child, "url"))
           if (const XmlElement* skin = controller->child("skin"))
             if (const XmlElement* geometry = target(*skin, "source")) {
-              Shown shown{.geometry = geometry};
+              Shown shown{
+                  .geometry = geometry, .instance = &child, .of_node = collada_name(element)};
               if (const XmlElement* bind = skin->child("bind_shape_matrix"))
                 shown.in_skin = matrix_of(*bind);
               node.shows.push_back(shown);
@@ -213,12 +217,24 @@ class Collada {
       if (shown.node)
         add_node(*shown.node, pose, depth + 1);
       else
-        add_geometry(geometry_of(*shown.geometry), shown.in_skin ? pose * *shown.in_skin : pose);
+        add_geometry(shown, geometry_of(*shown.geometry),
+                     shown.in_skin ? pose * *shown.in_skin : pose);
     }
   }
 
-  void add_geometry(const Geometry& geometry, const Affine<double>& pose) {
+  void add_geometry(const Shown& shown, const Geometry& geometry, const Affine<double>& pose) {
     count_shown();
+    if (!geometry.vertices.empty() && looks_.parts.size() < most_part_looks) {
+      PartLook look;
+      // Wrong colours cost no mesh.
+      files_.complaints_of([&] {
+        look = collada_look(
+            {shown.of_node, collada_name(*shown.geometry)}, *shown.geometry, shown.instance,
+            [this](const XmlElement& from, std::string_view key) { return target(from, key); },
+            files_);
+      });
+      for (std::size_t i = 0; i < geometry.vertices.size(); ++i) looks_.parts.push_back(look);
+    }
     for (const auto& [numbers, begin, stride, count] : geometry.vertices) {
       const std::size_t first = mesh_.vertices.size();
       if (first + count > most_)
@@ -328,24 +344,25 @@ class Collada {
   std::size_t most_ = 0;     ///< vertices that it may show
   std::size_t shown_ = 0, triangles_ = 0;
   MeshParts mesh_;
+  MeshLooks looks_;
 };
 
 }  // namespace
 
-MeshParts read_collada(const std::filesystem::path& file, MeshSplit split) {
+MeshContent read_collada(const std::filesystem::path& file, MeshSplit split) {
   Mistakes mistakes("");
   XmlFiles files(mistakes);
-  MeshParts mesh;
+  MeshContent content;
   if (const auto root = files.read(file, most_collada_bytes)) {
     if (root->name != "COLLADA") throw std::runtime_error("is no COLLADA file");
-    mesh = Collada(*root, files, split).read();
+    content = Collada(*root, files, split).read();
   }
   if (!mistakes.none()) {
     std::string first = mistakes.messages().front();
     throw std::runtime_error(first.starts_with(": ") ? first.substr(2) : first);
   }
-  if (mesh.vertices.empty()) throw std::runtime_error("has no vertices");
-  return mesh;
+  if (content.mesh.vertices.empty()) throw std::runtime_error("has no vertices");
+  return content;
 }
 
 }  // namespace minkray

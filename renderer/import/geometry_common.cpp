@@ -1,78 +1,156 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/import/geometry_common.h"
 
+#include <algorithm>
+
 namespace minkray {
 
 std::string counted_numbers(std::size_t count) {
   return std::to_string(count) + (count == 1 ? " number" : " numbers");
 }
 
+namespace {
+
+/// Along z.
+Shape<double> segment_of(double half_length) {
+  if (half_length == 0) return Point<double>();
+  return Segment<double>{{Vec3<double>(0, 0, -half_length), Vec3<double>(0, 0, half_length)}};
+}
+
+}  // namespace
+
 Shape<double> box_of(const Vec3<double>& half_extents) {
   return Box<double>{half_extents};
 }
 
 Shape<double> sphere_of(double radius) {
+  if (radius == 0) return Point<double>();
   Sphere<double> sphere;
   sphere.radius = radius;
   return sphere;
 }
 
 Shape<double> cylinder_of(double radius, double half_height) {
+  if (radius == 0) return segment_of(half_height);
   return Cylinder<double>{radius, half_height};
 }
 
 Shape<double> capsule_of(double radius, double half_height) {
+  if (radius == 0) return segment_of(half_height);
   if (half_height == 0) return sphere_of(radius);
   return Capsule<double>{radius, half_height};
 }
 
-Shape<double> ellipsoid_of(const Vec3<double>& radii) {
-  return Ellipsoid<double>{radii};
+Shape<double> cone_of(double radius, double half_height) {
+  if (radius == 0) return segment_of(half_height);
+  return Cone<double>{radius, half_height};
 }
 
-double ShapeNumbers::positive(std::string_view key) {
+Shape<double> ellipsoid_of(const Vec3<double>& radii) {
+  if ((radii.array() > 0).all()) return Ellipsoid<double>{radii};
+  // What is flat is a disk or a segment along z, turned.
+  int flat = 0, longest = 0;
+  for (int i = 1; i < 3; ++i) {
+    if (radii[i] < radii[flat]) flat = i;
+    if (radii[i] > radii[longest]) longest = i;
+  }
+  const int along = (flat + 1) % 3, across = (flat + 2) % 3;
+  Affine<double> turn;
+  if (radii[along] > 0 && radii[across] > 0) {
+    turn.linear.col(0) = radii[along] * Vec3<double>::Unit(along);
+    turn.linear.col(1) = radii[across] * Vec3<double>::Unit(across);
+    turn.linear.col(2) = Vec3<double>::Unit(flat);
+    return Transform<double>{Shape<double>(Disk<double>{1}), turn};
+  }
+  if (radii[longest] == 0) return Point<double>();
+  return Segment<double>{{-radii[longest] * Vec3<double>::Unit(longest),
+                          radii[longest] * Vec3<double>::Unit(longest)}};
+}
+
+double ShapeNumbers::size(std::string_view key) {
   if (!element_.attribute(key)) {
-    files_.wrong(element_, std::string(key) + ": must be there");
+    files_.wrong(element_, std::string(key) + ": missing");
     all_good_ = false;
     return 1;
   }
   const auto value = files_.number(element_, key);
-  if (value && *value > 0) return *value;
+  if (value && *value >= 0) return *value;
   if (value)
-    files_.wrong(element_, std::string(key) + ": must be > 0 (got " +
+    files_.wrong(element_, std::string(key) + ": must be >= 0 (got " +
                                printable(*element_.attribute(key), 40) + ")");
   all_good_ = false;
   return 1;
 }
 
-Vec3<double> ShapeNumbers::positive_vector(std::string_view key) {
+Vec3<double> ShapeNumbers::sizes(std::string_view key) {
   if (!element_.attribute(key)) {
-    files_.wrong(element_, std::string(key) + ": must be there");
+    files_.wrong(element_, std::string(key) + ": missing");
     all_good_ = false;
     return Vec3<double>::Ones();
   }
   const auto value = files_.vector(element_, key);
-  if (value && (value->array() > 0).all()) return *value;
+  if (value && (value->array() >= 0).all()) return *value;
   if (value)
-    files_.wrong(element_, std::string(key) + ": must be three numbers > 0 (got " +
+    files_.wrong(element_, std::string(key) + ": must be three numbers >= 0 (got " +
                                printable(*element_.attribute(key), 40) + ")");
   all_good_ = false;
   return Vec3<double>::Ones();
 }
 
+void read_shapes(Model& model, XmlFiles& files, const ImportOptions& options,
+                 const std::function<void()>& read) {
+  if (!options.lenient) return read();
+  const std::size_t before = model.geoms.size();
+  const std::vector<std::string> complaints = files.complaints_of(read);
+  if (complaints.empty()) return;
+  model.geoms.resize(before);
+  const std::string& first = complaints.front();
+  const std::size_t end = first.find(": ");
+  model.pass_over(first.substr(0, end), first.substr(end + 2));
+}
+
+void tell_missing_meshes(Model& model, XmlFiles& files, const ImportOptions& options) {
+  std::vector<XmlFiles::MissingMesh> missing = files.take_missing_meshes();
+  const bool any_is_seen = std::ranges::any_of(model.geoms, &ModelGeom::is_seen) ||
+                           std::ranges::any_of(missing, &XmlFiles::MissingMesh::is_seen);
+  std::erase_if(missing, [&](const XmlFiles::MissingMesh& mesh) {
+    const bool is_asked = options.geometry == GeometryChoice::all ? true
+                          : options.geometry == GeometryChoice::collision
+                              ? mesh.collides
+                              : mesh.is_seen || !any_is_seen;
+    if (!is_asked) model.pass_over("<mesh>", "its file is missing, and is of no shape asked for");
+    return !is_asked;
+  });
+  if (missing.empty()) return;
+  if (options.verbose || missing.size() == 1)
+    for (const XmlFiles::MissingMesh& mesh : missing) files.wrong(mesh.element, mesh.complaint);
+  else
+    files.wrong(missing.front().element, missing.front().complaint + ", nor are " +
+                                             std::to_string(missing.size() - 1) +
+                                             " other meshes (--verbose lists them)");
+  files.mistakes().add(
+      "missing meshes: " + std::to_string(missing.size()) +
+      "; --package-dir says where packages are, --skip-missing-meshes leaves them out");
+}
+
 void add_mesh(Model& model, XmlFiles& files, const XmlElement& element,
-              const MeshLibrary::Answer& answer, ModelGeom geom, const ImportOptions& options) {
+              const MeshLibrary::Answer& answer, ModelGeom geom, const ImportOptions& options,
+              Colouring colouring) {
   if (answer.is_missing && options.skip_missing_meshes) {
     model.pass_over("<mesh>", "its file is missing");
     return;
   }
+  if (answer.is_missing)
+    return files.missing_mesh({element, answer.complaint, geom.is_seen, geom.collides});
   if (!answer.complaint.empty()) return files.wrong(element, answer.complaint);
-  if (const auto complaint = add_hulls(model, answer, std::move(geom)))
+  for (const std::string& note : answer.notes) model.pass_over("<mesh>", note);
+  if (answer.is_flattened) model.pass_over("extent of a <mesh>", "its scale is zero there");
+  if (const auto complaint = add_hulls(model, answer, std::move(geom), colouring))
     files.wrong(element, *complaint);
 }
 
 std::optional<std::string> add_hulls(Model& model, const MeshLibrary::Answer& answer,
-                                     ModelGeom geom) {
+                                     ModelGeom geom, Colouring colouring) {
   const std::size_t count = model.geoms.size() + answer.hulls.size();
   if (count > most_geoms)
     return "shows " + std::to_string(answer.hulls.size()) + " hulls: with the shapes before, a " +
@@ -82,6 +160,8 @@ std::optional<std::string> add_hulls(Model& model, const MeshLibrary::Answer& an
   const std::string name = geom.name;
   for (std::size_t i = 0; i < answer.hulls.size(); ++i) {
     geom.shape = answer.hulls[i];
+    if (colouring == Colouring::of_mesh && i < answer.colours.size() && answer.colours[i])
+      geom.rgba = *answer.colours[i];
     if (answer.hulls.size() > 1) geom.name = name + "[" + std::to_string(i) + "]";
     model.geoms.push_back(geom);
   }

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
-// What the formats' shapes have in common: sizes that must be positive, meshes that become hulls.
+// What the formats' shapes have in common: sizes, of which zero makes points, segments and disks,
+// and meshes that become hulls.
 #pragma once
+
+#include <functional>
 
 #include "renderer/import/import_options.h"
 #include "renderer/import/mesh_library.h"
@@ -15,8 +18,9 @@ std::string counted_numbers(std::size_t count);
 Shape<double> box_of(const Vec3<double>& half_extents);
 Shape<double> sphere_of(double radius);
 Shape<double> cylinder_of(double radius, double half_height);
-/// A half height of zero makes a sphere.
 Shape<double> capsule_of(double radius, double half_height);
+/// The apex is at z = +half_height.
+Shape<double> cone_of(double radius, double half_height);
 Shape<double> ellipsoid_of(const Vec3<double>& radii);
 
 /// Reads the sizes of one shape from its attributes; what is missing or wrong is told.
@@ -24,9 +28,10 @@ class ShapeNumbers {
  public:
   ShapeNumbers(XmlFiles& files, const XmlElement& element) : files_(files), element_(element) {}
 
-  /// 1 where it is wrong.
-  double positive(std::string_view key);
-  Vec3<double> positive_vector(std::string_view key);
+  /// At least 0; 1 where it is wrong.
+  double size(std::string_view key);
+  Vec3<double> sizes(std::string_view key);
+  bool has(std::string_view key) const { return element_.attribute(key) != nullptr; }
   bool all_good() const { return all_good_; }
 
  private:
@@ -35,14 +40,28 @@ class ShapeNumbers {
   bool all_good_ = true;
 };
 
+/// Runs `read`, which adds shapes of an element to the model. With --lenient what is wrong with
+/// them leaves them out, and is listed with what is passed over.
+void read_shapes(Model& model, XmlFiles& files, const ImportOptions& options,
+                 const std::function<void()>& read);
+
+/// Adds one mistake for all meshes that are missing and asked for, or one for each with --verbose.
+void tell_missing_meshes(Model& model, XmlFiles& files, const ImportOptions& options);
+
+/// Where the colour of a mesh comes from: what the robot's file says, or the mesh's own file if
+/// that tells one.
+enum class Colouring : unsigned char { of_robot, of_mesh };
+
 /// Adds a mesh's hulls as geoms like the one given. If the model would have more than most_geoms
 /// then, it adds none and answers with what is wrong.
 [[nodiscard]] std::optional<std::string> add_hulls(Model& model, const MeshLibrary::Answer& answer,
-                                                   ModelGeom geom);
+                                                   ModelGeom geom,
+                                                   Colouring colouring = Colouring::of_robot);
 
 /// Adds a mesh's hulls as geoms like the one given; or tells what is wrong with it, or passes it
 /// over if it is missing and that is allowed.
 void add_mesh(Model& model, XmlFiles& files, const XmlElement& element,
-              const MeshLibrary::Answer& answer, ModelGeom geom, const ImportOptions& options);
+              const MeshLibrary::Answer& answer, ModelGeom geom, const ImportOptions& options,
+              Colouring colouring = Colouring::of_robot);
 
 }  // namespace minkray

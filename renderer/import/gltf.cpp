@@ -58,12 +58,15 @@ class GltfReader {
                                     {"skins", "meshes stand at rest, unbent"}})
       if (const std::size_t count = document_.count(list); count > 0)
         model_.pass_over(list, why, count);
+    for (const std::string& name : document_.unread_extensions())
+      model_.pass_over("extension " + printable(name, 60), "is not read");
     if (meshes_.left_out() > 0)
       model_.pass_over("primitives", "are points or lines", meshes_.left_out());
     if (model_.links.empty() && document_.mistakes().none())
       document_.mistakes().add(JsonPath() / "nodes", "must have nodes that are shown");
-    model_.meshes = library_.take_meshes();
+    library_.hand_over(model_);
     model_.hash = document_.hash_text();
+    model_.files = document_.files();
     return std::move(model_);
   }
 
@@ -83,23 +86,6 @@ class GltfReader {
     return at;
   }
 
-  std::array<double, 4> colour_of(const Json& primitive, const JsonPath& path) {
-    std::array<double, 4> rgba = {0.7, 0.7, 0.7, 1};
-    const auto index = document_.index(primitive, path, "material", "materials");
-    if (!index) return rgba;
-    const Json* surface = document_.item("materials", *index).find("pbrMetallicRoughness");
-    const Json* factor =
-        surface && surface->is_object() ? surface->find("baseColorFactor") : nullptr;
-    if (!factor) return {1, 1, 1, 1};
-    const auto linear = read_numbers(
-        *factor, JsonPath() / "materials" / *index / "pbrMetallicRoughness" / "baseColorFactor",
-        document_.mistakes(), 4, Range::zero_to_one);
-    if (!linear) return rgba;
-    for (std::size_t i = 0; i < 3; ++i) rgba[i] = to_srgb((*linear)[i]);
-    rgba[3] = (*linear)[3];
-    return rgba;
-  }
-
   void add_geoms(std::size_t node, int link, const Affine<double>& in_world) {
     const Json& json = document_.item("nodes", node);
     const JsonPath path = JsonPath() / "nodes" / node;
@@ -114,8 +100,19 @@ class GltfReader {
       geom.link = link;
       geom.collides = !has_colliders_;
       // A skin's vertices stand where they are, wherever its node is.
-      if (json.contains("skin")) geom.pose = in_world.inverse() * gltf_z_up();
-      add_mesh_geoms(*mesh, geom, path / "mesh");
+      Affine<double> pose;
+      if (json.contains("skin")) pose = in_world.inverse() * gltf_z_up();
+      for (const Affine<double>& instance : gltf_instances(document_, node)) {
+        geom.pose = pose * instance;
+        const double size = std::abs(instance.linear.determinant());
+        if (!(size > 0) || !std::isfinite(size)) {
+          model_.pass_over("instances", "have a scale of zero: they are not shown");
+          continue;
+        }
+        if (!add_mesh_geoms(*mesh, geom, path / "mesh")) break;
+      }
+      if (const Json* weights = json.find("weights"); weights && weights->is_array())
+        model_.pass_over("weights of nodes", "a mesh has the same morph weights everywhere");
     }
     if (collider) add_collider(*collider, path / "extensions" / physics / "collider", link);
     if (physics_of(node, "trigger")) model_.pass_over("triggers", "are no bodies");
@@ -150,20 +147,24 @@ class GltfReader {
     return at->second;
   }
 
-  /// `path` is where the mesh is named.
-  void add_mesh_geoms(std::size_t mesh, const ModelGeom& geom, const JsonPath& path) {
+  /// `path` is where the mesh is named. False if there are too many.
+  bool add_mesh_geoms(std::size_t mesh, const ModelGeom& geom, const JsonPath& path) {
     const MeshLibrary::Answer& answer = hulls_of(mesh);
     const std::size_t before = model_.geoms.size();
-    if (const auto complaint = add_hulls(model_, answer, geom))
-      return document_.mistakes().add(path, *complaint);
+    if (const auto complaint = add_hulls(model_, answer, geom)) {
+      document_.mistakes().add(path, *complaint);
+      return false;
+    }
     const Json* primitives = document_.item("meshes", mesh).find("primitives");
     const std::vector<std::size_t>& of_part = meshes_.primitives_of_parts(mesh);
     for (std::size_t i = before; i < model_.geoms.size(); ++i) {
       const std::size_t primitive = splits_ == MeshSplit::groups ? of_part[i - before] : 0;
       if (primitives && primitive < primitives->size() && (*primitives)[primitive].is_object())
-        model_.geoms[i].rgba = colour_of((*primitives)[primitive],
-                                         JsonPath() / "meshes" / mesh / "primitives" / primitive);
+        model_.geoms[i].rgba = gltf_colour(document_, (*primitives)[primitive],
+                                           JsonPath() / "meshes" / mesh / "primitives" / primitive)
+                                   .value_or(Rgba{0.7, 0.7, 0.7, 1});
     }
+    return true;
   }
 
   void add_collider(const Json& collider, const JsonPath& path, int link) {
@@ -216,21 +217,25 @@ Model read_gltf(std::string bytes, const std::filesystem::path& file, const Impo
   return GltfReader(document, file, options).read(file);
 }
 
-MeshParts read_gltf_mesh(const std::filesystem::path& file, MeshSplit split) {
+MeshContent read_gltf_content(const std::filesystem::path& file, MeshSplit split) {
   Mistakes mistakes("");
   GltfDocument document(read_regular_file(file, most_gltf_bytes), file, mistakes);
   MeshParts all;
+  MeshLooks looks;
   if (document.root() && mistakes.none()) {
     GltfMeshes meshes(document, split);
     const std::vector<std::size_t> roots = gltf_roots(document);
-    if (mistakes.none()) meshes.add_shown(roots, gltf_z_up(), true, all);
+    if (mistakes.none()) meshes.add_shown(roots, gltf_z_up(), true, all, &looks);
   }
   if (!mistakes.none()) {
     const std::string first = mistakes.messages().front();
     throw std::runtime_error(first.starts_with(": ") ? first.substr(2) : first);
   }
   if (all.vertices.empty()) throw std::runtime_error("has no vertices");
-  return all;
+  looks.files = document.files();
+  for (const std::string& name : document.unread_extensions())
+    looks.notes.push_back("extension " + printable(name, 60) + " is not read");
+  return {std::move(all), std::move(looks)};
 }
 
 }  // namespace minkray

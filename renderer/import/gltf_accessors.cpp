@@ -139,7 +139,7 @@ std::optional<std::vector<double>> GltfDocument::numbers(std::size_t accessor,
                                                          std::size_t components) {
   const Json& json = item("accessors", accessor);
   const JsonPath path = JsonPath() / "accessors" / accessor;
-  const char* const wanted = components == 3 ? "VEC3" : "SCALAR";
+  const char* const wanted = components == 4 ? "VEC4" : components == 3 ? "VEC3" : "SCALAR";
   const Json* shape = json.find("type");
   if (!shape || !shape->is_string() || shape->text() != wanted) {
     mistakes_.add(path / "type", "must be \"" + std::string(wanted) + "\"");
@@ -235,6 +235,22 @@ std::optional<std::vector<Vec3<double>>> GltfDocument::points(std::size_t access
     return std::nullopt;
   }
   return points;
+}
+
+std::optional<std::vector<std::array<double, 4>>> GltfDocument::quaternions(std::size_t accessor) {
+  const auto values = numbers(accessor, 4);
+  if (!values) return std::nullopt;
+  std::vector<std::array<double, 4>> quaternions;
+  for (std::size_t i = 0; i + 3 < values->size(); i += 4) {
+    quaternions.push_back({(*values)[i], (*values)[i + 1], (*values)[i + 2], (*values)[i + 3]});
+    const std::array<double, 4>& q = quaternions.back();
+    const double square = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
+    if (square > 0 && std::isfinite(square)) continue;
+    mistakes_.add(JsonPath() / "accessors" / accessor,
+                  "rotation " + std::to_string(i / 4) + " must be finite and not zero");
+    return std::nullopt;
+  }
+  return quaternions;
 }
 
 std::optional<std::vector<std::uint32_t>> GltfDocument::indices(std::size_t accessor,

@@ -8,6 +8,7 @@
 
 #include "core/files/regular_file.h"
 #include "renderer/base/hash.h"
+#include "renderer/base/of_file.h"
 #include "renderer/import/gltf_text.h"
 #include "renderer/json/object_reader.h"
 #include "renderer/json/parse.h"
@@ -42,7 +43,11 @@ bool is_about_looks(std::string_view extension) {
 }
 
 constexpr std::string_view extensions_read[] = {"KHR_implicit_shapes", "KHR_physics_rigid_bodies",
-                                                "KHR_mesh_quantization"};
+                                                "KHR_mesh_quantization", "EXT_mesh_gpu_instancing"};
+
+bool is_read(std::string_view extension) {
+  return std::ranges::find(extensions_read, extension) != std::end(extensions_read);
+}
 
 }  // namespace
 
@@ -111,11 +116,20 @@ void GltfDocument::check_extensions() {
     const Json& one = (*required)[i];
     if (!one.is_string()) continue;
     const std::string name = one.get<std::string>();
-    if (std::ranges::find(extensions_read, name) == std::end(extensions_read) &&
-        !is_about_looks(name))
+    if (!is_read(name) && !is_about_looks(name))
       mistakes_.add(JsonPath() / "extensionsRequired" / i,
                     "the extension " + printable(name, 60) + " is not read");
   }
+}
+
+std::vector<std::string> GltfDocument::unread_extensions() const {
+  std::vector<std::string> names;
+  const Json* used = root_ ? root_->find("extensionsUsed") : nullptr;
+  for (std::size_t i = 0; used && used->is_array() && i < used->size(); ++i) {
+    const Json& one = (*used)[i];
+    if (one.is_string() && !is_read(one.text())) names.push_back(one.get<std::string>());
+  }
+  return names;
 }
 
 std::size_t GltfDocument::count(std::string_view list) const {
@@ -183,9 +197,10 @@ std::optional<std::string> GltfDocument::read_uri(const std::string& uri, const 
     Hash hash;
     hash.add(bytes);
     hash_text_ += hash.text();
+    files_.push_back(file);
     return bytes;
   } catch (const std::exception& error) {
-    mistakes_.add(path, printable(file.string(), 200) + ": " + error.what());
+    mistakes_.add(path, printable(file.string(), 200) + ": " + what_of(error));
     return std::nullopt;
   }
 }

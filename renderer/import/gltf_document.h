@@ -4,6 +4,7 @@
 // Khronos Group, "glTF 2.0 Specification", 2021.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -37,14 +38,21 @@ class GltfDocument {
 
   /// Finite points of an accessor (VEC3), in its order; nothing, and a mistake, if it is wrong.
   std::optional<std::vector<Vec3<double>>> points(std::size_t accessor);
+  /// Quaternions x, y, z, w of an accessor (VEC4), none of them zero.
+  std::optional<std::vector<std::array<double, 4>>> quaternions(std::size_t accessor);
   /// Whole numbers of an accessor (SCALAR), each less than `limit`.
   std::optional<std::vector<std::uint32_t>> indices(std::size_t accessor, std::size_t limit);
+
+  /// Extensions that the file uses and that are not read.
+  std::vector<std::string> unread_extensions() const;
 
   /// How many the buffers hold that were asked for so far.
   std::size_t bytes_of_buffers() const { return buffer_bytes_; }
 
   /// Hashes of all that was read.
   const std::string& hash_text() const { return hash_text_; }
+  /// The files that were read for buffers.
+  const std::vector<std::filesystem::path>& files() const { return files_; }
   Mistakes& mistakes() { return mistakes_; }
 
  private:
@@ -71,6 +79,7 @@ class GltfDocument {
   std::size_t buffer_bytes_ = 0;
   std::size_t numbers_read_ = 0;  ///< accessors may share what they read, and be asked again
   std::string hash_text_;
+  std::vector<std::filesystem::path> files_;
 };
 
 }  // namespace minkray

@@ -5,6 +5,7 @@
 #include <array>
 #include <numeric>
 
+#include "renderer/image/colour.h"
 #include "renderer/import/mesh_library.h"
 #include "renderer/json/values.h"
 
@@ -70,17 +71,46 @@ const GltfMeshes::Read& GltfMeshes::read(std::size_t index) {
     document_.mistakes().add(path, "must be a list");
     return read;
   }
+  std::vector<double> weights;
+  if (const Json* given = document_.item("meshes", index).find("weights"))
+    if (given->is_array())
+      weights = read_numbers(*given, JsonPath() / "meshes" / index / "weights",
+                             document_.mistakes(), given->size())
+                    .value_or(weights);
   for (std::size_t i = 0; i < primitives->size(); ++i) {
     if ((*primitives)[i].is_object())
-      add_primitive((*primitives)[i], path / i, i, read);
+      add_primitive((*primitives)[i], path / i, i, weights, read);
     else
       document_.mistakes().add(path / i, "must be an object (" + found((*primitives)[i]) + ")");
   }
   return read;
 }
 
+/// Adds what a primitive's morph targets move its points by, as much as their weights say. False,
+/// and a mistake, if they cannot be read.
+bool GltfMeshes::add_targets(const Json& primitive, const JsonPath& path,
+                             const std::vector<double>& weights,
+                             std::vector<Vec3<double>>& points) {
+  const Json* targets = primitive.find("targets");
+  if (!targets || !targets->is_array()) return true;
+  for (std::size_t i = 0; i < std::min(targets->size(), weights.size()); ++i) {
+    if (weights[i] == 0 || !(*targets)[i].is_object()) continue;
+    const auto accessor =
+        document_.index((*targets)[i], path / "targets" / i, "POSITION", "accessors");
+    if (!accessor) continue;
+    const auto moves = document_.points(*accessor);
+    if (!moves) return false;
+    if (moves->size() != points.size()) {
+      document_.mistakes().add(path / "targets" / i, "must have as many points as the primitive");
+      return false;
+    }
+    for (std::size_t k = 0; k < points.size(); ++k) points[k] += weights[i] * (*moves)[k];
+  }
+  return true;
+}
+
 void GltfMeshes::add_primitive(const Json& primitive, const JsonPath& path, std::size_t number,
-                               Read& read) {
+                               const std::vector<double>& weights, Read& read) {
   std::size_t mode = mode_triangles;
   if (const Json* written = primitive.find("mode")) {
     const auto value = read_integer(*written, path / "mode", document_.mistakes(), 0, mode_fan);
@@ -100,8 +130,8 @@ void GltfMeshes::add_primitive(const Json& primitive, const JsonPath& path, std:
       document_.mistakes().add(path / "attributes", "must have a \"POSITION\"");
     return;
   }
-  const auto points = document_.points(*accessor);
-  if (!points) return;
+  auto points = document_.points(*accessor);
+  if (!points || !add_targets(primitive, path, weights, *points)) return;
   std::vector<std::uint32_t> corners(points->size());
   std::iota(corners.begin(), corners.end(), 0u);
   if (primitive.contains("indices")) {
@@ -119,6 +149,7 @@ void GltfMeshes::add_primitive(const Json& primitive, const JsonPath& path, std:
   MeshParts& mesh = read.parts;
   const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
   for (const std::uint32_t i : used) mesh.vertices.push_back((*points)[i]);
+  read.corners.emplace_back(number, corners.size());
   if (split_ == MeshSplit::groups) {
     std::vector<std::uint32_t>& part = mesh.parts.emplace_back(used.size());
     std::iota(part.begin(), part.end(), first);
@@ -216,8 +247,66 @@ bool GltfMeshes::has_too_many(std::size_t vertices) {
   return true;
 }
 
+std::vector<Affine<double>> gltf_instances(GltfDocument& document, std::size_t node) {
+  const Json& json = document.item("nodes", node);
+  const JsonPath path = JsonPath() / "nodes" / node / "extensions" / "EXT_mesh_gpu_instancing";
+  const Json* at = json.find("extensions");
+  at = at && at->is_object() ? at->find("EXT_mesh_gpu_instancing") : nullptr;
+  const Json* attributes = at && at->is_object() ? at->find("attributes") : nullptr;
+  if (!attributes || !attributes->is_object()) return {Affine<double>()};
+  const auto accessor = [&](std::string_view key) {
+    return document.index(*attributes, path / "attributes", key, "accessors");
+  };
+  std::optional<std::size_t> count;
+  bool agree = true;
+  const auto counted = [&](std::size_t size) {
+    agree &= !count || *count == size;
+    count = size;
+  };
+  std::optional<std::vector<Vec3<double>>> translations, scales;
+  std::optional<std::vector<std::array<double, 4>>> rotations;
+  if (const auto t = accessor("TRANSLATION")) translations = document.points(*t);
+  if (const auto r = accessor("ROTATION")) rotations = document.quaternions(*r);
+  if (const auto s = accessor("SCALE")) scales = document.points(*s);
+  if (translations) counted(translations->size());
+  if (rotations) counted(rotations->size());
+  if (scales) counted(scales->size());
+  if (!count || !agree) {
+    document.mistakes().add(path / "attributes",
+                            "must have TRANSLATION, ROTATION or SCALE, all of one count");
+    return {};
+  }
+  std::vector<Affine<double>> poses(*count);
+  for (std::size_t i = 0; i < *count; ++i) {
+    if (translations) poses[i].translation = (*translations)[i];
+    if (rotations) {
+      const auto [x, y, z, w] = (*rotations)[i];
+      poses[i].linear = rotation_matrix_of_any(x, y, z, w);
+    }
+    if (scales) poses[i].linear = poses[i].linear * (*scales)[i].asDiagonal();
+  }
+  return poses;
+}
+
+std::optional<Rgba> gltf_colour(GltfDocument& document, const Json& primitive,
+                                const JsonPath& path) {
+  const auto index = document.index(primitive, path, "material", "materials");
+  if (!index) return std::nullopt;
+  const Json* surface = document.item("materials", *index).find("pbrMetallicRoughness");
+  const Json* factor = surface && surface->is_object() ? surface->find("baseColorFactor") : nullptr;
+  if (!factor) return Rgba{1, 1, 1, 1};
+  const auto linear = read_numbers(
+      *factor, JsonPath() / "materials" / *index / "pbrMetallicRoughness" / "baseColorFactor",
+      document.mistakes(), 4, Range::zero_to_one);
+  if (!linear) return std::nullopt;
+  Rgba rgba;
+  for (std::size_t i = 0; i < 3; ++i) rgba[i] = to_srgb((*linear)[i]);
+  rgba[3] = (*linear)[3];
+  return rgba;
+}
+
 void GltfMeshes::add_shown(std::span<const std::size_t> nodes, const Affine<double>& pose,
-                           bool with_own_pose, MeshParts& all) {
+                           bool with_own_pose, MeshParts& all, MeshLooks* looks) {
   struct Open {
     std::size_t node;
     Affine<double> pose;
@@ -240,15 +329,32 @@ void GltfMeshes::add_shown(std::span<const std::size_t> nodes, const Affine<doub
     const Json& json = document_.item("nodes", at.node);
     if (const auto index = document_.index(json, path, "mesh", "meshes")) {
       const MeshParts& shown = mesh(*index);
-      shown_ += shown.vertices.size();
-      if (has_too_many(shown_)) return;
-      const auto first = static_cast<std::uint32_t>(all.vertices.size());
+      const auto name_of = [](const Json& named) {
+        const Json* name = named.find("name");
+        return name && name->is_string() ? name->get<std::string>() : std::string();
+      };
       // A skin's vertices stand where they are, wherever its node is.
       const Affine<double> there = json.contains("skin") ? pose : at.pose;
-      for (const Vec3<double>& vertex : shown.vertices) all.vertices.push_back(there(vertex));
-      for (std::vector<std::uint32_t> part : shown.parts) {
-        for (std::uint32_t& i : part) i += first;
-        all.parts.push_back(std::move(part));
+      for (const Affine<double>& instance : gltf_instances(document_, at.node)) {
+        shown_ += shown.vertices.size();
+        if (has_too_many(shown_)) return;
+        const auto first = static_cast<std::uint32_t>(all.vertices.size());
+        for (const Vec3<double>& vertex : shown.vertices)
+          all.vertices.push_back(there(instance(vertex)));
+        for (std::vector<std::uint32_t> part : shown.parts) {
+          for (std::uint32_t& i : part) i += first;
+          all.parts.push_back(std::move(part));
+        }
+        const Json& whole = document_.item("meshes", *index);
+        for (const auto& [primitive, corners] : read(*index).corners) {
+          if (!looks || looks->parts.size() >= most_part_looks) continue;
+          PartLook look{{name_of(json), name_of(whole)}, {}};
+          if (const auto rgba =
+                  gltf_colour(document_, whole.at("primitives")[primitive],
+                              JsonPath() / "meshes" / *index / "primitives" / primitive))
+            look.colours[*rgba] = corners;
+          looks->parts.push_back(std::move(look));
+        }
       }
     }
     for (const std::size_t child : gltf_children(document_, at.node))

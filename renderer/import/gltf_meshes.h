@@ -9,6 +9,7 @@
 #include "core/files/mesh_parts.h"
 #include "core/math/affine.h"
 #include "renderer/import/gltf_document.h"
+#include "renderer/import/mesh_looks.h"
 
 namespace minkray {
 
@@ -35,17 +36,22 @@ class GltfMeshes {
   /// How many primitives were points or lines.
   std::size_t left_out() const { return left_out_; }
 
-  /// Adds all meshes that are shown by nodes and those below them.
+  /// Adds all meshes that are shown by nodes and those below them. `looks`, if any, get a part for
+  /// each primitive.
   void add_shown(std::span<const std::size_t> nodes, const Affine<double>& pose, bool with_own_pose,
-                 MeshParts& all);
+                 MeshParts& all, MeshLooks* looks = nullptr);
 
  private:
   struct Read {
     MeshParts parts;
     std::vector<std::size_t> primitives;
+    std::vector<std::pair<std::size_t, std::size_t>> corners = {};  ///< by primitive that is shown
   };
   const Read& read(std::size_t index);
-  void add_primitive(const Json& primitive, const JsonPath& path, std::size_t number, Read& read);
+  void add_primitive(const Json& primitive, const JsonPath& path, std::size_t number,
+                     const std::vector<double>& weights, Read& read);
+  bool add_targets(const Json& primitive, const JsonPath& path, const std::vector<double>& weights,
+                   std::vector<Vec3<double>>& points);
   bool has_too_many(std::size_t vertices);
 
   GltfDocument& document_;
@@ -55,6 +61,13 @@ class GltfMeshes {
   std::size_t shown_ = 0;     ///< by all nodes that were asked for
   std::size_t visits_ = 0, left_out_ = 0;
 };
+
+/// The poses in which a node shows its mesh: several by EXT_mesh_gpu_instancing, else one.
+std::vector<Affine<double>> gltf_instances(GltfDocument& document, std::size_t node);
+
+/// The colour of a primitive's material; nothing if it has none, or one that is wrong.
+std::optional<Rgba> gltf_colour(GltfDocument& document, const Json& primitive,
+                                const JsonPath& path);
 
 /// What a node is by itself.
 Affine<double> gltf_pose(GltfDocument& document, std::size_t node);

@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <span>
 #include <stdexcept>
 
 #include "core/files/regular_file.h"
+#include "renderer/base/of_file.h"
+#include "renderer/import/file_kind.h"
+#include "renderer/import/geometry_common.h"
 #include "renderer/import/gltf.h"
 #include "renderer/import/mjcf.h"
 #include "renderer/import/scene_of_model.h"
@@ -20,8 +22,7 @@
 namespace minkray {
 namespace {
 
-/// What is XML is known by its root element, whatever its file is called; what is none by the
-/// ending.
+/// What is XML is known by its root element, whatever its file is called.
 struct ForeignFormat {
   std::string_view name;
   std::array<std::string_view, 3> endings;
@@ -42,8 +43,10 @@ constexpr ForeignFormat formats[] = {
     {.name = "URDF",
      .endings = {".urdf"},
      .roots = {"robot"},
-     .read_element = [](XmlElement&& root, XmlFiles& files,
-                        const ImportOptions& options) { return read_urdf(root, files, options); }},
+     .read_element =
+         [](XmlElement&& root, XmlFiles& files, const ImportOptions& options) {
+           return read_urdf(std::move(root), files, options);
+         }},
     {.name = "SDF",
      .endings = {".sdf", ".world", ".model"},
      .roots = {"sdf", "gazebo"},  // the latter up to version 1.2
@@ -64,17 +67,14 @@ bool has(std::span<const std::string_view> names, std::string_view name) {
   return !name.empty() && std::ranges::find(names, name) != names.end();
 }
 
-/// The format that has the file's ending; null if none has.
-const ForeignFormat* told_by_ending(const std::filesystem::path& file) {
-  std::string ending = file.extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  const auto found = std::ranges::find_if(
-      formats, [&](const ForeignFormat& format) { return has(format.endings, ending); });
-  return found == std::end(formats) ? nullptr : found;
+/// The only format that is no XML.
+const ForeignFormat& gltf_format() {
+  return *std::ranges::find_if(
+      formats, [](const ForeignFormat& format) { return format.read_bytes != nullptr; });
 }
 
-bool is_xml(const ForeignFormat* format) {
-  return !format || !format->read_bytes;
+bool is_xml(const ForeignFormat& format) {
+  return !format.read_bytes;
 }
 
 std::optional<Model> unless_wrong(Model model, const Mistakes& mistakes) {
@@ -86,11 +86,15 @@ std::optional<Model> model_of(std::optional<XmlElement> root, XmlFiles& files,
                               const ImportOptions& options, Mistakes& mistakes) {
   if (!root) return std::nullopt;
   for (const ForeignFormat& format : formats)
-    if (has(format.roots, root->name))
-      return unless_wrong(format.read_element(std::move(*root), files, options), mistakes);
+    if (has(format.roots, root->name)) {
+      Model model = format.read_element(std::move(*root), files, options);
+      model.files.insert(model.files.end(), files.files().begin(), files.files().end());
+      tell_missing_meshes(model, files, options);
+      return unless_wrong(std::move(model), mistakes);
+    }
   std::string expected;
   for (const ForeignFormat& format : formats) {
-    if (!is_xml(&format)) continue;
+    if (!is_xml(format)) continue;
     if (!expected.empty()) expected += " or ";
     expected += "<" + std::string(format.roots.front()) + "> (" + std::string(format.name) + ")";
   }
@@ -113,26 +117,29 @@ std::string foreign_formats() {
 }
 
 bool is_foreign(const std::filesystem::path& file) {
-  return told_by_ending(file) != nullptr;
+  const FileKind kind = content_of(file).kind;
+  return kind == FileKind::xml || kind == FileKind::gltf;
 }
 
 std::optional<Model> parse_model(const std::string& text, const std::filesystem::path& file,
                                  const ImportOptions& options, Mistakes& mistakes) {
-  if (const ForeignFormat* format = told_by_ending(file); !is_xml(format))
-    return unless_wrong(format->read_bytes(std::string(text), file, options, mistakes), mistakes);
+  if (content_of(text, file).kind == FileKind::gltf)
+    return unless_wrong(gltf_format().read_bytes(std::string(text), file, options, mistakes),
+                        mistakes);
   XmlFiles files(mistakes);
   return model_of(files.parse(text, file), files, options, mistakes);
 }
 
 std::optional<Model> load_model(const std::filesystem::path& file, const ImportOptions& options,
                                 Mistakes& mistakes) {
-  if (const ForeignFormat* format = told_by_ending(file); !is_xml(format)) {
+  if (content_of(file).kind == FileKind::gltf) {
+    const ForeignFormat& format = gltf_format();
     try {
       return unless_wrong(
-          format->read_bytes(read_regular_file(file, format->most_bytes), file, options, mistakes),
+          format.read_bytes(read_regular_file(file, format.most_bytes), file, options, mistakes),
           mistakes);
-    } catch (const std::runtime_error& error) {
-      mistakes.add(error.what());
+    } catch (const std::exception& error) {
+      mistakes.add(what_of(error));
       return std::nullopt;
     }
   }
@@ -141,11 +148,19 @@ std::optional<Model> load_model(const std::filesystem::path& file, const ImportO
 }
 
 Imported import_scene(const std::filesystem::path& file, const ImportOptions& options) {
+  if (const FileContent content = content_of(file); content.kind == FileKind::other)
+    throw BadInput(printable(file.string(), 200) + ": is " + content.what +
+                   "; a scene is a JSON file or " + foreign_formats());
   if (!is_foreign(file)) {
     if (options.any())
       throw WrongUsage("--geometry, --keyframe, --joint and the like are for robots' files (" +
                        printable(file.string(), 100) + " is none)");
-    return {load_scene(file), std::nullopt, {}};
+    Imported imported;
+    imported.scene = load_scene(file, &imported.files);
+    imported.files.push_back(file);
+    imported.files.insert(imported.files.end(), imported.scene.pictures.begin(),
+                          imported.scene.pictures.end());
+    return imported;
   }
   Mistakes mistakes(file.string());
   Imported imported;
@@ -157,6 +172,9 @@ Imported import_scene(const std::filesystem::path& file, const ImportOptions& op
     imported.rows = read_joint_rows(options.joint_rows, model, mistakes);
   throw_if_any(mistakes);
   imported.scene = scene_of(model, options, imported.rows);
+  imported.files = model.files;
+  imported.files.push_back(file);
+  if (!options.joint_rows.empty()) imported.files.emplace_back(options.joint_rows);
   if (imported.scene.objects.size() > most_instances) mistakes.add("has too many shapes");
   for (const Object& object : imported.scene.objects)
     if (!object.pose.linear.allFinite() || !object.pose.translation.allFinite()) {

@@ -19,13 +19,14 @@ namespace minkray {
 struct Imported {
   Scene scene;
   std::optional<Model> model;
-  std::vector<JointRow> rows = {};  ///< that it moves by, if it does
+  std::vector<JointRow> rows = {};                ///< that it moves by, if it does
+  std::vector<std::filesystem::path> files = {};  ///< all that were read
 };
 
 /// Their names with the endings of their files, for messages: "MJCF (.xml, .mjcf), URDF (.urdf)..."
 std::string foreign_formats();
 
-/// Whether the file's ending is one of a robot's description.
+/// True if the file holds a robot's description; of one that cannot be read, its ending tells.
 bool is_foreign(const std::filesystem::path& file);
 
 /// Throws BadInput with all mistakes, one a line; WrongUsage if a scene file is asked for what only

@@ -11,7 +11,7 @@
 namespace minkray {
 
 enum class GeometryChoice : unsigned char {
-  visual,     ///< what the file's own viewer shows; of a link without such, its collision shapes
+  visual,     ///< what the file's own viewer shows; collision shapes if nothing is shown
   collision,  ///< what collides
   all,        ///< every shape there is
 };
@@ -24,12 +24,15 @@ struct ImportOptions {
   std::string joint_rows;                 ///< a CSV or JSON file of values; empty: none
   std::vector<std::string> package_dirs;  ///< where package:// and model:// are looked for
   bool skip_missing_meshes = false;
+  bool lenient = false;             ///< leaves out shapes and materials that are wrong
+  bool verbose = false;             ///< tells each missing mesh, not only how many
   Resolution picture = {960, 720};  ///< that the camera frames everything for
 
   /// Whether anything is asked for that a scene file has no use of.
   bool any() const {
     return geometry != GeometryChoice::visual || split != MeshSplit::none || !keyframe.empty() ||
-           !joints.empty() || !joint_rows.empty() || !package_dirs.empty() || skip_missing_meshes;
+           !joints.empty() || !joint_rows.empty() || !package_dirs.empty() || skip_missing_meshes ||
+           lenient;
   }
 };
 

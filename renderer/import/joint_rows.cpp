@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <set>
 #include <sstream>
 #include <unordered_map>
 
@@ -34,6 +35,9 @@ std::vector<std::string> cells_of(const std::string& line) {
   return cells;
 }
 
+/// Editors on Windows begin UTF-8 with it.
+constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+
 class RowReader {
  public:
   RowReader(Model& model, Mistakes& of_file)
@@ -45,7 +49,8 @@ class RowReader {
     most_ = std::max<std::size_t>(most_keys / size_, 1);
   }
 
-  std::vector<JointRow> read(const std::string& text) {
+  std::vector<JointRow> read(std::string text) {
+    if (text.starts_with(byte_order_mark)) text.erase(0, byte_order_mark.size());
     const std::size_t begin = text.find_first_not_of(" \t\r\n");
     const bool is_json = begin != text.npos && (text[begin] == '[' || text[begin] == '{');
     if (is_json)
@@ -78,14 +83,20 @@ class RowReader {
     // Joints of several numbers take several columns of their name.
     std::unordered_map<std::string, std::size_t> columns;
     for (const std::string& name : names) ++columns[name];
+    std::set<std::string> told;
     for (const std::string& name : names) {
-      if (name == "time" || has_most_mistakes()) continue;
-      const ModelJoint* joint = joint_of(name);
-      if (!joint)
-        of_file_.add("line 1: there is no joint \"" + printable(name, 60) + "\"");
-      else if (columns[name] != width_of(joint->kind))
-        of_file_.add("line 1: the joint \"" + printable(name, 60) + "\" takes " +
-                     std::to_string(width_of(joint->kind)) + " columns");
+      if (has_most_mistakes() || !told.insert(name).second) continue;
+      const std::string column = "line 1: column \"" + printable(name, 60) + "\": ";
+      const ModelJoint* joint = name == "time" ? nullptr : joint_of(name);
+      const std::size_t width = joint ? width_of(joint->kind) : 1;
+      if (name != "time" && !joint)
+        of_file_.add(column + "there is no joint of this name");
+      else if (columns[name] > 1 && width == 1)
+        of_file_.add(column + "duplicate (given " + std::to_string(columns[name]) + " times)");
+      else if (columns[name] != width)
+        of_file_.add(column + "must be given " + std::to_string(width) +
+                     " times, once for each number of the joint (got " +
+                     std::to_string(columns[name]) + ")");
     }
     JointRow pattern;
     std::unordered_map<std::string, std::size_t> places;

@@ -8,10 +8,12 @@
 #include <stdexcept>
 
 #include "renderer/base/hash.h"
+#include "renderer/base/of_file.h"
 #include "renderer/import/collada.h"
 #include "renderer/import/gltf.h"
 #include "renderer/import/msh.h"
 #include "renderer/import/plane_tree.h"
+#include "renderer/import/xml.h"
 #include "renderer/json/mistakes.h"
 
 namespace minkray {
@@ -73,14 +75,66 @@ double deepest_below(const std::vector<Vec3<double>>& vertices, const PointCloud
   return deepest;
 }
 
+/// A format whose files say nothing but where vertices are.
+template <MeshParts (*read)(const std::filesystem::path&, MeshSplit)>
+MeshContent bare(const std::filesystem::path& file, MeshSplit split) {
+  return {read(file, split), {}};
+}
+
+MeshContent read_obj(const std::filesystem::path& file, MeshSplit split) {
+  MeshContent content{read_mesh_parts(file, split), {}};
+  content.looks = obj_looks(file);
+  return content;
+}
+
 }  // namespace
 
 const std::vector<MeshFormatReader>& mesh_formats() {
   static const std::vector<MeshFormatReader> formats = {
-      {".obj", read_mesh_parts}, {".stl", read_mesh_parts}, {".msh", read_msh},
-      {".dae", read_collada},    {".gltf", read_gltf_mesh}, {".glb", read_gltf_mesh},
+      {".obj", read_obj},     {".stl", bare<read_mesh_parts>}, {".msh", bare<read_msh>},
+      {".dae", read_collada}, {".gltf", read_gltf_content},    {".glb", read_gltf_content},
   };
   return formats;
+}
+
+namespace {
+
+/// A folder has few packages; more than these are not looked at.
+constexpr std::size_t most_folders_looked_at = 1000;
+
+/// The name in a folder's package.xml; empty if there is none.
+std::string package_name(const std::filesystem::path& folder) {
+  std::error_code error;
+  const std::filesystem::path file = folder / "package.xml";
+  if (!std::filesystem::is_regular_file(file, error)) return "";
+  Mistakes ignored("");
+  XmlFiles files(ignored);
+  const auto root = files.read(file);
+  const XmlElement* name = root && root->name == "package" ? root->child("name") : nullptr;
+  if (!name) return "";
+  const std::size_t begin = name->text.find_first_not_of(" \t\r\n");
+  if (begin == name->text.npos) return "";
+  return name->text.substr(begin, name->text.find_last_not_of(" \t\r\n") - begin + 1);
+}
+
+}  // namespace
+
+/// Those of the folders, and of the folders in them, whose package.xml gives the name.
+std::vector<std::filesystem::path> MeshLibrary::folders_of_package(
+    const std::string& package, const std::vector<std::filesystem::path>& folders) const {
+  const auto known = packages_.find(package);
+  if (known != packages_.end()) return known->second;
+  std::vector<std::filesystem::path> found;
+  for (const std::filesystem::path& folder : folders) {
+    if (package_name(folder) == package) found.push_back(folder);
+    std::error_code error;
+    std::size_t count = 0;
+    for (std::filesystem::directory_iterator at(folder, error), end;
+         !error && at != end && count < most_folders_looked_at; at.increment(error), ++count)
+      if (std::error_code ignored; at->is_directory(ignored) && package_name(at->path()) == package)
+        found.push_back(at->path());
+  }
+  return packages_[package] = found;
 }
 
 std::string list_of_places(const std::vector<std::filesystem::path>& places) {
@@ -110,13 +164,23 @@ std::optional<std::filesystem::path> MeshLibrary::find(
       look_at(std::filesystem::path(folder) / in_package);
       look_at(std::filesystem::path(folder) / std::filesystem::path(rest).filename());
     }
-    // Packages lie in a folder of their name, beside or above the file.
+    // Packages lie in a folder of their name, beside or above the file, or in one whose package.xml
+    // gives them the name.
+    const std::string package = rest.substr(0, rest.find('/'));
     std::filesystem::path folder =
         std::filesystem::absolute(folder_.empty() ? "." : folder_).lexically_normal();
+    std::vector<std::filesystem::path> around;
     for (int i = 0; i < 8; ++i) {
+      around.push_back(folder);
       look_at(folder / rest);
+      if (begins("model://")) look_at(folder / "models" / rest);
       if (folder == folder.parent_path()) break;
       folder = folder.parent_path();
+    }
+    if (begins("package://")) {
+      around.insert(around.begin(), options_->package_dirs.begin(), options_->package_dirs.end());
+      for (const std::filesystem::path& named : folders_of_package(package, around))
+        look_at(named / in_package);
     }
   } else if (begins("file://")) {
     look_at(uri.substr(std::string_view("file://").size()));
@@ -134,9 +198,66 @@ std::optional<std::filesystem::path> MeshLibrary::find(
   return std::nullopt;
 }
 
-const MeshLibrary::Answer& MeshLibrary::hulls_of(const std::string& uri,
-                                                 const Vec3<double>& scale) {
-  std::string key = uri;
+const MeshContent& MeshLibrary::read(const std::filesystem::path& file,
+                                     const MeshFormatReader& format, MeshSplit split) {
+  const auto known = read_.find({file.string(), split});
+  if (known != read_.end()) return known->second;
+  MeshContent content = format.read(file, split);
+  const std::vector<Vec3<double>>& vertices = content.mesh.vertices;
+  Hash hash;
+  hash.add({reinterpret_cast<const char*>(vertices.data()), vertices.size() * sizeof vertices[0]});
+  hash_text_ += hash.text();
+  read_vertices_ += vertices.size();
+  files_.push_back(file);
+  files_.insert(files_.end(), content.looks.files.begin(), content.looks.files.end());
+  return read_.emplace(std::pair(file.string(), split), std::move(content)).first->second;
+}
+
+namespace {
+
+/// The part of that name; nothing if there is none.
+std::optional<std::size_t> part_named(const MeshContent& content, const std::string& name) {
+  const std::vector<PartLook>& parts = content.looks.parts;
+  for (std::size_t i = 0; i < std::min(parts.size(), content.mesh.parts.size()); ++i)
+    if (std::ranges::find(parts[i].names, name) != parts[i].names.end()) return i;
+  return std::nullopt;
+}
+
+/// The part by itself, around the origin if that is asked for.
+MeshContent part_of(const MeshContent& content, std::size_t part, bool is_centred) {
+  MeshContent alone;
+  for (const std::uint32_t i : content.mesh.parts[part])
+    alone.mesh.vertices.push_back(content.mesh.vertices[i]);
+  alone.looks.parts.push_back(content.looks.parts[part]);
+  if (!is_centred) return alone;
+  Vec3<double> lower = alone.mesh.vertices[0], upper = lower;
+  for (const Vec3<double>& vertex : alone.mesh.vertices) {
+    lower = lower.cwiseMin(vertex);
+    upper = upper.cwiseMax(vertex);
+  }
+  const Vec3<double> middle = lower + (upper - lower) / 2;
+  for (Vec3<double>& vertex : alone.mesh.vertices) vertex -= middle;
+  return alone;
+}
+
+/// Gives the hulls the colours of their parts, or all of them that of most faces.
+void take_looks(const MeshContent& content, MeshSplit split, MeshLibrary::Answer& answer) {
+  const MeshLooks& looks = content.looks;
+  answer.notes = looks.notes;
+  const bool by_part = split == MeshSplit::groups && looks.parts.size() == answer.hulls.size();
+  for (std::size_t i = 0; i < answer.hulls.size(); ++i)
+    answer.colours.push_back(by_part ? colour_of(looks.parts[i]) : colour_of(looks));
+  if (const std::size_t count = colour_count(looks); count > 1 && !by_part)
+    answer.notes.push_back("has " + std::to_string(count) +
+                           " colours: that of most of its faces is shown (--split groups)");
+}
+
+}  // namespace
+
+const MeshLibrary::Answer& MeshLibrary::hulls_of(
+    const std::string& uri, const Vec3<double>& scale, const Submesh& submesh,
+    const std::vector<std::filesystem::path>& also_in) {
+  std::string key = uri + "\n" + submesh.name + (submesh.is_centred ? "\nc" : "\n");
   for (const double s : scale) key += " " + std::to_string(std::bit_cast<std::uint64_t>(s));
   const auto made = made_.find(key);
   if (made != made_.end()) return made->second;
@@ -144,6 +265,8 @@ const MeshLibrary::Answer& MeshLibrary::hulls_of(const std::string& uri,
   Answer answer;
   std::vector<std::filesystem::path> looked_for;
   std::optional<std::filesystem::path> file = find(uri, looked_for);
+  for (const std::filesystem::path& folder : also_in)
+    if (!file) file = MeshLibrary(folder, *options_).find(uri, looked_for);
   std::string title = uri;
   if (!file) {
     // Descriptions outlive their meshes' formats: the same name in another one will do.
@@ -169,22 +292,27 @@ const MeshLibrary::Answer& MeshLibrary::hulls_of(const std::string& uri,
         "the mesh " + printable(file->string(), 160) + " must end in one of " + mesh_endings();
     return made_[key] = answer;
   }
-  auto known = read_.find(file->string());
-  if (known == read_.end()) {
-    try {
-      MeshParts parts = format->read(*file, options_->split);
-      Hash hash;
-      hash.add({reinterpret_cast<const char*>(parts.vertices.data()),
-                parts.vertices.size() * sizeof parts.vertices[0]});
-      hash_text_ += hash.text();
-      read_vertices_ += parts.vertices.size();
-      known = read_.emplace(file->string(), std::move(parts)).first;
-    } catch (const std::exception& error) {
-      answer.complaint = "the mesh " + printable(file->string(), 160) + ": " + error.what();
-      return made_[key] = answer;
+  MeshContent content;
+  MeshSplit split = options_->split;
+  std::string note;
+  try {
+    const MeshContent& whole =
+        read(*file, *format, submesh.name.empty() ? split : MeshSplit::groups);
+    const auto part = submesh.name.empty() ? std::nullopt : part_named(whole, submesh.name);
+    if (part) {
+      content = part_of(whole, *part, submesh.is_centred);
+      title += " (" + submesh.name + ")";
+      split = MeshSplit::none;
+    } else {
+      content = read(*file, *format, split);
+      if (!submesh.name.empty())
+        note = "has no part \"" + printable(submesh.name, 60) + "\": all of it is shown";
     }
+  } catch (const std::exception& error) {
+    answer.complaint = "the mesh " + printable(file->string(), 160) + ": " + what_of(error);
+    return made_[key] = answer;
   }
-  shown_vertices_ += known->second.vertices.size();
+  shown_vertices_ += content.mesh.vertices.size();
   const std::size_t most = std::max(most_rescaled_vertices, most_scales * read_vertices_);
   if (shown_vertices_ > most) {
     answer.complaint = "the mesh \"" + printable(title, 100) + "\": with the meshes before, each " +
@@ -193,7 +321,11 @@ const MeshLibrary::Answer& MeshLibrary::hulls_of(const std::string& uri,
                        ")";
     return made_[key] = answer;
   }
-  return made_[key] = add(known->second, scale, title);
+  answer = add(content.mesh, scale, title);
+  take_looks(content, split, answer);
+  if (!note.empty()) answer.notes.push_back(note);
+  answer.is_flattened = (scale.array() == 0).any();
+  return made_[key] = answer;
 }
 
 MeshLibrary::Answer MeshLibrary::hulls_of_parts(const MeshParts& mesh, const Vec3<double>& scale,
@@ -233,12 +365,19 @@ MeshLibrary::Answer MeshLibrary::add(const MeshParts& mesh, const Vec3<double>& 
       add_part(std::move(vertices));
     }
   } catch (const std::exception& error) {
-    answer.complaint = "the mesh \"" + printable(name, 100) + "\": " + error.what();
+    answer.complaint = "the mesh \"" + printable(name, 100) + "\": " + what_of(error);
     return answer;
   }
   facts.diameter = (upper - lower).maxCoeff();
   meshes_.push_back(facts);
   return answer;
+}
+
+void MeshLibrary::hand_over(Model& model) {
+  for (ModelMesh& mesh : meshes_) model.meshes.push_back(std::move(mesh));
+  model.files.insert(model.files.end(), files_.begin(), files_.end());
+  model.hash += hash_text_;
+  meshes_.clear();
 }
 
 }  // namespace minkray

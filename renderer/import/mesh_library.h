@@ -12,14 +12,27 @@
 
 #include "core/shape/shape.h"
 #include "renderer/import/import_options.h"
+#include "renderer/import/mesh_looks.h"
 #include "renderer/import/model.h"
 
 namespace minkray {
 
+/// What a mesh file holds.
+struct MeshContent {
+  MeshParts mesh;
+  MeshLooks looks = {};  ///< of its parts, if it is split into groups, or of it as a whole
+};
+
+/// A part of a mesh file that is shown alone, its middle at the origin if that is asked for (SDF).
+struct Submesh {
+  std::string name = {};  ///< empty: the whole mesh
+  bool is_centred = false;
+};
+
 /// A reader throws std::runtime_error that says what is wrong, without the file's name.
 struct MeshFormatReader {
   std::string_view ending;
-  MeshParts (*read)(const std::filesystem::path& file, MeshSplit split);
+  MeshContent (*read)(const std::filesystem::path& file, MeshSplit split);
 };
 const std::vector<MeshFormatReader>& mesh_formats();
 
@@ -39,13 +52,18 @@ class MeshLibrary {
       : folder_(std::move(folder)), options_(&options) {}
 
   struct Answer {
-    std::vector<Shape<double>> hulls;  ///< one for each part
-    std::string complaint;             ///< what is wrong; empty if nothing is
+    std::vector<Shape<double>> hulls;               ///< one for each part
+    std::vector<std::optional<Rgba>> colours = {};  ///< of each hull, if the file tells
+    std::vector<std::string> notes = {};            ///< what the file has that is not shown
+    std::string complaint;                          ///< what is wrong; empty if nothing is
     bool is_missing = false;
+    bool is_flattened = false;  ///< by a scale of zero
   };
   /// The hulls of a mesh file, its vertices scaled. Names may be paths, or begin with package://,
-  /// model:// or file://.
-  const Answer& hulls_of(const std::string& uri, const Vec3<double>& scale);
+  /// model:// or file://. `also_in` are folders where it may lie as well.
+  const Answer& hulls_of(const std::string& uri, const Vec3<double>& scale,
+                         const Submesh& submesh = {},
+                         const std::vector<std::filesystem::path>& also_in = {});
 
   /// The vertices stand in the file itself.
   Answer hulls_of_parts(const MeshParts& mesh, const Vec3<double>& scale, const std::string& name);
@@ -54,19 +72,25 @@ class MeshLibrary {
   std::optional<std::filesystem::path> find(const std::string& uri,
                                             std::vector<std::filesystem::path>& looked_for) const;
 
-  std::vector<ModelMesh> take_meshes() { return std::move(meshes_); }
-  const std::string& hash_text() const { return hash_text_; }
+  /// Gives the model the meshes' facts, the names of their files and their hashes.
+  void hand_over(Model& model);
 
  private:
   Answer add(const MeshParts& mesh, const Vec3<double>& scale, const std::string& name);
 
   std::filesystem::path folder_;
   const ImportOptions* options_;
-  std::map<std::string, MeshParts> read_;
+  const MeshContent& read(const std::filesystem::path& file, const MeshFormatReader& format,
+                          MeshSplit split);
+  std::vector<std::filesystem::path> folders_of_package(
+      const std::string& package, const std::vector<std::filesystem::path>& folders) const;
+  std::map<std::pair<std::string, MeshSplit>, MeshContent> read_;
+  mutable std::map<std::string, std::vector<std::filesystem::path>> packages_;  ///< folders
   std::map<std::string, Answer> made_;
   std::size_t read_vertices_ = 0;   ///< of files
   std::size_t shown_vertices_ = 0;  ///< of files, again for each scale
   std::vector<ModelMesh> meshes_;
+  std::vector<std::filesystem::path> files_;
   std::string hash_text_;
 };
 

@@ -52,7 +52,9 @@ std::vector<ModelMesh> meshes_of_scene(const std::filesystem::path& scene_file) 
     options.split = split;
     MeshLibrary library(scene_file.parent_path(), options);
     library.hulls_of(file, Vec3<double>::Ones());
-    for (ModelMesh& mesh : library.take_meshes()) meshes.push_back(std::move(mesh));
+    Model model;
+    library.hand_over(model);
+    for (ModelMesh& mesh : model.meshes) meshes.push_back(std::move(mesh));
   }
   return meshes;
 }

@@ -1,18 +1,24 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/import/mjcf_assets.h"
 
+#include <stdexcept>
+
 #include "renderer/import/geometry_common.h"
+#include "renderer/import/hull_mass.h"
+#include "renderer/import/mjcf_builtin.h"
 #include "renderer/import/orientation.h"
 
 namespace minkray {
 namespace {
 
-constexpr MjcfAssets::Rgba default_rgba = {0.5, 0.5, 0.5, 1};
+constexpr Rgba default_rgba = {0.5, 0.5, 0.5, 1};
 
 }  // namespace
 
-void MjcfAssets::look_in(const std::filesystem::path& folder, bool strips_path) {
-  meshes_ = MeshLibrary(folder, options_);
+void MjcfAssets::look_in(const std::filesystem::path& file_folder,
+                         const std::filesystem::path& mesh_folder, bool strips_path) {
+  meshes_ = MeshLibrary(file_folder / mesh_folder, options_);
+  mesh_folder_ = mesh_folder;
   strips_path_ = strips_path;
 }
 
@@ -38,9 +44,15 @@ void MjcfAssets::read(const XmlElement& assets, const MjcfDefaults& defaults) {
         files_.wrong(written, "vertex: must stand in the <mesh> itself, not in its defaults");
       if (!mesh_assets_.emplace(name, asset).second)
         files_.wrong(written, "name: must not be the name of two meshes");
+    } else if (asset.name == "model") {
+      std::string name = asset.attribute_or("name");
+      if (name.empty()) name = std::filesystem::path(asset.attribute_or("file")).stem().string();
+      models_.emplace(name, asset);
     } else if (asset.name == "material") {
       Rgba rgba = {1, 1, 1, 1};
-      if (const auto given = read_rgba(asset)) rgba = *given;
+      read_shapes(model_, files_, options_, [&] {
+        if (const auto given = read_rgba(asset)) rgba = *given;
+      });
       const auto texture = textures.find(asset.attribute_or("texture"));
       if (texture != textures.end())
         for (std::size_t i = 0; i < 3; ++i) rgba[i] *= texture->second[i];
@@ -52,27 +64,76 @@ void MjcfAssets::read(const XmlElement& assets, const MjcfDefaults& defaults) {
   }
 }
 
-std::optional<MjcfAssets::Rgba> MjcfAssets::read_rgba(const XmlElement& element) const {
+std::optional<Rgba> MjcfAssets::read_rgba(const XmlElement& element) const {
   const auto v = files_.numbers(element, "rgba", 3, 4);
   if (!v) return std::nullopt;
   return Rgba{(*v)[0], (*v)[1], (*v)[2], v->size() > 3 ? (*v)[3] : 1};
 }
 
-MjcfAssets::Rgba MjcfAssets::colour_of(const XmlElement& geom) const {
+Rgba MjcfAssets::colour_of(const XmlElement& geom) const {
   const Rgba own = read_rgba(geom).value_or(default_rgba);
   const auto material = materials_.find(geom.attribute_or("material"));
   return own == default_rgba && material != materials_.end() ? material->second : own;
 }
 
-void MjcfAssets::add_mesh_geom(const XmlElement& written, const XmlElement& e, ModelGeom geom) {
+const MeshLibrary::Answer* MjcfAssets::mesh_of(const XmlElement& written, const XmlElement& e) {
   const std::string name = e.attribute_or("mesh");
   const auto found = mesh_assets_.find(name);
-  if (found == mesh_assets_.end())
-    return files_.wrong(written,
-                        "mesh: there is no <mesh> of the name \"" + printable(name, 60) + "\"");
+  if (found == mesh_assets_.end()) {
+    files_.wrong(written, "mesh: there is no <mesh> of the name \"" + printable(name, 60) + "\"");
+    return nullptr;
+  }
   const auto [at, is_new] = made_.try_emplace(name);
   if (is_new) at->second = hulls_of(name, found->second);
-  add_mesh(model_, files_, written, at->second, std::move(geom), options_);
+  return &at->second;
+}
+
+void MjcfAssets::add_mesh_geom(const XmlElement& written, const XmlElement& e, ModelGeom geom) {
+  if (const MeshLibrary::Answer* mesh = mesh_of(written, e))
+    add_mesh(model_, files_, written, *mesh, std::move(geom), options_);
+}
+
+std::optional<std::vector<double>> MjcfAssets::fit(const XmlElement& written, const XmlElement& e,
+                                                   bool by_bounds, ModelGeom& geom) {
+  const MeshLibrary::Answer* mesh = mesh_of(written, e);
+  if (!mesh) return std::nullopt;
+  if (mesh->hulls.empty()) {
+    // What is wrong with the mesh is told, or it is passed over.
+    add_mesh(model_, files_, written, *mesh, geom, options_);
+    return std::nullopt;
+  }
+  const auto* hull = std::get_if<Hull<double>>(&mesh->hulls.front().kind);
+  const Mass mass = hull ? mass_of(hull->points) : Mass();
+  if (mesh->hulls.size() > 1 || !(mass.volume > 0)) {
+    files_.wrong(written,
+                 "mesh: a primitive is fitted to one mesh with a volume (without --split)");
+    return std::nullopt;
+  }
+  const InertiaBox box = inertia_box(mass);
+  geom.pose = geom.pose * box.pose;
+  const double scale = files_.number(e, "fitscale").value_or(1);
+  std::array<double, 3> half = box.half_sides;
+  if (by_bounds) {
+    Vec3<double> lower = Vec3<double>::Zero(), upper = lower;
+    const Affine<double> to_box = box.pose.inverse();
+    for (const Vec3<double>& point : hull->points.points()) {
+      lower = lower.cwiseMin(to_box(point));
+      upper = upper.cwiseMax(to_box(point));
+    }
+    geom.pose = geom.pose * Affine<double>{Mat3<double>::Identity(), (lower + upper) / 2};
+    for (int i = 0; i < 3; ++i) half[static_cast<std::size_t>(i)] = (upper[i] - lower[i]) / 2;
+  }
+  std::vector<double> size(half.begin(), half.end());
+  if (geom.kind == "sphere")
+    size[0] = by_bounds ? std::max({half[0], half[1], half[2]}) : (half[0] + half[1] + half[2]) / 3;
+  if (geom.kind == "capsule" || geom.kind == "cylinder") {
+    size[0] = by_bounds ? std::max(half[0], half[1]) : (half[0] + half[1]) / 2;
+    size[1] = half[2];
+    // MuJoCo takes half a radius off where it fits by inertia.
+    if (geom.kind == "capsule") size[1] = std::max(0.0, half[2] - size[0] / (by_bounds ? 1 : 2));
+  }
+  for (double& one : size) one *= scale;
+  return size;
 }
 
 MeshLibrary::Answer MjcfAssets::hulls_of(const std::string& name, const XmlElement& asset) {
@@ -92,10 +153,21 @@ MeshLibrary::Answer MjcfAssets::hulls_of(const std::string& name, const XmlEleme
     for (std::size_t i = 0; i + 2 < numbers->size(); i += 3)
       vertices.emplace_back((*numbers)[i], (*numbers)[i + 1], (*numbers)[i + 2]);
     answer = meshes_.hulls_of_parts({std::move(vertices)}, scale_of_vertices, name);
+  } else if (const std::string* builtin = asset.attribute("builtin")) {
+    const auto params = files_.numbers(asset, "params", 1, 5);
+    try {
+      answer =
+          meshes_.hulls_of_parts({builtin_mesh(*builtin, params.value_or(std::vector<double>()))},
+                                 scale_of_vertices, name);
+    } catch (const std::runtime_error& error) {
+      answer.complaint = std::string("<mesh>: ") + error.what();
+    }
   } else {
     std::string file = asset.attribute_or("file");
     if (strips_path_) file = std::filesystem::path(file).filename().string();
-    answer = meshes_.hulls_of(file, scale_of_vertices);
+    // An included file may have its meshes beside it.
+    const std::filesystem::path own = files_.files()[asset.file].parent_path();
+    answer = meshes_.hulls_of(file, scale_of_vertices, {}, {own / mesh_folder_, own});
   }
   if (moves)
     for (Shape<double>& hull : answer.hulls)
@@ -104,8 +176,7 @@ MeshLibrary::Answer MjcfAssets::hulls_of(const std::string& name, const XmlEleme
 }
 
 void MjcfAssets::hand_over_meshes() {
-  model_.meshes = meshes_.take_meshes();
-  model_.hash += meshes_.hash_text();
+  meshes_.hand_over(model_);
 }
 
 }  // namespace minkray

@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "renderer/import/import_options.h"
 #include "renderer/import/mesh_library.h"
@@ -16,16 +17,16 @@ namespace minkray {
 
 class MjcfAssets {
  public:
-  using Rgba = std::array<double, 4>;
-
   MjcfAssets(Model& model, XmlFiles& files, const ImportOptions& options)
       : model_(model),
         files_(files),
         options_(options),
         meshes_(std::filesystem::path(), options) {}
 
-  /// Says where mesh files are, and that their own folders in the file count for nothing.
-  void look_in(const std::filesystem::path& folder, bool strips_path);
+  /// Says where mesh files are: in a folder relative to the model's file, or to the file that names
+  /// them; and whether their own folders in the file count for nothing.
+  void look_in(const std::filesystem::path& file_folder, const std::filesystem::path& mesh_folder,
+               bool strips_path);
 
   /// Reads an <asset>.
   void read(const XmlElement& assets, const MjcfDefaults& defaults);
@@ -36,12 +37,23 @@ class MjcfAssets {
   /// Adds the hulls of the mesh that a geom names; `e` is the geom with its defaults.
   void add_mesh_geom(const XmlElement& written, const XmlElement& e, ModelGeom geom);
 
+  /// A primitive's sizes as MuJoCo fits them to the mesh that a geom names: by the box of the same
+  /// inertia, or by the box around the mesh along its principal axes. The geom's pose gets that of
+  /// the fitted primitive. Nothing, and a mistake, if there is no mesh to fit to.
+  std::optional<std::vector<double>> fit(const XmlElement& written, const XmlElement& e,
+                                         bool by_bounds, ModelGeom& geom);
+
+  /// Where models to attach are, by name: files as they are written, with the element of each.
+  const std::map<std::string, XmlElement>& models() const { return models_; }
+
   /// Gives the model the meshes that were read, and their hashes.
   void hand_over_meshes();
 
  private:
   std::optional<Rgba> read_rgba(const XmlElement& element) const;
   MeshLibrary::Answer hulls_of(const std::string& name, const XmlElement& asset);
+  /// The hulls of the mesh that a geom names; null, and a mistake, if there is none.
+  const MeshLibrary::Answer* mesh_of(const XmlElement& written, const XmlElement& e);
 
   Model& model_;
   XmlFiles& files_;
@@ -51,6 +63,8 @@ class MjcfAssets {
   std::map<std::string, XmlElement> mesh_assets_;    ///< with their defaults
   std::map<std::string, MeshLibrary::Answer> made_;  ///< of these, for each geom of one
   std::map<std::string, Rgba> materials_;
+  std::map<std::string, XmlElement> models_;
+  std::filesystem::path mesh_folder_;  ///< relative to a file
 };
 
 }  // namespace minkray

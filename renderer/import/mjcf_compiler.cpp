@@ -35,6 +35,7 @@ void MjcfCompiler::read(const XmlElement& e) {
   auto_limits_ = flag(e, "autolimits", auto_limits_);
   discards_visual_ = flag(e, "discardvisual", discards_visual_);
   strips_path_ = flag(e, "strippath", strips_path_);
+  fits_box_ = flag(e, "fitaabb", fits_box_);
 }
 
 double MjcfCompiler::angle(double given) const {
@@ -56,8 +57,7 @@ Mat3<double> MjcfCompiler::rotation_in(const XmlElement& e) const {
   }
   if (const auto v = files_.numbers(e, "axisangle", 4, 4))
     return rotation_about(direction(e, "axisangle", *v, 0), angle((*v)[3]));
-  if (const auto v = files_.numbers(e, "euler", 3, 3))
-    return rotation_of_euler({angle((*v)[0]), angle((*v)[1]), angle((*v)[2])}, euler_);
+  if (const auto v = files_.numbers(e, "euler", 3, 3)) return turn_of({(*v)[0], (*v)[1], (*v)[2]});
   if (const auto v = files_.numbers(e, "xyaxes", 6, 6)) {
     const Vec3<double> x = direction(e, "xyaxes", *v, 0), y = direction(e, "xyaxes", *v, 3);
     if (x.cross(y).norm() > 1e-10) return rotation_of_xy(x, y);
@@ -66,6 +66,10 @@ Mat3<double> MjcfCompiler::rotation_in(const XmlElement& e) const {
   if (const auto v = files_.numbers(e, "zaxis", 3, 3))
     return rotation_of_z_to(direction(e, "zaxis", *v, 0));
   return Mat3<double>::Identity();
+}
+
+Mat3<double> MjcfCompiler::turn_of(const Vec3<double>& angles) const {
+  return rotation_of_euler({angle(angles.x()), angle(angles.y()), angle(angles.z())}, euler_);
 }
 
 Affine<double> MjcfCompiler::pose_in(const XmlElement& e) const {

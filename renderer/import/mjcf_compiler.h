@@ -21,10 +21,14 @@ class MjcfCompiler {
   bool auto_limits() const { return auto_limits_; }
   bool discards_visual() const { return discards_visual_; }
   bool strips_path() const { return strips_path_; }
+  bool fits_box() const { return fits_box_; }
   const std::string& mesh_folder() const { return mesh_folder_; }
 
   /// An angle of the file in radians.
   double angle(double given) const;
+
+  /// The turn by three angles of the file.
+  Mat3<double> turn_of(const Vec3<double>& angles) const;
 
   /// The pose that an element's attributes say.
   Affine<double> pose_in(const XmlElement& e) const;
@@ -37,7 +41,7 @@ class MjcfCompiler {
 
   XmlFiles& files_;
   bool is_degree_ = true, is_global_ = false, auto_limits_ = false, discards_visual_ = false;
-  bool strips_path_ = false;
+  bool strips_path_ = false, fits_box_ = false;
   std::string mesh_folder_, euler_ = "xyz";
 };
 

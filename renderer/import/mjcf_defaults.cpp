@@ -23,9 +23,8 @@ constexpr std::size_t most_bytes_of_classes = std::size_t{64} << 20;
 
 class Includes {
  public:
-  explicit Includes(XmlFiles& files) : files_(files) {
-    const std::filesystem::path& first = files.files().front();
-    folder_ = first.parent_path();
+  Includes(XmlFiles& files, const std::filesystem::path& first)
+      : files_(files), folder_(first.parent_path()) {
     seen_.insert(whole(first));
   }
 
@@ -48,16 +47,18 @@ class Includes {
         files_.wrong(child, "file: must be there");
         continue;
       }
-      const std::filesystem::path file = folder_ / *name;
+      // Beside the first file, or beside the one that includes it.
+      std::filesystem::path file = folder_ / *name;
+      const std::filesystem::path beside = files_.files()[child.file].parent_path() / *name;
+      std::error_code error;
+      if (!std::filesystem::exists(file, error) && std::filesystem::exists(beside, error))
+        file = beside;
       if (depth >= deepest_include || !seen_.insert(whole(file)).second) {
         files_.wrong(child, "the file must not be included twice, nor include itself");
         continue;
       }
       std::optional<XmlElement> root = files_.read(file);
-      if (!root) {
-        files_.wrong(child, "includes a file that cannot be read");
-        continue;
-      }
+      if (!root) continue;  // which was told
       expand(*root, depth + 1, nesting);
       for (XmlElement& included : root->children) children.push_back(std::move(included));
     }
@@ -137,7 +138,7 @@ std::size_t memory_of(const std::vector<XmlAttribute>& attributes) {
 }  // namespace
 
 void expand_includes(XmlElement& root, XmlFiles& files) {
-  Includes(files).expand(root, 0, 1);
+  Includes(files, std::filesystem::path(files.files()[root.file])).expand(root, 0, 1);
 }
 
 bool MjcfDefaults::takes(std::size_t bytes, const XmlElement& element, XmlFiles& files) {

@@ -8,8 +8,9 @@
 
 namespace minkray {
 
-/// Puts what other files hold in the place of each <include>. Files are looked for beside the first
-/// one; none may be included twice, as in MuJoCo.
+/// Puts what other files hold in the place of each <include>. Files are looked for beside the
+/// root's own one, then beside the one that includes them; none may be included twice, as in
+/// MuJoCo.
 void expand_includes(XmlElement& root, XmlFiles& files);
 
 class MjcfDefaults {

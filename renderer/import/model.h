@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -87,7 +88,8 @@ struct Model {
   std::vector<ModelMesh> meshes;
   std::vector<ModelKeyframe> keyframes;
   std::vector<PassedOver> passed_over;
-  std::string hash;  ///< of all that was read
+  std::string hash;                          ///< of all that was read
+  std::vector<std::filesystem::path> files;  ///< that were read
 
   void pass_over(const std::string& what, const std::string& why, std::size_t count = 1);
 };

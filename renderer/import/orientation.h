@@ -2,6 +2,8 @@
 // The ways in which robots' files spell rotations.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <string_view>
 
@@ -66,6 +68,28 @@ inline Mat3<double> rotation_of_xy(const Vec3<double>& x_axis, const Vec3<double
   m.col(1) = y;
   m.col(2) = x.cross(y);
   return m;
+}
+
+/// The quaternion x, y, z, w of a rotation.
+inline std::array<double, 4> quaternion_of(const Mat3<double>& m) {
+  // The largest of the four is divided by, for digits (Shepperd 1978).
+  const double trace = m.trace();
+  std::array<double, 4> q;  // x, y, z, w
+  const double squares[4] = {m(0, 0), m(1, 1), m(2, 2), trace};
+  const auto largest = static_cast<std::size_t>(std::max_element(squares, squares + 4) - squares);
+  if (largest == 3) {
+    q = {m(2, 1) - m(1, 2), m(0, 2) - m(2, 0), m(1, 0) - m(0, 1), 1 + trace};
+  } else {
+    const int i = static_cast<int>(largest), j = (i + 1) % 3, k = (i + 2) % 3;
+    q[largest] = 1 + m(i, i) - m(j, j) - m(k, k);
+    q[static_cast<std::size_t>(j)] = m(j, i) + m(i, j);
+    q[static_cast<std::size_t>(k)] = m(k, i) + m(i, k);
+    q[3] = m(k, j) - m(j, k);
+  }
+  double length = 0;
+  for (const double entry : q) length += entry * entry;
+  for (double& entry : q) entry /= std::sqrt(length);
+  return q;
 }
 
 }  // namespace minkray

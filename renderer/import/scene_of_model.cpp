@@ -11,30 +11,10 @@
 #include "renderer/base/hash.h"
 #include "renderer/image/colour.h"
 #include "renderer/import/framing.h"
+#include "renderer/import/orientation.h"
 
 namespace minkray {
 namespace {
-
-std::array<double, 4> quaternion_of(const Mat3<double>& m) {
-  // The largest of the four is divided by, for digits (Shepperd 1978).
-  const double trace = m.trace();
-  std::array<double, 4> q;  // x, y, z, w
-  const double squares[4] = {m(0, 0), m(1, 1), m(2, 2), trace};
-  const auto largest = static_cast<std::size_t>(std::max_element(squares, squares + 4) - squares);
-  if (largest == 3) {
-    q = {m(2, 1) - m(1, 2), m(0, 2) - m(2, 0), m(1, 0) - m(0, 1), 1 + trace};
-  } else {
-    const int i = static_cast<int>(largest), j = (i + 1) % 3, k = (i + 2) % 3;
-    q[largest] = 1 + m(i, i) - m(j, j) - m(k, k);
-    q[static_cast<std::size_t>(j)] = m(j, i) + m(i, j);
-    q[static_cast<std::size_t>(k)] = m(k, i) + m(i, k);
-    q[3] = m(k, j) - m(j, k);
-  }
-  double length = 0;
-  for (const double entry : q) length += entry * entry;
-  for (double& entry : q) entry /= std::sqrt(length);
-  return q;
-}
 
 class Materials {
  public:
@@ -82,31 +62,49 @@ void light_everything(Scene& scene) {
 }
 
 std::vector<bool> chosen_geoms(const Model& model, GeometryChoice choice) {
-  std::vector<bool> link_is_seen(model.links.size() + 1);
-  for (const ModelGeom& geom : model.geoms)
-    if (geom.is_seen) link_is_seen[static_cast<std::size_t>(geom.link + 1)] = true;
+  const bool any_is_seen = std::ranges::any_of(model.geoms, &ModelGeom::is_seen);
   std::vector<bool> wanted;
   for (const ModelGeom& geom : model.geoms)
-    wanted.push_back(choice == GeometryChoice::all ? true
-                     : choice == GeometryChoice::collision
-                         ? geom.collides
-                         : geom.is_seen || !link_is_seen[static_cast<std::size_t>(geom.link + 1)]);
+    wanted.push_back(choice == GeometryChoice::all         ? true
+                     : choice == GeometryChoice::collision ? geom.collides
+                                                           : geom.is_seen || !any_is_seen);
   return wanted;
 }
 
 namespace {
 
+/// A joint's value beyond its limits, and how often it was.
+struct BeyondLimits {
+  double value = 0;
+  std::size_t count = 0;
+};
+using JointsBeyond = std::map<const ModelJoint*, BeyondLimits>;
+
 /// Joints stand where they are asked to, but not in silence if that is beyond their limits.
-void tell_limits(Model& model) {
+void find_beyond(const Model& model, JointsBeyond& beyond) {
   for (const ModelLink& link : model.links)
     for (const ModelJoint& joint : link.joints) {
-      if (!joint.limits || joint.value.size() != 1) continue;
+      if (!joint.limits || width_of(joint.kind) != 1) continue;
+      const double value = joint.value.empty() ? joint.reference : joint.value[0];
       const auto [lower, upper] = *joint.limits;
-      if (!(joint.value[0] < lower) && !(joint.value[0] > upper)) continue;
+      if (!(value < lower) && !(value > upper)) continue;
+      const auto depth = [&](double x) { return std::max(lower - x, x - upper); };
+      BeyondLimits& found = beyond.try_emplace(&joint, BeyondLimits{value, 0}).first->second;
+      if (depth(value) > depth(found.value)) found.value = value;
+      ++found.count;
+    }
+}
+
+void tell_beyond(Model& model, const JointsBeyond& beyond) {
+  for (const ModelLink& link : model.links)
+    for (const ModelJoint& joint : link.joints) {
+      const auto found = beyond.find(&joint);
+      if (found == beyond.end()) continue;
       char text[120];
-      std::snprintf(text, sizeof text, "it stands at %.6g, beyond %.6g to %.6g", joint.value[0],
-                    lower, upper);
-      model.pass_over("limit of the joint \"" + printable(joint.name, 60) + "\"", text);
+      std::snprintf(text, sizeof text, "it stands at %.6g, beyond %.6g to %.6g",
+                    found->second.value, (*joint.limits)[0], (*joint.limits)[1]);
+      model.pass_over("limit of the joint \"" + printable(joint.name, 60) + "\"", text,
+                      found->second.count);
     }
 }
 
@@ -120,8 +118,8 @@ void pose_model(Model& model, const ImportOptions& options, Mistakes& mistakes) 
       std::string names;
       for (const std::string& name : keyframe_names(model))
         names += (names.empty() ? "" : ", ") + printable(name, 40);
-      mistakes.add("--keyframe: there is none of the name \"" + printable(options.keyframe, 60) +
-                   "\" (" + (names.empty() ? "the file has none" : "known are " + names) + ")");
+      mistakes.add("--keyframe: no keyframe named " + printable(options.keyframe, 60) + "; " +
+                   (names.empty() ? "the file has no keyframes" : "its keyframes are " + names));
     }
   }
   for (const std::string& text : options.joints) {
@@ -164,7 +162,9 @@ void pose_model(Model& model, const ImportOptions& options, Mistakes& mistakes) 
     joint->value = values;
   }
   follow_mimics(model);
-  tell_limits(model);
+  JointsBeyond beyond;
+  if (options.joint_rows.empty()) find_beyond(model, beyond);
+  tell_beyond(model, beyond);
 }
 
 std::optional<MovingFrame> frame_of_link(Model& model, const std::vector<JointRow>& rows,
@@ -222,8 +222,10 @@ Scene scene_of(Model& model, const ImportOptions& options, const std::vector<Joi
   if (scene.materials.empty()) materials.of({0.7, 0.7, 0.7, 1});
 
   const JointsByName joints = joints_by_name(model);
+  JointsBeyond beyond;
   for (const JointRow& row : rows) {
     apply(model, joints, row);
+    find_beyond(model, beyond);
     const std::vector<Affine<double>> at = link_poses(model);
     for (std::size_t k = 0; k < scene.objects.size(); ++k) {
       const ModelGeom& geom = model.geoms[geom_of_object[k]];
@@ -234,6 +236,7 @@ Scene scene_of(Model& model, const ImportOptions& options, const std::vector<Joi
       object.motion->keys.push_back({row.time, pose.translation, quaternion_of(pose.linear)});
     }
   }
+  tell_beyond(model, beyond);
   if (!rows.empty()) set_time(scene, 0);
 
   frame_everything(scene, options.picture);

@@ -5,11 +5,16 @@
 
 #include "renderer/import/geometry_common.h"
 #include "renderer/import/orientation.h"
+#include "renderer/import/prism.h"
 #include "renderer/import/sdf_frames.h"
 
 namespace minkray {
 
 void SdfGeometry::add(const XmlElement& element, int link, const Affine<double>& pose) {
+  read_shapes(model_, files_, options_, [&] { read(element, link, pose); });
+}
+
+void SdfGeometry::read(const XmlElement& element, int link, const Affine<double>& pose) {
   ModelGeom geom;
   geom.link = link;
   geom.name = element.attribute_or("name");
@@ -18,28 +23,71 @@ void SdfGeometry::add(const XmlElement& element, int link, const Affine<double>&
   geom.is_seen = element.name == "visual";
   geom.collides = !geom.is_seen;
   geom.pose = pose;
+  Colouring colouring = Colouring::of_mesh;
   if (const XmlElement* material = element.child("material"))
     if (const XmlElement* diffuse = material->child("diffuse"))
-      if (const auto v = files_.numbers_in(*diffuse, diffuse->text, "diffuse", 3, 4))
+      if (const auto v = files_.numbers_in(*diffuse, diffuse->text, "diffuse", 3, 4)) {
         geom.rgba = {(*v)[0], (*v)[1], (*v)[2], v->size() > 3 ? (*v)[3] : 1};
+        colouring = Colouring::of_robot;
+      }
   const XmlElement* geometry = element.child("geometry");
-  if (!geometry) return files_.wrong(element, "geometry: must be there");
-  for (const XmlElement& shape : geometry->children) add_shape(shape, geom);
+  if (!geometry || geometry->children.empty())
+    return model_.pass_over("<" + element.name + ">", "has no geometry");
+  for (const XmlElement& shape : geometry->children)
+    if (shape.name != "polyline") add_shape(shape, geom, colouring);
+  if (geometry->child("polyline")) add_polylines(*geometry, geom);
+}
+
+/// All outlines of a geometry are of one body: those within others are its holes.
+void SdfGeometry::add_polylines(const XmlElement& geometry, ModelGeom geom) {
+  std::vector<Outline> outlines;
+  const XmlElement& first = *geometry.child("polyline");
+  double height = 1;
+  for (const XmlElement& polyline : geometry.children) {
+    if (polyline.name != "polyline") continue;
+    Outline& outline = outlines.emplace_back();
+    for (const XmlElement& child : polyline.children) {
+      if (child.name == "point") {
+        const auto v = files_.numbers_in(child, child.text, "point", 2, 2);
+        if (!v) return;
+        outline.push_back({(*v)[0], (*v)[1]});
+      } else if (child.name == "height" && &polyline == &first) {
+        const auto v = files_.numbers_in(child, child.text, "height", 1, 1);
+        if (!v) return;
+        height = (*v)[0];
+      }
+    }
+  }
+  if (!(height >= 0))
+    return files_.wrong(first, "height: must be >= 0 (got " + std::to_string(height) + ")");
+  geom.kind = "polyline";
+  try {
+    const std::vector<Shape<double>> prisms = prisms_of(outlines, height);
+    for (std::size_t i = 0; i < prisms.size(); ++i) {
+      ModelGeom one = geom;
+      if (prisms.size() > 1 && !geom.name.empty())
+        one.name = geom.name + "[" + std::to_string(i) + "]";
+      one.shape = prisms[i];
+      model_.geoms.push_back(std::move(one));
+    }
+  } catch (const std::runtime_error& error) {
+    files_.wrong(first, error.what());
+  }
 }
 
 /// The sizes are elements of their own.
-void SdfGeometry::add_shape(const XmlElement& shape, ModelGeom geom) {
+void SdfGeometry::add_shape(const XmlElement& shape, ModelGeom geom, Colouring colouring) {
   geom.kind = shape.name;
   bool is_good = true;
   const auto numbers = [&](const char* key, std::size_t count) {
     const XmlElement* child = shape.child(key);
     std::optional<std::vector<double>> v;
     if (!child)
-      files_.wrong(shape, std::string(key) + ": must be there");
+      files_.wrong(shape, std::string(key) + ": missing");
     else
       v = files_.numbers_in(*child, child->text, key, count, count);
-    if (v && std::ranges::any_of(*v, [](double x) { return !(x > 0); })) {
-      files_.wrong(*child, "must be > 0 (got \"" + printable(child->text, 60) + "\")");
+    if (v && std::ranges::any_of(*v, [](double x) { return !(x >= 0); })) {
+      files_.wrong(*child, "must be >= 0 (got \"" + printable(child->text, 60) + "\")");
       v.reset();
     }
     is_good &= v.has_value();
@@ -57,8 +105,13 @@ void SdfGeometry::add_shape(const XmlElement& shape, ModelGeom geom) {
   } else if (shape.name == "capsule") {
     const double radius = one("radius");
     geom.shape = capsule_of(radius, one("length") / 2);
+  } else if (shape.name == "cone") {
+    const double radius = one("radius");
+    geom.shape = cone_of(radius, one("length") / 2);
   } else if (shape.name == "ellipsoid") {
-    const auto r = numbers("radii", 3);
+    // Drake's has three elements.
+    const auto r =
+        shape.child("a") ? std::vector{one("a"), one("b"), one("c")} : numbers("radii", 3);
     geom.shape = ellipsoid_of({r[0], r[1], r[2]});
   } else if (shape.name == "plane") {
     Vec3<double> normal(0, 0, 1);
@@ -74,14 +127,17 @@ void SdfGeometry::add_shape(const XmlElement& shape, ModelGeom geom) {
     if (const XmlElement* child = shape.child("scale"))
       if (const auto v = files_.numbers_in(*child, child->text, "scale", 3, 3))
         scale = {(*v)[0], (*v)[1], (*v)[2]};
-    if (shape.child("submesh"))
-      model_.pass_over("<submesh>",
-                       "the hull is that of the whole mesh (--split tells parts apart)");
-    return add_mesh(model_, files_, shape, library_of(shape).hulls_of(uri, scale), std::move(geom),
-                    options_);
+    Submesh submesh;
+    if (const XmlElement* child = shape.child("submesh")) {
+      submesh.name = sdf_text(*child, "name");
+      const std::string centre = sdf_text(*child, "center");
+      submesh.is_centred = centre == "true" || centre == "1";
+    }
+    return add_mesh(model_, files_, shape, library_of(shape).hulls_of(uri, scale, submesh),
+                    std::move(geom), options_, colouring);
   } else if (shape.name == "empty") {
     return;
-  } else if (shape.name == "heightmap" || shape.name == "image" || shape.name == "polyline") {
+  } else if (shape.name == "heightmap" || shape.name == "image") {
     return model_.pass_over("<" + shape.name + ">", "is no convex shape");
   } else {
     return files_.wrong(shape, "is no geometry of SDF");
@@ -100,10 +156,7 @@ MeshLibrary& SdfGeometry::library_of(const XmlElement& element) {
 }
 
 void SdfGeometry::hand_over_meshes() {
-  for (const auto& [file, library] : libraries_) {
-    model_.hash += library->hash_text();
-    for (ModelMesh& mesh : library->take_meshes()) model_.meshes.push_back(std::move(mesh));
-  }
+  for (const auto& [file, library] : libraries_) library->hand_over(model_);
 }
 
 }  // namespace minkray

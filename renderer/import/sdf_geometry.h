@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 
+#include "renderer/import/geometry_common.h"
 #include "renderer/import/import_options.h"
 #include "renderer/import/mesh_library.h"
 #include "renderer/import/model.h"
@@ -25,7 +26,9 @@ class SdfGeometry {
   void hand_over_meshes();
 
  private:
-  void add_shape(const XmlElement& shape, ModelGeom geom);
+  void read(const XmlElement& element, int link, const Affine<double>& pose);
+  void add_shape(const XmlElement& shape, ModelGeom geom, Colouring colouring);
+  void add_polylines(const XmlElement& geometry, ModelGeom geom);
   MeshLibrary& library_of(const XmlElement& element);
 
   Model& model_;

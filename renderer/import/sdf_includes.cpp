@@ -2,15 +2,22 @@
 #include "renderer/import/sdf_includes.h"
 
 #include <algorithm>
+#include <sstream>
 
 #include "renderer/import/mesh_library.h"
+#include "renderer/import/orientation.h"
 #include "renderer/import/sdf_frames.h"
+#include "renderer/import/urdf_as_sdf.h"
 
 namespace minkray {
 namespace {
 
 constexpr int most_includes = 1000;
 constexpr double newest_version = 1.9;
+
+bool is_true(const std::string& text) {
+  return text == "true" || text == "1";
+}
 
 void set_attribute(XmlElement& element, const std::string& name, const std::string& value) {
   for (XmlAttribute& attribute : element.attributes)
@@ -24,6 +31,7 @@ void set_attribute(XmlElement& element, const std::string& name, const std::stri
 }  // namespace
 
 void SdfIncludes::expand(XmlElement& root) {
+  drop_vendor_prefixes(root);
   version_of_file_[root.file] = files_.number(root, "version").value_or(newest_version);
   expand(root, 0);
 }
@@ -34,20 +42,97 @@ double SdfIncludes::version_of(const XmlElement& element) const {
 }
 
 void SdfIncludes::expand(XmlElement& parent, int depth) {
+  std::vector<XmlElement> children;
   for (XmlElement& child : parent.children) {
     int inner = depth;
+    bool is_merged = false;
     if (child.name == "include") {
       if (depth >= deepest_sdf_model) {
         files_.wrong(child, "files include each other for ever");
         continue;
       }
       std::optional<XmlElement> model = model_for(child);
-      if (!model) continue;
+      if (!model) {
+        children.push_back(std::move(child));
+        continue;
+      }
+      is_merged = parent.name == "model" && is_true(child.attribute_or("merge"));
       child = std::move(*model);
       ++inner;
     }
     if (child.name == "model" || child.name == "world") expand(child, inner);
+    if (is_merged)
+      merge(std::move(child), children);
+    else
+      children.push_back(std::move(child));
   }
+  parent.children = std::move(children);
+}
+
+/// What the model holds becomes the parent's own, placed by a frame that stands for the model.
+void SdfIncludes::merge(XmlElement model, std::vector<XmlElement>& children) {
+  const std::string frame_name = "_merged__" + model.attribute_or("name") + "__model__";
+  const auto is_of_model = [](const std::string& name) {
+    return name.empty() || name == "__model__";
+  };
+  XmlElement frame;
+  frame.name = "frame";
+  frame.line = model.line;
+  frame.file = model.file;
+  set_attribute(frame, "name", frame_name);
+  if (const XmlElement* first = model.child("link"))
+    set_attribute(frame, "attached_to",
+                  model.attribute_or("canonical_link", first->attribute_or("name")));
+  const XmlElement* given = model.child("pose");
+  XmlElement pose = given ? *given : frame;
+  pose.name = "pose";
+  if (!given) pose.attributes.clear();
+  if (is_of_model(pose.attribute_or("relative_to")))
+    set_attribute(pose, "relative_to", "__model__");
+  if (const std::string placed = model.attribute_or("placement_frame"); !placed.empty())
+    place_by(SdfFrames(model, files_).pose_of(placed, model), pose);
+  frame.children.push_back(std::move(pose));
+  children.push_back(std::move(frame));
+
+  for (XmlElement& child : model.children) {
+    const bool is_placed =
+        child.name == "link" || child.name == "model" || child.name == "include" ||
+        (child.name == "frame" && is_of_model(child.attribute_or("attached_to")));
+    if (child.name == "pose" || child.name == "static") continue;
+    if (child.name == "frame" && is_of_model(child.attribute_or("attached_to")))
+      set_attribute(child, "attached_to", frame_name);
+    auto own = std::ranges::find(child.children, "pose", &XmlElement::name);
+    if (own == child.children.end() && is_placed) {
+      XmlElement at_origin;
+      at_origin.name = "pose";
+      at_origin.line = child.line;
+      at_origin.file = child.file;
+      child.children.push_back(std::move(at_origin));
+      own = child.children.end() - 1;
+    }
+    if (own != child.children.end()) {
+      const std::string* named = own->attribute("relative_to");
+      if (named ? is_of_model(*named) : is_placed) set_attribute(*own, "relative_to", frame_name);
+    }
+    if (child.name == "joint")
+      for (XmlElement& end : child.children)
+        if ((end.name == "parent" || end.name == "child") && sdf_text(end) == "__model__")
+          end.text = frame_name;
+    children.push_back(std::move(child));
+  }
+}
+
+void SdfIncludes::place_by(const Affine<double>& placed, XmlElement& pose) {
+  XmlElement holder;
+  holder.children.push_back(pose);
+  const Affine<double> at = sdf_pose(holder, files_) * placed.inverse();
+  std::ostringstream text;
+  text.precision(17);
+  for (const double x : at.translation) text << x << ' ';
+  for (const double x : quaternion_of(at.linear)) text << x << ' ';
+  pose.text = text.str();
+  std::erase_if(pose.attributes, [](const XmlAttribute& one) { return one.name == "degrees"; });
+  set_attribute(pose, "rotation_format", "quat_xyzw");
 }
 
 std::optional<XmlElement> SdfIncludes::model_for(const XmlElement& include) {
@@ -75,11 +160,24 @@ std::optional<XmlElement> SdfIncludes::model_for(const XmlElement& include) {
   }
   std::optional<XmlElement> root = files_.read(*file);
   if (!root) return std::nullopt;
+  if (root->name != "robot") drop_vendor_prefixes(*root);
   version_of_file_[root->file] = files_.number(*root, "version").value_or(newest_version);
-  const auto found = std::ranges::find(root->children, "model", &XmlElement::name);
-  if (found == root->children.end())
-    return refuse("the file " + printable(file->string(), 100) + " has no <model>");
-  XmlElement model = std::move(*found);
+  XmlElement model;
+  if (root->name == "robot") {
+    model = sdf_of_urdf(std::move(*root), files_);
+  } else {
+    const auto found = std::ranges::find_if(root->children, [](const XmlElement& child) {
+      return child.name == "model" || child.name == "actor" || child.name == "light";
+    });
+    if (found == root->children.end())
+      return refuse("the file " + printable(file->string(), 100) +
+                    " has no <model>, <actor> or <light>");
+    if (found->name == "light") {
+      model_.pass_over("<light>", "is no geometry");
+      return std::nullopt;
+    }
+    model = std::move(*found);
+  }
   // What is wrong with its pose or name is wrong with the <include>.
   model.line = include.line;
   model.file = include.file;
@@ -93,8 +191,6 @@ std::optional<XmlElement> SdfIncludes::model_for(const XmlElement& include) {
     std::erase_if(model.children, [](const XmlElement& child) { return child.name == "pose"; });
     model.children.push_back(*pose);
   }
-  if (include.attribute_or("merge") == "true")
-    model_.pass_over("merge of an <include>", "the model is nested instead");
   return model;
 }
 

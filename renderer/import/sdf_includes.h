@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 
+#include "core/math/affine.h"
 #include "renderer/import/import_options.h"
 #include "renderer/import/model.h"
 #include "renderer/import/xml.h"
@@ -23,8 +24,9 @@ class SdfIncludes {
       : model_(model), files_(files), options_(options) {}
 
   /// Each <include> under the root becomes the <model> it names, under the name and the pose that
-  /// the <include> gives it. There stay those that could not be read, which is a mistake, and
-  /// Gazebo's own sun and ground_plane where they are not there.
+  /// the <include> gives it, or what that model holds if it is to be merged. A URDF is made a
+  /// model; lights are passed over. There stay those that could not be read, which is a mistake,
+  /// and Gazebo's own sun and ground_plane where they are not there.
   void expand(XmlElement& root);
 
   /// The version of SDF that the element's file is written in.
@@ -32,6 +34,10 @@ class SdfIncludes {
 
  private:
   void expand(XmlElement& parent, int depth);
+  void merge(XmlElement model, std::vector<XmlElement>& children);
+  /// The pose becomes that of the model one of whose frames, `placed` in the model, it was given
+  /// of.
+  void place_by(const Affine<double>& placed, XmlElement& pose);
   std::optional<XmlElement> model_for(const XmlElement& include);
   std::filesystem::path file_of_config(const std::filesystem::path& config,
                                        const XmlElement& include);

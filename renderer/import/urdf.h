@@ -10,6 +10,6 @@
 
 namespace minkray {
 
-Model read_urdf(const XmlElement& robot, XmlFiles& files, const ImportOptions& options);
+Model read_urdf(XmlElement robot, XmlFiles& files, const ImportOptions& options);
 
 }  // namespace minkray

@@ -8,9 +8,11 @@
 #include <charconv>
 #include <cmath>
 #include <exception>
+#include <utility>
 
 #include "core/files/regular_file.h"
 #include "renderer/base/hash.h"
+#include "renderer/base/of_file.h"
 
 namespace minkray {
 namespace {
@@ -101,6 +103,33 @@ const XmlElement* XmlElement::child(std::string_view key) const {
   return nullptr;
 }
 
+void XmlFiles::missing_mesh(MissingMesh mesh) {
+  if (complaints_) return wrong(mesh.element, mesh.complaint);
+  for (MissingMesh& known : missing_meshes_)
+    if (known.complaint == mesh.complaint) {
+      known.is_seen |= mesh.is_seen;
+      known.collides |= mesh.collides;
+      return;
+    }
+  mesh.element.children.clear();
+  missing_meshes_.push_back(std::move(mesh));
+}
+
+void drop_vendor_prefixes(XmlElement& root) {
+  static const std::set<std::string, std::less<>> known = {
+      "a",     "axis",     "b",         "box",    "c",      "capsule", "child",
+      "cone",  "cylinder", "ellipsoid", "joint",  "length", "mesh",    "parent",
+      "plane", "pose",     "radii",     "radius", "size",   "sphere",  "type"};
+  const auto drop = [](std::string& name) {
+    const std::size_t colon = name.find(':');
+    if (colon == name.npos || name.starts_with("xacro:")) return;
+    if (known.contains(std::string_view(name).substr(colon + 1))) name.erase(0, colon + 1);
+  };
+  drop(root.name);
+  for (XmlAttribute& one : root.attributes) drop(one.name);
+  for (XmlElement& child : root.children) drop_vendor_prefixes(child);
+}
+
 std::string name_of(const XmlElement& element) {
   std::string text = "<" + element.name;
   for (const char* key : {"name", "class", "file", "filename"})
@@ -122,7 +151,7 @@ std::optional<XmlElement> XmlFiles::read(const std::filesystem::path& file,
   try {
     return parse(read_regular_file(file, most_bytes), file);
   } catch (const std::exception& error) {
-    mistakes_.add((files_.empty() ? "" : printable(file.string(), 200) + ": ") + error.what());
+    mistakes_.add((files_.empty() ? "" : printable(file.string(), 200) + ": ") + what_of(error));
     return std::nullopt;
   }
 }
@@ -174,6 +203,12 @@ std::optional<XmlElement> XmlFiles::parse(const std::string& text,
     mistakes_.add(where + "has no element");
     return std::nullopt;
   }
+  if (const auto* other = document.RootElement()->NextSiblingElement()) {
+    mistakes_.add(where + "line " + std::to_string(other->GetLineNum()) +
+                  ": must have one root element (got <" + printable(other->Name(), 40) +
+                  "> behind <" + printable(document.RootElement()->Name(), 40) + ">)");
+    return std::nullopt;
+  }
   XmlElement root = converted(*document.RootElement(), index);
   if (tell_long_names(root)) return std::nullopt;
   return root;
@@ -193,7 +228,23 @@ bool XmlFiles::tell_long_names(const XmlElement& element) {
   return any;
 }
 
+std::vector<std::string> XmlFiles::complaints_of(const std::function<void()>& read) {
+  std::vector<std::string> complaints;
+  std::vector<std::string>* const outer = std::exchange(complaints_, &complaints);
+  read();
+  complaints_ = outer;
+  return complaints;
+}
+
 void XmlFiles::wrong(const XmlElement& element, std::string_view message) {
+  if (complaints_) {
+    complaints_->push_back("<" + printable(element.name, longest_quote) +
+                           ">: " + std::string(message));
+    return;
+  }
+  // Elements that are shown again and again have one mistake.
+  std::string key = std::to_string(element.file) + ":" + std::to_string(element.line) + ":";
+  if (!told_.insert(key.append(message)).second) return;
   if (++reported_ > most_reported) {
     if (reported_ == most_reported + 1) mistakes_.add("and more mistakes, which are not told");
     return;

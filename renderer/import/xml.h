@@ -5,7 +5,9 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -47,10 +49,18 @@ inline constexpr std::size_t most_xml_attributes = 200;
 /// A name, a class or a prefix has at most so many bytes: few lines can make each body carry it.
 inline constexpr std::size_t longest_xml_name = 1000;
 
+/// Takes the prefix off names that a vendor has added to a format for what it could as well have:
+/// <drake:capsule>, <drake:joint>, drake:type="planar".
+void drop_vendor_prefixes(XmlElement& root);
+
 /// The files that one model was read from, and what is wrong with them.
 class XmlFiles {
  public:
   explicit XmlFiles(Mistakes& mistakes) : mistakes_(mistakes) {}
+
+  /// Runs `read`. Returns what is wrong with what it reads; empty: nothing. The caller leaves that
+  /// out, and so this is no mistake of the file.
+  std::vector<std::string> complaints_of(const std::function<void()>& read);
 
   /// The root element of a file. Nothing, and a mistake, if it is no XML, too large, declares
   /// entities of its own, or has an element of too many attributes or too long a name.
@@ -63,6 +73,16 @@ class XmlFiles {
   /// A mistake at an element: "line 12: <geom name="x">: size: must be ...". After many of them no
   /// more are kept.
   void wrong(const XmlElement& element, std::string_view message);
+
+  /// A mesh that an element names and that is missing: whether it matters is known when all is
+  /// read.
+  struct MissingMesh {
+    XmlElement element;
+    std::string complaint;
+    bool is_seen = false, collides = false;
+  };
+  void missing_mesh(MissingMesh mesh);
+  std::vector<MissingMesh> take_missing_meshes() { return std::move(missing_meshes_); }
 
   const std::vector<std::filesystem::path>& files() const { return files_; }
   /// All text that was read.
@@ -84,6 +104,9 @@ class XmlFiles {
   bool tell_long_names(const XmlElement& element);
 
   Mistakes& mistakes_;
+  std::vector<std::string>* complaints_ = nullptr;  ///< get what is wrong, if they are collected
+  std::set<std::string> told_;
+  std::vector<MissingMesh> missing_meshes_;
   std::vector<std::filesystem::path> files_;
   std::string hash_text_;
   std::size_t reported_ = 0, elements_ = 0, bytes_ = 0;

@@ -9,8 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "renderer/io/image_size.h"
-
 namespace minkray {
 namespace {
 
@@ -23,12 +21,13 @@ constexpr int run = 128, longest_run = 127;
 
 class RadianceReader {
  public:
-  explicit RadianceReader(std::string_view bytes) : rest_(bytes) {}
+  RadianceReader(std::string_view bytes, std::int64_t most_pixels)
+      : rest_(bytes), most_pixels_(most_pixels) {}
 
   Image read() {
     read_header();
     read_size();
-    check_image_size(width_, height_);
+    check_image_size(width_, height_, most_pixels_);
     check_length();
     Image image(width_, height_);
     std::vector<Rgbe> row(static_cast<std::size_t>(width_));
@@ -142,13 +141,14 @@ class RadianceReader {
   }
 
   std::string_view rest_;
+  std::int64_t most_pixels_;
   int width_ = 0, height_ = 0, row_ = 0;
 };
 
 }  // namespace
 
-Image read_radiance(std::string_view bytes) {
-  return RadianceReader(bytes).read();
+Image read_radiance(std::string_view bytes, std::int64_t most_pixels) {
+  return RadianceReader(bytes, most_pixels).read();
 }
 
 }  // namespace minkray

@@ -4,14 +4,16 @@
 // reads them too; its release 2.27 does not end where such a file does.
 #pragma once
 
+#include <cstdint>
 #include <string_view>
 
 #include "renderer/image/image.h"
+#include "renderer/io/image_size.h"
 
 namespace minkray {
 
 /// Throws std::runtime_error, with what was expected and found, if it is no such picture, cut off,
 /// or of more pixels than may be read.
-Image read_radiance(std::string_view bytes);
+Image read_radiance(std::string_view bytes, std::int64_t most_pixels = most_image_pixels);
 
 }  // namespace minkray

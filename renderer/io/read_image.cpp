@@ -7,6 +7,7 @@
 #include <cstring>
 #include <limits>
 #include <memory>
+#include <new>
 #include <stdexcept>
 #include <vector>
 
@@ -14,7 +15,6 @@
 #include "core/shape/field.h"
 #include "renderer/image/colour.h"
 #include "renderer/io/exr.h"
-#include "renderer/io/image_size.h"
 #include "renderer/io/jpeg_segments.h"
 #include "renderer/io/png_chunks.h"
 #include "renderer/io/radiance.h"
@@ -29,9 +29,19 @@
 namespace minkray {
 namespace {
 
+/// True if stb_image asked for memory that there is not: it gives other reasons then, or none.
+thread_local bool is_out_of_memory = false;
+
+void* cleared(std::size_t bytes) {
+  void* memory = std::calloc(1, bytes);
+  is_out_of_memory |= !memory;
+  return memory;
+}
+
 /// std::realloc, cleared where it is new.
 void* grown(void* memory, std::size_t old_bytes, std::size_t bytes) {
   void* larger = std::realloc(memory, bytes);
+  is_out_of_memory |= !larger;
   if (larger && bytes > old_bytes)
     std::memset(static_cast<char*>(larger) + old_bytes, 0, bytes - old_bytes);
   return larger;
@@ -42,7 +52,7 @@ void* grown(void* memory, std::size_t old_bytes, std::size_t bytes) {
 
 // stb_image up to 2.27 does not clear what it decodes with or into: a scan of a JPEG file may name
 // tables that the file does not hold, and pixels of a PNG may be copied from what is not yet there.
-#define STBI_MALLOC(bytes) std::calloc(1, bytes)
+#define STBI_MALLOC(bytes) ::minkray::cleared(bytes)
 #define STBI_REALLOC_SIZED(memory, old_bytes, bytes) ::minkray::grown(memory, old_bytes, bytes)
 #define STBI_FREE(memory) std::free(memory)
 #pragma GCC diagnostic push
@@ -63,7 +73,12 @@ struct Free {
   void operator()(void* pixels) const { stbi_image_free(pixels); }
 };
 
-Image image_of_exr(const std::filesystem::path& file) {
+[[noreturn]] void fail_as_stb() {
+  if (is_out_of_memory) throw std::bad_alloc();
+  throw std::runtime_error(std::string("cannot be read: ") + stbi_failure_reason());
+}
+
+Image image_of_exr(const std::filesystem::path& file, std::int64_t most_pixels) {
   const ExrImage exr = read_exr(file.string());
   const auto floats = [&](std::string_view name) -> const std::vector<float>* {
     const ExrPlane* plane = exr.find(name);
@@ -74,7 +89,7 @@ Image image_of_exr(const std::filesystem::path& file) {
   for (const auto*& plane : planes) plane = plane ? plane : grey;
   if (!planes[0] || !planes[1] || !planes[2])
     throw std::runtime_error("must have the channels R, G and B, or Y");
-  check_image_size(exr.window.width(), exr.window.height());
+  check_image_size(exr.window.width(), exr.window.height(), most_pixels);
   Image image(exr.window.width(), exr.window.height());
   for (std::size_t i = 0; i < image.pixels.size(); ++i)
     image.pixels[i] = {(*planes[0])[i], (*planes[1])[i], (*planes[2])[i]};
@@ -93,15 +108,15 @@ std::vector<float> light_of_codes() {
 
 /// What stb_image reads, by a function of its own for codes of such a size.
 template <class Code, class Load>
-Image image_of_stb(std::string_view bytes, Load load) {
+Image image_of_stb(std::string_view bytes, std::int64_t most_pixels, Load load) {
   int width = 0, height = 0, channels = 0;
   const auto* begin = reinterpret_cast<const stbi_uc*>(bytes.data());
   const int size = static_cast<int>(bytes.size());
-  if (!stbi_info_from_memory(begin, size, &width, &height, &channels))
-    throw std::runtime_error(std::string("cannot be read: ") + stbi_failure_reason());
-  check_image_size(width, height);
+  is_out_of_memory = false;
+  if (!stbi_info_from_memory(begin, size, &width, &height, &channels)) fail_as_stb();
+  check_image_size(width, height, most_pixels);
   const std::unique_ptr<Code, Free> codes(load(begin, size, &width, &height, &channels, 3));
-  if (!codes) throw std::runtime_error(std::string("cannot be read: ") + stbi_failure_reason());
+  if (!codes) fail_as_stb();
   const std::vector<float> light = light_of_codes<Code>();
   Image image(width, height);
   for (std::size_t i = 0; i < image.pixels.size(); ++i)
@@ -112,23 +127,23 @@ Image image_of_stb(std::string_view bytes, Load load) {
 
 }  // namespace
 
-Image read_image(const std::filesystem::path& file) {
+Image read_image(const std::filesystem::path& file, std::int64_t most_pixels) {
   std::string ending = file.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   Image image;
   if (ending == ".exr") {
-    image = image_of_exr(file);
+    image = image_of_exr(file, most_pixels);
   } else if (ending == ".hdr") {
-    image = read_radiance(read_regular_file(file, most_picture_bytes));
+    image = read_radiance(read_regular_file(file, most_picture_bytes), most_pixels);
   } else if (ending == ".png" || ending == ".jpg" || ending == ".jpeg") {
     std::string bytes = read_regular_file(file, most_picture_bytes);
     mend_png(bytes);
     check_jpeg(bytes);
     const auto* begin = reinterpret_cast<const stbi_uc*>(bytes.data());
     image = stbi_is_16_bit_from_memory(begin, static_cast<int>(bytes.size()))
-                ? image_of_stb<stbi_us>(bytes, stbi_load_16_from_memory)
-                : image_of_stb<stbi_uc>(bytes, stbi_load_from_memory);
+                ? image_of_stb<stbi_us>(bytes, most_pixels, stbi_load_16_from_memory)
+                : image_of_stb<stbi_uc>(bytes, most_pixels, stbi_load_from_memory);
   } else {
     throw std::runtime_error(std::string("must be one of ") + readable_images);
   }

@@ -3,10 +3,12 @@
 // ones too. stb_image is seen by read_image.cpp alone.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
 #include "renderer/image/image.h"
+#include "renderer/io/image_size.h"
 
 namespace minkray {
 
@@ -14,7 +16,7 @@ namespace minkray {
 inline constexpr const char* readable_images = ".exr, .hdr, .png, .jpg";
 
 /// Throws std::runtime_error, which says what is wrong, for a file that cannot be used: also one
-/// with numbers that are negative or none.
-Image read_image(const std::filesystem::path& file);
+/// with numbers that are negative or none, or with more pixels than `most_pixels`.
+Image read_image(const std::filesystem::path& file, std::int64_t most_pixels = most_image_pixels);
 
 }  // namespace minkray

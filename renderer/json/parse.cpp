@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/files/regular_file.h"
+#include "renderer/base/of_file.h"
 
 namespace minkray {
 namespace {
@@ -237,9 +238,15 @@ std::optional<Json> parse_json(std::string_view text, Mistakes& mistakes) {
     mistakes.add(tree.path(), "must not be nested more than " +
                                   std::to_string(deepest_json_nesting) + " levels deep");
   } else {
-    mistakes.add(tree.path(), "not valid JSON at line:column " +
-                                  line_and_column(text, tree.error_position) + ": " +
-                                  printable(reason(tree.error_reason), 200));
+    const std::size_t at = tree.error_position > 0 ? tree.error_position - 1 : 0;
+    const std::string_view rest = text.substr(std::min(at, text.size()));
+    const bool is_comment =
+        rest.starts_with("//") || rest.starts_with("/*") || rest.starts_with('#');
+    mistakes.add(tree.path(),
+                 "not valid JSON at line:column " + line_and_column(text, tree.error_position) +
+                     ": " +
+                     (is_comment ? "JSON has no comments: remove it, or write a \"description\""
+                                 : printable(reason(tree.error_reason), 200)));
   }
   return std::nullopt;
 }
@@ -254,8 +261,8 @@ Json Json::parse(std::string_view text) {
 std::optional<std::string> read_text_file(const std::filesystem::path& path, Mistakes& mistakes) {
   try {
     return read_regular_file(path, most_json_bytes);
-  } catch (const std::runtime_error& error) {
-    mistakes.add(error.what());
+  } catch (const std::exception& error) {
+    mistakes.add(what_of(error));
     return std::nullopt;
   }
 }

@@ -4,6 +4,7 @@
 #include <exception>
 
 #include "core/files/mesh_file.h"
+#include "renderer/base/of_file.h"
 #include "renderer/io/read_image.h"
 
 namespace minkray {
@@ -12,12 +13,16 @@ namespace {
 /// Meshes that are not part of the sources are fetched by a script of this name beside the scene.
 constexpr const char* fetch_script = "fetch-meshes";
 
-/// "; fetch it with: scenes/fetch-meshes" if the file is missing and there is such a script.
+/// "; fetch it with: scenes/fetch-meshes" if the file is missing and there is such a script, which
+/// an installed Minkray has not.
 std::string advice(const std::filesystem::path& folder, const std::filesystem::path& file) {
   std::error_code error;
+  if (std::filesystem::exists(file, error)) return "";
   const std::filesystem::path script = folder / fetch_script;
-  if (std::filesystem::exists(file, error) || !std::filesystem::exists(script, error)) return "";
-  return "; fetch it with: " + script.string();
+  if (std::filesystem::exists(script, error)) return "; fetch it with: " + script.string();
+  if (folder.parent_path().filename() == "minkray" && folder.filename() == "scenes")
+    return "; it does not come with Minkray: scenes/fetch-meshes in Minkray's sources downloads it";
+  return "";
 }
 
 }  // namespace
@@ -37,7 +42,8 @@ std::optional<PointCloud<double>> MeshFiles::read(const std::string& name, const
     read_.emplace(name, Mesh{points, hash.text()});
     return points;
   } catch (const std::exception& error) {
-    mistakes.add(path, printable(file.string(), 200) + ": " + error.what() + advice(folder_, file));
+    mistakes.add(path,
+                 printable(file.string(), 200) + ": " + what_of(error) + advice(folder_, file));
     return std::nullopt;
   }
 }
@@ -66,7 +72,8 @@ std::optional<std::vector<PointCloud<double>>> MeshFiles::read_parts(const std::
     parts.hash = hash.text();
     return parts_.emplace(std::pair(name, split), std::move(parts)).first->second.hulls;
   } catch (const std::exception& error) {
-    mistakes.add(path, printable(file.string(), 200) + ": " + error.what() + advice(folder_, file));
+    mistakes.add(path,
+                 printable(file.string(), 200) + ": " + what_of(error) + advice(folder_, file));
     return std::nullopt;
   }
 }
@@ -77,7 +84,8 @@ std::shared_ptr<const Image> MeshFiles::read_picture(const std::string& name, co
   if (known != pictures_.end()) return known->second.image;
   const std::filesystem::path file = folder_ / name;
   try {
-    const auto image = std::make_shared<const Image>(read_image(file));
+    const auto image = std::make_shared<const Image>(read_image(file, most_image_pixels - pixels_));
+    pixels_ += static_cast<std::int64_t>(image->pixels.size());
     Hash hash;
     hash.add(std::to_string(image->width));
     hash.add({reinterpret_cast<const char*>(image->pixels.data()),
@@ -85,7 +93,7 @@ std::shared_ptr<const Image> MeshFiles::read_picture(const std::string& name, co
     pictures_.emplace(name, Picture{image, hash.text()});
     return image;
   } catch (const std::exception& error) {
-    mistakes.add(path, printable(file.string(), 200) + ": " + error.what());
+    mistakes.add(path, printable(file.string(), 200) + ": " + what_of(error));
     return nullptr;
   }
 }
@@ -93,6 +101,13 @@ std::shared_ptr<const Image> MeshFiles::read_picture(const std::string& name, co
 std::vector<std::filesystem::path> MeshFiles::pictures() const {
   std::vector<std::filesystem::path> files;
   for (const auto& [name, picture] : pictures_) files.push_back(folder_ / name);
+  return files;
+}
+
+std::vector<std::filesystem::path> MeshFiles::meshes() const {
+  std::vector<std::filesystem::path> files;
+  for (const auto& [name, mesh] : read_) files.push_back(folder_ / name);
+  for (const auto& [key, parts] : parts_) files.push_back(folder_ / key.first);
   return files;
 }
 

@@ -2,6 +2,7 @@
 // The files of meshes and pictures that a scene or a query names, each read once.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -35,8 +36,9 @@ class MeshFiles {
   /// Adds what was read: the names, and all vertices.
   void add_to(Hash& hash) const;
 
-  /// The files of the pictures that were read.
+  /// The files that were read: of pictures, and of meshes.
   std::vector<std::filesystem::path> pictures() const;
+  std::vector<std::filesystem::path> meshes() const;
 
   /// The picture of a file; null, and a mistake at `path`, if it cannot be used.
   std::shared_ptr<const Image> read_picture(const std::string& name, const JsonPath& path,
@@ -59,6 +61,7 @@ class MeshFiles {
     std::string hash;  ///< of all pixels
   };
   std::map<std::string, Picture> pictures_;
+  std::int64_t pixels_ = 0;  ///< of all pictures
 };
 
 }  // namespace minkray

@@ -173,6 +173,7 @@ std::optional<ParticleSet> read_particles(const Json& json, const JsonPath& path
   const std::filesystem::path named = source.folder / *name;
   try {
     source.hash.add(*name);
+    source.files.push_back(named);
     read_particle_file(named, count, source.most_rows, rows, source.hash);
   } catch (const std::runtime_error& error) {
     mistakes.add(block.path("file"), printable(named.string(), 200) + ": " + error.what());

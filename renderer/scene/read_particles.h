@@ -19,8 +19,9 @@ struct ParticleSource {
   const Scene& scene;                   ///< as far as it is read
   const std::filesystem::path& folder;  ///< files are named relative to it
   MeshFiles& meshes;
-  Hash& hash;             ///< files' contents go into it
-  std::size_t most_rows;  ///< no more particles than these
+  Hash& hash;                                 ///< files' contents go into it
+  std::vector<std::filesystem::path>& files;  ///< gets the files that are read
+  std::size_t most_rows;                      ///< no more particles than these
   /// The index of the material of that name; a mistake, and any index, if there is none.
   std::function<std::uint32_t(const Json&, const JsonPath&)> material_named;
 };

@@ -30,6 +30,11 @@ class SceneReader {
       : scene_(scene), folder_(folder), meshes_(folder), mistakes_(mistakes) {}
 
   std::vector<std::filesystem::path> pictures() const { return meshes_.pictures(); }
+  std::vector<std::filesystem::path> other_files() const {
+    std::vector<std::filesystem::path> files = meshes_.meshes();
+    files.insert(files.end(), pose_files_.begin(), pose_files_.end());
+    return files;
+  }
 
   void add_files_to(Hash& hash) const {
     meshes_.add_to(hash);
@@ -215,7 +220,8 @@ class SceneReader {
   void read_particle_block(const Json& json, const JsonPath& path) {
     auto set = read_particles(
         json, path, mistakes_,
-        {scene_, folder_, meshes_, particle_files_, most_instances - instance_count(scene_),
+        {scene_, folder_, meshes_, particle_files_, pose_files_,
+         most_instances - instance_count(scene_),
          [&](const Json& name, const JsonPath& at) { return read_material_name(name, at); }});
     if (set) scene_.particles.push_back(std::move(*set));
   }
@@ -257,6 +263,7 @@ class SceneReader {
   Scene& scene_;
   std::filesystem::path folder_;
   Hash particle_files_;
+  std::vector<std::filesystem::path> pose_files_;
   MeshFiles meshes_;
   Mistakes& mistakes_;
   std::map<std::string, std::uint32_t> material_index_;
@@ -265,7 +272,8 @@ class SceneReader {
 }  // namespace
 
 std::optional<Scene> parse_scene(std::string_view text, const std::filesystem::path& folder,
-                                 Mistakes& mistakes) {
+                                 Mistakes& mistakes,
+                                 std::vector<std::filesystem::path>* other_files) {
   const auto json = parse_json(text, mistakes);
   if (!json) return std::nullopt;
   Scene scene;
@@ -278,14 +286,16 @@ std::optional<Scene> parse_scene(std::string_view text, const std::filesystem::p
   reader.add_files_to(hash);
   scene.hash = hash.text();
   scene.pictures = reader.pictures();
+  if (other_files) *other_files = reader.other_files();
   return scene;
 }
 
-Scene load_scene(const std::filesystem::path& file) {
+Scene load_scene(const std::filesystem::path& file,
+                 std::vector<std::filesystem::path>* other_files) {
   Mistakes mistakes(file.string());
   std::optional<Scene> scene;
   if (const auto text = read_text_file(file, mistakes)) {
-    scene = parse_scene(*text, file.parent_path(), mistakes);
+    scene = parse_scene(*text, file.parent_path(), mistakes, other_files);
   }
   throw_if_any(mistakes);
   return std::move(*scene);

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "renderer/json/mistakes.h"
 #include "renderer/scene/scene.h"
@@ -15,11 +16,14 @@ namespace minkray {
 inline constexpr int scene_version = 1;
 
 /// The scene that the text describes. Nothing if there is any mistake in it; all of them are
-/// added to the mistakes. Mesh files are looked for in `folder`.
+/// added to the mistakes. Mesh files are looked for in `folder`. `other_files`, if any, gets the
+/// files that were read besides pictures.
 std::optional<Scene> parse_scene(std::string_view text, const std::filesystem::path& folder,
-                                 Mistakes& mistakes);
+                                 Mistakes& mistakes,
+                                 std::vector<std::filesystem::path>* other_files = nullptr);
 
 /// The scene in a file. Throws BadInput with all mistakes, one a line.
-Scene load_scene(const std::filesystem::path& file);
+Scene load_scene(const std::filesystem::path& file,
+                 std::vector<std::filesystem::path>* other_files = nullptr);
 
 }  // namespace minkray

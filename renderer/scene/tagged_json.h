@@ -11,6 +11,7 @@
 #include "core/shape/declared.h"
 #include "renderer/json/values.h"
 #include "renderer/scene/read_member.h"
+#include "renderer/scene/words_elsewhere.h"
 
 namespace minkray {
 
@@ -76,7 +77,7 @@ std::optional<Variant> read_tagged(ObjectReader& object, std::string_view what, 
   });
   if (!known) {
     object.mistakes().add(object.path("type"), "must be the name of " + std::string(what) + " (" +
-                                                   found(*type) + "; " + suggestion(*name, names) +
+                                                   found(*type) + "; " + name_meant(*name, names) +
                                                    ")");
   }
   return result;

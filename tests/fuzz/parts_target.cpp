@@ -82,7 +82,7 @@ std::string check_mesh_parts(std::string_view bytes) {
   MeshParts mesh;
   std::string refused;
   try {
-    mesh = format.read(folder.path() / name, options.split);
+    mesh = format.read(folder.path() / name, options.split).mesh;
   } catch (const std::runtime_error& error) {
     refused = error.what();
     if (const std::string bad = check_message(refused); !bad.empty()) return bad;
@@ -95,7 +95,9 @@ std::string check_mesh_parts(std::string_view bytes) {
   if (const std::string bad = check_parts(mesh, options.split, format.ending == ".stl");
       !bad.empty())
     return bad;
-  for (const ModelMesh& facts : library.take_meshes())
+  Model model;
+  library.hand_over(model);
+  for (const ModelMesh& facts : model.meshes)
     if (!(facts.deepest >= 0) || !std::isfinite(facts.deepest)) return "vertices outside the hull";
   return check_hulls(mesh, answer, scale);
 }

@@ -79,8 +79,13 @@ TEST(MeshFile, whatever_is_wrong_is_told) {
   EXPECT_EQ(complaint("k.stl", ""),
             "must begin with \"solid\", or be a binary STL of at least 84 bytes (got 0)");
   EXPECT_EQ(complaint("l.stl", "facet normal 0 0 1\n" + std::string(100, ' ')),
-            "must begin with \"solid\", or be a binary STL of at least 84 bytes (got 119, for "
-            "triangles without number)");
+            "must begin with \"solid\", or be a binary STL: its triangle count must be at most "
+            "10737418 (got 538976288, in a file that has room for 0)");
+  std::string wrong_count = binary_stl({0, 0, 0, 1, 0, 0, 0, 1, 0.5f});
+  std::fill_n(wrong_count.begin() + 80, 4, '\xff');
+  EXPECT_EQ(complaint("m.stl", wrong_count),
+            "must begin with \"solid\", or be a binary STL: its triangle count must be at most "
+            "10737418 (got 4294967295, in a file that has room for 1)");
   EXPECT_EQ(complaint("i.ply", "v 1 2 3\n"), "must be a mesh file that ends in .obj or .stl");
   EXPECT_EQ(complaint("j.stl", binary_stl({0, 0, 0, std::numeric_limits<float>::infinity(), 0, 0, 0,
                                            1, 0.5f})),

@@ -7,8 +7,10 @@
 #include <regex>
 #include <set>
 #include <sstream>
+#include <tuple>
 
 #include "core/query/solver_kind.h"
+#include "renderer/cli/verbs.h"
 #include "tests/support/program.h"
 #include "tests/support/source_files.h"
 
@@ -63,19 +65,142 @@ TEST(FirstContact, an_unknown_name_is_told_with_the_names_there_are) {
   EXPECT_NE(outcome.err.find("shape-zoo, showcase"), std::string::npos) << outcome.err;
 }
 
-TEST(FirstContact, a_first_word_that_is_no_verb_is_told_with_the_verbs_there_are) {
-  for (const std::string word : {"rendr", "-V", "--solver"}) {
-    const ProgramOutcome outcome = run_shell("$MINKRAY " + word);
-    EXPECT_EQ(outcome.exit_code, 2) << word;
-    EXPECT_NE(outcome.err.find("--version or one of render, merge"), std::string::npos)
-        << outcome.err;
-    EXPECT_NE(outcome.err.find("(got " + word + ")"), std::string::npos) << outcome.err;
+/// What the program says of a command line that it refuses.
+std::string refusal(const std::string& words, int exit_code = 2) {
+  const ProgramOutcome outcome = run_shell("$MINKRAY " + words);
+  EXPECT_EQ(outcome.exit_code, exit_code) << words << ": " << outcome.err;
+  EXPECT_EQ(outcome.out, "") << words;
+  return outcome.err;
+}
+
+TEST(FirstContact, words_that_are_not_known_are_told_with_what_to_write) {
+  const std::pair<const char*, const char*> typed[] = {
+      {"rendr", "unknown command `rendr`; did you mean `render`?"},
+      {"-v", "unknown option `-v`; did you mean `--version`?"},
+      {"-V", "did you mean `--version`?"},
+      {"version", "did you mean `--version`?"},
+      {"hlep", "did you mean `help`?"},
+      {"lidar", "did you mean `scan`?"},
+      {"convert", "did you mean `import`?"},
+      {"frobnicate", "minkray --help lists all commands"},
+      {"--solver", "unknown option `--solver`"},
+      {"help rendr", "did you mean `render`?"},
+      {"render shape-zoo --samples 4", "unknown option `--samples`; did you mean `--spp N`?"},
+      {"render shape-zoo --width 320", "did you mean `--resolution WIDTHxHEIGHT`?"},
+      {"render shape-zoo --camera 1,2,3", "the scene file says it: \"camera\""},
+      {"render shape-zoo --toenmap agx", "did you mean `--tonemap`?"},
+      {"render shape-zoo --no-such-thing", "minkray render --help lists all"},
+      {"render shape-zoo other.json", "unexpected argument `other.json`"},
+      {"render shape-zoo -o a.exr --aov depth", "did you mean `Z`?"},
+      {"render shape-zoo -o a.exr --aov normals", "did you mean `N`?"},
+      {"render shape-zoo --tonemap aces", "did you mean `filmic`?"},
+      {"render shape-zoo --solver papr", "did you mean `paper`?"},
+      {"render shape-zoo --integrator pathtracing", "did you mean `path`?"},
+      {"trace shape-zoo --pixl 3,3", "did you mean `--pixel`?"},
+      {"man rendr", "render"}};
+  for (const auto& [words, expected] : typed)
+    EXPECT_NE(refusal(words).find(expected), std::string::npos) << words << ": " << refusal(words);
+}
+
+TEST(FirstContact, files_and_words_of_other_programs_are_told_with_ours) {
+  const TemporaryFolder folder;
+  const auto scene = [&](const std::string& shape, const std::string& material,
+                         const std::string& light) {
+    return R"({"version": 1, "camera": {"position": [0, -5, 1], "look_at": [0, 0, 0]}, "lights": [{"type": ")" +
+           light + R"("}], "materials": [{"name": "m", "type": ")" + material +
+           R"("}], "objects": [{"name": "o", "material": "m", "shape": {"type": ")" + shape +
+           R"("}}]})";
+  };
+  const std::tuple<std::string, std::string, std::string> files[] = {
+      {"a.json", scene("cube", "lambert", "point"), "did you mean \"box\"?"},
+      {"a.json", scene("mesh", "lambert", "point"), "use \"hull\" with the mesh as its \"file\""},
+      {"a.json", scene("torus", "lambert", "point"), "a torus is not convex"},
+      {"a.json", scene("sphere", "glass", "point"), "did you mean \"dielectric\"?"},
+      {"a.json", scene("sphere", "metal", "point"), "did you mean \"conductor\"?"},
+      {"a.json", scene("sphere", "lambert", "area"), "an object with an \"emissive\" material"},
+      {"a.json", scene("sphere", "lambert", "spot"), "there are no spot lights"},
+      {"a.json", "// mine\n{\"version\": 1}", "JSON has no comments"},
+      {"a.json", "{\"version\": 1, // mine\n}", "JSON has no comments"},
+      {"a.json", "{\"version\": 1} # mine\n", "JSON has no comments"},
+      {"a.png", "\x89PNG\r\n", "is a picture (PNG)"},
+      {"a.blend", "BLENDER-v402", "is a Blender file: export it as glTF"},
+      {"a.stl", "solid a\n", "is a mesh (STL)"}};
+  for (const auto& [name, text, expected] : files) {
+    const std::string told = refusal("info '" + folder.write(name, text) + "'", 3);
+    EXPECT_NE(told.find(expected), std::string::npos) << text << "\n" << told;
   }
+  const std::string robot =
+      folder.write("r.xml", "<mujoco><worldbody><geom size=\"1\"/></worldbody></mujoco>");
+  EXPECT_NE(refusal("info '" + robot + "' --keyframe squat", 3)
+                .find("--keyframe: no keyframe named squat; the file has no keyframes"),
+            std::string::npos);
+}
+
+TEST(FirstContact, help_is_a_command_too) {
+  const std::string all = run_shell("$MINKRAY --help").out;
+  EXPECT_NE(all.find("Subcommands:"), std::string::npos);
+  EXPECT_EQ(run_shell("$MINKRAY help").out, all);
+  for (const VerbRow& row : minkray::verbs) {
+    const std::string name(row.name);
+    const ProgramOutcome help = run_shell("$MINKRAY help " + name);
+    EXPECT_EQ(help.exit_code, 0) << name;
+    EXPECT_EQ(help.out, run_shell("$MINKRAY " + name + " --help").out) << name;
+  }
+}
+
+TEST(FirstContact, help_has_lines_of_80_columns_two_examples_and_no_task_of_the_sources) {
+  std::vector<std::string> pages = {run_shell("$MINKRAY --help").out, run_shell("$MINKRAY").out};
+  for (const VerbRow& row : minkray::verbs) {
+    pages.push_back(run_shell("$MINKRAY " + std::string(row.name) + " --help").out);
+    std::size_t examples = 0;
+    for (std::size_t at = 0;
+         (at = pages.back().find("\n  minkray " + std::string(row.name), at)) != std::string::npos;
+         ++at)
+      ++examples;
+    EXPECT_EQ(examples, 2u) << row.name;
+  }
+  for (const std::string& page : pages) {
+    EXPECT_EQ(page.find("./run"), std::string::npos) << page;
+    std::istringstream lines(page);
+    for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80u) << line;
+  }
+}
+
+/// The options of the examples are there.
+TEST(FirstContact, examples_use_options_that_there_are) {
+  for (const VerbRow& row : minkray::verbs) {
+    const std::string help = run_shell("$MINKRAY " + std::string(row.name) + " --help").out;
+    for (const std::string_view example : row.examples) {
+      const std::string text(example);
+      const std::regex option(" (--?[a-z][a-z0-9-]*)");
+      for (std::sregex_iterator match(text.begin(), text.end(), option), end; match != end; ++match)
+        EXPECT_TRUE(
+            std::regex_search(help, std::regex("\n  ([^ ]*,)?" + (*match)[1].str() + "[ ,\n]")))
+            << text;
+    }
+  }
+}
+
+TEST(FirstContact, a_joint_beyond_its_limits_is_told_on_stderr) {
+  const TemporaryFolder folder;
+  const std::string robot = folder.write(
+      "r.urdf",
+      R"(<robot name="r"><link name="a"><visual><geometry><box size="1 1 1"/></geometry></visual></link><link name="b"/>
+      <joint name="j" type="revolute"><parent link="a"/><child link="b"/><limit lower="-1" upper="1" effort="1"
+      velocity="1"/></joint></robot>)");
+  const std::string render =
+      "$MINKRAY render '" + robot + "' -r 8x6 -s 1 -o '" + folder / "a.png" + "' --joint j=";
+  EXPECT_NE(
+      run_shell(render + "9").err.find("limit of the joint \"j\": it stands at 9, beyond -1 to 1"),
+      std::string::npos);
+  EXPECT_EQ(run_shell(render + "0.5").err.find("limit"), std::string::npos);
 }
 
 TEST(FirstContact, each_verb_that_takes_a_solver_says_which_there_are) {
   for (const std::string verb : {"render", "heatmap", "compare", "inspect", "cast", "trace"}) {
-    const std::string help = run_shell("$MINKRAY " + verb + " --help").out;
+    // Lines are broken where they are too long.
+    const std::string help =
+        std::regex_replace(run_shell("$MINKRAY " + verb + " --help").out, std::regex("\\s+"), " ");
     for (const SolverDescription& solver : solver_descriptions)
       EXPECT_NE(help.find(std::string(solver.name) + ": " + std::string(solver.doc)),
                 std::string::npos)
@@ -113,7 +238,7 @@ TEST(FirstContact, a_preview_is_drawn_with_half_blocks_where_there_is_no_termina
 }
 
 /// The verbs that --help lists.
-std::vector<std::string> verbs() {
+std::vector<std::string> names_of_verbs() {
   const std::string help = run_shell("$MINKRAY --help").out;
   std::vector<std::string> names;
   std::istringstream lines(help.substr(help.find("Subcommands:")));
@@ -138,7 +263,7 @@ std::set<std::string> options_in_help(const std::string& verb) {
 }
 
 TEST(ManPages, every_verb_has_one_with_just_the_options_of_its_help) {
-  const std::vector<std::string> names = verbs();
+  const std::vector<std::string> names = names_of_verbs();
   ASSERT_GT(names.size(), 10u);
   const std::string all = run_shell("$MINKRAY man").out;
   for (const std::string& verb : names) {
@@ -163,7 +288,7 @@ TEST(ManPages, every_verb_has_one_with_just_the_options_of_its_help) {
 TEST(Completion, bash_offers_the_options_of_each_verbs_help) {
   const TemporaryFolder folder;
   ASSERT_EQ(run_shell("$MINKRAY completion bash > '" + folder / "minkray" + "'").exit_code, 0);
-  for (const std::string& verb : verbs()) {
+  for (const std::string& verb : names_of_verbs()) {
     const ProgramOutcome offered =
         run_shell("bash -c 'source \"" + folder / "minkray" + "\"; COMP_WORDS=(minkray " + verb +
                   " --); COMP_CWORD=2; _minkray; printf \"%s\\n\" \"${COMPREPLY[@]}\"'");
@@ -191,7 +316,7 @@ TEST(Completion, bash_offers_verbs_and_the_values_of_an_option) {
 TEST(Completion, every_shell_knows_every_long_option) {
   for (const std::string shell : {"bash", "zsh", "fish"}) {
     const std::string text = run_shell("$MINKRAY completion " + shell).out;
-    for (const std::string& verb : verbs())
+    for (const std::string& verb : names_of_verbs())
       for (const std::string& option : options_in_help(verb))
         EXPECT_NE(text.find(shell == "fish" ? " -l " + option.substr(2) : option),
                   std::string::npos)

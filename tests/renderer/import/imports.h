@@ -4,9 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 
 #include "renderer/import/import.h"
+#include "renderer/import/mesh_looks.h"
+#include "tests/support/temporary_folder.h"
 
 namespace minkray {
 
@@ -22,5 +25,55 @@ inline std::string mistakes_of(const std::string& text, const std::string& file 
   EXPECT_FALSE(parse_model(text, file, {}, mistakes));
   return mistakes.text();
 }
+
+inline Model model_of(const std::string& text, const std::string& file,
+                      const ImportOptions& options = {}) {
+  Mistakes mistakes(file);
+  std::optional<Model> model = parse_model(text, file, options, mistakes);
+  EXPECT_TRUE(model) << mistakes.text();
+  return model ? std::move(*model) : Model();
+}
+
+inline std::string complaint(const std::filesystem::path& file, const ImportOptions& options = {}) {
+  try {
+    import_scene(file, options);
+  } catch (const BadInput& error) {
+    return error.what();
+  }
+  return "";
+}
+
+inline std::string mjcf(const std::string& world, const std::string& before = "") {
+  return "<mujoco>" + before + "<worldbody>" + world + "</worldbody></mujoco>";
+}
+
+inline std::string_view kind_of(const Model& model) {
+  if (model.geoms.size() != 1 || !model.geoms[0].shape) return "none";
+  return std::visit([](const auto& shape) { return shape.name; }, model.geoms[0].shape->kind);
+}
+
+inline bool tells(const Model& model, const std::string& what, const std::string& why = "") {
+  return std::ranges::any_of(model.passed_over, [&](const PassedOver& one) {
+    return one.what.find(what) != one.what.npos && one.why.find(why) != one.why.npos;
+  });
+}
+
+/// A folder with a mesh of two parts, red and blue.
+class MeshFolder : public ::testing::Test {
+ protected:
+  MeshFolder() {
+    folder.write(
+        "two.obj",
+        "mtllib two.mtl\nusemtl red\no left\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\n"
+        "f 1 3 4\nf 2 3 4\nusemtl blue\no right\nv 5 0 0\nv 6 0 0\nv 5 1 0\nv 5 0 1\nf 5 6 7\n"
+        "f 5 6 8\nf 5 7 8\n");
+    folder.write("two.mtl", "newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\nd 0.5\n");
+  }
+  Imported import(const std::string& name, const std::string& text,
+                  const ImportOptions& options = {}) {
+    return import_scene(folder.write(name, text), options);
+  }
+  TemporaryFolder folder;
+};
 
 }  // namespace minkray

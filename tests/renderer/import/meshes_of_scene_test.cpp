@@ -86,7 +86,9 @@ TEST(MeshesOfScene, vertices_of_the_hull_lie_below_nothing) {
   const ImportOptions options;
   MeshLibrary library(folder.path(), options);
   EXPECT_EQ(library.hulls_of("m.obj", Vec3<double>(1, 2, -3)).complaint, "");
-  const std::vector<ModelMesh> meshes = library.take_meshes();
+  Model model;
+  library.hand_over(model);
+  const std::vector<ModelMesh>& meshes = model.meshes;
   ASSERT_EQ(meshes.size(), 1u);
   EXPECT_EQ(meshes[0].corners, 300u);
   EXPECT_EQ(meshes[0].deepest, 0);

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "renderer/io/png.h"
+#include "tests/support/program.h"
 #include "tests/support/temporary_folder.h"
 
 namespace minkray {
@@ -111,6 +112,44 @@ TEST(Chunks, of_pixels_that_the_file_does_not_hold_are_refused_before_there_is_r
     EXPECT_NE(read(whole.substr(0, length)).find("cut off"), std::string::npos) << length;
   // What stands behind the end is nobody's.
   EXPECT_EQ(read(whole + huge.substr(name - 4, 8)), "");
+}
+
+/// Six pictures of one colour, of 400 KB each, took 8 GB.
+TEST_F(EmptyChunks, all_pictures_of_a_scene_have_a_limit_together) {
+  const std::string file = folder.write("picture.png", picture);
+  EXPECT_EQ(read_image(file, 20).width, 5);
+  for (const std::int64_t left : {19, 0}) {
+    try {
+      read_image(file, left);
+      FAIL() << left;
+    } catch (const std::runtime_error& error) {
+      EXPECT_EQ(
+          std::string(error.what()),
+          "all pictures of a scene together must have at most 2^27 pixels (got 5 x 4, and those "
+          "before it leave " +
+              std::to_string(left) + ")");
+    }
+  }
+}
+
+/// It was "no SOI", which is about JPEG files.
+TEST_F(EmptyChunks, running_out_of_memory_says_so) {
+  if (limited_memory().empty()) GTEST_SKIP() << "needs a limit of memory";
+  constexpr int side = 6000;
+  const std::vector<unsigned char> bytes =
+      png_of(side, side, std::vector<std::uint8_t>(std::size_t{3} * side * side));
+  folder.write("large.png", {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  const std::string scene = folder.write(
+      "scene.json", R"({"version": 1, "camera": {"position": [0, -5, 1], "look_at": [0, 0, 0]},
+    "lights": [{"type": "environment", "file": "large.png"}], "materials": [], "objects": []})");
+  for (const char* kilobytes : {"200000", "500000"}) {
+    const ProgramOutcome outcome =
+        run_shell("ulimit -v " + std::string(kilobytes) + "; $MINKRAY info '" + scene + "'");
+    EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
+    EXPECT_NE(outcome.err.find("large.png: there is not enough memory to read it"),
+              std::string::npos)
+        << outcome.err;
+  }
 }
 
 }  // namespace

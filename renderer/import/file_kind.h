@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// What kind of file a name stands for, by its first bytes: endings are what somebody chose, such as
+// ".urdf.xacro".
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace minkray {
+
+enum class FileKind : unsigned char {
+  scene,  ///< JSON, or what is to be told as such
+  xml,
+  gltf,
+  other,  ///< a picture, an archive, a mesh
+};
+
+struct FileContent {
+  FileKind kind = FileKind::scene;
+  std::string what = {};  ///< of other files: "a picture (PNG)"
+};
+
+/// A file that cannot be read, or is empty, is told by its ending.
+FileContent content_of(const std::filesystem::path& file);
+
+/// The same of the first bytes of a file.
+FileContent content_of(std::string_view begin, const std::filesystem::path& file);
+
+}  // namespace minkray

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// What mesh files say of their parts besides where vertices are: names, and colours of materials.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace minkray {
+
+/// As robots' files have colours: red, green, blue (sRGB) and opacity, from 0 to 1.
+using Rgba = std::array<double, 4>;
+
+/// Few lines can show a part again and again: of more, no looks are kept.
+inline constexpr std::size_t most_part_looks = 10'000;
+
+struct PartLook {
+  std::vector<std::string> names;       ///< any of which stands for the part
+  std::map<Rgba, std::size_t> colours;  ///< faces of each
+};
+
+struct MeshLooks {
+  std::vector<PartLook> parts;  ///< in the order of the parts, if these are the file's groups
+  std::vector<std::filesystem::path> files = {};  ///< that were read for them
+  std::vector<std::string> notes = {};            ///< what could not be used
+};
+
+/// The colour of most faces of a part, or of all parts together; nothing if none has one.
+std::optional<Rgba> colour_of(const PartLook& part);
+std::optional<Rgba> colour_of(const MeshLooks& looks);
+
+/// How many colours there are in all parts.
+std::size_t colour_count(const MeshLooks& looks);
+
+/// Reads an OBJ file's groups and the materials (.mtl) that it names.
+MeshLooks obj_looks(const std::filesystem::path& file);
+
+}  // namespace minkray

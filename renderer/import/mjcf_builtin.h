@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// MuJoCo's builtin meshes (3.3.5): the vertices that <mesh builtin="sphere" params="2"/> stands
+// for.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/math/vec.h"
+
+namespace minkray {
+
+/// Rounded to float, as MuJoCo has them. Throws std::runtime_error that says what is wrong with the
+/// name or the parameters.
+std::vector<Vec3<double>> builtin_mesh(const std::string& name, std::span<const double> params);
+
+}  // namespace minkray

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// The geoms of MJCF: primitives by their sizes or two ends, or fitted to meshes, and meshes.
+#pragma once
+
+#include <functional>
+
+#include "renderer/import/mjcf_assets.h"
+#include "renderer/import/mjcf_compiler.h"
+
+namespace minkray {
+
+struct GeomSource {
+  Model& model;
+  XmlFiles& files;
+  const MjcfCompiler& compiler;
+  MjcfAssets& assets;
+};
+
+/// Adds what a <geom> stands for to the model; `e` is the element with its defaults, `geom` has its
+/// name and link. `local` makes a pose that the file gives one in the link's frame.
+void add_mjcf_geom(const XmlElement& written, const XmlElement& e, ModelGeom geom,
+                   const std::function<Affine<double>(const Affine<double>&)>& local,
+                   const GeomSource& in);
+
+}  // namespace minkray

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// Elements of MJCF that MuJoCo got after what is read here: told by the version they belong to.
+#pragma once
+
+#include <algorithm>
+#include <iterator>
+#include <string>
+
+#include "renderer/import/import_options.h"
+#include "renderer/import/model.h"
+#include "renderer/import/xml.h"
+
+namespace minkray {
+
+struct NewerElement {
+  std::string_view name, version;
+};
+inline constexpr NewerElement newer_elements[] = {
+    {"flexcomp", "3.0"}, {"flex", "3.0"}, {"deformable", "3.0"}};
+
+/// True if the element is one of these: a mistake, or passed over if that is allowed.
+inline bool is_newer(const XmlElement& element, Model& model, XmlFiles& files,
+                     const ImportOptions& options) {
+  const auto newer = std::ranges::find(newer_elements, element.name, &NewerElement::name);
+  if (newer == std::end(newer_elements)) return false;
+  const std::string what =
+      "is of MuJoCo " + std::string(newer->version) + ": deformable bodies are not read";
+  if (options.lenient)
+    model.pass_over("<" + element.name + ">", what);
+  else
+    files.wrong(element, what + " (--lenient leaves them out)");
+  return true;
+}
+
+}  // namespace minkray

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// Extruded outlines (SDF's <polyline>) as convex prisms: outlines may be of any shape, and lie
+// within each other as holes do (even-odd rule). A convex outline is one prism; others are cut at
+// their corners into trapezoids (trapezoidal decomposition; de Berg et al., Computational Geometry,
+// 2008, chapter 6, by a sweep over sorted corners).
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/shape/shape.h"
+
+namespace minkray {
+
+using Outline = std::vector<std::array<double, 2>>;
+
+/// The prisms between z = 0 and z = height, which must be > 0. Throws std::runtime_error if the
+/// outlines enclose nothing, or need more than 100,000 prisms.
+std::vector<Shape<double>> prisms_of(const std::vector<Outline>& outlines, double height);
+
+}  // namespace minkray

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// Words of other programs for what scene files call by another name.
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "renderer/json/object_reader.h"
+
+namespace minkray {
+
+struct WordElsewhere {
+  std::string_view word;
+  std::string_view name;          ///< here; it tells shapes, materials and lights apart
+  std::string_view instead = "";  ///< what to write, where the name alone does not say it
+};
+
+inline constexpr WordElsewhere words_elsewhere[] = {
+    {"cube", "box"},
+    {"cuboid", "box"},
+    {"block", "box"},
+    {"ball", "sphere"},
+    {"pyramid", "hull", "use \"hull\" with the five corners as \"points\""},
+    {"mesh", "hull", "use \"hull\" with the mesh as its \"file\": its convex hull is shown"},
+    {"polyhedron", "hull"},
+    {"convex", "hull"},
+    {"torus", "hull", "a torus is not convex: build it of several convex shapes, such as capsules"},
+    {"union", "hull_of", "shapes are convex: a union is several objects, or \"hull_of\" them"},
+    {"plane", "hull",
+     "a plane is unbounded, so it cannot be an operand; an object's shape may be one"},
+    {"glass", "dielectric"},
+    {"water", "dielectric"},
+    {"metal", "conductor"},
+    {"mirror", "conductor"},
+    {"gold", "conductor"},
+    {"plastic", "glossy"},
+    {"phong", "glossy"},
+    {"diffuse", "lambert"},
+    {"matte", "lambert"},
+    {"pbr", "principled"},
+    {"disney", "principled"},
+    {"emission", "emissive"},
+    {"emitter", "emissive"},
+    {"light", "emissive"},
+    {"area", "point", "an area light is an object with an \"emissive\" material"},
+    {"spot", "point",
+     "there are no spot lights: use \"point\", or an object with an \"emissive\" material"},
+    {"sun", "directional", "use \"directional\", or \"sun_sky\" for a sun in its sky"},
+    {"distant", "directional"},
+    {"ambient", "environment"},
+    {"sky", "environment", "use \"environment\", or \"sun_sky\" for the sky of a day"},
+    {"hdri", "environment", "use \"environment\" with the picture as its \"file\""},
+};
+
+/// What is likely meant by a name that is not among those there are.
+inline std::string name_meant(const std::string& written, const std::vector<std::string>& names) {
+  for (const WordElsewhere& one : words_elsewhere)
+    if (one.word == written && std::ranges::find(names, one.name) != names.end())
+      return one.instead.empty() ? "did you mean \"" + std::string(one.name) + "\"?"
+                                 : std::string(one.instead);
+  return suggestion(written, names);
+}
+
+}  // namespace minkray
