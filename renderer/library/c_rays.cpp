@@ -192,15 +192,14 @@ int minkray_shape_cast(minkray_shape shape, const minkray_pose* pose, const mink
     if (count > 0) require(hits, "hits");
     if (count == 1 && !options && held.customs().empty()) {
       const Ray<double> ray = ray_of(rays);
-      WorldHit hit;
-      if (!pose || is_identity(*pose)) {
-        hit.cast = cast_ray(held.prepared(), ray);
-      } else {
+      const auto cast = [&] {
+        if (!pose || is_identity(*pose)) return cast_ray(held.prepared(), ray);
         // Nothing is counted: the handle's owner keeps the definition.
         const ShapeDefinition<double>& definition = *held.definition();
-        const PreparedShape<double> prepared(definition, definition.placed(pose_of(pose, "pose")));
-        hit.cast = cast_ray(prepared, ray);
-      }
+        return cast_ray(
+            PreparedShape<double>(definition, definition.placed(pose_of(pose, "pose"))), ray);
+      };
+      WorldHit hit{no_instance, cast()};
       if (hit.cast.found()) hit.instance = 0;
       plain_hit(ray, hit, hit.cast.status == Status::exhausted, *hits);
       return;

@@ -13,12 +13,9 @@
 
 namespace minkray {
 
-const HeldShape& shape_of(minkray_shape shape, const char* argument) {
-  const HeldShape* held = held_shapes().find(shape.id);
-  if (!held)
-    wrong_use(std::string(argument) + ": must be a shape (got " +
-              (shape.id == 0 ? "none" : "one that was released, or none") + ")");
-  return *held;
+void wrong_shape(minkray_shape shape, const char* argument) {
+  wrong_use(std::string(argument) + ": must be a shape (got " +
+            (shape.id == 0 ? "none" : "one that was released, or none") + ")");
 }
 
 namespace {

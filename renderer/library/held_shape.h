@@ -74,6 +74,12 @@ inline Handles<HeldShape>& held_shapes() {
 }
 
 /// Throws CallError, which begins with the argument's name, if there is none of that number.
-const HeldShape& shape_of(minkray_shape shape, const char* argument);
+[[noreturn]] void wrong_shape(minkray_shape shape, const char* argument);
+inline const HeldShape& shape_of(minkray_shape shape, const char* argument) {
+  const HeldShape* const held = held_shapes().find(shape.id);
+  if (!held) [[unlikely]]
+    wrong_shape(shape, argument);
+  return *held;
+}
 
 }  // namespace minkray
