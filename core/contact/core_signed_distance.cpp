@@ -133,13 +133,14 @@ CoreDistance depth_of_cores(const CorePair& pair, Enclosure enclosure, CoreDista
     if (found.status != CoreStatus::overlapping && found.lower < 0 &&
         enclose(pair, gap, found, enclosure)) {
       found.status = CoreStatus::overlapping;
-      if (only_sign) {
+      const double depth = depth_within(enclosure);
+      if (only_sign && depth > 2 * pair.rounding()) {
+        found.upper = -depth;
         found.c.setZero();
         return found;
       }
     }
-    if (found.status == CoreStatus::overlapping && !only_sign &&
-        depth_by_polytope(pair, gap, enclosure, found))
+    if (found.status == CoreStatus::overlapping && depth_by_polytope(pair, gap, enclosure, found))
       return found;
     const int supports = found.supports;
     found.supports = 0;

@@ -151,20 +151,33 @@ class Advance {
     return start_.loss + 2 * std::numeric_limits<double>::epsilon() * t * speed_;
   }
 
-  SignedDistance at(double t, bool only_sign = false) {
-    ++result_.steps;
+  SignedDistance at(double t) {
     SignedDistanceOptions how;
-    how.only_sign = only_sign;
     how.tolerance = std::min(1e-9, options_.touching);
-    // An overlap that GJK alone does not prove is proven a little later, when it is deeper.
-    if (only_sign) how.max_supports = 0;
+    const SignedDistance there = at(t, how);
+    exhausted_ += there.is_exhausted ? 1 : 0;
+    return there;
+  }
+
+  /// Its upper bound is no more than 0 only if they overlap. GJK alone is asked first, and what it
+  /// leaves open is searched for at some cost.
+  SignedDistance overlap_at(double t) {
+    SignedDistanceOptions how;
+    how.only_sign = true;
+    how.max_supports = 0;
+    const SignedDistance there = at(t, how);
+    if (there.upper <= 0 || !(there.upper <= touching_)) return there;
+    constexpr int some_supports = 2000;
+    how.max_supports = some_supports;
+    return at(t, how);
+  }
+
+  SignedDistance at(double t, const SignedDistanceOptions& how) {
+    ++result_.steps;
     const Affine<double> at_a = turning_a_.at(t), at_b = turning_b_.at(t);
     const Between between{start_.x + t * velocity_ + at_b.translation - at_a.translation,
                           loss_at(t)};
-    const SignedDistance there =
-        signed_distance(a_, at_a.linear, b_, at_b.linear, between, how, memory_);
-    exhausted_ += there.is_exhausted && !only_sign ? 1 : 0;
-    return there;
+    return signed_distance(a_, at_a.linear, b_, at_b.linear, between, how, memory_);
   }
 
   /// The speed at which the nearest points part, negative if they approach.
@@ -290,7 +303,7 @@ class Advance {
       double later = std::max((2 * now.upper + deep * touching_) / std::max(speed, 1e-6 * speed_),
                               t * rounding);
       for (int i = 0; i < 40 && t + later <= t_end; ++i, later *= 2) {
-        const SignedDistance then = at(t + later, true);
+        const SignedDistance then = overlap_at(t + later);
         if (then.upper <= 0) {
           t_hi = t + later;
           break;
