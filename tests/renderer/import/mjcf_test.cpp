@@ -269,7 +269,7 @@ TEST(Mjcf, mistakes_are_told_all_at_once_with_their_lines) {
   for (const char* expected :
        {"line 2: <compiler>: angle", "line 4: <geom>: size: of a capsule must be 2 numbers > 0",
         "line 5: <geom>: type", "line 6: <joint>: axis", "line 7: <geom>: size",
-        "line 8: <geom>: mesh: there is no <mesh>", "line 9: <replicate>: is not read"})
+        "line 8: <geom>: mesh: there is no <mesh>", "line 9: <replicate>: count: must be"})
     EXPECT_NE(told.find(expected), told.npos) << expected << " in\n" << told;
 }
 
