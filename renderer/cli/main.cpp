@@ -26,10 +26,10 @@ constexpr const char* first_page =
     "Minkray casts rays at exact convex shapes. Three commands to try:\n"
     "\n"
     "  minkray render shape-zoo          a picture of every shape: shape-zoo.png\n"
-    "  minkray heatmap showcase          what each pixel of it costs: showcase-heatmap.png\n"
+    "  minkray heatmap showcase          the cost of each pixel: showcase-heatmap.png\n"
     "  minkray info --shapes             what a scene's shapes may be\n"
     "\n"
-    "minkray help lists all commands, minkray help COMMAND shows what one of them takes.\n";
+    "minkray help lists all commands, minkray help COMMAND shows what one takes.\n";
 
 /// The parser says of an unknown command, or of an option before it, only that one is required.
 void check_command(const Parser& parser, const std::string& name) {

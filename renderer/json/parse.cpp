@@ -238,8 +238,7 @@ std::optional<Json> parse_json(std::string_view text, Mistakes& mistakes) {
     mistakes.add(tree.path(), "must not be nested more than " +
                                   std::to_string(deepest_json_nesting) + " levels deep");
   } else {
-    const std::size_t at = tree.error_position > 0 ? tree.error_position - 1 : 0;
-    const std::string_view rest = text.substr(std::min(at, text.size()));
+    const std::string_view rest = text.substr(std::min(tree.error_position, text.size()));
     const bool is_comment =
         rest.starts_with("//") || rest.starts_with("/*") || rest.starts_with('#');
     mistakes.add(tree.path(),

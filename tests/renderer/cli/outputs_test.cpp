@@ -129,7 +129,7 @@ class Outputs : public NothingLost {
         "o x\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\nf 1 3 4\nf 2 3 4\n";
     folder_.write("t.obj", mesh);
     folder_.write("u.obj", mesh);
-    folder_.write("p.csv", "x,y,z\n1,2,3\n");
+    folder_.write("p.csv", "1,2,3\n");
     folder_.write("r.urdf", robot_text);
     folder_.write("rows.csv", "time,j\n0,0\n1,1\n");
     folder_.write("r.srdf", R"(<robot name="r"><disable_collisions link1="a" link2="b"/></robot>)");
