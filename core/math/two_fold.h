@@ -135,6 +135,7 @@ Mat3<T> accurate_inverse(const TwoFoldMat3<T>& m) {
   constexpr T half_the_digits = T(1) / T(1ll << (std::numeric_limits<T>::digits / 2 + 3));
   constexpr int most_steps = 8;
   TwoFoldMat3<T> inverse(inverse_of(m.high));
+  bool is_pivoted = false;
   if (m.is_identity()) return inverse.high;
   for (int step = 0; step < most_steps; ++step) {
     Mat3<T> rest;  // of the identity less m * inverse
@@ -155,7 +156,11 @@ Mat3<T> accurate_inverse(const TwoFoldMat3<T>& m) {
         inverse.set(i, k, inverse(i, k) + TwoFold<T>{correction(i, k), T(0)});
     const T largest = rest.cwiseAbs().maxCoeff();
     if (largest <= half_the_digits) return inverse.high;
-    if (!(largest < T(1))) break;
+    if (largest < T(1)) continue;
+    if (is_pivoted) break;
+    // Cofactors lose the square of the condition, elimination with pivots the condition.
+    is_pivoted = true;
+    inverse = TwoFoldMat3<T>(Mat3<T>(m.high.fullPivLu().inverse()));
   }
   return Mat3<T>::Constant(std::numeric_limits<T>::quiet_NaN());
 }
