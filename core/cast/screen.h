@@ -38,7 +38,7 @@ struct Screen {
   ScreenForm form;
   FormKind kind = FormKind::none;  ///< none: lanes cannot look at it
   bool is_whole = false;           ///< the form is the shape, and not a box around it
-  /// Of polytopes, five floats a plane: normal, offset, depth.
+  /// Five floats per plane of a polytope: normal, offset, depth.
   std::shared_ptr<const std::vector<float>> planes = {};
 };
 

@@ -46,7 +46,7 @@ Vec3<T> moved_back(const Vec3<T>& point, const TwoFoldVec3<T>& way) {
   return (TwoFoldVec3<T>(point) - way).rounded();
 }
 
-/// The same kind of shape, `way` nearer to the origin; nothing of kinds that have no place.
+/// A shape of this kind, `way` nearer to the origin; nothing for kinds that have no place.
 template <class T>
 struct MovedBack {
   const TwoFoldVec3<T>& way;
@@ -160,7 +160,7 @@ Recentred<T> taken_out(const Shape<T>& shape) {
   return std::visit(TakenOut<T>{shape}, shape.kind);
 }
 
-/// Of each kind of shape.
+/// Handles each kind of shape.
 template <class T>
 struct LargestCoordinate {
   T operator()(const Transform<T>& shape) const {

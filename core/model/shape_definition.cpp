@@ -168,7 +168,7 @@ ShapeDefinition<T>::ShapeDefinition(Shape<T> shape) : original_(shape), inner_(s
     in_long_double_ = std::make_shared<const Shape<long double>>(convert<long double>(inner_));
 }
 
-/// Of the shape about its middle: what rounds them is the shape's size, until that is added.
+/// Takes bounds about the shape's middle first: these are rounded by the shape's size alone.
 template <class T>
 Bounds<T> ShapeDefinition<T>::bounds_of(const Affine<T>& pose) const {
   const Mat3<T> linear = linear_under(pose, outer_).high * up_;

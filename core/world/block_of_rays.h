@@ -22,7 +22,7 @@ constexpr double widest = 0.25;
 constexpr float block_padding = 1 + 8 * std::numeric_limits<float>::epsilon();
 
 struct alignas(32) Block {
-  /// Of each ray: its direction less the middle's, and 1 / direction, which is never infinite.
+  /// By ray: its direction less the middle's, and 1 / direction, which is never infinite.
   float delta[3][all_rays], inverse[3][all_rays];
   double origin[4], middle[4];
   double middle_squared;

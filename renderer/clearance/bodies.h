@@ -28,7 +28,7 @@ struct ClearanceBody {
   double reach() const { return middle.at.high.norm() + shape.ball_radius(); }
 };
 
-/// The same obstacle, seen from a frame that is at `frame` in the world, a rigid pose.
+/// Returns the obstacle, seen from a frame that is at `frame` in the world, a rigid pose.
 ClearanceBody seen_from(const Affine<double>& frame, ClearanceBody obstacle);
 
 /// The shapes that `geometry` chooses.

@@ -26,7 +26,7 @@ class CommandFiles {
     std::string name;    ///< as the user wrote it
     std::string option;  ///< that it is an output of; empty: an input
   };
-  /// The same for all names of one file; empty for what is no file.
+  /// Equal for all names of one file; empty for what is no file.
   std::string identity(const std::filesystem::path& file);
 
   std::map<std::string, Known> known_;          ///< by identity

@@ -23,7 +23,7 @@ struct FileContent {
 /// A file that cannot be read, or is empty, is told by its ending.
 FileContent content_of(const std::filesystem::path& file);
 
-/// The same of the first bytes of a file.
+/// Does this for the first bytes of a file.
 FileContent content_of(std::string_view begin, const std::filesystem::path& file);
 
 }  // namespace minkray

@@ -17,7 +17,7 @@ struct Mass {
   Mat3<double> inertia = Mat3<double>::Zero();  ///< about the centre
 };
 
-/// Of a hull, a sum over tetrahedra of its surface's triangles (Mirtich, Fast and accurate
+/// Sums, for a hull, over tetrahedra of its surface's triangles (Mirtich, Fast and accurate
 /// computation of polyhedral mass properties, 1996, by simplices). Flat hulls have none.
 Mass mass_of(const PointCloud<double>& hull);
 

@@ -228,7 +228,7 @@ TEST_F(MeshFolder, missing_meshes_are_one_line_that_names_what_helps) {
   ImportOptions verbose;
   verbose.verbose = true;
   EXPECT_EQ(std::ranges::count(complaint(file, verbose), '\n'), 10);
-  // Of shapes that nobody asked for nothing is missing.
+  // Shapes that are not requested are not reported as missing.
   EXPECT_EQ(
       complaint(folder.write("c.urdf",
                              "<robot name=\"r\"><link name=\"a\"><visual><geometry><sphere "
