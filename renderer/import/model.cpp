@@ -47,30 +47,6 @@ Affine<double> motion_of(const ModelJoint& joint) {
   return {};
 }
 
-namespace {
-
-/// The unit quaternion w, x, y, z of a rotation (S. W. Shepperd, "Quaternion from Rotation Matrix",
-/// 1978): the largest component is found first, the others by division.
-std::array<double, 4> quaternion_of(const Mat3<double>& m) {
-  const double trace = m.trace();
-  std::array<double, 4> q = {trace, m(0, 0), m(1, 1), m(2, 2)};
-  const auto i = static_cast<int>(std::ranges::max_element(q) - q.begin());
-  if (i == 0) {
-    q = {1 + trace, m(2, 1) - m(1, 2), m(0, 2) - m(2, 0), m(1, 0) - m(0, 1)};
-  } else {
-    const int a = i - 1, b = i % 3, c = (i + 1) % 3;
-    q[0] = m(c, b) - m(b, c);
-    q[1 + std::size_t(a)] = 1 + 2 * m(a, a) - trace;
-    q[1 + std::size_t(b)] = m(b, a) + m(a, b);
-    q[1 + std::size_t(c)] = m(c, a) + m(a, c);
-  }
-  const double length = std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3]));
-  for (double& number : q) number /= length;
-  return q;
-}
-
-}  // namespace
-
 std::size_t width_of(JointKind kind) {
   switch (kind) {
     case JointKind::fixed:
