@@ -41,7 +41,7 @@ inline Quad root(Quad x) {
   for (int i = 0; i < 2; ++i) r = (r + x / r) / 2;
   return r;
 }
-inline Quad dot(const QuadVec& a, const QuadVec& b) {
+inline Quad quad_dot(const QuadVec& a, const QuadVec& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 inline QuadVec along(const QuadVec& a, const QuadVec& b, Quad t) {
@@ -73,12 +73,12 @@ inline QuadCapsule capsule(const Affine<double>& pose, double radius, double hal
 
 inline Quad signed_distance_of(const QuadCapsule& a, const QuadCapsule& b) {
   const QuadVec x = along(b.from, a.from, -1);
-  const Quad aa = dot(a.way, a.way), bb = dot(b.way, b.way), ab = dot(a.way, b.way),
-             ax = dot(a.way, x), bx = dot(b.way, x), area = aa * bb - ab * ab;
+  const Quad aa = quad_dot(a.way, a.way), bb = quad_dot(b.way, b.way), ab = quad_dot(a.way, b.way),
+             ax = quad_dot(a.way, x), bx = quad_dot(b.way, x), area = aa * bb - ab * ab;
   Quad least = -1;
   const auto add = [&](Quad s, Quad t) {
     const QuadVec c = along(along(x, b.way, t), a.way, -s);
-    const Quad squared = dot(c, c);
+    const Quad squared = quad_dot(c, c);
     if (least < 0 || squared < least) least = squared;
   };
   for (const Quad end : {Quad(0), Quad(1)}) {
