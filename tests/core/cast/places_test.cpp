@@ -170,7 +170,7 @@ std::string report(Long off, const CastResult<double>& found) {
   return text.data();
 }
 
-struct Counts {
+struct PlaceCounts {
   int rays = 0, hits = 0, exhausted = 0, wide = 0, unbounded = 0;
   std::string false_ones;
 
@@ -208,7 +208,7 @@ class Places : public ::testing::TestWithParam<int> {};
 TEST_P(Places, hold_the_truth) {
   const int kind = GetParam();
   for (const double distance : places) {
-    Counts counts;
+    PlaceCounts counts;
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
       Random random(1000 * seed + 7);
       const V place = in_grains(V(distance * random.direction()));
@@ -312,7 +312,7 @@ struct Needle {
 TEST(NeedlesByMaps, hold_the_truth) {
   for (const bool plate : {false, true})
     for (const double thin : {1.0, 1e-2, 1e-4, 1e-6, 1e-9, 1e-12}) {
-      Counts counts;
+      PlaceCounts counts;
       for (std::uint64_t seed = 0; seed < 300; ++seed) {
         Random random(seed);
         const auto r = [&] { return random.uniform(0.3, 1); };

@@ -95,9 +95,9 @@ TEST(Places, balls_meet_when_their_closed_form_says) {
         x[i] = Quad(b.pose.translation[e]) - Quad(a.pose.translation[e]);
         v[i] = Quad(b.velocity[e]) - Quad(a.velocity[e]);
       }
-      const Quad r = Quad(radius_a) + Quad(radius_b), towards = -dot(x, v), vv = dot(v, v),
-                 inside = towards * towards - vv * (dot(x, x) - r * r);
-      if (!(dot(x, x) > r * r)) continue;
+      const Quad r = Quad(radius_a) + Quad(radius_b), towards = -quad_dot(x, v), vv = quad_dot(v, v),
+                 inside = towards * towards - vv * (quad_dot(x, x) - r * r);
+      if (!(quad_dot(x, x) > r * r)) continue;
       const Impact found =
           first_impact(ContactShape(Shape<double>(Sphere<double>{radius_a})), a,
                        ContactShape(Shape<double>(Sphere<double>{radius_b})), b, 3);
