@@ -110,12 +110,12 @@ TEST(Places, balls_that_nearly_touch_are_neither_clear_nor_colliding_without_a_p
 }
 
 /// The arm and what is around it, moved.
-struct Around {
+struct RobotAround {
   Scene scene;
   Rod ball;
   Long ground;
 
-  Around(RandomPlaces& random, const Vec3<double>& way) {
+  RobotAround(RandomPlaces& random, const Vec3<double>& way) {
     const Vec3<double> middle =
         coarse({random.in(0.6, 1.6), random.in(-0.4, 0.6), random.in(0.6, 1.6)});
     ball = {{middle.cast<Long>(), middle.cast<Long>()}, 0.15L};
@@ -144,7 +144,7 @@ TEST(Places, arms_have_the_clearance_that_they_have_nearby) {
     for (int k = 0; k < 12; ++k) {
       const RandomPath path(random.engine());
       const Vec3<double> way = random.at(place);
-      const Around around(random, way);
+      const RobotAround around(random, way);
       Model model = arm_model();
       model.links[0].rest.translation += way;
       const Clearance found = clearance_beside(model, path.rows, around.scene);

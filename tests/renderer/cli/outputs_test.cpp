@@ -98,7 +98,7 @@ std::set<std::string> options_taking(const std::string& verb, const std::string&
   return options;
 }
 
-constexpr const char* scene_text = R"({"version": 1,
+constexpr const char* plain_scene = R"({"version": 1,
   "camera": {"position": [0, -9, 3], "look_at": [0, 0, 0], "fov_y_degrees": 30, "resolution": [8, 6]},
   "lights": [{"type": "environment", "file": "sky.png"}],
   "materials": [{"name": "m", "type": "lambert", "color": {"type": "image", "file": "paint.png"}}],
@@ -167,7 +167,7 @@ class Outputs : public NothingLost {
       "$MINKRAY" render ball.json -s 1 -r 8x6 -q --tile 1/1 -o part.exr --checkpoint 0
       mkdir sub; ln -s . here)");
     EXPECT_EQ(made.exit_code, 0) << made.err;
-    folder_.write("scene.json", scene_text);
+    folder_.write("scene.json", plain_scene);
     remember();
   }
 
