@@ -83,7 +83,8 @@ template <class W>
 template <class F, class W, class Placed>
 [[gnu::always_inline]] inline FormLine<W> line_in_wider(const exact::Form& form,
                                                         const Placed& shape, const Ray<F>& ray) {
-  const auto centre = wider(shape.centre());
+  auto centre = wider(shape.centre());
+  if constexpr (requires { shape.two_fold_centre(); }) centre += wider(shape.two_fold_centre().low);
   Vec3<W> p = wider(ray.origin) - widen<W>(centre), d = wider(ray.direction);
   const W far(tolerance::form_far * tolerance::form_far * form.R * form.R);
   // What a map with an error in the last digit of each product may add, of origin and direction.

@@ -99,6 +99,7 @@ CastResult<T> ask_within_loss(const PreparedShape<T>& shape, const RayNearBall<T
       if (other.status != Status::hit) return give_up();
       latest = std::max(latest, sign * other.offset_hi);
     }
+    if (!(latest < std::numeric_limits<T>::infinity())) return give_up();
     // A convex function is no further below its value in the middle than it is above it around.
     found.offset_hi = sign * latest;
     found.offset_lo = sign * (T(2) * first - latest);

@@ -215,9 +215,10 @@ template <class T>
 std::optional<Recentred<T>> recentred(const Shape<T>& shape) {
   if (std::holds_alternative<Custom<T>>(shape.kind)) return {};  // whose supports may be dear
   const T radius = bounds_of<T>(shape).half_extents().stableNorm();
-  if (!(largest_coordinate(shape) > far_away<T> * radius)) return {};
+  const T largest = largest_coordinate(shape);
+  if (!(largest > far_away<T> * radius)) return {};
   Recentred<T> nearer = taken_out(shape);
-  if (nearer.moved.is_zero() && !std::holds_alternative<HullOf<T>>(shape.kind)) return {};
+  if (nearer.moved.is_zero() && !(largest_coordinate(nearer.shape) < largest)) return {};
   return nearer;
 }
 

@@ -98,9 +98,6 @@ requires SupportMapped<S, T> CastResult<T> gjk_ray_cast(const S& shape, const Ra
     result.status = Status::hit;
     result.t_offset = result.offset_lo = near.t_offset(lambda);
     result.normal = unit(has_advanced ? n : x);
-    // The simplex' point is so far beside x, which is longer along a slanted ray.
-    const T slope = std::max(T(-result.normal.dot(r)), tolerance::least_slope<T>);
-    result.offset_hi = near.t_offset(lambda + v.norm() / slope);
     return result;
   };
 

@@ -14,7 +14,7 @@ struct CastLanes {
   Mask<W> hit = Mask<W>(false);
   Mask<W> inside = Mask<W>(false);
   Mask<W> miss = Mask<W>(false);
-  /// Hit, but no point of the shape is known that bounds it: a model does, to what it settled for.
+  /// Hit, but no point of the shape is known that bounds it from above.
   Mask<W> by_model = Mask<W>(false);
   /// Inside, but between planes so steep that rounding decides, as where the line runs in a side.
   Mask<W> uncertain = Mask<W>(false);
@@ -122,11 +122,8 @@ CastLanes<W> model_cast(const MakeModel& make_model, const RayNearBall<W>& near,
   // Rays that were turned round are counted down.
   const W digits = copysign(near.offset_rounding(result.t_offset), near.t_per_length);
   result.offset_lo = near.t_offset(entry.lambda - rounding) - digits;
-  // A model that only osculates ends where what it leaves is hardly more than that.
   result.by_model = result.hit & !(entry.lambda_above < W(std::numeric_limits<T>::infinity()));
-  const W latest = select(result.by_model, W(entry.lambda + rounding * W(T(8))),
-                          W(entry.lambda_above + rounding));
-  result.offset_hi = near.t_offset(latest) + digits;
+  result.offset_hi = near.t_offset(W(entry.lambda_above + rounding)) + digits;
 
   // The line enters before the ray begins: where does it leave?
   const Mask<W> began = entry.hit & !enters;

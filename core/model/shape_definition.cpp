@@ -140,12 +140,15 @@ ShapeDefinition<T>::ShapeDefinition(Shape<T> shape) : original_(shape), inner_(s
   ball_ = ball_around(bounds);
   middle_ = moved_ + outer_ * TwoFoldVec3<T>(ball_.centre * up_);
   if (!(ball_.radius > T(0))) outer_ = {};  // no map matters to a point
-  support_loss_ =
-      tolerance::support_rounding<T> * std::max(T(largest_coordinate(inner_) - ball_.radius), T(0));
-  if (moved_loss_ > T(0))
+  const bool is_point = !(ball_.radius > T(0));  // whose numbers are its place
+  support_loss_ = is_point ? T(0)
+                           : T(tolerance::support_rounding<T> *
+                               std::max(T(largest_coordinate(inner_) - ball_.radius), T(0)));
+  if (!is_point && moved_loss_ > T(0))
     support_loss_ += stretch_of(accurate_inverse(outer_)) * down_ * moved_loss_;
-  plain_loss_ = tolerance::transposed_rounding<T> * ball_.radius +
-                tolerance::turned_rounding<T> * T(middle_.high.stableNorm());
+  if (!is_point)
+    plain_loss_ = tolerance::transposed_rounding<T> * ball_.radius +
+                  tolerance::turned_rounding<T> * T(middle_.high.stableNorm());
   half_extents_ = bounds.reach_of_centre();
   model_ = model_kind_of<T>(inner_);
   if (model_ == ModelKind::ellipsoid_sum)
@@ -202,7 +205,7 @@ typename ShapeDefinition<T>::Placement ShapeDefinition<T>::placed(const Affine<T
   placement.centre = image_of(pose, middle_);
   placement.to_inner = accurate_inverse(to_outer) * down_;
   placement.is_rigid_identity = to_outer.high * up_ == Mat3<T>::Identity();
-  if (!is_centred() && !placement.is_rigid_identity)
+  if (ball_.radius > T(0) && !is_centred() && !placement.is_rigid_identity)
     placement.loss =
         stretch_of(placement.to_inner) * loss_of_turning(pose.linear, T(middle_.high.stableNorm()));
   return placement;

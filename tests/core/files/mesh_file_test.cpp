@@ -82,6 +82,7 @@ TEST(MeshFile, whatever_is_wrong_is_told) {
             "must begin with \"solid\", or be a binary STL: its triangle count must be at most "
             "10737418 (got 538976288, in a file that has room for 0)");
   std::string wrong_count = binary_stl({0, 0, 0, 1, 0, 0, 0, 1, 0.5f});
+  wrong_count.replace(0, 5, "other");  // else it is read as text
   std::fill_n(wrong_count.begin() + 80, 4, '\xff');
   EXPECT_EQ(complaint("m.stl", wrong_count),
             "must begin with \"solid\", or be a binary STL: its triangle count must be at most "

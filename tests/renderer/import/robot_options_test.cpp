@@ -54,7 +54,7 @@ TEST_F(RobotOptions, keyframes_are_known_by_their_names_and_numbers) {
     EXPECT_EQ(last_place(import_scene(file, options)).z(), height) << name;
   }
   options.keyframe = "down";
-  EXPECT_NE(refusal(file, options).find("known are up, 1, rest, 0"), std::string::npos)
+  EXPECT_NE(refusal(file, options).find("its keyframes are up, 1, rest, 0"), std::string::npos)
       << refusal(file, options);
 }
 
@@ -101,7 +101,7 @@ TEST_F(RobotOptions, every_wrong_joint_is_told_at_once) {
   const std::string text = refusal(file, options);
   for (const char* expected :
        {"got \"lefd=1\"; joints are left, right", "got \"left\"", "left takes one finite number",
-        "(got \"nan\")", "(got \"1,2\")", "--keyframe: there is none of the name \"home\""})
+        "(got \"nan\")", "(got \"1,2\")", "--keyframe: no keyframe named home"})
     EXPECT_NE(text.find(expected), text.npos) << expected << " in\n" << text;
 }
 
@@ -170,7 +170,7 @@ TEST_F(RobotOptions, a_part_of_a_mesh_that_sdf_asks_for_is_told_not_to_be_single
     <visual name="v"><geometry><mesh><uri>m.obj</uri><submesh><name>lid</name></submesh></mesh>
     </geometry></visual></link></model></sdf>)");
   const std::string text = model_as_text(*import_scene(file).model);
-  EXPECT_NE(text.find("<submesh>: the hull is that of the whole mesh"), text.npos) << text;
+  EXPECT_NE(text.find("<mesh>: has no part \"lid\": all of it is shown"), text.npos) << text;
 }
 
 TEST_F(RobotOptions, a_mesh_that_is_there_in_another_format_is_told_to_be) {
