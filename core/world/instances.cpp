@@ -170,10 +170,12 @@ void Instances::place_many(std::size_t first, std::size_t count,
     std::uint32_t last_definition = no_body, last_body = no_body;
     std::size_t last_which = wide_body;
     for (std::size_t i = first + begin; i < first + end; ++i) {
-      digits_[i] = {};
       const std::uint32_t definition = definition_of(i);
-      if (definition == no_body) continue;  // a half-space
-      const Affine<double> pose = pose_of(i);
+      if (definition == no_body) {  // a half-space
+        digits_[i] = {};
+        continue;
+      }
+      const Affine<double> pose = pose_of(i);  // which may be made of what stands here
       const Placed placed = this->placed(i, definition, pose);
       digits_[i] = placed.digits;
       if (placed.has_digits) has_digits.store(true, std::memory_order_relaxed);
