@@ -165,6 +165,10 @@ void Instances::place_many(std::size_t first, std::size_t count,
   digits_.resize(places_.size());
   std::atomic<bool> has_digits = had_digits;
   const bool had_rests = !rests_.empty();
+  // pose_of may read bodies while others are made: they must stay where they are.
+  const std::size_t most_bodies = bodies_.size() + (wide_body + 1) * definitions_.size();
+  bodies_.reserve(most_bodies);
+  screens_.reserve(most_bodies);
   std::mutex bodies;
   parallel_for(count, poses_a_range, [&](std::size_t begin, std::size_t end) {
     std::uint32_t last_definition = no_body, last_body = no_body;
