@@ -101,7 +101,7 @@ class Hits:
 class Proofs:
     holds: npt.NDArray[np.bool_]
     t_lo: _Floats
-        t_hi: _Floats
+    t_hi: _Floats
     allowed: _Floats
     plane: _Floats
     checked: _Numbers
