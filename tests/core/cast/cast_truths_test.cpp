@@ -119,7 +119,8 @@ TYPED_TEST(CastTruths, planes_of_hits_touch_and_planes_of_misses_separate) {
                 if (result.status == Status::miss) {
                   const double above = n.dot(exact.origin - same.support(n));
                   EXPECT_GE(above, -allowed_epsilons * epsilon * radius) << name;
-                  EXPECT_GE(n.dot(exact.direction), -16 * epsilon * exact.direction.norm()) << name;
+                  // Normals go through the rounded inverses of nested maps.
+                  EXPECT_GE(n.dot(exact.direction), -32 * epsilon * exact.direction.norm()) << name;
                 }
                 return result.found();
               });
