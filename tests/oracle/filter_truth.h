@@ -22,7 +22,8 @@ FilterVerdict judge_bound_by(const LineIn& line_in, const PreparedShape<T>& prep
   __extension__ using Quad = __float128;
   std::array<Quad, 3> o, d;
   for (int i = 0; i < 3; ++i) {
-    o[static_cast<std::size_t>(i)] = Quad(ray.origin[i]) - Quad(prepared.centre()[i]);
+    o[static_cast<std::size_t>(i)] =
+        Quad(ray.origin[i]) - Quad(prepared.centre()[i]) - Quad(prepared.two_fold_centre().low[i]);
     d[static_cast<std::size_t>(i)] = Quad(ray.direction[i]);
   }
   if (const Mat3<T>* map = prepared.linear_to_inner()) {
