@@ -161,8 +161,7 @@ void Instances::place_many(std::size_t first, std::size_t count,
                            const std::function<std::uint32_t(std::size_t)>& definition_of,
                            const std::function<Affine<double>(std::size_t)>& pose_of) {
   const bool had_digits = !digits_.empty();
-  if (!had_digits) digits_.resize(first, TrailingDigits{});
-  digits_.resize(places_.size());
+  digits_.resize(places_.size(), TrailingDigits{});  // pose_of may read them
   std::atomic<bool> has_digits = had_digits;
   const bool had_rests = !rests_.empty();
   // pose_of may read bodies while others are made: they must stay where they are.

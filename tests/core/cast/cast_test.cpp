@@ -284,7 +284,9 @@ TEST(Cast, a_points_normal_is_against_the_ray) {
       cast_ray(PreparedShape<float>(point), Ray<float>{{-0.1f, -0.5f, -7.5f}, {0, 0, 1e6f}});
   // In float its place is rounded: the ray meets it, or passes it by a rounding.
   ASSERT_NE(result.status, Status::exhausted);
-  EXPECT_LT(result.found() ? result.normal.z() : -result.normal.z(), 0.5f);
+  if (result.found()) {
+    EXPECT_LT(result.normal.z(), -0.5f);
+  }
 }
 
 }  // namespace
