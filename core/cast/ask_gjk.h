@@ -41,7 +41,7 @@ CastResult<T> cast_with_gjk(Stage stage, const StageQuestion<T>& question, Obser
   if (result.status == Status::hit) {  // known to the rounding of a plane's offset
     const T slope = std::max(-result.normal.dot(near.r), tolerance::least_slope<T>);
     const T rounding =
-        (tolerance::jet_gap<T> * ball.radius + near.loss) / slope * near.t_per_length;
+        (tolerance::plane_rounding<T> * ball.radius + near.loss) / slope * near.t_per_length;
     // Rays that were turned round are counted down.
     const T digits = std::copysign(near.offset_rounding(result.t_offset), near.t_per_length);
     result.offset_lo -= rounding + digits;

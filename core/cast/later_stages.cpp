@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/cast/enclosed_ray.h"
 #include "core/cast/in_double.h"
 #include "core/cast/judge.h"
 #include "core/cast/on_ray.h"
@@ -73,7 +74,12 @@ CastResult<T> ask_stages_about_place(const StageQuestion<T>& question) {
   if (question.near.loss <= tolerance::small_loss<T> * shape.inner_ball().radius)
     return ask_stages(question);
   return ask_within_loss(shape, question.near, [&](const RayNearBall<T>& near) {
-    return ask_stages(StageQuestion<T>{shape, near, question.options, question.observer});
+    CastResult<T> found =
+        ask_stages(StageQuestion<T>{shape, near, question.options, question.observer});
+    if constexpr (std::is_same_v<T, double>)
+      if (found.status == Status::hit && std::isinf(found.offset_hi))
+        enclose_ray(shape, near, found.normal, found);
+    return found;
   });
 }
 
@@ -136,6 +142,15 @@ void end_far_cast(const PreparedShape<T>& shape, const RayNearBall<T>& near,
   result = none;
 }
 
+/// Bounds a hit from above that its solver has not, as coarser tolerances do not ask for.
+template <class T>
+void bound_hit(const PreparedShape<T>& shape, const RayNearBall<T>& near,
+               const CastOptions<T>& options, CastResult<T>& result) {
+  if constexpr (std::is_same_v<T, double>)
+    if (result.status == Status::hit && std::isinf(result.offset_hi) && is_exact(options))
+      enclose_ray(shape, near, shape.normal_to_inner(result.normal), result);
+}
+
 /// A miss that the shape's box tells, if the policy asks it.
 template <class T>
 std::optional<CastResult<T>> ask_bounds(const PreparedShape<T>& shape, const Ray<T>& ray,
@@ -193,6 +208,7 @@ CastResult<T> cast_by_later_stages(const PreparedShape<T>& shape, const Ray<T>& 
   result = in_outer_frame(shape, result);
   end_far_cast(shape, near, result);
   if (result.status == Status::hit) keep_on_ray(ray, result);
+  bound_hit(shape, near, options, result);
   if (result.status == Status::inside)
     result.t_base = result.t_offset = result.offset_lo = result.offset_hi = T(0);
   return result;
@@ -213,9 +229,16 @@ CastResult<T> exit_by_later_stages(const PreparedShape<T>& shape, const Ray<T>& 
       return ask_in_double(shape, ray, options, cast_exit<double>);
   result = in_outer_frame(shape, result);
   end_far_cast(shape, near, result);
+  bound_hit(shape, back, options, result);
   std::swap(result.offset_lo, result.offset_hi);
   if (result.status == Status::hit) keep_on_ray(ray, result);
   return result;
+}
+
+void bound_hit(const PreparedShape<double>& shape, const Ray<double>& ray,
+               CastResult<double>& result) {
+  if (result.status == Status::hit && std::isinf(result.offset_hi))
+    enclose_ray(shape, near_inner(shape, ray), shape.normal_to_inner(result.normal), result);
 }
 
 template CastResult<float> cast_by_later_stages(const PreparedShape<float>&, const Ray<float>&,

@@ -17,6 +17,11 @@ template <class T>
 CastResult<T> exit_by_later_stages(const PreparedShape<T>& shape, const Ray<T>& ray,
                                    const CastOptions<T>& options);
 
+/// Does for a hit that a packet's model has found what cast_by_later_stages does last: bounds it
+/// from above.
+void bound_hit(const PreparedShape<double>& shape, const Ray<double>& ray,
+               CastResult<double>& result);
+
 extern template CastResult<float> cast_by_later_stages(const PreparedShape<float>&,
                                                        const Ray<float>&, const CastOptions<float>&,
                                                        const CastObserver<float>&);

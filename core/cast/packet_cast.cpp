@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/cast/packet_cast.h"
 
+#include <cmath>
+
 #include "core/cast/filter_kernel.h"
 #include "core/cast/later_stages.h"
 #include "core/cast/packet_kernel.h"
@@ -71,6 +73,14 @@ void cast_packet(const PreparedShape<T>& shape, const RayPacket<T>& rays, LaneBi
     else
       packet_kernel_sse2(shape, rays, lanes, answers);
   }
+  if constexpr (std::is_same_v<T, double>)
+    for (int lane = 0; lane < packet_lanes<T>; ++lane) {
+      const auto i = static_cast<std::size_t>(lane);
+      if (!(answers.hit >> lane & 1u) || !std::isinf(answers.offset_hi[i])) continue;
+      CastResult<T> result = answers.result(lane);
+      bound_hit(shape, rays.ray(lane), result);
+      answers.set(lane, result);
+    }
   // What the filter is in doubt of, or a model was exhausted by, goes one by one.
   const LaneBits open = lanes & ~(answers.hit | answers.inside | answers.miss);
   if (!open) return;

@@ -101,8 +101,10 @@ CastResult<T> ask_within_loss(const PreparedShape<T>& shape, const RayNearBall<T
     }
     if (!(latest < std::numeric_limits<T>::infinity())) return give_up();
     // A convex function is no further below its value in the middle than it is above it around.
-    found.offset_hi = sign * latest;
-    found.offset_lo = sign * (T(2) * first - latest);
+    // And the ray may lie further along itself.
+    const T along = near.loss * std::abs(near.t_per_length);
+    found.offset_hi = sign * (latest + along);
+    found.offset_lo = sign * (T(2) * first - latest - along);
   }
   return found;
 }

@@ -118,7 +118,7 @@ CastLanes<W> model_cast(const MakeModel& make_model, const RayNearBall<W>& near,
   result.t_offset = near.t_offset(select(bounded, entry.lambda_above, entry.lambda));
   // Both ends are known to the rounding of a plane's offset, which is longer along a slanted ray.
   const W rounding =
-      (W(tolerance::jet_gap<T> * R) + near.loss) / max(z, W(tolerance::least_slope<T>));
+      (W(tolerance::plane_rounding<T> * R) + near.loss) / max(z, W(tolerance::least_slope<T>));
   // Rays that were turned round are counted down.
   const W digits = copysign(near.offset_rounding(result.t_offset), near.t_per_length);
   result.offset_lo = near.t_offset(entry.lambda - rounding) - digits;

@@ -39,7 +39,7 @@ ProvenCast proven(const Shape<double>& shape, const Ball<double>& ball,
     if (verdict.holds) {
       // The point is beside the ray, and the plane is rounded, by so much along it.
       const double along =
-          (verdict.lateral + std::numeric_limits<double>::epsilon() * size + near.loss) / slope;
+          (verdict.lateral + tolerance::plane_rounding<double> * size + near.loss) / slope;
       proof.answer.t_offset = near.t_offset(begin + claim.t_offset);
       const double digits =
           std::copysign(near.offset_rounding(proof.answer.t_offset), near.t_per_length);

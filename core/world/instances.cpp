@@ -233,6 +233,20 @@ std::optional<Affine<double>> Instances::plain_pose(std::size_t i) const {
                         {place.origin[0], place.origin[1], place.origin[2]}};
 }
 
+bool Instances::are_same(std::size_t i, std::size_t j) const {
+  const auto rest_of = [&](std::size_t k) {
+    const auto at = rests_.find(static_cast<std::uint32_t>(k));
+    return at == rests_.end() ? Rest() : at->second;
+  };
+  if (places_[i].body != places_[j].body || to_inner(i) != to_inner(j)) return false;
+  if (!std::equal(std::begin(places_[i].origin), std::end(places_[i].origin),
+                  std::begin(places_[j].origin)))
+    return false;
+  if (!shown_to_.empty() && shown_to_[i] != shown_to_[j]) return false;
+  const Rest a = rest_of(i), b = rest_of(j);
+  return a.loss == b.loss && a.centre == b.centre;
+}
+
 double Instances::half_extent(std::size_t i) const {
   if (is_half_space(i)) return 0;
   const InstanceBody& body = body_of(i);
@@ -249,11 +263,16 @@ double Instances::half_extent(std::size_t i) const {
 }
 
 FormKind Instances::kind_of_all() const {
-  if (screens_.empty()) return FormKind::none;
-  const FormKind kind = screens_[0].kind;
-  for (const Screen& screen : screens_)
-    if (screen.kind != kind || !screen.is_whole) return FormKind::none;
-  return kind;
+  std::vector<bool> is_shown(screens_.size(), shown_to_.empty());
+  for (std::size_t i = 0; i < shown_to_.size(); ++i)
+    if (shown_to_[i] != 0 && !is_half_space(i)) is_shown[places_[i].body] = true;
+  std::optional<FormKind> kind;
+  for (std::size_t body = 0; body < screens_.size(); ++body) {
+    if (!is_shown[body]) continue;
+    if (!kind) kind = screens_[body].kind;
+    if (screens_[body].kind != *kind || !screens_[body].is_whole) return FormKind::none;
+  }
+  return kind.value_or(FormKind::none);
 }
 
 void Instances::show_to(std::size_t i, RayKinds kinds) {

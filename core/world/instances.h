@@ -104,6 +104,10 @@ class Instances {
     return cast;
   }
 
+  /// True if two instances that stand still have the same shape, place and ray kinds, to the last
+  /// digit. Not of half-spaces.
+  bool are_same(std::size_t i, std::size_t j) const;
+
   /// Makes room for `count` more instances.
   void reserve(std::size_t count);
 
@@ -145,8 +149,8 @@ class Instances {
   const std::vector<InstanceBody>& bodies() const { return bodies_; }
   const Screen* screens() const { return screens_.data(); }
 
-  /// If all instances but half-spaces are screened by forms of one kind that are their shapes: that
-  /// kind, else none.
+  /// If all instances that rays meet, but half-spaces, are screened by forms of one kind that are
+  /// their shapes: that kind, else none.
   FormKind kind_of_all() const;
 
   [[gnu::always_inline]] void prefetch(std::size_t i) const { __builtin_prefetch(&places_[i]); }

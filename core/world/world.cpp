@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/bvh/traverse.h"
+#include "core/world/repeated.h"
 #include "core/world/single_ray.h"
 
 namespace minkray {
@@ -31,17 +32,25 @@ World::World(Instances instances, const CastOptions<double>& options, BvhBuild b
   this->build(instances_.take_boxes());
 }
 
-/// Half-spaces have no box: the hierarchy is of all others.
+/// Half-spaces have no box: the hierarchy is of all others that a ray may meet first.
 void World::build(const FirstTouchVector<Bounds<float>>& boxes) {
   kind_of_all_ = instances_.kind_of_all();
-  if (instances_.half_spaces().empty()) {
+  const std::vector<std::uint32_t> repeated = repeated_instances(instances_);
+  has_repeated_ = !repeated.empty();
+  const RayKinds* const shown_to = instances_.shown_to();
+  if (instances_.half_spaces().empty() && !has_repeated_ && !shown_to) {
     bvh_ = build_bvh(boxes, build_);
     return;
   }
   std::vector<Bounds<float>> bounded;
   std::vector<std::uint32_t> number;
+  auto left_out = repeated.begin();
   for (std::uint32_t i = 0; i < boxes.size(); ++i) {
-    if (instances_.is_half_space(i)) continue;
+    if (left_out != repeated.end() && *left_out == i) {
+      ++left_out;
+      continue;
+    }
+    if (instances_.is_half_space(i) || (shown_to && shown_to[i] == 0)) continue;
     bounded.push_back(boxes[i]);
     number.push_back(i);
   }
@@ -183,6 +192,11 @@ void World::pose_all(const std::function<Affine<double>(std::size_t)>& pose_of,
   kind_of_all_ = instances_.kind_of_all();
   const FirstTouchVector<Bounds<float>> boxes = instances_.take_boxes();
   if (visits_as_built_ == 0) visits_as_built_ = visits();
+  if (has_repeated_) {  // they may stand apart now
+    build(boxes);
+    visits_as_built_ = visits();
+    return;
+  }
   refit(bvh_, boxes);
   if (visits() > most_visits_after_refit * visits_as_built_) {
     build(boxes);

@@ -119,6 +119,7 @@ class World {
   Instances instances_;
   Bvh bvh_;
   BvhBuild build_ = BvhBuild::quality;
+  bool has_repeated_ = false;   ///< instances that the hierarchy leaves out
   double visits_as_built_ = 0;  ///< expected per ray; 0: not known yet
   CastOptions<double> options_;
   bool is_default_ = true;  ///< the options are those of packets and closed forms

@@ -160,6 +160,12 @@ int minkray_scene_occluded_rays(minkray_scene scene, const minkray_ray* rays, si
   return call("minkray_scene_occluded_rays", [&] {
     const SceneQuery held(scene);
     if (count > 0) require(blocked, "blocked");
+    if (count == 1 && !options && held->customs().empty()) {
+      QueryCounts counts;
+      const bool met = held->world().occluded(ray_of(rays), counts);
+      *blocked = met ? MINKRAY_HIT : counts.exhausted > 0 ? MINKRAY_EXHAUSTED : MINKRAY_MISS;
+      return;
+    }
     find_occluded(*held, RaySource(rays, count), blocked, options);
   });
 }

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/library/held_scene.h"
 
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -14,6 +18,14 @@ namespace minkray {
 namespace {
 
 constexpr double grey_of_added = 0.7;  ///< of what is added without a material
+
+/// Gives memory that a build needed back to the system, where it is much.
+void return_memory([[maybe_unused]] std::size_t instances) {
+#if defined(__GLIBC__)
+  constexpr std::size_t many = 50'000;  // some megabytes
+  if (instances >= many) malloc_trim(0);
+#endif
+}
 
 std::vector<std::pair<std::string, std::size_t>> moving_joints(const Model& model) {
   std::vector<std::pair<std::string, std::size_t>> joints;
@@ -330,6 +342,7 @@ void HeldScene::commit() {
     show_instances(instances_);
     if (!instances_.has_boxes()) instances_.pose_all(pose_of);
     world_ = World(std::exchange(instances_, Instances()));
+    return_memory(world_.instances().size());
     due_ = moves ? Due::refit : Due::nothing;
   }
   if (due_ == Due::refit) {

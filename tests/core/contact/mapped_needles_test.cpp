@@ -7,6 +7,7 @@
 
 #include "core/contact/signed_distance.h"
 #include "tests/core/contact/random_numbers.h"
+#include "tests/support/number_of_cases.h"
 
 namespace minkray::testing {
 namespace {
@@ -109,7 +110,7 @@ Quad distance_to_box(const QuadMat& sides, const QuadVec& p) {
 TEST(MappedNeedles, are_as_far_from_balls_as_their_faces_edges_and_corners) {
   RandomNumbers random(631);
   int settled = 0, needles = 0;
-  for (int k = 0; k < 12000; ++k) {
+  for (int k = 0; k < number_of_cases(12000); ++k) {
     const double thin = std::pow(10, -random.in(0, 12)), between = k % 3 == 0   ? 1
                                                                    : k % 3 == 1 ? thin
                                                                                 : std::sqrt(thin);

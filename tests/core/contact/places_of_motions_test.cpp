@@ -8,6 +8,7 @@
 #include "core/contact/manifold.h"
 #include "core/world/near_pairs.h"
 #include "tests/core/contact/places.h"
+#include "tests/support/number_of_cases.h"
 
 namespace minkray::testing {
 namespace {
@@ -43,7 +44,7 @@ std::string complaint_of_impacts(const Impact& near, const Impact& far, double s
 TEST(Places, times_of_impact_are_the_same_in_poses_and_shapes_that_are_moved) {
   RandomShapes random(607);
   int hits = 0, count = 0;
-  for (int k = 0; k < 800; ++k) {
+  for (int k = 0; k < number_of_cases(800); ++k) {
     PosedShapes pair = any_pair(2 * k, random);
     if (pair.size > 1e3 || pair.size < 1e-3 || pair.distance().value < 1e-6 * pair.size) continue;
     const Motions here = any_motions(pair, k % 2 == 0, random);
@@ -80,7 +81,7 @@ TEST(Places, times_of_impact_are_the_same_in_poses_and_shapes_that_are_moved) {
 TEST(Places, balls_meet_when_their_closed_form_says) {
   RandomShapes random(608);
   for (const double place : {0.0, 10.0, 100.0, 1e4, 1e6, 1e9})
-    for (int k = 0; k < 2000; ++k) {
+    for (int k = 0; k < number_of_cases(2000); ++k) {
       const Vec3<double> at = place_at(place, random);
       RigidMotion a{{random.turn(), at}},
           b{{random.turn(), at + random.in(1, 5) * random.direction()}};
@@ -114,7 +115,7 @@ TEST(Places, balls_meet_when_their_closed_form_says) {
 TEST(Places, half_spaces_are_as_far_as_they_are_nearby) {
   RandomShapes random(609);
   const std::array<Vec3<double>, 2> normals = {Vec3<double>::UnitZ(), Vec3<double>(0, -1, 0)};
-  for (int k = 0; k < 900; ++k) {
+  for (int k = 0; k < number_of_cases(900); ++k) {
     const Shape<double> shape = any_shape(k, random);
     const ContactShape ready(shape);
     const Affine<double> pose{random.turn(), coarse(random.in(0, 2) * random.direction())};
@@ -137,7 +138,7 @@ TEST(Places, half_spaces_are_as_far_as_they_are_nearby) {
 TEST(Places, contacts_are_as_deep_as_they_are_nearby) {
   RandomShapes random(610);
   int points = 0;
-  for (int k = 0; k < 400; ++k) {
+  for (int k = 0; k < number_of_cases(400); ++k) {
     const Shape<double> box =
                             Box<double>{{random.in(0.5, 1), random.in(0.5, 1), random.in(0.2, 1)}},
                         other = k % 2 == 0 ? Shape<double>(Cylinder<double>{random.in(0.2, 1), 0.5})

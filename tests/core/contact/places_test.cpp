@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/core/contact/places.h"
+#include "tests/support/number_of_cases.h"
 
 namespace minkray::testing {
 namespace {
@@ -13,7 +14,7 @@ TEST(Places, capsules_are_as_far_apart_as_their_closed_form_says) {
   RandomShapes random(601);
   int settled = 0;
   for (const double place : {0.0, 10.0, 100.0, 1e4, 1e6, 1e9})
-    for (int k = 0; k < 3000; ++k) {
+    for (int k = 0; k < number_of_cases(3000); ++k) {
       const Vec3<double> at = place_at(place, random);
       const double half_a = k % 7 == 0 ? 0 : random.in(0.1, 1), half_b = random.in(0.1, 1);
       const Affine<double> pose_a{random.turn(), at + random.direction()};
@@ -57,7 +58,7 @@ TEST(Places, capsules_are_as_far_apart_as_their_closed_form_says) {
 TEST(Places, distances_of_all_kinds_are_the_same_in_poses_that_are_moved) {
   RandomShapes random(602);
   int count = 0;
-  for (int k = 0; k < 1500; ++k) {
+  for (int k = 0; k < number_of_cases(1500); ++k) {
     const PosedShapes near = any_pair(k, random);
     if (near.size > 1e3 || near.size < 1e-3) continue;
     const SignedDistance here = near.distance();
@@ -110,7 +111,7 @@ PosedShapes moved_in_shapes(const PosedShapes& near, const Vec3<double>& way, in
 TEST(Places, distances_of_all_kinds_are_the_same_in_shapes_that_are_moved) {
   RandomShapes random(603);
   int count = 0;
-  for (int k = 0; k < 2000; ++k) {
+  for (int k = 0; k < number_of_cases(2000); ++k) {
     const PosedShapes near = any_pair(k, random);
     if (near.size > 1e3 || near.size < 1e-3) continue;
     const SignedDistance here = near.distance();
@@ -126,7 +127,7 @@ TEST(Places, distances_of_all_kinds_are_the_same_in_shapes_that_are_moved) {
 TEST(Places, distances_are_the_same_of_parts_that_are_moved) {
   RandomShapes random(604);
   const auto nested = [](const Shape<double>& shape) { return Nested<double>(shape); };
-  for (int k = 0; k < 1200; ++k) {
+  for (int k = 0; k < number_of_cases(1200); ++k) {
     const Shape<double> one = random_shape(k % kinds_of_bodies, 1, random),
                         two = random_shape(k / kinds_of_bodies % kinds_of_bodies, 1, random),
                         other = random_shape(5 * k % kinds_of_bodies, 1, random);
@@ -167,7 +168,7 @@ TEST(Places, distances_are_the_same_of_parts_that_are_moved) {
 
 TEST(Places, points_far_away_are_the_shape_that_they_are_nearby) {
   RandomShapes random(605);
-  for (int k = 0; k < 600; ++k) {
+  for (int k = 0; k < number_of_cases(600); ++k) {
     std::vector<Vec3<double>> points;
     for (int i = 0; i < 1 + k % 40; ++i) points.push_back(coarse(random.direction()));
     const Shape<double> other = random_shape(k % kinds_of_bodies, 1, random);
@@ -188,7 +189,7 @@ TEST(Places, overlaps_are_told_by_their_sign_alone_only_if_they_are_proven) {
   SignedDistanceOptions options;
   options.only_sign = true;
   int overlapping = 0, count = 0;
-  for (int k = 0; k < 2000; ++k) {
+  for (int k = 0; k < number_of_cases(2000); ++k) {
     const PosedShapes pair = any_pair(k, random);
     const SignedDistance full = pair.distance(),
                          sign = signed_distance(ContactShape(pair.a), pair.pose_a,

@@ -8,6 +8,7 @@
 
 #include "renderer/field/distance_field.h"
 #include "tests/renderer/clearance/arm.h"
+#include "tests/support/number_of_cases.h"
 
 namespace minkray {
 namespace {
@@ -15,6 +16,7 @@ namespace {
 using testing::arm_model;
 using testing::distance;
 using testing::Long;
+using testing::number_of_cases;
 using testing::RandomPath;
 using testing::Rod;
 using testing::rods_at;
@@ -85,7 +87,7 @@ TEST(Places, balls_that_nearly_touch_are_neither_clear_nor_colliding_without_a_p
   RandomPlaces random(621);
   for (const double place : places) {
     int settled = 0;
-    for (int k = 0; k < 500; ++k) {
+    for (int k = 0; k < number_of_cases(500); ++k) {
       const Vec3<double> hinge = random.at(place);
       const double arm = random.in(0.2, 1), radius = random.in(0.01, 0.3),
                    angle = random.in(-20, 20);
@@ -164,7 +166,7 @@ TEST(Places, arms_have_the_clearance_that_they_have_nearby) {
 TEST(Places, carts_have_the_clearance_that_they_have_nearby) {
   RandomPlaces random(623);
   for (const double place : places)
-    for (int k = 0; k < 300; ++k) {
+    for (int k = 0; k < number_of_cases(300); ++k) {
       const Vec3<double> way = random.at(place), from = coarse(2 * random.direction()),
                          to = coarse(2 * random.direction());
       Model model;

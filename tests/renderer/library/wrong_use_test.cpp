@@ -289,7 +289,7 @@ TEST(WrongUse, of_counts_that_no_memory_holds_is_told) {
   minkray_shape_release(shape);
 }
 
-/// A support function that waits, so that a commit takes as long as the test wants.
+/// A support function that waits, so that adding it takes as long as the test wants.
 struct Gate {
   std::atomic<bool> closed = false, waiting = false;
   static int support(void* user, size_t count, const double (*n)[3], double (*p)[3]) {
@@ -309,8 +309,12 @@ TEST(WrongUse, of_a_scene_by_two_threads_that_change_it) {
   minkray_scene scene;
   ASSERT_EQ(minkray_scene_make(&scene), MINKRAY_OK);
   ASSERT_EQ(minkray_scene_add(scene, shape, nullptr, nullptr, nullptr), MINKRAY_OK);
+  ASSERT_EQ(minkray_scene_commit(scene), MINKRAY_OK);
   gate.closed = true;
-  std::thread other([&] { EXPECT_EQ(minkray_scene_commit(scene), MINKRAY_OK); });
+  std::thread other([&] {
+    EXPECT_EQ(minkray_scene_add(scene, shape, nullptr, nullptr, nullptr), MINKRAY_OK);
+    EXPECT_EQ(minkray_scene_commit(scene), MINKRAY_OK);
+  });
   while (!gate.waiting) std::this_thread::yield();
   expect_error(minkray_scene_commit(scene), MINKRAY_WRONG_USE, "while another call is changing it");
   expect_error(minkray_scene_add(scene, shape, nullptr, nullptr, nullptr), MINKRAY_WRONG_USE,

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: MIT
+#include "core/cast/enclosed_ray.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace minkray {
+namespace {
+
+using Vec2 = Vec<double, 2>;
+
+/// Angles between the normal and the directions asked first: the root of a machine epsilon, and
+/// more where the corners it brings are too near to each other.
+constexpr std::array tilts = {0x1p-26, 0x1p-20};
+/// Support points that one tilt may take, and that a portal may.
+constexpr int most_corners = 7, most_refinements = 32;
+/// A bound no further away than so many times the plane's rounding is good enough.
+constexpr double good_share = 3;
+
+/// A support point seen from the hit: beside the ray, and along it.
+struct Corner {
+  Vec2 beside = Vec2::Zero();
+  double along = 0;
+};
+
+double cross(const Vec2& a, const Vec2& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+/// A triangle of support points that the ray passes through, and the search for it: the GJK of a
+/// point in the plane across the ray.
+class Portal {
+ public:
+  /// Corners are known to `rounding`.
+  explicit Portal(double rounding) : rounding_(rounding) {}
+
+  /// The ray must pass so far within the triangle's sides that no rounding lets it out.
+  double least_distance() const { return 2 * rounding_; }
+
+  void add(const Corner& corner) { corners_[size_++] = corner; }
+
+  /// Where the next corner must lie: beyond the ray, seen from those so far. Forgets a corner that
+  /// is not on that side. Zero if the ray passes between three corners.
+  Vec2 missing_side() {
+    if (size_ == 1) return -corners_[0].beside;
+    if (size_ == 2) return beside_edge(0, 1, cross(corners_[0].beside, corners_[1].beside));
+    const double turn = this->turn();
+    double least = least_distance();
+    std::size_t from = 3;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double within = distance_within(corners_[i], corners_[(i + 1) % 3], turn);
+      if (within >= least) continue;
+      least = within;
+      from = i;
+    }
+    if (from == 3) return Vec2::Zero();
+    const Vec2 outward = beside_edge(from, (from + 1) % 3, -turn);
+    std::swap(corners_[(from + 2) % 3], corners_[2]);
+    size_ = 2;
+    return outward;
+  }
+
+  /// How the triangle's plane rises along the ray for each length beside it.
+  Vec2 rise() const {
+    const Vec2 u = corners_[1].beside - corners_[0].beside,
+               v = corners_[2].beside - corners_[0].beside;
+    const double du = corners_[1].along - corners_[0].along,
+                 dv = corners_[2].along - corners_[0].along;
+    return Vec2(v.y() * du - u.y() * dv, u.x() * dv - v.x() * du) / cross(u, v);
+  }
+  double along_ray() const { return corners_[0].along - rise().dot(corners_[0].beside); }
+
+  /// Where along the ray it passes through the triangle at the latest, whatever its corners'
+  /// rounding: that moves the plane, and is as much longer along the ray as the plane is slanted.
+  double latest() const {
+    const Vec2 u = corners_[1].beside - corners_[0].beside,
+               v = corners_[2].beside - corners_[0].beside;
+    // What the products of rise() lose in a sliver.
+    const double sliver = 4 * tolerance::epsilon<double> * u.norm() * v.norm() /
+                          std::abs(cross(u, v)) *
+                          (std::abs(corners_[1].along - corners_[0].along) +
+                           std::abs(corners_[2].along - corners_[0].along));
+    return along_ray() + rounding_ * std::sqrt(1 + rise().squaredNorm()) + sliver;
+  }
+
+  /// Takes a corner in the place of one, so that the ray still passes through; false if it does
+  /// not.
+  bool refine(const Corner& corner) {
+    const double turn = this->turn();
+    double best = least_distance();
+    std::size_t replaced = 3;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Corner &a = corners_[(i + 1) % 3], &b = corners_[(i + 2) % 3];
+      const double within =
+          std::min({distance_within(a, b, turn), distance_within(b, corner, turn),
+                    distance_within(corner, a, turn)});
+      if (!(within >= best)) continue;
+      best = within;
+      replaced = i;
+    }
+    if (replaced == 3) return false;
+    corners_[replaced] = corner;
+    return true;
+  }
+
+ private:
+  /// Twice the triangle's signed area.
+  double turn() const {
+    return cross(corners_[1].beside - corners_[0].beside, corners_[2].beside - corners_[0].beside);
+  }
+  /// How far the ray passes to the left of the edge, to the right if `turn` is negative.
+  static double distance_within(const Corner& from, const Corner& to, double turn) {
+    return std::copysign(1.0, turn) * cross(from.beside, to.beside) /
+           (to.beside - from.beside).norm();
+  }
+  /// At right angles to the edge, to its left if the sign is positive.
+  Vec2 beside_edge(std::size_t i, std::size_t j, double sign) const {
+    const Vec2 edge = corners_[j].beside - corners_[i].beside;
+    return Vec2(-edge.y(), edge.x()) * std::copysign(1.0, sign);
+  }
+
+  double rounding_;
+  std::array<Corner, 3> corners_;
+  std::size_t size_ = 0;
+};
+
+/// Support points of a shape as a ray sees them from its hit.
+class Seen {
+ public:
+  Seen(const PreparedShape<double>& shape, const RayNearBall<double>& near, const Vec3<double>& x,
+       const Vec3<double>& n, CastResult<double>& hit)
+      : shape_(shape),
+        hit_(hit),
+        x_(x),
+        r_(near.r),
+        a_(r_.unitOrthogonal()),
+        b_(r_.cross(a_)),
+        n_(n),
+        rounding_(tolerance::plane_rounding<double> * shape.inner_ball().radius + near.loss) {}
+
+  /// Where the ray is in the shape at the latest, from the hit on; infinite if that is not found.
+  double latest() const {
+    for (const double tilt : tilts) {
+      Portal portal(rounding_);
+      if (find(portal, tilt)) return refined(portal);
+    }
+    return std::numeric_limits<double>::infinity();
+  }
+
+ private:
+  Vec3<double> beside(const Vec2& side) const { return side.x() * a_ + side.y() * b_; }
+  Corner corner_along(const Vec3<double>& direction) const {
+    ++hit_.supports;
+    const Vec3<double> seen =
+        (shape_.inner_shape().support(direction) - shape_.inner_ball().centre) - x_;
+    return {Vec2(a_.dot(seen), b_.dot(seen)), r_.dot(seen)};
+  }
+
+  bool find(Portal& portal, double tilt) const {
+    Vec2 side(1, 0);
+    for (int i = 0; i < most_corners; ++i) {
+      const Vec3<double> sideways = beside(side);
+      const Corner corner =
+          corner_along(n_ + tilt * unit<double>(sideways - n_.dot(sideways) * n_));
+      if (!(side.dot(corner.beside) > portal.least_distance() * side.norm())) return false;
+      portal.add(corner);
+      side = portal.missing_side();
+      if (side.isZero(0)) return true;
+    }
+    return false;
+  }
+
+  double refined(Portal& portal) const {
+    double latest = portal.latest();
+    const double good_enough = good_share * rounding_ / std::max(-n_.dot(r_), rounding_);
+    for (int i = 0; i < most_refinements && !(latest <= good_enough); ++i) {
+      const Vec2 rise = portal.rise();
+      if (!portal.refine(corner_along(unit<double>(beside(rise) - r_)))) break;
+      latest = std::min(latest, portal.latest());
+    }
+    return latest;
+  }
+
+  const PreparedShape<double>& shape_;
+  CastResult<double>& hit_;
+  Vec3<double> x_, r_, a_, b_, n_;
+  double rounding_;
+};
+
+}  // namespace
+
+void enclose_ray(const PreparedShape<double>& shape, const RayNearBall<double>& near,
+                 const Vec3<double>& normal, CastResult<double>& hit) {
+  const double lambda = (hit.t_offset - near.t_shift) / near.t_per_length;
+  const Vec3<double> x = near.s + lambda * near.r;
+  const double R = shape.inner_ball().radius;
+  if (!(R > 0) || !x.allFinite()) return;
+  const double latest = Seen(shape, near, x, unit<double>(normal), hit).latest();
+  if (!std::isfinite(latest)) return;
+  const double digits = std::copysign(near.offset_rounding(hit.t_offset), near.t_per_length);
+  hit.offset_hi = near.t_offset(lambda + std::max(latest, 0.0)) + digits;
+}
+
+}  // namespace minkray
