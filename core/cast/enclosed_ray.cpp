@@ -44,6 +44,7 @@ class Portal {
   /// Where the next corner must lie: beyond the ray, seen from those so far. Forgets a corner that
   /// is not on that side. Zero if the ray passes between three corners.
   Vec2 missing_side() {
+    if (size_ == 2 && corners_[0].beside == corners_[1].beside) size_ = 1;
     if (size_ == 1) return -corners_[0].beside;
     if (size_ == 2) return beside_edge(0, 1, cross(corners_[0].beside, corners_[1].beside));
     const double turn = this->turn();
@@ -93,9 +94,8 @@ class Portal {
     std::size_t replaced = 3;
     for (std::size_t i = 0; i < 3; ++i) {
       const Corner &a = corners_[(i + 1) % 3], &b = corners_[(i + 2) % 3];
-      const double within =
-          std::min({distance_within(a, b, turn), distance_within(b, corner, turn),
-                    distance_within(corner, a, turn)});
+      const double within = std::min({distance_within(a, b, turn), distance_within(b, corner, turn),
+                                      distance_within(corner, a, turn)});
       if (!(within >= best)) continue;
       best = within;
       replaced = i;
@@ -112,8 +112,8 @@ class Portal {
   }
   /// How far the ray passes to the left of the edge, to the right if `turn` is negative.
   static double distance_within(const Corner& from, const Corner& to, double turn) {
-    return std::copysign(1.0, turn) * cross(from.beside, to.beside) /
-           (to.beside - from.beside).norm();
+    const double length = (to.beside - from.beside).norm();
+    return length > 0 ? std::copysign(1.0, turn) * cross(from.beside, to.beside) / length : 0;
   }
   /// At right angles to the edge, to its left if the sign is positive.
   Vec2 beside_edge(std::size_t i, std::size_t j, double sign) const {
@@ -130,9 +130,8 @@ class Portal {
 class Seen {
  public:
   Seen(const PreparedShape<double>& shape, const RayNearBall<double>& near, const Vec3<double>& x,
-       const Vec3<double>& n, CastResult<double>& hit)
+       const Vec3<double>& n)
       : shape_(shape),
-        hit_(hit),
         x_(x),
         r_(near.r),
         a_(r_.unitOrthogonal()),
@@ -152,13 +151,13 @@ class Seen {
  private:
   Vec3<double> beside(const Vec2& side) const { return side.x() * a_ + side.y() * b_; }
   Corner corner_along(const Vec3<double>& direction) const {
-    ++hit_.supports;
     const Vec3<double> seen =
         (shape_.inner_shape().support(direction) - shape_.inner_ball().centre) - x_;
     return {Vec2(a_.dot(seen), b_.dot(seen)), r_.dot(seen)};
   }
 
   bool find(Portal& portal, double tilt) const {
+    // Where the surface bends, three directions as far from each other as can be are enough.
     Vec2 side(1, 0);
     for (int i = 0; i < most_corners; ++i) {
       const Vec3<double> sideways = beside(side);
@@ -166,7 +165,7 @@ class Seen {
           corner_along(n_ + tilt * unit<double>(sideways - n_.dot(sideways) * n_));
       if (!(side.dot(corner.beside) > portal.least_distance() * side.norm())) return false;
       portal.add(corner);
-      side = portal.missing_side();
+      side = i == 0 ? Vec2(-0.5, 0.8660254037844386) : portal.missing_side();
       if (side.isZero(0)) return true;
     }
     return false;
@@ -184,7 +183,6 @@ class Seen {
   }
 
   const PreparedShape<double>& shape_;
-  CastResult<double>& hit_;
   Vec3<double> x_, r_, a_, b_, n_;
   double rounding_;
 };
@@ -197,7 +195,7 @@ void enclose_ray(const PreparedShape<double>& shape, const RayNearBall<double>& 
   const Vec3<double> x = near.s + lambda * near.r;
   const double R = shape.inner_ball().radius;
   if (!(R > 0) || !x.allFinite()) return;
-  const double latest = Seen(shape, near, x, unit<double>(normal), hit).latest();
+  const double latest = Seen(shape, near, x, unit<double>(normal)).latest();
   if (!std::isfinite(latest)) return;
   const double digits = std::copysign(near.offset_rounding(hit.t_offset), near.t_per_length);
   hit.offset_hi = near.t_offset(lambda + std::max(latest, 0.0)) + digits;

@@ -142,12 +142,14 @@ void end_far_cast(const PreparedShape<T>& shape, const RayNearBall<T>& near,
   result = none;
 }
 
-/// Bounds a hit from above that its solver has not, as coarser tolerances do not ask for.
+/// Bounds a hit from above that its solver has not. Leaves solvers that are asked for by name, and
+/// coarser tolerances, as they are.
 template <class T>
 void bound_hit(const PreparedShape<T>& shape, const RayNearBall<T>& near,
                const CastOptions<T>& options, CastResult<T>& result) {
   if constexpr (std::is_same_v<T, double>)
-    if (result.status == Status::hit && std::isinf(result.offset_hi) && is_exact(options))
+    if (result.status == Status::hit && std::isinf(result.offset_hi) && is_exact(options) &&
+        options.solver == SolverKind::automatic)
       enclose_ray(shape, near, shape.normal_to_inner(result.normal), result);
 }
 

@@ -68,7 +68,8 @@ struct CastResult {
   /// The hit parameter lies in t_base + [offset_lo, offset_hi], at the shape where it was prepared
   /// to be. Of the path `filter`: by the closed form's error bound. Else the lower end comes from a
   /// supporting plane, the upper end from support points that the ray passes between, both with
-  /// what their rounding leaves; infinite where the solver did not find such points.
+  /// what their rounding leaves; infinite where there are no such points, as at an edge that the
+  /// ray passes within rounding, and of solvers that are asked for by name.
   T offset_lo = T(0);
   T offset_hi = std::numeric_limits<T>::infinity();
 
@@ -77,7 +78,7 @@ struct CastResult {
   Vec3<T> normal = Vec3<T>::Zero();
 
   int iterations = 0;
-  int supports = 0;  ///< how often the support mapping was evaluated
+  int supports = 0;  ///< support points that the search took, without those of the upper bound
 
   T t() const { return t_base + t_offset; }
   bool found() const { return status == Status::hit || status == Status::inside; }

@@ -120,8 +120,9 @@ class Instances {
   const std::vector<PosedHalfSpace>& half_spaces() const { return half_spaces_; }
   bool is_half_space(std::size_t i) const { return places_[i].body == no_body; }
 
-  /// Refers to this object, which must outlive it.
-  PreparedShape<double> at(std::size_t i) const {
+  /// Refers to this object, which must outlive it. `loss` is what a ray's place is known to, in the
+  /// inner frame.
+  PreparedShape<double> at(std::size_t i, double loss = 0) const {
     const InstancePlace& place = places_[i];
     const InstanceBody& body = bodies_[place.body];
     const ShapeDefinition<double>& definition = *body.definition;
@@ -130,13 +131,18 @@ class Instances {
     const Vec3<double> origin(place.origin[0], place.origin[1], place.origin[2]);
     if (!body.is_plain) {
       const auto rest = rests_.find(static_cast<std::uint32_t>(i));
-      if (rest == rests_.end()) return {definition, origin, turn, 0};
+      if (rest == rests_.end()) return {definition, origin, turn, loss};
       return {definition, TwoFoldVec3<double>(origin, rest->second.centre), turn,
-              rest->second.loss};
+              rest->second.loss + loss};
     }
     return {definition,
             ShapeDefinition<double>::plain_centre({map.transpose(), origin}, body.centre), turn,
-            body.is_turned ? definition.plain_loss() : 0};
+            (body.is_turned ? definition.plain_loss() : 0) + loss};
+  }
+  /// For a ray as the instance sees it: allows for what `seen_by` has rounded.
+  PreparedShape<double> at_seen_by(std::size_t i, const Ray<double>& ray) const {
+    if (movements_.empty() || movements_[i].stands()) return at(i);
+    return at(i, movements_[i].rounding(ray.origin) * to_inner(i).norm());
   }
 
   const InstanceBody& body_of(std::size_t i) const { return bodies_[places_[i].body]; }

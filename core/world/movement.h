@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 
 #include "core/math/affine.h"
 #include "core/math/bounds.h"
@@ -36,6 +37,13 @@ struct Movement {
   Vec3<T> unmoved(const Vec3<T>& point, T time) const {
     const Vec3<T> unshifted = point - time * shift;
     return angle == T(0) ? unshifted : Vec3<T>(pivot + unturned(unshifted - pivot, time));
+  }
+
+  /// How far a ray from there, moved back, may lie beside where it should, near the pivot or the
+  /// origin: a dozen roundings of the way between them.
+  T rounding(const Vec3<T>& origin) const {
+    constexpr T roundings = T(6) * std::numeric_limits<T>::epsilon();
+    return roundings * (origin.norm() + pivot.norm() + shift.norm());
   }
 
   /// Where a point of the body has come to that was there at time 0.

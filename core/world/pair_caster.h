@@ -69,7 +69,7 @@ class PairCaster {
       }
       if (used == 0) continue;
       const PreparedShape<double> shape = instances_.at(instance);
-      if (used == 1 || !shape.definition().has_packets()) {
+      if (used == 1 || !shape.definition().has_packets() || instances_.move()) {
         for (int lane = 0; lane < used; ++lane) cast_alone(ray_of[lane], instance);
         continue;
       }
@@ -101,7 +101,7 @@ class PairCaster {
 
   void cast_alone(std::uint32_t ray, std::uint32_t instance) {
     const CastResult<double> result =
-        cast_ray(instances_.at(instance), seen(ray, instance), options_);
+        cast_ray(instances_.at_seen_by(instance, rays_.ray(ray)), seen(ray, instance), options_);
     count(ray, result);
     if (result.found()) on_found_(ray, instance, result.t(), [&] { return result; });
   }

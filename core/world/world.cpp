@@ -88,8 +88,9 @@ void World::closer_hit(const WorldRay& ray, SlabRay& slabs, WorldHit& closest,
   if (closer_half_space(ray, closest, counts)) slabs.numbers.t_max = slabs.limit(closest.cast.t());
   auto on_instance = [&](std::uint32_t instance) {
     if (ray.passes(instances_, instance)) return false;
-    const CastResult<double> result = cast_ray(
-        instances_.at(instance), instances_.seen_by(instance, ray.ray, ray.time), options_);
+    const CastResult<double> result =
+        cast_ray(instances_.at_seen_by(instance, ray.ray),
+                 instances_.seen_by(instance, ray.ray, ray.time), options_);
     counts.add_cast(result);
     if (!result.found() || !closest.yields_to(instance, result.t())) return false;
     closest = {instance, instances_.turned(instance, result, ray.time)};
@@ -154,8 +155,9 @@ bool World::occluded(const WorldRay& ray, QueryCounts& counts) const {
   bool met = false;
   auto on_instance = [&](std::uint32_t instance) {
     if (ray.passes(instances_, instance)) return false;
-    const CastResult<double> result = cast_ray(
-        instances_.at(instance), instances_.seen_by(instance, ray.ray, ray.time), options_);
+    const CastResult<double> result =
+        cast_ray(instances_.at_seen_by(instance, ray.ray),
+                 instances_.seen_by(instance, ray.ray, ray.time), options_);
     counts.add_cast(result);
     met = result.found();
     return met;

@@ -202,8 +202,8 @@ int minkray_shape_cast(minkray_shape shape, const minkray_pose* pose, const mink
         if (!pose || is_identity(*pose)) return cast_ray(held.prepared(), ray);
         // Nothing is counted: the handle's owner keeps the definition.
         const ShapeDefinition<double>& definition = *held.definition();
-        return cast_ray(
-            PreparedShape<double>(definition, definition.placed(pose_of(pose, "pose"))), ray);
+        return cast_ray(PreparedShape<double>(definition, definition.placed(pose_of(pose, "pose"))),
+                        ray);
       };
       WorldHit hit{no_instance, cast()};
       if (hit.cast.found()) hit.instance = 0;

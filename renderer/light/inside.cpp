@@ -34,7 +34,8 @@ Boundary exit_of(const World& world, const WorldRay& ray, std::uint32_t body, Qu
     }
     return exit;
   }
-  const CastResult<double> cast = cast_exit(instances.at(body), seen, world.options());
+  const CastResult<double> cast =
+      cast_exit(instances.at_seen_by(body, ray.ray), seen, world.options());
   counts.iterations += static_cast<std::uint64_t>(cast.iterations);
   counts.supports += static_cast<std::uint64_t>(cast.supports);
   ++counts.by_path[static_cast<std::size_t>(cast.path)];
@@ -79,7 +80,7 @@ WorldHit closest_but(const World& world, const WorldRay& ray, std::span<const st
   if (closest.found()) slabs.numbers.t_max = slabs.limit(closest.cast.t());
   counts.nodes += traverse(world.bvh(), slabs, [&](std::uint32_t instance) {
     if (is_left_out(instance) || instances.is_half_space(instance)) return false;
-    if (meet(instance, cast_ray(instances.at(instance),
+    if (meet(instance, cast_ray(instances.at_seen_by(instance, ray.ray),
                                 instances.seen_by(instance, ray.ray, ray.time), world.options())))
       slabs.numbers.t_max = slabs.limit(closest.cast.t());
     return false;

@@ -17,8 +17,8 @@
 #include "core/proof/check_certificate.h"
 #include "core/world/world.h"
 #include "tests/oracle/closed_form.h"
-#include "tests/support/ray_families.h"
 #include "tests/support/number_of_cases.h"
+#include "tests/support/ray_families.h"
 
 namespace minkray::testing {
 namespace {

@@ -75,9 +75,7 @@ TEST(Repeated, other_shapes_places_and_ray_kinds_are_not_left_out) {
 
 TEST(Repeated, instances_that_are_moved_apart_are_found) {
   World world(pile(5));
-  world.pose_all([](std::size_t i) {
-    return at({0, 5 * static_cast<double>(i), 0});
-  });
+  world.pose_all([](std::size_t i) { return at({0, 5 * static_cast<double>(i), 0}); });
   QueryCounts counts;
   for (std::uint32_t i = 0; i < 7; ++i)
     EXPECT_EQ(world.closest_hit({{0.1, 5.0 * i, 10}, {0, 0, -1}}, counts).instance, i);
