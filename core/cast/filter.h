@@ -40,7 +40,7 @@ template <class W>
 
 /// Where each ray enters the shape, or (`leaves`) where it leaves it for the last time. Only `open`
 /// lanes count. The shape's definition must have a form.
-/// The shape is a PreparedShape, or PosedInLanes.
+/// The shape is a PreparedShape, or what stands in its place in lanes.
 template <bool leaves, class F, class Placed>
 [[gnu::always_inline]] inline Filtered<F> filter(const Placed& shape, const Ray<F>& ray,
                                                  const Mask<Work<F>>& open) {

@@ -3,7 +3,7 @@
 // instruction set's flags (core/CMakeLists.txt).
 #pragma once
 
-#include "core/cast/posed_packet.h"
+#include "core/cast/packet_cast.h"
 
 namespace minkray {
 
@@ -13,21 +13,10 @@ void filter_kernel_sse2(const PreparedShape<float>& shape, const RayPacket<float
 void filter_kernel_sse2(const PreparedShape<double>& shape, const RayPacket<double>& rays,
                         LaneBits lanes, CastPacket<double>& answers);
 
-/// A pose in each lane.
-void filter_kernel_sse2(const ShapeDefinition<float>& definition, const PosePacket<float>& poses,
-                        const RayPacket<float>& rays, LaneBits lanes, CastPacket<float>& answers);
-void filter_kernel_sse2(const ShapeDefinition<double>& definition, const PosePacket<double>& poses,
-                        const RayPacket<double>& rays, LaneBits lanes, CastPacket<double>& answers);
-
 /// Only on machines that have AVX2 and FMA.
 void filter_kernel_avx2(const PreparedShape<float>& shape, const RayPacket<float>& rays,
                         LaneBits lanes, CastPacket<float>& answers);
 void filter_kernel_avx2(const PreparedShape<double>& shape, const RayPacket<double>& rays,
                         LaneBits lanes, CastPacket<double>& answers);
-
-void filter_kernel_avx2(const ShapeDefinition<float>& definition, const PosePacket<float>& poses,
-                        const RayPacket<float>& rays, LaneBits lanes, CastPacket<float>& answers);
-void filter_kernel_avx2(const ShapeDefinition<double>& definition, const PosePacket<double>& poses,
-                        const RayPacket<double>& rays, LaneBits lanes, CastPacket<double>& answers);
 
 }  // namespace minkray

@@ -4,15 +4,14 @@
 #include "core/cast/filter.h"
 #include "core/cast/filter_kernel.h"
 #include "core/cast/packet_lanes.h"
-#include "core/cast/posed_in_lanes.h"
 
 namespace minkray {
 namespace {
 
-/// It takes as many lanes as F has, beginning with lane `from`.
-template <class F, class Placed>
-void filter_part(const Placed& shape, const RayPacket<Lane<F>>& rays, LaneBits lanes,
-                 std::size_t from, CastPacket<Lane<F>>& answers) {
+/// Takes as many lanes as F has, beginning with lane `from`.
+template <class F>
+void filter_part(const PreparedShape<Lane<F>>& shape, const RayPacket<Lane<F>>& rays,
+                 LaneBits lanes, std::size_t from, CastPacket<Lane<F>>& answers) {
   const Ray<F> ray{load<F>(rays.origin, from), load<F>(rays.direction, from),
                    F::load(rays.t_max.data() + from)};
   const Filtered<F> answer = filter<false>(shape, ray, mask_of<Work<F>>(lanes >> from));
@@ -27,15 +26,14 @@ void filter_part(const Placed& shape, const RayPacket<Lane<F>>& rays, LaneBits l
     answer.normal[axis].store(answers.normal[static_cast<std::size_t>(axis)].data() + from);
 }
 
-/// It goes in parts of which the instruction set's registers hold the doubles, whatever T is.
-/// placed(from) is the shape as the lanes from there see it.
-template <class F, class PlacedAt>
-void kernel(const PlacedAt& placed, const RayPacket<Lane<F>>& rays, LaneBits lanes,
+/// Goes in parts of which the instruction set's registers hold the doubles, whatever T is.
+template <class F>
+void kernel(const PreparedShape<Lane<F>>& shape, const RayPacket<Lane<F>>& rays, LaneBits lanes,
             CastPacket<Lane<F>>& answers) {
   constexpr LaneBits every = (LaneBits(1) << LaneOf<F>::count) - 1;
   for (int at = 0; at < packet_lanes<Lane<F>>; at += LaneOf<F>::count) {
     const auto from = static_cast<std::size_t>(at);
-    if (lanes >> from & every) filter_part<F>(placed(from), rays, lanes, from, answers);
+    if (lanes >> from & every) filter_part<F>(shape, rays, lanes, from, answers);
   }
   answers.supports.fill(Lane<F>(0));
   answers.path.fill(Path::filter);
@@ -44,42 +42,16 @@ void kernel(const PlacedAt& placed, const RayPacket<Lane<F>>& rays, LaneBits lan
 template <class T>
 using SubPacket = Wide<T, static_cast<int>(IsaHere::register_bytes / sizeof(double)), IsaHere>;
 
-template <class F>
-void at_one(const PreparedShape<Lane<F>>& shape, const RayPacket<Lane<F>>& rays, LaneBits lanes,
-            CastPacket<Lane<F>>& answers) {
-  kernel<F>(
-      [&](std::size_t) -> const auto& { return shape; }, rays, lanes, answers);
-}
-
-template <class F>
-void at_poses(const ShapeDefinition<Lane<F>>& definition, const PosePacket<Lane<F>>& poses,
-              const RayPacket<Lane<F>>& rays, LaneBits lanes, CastPacket<Lane<F>>& answers) {
-  kernel<F>([&](std::size_t from) { return PosedInLanes<F>(definition, poses, from); }, rays, lanes,
-            answers);
-}
-
 }  // namespace
 
 void MINKRAY_FILTER_KERNEL(const PreparedShape<float>& shape, const RayPacket<float>& rays,
                            LaneBits lanes, CastPacket<float>& answers) {
-  at_one<SubPacket<float>>(shape, rays, lanes, answers);
+  kernel<SubPacket<float>>(shape, rays, lanes, answers);
 }
 
 void MINKRAY_FILTER_KERNEL(const PreparedShape<double>& shape, const RayPacket<double>& rays,
                            LaneBits lanes, CastPacket<double>& answers) {
-  at_one<SubPacket<double>>(shape, rays, lanes, answers);
-}
-
-void MINKRAY_FILTER_KERNEL(const ShapeDefinition<float>& definition, const PosePacket<float>& poses,
-                           const RayPacket<float>& rays, LaneBits lanes,
-                           CastPacket<float>& answers) {
-  at_poses<SubPacket<float>>(definition, poses, rays, lanes, answers);
-}
-
-void MINKRAY_FILTER_KERNEL(const ShapeDefinition<double>& definition,
-                           const PosePacket<double>& poses, const RayPacket<double>& rays,
-                           LaneBits lanes, CastPacket<double>& answers) {
-  at_poses<SubPacket<double>>(definition, poses, rays, lanes, answers);
+  kernel<SubPacket<double>>(shape, rays, lanes, answers);
 }
 
 }  // namespace minkray

@@ -194,7 +194,7 @@ template <class W, class Placed>
 
 }  // namespace detail
 
-/// The shape is a PreparedShape, or PosedInLanes.
+/// The shape is a PreparedShape, or what stands in its place in lanes.
 template <class F, class Placed>
 [[gnu::always_inline]] inline FormLine<Work<F>> form_line(const exact::Form& form,
                                                           const Placed& shape, const Ray<F>& ray) {

@@ -89,42 +89,11 @@ void cast_packet(const PreparedShape<T>& shape, const RayPacket<T>& rays, LaneBi
       answers.set(lane, cast_by_later_stages<T>(shape, rays.ray(lane), {}, {}));
 }
 
-template <class T>
-void cast_packet(const ShapeDefinition<T>& definition, const PosePacket<T>& poses,
-                 const RayPacket<T>& rays, LaneBits lanes, CastPacket<T>& answers,
-                 InstructionSet set) {
-  answers.hit = answers.inside = answers.miss = 0;
-  if (set == InstructionSet::avx2)
-    filter_kernel_avx2(definition, poses, rays, lanes, answers);
-  else
-    filter_kernel_sse2(definition, poses, rays, lanes, answers);
-  const LaneBits open = lanes & ~(answers.hit | answers.inside | answers.miss);
-  for (std::size_t i = 0; i < packet_lanes<T>; ++i) {
-    if (!(open >> i & 1)) continue;
-    Mat3<T> to_inner;
-    for (std::size_t k = 0; k < 9; ++k)
-      to_inner(static_cast<int>(k / 3), static_cast<int>(k % 3)) = poses.to_inner[k][i];
-    const auto lane_of = [&](const std::array<PacketNumbers<T>, 3>& v) {
-      return Vec3<T>(v[0][i], v[1][i], v[2][i]);
-    };
-    const PreparedShape<T> shape(definition,
-                                 TwoFoldVec3<T>(lane_of(poses.centre), lane_of(poses.centre_low)),
-                                 poses.are_turned ? &to_inner : nullptr, poses.loss[i]);
-    const int lane = static_cast<int>(i);
-    answers.set(lane, cast_by_later_stages<T>(shape, rays.ray(lane), {}, {}));
-  }
-}
-
 template struct CastPacket<float>;
 template struct CastPacket<double>;
 template void cast_packet(const PreparedShape<float>&, const RayPacket<float>&, LaneBits,
                           CastPacket<float>&, InstructionSet);
 template void cast_packet(const PreparedShape<double>&, const RayPacket<double>&, LaneBits,
                           CastPacket<double>&, InstructionSet);
-
-template void cast_packet(const ShapeDefinition<float>&, const PosePacket<float>&,
-                          const RayPacket<float>&, LaneBits, CastPacket<float>&, InstructionSet);
-template void cast_packet(const ShapeDefinition<double>&, const PosePacket<double>&,
-                          const RayPacket<double>&, LaneBits, CastPacket<double>&, InstructionSet);
 
 }  // namespace minkray

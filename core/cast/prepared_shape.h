@@ -56,8 +56,6 @@ class PreparedShape {
   /// The ball's centre in the outer frame: as forms take it, and all of it.
   const Vec3<T>& centre() const { return centre_.high; }
   const TwoFoldVec3<T>& two_fold_centre() const { return centre_; }
-  /// What rounding of the pose may have moved that by, in the inner frame.
-  T place_loss() const { return loss_; }
   /// It is null for the identity.
   const Mat3<T>* linear_to_inner() const { return is_rigid_identity_ ? nullptr : &to_inner_; }
 

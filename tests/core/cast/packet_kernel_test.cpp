@@ -7,7 +7,6 @@
 
 #include <bit>
 
-#include "core/cast/posed_packet.h"
 #include "core/derived/convert.h"
 #include "tests/support/random.h"
 
@@ -103,25 +102,19 @@ TYPED_TEST(PacketKernel, settles_nearly_all_lanes_it_is_asked_for_and_no_other) 
 TYPED_TEST(PacketKernel, answers_that_are_used_again_hold_nothing_of_the_former) {
   using T = TypeParam;
   const PreparedShape<T> ball(Shape<T>(Sphere<T>{T(1)}));
-  PosePacket<T> poses;
   RayPacket<T> at_it, away;
   for (int lane = 0; lane < packet_lanes<T>; ++lane) {
-    poses.set(lane, ball);
     at_it.set(lane, {{T(lane % 2 ? -3 : 0), T(0), T(0)}, {T(1), T(0), T(0)}});
     away.set(lane, {{T(-3), T(0), T(0)}, {T(-1), T(0), T(0)}});
   }
   CastPacket<T> answers;
-  for (const bool is_posed : {false, true})
-    for (const RayPacket<T>& rays : {at_it, away}) {
-      if (is_posed)
-        cast_packet(ball.definition(), poses, rays, all_lanes<T>, answers);
-      else
-        cast_packet(ball, rays, all_lanes<T>, answers);
-      const bool is_away = rays.direction[0][0] < T(0);
-      EXPECT_EQ(std::popcount(answers.hit), is_away ? 0 : packet_lanes<T> / 2);
-      EXPECT_EQ(std::popcount(answers.inside), is_away ? 0 : packet_lanes<T> / 2);
-      EXPECT_EQ(std::popcount(answers.miss), is_away ? packet_lanes<T> : 0);
-    }
+  for (const RayPacket<T>& rays : {at_it, away}) {
+    cast_packet(ball, rays, all_lanes<T>, answers);
+    const bool is_away = rays.direction[0][0] < T(0);
+    EXPECT_EQ(std::popcount(answers.hit), is_away ? 0 : packet_lanes<T> / 2);
+    EXPECT_EQ(std::popcount(answers.inside), is_away ? 0 : packet_lanes<T> / 2);
+    EXPECT_EQ(std::popcount(answers.miss), is_away ? packet_lanes<T> : 0);
+  }
 }
 
 }  // namespace
