@@ -48,12 +48,14 @@ bool have_many_points(const ContactShape& a, const Mat3<double>& linear_a, const
 /// better than it: the depth is a concave function of where B is.
 bool has_many_directions(const ContactShape& a, const Affine<double>& pose_a, const ContactShape& b,
                          const Affine<double>& pose_b, const SignedDistance& found) {
-  constexpr double step = 1e-5;     // of the sizes
+  constexpr double step = 1e-4;     // of the sizes
   constexpr double leaning = 1e-4;  // 1 - cos of the angle between two directions of note
   const double way = step * (a.ball_radius() + b.ball_radius());
   Affine<double> deeper = pose_b;
   deeper.translation -= way * found.normal;
-  const SignedDistance there = signed_distance(a, pose_a, b, deeper);
+  SignedDistanceOptions how;
+  how.tolerance = 1e-9;
+  const SignedDistance there = signed_distance(a, pose_a, b, deeper, how);
   return !(there.upper <= found.lower - way * (1 - leaning));
 }
 
@@ -83,6 +85,13 @@ PairDerivative derivative_of(const ContactShape& a, const Affine<double>& pose_a
                        std::abs(between_cores)) ||
       (!(between_cores > interval) && has_many_directions(a, pose_a, b, pose_b, found));
   return derivative;
+}
+
+PairDerivative finest_derivative_of(const ContactShape& a, const Affine<double>& pose_a,
+                                    const ContactShape& b, const Affine<double>& pose_b) {
+  SignedDistanceOptions how;
+  how.tolerance = tolerance_for_derivatives;
+  return derivative_of(a, pose_a, b, pose_b, signed_distance(a, pose_a, b, pose_b, how));
 }
 
 PairDerivative derivative_at_half_space(const Vec3<double>& origin, const ContactShape& b,

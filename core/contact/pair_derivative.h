@@ -23,11 +23,19 @@ struct PairDerivative {
   bool is_ridge = false;
 };
 
+/// The tolerance that answers for derivatives are to be found with: the normal of a curved pair is
+/// known to the square root of it.
+inline constexpr double tolerance_for_derivatives = 1e-15;
+
 /// `found` is the answer on this pair, with both of its bounds; else nothing is known: NaN, and a
 /// ridge.
 PairDerivative derivative_of(const ContactShape& a, const Affine<double>& pose_a,
                              const ContactShape& b, const Affine<double>& pose_b,
                              const SignedDistance& found);
+
+/// Of an answer that is found for it.
+PairDerivative finest_derivative_of(const ContactShape& a, const Affine<double>& pose_a,
+                                    const ContactShape& b, const Affine<double>& pose_b);
 
 /// B is what distance_to_half_space() was asked of. A's origin is `origin`.
 PairDerivative derivative_at_half_space(const Vec3<double>& origin, const ContactShape& b,

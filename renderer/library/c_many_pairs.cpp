@@ -108,17 +108,6 @@ bool wants_derivative(const Arrays& to) {
   return to.jac_a || to.jac_b || to.is_ridge;
 }
 
-void check_ends(const double* t_max, std::size_t have, std::size_t pairs) {
-  if (have != pairs && have != 1)
-    wrong_use("t_max: must be one, or as many as pairs, " + std::to_string(pairs) + " (got " +
-              std::to_string(have) + ")");
-  if (have > 0) require(t_max, "t_max");
-  for (std::size_t i = 0; i < have; ++i)
-    if (!std::isfinite(t_max[i]) || !(t_max[i] >= 0))
-      wrong_use("t_max[" + std::to_string(i) + "]: must be finite and >= 0 (got " +
-                std::to_string(t_max[i]) + ")");
-}
-
 }  // namespace
 }  // namespace minkray
 
@@ -135,8 +124,9 @@ int minkray_signed_distances(const minkray_bodies* a, const minkray_bodies* b, s
     if (distances->size < sizeof(minkray_distance_arrays))
       wrong_use("distances.size: must be sizeof(minkray_distance_arrays)");
     const minkray_distance_arrays to = *distances;
-    const SignedDistanceOptions asked = distance_options(options);
+    SignedDistanceOptions asked = distance_options(options);
     const bool derive = wants_derivative(to);
+    if (derive) asked.tolerance = std::min(asked.tolerance, tolerance_for_derivatives);
     ask_all(all_a, all_b, count, memories, how,
             [&](size_t i, const PosedBody& one, const PosedBody& other, PairMemory* memory) {
               const SignedDistance found = distance_of(one, other, memory, asked);

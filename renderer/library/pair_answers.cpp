@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/library/pair_answers.h"
 
+#include <cmath>
 #include <string>
 
 #include "renderer/library/call.h"
@@ -95,6 +96,17 @@ minkray_manifold plain_manifold(const SignedDistance& nearest, const ContactMani
   plain.count = found.count;
   plain.status = code_of(nearest.status);
   return plain;
+}
+
+void check_ends(const double* t_max, std::size_t have, std::size_t pairs) {
+  if (have != pairs && have != 1)
+    wrong_use("t_max: must be one, or as many as pairs, " + std::to_string(pairs) + " (got " +
+              std::to_string(have) + ")");
+  if (have > 0) require(t_max, "t_max");
+  for (std::size_t i = 0; i < have; ++i)
+    if (!std::isfinite(t_max[i]) || !(t_max[i] >= 0))
+      wrong_use("t_max[" + std::to_string(i) + "]: must be finite and >= 0 (got " +
+                std::to_string(t_max[i]) + ")");
 }
 
 }  // namespace minkray

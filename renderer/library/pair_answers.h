@@ -21,6 +21,9 @@ minkray_distance plain_distance(const SignedDistance& found);
 minkray_impact plain_impact(const Impact& found);
 minkray_manifold plain_manifold(const SignedDistance& nearest, const ContactManifold& found);
 
+/// Throws CallError unless there is one time for each pair, or one for all, finite and at least 0.
+void check_ends(const double* t_max, std::size_t have, std::size_t pairs);
+
 /// The time at which they touch; infinite if nothing is known of it.
 inline double end_of(const Impact& found) {
   const bool touch = found.status == ImpactStatus::hit || found.status == ImpactStatus::inside;

@@ -25,6 +25,7 @@ from .pairs import (BEGINS_INSIDE, IMPACT, NO_IMPACT, OVERLAPPING, SEPARATED, TO
                     Distance, DistanceStatus, Impact, ImpactStatus, signed_distance, time_of_impact)
 from .many_pairs import (Distances, Impacts, Manifolds, manifolds, pair_memory, signed_distances,
                          times_of_impact)
+from .scene_pairs import Manifold, Nearest, SceneImpacts, ScenePairs
 from .files import write
 
 __version__ = _minkray.version
