@@ -103,6 +103,8 @@ BodiesOfPairs::BodiesOfPairs(const minkray_bodies* given, std::size_t count, con
       if (std::ranges::find(customs_, custom) == customs_.end()) customs_.push_back(custom);
   }
   refuse_if_running(customs_, argument);
+  // Before pairs wait for each other's support points: a shape that is made ready is locked.
+  for (const HeldShape* const held : shapes_) held->contact();
 }
 
 void BodiesOfPairs::read(std::size_t i, PosedBody& body) const {
