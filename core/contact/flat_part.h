@@ -14,8 +14,8 @@ struct FlatPart {
   double length = 0;                           ///< of the edge
 };
 
-/// Of the directions that lean by at most `tilt` radians against d, which has unit length, the one
-/// with the largest part counts. Of a core known by its support mapping only, it is what its points
+/// Takes, of the directions that lean by at most `tilt` radians against d (of unit length), the one
+/// with the largest part. Of a core known by its support mapping only, it is what its points
 /// do where d is tilted a little.
 FlatPart flat_part(const ShapeCore& core, const Vec3<double>& d, double tilt);
 

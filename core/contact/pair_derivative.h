@@ -33,7 +33,7 @@ PairDerivative derivative_of(const ContactShape& a, const Affine<double>& pose_a
                              const ContactShape& b, const Affine<double>& pose_b,
                              const SignedDistance& found);
 
-/// Of an answer that is found for it.
+/// Asks for the answer, too, as finely as that needs.
 PairDerivative finest_derivative_of(const ContactShape& a, const Affine<double>& pose_a,
                                     const ContactShape& b, const Affine<double>& pose_b);
 
@@ -41,7 +41,7 @@ PairDerivative finest_derivative_of(const ContactShape& a, const Affine<double>&
 PairDerivative derivative_at_half_space(const Vec3<double>& origin, const ContactShape& b,
                                         const Affine<double>& pose_b, const SignedDistance& found);
 
-/// Of t_lo by a twist of each body at time 0. Zero where they begin inside each other; NaN where
+/// Takes t_lo by a twist of each body at time 0. Zero where they begin inside each other; NaN where
 /// there is no contact.
 PairDerivative derivative_of(const ContactShape& a, const RigidMotion& motion_a,
                              const ContactShape& b, const RigidMotion& motion_b,

@@ -38,7 +38,7 @@ class BodiesOfPairs {
   /// How it moves from there. Throws CallError if a number is not finite.
   RigidMotion motion(std::size_t i, const PosedBody& body) const;
 
-  /// Of all shapes; each once.
+  /// Those of all shapes, each once.
   const std::vector<std::shared_ptr<const CustomSupport>>& customs() const { return customs_; }
 
  private:

@@ -45,7 +45,7 @@ class SceneBodies {
   const ContactBody* body(std::uint32_t object) const {
     return body_of_[object] == none ? nullptr : &body_of(object);
   }
-  /// Of the frame that a twist moves.
+  /// Where the frame is that a twist moves.
   Vec3<double> origin(std::uint32_t object) const;
   /// Whether another object's surface is no further from the point than `near`.
   bool is_another_at(const Vec3<double>& point, std::uint32_t object, double near) const;

@@ -33,7 +33,7 @@ bool are_same_bits(const std::vector<Thing>& a, const std::vector<Thing>& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0;
 }
 
-/// Of two capsules: the distance of their axes less their radii, in long double.
+/// Two capsules: the distance of their axes less their radii, in long double.
 long double distance_of_capsules(const mk::Pose& a, const mk::Pose& b, long double half,
                                  long double radii) {
   using Long = long double;
