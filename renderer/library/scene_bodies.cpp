@@ -5,6 +5,7 @@
 #include <memory>
 #include <unordered_map>
 
+#include "core/derived/cube.h"
 #include "core/parallel/parallel.h"
 #include "renderer/import/scene_of_model.h"
 #include "renderer/library/call.h"
@@ -39,7 +40,7 @@ ContactBody as_box(const PlacedPlane& plane, const Vec3<double>& near, double re
   pose.linear.col(1) = n.cross(pose.linear.col(0));
   pose.linear.col(2) = n;
   pose.translation = near - (height + half) * n;
-  return {ContactShape(Shape<double>(Box<double>{Vec3<double>::Constant(half)})), pose};
+  return {ContactShape(cube_of(half)), pose};
 }
 
 /// How far the moving body gets from where its origin is at time 0.
