@@ -150,7 +150,7 @@ std::vector<NearPair> near_pairs(const ContactWorld& world, const NearPairsOptio
 }
 
 std::vector<NearPair> nearest_bodies(const ContactBody& to, const ContactWorld& world,
-                                     std::size_t count) {
+                                     std::size_t count, double at_most) {
   std::vector<NearPair> best;
   if (count == 0 || world.bodies().empty()) return best;
   const auto value_of = [](const NearPair& pair) {
@@ -174,6 +174,7 @@ std::vector<NearPair> nearest_bodies(const ContactBody& to, const ContactWorld& 
     const Open top = open.top();
     open.pop();
     const bool is_full = best.size() == count;
+    if (top.distance > at_most) break;
     // Boxes that meet say nothing of how deep the bodies are in each other.
     if (is_full && top.distance > std::max(value_of(best.back()), 0.0)) break;
     if ((top.what & BvhNode::leaf) == 0) {
@@ -186,8 +187,9 @@ std::vector<NearPair> nearest_bodies(const ContactBody& to, const ContactWorld& 
     const ContactBody& body = world.bodies()[index];
     if (!to.is_pair_with(body)) continue;
     SignedDistanceOptions how;
-    if (is_full) how.at_most = value_of(best.back());
+    how.at_most = is_full ? std::min(at_most, value_of(best.back())) : at_most;
     const NearPair pair{0, index, signed_distance(to.shape, to.pose, body.shape, body.pose, how)};
+    if (pair.distance.lower > at_most) continue;
     if (is_full && !is_nearer(pair, best.back())) continue;
     best.insert(std::ranges::upper_bound(best, pair, is_nearer), pair);
     if (best.size() > count) best.pop_back();

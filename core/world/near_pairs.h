@@ -64,8 +64,10 @@ std::vector<NearPair> near_pairs(const ContactWorld& first, const ContactWorld& 
 
 /// The `count` bodies nearest to another one, the nearest first; fewer if there are not so many.
 /// `a` is 0. Masks are heeded. Bodies whose distance is unknown (SignedDistance::is_unknown()) come
-/// last, and only if there are not so many others: whether they are near nobody knows.
+/// last, and only if there are not so many others: whether they are near nobody knows. Those that
+/// are proven to be further away than `at_most` are left out.
 std::vector<NearPair> nearest_bodies(const ContactBody& to, const ContactWorld& world,
-                                     std::size_t count);
+                                     std::size_t count,
+                                     double at_most = std::numeric_limits<double>::infinity());
 
 }  // namespace minkray

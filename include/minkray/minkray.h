@@ -860,3 +860,5 @@ inline Impact time_of_impact(const Shape& a, const Pose& pose_a, const Twist& tw
 
 }  // namespace v0
 }  // namespace minkray
+
+#include "minkray/pairs.h"

@@ -498,4 +498,6 @@ MINKRAY_API int minkray_scene_clearance(minkray_scene scene, uint32_t group, con
 }
 #endif
 
+#include "minkray/minkray_c_pairs.h"
+
 #endif

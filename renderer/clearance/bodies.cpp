@@ -74,49 +74,41 @@ std::vector<ClearanceBody> bodies_of(const Scene& scene) {
   return bodies;
 }
 
-namespace {
-
-/// What decides whether a body moves against another.
-struct Place {
-  int group;   ///< of links that are fixed to each other; -1: an obstacle
-  int parent;  ///< the group that it hangs on; of the world, and of what is fixed to it, none: -2
-  bool is_still;
-};
-
-Place place_of(const ClearanceBody& body, const Model& model, const std::vector<int>& groups) {
-  if (body.link_index < 0) return {-1, -2, true};
-  const int group = groups[static_cast<std::size_t>(body.link_index)];
-  const ModelLink& link = model.links[static_cast<std::size_t>(group)];
+LinkPlace place_of(int link, const Model& model, const std::vector<int>& groups) {
+  if (link < 0) return {};
+  const int group = groups[static_cast<std::size_t>(link)];
+  const ModelLink& first = model.links[static_cast<std::size_t>(group)];
   const bool is_fixed = std::ranges::all_of(
-      link.joints, [](const ModelJoint& joint) { return joint.kind == JointKind::fixed; });
-  return {group, link.parent < 0 ? -2 : groups[static_cast<std::size_t>(link.parent)],
-          link.parent < 0 && is_fixed};
+      first.joints, [](const ModelJoint& joint) { return joint.kind == JointKind::fixed; });
+  return {group, first.parent < 0 ? -2 : groups[static_cast<std::size_t>(first.parent)],
+          first.parent < 0 && is_fixed};
 }
 
-}  // namespace
+bool are_looked_at(const LinkPlace& a, const LinkPlace& b) {
+  if (a.group == b.group || (a.is_still && b.is_still)) return false;
+  const bool are_links = a.group >= 0 && b.group >= 0;
+  return !are_links || (a.parent != b.group && b.parent != a.group);
+}
 
 std::vector<BodyPair> pairs_of(const std::vector<ClearanceBody>& bodies, const Model& model,
                                const AllowedPairs& allowed, bool self) {
   const std::vector<int> groups = rigid_groups(model);
-  std::vector<Place> places;
+  std::vector<LinkPlace> places;
   // Obstacles are not looked at in pairs: there may be a million of them.
   std::vector<std::size_t> all, links, obstacles;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    places.push_back(place_of(bodies[i], model, groups));
+    places.push_back(place_of(bodies[i].link_index, model, groups));
     all.push_back(i);
     (places[i].group < 0 ? obstacles : links).push_back(i);
   }
   std::vector<BodyPair> pairs;
   for (const std::size_t i : all) {
-    const Place& a = places[i];
+    const LinkPlace& a = places[i];
     const std::vector<std::size_t>& others = a.group < 0 ? links : self ? all : obstacles;
     for (auto j = std::ranges::upper_bound(others, i); j != others.end(); ++j) {
-      const Place& b = places[*j];
-      if (a.group == b.group || (a.is_still && b.is_still)) continue;
-      if (a.group >= 0 && b.group >= 0 &&
-          (a.parent == b.group || b.parent == a.group ||
-           allowed.allows(bodies[i].link, bodies[*j].link)))
-        continue;
+      const LinkPlace& b = places[*j];
+      if (!are_looked_at(a, b)) continue;
+      if (a.group >= 0 && b.group >= 0 && allowed.allows(bodies[i].link, bodies[*j].link)) continue;
       if (pairs.size() == most_pairs)
         throw BadInput(
             "more than 10,000,000 pairs of bodies move against each other; --allow, --srdf and "

@@ -42,6 +42,18 @@ inline constexpr std::size_t most_pairs = 10'000'000;
 /// them. Throws BadInput if there are more than most_obstacles.
 std::vector<ClearanceBody> bodies_of(const Scene& scene);
 
+/// What decides whether a robot's shape moves against another.
+struct LinkPlace {
+  int group = -1;   ///< of links that are fixed to each other; -1: the world
+  int parent = -2;  ///< the group that it hangs on; of the world, and of what is fixed to it, -2
+  bool is_still = true;
+};
+/// `link` is an index, -1: the world. `groups` are rigid_groups(model).
+LinkPlace place_of(int link, const Model& model, const std::vector<int>& groups);
+
+/// Whether two shapes of a robot are looked at in a pair: they move, and no joint connects them.
+bool are_looked_at(const LinkPlace& a, const LinkPlace& b);
+
 struct BodyPair {
   std::size_t a, b;
 };

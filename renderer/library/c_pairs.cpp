@@ -1,21 +1,17 @@
 // SPDX-License-Identifier: MIT
 // The functions of the C interface about pairs of shapes.
 #include <cmath>
-#include <limits>
 #include <memory>
 
 #include "core/contact/impact.h"
 #include "core/contact/signed_distance.h"
 #include "renderer/library/call.h"
 #include "renderer/library/held_shape.h"
+#include "renderer/library/pair_answers.h"
 #include "renderer/library/poses.h"
 
 namespace minkray {
 namespace {
-
-void store(const Vec3<double>& from, double (&to)[3]) {
-  for (int k = 0; k < 3; ++k) to[k] = from[k];
-}
 
 /// A shape and where it stands, as queries on pairs want it: what keeps lengths is the pose, any
 /// other map is part of the shape.
@@ -42,56 +38,12 @@ class PosedShape {
   Affine<double> pose_;
 };
 
-SignedDistanceOptions distance_options(const minkray_distance_options* given) {
-  SignedDistanceOptions options;
-  if (!given) return options;
-  if (given->size < sizeof(minkray_distance_options))
-    wrong_use("options.size: must be sizeof(minkray_distance_options)");
-  if (!(given->tolerance >= 0) || !(given->tolerance < 1))
-    wrong_use("options.tolerance: must be >= 0 and < 1 (got " + std::to_string(given->tolerance) +
-              ")");
-  if (!(given->at_most >= 0))
-    wrong_use("options.at_most: must be >= 0 (got " + std::to_string(given->at_most) + ")");
-  if (given->tolerance > 0) options.tolerance = given->tolerance;
-  if (given->at_most > 0) options.at_most = given->at_most;
-  options.only_sign = given->only_sign != 0;
-  return options;
-}
-
 RigidMotion motion_of(const PosedShape& posed, const minkray_twist* twist, const char* argument) {
   RigidMotion motion{posed.pose()};
   if (!twist) return motion;
   motion.velocity = vector_of(twist->velocity, argument, ".velocity");
   motion.angular_velocity = vector_of(twist->turn, argument, ".turn");
   return motion;
-}
-
-int code_of(SignedStatus status) {
-  switch (status) {
-    case SignedStatus::separated:
-      return MINKRAY_SEPARATED;
-    case SignedStatus::touching:
-      return MINKRAY_TOUCHING;
-    case SignedStatus::overlapping:
-      return MINKRAY_OVERLAPPING;
-    case SignedStatus::undecided:
-      break;
-  }
-  return MINKRAY_UNDECIDED;
-}
-
-int code_of(ImpactStatus status) {
-  switch (status) {
-    case ImpactStatus::hit:
-      return MINKRAY_IMPACT;
-    case ImpactStatus::miss:
-      return MINKRAY_NO_IMPACT;
-    case ImpactStatus::inside:
-      return MINKRAY_BEGINS_INSIDE;
-    case ImpactStatus::undecided:
-      break;
-  }
-  return MINKRAY_IMPACT_UNDECIDED;
 }
 
 }  // namespace
@@ -112,14 +64,7 @@ int minkray_signed_distance(minkray_shape a, const minkray_pose* pose_a, minkray
                                                  posed_b.pose(), distance_options(options));
     throw_if_lied(held_a.customs());
     throw_if_lied(held_b.customs());
-    distance->value = found.value;
-    distance->lower = found.lower;
-    distance->upper = found.upper;
-    store(found.point_a, distance->point_a);
-    store(found.point_b, distance->point_b);
-    store(found.normal, distance->normal);
-    distance->status = code_of(found.status);
-    distance->supports = found.supports;
+    *distance = plain_distance(found);
   });
 }
 
@@ -138,15 +83,7 @@ int minkray_time_of_impact(minkray_shape a, const minkray_pose* pose_a,
                      motion_of(posed_b, twist_b, "twist_b"), t_max);
     throw_if_lied(held_a.customs());
     throw_if_lied(held_b.customs());
-    const bool touch = found.status == ImpactStatus::hit || found.status == ImpactStatus::inside;
-    impact->t_lo = found.t_lo;
-    impact->t_hi = touch ? found.t_hi : std::numeric_limits<double>::infinity();
-    impact->distance = found.distance;
-    store(found.point_a, impact->point_a);
-    store(found.point_b, impact->point_b);
-    store(found.normal, impact->normal);
-    impact->status = code_of(found.status);
-    impact->steps = found.steps;
+    *impact = plain_impact(found);
   });
 }
 

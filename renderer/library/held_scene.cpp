@@ -11,6 +11,7 @@
 
 #include "renderer/import/scene_of_model.h"
 #include "renderer/library/call.h"
+#include "renderer/library/scene_bodies.h"
 #include "renderer/scene/add_instances.h"
 #include "renderer/scene/scene_instances.h"
 
@@ -170,12 +171,13 @@ const Object* HeldScene::of_file(std::uint32_t number) const {
   return &scene_.objects[group.first_in_scene + (number - group.first)];
 }
 
-void HeldScene::check_object(std::uint32_t number) const {
+void HeldScene::check_object(std::uint32_t number, const char* argument) const {
   if (number >= size_)
-    wrong_use("object: must be less than " + std::to_string(size_) + " (got " +
+    wrong_use(std::string(argument) + ": must be less than " + std::to_string(size_) + " (got " +
               std::to_string(number) + ")");
   if (is_removed(number))
-    wrong_use("object: must not be one that was removed (got " + std::to_string(number) + ")");
+    wrong_use(std::string(argument) + ": must not be one that was removed (got " +
+              std::to_string(number) + ")");
 }
 
 Affine<double> HeldScene::pose(std::uint32_t number) const {
@@ -324,13 +326,22 @@ void HeldScene::show_instances(Instances& instances) const {
   for (const std::uint32_t number : removed_) instances.show_to(number, 0);
 }
 
+Affine<double> HeldScene::pose_of_any(std::uint32_t number) const {
+  if (number >= size_) return particle_pose(scene_, number - size_);
+  return is_removed(number) ? Affine<double>() : pose(number);
+}
+
+const SceneBodies& HeldScene::bodies() const {
+  world();
+  const std::lock_guard lock(bodies_mutex_);
+  if (!bodies_) bodies_ = std::make_shared<const SceneBodies>(*this);
+  return *bodies_;
+}
+
 void HeldScene::commit() {
   grey();  // of objects without a material
-  const auto pose_of = [&](std::size_t i) {
-    const auto number = static_cast<std::uint32_t>(i);
-    if (number >= size_) return particle_pose(scene_, i - size_);
-    return is_removed(number) ? Affine<double>() : pose(number);
-  };
+  if (due_ != Due::nothing) bodies_.reset();
+  const auto pose_of = [&](std::size_t i) { return pose_of_any(static_cast<std::uint32_t>(i)); };
   const bool moves = std::any_of(scene_.objects.begin(), scene_.objects.end(),
                                  [](const Object& one) { return !one.movement.stands(); });
   const auto movement_of = [&](std::size_t i) {

@@ -18,10 +18,13 @@
 #include "renderer/library/custom_support.h"
 #include "renderer/library/handles.h"
 #include "renderer/library/held_shape.h"
+#include "renderer/library/pair_rules.h"
 #include "renderer/library/scene_use.h"
 #include "renderer/scene/scene.h"
 
 namespace minkray {
+
+class SceneBodies;
 
 /// One call changes it, or any number ask: see scene_use.h.
 class HeldScene {
@@ -52,7 +55,7 @@ class HeldScene {
   std::uint32_t size() const { return size_; }
   const std::vector<ParticleSet>& particles() const { return scene_.particles; }
   /// Throws CallError if the number is that of no object, or of a removed one.
-  void check_object(std::uint32_t number) const;
+  void check_object(std::uint32_t number, const char* argument = "object") const;
   Affine<double> pose(std::uint32_t number) const;
   /// Throws CallError if the number is that of no group.
   const Group& group(std::uint32_t group) const;
@@ -74,6 +77,18 @@ class HeldScene {
   /// What rays are cast at. Throws CallError if the scene was not committed since it was changed,
   /// or if this is called from within the support function of a shape in it.
   const World& world() const;
+
+  const PairRules& pair_rules() const { return pair_rules_; }
+  /// To be changed. No commit is due for that.
+  PairRules& changed_pair_rules() {
+    bodies_.reset();
+    return pair_rules_;
+  }
+  /// For queries on pairs; made by the first that asks after a change. Throws as world() does.
+  const SceneBodies& bodies() const;
+  /// Where an object or a particle stands.
+  Affine<double> pose_of_any(std::uint32_t number) const;
+  std::uint32_t groups() const { return static_cast<std::uint32_t>(groups_.size()); }
 
  private:
   /// What the next commit has to do.
@@ -111,6 +126,10 @@ class HeldScene {
   std::unordered_set<std::uint32_t> removed_;
   World world_;
   Due due_ = Due::build;
+
+  PairRules pair_rules_;
+  mutable std::mutex bodies_mutex_;
+  mutable std::shared_ptr<const SceneBodies> bodies_;  ///< null until they are asked for
 
   mutable std::mutex names_mutex_;
   mutable std::unordered_map<std::uint32_t, std::string> names_;  ///< given or asked for

@@ -23,8 +23,8 @@ class Progress {
 
   bool stopped() const { return stopped_.load(std::memory_order_relaxed); }
 
-  void add(std::size_t rays) {
-    const std::size_t done = done_ += rays;
+  void add(std::size_t more) {
+    const std::size_t done = done_ += more;
     if (!options_ || !options_->progress) return;
     const std::unique_lock lock(mutex_, std::try_to_lock);
     if (!lock || stopped()) return;
@@ -66,6 +66,11 @@ int threads_of(const minkray_options* options) {
 
 void work_on_rays(std::size_t count, const minkray_options* options,
                   const std::function<void(std::size_t begin, std::size_t end)>& body) {
+  work_on_parts(count, rays_a_part, options, body);
+}
+
+void work_on_parts(std::size_t count, std::size_t part_size, const minkray_options* options,
+                   const std::function<void(std::size_t begin, std::size_t end)>& body) {
   const int threads = threads_of(options);
   Progress progress(options, count);
   const auto part = [&](std::size_t begin, std::size_t end) {
@@ -73,10 +78,10 @@ void work_on_rays(std::size_t count, const minkray_options* options,
     body(begin, end);
     progress.add(end - begin);
   };
-  const std::size_t parts = (count + rays_a_part - 1) / rays_a_part;
+  const std::size_t parts = (count + part_size - 1) / part_size;
   const auto some_parts = [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i)
-      part(i * rays_a_part, std::min((i + 1) * rays_a_part, count));
+      part(i * part_size, std::min((i + 1) * part_size, count));
   };
   // One thread is the caller's own.
   if (threads == 1 || parts <= 1)

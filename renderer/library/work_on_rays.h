@@ -25,6 +25,10 @@ bool wants_stop(const minkray_options* options, double done);
 void work_on_rays(std::size_t count, const minkray_options* options,
                   const std::function<void(std::size_t begin, std::size_t end)>& body);
 
+/// Likewise, for parts of so many things: of those that take long, few.
+void work_on_parts(std::size_t count, std::size_t part_size, const minkray_options* options,
+                   const std::function<void(std::size_t begin, std::size_t end)>& body);
+
 /// Calls body(begin, end) likewise, for groups of at most `group` that follow each other: in order,
 /// or if they are to be gathered, some of them in turns (gather.h).
 void work_on_groups(std::size_t count, std::size_t group, bool gathered,

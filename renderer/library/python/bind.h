@@ -7,6 +7,8 @@
 namespace minkray_python {
 
 void bind_shapes(py::module_& module);
+void bind_pairs(py::module_& module);
+void bind_scene_pairs(py::module_& module);
 void bind_scenes(py::module_& module);
 void bind_pictures(py::module_& module);
 

@@ -35,7 +35,8 @@ struct RayRows {
   }
 };
 
-py::dict cast(const Scene& scene, const py::object& rays, const py::object& t_max, int threads) {
+py::dict cast(const Scene& scene, const py::object& rays, const py::object& t_max, int threads,
+              bool jac) {
   const RayRows source(rays, t_max);
   const auto n = static_cast<py::ssize_t>(source.rows.count);
   py::array_t<double> t(n), t_lo(n), t_hi(n), distance(n), point({n, py::ssize_t{3}}),
@@ -53,11 +54,26 @@ py::dict cast(const Scene& scene, const py::object& rays, const py::object& t_ma
                                    object.mutable_data(),
                                    status.mutable_data(),
                                    supports.mutable_data()};
-  Interruptible(threads).run([&](const minkray_options* options) {
-    return minkray_scene_cast_arrays(scene.handle(), &source.arrays, source.rows.count, &hits,
-                                     options);
-  });
   py::dict result;
+  minkray_ray_derivatives derivatives = {};
+  derivatives.size = sizeof derivatives;
+  if (jac) {
+    py::array_t<double> by_ray({n, py::ssize_t{6}}), by_body({n, py::ssize_t{6}});
+    py::array_t<bool> is_ridge(n);
+    derivatives.jac_ray = by_ray.mutable_data();
+    derivatives.jac_body = by_body.mutable_data();
+    derivatives.is_ridge = reinterpret_cast<std::uint8_t*>(is_ridge.mutable_data());
+    result["jac_ray"] = by_ray;
+    result["jac_body"] = by_body;
+    result["is_ridge"] = is_ridge;
+  }
+  Interruptible(threads).run([&](const minkray_options* options) {
+    const int code = minkray_scene_cast_arrays(scene.handle(), &source.arrays, source.rows.count,
+                                               &hits, options);
+    if (code != MINKRAY_OK || !jac) return code;
+    return minkray_scene_ray_derivatives(scene.handle(), &source.arrays, source.rows.count, &hits,
+                                         &derivatives, options);
+  });
   result["t"] = t;
   result["t_lo"] = t_lo;
   result["t_hi"] = t_hi;

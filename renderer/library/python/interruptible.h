@@ -13,10 +13,13 @@ inline void check(int code) {
   if (code != MINKRAY_OK) throw minkray::Error(code);
 }
 
-/// Lets Ctrl-C stop what takes long: signals are looked at by the thread that called.
+/// Lets Ctrl-C stop what takes long: signals are looked at by the thread that called, which also
+/// calls a function of the caller's, if there is one, with the part that is done. If that answers
+/// true, or raises, the work is stopped.
 class Interruptible {
  public:
-  explicit Interruptible(int threads) {
+  explicit Interruptible(int threads, py::object progress = py::none())
+      : progress_(std::move(progress)) {
     options_ = {sizeof options_, threads, 0, &Interruptible::look, this};
   }
   const minkray_options* options() const { return &options_; }
@@ -31,10 +34,11 @@ class Interruptible {
     }
     if (code == MINKRAY_STOPPED && PyErr_Occurred()) throw py::error_already_set();
     check(code);
+    if (!progress_.is_none()) progress_(1.0);
   }
 
  private:
-  static int look(void* user, double) {
+  static int look(void* user, double done) {
     auto* self = static_cast<Interruptible*>(user);
     if (std::this_thread::get_id() != self->caller_) return 0;
     // The lock is not asked for more often than anybody would notice.
@@ -42,12 +46,22 @@ class Interruptible {
     if (now < self->next_look_) return 0;
     self->next_look_ = now + std::chrono::milliseconds(20);
     const Locked lock;
-    return !lock || PyErr_CheckSignals() != 0 ? 1 : 0;
+    if (!lock || PyErr_CheckSignals() != 0) return 1;
+    return self->progress_.is_none() ? 0 : self->tell(done);
+  }
+  int tell(double done) const {
+    try {
+      return py::bool_(progress_(done)) ? 1 : 0;
+    } catch (py::error_already_set& error) {
+      error.restore();  // `run` throws it again
+      return 1;
+    }
   }
   using Clock = std::chrono::steady_clock;
   Clock::time_point next_look_ = Clock::now();
   std::thread::id caller_ = std::this_thread::get_id();
   minkray_options options_;
+  py::object progress_;  ///< None: nobody is told
 };
 
 }  // namespace minkray_python

@@ -20,6 +20,8 @@ PYBIND11_MODULE(_minkray, module) {
   watch_end_of_interpreter();
   module.def("is_in_support", &is_in_support);
   bind_shapes(module);
+  bind_pairs(module);
   bind_scenes(module);
+  bind_scene_pairs(module);
   bind_pictures(module);
 }

@@ -13,6 +13,7 @@ trap 'rm -rf "$folder"' EXIT
 stub() {
   mkdir -p "$folder/$2/minkray"
   cp "$1" "$folder/$2/minkray/minkray_c.h"
+  sed -i '/^#include "minkray\//d' "$folder/$2/minkray/minkray_c.h"
   {
     echo '#include <minkray/minkray_c.h>'
     sed '/^#/d' "$1" | tr '\n' ' ' | sed 's:/\*:\x01:g; s:\*/:\x02:g; s:\x01[^\x02]*\x02::g' | grep -o 'MINKRAY_API [^;]*;' |
@@ -28,7 +29,11 @@ constants_of() { grep -o 'MINKRAY_[A-Z_]* = [0-9]*' "$1" | sort; }
 keeps_constants() { [[ -z "$(comm -23 <(constants_of "$1") <(constants_of "$2"))" ]]; }
 functions_of() { nm -D --defined-only "$1" | awk '$2 == "T" {print $3}' | sort; }
 
-now="$sources/include/minkray/minkray_c.h"
+# All headers of now as one, as minkray_c.h includes them.
+now="$folder/now.h"
+for header in minkray_c minkray_c_pairs; do
+  sed '/^#include "minkray\//d' "$sources/include/minkray/$header.h"
+done >"$now"
 stub "$now" now
 diff <(functions_of "$folder/now/libminkray.so") <(functions_of "$build/libminkray.so") ||
   { echo "the library does not export what the header declares"; exit 1; }

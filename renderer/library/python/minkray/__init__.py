@@ -23,6 +23,9 @@ from .shapes import (box, capsule, cone, custom, cut_cylinder, cylinder, differe
                      sum, superellipsoid, swept, tapered_capsule, transformed, translated, triangle)
 from .pairs import (BEGINS_INSIDE, IMPACT, NO_IMPACT, OVERLAPPING, SEPARATED, TOUCHING, UNDECIDED,
                     Distance, DistanceStatus, Impact, ImpactStatus, signed_distance, time_of_impact)
+from .many_pairs import (Distances, Impacts, Manifolds, manifolds, pair_memory, signed_distances,
+                         times_of_impact)
+from .scene_pairs import Manifold, Nearest, SceneImpacts, ScenePairs
 from .files import write
 
 __version__ = _minkray.version

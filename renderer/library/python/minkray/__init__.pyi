@@ -2,6 +2,7 @@
 # What is public, with types; docs are in the modules themselves.
 import enum
 import os
+from math import inf
 from typing import Any, Callable, Iterable, Iterator, Literal, Mapping, Optional, Sequence, Union
 
 import numpy as np
@@ -9,6 +10,8 @@ import numpy.typing as npt
 
 _Floats = npt.NDArray[np.float64]
 _Numbers = npt.NDArray[np.uint32]
+_Bools = npt.NDArray[np.bool_]
+_Codes = npt.NDArray[np.uint8]
 _Path = Union[str, "os.PathLike[str]"]
 _Geometry = Literal["visual", "collision", "all"]
 
@@ -94,6 +97,9 @@ class Hits:
     object: _Numbers
     status: npt.NDArray[np.uint8]
     supports: npt.NDArray[np.int32]
+    jac_ray: _Floats
+    jac_body: _Floats
+    is_ridge: _Bools
     def __getitem__(self, key: Any) -> Hits: ...
     def __iter__(self) -> Iterator[Hits]: ...
     def __len__(self) -> int: ...
@@ -150,12 +156,127 @@ class Scene:
     @property
     def names(self) -> Any: ...
     def commit(self) -> None: ...
-    def cast_rays(self, rays: npt.ArrayLike, t_max: Optional[npt.ArrayLike] = None, threads: int = 0) -> Hits: ...
+    def cast_rays(self, rays: npt.ArrayLike, t_max: Optional[npt.ArrayLike] = None, threads: int = 0, *, jac: bool = False) -> Hits: ...
     def occluded(self, rays: npt.ArrayLike, t_max: Optional[npt.ArrayLike] = None, threads: int = 0) -> npt.NDArray[np.bool_]: ...
     def certify(self, rays: npt.ArrayLike, hits: Optional[Hits] = None, t_max: Optional[npt.ArrayLike] = None, threads: int = 0) -> Proofs: ...
     def depth(self, K: npt.ArrayLike, pose: Optional[npt.ArrayLike], width: int, height: int, threads: int = 0) -> tuple[_Floats, _Numbers]: ...
+    def set_masks(self, object: int, category: int = 1, mask: int = 4294967295) -> None: ...
+    def allow(self, i: int, j: int, allowed: bool = True) -> None: ...
+    def distances(self, pairs: Optional[npt.ArrayLike] = None, within: Optional[float] = None, *, tolerance: float = 1e-10, jac: bool = False, threads: int = 0) -> ScenePairs: ...
+    def nearest(self, points: npt.ArrayLike, k: int = 1, *, within: float = inf, mask: int = 4294967295, jac: bool = False, threads: int = 0) -> Nearest: ...
+    def distance_to(self, shape: _Shapes, poses: _Poses, within: float = inf, *, mask: int = 4294967295, jac: bool = False, threads: int = 0) -> Nearest: ...
+    def time_of_impact(self, shape: _Shapes, poses: _Poses, twists: Optional[npt.ArrayLike], t_max: npt.ArrayLike = 1.0, *, mask: int = 4294967295, jac: bool = False, threads: int = 0) -> SceneImpacts: ...
+    def manifold(self, i: int, j: int) -> Manifold: ...
     def render(self, camera: Optional[Mapping[str, Any]] = None, spp: int = 16, bounces: Optional[int] = None, aovs: Sequence[str] = (), *, lights: Optional[Sequence[Mapping[str, Any]]] = None, background: Any = None, width: int = 0, height: int = 0, integrator: Literal["auto", "path", "direct", "ambient", "normals"] = "auto", max_depth: Optional[int] = None, denoise: bool = False, seed: int = 0, threads: int = 0) -> dict[str, npt.NDArray[Any]]: ...
     def clearance(self, robot: Robot, path: npt.ArrayLike, tolerance: float = 0.01, only_obstacles: bool = False, threads: int = 0) -> Clearance: ...
+
+class Distances:
+    value: _Floats
+    lower: _Floats
+    upper: _Floats
+    normal: _Floats
+    point_a: _Floats
+    point_b: _Floats
+    status: _Codes
+    supports: npt.NDArray[np.int32]
+    jac_a: _Floats
+    jac_b: _Floats
+    is_ridge: _Bools
+    def __getitem__(self, key: Any) -> Distances: ...
+    def __iter__(self) -> Iterator[Distances]: ...
+    def __len__(self) -> int: ...
+
+class Impacts:
+    t_lo: _Floats
+    t_hi: _Floats
+    normal: _Floats
+    point_a: _Floats
+    point_b: _Floats
+    distance: _Floats
+    status: _Codes
+    jac_a: _Floats
+    jac_b: _Floats
+    is_ridge: _Bools
+    def __getitem__(self, key: Any) -> Impacts: ...
+    def __iter__(self) -> Iterator[Impacts]: ...
+    def __len__(self) -> int: ...
+
+class Manifolds:
+    count: npt.NDArray[np.int32]
+    normal: _Floats
+    points: _Floats
+    points_a: _Floats
+    points_b: _Floats
+    gaps: _Floats
+    value: _Floats
+    lower: _Floats
+    upper: _Floats
+    status: _Codes
+    def __getitem__(self, key: Any) -> Manifolds: ...
+    def __iter__(self) -> Iterator[Manifolds]: ...
+    def __len__(self) -> int: ...
+
+class Manifold:
+    count: Any
+    normal: _Floats
+    points: _Floats
+    points_a: _Floats
+    points_b: _Floats
+    gaps: _Floats
+    value: Any
+    lower: Any
+    upper: Any
+    status: Any
+    def __getitem__(self, key: Any) -> Manifold: ...
+    def __iter__(self) -> Iterator[Manifold]: ...
+    def __len__(self) -> int: ...
+
+class ScenePairs:
+    object_a: _Numbers
+    object_b: _Numbers
+    value: _Floats
+    lower: _Floats
+    upper: _Floats
+    normal: _Floats
+    point_a: _Floats
+    point_b: _Floats
+    status: _Codes
+    jac_a: _Floats
+    jac_b: _Floats
+    is_ridge: _Bools
+    def __getitem__(self, key: Any) -> ScenePairs: ...
+    def __iter__(self) -> Iterator[ScenePairs]: ...
+    def __len__(self) -> int: ...
+
+class Nearest:
+    object: _Numbers
+    value: _Floats
+    lower: _Floats
+    upper: _Floats
+    normal: _Floats
+    point_a: _Floats
+    point_b: _Floats
+    status: _Codes
+    jac: _Floats
+    is_ridge: _Bools
+    def __getitem__(self, key: Any) -> Nearest: ...
+    def __iter__(self) -> Iterator[Nearest]: ...
+    def __len__(self) -> int: ...
+
+class SceneImpacts:
+    object: _Numbers
+    t_lo: _Floats
+    t_hi: _Floats
+    normal: _Floats
+    point_a: _Floats
+    point_b: _Floats
+    distance: _Floats
+    status: _Codes
+    jac: _Floats
+    is_ridge: _Bools
+    def __getitem__(self, key: Any) -> SceneImpacts: ...
+    def __iter__(self) -> Iterator[SceneImpacts]: ...
+    def __len__(self) -> int: ...
 
 class Distance:
     value: Any
@@ -177,6 +298,10 @@ class Impact:
 
 def signed_distance(a: _Shapes, pose_a: _Poses, b: _Shapes, pose_b: _Poses, tolerance: float = 1e-10) -> Distance: ...
 def time_of_impact(a: _Shapes, pose_a: _Poses, twist_a: Optional[npt.ArrayLike], b: _Shapes, pose_b: _Poses, twist_b: Optional[npt.ArrayLike], t_max: npt.ArrayLike = 1.0) -> Impact: ...
+def pair_memory(shape: Union[int, tuple[int, ...]]) -> _Floats: ...
+def signed_distances(a: _Shapes, pose_a: _Poses, b: _Shapes, pose_b: _Poses, *, jac: bool = False, tolerance: float = 1e-10, memory: Optional[_Floats] = None, threads: int = 0, out: Union[Distances, dict[str, npt.NDArray[Any]], None] = None, progress: Optional[Callable[[float], Any]] = None) -> Distances: ...
+def times_of_impact(a: _Shapes, pose_a: _Poses, twist_a: Optional[npt.ArrayLike], b: _Shapes, pose_b: _Poses, twist_b: Optional[npt.ArrayLike], t_max: npt.ArrayLike = 1.0, *, jac: bool = False, memory: Optional[_Floats] = None, threads: int = 0, out: Union[Impacts, dict[str, npt.NDArray[Any]], None] = None, progress: Optional[Callable[[float], Any]] = None) -> Impacts: ...
+def manifolds(a: _Shapes, pose_a: _Poses, b: _Shapes, pose_b: _Poses, *, tolerance: float = 1e-10, memory: Optional[_Floats] = None, threads: int = 0, out: Union[Manifolds, dict[str, npt.NDArray[Any]], None] = None, progress: Optional[Callable[[float], Any]] = None) -> Manifolds: ...
 def lidar(pattern: Union[_Path, tuple[float, ...], list[float]], pose: Optional[npt.ArrayLike] = None) -> _Floats: ...
 def pinhole(K: npt.ArrayLike, pose: Optional[npt.ArrayLike], width: int, height: int) -> _Floats: ...
 def write(file: _Path, points: npt.ArrayLike, **columns: npt.ArrayLike) -> None: ...

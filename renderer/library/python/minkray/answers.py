@@ -81,6 +81,15 @@ class Hits(_Arrays):
         neither a hit nor a miss.
     supports : int32
         How often the object's support mapping was asked.
+    jac_ray : float64, six numbers each
+        With ``jac=True``: the derivative of `t` by the ray's origin and by its direction; NaN where
+        nothing is met, zero where the ray begins inside.
+    jac_body : float64, six numbers each
+        Likewise, by a twist (v, w) of the object: by the velocity of its frame's origin along the
+        world's axes, and by its angular velocity about that point.
+    is_ridge : bool
+        True where there may be other derivatives, or none: of a ray through an edge, that grazes a
+        shape, or that meets two objects at once.
     """
 
     def __repr__(self):

@@ -11,6 +11,7 @@ from .calls import (Error, array_of, given_pose_of, name_of, number_of, pose_of,
                     text_of, vectors_of, whole_number_of)
 from .rays import pinhole
 from .robots import Robot
+from .scene_pairs import PairsOfScene
 
 
 def _threads(number):
@@ -28,7 +29,7 @@ class _Names(list):
         return super().__getitem__(number)
 
 
-class Scene:
+class Scene(PairsOfScene):
     """Shapes with poses, that rays are cast at.
 
     What is added, moved or removed counts from the next question on. Any number of threads may ask a
@@ -316,7 +317,7 @@ class Scene:
                 else values for name, values in fields.items()}
 
     @public
-    def cast_rays(self, rays, t_max=None, threads=0):
+    def cast_rays(self, rays, t_max=None, threads=0, *, jac=False):
         """What rays meet first.
 
         Parameters
@@ -327,6 +328,8 @@ class Scene:
             In lengths of the direction; None for no end. With 0 a ray is its origin.
         threads : int
             0 for one a core. The answers are the same bits for any number.
+        jac : bool
+            Whether derivatives of `t` are told, too.
 
         Returns
         -------
@@ -348,7 +351,9 @@ class Scene:
         array([1.5, inf])
         """
         rows, ends, shape = self._rows(rays, t_max)
-        return Hits(self._shaped(self._ready().cast(rows, ends, _threads(threads)), shape))
+        found = self._ready().cast(rows, ends, _threads(threads), bool(jac))
+        fields = {name: found.pop(name) for name in ("t", "t_lo", "t_hi")}  # t is the first of all
+        return Hits(self._shaped({**fields, **found}, shape))
 
     @public
     def occluded(self, rays, t_max=None, threads=0):

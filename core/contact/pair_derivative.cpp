@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#include "core/contact/pair_derivative.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/contact/flat_part.h"
+
+namespace minkray {
+namespace {
+
+PairDerivative unknown(bool is_ridge) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  const Vec3<double> nans(nan, nan, nan);
+  return {{nans, nans}, {nans, nans}, is_ridge};
+}
+
+/// By how much the normal may lean, if a step of that length along it is between bounds this far
+/// apart.
+double tilt_of(double interval, double length) {
+  constexpr double most = 1e-3;
+  constexpr double least = 1e-12;  // what turning a direction to a body's frame costs, and more
+  const double tilt = std::sqrt(2 * interval / length);
+  return tilt < most ? std::max(tilt, least) : most;  // NaN, too
+}
+
+/// Whether the bodies may touch each other in more than a point when they are moved together.
+bool have_many_points(const ContactShape& a, const Mat3<double>& linear_a, const ContactShape& b,
+                      const Mat3<double>& linear_b, const Vec3<double>& normal, double interval,
+                      double length) {
+  const double tilt = tilt_of(interval, length);
+  const Mat3<double> turn_a = turn_in_world(a, linear_a);
+  const FlatPart of_a = flat_part(a.core(), turn_a.transpose() * normal, tilt);
+  if (of_a.dimension == 0) [[likely]]
+    return false;
+  const Mat3<double> turn_b = turn_in_world(b, linear_b);
+  const FlatPart of_b = flat_part(b.core(), turn_b.transpose() * -normal, tilt);
+  if (of_b.dimension == 0) return false;
+  if (of_a.dimension == 2 || of_b.dimension == 2) return true;
+  // Two edges have one common point, unless they are as good as parallel: at the end of the shorter
+  // one the gap has grown by less than the bounds are apart.
+  const double sine = (turn_a * of_a.along).cross(turn_b * of_b.along).norm();
+  const double shorter = std::min(of_a.length, of_b.length);
+  return sine <= tilt || sine * shorter <= std::sqrt(2 * interval * length);
+}
+
+/// Whether the depth may have more than one direction. Deeper along the normal, all others are
+/// better than it: the depth is a concave function of where B is.
+bool has_many_directions(const ContactShape& a, const Affine<double>& pose_a, const ContactShape& b,
+                         const Affine<double>& pose_b, const SignedDistance& found) {
+  constexpr double step = 1e-4;     // of the sizes
+  constexpr double leaning = 1e-4;  // 1 - cos of the angle between two directions of note
+  const double way = step * (a.ball_radius() + b.ball_radius());
+  Affine<double> deeper = pose_b;
+  deeper.translation -= way * found.normal;
+  SignedDistanceOptions how;
+  how.tolerance = 1e-9;
+  const SignedDistance there = signed_distance(a, pose_a, b, deeper, how);
+  return !(there.upper <= found.lower - way * (1 - leaning));
+}
+
+TwistDerivative of_point(const Vec3<double>& weight, const Vec3<double>& arm) {
+  return {weight, arm.cross(weight)};
+}
+
+/// The turn by a rotation vector.
+Mat3<double> turned_by(const Vec3<double>& rotation) {
+  const double angle = rotation.norm();
+  if (!(angle > 0)) return Mat3<double>::Identity();
+  return Eigen::AngleAxis<double>(angle, rotation / angle).toRotationMatrix();
+}
+
+}  // namespace
+
+PairDerivative derivative_of(const ContactShape& a, const Affine<double>& pose_a,
+                             const ContactShape& b, const Affine<double>& pose_b,
+                             const SignedDistance& found) {
+  const double interval = found.upper - found.lower;
+  if (found.is_unknown() || !std::isfinite(interval)) return unknown(true);
+  PairDerivative derivative{of_point(-found.normal, found.point_a - pose_a.translation),
+                            of_point(found.normal, found.point_b - pose_b.translation)};
+  const double between_cores = found.value + a.core().radius + b.core().radius;
+  derivative.is_ridge =
+      have_many_points(a, pose_a.linear, b, pose_b.linear, found.normal, interval,
+                       std::abs(between_cores)) ||
+      (!(between_cores > interval) && has_many_directions(a, pose_a, b, pose_b, found));
+  return derivative;
+}
+
+PairDerivative finest_derivative_of(const ContactShape& a, const Affine<double>& pose_a,
+                                    const ContactShape& b, const Affine<double>& pose_b) {
+  SignedDistanceOptions how;
+  how.tolerance = tolerance_for_derivatives;
+  return derivative_of(a, pose_a, b, pose_b, signed_distance(a, pose_a, b, pose_b, how));
+}
+
+PairDerivative derivative_at_half_space(const Vec3<double>& origin, const ContactShape& b,
+                                        const Affine<double>& pose_b, const SignedDistance& found) {
+  if (found.is_unknown()) return unknown(true);
+  PairDerivative derivative{of_point(-found.normal, found.point_a - origin),
+                            of_point(found.normal, found.point_b - pose_b.translation)};
+  // The normal is known to rounding.
+  constexpr double tilt = 64 * std::numeric_limits<double>::epsilon();
+  const Vec3<double> down = turn_in_world(b, pose_b.linear).transpose() * -found.normal;
+  derivative.is_ridge = flat_part(b.core(), down, tilt).dimension > 0;
+  return derivative;
+}
+
+PairDerivative derivative_of(const ContactShape& a, const RigidMotion& motion_a,
+                             const ContactShape& b, const RigidMotion& motion_b,
+                             const Impact& found) {
+  if (found.status == ImpactStatus::miss) return unknown(false);
+  if (found.status == ImpactStatus::inside) return {};
+  if (found.status == ImpactStatus::undecided || !std::isfinite(found.distance))
+    return unknown(true);
+  const double time = found.t_lo;
+  const auto velocity_of = [&](const RigidMotion& motion, const Vec3<double>& arm) {
+    return Vec3<double>(motion.velocity + motion.angular_velocity.cross(arm));
+  };
+  const auto arm_of = [&](const RigidMotion& motion, const Vec3<double>& point) {
+    return Vec3<double>(point - (motion.pose.translation + time * motion.velocity));
+  };
+  const Vec3<double> arm_a = arm_of(motion_a, found.point_a),
+                     arm_b = arm_of(motion_b, found.point_b);
+  const Vec3<double> velocity_a = velocity_of(motion_a, arm_a),
+                     velocity_b = velocity_of(motion_b, arm_b);
+  const double closing = found.normal.dot(velocity_a - velocity_b);
+  const Mat3<double> turn_a = turned_by(time * motion_a.angular_velocity),
+                     turn_b = turned_by(time * motion_b.angular_velocity);
+  // What turns a body at time 0 turns it later about an axis that has turned with it.
+  const auto back = [&](TwistDerivative derivative, const Mat3<double>& turn) {
+    derivative.by_turn = turn.transpose() * derivative.by_turn;
+    return derivative;
+  };
+  PairDerivative derivative{back(of_point(-found.normal / closing, arm_a), turn_a),
+                            back(of_point(found.normal / closing, arm_b), turn_b)};
+  constexpr double grazing = 1e-6;  // of the points' speeds: less is no approach to speak of
+  constexpr double known = 1e-12;   // of the sizes: what the normal of a contact is known to
+  const double size = a.ball_radius() + b.ball_radius();
+  derivative.is_ridge =
+      !(closing > grazing * (velocity_a.norm() + velocity_b.norm())) ||
+      have_many_points(a, turn_a * motion_a.pose.linear, b, turn_b * motion_b.pose.linear,
+                       found.normal, known * known * size, size);
+  return derivative;
+}
+
+}  // namespace minkray

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// How a pair's signed distance, and the time of its first contact, change when the bodies are moved
+// a little: by the envelope theorem the nearest points may be taken to stay where they are on the
+// bodies (J. Danskin, "The Theory of Max-Min, with Applications", 1966). Where there are several
+// pairs of them, or several directions of the depth, there are several derivatives.
+#pragma once
+
+#include "core/contact/half_space_distance.h"
+#include "core/contact/impact.h"
+
+namespace minkray {
+
+/// By the velocity of the body's origin along the world's axes, and by its angular velocity about
+/// that point.
+struct TwistDerivative {
+  Vec3<double> by_velocity = Vec3<double>::Zero();
+  Vec3<double> by_turn = Vec3<double>::Zero();
+};
+
+struct PairDerivative {
+  TwistDerivative a, b;
+  /// The bounds do not exclude that there are other derivatives; this is one of them.
+  bool is_ridge = false;
+};
+
+/// The tolerance that answers for derivatives are to be found with: the normal of a curved pair is
+/// known to the square root of it.
+inline constexpr double tolerance_for_derivatives = 1e-15;
+
+/// `found` is the answer on this pair, with both of its bounds; else nothing is known: NaN, and a
+/// ridge.
+PairDerivative derivative_of(const ContactShape& a, const Affine<double>& pose_a,
+                             const ContactShape& b, const Affine<double>& pose_b,
+                             const SignedDistance& found);
+
+/// Asks for the answer, too, as finely as that needs.
+PairDerivative finest_derivative_of(const ContactShape& a, const Affine<double>& pose_a,
+                                    const ContactShape& b, const Affine<double>& pose_b);
+
+/// B is what distance_to_half_space() was asked of. A's origin is `origin`.
+PairDerivative derivative_at_half_space(const Vec3<double>& origin, const ContactShape& b,
+                                        const Affine<double>& pose_b, const SignedDistance& found);
+
+/// Takes t_lo by a twist of each body at time 0. Zero where they begin inside each other; NaN where
+/// there is no contact.
+PairDerivative derivative_of(const ContactShape& a, const RigidMotion& motion_a,
+                             const ContactShape& b, const RigidMotion& motion_b,
+                             const Impact& found);
+
+}  // namespace minkray

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#include "core/world/world_impact.h"
+
+#include <algorithm>
+#include <queue>
+
+namespace minkray {
+namespace {
+
+/// A box that holds the body at time 0 and, moved along, at any other time.
+Bounds<double> moving_box(const ContactShape& shape, const RigidMotion& motion) {
+  if (motion.angular_velocity.isZero(0)) return bounds_of({shape, motion.pose});
+  constexpr double rounding = 1 + 16 * std::numeric_limits<double>::epsilon();
+  const double reach = rounding * (shape.ball_radius() + shape.offset()) + shape.core().rounding;
+  const Vec3<double> all = Vec3<double>::Constant(reach);
+  return {motion.pose.translation - all, motion.pose.translation + all};
+}
+
+/// The time at which a box that moves by `velocity` first meets another one, or a little less;
+/// infinite if it never does.
+double meeting(const Bounds<double>& moving, const Vec3<double>& velocity,
+               const Bounds<float>& other) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  constexpr double rounding = 1 - 16 * std::numeric_limits<double>::epsilon();
+  double enter = 0, leave = infinity;
+  for (int i = 0; i < 3; ++i) {
+    const double ahead = double(other.lower[i]) - moving.upper[i],
+                 behind = double(other.upper[i]) - moving.lower[i];
+    if (velocity[i] == 0) {
+      if (ahead > 0 || behind < 0) return infinity;
+      continue;
+    }
+    const bool up = velocity[i] > 0;
+    enter = std::max(enter, rounding * ((up ? ahead : behind) / velocity[i]));
+    leave = std::min(leave, (up ? behind : ahead) / (rounding * velocity[i]));
+  }
+  return enter <= leave ? enter : infinity;
+}
+
+}  // namespace
+
+WorldImpact nothing_met(double t_max) {
+  WorldImpact found;
+  found.impact.status = ImpactStatus::miss;
+  found.impact.t_lo = t_max;
+  found.impact.distance = std::numeric_limits<double>::infinity();
+  return found;
+}
+
+void take(WorldImpact& found, std::size_t body, const Impact& impact) {
+  if (impact.status == ImpactStatus::miss) return;
+  const double t_lo = std::min(found.impact.t_lo, impact.t_lo);
+  const auto end_of = [](const Impact& one) {
+    const bool touch = one.status == ImpactStatus::hit || one.status == ImpactStatus::inside;
+    return touch ? one.t_hi : std::numeric_limits<double>::infinity();
+  };
+  const bool is_first = end_of(impact) < end_of(found.impact) ||
+                        (end_of(impact) == end_of(found.impact) &&
+                         (found.body == WorldImpact::none || body < found.body));
+  if (is_first) {
+    found.impact = impact;
+    found.body = body;
+  }
+  found.impact.t_lo = t_lo;
+}
+
+WorldImpact first_impact(const ContactShape& shape, const RigidMotion& motion,
+                         const ContactWorld& world, double t_max, std::uint32_t mask,
+                         const WorldImpact& known) {
+  WorldImpact found = known;
+  if (world.bodies().empty()) return found;
+  const Bounds<double> box = moving_box(shape, motion);
+  struct Open {
+    double time;
+    std::uint32_t what;
+    /// The first to be looked at is the least.
+    bool operator<(const Open& other) const {
+      return time != other.time ? time > other.time : what > other.what;
+    }
+  };
+  std::priority_queue<Open> open;
+  open.push({0, 0});
+  while (!open.empty()) {
+    const Open top = open.top();
+    open.pop();
+    const double end = std::min(t_max, found.impact.t_hi);
+    if (top.time > end) break;
+    if ((top.what & BvhNode::leaf) == 0) {
+      const BvhNode& node = world.hierarchy().nodes[top.what];
+      for (int i = 0; i < bvh_width && node.children[i] != BvhNode::none; ++i)
+        if (const double time = meeting(box, motion.velocity, node.box(i)); time <= end)
+          open.push({time, node.children[i]});
+      continue;
+    }
+    const std::size_t index = top.what & ~BvhNode::leaf;
+    const ContactBody& body = world.bodies()[index];
+    if ((body.category & mask) == 0) continue;
+    ImpactOptions how;
+    how.points_of_misses = false;
+    take(found, index, first_impact(shape, motion, body.shape, {body.pose}, end, how));
+  }
+  return found;
+}
+
+}  // namespace minkray

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+// Many pairs of shapes at once: distances with their derivatives, points of contact, times of
+// impact. Header-only over minkray_c_pairs.h, whose comments say what is promised; docs/pairs.md
+// has examples.
+//
+//   std::vector<mk::Distance> found(poses.size());
+//   mk::signed_distances({{&robot, 1}, poses}, {{&wall, 1}, {}}, found);
+#pragma once
+
+#include "minkray/minkray.h"
+#include "minkray/minkray_c_pairs.h"
+
+namespace minkray {
+inline namespace v0 {
+
+static_assert(sizeof(Shape) == sizeof(minkray_shape) && std::is_standard_layout_v<Shape>);
+
+/// One side of many pairs: as many of each as there are pairs, or one for all of them. Without
+/// poses it is at the identity, without twists at rest. Poses are rigid.
+struct Bodies {
+  View<const Shape> shapes = {};
+  View<const Pose> poses = {};
+  View<const Twist> twists = {};
+};
+
+/// What a query on a pair ended with, for the next one on the same pair: a value to be copied and
+/// kept. It begins empty.
+struct PairMemory {
+  std::uint64_t words[8] = {};
+};
+static_assert(sizeof(PairMemory) == sizeof(minkray_pair_memory));
+
+/// Up to four points of contact; see minkray_manifold.
+struct Manifold {
+  Vec3 normal;
+  Vec3 points_a[4], points_b[4];
+  double gaps[4] = {};
+  double value = 0, lower = 0, upper = 0;
+  std::int32_t count = 0, status = undecided;
+};
+static_assert(sizeof(Manifold) == sizeof(minkray_manifold) &&
+              offsetof(Manifold, count) == offsetof(minkray_manifold, count));
+
+/// Derivatives by a twist of each body: by the velocity of its origin, and by a turn about that.
+/// `is_ridge` tells where there may be others. Those without room are not told.
+struct Derivatives {
+  View<Twist> by_a = {}, by_b = {};
+  View<std::uint8_t> is_ridge = {};
+};
+
+/// How many pairs are asked.
+struct PairOptions {
+  double tolerance = 0;            ///< of the bounds, in the shapes' sizes; 0: 1e-10
+  double at_most = 0;              ///< beyond this distance it is enough to know so; 0: none
+  View<PairMemory> memories = {};  ///< as many as pairs, or none
+  Derivatives derivatives = {};
+  Options how = {};
+};
+
+namespace detail {
+inline minkray_bodies plain(const Bodies& bodies) {
+  minkray_bodies plain = {};
+  plain.size = sizeof plain;
+  plain.shapes = reinterpret_cast<const minkray_shape*>(bodies.shapes.data());
+  plain.shape_count = bodies.shapes.size();
+  plain.poses = bodies.poses.size() > 0 ? &bodies.poses.data()->rows[0][0] : nullptr;
+  plain.pose_count = bodies.poses.size();
+  plain.twists = reinterpret_cast<const minkray_twist*>(
+      bodies.twists.size() > 0 ? bodies.twists.data() : nullptr);
+  plain.twist_count = bodies.twists.size();
+  return plain;
+}
+inline minkray_distance_options plain(const PairOptions& options) {
+  return {sizeof(minkray_distance_options), options.tolerance, options.at_most, 0, 0};
+}
+/// Null if there are none; throws if there are not as many as pairs.
+template <class Plain, class Thing>
+Plain* of_pairs(const char* function, const char* argument, View<Thing> things, std::size_t pairs) {
+  if (things.size() == 0) return nullptr;
+  check_sizes(function, argument, things.size(), "pairs", pairs);
+  return reinterpret_cast<Plain*>(things.data());
+}
+template <class Arrays>
+void add_derivatives(const char* function, const Derivatives& to, std::size_t pairs,
+                     Arrays& arrays) {
+  arrays.jac_a = of_pairs<double>(function, "derivatives.by_a", to.by_a, pairs);
+  arrays.jac_b = of_pairs<double>(function, "derivatives.by_b", to.by_b, pairs);
+  arrays.is_ridge = of_pairs<std::uint8_t>(function, "derivatives.is_ridge", to.is_ridge, pairs);
+}
+}  // namespace detail
+
+/// As many pairs as there is room for answers. They are the bits of signed_distance(), whatever the
+/// number of threads.
+inline void signed_distances(const Bodies& a, const Bodies& b, View<Distance> distances,
+                             const PairOptions& options = {}) {
+  constexpr const char* function = "minkray::signed_distances";
+  const minkray_bodies plain_a = detail::plain(a), plain_b = detail::plain(b);
+  const minkray_distance_options asked = detail::plain(options);
+  const minkray_options how = detail::plain(options.how);
+  minkray_distance_arrays arrays = {};
+  arrays.size = sizeof arrays;
+  arrays.distances = reinterpret_cast<minkray_distance*>(distances.data());
+  detail::add_derivatives(function, options.derivatives, distances.size(), arrays);
+  detail::check(
+      minkray_signed_distances(&plain_a, &plain_b, distances.size(), &asked,
+                               detail::of_pairs<minkray_pair_memory>(
+                                   function, "memories", options.memories, distances.size()),
+                               &arrays, &how));
+}
+
+/// First contacts at times from 0 to t_max: one for each pair, or one for all.
+inline void times_of_impact(const Bodies& a, const Bodies& b, View<const double> t_max,
+                            View<Impact> impacts, const PairOptions& options = {}) {
+  constexpr const char* function = "minkray::times_of_impact";
+  const minkray_bodies plain_a = detail::plain(a), plain_b = detail::plain(b);
+  const minkray_options how = detail::plain(options.how);
+  minkray_impact_arrays arrays = {};
+  arrays.size = sizeof arrays;
+  arrays.impacts = reinterpret_cast<minkray_impact*>(impacts.data());
+  detail::add_derivatives(function, options.derivatives, impacts.size(), arrays);
+  detail::check(minkray_times_of_impact(
+      &plain_a, &plain_b, impacts.size(), t_max.data(), t_max.size(),
+      detail::of_pairs<minkray_pair_memory>(function, "memories", options.memories, impacts.size()),
+      &arrays, &how));
+}
+
+/// Points of contact. There are no derivatives of them.
+inline void manifolds(const Bodies& a, const Bodies& b, View<Manifold> found,
+                      const PairOptions& options = {}) {
+  const minkray_bodies plain_a = detail::plain(a), plain_b = detail::plain(b);
+  const minkray_distance_options asked = detail::plain(options);
+  const minkray_options how = detail::plain(options.how);
+  minkray_manifold_arrays arrays = {};
+  arrays.size = sizeof arrays;
+  arrays.manifolds = reinterpret_cast<minkray_manifold*>(found.data());
+  detail::check(
+      minkray_manifolds(&plain_a, &plain_b, found.size(), &asked,
+                        detail::of_pairs<minkray_pair_memory>("minkray::manifolds", "memories",
+                                                              options.memories, found.size()),
+                        &arrays, &how));
+}
+
+/// Begins with what the last query on this pair left in the memory.
+inline Distance signed_distance(const Shape& a, const Pose& pose_a, const Shape& b,
+                                const Pose& pose_b, PairMemory& memory, double tolerance = 0) {
+  Distance found;
+  PairOptions options;
+  options.tolerance = tolerance;
+  options.memories = {&memory, 1};
+  options.how.threads = 1;
+  signed_distances({{&a, 1}, {&pose_a, 1}, {}}, {{&b, 1}, {&pose_b, 1}, {}}, {&found, 1}, options);
+  return found;
+}
+
+}  // namespace v0
+}  // namespace minkray

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// One side of many pairs, as the C interface is given it: shapes that are made ready once, poses
+// and twists that are looked at when they are read.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/contact/impact.h"
+#include "renderer/library/c_header.h"
+#include "renderer/library/held_shape.h"
+
+namespace minkray {
+
+/// A shape and where it stands. Made once for many pairs: nothing is allocated for each.
+class PosedBody {
+ public:
+  const ContactShape& shape() const { return *shape_; }
+  const Affine<double>& pose() const { return pose_; }
+
+ private:
+  friend class BodiesOfPairs;
+  const ContactShape* shape_ = nullptr;
+  Affine<double> pose_;
+  /// Where the pose is not rigid to the last digits, and so part of the shape.
+  std::unique_ptr<const ContactShape> own_;
+};
+
+class BodiesOfPairs {
+ public:
+  /// Throws CallError, which begins with the argument's name, if there are not as many things as
+  /// pairs, or one; or if a shape is none.
+  BodiesOfPairs(const minkray_bodies* given, std::size_t count, const char* argument);
+
+  /// The i-th body. Throws CallError if its pose is not finite or not rigid.
+  void read(std::size_t i, PosedBody& body) const;
+  /// How it moves from there. Throws CallError if a number is not finite.
+  RigidMotion motion(std::size_t i, const PosedBody& body) const;
+
+  /// Those of all shapes, each once.
+  const std::vector<std::shared_ptr<const CustomSupport>>& customs() const { return customs_; }
+
+ private:
+  [[gnu::cold]] void read_slowly(std::size_t i, const minkray_pose& pose, PosedBody& body) const;
+
+  const minkray_bodies& given_;
+  std::string argument_;
+  std::vector<const HeldShape*> shapes_;
+  std::ptrdiff_t pose_step_ = 0;  ///< bytes; 0: one pose for all
+  std::vector<std::shared_ptr<const CustomSupport>> customs_;
+};
+
+}  // namespace minkray

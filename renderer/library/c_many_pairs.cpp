@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+// The functions of the C interface about many pairs of shapes at once.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/contact/manifold.h"
+#include "core/contact/pair_derivative.h"
+#include "renderer/library/bodies_of_pairs.h"
+#include "renderer/library/call.h"
+#include "renderer/library/kept_memory.h"
+#include "renderer/library/pair_answers.h"
+#include "renderer/library/work_on_rays.h"
+
+namespace minkray {
+namespace {
+
+/// Pairs that a thread takes at once: the longest take some tens of milliseconds each.
+constexpr std::size_t pairs_a_part = 64;
+
+/// Asks for each pair by itself, on as many threads as the options say: ask(i, a, b, memory).
+template <class Ask>
+void ask_all(const BodiesOfPairs& a, const BodiesOfPairs& b, std::size_t count,
+             minkray_pair_memory* memories, const minkray_options* how, const Ask& ask) {
+  const auto part = [&](std::size_t begin, std::size_t end) {
+    PosedBody body_a, body_b;
+    for (std::size_t i = begin; i < end; ++i) {
+      a.read(i, body_a);
+      b.read(i, body_b);
+      KeptMemory memory(memories ? memories + i : nullptr);
+      ask(i, body_a, body_b, memory.get());
+    }
+  };
+  if (are_gathered(a.customs()) || are_gathered(b.customs()))
+    work_on_groups(count, 1, true, how, part);
+  else
+    work_on_parts(count, pairs_a_part, how, part);
+  throw_if_lied(a.customs());
+  throw_if_lied(b.customs());
+}
+
+SignedDistance distance_of(const PosedBody& a, const PosedBody& b, PairMemory* memory,
+                           const SignedDistanceOptions& options) {
+  if (memory) return signed_distance(a.shape(), a.pose(), b.shape(), b.pose(), *memory, options);
+  return signed_distance(a.shape(), a.pose(), b.shape(), b.pose(), options);
+}
+
+template <class To, class From>
+void tell(To* to, std::size_t i, From from) {
+  if (to) to[i] = static_cast<To>(from);
+}
+
+void tell(double* to, std::size_t i, const TwistDerivative& derivative) {
+  if (!to) return;
+  put(derivative.by_velocity, to + 6 * i);
+  put(derivative.by_turn, to + 6 * i + 3);
+}
+
+void tell(const minkray_distance_arrays& to, std::size_t i, const SignedDistance& found) {
+  if (to.distances) to.distances[i] = plain_distance(found);
+  tell(to.value, i, found.value);
+  tell(to.lower, i, found.lower);
+  tell(to.upper, i, found.upper);
+  put(found.point_a, to.points_a, i);
+  put(found.point_b, to.points_b, i);
+  put(found.normal, to.normals, i);
+  tell(to.status, i, code_of(found.status));
+  tell(to.supports, i, found.supports);
+}
+
+void tell(const minkray_impact_arrays& to, std::size_t i, const Impact& found) {
+  if (to.impacts) to.impacts[i] = plain_impact(found);
+  tell(to.t_lo, i, found.t_lo);
+  tell(to.t_hi, i, end_of(found));
+  tell(to.distance, i, found.distance);
+  put(found.point_a, to.points_a, i);
+  put(found.point_b, to.points_b, i);
+  put(found.normal, to.normals, i);
+  tell(to.status, i, code_of(found.status));
+}
+
+void tell(const minkray_manifold_arrays& to, std::size_t i, const minkray_manifold& found) {
+  if (to.manifolds) to.manifolds[i] = found;
+  if (to.normals) std::copy_n(found.normal, 3, to.normals + 3 * i);
+  const double* const a = &found.points_a[0][0];
+  const double* const b = &found.points_b[0][0];
+  if (to.points_a) std::copy_n(a, 12, to.points_a + 12 * i);
+  if (to.points_b) std::copy_n(b, 12, to.points_b + 12 * i);
+  if (to.points)
+    for (std::size_t k = 0; k < 12; ++k) to.points[12 * i + k] = a[k] + (b[k] - a[k]) / 2;
+  if (to.gaps) std::copy_n(found.gaps, 4, to.gaps + 4 * i);
+  tell(to.value, i, found.value);
+  tell(to.lower, i, found.lower);
+  tell(to.upper, i, found.upper);
+  tell(to.counts, i, found.count);
+  tell(to.status, i, found.status);
+}
+
+template <class Arrays>
+void tell_derivative(const Arrays& to, std::size_t i, const PairDerivative& derivative) {
+  tell(to.jac_a, i, derivative.a);
+  tell(to.jac_b, i, derivative.b);
+  tell(to.is_ridge, i, derivative.is_ridge ? 1 : 0);
+}
+
+template <class Arrays>
+bool wants_derivative(const Arrays& to) {
+  return to.jac_a || to.jac_b || to.is_ridge;
+}
+
+}  // namespace
+}  // namespace minkray
+
+using namespace minkray;
+
+extern "C" {
+
+int minkray_signed_distances(const minkray_bodies* a, const minkray_bodies* b, size_t count,
+                             const minkray_distance_options* options, minkray_pair_memory* memories,
+                             const minkray_distance_arrays* distances, const minkray_options* how) {
+  return call("minkray_signed_distances", [&] {
+    const BodiesOfPairs all_a(a, count, "a"), all_b(b, count, "b");
+    require(distances, "distances");
+    if (distances->size < sizeof(minkray_distance_arrays))
+      wrong_use("distances.size: must be sizeof(minkray_distance_arrays)");
+    const minkray_distance_arrays to = *distances;
+    SignedDistanceOptions asked = distance_options(options);
+    const bool derive = wants_derivative(to);
+    if (derive) asked.tolerance = std::min(asked.tolerance, tolerance_for_derivatives);
+    ask_all(all_a, all_b, count, memories, how,
+            [&](size_t i, const PosedBody& one, const PosedBody& other, PairMemory* memory) {
+              const SignedDistance found = distance_of(one, other, memory, asked);
+              tell(to, i, found);
+              if (derive)
+                tell_derivative(
+                    to, i,
+                    derivative_of(one.shape(), one.pose(), other.shape(), other.pose(), found));
+            });
+  });
+}
+
+int minkray_times_of_impact(const minkray_bodies* a, const minkray_bodies* b, size_t count,
+                            const double* t_max, size_t t_max_count, minkray_pair_memory* memories,
+                            const minkray_impact_arrays* impacts, const minkray_options* how) {
+  return call("minkray_times_of_impact", [&] {
+    const BodiesOfPairs all_a(a, count, "a"), all_b(b, count, "b");
+    require(impacts, "impacts");
+    if (impacts->size < sizeof(minkray_impact_arrays))
+      wrong_use("impacts.size: must be sizeof(minkray_impact_arrays)");
+    check_ends(t_max, t_max_count, count);
+    const minkray_impact_arrays to = *impacts;
+    const bool derive = wants_derivative(to);
+    ask_all(all_a, all_b, count, memories, how,
+            [&](size_t i, const PosedBody& one, const PosedBody& other, PairMemory* memory) {
+              const RigidMotion motion_a = all_a.motion(i, one), motion_b = all_b.motion(i, other);
+              const double end = t_max[t_max_count == 1 ? 0 : i];
+              const Impact found =
+                  memory
+                      ? first_impact(one.shape(), motion_a, other.shape(), motion_b, end, *memory)
+                      : first_impact(one.shape(), motion_a, other.shape(), motion_b, end);
+              tell(to, i, found);
+              if (derive)
+                tell_derivative(
+                    to, i, derivative_of(one.shape(), motion_a, other.shape(), motion_b, found));
+            });
+  });
+}
+
+int minkray_manifolds(const minkray_bodies* a, const minkray_bodies* b, size_t count,
+                      const minkray_distance_options* options, minkray_pair_memory* memories,
+                      const minkray_manifold_arrays* manifolds, const minkray_options* how) {
+  return call("minkray_manifolds", [&] {
+    const BodiesOfPairs all_a(a, count, "a"), all_b(b, count, "b");
+    require(manifolds, "manifolds");
+    if (manifolds->size < sizeof(minkray_manifold_arrays))
+      wrong_use("manifolds.size: must be sizeof(minkray_manifold_arrays)");
+    const minkray_manifold_arrays to = *manifolds;
+    const SignedDistanceOptions asked = distance_options(options);
+    ask_all(all_a, all_b, count, memories, how,
+            [&](size_t i, const PosedBody& one, const PosedBody& other, PairMemory* memory) {
+              const SignedDistance found = distance_of(one, other, memory, asked);
+              tell(to, i,
+                   plain_manifold(found, contact_manifold(one.shape(), one.pose(), other.shape(),
+                                                          other.pose(), found)));
+            });
+  });
+}
+
+}  // extern "C"

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+// How the answers of rays change with the rays and with what they meet.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/contact/sharp_point.h"
+#include "renderer/library/call.h"
+#include "renderer/library/held_scene.h"
+#include "renderer/library/pair_answers.h"
+#include "renderer/library/ray_source.h"
+#include "renderer/library/scene_bodies.h"
+#include "renderer/library/work_on_rays.h"
+
+namespace minkray {
+namespace {
+
+constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
+
+/// What rays met, as the caller has it.
+struct Met {
+  double t, t_lo, t_hi;
+  Vec3<double> point, normal;
+  std::uint32_t object;
+  std::uint8_t status;
+
+  Met(const minkray_hit_arrays& hits, std::size_t i)
+      : t(hits.t[i]),
+        t_lo(hits.t_lo[i]),
+        t_hi(hits.t_hi[i]),
+        point(hits.points + 3 * i),
+        normal(hits.normals + 3 * i),
+        object(hits.objects[i]),
+        status(hits.status[i]) {}
+};
+
+/// Whether rays on both sides, a little way aside, are met where a plane would be: of shapes that
+/// are known by their support mapping only. Across an edge the surface falls off.
+bool bends_at(const World& world, const Ray<double>& ray, const Met& met, double size) {
+  constexpr double step = 1e-6;  // of the size
+  constexpr double bent = 1e-4;  // of the step: more than any curved surface bends over it
+  const Vec3<double> direction = unit<double>(ray.direction);
+  // A way that lies along no edge but by chance.
+  const Vec3<double> aside = unit<double>(direction.cross(Vec3<double>(0.3713, -0.5571, 0.7428)) +
+                                          0.6180 * direction.unitOrthogonal());
+  const PreparedShape<double> shape = world.instances().at(met.object);
+  double sum = -2 * met.t;
+  for (const double side : {-step * size, step * size}) {
+    Ray<double> beside = ray;
+    beside.origin += side * aside;
+    const CastResult<double> cast = cast_ray(shape, beside);
+    if (!cast.found()) return true;
+    sum += cast.t();
+  }
+  return !(std::abs(sum) * ray.direction.norm() <= bent * step * size);
+}
+
+class Derivatives {
+ public:
+  Derivatives(const HeldScene& scene, const RaySource& rays, const minkray_hit_arrays& hits,
+              const minkray_ray_derivatives& to)
+      : world_(scene.world()), bodies_(scene.bodies()), rays_(rays), hits_(hits), to_(to) {}
+
+  void tell(std::size_t i) const {
+    const Met met(hits_, i);
+    if (met.status == MINKRAY_HIT) return tell_hit(i, met);
+    // A ray that begins inside meets it at once, wherever it is.
+    fill(i, met.status == MINKRAY_INSIDE ? 0 : not_known, met.status == MINKRAY_EXHAUSTED);
+  }
+
+ private:
+  void fill(std::size_t i, double number, bool is_ridge) const {
+    if (to_.jac_ray) std::fill_n(to_.jac_ray + 6 * i, 6, number);
+    if (to_.jac_body) std::fill_n(to_.jac_body + 6 * i, 6, number);
+    if (to_.is_ridge) to_.is_ridge[i] = is_ridge ? 1 : 0;
+  }
+
+  void tell_hit(std::size_t i, const Met& met) const {
+    const Ray<double> ray = rays_[i];
+    const double along = met.normal.dot(ray.direction);
+    const Vec3<double> by_point = met.normal / along;
+    if (!std::isfinite(by_point.sum())) return fill(i, not_known, true);
+    if (to_.jac_ray) {
+      put(-by_point, to_.jac_ray, 2 * i);
+      put(-met.t * by_point, to_.jac_ray, 2 * i + 1);
+    }
+    if (to_.jac_body) {
+      put(by_point, to_.jac_body, 2 * i);
+      put((met.point - bodies_.origin(met.object)).cross(by_point), to_.jac_body, 2 * i + 1);
+    }
+    if (!to_.is_ridge) return;
+    constexpr double grazing = 1e-6;
+    const double length = ray.direction.norm();
+    const double off = (met.t_hi - met.t_lo) * length;
+    to_.is_ridge[i] =
+        !std::isfinite(off) || !(-along > grazing * length) || is_sharp(ray, met, off) ? 1 : 0;
+  }
+
+  bool is_sharp(const Ray<double>& ray, const Met& met, double off) const {
+    const ContactBody* const body = bodies_.body(met.object);
+    constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
+    const double rounded = off + rounding * (met.point.norm() + ray.origin.norm());
+    if (body) {
+      const ShapeCore& core = body->shape.core();
+      const double near = rounded + rounding * body->shape.ball_radius() + core.rounding;
+      // What is grown by a radius has no edge.
+      if (!(core.radius > 0)) {
+        if (core.kind == CoreKind::other) {
+          if (bends_at(world_, ray, met, core.ball)) return true;
+        } else {
+          const PlacedCore frame = placed(body->shape, body->pose);
+          if (is_sharp_at(core, frame.turn.transpose() * (met.point - frame.middle),
+                          frame.turn.transpose() * met.normal, near))
+            return true;
+        }
+      }
+    }
+    return bodies_.is_another_at(met.point, met.object, 2 * rounded);
+  }
+
+  const World& world_;
+  const SceneBodies& bodies_;
+  const RaySource& rays_;
+  const minkray_hit_arrays& hits_;
+  const minkray_ray_derivatives& to_;
+};
+
+void require_all(const minkray_hit_arrays& hits) {
+  require(hits.t, "hits.t");
+  require(hits.t_lo, "hits.t_lo");
+  require(hits.t_hi, "hits.t_hi");
+  require(hits.points, "hits.points");
+  require(hits.normals, "hits.normals");
+  require(hits.objects, "hits.objects");
+  require(hits.status, "hits.status");
+}
+
+}  // namespace
+}  // namespace minkray
+
+using namespace minkray;
+
+extern "C" {
+
+int minkray_scene_ray_derivatives(minkray_scene scene, const minkray_ray_arrays* rays, size_t count,
+                                  const minkray_hit_arrays* hits,
+                                  const minkray_ray_derivatives* derivatives,
+                                  const minkray_options* options) {
+  return call("minkray_scene_ray_derivatives", [&] {
+    const SceneQuery held(scene);
+    require(hits, "hits");
+    if (hits->size < sizeof(minkray_hit_arrays))
+      wrong_use("hits.size: must be sizeof(minkray_hit_arrays)");
+    require(derivatives, "derivatives");
+    if (derivatives->size < sizeof(minkray_ray_derivatives))
+      wrong_use("derivatives.size: must be sizeof(minkray_ray_derivatives)");
+    if (count > 0) require_all(*hits);
+    const RaySource source(rays, count);
+    const size_t objects = held->world().instances().size();
+    for (size_t i = 0; i < count; ++i)
+      if (hits->status[i] == MINKRAY_HIT &&
+          (hits->objects[i] >= objects || held->is_removed(hits->objects[i])))
+        wrong_use("hits.objects[" + std::to_string(i) + "]: must be an object of the scene (got " +
+                  std::to_string(hits->objects[i]) + ")");
+    const Derivatives all(*held, source, *hits, *derivatives);
+    work_on_rays(count, options, [&](size_t begin, size_t end) {
+      for (size_t i = begin; i < end; ++i) all.tell(i);
+    });
+    throw_if_lied(held->customs());
+  });
+}
+
+}  // extern "C"

@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: MIT
+// The functions of the C interface about the pairs of a scene.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "core/parallel/parallel.h"
+#include "renderer/library/bodies_of_pairs.h"
+#include "renderer/library/call.h"
+#include "renderer/library/held_scene.h"
+#include "renderer/library/pair_answers.h"
+#include "renderer/library/poses.h"
+#include "renderer/library/scene_bodies.h"
+#include "renderer/library/work_on_rays.h"
+
+namespace minkray {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr std::uint32_t all_categories = ~std::uint32_t{0};
+
+struct NearQuery {
+  double within = 0;
+  SignedDistanceOptions distances;
+  bool derive = false;
+  std::uint32_t mask = all_categories;
+};
+
+NearQuery query_of(const minkray_near_options* options, double within) {
+  NearQuery query;
+  query.within = within;
+  if (!options) return query;
+  if (options->size < sizeof(minkray_near_options))
+    wrong_use("options.size: must be sizeof(minkray_near_options)");
+  if (!(options->within >= 0))
+    wrong_use("options.within: must be >= 0 (got " + std::to_string(options->within) + ")");
+  const minkray_distance_options plain = {sizeof plain, options->tolerance, 0, 0, 0};
+  query.within = options->within;
+  query.distances = distance_options(&plain);
+  query.derive = options->derivatives != 0;
+  if (options->mask != 0) query.mask = options->mask;
+  return query;
+}
+
+std::uint32_t checked_object(const HeldScene& scene, std::uint32_t number,
+                             const std::string& argument) {
+  const std::size_t count = scene.world().instances().size();
+  if (number >= count)
+    wrong_use(argument + ": must be less than " + std::to_string(count) + " (got " +
+              std::to_string(number) + ")");
+  if (scene.is_removed(number))
+    wrong_use(argument + ": must not be one that was removed (got " + std::to_string(number) + ")");
+  return number;
+}
+
+/// Two objects that can be a pair, whose numbers are not the same.
+void check_two(std::uint32_t a, std::uint32_t b, const std::string& argument) {
+  if (a == b) wrong_use(argument + ": must be two objects (got " + std::to_string(a) + " twice)");
+}
+
+void put_twist(const TwistDerivative& derivative, double (&to)[6]) {
+  put(derivative.by_velocity, to, 0);
+  put(derivative.by_turn, to, 1);
+}
+
+minkray_scene_pair plain_pair(const ScenePair& pair) {
+  minkray_scene_pair plain = {};
+  plain.distance = plain_distance(pair.distance);
+  plain.object_a = pair.a;
+  plain.object_b = pair.b;
+  return plain;
+}
+
+minkray_scene_pair plain_pair(const ScenePair& pair, const PairDerivative& derivative) {
+  minkray_scene_pair plain = plain_pair(pair);
+  put_twist(derivative.a, plain.jac_a);
+  put_twist(derivative.b, plain.jac_b);
+  plain.is_ridge = derivative.is_ridge ? 1 : 0;
+  return plain;
+}
+
+/// Where there is no object.
+minkray_scene_pair no_pair(double within) {
+  minkray_scene_pair none = {};
+  none.distance.value = none.distance.upper = infinite;
+  none.distance.lower = within;
+  none.distance.status = MINKRAY_SEPARATED;
+  none.object_a = none.object_b = MINKRAY_NO_OBJECT;
+  return none;
+}
+
+std::vector<ScenePair> given_pairs(const HeldScene& held, const std::uint32_t* pairs,
+                                   std::size_t count, const NearQuery& query) {
+  const SceneBodies& bodies = held.bodies();
+  std::vector<ScenePair> found(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::string argument = "pairs[" + std::to_string(i) + "]";
+    found[i].a = checked_object(held, pairs[2 * i], argument + "[0]");
+    found[i].b = checked_object(held, pairs[2 * i + 1], argument + "[1]");
+    check_two(found[i].a, found[i].b, argument);
+    if (held.world().instances().is_half_space(found[i].a) &&
+        held.world().instances().is_half_space(found[i].b))
+      wrong_use(argument + ": must not be two half-spaces");
+  }
+  SignedDistanceOptions how = query.distances;
+  how.at_most = query.within;
+  constexpr std::size_t grain = 64;
+  parallel_for(count, grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      found[i].distance = bodies.distance(found[i].a, found[i].b, how);
+  });
+  std::erase_if(found, [&](const ScenePair& pair) { return pair.distance.lower > query.within; });
+  return found;
+}
+
+/// Calls body(i) for all, few at a time.
+void for_all(const HeldScene& held, std::size_t count, const minkray_options* how,
+             const std::function<void(std::size_t)>& body) {
+  constexpr std::size_t grain = 16;
+  work_on_parts(count, grain, how, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) body(i);
+  });
+  throw_if_lied(held.customs());
+}
+
+}  // namespace
+}  // namespace minkray
+
+using namespace minkray;
+
+extern "C" {
+
+int minkray_scene_set_masks(minkray_scene scene, uint32_t object, uint32_t category,
+                            uint32_t mask) {
+  return call("minkray_scene_set_masks", [&] {
+    const SceneChange held(scene);
+    held->check_object(object);
+    held->changed_pair_rules().set_masks(object, {category, mask});
+  });
+}
+
+int minkray_scene_allow(minkray_scene scene, uint32_t object_a, uint32_t object_b, int is_allowed) {
+  return call("minkray_scene_allow", [&] {
+    const SceneChange held(scene);
+    held->check_object(object_a, "object_a");
+    held->check_object(object_b, "object_b");
+    check_two(object_a, object_b, "object_b");
+    held->changed_pair_rules().allow(object_a, object_b, is_allowed != 0);
+  });
+}
+
+int minkray_scene_distances(minkray_scene scene, const uint32_t* pairs, size_t count,
+                            const minkray_near_options* options, minkray_take_pairs take,
+                            void* user, const minkray_options* how) {
+  return call("minkray_scene_distances", [&] {
+    const SceneQuery held(scene);
+    if (!take) wrong_null("take");
+    const NearQuery query = query_of(options, pairs ? infinite : 0);
+    std::vector<minkray_scene_pair> plain;
+    with_threads(threads_of(how), [&] {
+      const SceneBodies& bodies = held->bodies();
+      const std::vector<ScenePair> found =
+          pairs ? given_pairs(*held, pairs, count, query)
+                : bodies.near(query.within, query.distances.tolerance);
+      plain.resize(found.size());
+      constexpr std::size_t grain = 256;
+      parallel_for(found.size(), grain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+          plain[i] = query.derive ? plain_pair(found[i], bodies.derivative(found[i]))
+                                  : plain_pair(found[i]);
+      });
+    });
+    throw_if_lied(held->customs());
+    if (take(user, plain.data(), plain.size()) != 0)
+      throw CallError(MINKRAY_STOPPED, "stopped by the caller");
+  });
+}
+
+int minkray_scene_nearest(minkray_scene scene, const double (*points)[3], size_t count, size_t k,
+                          const minkray_near_options* options, minkray_scene_pair* nearest,
+                          const minkray_options* how) {
+  return call("minkray_scene_nearest", [&] {
+    const SceneQuery held(scene);
+    if (k == 0) wrong_use("k: must be at least 1 (got 0)");
+    if (count > 0) {
+      require(points, "points");
+      require(nearest, "nearest");
+    }
+    require_room(count, k * sizeof(minkray_scene_pair), "count");
+    for (size_t i = 0; i < count; ++i)
+      vector_of(points[i], "points", ("[" + std::to_string(i) + "]").c_str());
+    const NearQuery query = query_of(options, infinite);
+    const SceneBodies& bodies = held->bodies();
+    const ContactShape point{Shape<double>(Point<double>())};
+    for_all(*held, count, how, [&](size_t i) {
+      ContactBody to{point, {}, all_categories, query.mask};
+      to.pose.translation = {points[i][0], points[i][1], points[i][2]};
+      const std::vector<ScenePair> found = bodies.nearest(to, k, query.within);
+      for (size_t j = 0; j < k; ++j) {
+        minkray_scene_pair& told = nearest[i * k + j];
+        if (j >= found.size())
+          told = no_pair(query.within);
+        else if (query.derive)
+          told = plain_pair(found[j], bodies.derivative(to, found[j]));
+        else
+          told = plain_pair(found[j]);
+      }
+    });
+  });
+}
+
+int minkray_scene_distance_to(minkray_scene scene, const minkray_bodies* shapes, size_t count,
+                              const minkray_near_options* options, minkray_scene_pair* nearest,
+                              const minkray_options* how) {
+  return call("minkray_scene_distance_to", [&] {
+    const SceneQuery held(scene);
+    const BodiesOfPairs all(shapes, count, "shapes");
+    if (count > 0) require(nearest, "nearest");
+    const NearQuery query = query_of(options, infinite);
+    const SceneBodies& bodies = held->bodies();
+    for_all(*held, count, how, [&](size_t i) {
+      PosedBody body;
+      all.read(i, body);
+      const ContactBody to{body.shape(), body.pose(), all_categories, query.mask};
+      const std::vector<ScenePair> found = bodies.nearest(to, 1, query.within);
+      if (found.empty())
+        nearest[i] = no_pair(query.within);
+      else if (query.derive)
+        nearest[i] = plain_pair(found[0], bodies.derivative(to, found[0]));
+      else
+        nearest[i] = plain_pair(found[0]);
+    });
+    throw_if_lied(all.customs());
+  });
+}
+
+int minkray_scene_time_of_impact(minkray_scene scene, const minkray_bodies* shapes, size_t count,
+                                 const double* t_max, size_t t_max_count,
+                                 const minkray_near_options* options, minkray_scene_impact* impacts,
+                                 const minkray_options* how) {
+  return call("minkray_scene_time_of_impact", [&] {
+    const SceneQuery held(scene);
+    const BodiesOfPairs all(shapes, count, "shapes");
+    if (count > 0) require(impacts, "impacts");
+    check_ends(t_max, t_max_count, count);
+    const NearQuery query = query_of(options, infinite);
+    const SceneBodies& bodies = held->bodies();
+    for_all(*held, count, how, [&](size_t i) {
+      PosedBody body;
+      all.read(i, body);
+      const RigidMotion motion = all.motion(i, body);
+      const double end = t_max[t_max_count == 1 ? 0 : i];
+      const WorldImpact found = bodies.first_impact(body.shape(), motion, end, query.mask);
+      minkray_scene_impact& told = impacts[i];
+      told = {};
+      told.impact = plain_impact(found.impact);
+      told.object =
+          found.body == WorldImpact::none ? MINKRAY_NO_OBJECT : static_cast<uint32_t>(found.body);
+      if (!query.derive) return;
+      const PairDerivative derivative = bodies.derivative(body.shape(), motion, found);
+      put_twist(derivative.a, told.jac);
+      told.is_ridge = derivative.is_ridge ? 1 : 0;
+    });
+    throw_if_lied(all.customs());
+  });
+}
+
+int minkray_scene_manifold(minkray_scene scene, uint32_t object_a, uint32_t object_b,
+                           minkray_manifold* manifold) {
+  return call("minkray_scene_manifold", [&] {
+    const SceneQuery held(scene);
+    require(manifold, "manifold");
+    checked_object(*held, object_a, "object_a");
+    checked_object(*held, object_b, "object_b");
+    check_two(object_a, object_b, "object_b");
+    const Instances& instances = held->world().instances();
+    if (instances.is_half_space(object_a) && instances.is_half_space(object_b))
+      wrong_use("object_b: must not be a half-space, as object_a is");
+    const SceneBodies& bodies = held->bodies();
+    const SignedDistance nearest = bodies.distance(object_a, object_b, {});
+    const ContactManifold found = bodies.manifold(object_a, object_b, nearest);
+    throw_if_lied(held->customs());
+    *manifold = plain_manifold(nearest, found);
+  });
+}
+
+}  // extern "C"

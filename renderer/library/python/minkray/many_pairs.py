@@ -1,0 +1,400 @@
+# SPDX-License-Identifier: MIT
+"""Distances, points of contact and times of impact of many pairs of shapes at once."""
+import math
+import re
+
+import numpy as np
+
+from . import _minkray
+from .answers import _Arrays
+from .calls import Error, Shape, array_of, number_of, public, shape_of, vectors_of, whole_number_of
+
+
+class Distances(_Arrays):
+    """How far apart pairs of shapes are: arrays in the shape that the arguments have together, (N,).
+
+    Attributes
+    ----------
+    value : (N,) float64
+        In the world's unit; less than zero where they overlap: how deep.
+    lower, upper : (N,) float64
+        Proven: ``lower <= value <= upper``.
+    normal : (N, 3) float64
+        From a to b, in the world, of length 1.
+    point_a, point_b : (N, 3) float64
+        The nearest points, in the world: ``point_b - point_a = value * normal``.
+    status : (N,) uint8
+        A `DistanceStatus`.
+    supports : (N,) int32
+        How many support points were asked for.
+    jac_a, jac_b : (N, 6) float64
+        With ``jac=True``: the derivative of `value` by a twist (v, w) of each body: by the velocity of
+        its frame's origin along the world's axes, then by its angular velocity about that point.
+    is_ridge : (N,) bool
+        With ``jac=True``: True where the bounds do not exclude other derivatives, as of parallel
+        faces; `jac_a` and `jac_b` are one of them then.
+    """
+
+    def __repr__(self):
+        least = f", the least {np.min(self.value):.6g}" if np.size(self.value) else ""
+        return f"<minkray.Distances of {np.shape(self.value)}{least}>"
+
+
+class Impacts(_Arrays):
+    """When pairs of moving shapes first touch: arrays in the shape that the arguments have together.
+
+    Attributes
+    ----------
+    t_lo, t_hi : (N,) float64
+        They are apart before t_lo, which is proven, and touch at t_hi. Of those that do not touch
+        t_lo is t_max, and t_hi is inf.
+    normal, point_a, point_b : (N, 3) float64
+        At t_lo, in the world.
+    distance : (N,) float64
+        At t_lo; inf where it is not known.
+    status : (N,) uint8
+        An `ImpactStatus`.
+    jac_a, jac_b : (N, 6) float64
+        With ``jac=True``: the derivative of the time by a twist (v, w) of each body's pose at time 0, as
+        of `Distances`; NaN where there is no contact, zero where they begin inside each other.
+    is_ridge : (N,) bool
+        With ``jac=True``: True where there may be others, or none, as where they graze.
+    """
+
+    def __repr__(self):
+        return f"<minkray.Impacts of {np.shape(self.t_lo)}: {int(np.isfinite(self.t_hi).sum())} touch>"
+
+
+class Manifolds(_Arrays):
+    """Points of contact: arrays in the shape that the arguments have together.
+
+    Attributes
+    ----------
+    count : (N,) int32
+        Up to four; 0 where nothing is known of the distance.
+    normal : (N, 3) float64
+        From a to b, in the world, of length 1.
+    points : (N, 4, 3) float64
+        In the middle between those of the two bodies, in the world; NaN from `count` on.
+    points_a, points_b : (N, 4, 3) float64
+        On the bodies: ``points_b - points_a = gaps * normal``. The first are those of the distance.
+    gaps : (N, 4) float64
+        Less than zero: so deep are the two in each other there.
+    value, lower, upper : (N,) float64
+        The signed distance and its bounds.
+    status : (N,) uint8
+        A `DistanceStatus`.
+    """
+
+    def __repr__(self):
+        return f"<minkray.Manifolds of {np.shape(self.count)}: {int(np.sum(self.count))} points>"
+
+
+_DISTANCES = {"value": ((), np.float64), "lower": ((), np.float64), "upper": ((), np.float64),
+              "normal": ((3,), np.float64), "point_a": ((3,), np.float64), "point_b": ((3,), np.float64),
+              "status": ((), np.uint8), "supports": ((), np.int32)}
+_JAC = {"jac_a": ((6,), np.float64), "jac_b": ((6,), np.float64), "is_ridge": ((), np.bool_)}
+_IMPACTS = {"t_lo": ((), np.float64), "t_hi": ((), np.float64), "normal": ((3,), np.float64),
+            "point_a": ((3,), np.float64), "point_b": ((3,), np.float64), "distance": ((), np.float64),
+            "status": ((), np.uint8)}
+_MANIFOLDS = {"count": ((), np.int32), "normal": ((3,), np.float64), "points": ((4, 3), np.float64),
+              "points_a": ((4, 3), np.float64), "points_b": ((4, 3), np.float64), "gaps": ((4,), np.float64),
+              "value": ((), np.float64), "lower": ((), np.float64), "upper": ((), np.float64),
+              "status": ((), np.uint8)}
+
+_MATRIX, _QUATERNION, _MATRIX_4X4 = range(3)
+
+
+def shapes_array(value, argument):
+    """Shapes, as an array of them of any number of axes."""
+    if isinstance(value, Shape):
+        array = np.empty((), object)
+        array[()] = value
+        return array
+    if not isinstance(value, (list, tuple, np.ndarray)):
+        shape_of(value, argument)
+    if all(isinstance(one, Shape) for one in value):
+        array = np.empty(len(value), object)
+        array[:] = value
+        return array
+    rows = [shapes_array(one, f"{argument}[{i}]") for i, one in enumerate(value)]
+    if any(row.shape != rows[0].shape for row in rows):
+        raise Error(f"{argument}: must be a Shape, or lists of as many each")
+    return np.stack(rows)
+
+
+def poses_array(value, argument):
+    """Poses as they are given, of which kind, and how many axes are of one pose."""
+    if value is None:
+        return np.eye(4)[:3], 2, _MATRIX
+    if isinstance(value, (list, tuple)) and any(one is None for one in value):
+        value = [np.eye(4) if one is None else one for one in value]
+    array = array_of(value, argument, "an array of poses")
+    if array.ndim >= 2 and array.shape[-2:] == (4, 4):
+        return array, 2, _MATRIX_4X4
+    if array.ndim >= 2 and array.shape[-2:] == (3, 4):
+        return array, 2, _MATRIX
+    if array.ndim >= 1 and array.shape[-1] == 7:
+        return array, 1, _QUATERNION
+    raise Error(f"{argument}: must be poses of the shape (N, 4, 4), (N, 3, 4) or (N, 7), such as "
+                f"(x, y, z, qw, qx, qy, qz), or one of them (got {array.shape})")
+
+
+class Together:
+    """Arguments that go together, as NumPy's rules of broadcasting have it."""
+
+    def __init__(self, **arguments):
+        """Takes an array and how many axes of it are of one pair, for each argument."""
+        self._given = arguments
+        leads = [array.shape[:array.ndim - own] for array, own in arguments.values()]
+        try:
+            shape = np.broadcast_shapes(*leads)
+        except ValueError:
+            found = ", ".join(f"{name} {lead}" for name, lead in zip(arguments, leads))
+            raise Error(f"{', '.join(arguments)}: must be as many each, or one (got {found})") from None
+        self.shape = shape or (1,)
+        self.count = math.prod(self.shape)
+
+    def __getitem__(self, name):
+        """In rows: one for all pairs, or one for each. Not copied where nothing has to be."""
+        array, own = self._given[name]
+        lead, tail = array.shape[:array.ndim - own], array.shape[array.ndim - own:]
+        if math.prod(lead) == 1 and self.count != 0:
+            return array.reshape((1,) + tail)
+        return np.broadcast_to(array, self.shape + tail).reshape((self.count,) + tail)
+
+
+def _rows_in_one_piece(array):
+    """The array, in which each row lies in one piece, on addresses of doubles; a copy if need be."""
+    if array.shape[0] == 0 or (array[0].flags.c_contiguous and array.flags.aligned
+                               and array.strides[0] % array.itemsize == 0):
+        return array
+    return np.ascontiguousarray(array)
+
+
+class Sides:
+    """Both bodies of many pairs, as the module has them."""
+
+    def __init__(self, a, pose_a, b, pose_b, **more):
+        self._kinds, given = {}, {}
+        for side, shapes, poses in ("a", a, pose_a), ("b", b, pose_b):
+            array, own, self._kinds[side] = poses_array(poses, f"pose_{side}")
+            given[side] = shapes_array(shapes, side), 0
+            given[f"pose_{side}"] = array, own
+        self.together = Together(**given, **more)
+        self._twisted = {name for name in more if name.startswith("twist")}
+
+    def side(self, side):
+        twist = f"twist_{side}"
+        return _minkray.Side(
+            self.together[side].tolist(), _rows_in_one_piece(self.together[f"pose_{side}"]),
+            self._kinds[side],
+            np.ascontiguousarray(self.together[twist]) if twist in self._twisted else None)
+
+
+def room(kind, fields, shape, out):
+    """Arrays for an answer: new ones, or those of `out`."""
+    if out is None:
+        return {name: np.empty(shape + tail, dtype) for name, (tail, dtype) in fields.items()}
+    if not isinstance(out, (kind, dict)):
+        raise Error(f"out: must be a {kind.__name__} or a dict of arrays (got {type(out).__name__})")
+    arrays = dict(out if isinstance(out, dict) else vars(out))
+    for name, array in arrays.items():
+        if name not in fields:
+            raise Error(f"out[{name!r}]: must be one of {', '.join(fields)}")
+        tail, dtype = fields[name]
+        if not isinstance(array, np.ndarray) or array.dtype != dtype or array.shape != shape + tail:
+            found = f"{array.dtype} {array.shape}" if isinstance(array, np.ndarray) else type(array).__name__
+            raise Error(f"out[{name!r}]: must be an array of {np.dtype(dtype)} of the shape {shape + tail} "
+                        f"(got {found})")
+        if not (array.flags.c_contiguous and array.flags.writeable and array.flags.aligned):
+            raise Error(f"out[{name!r}]: must lie in one piece, and be writeable")
+    return arrays
+
+
+def _memory(memory, shape):
+    if memory is None:
+        return None
+    if (not isinstance(memory, np.ndarray) or memory.dtype != np.float64 or memory.shape != shape + (8,)
+            or not (memory.flags.c_contiguous and memory.flags.writeable and memory.flags.aligned)):
+        raise Error(f"memory: must be what pair_memory({shape[0] if len(shape) == 1 else shape}) makes (got "
+                    f"{getattr(memory, 'shape', type(memory).__name__)})")
+    return memory
+
+
+def _progress(progress):
+    if progress is not None and not callable(progress):
+        raise Error(f"progress: must be a function of one number (got {type(progress).__name__})")
+    return progress
+
+
+def threads_of(number):
+    return whole_number_of(number, "threads", 1024)
+
+
+def told(call, *arguments):
+    """Calls it; its errors name arguments as they are here."""
+    try:
+        call(*arguments)
+    except Error as error:
+        text = re.sub(r"^minkray_\w+: ", "", str(error))
+        text = re.sub(r"^([ab])\.(pose|twist)s", r"\2_\1", text)
+        text = re.sub(r"^([ab])\.shapes", r"\1", text)
+        text = re.sub(r"\.rows(?=\[)", "", text)
+        text = re.sub(r"\.velocity\[(\d)\]", r"[\1]", text)
+        text = re.sub(r"\.turn\[(\d)\]", lambda found: f"[{int(found[1]) + 3}]", text)
+        raise Error(text) from None
+
+
+@public
+def pair_memory(shape):
+    """Memories of pairs for ``memory=``, to be kept from one call to the next.
+
+    A call begins with what the last one on these pairs left in it: where bodies move little, it is
+    faster. The bounds hold whatever is in it; the last digits of answers depend on it.
+
+    Parameters
+    ----------
+    shape : int or tuple of int
+        How many pairs.
+
+    Returns
+    -------
+    (N, 8) array of float64
+        Empty memories; the numbers in them mean nothing.
+
+    Examples
+    --------
+    >>> import minkray as mk
+    >>> memory = mk.pair_memory(1)
+    >>> for x in 3.0, 3.1, 3.2:
+    ...     d = mk.signed_distances(mk.box([1, 1, 1]), None, mk.cone(1, 1), [[x, 0, 0, 1, 0, 0, 0]], memory=memory)
+    """
+    shape = tuple(shape) if isinstance(shape, (tuple, list)) else (shape,)
+    return np.zeros(tuple(whole_number_of(one, "shape", 2**48) for one in shape) + (8,))
+
+
+@public
+def signed_distances(a, pose_a, b, pose_b, *, jac=False, tolerance=1e-10, memory=None, threads=0, out=None,
+                     progress=None):
+    """How far apart the shapes of many pairs are, or how deep in each other.
+
+    Parameters
+    ----------
+    a, b : Shape, or list of N of them
+    pose_a, pose_b : (N, 4, 4), (N, 3, 4) or (N, 7) array, or one of them, or None
+        Where they stand, from the shape's frame to the world; rigid. Seven numbers are
+        (x, y, z, qw, qx, qy, qz). One shape or pose goes with N of the others, and more axes go
+        together by NumPy's rules of broadcasting.
+    jac : bool
+        Whether derivatives are told, too.
+    tolerance : float
+        Of the bounds, relative to the shapes' sizes.
+    memory : (N, 8) array, optional
+        Of `pair_memory`, read and written.
+    threads : int
+        0 for one a core. The answers are the same bits for any number.
+    out : Distances, or dict of arrays, optional
+        An earlier answer, whose arrays are filled again; of a dict, those that are in it.
+    progress : callable, optional
+        Called now and then with the part that is done; if it answers True the work is stopped.
+
+    Returns
+    -------
+    Distances
+
+    Raises
+    ------
+    Error
+        If there are not as many of each, or one; if a pose is not finite or not rigid: it says which.
+
+    Examples
+    --------
+    >>> import minkray as mk
+    >>> d = mk.signed_distances(mk.sphere(1), None, mk.sphere(1), [[3, 0, 0, 1, 0, 0, 0], [0, 5, 0, 1, 0, 0, 0]], jac=True)
+    >>> d.value, d.jac_b[1, :3]
+    (array([1., 3.]), array([0., 1., 0.]))
+    """
+    sides = Sides(a, pose_a, b, pose_b)
+    shape = sides.together.shape
+    arrays = room(Distances, {**_DISTANCES, **_JAC} if jac else _DISTANCES, shape, out)
+    told(_minkray.signed_distances, sides.side("a"), sides.side("b"), sides.together.count,
+         number_of(tolerance, "tolerance"), _memory(memory, shape), arrays, threads_of(threads),
+         _progress(progress))
+    return out if isinstance(out, Distances) else Distances(arrays)
+
+
+def twists_array(value, argument):
+    return np.zeros(6) if value is None else vectors_of(value, argument, 6)
+
+
+@public
+def times_of_impact(a, pose_a, twist_a, b, pose_b, twist_b, t_max=1.0, *, jac=False, memory=None, threads=0,
+                    out=None, progress=None):
+    """The first contacts of the shapes of many pairs that move and turn, at times from 0 to `t_max`.
+
+    Parameters
+    ----------
+    a, b : Shape, or list of N of them
+    pose_a, pose_b : (N, 4, 4), (N, 3, 4) or (N, 7) array, or one of them, or None
+        At time 0; as of `signed_distances`.
+    twist_a, twist_b : (N, 6) or (6,) array, or None
+        A velocity, and a rotation vector per unit of time, in the world, about the origin of the
+        shape's frame: the point that the pose's last column says. None for at rest.
+    t_max : float or (N,) array
+        At least 0, and finite.
+    jac, memory, threads, out, progress
+        As of `signed_distances`; `out` is Impacts.
+
+    Returns
+    -------
+    Impacts
+
+    Raises
+    ------
+    Error
+        As `signed_distances` does.
+    """
+    sides = Sides(a, pose_a, b, pose_b, twist_a=(twists_array(twist_a, "twist_a"), 1),
+                  twist_b=(twists_array(twist_b, "twist_b"), 1),
+                  t_max=(array_of(t_max, "t_max", "a number, or one for each pair"), 0))
+    shape = sides.together.shape
+    arrays = room(Impacts, {**_IMPACTS, **_JAC} if jac else _IMPACTS, shape, out)
+    told(_minkray.times_of_impact, sides.side("a"), sides.side("b"), sides.together.count,
+         sides.together["t_max"], _memory(memory, shape), arrays, threads_of(threads), _progress(progress))
+    return out if isinstance(out, Impacts) else Impacts(arrays)
+
+
+@public
+def manifolds(a, pose_a, b, pose_b, *, tolerance=1e-10, memory=None, threads=0, out=None, progress=None):
+    """Up to four points of contact of each of many pairs: of a box on a plate its corners.
+
+    Parameters
+    ----------
+    a, b, pose_a, pose_b, tolerance, memory, threads, out, progress
+        As of `signed_distances`; `out` is Manifolds.
+
+    Returns
+    -------
+    Manifolds
+        Those of pairs that are apart, too: where they are nearest.
+
+    Raises
+    ------
+    Error
+        As `signed_distances` does.
+
+    Examples
+    --------
+    >>> import minkray as mk
+    >>> m = mk.manifolds(mk.box([5, 5, 1]), None, mk.box([1, 1, 1]), [[0, 0, 2, 1, 0, 0, 0]])
+    >>> m.count, m.points[0, :, 2]
+    (array([4], dtype=int32), array([1., 1., 1., 1.]))
+    """
+    sides = Sides(a, pose_a, b, pose_b)
+    shape = sides.together.shape
+    arrays = room(Manifolds, _MANIFOLDS, shape, out)
+    told(_minkray.manifolds, sides.side("a"), sides.side("b"), sides.together.count,
+         number_of(tolerance, "tolerance"), _memory(memory, shape), arrays, threads_of(threads),
+         _progress(progress))
+    return out if isinstance(out, Manifolds) else Manifolds(arrays)

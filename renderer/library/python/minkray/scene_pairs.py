@@ -1,0 +1,353 @@
+# SPDX-License-Identifier: MIT
+"""The pairs of a scene: which objects are near each other, and what a shape meets."""
+import re
+
+import numpy as np
+
+from . import _minkray
+from .answers import _Arrays
+from .calls import Error, array_of, number_of, public, vectors_of, whole_number_of
+from .many_pairs import (Manifolds, Together, _rows_in_one_piece, poses_array, shapes_array,
+                         threads_of, told, twists_array)
+
+_DISTANCE = [("value", "f8"), ("lower", "f8"), ("upper", "f8"), ("point_a", "f8", 3), ("point_b", "f8", 3),
+             ("normal", "f8", 3), ("status", "i4"), ("supports", "i4")]
+_PAIR = np.dtype(_DISTANCE + [("jac_a", "f8", 6), ("jac_b", "f8", 6), ("object_a", "u4"), ("object_b", "u4"),
+                              ("is_ridge", "i4"), ("_", "i4")])
+_IMPACT = np.dtype([("t_lo", "f8"), ("t_hi", "f8"), ("distance", "f8"), ("point_a", "f8", 3),
+                    ("point_b", "f8", 3), ("normal", "f8", 3), ("status", "i4"), ("steps", "i4"),
+                    ("jac", "f8", 6), ("object", "u4"), ("is_ridge", "i4")])
+_MANIFOLD = np.dtype([("normal", "f8", 3), ("points_a", "f8", (4, 3)), ("points_b", "f8", (4, 3)),
+                      ("gaps", "f8", 4), ("value", "f8"), ("lower", "f8"), ("upper", "f8"), ("count", "i4"),
+                      ("status", "i4")])
+_ALL = 2**32 - 1
+
+
+class ScenePairs(_Arrays):
+    """Pairs of objects and how far apart they are: arrays, one row a pair.
+
+    Attributes
+    ----------
+    object_a, object_b : (M,) uint32
+        Their numbers, the less first; as they were given if pairs were.
+    value, lower, upper : (M,) float64
+        The signed distance, and its proven bounds.
+    normal, point_a, point_b : (M, 3) float64
+        As of `Distances`.
+    status : (M,) uint8
+        A `DistanceStatus`.
+    jac_a, jac_b, is_ridge
+        With ``jac=True``, as of `Distances`: about the origins of the objects' frames.
+    """
+
+    def __repr__(self):
+        return f"<minkray.ScenePairs: {len(self)}>"
+
+
+class Nearest(_Arrays):
+    """The objects nearest to points or shapes.
+
+    Attributes
+    ----------
+    object : (N, k) or (N,) uint32
+        Numbers, the nearest first; NO_OBJECT where there are no more.
+    value, lower, upper : float64
+        The signed distance to that object, and its proven bounds; inf where there is none.
+    normal, point_a, point_b : float64, three numbers each
+        The direction from the point or shape to the object, and the nearest points on both.
+    status : uint8
+        A `DistanceStatus`.
+    jac, is_ridge : six numbers, and bool
+        With ``jac=True``: the derivative of `value` by a twist of the shape (for a point, its
+        velocity), and whether there may be others. That another object may be as near is not in it.
+    """
+
+    def __repr__(self):
+        return f"<minkray.Nearest of {np.shape(self.object)}>"
+
+
+class SceneImpacts(_Arrays):
+    """What shapes that move through a scene touch first: arrays of (N,).
+
+    Attributes
+    ----------
+    object : (N,) uint32
+        NO_OBJECT where nothing is touched.
+    t_lo, t_hi : (N,) float64
+        No object is touched before t_lo, which is proven; the object is, at t_hi.
+    normal, point_a, point_b, distance, status
+        As of `Impacts`; a is the shape.
+    jac, is_ridge : (N, 6) float64, (N,) bool
+        With ``jac=True``: the derivative of the time by a twist of the shape at time 0.
+    """
+
+    def __repr__(self):
+        return f"<minkray.SceneImpacts of {np.shape(self.t_lo)}: {int(np.isfinite(self.t_hi).sum())} touch>"
+
+
+class Manifold(_Arrays):
+    """Points of contact of two objects; see `Manifolds`, of which this is one."""
+
+    __doc__ += Manifolds.__doc__[Manifolds.__doc__.index("\n\n"):].replace("(N,)", "").replace("(N, ", "(")
+
+    def __len__(self):
+        return int(self.count)
+
+    def __repr__(self):
+        return f"<minkray.Manifold of {int(self.count)} points>"
+
+
+def _columns(rows, names, jac):
+    """Arrays by name; of those of derivatives, none unless they were asked for."""
+    fields = {}
+    for name, of in names.items():
+        if name in ("jac", "jac_a", "jac_b", "is_ridge") and not jac:
+            continue
+        values = np.ascontiguousarray(rows[of])
+        fields[name] = (values.astype(np.uint8) if name == "status" else
+                        values != 0 if name == "is_ridge" else values)
+    return fields
+
+
+_OF_PAIR = {name: name for name in ("object_a", "object_b", "value", "lower", "upper", "normal", "point_a",
+                                    "point_b", "status", "jac_a", "jac_b", "is_ridge")}
+_OF_NEAREST = {"object": "object_b", "value": "value", "lower": "lower", "upper": "upper", "normal": "normal",
+               "point_a": "point_a", "point_b": "point_b", "status": "status", "jac": "jac_a",
+               "is_ridge": "is_ridge"}
+_OF_IMPACT = {name: name for name in ("object", "t_lo", "t_hi", "normal", "point_a", "point_b", "distance",
+                                      "status", "jac", "is_ridge")}
+
+
+def _length(value, argument):
+    number = number_of(value, argument)
+    if not number >= 0:
+        raise Error(f"{argument}: must be at least 0, or inf (got {number})")
+    return number
+
+
+def _mask(value):
+    number = whole_number_of(value, "mask")
+    if number == 0:
+        raise Error("mask: must have a bit (got 0)")
+    return number
+
+
+def _numbers(value, argument):
+    """Object numbers, two a row."""
+    array = np.asarray(value)
+    if array.size == 0:
+        return np.zeros((0, 2), np.uint32)
+    if array.ndim != 2 or array.shape[1] != 2 or array.dtype.kind not in "iu":
+        raise Error(f"{argument}: must be whole numbers of the shape (M, 2) (got {array.dtype} {array.shape})")
+    if array.min() < 0 or array.max() > _ALL:
+        raise Error(f"{argument}: must be numbers of objects (got {array.min()} to {array.max()})")
+    return np.ascontiguousarray(array, np.uint32)
+
+
+class _Moved:
+    """Shapes with poses, that are no part of the scene."""
+
+    def __init__(self, shape, poses, **more):
+        array, own, self._kind = poses_array(poses, "poses")
+        self.together = Together(shape=(shapes_array(shape, "shape"), 0), poses=(array, own), **more)
+        self._is_twisted = "twists" in more
+
+    def side(self):
+        return _minkray.Side(self.together["shape"].tolist(), _rows_in_one_piece(self.together["poses"]),
+                             self._kind,
+                             np.ascontiguousarray(self.together["twists"]) if self._is_twisted else None)
+
+
+def _told(call, *arguments):
+    """Calls it; its errors name arguments as they are here."""
+    answer = []
+    try:
+        told(lambda: answer.append(call(*arguments)))
+    except Error as error:
+        text = re.sub(r"^shapes\.(pose|twist)s", r"\1s", str(error))
+        text = re.sub(r"^shapes\.shapes", "shape", text)
+        text = re.sub(r"^object_a", "i", re.sub(r"^object_b", "j", text))
+        raise Error(re.sub(r"^options\.", "", text)) from None
+    return answer[0]
+
+
+def _public(function):
+    return public(function, f"Scene.{function.__name__}")
+
+
+class PairsOfScene:
+    """What `Scene` is asked of its pairs."""
+
+    @_public
+    def set_masks(self, object, category=1, mask=_ALL):
+        """Says with which objects one is looked at as a pair.
+
+        Parameters
+        ----------
+        object : int
+            Its number.
+        category, mask : int
+            Bits: two objects are a pair if each one's mask has a bit of the other's category. As long
+            as nothing is said the category is 1, and the mask has all 32 bits.
+        """
+        _told(_minkray.scene_set_masks, self._scene, whole_number_of(object, "object"),
+              whole_number_of(category, "category"), whole_number_of(mask, "mask"))
+
+    @_public
+    def allow(self, i, j, allowed=True):
+        """Says that two objects may touch: `distances` leaves such pairs out.
+
+        Parameters
+        ----------
+        i, j : int
+            Their numbers.
+        allowed : bool
+            False for looking at them again.
+        """
+        _told(_minkray.scene_allow, self._scene, whole_number_of(i, "i"), whole_number_of(j, "j"),
+              bool(allowed))
+
+    @_public
+    def distances(self, pairs=None, within=None, *, tolerance=1e-10, jac=False, threads=0):
+        """All pairs of objects that are near each other.
+
+        Left out are pairs that `allow` or `set_masks` leave out, pairs of two half-spaces, and of a
+        robot from a file those that do not move against each other or that a joint connects.
+
+        Parameters
+        ----------
+        pairs : (M, 2) array of int, optional
+            Numbers of objects: those are asked, whatever else was said of them, in their order.
+        within : float, optional
+            In the world's unit: pairs that are proven to be further apart are left out. If it is not
+            given it is 0, for those that touch or overlap; for given pairs it is inf.
+        tolerance : float
+            Of the bounds, relative to the objects' sizes.
+        jac : bool
+            Whether derivatives are told, too.
+        threads : int
+            0 for one a core. The answers are the same bits for any number.
+
+        Returns
+        -------
+        ScenePairs
+
+        Examples
+        --------
+        >>> import minkray as mk
+        >>> scene = mk.Scene()
+        >>> for x in 0, 3, 9:
+        ...     number = scene.add(mk.sphere(1), [[1, 0, 0, x], [0, 1, 0, 0], [0, 0, 1, 0]])
+        >>> near = scene.distances(within=2)
+        >>> near.object_a, near.object_b, near.value
+        (array([0], dtype=uint32), array([1], dtype=uint32), array([1.]))
+        """
+        within = (0.0 if pairs is None else np.inf) if within is None else _length(within, "within")
+        pairs = None if pairs is None else _numbers(pairs, "pairs")
+        rows = _told(_minkray.scene_distances, self._ready(), pairs, within,
+                     number_of(tolerance, "tolerance"), bool(jac), threads_of(threads)).view(_PAIR)
+        return ScenePairs(_columns(rows, _OF_PAIR, jac))
+
+    @_public
+    def nearest(self, points, k=1, *, within=np.inf, mask=_ALL, jac=False, threads=0):
+        """The k objects nearest to points.
+
+        Parameters
+        ----------
+        points : (N, 3) or (3,) array
+            In the world.
+        k : int
+            At least 1.
+        within : float
+            Objects that are proven to be further away are left out.
+        mask : int
+            Categories that are looked at; see `set_masks`.
+        jac : bool
+            Whether derivatives are told, too.
+        threads : int
+            0 for one a core. The answers are the same bits for any number.
+
+        Returns
+        -------
+        Nearest
+            Of the shape (N, k).
+        """
+        points = np.ascontiguousarray(np.atleast_2d(vectors_of(points, "points", 3)))
+        if points.ndim != 2:
+            raise Error(f"points: must have the shape (N, 3) (got {points.shape})")
+        k = whole_number_of(k, "k")
+        if k == 0:
+            raise Error("k: must be at least 1 (got 0)")
+        rows = _told(_minkray.scene_nearest, self._ready(), points, k, _length(within, "within"), bool(jac),
+                     _mask(mask), threads_of(threads)).view(_PAIR).reshape(len(points), k)
+        return Nearest(_columns(rows, _OF_NEAREST, jac))
+
+    @_public
+    def distance_to(self, shape, poses, within=np.inf, *, mask=_ALL, jac=False, threads=0):
+        """The objects nearest to a shape that is no part of the scene, at many poses.
+
+        Parameters
+        ----------
+        shape : Shape, or list of N of them
+        poses : (N, 4, 4), (N, 3, 4) or (N, 7) array, or one of them
+            Rigid; as of `minkray.signed_distances`.
+        within, mask, jac, threads
+            As of `nearest`.
+
+        Returns
+        -------
+        Nearest
+            Of the shape (N,). Where nothing is within that distance, `object` is NO_OBJECT and `lower`
+            is `within`.
+        """
+        moved = _Moved(shape, poses)
+        rows = _told(_minkray.scene_distance_to, self._ready(), moved.side(), moved.together.count,
+                     _length(within, "within"), bool(jac), _mask(mask), threads_of(threads))
+        return Nearest(_columns(rows.view(_PAIR).reshape(moved.together.shape), _OF_NEAREST, jac))
+
+    @_public
+    def time_of_impact(self, shape, poses, twists, t_max=1.0, *, mask=_ALL, jac=False, threads=0):
+        """What a shape that moves and turns through the scene touches first, and when.
+
+        Parameters
+        ----------
+        shape : Shape, or list of N of them
+            No part of the scene, whose objects stand still.
+        poses : (N, 4, 4), (N, 3, 4) or (N, 7) array, or one of them
+            At time 0; rigid.
+        twists : (N, 6) or (6,) array
+            As of `minkray.times_of_impact`: about the origin of the shape's frame.
+        t_max : float or (N,) array
+            At least 0, and finite.
+        mask, jac, threads
+            As of `nearest`.
+
+        Returns
+        -------
+        SceneImpacts
+        """
+        moved = _Moved(shape, poses, twists=(twists_array(twists, "twists"), 1),
+                       t_max=(array_of(t_max, "t_max", "a number, or one for each pose"), 0))
+        rows = _told(_minkray.scene_time_of_impact, self._ready(), moved.side(), moved.together.count,
+                     moved.together["t_max"], bool(jac), _mask(mask), threads_of(threads))
+        return SceneImpacts(_columns(rows.view(_IMPACT).reshape(moved.together.shape), _OF_IMPACT, jac))
+
+    @_public
+    def manifold(self, i, j):
+        """Up to four points of contact of two objects, whatever `allow` says of them.
+
+        Parameters
+        ----------
+        i, j : int
+            Their numbers.
+
+        Returns
+        -------
+        Manifold
+        """
+        row = _told(_minkray.scene_manifold, self._ready(), whole_number_of(i, "i"),
+                    whole_number_of(j, "j")).view(_MANIFOLD)[0]
+        fields = {name: row[name] for name in ("count", "normal", "points_a", "points_b", "gaps", "value",
+                                               "lower", "upper", "status")}
+        fields["points"] = row["points_a"] + (row["points_b"] - row["points_a"]) / 2
+        return Manifold(fields)

@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/library/scene_bodies.h"
+
+#include <algorithm>
+#include <memory>
+#include <unordered_map>
+
+#include "core/derived/cube.h"
+#include "core/parallel/parallel.h"
+#include "renderer/import/scene_of_model.h"
+#include "renderer/library/call.h"
+#include "renderer/library/poses.h"
+
+namespace minkray {
+namespace {
+
+SignedDistance distance_to(const PlacedPlane& plane, const ContactBody& body) {
+  return distance_to_half_space(plane, body.shape, body.pose.linear,
+                                placed_middle(body.shape, body.pose));
+}
+
+void turn_round(SignedDistance& found) {
+  std::swap(found.point_a, found.point_b);
+  found.normal = -found.normal;
+}
+
+void turn_round(PairDerivative& derivative) {
+  std::swap(derivative.a, derivative.b);
+}
+
+/// What of the half-space is within `reach` of the point, as a box: all that a body of that reach
+/// can touch.
+ContactBody as_box(const PlacedPlane& plane, const Vec3<double>& near, double reach) {
+  const Vec3<double>& n = plane.normal;
+  const TwoFoldVec3<double> from_plane = TwoFoldVec3<double>(near) - plane.point;
+  const double height = n.dot(from_plane.rounded());
+  const double half = 2 * (reach + std::abs(height));
+  Affine<double> pose;
+  pose.linear.col(0) = n.unitOrthogonal();
+  pose.linear.col(1) = n.cross(pose.linear.col(0));
+  pose.linear.col(2) = n;
+  pose.translation = near - (height + half) * n;
+  return {ContactShape(cube_of(half)), pose};
+}
+
+/// How far the moving body gets from where its origin is at time 0.
+double reach_of(const ContactShape& shape, const RigidMotion& motion, double t_max) {
+  return shape.ball_radius() + shape.offset() + t_max * motion.velocity.norm();
+}
+
+constexpr double no_end = std::numeric_limits<double>::infinity();
+
+double value_of(const ScenePair& pair) {
+  return pair.distance.is_unknown() ? no_end : pair.distance.value;
+}
+
+}  // namespace
+
+SceneBodies::SceneBodies(const HeldScene& scene) : scene_(scene) {
+  const Instances& instances = scene.world().instances();
+  const PairRules& rules = scene.pair_rules();
+  body_of_.assign(instances.size(), none);
+  std::vector<ContactBody> bodies;
+  std::unordered_map<std::uint32_t, ContactShape> ready;
+  for (std::uint32_t i = 0; i < instances.size(); ++i) {
+    if (scene.is_removed(i)) continue;
+    const PairRules::Masks masks = rules.masks(i);
+    if (instances.is_half_space(i)) continue;
+    const Affine<double> pose = scene.pose_of_any(i);
+    const std::uint32_t number = instances.definition_of(i);
+    const Shape<double>& shape = instances.definition(number).original_shape();
+    body_of_[i] = static_cast<std::uint32_t>(bodies.size());
+    objects_.push_back(i);
+    if (is_rigid(pose)) {
+      auto known = ready.find(number);
+      if (known == ready.end()) known = ready.emplace(number, ContactShape(shape)).first;
+      bodies.push_back({known->second, pose, masks.category, masks.mask});
+    } else {
+      // What scales is part of the shape.
+      const Affine<double> map{pose.linear, Vec3<double>::Zero()};
+      const Affine<double> place{Mat3<double>::Identity(), pose.translation};
+      bodies.push_back({ContactShape(shape, map), place, masks.category, masks.mask});
+    }
+  }
+  world_.emplace(std::move(bodies));
+  for (const Instances::PosedHalfSpace& one : instances.half_spaces()) {
+    if (scene.is_removed(one.instance)) continue;
+    const Affine<double> pose = scene.pose_of_any(one.instance);
+    half_spaces_.push_back({one.instance,
+                            PlacedPlane::of(one.at_rest.normal, one.at_rest.offset, pose),
+                            pose.translation, rules.masks(one.instance)});
+  }
+  for (std::uint32_t g = 0; g < scene.groups(); ++g) {
+    const HeldScene::Group& group = scene.group(g);
+    if (!group.model) continue;
+    if (robot_of_.empty()) {
+      robot_of_.assign(instances.size(), none);
+      places_.resize(instances.size());
+    }
+    const std::vector<int> rigid = rigid_groups(*group.model);
+    const std::vector<bool> wanted = chosen_geoms(*group.model, group.options.geometry);
+    std::uint32_t object = group.first;
+    for (std::size_t i = 0; i < wanted.size() && object < group.first + group.count; ++i) {
+      if (!wanted[i]) continue;
+      robot_of_[object] = g;
+      places_[object++] = place_of(group.model->geoms[i].link, *group.model, rigid);
+    }
+  }
+}
+
+bool SceneBodies::are_looked_at(std::uint32_t a, std::uint32_t b) const {
+  if (scene_.pair_rules().allows(a, b)) return false;
+  if (robot_of_.empty() || robot_of_[a] == none || robot_of_[a] != robot_of_[b]) return true;
+  return minkray::are_looked_at(places_[a], places_[b]);
+}
+
+const SceneBodies::HalfSpace* SceneBodies::half_space_of(std::uint32_t object) const {
+  const auto found = std::ranges::find(half_spaces_, object, &HalfSpace::object);
+  return found == half_spaces_.end() ? nullptr : &*found;
+}
+
+std::vector<ScenePair> SceneBodies::near(double within, double tolerance) const {
+  NearPairsOptions options;
+  options.at_most = within;
+  options.tolerance = tolerance;
+  options.wanted = [&](std::size_t a, std::size_t b) {
+    return are_looked_at(objects_[a], objects_[b]);
+  };
+  std::vector<ScenePair> pairs;
+  for (const NearPair& pair : near_pairs(*world_, options))
+    pairs.push_back({objects_[pair.a], objects_[pair.b], pair.distance});
+  if (half_spaces_.empty()) return pairs;
+  add_half_spaces_near(within, pairs);
+  std::ranges::sort(pairs, {}, [](const ScenePair& pair) { return std::pair(pair.a, pair.b); });
+  return pairs;
+}
+
+void SceneBodies::add_half_spaces_near(double within, std::vector<ScenePair>& pairs) const {
+  const std::vector<ContactBody>& bodies = world_->bodies();
+  std::vector<ScenePair> found(bodies.size());
+  for (const HalfSpace& half_space : half_spaces_) {
+    constexpr std::size_t grain = 256;
+    parallel_for(bodies.size(), grain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        found[i].a = none;
+        const ContactBody& body = bodies[i];
+        if ((body.category & half_space.masks.mask) == 0 ||
+            (half_space.masks.category & body.mask) == 0 ||
+            !are_looked_at(half_space.object, objects_[i]))
+          continue;
+        SignedDistance distance = distance_to(half_space.plane, body);
+        if (distance.lower > within) continue;
+        if (half_space.object > objects_[i]) turn_round(distance);
+        found[i] = {std::min(half_space.object, objects_[i]),
+                    std::max(half_space.object, objects_[i]), distance};
+      }
+    });
+    std::ranges::copy_if(found, std::back_inserter(pairs),
+                         [](const ScenePair& pair) { return pair.a != none; });
+  }
+}
+
+SignedDistance SceneBodies::distance(std::uint32_t a, std::uint32_t b,
+                                     const SignedDistanceOptions& how) const {
+  const HalfSpace *plane_a = half_space_of(a), *plane_b = half_space_of(b);
+  if (plane_a && plane_b)
+    wrong_use("must not be two half-spaces (got " + std::to_string(a) + " and " +
+              std::to_string(b) + ")");
+  if (!plane_a && !plane_b) {
+    const ContactBody &one = body_of(a), &other = body_of(b);
+    return signed_distance(one.shape, one.pose, other.shape, other.pose, how);
+  }
+  SignedDistance found =
+      plane_a ? distance_to(plane_a->plane, body_of(b)) : distance_to(plane_b->plane, body_of(a));
+  if (plane_b) turn_round(found);
+  return found;
+}
+
+ContactManifold SceneBodies::manifold(std::uint32_t a, std::uint32_t b,
+                                      const SignedDistance& nearest) const {
+  const auto solid = [&](std::uint32_t object, std::uint32_t other) -> ContactBody {
+    const HalfSpace* const half_space = half_space_of(object);
+    if (!half_space) return body_of(object);
+    const ContactBody& body = body_of(other);
+    return as_box(half_space->plane, middle_in_world(body.shape, body.pose),
+                  body.shape.ball_radius());
+  };
+  const ContactBody one = solid(a, b), other = solid(b, a);
+  return contact_manifold(one.shape, one.pose, other.shape, other.pose, nearest);
+}
+
+PairDerivative SceneBodies::derivative(const ScenePair& pair) const {
+  const HalfSpace *plane_a = half_space_of(pair.a), *plane_b = half_space_of(pair.b);
+  if (!plane_a && !plane_b) {
+    const ContactBody &one = body_of(pair.a), &other = body_of(pair.b);
+    return finest_derivative_of(one.shape, one.pose, other.shape, other.pose);
+  }
+  const HalfSpace& plane = plane_a ? *plane_a : *plane_b;
+  const ContactBody& body = body_of(plane_a ? pair.b : pair.a);
+  SignedDistance distance = pair.distance;
+  if (plane_b) turn_round(distance);
+  PairDerivative derivative =
+      derivative_at_half_space(plane.origin, body.shape, body.pose, distance);
+  if (plane_b) turn_round(derivative);
+  return derivative;
+}
+
+std::vector<ScenePair> SceneBodies::nearest(const ContactBody& to, std::size_t count,
+                                            double at_most) const {
+  std::vector<ScenePair> best;
+  for (const NearPair& pair : nearest_bodies(to, *world_, count, at_most))
+    best.push_back({none, objects_[pair.b], pair.distance});
+  for (const HalfSpace& half_space : half_spaces_) {
+    if ((half_space.masks.category & to.mask) == 0) continue;
+    SignedDistance distance = distance_to(half_space.plane, to);
+    if (distance.lower > at_most) continue;
+    turn_round(distance);
+    best.push_back({none, half_space.object, distance});
+  }
+  std::ranges::stable_sort(best, {},
+                           [](const ScenePair& pair) { return std::pair(value_of(pair), pair.b); });
+  if (best.size() > count) best.resize(count);
+  return best;
+}
+
+PairDerivative SceneBodies::derivative(const ContactBody& of, const ScenePair& pair) const {
+  if (const HalfSpace* const half_space = half_space_of(pair.b)) {
+    SignedDistance distance = pair.distance;
+    turn_round(distance);
+    PairDerivative derivative =
+        derivative_at_half_space(half_space->origin, of.shape, of.pose, distance);
+    turn_round(derivative);
+    return derivative;
+  }
+  const ContactBody& other = body_of(pair.b);
+  return finest_derivative_of(of.shape, of.pose, other.shape, other.pose);
+}
+
+Vec3<double> SceneBodies::origin(std::uint32_t object) const {
+  const HalfSpace* const half_space = half_space_of(object);
+  return half_space ? half_space->origin : body_of(object).pose.translation;
+}
+
+bool SceneBodies::is_another_at(const Vec3<double>& point, std::uint32_t object,
+                                double near) const {
+  for (const HalfSpace& one : half_spaces_)
+    if (one.object != object &&
+        std::abs(one.plane.normal.dot((TwoFoldVec3<double>(point) - one.plane.point).rounded())) <=
+            near)
+      return true;
+  const auto is_in = [&](const Bounds<float>& box) {
+    for (int axis = 0; axis < 3; ++axis)
+      if (!(point[axis] + near >= double(box.lower[axis])) ||
+          !(point[axis] - near <= double(box.upper[axis])))
+        return false;
+    return true;
+  };
+  if (world_->bodies().empty()) return false;
+  const ContactShape dot{Shape<double>(Point<double>())};
+  Affine<double> at;
+  at.translation = point;
+  std::vector<std::uint32_t> open = {0};
+  while (!open.empty()) {
+    const std::uint32_t what = open.back();
+    open.pop_back();
+    if ((what & BvhNode::leaf) == 0) {
+      const BvhNode& node = world_->hierarchy().nodes[what];
+      for (int i = 0; i < bvh_width && node.children[i] != BvhNode::none; ++i)
+        if (is_in(node.box(i))) open.push_back(node.children[i]);
+      continue;
+    }
+    const std::uint32_t index = what & ~BvhNode::leaf;
+    if (objects_[index] == object) continue;
+    const ContactBody& body = world_->bodies()[index];
+    const SignedDistance distance = signed_distance(dot, at, body.shape, body.pose);
+    if (distance.lower <= near && distance.upper >= -near) return true;
+  }
+  return false;
+}
+
+WorldImpact SceneBodies::first_impact(const ContactShape& shape, const RigidMotion& motion,
+                                      double t_max, std::uint32_t mask) const {
+  WorldImpact found = nothing_met(t_max);
+  for (const HalfSpace& half_space : half_spaces_) {
+    if ((half_space.masks.category & mask) == 0) continue;
+    const ContactBody box =
+        as_box(half_space.plane, motion.pose.translation, reach_of(shape, motion, t_max));
+    take(found, half_space.object,
+         minkray::first_impact(shape, motion, box.shape, {box.pose}, t_max));
+  }
+  // Bodies and half-spaces have numbers of their own until here.
+  WorldImpact met = minkray::first_impact(
+      shape, motion, *world_, std::min(t_max, found.impact.t_hi), mask, nothing_met(t_max));
+  if (met.body != WorldImpact::none) take(found, objects_[met.body], met.impact);
+  return found;
+}
+
+PairDerivative SceneBodies::derivative(const ContactShape& shape, const RigidMotion& motion,
+                                       const WorldImpact& found) const {
+  if (found.body == WorldImpact::none)
+    return derivative_of(shape, motion, shape, motion, found.impact);
+  const auto object = static_cast<std::uint32_t>(found.body);
+  if (const HalfSpace* const half_space = half_space_of(object)) {
+    const ContactBody box = as_box(half_space->plane, motion.pose.translation,
+                                   reach_of(shape, motion, found.impact.t_lo));
+    return derivative_of(shape, motion, box.shape, {box.pose}, found.impact);
+  }
+  const ContactBody& body = body_of(object);
+  return derivative_of(shape, motion, body.shape, {body.pose}, found.impact);
+}
+
+}  // namespace minkray

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// A committed scene as queries on pairs see it: bodies with a hierarchy of their boxes, and
+// half-spaces, which have none.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/contact/half_space_distance.h"
+#include "core/contact/manifold.h"
+#include "core/contact/pair_derivative.h"
+#include "core/world/world_impact.h"
+#include "renderer/clearance/bodies.h"
+#include "renderer/library/held_scene.h"
+
+namespace minkray {
+
+/// Two objects by their numbers, particles numbered after all others.
+struct ScenePair {
+  std::uint32_t a = no_instance, b = no_instance;
+  SignedDistance distance;
+};
+
+/// Immutable: any number of threads may ask.
+class SceneBodies {
+ public:
+  /// The scene is committed, and outlives this.
+  explicit SceneBodies(const HeldScene& scene);
+
+  /// All pairs that are looked at and whose distance is not proven to be above `within`, by their
+  /// numbers: a < b.
+  std::vector<ScenePair> near(double within, double tolerance) const;
+
+  /// Whatever rules say. Throws CallError if both are half-spaces.
+  SignedDistance distance(std::uint32_t a, std::uint32_t b, const SignedDistanceOptions& how) const;
+  ContactManifold manifold(std::uint32_t a, std::uint32_t b, const SignedDistance& nearest) const;
+  PairDerivative derivative(const ScenePair& pair) const;
+
+  /// The objects nearest to a body, the nearest first; of those in a category of the mask.
+  std::vector<ScenePair> nearest(const ContactBody& to, std::size_t count, double at_most) const;
+  /// By a twist of the body that was asked for.
+  PairDerivative derivative(const ContactBody& of, const ScenePair& pair) const;
+
+  /// Null of a half-space.
+  const ContactBody* body(std::uint32_t object) const {
+    return body_of_[object] == none ? nullptr : &body_of(object);
+  }
+  /// Where the frame is that a twist moves.
+  Vec3<double> origin(std::uint32_t object) const;
+  /// Whether another object's surface is no further from the point than `near`.
+  bool is_another_at(const Vec3<double>& point, std::uint32_t object, double near) const;
+
+  /// The object that is touched first; its number is in `body`.
+  WorldImpact first_impact(const ContactShape& shape, const RigidMotion& motion, double t_max,
+                           std::uint32_t mask) const;
+  PairDerivative derivative(const ContactShape& shape, const RigidMotion& motion,
+                            const WorldImpact& found) const;
+
+ private:
+  struct HalfSpace {
+    std::uint32_t object;
+    PlacedPlane plane;
+    Vec3<double> origin;
+    PairRules::Masks masks;
+  };
+  static constexpr std::uint32_t none = no_instance;
+
+  const HalfSpace* half_space_of(std::uint32_t object) const;
+  const ContactBody& body_of(std::uint32_t object) const {
+    return world_->bodies()[body_of_[object]];
+  }
+  bool are_looked_at(std::uint32_t a, std::uint32_t b) const;
+  void add_half_spaces_near(double within, std::vector<ScenePair>& pairs) const;
+
+  const HeldScene& scene_;
+  std::optional<ContactWorld> world_;
+  std::vector<std::uint32_t> objects_;  ///< of each body
+  std::vector<std::uint32_t> body_of_;  ///< of each object; none of removed ones and half-spaces
+  std::vector<HalfSpace> half_spaces_;
+  std::vector<LinkPlace> places_;        ///< of each object of a robot
+  std::vector<std::uint32_t> robot_of_;  ///< which robot an object is of, or none; empty: no robots
+};
+
+}  // namespace minkray

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: MIT
+// Many pairs and the pairs of a scene, by the C++ header and in C: the bits of each by itself,
+// closed forms in long double, and what is refused.
+#include <gtest/gtest.h>
+#include <minkray/minkray.h>
+
+#include <cmath>
+#include <cstring>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "tests/renderer/library/shapes.h"
+
+namespace {
+
+namespace mk = minkray;
+
+std::vector<mk::Pose> poses_of_pairs(std::size_t count, double reach, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> place(-reach, reach);
+  std::normal_distribution<double> turn;
+  std::vector<mk::Pose> poses;
+  for (std::size_t i = 0; i < count; ++i) {
+    const mk::Vec3 at{place(random), place(random), place(random)};
+    poses.push_back(mk::pose(at, {turn(random), turn(random), turn(random), turn(random)}));
+  }
+  return poses;
+}
+
+template <class Thing>
+bool are_same_bits(const std::vector<Thing>& a, const std::vector<Thing>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0;
+}
+
+/// Two capsules: the distance of their axes less their radii, in long double.
+long double distance_of_capsules(const mk::Pose& a, const mk::Pose& b, long double half,
+                                 long double radii) {
+  using Long = long double;
+  const auto end = [half](const mk::Pose& pose, Long side, Long(&to)[3]) {
+    for (int i = 0; i < 3; ++i) to[i] = Long(pose.rows[i][3]) + side * half * Long(pose.rows[i][2]);
+  };
+  Long p0[3], p1[3], q0[3], q1[3], d1[3], d2[3], r[3];
+  end(a, -1, p0), end(a, 1, p1), end(b, -1, q0), end(b, 1, q1);
+  Long aa = 0, ee = 0, ff = 0, cc = 0, bb = 0;
+  for (int i = 0; i < 3; ++i) {
+    d1[i] = p1[i] - p0[i], d2[i] = q1[i] - q0[i], r[i] = p0[i] - q0[i];
+    aa += d1[i] * d1[i], ee += d2[i] * d2[i], ff += d2[i] * r[i], cc += d1[i] * r[i];
+    bb += d1[i] * d2[i];
+  }
+  const auto within = [](Long x) { return std::min(std::max(x, Long(0)), Long(1)); };
+  // C. Ericson, "Real-Time Collision Detection", 5.1.9.
+  Long s = within((bb * ff - cc * ee) / (aa * ee - bb * bb)), t = (bb * s + ff) / ee;
+  if (t < 0 || t > 1) {
+    t = within(t);
+    s = within((bb * t - cc) / aa);
+  }
+  Long squared = 0;
+  for (int i = 0; i < 3; ++i) {
+    const Long off = r[i] + s * d1[i] - t * d2[i];
+    squared += off * off;
+  }
+  return std::sqrt(squared) - radii;
+}
+
+/// The pose, moved by a small twist along one of its axes.
+mk::Pose twisted(const mk::Pose& pose, int axis, double by) {
+  if (axis < 3) {
+    mk::Pose moved = pose;
+    moved.rows[axis][3] += by;
+    return moved;
+  }
+  const double half = std::sin(by / 2);
+  const mk::Quaternion q{axis == 3 ? half : 0, axis == 4 ? half : 0, axis == 5 ? half : 0,
+                         std::cos(by / 2)};
+  mk::Pose moved = mk::pose({0, 0, 0}, q) * pose;
+  for (int i = 0; i < 3; ++i) moved.rows[i][3] = pose.rows[i][3];
+  return moved;
+}
+
+TEST(LibraryPairs, are_the_bits_of_each_for_any_number_of_threads) {
+  const std::vector<mk::Shape> kinds = some_shapes();
+  constexpr std::size_t count = 400;
+  std::vector<mk::Shape> a, b;
+  for (std::size_t i = 0; i < count; ++i) {
+    a.push_back(kinds[i % kinds.size()]);
+    b.push_back(kinds[(i / kinds.size()) % kinds.size()]);
+  }
+  const std::vector<mk::Pose> at_a = poses_of_pairs(count, 1, 1),
+                              at_b = poses_of_pairs(count, 1, 2);
+  std::vector<mk::Distance> alone(count);
+  for (std::size_t i = 0; i < count; ++i)
+    alone[i] = mk::signed_distance(a[i], at_a[i], b[i], at_b[i]);
+  for (const int threads : {0, 1, 3}) {
+    std::vector<mk::Distance> found(count);
+    mk::PairOptions options;
+    options.how.threads = threads;
+    mk::signed_distances({a, at_a, {}}, {b, at_b, {}}, found, options);
+    EXPECT_TRUE(are_same_bits(found, alone)) << threads;
+  }
+  std::vector<mk::Distance> of_one(count);
+  mk::signed_distances({{&a[0], 1}, {}, {}}, {b, at_b, {}}, of_one);
+  for (std::size_t i = 0; i < count; ++i)
+    EXPECT_EQ(of_one[i].value, mk::signed_distance(a[0], {}, b[i], at_b[i]).value) << i;
+}
+
+TEST(LibraryPairs, derivatives_are_slopes_in_long_double) {
+  constexpr std::size_t count = 300;
+  constexpr double half = 0.5, radius = 0.2;
+  const mk::Shape capsule = mk::capsule(radius, half);
+  const std::vector<mk::Pose> at_a = poses_of_pairs(count, 2, 3),
+                              at_b = poses_of_pairs(count, 2, 4);
+  std::vector<mk::Distance> found(count);
+  std::vector<mk::Twist> by_a(count), by_b(count);
+  std::vector<std::uint8_t> is_ridge(count);
+  mk::PairOptions options;
+  options.derivatives = {by_a, by_b, is_ridge};
+  mk::signed_distances({{&capsule, 1}, at_a, {}}, {{&capsule, 1}, at_b, {}}, found, options);
+  const long double radii = 2 * static_cast<long double>(radius);
+  std::size_t checked = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    EXPECT_NEAR(found[i].value,
+                static_cast<double>(distance_of_capsules(at_a[i], at_b[i], half, radii)), 1e-13);
+    if (is_ridge[i] != 0) continue;
+    ++checked;
+    for (int axis = 0; axis < 6; ++axis) {
+      const double told = axis < 3 ? by_b[i].velocity[static_cast<std::size_t>(axis)]
+                                   : by_b[i].turn[static_cast<std::size_t>(axis - 3)];
+      double least = 1;
+      for (const double step : {1e-4, 1e-6}) {
+        const auto at = [&](double by) {
+          return distance_of_capsules(at_a[i], twisted(at_b[i], axis, by), half, radii);
+        };
+        const long double slope = (at(step) - at(-step)) / (2 * static_cast<long double>(step));
+        least = std::min(least, static_cast<double>(std::abs(slope - told)));
+      }
+      EXPECT_LT(least, 1e-6) << i << " " << axis;
+    }
+  }
+  EXPECT_GT(checked, count - 3);
+}
+
+TEST(LibraryPairs, memories_are_values_that_make_it_faster) {
+  std::vector<mk::Vec3> points;
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < 64; ++i) points.push_back({normal(random), normal(random), normal(random)});
+  const mk::Shape hull = mk::hull(points);
+  mk::PairMemory memory;
+  int warm = 0, cold = 0;
+  for (int frame = 0; frame < 50; ++frame) {
+    const mk::Pose pose = mk::pose({6, 0.01 * frame, 0}, {0, 0, 0.01 * frame, 1});
+    const mk::Distance kept = mk::signed_distance(hull, {}, hull, pose, memory);
+    const mk::Distance anew = mk::signed_distance(hull, {}, hull, pose);
+    EXPECT_NEAR(kept.value, anew.value, 1e-9);
+    warm += kept.supports;
+    cold += anew.supports;
+  }
+  EXPECT_LT(warm, cold * 3 / 4);
+}
+
+TEST(LibraryPairs, impacts_and_manifolds_are_those_of_each) {
+  const mk::Shape box = mk::box({0.5, 0.4, 0.3}), plate = mk::box({5, 5, 1});
+  const std::vector<mk::Pose> above = {mk::translation({0, 0, 3}), mk::translation({1, 0, 4})};
+  const mk::Twist down{{0, 0, -1}, {0, 0, 0.3}};
+  std::vector<mk::Impact> impacts(2);
+  const double t_max = 9;
+  mk::times_of_impact({{&box, 1}, above, {&down, 1}}, {{&plate, 1}, {}, {}}, {&t_max, 1}, impacts);
+  EXPECT_NEAR(impacts[0].t_hi, 1.7, 1e-9);
+  EXPECT_NEAR(impacts[1].t_hi, 2.7, 1e-9);
+  std::vector<mk::Manifold> found(1);
+  const mk::Pose resting = mk::translation({0, 0, 1.3});
+  mk::manifolds({{&plate, 1}, {}, {}}, {{&box, 1}, {&resting, 1}, {}}, found);
+  EXPECT_EQ(found[0].count, 4);
+  for (const double gap : found[0].gaps) EXPECT_NEAR(gap, 0, 1e-12);
+}
+
+TEST(LibraryPairs, of_a_scene_in_c) {
+  mk::Scene scene;
+  const std::uint32_t ball = scene.add(mk::sphere(1), mk::translation({0, 0, 1.5}));
+  const std::uint32_t ground = scene.add_half_space({0, 0, 1}, 0);
+  const std::uint32_t other = scene.add(mk::sphere(1), mk::translation({2.25, 0, 5}));
+  scene.commit();
+  const minkray_near_options options = {sizeof options, 1, 0, 1, 0};
+  std::vector<minkray_scene_pair> pairs;
+  const auto take = [](void* user, const minkray_scene_pair* all, std::size_t count) {
+    static_cast<std::vector<minkray_scene_pair>*>(user)->assign(all, all + count);
+    return 0;
+  };
+  const auto ask = [&] {
+    ASSERT_EQ(minkray_scene_distances(scene.handle(), nullptr, 0, &options, take, &pairs, nullptr),
+              MINKRAY_OK)
+        << minkray_last_error();
+  };
+  ask();
+  ASSERT_EQ(pairs.size(), 1u);
+  EXPECT_EQ(pairs[0].object_a, ball);
+  EXPECT_EQ(pairs[0].object_b, ground);
+  EXPECT_NEAR(pairs[0].distance.value, 0.5, 1e-14);
+  EXPECT_NEAR(pairs[0].distance.normal[2], -1, 1e-14);
+  EXPECT_NEAR(pairs[0].jac_a[2], 1, 1e-14);
+  scene.set_pose(other, mk::translation({2.25, 0, 1.5}));
+  scene.commit();
+  ask();
+  EXPECT_EQ(pairs.size(), 3u);
+  EXPECT_EQ(minkray_scene_allow(scene.handle(), ball, other, 1), MINKRAY_OK);
+  ask();
+  EXPECT_EQ(pairs.size(), 2u);
+  scene.remove(other);
+  scene.commit();
+  ask();
+  EXPECT_EQ(pairs.size(), 1u);
+}
+
+TEST(LibraryPairs, what_is_wrong_is_told) {
+  const mk::Shape ball = mk::sphere(1);
+  std::vector<mk::Distance> found(3);
+  std::vector<mk::Pose> poses(3);
+  const auto text_of = [&](const mk::Bodies& a, const mk::PairOptions& options = {}) {
+    try {
+      mk::signed_distances(a, {{&ball, 1}, {}, {}}, found, options);
+    } catch (const mk::Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(text_of({{&ball, 1}, poses, {}}), "");
+  EXPECT_NE(text_of({{&ball, 1}, {poses.data(), 2}, {}}).find("a.poses: must be one, or as many"),
+            std::string::npos);
+  EXPECT_NE(text_of({{}, poses, {}}).find("a.shapes: must be one"), std::string::npos);
+  poses[1].rows[0][0] = 1.1;
+  EXPECT_NE(text_of({{&ball, 1}, poses, {}}).find("a.poses[1]: must be rigid"), std::string::npos);
+  poses[1].rows[0][0] = std::nan("");
+  EXPECT_NE(text_of({{&ball, 1}, poses, {}}).find("a.poses[1].rows[0][0]"), std::string::npos);
+  std::vector<mk::PairMemory> memories(2);
+  mk::PairOptions options;
+  options.memories = memories;
+  EXPECT_NE(text_of({{&ball, 1}, {}, {}}, options).find("memories: must be as many"),
+            std::string::npos);
+}
+
+}  // namespace

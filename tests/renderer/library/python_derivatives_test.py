@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: MIT
+"""Derivatives are slopes, and ridges are told: python_derivatives_test.py (PYTHONPATH: the module's folder)."""
+import unittest
+
+import numpy as np
+
+import minkray as mk
+from pairs_support import RNG, matrices, moved, off_slope, random_poses, slope, some_shapes, unit
+
+
+class Derivatives(unittest.TestCase):
+    def check_distances(self, low, high, allowed):
+        shapes = some_shapes()
+        for name_a, a in shapes.items():
+            for name_b, b in shapes.items():
+                A = random_poses(20)
+                B = random_poses(20)
+                B[:, :3] = A[:, :3] + unit(RNG.normal(size=(20, 3))) * RNG.uniform(low, high, (20, 1))
+                d = mk.signed_distances(a, A, b, B, jac=True)
+                self.assertLess(d.is_ridge.sum(), 4)
+                known = ~d.is_ridge
+                for axis in range(6):
+                    of_a = off_slope(lambda s: mk.signed_distances(a, moved(A, axis, s), b, B, tolerance=1e-14).value,
+                                     d.jac_a[:, axis])
+                    of_b = off_slope(lambda s: mk.signed_distances(a, A, b, moved(B, axis, s), tolerance=1e-14).value,
+                                     d.jac_b[:, axis])
+                    self.assertLess(max(of_a[known].max(), of_b[known].max()), allowed, (name_a, name_b, axis))
+
+    def test_of_distances_are_slopes(self):
+        self.check_distances(1.8, 4, 4e-6)
+
+    def test_of_depths_are_slopes(self):
+        self.check_distances(0.2, 0.5, 1e-5)
+
+    def test_of_times_of_impact_are_slopes(self):
+        shapes = some_shapes()
+        for a in ("box", "capsule", "ellipsoid"):
+            for b in ("box", "cylinder", "sphere"):
+                A, B = random_poses(60), random_poses(60)
+                B[:, :3] = A[:, :3] + 4 * unit(RNG.normal(size=(60, 3)))
+                twists = RNG.normal(size=(2, 60, 6)) * [1, 1, 1, 0.4, 0.4, 0.4]
+                twists[0, :, :3] += B[:, :3] - A[:, :3]
+                twists[:, :20, 3:] = 0
+                def time(A, B):
+                    return mk.times_of_impact(shapes[a], A, twists[0], shapes[b], B, twists[1], 3)
+                hit = time(A, B)
+                d = mk.times_of_impact(shapes[a], A, twists[0], shapes[b], B, twists[1], 3, jac=True)
+                known = (hit.status == mk.IMPACT) & ~d.is_ridge
+                self.assertGreater(known.sum(), 10)
+                for axis in range(6):
+                    for side, jac in enumerate((d.jac_a, d.jac_b)):
+                        f = lambda s: time(moved(A, axis, s) if side == 0 else A, moved(B, axis, s) if side == 1 else B).t_lo
+                        off = np.abs(slope(f, 1e-3) - jac[:, axis]) / (1 + np.abs(jac[:, axis]))
+                        # Times are known to 1e-10 of the sizes, and contacts pass from feature to feature.
+                        self.assertLess(np.quantile(off[known], 0.7), 2e-6, (a, b, axis, side))
+                self.assertTrue(np.isnan(d.jac_a[d.status == mk.NO_IMPACT]).all())
+
+    def test_of_rays_are_slopes(self):
+        for name, shape in some_shapes().items():
+            pose = random_poses(1, 0.5)
+            origins = 4 * unit(RNG.normal(size=(300, 3)))
+            rays = np.concatenate([origins, pose[0, :3] + RNG.uniform(-0.3, 0.3, (300, 3)) - origins], axis=1)
+
+            def cast(rays, pose, **how):
+                scene = mk.Scene()
+                scene.add(shape, matrices(pose)[0])
+                return scene.cast_rays(rays, **how)
+            hits = cast(rays, pose, jac=True)
+            known = (hits.status == mk.HIT) & ~hits.is_ridge
+            self.assertGreater(known.sum(), 150, name)
+            self.assertLess((hits.is_ridge & (hits.status == mk.HIT)).sum(), 3, name)
+            self.assertTrue(np.isnan(hits.jac_ray[hits.status == mk.MISS]).all())
+            for axis in range(6):
+                def of_ray(s):
+                    beside = rays.copy()
+                    beside[:, axis] += s
+                    return cast(beside, pose).t
+                for f, jac in ((of_ray, hits.jac_ray), (lambda s: cast(rays, moved(pose, axis, s)).t, hits.jac_body)):
+                    off = off_slope(f, jac[:, axis]) / (1 + np.abs(jac[:, axis]))
+                    self.assertLess(off[known].max(), 2e-6, (name, axis))
+
+    def test_say_where_they_are_not_unique(self):
+        box, flat = mk.box([1, 1, 1]), [[0.3, 0.2, 3, 1, 0, 0, 0]]
+        turned = [[0.3, 0.2, 3, np.cos(0.2), 0, 0, np.sin(0.2)]]  # about z: faces still parallel
+        tilted = [[0, 0, 4, np.cos(0.2), np.sin(0.2), 0, 0]]  # about x: an edge over a face
+        askew = [[0, 0, 4, *unit(np.array([1, 0.3, 0.2, 0.1]))]]
+        ridge = lambda *pair: bool(mk.signed_distances(*pair, jac=True).is_ridge[0])
+        for pose, expected in ((flat, True), (turned, True), (tilted, True), (askew, False)):
+            self.assertEqual(ridge(box, None, box, pose), expected, pose)
+        self.assertTrue(ridge(mk.capsule(1, 1), None, mk.capsule(1, 1), [[3, 0, 0, 1, 0, 0, 0]]))  # parallel
+        self.assertFalse(ridge(mk.capsule(1, 1), None, mk.capsule(1, 1), [[3, 0, 0, *unit(np.array([1, 1, 0, 0]))]]))
+        self.assertTrue(ridge(mk.cylinder(1, 1), None, mk.box([5, 5, 1]), [[0, 0, 4, 1, 0, 0, 0]]))  # stands
+        self.assertTrue(ridge(mk.cylinder(1, 1), None, mk.box([1, 5, 5]), [[4, 0, 0, 1, 0, 0, 0]]))  # lies
+        self.assertFalse(ridge(mk.ellipsoid([1, 2, 3]), None, mk.box([1, 5, 5]), [[9, 0, 0, 1, 0, 0, 0]]))
+        self.assertTrue(ridge(mk.sphere(1), None, mk.sphere(2), None))  # around a common middle
+        self.assertTrue(ridge(mk.sphere(0.1), [[0.2, 0, 0, 1, 0, 0, 0]], mk.box([1, 0.8, 3]), None))  # two faces as near
+        self.assertFalse(ridge(mk.sphere(0.1), [[0.3, 0, 0, 1, 0, 0, 0]], mk.box([1, 0.8, 3]), None))
+        hull = mk.hull([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
+        self.assertTrue(ridge(hull, None, hull, flat))
+        self.assertFalse(ridge(hull, None, hull, askew))
+        summed = mk.sum(mk.box([0.5, 0.5, 0.5]), mk.superellipsoid([0.5, 0.5, 0.5], 4))
+        self.assertTrue(ridge(summed, None, summed, [[0.1, 0.1, 5, 1, 0, 0, 0]]))
+
+    def test_of_rays_say_where_they_are_not_unique(self):
+        scene = mk.Scene()
+        scene.add(mk.box([1, 1, 1]))
+        scene.add(mk.cylinder(1, 1), [[1, 0, 0, 10], [0, 1, 0, 0], [0, 0, 1, 0]])
+        scene.add(mk.hull([[x, y, z + 20] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]))
+        scene.add(mk.box([1, 1, 1]), [[1, 0, 0, 0], [0, 1, 0, -20], [0, 0, 1, 0]])
+        scene.add(mk.box([1, 1, 1]), [[1, 0, 0, 2], [0, 1, 0, -20], [0, 0, 1, 0]])
+        for ray, expected in (([5, 0, 0, -1, 0, 0], False), ([5, 0, 5, -4, 0, -4], True), ([5, 5, 5, -4, -4, -4], True),
+                              ([10, -3, 3, 0, 2, -2], True), ([10, -3, 0.3, 0, 2, 0], False), ([5, 0.1, 20.1, -1, 0, 0], False),
+                              ([5, 0, 25, -4, 0, -4], True), ([1, -10, 0, 0, -1, 0], True), ([0.5, -10, 0, 0, -1, 0], False)):
+            hits = scene.cast_rays([ray], jac=True)
+            self.assertEqual(hits.status[0], mk.HIT, ray)
+            self.assertEqual(bool(hits.is_ridge[0]), expected, ray)
+
+
+if __name__ == "__main__":
+    unittest.main()
