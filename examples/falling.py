@@ -23,7 +23,7 @@ for body in range(COUNT):
     scene.add(shapes[kind[body]], pose[body])
 ground = scene.add_half_space([0, 0, 1])
 velocity, spin = np.zeros((2, COUNT, 3))
-memory = {}  # of each pair of bodies, from step to step
+memory: dict[tuple[int, int], np.ndarray] = {}  # of each pair of bodies, from step to step
 
 
 def turned(matrix, spin):

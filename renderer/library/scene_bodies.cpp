@@ -256,10 +256,12 @@ bool SceneBodies::is_another_at(const Vec3<double>& point, std::uint32_t object,
     return true;
   };
   if (world_->bodies().empty()) return false;
-  const ContactShape dot{Shape<double>(Point<double>())};
+  SignedDistanceOptions how;
+  how.at_most = near;
   Affine<double> at;
   at.translation = point;
-  std::vector<std::uint32_t> open = {0};
+  thread_local std::vector<std::uint32_t> open;
+  open.assign(1, 0);
   while (!open.empty()) {
     const std::uint32_t what = open.back();
     open.pop_back();
@@ -272,7 +274,7 @@ bool SceneBodies::is_another_at(const Vec3<double>& point, std::uint32_t object,
     const std::uint32_t index = what & ~BvhNode::leaf;
     if (objects_[index] == object) continue;
     const ContactBody& body = world_->bodies()[index];
-    const SignedDistance distance = signed_distance(dot, at, body.shape, body.pose);
+    const SignedDistance distance = signed_distance(point_, at, body.shape, body.pose, how);
     if (distance.lower <= near && distance.upper >= -near) return true;
   }
   return false;

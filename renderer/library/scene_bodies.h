@@ -73,6 +73,7 @@ class SceneBodies {
   void add_half_spaces_near(double within, std::vector<ScenePair>& pairs) const;
 
   const HeldScene& scene_;
+  const ContactShape point_{Shape<double>(Point<double>())};
   std::optional<ContactWorld> world_;
   std::vector<std::uint32_t> objects_;  ///< of each body
   std::vector<std::uint32_t> body_of_;  ///< of each object; none of removed ones and half-spaces
