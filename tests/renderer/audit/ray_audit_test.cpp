@@ -70,9 +70,8 @@ TEST(RayAudit, an_object_that_was_overlooked_is_named) {
 
 TEST(RayAudit, a_wrong_hit_is_found) {
   Audited audited;
-  EXPECT_EQ(
-      audited.failures(along_row, [](WorldHit& answer) { answer.cast.t_offset += 1e-9; }),
-      1u);
+  EXPECT_EQ(audited.failures(along_row, [](WorldHit& answer) { answer.cast.t_offset += 1e-9; }),
+            1u);
   EXPECT_EQ(audited.failures(along_row, [](WorldHit& answer) { answer.instance = 1; }), 1u);
   audited.audit.occluded(RayKind::shadow, along_row, no_instance, false);
   audited.audit.occluded(RayKind::shadow, above, no_instance, true);
