@@ -35,5 +35,4 @@ void for_each_instance(const Scene& scene,
 
 Instances instances_of(const Scene& scene);
 
-
 }  // namespace minkray::bench

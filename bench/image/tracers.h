@@ -11,7 +11,6 @@ namespace minkray::bench {
 /// Minkray's world: exact shapes.
 std::unique_ptr<Tracer> exact_shapes(const Scene& scene, BvhBuild build = BvhBuild::quality);
 
-
 /// Embree on instances of triangle meshes, one mesh for each of the scene's shapes; the meshes'
 /// hierarchies at its highest quality, which is slow to build, or at its default.
 std::unique_ptr<Tracer> embree_triangles(const Scene& scene, const Meshes& meshes,

@@ -19,8 +19,8 @@ Mat3<T> inverse_of(const Mat3<T>& linear) {
   return Mat3<T>(linear * down).inverse() * down;
 }
 
-/// True if the rows are of unit length and at right angles to a few roundings, so that the transpose
-/// is as good an inverse as `inverse_of` makes.
+/// True if the rows are of unit length and at right angles to a few roundings, so that the
+/// transpose is as good an inverse as `inverse_of` makes.
 template <class T>
 bool keeps_lengths(const Mat3<T>& linear) {
   constexpr T rounding = T(4) * std::numeric_limits<T>::epsilon();

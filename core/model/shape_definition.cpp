@@ -139,7 +139,7 @@ ShapeDefinition<T>::ShapeDefinition(Shape<T> shape) : original_(shape), inner_(s
   }
   ball_ = ball_around(bounds);
   middle_ = moved_ + outer_ * TwoFoldVec3<T>(ball_.centre * up_);
-  if (!(ball_.radius > T(0))) outer_ = {};  // no map matters to a point
+  if (!(ball_.radius > T(0))) outer_ = {};       // no map matters to a point
   const bool is_point = !(ball_.radius > T(0));  // whose numbers are its place
   support_loss_ = is_point ? T(0)
                            : T(tolerance::support_rounding<T> *

@@ -50,9 +50,10 @@ inline constexpr int gjk_max_iterations = 1000;
 template <class T>
 inline constexpr T jet_gap = T(4) * epsilon<T>;
 
-/// What the distance between a plane and a ray's point is known to, in units of the bounding radius:
-/// half an epsilon of R each for the support point, its way from the centre and the ray's point, one
-/// for the difference of up to 2 R, three for its product with the normal. Intervals allow for it.
+/// What the distance between a plane and a ray's point is known to, in units of the bounding
+/// radius: half an epsilon of R each for the support point, its way from the centre and the ray's
+/// point, one for the difference of up to 2 R, three for its product with the normal. Intervals
+/// allow for it.
 template <class T>
 inline constexpr T plane_rounding = T(8) * epsilon<T>;
 

@@ -17,10 +17,10 @@ struct WorldImpact {
 };
 
 /// A is the moving shape, which all bodies with a bit of `mask` in their category are looked at
-/// for; `found` is what is known already of others.
+/// for; `known` is what is known already of others.
 WorldImpact first_impact(const ContactShape& shape, const RigidMotion& motion,
                          const ContactWorld& world, double t_max, std::uint32_t mask,
-                         const WorldImpact& found);
+                         const WorldImpact& known);
 
 /// Takes the body's answer in, which was asked for at times until found.impact.t_hi, or all.
 void take(WorldImpact& found, std::size_t body, const Impact& impact);

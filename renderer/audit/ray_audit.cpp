@@ -140,8 +140,8 @@ void RayAudit::occluded(RayKind kind, const Ray<double>& ray, std::uint32_t skip
   for (std::uint32_t i = 0; i < targets_.size(); ++i) {
     if (i == skip || !may_meet(kind, i, ray)) continue;
     const CastResult<double> cast = targets_[i].half_space
-                                      ? cast_ray(*targets_[i].half_space, ray)
-                                      : cast_ray(world_.instances().at(i), ray, world_.options());
+                                        ? cast_ray(*targets_[i].half_space, ray)
+                                        : cast_ray(world_.instances().at(i), ray, world_.options());
     if (cast.found() && verdict(i, ray, claim_of(cast)).holds) return;
   }
   fail(kind, no_instance, ray, "nothing is proven to be in its way");

@@ -10,8 +10,7 @@
 namespace minkray {
 
 /// The rendering, which must have its variance, made ready for `denoised`.
-NoisyPicture noisy_picture(const Scene& scene, const World& world,
-                           const RenderOptions& options, const Rendering& rendering,
-                           const RenderWatch& watch = {});
+NoisyPicture noisy_picture(const Scene& scene, const World& world, const RenderOptions& options,
+                           const Rendering& rendering, const RenderWatch& watch = {});
 
 }  // namespace minkray

@@ -12,7 +12,7 @@ namespace minkray {
 
 /// The scene's objects, then its particles, in order.
 World make_world(const Scene& scene, const CastOptions<double>& options = {},
-                       BvhBuild build = BvhBuild::quality);
+                 BvhBuild build = BvhBuild::quality);
 
 /// Moves a world's instances to where the scene, of which it was made, has them by now.
 void follow(World& world, const Scene& scene);

@@ -31,7 +31,9 @@ class SceneCasts {
                                    std::size_t most_looked_at) const;
 
   /// Refers to this.
-  PreparedShape<double> shape(std::size_t instance) const { return world_.instances().at(instance); }
+  PreparedShape<double> shape(std::size_t instance) const {
+    return world_.instances().at(instance);
+  }
   CastTrace<double> trace(std::size_t instance, const Ray<double>& ray) const {
     return trace_ray(shape(instance), ray, world_.options());
   }

@@ -126,7 +126,8 @@ class Handles {
 template <class Thing>
 union HandlesForEver {
   constexpr explicit HandlesForEver(std::uint64_t kind) : handles(kind) {}
-  constexpr ~HandlesForEver() {}
+  // The member has a destructor, so this one would be deleted by default.
+  constexpr ~HandlesForEver() {}  // NOLINT(modernize-use-equals-default)
   Handles<Thing> handles;
 };
 

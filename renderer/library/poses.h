@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 #include "core/math/affine.h"
@@ -11,10 +10,12 @@
 
 namespace minkray {
 
-/// Whether it is the identity, number by number.
+/// True if it is the identity, number by number.
 inline bool is_identity(const minkray_pose& pose) {
-  static constexpr minkray_pose identity = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
-  return std::memcmp(&pose, &identity, sizeof pose) == 0;
+  bool is_same = true;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 4; ++j) is_same &= pose.rows[i][j] == (i == j ? 1.0 : 0.0);
+  return is_same;
 }
 
 /// Whether the rows are of length 1 and square to each other, but for a few roundings; false if any

@@ -67,8 +67,7 @@ class SceneWhile {
   };
   bool moves(std::uint32_t instance) const;
   PreparedShape<double> mover_at(std::size_t mover, double time);
-  void meet_movers(const WorldRay& ray, double time, WorldHit& closest,
-                   QueryCounts& counts);
+  void meet_movers(const WorldRay& ray, double time, WorldHit& closest, QueryCounts& counts);
 
   const MovingScene& scene_;
   std::vector<std::uint32_t> bodies_, half_spaces_;  ///< into movers_

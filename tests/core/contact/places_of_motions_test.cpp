@@ -96,8 +96,8 @@ TEST(Places, balls_meet_when_their_closed_form_says) {
         x[i] = Quad(b.pose.translation[e]) - Quad(a.pose.translation[e]);
         v[i] = Quad(b.velocity[e]) - Quad(a.velocity[e]);
       }
-      const Quad r = Quad(radius_a) + Quad(radius_b), towards = -quad_dot(x, v), vv = quad_dot(v, v),
-                 inside = towards * towards - vv * (quad_dot(x, x) - r * r);
+      const Quad r = Quad(radius_a) + Quad(radius_b), towards = -quad_dot(x, v),
+                 vv = quad_dot(v, v), inside = towards * towards - vv * (quad_dot(x, x) - r * r);
       if (!(quad_dot(x, x) > r * r)) continue;
       const Impact found =
           first_impact(ContactShape(Shape<double>(Sphere<double>{radius_a})), a,

@@ -134,7 +134,8 @@ TEST(Instances, an_instance_costs_its_pose_however_large_its_shape) {
   Instances hulls;
   const std::size_t count = 10000;
   hulls.add_many(hulls.define(Hull<double>{PointCloud<double>(points)}), count, [&](std::size_t i) {
-    return Affine<double>{Mat3<double>(rotation_matrix(1.0, 2.0, 3.0, double(i))), {double(i), 0, 0}};
+    return Affine<double>{Mat3<double>(rotation_matrix(1.0, 2.0, 3.0, double(i))),
+                          {double(i), 0, 0}};
   });
   EXPECT_EQ(hulls.take_boxes().size(), count);
   EXPECT_LE(hulls.bytes(), count * 100 + 8000);
