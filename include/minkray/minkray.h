@@ -22,6 +22,7 @@
 #include <limits>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "minkray/minkray_c.h"
 
@@ -600,6 +601,19 @@ struct Clearance {
 static_assert(sizeof(Clearance) == sizeof(minkray_clearance) &&
               offsetof(Clearance, is_settled) == offsetof(minkray_clearance, is_settled));
 
+// The pairs of a scene are asked with these, which minkray/pairs.h defines.
+struct Bodies;
+struct Manifold;
+struct NearOptions;
+struct SceneImpact;
+struct ScenePair;
+struct Twist;
+
+/// The numbers of two objects.
+struct ObjectPair {
+  std::uint32_t a = 0, b = 0;
+};
+
 /// Shapes with poses. Any number of threads may ask one. Changing one that is asked, or asking one
 /// that is changed, is an Error.
 class Scene {
@@ -780,6 +794,35 @@ class Scene {
                                           reinterpret_cast<minkray_clearance*>(&least)));
     return least;
   }
+
+  // ---- pairs: see minkray/pairs.h ----
+
+  /// All pairs of objects that are no further apart than `within`, in the order of their numbers.
+  /// Left out is what masks and `allow` leave out, and what a robot's joints connect.
+  std::vector<ScenePair> distances(double within = 0) const;
+  std::vector<ScenePair> distances(const NearOptions& options) const;
+  /// Those pairs, in their order, whatever was said of them.
+  std::vector<ScenePair> distances(View<const ObjectPair> pairs) const;
+  std::vector<ScenePair> distances(View<const ObjectPair> pairs, const NearOptions& options) const;
+  /// The k objects nearest to each point: k answers a point, the nearest first.
+  std::vector<ScenePair> nearest(View<const Vec3> points, std::size_t k = 1) const;
+  std::vector<ScenePair> nearest(View<const Vec3> points, std::size_t k,
+                                 const NearOptions& options) const;
+  /// The object nearest to each of many shapes that are no part of the scene.
+  void distance_to(const Bodies& shapes, View<ScenePair> nearest, const NearOptions& options) const;
+  ScenePair distance_to(const Shape& shape, const Pose& pose) const;
+  /// What shapes that move through the scene touch first, at times from 0 to t_max.
+  void times_of_impact(const Bodies& shapes, View<const double> t_max, View<SceneImpact> impacts,
+                       const NearOptions& options) const;
+  SceneImpact time_of_impact(const Shape& shape, const Pose& pose, const Twist& twist,
+                             double t_max) const;
+  /// Points of contact of two objects.
+  Manifold manifold(std::uint32_t object_a, std::uint32_t object_b) const;
+  /// Objects are a pair if each one's mask has a bit of the other's category.
+  void set_masks(std::uint32_t object, std::uint32_t category, std::uint32_t mask);
+  /// Says if two objects may touch: such pairs are left out.
+  void allow(std::uint32_t object_a, std::uint32_t object_b, bool is_allowed = true);
+
   Proof prove(const Ray& ray, const Hit& hit) const {
     Proof proof;
     prove({&ray, 1}, {&hit, 1}, {&proof, 1});

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Many pairs of shapes at once: distances with their derivatives, points of contact, times of
-// impact. Header-only over minkray_c_pairs.h, whose comments say what is promised; docs/pairs.md
-// has examples.
+// impact; and the pairs of a scene. Header-only over minkray_c_pairs.h, whose comments say what is
+// promised; docs/pairs.md has examples.
 //
 //   std::vector<mk::Distance> found(poses.size());
-//   mk::signed_distances({{&robot, 1}, poses}, {{&wall, 1}, {}}, found);
+//   mk::signed_distances({{&robot, 1}, poses, {}}, {{&wall, 1}, {}, {}}, found);
+//   for (const mk::ScenePair& pair : scene.distances(0.1)) use(pair.object_a, pair.object_b);
 #pragma once
+
+#include <exception>
 
 #include "minkray/minkray.h"
 #include "minkray/minkray_c_pairs.h"
@@ -150,6 +153,153 @@ inline Distance signed_distance(const Shape& a, const Pose& pose_a, const Shape&
   options.how.threads = 1;
   signed_distances({{&a, 1}, {&pose_a, 1}, {}}, {{&b, 1}, {&pose_b, 1}, {}}, {&found, 1}, options);
   return found;
+}
+
+// ---- the pairs of a scene ----
+
+/// Two objects and how far apart they are; no_object stands for a shape or point of none, or says
+/// that there is no such object.
+struct ScenePair {
+  Distance distance;
+  Twist by_a, by_b;  ///< derivatives, zero unless they were asked for
+  std::uint32_t object_a = no_object, object_b = no_object;
+  std::int32_t is_ridge = 0, reserved = 0;
+};
+static_assert(sizeof(ScenePair) == sizeof(minkray_scene_pair) &&
+              offsetof(ScenePair, object_a) == offsetof(minkray_scene_pair, object_a));
+
+/// What a shape that moves through a scene touches first.
+struct SceneImpact {
+  Impact impact;   ///< no object is touched before t_lo; the object is, at t_hi
+  Twist by_shape;  ///< the time's derivative by a twist of the shape's pose at time 0
+  std::uint32_t object = no_object;
+  std::int32_t is_ridge = 0;
+};
+static_assert(sizeof(SceneImpact) == sizeof(minkray_scene_impact) &&
+              offsetof(SceneImpact, object) == offsetof(minkray_scene_impact, object));
+
+/// How the pairs of a scene are asked.
+struct NearOptions {
+  double within = std::numeric_limits<double>::infinity();  ///< what is further apart is left out
+  double tolerance = 0;      ///< of the bounds, in the shapes' sizes; 0: 1e-10
+  bool derivatives = false;  ///< they are told, too
+  std::uint32_t mask = 0;    ///< of shapes of no object: categories that are looked at; 0: all
+  Options how = {};
+};
+
+namespace detail {
+inline minkray_near_options plain(const NearOptions& options) {
+  return {sizeof(minkray_near_options), options.within, options.tolerance,
+          options.derivatives ? 1 : 0, options.mask};
+}
+
+/// Keeps the pairs that minkray_scene_distances tells, and what that throws.
+struct TakenPairs {
+  std::vector<ScenePair> pairs;
+  std::exception_ptr thrown;
+
+  static int take(void* user, const minkray_scene_pair* pairs, std::size_t count) {
+    auto& taken = *static_cast<TakenPairs*>(user);
+    try {
+      const auto* const first = reinterpret_cast<const ScenePair*>(pairs);
+      taken.pairs.assign(first, first + count);
+    } catch (...) {
+      taken.thrown = std::current_exception();
+      return 1;
+    }
+    return 0;
+  }
+};
+
+inline std::vector<ScenePair> distances(minkray_scene scene, View<const ObjectPair> pairs,
+                                        const NearOptions& options) {
+  const minkray_near_options asked = plain(options);
+  const minkray_options how = plain(options.how);
+  TakenPairs taken;
+  const auto* const numbers =
+      pairs.size() > 0 ? reinterpret_cast<const std::uint32_t*>(pairs.data()) : nullptr;
+  const int status = minkray_scene_distances(scene, numbers, pairs.size(), &asked,
+                                             &TakenPairs::take, &taken, &how);
+  if (taken.thrown) std::rethrow_exception(taken.thrown);
+  check(status);
+  return std::move(taken.pairs);
+}
+}  // namespace detail
+
+inline std::vector<ScenePair> Scene::distances(double within) const {
+  NearOptions options;
+  options.within = within;
+  return detail::distances(handle_, {}, options);
+}
+inline std::vector<ScenePair> Scene::distances(const NearOptions& options) const {
+  return detail::distances(handle_, {}, options);
+}
+inline std::vector<ScenePair> Scene::distances(View<const ObjectPair> pairs,
+                                               const NearOptions& options) const {
+  if (pairs.size() == 0) return {};
+  return detail::distances(handle_, pairs, options);
+}
+inline std::vector<ScenePair> Scene::distances(View<const ObjectPair> pairs) const {
+  return distances(pairs, NearOptions());
+}
+
+inline std::vector<ScenePair> Scene::nearest(View<const Vec3> points, std::size_t k,
+                                             const NearOptions& options) const {
+  const minkray_near_options asked = detail::plain(options);
+  const minkray_options how = detail::plain(options.how);
+  std::vector<ScenePair> found(points.size() * k);
+  detail::check(minkray_scene_nearest(handle_, reinterpret_cast<const double(*)[3]>(points.data()),
+                                      points.size(), k, &asked,
+                                      reinterpret_cast<minkray_scene_pair*>(found.data()), &how));
+  return found;
+}
+inline std::vector<ScenePair> Scene::nearest(View<const Vec3> points, std::size_t k) const {
+  return nearest(points, k, NearOptions());
+}
+
+inline void Scene::distance_to(const Bodies& shapes, View<ScenePair> nearest,
+                               const NearOptions& options) const {
+  const minkray_bodies bodies = detail::plain(shapes);
+  const minkray_near_options asked = detail::plain(options);
+  const minkray_options how = detail::plain(options.how);
+  detail::check(minkray_scene_distance_to(handle_, &bodies, nearest.size(), &asked,
+                                          reinterpret_cast<minkray_scene_pair*>(nearest.data()),
+                                          &how));
+}
+inline ScenePair Scene::distance_to(const Shape& shape, const Pose& pose) const {
+  ScenePair found;
+  distance_to({{&shape, 1}, {&pose, 1}, {}}, {&found, 1}, NearOptions());
+  return found;
+}
+
+inline void Scene::times_of_impact(const Bodies& shapes, View<const double> t_max,
+                                   View<SceneImpact> impacts, const NearOptions& options) const {
+  const minkray_bodies bodies = detail::plain(shapes);
+  const minkray_near_options asked = detail::plain(options);
+  const minkray_options how = detail::plain(options.how);
+  detail::check(minkray_scene_time_of_impact(
+      handle_, &bodies, impacts.size(), t_max.data(), t_max.size(), &asked,
+      reinterpret_cast<minkray_scene_impact*>(impacts.data()), &how));
+}
+inline SceneImpact Scene::time_of_impact(const Shape& shape, const Pose& pose, const Twist& twist,
+                                         double t_max) const {
+  SceneImpact found;
+  times_of_impact({{&shape, 1}, {&pose, 1}, {&twist, 1}}, {&t_max, 1}, {&found, 1}, NearOptions());
+  return found;
+}
+
+inline Manifold Scene::manifold(std::uint32_t object_a, std::uint32_t object_b) const {
+  Manifold found;
+  detail::check(minkray_scene_manifold(handle_, object_a, object_b,
+                                       reinterpret_cast<minkray_manifold*>(&found)));
+  return found;
+}
+
+inline void Scene::set_masks(std::uint32_t object, std::uint32_t category, std::uint32_t mask) {
+  detail::check(minkray_scene_set_masks(handle_, object, category, mask));
+}
+inline void Scene::allow(std::uint32_t object_a, std::uint32_t object_b, bool is_allowed) {
+  detail::check(minkray_scene_allow(handle_, object_a, object_b, is_allowed ? 1 : 0));
 }
 
 }  // namespace v0

@@ -239,4 +239,63 @@ TEST(LibraryPairs, what_is_wrong_is_told) {
             std::string::npos);
 }
 
+/// Balls of radius 0.5 at x = 0, 1.2, 2.4.
+mk::Scene row_of_balls() {
+  mk::Scene scene;
+  for (int i = 0; i < 3; ++i) scene.add(mk::sphere(0.5), mk::translation({1.2 * i, 0, 0}));
+  scene.commit();
+  return scene;
+}
+
+TEST(LibraryPairs, objects_of_a_scene_that_are_near_each_other) {
+  mk::Scene scene = row_of_balls();
+  const auto near = scene.distances(0.3);
+  ASSERT_EQ(near.size(), 2u);
+  for (std::uint32_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(near[i].object_a, i);
+    EXPECT_EQ(near[i].object_b, i + 1);
+    EXPECT_NEAR(near[i].distance.value, 0.2, 1e-15);
+  }
+  EXPECT_TRUE(scene.distances().empty());
+  mk::NearOptions options;
+  options.derivatives = true;
+  const mk::ObjectPair ends[] = {{0, 2}};
+  const auto asked = scene.distances(ends, options);
+  ASSERT_EQ(asked.size(), 1u);
+  EXPECT_NEAR(asked[0].distance.value, 1.4, 1e-15);
+  EXPECT_NEAR(asked[0].by_a.velocity.x, -1, 1e-12);
+  EXPECT_NEAR(asked[0].by_b.velocity.x, 1, 1e-12);
+  scene.allow(0, 1);
+  EXPECT_EQ(scene.distances(0.3).size(), 1u);
+  scene.set_masks(2, 2, 2);
+  EXPECT_TRUE(scene.distances(0.3).empty());
+  EXPECT_THROW(scene.distances(-1.0), mk::Error);
+}
+
+TEST(LibraryPairs, objects_of_a_scene_that_are_near_points_and_shapes) {
+  const mk::Scene scene = row_of_balls();
+  const mk::Vec3 points[] = {{0, 0, 1}, {2.3, 0, 2}};
+  const auto nearest = scene.nearest(points, 2);
+  ASSERT_EQ(nearest.size(), 4u);
+  EXPECT_EQ(nearest[0].object_b, 0u);
+  EXPECT_EQ(nearest[1].object_b, 1u);
+  EXPECT_EQ(nearest[2].object_b, 2u);
+  EXPECT_NEAR(nearest[2].distance.value, std::hypot(0.1, 2) - 0.5, 1e-14);
+
+  const mk::ScenePair one = scene.distance_to(mk::sphere(0.1), mk::translation({2.4, 3, 0}));
+  EXPECT_EQ(one.object_b, 2u);
+  EXPECT_NEAR(one.distance.value, 2.4, 1e-14);
+
+  const mk::SceneImpact met =
+      scene.time_of_impact(mk::sphere(0.1), mk::translation({1.2, 3, 0}), {{0, -2, 0}, {}}, 9);
+  EXPECT_EQ(met.object, 1u);
+  EXPECT_LE(met.impact.t_lo, 1.2 + 1e-12);
+  EXPECT_GE(met.impact.t_hi, 1.2 - 1e-12);
+  EXPECT_NEAR(met.impact.t_hi, 1.2, 1e-9);
+
+  const mk::Manifold between = scene.manifold(0, 1);
+  EXPECT_EQ(between.count, 1);
+  EXPECT_NEAR(between.gaps[0], 0.2, 1e-15);
+}
+
 }  // namespace
