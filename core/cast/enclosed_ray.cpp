@@ -11,12 +11,12 @@ namespace {
 
 using Vec2 = Vec<double, 2>;
 
-/// Angles between the normal and the directions asked first: the root of a machine epsilon, and
-/// more where the corners it brings are too near to each other.
+/// Angles between the normal and the first directions: the root of a machine epsilon, and a larger
+/// one for corners that would be too close together.
 constexpr std::array tilts = {0x1p-26, 0x1p-20};
-/// Support points that one tilt may take, and that a portal may.
+/// Limits of support calls for one tilt and for refining a portal.
 constexpr int most_corners = 7, most_refinements = 32;
-/// A bound no further away than so many times the plane's rounding is good enough.
+/// Stops refining when the bound is within this many times the plane's rounding.
 constexpr double good_share = 3;
 
 /// A support point seen from the hit: beside the ray, and along it.
@@ -41,8 +41,8 @@ class Portal {
 
   void add(const Corner& corner) { corners_[size_++] = corner; }
 
-  /// Where the next corner must lie: beyond the ray, seen from those so far. Forgets a corner that
-  /// is not on that side. Zero if the ray passes between three corners.
+  /// Returns the direction in which the next corner must lie beyond the ray, and drops a corner
+  /// that is on the other side. Zero if the ray passes between three corners.
   Vec2 missing_side() {
     if (size_ == 2 && corners_[0].beside == corners_[1].beside) size_ = 1;
     if (size_ == 1) return -corners_[0].beside;
@@ -73,12 +73,12 @@ class Portal {
   }
   double along_ray() const { return corners_[0].along - rise().dot(corners_[0].beside); }
 
-  /// Where along the ray it passes through the triangle at the latest, whatever its corners'
-  /// rounding: that moves the plane, and is as much longer along the ray as the plane is slanted.
+  /// Returns an upper bound of where the ray crosses the triangle. Rounding of the corners moves
+  /// the plane, and moves it further along the ray the more the plane is slanted.
   double latest() const {
     const Vec2 u = corners_[1].beside - corners_[0].beside,
                v = corners_[2].beside - corners_[0].beside;
-    // What the products of rise() lose in a sliver.
+    // Rounding of rise() in thin triangles.
     const double sliver = 4 * tolerance::epsilon<double> * u.norm() * v.norm() /
                           std::abs(cross(u, v)) *
                           (std::abs(corners_[1].along - corners_[0].along) +
@@ -86,8 +86,7 @@ class Portal {
     return along_ray() + rounding_ * std::sqrt(1 + rise().squaredNorm()) + sliver;
   }
 
-  /// Takes a corner in the place of one, so that the ray still passes through; false if it does
-  /// not.
+  /// Replaces one corner so that the ray still passes through; false if that is not possible.
   bool refine(const Corner& corner) {
     const double turn = this->turn();
     double best = least_distance();
@@ -139,7 +138,8 @@ class Seen {
         n_(n),
         rounding_(tolerance::plane_rounding<double> * shape.inner_ball().radius + near.loss) {}
 
-  /// Where the ray is in the shape at the latest, from the hit on; infinite if that is not found.
+  /// Returns an upper bound of where the ray enters, counted from the hit; infinite if none is
+  /// found.
   double latest() const {
     for (const double tilt : tilts) {
       Portal portal(rounding_);
@@ -157,7 +157,7 @@ class Seen {
   }
 
   bool find(Portal& portal, double tilt) const {
-    // Where the surface bends, three directions as far from each other as can be are enough.
+    // On curved surfaces three directions 120 degrees apart are enough.
     Vec2 side(1, 0);
     for (int i = 0; i < most_corners; ++i) {
       const Vec3<double> sideways = beside(side);

@@ -26,7 +26,7 @@ void filter_part(const PreparedShape<Lane<F>>& shape, const RayPacket<Lane<F>>& 
     answer.normal[axis].store(answers.normal[static_cast<std::size_t>(axis)].data() + from);
 }
 
-/// Goes in parts of which the instruction set's registers hold the doubles, whatever T is.
+/// Works in parts that fill one register with doubles, whatever T is.
 template <class F>
 void kernel(const PreparedShape<Lane<F>>& shape, const RayPacket<Lane<F>>& rays, LaneBits lanes,
             CastPacket<Lane<F>>& answers) {

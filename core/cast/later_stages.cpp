@@ -142,8 +142,7 @@ void end_far_cast(const PreparedShape<T>& shape, const RayNearBall<T>& near,
   result = none;
 }
 
-/// Bounds a hit from above that its solver has not. Leaves solvers that are asked for by name, and
-/// coarser tolerances, as they are.
+/// Adds an upper bound to a hit without one. Skips solvers chosen by name and coarse tolerances.
 template <class T>
 void bound_hit(const PreparedShape<T>& shape, const RayNearBall<T>& near,
                const CastOptions<T>& options, CastResult<T>& result) {

@@ -17,8 +17,7 @@ template <class T>
 CastResult<T> exit_by_later_stages(const PreparedShape<T>& shape, const Ray<T>& ray,
                                    const CastOptions<T>& options);
 
-/// Does for a hit that a packet's model has found what cast_by_later_stages does last: bounds it
-/// from above.
+/// Adds the upper bound to a hit that a packet found, as cast_by_later_stages does.
 void bound_hit(const PreparedShape<double>& shape, const Ray<double>& ray,
                CastResult<double>& result);
 

@@ -26,7 +26,7 @@ std::vector<std::uint32_t> repeated_instances(const Instances& instances) {
   std::vector<std::uint32_t> repeated;
   const auto count = static_cast<std::uint32_t>(instances.size());
   if (instances.move() || count < 3) return repeated;
-  // Most worlds have no such instances: counts in few bytes, which other instances share, say so.
+  // Most worlds have none: a small table of counts by hash shows that first.
   const std::uint64_t slots = std::bit_ceil(std::uint64_t(4) * count);
   std::vector<std::uint8_t> seen(slots);
   const auto slot_of = [&](std::uint32_t i) { return hash_of(instances, i) & (slots - 1); };
