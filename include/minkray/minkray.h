@@ -22,7 +22,6 @@
 #include <limits>
 #include <type_traits>
 #include <utility>
-#include <vector>
 
 #include "minkray/minkray_c.h"
 
@@ -607,6 +606,7 @@ struct Manifold;
 struct NearOptions;
 struct SceneImpact;
 struct ScenePair;
+struct ScenePairs;
 struct Twist;
 
 /// The numbers of two objects.
@@ -795,19 +795,18 @@ class Scene {
     return least;
   }
 
-  // ---- pairs: see minkray/pairs.h ----
+  // ---- pairs: for these, include minkray/pairs.h ----
 
   /// All pairs of objects that are no further apart than `within`, in the order of their numbers.
   /// Left out is what masks and `allow` leave out, and what a robot's joints connect.
-  std::vector<ScenePair> distances(double within = 0) const;
-  std::vector<ScenePair> distances(const NearOptions& options) const;
+  ScenePairs distances(double within = 0) const;
+  ScenePairs distances(const NearOptions& options) const;
   /// Those pairs, in their order, whatever was said of them.
-  std::vector<ScenePair> distances(View<const ObjectPair> pairs) const;
-  std::vector<ScenePair> distances(View<const ObjectPair> pairs, const NearOptions& options) const;
+  ScenePairs distances(View<const ObjectPair> pairs) const;
+  ScenePairs distances(View<const ObjectPair> pairs, const NearOptions& options) const;
   /// The k objects nearest to each point: k answers a point, the nearest first.
-  std::vector<ScenePair> nearest(View<const Vec3> points, std::size_t k = 1) const;
-  std::vector<ScenePair> nearest(View<const Vec3> points, std::size_t k,
-                                 const NearOptions& options) const;
+  ScenePairs nearest(View<const Vec3> points, std::size_t k = 1) const;
+  ScenePairs nearest(View<const Vec3> points, std::size_t k, const NearOptions& options) const;
   /// The object nearest to each of many shapes that are no part of the scene.
   void distance_to(const Bodies& shapes, View<ScenePair> nearest, const NearOptions& options) const;
   ScenePair distance_to(const Shape& shape, const Pose& pose) const;

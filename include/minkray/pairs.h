@@ -9,6 +9,7 @@
 #pragma once
 
 #include <exception>
+#include <vector>
 
 #include "minkray/minkray.h"
 #include "minkray/minkray_c_pairs.h"
@@ -168,6 +169,11 @@ struct ScenePair {
 static_assert(sizeof(ScenePair) == sizeof(minkray_scene_pair) &&
               offsetof(ScenePair, object_a) == offsetof(minkray_scene_pair, object_a));
 
+/// Pairs of a scene. (A type of its own lets minkray.h do without <vector>.)
+struct ScenePairs : std::vector<ScenePair> {
+  using vector::vector;
+};
+
 /// What a shape that moves through a scene touches first.
 struct SceneImpact {
   Impact impact;   ///< no object is touched before t_lo; the object is, at t_hi
@@ -195,7 +201,7 @@ inline minkray_near_options plain(const NearOptions& options) {
 
 /// Keeps the pairs that minkray_scene_distances tells, and what that throws.
 struct TakenPairs {
-  std::vector<ScenePair> pairs;
+  ScenePairs pairs;
   std::exception_ptr thrown;
 
   static int take(void* user, const minkray_scene_pair* pairs, std::size_t count) {
@@ -211,8 +217,8 @@ struct TakenPairs {
   }
 };
 
-inline std::vector<ScenePair> distances(minkray_scene scene, View<const ObjectPair> pairs,
-                                        const NearOptions& options) {
+inline ScenePairs distances(minkray_scene scene, View<const ObjectPair> pairs,
+                            const NearOptions& options) {
   const minkray_near_options asked = plain(options);
   const minkray_options how = plain(options.how);
   TakenPairs taken;
@@ -226,34 +232,33 @@ inline std::vector<ScenePair> distances(minkray_scene scene, View<const ObjectPa
 }
 }  // namespace detail
 
-inline std::vector<ScenePair> Scene::distances(double within) const {
+inline ScenePairs Scene::distances(double within) const {
   NearOptions options;
   options.within = within;
   return detail::distances(handle_, {}, options);
 }
-inline std::vector<ScenePair> Scene::distances(const NearOptions& options) const {
+inline ScenePairs Scene::distances(const NearOptions& options) const {
   return detail::distances(handle_, {}, options);
 }
-inline std::vector<ScenePair> Scene::distances(View<const ObjectPair> pairs,
-                                               const NearOptions& options) const {
+inline ScenePairs Scene::distances(View<const ObjectPair> pairs, const NearOptions& options) const {
   if (pairs.size() == 0) return {};
   return detail::distances(handle_, pairs, options);
 }
-inline std::vector<ScenePair> Scene::distances(View<const ObjectPair> pairs) const {
+inline ScenePairs Scene::distances(View<const ObjectPair> pairs) const {
   return distances(pairs, NearOptions());
 }
 
-inline std::vector<ScenePair> Scene::nearest(View<const Vec3> points, std::size_t k,
-                                             const NearOptions& options) const {
+inline ScenePairs Scene::nearest(View<const Vec3> points, std::size_t k,
+                                 const NearOptions& options) const {
   const minkray_near_options asked = detail::plain(options);
   const minkray_options how = detail::plain(options.how);
-  std::vector<ScenePair> found(points.size() * k);
+  ScenePairs found(points.size() * k);
   detail::check(minkray_scene_nearest(handle_, reinterpret_cast<const double(*)[3]>(points.data()),
                                       points.size(), k, &asked,
                                       reinterpret_cast<minkray_scene_pair*>(found.data()), &how));
   return found;
 }
-inline std::vector<ScenePair> Scene::nearest(View<const Vec3> points, std::size_t k) const {
+inline ScenePairs Scene::nearest(View<const Vec3> points, std::size_t k) const {
   return nearest(points, k, NearOptions());
 }
 
