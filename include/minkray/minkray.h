@@ -606,7 +606,7 @@ struct Manifold;
 struct NearOptions;
 struct SceneImpact;
 struct ScenePair;
-struct ScenePairs;
+class ScenePairs;
 struct Twist;
 
 /// The numbers of two objects.
@@ -795,7 +795,7 @@ class Scene {
     return least;
   }
 
-  // ---- pairs: for these, include minkray/pairs.h ----
+  // ---- pairs: see minkray/pairs.h ----
 
   /// All pairs of objects that are no further apart than `within`, in the order of their numbers.
   /// Left out is what masks and `allow` leave out, and what a robot's joints connect.

@@ -8,8 +8,7 @@
 //   for (const mk::ScenePair& pair : scene.distances(0.1)) use(pair.object_a, pair.object_b);
 #pragma once
 
-#include <exception>
-#include <vector>
+#include <new>
 
 #include "minkray/minkray.h"
 #include "minkray/minkray_c_pairs.h"
@@ -169,9 +168,39 @@ struct ScenePair {
 static_assert(sizeof(ScenePair) == sizeof(minkray_scene_pair) &&
               offsetof(ScenePair, object_a) == offsetof(minkray_scene_pair, object_a));
 
-/// Pairs of a scene. (A type of its own lets minkray.h do without <vector>.)
-struct ScenePairs : std::vector<ScenePair> {
-  using vector::vector;
+/// Pairs of a scene, which it owns. (Without std::vector, which is longer than all of minkray.h.)
+class ScenePairs {
+ public:
+  ScenePairs() = default;
+  explicit ScenePairs(std::size_t size)
+      : pairs_(size ? new ScenePair[size] : nullptr), size_(size) {}
+  ScenePairs(ScenePairs&& from) noexcept { swap(from); }
+  ScenePairs& operator=(ScenePairs&& from) noexcept {
+    swap(from);
+    return *this;
+  }
+  ~ScenePairs() { delete[] pairs_; }
+
+  std::size_t size() const { return size_; }
+  bool empty() const { return size_ == 0; }
+  ScenePair* data() { return pairs_; }
+  ScenePair* begin() { return pairs_; }
+  ScenePair* end() { return pairs_ + size_; }
+  ScenePair& operator[](std::size_t i) { return pairs_[i]; }
+  const ScenePair* data() const { return pairs_; }
+  const ScenePair* begin() const { return pairs_; }
+  const ScenePair* end() const { return pairs_ + size_; }
+  const ScenePair& operator[](std::size_t i) const { return pairs_[i]; }
+  const ScenePair& front() const { return pairs_[0]; }
+  const ScenePair& back() const { return pairs_[size_ - 1]; }
+
+ private:
+  void swap(ScenePairs& other) noexcept {
+    std::swap(pairs_, other.pairs_);
+    std::swap(size_, other.size_);
+  }
+  ScenePair* pairs_ = nullptr;
+  std::size_t size_ = 0;
 };
 
 /// What a shape that moves through a scene touches first.
@@ -199,20 +228,21 @@ inline minkray_near_options plain(const NearOptions& options) {
           options.derivatives ? 1 : 0, options.mask};
 }
 
-/// Keeps the pairs that minkray_scene_distances tells, and what that throws.
+/// Keeps the pairs that minkray_scene_distances tells; `no_room`: there was no memory for them.
 struct TakenPairs {
   ScenePairs pairs;
-  std::exception_ptr thrown;
+  bool no_room = false;
 
   static int take(void* user, const minkray_scene_pair* pairs, std::size_t count) {
     auto& taken = *static_cast<TakenPairs*>(user);
     try {
-      const auto* const first = reinterpret_cast<const ScenePair*>(pairs);
-      taken.pairs.assign(first, first + count);
-    } catch (...) {
-      taken.thrown = std::current_exception();
+      taken.pairs = ScenePairs(count);
+    } catch (const std::bad_alloc&) {
+      taken.no_room = true;
       return 1;
     }
+    const auto* const first = reinterpret_cast<const ScenePair*>(pairs);
+    for (std::size_t i = 0; i < count; ++i) taken.pairs[i] = first[i];
     return 0;
   }
 };
@@ -226,7 +256,7 @@ inline ScenePairs distances(minkray_scene scene, View<const ObjectPair> pairs,
       pairs.size() > 0 ? reinterpret_cast<const std::uint32_t*>(pairs.data()) : nullptr;
   const int status = minkray_scene_distances(scene, numbers, pairs.size(), &asked,
                                              &TakenPairs::take, &taken, &how);
-  if (taken.thrown) std::rethrow_exception(taken.thrown);
+  if (taken.no_room) throw std::bad_alloc();
   check(status);
   return std::move(taken.pairs);
 }
