@@ -29,12 +29,13 @@ Parts parts_by(std::span<const std::uint32_t> label_of_triangle,
 
 /// Splits what `read` reads.
 template <class Read>
-MeshParts split_by(MeshSplit split, const Read& read) {
-  if (split == MeshSplit::none) return {read(nullptr)};
+MeshParts split_by(MeshSplit split, bool with_triangles, const Read& read) {
+  if (split == MeshSplit::none && !with_triangles) return {read(nullptr)};
   MeshTriangles triangles;
   MeshParts mesh{read(&triangles)};
-  mesh.parts = split == MeshSplit::groups ? parts_by(triangles.groups, triangles.corners)
-                                          : components_of(mesh.vertices, triangles.corners);
+  if (split == MeshSplit::groups) mesh.parts = parts_by(triangles.groups, triangles.corners);
+  if (split == MeshSplit::components) mesh.parts = components_of(mesh.vertices, triangles.corners);
+  if (with_triangles) mesh.triangles = std::move(triangles.corners);
   return mesh;
 }
 
@@ -71,14 +72,15 @@ Parts components_of(std::span<const Vec3<double>> vertices, std::span<const Corn
   return parts_by(labels, triangles);
 }
 
-MeshParts read_mesh_parts(const std::filesystem::path& file, MeshSplit split) {
-  return split_by(split,
+MeshParts read_mesh_parts(const std::filesystem::path& file, MeshSplit split, bool with_triangles) {
+  return split_by(split, with_triangles,
                   [&](MeshTriangles* triangles) { return read_mesh_vertices(file, triangles); });
 }
 
 MeshParts mesh_parts(std::string_view contents, MeshFormat format, MeshSplit split) {
-  return split_by(
-      split, [&](MeshTriangles* triangles) { return mesh_vertices(contents, format, triangles); });
+  return split_by(split, false, [&](MeshTriangles* triangles) {
+    return mesh_vertices(contents, format, triangles);
+  });
 }
 
 }  // namespace minkray

@@ -21,12 +21,14 @@ enum class MeshSplit : unsigned char { none, groups, components };
 struct MeshParts {
   std::vector<Vec3<double>> vertices;
   std::vector<std::vector<std::uint32_t>> parts = {};  ///< vertices of each; empty: all are one
+  std::vector<std::array<std::uint32_t, 3>> triangles = {};  ///< of all parts, if asked for
 };
 
 /// Reads OBJ and STL as read_mesh_vertices() does. Groups are what follows an "o" or "g" with
 /// another name, and STL's solids. Each vertex that a face names is in a part; of a file without
 /// faces all are one. Throws std::runtime_error without the file's name.
-MeshParts read_mesh_parts(const std::filesystem::path& file, MeshSplit split);
+MeshParts read_mesh_parts(const std::filesystem::path& file, MeshSplit split,
+                          bool with_triangles = false);
 
 /// Reads a file's contents.
 MeshParts mesh_parts(std::string_view contents, MeshFormat format, MeshSplit split);

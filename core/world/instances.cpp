@@ -147,6 +147,19 @@ void Instances::add(const HalfSpaceBody<double>& half_space, const Affine<double
   boxes_.push_back({});
 }
 
+void Instances::add(std::shared_ptr<const TriangleMesh> mesh, const Affine<double>& pose) {
+  meshes_.emplace_back(static_cast<std::uint32_t>(places_.size()), std::move(mesh), pose);
+  places_.push_back({});
+  places_.back().body = body_of_mesh;
+  if (!digits_.empty()) digits_.push_back({});
+  boxes_.push_back(rounded_outwards(padded(meshes_.back().bounds())));
+}
+
+std::size_t Instances::index_of_mesh(std::size_t i) const {
+  const auto found = std::ranges::lower_bound(meshes_, i, {}, &PosedMesh::instance);
+  return static_cast<std::size_t>(found - meshes_.begin());
+}
+
 void Instances::add_many(std::uint32_t definition, std::size_t count,
                          const std::function<Affine<double>(std::size_t)>& pose_of) {
   const std::size_t first = places_.size();
@@ -174,7 +187,7 @@ void Instances::place_many(std::size_t first, std::size_t count,
     std::size_t last_which = wide_body;
     for (std::size_t i = first + begin; i < first + end; ++i) {
       const std::uint32_t definition = definition_of(i);
-      if (definition == no_body) {  // a half-space
+      if (definition == no_body) {  // it has none
         digits_[i] = {};
         continue;
       }
@@ -210,8 +223,10 @@ void Instances::truncate(std::size_t count) {
 }
 
 void Instances::set_pose(std::size_t i, const Affine<double>& pose) {
-  put(i, definition_of(i), pose);
   are_boxes_stale_ = true;
+  if (!is_mesh(i)) return put(i, definition_of(i), pose);
+  PosedMesh& posed = meshes_[index_of_mesh(i)];
+  posed = PosedMesh(posed.instance, std::move(posed.mesh), pose);
 }
 
 Mat3<double> Instances::to_inner(std::size_t i) const {
@@ -227,6 +242,7 @@ Mat3<double> Instances::to_inner(std::size_t i) const {
 
 std::optional<Affine<double>> Instances::plain_pose(std::size_t i) const {
   const InstancePlace& place = places_[i];
+  if (is_mesh(i)) return mesh_of(i).pose;
   if (place.body == no_body) return {};
   if (!bodies_[place.body].is_plain) return {};
   return Affine<double>{to_inner(i).transpose(),
@@ -249,6 +265,7 @@ bool Instances::are_same(std::size_t i, std::size_t j) const {
 
 double Instances::half_extent(std::size_t i) const {
   if (is_half_space(i)) return 0;
+  if (is_mesh(i)) return mesh_of(i).bounds().half_extents().maxCoeff();
   const InstanceBody& body = body_of(i);
   if (!body.is_turned) return body.definition->inner_half_extents().maxCoeff();
   const Mat3<double> to_world = inverse_of(to_inner(i));
@@ -265,7 +282,7 @@ double Instances::half_extent(std::size_t i) const {
 FormKind Instances::kind_of_all() const {
   std::vector<bool> is_shown(screens_.size(), shown_to_.empty());
   for (std::size_t i = 0; i < shown_to_.size(); ++i)
-    if (shown_to_[i] != 0 && !is_half_space(i)) is_shown[places_[i].body] = true;
+    if (shown_to_[i] != 0 && has_shape(i)) is_shown[places_[i].body] = true;
   std::optional<FormKind> kind;
   for (std::size_t body = 0; body < screens_.size(); ++body) {
     if (!is_shown[body]) continue;
@@ -288,18 +305,25 @@ void Instances::pose_all(const std::function<Affine<double>(std::size_t)>& pose_
   for (PosedHalfSpace& one : half_spaces_) one.in_world = one.at_rest.posed(pose_of(one.instance));
   std::vector<std::uint32_t> definitions(places_.size(), no_body);
   for (std::size_t i = 0; i < places_.size(); ++i)
-    if (!is_half_space(i)) definitions[i] = definition_of(i);
+    if (has_shape(i)) definitions[i] = definition_of(i);
   place_many(
       0, places_.size(), [&](std::size_t i) { return definitions[i]; }, pose_of);
+  for (PosedMesh& one : meshes_) {
+    one = PosedMesh(one.instance, std::move(one.mesh), pose_of(one.instance));
+    boxes_[one.instance] = rounded_outwards(padded(one.bounds()));
+  }
   if (!movement_of) return;
   parallel_for(places_.size(), poses_a_range, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       movements_[i] = movement_of(i);
       if (is_half_space(i)) continue;
+      const auto bounds_at = [&](const Affine<double>& pose) {
+        return is_mesh(i) ? mesh_of(i).bounds_under(pose)
+                          : definition(definition_of(i)).bounds_of(pose);
+      };
       const Affine<double> pose = pose_of(i);
-      const ShapeDefinition<double>& shape = definition(definition_of(i));
-      const Bounds<double> at_end = shape.bounds_of(movements_[i].moved(pose, 1));
-      boxes_[i] = rounded_outwards(padded(movements_[i].swept(shape.bounds_of(pose), at_end)));
+      const Bounds<double> at_end = bounds_at(movements_[i].moved(pose, 1));
+      boxes_[i] = rounded_outwards(padded(movements_[i].swept(bounds_at(pose), at_end)));
     }
   });
 }

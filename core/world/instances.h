@@ -20,6 +20,7 @@
 #include "core/world/half_space.h"
 #include "core/world/instance_body.h"
 #include "core/world/movement.h"
+#include "core/world/posed_mesh.h"
 
 namespace minkray {
 
@@ -47,14 +48,17 @@ class Instances {
   /// Adds a half-space under a pose. It has no definition and no box; `at` must not be called.
   void add(const HalfSpaceBody<double>& half_space, const Affine<double>& pose = {});
 
+  /// Adds a mesh under a pose. It has no definition either, but a box.
+  void add(std::shared_ptr<const TriangleMesh> mesh, const Affine<double>& pose = {});
+
   /// Adds `count` instances, the i-th at pose_of(i), which several threads call at once.
   void add_many(std::uint32_t definition, std::size_t count,
                 const std::function<Affine<double>(std::size_t)>& pose_of);
 
-  /// Removes all instances from the count-th on, which must not be half-spaces.
+  /// Removes all instances from the count-th on, which must have shapes.
   void truncate(std::size_t count);
 
-  /// Moves one instance. Its box is stale until pose_all.
+  /// Moves one instance, which is no half-space. Its box is stale until pose_all.
   void set_pose(std::size_t i, const Affine<double>& pose);
 
   /// Puts another definition in the place of one, at the origin. Its box is stale until pose_all.
@@ -63,8 +67,8 @@ class Instances {
     are_boxes_stale_ = true;
   }
 
-  /// The pose of an instance whose body is not moved or scaled by outer maps and whose pose keeps
-  /// lengths, exactly as it was given; else none.
+  /// The pose of a mesh, or of an instance whose body is not moved or scaled by outer maps and
+  /// whose pose keeps lengths, exactly as it was given; else none.
   std::optional<Affine<double>> plain_pose(std::size_t i) const;
 
   /// Shows the i-th instance to rays of these kinds only; call when all have been added.
@@ -105,7 +109,7 @@ class Instances {
   }
 
   /// True if two instances that stand still have the same shape, place and ray kinds, to the last
-  /// digit. Not of half-spaces.
+  /// digit. Not of half-spaces and meshes.
   bool are_same(std::size_t i, std::size_t j) const;
 
   /// Makes room for `count` more instances.
@@ -120,8 +124,18 @@ class Instances {
   const std::vector<PosedHalfSpace>& half_spaces() const { return half_spaces_; }
   bool is_half_space(std::size_t i) const { return places_[i].body == no_body; }
 
-  /// Refers to this object, which must outlive it. `loss` is what a ray's place is known to, in the
-  /// inner frame.
+  /// In the order of their instances.
+  const std::vector<PosedMesh>& meshes() const { return meshes_; }
+  bool is_mesh(std::size_t i) const { return places_[i].body == body_of_mesh; }
+  const PosedMesh& mesh_of(std::size_t i) const { return meshes_[index_of_mesh(i)]; }
+
+  /// True of an instance of a definition: neither a half-space nor a mesh.
+  bool has_shape(std::size_t i) const { return places_[i].body < body_of_mesh; }
+  /// True if any has none.
+  bool have_shapeless() const { return !half_spaces_.empty() || !meshes_.empty(); }
+
+  /// Asks for an instance with a shape. Refers to this object, which must outlive it. `loss` is
+  /// what a ray's place is known to, in the inner frame.
   PreparedShape<double> at(std::size_t i, double loss = 0) const {
     const InstancePlace& place = places_[i];
     const InstanceBody& body = bodies_[place.body];
@@ -141,8 +155,12 @@ class Instances {
   }
   /// For a ray as the instance sees it: allows for what `seen_by` has rounded.
   PreparedShape<double> at_seen_by(std::size_t i, const Ray<double>& ray) const {
-    if (movements_.empty() || movements_[i].stands()) return at(i);
-    return at(i, movements_[i].rounding(ray.origin) * to_inner(i).norm());
+    const double loss = loss_of_seen_by(i, ray);
+    return loss == 0 ? at(i) : at(i, loss * to_inner(i).norm());
+  }
+  /// What `seen_by` has rounded, in the world.
+  double loss_of_seen_by(std::size_t i, const Ray<double>& ray) const {
+    return movements_.empty() || movements_[i].stands() ? 0 : movements_[i].rounding(ray.origin);
   }
 
   const InstanceBody& body_of(std::size_t i) const { return bodies_[places_[i].body]; }
@@ -155,7 +173,7 @@ class Instances {
   const std::vector<InstanceBody>& bodies() const { return bodies_; }
   const Screen* screens() const { return screens_.data(); }
 
-  /// If all instances that rays meet, but half-spaces, are screened by forms of one kind that are
+  /// If all instances with shapes that rays meet are screened by forms of one kind that are
   /// their shapes: that kind, else none.
   FormKind kind_of_all() const;
 
@@ -208,6 +226,10 @@ class Instances {
     Rest rest;
   };
 
+  /// In InstancePlace::body, of meshes.
+  static constexpr std::uint32_t body_of_mesh = no_body - 1;
+
+  std::size_t index_of_mesh(std::size_t i) const;
   Mat3<double> to_inner(std::size_t i) const;
   std::uint32_t number_of(std::shared_ptr<const ShapeDefinition<double>> definition);
   std::uint32_t body_with(std::uint32_t definition, std::size_t which);
@@ -233,6 +255,7 @@ class Instances {
   FirstTouchVector<Bounds<float>> boxes_;
   bool are_boxes_stale_ = false;
   std::vector<PosedHalfSpace> half_spaces_;  ///< in the order of their instances
+  std::vector<PosedMesh> meshes_;            ///< as well
   std::vector<RayKinds> shown_to_;           ///< by instance; empty if all are shown to all rays
 };
 

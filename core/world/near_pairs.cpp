@@ -101,24 +101,6 @@ class PairWalk {
 
 }  // namespace
 
-Bounds<double> bounds_of(const ContactBody& body) {
-  constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
-  const PlacedCore frame = placed(body.shape, body.pose);
-  const ShapeCore& core = body.shape.core();
-  Bounds<double> bounds;
-  for (int axis = 0; axis < 3; ++axis) {
-    const Vec3<double> d = frame.turn.row(axis).transpose();
-    const double allowed =
-        rounding * (core.ball + core.radius + std::abs(frame.middle[axis])) + core.rounding;
-    const auto reach = [&](const Vec3<double>& along) {
-      return along.dot(support_of_core<CoreKind::other>(core, along).point) + core.radius + allowed;
-    };
-    bounds.lower[axis] = frame.middle[axis] - reach(-d);
-    bounds.upper[axis] = frame.middle[axis] + reach(d);
-  }
-  return bounds;
-}
-
 ContactWorld::ContactWorld(std::vector<ContactBody> bodies) : bodies_(std::move(bodies)) {
   std::vector<Bounds<float>> boxes(bodies_.size());
   parallel_for(boxes.size(), 256, [&](std::size_t begin, std::size_t end) {
@@ -138,7 +120,7 @@ std::vector<NearPair> near_pairs(const ContactWorld& first, const ContactWorld& 
     for (std::size_t i = begin; i < end; ++i) {
       const auto [a, b] = candidates[i];
       const ContactBody &of_a = first.bodies()[a], &of_b = second.bodies()[b];
-      pairs[i] = {a, b, signed_distance(of_a.shape, of_a.pose, of_b.shape, of_b.pose, how)};
+      pairs[i] = {a, b, signed_distance(of_a.parts(), of_a.pose, of_b.parts(), of_b.pose, how)};
     }
   });
   std::erase_if(pairs, [&](const NearPair& pair) { return pair.distance.lower > options.at_most; });
@@ -188,7 +170,8 @@ std::vector<NearPair> nearest_bodies(const ContactBody& to, const ContactWorld& 
     if (!to.is_pair_with(body)) continue;
     SignedDistanceOptions how;
     how.at_most = is_full ? std::min(at_most, value_of(best.back())) : at_most;
-    const NearPair pair{0, index, signed_distance(to.shape, to.pose, body.shape, body.pose, how)};
+    const NearPair pair{0, index,
+                        signed_distance(to.parts(), to.pose, body.parts(), body.pose, how)};
     if (pair.distance.lower > at_most) continue;
     if (is_full && !is_nearer(pair, best.back())) continue;
     best.insert(std::ranges::upper_bound(best, pair, is_nearer), pair);

@@ -9,6 +9,7 @@
 
 #include "core/bvh/bvh.h"
 #include "core/contact/signed_distance.h"
+#include "core/world/mesh_pairs.h"
 
 namespace minkray {
 
@@ -18,14 +19,18 @@ struct ContactBody {
   /// Two bodies are a pair if each one's mask has a bit of the other's category.
   std::uint32_t category = 1;
   std::uint32_t mask = ~std::uint32_t{0};
+  std::shared_ptr<const TriangleMesh> mesh = {};  ///< if there is one it is that, not the shape
 
+  PartsBody parts() const { return mesh ? PartsBody(*mesh) : PartsBody(shape); }
   bool is_pair_with(const ContactBody& other) const {
     return (category & other.mask) != 0 && (other.category & mask) != 0;
   }
 };
 
-/// The least box that holds the body, but for a rounding outwards.
-Bounds<double> bounds_of(const ContactBody& body);
+/// A box that holds the body: of a shape the least but for a rounding outwards.
+inline Bounds<double> bounds_of(const ContactBody& body) {
+  return bounds_of(body.parts(), body.pose);
+}
 
 /// Bodies with the hierarchy of their boxes. Immutable.
 class ContactWorld {

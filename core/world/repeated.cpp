@@ -39,7 +39,7 @@ std::vector<std::uint32_t> repeated_instances(const Instances& instances) {
   if (!has_many) return repeated;
   std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> kept;  ///< by hash
   for (std::uint32_t i = 0; i < count; ++i) {
-    if (seen[slot_of(i)] < 3 || instances.is_half_space(i)) continue;
+    if (seen[slot_of(i)] < 3 || !instances.has_shape(i)) continue;
     std::vector<std::uint32_t>& same_hash = kept[hash_of(instances, i)];
     const auto is_same = [&](std::uint32_t other) { return instances.are_same(i, other); };
     if (std::count_if(same_hash.begin(), same_hash.end(), is_same) < 2)

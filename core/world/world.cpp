@@ -32,13 +32,22 @@ World::World(Instances instances, const CastOptions<double>& options, BvhBuild b
   this->build(instances_.take_boxes());
 }
 
-/// Half-spaces have no box: the hierarchy is of all others that a ray may meet first.
+std::vector<Bounds<float>> World::boxes_of_meshes(
+    const FirstTouchVector<Bounds<float>>& boxes) const {
+  std::vector<Bounds<float>> of_meshes;
+  of_meshes.reserve(instances_.meshes().size());
+  for (const PosedMesh& mesh : instances_.meshes()) of_meshes.push_back(boxes[mesh.instance]);
+  return of_meshes;
+}
+
+/// The hierarchy is of all shapes that a ray may meet first.
 void World::build(const FirstTouchVector<Bounds<float>>& boxes) {
   kind_of_all_ = instances_.kind_of_all();
   const std::vector<std::uint32_t> repeated = repeated_instances(instances_);
   has_repeated_ = !repeated.empty();
   const RayKinds* const shown_to = instances_.shown_to();
-  if (instances_.half_spaces().empty() && !has_repeated_ && !shown_to) {
+  mesh_boxes_ = build_bvh(boxes_of_meshes(boxes), build_);
+  if (!instances_.have_shapeless() && !has_repeated_ && !shown_to) {
     bvh_ = build_bvh(boxes, build_);
     return;
   }
@@ -50,7 +59,7 @@ void World::build(const FirstTouchVector<Bounds<float>>& boxes) {
       ++left_out;
       continue;
     }
-    if (instances_.is_half_space(i) || (shown_to && shown_to[i] == 0)) continue;
+    if (!instances_.has_shape(i) || (shown_to && shown_to[i] == 0)) continue;
     bounded.push_back(boxes[i]);
     number.push_back(i);
   }
@@ -76,16 +85,60 @@ bool World::closer_half_space(const WorldRay& ray, WorldHit& closest, QueryCount
   return found;
 }
 
-bool World::blocked_by_half_space(const WorldRay& ray, QueryCounts& counts) const {
+bool World::closer_mesh(const WorldRay& ray, WorldHit& closest, QueryCounts& counts) const {
+  SlabRay slabs(ray.ray);
+  if (closest.found()) slabs.numbers.t_max = slabs.limit(closest.cast.t());
+  bool found = false;
+  auto on_mesh = [&](std::uint32_t index) {
+    const PosedMesh& mesh = instances_.meshes()[index];
+    if (!instances_.is_shown_to(mesh.instance, ray.kinds)) return false;
+    const double most =
+        closest.found() ? closest.cast.t() : std::numeric_limits<double>::infinity();
+    PartCounts parts;
+    const Ray<double> seen = instances_.seen_by(mesh.instance, ray.ray, ray.time);
+    const auto [cast, part] = cast_ray(mesh, seen, most, mesh.instance == ray.skip,
+                                       instances_.loss_of_seen_by(mesh.instance, ray.ray), parts);
+    counts.add_parts(parts);
+    counts.exhausted += cast.status == Status::exhausted ? 1 : 0;
+    if (!cast.found() || !closest.yields_to(mesh.instance, cast.t())) return false;
+    closest = {mesh.instance, instances_.turned(mesh.instance, cast, ray.time), part};
+    slabs.numbers.t_max = slabs.limit(cast.t());
+    found = true;
+    return false;
+  };
+  counts.nodes += traverse(mesh_boxes_, slabs, on_mesh);
+  return found;
+}
+
+bool World::closer_shapeless(const WorldRay& ray, WorldHit& closest, QueryCounts& counts) const {
+  if (!instances_.have_shapeless()) return false;
+  const bool is_closer = closer_half_space(ray, closest, counts);
+  return closer_mesh(ray, closest, counts) || is_closer;
+}
+
+bool World::blocked_by_shapeless(const WorldRay& ray, QueryCounts& counts) const {
+  if (!instances_.have_shapeless()) return false;
   WorldHit any;
-  return closer_half_space(ray, any, counts);
+  if (closer_half_space(ray, any, counts)) return true;
+  bool is_blocked = false;
+  auto on_mesh = [&](std::uint32_t index) {
+    const PosedMesh& mesh = instances_.meshes()[index];
+    if (!instances_.is_shown_to(mesh.instance, ray.kinds)) return false;
+    PartCounts parts;
+    is_blocked = is_met(mesh, instances_.seen_by(mesh.instance, ray.ray, ray.time),
+                        mesh.instance == ray.skip, parts);
+    counts.add_parts(parts);
+    return is_blocked;
+  };
+  counts.nodes += traverse(mesh_boxes_, SlabRay(ray.ray), on_mesh);
+  return is_blocked;
 }
 
 // Casts see the ray's own t_max, not that of the nearest hit so far: so their answers, and which of
 // them is the nearest, do not depend on the order of the boxes.
 void World::closer_hit(const WorldRay& ray, SlabRay& slabs, WorldHit& closest,
                        QueryCounts& counts) const {
-  if (closer_half_space(ray, closest, counts)) slabs.numbers.t_max = slabs.limit(closest.cast.t());
+  if (closer_shapeless(ray, closest, counts)) slabs.numbers.t_max = slabs.limit(closest.cast.t());
   auto on_instance = [&](std::uint32_t instance) {
     if (ray.passes(instances_, instance)) return false;
     const CastResult<double> result =
@@ -114,7 +167,7 @@ bool World::closer_candidate(const WorldRay& ray, WorldHit& closest, QueryCounts
   SingleRay single = single_ray(ray);
   WorldHit found = WorldHit::miss();
   QueryCounts own;
-  if (closer_half_space(ray, found, own)) {
+  if (closer_shapeless(ray, found, own)) {
     single.limit = std::min(single.limit, detail::float_above(found.cast.t()));
     single.slabs.numbers.t_max = single.slabs.limit(found.cast.t());
   }
@@ -135,7 +188,7 @@ bool World::closer_candidate(const WorldRay& ray, WorldHit& closest, QueryCounts
 }
 
 bool World::occluded(const WorldRay& ray, QueryCounts& counts) const {
-  if (blocked_by_half_space(ray, counts)) return true;
+  if (blocked_by_shapeless(ray, counts)) return true;
   if (has_screen() && !instances_.move() && !bvh_.nodes.empty()) {
     SingleRay single = single_ray(ray);
     single.ends_if_sure = true;
@@ -200,6 +253,7 @@ void World::pose_all(const std::function<Affine<double>(std::size_t)>& pose_of,
     return;
   }
   refit(bvh_, boxes);
+  refit(mesh_boxes_, boxes_of_meshes(boxes));
   if (visits() > most_visits_after_refit * visits_as_built_) {
     build(boxes);
     visits_as_built_ = visits();

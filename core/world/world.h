@@ -46,7 +46,8 @@ class World {
 
   /// The instance that the ray meets first, with 0 <= t <= t_max; where several are met at the same
   /// t, that of the least index. `skip` is left out: a ray that leaves a convex shape does not meet
-  /// it again. A cast that does not converge is neither a hit nor a miss; check `counts.exhausted`.
+  /// it again. Of a mesh, only what is nearest to the ray's origin is left out (leaving_mesh). A
+  /// cast that does not converge is neither a hit nor a miss; check `counts.exhausted`.
   WorldHit closest_hit(const Ray<double>& ray, QueryCounts& counts,
                        std::uint32_t skip = no_instance, double time = 0) const {
     return closest_hit(WorldRay{ray, skip, time}, counts);
@@ -88,19 +89,23 @@ class World {
   const CastOptions<double>& options() const { return options_; }
 
   /// Memory of instances and hierarchy, without the points of hulls, which shapes share.
-  std::size_t bytes() const { return bvh_.bytes() + instances_.bytes(); }
+  std::size_t bytes() const { return bvh_.bytes() + mesh_boxes_.bytes() + instances_.bytes(); }
 
  private:
   void build(const FirstTouchVector<Bounds<float>>& boxes);
+  std::vector<Bounds<float>> boxes_of_meshes(const FirstTouchVector<Bounds<float>>& boxes) const;
   /// By float lanes first; false if they do not decide.
   bool closer_candidate(const WorldRay& ray, WorldHit& closest, QueryCounts& counts) const;
   SingleRay single_ray(const WorldRay& ray) const;
   SingleWorld single_world() const;
   void closer_hit(const WorldRay& ray, SlabRay& slabs, WorldHit& closest,
                   QueryCounts& counts) const;
-  /// Half-spaces are in no hierarchy.
+  /// Half-spaces are in no hierarchy, meshes in one of their own: all but shapes. True if one is
+  /// met before the closest so far.
+  bool closer_shapeless(const WorldRay& ray, WorldHit& closest, QueryCounts& counts) const;
   bool closer_half_space(const WorldRay& ray, WorldHit& closest, QueryCounts& counts) const;
-  bool blocked_by_half_space(const WorldRay& ray, QueryCounts& counts) const;
+  bool closer_mesh(const WorldRay& ray, WorldHit& closest, QueryCounts& counts) const;
+  bool blocked_by_shapeless(const WorldRay& ray, QueryCounts& counts) const;
 
   /// False if the rays are no block: nothing was answered.
   bool answer_block(const RaySpan& rays, std::size_t first, HitReceiver& to,
@@ -117,7 +122,8 @@ class World {
   }
 
   Instances instances_;
-  Bvh bvh_;
+  Bvh bvh_;         ///< of instances with shapes
+  Bvh mesh_boxes_;  ///< of meshes, by their order
   BvhBuild build_ = BvhBuild::quality;
   bool has_repeated_ = false;   ///< instances that the hierarchy leaves out
   double visits_as_built_ = 0;  ///< expected per ray; 0: not known yet

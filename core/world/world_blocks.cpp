@@ -69,26 +69,26 @@ bool World::answer_block(const RaySpan& rays, std::size_t first, HitReceiver& to
   const RayKinds kinds = rays.kinds(0);
   for (std::size_t i = 0; i < rays.size(); ++i)
     if (rays.skip(i) != no_instance || rays.kinds(i) != kinds) return false;
-  const bool has_half_spaces = !instances_.half_spaces().empty();
-  std::array<WorldHit, rays_of_block> planes;  ///< of half-spaces
+  const bool has_shapeless = instances_.have_shapeless();
+  std::array<WorldHit, rays_of_block> shapeless;  ///< half-spaces and meshes that are met
   std::array<float, rays_of_block> limits;
-  QueryCounts of_planes;
+  QueryCounts of_shapeless;
   std::uint64_t exhausted = 0;
-  for (std::size_t i = 0; has_half_spaces && i < rays.size(); ++i) {
+  for (std::size_t i = 0; has_shapeless && i < rays.size(); ++i) {
     QueryCounts own;
-    const bool is_met = closer_half_space(rays[i], planes[i], own);
-    limits[i] =
-        is_met ? detail::float_above(planes[i].cast.t()) : std::numeric_limits<float>::infinity();
+    const bool is_met = closer_shapeless(rays[i], shapeless[i], own);
+    limits[i] = is_met ? detail::float_above(shapeless[i].cast.t())
+                       : std::numeric_limits<float>::infinity();
     exhausted |= std::uint64_t{own.exhausted > 0} << i;
-    of_planes += own;
+    of_shapeless += own;
   }
   BlockAnswer answer;
   const BlockWorld world{bvh_.nodes.data(), instances_.places(), instances_.screens(),
                          instances_.shown_to()};
   if (!trace_block_avx2(world, rays.data(), rays.stride(), rays.size(), kinds,
-                        has_half_spaces ? limits.data() : nullptr, answer))
+                        has_shapeless ? limits.data() : nullptr, answer))
     return false;
-  counts += of_planes;
+  counts += of_shapeless;
   counts.nodes += answer.nodes;
   BlockHits hits;
   const std::uint64_t undecided = BlockCaster(instances_, rays, answer, hits).cast_all();
@@ -101,9 +101,9 @@ bool World::answer_block(const RaySpan& rays, std::size_t first, HitReceiver& to
       special |= std::uint64_t{1} << answer.others[i].ray;
   const std::uint64_t all =
       rays.size() == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << rays.size()) - 1;
-  if (has_half_spaces)
+  if (has_shapeless)
     for (std::size_t i = 0; i < rays.size(); ++i)
-      special |= std::uint64_t{planes[i].found() || (exhausted >> i & 1u)} << i;
+      special |= std::uint64_t{shapeless[i].found() || (exhausted >> i & 1u)} << i;
   to.take(first, all & ~special, hits);
   if (special == 0) return true;
 
@@ -117,7 +117,7 @@ bool World::answer_block(const RaySpan& rays, std::size_t first, HitReceiver& to
   };
   for (std::uint64_t left = special; left != 0; left &= left - 1) {
     const auto i = static_cast<std::size_t>(std::countr_zero(left));
-    closest[i] = has_half_spaces && planes[i].found() ? planes[i] : WorldHit::miss();
+    closest[i] = has_shapeless && shapeless[i].found() ? shapeless[i] : WorldHit::miss();
     if (hits.found >> i & 1u) {
       const CastResult<double> result = hits.casts[i / 4].result(static_cast<int>(i % 4));
       if (closest[i].yields_to(hits.instance[i], result.t()))

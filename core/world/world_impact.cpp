@@ -7,11 +7,13 @@
 namespace minkray {
 namespace {
 
-/// A box that holds the body at time 0 and, moved along, at any other time.
-Bounds<double> moving_box(const ContactShape& shape, const RigidMotion& motion) {
-  if (motion.angular_velocity.isZero(0)) return bounds_of({shape, motion.pose});
-  constexpr double rounding = 1 + 16 * std::numeric_limits<double>::epsilon();
-  const double reach = rounding * (shape.ball_radius() + shape.offset()) + shape.core().rounding;
+/// A box that holds the body at time 0 and, moved along, at any other time, and what its place is
+/// rounded to.
+Bounds<double> moving_box(const PartsBody& moving, const RigidMotion& motion) {
+  if (motion.angular_velocity.isZero(0)) return bounds_of(moving, motion.pose);
+  constexpr double roundings = 16 * std::numeric_limits<double>::epsilon();
+  const double reach =
+      (1 + roundings) * reach_of(moving) + roundings * motion.pose.translation.norm();
   const Vec3<double> all = Vec3<double>::Constant(reach);
   return {motion.pose.translation - all, motion.pose.translation + all};
 }
@@ -64,12 +66,12 @@ void take(WorldImpact& found, std::size_t body, const Impact& impact) {
   found.impact.t_lo = t_lo;
 }
 
-WorldImpact first_impact(const ContactShape& shape, const RigidMotion& motion,
+WorldImpact first_impact(const PartsBody& moving, const RigidMotion& motion,
                          const ContactWorld& world, double t_max, std::uint32_t mask,
                          const WorldImpact& known) {
   WorldImpact found = known;
   if (world.bodies().empty()) return found;
-  const Bounds<double> box = moving_box(shape, motion);
+  const Bounds<double> box = moving_box(moving, motion);
   struct Open {
     double time;
     std::uint32_t what;
@@ -97,7 +99,7 @@ WorldImpact first_impact(const ContactShape& shape, const RigidMotion& motion,
     if ((body.category & mask) == 0) continue;
     ImpactOptions how;
     how.points_of_misses = false;
-    take(found, index, first_impact(shape, motion, body.shape, {body.pose}, end, how));
+    take(found, index, first_impact(moving, motion, body.parts(), {body.pose}, end, how));
   }
   return found;
 }

@@ -16,9 +16,9 @@ struct WorldImpact {
   static constexpr std::size_t none = ~std::size_t{0};
 };
 
-/// A is the moving shape, which all bodies with a bit of `mask` in their category are looked at
+/// A is the moving body, which all bodies with a bit of `mask` in their category are looked at
 /// for; `known` is what is known already of others.
-WorldImpact first_impact(const ContactShape& shape, const RigidMotion& motion,
+WorldImpact first_impact(const PartsBody& moving, const RigidMotion& motion,
                          const ContactWorld& world, double t_max, std::uint32_t mask,
                          const WorldImpact& known);
 

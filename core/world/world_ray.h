@@ -40,6 +40,10 @@ struct QueryCounts {
   void add_cast(const CastResult<double>& result) {
     add_cast(result.supports, result.iterations, result.path, result.status == Status::exhausted);
   }
+  void add_parts(const PartCounts& parts) {
+    nodes += parts.nodes;
+    add_filtered(parts.triangles);
+  }
   /// Casts that the closed form answered.
   void add_filtered(std::uint64_t count) {
     casts += count;
@@ -62,6 +66,7 @@ struct WorldHit {
   std::uint32_t instance = no_instance;
   CastResult<double>
       cast;  ///< of that instance (status hit or inside); if none was met, status miss
+  std::uint32_t part = no_part;  ///< of a mesh: the triangle
 
   static WorldHit miss() {
     WorldHit none;

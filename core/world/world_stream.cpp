@@ -38,9 +38,9 @@ void World::answer_stream(const RaySpan& rays, std::size_t first, HitReceiver& t
   std::vector<WorldHit> hits(rays.size(), WorldHit::miss());
   QueryCounts own;
   std::vector<std::uint8_t> is_alone(rays.size());  ///< single rays decide
-  for (std::size_t i = 0; i < rays.size() && !instances_.half_spaces().empty(); ++i) {
+  for (std::size_t i = 0; i < rays.size() && instances_.have_shapeless(); ++i) {
     const std::uint64_t before = own.exhausted;
-    if (closer_half_space(rays[i], hits[i], own)) limits.lower(i, hits[i].cast.t());
+    if (closer_shapeless(rays[i], hits[i], own)) limits.lower(i, hits[i].cast.t());
     is_alone[i] = own.exhausted > before;
   }
   const auto keep = [&](std::uint32_t ray, std::uint32_t instance, double t, const auto& result) {
@@ -104,7 +104,7 @@ void World::occluded_in_stream(const RaySpan& rays, std::span<std::uint8_t> met,
   };
   for (std::uint32_t i = 0; i < rays.size(); ++i) {
     met[i] = 0;
-    if (!instances_.half_spaces().empty() && blocked_by_half_space(rays[i], counts)) end(i);
+    if (blocked_by_shapeless(rays[i], counts)) end(i);
   }
   const auto end_when_found = [&](std::uint32_t ray, std::uint32_t, double, const auto&) {
     end(ray);

@@ -163,8 +163,8 @@ inline Pose operator*(const Pose& outer, const Pose& inner) {
 
 // ---- shapes ----
 
-/// A convex shape, which never changes; copies are cheap. One that was moved from, or made of
-/// nothing, is none.
+/// A convex shape, or a mesh, which never changes; copies are cheap. One that was moved from, or
+/// made of nothing, is none.
 class Shape {
  public:
   Shape() = default;
@@ -377,6 +377,44 @@ inline Shape read_shape(Text json, Text folder = {}) {
   return Shape(made);
 }
 
+/// A mesh: triangles with shared vertices, counter-clockwise as seen from outside. It is met as it
+/// is, not as its hull. `triangles` is a contiguous range of numbers of vertices, or of anything
+/// that is three std::uint32_t, such as std::array<std::uint32_t, 3>. Scenes and rays take it as
+/// they take a shape; it is not convex, so that no shape is made of it.
+template <class Triangles>
+Shape mesh(View<const Vec3> vertices, const Triangles& triangles) {
+  using Item = std::remove_cvref_t<decltype(*triangles.data())>;
+  constexpr bool are_numbers = std::is_same_v<Item, std::uint32_t>;
+  static_assert(are_numbers || (std::is_trivially_copyable_v<Item> &&
+                                sizeof(Item) == 3 * sizeof(std::uint32_t)),
+                "minkray::mesh: triangles: must be std::uint32_t, three for each triangle");
+  const std::size_t size = triangles.size();
+  if (are_numbers && size % 3 != 0)
+    throw Error(MINKRAY_WRONG_USE, "minkray::mesh: triangles: must be three numbers each");
+  minkray_shape made;
+  detail::check(minkray_shape_mesh(reinterpret_cast<const double(*)[3]>(vertices.data()),
+                                   vertices.size(),
+                                   reinterpret_cast<const std::uint32_t(*)[3]>(triangles.data()),
+                                   are_numbers ? size / 3 : size, &made));
+  return Shape(made);
+}
+inline Shape mesh(View<const Vec3> vertices, std::initializer_list<std::uint32_t> triangles) {
+  return mesh(vertices, View<const std::uint32_t>(triangles.begin(), triangles.size()));
+}
+
+/// What a mesh is like: see minkray_mesh_info.
+struct MeshInfo {
+  std::size_t vertices = 0, triangles = 0, open_edges = 0, without_area = 0, repeated = 0;
+  bool is_closed() const { return open_edges == 0; }
+};
+static_assert(sizeof(MeshInfo) == sizeof(minkray_mesh_info));
+inline MeshInfo mesh_info(const Shape& mesh) {
+  MeshInfo info;
+  detail::check(
+      minkray_shape_mesh_info(mesh.handle(), reinterpret_cast<minkray_mesh_info*>(&info)));
+  return info;
+}
+
 namespace detail {
 /// Runs a support function; what it throws is told by the query that called it.
 template <class Work>
@@ -513,7 +551,8 @@ struct Hit {
   Vec3 point, normal;
   std::uint32_t object = no_object;
   Status status = exhausted;
-  std::int32_t supports = 0, reserved = 0;
+  std::int32_t supports = 0;
+  std::int32_t part = -1;  ///< of a mesh: the triangle that is met
 
   bool found() const { return status == hit || status == inside; }
 };
@@ -576,6 +615,7 @@ struct FileOptions {
   Text keyframe = {};
   View<const char* const> package_dirs = {};
   bool skip_missing_meshes = false;
+  Text meshes = {};  ///< of robots: "hull", as which they are read, or "exact": triangles
 };
 
 /// How a picture is made; see minkray_picture_options.
@@ -692,7 +732,8 @@ class Scene {
                                         options.keyframe.c_str(),
                                         options.package_dirs.data(),
                                         options.package_dirs.size(),
-                                        options.skip_missing_meshes};
+                                        options.skip_missing_meshes,
+                                        options.meshes.c_str()};
     std::uint32_t group = 0;
     detail::check(minkray_scene_add_file(handle_, file.c_str(), &plain, &group));
     return Group(handle_, group);

@@ -100,6 +100,23 @@ typedef struct minkray_support {
   const double* upper;
 } minkray_support;
 
+/* A mesh: triangles with shared vertices, three numbers of vertices each, counter-clockwise as seen
+ * from outside. It is met as it is, not as its hull, from both sides, and a ray at an edge or
+ * vertex of a closed mesh meets one of the triangles there. Scenes take it as they take a shape;
+ * where a shape must be convex, as in minkray_shape_make, it is refused. Both arrays are copied. */
+MINKRAY_API int minkray_shape_mesh(const double (*vertices)[3], size_t vertex_count,
+                                   const uint32_t (*triangles)[3], size_t triangle_count,
+                                   minkray_shape* shape);
+
+/* What a mesh is like. Vertices at one place count as one for all but `vertices`. */
+typedef struct minkray_mesh_info {
+  size_t vertices, triangles;
+  size_t open_edges;   /* edges without as many triangles on one side as on the other; 0: closed */
+  size_t without_area; /* triangles that no ray meets */
+  size_t repeated;     /* triangles whose three vertices another has, too */
+} minkray_mesh_info;
+MINKRAY_API int minkray_shape_mesh_info(minkray_shape shape, minkray_mesh_info* info);
+
 /* For support functions: why this call of yours fails, for the error of the query that called it.
  * Ignored anywhere else. */
 MINKRAY_API void minkray_support_failed(const char* reason);
@@ -178,6 +195,8 @@ typedef struct minkray_file_options {
   const char* const* package_dirs; /* where package:// and model:// are looked for */
   size_t package_dir_count;
   int skip_missing_meshes;
+  const char* meshes; /* of robots: "hull" (or NULL) or "exact", which keeps their triangles; read
+                         if `size` says that it is there */
 } minkray_file_options;
 
 /* All objects of a scene file of Minkray's (.json) or of a robot's description (URDF, MJCF, SDF):
@@ -247,11 +266,11 @@ typedef struct minkray_hit {
   double t_base; /* t is t_base + t_offset, which have more digits than their sum */
   double t_offset;
   double point[3];  /* NaN where nothing is met */
-  double normal[3]; /* outward, of length 1; zero where there is none */
+  double normal[3]; /* outward, of length 1; zero where there is none. Of a mesh: towards the ray */
   uint32_t object;  /* or MINKRAY_NO_OBJECT */
   int32_t status;   /* a minkray_status */
   int32_t supports; /* how often the object's support mapping was asked */
-  int32_t reserved;
+  int32_t part;     /* of a mesh: the triangle that is met; -1 of all else */
 } minkray_hit;
 
 typedef struct minkray_options {
@@ -294,6 +313,7 @@ typedef struct minkray_hit_arrays {
   uint32_t* objects;
   uint8_t* status;
   int32_t* supports;
+  int32_t* parts; /* read if `size` says that it is there */
 } minkray_hit_arrays;
 
 MINKRAY_API int minkray_scene_cast_arrays(minkray_scene scene, const minkray_ray_arrays* rays,

@@ -3,6 +3,7 @@
 
 #include "core/derived/shape_bounds.h"
 #include "renderer/audit/half_space_verdict.h"
+#include "renderer/audit/mesh_verdict.h"
 #include "renderer/json/json.h"
 #include "renderer/json/number_json.h"
 #include "renderer/scene/scene_instances.h"
@@ -46,6 +47,14 @@ std::string query_line(const Object& object, const Shape<double>& in_world,
   return json.dump();
 }
 
+Bounds<double> padded(Bounds<double> bounds) {
+  const double padding = box_padding * std::max(bounds.lower.cwiseAbs().maxCoeff(),
+                                                bounds.upper.cwiseAbs().maxCoeff());
+  bounds.lower.array() -= padding;
+  bounds.upper.array() += padding;
+  return bounds;
+}
+
 }  // namespace
 
 RayAudit::RayAudit(const Scene& scene, const World& world) : scene_(scene), world_(world) {
@@ -58,13 +67,13 @@ RayAudit::RayAudit(const Scene& scene, const World& world) : scene_(scene), worl
                           object.half_space->posed(object.pose)});
       continue;
     }
+    if (object.mesh) {
+      const PosedMesh posed(0, object.mesh, object.pose);
+      targets_.push_back({object.shape, padded(posed.bounds()), {}, posed});
+      continue;
+    }
     const Shape<double> in_world = Transform<double>{object.shape, object.pose};
-    Bounds<double> bounds = bounds_of<double>(in_world);
-    const double padding = box_padding * std::max(bounds.lower.cwiseAbs().maxCoeff(),
-                                                  bounds.upper.cwiseAbs().maxCoeff());
-    bounds.lower.array() -= padding;
-    bounds.upper.array() += padding;
-    targets_.push_back({in_world, bounds});
+    targets_.push_back({in_world, padded(bounds_of<double>(in_world))});
   }
 }
 
@@ -73,6 +82,7 @@ CertificateVerdict RayAudit::verdict(std::uint32_t instance, const Ray<double>& 
   ++certificates_;
   if (const auto& half_space = targets_[instance].half_space)
     return verdict_of(*half_space, ray, claim);
+  if (const auto& mesh = targets_[instance].mesh) return verdict_of(*mesh, ray, claim);
   const SupportFunction support = supports_of(targets_[instance].shape);
   return check_certificate(support, ray, claim, certify(support, ray, claim));
 }
@@ -92,7 +102,7 @@ void RayAudit::fail(RayKind kind, std::uint32_t instance, const Ray<double>& ray
   message += object.name + ": " + std::string(what);
   // Queries are about shapes.
   failures_.push_back(
-      {message, object.half_space ? "" : query_line(object, targets_[instance].shape, ray)});
+      {message, !object.has_shape() ? "" : query_line(object, targets_[instance].shape, ray)});
 }
 
 bool RayAudit::may_meet(RayKind kind, std::uint32_t instance, const Ray<double>& ray) const {
@@ -139,9 +149,11 @@ void RayAudit::occluded(RayKind kind, const Ray<double>& ray, std::uint32_t skip
   }
   for (std::uint32_t i = 0; i < targets_.size(); ++i) {
     if (i == skip || !may_meet(kind, i, ray)) continue;
-    const CastResult<double> cast = targets_[i].half_space
-                                        ? cast_ray(*targets_[i].half_space, ray)
-                                        : cast_ray(world_.instances().at(i), ray, world_.options());
+    PartCounts parts;
+    const CastResult<double> cast =
+        targets_[i].half_space ? cast_ray(*targets_[i].half_space, ray)
+        : targets_[i].mesh     ? cast_ray(*targets_[i].mesh, ray, ray.t_max, false, 0, parts).cast
+                               : cast_ray(world_.instances().at(i), ray, world_.options());
     if (cast.found() && verdict(i, ray, claim_of(cast)).holds) return;
   }
   fail(kind, no_instance, ray, "nothing is proven to be in its way");

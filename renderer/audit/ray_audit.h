@@ -48,6 +48,7 @@ class RayAudit final : public RayObserver {
     Bounds<double> bounds;
     std::optional<HalfSpaceBody<double>> half_space =
         {};  ///< if there is one, in the place of both
+    std::optional<PosedMesh> mesh = {};
   };
   static std::size_t index(RayKind kind) { return static_cast<std::size_t>(kind); }
   CertificateVerdict verdict(std::uint32_t instance, const Ray<double>& ray, const Claim& claim);

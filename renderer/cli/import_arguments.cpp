@@ -38,6 +38,15 @@ Option add_import_options(const Verb& verb, ImportOptions& options, bool rows) {
           "components: one for each part that hangs together")
       .one_of({"none", "groups", "components"})
       .group(group);
+  verb.add_option(
+          "--meshes",
+          [&options](const std::string& name) {
+            options.meshes = name == "exact" ? MeshChoice::exact : MeshChoice::hull;
+          },
+          "What rays meet of a robot's mesh files (default hull):\nhull: their convex hulls\n"
+          "exact: their triangles")
+      .one_of({"hull", "exact"})
+      .group(group);
   verb.add_option("--keyframe", options.keyframe, "MJCF: the name of a keyframe, or its number")
       .takes("NAME")
       .group(group);

@@ -95,7 +95,7 @@ void trace(const TraceVerbOptions& options) {
   shapes.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     const Object object = instance_object(scene, i);
-    if (object.half_space) continue;  // it is met in closed form: there are no iterations to show
+    if (!object.has_shape()) continue;  // met in closed form: there are no iterations to show
     objects.push_back(i);
     shapes.emplace_back(convert<T>(object.shape), object.pose.template cast<T>());
   }

@@ -8,6 +8,7 @@
 #include "core/derived/shape_bounds.h"
 #include "core/parallel/parallel.h"
 #include "renderer/compare/half_space_check.h"
+#include "renderer/compare/mesh_check.h"
 #include "renderer/light/camera.h"
 #include "renderer/scene/scene_instances.h"
 
@@ -37,10 +38,12 @@ PixelRect pixels_of(const Bounds<double>& bounds, const Camera& camera, int widt
           std::min(rect.y1, height)};
 }
 
-/// Judges one object along the camera's rays and keeps what is nearest.
-void look_at(const SandwichedShape& shape, const Camera& camera, const CastOptions<double>& cast,
-             DifferencePicture& difference, std::mutex& mutex) {
-  const PixelRect rect = pixels_of(shape.bounds(), camera, difference.width, difference.height);
+/// Judges one object along the camera's rays and keeps what is nearest. judge(ray) is for rays in
+/// the frame of the check, a SandwichedShape or a MeshCheck.
+template <class Check, class Judge>
+void look_at(const Check& check, const Camera& camera, DifferencePicture& difference,
+             std::mutex& mutex, const Judge& judge) {
+  const PixelRect rect = pixels_of(check.bounds(), camera, difference.width, difference.height);
   for (int y = rect.y0; y < rect.y1; ++y) {
     struct Seen {
       double t = infinity;
@@ -49,8 +52,8 @@ void look_at(const SandwichedShape& shape, const Camera& camera, const CastOptio
     };
     std::vector<Seen> row(static_cast<std::size_t>(std::max(rect.width(), 0)));
     for (int x = rect.x0; x < rect.x1; ++x) {
-      const RayInFrame ray = shape.to_frame(camera.ray(x + 0.5, y + 0.5));
-      const Verdict verdict = shape.judge(ray.ray, cast);
+      const RayInFrame ray = check.to_frame(camera.ray(x + 0.5, y + 0.5));
+      const Verdict verdict = judge(ray.ray);
       Seen& seen = row[static_cast<std::size_t>(x - rect.x0)];
       seen.violation = verdict.violation.has_value();
       if (!verdict.result.found()) continue;
@@ -117,7 +120,7 @@ void find_incomparable(const Scene& scene, Mistakes& mistakes) {
   constexpr double furthest = 1e306;
   for (std::size_t i = 0; i < instance_count(scene); ++i) {
     const Object object = instance_object(scene, i);
-    if (object.half_space) continue;
+    if (!object.has_shape()) continue;
     const Shape<double> placed =
         Transform<double>{Nested<double>(object.shape), AffineMap<double>(object.pose)};
     const Bounds<double> bounds = bounds_of<double>(placed);
@@ -158,27 +161,31 @@ SceneComparison compare_scene(const Scene& scene, const CompareSceneOptions& opt
         if (stopped) return;
       }
       const Object object = instance_object(scene, i);
+      ObjectComparison& result = comparison.objects[i];
+      result.name = object.name;
       if (object.half_space) {
-        ObjectComparison& result = comparison.objects[i];
-        result.name = object.name;
         result.shape = half_space_name;
         const HalfSpaceCheck check(object.half_space->posed(object.pose));
         result.report = check.compare(options.object);
         if (camera) look_at(check, *camera, difference, picture_mutex);
-        const std::lock_guard lock(progress_mutex);
-        ++done;
-        rays += static_cast<std::uint64_t>(result.report.rays);
-        continue;
+      } else if (object.mesh) {
+        result.shape = mesh_name;
+        const MeshCheck check(PosedMesh(0, object.mesh, object.pose));
+        result.report = check.compare(options.object);
+        if (camera)
+          look_at(check, *camera, difference, picture_mutex,
+                  [&](const Ray<float>& ray) { return check.judge(ray); });
+      } else {
+        const Shape<double> placed =
+            Transform<double>{Nested<double>(object.shape), AffineMap<double>(object.pose)};
+        const SandwichedShape shape(placed, options.object.sandwich);
+        result.shape =
+            std::visit([](const auto& kind) { return std::string(kind.name); }, object.shape.kind);
+        result.report = shape.compare(options.object);
+        if (camera)
+          look_at(shape, *camera, difference, picture_mutex,
+                  [&](const Ray<float>& ray) { return shape.judge(ray, options.object.cast); });
       }
-      const Shape<double> placed =
-          Transform<double>{Nested<double>(object.shape), AffineMap<double>(object.pose)};
-      const SandwichedShape shape(placed, options.object.sandwich);
-      ObjectComparison& result = comparison.objects[i];
-      result.name = object.name;
-      result.shape =
-          std::visit([](const auto& kind) { return std::string(kind.name); }, object.shape.kind);
-      result.report = shape.compare(options.object);
-      if (camera) look_at(shape, *camera, options.object.cast, difference, picture_mutex);
       const std::lock_guard lock(progress_mutex);
       ++done;
       rays += static_cast<std::uint64_t>(result.report.rays);

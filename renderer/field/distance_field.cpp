@@ -46,6 +46,9 @@ DistanceField measure_field(const Scene& scene, const Shape<double>& probe, cons
   if (!scene.particles.empty()) throw BadInput("distances from particles are not measured");
   std::vector<Body> bodies;
   for (const Object& object : scene.objects) {
+    if (object.mesh)
+      throw BadInput("object \"" + object.name +
+                     "\": is a mesh, from which distances are not measured yet");
     const Affine<double> about_origin{object.pose.linear, Vec3<double>::Zero()};
     bodies.push_back({ContactShape(object.shape, about_origin),
                       {Mat3<double>::Identity(), object.pose.translation},

@@ -37,8 +37,8 @@ std::size_t count_words(std::string_view text) {
 
 class Collada {
  public:
-  Collada(const XmlElement& root, XmlFiles& files, MeshSplit split)
-      : root_(root), files_(files), split_(split) {
+  Collada(const XmlElement& root, XmlFiles& files, MeshSplit split, bool with_triangles)
+      : root_(root), files_(files), split_(split), with_triangles_(with_triangles) {
     index(root);
     most_ = std::min(most_vertices, most_shown_vertices(numbers_));
   }
@@ -188,7 +188,7 @@ class Collada {
       const std::size_t count = (numbers.size() - begin - 3) / stride + 1;
       geometry.vertices.push_back({&numbers, begin, stride, count});
     }
-    if (split_ == MeshSplit::components && !geometry.vertices.empty())
+    if ((split_ == MeshSplit::components || with_triangles_) && !geometry.vertices.empty())
       read_triangles(*mesh, geometry);
     return geometry;
   }
@@ -246,6 +246,7 @@ class Collada {
         mesh_.vertices.push_back(pose(Vec3<double>(at[0], at[1], at[2])));
       }
       add_parts(geometry, first);
+      if (with_triangles_) add_triangles(geometry, first, pose.linear.determinant() < 0);
     }
   }
 
@@ -267,13 +268,7 @@ class Collada {
       std::vector<std::uint32_t>& part = mesh_.parts.emplace_back(count);
       std::iota(part.begin(), part.end(), static_cast<std::uint32_t>(first));
     } else if (split_ == MeshSplit::components) {
-      if (geometry.corners_end > count)
-        throw std::runtime_error("a <p> names a vertex that is not there");
-      triangles_ += geometry.triangles.size();
-      if (triangles_ > most_triangles_of_vertex * most_)
-        throw std::runtime_error("must show at most " +
-                                 std::to_string(most_triangles_of_vertex * most_) +
-                                 " triangles (got " + std::to_string(triangles_) + ")");
+      count_triangles(geometry, count);
       const auto own = std::span(mesh_.vertices).subspan(first);
       for (std::vector<std::uint32_t>& part : components_of(own, geometry.triangles)) {
         for (std::uint32_t& i : part) i += static_cast<std::uint32_t>(first);
@@ -282,7 +277,26 @@ class Collada {
     }
   }
 
-  /// Triangles that hang together as the mesh's polygons do.
+  void count_triangles(const Geometry& geometry, std::size_t vertices) {
+    if (geometry.corners_end > vertices)
+      throw std::runtime_error("a <p> names a vertex that is not there");
+    triangles_ += geometry.triangles.size();
+    if (triangles_ > most_triangles_of_vertex * most_)
+      throw std::runtime_error("must show at most " +
+                               std::to_string(most_triangles_of_vertex * most_) +
+                               " triangles (got " + std::to_string(triangles_) + ")");
+  }
+
+  void add_triangles(const Geometry& geometry, std::size_t first, bool is_mirrored) {
+    count_triangles(geometry, mesh_.vertices.size() - first);
+    for (FaceCorners corners : geometry.triangles) {
+      for (std::uint32_t& i : corners) i += static_cast<std::uint32_t>(first);
+      if (is_mirrored) std::swap(corners[1], corners[2]);
+      mesh_.triangles.push_back(corners);
+    }
+  }
+
+  /// The mesh's polygons as fans of triangles.
   void read_triangles(const XmlElement& mesh, Geometry& geometry) {
     for (const XmlElement& faces : mesh.children) {
       double stride = 1, offset = -1;
@@ -328,14 +342,18 @@ class Collada {
       for (const double count : counts) add(static_cast<std::size_t>(std::clamp(count, 0.0, 1e9)));
     } else if (kind == "triangles") {
       while (begin < corners.size()) add(3);
+    } else if (kind == "tristrips") {
+      for (std::size_t i = 0; i + 2 < corners.size(); ++i)
+        triangles.push_back({corners[i], corners[i + 1 + i % 2], corners[i + 2 - i % 2]});
     } else {
-      add(corners.size());  // one polygon, fan or strip: all of it hangs together
+      add(corners.size());  // one polygon or fan
     }
   }
 
   const XmlElement& root_;
   XmlFiles& files_;
   MeshSplit split_;
+  bool with_triangles_;
   std::unordered_map<std::string, const XmlElement*> by_id_;
   std::unordered_map<const XmlElement*, Node> nodes_;
   std::unordered_map<const XmlElement*, Geometry> geometries_;
@@ -349,13 +367,13 @@ class Collada {
 
 }  // namespace
 
-MeshContent read_collada(const std::filesystem::path& file, MeshSplit split) {
+MeshContent read_collada(const std::filesystem::path& file, MeshSplit split, bool with_triangles) {
   Mistakes mistakes("");
   XmlFiles files(mistakes);
   MeshContent content;
   if (const auto root = files.read(file, most_collada_bytes)) {
     if (root->name != "COLLADA") throw std::runtime_error("is no COLLADA file");
-    content = Collada(*root, files, split).read();
+    content = Collada(*root, files, split, with_triangles).read();
   }
   if (!mistakes.none()) {
     std::string first = mistakes.messages().front();

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/mesh/triangle_mesh.h"
 #include "core/world/half_space.h"
 
 namespace minkray {
@@ -28,13 +29,17 @@ constexpr double skin_of_size = 0.01;
 
 /// A body where it stands at one moment.
 struct PlacedBody {
-  const Shape<double>* shape;
+  const Object* object;
   Affine<double> pose;
 
   /// The largest n . x of its points x.
   double support_value(const Vec3<double>& n) const {
     const Vec3<double> inner = pose.linear.transpose() * n;
-    return n.dot(pose(shape->support(inner)));
+    if (!object->mesh) return n.dot(pose(object->shape.support(inner)));
+    double most = -std::numeric_limits<double>::infinity();
+    for (const Vec3<double>& vertex : object->mesh->vertices())
+      most = std::max(most, inner.dot(vertex));
+    return most + n.dot(pose.translation);
   }
 };
 
@@ -51,18 +56,18 @@ std::vector<PlacedBody> placings(const Scene& scene) {
   for (const Object& object : scene.objects) {
     if (object.half_space || object.visible_to == 0) continue;
     if (!object.motion || object.motion->keys.empty()) {
-      bodies.push_back({&object.shape, object.pose});
+      bodies.push_back({&object, object.pose});
       continue;
     }
     const std::vector<PoseKey>& keys = object.motion->keys;
     for (std::size_t k = 0; k < keys.size() && bodies.size() < most_placings; ++k) {
-      bodies.push_back({&object.shape, object.motion->pose_at(keys[k].time)});
+      bodies.push_back({&object, object.motion->pose_at(keys[k].time)});
       if (k + 1 == keys.size()) break;
       const double steps = std::ceil(turn_between(keys[k], keys[k + 1]) / most_turn);
       for (int i = 1; i < steps; ++i)
         bodies.push_back(
-            {&object.shape, object.motion->pose_at(std::lerp(keys[k].time, keys[k + 1].time,
-                                                             static_cast<double>(i) / steps))});
+            {&object, object.motion->pose_at(std::lerp(keys[k].time, keys[k + 1].time,
+                                                       static_cast<double>(i) / steps))});
     }
   }
   return bodies;
@@ -146,7 +151,7 @@ void frame_everything(Scene& scene, const Resolution& picture) {
   const double tan_x = tan_y * picture.width / picture.height;
 
   Framed all{placings(scene)};
-  const Shape<double> nothing{Point<double>{}};
+  const Object nothing;
   if (all.bodies.empty()) all.bodies.push_back({&nothing, {}});
   double size = 0;
   for (int axis = 0; axis < 3; ++axis) {

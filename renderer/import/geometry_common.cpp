@@ -160,6 +160,7 @@ std::optional<std::string> add_hulls(Model& model, const MeshLibrary::Answer& an
   const std::string name = geom.name;
   for (std::size_t i = 0; i < answer.hulls.size(); ++i) {
     geom.shape = answer.hulls[i];
+    geom.mesh = i < answer.surfaces.size() ? answer.surfaces[i] : nullptr;
     if (colouring == Colouring::of_mesh && i < answer.colours.size() && answer.colours[i])
       geom.rgba = *answer.colours[i];
     if (answer.hulls.size() > 1) geom.name = name + "[" + std::to_string(i) + "]";

@@ -217,7 +217,8 @@ Model read_gltf(std::string bytes, const std::filesystem::path& file, const Impo
   return GltfReader(document, file, options).read(file);
 }
 
-MeshContent read_gltf_content(const std::filesystem::path& file, MeshSplit split) {
+MeshContent read_gltf_content(const std::filesystem::path& file, MeshSplit split,
+                              bool with_triangles) {
   Mistakes mistakes("");
   GltfDocument document(read_regular_file(file, most_gltf_bytes), file, mistakes);
   MeshParts all;
@@ -232,6 +233,7 @@ MeshContent read_gltf_content(const std::filesystem::path& file, MeshSplit split
     throw std::runtime_error(first.starts_with(": ") ? first.substr(2) : first);
   }
   if (all.vertices.empty()) throw std::runtime_error("has no vertices");
+  if (!with_triangles) all.triangles.clear();
   looks.files = document.files();
   for (const std::string& name : document.unread_extensions())
     looks.notes.push_back("extension " + printable(name, 60) + " is not read");

@@ -17,13 +17,15 @@ using GltfTriangle = std::array<std::uint32_t, 3>;
 /// How a primitive's indices make triangles.
 constexpr std::size_t mode_triangles = 4, mode_fan = 6;
 
-/// It is enough to know what hangs together: strips are not turned over at every other triangle.
+/// Strips turn over at every other triangle.
 std::vector<GltfTriangle> triangles_of(const std::vector<std::uint32_t>& corners,
                                        std::size_t mode) {
   std::vector<GltfTriangle> all;
   const std::size_t step = mode == mode_triangles ? 3 : 1;
-  for (std::size_t i = 0; i + 2 < corners.size(); i += step)
+  for (std::size_t i = 0; i + 2 < corners.size(); i += step) {
     all.push_back({mode == mode_fan ? corners[0] : corners[i], corners[i + 1], corners[i + 2]});
+    if (mode != mode_fan && step == 1 && i % 2 == 1) std::swap(all.back()[1], all.back()[2]);
+  }
   return all;
 }
 
@@ -150,15 +152,18 @@ void GltfMeshes::add_primitive(const Json& primitive, const JsonPath& path, std:
   const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
   for (const std::uint32_t i : used) mesh.vertices.push_back((*points)[i]);
   read.corners.emplace_back(number, corners.size());
+  for (std::uint32_t& corner : corners)
+    corner = static_cast<std::uint32_t>(std::ranges::lower_bound(used, corner) - used.begin());
+  const std::vector<GltfTriangle> triangles = triangles_of(corners, mode);
+  for (const GltfTriangle& t : triangles)
+    mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
   if (split_ == MeshSplit::groups) {
     std::vector<std::uint32_t>& part = mesh.parts.emplace_back(used.size());
     std::iota(part.begin(), part.end(), first);
     read.primitives.push_back(number);
   } else if (split_ == MeshSplit::components) {
-    for (std::uint32_t& corner : corners)
-      corner = static_cast<std::uint32_t>(std::ranges::lower_bound(used, corner) - used.begin());
     const auto own = std::span(mesh.vertices).subspan(first);
-    for (std::vector<std::uint32_t>& part : components_of(own, triangles_of(corners, mode))) {
+    for (std::vector<std::uint32_t>& part : components_of(own, triangles)) {
       for (std::uint32_t& i : part) i += first;
       mesh.parts.push_back(std::move(part));
     }
@@ -341,6 +346,12 @@ void GltfMeshes::add_shown(std::span<const std::size_t> nodes, const Affine<doub
         const auto first = static_cast<std::uint32_t>(all.vertices.size());
         for (const Vec3<double>& vertex : shown.vertices)
           all.vertices.push_back(there(instance(vertex)));
+        const bool is_mirrored = (there.linear * instance.linear).determinant() < 0;
+        for (std::array<std::uint32_t, 3> t : shown.triangles) {
+          for (std::uint32_t& i : t) i += first;
+          if (is_mirrored) std::swap(t[1], t[2]);
+          all.triangles.push_back(t);
+        }
         for (std::vector<std::uint32_t> part : shown.parts) {
           for (std::uint32_t& i : part) i += first;
           all.parts.push_back(std::move(part));

@@ -16,9 +16,16 @@ enum class GeometryChoice : unsigned char {
   all,        ///< every shape there is
 };
 
+/// What meshes of files are shown as.
+enum class MeshChoice : unsigned char {
+  hull,   ///< the convex hulls of their vertices
+  exact,  ///< their triangles
+};
+
 struct ImportOptions {
   GeometryChoice geometry = GeometryChoice::visual;
   MeshSplit split = MeshSplit::none;
+  MeshChoice meshes = MeshChoice::hull;
   std::string keyframe;                   ///< empty: none
   std::vector<std::string> joints;        ///< NAME=VALUE each
   std::string joint_rows;                 ///< a CSV or JSON file of values; empty: none
@@ -30,9 +37,9 @@ struct ImportOptions {
 
   /// Whether anything is asked for that a scene file has no use of.
   bool any() const {
-    return geometry != GeometryChoice::visual || split != MeshSplit::none || !keyframe.empty() ||
-           !joints.empty() || !joint_rows.empty() || !package_dirs.empty() || skip_missing_meshes ||
-           lenient;
+    return geometry != GeometryChoice::visual || split != MeshSplit::none ||
+           meshes != MeshChoice::hull || !keyframe.empty() || !joints.empty() ||
+           !joint_rows.empty() || !package_dirs.empty() || skip_missing_meshes || lenient;
   }
 };
 

@@ -7,6 +7,7 @@
 #include <exception>
 #include <stdexcept>
 
+#include "core/mesh/weld.h"
 #include "renderer/base/hash.h"
 #include "renderer/base/of_file.h"
 #include "renderer/import/collada.h"
@@ -76,13 +77,13 @@ double deepest_below(const std::vector<Vec3<double>>& vertices, const PointCloud
 }
 
 /// A format whose files say nothing but where vertices are.
-template <MeshParts (*read)(const std::filesystem::path&, MeshSplit)>
-MeshContent bare(const std::filesystem::path& file, MeshSplit split) {
-  return {read(file, split), {}};
+template <MeshParts (*read)(const std::filesystem::path&, MeshSplit, bool)>
+MeshContent bare(const std::filesystem::path& file, MeshSplit split, bool with_triangles) {
+  return {read(file, split, with_triangles), {}};
 }
 
-MeshContent read_obj(const std::filesystem::path& file, MeshSplit split) {
-  MeshContent content{read_mesh_parts(file, split), {}};
+MeshContent read_obj(const std::filesystem::path& file, MeshSplit split, bool with_triangles) {
+  MeshContent content{read_mesh_parts(file, split, with_triangles), {}};
   content.looks = obj_looks(file);
   return content;
 }
@@ -202,7 +203,7 @@ const MeshContent& MeshLibrary::read(const std::filesystem::path& file,
                                      const MeshFormatReader& format, MeshSplit split) {
   const auto known = read_.find({file.string(), split});
   if (known != read_.end()) return known->second;
-  MeshContent content = format.read(file, split);
+  MeshContent content = format.read(file, split, options_->meshes == MeshChoice::exact);
   const std::vector<Vec3<double>>& vertices = content.mesh.vertices;
   Hash hash;
   hash.add({reinterpret_cast<const char*>(vertices.data()), vertices.size() * sizeof vertices[0]});
@@ -223,11 +224,40 @@ std::optional<std::size_t> part_named(const MeshContent& content, const std::str
   return std::nullopt;
 }
 
+/// The triangles whose corners are all in the part, whose vertices are sorted, by their numbers
+/// there.
+std::vector<Corners> triangles_within(const MeshParts& mesh,
+                                      const std::vector<std::uint32_t>& part) {
+  std::vector<Corners> within;
+  for (Corners triangle : mesh.triangles) {
+    bool is_within = true;
+    for (std::uint32_t& corner : triangle) {
+      const auto at = std::ranges::lower_bound(part, corner);
+      is_within &= at != part.end() && *at == corner;
+      corner = static_cast<std::uint32_t>(at - part.begin());
+    }
+    if (is_within) within.push_back(triangle);
+  }
+  return within;
+}
+
+/// Null if nothing of it has an area.
+std::shared_ptr<const TriangleMesh> surface_of(std::vector<Vec3<double>> vertices,
+                                               std::vector<Corners> triangles, bool is_mirrored) {
+  weld(vertices, triangles);
+  std::erase_if(triangles, [](const Corners& t) { return t[0] == t[1] && t[1] == t[2]; });
+  if (triangles.empty()) return nullptr;
+  if (is_mirrored)
+    for (Corners& corners : triangles) std::swap(corners[1], corners[2]);
+  return std::make_shared<const TriangleMesh>(std::move(vertices), std::move(triangles));
+}
+
 /// The part by itself, around the origin if that is asked for.
 MeshContent part_of(const MeshContent& content, std::size_t part, bool is_centred) {
   MeshContent alone;
   for (const std::uint32_t i : content.mesh.parts[part])
     alone.mesh.vertices.push_back(content.mesh.vertices[i]);
+  alone.mesh.triangles = triangles_within(content.mesh, content.mesh.parts[part]);
   alone.looks.parts.push_back(content.looks.parts[part]);
   if (!is_centred) return alone;
   Vec3<double> lower = alone.mesh.vertices[0], upper = lower;
@@ -243,7 +273,7 @@ MeshContent part_of(const MeshContent& content, std::size_t part, bool is_centre
 /// Gives the hulls the colours of their parts, or all of them that of most faces.
 void take_looks(const MeshContent& content, MeshSplit split, MeshLibrary::Answer& answer) {
   const MeshLooks& looks = content.looks;
-  answer.notes = looks.notes;
+  answer.notes.insert(answer.notes.end(), looks.notes.begin(), looks.notes.end());
   const bool by_part = split == MeshSplit::groups && looks.parts.size() == answer.hulls.size();
   for (std::size_t i = 0; i < answer.hulls.size(); ++i)
     answer.colours.push_back(by_part ? colour_of(looks.parts[i]) : colour_of(looks));
@@ -345,7 +375,8 @@ MeshLibrary::Answer MeshLibrary::add(const MeshParts& mesh, const Vec3<double>& 
   facts.vertices = mesh.vertices.size();
   facts.parts = std::max<std::size_t>(mesh.parts.size(), 1);
   Vec3<double> lower = mesh.vertices[0].cwiseProduct(scale), upper = lower;
-  const auto add_part = [&](std::vector<Vec3<double>> vertices) {
+  const bool is_mirrored = scale.prod() < 0;
+  const auto add_part = [&](std::vector<Vec3<double>> vertices, std::vector<Corners> triangles) {
     for (Vec3<double>& vertex : vertices) {
       vertex = vertex.cwiseProduct(scale);
       lower = lower.cwiseMin(vertex);
@@ -355,14 +386,19 @@ MeshLibrary::Answer MeshLibrary::add(const MeshParts& mesh, const Vec3<double>& 
     facts.corners += hull.points().size();
     facts.deepest = std::max(facts.deepest, deepest_below(vertices, hull));
     answer.hulls.emplace_back(Hull<double>{std::move(hull)});
+    if (options_->meshes != MeshChoice::exact) return;
+    const bool is_flat = (scale.array() == 0).any();
+    answer.surfaces.push_back(
+        is_flat ? nullptr : surface_of(std::move(vertices), std::move(triangles), is_mirrored));
+    if (!answer.surfaces.back()) answer.notes.emplace_back("has no triangles: its hull is shown");
   };
   try {
-    if (mesh.parts.empty()) add_part(mesh.vertices);
+    if (mesh.parts.empty()) add_part(mesh.vertices, mesh.triangles);
     for (const std::vector<std::uint32_t>& part : mesh.parts) {
       std::vector<Vec3<double>> vertices;
       vertices.reserve(part.size());
       for (const std::uint32_t i : part) vertices.push_back(mesh.vertices[i]);
-      add_part(std::move(vertices));
+      add_part(std::move(vertices), triangles_within(mesh, part));
     }
   } catch (const std::exception& error) {
     answer.complaint = "the mesh \"" + printable(name, 100) + "\": " + what_of(error);

@@ -32,7 +32,7 @@ struct Submesh {
 /// A reader throws std::runtime_error that says what is wrong, without the file's name.
 struct MeshFormatReader {
   std::string_view ending;
-  MeshContent (*read)(const std::filesystem::path& file, MeshSplit split);
+  MeshContent (*read)(const std::filesystem::path& file, MeshSplit split, bool with_triangles);
 };
 const std::vector<MeshFormatReader>& mesh_formats();
 
@@ -52,7 +52,9 @@ class MeshLibrary {
       : folder_(std::move(folder)), options_(&options) {}
 
   struct Answer {
-    std::vector<Shape<double>> hulls;               ///< one for each part
+    std::vector<Shape<double>> hulls;  ///< one for each part
+    /// The triangles of each part if they are asked for; null where there are none.
+    std::vector<std::shared_ptr<const TriangleMesh>> surfaces = {};
     std::vector<std::optional<Rgba>> colours = {};  ///< of each hull, if the file tells
     std::vector<std::string> notes = {};            ///< what the file has that is not shown
     std::string complaint;                          ///< what is wrong; empty if nothing is

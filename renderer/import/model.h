@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -14,6 +15,7 @@
 #include <vector>
 
 #include "core/math/affine.h"
+#include "core/mesh/triangle_mesh.h"
 #include "core/shape/shape.h"
 
 namespace minkray {
@@ -53,7 +55,8 @@ struct ModelGeom {
   std::string kind;  ///< in the format's words: "capsule", "mesh", "plane"
   int link = -1;     ///< -1: the world
   Affine<double> pose;
-  std::optional<Shape<double>> shape = {};  ///< none: the half-space under z = 0
+  std::optional<Shape<double>> shape = {};        ///< none: the half-space under z = 0
+  std::shared_ptr<const TriangleMesh> mesh = {};  ///< for rays; the shape is its hull
   std::array<double, 4> rgba = {0.7, 0.7, 0.7, 1};
   bool collides = true, is_seen = true;
 };

@@ -22,7 +22,7 @@ std::uint32_t word(std::string_view bytes, std::size_t i) {
 
 }  // namespace
 
-MeshParts read_msh(const std::filesystem::path& file, MeshSplit split) {
+MeshParts read_msh(const std::filesystem::path& file, MeshSplit split, bool with_triangles) {
   const std::string bytes = read_regular_file(file, most_msh_bytes);
   if (bytes.size() < 16) throw std::runtime_error("a .msh must have at least 16 bytes");
   std::array<std::uint64_t, 4> counts;
@@ -45,7 +45,7 @@ MeshParts read_msh(const std::filesystem::path& file, MeshSplit split) {
       throw std::runtime_error("vertex " + std::to_string(i) + ": must be three finite numbers");
     mesh.vertices.push_back(vertex);
   }
-  if (split == MeshSplit::components) {
+  if (split == MeshSplit::components || with_triangles) {
     std::vector<std::array<std::uint32_t, 3>> triangles;
     const std::size_t first = 4 + 3 * vertices + 3 * normals + 2 * texture;
     for (std::size_t i = 0; i < faces; ++i) {
@@ -58,7 +58,8 @@ MeshParts read_msh(const std::filesystem::path& file, MeshSplit split) {
       }
       triangles.push_back(triangle);
     }
-    mesh.parts = components_of(mesh.vertices, triangles);
+    if (split == MeshSplit::components) mesh.parts = components_of(mesh.vertices, triangles);
+    if (with_triangles) mesh.triangles = std::move(triangles);
   }
   return mesh;
 }

@@ -209,7 +209,7 @@ Scene scene_of(Model& model, const ImportOptions& options, const std::vector<Joi
     const int again = names[object.name]++;
     if (again > 0) object.name += " " + std::to_string(again + 1);
     if (geom.shape)
-      object.shape = *geom.shape;
+      object.shape = *geom.shape, object.mesh = geom.mesh;
     else
       object.half_space = HalfSpaceBody<double>();
     object.pose =

@@ -96,7 +96,7 @@ Replays replays_within(std::size_t most_bytes, const Scene& scene,
     if (replays.pixels % pixels_between_looks == 0 && deflater.size() + reserve_bytes > most_bytes)
       break;
     const std::size_t instance = answers.shown[pixel].object - 1;
-    if (solvers.front().casts.world().instances().is_half_space(instance)) continue;
+    if (!solvers.front().casts.world().instances().has_shape(instance)) continue;
     const double x = static_cast<double>(pixel % width) + 0.5,
                  y = static_cast<double>(pixel / width) + 0.5;
     for (std::size_t k = 0; k < solvers.size(); ++k)

@@ -102,7 +102,7 @@ std::vector<ObjectPair> nearest_pairs(const Scene& scene, std::size_t most) {
   std::vector<std::size_t> solid;
   std::vector<CentredShape<double>> shapes;
   for (std::size_t i = 0; i < std::min(scene.objects.size(), most_objects_paired); ++i) {
-    if (scene.objects[i].half_space) continue;
+    if (!scene.objects[i].has_shape()) continue;
     solid.push_back(i);
     shapes.push_back(centred_instance(scene, i));
   }

@@ -18,14 +18,14 @@ std::optional<std::size_t> SceneCasts::shown(const Ray<double>& ray, const Scene
                                              std::size_t most_looked_at) const {
   const Instances& instances = world_.instances();
   if (answer.hit.found()) {
-    if (instances.is_half_space(answer.hit.instance)) return std::nullopt;
+    if (!instances.has_shape(answer.hit.instance)) return std::nullopt;
     return answer.hit.instance;
   }
   if (instances.size() > most_looked_at) return std::nullopt;
   std::optional<std::size_t> hardest;
   int iterations = -1;
   for (std::size_t i = 0; i < instances.size(); ++i) {
-    if (instances.is_half_space(i)) continue;
+    if (!instances.has_shape(i)) continue;
     const CastResult<double> result = cast_ray(instances.at(i), ray, world_.options());
     if (result.iterations <= iterations) continue;
     hardest = i;

@@ -144,7 +144,8 @@ WebReply ServedScene::pair(const Asked& asked) {
   const auto object = [&](const char* key) {
     const double number = asked.number_within(key, 0, 1, double(scene_.objects.size()));
     const auto index = static_cast<std::size_t>(number) - 1;
-    if (scene_.objects[index].half_space) throw BadInput(std::string(key) + ": is a half-space");
+    if (!scene_.objects[index].has_shape())
+      throw BadInput(std::string(key) + ": must be a shape (got a half-space or a mesh)");
     return index;
   };
   const Json line{{"kind", "pair"}, {"pair", pair_json(scene_, {object("a"), object("b")})}};

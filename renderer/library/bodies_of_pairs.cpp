@@ -104,12 +104,21 @@ BodiesOfPairs::BodiesOfPairs(const minkray_bodies* given, std::size_t count, con
   }
   refuse_if_running(customs_, argument);
   // Before pairs wait for each other's support points: a shape that is made ready is locked.
-  for (const HeldShape* const held : shapes_) held->contact();
+  for (const HeldShape* const held : shapes_)
+    if (!held->mesh()) held->contact();
+}
+
+const ContactShape& PosedBody::shape_or_point() const {
+  static const ContactShape point{Shape<double>(Point<double>())};
+  return mesh_ ? point : *shape_;
 }
 
 void BodiesOfPairs::read(std::size_t i, PosedBody& body) const {
   const HeldShape& held = *shapes_[shapes_.size() == 1 ? 0 : i];
-  body.shape_ = &held.contact();
+  if (held.mesh()) [[unlikely]]
+    body.mesh_ = held.mesh();
+  else
+    body.shape_ = &held.contact();
   if (!given_.poses) {
     body.pose_ = Affine<double>();
     return;
@@ -143,6 +152,11 @@ void BodiesOfPairs::read_slowly(std::size_t i, const minkray_pose& pose, PosedBo
     std::snprintf(text, sizeof text, "%.3g", off);
     wrong_use(argument + ": must be rigid: rows of its linear part must have length 1 and be " +
               "square to each other (they are off by " + text + ")");
+  }
+  if (body.mesh_) {
+    body.mesh_ = mapped(*body.mesh_, linear);
+    body.pose_.linear.setIdentity();
+    return;
   }
   body.own_ = std::make_unique<const ContactShape>(*shapes_[shapes_.size() == 1 ? 0 : i]->shape(),
                                                    Affine<double>{linear, Vec3<double>::Zero()});

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/contact/impact.h"
+#include "core/world/mesh_pairs.h"
 #include "renderer/library/c_header.h"
 #include "renderer/library/held_shape.h"
 
@@ -16,12 +17,19 @@ namespace minkray {
 /// A shape and where it stands. Made once for many pairs: nothing is allocated for each.
 class PosedBody {
  public:
+  PartsBody parts() const { return mesh_ ? PartsBody(*mesh_) : PartsBody(*shape_); }
+  bool is_mesh() const { return mesh_ != nullptr; }
+  const std::shared_ptr<const TriangleMesh>& mesh() const { return mesh_; }
+  /// Not of a mesh.
   const ContactShape& shape() const { return *shape_; }
+  /// A point stands for a mesh, and is not looked at.
+  const ContactShape& shape_or_point() const;
   const Affine<double>& pose() const { return pose_; }
 
  private:
   friend class BodiesOfPairs;
   const ContactShape* shape_ = nullptr;
+  std::shared_ptr<const TriangleMesh> mesh_;
   Affine<double> pose_;
   /// Where the pose is not rigid to the last digits, and so part of the shape.
   std::unique_ptr<const ContactShape> own_;

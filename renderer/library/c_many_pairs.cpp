@@ -39,10 +39,16 @@ void ask_all(const BodiesOfPairs& a, const BodiesOfPairs& b, std::size_t count,
   throw_if_lied(b.customs());
 }
 
+/// Neither is a mesh, of which pairs keep nothing in memories.
+bool are_shapes(const PosedBody& a, const PosedBody& b) {
+  return !a.is_mesh() && !b.is_mesh();
+}
+
 SignedDistance distance_of(const PosedBody& a, const PosedBody& b, PairMemory* memory,
                            const SignedDistanceOptions& options) {
-  if (memory) return signed_distance(a.shape(), a.pose(), b.shape(), b.pose(), *memory, options);
-  return signed_distance(a.shape(), a.pose(), b.shape(), b.pose(), options);
+  if (are_shapes(a, b) && memory)
+    return signed_distance(a.shape(), a.pose(), b.shape(), b.pose(), *memory, options);
+  return signed_distance(a.parts(), a.pose(), b.parts(), b.pose(), options);
 }
 
 template <class To, class From>
@@ -134,7 +140,9 @@ int minkray_signed_distances(const minkray_bodies* a, const minkray_bodies* b, s
               if (derive)
                 tell_derivative(
                     to, i,
-                    derivative_of(one.shape(), one.pose(), other.shape(), other.pose(), found));
+                    are_shapes(one, other)
+                        ? derivative_of(one.shape(), one.pose(), other.shape(), other.pose(), found)
+                        : derivative_of(one.parts(), one.pose(), other.parts(), other.pose()));
             });
   });
 }
@@ -155,13 +163,16 @@ int minkray_times_of_impact(const minkray_bodies* a, const minkray_bodies* b, si
               const RigidMotion motion_a = all_a.motion(i, one), motion_b = all_b.motion(i, other);
               const double end = t_max[t_max_count == 1 ? 0 : i];
               const Impact found =
-                  memory
+                  memory && are_shapes(one, other)
                       ? first_impact(one.shape(), motion_a, other.shape(), motion_b, end, *memory)
-                      : first_impact(one.shape(), motion_a, other.shape(), motion_b, end);
+                      : first_impact(one.parts(), motion_a, other.parts(), motion_b, end);
               tell(to, i, found);
               if (derive)
                 tell_derivative(
-                    to, i, derivative_of(one.shape(), motion_a, other.shape(), motion_b, found));
+                    to, i,
+                    are_shapes(one, other)
+                        ? derivative_of(one.shape(), motion_a, other.shape(), motion_b, found)
+                        : derivative_of(one.parts(), motion_a, other.parts(), motion_b, end));
             });
   });
 }
@@ -180,8 +191,11 @@ int minkray_manifolds(const minkray_bodies* a, const minkray_bodies* b, size_t c
             [&](size_t i, const PosedBody& one, const PosedBody& other, PairMemory* memory) {
               const SignedDistance found = distance_of(one, other, memory, asked);
               tell(to, i,
-                   plain_manifold(found, contact_manifold(one.shape(), one.pose(), other.shape(),
-                                                          other.pose(), found)));
+                   plain_manifold(found, are_shapes(one, other)
+                                             ? contact_manifold(one.shape(), one.pose(),
+                                                                other.shape(), other.pose(), found)
+                                             : contact_manifold(one.parts(), one.pose(),
+                                                                other.parts(), other.pose())));
             });
   });
 }

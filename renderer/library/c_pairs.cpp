@@ -5,6 +5,7 @@
 
 #include "core/contact/impact.h"
 #include "core/contact/signed_distance.h"
+#include "core/world/mesh_pairs.h"
 #include "renderer/library/call.h"
 #include "renderer/library/held_shape.h"
 #include "renderer/library/pair_answers.h"
@@ -19,7 +20,13 @@ class PosedShape {
  public:
   PosedShape(const HeldShape& held, const minkray_pose* pose, const char* argument) {
     refuse_if_running(held.customs(), argument);
-    if (read_pose(pose, argument, pose_)) [[likely]] {
+    const bool is_rigid = read_pose(pose, argument, pose_);
+    if (held.mesh()) [[unlikely]] {
+      mesh_ = is_rigid ? held.mesh() : mapped(*held.mesh(), pose_.linear);
+      if (!is_rigid) pose_.linear.setIdentity();
+      return;
+    }
+    if (is_rigid) [[likely]] {
       shape_ = &held.contact();
       return;
     }
@@ -29,12 +36,13 @@ class PosedShape {
     pose_.linear.setIdentity();
   }
 
-  const ContactShape& shape() const { return *shape_; }
+  PartsBody parts() const { return mesh_ ? PartsBody(*mesh_) : PartsBody(*shape_); }
   const Affine<double>& pose() const { return pose_; }
 
  private:
   std::unique_ptr<const ContactShape> own_;  ///< where the map is part of it
-  const ContactShape* shape_;
+  const ContactShape* shape_ = nullptr;
+  std::shared_ptr<const TriangleMesh> mesh_;
   Affine<double> pose_;
 };
 
@@ -60,7 +68,7 @@ int minkray_signed_distance(minkray_shape a, const minkray_pose* pose_a, minkray
     const HeldShape &held_a = shape_of(a, "a"), &held_b = shape_of(b, "b");
     require(distance, "distance");
     const PosedShape posed_a(held_a, pose_a, "pose_a"), posed_b(held_b, pose_b, "pose_b");
-    const SignedDistance found = signed_distance(posed_a.shape(), posed_a.pose(), posed_b.shape(),
+    const SignedDistance found = signed_distance(posed_a.parts(), posed_a.pose(), posed_b.parts(),
                                                  posed_b.pose(), distance_options(options));
     throw_if_lied(held_a.customs());
     throw_if_lied(held_b.customs());
@@ -79,7 +87,7 @@ int minkray_time_of_impact(minkray_shape a, const minkray_pose* pose_a,
       wrong_use("t_max: must be finite and >= 0 (got " + std::to_string(t_max) + ")");
     const PosedShape posed_a(held_a, pose_a, "pose_a"), posed_b(held_b, pose_b, "pose_b");
     const Impact found =
-        first_impact(posed_a.shape(), motion_of(posed_a, twist_a, "twist_a"), posed_b.shape(),
+        first_impact(posed_a.parts(), motion_of(posed_a, twist_a, "twist_a"), posed_b.parts(),
                      motion_of(posed_b, twist_b, "twist_b"), t_max);
     throw_if_lied(held_a.customs());
     throw_if_lied(held_b.customs());

@@ -100,7 +100,12 @@ class Derivatives {
     const ContactBody* const body = bodies_.body(met.object);
     constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
     const double rounded = off + rounding * (met.point.norm() + ray.origin.norm());
-    if (body) {
+    if (body && body->mesh) {
+      const Vec3<double> point =
+          body->pose.linear.transpose() * (met.point - body->pose.translation);
+      if (minkray::bends_at(*body->mesh, point, rounded + rounding * body->mesh->reach()))
+        return true;
+    } else if (body) {
       const ShapeCore& core = body->shape.core();
       const double near = rounded + rounding * body->shape.ball_radius() + core.rounding;
       // What is grown by a radius has no edge.

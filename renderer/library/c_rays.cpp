@@ -129,7 +129,7 @@ int minkray_scene_cast_arrays(minkray_scene scene, const minkray_ray_arrays* ray
   return call("minkray_scene_cast_arrays", [&] {
     const SceneQuery held(scene);
     require(hits, "hits");
-    if (hits->size < sizeof(minkray_hit_arrays))
+    if (hits->size < offsetof(minkray_hit_arrays, parts))
       wrong_use("hits.size: must be sizeof(minkray_hit_arrays)");
     struct {
       const minkray_hit_arrays& hits;
@@ -182,6 +182,7 @@ int minkray_scene_exit(minkray_scene scene, uint32_t object, const minkray_ray* 
     if (object < held->size()) held->check_object(object);
     if (instances.is_half_space(object))
       wrong_use("object: must not be a half-space, which rays never leave");
+    if (instances.is_mesh(object)) wrong_use("object: must be convex (got a mesh)");
     cast_at_one(instances.at(object), object, RaySource(rays, count), hits, options,
                 [](const PreparedShape<double>& shape, const Ray<double>& ray) {
                   return cast_exit(shape, ray);
@@ -196,6 +197,20 @@ int minkray_shape_cast(minkray_shape shape, const minkray_pose* pose, const mink
     const HeldShape& held = shape_of(shape, "shape");
     refuse_if_running(held.customs(), "shape");
     if (count > 0) require(hits, "hits");
+    if (held.mesh()) {
+      const PosedMesh posed(0, held.mesh(), pose_of(pose, "pose"));
+      const RaySource source(rays, count);
+      work_on_rays(count, options, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+          const Ray<double> ray = source[i];
+          PartCounts parts;
+          const MeshCast met = cast_ray(posed, ray, ray.t_max, false, 0, parts);
+          const WorldHit hit{met.cast.found() ? 0 : no_instance, met.cast, met.part};
+          plain_hit(ray, hit, met.cast.status == Status::exhausted, hits[i]);
+        }
+      });
+      return;
+    }
     if (count == 1 && !options && held.customs().empty()) {
       const Ray<double> ray = ray_of(rays);
       const auto cast = [&] {

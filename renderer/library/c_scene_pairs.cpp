@@ -222,7 +222,8 @@ int minkray_scene_distance_to(minkray_scene scene, const minkray_bodies* shapes,
     for_all(*held, count, how, [&](size_t i) {
       PosedBody body;
       all.read(i, body);
-      const ContactBody to{body.shape(), body.pose(), all_categories, query.mask};
+      const ContactBody to{body.shape_or_point(), body.pose(), all_categories, query.mask,
+                           body.mesh()};
       const std::vector<ScenePair> found = bodies.nearest(to, 1, query.within);
       if (found.empty())
         nearest[i] = no_pair(query.within);
@@ -251,14 +252,14 @@ int minkray_scene_time_of_impact(minkray_scene scene, const minkray_bodies* shap
       all.read(i, body);
       const RigidMotion motion = all.motion(i, body);
       const double end = t_max[t_max_count == 1 ? 0 : i];
-      const WorldImpact found = bodies.first_impact(body.shape(), motion, end, query.mask);
+      const WorldImpact found = bodies.first_impact(body.parts(), motion, end, query.mask);
       minkray_scene_impact& told = impacts[i];
       told = {};
       told.impact = plain_impact(found.impact);
       told.object =
           found.body == WorldImpact::none ? MINKRAY_NO_OBJECT : static_cast<uint32_t>(found.body);
       if (!query.derive) return;
-      const PairDerivative derivative = bodies.derivative(body.shape(), motion, found);
+      const PairDerivative derivative = bodies.derivative(body.parts(), motion, found);
       put_twist(derivative.a, told.jac);
       told.is_ridge = derivative.is_ridge ? 1 : 0;
     });

@@ -2,6 +2,7 @@
 // The functions of the C interface that make scenes and change them.
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 #include "renderer/library/call.h"
 #include "renderer/library/held_scene.h"
@@ -24,7 +25,7 @@ namespace {
 ImportOptions import_options(const minkray_file_options* given) {
   ImportOptions options;
   if (!given) return options;
-  if (given->size < sizeof(minkray_file_options))
+  if (given->size < offsetof(minkray_file_options, meshes))
     wrong_use("options.size: must be sizeof(minkray_file_options)");
   const std::string geometry = given->geometry ? given->geometry : "visual";
   if (geometry == "collision")
@@ -34,6 +35,13 @@ ImportOptions import_options(const minkray_file_options* given) {
   else if (geometry != "visual")
     wrong_use("options.geometry: must be \"visual\", \"collision\" or \"all\" (got \"" +
               printable(geometry, 60) + "\")");
+  const bool has_meshes = given->size >= sizeof(minkray_file_options) && given->meshes;
+  const std::string meshes = has_meshes ? given->meshes : "hull";
+  if (meshes == "exact")
+    options.meshes = MeshChoice::exact;
+  else if (meshes != "hull")
+    wrong_use("options.meshes: must be \"hull\" or \"exact\" (got \"" + printable(meshes, 60) +
+              "\")");
   if (given->keyframe) options.keyframe = given->keyframe;
   if (given->package_dir_count > 0) require(given->package_dirs, "options.package_dirs");
   require_room(given->package_dir_count, sizeof(char*), "options.package_dir_count");

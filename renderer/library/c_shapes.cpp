@@ -9,6 +9,7 @@
 #include "renderer/library/held_shape.h"
 #include "renderer/library/make_shape.h"
 #include "renderer/library/nesting.h"
+#include "renderer/scene/scene.h"
 #include "renderer/scene/shape_json.h"
 
 namespace minkray {
@@ -16,6 +17,10 @@ namespace minkray {
 void wrong_shape(minkray_shape shape, const char* argument) {
   wrong_use(std::string(argument) + ": must be a shape (got " +
             (shape.id == 0 ? "none" : "one that was released, or none") + ")");
+}
+
+void HeldShape::refuse_mesh() {
+  wrong_use("shape: must be convex (got a mesh)");
 }
 
 namespace {
@@ -104,6 +109,41 @@ int minkray_shape_custom_with_jets(const minkray_support* support, minkray_jet_f
   });
 }
 
+int minkray_shape_mesh(const double (*vertices)[3], size_t vertex_count,
+                       const uint32_t (*triangles)[3], size_t triangle_count,
+                       minkray_shape* shape) {
+  return call("minkray_shape_mesh", [&] {
+    require(vertices, "vertices");
+    require(triangles, "triangles");
+    require(shape, "shape");
+    require_room(vertex_count, sizeof *vertices, "vertex_count");
+    require_room(triangle_count, sizeof *triangles, "triangle_count");
+    std::vector<Vec3<double>> points(vertex_count);
+    for (size_t i = 0; i < vertex_count; ++i)
+      points[i] = {vertices[i][0], vertices[i][1], vertices[i][2]};
+    std::vector<Corners> corners(triangle_count);
+    for (size_t i = 0; i < triangle_count; ++i)
+      corners[i] = {triangles[i][0], triangles[i][1], triangles[i][2]};
+    try {
+      auto mesh = std::make_shared<const TriangleMesh>(std::move(points), std::move(corners));
+      *shape = {held_shapes().add(std::make_unique<HeldShape>(std::move(mesh)))};
+    } catch (const std::invalid_argument& error) {
+      wrong_use(error.what());
+    }
+  });
+}
+
+int minkray_shape_mesh_info(minkray_shape shape, minkray_mesh_info* info) {
+  return call("minkray_shape_mesh_info", [&] {
+    const HeldShape& held = shape_of(shape, "shape");
+    require(info, "info");
+    if (!held.mesh()) wrong_use("shape: must be a mesh (got a convex shape)");
+    const MeshFaults faults = held.mesh()->faults();
+    *info = {held.mesh()->vertices().size(), held.mesh()->size(), faults.open_edges,
+             faults.without_area, faults.repeated};
+  });
+}
+
 int minkray_shape_retain(minkray_shape shape) {
   return call("minkray_shape_retain", [&] {
     if (!held_shapes().retain(shape.id)) shape_of(shape, "shape");
@@ -119,6 +159,7 @@ int minkray_shape_release(minkray_shape shape) {
 int minkray_shape_write(minkray_shape shape, char* text, size_t size, size_t* needed) {
   return call("minkray_shape_write", [&] {
     const HeldShape& held = shape_of(shape, "shape");
+    if (held.mesh()) wrong_use("shape: cannot be written, since it is a mesh");
     if (!held.customs().empty())
       wrong_use("shape: cannot be written, since a program gives its support function");
     const std::string json = write_shape(*held.shape()).dump();
@@ -134,8 +175,10 @@ int minkray_shape_write(minkray_shape shape, char* text, size_t size, size_t* ne
 int minkray_shape_kind(minkray_shape shape, const char** kind) {
   return call("minkray_shape_kind", [&] {
     require(kind, "kind");
-    *kind = std::visit([]<class S>(const S&) { return S::name.data(); },
-                       shape_of(shape, "shape").shape()->kind);
+    const HeldShape& held = shape_of(shape, "shape");
+    *kind = held.mesh()
+                ? mesh_name.data()
+                : std::visit([]<class S>(const S&) { return S::name.data(); }, held.shape()->kind);
   });
 }
 
@@ -169,7 +212,8 @@ int minkray_shape_bounds(minkray_shape shape, double lower[3], double upper[3]) 
     refuse_if_running(held.customs(), "shape");
     require(lower, "lower");
     require(upper, "upper");
-    const Bounds<double> bounds = bounds_of<double>(*held.shape());
+    const Bounds<double> bounds =
+        held.mesh() ? held.mesh()->bounds() : bounds_of<double>(*held.shape());
     throw_if_lied(held.customs());
     for (int k = 0; k < 3; ++k) {
       lower[k] = bounds.lower[k];

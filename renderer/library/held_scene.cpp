@@ -77,6 +77,10 @@ std::uint32_t HeldScene::add(const HeldShape& shape, const Affine<double>& pose,
   check_room(1);
   keep_customs(shape.customs());
   Instances& instances = changed();
+  if (shape.mesh()) {
+    instances.add(shape.mesh(), pose);
+    return number_of_added(name);
+  }
   const bool is_custom = !shape.customs().empty();
   instances.add(is_custom ? instances.define(*shape.shape()) : instances.define(shape.definition()),
                 pose);
@@ -202,7 +206,11 @@ Object HeldScene::object(std::uint32_t number) const {
   object.name = name(number);
   object.material = *grey_;
   object.pose = pose(number);
-  if (!instances().is_half_space(number)) {
+  if (instances().is_mesh(number)) {
+    object.mesh = instances().mesh_of(number).mesh;
+    return object;
+  }
+  if (instances().has_shape(number)) {
     object.shape = instances().body_of(number).definition->original_shape();
     object.definition = instances().body_of(number).definition;
     return object;
@@ -293,15 +301,14 @@ void HeldScene::remove(std::uint32_t number) {
   removed_.insert(number);
   poses_.erase(number);
   Instances& instances = changed();
-  if (!instances.is_half_space(number))
+  if (instances.has_shape(number))
     instances.replace(number, instances.define(Shape<double>(Point<double>())));
   if (customs_.empty()) return;
   known_customs_.clear();
   customs_.clear();
   std::unordered_set<std::uint32_t> definitions;
   for (std::uint32_t i = 0; i < size_; ++i)
-    if (!is_removed(i) && !instances.is_half_space(i))
-      definitions.insert(instances.definition_of(i));
+    if (!is_removed(i) && instances.has_shape(i)) definitions.insert(instances.definition_of(i));
   for (const std::uint32_t definition : definitions)
     keep_customs(customs_of(instances.definition(definition).original_shape()));
 }

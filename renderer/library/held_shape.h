@@ -8,6 +8,7 @@
 
 #include "core/cast/prepared_shape.h"
 #include "core/contact/contact_shape.h"
+#include "core/mesh/triangle_mesh.h"
 #include "core/model/shape_definition.h"
 #include "renderer/library/custom_support.h"
 #include "renderer/library/handles.h"
@@ -19,27 +20,42 @@ class HeldShape {
  public:
   explicit HeldShape(Shape<double> shape)
       : shape_(std::move(shape)), customs_(customs_of(*shape_)) {}
+  explicit HeldShape(std::shared_ptr<const TriangleMesh> mesh)
+      : mesh_(std::move(mesh)), shape_(Point<double>()) {}
 
-  const Nested<double>& shape() const { return shape_; }
+  /// Null, but of a mesh. What follows throws CallError for a mesh, which is not convex.
+  const std::shared_ptr<const TriangleMesh>& mesh() const { return mesh_; }
+
+  const Nested<double>& shape() const { return convex().shape_; }
   const std::vector<std::shared_ptr<const CustomSupport>>& customs() const { return customs_; }
 
   /// For queries on pairs.
   const ContactShape& contact() const {
+    convex();
     return *contact_.get([&] { return std::make_shared<const ContactShape>(*shape_); });
   }
   /// For rays at the shape where it is.
   const PreparedShape<double>& prepared() const {
+    convex();
     return *prepared_.get([&] {
       return std::make_shared<const PreparedShape<double>>(definition(), Affine<double>());
     });
   }
   /// For rays.
   const std::shared_ptr<const ShapeDefinition<double>>& definition() const {
+    convex();
     return definition_.get(
         [&] { return std::make_shared<const ShapeDefinition<double>>(*shape_); });
   }
 
  private:
+  [[noreturn]] static void refuse_mesh();
+  const HeldShape& convex() const {
+    if (mesh_) [[unlikely]]
+      refuse_mesh();
+    return *this;
+  }
+
   /// Made by the first call that needs it; later ones cost one load.
   template <class Thing>
   class Once {
@@ -60,6 +76,7 @@ class HeldShape {
     mutable std::shared_ptr<const Thing> thing_;
   };
 
+  std::shared_ptr<const TriangleMesh> mesh_;
   Nested<double> shape_;
   std::vector<std::shared_ptr<const CustomSupport>> customs_;
   Once<ContactShape> contact_;

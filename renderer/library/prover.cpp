@@ -9,6 +9,7 @@
 #include "core/derived/shape_bounds.h"
 #include "core/parallel/parallel.h"
 #include "renderer/audit/half_space_verdict.h"
+#include "renderer/audit/mesh_verdict.h"
 #include "renderer/library/call.h"
 #include "renderer/scene/scene_instances.h"
 
@@ -89,6 +90,11 @@ Prover::Prover(const HeldScene& scene) : world_(scene.world()), bodies_(world_.i
         body.half_space = object.half_space->posed(object.pose);
         continue;
       }
+      if (object.mesh) {
+        body.mesh = PosedMesh(0, object.mesh, object.pose);
+        body.bounds = body.mesh->bounds();
+        continue;
+      }
       if (has_customs) body.customs = customs_of(object.shape);
       body.shape = object.pose == Affine<double>{}
                        ? object.shape
@@ -100,6 +106,7 @@ Prover::Prover(const HeldScene& scene) : world_(scene.world()), bodies_(world_.i
 
 CertificateVerdict Prover::verdict(const Body& body, const Ray<double>& ray, const Claim& claim,
                                    Certificate* found) const {
+  if (body.mesh) return verdict_of(*body.mesh, ray, claim, found);
   if (!body.shape) return verdict_of(body.half_space, ray, claim);
   Witnesses witnesses(*body.shape);
   const SupportFunction support =
@@ -118,8 +125,11 @@ bool Prover::keeps_off(std::uint32_t index, const Ray<double>& ray, double t_lo)
   const Body& body = bodies_[index];
   Ray<double> before = ray;
   before.t_max = t_lo;
-  const CastResult<double> cast = body.shape ? cast_ray(world_.instances().at(index), before)
-                                             : cast_ray(body.half_space, before);
+  PartCounts parts;
+  const CastResult<double> cast = body.mesh
+                                      ? cast_ray(*body.mesh, before, t_lo, false, 0, parts).cast
+                                  : body.shape ? cast_ray(world_.instances().at(index), before)
+                                               : cast_ray(body.half_space, before);
   const CertificateVerdict found = verdict(body, before, claim_of(cast), nullptr);
   if (!found.holds) return false;
   if (cast.status == Status::miss) return true;

@@ -23,7 +23,8 @@ class Prover {
   /// One instance in the world.
   struct Body {
     bool is_removed = false;
-    std::optional<Shape<double>> shape;  ///< none: a half-space
+    std::optional<Shape<double>> shape;  ///< none: a half-space or mesh
+    std::optional<PosedMesh> mesh;
     HalfSpaceBody<double> half_space;
     Bounds<double> bounds;
     std::vector<std::shared_ptr<const CustomSupport>> customs;

@@ -73,7 +73,7 @@ void plain_hit(const Ray<double>& ray, const WorldHit& hit, bool gave_up, minkra
   to.status = gave_up ? MINKRAY_EXHAUSTED : static_cast<int>(cast.status);
   to.object = hit.instance;
   to.supports = cast.supports;
-  to.reserved = 0;
+  to.part = static_cast<std::int32_t>(hit.part);
   if (!hit.found()) {
     to.t = to.t_lo = to.t_hi = to.t_base = std::numeric_limits<double>::infinity();
     to.t_offset = 0;
@@ -96,7 +96,8 @@ void plain_hit(const Ray<double>& ray, const WorldHit& hit, bool gave_up, minkra
 
 void plain_hit(const Ray<double>& ray, const BlockHits& hits, std::size_t i, minkray_hit& to) {
   to.object = hits.instance[i];
-  to.supports = to.reserved = 0;
+  to.supports = 0;
+  to.part = -1;
   if (!(hits.found >> i & 1u)) {
     to.status = MINKRAY_MISS;
     to.t = to.t_lo = to.t_hi = to.t_base = std::numeric_limits<double>::infinity();
@@ -133,6 +134,7 @@ void store(const minkray_hit_arrays& arrays, std::size_t i, const Ray<double>& r
   if (arrays.objects) arrays.objects[i] = hit.object;
   if (arrays.status) arrays.status[i] = static_cast<std::uint8_t>(hit.status);
   if (arrays.supports) arrays.supports[i] = hit.supports;
+  if (arrays.size >= sizeof arrays && arrays.parts) arrays.parts[i] = hit.part;
 }
 
 }  // namespace minkray

@@ -15,8 +15,7 @@ namespace minkray {
 namespace {
 
 SignedDistance distance_to(const PlacedPlane& plane, const ContactBody& body) {
-  return distance_to_half_space(plane, body.shape, body.pose.linear,
-                                placed_middle(body.shape, body.pose));
+  return distance_to_half_space(plane, body.parts(), body.pose);
 }
 
 void turn_round(SignedDistance& found) {
@@ -44,8 +43,8 @@ ContactBody as_box(const PlacedPlane& plane, const Vec3<double>& near, double re
 }
 
 /// How far the moving body gets from where its origin is at time 0.
-double reach_of(const ContactShape& shape, const RigidMotion& motion, double t_max) {
-  return shape.ball_radius() + shape.offset() + t_max * motion.velocity.norm();
+double way_of(const PartsBody& moving, const RigidMotion& motion, double t_max) {
+  return reach_of(moving) + t_max * motion.velocity.norm();
 }
 
 constexpr double no_end = std::numeric_limits<double>::infinity();
@@ -67,6 +66,19 @@ SceneBodies::SceneBodies(const HeldScene& scene) : scene_(scene) {
     const PairRules::Masks masks = rules.masks(i);
     if (instances.is_half_space(i)) continue;
     const Affine<double> pose = scene.pose_of_any(i);
+    if (instances.is_mesh(i)) {
+      // What scales is part of the mesh.
+      std::shared_ptr<const TriangleMesh> mesh = instances.mesh_of(i).mesh;
+      Affine<double> place = pose;
+      if (!is_rigid(pose)) {
+        mesh = mapped(*mesh, pose.linear);
+        place.linear.setIdentity();
+      }
+      body_of_[i] = static_cast<std::uint32_t>(bodies.size());
+      objects_.push_back(i);
+      bodies.push_back({point_, place, masks.category, masks.mask, std::move(mesh)});
+      continue;
+    }
     const std::uint32_t number = instances.definition_of(i);
     const Shape<double>& shape = instances.definition(number).original_shape();
     body_of_[i] = static_cast<std::uint32_t>(bodies.size());
@@ -168,7 +180,7 @@ SignedDistance SceneBodies::distance(std::uint32_t a, std::uint32_t b,
               std::to_string(b) + ")");
   if (!plane_a && !plane_b) {
     const ContactBody &one = body_of(a), &other = body_of(b);
-    return signed_distance(one.shape, one.pose, other.shape, other.pose, how);
+    return signed_distance(one.parts(), one.pose, other.parts(), other.pose, how);
   }
   SignedDistance found =
       plane_a ? distance_to(plane_a->plane, body_of(b)) : distance_to(plane_b->plane, body_of(a));
@@ -182,10 +194,13 @@ ContactManifold SceneBodies::manifold(std::uint32_t a, std::uint32_t b,
     const HalfSpace* const half_space = half_space_of(object);
     if (!half_space) return body_of(object);
     const ContactBody& body = body_of(other);
+    if (body.mesh) return as_box(half_space->plane, body.pose.translation, body.mesh->reach());
     return as_box(half_space->plane, middle_in_world(body.shape, body.pose),
                   body.shape.ball_radius());
   };
   const ContactBody one = solid(a, b), other = solid(b, a);
+  if (one.mesh || other.mesh)
+    return contact_manifold(one.parts(), one.pose, other.parts(), other.pose);
   return contact_manifold(one.shape, one.pose, other.shape, other.pose, nearest);
 }
 
@@ -193,14 +208,17 @@ PairDerivative SceneBodies::derivative(const ScenePair& pair) const {
   const HalfSpace *plane_a = half_space_of(pair.a), *plane_b = half_space_of(pair.b);
   if (!plane_a && !plane_b) {
     const ContactBody &one = body_of(pair.a), &other = body_of(pair.b);
+    if (one.mesh || other.mesh)
+      return derivative_of(one.parts(), one.pose, other.parts(), other.pose);
     return finest_derivative_of(one.shape, one.pose, other.shape, other.pose);
   }
   const HalfSpace& plane = plane_a ? *plane_a : *plane_b;
   const ContactBody& body = body_of(plane_a ? pair.b : pair.a);
   SignedDistance distance = pair.distance;
   if (plane_b) turn_round(distance);
+  // The lowest vertex of a mesh is a body of its own.
   PairDerivative derivative =
-      derivative_at_half_space(plane.origin, body.shape, body.pose, distance);
+      derivative_at_half_space(plane.origin, body.mesh ? point_ : body.shape, body.pose, distance);
   if (plane_b) turn_round(derivative);
   return derivative;
 }
@@ -227,12 +245,13 @@ PairDerivative SceneBodies::derivative(const ContactBody& of, const ScenePair& p
   if (const HalfSpace* const half_space = half_space_of(pair.b)) {
     SignedDistance distance = pair.distance;
     turn_round(distance);
-    PairDerivative derivative =
-        derivative_at_half_space(half_space->origin, of.shape, of.pose, distance);
+    PairDerivative derivative = derivative_at_half_space(
+        half_space->origin, of.mesh ? point_ : of.shape, of.pose, distance);
     turn_round(derivative);
     return derivative;
   }
   const ContactBody& other = body_of(pair.b);
+  if (of.mesh || other.mesh) return derivative_of(of.parts(), of.pose, other.parts(), other.pose);
   return finest_derivative_of(of.shape, of.pose, other.shape, other.pose);
 }
 
@@ -274,41 +293,42 @@ bool SceneBodies::is_another_at(const Vec3<double>& point, std::uint32_t object,
     const std::uint32_t index = what & ~BvhNode::leaf;
     if (objects_[index] == object) continue;
     const ContactBody& body = world_->bodies()[index];
-    const SignedDistance distance = signed_distance(point_, at, body.shape, body.pose, how);
+    const SignedDistance distance =
+        signed_distance(PartsBody(point_), at, body.parts(), body.pose, how);
     if (distance.lower <= near && distance.upper >= -near) return true;
   }
   return false;
 }
 
-WorldImpact SceneBodies::first_impact(const ContactShape& shape, const RigidMotion& motion,
+WorldImpact SceneBodies::first_impact(const PartsBody& moving, const RigidMotion& motion,
                                       double t_max, std::uint32_t mask) const {
   WorldImpact found = nothing_met(t_max);
   for (const HalfSpace& half_space : half_spaces_) {
     if ((half_space.masks.category & mask) == 0) continue;
     const ContactBody box =
-        as_box(half_space.plane, motion.pose.translation, reach_of(shape, motion, t_max));
+        as_box(half_space.plane, motion.pose.translation, way_of(moving, motion, t_max));
     take(found, half_space.object,
-         minkray::first_impact(shape, motion, box.shape, {box.pose}, t_max));
+         minkray::first_impact(moving, motion, box.parts(), {box.pose}, t_max));
   }
   // Bodies and half-spaces have numbers of their own until here.
   WorldImpact met = minkray::first_impact(
-      shape, motion, *world_, std::min(t_max, found.impact.t_hi), mask, nothing_met(t_max));
+      moving, motion, *world_, std::min(t_max, found.impact.t_hi), mask, nothing_met(t_max));
   if (met.body != WorldImpact::none) take(found, objects_[met.body], met.impact);
   return found;
 }
 
-PairDerivative SceneBodies::derivative(const ContactShape& shape, const RigidMotion& motion,
+PairDerivative SceneBodies::derivative(const PartsBody& moving, const RigidMotion& motion,
                                        const WorldImpact& found) const {
   if (found.body == WorldImpact::none)
-    return derivative_of(shape, motion, shape, motion, found.impact);
+    return derivative_of(point_, motion, point_, motion, found.impact);
   const auto object = static_cast<std::uint32_t>(found.body);
-  if (const HalfSpace* const half_space = half_space_of(object)) {
-    const ContactBody box = as_box(half_space->plane, motion.pose.translation,
-                                   reach_of(shape, motion, found.impact.t_lo));
-    return derivative_of(shape, motion, box.shape, {box.pose}, found.impact);
-  }
-  const ContactBody& body = body_of(object);
-  return derivative_of(shape, motion, body.shape, {body.pose}, found.impact);
+  const HalfSpace* const half_space = half_space_of(object);
+  const ContactBody body = half_space ? as_box(half_space->plane, motion.pose.translation,
+                                               way_of(moving, motion, found.impact.t_lo))
+                                      : body_of(object);
+  if (moving.shape() && !body.mesh)
+    return derivative_of(*moving.shape(), motion, body.shape, {body.pose}, found.impact);
+  return derivative_of(moving, motion, body.parts(), {body.pose}, found.impact.t_hi);
 }
 
 }  // namespace minkray

@@ -51,9 +51,9 @@ class SceneBodies {
   bool is_another_at(const Vec3<double>& point, std::uint32_t object, double near) const;
 
   /// The object that is touched first; its number is in `body`.
-  WorldImpact first_impact(const ContactShape& shape, const RigidMotion& motion, double t_max,
+  WorldImpact first_impact(const PartsBody& moving, const RigidMotion& motion, double t_max,
                            std::uint32_t mask) const;
-  PairDerivative derivative(const ContactShape& shape, const RigidMotion& motion,
+  PairDerivative derivative(const PartsBody& moving, const RigidMotion& motion,
                             const WorldImpact& found) const;
 
  private:

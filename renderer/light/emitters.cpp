@@ -193,8 +193,8 @@ Emitters::Emitters(const World& world, const std::vector<Colour>& radiance_of_in
   std::vector<LightTree::Light> lights;
   for (std::size_t i = 0; i < radiance_of_instance.size(); ++i) {
     const Colour& radiance = radiance_of_instance[i];
-    // What has no end, or no size, is found by chance alone.
-    if (!(radiance.maxCoeff() > 0) || world.instances().is_half_space(i)) continue;
+    // What has no end, or no size, and meshes, are found by chance alone.
+    if (!(radiance.maxCoeff() > 0) || !world.instances().has_shape(i)) continue;
     const PreparedShape<double> body = world.instances().at(i);
     if (!(body.inner_ball().radius > 0)) continue;
     Emitter& emitter =

@@ -34,6 +34,17 @@ Boundary exit_of(const World& world, const WorldRay& ray, std::uint32_t body, Qu
     }
     return exit;
   }
+  if (instances.is_mesh(body)) {
+    PartCounts parts;
+    const MeshCast next =
+        cast_ray(instances.mesh_of(body), seen, std::numeric_limits<double>::infinity(), true,
+                 instances.loss_of_seen_by(body, ray.ray), parts);
+    counts.add_parts(parts);
+    exit.is_lost = !next.cast.found();  // it is not closed
+    exit.t = next.cast.t();
+    exit.normal = instances.turned(body, -next.cast.normal, ray.time);
+    return exit;
+  }
   const CastResult<double> cast =
       cast_exit(instances.at_seen_by(body, ray.ray), seen, world.options());
   counts.iterations += static_cast<std::uint64_t>(cast.iterations);
@@ -76,10 +87,20 @@ WorldHit closest_but(const World& world, const WorldRay& ray, std::span<const st
       meet(
           half_space.instance,
           cast_ray(half_space.in_world, instances.seen_by(half_space.instance, ray.ray, ray.time)));
+  for (const PosedMesh& mesh : instances.meshes()) {
+    if (is_left_out(mesh.instance)) continue;
+    PartCounts parts;
+    const double most =
+        closest.found() ? closest.cast.t() : std::numeric_limits<double>::infinity();
+    const MeshCast cast = cast_ray(mesh, instances.seen_by(mesh.instance, ray.ray, ray.time), most,
+                                   false, instances.loss_of_seen_by(mesh.instance, ray.ray), parts);
+    counts.add_parts(parts);
+    meet(mesh.instance, cast.cast);
+  }
   SlabRay slabs(ray.ray);
   if (closest.found()) slabs.numbers.t_max = slabs.limit(closest.cast.t());
   counts.nodes += traverse(world.bvh(), slabs, [&](std::uint32_t instance) {
-    if (is_left_out(instance) || instances.is_half_space(instance)) return false;
+    if (is_left_out(instance)) return false;
     if (meet(instance, cast_ray(instances.at_seen_by(instance, ray.ray),
                                 instances.seen_by(instance, ray.ray, ray.time), world.options())))
       slabs.numbers.t_max = slabs.limit(closest.cast.t());

@@ -13,7 +13,7 @@ constexpr int sure_depth = 4;
 constexpr double sheet_thickness = 1e-6;
 
 bool is_flat(const World& world, std::uint32_t instance) {
-  if (world.instances().is_half_space(instance)) return false;
+  if (!world.instances().has_shape(instance)) return false;
   const Vec3<double> half = world.instances().at(instance).definition().inner_half_extents();
   return half.minCoeff() <= sheet_thickness * half.maxCoeff();
 }

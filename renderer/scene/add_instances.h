@@ -10,6 +10,8 @@ namespace minkray {
 inline void add_object(Instances& instances, const Object& object) {
   if (object.half_space)
     instances.add(*object.half_space, object.pose);
+  else if (object.mesh)
+    instances.add(object.mesh, object.pose);
   else if (object.definition)
     instances.add(instances.define(object.definition), object.pose);
   else

@@ -2,8 +2,10 @@
 #include "renderer/scene/mesh_files.h"
 
 #include <exception>
+#include <stdexcept>
 
 #include "core/files/mesh_file.h"
+#include "core/mesh/weld.h"
 #include "renderer/base/of_file.h"
 #include "renderer/io/read_image.h"
 
@@ -108,7 +110,38 @@ std::vector<std::filesystem::path> MeshFiles::meshes() const {
   std::vector<std::filesystem::path> files;
   for (const auto& [name, mesh] : read_) files.push_back(folder_ / name);
   for (const auto& [key, parts] : parts_) files.push_back(folder_ / key.first);
+  for (const auto& [key, surface] : surfaces_) files.push_back(folder_ / key.first);
   return files;
+}
+
+std::shared_ptr<const TriangleMesh> MeshFiles::read_mesh(const std::string& name, double scale,
+                                                         const JsonPath& path, Mistakes& mistakes) {
+  const auto known = surfaces_.find({name, scale});
+  if (known != surfaces_.end()) return known->second.mesh;
+  const std::filesystem::path file = folder_ / name;
+  try {
+    MeshTriangles triangles;
+    std::vector<Vec3<double>> vertices = read_mesh_vertices(file, &triangles);
+    if (triangles.corners.empty())
+      throw std::runtime_error("must have faces (found vertices only)");
+    for (Vec3<double>& vertex : vertices) vertex *= scale;
+    weld(vertices, triangles.corners);
+    Surface surface{
+        std::make_shared<const TriangleMesh>(std::move(vertices), std::move(triangles.corners)),
+        {}};
+    Hash hash;
+    const auto add = [&](const auto& items) {
+      hash.add({reinterpret_cast<const char*>(items.data()), items.size() * sizeof items[0]});
+    };
+    add(surface.mesh->vertices());
+    add(surface.mesh->triangles());
+    surface.hash = hash.text();
+    return surfaces_.emplace(std::pair(name, scale), std::move(surface)).first->second.mesh;
+  } catch (const std::exception& error) {
+    mistakes.add(path,
+                 printable(file.string(), 200) + ": " + what_of(error) + advice(folder_, file));
+    return nullptr;
+  }
 }
 
 void MeshFiles::add_to(Hash& hash) const {
@@ -123,6 +156,10 @@ void MeshFiles::add_to(Hash& hash) const {
   for (const auto& [key, parts] : parts_) {
     hash.add(key.first);
     hash.add(parts.hash);
+  }
+  for (const auto& [key, surface] : surfaces_) {
+    hash.add(key.first);
+    hash.add(surface.hash);
   }
 }
 

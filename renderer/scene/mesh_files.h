@@ -13,6 +13,7 @@
 
 #include "core/files/mesh_parts.h"
 #include "core/geometry/point_cloud.h"
+#include "core/mesh/triangle_mesh.h"
 #include "renderer/base/hash.h"
 #include "renderer/image/image.h"
 #include "renderer/json/mistakes.h"
@@ -32,6 +33,11 @@ class MeshFiles {
   std::optional<std::vector<PointCloud<double>>> read_parts(const std::string& name,
                                                             MeshSplit split, const JsonPath& path,
                                                             Mistakes& mistakes);
+
+  /// The triangles of a mesh file, its coordinates times the scale; null, and a mistake, if it
+  /// cannot be used. Vertices at the same place become one.
+  std::shared_ptr<const TriangleMesh> read_mesh(const std::string& name, double scale,
+                                                const JsonPath& path, Mistakes& mistakes);
 
   /// Adds what was read: the names, and all vertices.
   void add_to(Hash& hash) const;
@@ -56,6 +62,11 @@ class MeshFiles {
     std::string hash;  ///< of all vertices, and of how they are split
   };
   std::map<std::pair<std::string, MeshSplit>, Parts> parts_;
+  struct Surface {
+    std::shared_ptr<const TriangleMesh> mesh;
+    std::string hash;  ///< of vertices and triangles
+  };
+  std::map<std::pair<std::string, double>, Surface> surfaces_;
   struct Picture {
     std::shared_ptr<const Image> image;
     std::string hash;  ///< of all pixels

@@ -27,6 +27,7 @@ namespace minkray {
 
 template <class T>
 class ShapeDefinition;
+class TriangleMesh;
 
 struct Object {
   std::string name;
@@ -36,13 +37,20 @@ struct Object {
   std::optional<Motion> motion = {};  ///< `pose` is what it is at the scene's time
   Movement<double> movement = {};     ///< what it does while the shutter is open
   std::optional<HalfSpaceBody<double>> half_space =
-      {};                               ///< if there is one it is that, not `shape`
+      {};                                         ///< if there is one it is that, not `shape`
+  std::shared_ptr<const TriangleMesh> mesh = {};  ///< the same
   RayKinds visible_to = all_ray_kinds;  ///< and to no rays that its material is not visible to
   std::shared_ptr<const ShapeDefinition<double>> definition = {};  ///< of the shape, if shared
+
+  /// Neither a half-space nor a mesh.
+  bool has_shape() const { return !half_space && !mesh; }
 };
 
 /// What "type" says in the place of a shape's name for a half-space, which is none.
 inline constexpr std::string_view half_space_name = "plane";
+
+/// What stands for a shape's name where an object is a mesh.
+inline constexpr std::string_view mesh_name = "mesh";
 
 /// What a ray sees that meets nothing: a vertical gradient.
 struct Background {

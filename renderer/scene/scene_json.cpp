@@ -9,6 +9,7 @@
 #include "renderer/scene/find_focus.h"
 #include "renderer/scene/fitting_keys.h"
 #include "renderer/scene/half_space_json.h"
+#include "renderer/scene/mesh_json.h"
 #include "renderer/scene/read_particles.h"
 #include "renderer/scene/read_split.h"
 #include "renderer/scene/read_visible_to.h"
@@ -180,7 +181,14 @@ class SceneReader {
     std::vector<Shape<double>> shapes;
     std::optional<HalfSpaceBody<double>> half_space;
     const Json* const split = object.find("split");
-    if (const Json* written = object.require("shape", "a shape")) {
+    std::shared_ptr<const TriangleMesh> mesh;
+    const Json* const triangles = object.find("mesh");
+    if (triangles) {
+      for (const char* other : {"shape", "split"})
+        if (object.find(other))
+          mistakes_.add(object.path(other), "must not be given beside \"mesh\"");
+      mesh = read_mesh(*triangles, object.path("mesh"), mistakes_, meshes_);
+    } else if (const Json* written = object.require("shape", "a shape, or \"mesh\"")) {
       if (split) {
         if (auto hulls = read_split_hulls(object, *split, *written, meshes_))
           shapes = std::move(*hulls);
@@ -209,7 +217,8 @@ class SceneReader {
     Object made{name, Point<double>(), pose, material, std::move(motion)};
     made.half_space = half_space;
     made.visible_to = visible_to;
-    if (half_space) scene_.objects.push_back(made);
+    made.mesh = std::move(mesh);
+    if (!made.has_shape()) scene_.objects.push_back(made);
     for (std::size_t i = 0; i < shapes.size(); ++i) {
       if (split) made.name = name + "[" + std::to_string(i) + "]";
       made.shape = std::move(shapes[i]);

@@ -94,6 +94,7 @@ Json scene_schema() {
       {"name", name},
       {"shape",
        {{"anyOf", Json::array({{{"$ref", "#/$defs/shape"}}, {{"$ref", "#/$defs/half_space"}}})}}},
+      {"mesh", {{"$ref", "#/$defs/mesh"}}},
       {"material", name},
       {"transform", {{"$ref", "#/$defs/transform"}}},
       {"visible_to", visible_to_schema()},
@@ -107,7 +108,8 @@ Json scene_schema() {
         {"description", "where it is when, with rising times"},
         {"items", {{"$ref", "#/$defs/key"}}},
         {"minItems", 1}}}};
-  object["required"] = {"name", "shape", "material"};
+  object["required"] = {"name", "material"};
+  object["oneOf"] = Json::array({{{"required", {"shape"}}}, {{"required", {"mesh"}}}});
 
   Json key = object_schema("Where an object is at a time, after its transform.");
   key["properties"] = {{"time", {{"type", "number"}, {"description", "in seconds"}}},
@@ -189,6 +191,23 @@ Json scene_schema() {
   half_space["properties"]["offset"]["description"] = "along the normal, as if that had length 1";
   half_space["required"] = {"type"};
   definitions["half_space"] = std::move(half_space);
+  Json mesh = object_schema("Triangles as they are: of a file, or of vertices.");
+  mesh["properties"] = {
+      {"file", {{"type", "string"}}},
+      {"scale", schema_of_number(Range::positive)},
+      {"vertices",
+       {{"type", "array"}, {"items", schema_of_list({{"type", "number"}}, 3)}, {"minItems", 3}}},
+      {"triangles",
+       {{"type", "array"},
+        {"items", schema_of_list({{"type", "integer"}, {"minimum", 0}}, 3)},
+        {"minItems", 1}}}};
+  mesh["properties"]["file"]["description"] = "of OBJ or STL, relative to the scene's folder";
+  mesh["properties"]["scale"]["description"] = "what multiplies the file's coordinates";
+  mesh["properties"]["triangles"]["description"] =
+      "three numbers of vertices each, from 0 on, counter-clockwise as seen from outside";
+  mesh["oneOf"] =
+      Json::array({{{"required", {"file"}}}, {{"required", {"vertices", "triangles"}}}});
+  definitions["mesh"] = std::move(mesh);
   definitions["key"] = std::move(key);
   definitions["particles"] = std::move(particles);
   definitions["transform"] =

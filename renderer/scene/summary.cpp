@@ -6,6 +6,7 @@
 
 #include "core/derived/shape_bounds.h"
 #include "core/parallel/parallel_reduce.h"
+#include "core/world/posed_mesh.h"
 
 namespace minkray {
 namespace {
@@ -60,6 +61,7 @@ class Counter {
 }  // namespace
 
 Bounds<double> bounds_of(const Object& object) {
+  if (object.mesh) return PosedMesh(0, object.mesh, object.pose).bounds();
   return bounds_of<double>(Transform<double>{Nested<double>(object.shape), object.pose});
 }
 
@@ -75,10 +77,12 @@ Bounds<double> bounds_of(const ParticleSet& set) {
 SceneSummary summarise(const Scene& scene) {
   Counter counter;
   SceneSummary summary;
-  std::size_t half_spaces = 0;
+  std::size_t half_spaces = 0, meshes = 0;
   for (const Object& object : scene.objects) {
     if (object.half_space)
       ++half_spaces;
+    else if (object.mesh)
+      ++meshes;
     else
       counter.add(object.shape, false);
     counter.bytes += sizeof(Object) + object.name.capacity();
@@ -93,6 +97,7 @@ SceneSummary summarise(const Scene& scene) {
   summary.instances = scene.objects.size() + summary.particles;
   summary.kinds = counter.occurring();
   if (half_spaces > 0) summary.kinds.push_back({half_space_name, half_spaces});
+  if (meshes > 0) summary.kinds.push_back({mesh_name, meshes});
   summary.hull_points = counter.hull_points;
   summary.bytes = counter.bytes;
   return summary;

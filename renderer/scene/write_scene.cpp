@@ -4,6 +4,7 @@
 #include "renderer/base/errors.h"
 #include "renderer/json/json.h"
 #include "renderer/scene/half_space_json.h"
+#include "renderer/scene/mesh_json.h"
 #include "renderer/scene/read_visible_to.h"
 #include "renderer/scene/scene_json.h"
 #include "renderer/scene/shape_json.h"
@@ -28,8 +29,11 @@ Json pose_json(const Affine<double>& pose) {
 Json object_json(const Object& object, const Scene& scene) {
   Json json;
   json["name"] = object.name;
-  json["shape"] =
-      object.half_space ? write_half_space(*object.half_space) : write_shape(object.shape);
+  if (object.mesh)
+    json["mesh"] = write_mesh(*object.mesh);
+  else
+    json["shape"] =
+        object.half_space ? write_half_space(*object.half_space) : write_shape(object.shape);
   json["material"] = scene.materials[object.material].name;
   const Affine<double>& pose = object.motion ? object.motion->rest : object.pose;
   if (!(pose == Affine<double>())) json["transform"] = pose_json(pose);

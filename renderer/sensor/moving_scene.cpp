@@ -51,6 +51,11 @@ Bounds<float> swept_box(const ShapeDefinition<double>& shape, const Motion& moti
   return rounded_outwards(box);
 }
 
+/// A mesh that moves.
+PosedMesh posed_at(const Object& body, double time) {
+  return {0, body.mesh, body.motion->pose_at(time)};
+}
+
 }  // namespace
 
 MovingScene::MovingScene(const Scene& scene) : scene_(scene) {
@@ -62,7 +67,7 @@ MovingScene::MovingScene(const Scene& scene) : scene_(scene) {
     if (object.motion) {
       place_.push_back(static_cast<std::uint32_t>(movers_.size()));
       movers_.push_back({static_cast<std::uint32_t>(i),
-                         object.half_space
+                         !object.has_shape()
                              ? nullptr
                              : std::make_shared<const ShapeDefinition<double>>(object.shape)});
       continue;
@@ -84,7 +89,7 @@ SceneWhile::SceneWhile(const MovingScene& scene, double begin, double end) : sce
   for (std::size_t i = 0; i < scene.movers_.size(); ++i) {
     const MovingScene::Mover& mover = scene.movers_[i];
     if (!mover.definition) {
-      half_spaces_.push_back(static_cast<std::uint32_t>(i));
+      shapeless_.push_back(static_cast<std::uint32_t>(i));
       continue;
     }
     bodies_.push_back(static_cast<std::uint32_t>(i));
@@ -124,11 +129,21 @@ void SceneWhile::meet_movers(const WorldRay& ray, double time, WorldHit& closest
     closest = {object, result};
     return true;
   };
-  for (const std::uint32_t mover : half_spaces_) {
+  for (const std::uint32_t mover : shapeless_) {
     const std::uint32_t object = scene_.movers_[mover].object;
-    if (object == ray.skip) continue;
     const Object& body = scene_.scene_.objects[object];
-    meet(object, cast_ray(body.half_space->posed(body.motion->pose_at(time)), ray.ray));
+    if (body.half_space) {
+      if (object != ray.skip)
+        meet(object, cast_ray(body.half_space->posed(body.motion->pose_at(time)), ray.ray));
+      continue;
+    }
+    const double most =
+        closest.found() ? closest.cast.t() : std::numeric_limits<double>::infinity();
+    PartCounts parts;
+    const MeshCast met =
+        cast_ray(posed_at(body, time), ray.ray, most, object == ray.skip, 0, parts);
+    counts.add_parts(parts);
+    if (meet(object, met.cast)) closest.part = met.part;
   }
   if (bodies_.empty()) return;
   SlabRay slabs(ray.ray);
@@ -165,8 +180,15 @@ WorldHit SceneWhile::closest_hit(const WorldRay& ray, double time, QueryCounts& 
 }
 
 CastResult<double> SceneWhile::exit(std::uint32_t instance, const Ray<double>& ray, double time) {
-  if (moves(instance)) return cast_exit(mover_at(scene_.place_[instance], time), ray);
-  return cast_exit(scene_.still_.instances().at(scene_.still_number(instance)), ray);
+  const Instances& still = scene_.still_.instances();
+  if (moves(instance)) {
+    const Object& body = scene_.scene_.objects[instance];
+    if (body.mesh) return cast_exit(posed_at(body, time), ray);
+    return cast_exit(mover_at(scene_.place_[instance], time), ray);
+  }
+  const std::uint32_t number = scene_.still_number(instance);
+  if (still.is_mesh(number)) return cast_exit(still.mesh_of(number), ray);
+  return cast_exit(still.at(number), ray);
 }
 
 }  // namespace minkray

@@ -26,7 +26,7 @@ class MovingScene {
   friend class SceneWhile;
   struct Mover {
     std::uint32_t object = 0;
-    std::shared_ptr<const ShapeDefinition<double>> definition;  ///< null: a half-space
+    std::shared_ptr<const ShapeDefinition<double>> definition;  ///< null: it has no shape
   };
 
   /// What an instance that stands still is called in still_.
@@ -54,7 +54,7 @@ class SceneWhile {
 
   WorldHit closest_hit(const WorldRay& ray, double time, QueryCounts& counts);
 
-  /// Where the ray leaves an instance, which is not a half-space.
+  /// Where the ray leaves an instance, which is not a half-space; of a mesh, where it has entered.
   CastResult<double> exit(std::uint32_t instance, const Ray<double>& ray, double time);
 
   bool is_half_space(std::uint32_t instance) const;
@@ -70,9 +70,9 @@ class SceneWhile {
   void meet_movers(const WorldRay& ray, double time, WorldHit& closest, QueryCounts& counts);
 
   const MovingScene& scene_;
-  std::vector<std::uint32_t> bodies_, half_spaces_;  ///< into movers_
-  Bvh bvh_;                                          ///< of the boxes that bodies_ sweep
-  std::vector<Placed> placed_;                       ///< by mover: where it was asked for last
+  std::vector<std::uint32_t> bodies_, shapeless_;  ///< into movers_
+  Bvh bvh_;                                        ///< of the boxes that bodies_ sweep
+  std::vector<Placed> placed_;                     ///< by mover: where it was asked for last
 };
 
 }  // namespace minkray

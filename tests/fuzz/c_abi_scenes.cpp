@@ -116,7 +116,8 @@ void CallProgram::add_file() {
   if (is_there && !std::filesystem::exists(path)) folder.write(file.name, file.text);
   Sure sure = to.sure;
   if (file.objects == 0) sure = both(sure, Sure::wrong);
-  minkray_file_options options = {sizeof options, nullptr, nullptr, nullptr, nullptr, 0, 0};
+  minkray_file_options options = {sizeof options, nullptr, nullptr, nullptr,
+                                  nullptr,        0,       0,       nullptr};
   const bool has_options = bytes_.below(2) == 1;
   if (has_options) {
     const Given<const minkray_pose*> where = pose();

@@ -43,7 +43,7 @@ py::dict cast(const Scene& scene, const py::object& rays, const py::object& t_ma
       normal({n, py::ssize_t{3}});
   py::array_t<std::uint32_t> object(n);
   py::array_t<std::uint8_t> status(n);
-  py::array_t<std::int32_t> supports(n);
+  py::array_t<std::int32_t> supports(n), part(n);
   const minkray_hit_arrays hits = {sizeof hits,
                                    t.mutable_data(),
                                    t_lo.mutable_data(),
@@ -53,7 +53,8 @@ py::dict cast(const Scene& scene, const py::object& rays, const py::object& t_ma
                                    normal.mutable_data(),
                                    object.mutable_data(),
                                    status.mutable_data(),
-                                   supports.mutable_data()};
+                                   supports.mutable_data(),
+                                   part.mutable_data()};
   py::dict result;
   minkray_ray_derivatives derivatives = {};
   derivatives.size = sizeof derivatives;
@@ -83,6 +84,7 @@ py::dict cast(const Scene& scene, const py::object& rays, const py::object& t_ma
   result["object"] = object;
   result["status"] = status;
   result["supports"] = supports;
+  result["part"] = part;
   return result;
 }
 
@@ -153,13 +155,15 @@ py::dict certify(const Scene& scene, const py::object& rays, const py::object& t
 
 Scene::Group add_file(Scene& scene, const std::string& file, const py::object& pose,
                       const std::string& geometry, const std::string& keyframe,
-                      const std::vector<std::string>& package_dirs, bool skip_missing_meshes) {
+                      const std::vector<std::string>& package_dirs, bool skip_missing_meshes,
+                      const std::string& meshes) {
   minkray::FileOptions options;
   const minkray::Pose map = pose_of(pose, "pose");
   if (!pose.is_none()) options.pose = &map;
   options.geometry = geometry;
   options.keyframe = keyframe;
   options.skip_missing_meshes = skip_missing_meshes;
+  options.meshes = meshes;
   std::vector<const char*> folders;
   for (const std::string& folder : package_dirs) folders.push_back(folder.c_str());
   options.package_dirs = {folders.data(), folders.size()};

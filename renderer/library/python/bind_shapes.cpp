@@ -152,11 +152,37 @@ py::dict time_of_impact(const std::vector<Shape>& a, const Doubles& pose_a, cons
   return result;
 }
 
+Shape mesh(const py::array_t<double, py::array::c_style>& vertices,
+           const py::array_t<std::uint32_t, py::array::c_style>& triangles) {
+  const minkray::View<const minkray::Vec3> points(
+      reinterpret_cast<const minkray::Vec3*>(vertices.data()),
+      static_cast<std::size_t>(vertices.shape(0)));
+  const minkray::View<const std::uint32_t> corners(triangles.data(),
+                                                   static_cast<std::size_t>(triangles.size()));
+  const Unlocked unlock;
+  return minkray::mesh(points, corners);
+}
+
+py::dict mesh_info(const Shape& shape) {
+  minkray::MeshInfo info;
+  {
+    const Unlocked unlock;
+    info = minkray::mesh_info(shape);
+  }
+  py::dict result;
+  result["vertices"] = info.vertices;
+  result["triangles"] = info.triangles;
+  result["open_edges"] = info.open_edges;
+  result["without_area"] = info.without_area;
+  result["repeated"] = info.repeated;
+  return result;
+}
+
 }  // namespace
 
 void bind_shapes(py::module_& module) {
   py::class_<Shape>(module, "Shape",
-                    "A convex shape, which never changes.\n\n"
+                    "A convex shape, or a mesh, which never changes.\n\n"
                     "Made by functions such as `minkray.box`; see `minkray.custom` for your own.")
       .def_property_readonly("kind", &Shape::kind, "str : such as 'rounded'")
       .def("_support", &support)
@@ -176,6 +202,7 @@ void bind_shapes(py::module_& module) {
            [](const Shape& shape) {
              if (std::string(shape.kind()) == "custom")
                return std::string("<minkray.Shape custom>");
+             if (std::string(shape.kind()) == "mesh") return std::string("<minkray.Shape mesh>");
              try {
                std::string text = shape.json<std::string>();
                if (text.size() > 200) text = text.substr(0, 197) + "...";
@@ -188,6 +215,8 @@ void bind_shapes(py::module_& module) {
                       [](const std::string& text) { return minkray::read_shape(text); }));
   module.def("make", &make);
   module.def("custom", &custom);
+  module.def("mesh", &mesh);
+  module.def("mesh_info", &mesh_info);
   module.def("read_shape", [](const std::string& json, const std::string& folder) {
     return minkray::read_shape(json, folder);
   });

@@ -19,8 +19,9 @@ from .robots import Robot
 from .scene import Scene
 from .rays import lidar, pinhole
 from .shapes import (box, capsule, cone, custom, cut_cylinder, cylinder, difference, disk, ellipsoid,
-                     frustum, hull, hull_of, make, point, read_shape, rounded, scaled, segment, sphere,
-                     sum, superellipsoid, swept, tapered_capsule, transformed, translated, triangle)
+                     frustum, hull, hull_of, make, mesh, mesh_info, point, read_shape, rounded, scaled,
+                     segment, sphere, sum, superellipsoid, swept, tapered_capsule, transformed, translated,
+                     triangle)
 from .pairs import (BEGINS_INSIDE, IMPACT, NO_IMPACT, OVERLAPPING, SEPARATED, TOUCHING, UNDECIDED,
                     Distance, DistanceStatus, Impact, ImpactStatus, signed_distance, time_of_impact)
 from .many_pairs import (Distances, Impacts, Manifolds, manifolds, pair_memory, signed_distances,

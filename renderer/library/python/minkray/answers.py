@@ -81,6 +81,8 @@ class Hits(_Arrays):
         neither a hit nor a miss.
     supports : int32
         How often the object's support mapping was asked.
+    part : int32
+        Of a mesh the triangle that is met; -1 of all else.
     jac_ray : float64, six numbers each
         With ``jac=True``: the derivative of `t` by the ray's origin and by its direction; NaN where
         nothing is met, zero where the ray begins inside.

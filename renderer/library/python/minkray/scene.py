@@ -96,7 +96,7 @@ class Scene(PairsOfScene):
 
     @public
     def add_file(self, file, pose=None, geometry="visual", keyframe="", package_dirs=(),
-                 skip_missing_meshes=False):
+                 skip_missing_meshes=False, meshes="hull"):
         """Adds what is in a file: a scene of Minkray's (.json), or a robot (URDF, MJCF, SDF, glTF).
 
         Parameters
@@ -111,6 +111,8 @@ class Scene(PairsOfScene):
         package_dirs : list of str
             Where ``package://`` and ``model://`` are looked for.
         skip_missing_meshes : bool
+        meshes : {'hull', 'exact'}
+            Of robots: the convex hulls of their mesh files, or the triangles as they are.
 
         Returns
         -------
@@ -120,7 +122,8 @@ class Scene(PairsOfScene):
             raise Error("package_dirs: must be a list of folders (got one)")
         folders = [name_of(folder, f"package_dirs[{i}]") for i, folder in enumerate(package_dirs)]
         group = self._scene.add_file(name_of(file), pose_of(pose), text_of(geometry, "geometry"),
-                                     text_of(keyframe, "keyframe"), folders, bool(skip_missing_meshes))
+                                     text_of(keyframe, "keyframe"), folders, bool(skip_missing_meshes),
+                                     text_of(meshes, "meshes"))
         self._changed()
         return Robot(group, self._scene, self._changed)
 
@@ -142,7 +145,8 @@ class Scene(PairsOfScene):
         return self.add_file(file, pose)
 
     @public
-    def add_urdf(self, file, pose=None, geometry="visual", package_dirs=(), skip_missing_meshes=False):
+    def add_urdf(self, file, pose=None, geometry="visual", package_dirs=(), skip_missing_meshes=False,
+                 meshes="hull"):
         """Adds a robot from a URDF file; see `add_file`.
 
         Parameters
@@ -154,15 +158,17 @@ class Scene(PairsOfScene):
         package_dirs : list of str
             Where ``package://`` and ``model://`` are looked for.
         skip_missing_meshes : bool
+        meshes : {'hull', 'exact'}
 
         Returns
         -------
         Robot
         """
-        return self.add_file(file, pose, geometry, "", package_dirs, skip_missing_meshes)
+        return self.add_file(file, pose, geometry, "", package_dirs, skip_missing_meshes, meshes)
 
     @public
-    def add_mjcf(self, file, pose=None, geometry="visual", keyframe="", skip_missing_meshes=False):
+    def add_mjcf(self, file, pose=None, geometry="visual", keyframe="", skip_missing_meshes=False,
+                 meshes="hull"):
         """Adds what is in an MJCF file, MuJoCo's format; see `add_file`.
 
         Parameters
@@ -174,15 +180,17 @@ class Scene(PairsOfScene):
         keyframe : str
             In whose pose it stands.
         skip_missing_meshes : bool
+        meshes : {'hull', 'exact'}
 
         Returns
         -------
         Robot
         """
-        return self.add_file(file, pose, geometry, keyframe, (), skip_missing_meshes)
+        return self.add_file(file, pose, geometry, keyframe, (), skip_missing_meshes, meshes)
 
     @public
-    def add_sdf(self, file, pose=None, geometry="visual", package_dirs=(), skip_missing_meshes=False):
+    def add_sdf(self, file, pose=None, geometry="visual", package_dirs=(), skip_missing_meshes=False,
+                 meshes="hull"):
         """Adds what is in an SDF file, Gazebo's format; see `add_file`.
 
         Parameters
@@ -194,12 +202,13 @@ class Scene(PairsOfScene):
         package_dirs : list of str
             Where ``package://`` and ``model://`` are looked for.
         skip_missing_meshes : bool
+        meshes : {'hull', 'exact'}
 
         Returns
         -------
         Robot
         """
-        return self.add_file(file, pose, geometry, "", package_dirs, skip_missing_meshes)
+        return self.add_file(file, pose, geometry, "", package_dirs, skip_missing_meshes, meshes)
 
     @public
     def add_gltf(self, file, pose=None):

@@ -439,6 +439,65 @@ def swept(shape, way):
 
 
 @public
+def mesh(vertices, triangles):
+    """Triangles with shared vertices, met as they are: not as their convex hull.
+
+    Parameters
+    ----------
+    vertices : (N, 3) array
+    triangles : (M, 3) array of int
+        Numbers of vertices, counter-clockwise as seen from outside.
+
+    Returns
+    -------
+    Shape
+        Scenes and rays take it as they take a shape. It is not convex: no shape is made of it.
+
+    Raises
+    ------
+    Error
+        If a number is that of no vertex, or a coordinate is not finite.
+
+    Examples
+    --------
+    >>> import numpy as np, minkray as mk
+    >>> valley = mk.mesh([[-1, -1, 1], [-1, 1, 1], [0, -1, 0], [0, 1, 0], [1, -1, 1], [1, 1, 1]],
+    ...                  [[0, 2, 1], [1, 2, 3], [2, 4, 3], [3, 4, 5]])
+    >>> scene = mk.Scene()
+    >>> _ = scene.add(valley)
+    >>> scene.commit()
+    >>> float(scene.cast_rays([0.5, 0, 9, 0, 0, -1]).t)
+    8.5
+    """
+    corners = np.asarray(triangles)
+    if corners.ndim != 2 or corners.shape[1] != 3 or corners.dtype.kind not in "iu":
+        raise Error("triangles: must be whole numbers of shape (M, 3) "
+                    f"(got {corners.dtype} of shape {corners.shape})")
+    points = vectors_of(vertices, "vertices", 3, 2)
+    if corners.size and not (0 <= corners.min() and corners.max() < len(points)):
+        raise Error(f"triangles: must be from 0 to {len(points) - 1} "
+                    f"(got {corners.min()} to {corners.max()})")
+    return _minkray.mesh(np.ascontiguousarray(points), np.ascontiguousarray(corners, dtype=np.uint32))
+
+
+@public
+def mesh_info(mesh):
+    """What a mesh is like. Vertices at one place count as one for all but 'vertices'.
+
+    Parameters
+    ----------
+    mesh : Shape
+
+    Returns
+    -------
+    dict
+        Numbers of 'vertices', 'triangles', 'open_edges' (0: it is closed), triangles
+        'without_area', and 'repeated' ones.
+    """
+    return _minkray.mesh_info(shape_of(mesh, "mesh"))
+
+
+@public
 def custom(support, bounds=None):
     """A shape of your own, by its support function.
 

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// Where rays meet a mesh. The sides on which a ray passes the edges of a triangle are true signs,
+// so that a ray at a closed mesh's edge or corner meets one of the triangles there.
+#pragma once
+
+#include "core/math/ray.h"
+#include "core/mesh/triangle_mesh.h"
+
+namespace minkray {
+
+/// A point where a ray passes through a triangle, from either side.
+struct PartHit {
+  std::uint32_t part = no_part;  ///< the triangle's number
+  double t = std::numeric_limits<double>::infinity();
+  double error = 0;      ///< the true t of the ray, as it is given, is no further from t than this
+  bool is_back = false;  ///< seen from there the triangle's vertices are clockwise
+  bool is_at_edge = false;  ///< the ray passes just through an edge or corner
+
+  bool found() const { return part != no_part; }
+  /// True if a hit of another triangle comes before this one.
+  bool yields_to(const PartHit& other) const {
+    return other.t < t || (other.t == t && other.part < part);
+  }
+};
+
+/// Where the ray passes through one triangle with 0 <= t; a ray within its plane does not.
+PartHit cast_at_triangle(const Vec3<double>& a, const Vec3<double>& b, const Vec3<double>& c,
+                         const Ray<double>& ray);
+
+/// What walks through a mesh's triangles cost.
+struct PartCounts {
+  std::uint64_t nodes = 0, triangles = 0;
+};
+
+/// The hit with the least t in [t_min, ray.t_max], of the least number where several have it.
+PartHit closest_part(const TriangleMesh& mesh, const Ray<double>& ray, double t_min,
+                     PartCounts& counts);
+/// True if there is any with t in [t_min, ray.t_max].
+bool meets_part(const TriangleMesh& mesh, const Ray<double>& ray, double t_min, PartCounts& counts);
+/// All of them, by t and number.
+std::vector<PartHit> all_parts(const TriangleMesh& mesh, const Ray<double>& ray);
+
+/// Whether a closed mesh winds around the point, which is not on it. Nothing is within an open one.
+bool is_within(const TriangleMesh& mesh, const Vec3<double>& point);
+
+}  // namespace minkray

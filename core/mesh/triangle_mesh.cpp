@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+#include "core/mesh/triangle_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "core/math/two_fold.h"
+#include "core/mesh/weld.h"
+#include "core/parallel/parallel.h"
+
+namespace minkray {
+namespace {
+
+constexpr std::size_t most_triangles = std::size_t{1} << 30;
+
+/// Products of three coordinates and their last digits must be numbers: so much is left of the
+/// range of double.
+constexpr double largest_coordinate = 0x1p300, smallest_size = 0x1p-250;
+
+constexpr std::size_t triangles_a_range = 4096;
+
+TwoFold<double> operator-(const TwoFold<double>& a, const TwoFold<double>& b) {
+  return a + TwoFold<double>{-b.high, -b.low};
+}
+
+[[noreturn]] void wrong(const std::string& what) {
+  throw std::invalid_argument(what);
+}
+
+}  // namespace
+
+TriangleMesh::TriangleMesh(std::vector<Vec3<double>> vertices, std::vector<Corners> triangles)
+    : vertices_(std::move(vertices)), triangles_(std::move(triangles)) {
+  if (triangles_.empty()) wrong("triangles: must be at least one (got none)");
+  if (triangles_.size() > most_triangles)
+    wrong("triangles: must be at most 2^30 (got " + std::to_string(triangles_.size()) + ")");
+  for (std::size_t i = 0; i < vertices_.size(); ++i)
+    if (!vertices_[i].allFinite() || vertices_[i].cwiseAbs().maxCoeff() > largest_coordinate)
+      wrong("vertices[" + std::to_string(i) + "]: must be finite and at most 2^300");
+  for (std::size_t i = 0; i < triangles_.size(); ++i)
+    for (const std::uint32_t vertex : triangles_[i]) {
+      if (vertex < vertices_.size()) continue;
+      wrong("triangles[" + std::to_string(i) + "]: must be numbers of vertices, less than " +
+            std::to_string(vertices_.size()) + " (got " + std::to_string(vertex) + ")");
+    }
+  FirstTouchVector<Bounds<float>> boxes;
+  boxes.resize(triangles_.size());
+  parallel_for(triangles_.size(), triangles_a_range, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      Bounds<double> box;
+      for (const std::uint32_t vertex : triangles_[i]) box.extend(vertices_[vertex]);
+      boxes[i] = rounded_outwards(box);
+    }
+  });
+  for (const Corners& triangle : triangles_)
+    for (const std::uint32_t vertex : triangle) {
+      bounds_.extend(vertices_[vertex]);
+      reach_ = std::max(reach_, vertices_[vertex].norm());
+    }
+  reach_ *= 1 + 8 * std::numeric_limits<double>::epsilon();
+  if (!(Vec3<double>(bounds_.upper - bounds_.lower).maxCoeff() >= smallest_size))
+    wrong("vertices: must be further apart than 2^-250");
+  bvh_ = build_bvh(std::move(boxes));
+}
+
+Vec3<double> TriangleMesh::normal(std::uint32_t triangle) const {
+  // The two products are nearly equal where it is a sliver: their difference needs more digits.
+  const TwoFoldVec3<double> p = exact_difference(corner(triangle, 1), corner(triangle, 0)),
+                            q = exact_difference(corner(triangle, 2), corner(triangle, 0));
+  Vec3<double> n;
+  for (int k = 0; k < 3; ++k) {
+    const int i = (k + 1) % 3, j = (k + 2) % 3;
+    const TwoFold<double> difference = p[i] * q[j] - p[j] * q[i];
+    n[k] = difference.high + difference.low;
+  }
+  const double largest = n.cwiseAbs().maxCoeff();
+  if (!(largest > 0)) return Vec3<double>::Zero();
+  return (n / largest).normalized();
+}
+
+MeshFaults TriangleMesh::faults() const {
+  MeshFaults faults;
+  // An edge from a lower to a higher number counts up, one the other way down.
+  struct Edge {
+    std::uint32_t from, to;
+    int way;
+  };
+  std::vector<Edge> edges;
+  edges.reserve(3 * triangles_.size());
+  const std::vector<std::uint32_t> place = first_at_place(vertices_);
+  std::vector<Corners> sorted(triangles_);
+  for (Corners& triangle : sorted)
+    for (std::uint32_t& corner : triangle) corner = place[corner];
+  for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
+    const Corners t = sorted[i];
+    if (normal(i).isZero(0)) ++faults.without_area;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t from = t[k], to = t[(k + 1) % 3];
+      if (from == to) continue;
+      edges.push_back({std::min(from, to), std::max(from, to), from < to ? 1 : -1});
+    }
+    std::ranges::sort(sorted[i]);
+  }
+  std::ranges::sort(sorted);
+  for (std::size_t i = 1; i < sorted.size(); ++i)
+    faults.repeated += sorted[i] == sorted[i - 1] ? 1 : 0;
+  std::ranges::sort(edges, {}, [](const Edge& e) { return std::pair(e.from, e.to); });
+  for (std::size_t i = 0; i < edges.size();) {
+    int balance = 0;
+    std::size_t end = i;
+    for (; end < edges.size() && edges[end].from == edges[i].from && edges[end].to == edges[i].to;
+         ++end)
+      balance += edges[end].way;
+    faults.open_edges += balance != 0 ? 1 : 0;
+    i = end;
+  }
+  return faults;
+}
+
+bool TriangleMesh::is_closed() const {
+  std::call_once(closed_once_, [this] { is_closed_ = faults().is_closed(); });
+  return is_closed_;
+}
+
+std::size_t TriangleMesh::bytes() const {
+  return vertices_.capacity() * sizeof(vertices_[0]) +
+         triangles_.capacity() * sizeof(triangles_[0]) + bvh_.bytes();
+}
+
+}  // namespace minkray

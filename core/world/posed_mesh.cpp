@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include "core/world/posed_mesh.h"
+
+#include <cmath>
+#include <utility>
+
+#include "core/math/two_fold.h"
+#include "core/query/tolerances.h"
+
+namespace minkray {
+namespace {
+
+/// The ray's origin and direction must be less, so that products of three numbers are numbers.
+constexpr double largest_number = 0x1p300;
+
+/// A number of a point or direction that a matrix maps: its own rounding, that of the matrix and
+/// of three products and their sum, in halves of epsilon.
+constexpr double map_rounding = 3 * tolerance::epsilon<double>;
+
+/// The ray in the mesh's frame. Its direction is longer by 2^exponent there, so that it is about 1.
+struct NearRay {
+  Ray<double> ray;
+  double origin_loss = 0, direction_loss = 0;  ///< what they may be off
+  int exponent = 0;
+  bool is_number = true;
+};
+
+NearRay near_ray(const PosedMesh& posed, const Ray<double>& ray) {
+  NearRay near;
+  const double size = ray.direction.cwiseAbs().maxCoeff();
+  std::frexp(size, &near.exponent);
+  near.exponent = -near.exponent;
+  Vec3<double> direction;
+  for (int k = 0; k < 3; ++k) direction[k] = std::ldexp(ray.direction[k], near.exponent);
+  const TwoFoldVec3<double> from = exact_difference(ray.origin, posed.pose.translation);
+  if (posed.is_turned) {
+    near.ray.origin = posed.to_mesh * from.high + posed.to_mesh * from.low;
+    near.ray.direction = posed.to_mesh * direction;
+    const Mat3<double> sizes = posed.to_mesh.cwiseAbs();
+    near.origin_loss = map_rounding * (sizes * from.high.cwiseAbs()).norm();
+    near.direction_loss = map_rounding * (sizes * direction.cwiseAbs()).norm();
+  } else {
+    near.ray.origin = from.rounded();
+    near.ray.direction = direction;
+    if (!from.low.isZero(0)) near.origin_loss = from.low.norm();
+  }
+  near.ray.t_max = std::ldexp(ray.t_max, -near.exponent);
+  near.is_number = size > 0 && near.ray.origin.cwiseAbs().maxCoeff() <= largest_number &&
+                   near.ray.direction.cwiseAbs().maxCoeff() <= largest_number;
+  return near;
+}
+
+double t_min_of(const PosedMesh& posed, const NearRay& near, bool leaves) {
+  if (!leaves) return 0;
+  const double reach =
+      posed.mesh->bounds().reach_of_centre().maxCoeff() + near.ray.origin.cwiseAbs().maxCoeff();
+  return leaving_mesh * reach / near.ray.direction.cwiseAbs().maxCoeff();
+}
+
+}  // namespace
+
+PosedMesh::PosedMesh(std::uint32_t number, std::shared_ptr<const TriangleMesh> of,
+                     const Affine<double>& at)
+    : instance(number), mesh(std::move(of)), pose(at) {
+  is_turned = at.linear != Mat3<double>::Identity();
+  if (is_turned) to_mesh = accurate_inverse<double>(at.linear);
+}
+
+Bounds<double> PosedMesh::bounds_under(const Affine<double>& other) const {
+  const Bounds<double>& own = mesh->bounds();
+  const Vec3<double> middle = own.centre(), reach = own.reach_of_centre();
+  const Vec3<double> centre = other(middle), around = other.linear.cwiseAbs() * reach;
+  return {centre - around, centre + around};
+}
+
+MeshCast cast_ray(const PosedMesh& posed, const Ray<double>& ray, double most, bool leaves,
+                  double loss, PartCounts& counts) {
+  MeshCast answer;
+  CastResult<double>& cast = answer.cast;
+  NearRay near = near_ray(posed, ray);
+  if (!near.is_number && !ray.direction.isZero(0)) return answer;  // exhausted
+  cast.status = Status::miss;
+  cast.path = Path::filter;
+  if (!near.is_number) return answer;
+  near.ray.t_max = std::min(near.ray.t_max, std::ldexp(most, -near.exponent));
+  const PartHit hit = closest_part(*posed.mesh, near.ray, t_min_of(posed, near, leaves), counts);
+  if (!hit.found()) return answer;
+  answer.part = hit.part;
+  const Vec3<double> normal = posed.mesh->normal(hit.part) * (hit.is_back ? -1.0 : 1.0);
+  // Where the ray itself may be elsewhere, its way to the triangle's plane is longer or shorter.
+  const double beside =
+      near.origin_loss + loss * posed.to_mesh.norm() + hit.t * near.direction_loss;
+  double error = hit.error;
+  if (beside > 0) {
+    const double fall = -normal.dot(near.ray.direction) - near.direction_loss;
+    error = fall > 0 ? error + beside / fall : std::numeric_limits<double>::infinity();
+  }
+  cast.status = Status::hit;
+  cast.t_offset = std::ldexp(hit.t, near.exponent);
+  cast.offset_lo = std::ldexp(std::max(hit.t - error, 0.0), near.exponent);
+  cast.offset_hi = std::ldexp(hit.t + error, near.exponent);
+  cast.normal =
+      posed.is_turned ? Vec3<double>((posed.to_mesh.transpose() * normal).normalized()) : normal;
+  return answer;
+}
+
+CastResult<double> cast_exit(const PosedMesh& posed, const Ray<double>& ray) {
+  CastResult<double> exit;
+  exit.status = Status::miss;
+  const NearRay near = near_ray(posed, ray);
+  if (!near.is_number) return exit;
+  const std::vector<PartHit> hits = all_parts(*posed.mesh, near.ray);
+  if (hits.empty()) return exit;
+  // Triangles that share the corner or edge where the ray enters are met at one place.
+  const double same = leaving_mesh * (hits[0].t + posed.mesh->bounds().reach_of_centre().norm());
+  std::size_t last = 0;
+  while (last + 1 < hits.size() && hits[last].t - hits[0].t <= same) ++last;
+  exit.status = Status::hit;
+  exit.t_offset = std::ldexp(hits[last].t, near.exponent);
+  return exit;
+}
+
+bool is_met(const PosedMesh& posed, const Ray<double>& ray, bool leaves, PartCounts& counts) {
+  const NearRay near = near_ray(posed, ray);
+  return near.is_number && meets_part(*posed.mesh, near.ray, t_min_of(posed, near, leaves), counts);
+}
+
+}  // namespace minkray

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/audit/mesh_verdict.h"
+
+#include <algorithm>
+
+#include "core/bvh/traverse.h"
+#include "core/derived/triangle_of.h"
+#include "core/proof/certificate.h"
+#include "core/shape/shape.h"
+
+namespace minkray {
+namespace {
+
+/// The triangle where it stands: its corners round once.
+Shape<double> part_in_world(const PosedMesh& posed, std::uint32_t part) {
+  std::array<Vec3<double>, 3> corners;
+  for (std::size_t k = 0; k < 3; ++k) corners[k] = posed.pose(posed.mesh->corner(part, k));
+  return triangle_of(corners[0], corners[1], corners[2]);
+}
+
+/// Triangles whose boxes the ray comes near to, in the mesh's frame.
+std::vector<std::uint32_t> parts_near(const PosedMesh& posed, const Ray<double>& ray) {
+  const Ray<double> seen{posed.to_mesh * (ray.origin - posed.pose.translation),
+                         posed.to_mesh * ray.direction, ray.t_max};
+  std::vector<std::uint32_t> parts;
+  traverse(posed.mesh->bvh(), SlabRay(seen), [&](std::uint32_t part) {
+    parts.push_back(part);
+    return false;
+  });
+  std::ranges::sort(parts);
+  return parts;
+}
+
+CertificateVerdict verdict_of_part(const PosedMesh& posed, std::uint32_t part,
+                                   const Ray<double>& ray, const Claim& claim, Certificate* found) {
+  const Shape<double> triangle = part_in_world(posed, part);
+  const SupportFunction support = supports_of(triangle);
+  const Certificate certificate = certify(support, ray, claim);
+  if (found) *found = certificate;
+  return check_certificate(support, ray, claim, certificate);
+}
+
+/// Whether all but one are missed up to t_max; else the verdict of one that is not.
+CertificateVerdict all_missed(const PosedMesh& posed, Ray<double> ray, double t_max,
+                              std::uint32_t but) {
+  ray.t_max = t_max;
+  Claim miss;
+  miss.status = Status::miss;
+  CertificateVerdict verdict;
+  verdict.holds = true;
+  for (const std::uint32_t part : parts_near(posed, ray)) {
+    if (part == but) continue;
+    const CertificateVerdict of_part = verdict_of_part(posed, part, ray, miss, nullptr);
+    verdict.allowed = std::max(verdict.allowed, of_part.allowed);
+    if (!of_part.holds) return of_part;
+  }
+  return verdict;
+}
+
+}  // namespace
+
+CertificateVerdict verdict_of(const PosedMesh& posed, const Ray<double>& ray, const Claim& claim,
+                              Certificate* found) {
+  if (claim.status == Status::miss) return all_missed(posed, ray, ray.t_max, no_part);
+  CertificateVerdict verdict;
+  verdict.complaint = "no triangle proves it";
+  if (claim.status != Status::hit) return verdict;
+  for (const std::uint32_t part : parts_near(posed, ray)) {
+    Certificate certificate;
+    const CertificateVerdict hit = verdict_of_part(posed, part, ray, claim, &certificate);
+    if (!hit.holds) {
+      if (!verdict.holds) verdict.allowed = std::max(verdict.allowed, hit.allowed);
+      continue;
+    }
+    // Triangles with a common edge are met at one place to rounding.
+    const double rounding = hit.allowed / ray.direction.norm();
+    const double before = std::max(0.0, hit.t_lo() - rounding);
+    const CertificateVerdict others = all_missed(posed, ray, before, part);
+    if (!others.holds) {
+      verdict = others;
+      verdict.complaint = "a triangle is met before";
+      return verdict;
+    }
+    if (found) *found = certificate;
+    return hit;
+  }
+  return verdict;
+}
+
+}  // namespace minkray

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: MIT
+#include "core/world/mesh_pairs.h"
+
+#include <gtest/gtest.h>
+
+#include "core/world/near_pairs.h"
+#include "core/world/world_impact.h"
+#include "tests/support/meshes.h"
+#include "tests/support/number_of_cases.h"
+#include "tests/support/random.h"
+
+namespace minkray {
+namespace {
+
+using MeshPointer = std::shared_ptr<const TriangleMesh>;
+
+Affine<double> pose_of_pair(testing::Random& random, double reach) {
+  return {random.rotation(), reach * random.in_cube()};
+}
+
+ContactShape triangle(const TriangleMesh& mesh, std::uint32_t i) {
+  return ContactShape(
+      Shape<double>(Triangle<double>{{mesh.corner(i, 0), mesh.corner(i, 1), mesh.corner(i, 2)}}));
+}
+
+/// The least of all pairs of parts, each asked by itself; no depth.
+SignedDistance least_of_all(const std::vector<ContactShape>& a, const Affine<double>& pose_a,
+                            const std::vector<ContactShape>& b, const Affine<double>& pose_b) {
+  SignedDistance least;
+  for (const ContactShape& of_a : a)
+    for (const ContactShape& of_b : b) {
+      SignedDistanceOptions how;
+      how.at_most = least.upper;
+      const SignedDistance found = signed_distance(of_a, pose_a, of_b, pose_b, how);
+      if (found.upper < least.upper) least = found;
+    }
+  return least;
+}
+
+std::vector<ContactShape> parts(const TriangleMesh& mesh) {
+  std::vector<ContactShape> parts;
+  for (std::uint32_t i = 0; i < mesh.size(); ++i) parts.push_back(triangle(mesh, i));
+  return parts;
+}
+
+TEST(MeshPairs, have_the_least_distance_of_all_their_parts) {
+  const MeshPointer ring = testing::torus(14, 9).shared(),
+                    ball = testing::bumpy_ball(7, 9).shared();
+  const std::vector<ContactShape> of_ring = parts(*ring), of_ball = parts(*ball);
+  const std::vector<ContactShape> shapes = {
+      ContactShape(Shape<double>(Box<double>{{0.2, 0.3, 0.1}})),
+      ContactShape(Shape<double>(Sphere<double>{0.15})),
+      ContactShape(Shape<double>(Cone<double>{0.2, 0.2})),
+      ContactShape(
+          Shape<double>(Rounded<double>{0.05, Shape<double>(Box<double>{{0.2, 0.2, 0.1}})}))};
+  testing::Random random(1);
+  int apart = 0, crossing = 0, within = 0;
+  for (int i = 0; i < testing::number_of_cases(120); ++i) {
+    const Affine<double> at_ring = pose_of_pair(random, 0.2), at_other = pose_of_pair(random, 1.7);
+    const bool with_mesh = i % 4 == 3;
+    const ContactShape& shape = shapes[static_cast<std::size_t>(i / 4) % shapes.size()];
+    const PartsBody other = with_mesh ? PartsBody(*ball) : PartsBody(shape);
+    const std::vector<ContactShape> of_other = with_mesh ? of_ball : std::vector{shape};
+    PartPair pair;
+    const SignedDistance found = signed_distance(*ring, at_ring, other, at_other, {}, &pair);
+    const SignedDistance truth = least_of_all(of_ring, at_ring, of_other, at_other);
+    ASSERT_NE(found.status, SignedStatus::undecided);
+    // The other way round it is the same.
+    const SignedDistance turned = signed_distance(other, at_other, *ring, at_ring);
+    ASSERT_EQ(turned.status, found.status);
+    if (truth.upper < 0) {
+      ++crossing;
+      ASSERT_EQ(found.status, SignedStatus::overlapping) << i;
+      ASSERT_EQ(found.value, 0);
+      ASSERT_NE(pair.a, no_part);
+      ASSERT_EQ(pair.b != no_part, with_mesh);
+      const SignedDistance of_pair = signed_distance(
+          triangle(*ring, pair.a), at_ring, with_mesh ? triangle(*ball, pair.b) : shape, at_other);
+      ASSERT_LT(of_pair.upper, 0);
+      continue;
+    }
+    if (found.status == SignedStatus::overlapping) {
+      // One within the other: the nearest point of a shape's surface is inside of the ring.
+      ++within;
+      const Vec3<double> point =
+          at_ring.linear.transpose() * (at_other.translation - at_ring.translation);
+      const double r = std::hypot(std::hypot(point.x(), point.y()) - 1, point.z());
+      ASSERT_LT(r, 0.5);
+      continue;
+    }
+    ++apart;
+    ASSERT_LE(found.lower, truth.upper);
+    ASSERT_GE(found.upper, truth.lower);
+    ASSERT_LE(found.upper - found.lower, 1e-9);
+    ASSERT_NEAR(turned.value, found.value, 1e-12);
+    const double aside = std::sqrt(2 * found.value * (found.upper - found.lower));
+    ASSERT_LE((found.point_b - found.point_a - found.value * found.normal).norm(), aside + 1e-12);
+    SignedDistanceOptions near;
+    near.at_most = found.value / 2;
+    const SignedDistance beyond = signed_distance(*ring, at_ring, other, at_other, near);
+    ASSERT_GE(beyond.lower, near.at_most);
+    ASSERT_LE(beyond.lower, found.upper);
+  }
+  EXPECT_GT(apart, 30);
+  EXPECT_GT(crossing, 10);
+}
+
+TEST(MeshPairs, what_is_within_a_closed_mesh_overlaps_it_and_in_a_hole_does_not) {
+  const MeshPointer ring = testing::torus(40, 24).shared();
+  const ContactShape ball{Shape<double>(Sphere<double>{0.1})};
+  const auto at = [](double x) {
+    Affine<double> pose;
+    pose.translation.x() = x;
+    return pose;
+  };
+  const SignedDistance in_hole = signed_distance(*ring, {}, ball, at(0));
+  EXPECT_EQ(in_hole.status, SignedStatus::separated);
+  EXPECT_NEAR(in_hole.value, 0.5, 0.02);
+  EXPECT_EQ(signed_distance(*ring, {}, ball, at(1)).status, SignedStatus::overlapping);
+  EXPECT_EQ(signed_distance(*ring, {}, ball, at(0.6)).status, SignedStatus::overlapping);
+  // An open mesh holds nothing.
+  testing::Surface open = testing::torus(40, 24);
+  open.triangles.pop_back();
+  EXPECT_EQ(signed_distance(*open.shared(), {}, ball, at(1)).status, SignedStatus::separated);
+  // A small ring within a large ball.
+  const MeshPointer large = testing::bumpy_ball(20, 30).shared();
+  const MeshPointer small = mapped(*ring, 0.1 * Mat3<double>::Identity());
+  EXPECT_EQ(signed_distance(*large, {}, *small, {}).status, SignedStatus::overlapping);
+  EXPECT_EQ(signed_distance(*small, {}, *large, {}).status, SignedStatus::overlapping);
+}
+
+TEST(MeshPairs, first_touch_when_a_part_is_first_touched) {
+  const MeshPointer ring = testing::torus(12, 8).shared();
+  const std::vector<ContactShape> of_ring = parts(*ring);
+  const ContactShape box{Shape<double>(Box<double>{{0.2, 0.3, 0.1}})};
+  testing::Random random(3);
+  int hits = 0, misses = 0;
+  for (int i = 0; i < testing::number_of_cases(60); ++i) {
+    RigidMotion of_mesh{pose_of_pair(random, 0.3)}, of_box{pose_of_pair(random, 1)};
+    of_box.pose.translation = 3 * random.direction();
+    of_box.velocity = 0.7 * random.in_cube() - of_box.pose.translation;
+    if (i % 2 == 0) {
+      of_box.angular_velocity = random.in_cube();
+      of_mesh.angular_velocity = random.in_cube();
+    }
+    Impact truth;
+    truth.status = ImpactStatus::miss;
+    double first = 1;  ///< before this none is touched
+    for (const ContactShape& part : of_ring) {
+      const Impact found = first_impact(part, of_mesh, box, of_box, 1);
+      ASSERT_NE(found.status, ImpactStatus::undecided);
+      if (found.status == ImpactStatus::miss) continue;
+      first = std::min(first, found.t_lo);
+      if (found.t_hi < truth.t_hi) truth = found;
+    }
+    PartPair pair;
+    const Impact found = first_impact(*ring, of_mesh, box, of_box, 1, {}, &pair);
+    ASSERT_EQ(found.status, truth.status) << i;
+    if (truth.status == ImpactStatus::miss) {
+      ++misses;
+      continue;
+    }
+    ++hits;
+    ASSERT_LE(found.t_lo, truth.t_hi);
+    // What is nearer than ImpactOptions::touching counts as touching.
+    constexpr double touching = 1e-10;
+    ASSERT_GE(found.t_hi, first - touching);
+    ASSERT_LE(found.t_hi - found.t_lo, 1e-8);
+    const Impact of_pair = first_impact(triangle(*ring, pair.a), of_mesh, box, of_box, 1);
+    ASSERT_LE(of_pair.t_lo, found.t_hi);
+  }
+  EXPECT_GT(hits, 15);
+  EXPECT_GT(misses, 3);
+}
+
+TEST(MeshPairs, of_many_bodies_are_those_of_each_two) {
+  testing::Random random(4);
+  const MeshPointer ring = testing::torus(20, 12).shared();
+  std::vector<ContactBody> bodies;
+  for (int i = 0; i < 30; ++i) {
+    bodies.push_back(
+        {ContactShape(Shape<double>(Box<double>{{0.3, 0.2, 0.4}})), pose_of_pair(random, 3)});
+    if (i % 2 == 0) bodies.back().mesh = ring;
+  }
+  const ContactWorld world(bodies);
+  const double within = 0.5;
+  std::size_t expected = 0;
+  NearPairsOptions near;
+  near.at_most = within;
+  const std::vector<NearPair> pairs = near_pairs(world, near);
+  for (std::size_t a = 0; a < bodies.size(); ++a)
+    for (std::size_t b = a + 1; b < bodies.size(); ++b) {
+      const SignedDistance own =
+          signed_distance(bodies[a].parts(), bodies[a].pose, bodies[b].parts(), bodies[b].pose);
+      expected += own.lower <= within ? 1 : 0;
+    }
+  EXPECT_EQ(pairs.size(), expected);
+  EXPECT_GT(expected, 10u);
+  const ContactBody at{ContactShape(Shape<double>(Sphere<double>{0.01})), {}};
+  const std::vector<NearPair> nearest = nearest_bodies(at, world, 5);
+  ASSERT_EQ(nearest.size(), 5u);
+  std::vector<double> all;
+  for (const ContactBody& body : bodies)
+    all.push_back(signed_distance(at.parts(), at.pose, body.parts(), body.pose).value);
+  std::ranges::sort(all);
+  for (std::size_t i = 0; i < 5; ++i) EXPECT_NEAR(nearest[i].distance.value, all[i], 1e-9);
+  // What moves through them.
+  RigidMotion motion{at.pose};
+  motion.pose.translation = {-6, 0.3, 0.2};
+  motion.velocity = {12, 0, 0};
+  const WorldImpact met = first_impact(at.shape, motion, world, 1, ~0u, nothing_met(1));
+  double first = 1;
+  for (const ContactBody& body : bodies) {
+    const Impact own = first_impact(at.parts(), motion, body.parts(), {body.pose}, 1);
+    if (own.status != ImpactStatus::miss) first = std::min(first, own.t_hi);
+  }
+  EXPECT_NEAR(met.impact.t_hi, first, 1e-9);
+}
+
+TEST(MeshPairs, are_above_a_half_space_by_their_lowest_vertex) {
+  const MeshPointer block = testing::block({1, 2, 3}).shared();
+  const ContactShape box{Shape<double>(Box<double>{{1, 2, 3}})};
+  testing::Random random(5);
+  for (int i = 0; i < 100; ++i) {
+    const Affine<double> pose = pose_of_pair(random, 4);
+    const PlacedPlane plane = PlacedPlane::of(random.direction(), 0.3, {});
+    const SignedDistance of_mesh = distance_to_half_space(plane, *block, pose),
+                         of_box = distance_to_half_space(plane, box, pose);
+    ASSERT_EQ(of_mesh.status, of_box.status);
+    ASSERT_NEAR(of_mesh.value, of_box.value, 1e-14);
+    ASSERT_LE(of_mesh.lower, of_box.upper);
+    ASSERT_GE(of_mesh.upper, of_box.lower);
+  }
+}
+
+TEST(MeshPairs, change_as_central_differences_say) {
+  const MeshPointer ring = testing::torus(16, 10).shared();
+  const ContactShape box{Shape<double>(Box<double>{{0.2, 0.3, 0.1}})};
+  testing::Random random(6);
+  int checked = 0;
+  for (int i = 0; i < 60; ++i) {
+    const Affine<double> at_ring = pose_of_pair(random, 0.3);
+    Affine<double> at_box = pose_of_pair(random, 1);
+    at_box.translation = 2 * random.direction();
+    const PairDerivative derivative = derivative_of(*ring, at_ring, box, at_box);
+    if (derivative.is_ridge) continue;
+    const Vec3<double> way = random.direction();
+    constexpr double step = 1e-5;
+    const auto value = [&](double by) {
+      Affine<double> moved = at_box;
+      moved.translation += by * way;
+      return signed_distance(*ring, at_ring, box, moved).value;
+    };
+    ASSERT_NEAR((value(step) - value(-step)) / (2 * step), derivative.b.by_velocity.dot(way), 1e-6);
+    ++checked;
+  }
+  EXPECT_GT(checked, 20);
+}
+
+}  // namespace
+}  // namespace minkray

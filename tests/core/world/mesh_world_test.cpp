@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+// Meshes in worlds: beside shapes and half-spaces, posed, moving, and however rays are asked.
+#include <gtest/gtest.h>
+
+#include "core/world/world.h"
+#include "tests/support/meshes.h"
+#include "tests/support/random.h"
+
+namespace minkray {
+namespace {
+
+using MeshPointer = std::shared_ptr<const TriangleMesh>;
+
+Affine<double> random_pose(testing::Random& random, double reach) {
+  return {random.rotation(), reach * random.in_cube()};
+}
+
+/// Shapes, meshes and a half-space, each kind often between others.
+World mixed_world(int seed) {
+  testing::Random random(static_cast<std::uint64_t>(seed));
+  const MeshPointer ball = testing::bumpy_ball(20, 24).shared(),
+                    ring = testing::torus(24, 16).shared();
+  Instances instances;
+  instances.add(HalfSpaceBody<double>{Vec3<double>::UnitZ(), -6});
+  for (int i = 0; i < 60; ++i) {
+    const Affine<double> pose = random_pose(random, 5);
+    if (i % 3 == 0)
+      instances.add(Box<double>{{0.3, 0.4, 0.5}}, pose);
+    else
+      instances.add(i % 3 == 1 ? ball : ring, pose);
+  }
+  return World(std::move(instances));
+}
+
+Ray<double> random_ray(testing::Random& random) {
+  const Vec3<double> from = 9 * random.direction();
+  return {from, 5 * random.in_cube() - from};
+}
+
+/// By asking each instance by itself.
+WorldHit first_of_all(const World& world, const Ray<double>& ray) {
+  const Instances& instances = world.instances();
+  WorldHit first = WorldHit::miss();
+  for (std::uint32_t i = 0; i < instances.size(); ++i) {
+    MeshCast met;
+    PartCounts parts;
+    if (instances.is_half_space(i))
+      met.cast = cast_ray(instances.half_spaces()[0].in_world, ray);
+    else if (instances.is_mesh(i))
+      met = cast_ray(instances.mesh_of(i), ray, ray.t_max, false, 0, parts);
+    else
+      met.cast = cast_ray(instances.at(i), ray);
+    if (met.cast.found() && first.yields_to(i, met.cast.t())) first = {i, met.cast, met.part};
+  }
+  return first;
+}
+
+void expect_same(const WorldHit& a, const WorldHit& b) {
+  ASSERT_EQ(a.instance, b.instance);
+  ASSERT_EQ(a.part, b.part);
+  if (!a.found()) return;
+  ASSERT_EQ(a.cast.t(), b.cast.t());
+  ASSERT_EQ(a.cast.normal, b.cast.normal);
+}
+
+TEST(MeshWorld, finds_the_first_of_all_however_rays_are_asked) {
+  const World world = mixed_world(1);
+  testing::Random random(2);
+  std::vector<WorldRay> rays;
+  for (int i = 0; i < 3000; ++i) rays.push_back({random_ray(random)});
+  // Blocks of neighbours.
+  for (int y = 0; y < 40; ++y)
+    for (int x = 0; x < 40; ++x)
+      rays.push_back({{{0, -12, 1}, {0.01 * (x - 20), 1, 0.01 * (y - 20)}}});
+  std::vector<WorldHit> together(rays.size());
+  std::vector<std::uint8_t> met(rays.size());
+  QueryCounts counts;
+  world.closest_hits(rays, together, counts);
+  world.occluded(rays, met, counts);
+  int meshes = 0, shapes = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const WorldHit first = first_of_all(world, rays[i].ray);
+    expect_same(world.closest_hit(rays[i], counts), first);
+    expect_same(together[i], first);
+    ASSERT_EQ(met[i] != 0, first.found());
+    ASSERT_EQ(world.occluded(rays[i], counts), first.found());
+    if (!first.found()) continue;
+    meshes += first.part != no_part ? 1 : 0;
+    shapes += world.instances().has_shape(first.instance) ? 1 : 0;
+  }
+  EXPECT_EQ(counts.exhausted, 0u);
+  EXPECT_GT(meshes, 500);
+  EXPECT_GT(shapes, 100);
+}
+
+TEST(MeshWorld, a_block_of_triangles_is_met_where_the_box_is) {
+  testing::Random random(3);
+  const MeshPointer block = testing::block({0.3, 0.4, 0.5}).shared();
+  for (int i = 0; i < 200; ++i) {
+    const double far = i % 4 == 0 ? 1e6 : 1;
+    Affine<double> pose = random_pose(random, far);
+    Instances of_mesh, of_box;
+    of_mesh.add(block, pose);
+    of_box.add(Box<double>{{0.3, 0.4, 0.5}}, pose);
+    const World mesh(std::move(of_mesh)), box(std::move(of_box));
+    for (int k = 0; k < 50; ++k) {
+      const Vec3<double> from = pose.translation + 3 * random.direction();
+      const Ray<double> ray{from, pose.translation + 0.6 * random.in_cube() - from};
+      QueryCounts counts;
+      const WorldHit at_mesh = mesh.closest_hit(ray, counts), at_box = box.closest_hit(ray, counts);
+      ASSERT_EQ(at_mesh.found(), at_box.found()) << i;
+      if (!at_mesh.found()) continue;
+      // Both intervals hold the one true t, and so have it in common.
+      const auto lo = [](const WorldHit& hit) { return hit.cast.t_base + hit.cast.offset_lo; };
+      const auto hi = [](const WorldHit& hit) { return hit.cast.t_base + hit.cast.offset_hi; };
+      const double rounding = 4e-16;
+      ASSERT_LE(std::max(lo(at_mesh), lo(at_box)), std::min(hi(at_mesh), hi(at_box)) + rounding);
+      ASSERT_LE(hi(at_mesh) - lo(at_mesh), 1e-9 * far);
+      ASSERT_NEAR((at_mesh.cast.normal - at_box.cast.normal).norm(), 0, 1e-12);
+    }
+  }
+}
+
+TEST(MeshWorld, a_ray_that_leaves_a_mesh_meets_what_is_beyond_and_not_where_it_begins) {
+  Instances instances;
+  instances.add(testing::torus(60, 40).shared(), {});
+  const World world(std::move(instances));
+  testing::Random random(4);
+  int again = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Vec3<double> from = 3 * random.direction();
+    const Ray<double> ray{from, 1.3 * random.in_cube() - from};
+    QueryCounts counts;
+    const WorldHit hit = world.closest_hit(ray, counts);
+    if (!hit.found()) continue;
+    Vec3<double> out = random.direction();
+    if (out.dot(hit.cast.normal) < 0) out = -out;
+    if (out.dot(hit.cast.normal) < 1e-3) continue;
+    const WorldHit next = world.closest_hit({ray.at(hit.cast.t()), out}, counts, 0);
+    if (!next.found()) continue;
+    ASSERT_GT(next.cast.t(), 1e-4);
+    ASSERT_NE(next.part, hit.part);
+    ++again;
+  }
+  EXPECT_GT(again, 300);
+}
+
+TEST(MeshWorld, is_shown_to_some_rays_only_and_moves) {
+  Instances instances;
+  instances.add(testing::block({1, 1, 1}).shared(), {});
+  instances.add(Sphere<double>{0.5}, {Mat3<double>::Identity(), {0, 0, 5}});
+  instances.show_to(0, 2);
+  World world(std::move(instances));
+  QueryCounts counts;
+  WorldRay ray{{{0, 0, -9}, {0, 0, 1}}};
+  EXPECT_EQ(world.closest_hit(ray, counts).instance, 0u);
+  ray.kinds = 1;
+  EXPECT_EQ(world.closest_hit(ray, counts).instance, 1u);
+  EXPECT_TRUE(world.occluded(ray, counts));
+  ray.kinds = 2;
+  world.set_pose(0, {Mat3<double>::Identity(), {3, 0, 0}});
+  const auto pose_of = [&](std::size_t i) { return *world.instances().plain_pose(i); };
+  world.pose_all(pose_of);
+  EXPECT_EQ(world.closest_hit(ray, counts).instance, 1u);
+  ray.ray.origin.x() = 3;
+  EXPECT_EQ(world.closest_hit(ray, counts).cast.t(), 8);
+  // A shutter: the block goes by two while time goes from 0 to 1.
+  world.pose_all(pose_of, [](std::size_t i) {
+    Movement<double> movement;
+    if (i == 0) movement.shift = {0, 0, 2};
+    return movement;
+  });
+  ray.time = 0.5;
+  EXPECT_EQ(world.closest_hit(ray, counts).cast.t(), 9);
+}
+
+TEST(MeshWorld, answers_rays_that_have_no_direction_or_too_large_numbers) {
+  Instances instances;
+  instances.add(testing::block({1, 1, 1}).shared(), {});
+  const World world(std::move(instances));
+  QueryCounts counts;
+  EXPECT_FALSE(world.closest_hit({{0, 0, 0}, {0, 0, 0}}, counts).found());
+  EXPECT_EQ(counts.exhausted, 0u);
+  EXPECT_EQ(world.closest_hit({{0, 0, 1e-3}, {0, 0, 1e-300}}, counts).cast.t(), 0.999e300);
+  EXPECT_EQ(world.closest_hit({{0, 0, -9}, {0, 0, 1e250}}, counts).cast.t(), 8e-250);
+  EXPECT_FALSE(world.closest_hit({{0, 0, 1e305}, {0, 0, -1}}, counts).found());
+  EXPECT_EQ(counts.exhausted, 1u);
+}
+
+}  // namespace
+}  // namespace minkray

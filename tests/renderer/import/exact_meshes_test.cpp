@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+// Robots' meshes as they are: the triangles of each format stand where the hull does.
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <fstream>
+
+#include "core/mesh/mesh_ray.h"
+#include "renderer/import/import.h"
+#include "renderer/import/mesh_library.h"
+#include "tests/support/meshes.h"
+#include "tests/support/temporary_folder.h"
+
+namespace minkray {
+namespace {
+
+class ExactMeshes : public ::testing::Test {
+ protected:
+  ExactMeshes() { options_.meshes = MeshChoice::exact; }
+
+  MeshLibrary::Answer read(const std::string& file, const Vec3<double>& scale = {1, 1, 1}) {
+    MeshLibrary library(folder_.path(), options_);
+    return library.hulls_of(file, scale);
+  }
+  void expect_closed(const MeshLibrary::Answer& answer, std::size_t triangles) {
+    ASSERT_EQ(answer.complaint, "");
+    ASSERT_EQ(answer.surfaces.size(), 1u);
+    ASSERT_TRUE(answer.surfaces[0]);
+    EXPECT_EQ(answer.surfaces[0]->size(), triangles);
+    EXPECT_TRUE(answer.surfaces[0]->is_closed());
+    // Counter-clockwise as seen from outside: a ray from there comes in at a front.
+    PartCounts counts;
+    const PartHit hit = closest_part(*answer.surfaces[0], {{5, 0.1, 0.2}, {-1, 0, 0}}, 0, counts);
+    ASSERT_TRUE(hit.found());
+    EXPECT_FALSE(hit.is_back);
+  }
+
+  TemporaryFolder folder_;
+  ImportOptions options_;
+};
+
+std::string obj_of(const testing::Surface& surface) {
+  std::string text;
+  for (const Vec3<double>& v : surface.vertices)
+    text += "v " + std::to_string(v.x()) + " " + std::to_string(v.y()) + " " +
+            std::to_string(v.z()) + "\n";
+  for (const Corners& t : surface.triangles)
+    text += "f " + std::to_string(t[0] + 1) + " " + std::to_string(t[1] + 1) + " " +
+            std::to_string(t[2] + 1) + "\n";
+  return text;
+}
+
+void write_stl(const std::filesystem::path& file, const testing::Surface& surface) {
+  std::string bytes(80, ' ');
+  const auto add = [&](const auto& number) {
+    bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
+  };
+  add(static_cast<std::uint32_t>(surface.triangles.size()));
+  for (const Corners& t : surface.triangles) {
+    for (int k = 0; k < 3; ++k) add(0.0f);
+    for (const std::uint32_t corner : t)
+      for (int k = 0; k < 3; ++k) add(static_cast<float>(surface.vertices[corner][k]));
+    add(std::uint16_t{0});
+  }
+  std::ofstream(file, std::ios::binary) << bytes;
+}
+
+TEST_F(ExactMeshes, are_those_of_obj_and_stl) {
+  const testing::Surface block = testing::block({1, 2, 3});
+  std::ofstream(folder_ / "b.obj") << obj_of(block);
+  write_stl(folder_ / "b.stl", block);
+  expect_closed(read("b.obj"), 12);
+  expect_closed(read("b.stl"), 12);
+  EXPECT_EQ(read("b.stl").surfaces[0]->vertices().size(), 8u);
+  // A mirror turns triangles over, which are turned back.
+  expect_closed(read("b.stl", {-1, 1, 1}), 12);
+  const MeshLibrary::Answer flat = read("b.stl", {1, 1, 0});
+  EXPECT_FALSE(flat.surfaces[0]);
+  EXPECT_NE(std::ranges::find(flat.notes, "has no triangles: its hull is shown"), flat.notes.end());
+  options_.meshes = MeshChoice::hull;
+  EXPECT_TRUE(read("b.stl").surfaces.empty());
+}
+
+TEST_F(ExactMeshes, are_those_of_collada) {
+  // A tetrahedron of a polygon list, a strip and a triangle, on a node that is mirrored.
+  std::ofstream(folder_ / "t.dae") << R"(<COLLADA><asset><up_axis>Z_UP</up_axis></asset>
+    <library_geometries><geometry id="g"><mesh>
+    <source id="s"><float_array id="a" count="12">2 0 0  -1 2 -1  -1 -2 -1  -1 0 2</float_array>
+    <technique_common><accessor source="#a" count="4" stride="3"/></technique_common></source>
+    <vertices id="v"><input semantic="POSITION" source="#s"/></vertices>
+    <polylist count="1"><input semantic="VERTEX" source="#v" offset="0"/><vcount>3</vcount><p>0 2 1</p></polylist>
+    <tristrips count="1"><input semantic="VERTEX" source="#v" offset="0"/><p>2 3 1 0</p></tristrips>
+    <triangles count="1"><input semantic="VERTEX" source="#v" offset="0"/><p>0 3 2</p></triangles>
+    </mesh></geometry></library_geometries>
+    <library_visual_scenes><visual_scene id="w"><node><matrix>1 0 0 0 0 -1 0 0 0 0 1 0 0 0 0 1</matrix>
+    <instance_geometry url="#g"/></node></visual_scene></library_visual_scenes>
+    <scene><instance_visual_scene url="#w"/></scene></COLLADA>)";
+  expect_closed(read("t.dae"), 4);
+}
+
+TEST_F(ExactMeshes, stand_in_scenes_of_robots_with_hulls_beside_them) {
+  write_stl(folder_ / "ring.stl", testing::torus(24, 12));
+  std::ofstream(folder_ / "r.urdf") << R"(<robot name="r"><link name="a">
+    <visual><geometry><mesh filename="ring.stl" scale="0.5 0.5 0.5"/></geometry></visual></link></robot>)";
+  const Imported exact = import_scene(folder_ / "r.urdf", options_);
+  ASSERT_EQ(exact.scene.objects.size(), 1u);
+  ASSERT_TRUE(exact.scene.objects[0].mesh);
+  EXPECT_EQ(exact.scene.objects[0].mesh->size(), 576u);
+  EXPECT_NEAR(exact.scene.objects[0].mesh->bounds().upper.x(), 0.7, 1e-6);
+  const Imported hull = import_scene(folder_ / "r.urdf", {});
+  EXPECT_FALSE(hull.scene.objects[0].mesh);
+  // Both are framed alike.
+  EXPECT_NEAR((exact.scene.camera.position - hull.scene.camera.position).norm(), 0, 1e-6);
+}
+
+}  // namespace
+}  // namespace minkray

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+// Meshes through the public headers.
+#include <gtest/gtest.h>
+#include <minkray/minkray.h>
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace mk = minkray;
+
+/// A box without its lid: five sides of two triangles.
+mk::Shape open_box() {
+  const std::vector<mk::Vec3> vertices = {{-1, -1, 0}, {1, -1, 0}, {-1, 1, 0}, {1, 1, 0},
+                                          {-1, -1, 1}, {1, -1, 1}, {-1, 1, 1}, {1, 1, 1}};
+  const std::vector<std::array<std::uint32_t, 3>> triangles = {
+      {0, 2, 3}, {0, 3, 1}, {0, 1, 5}, {0, 5, 4}, {2, 6, 7},
+      {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  return mk::mesh(vertices, triangles);
+}
+
+template <class Call>
+std::string error_of(const Call& call) {
+  try {
+    call();
+  } catch (const mk::Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(LibraryMesh, is_met_as_it_is) {
+  const mk::Shape box = open_box();
+  EXPECT_STREQ(box.kind(), "mesh");
+  const mk::MeshInfo info = mk::mesh_info(box);
+  EXPECT_EQ(info.triangles, 10u);
+  EXPECT_EQ(info.open_edges, 4u);
+  EXPECT_EQ(box.bounds().upper.z, 1);
+  // Into the open box, onto its floor, where its hull would have been met at the lid.
+  const mk::Hit floor = mk::cast(box, {{0.3, 0.2, 5}, {0, 0, -1}});
+  ASSERT_EQ(floor.status, mk::hit);
+  EXPECT_EQ(floor.t, 5);
+  EXPECT_EQ(floor.normal.z, 1);
+  EXPECT_LT(floor.part, 2);
+  EXPECT_GE(floor.part, 0);
+  EXPECT_LE(floor.t_lo, 5);
+  EXPECT_GE(floor.t_hi, 5);
+  EXPECT_EQ(mk::cast(box, {{0.3, 0.2, -5}, {0, 0, 1}}).normal.z, -1);  // from below
+  const mk::Hit raised = mk::cast(box, {{0.3, 0.2, 5}, {0, 0, -1}}, mk::translation({0, 0, 2}));
+  EXPECT_EQ(raised.t, 3);
+  EXPECT_EQ(mk::cast(mk::sphere(1), {{0, 0, 5}, {0, 0, -1}}).part, -1);
+}
+
+TEST(LibraryMesh, stands_in_scenes_whose_rays_are_proven) {
+  mk::Scene scene;
+  const std::uint32_t first = scene.add(open_box(), {}, "box");
+  scene.add(mk::sphere(0.25), mk::translation({0, 0, 0.5}), "ball");
+  const std::uint32_t far = scene.add(open_box(), mk::translation({6, 0, 0}), "other");
+  scene.commit();
+  std::vector<mk::Ray> rays;
+  for (int i = 0; i < 400; ++i)
+    rays.push_back({{-9, 0.01 * i - 2, 3}, {1, 0.001 * (i % 7), -0.3 - 0.001 * (i % 11)}});
+  std::vector<mk::Hit> hits(rays.size());
+  scene.cast(rays, hits);
+  int proven = 0, of_mesh = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    EXPECT_EQ(scene.cast(rays[i]).t, hits[i].t);
+    EXPECT_EQ(scene.cast(rays[i]).part, hits[i].part);
+    EXPECT_EQ(scene.occluded(rays[i]), hits[i].found() ? mk::hit : mk::miss);
+    of_mesh += hits[i].part >= 0 ? 1 : 0;
+    const mk::Proof proof = scene.prove(rays[i], hits[i]);
+    proven += proof.holds ? 1 : 0;
+    mk::Hit lie = hits[i];
+    if (!lie.found()) continue;
+    lie.t_base += 1e-3;
+    EXPECT_FALSE(scene.prove(rays[i], lie).holds);
+  }
+  EXPECT_EQ(proven, 400);
+  EXPECT_GT(of_mesh, 100);
+  scene.set_pose(far, mk::translation({0, 0, -3}));
+  scene.commit();
+  EXPECT_EQ(scene.cast({{0.9, 0, 9}, {0, 0, -1}}).object, first);
+  scene.remove(first);
+  scene.commit();
+  EXPECT_EQ(scene.cast({{0.9, 0, 9}, {0, 0, -1}}).object, far);
+  EXPECT_EQ(scene.cast({{0.9, 0, 9}, {0, 0, -1}}).t, 12);
+}
+
+TEST(LibraryMesh, has_distances_to_its_surface) {
+  const mk::Shape box = open_box(), ball = mk::sphere(0.25);
+  // Within the open box, where the hull would be overlapped.
+  const mk::Distance inside = mk::signed_distance(box, {}, ball, mk::translation({0.5, 0, 0.6}));
+  EXPECT_EQ(inside.status, mk::separated);
+  EXPECT_NEAR(inside.value, 0.25, 1e-12);
+  EXPECT_LE(inside.lower, inside.value);
+  EXPECT_NEAR(inside.point_a.x, 1, 1e-12);
+  const mk::Distance crossing = mk::signed_distance(ball, mk::translation({1, 0, 0.6}), box, {});
+  EXPECT_EQ(crossing.status, mk::overlapping);
+  EXPECT_EQ(crossing.value, 0);
+  // A pose that scales is part of the mesh.
+  mk::Pose twice;
+  for (int i = 0; i < 3; ++i) twice.rows[i][i] = 2;
+  EXPECT_NEAR(mk::signed_distance(box, twice, ball, mk::translation({1.5, 0, 1})).value, 0.25,
+              1e-12);
+  mk::Twist down;
+  down.velocity = {0, 0, -1};
+  const mk::Impact lands =
+      mk::time_of_impact(ball, mk::translation({0, 0, 3}), down, box, {}, {}, 9);
+  EXPECT_EQ(lands.status, mk::impact);
+  EXPECT_NEAR(lands.t_hi, 2.75, 1e-9);
+
+  mk::Scene scene;
+  scene.add(box, {}, "box");
+  scene.add(ball, mk::translation({0.5, 0, 0.6}), "ball");
+  scene.add(box, mk::translation({5, 0, 0}), "other");
+  scene.add_half_space({0, 0, 1}, -0.5, "floor");
+  scene.commit();
+  const mk::ScenePairs pairs = scene.distances(0.3);
+  ASSERT_EQ(pairs.size(), 1u);
+  EXPECT_NEAR(pairs[0].distance.value, 0.25, 1e-12);
+  EXPECT_EQ(scene.distances(0.6).size(), 3u);  // and both boxes above the floor
+  const mk::ScenePairs near = scene.nearest(std::vector<mk::Vec3>{{3, 0, 0.5}}, 2);
+  ASSERT_EQ(near.size(), 2u);
+  EXPECT_NEAR(near[0].distance.value, 1, 1e-12);
+  EXPECT_EQ(near[0].object_b, 2u);
+  EXPECT_NEAR(scene.distance_to(ball, mk::translation({0, 0, 1.5})).distance.value, 0.4, 0.2);
+  EXPECT_GE(scene.manifold(0, 1).count, 1);
+}
+
+TEST(LibraryMesh, is_refused_where_a_shape_must_be_convex_and_wrong_ones_are) {
+  const mk::Shape box = open_box();
+  EXPECT_NE(error_of([&] { mk::rounded(box, 0.1); }).find("must be convex (got a mesh)"),
+            std::string::npos);
+  EXPECT_NE(error_of([&] { box.support({1, 0, 0}); }).find("must be convex"), std::string::npos);
+  EXPECT_NE(error_of([&] { mk::mesh_info(mk::sphere(1)); }).find("must be a mesh"),
+            std::string::npos);
+  const std::vector<mk::Vec3> few = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  EXPECT_NE(error_of([&] {
+              mk::mesh(few, {0, 1, 3});
+            }).find("triangles[0]: must be numbers of vertices, less than 3 (got 3)"),
+            std::string::npos);
+  EXPECT_NE(error_of([&] {
+              mk::mesh(few, {0, 1});
+            }).find("must be three numbers each"),
+            std::string::npos);
+  const std::vector<mk::Vec3> wrong = {{0, 0, 0}, {1, std::nan(""), 0}, {0, 1, 0}};
+  EXPECT_NE(error_of([&] {
+              mk::mesh(wrong, {0, 1, 2});
+            }).find("vertices[1]: must be finite"),
+            std::string::npos);
+}
+
+}  // namespace

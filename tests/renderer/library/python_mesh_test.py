@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: MIT
+"""Meshes in Python: python_mesh_test.py (PYTHONPATH: the module's folder)."""
+import unittest
+
+import numpy as np
+
+import minkray as mk
+
+
+def torus(around=60, across=40):
+    u, v = np.meshgrid(np.arange(around) * 2 * np.pi / around, np.arange(across) * 2 * np.pi / across,
+                       indexing="ij")
+    r = 1 + 0.4 * np.cos(v)
+    vertices = np.stack([r * np.cos(u), r * np.sin(u), 0.4 * np.sin(v)], axis=-1).reshape(-1, 3)
+    i, j = np.meshgrid(np.arange(around), np.arange(across), indexing="ij")
+    a, b = i * across + j, (i + 1) % around * across + j
+    d, c = i * across + (j + 1) % across, (i + 1) % around * across + (j + 1) % across
+    return vertices, np.concatenate([np.stack([a, b, c], -1).reshape(-1, 3), np.stack([a, c, d], -1).reshape(-1, 3)])
+
+
+class Meshes(unittest.TestCase):
+    def test_rays_meet_the_triangle_that_they_are_said_to_meet(self):
+        vertices, triangles = torus()
+        scene = mk.Scene()
+        scene.add(mk.mesh(vertices, triangles), name="ring")
+        scene.commit()
+        rng = np.random.default_rng(1)
+        origins = rng.normal(size=(2000, 3))
+        origins *= 4 / np.linalg.norm(origins, axis=1)[:, None]
+        rays = np.concatenate([origins, rng.normal(size=(2000, 3)) * 0.7 - origins], axis=1)
+        hits = scene.cast_rays(rays)
+        met = hits.status == mk.HIT
+        self.assertGreater(met.sum(), 500)
+        self.assertTrue((hits.part[~met] == -1).all())
+        a, b, c = (vertices[triangles[hits.part[met], k]] for k in range(3))
+        n = np.cross(b - a, c - a)
+        o, d = rays[met, :3], rays[met, 3:]
+        t = np.sum(n * (a - o), axis=1) / np.sum(n * d, axis=1)
+        np.testing.assert_allclose(hits.t[met], t, rtol=1e-12)
+        self.assertTrue(((hits.t_lo[met] <= t + 1e-14) & (t <= hits.t_hi[met] + 1e-14)).all())
+        self.assertTrue(scene.certify(rays, hits).holds.all())
+
+    def test_no_ray_from_within_gets_out_at_a_vertex(self):
+        vertices, triangles = torus()
+        scene = mk.Scene()
+        scene.add(mk.mesh(vertices, triangles))
+        scene.commit()
+        angle = np.arctan2(vertices[:, 1], vertices[:, 0])
+        origins = np.stack([np.cos(angle), np.sin(angle), 0 * angle], -1)
+        hits = scene.cast_rays(np.concatenate([origins, vertices - origins], axis=1))
+        self.assertTrue((hits.status == mk.HIT).all())
+
+    def test_a_ball_goes_through_the_hole_of_a_ring_but_not_of_its_hull(self):
+        vertices, triangles = torus()
+        ring, ball = mk.mesh(vertices, triangles), mk.sphere(0.2)
+        found = mk.signed_distance(ring, None, ball, None)
+        self.assertEqual(found.status, mk.SEPARATED)
+        self.assertAlmostEqual(float(found.value), 0.4, places=2)
+        self.assertEqual(mk.signed_distance(mk.hull(vertices), None, ball, None).status, mk.OVERLAPPING)
+        shifted = np.tile(np.eye(4), (5, 1, 1))
+        shifted[:, 0, 3] = [0, 0.1, 0.2, 0.5, 1]
+        many = mk.signed_distances(ring, np.eye(4), ball, shifted)
+        self.assertEqual(list(many.status == mk.OVERLAPPING), [False, False, False, True, True])
+        self.assertTrue((np.diff(many.value) <= 0).all())
+
+    def test_says_what_is_wrong(self):
+        vertices, triangles = torus(6, 4)
+        for wrong, of in (((vertices, triangles + 24), "from 0 to 23"), ((vertices, triangles[:, :2]), r"shape \(M, 3\)"),
+                          ((vertices, triangles * 1.0), "whole numbers"), ((vertices[:, :2], triangles), r"\(N, 3\)")):
+            with self.assertRaisesRegex(mk.Error, of):
+                mk.mesh(*wrong)
+        self.assertEqual(mk.mesh_info(mk.mesh(vertices, triangles))["open_edges"], 0)
+        self.assertEqual(repr(mk.mesh(vertices, triangles)), "<minkray.Shape mesh>")
+
+
+if __name__ == "__main__":
+    unittest.main()
