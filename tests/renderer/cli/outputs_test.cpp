@@ -59,6 +59,11 @@ std::vector<Command> writing_commands() {
         {"--pinhole", "camera.json", "r.urdf -q --pinhole camera.json"},
         {"--path", "poses.csv", "r.urdf --pattern spinning:2x4 -q --path poses.csv"}},
        {{"--output", {"o.ply"}}, {"--ids", {"o.json", " --output o.ply"}}}},
+      {"distance",
+       {{"files", "r.urdf", "r.urdf"},
+        {"files", "scene.json", "r.urdf scene.json"},
+        {"--srdf", "r.srdf", "r.urdf --srdf r.srdf"}},
+       {{"--output", {"o.csv"}}}},
       {"clearance",
        {{"robot", "r.urdf", "r.urdf --path rows.csv"},
         {"--path", "rows.csv", "r.urdf --path rows.csv"},
@@ -308,6 +313,8 @@ TEST_F(Outputs, none_is_a_file_that_an_input_names) {
 TEST_F(Outputs, none_is_a_mesh_of_an_obstacle_a_probe_or_a_pair) {
   for (const auto& [words, option, ending, named] :
        std::vector<std::tuple<std::string, std::string, std::string, std::string>>{
+           {"distance r.urdf scene.json", "--output", ".csv", "u.obj"},
+           {"distance r.urdf scene.json", "--output", ".csv", "g.bin"},
            {"clearance r.urdf --path rows.csv --obstacle scene.json", "--steps", ".csv", "u.obj"},
            {"clearance r.urdf --path rows.csv --obstacle scene.json", "--sweep", ".json",
             "paint.png"},
@@ -316,7 +323,7 @@ TEST_F(Outputs, none_is_a_mesh_of_an_obstacle_a_probe_or_a_pair) {
            {"distance-2d pair.json", "--output", ".svg", "t.obj"}})
     for (const std::string& name : other_names(named, ending))
       expect_refused(words + output(option, name), option, name);
-  expect_nothing_changed("clearance, field and distance-2d");
+  expect_nothing_changed("distance, clearance, field and distance-2d");
 }
 
 TEST_F(Outputs, none_is_written_twice) {
