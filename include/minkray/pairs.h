@@ -336,6 +336,26 @@ inline void Scene::set_masks(std::uint32_t object, std::uint32_t category, std::
 inline void Scene::allow(std::uint32_t object_a, std::uint32_t object_b, bool is_allowed) {
   detail::check(minkray_scene_allow(handle_, object_a, object_b, is_allowed ? 1 : 0));
 }
+inline void Scene::allow_from_srdf(const Group& robot, Text file) {
+  detail::check(minkray_scene_allow_from_srdf(handle_, robot.number(), file.c_str()));
+}
+
+inline void Scene::clearance_derivatives(const Group& robot, View<const double> path,
+                                         std::size_t rows, View<Clearance> steps, View<double> jac,
+                                         View<std::uint8_t> is_ridge) const {
+  constexpr const char* function = "minkray::Scene::clearance_derivatives";
+  const std::size_t count = rows > 1 ? rows - 1 : 1, numbers = rows > 0 ? path.size() / rows : 0;
+  detail::check_sizes(function, "path", path.size(), "numbers in its rows", rows * numbers);
+  detail::check_sizes(function, "jac", jac.size(), "numbers of its steps", count * numbers);
+  if (steps.size() > 0)
+    detail::check_sizes(function, "steps", steps.size(), "steps of the path", count);
+  if (is_ridge.size() > 0)
+    detail::check_sizes(function, "is_ridge", is_ridge.size(), "steps of the path", count);
+  detail::check(minkray_scene_clearance_derivatives(
+      handle_, robot.number(), path.data(), rows, numbers, nullptr,
+      steps.size() > 0 ? reinterpret_cast<minkray_clearance*>(steps.data()) : nullptr, jac.data(),
+      is_ridge.size() > 0 ? is_ridge.data() : nullptr));
+}
 
 }  // namespace v0
 }  // namespace minkray

@@ -35,11 +35,7 @@ class NearSide {
   std::size_t number(std::size_t body) const { return numbers_[body]; }
 
   PlacedPlane plane(std::size_t half_space) const {
-    const Affine<double>& pose = posed_.poses[half_space];
-    PlacedPlane placed = *posed_.bodies[half_space].plane;
-    placed.normal = pose.linear * placed.normal;
-    placed.point = image_of(pose, placed.point);
-    return placed;
+    return moved(*posed_.bodies[half_space].plane, posed_.poses[half_space]);
   }
 
  private:

@@ -16,7 +16,7 @@ import unittest
 import minkray as mk
 
 SOURCES = sys.argv.pop(1)
-OF_JAC = {"jac_ray", "jac_body", "is_ridge"}  # fields that are there with jac=True
+OF_JAC = {"jac", "jac_ray", "jac_body", "is_ridge"}  # fields that are there with jac=True
 FOLDER = os.path.join(SOURCES, "renderer/library/python/minkray")
 
 
@@ -101,7 +101,8 @@ class Stubs(unittest.TestCase):
             fields = {one.target.id for one in node.body if isinstance(one, ast.AnnAssign)}
             self.assertEqual(fields - OF_JAC, set(vars(answer)), type(answer).__name__)
         pairs = (mk.sphere(1), None, mk.sphere(1), None)
-        for answer in (scene.cast_rays(ray, jac=True), mk.signed_distances(*pairs, jac=True), mk.manifolds(*pairs),
+        for answer in (scene.cast_rays(ray, jac=True), arm.clearance(robot, [[0, 0]], jac=True),
+                       mk.signed_distances(*pairs, jac=True), mk.manifolds(*pairs),
                        mk.times_of_impact(*pairs[:2], None, *pairs[2:], None, jac=True),
                        scene.distances(within=1, jac=True), scene.nearest([0, 0, 0], jac=True),
                        scene.time_of_impact(mk.sphere(1), None, [0] * 6, jac=True)):
