@@ -84,6 +84,12 @@ Plain* of_pairs(const char* function, const char* argument, View<Thing> things, 
   return reinterpret_cast<Plain*>(things.data());
 }
 template <class Arrays>
+Arrays empty_arrays() {
+  Arrays arrays = {};
+  arrays.size = sizeof arrays;
+  return arrays;
+}
+template <class Arrays>
 void add_derivatives(const char* function, const Derivatives& to, std::size_t pairs,
                      Arrays& arrays) {
   arrays.jac_a = of_pairs<double>(function, "derivatives.by_a", to.by_a, pairs);
@@ -100,8 +106,7 @@ inline void signed_distances(const Bodies& a, const Bodies& b, View<Distance> di
   const minkray_bodies plain_a = detail::plain(a), plain_b = detail::plain(b);
   const minkray_distance_options asked = detail::plain(options);
   const minkray_options how = detail::plain(options.how);
-  minkray_distance_arrays arrays = {};
-  arrays.size = sizeof arrays;
+  auto arrays = detail::empty_arrays<minkray_distance_arrays>();
   arrays.distances = reinterpret_cast<minkray_distance*>(distances.data());
   detail::add_derivatives(function, options.derivatives, distances.size(), arrays);
   detail::check(
@@ -117,8 +122,7 @@ inline void times_of_impact(const Bodies& a, const Bodies& b, View<const double>
   constexpr const char* function = "minkray::times_of_impact";
   const minkray_bodies plain_a = detail::plain(a), plain_b = detail::plain(b);
   const minkray_options how = detail::plain(options.how);
-  minkray_impact_arrays arrays = {};
-  arrays.size = sizeof arrays;
+  auto arrays = detail::empty_arrays<minkray_impact_arrays>();
   arrays.impacts = reinterpret_cast<minkray_impact*>(impacts.data());
   detail::add_derivatives(function, options.derivatives, impacts.size(), arrays);
   detail::check(minkray_times_of_impact(
@@ -133,8 +137,7 @@ inline void manifolds(const Bodies& a, const Bodies& b, View<Manifold> found,
   const minkray_bodies plain_a = detail::plain(a), plain_b = detail::plain(b);
   const minkray_distance_options asked = detail::plain(options);
   const minkray_options how = detail::plain(options.how);
-  minkray_manifold_arrays arrays = {};
-  arrays.size = sizeof arrays;
+  auto arrays = detail::empty_arrays<minkray_manifold_arrays>();
   arrays.manifolds = reinterpret_cast<minkray_manifold*>(found.data());
   detail::check(
       minkray_manifolds(&plain_a, &plain_b, found.size(), &asked,
