@@ -42,17 +42,20 @@ std::vector<Command> writing_commands() {
     for (Reading& one : readings) one.words += words;
     return readings;
   };
+  std::vector<Reading> several = scene;
+  several.push_back({"others", "scene.json", "r.urdf scene.json -r 8x6 "});
   return {
       {"render",
-       with(scene, "-s 1 -q"),
+       with(several, "-s 1 -q"),
        {{"--output", {"o.png"}},
         {"--contact-sheet", {"sheet.png", " --frames 0..1 --output 'o#.png'"}}}},
       {"merge", {{"parts", "part.exr", "part.exr"}}, {{"--output", {"o.png"}}}},
-      {"heatmap", with(scene, "-q"), {{"--output", {"o.png"}}}},
-      {"inspect", with(scene, "-s 1 -q"), {{"--output", {"o.html"}}}},
+      {"heatmap", with(several, "-q"), {{"--output", {"o.png"}}}},
+      {"inspect", with(several, "-s 1 -q"), {{"--output", {"o.html"}}}},
       {"compare", with(scene, "--rays 10 --directions 20 -q"), {{"--output", {"o.png"}}}},
       {"scan",
        {{"scene", "r.urdf", "r.urdf --pattern spinning:2x4 -q"},
+        {"others", "scene.json", "r.urdf scene.json --pattern spinning:2x4 -q"},
         {"--joints", "rows.csv", "r.urdf --pattern spinning:2x4 -q --joints rows.csv"},
         {"--rays", "rays.npy", "r.urdf -q --rays rays.npy"},
         {"--pattern", "pattern.csv", "r.urdf -q --pattern pattern.csv"},
