@@ -862,6 +862,13 @@ class Scene {
   void set_masks(std::uint32_t object, std::uint32_t category, std::uint32_t mask);
   /// Says if two objects may touch: such pairs are left out.
   void allow(std::uint32_t object_a, std::uint32_t object_b, bool is_allowed = true);
+  /// Allows what an SRDF file says of the robot's links.
+  void allow_from_srdf(const Group& robot, Text file);
+  /// The least distance of each step of a robot's way, with its derivative by the joints' values at
+  /// its row: as many numbers a step as a row has. See minkray_scene_clearance_derivatives.
+  void clearance_derivatives(const Group& robot, View<const double> path, std::size_t rows,
+                             View<Clearance> steps, View<double> jac,
+                             View<std::uint8_t> is_ridge = {}) const;
 
   Proof prove(const Ray& ray, const Hit& hit) const {
     Proof proof;

@@ -505,7 +505,8 @@ typedef struct minkray_clearance {
 
 /* A robot's way by `rows` rows of `numbers` joint values each, in the order of minkray_scene_joint;
  * from row to row each joint goes at a constant rate. `steps` (or NULL) are one for each two rows
- * that follow each other, or one if there is one row; `least` (or NULL) is of all of them. The
+ * that follow each other, or one if there is one row; `least` (or NULL) is of all of them. Left out
+ * are pairs that minkray_scene_allow or masks leave out. The
  * shapes looked at are those that the file was added with: see `geometry` of minkray_file_options.
  * With more than 1,000,000 objects and particles, or 10,000,000 pairs, it is MINKRAY_BAD_INPUT. The
  * scene must be committed; where the robot's joints are by now does not matter. */

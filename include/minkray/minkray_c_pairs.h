@@ -153,6 +153,12 @@ MINKRAY_API int minkray_scene_set_masks(minkray_scene scene, uint32_t object, ui
 MINKRAY_API int minkray_scene_allow(minkray_scene scene, uint32_t object_a, uint32_t object_b,
                                     int is_allowed);
 
+/* Allows the pairs of links that an SRDF file, MoveIt's description of a robot, says may touch: its
+ * `disable_collisions`, `disable_default_collisions` and `enable_collisions`. `group` is a robot's.
+ * A link that the robot does not have is MINKRAY_BAD_INPUT, and no pair is allowed then. */
+MINKRAY_API int minkray_scene_allow_from_srdf(minkray_scene scene, uint32_t group,
+                                              const char* file);
+
 /* Two objects and how far apart they are. `jac_a` and `jac_b` are by a twist of each about the
  * origin of its frame, and zero if no derivatives were asked for; see minkray_distance_arrays. */
 typedef struct minkray_scene_pair {
@@ -238,6 +244,19 @@ MINKRAY_API int minkray_scene_ray_derivatives(minkray_scene scene, const minkray
                                               size_t count, const minkray_hit_arrays* hits,
                                               const minkray_ray_derivatives* derivatives,
                                               const minkray_options* options);
+
+/* ---- derivatives of clearances --------------------------------------------------------------- */
+
+/* Does what minkray_scene_clearance does. `jac` gets `numbers` numbers for each step: the
+ * derivative of the distance that `upper` bounds by the joints' values at `row`. Quaternions are of
+ * length 1 between rows, and count as given at a row. Joints that mimic others have zeros. All are
+ * zero where there is nothing to meet. `is_ridge` is 1 where there may be other derivatives, or
+ * where another pair is as near at `row`. Each of `steps`, `jac` and `is_ridge` may be NULL. */
+MINKRAY_API int minkray_scene_clearance_derivatives(minkray_scene scene, uint32_t group,
+                                                    const double* path, size_t rows, size_t numbers,
+                                                    const minkray_clearance_options* options,
+                                                    minkray_clearance* steps, double* jac,
+                                                    uint8_t* is_ridge);
 
 #ifdef __cplusplus
 }

@@ -84,6 +84,12 @@ Plain* of_pairs(const char* function, const char* argument, View<Thing> things, 
   return reinterpret_cast<Plain*>(things.data());
 }
 template <class Arrays>
+Arrays empty_arrays() {
+  Arrays arrays = {};
+  arrays.size = sizeof arrays;
+  return arrays;
+}
+template <class Arrays>
 void add_derivatives(const char* function, const Derivatives& to, std::size_t pairs,
                      Arrays& arrays) {
   arrays.jac_a = of_pairs<double>(function, "derivatives.by_a", to.by_a, pairs);
@@ -100,8 +106,7 @@ inline void signed_distances(const Bodies& a, const Bodies& b, View<Distance> di
   const minkray_bodies plain_a = detail::plain(a), plain_b = detail::plain(b);
   const minkray_distance_options asked = detail::plain(options);
   const minkray_options how = detail::plain(options.how);
-  minkray_distance_arrays arrays = {};
-  arrays.size = sizeof arrays;
+  auto arrays = detail::empty_arrays<minkray_distance_arrays>();
   arrays.distances = reinterpret_cast<minkray_distance*>(distances.data());
   detail::add_derivatives(function, options.derivatives, distances.size(), arrays);
   detail::check(
@@ -117,8 +122,7 @@ inline void times_of_impact(const Bodies& a, const Bodies& b, View<const double>
   constexpr const char* function = "minkray::times_of_impact";
   const minkray_bodies plain_a = detail::plain(a), plain_b = detail::plain(b);
   const minkray_options how = detail::plain(options.how);
-  minkray_impact_arrays arrays = {};
-  arrays.size = sizeof arrays;
+  auto arrays = detail::empty_arrays<minkray_impact_arrays>();
   arrays.impacts = reinterpret_cast<minkray_impact*>(impacts.data());
   detail::add_derivatives(function, options.derivatives, impacts.size(), arrays);
   detail::check(minkray_times_of_impact(
@@ -133,8 +137,7 @@ inline void manifolds(const Bodies& a, const Bodies& b, View<Manifold> found,
   const minkray_bodies plain_a = detail::plain(a), plain_b = detail::plain(b);
   const minkray_distance_options asked = detail::plain(options);
   const minkray_options how = detail::plain(options.how);
-  minkray_manifold_arrays arrays = {};
-  arrays.size = sizeof arrays;
+  auto arrays = detail::empty_arrays<minkray_manifold_arrays>();
   arrays.manifolds = reinterpret_cast<minkray_manifold*>(found.data());
   detail::check(
       minkray_manifolds(&plain_a, &plain_b, found.size(), &asked,
@@ -335,6 +338,26 @@ inline void Scene::set_masks(std::uint32_t object, std::uint32_t category, std::
 }
 inline void Scene::allow(std::uint32_t object_a, std::uint32_t object_b, bool is_allowed) {
   detail::check(minkray_scene_allow(handle_, object_a, object_b, is_allowed ? 1 : 0));
+}
+inline void Scene::allow_from_srdf(const Group& robot, Text file) {
+  detail::check(minkray_scene_allow_from_srdf(handle_, robot.number(), file.c_str()));
+}
+
+inline void Scene::clearance_derivatives(const Group& robot, View<const double> path,
+                                         std::size_t rows, View<Clearance> steps, View<double> jac,
+                                         View<std::uint8_t> is_ridge) const {
+  constexpr const char* function = "minkray::Scene::clearance_derivatives";
+  const std::size_t count = rows > 1 ? rows - 1 : 1, numbers = rows > 0 ? path.size() / rows : 0;
+  detail::check_sizes(function, "path", path.size(), "numbers in its rows", rows * numbers);
+  detail::check_sizes(function, "jac", jac.size(), "numbers of its steps", count * numbers);
+  if (steps.size() > 0)
+    detail::check_sizes(function, "steps", steps.size(), "steps of the path", count);
+  if (is_ridge.size() > 0)
+    detail::check_sizes(function, "is_ridge", is_ridge.size(), "steps of the path", count);
+  detail::check(minkray_scene_clearance_derivatives(
+      handle_, robot.number(), path.data(), rows, numbers, nullptr,
+      steps.size() > 0 ? reinterpret_cast<minkray_clearance*>(steps.data()) : nullptr, jac.data(),
+      is_ridge.size() > 0 ? is_ridge.data() : nullptr));
 }
 
 }  // namespace v0

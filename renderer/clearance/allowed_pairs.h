@@ -20,6 +20,8 @@ class AllowedPairs {
     return pairs_.contains(std::minmax(a, b));
   }
   std::size_t size() const { return pairs_.size(); }
+  /// The lesser name first.
+  const std::set<std::pair<std::string, std::string>>& pairs() const { return pairs_; }
 
  private:
   std::set<std::pair<std::string, std::string>> pairs_;

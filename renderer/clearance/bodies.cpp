@@ -23,6 +23,12 @@ ClearanceBody body_of(const std::string& name, const std::string& link, int link
 
 }  // namespace
 
+PlacedPlane moved(PlacedPlane plane, const Affine<double>& pose) {
+  plane.normal = pose.linear * plane.normal;
+  plane.point = image_of(pose, plane.point);
+  return plane;
+}
+
 ClearanceBody seen_from(const Affine<double>& frame, ClearanceBody obstacle) {
   const TwoFoldMat3<double> turned_back(frame.linear.transpose());
   const auto seen = [&](const TwoFoldVec3<double>& point) {

@@ -28,6 +28,9 @@ struct ClearanceBody {
   double reach() const { return middle.at.high.norm() + shape.ball_radius(); }
 };
 
+/// The plane under a rigid pose.
+PlacedPlane moved(PlacedPlane plane, const Affine<double>& pose);
+
 /// Returns the obstacle, seen from a frame that is at `frame` in the world, a rigid pose.
 ClearanceBody seen_from(const Affine<double>& frame, ClearanceBody obstacle);
 

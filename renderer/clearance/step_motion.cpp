@@ -140,6 +140,23 @@ JointPath::JointPath(const Model& model, const std::vector<JointRow>& rows) : sk
   }
 }
 
+Model JointPath::posed_at(double time) const {
+  const auto after =
+      static_cast<std::size_t>(std::ranges::upper_bound(times, time) - times.begin());
+  const std::size_t first = after > 0 ? after - 1 : 0, last = std::min(first + 1, times.size() - 1);
+  const double length = times[last] - times[first];
+  const double s = length > 0 ? (time - times[first]) / length : 0;
+  Model posed = skeleton;
+  std::size_t at = 0;
+  for (ModelLink& link : posed.links)
+    for (ModelJoint& joint : link.joints) {
+      joint.value =
+          s == 0 ? values[first][at] : between(joint.kind, values[first][at], values[last][at], s);
+      ++at;
+    }
+  return posed;
+}
+
 StepMotion::StepMotion(const JointPath& path, std::size_t step)
     : path_(path),
       first_(step),

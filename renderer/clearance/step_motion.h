@@ -24,6 +24,10 @@ struct JointPath {
   std::vector<double> times;
   std::vector<std::vector<std::vector<double>>> values;  ///< row, joint, number
 
+  /// The skeleton with the joints' values at that time of the path: those of a row as they were
+  /// given, between rows with quaternions of length 1.
+  Model posed_at(double time) const;
+
   /// A single row is a path of one step that stands still.
   std::size_t steps() const { return times.size() > 1 ? times.size() - 1 : 1; }
 };

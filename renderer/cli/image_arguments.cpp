@@ -82,6 +82,7 @@ std::uint64_t parse_seed(const std::string& text) {
 void ImageArguments::add_to(const Verb& verb, const std::string& suffix) {
   files = &verb.files();
   add_scene_option(verb, scene);
+  add_other_files(verb, import);
   const Option verbose = add_import_options(verb, import);
   add_output_option(verb, outputs, "the scene's name and " + suffix);
   preview.add_to(verb);

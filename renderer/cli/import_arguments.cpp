@@ -2,6 +2,7 @@
 #include "renderer/cli/import_arguments.h"
 
 #include "renderer/cli/options.h"
+#include "renderer/cli/scene_file.h"
 #include "renderer/import/import.h"
 
 namespace minkray {
@@ -9,6 +10,14 @@ namespace minkray {
 std::string scene_argument() {
   return "A scene file (JSON), the name of a scene that comes with Minkray, or a robot's file: " +
          foreign_formats();
+}
+
+void add_other_files(const Verb& verb, ImportOptions& options) {
+  verb.add_option("others", options.others,
+                  "More such files, in the same scene: camera and lights are those of the first "
+                  "scene file, joints' values are the first file's")
+      .replace(scene_file)
+      .reads_file();
 }
 
 Option add_import_options(const Verb& verb, ImportOptions& options, bool rows) {

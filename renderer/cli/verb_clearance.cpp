@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// minkray clearance: how near a robot comes to itself and to obstacles along a path, with proof.
+// minkray clearance: how near a robot comes to itself and to obstacles along a path, or is at one
+// pose, with proof.
 #include <iostream>
 #include <memory>
 #include <sstream>
@@ -7,6 +8,8 @@
 #include "core/parallel/parallel.h"
 #include "renderer/clearance/clearance.h"
 #include "renderer/clearance/swept_scene.h"
+#include "renderer/cli/allowed_links.h"
+#include "renderer/cli/csv_text.h"
 #include "renderer/cli/exit_code.h"
 #include "renderer/cli/file_ending.h"
 #include "renderer/cli/import_arguments.h"
@@ -22,8 +25,9 @@ namespace {
 
 struct ClearanceVerbOptions {
   CommandFiles* files = nullptr;
-  std::string robot, srdf, steps, sweep;
-  std::vector<std::string> obstacles, allowed;
+  std::string robot, steps, sweep;
+  std::vector<std::string> obstacles;
+  AllowedLinks allowed;
   ImportOptions import;
   ClearanceOptions clearance;
   std::optional<std::string> at_least;
@@ -32,35 +36,6 @@ struct ClearanceVerbOptions {
 
   ClearanceVerbOptions() { import.geometry = GeometryChoice::collision; }
 };
-
-void write_text(const std::string& file, const std::string& text) {
-  write_file(file, std::span(reinterpret_cast<const unsigned char*>(text.data()), text.size()));
-}
-
-AllowedPairs allowed_pairs(const ClearanceVerbOptions& options, const Model& model,
-                           Mistakes& mistakes) {
-  AllowedPairs allowed;
-  if (!options.srdf.empty()) {
-    Mistakes of_file(options.srdf);
-    read_srdf(options.srdf, model, allowed, of_file);
-    throw_if_any(of_file);
-  }
-  const auto is_link = [&](const std::string& name) {
-    return std::ranges::any_of(model.links,
-                               [&](const ModelLink& link) { return link.name == name; });
-  };
-  for (const std::string& text : options.allowed) {
-    const std::size_t comma = text.find(',');
-    const std::string a = text.substr(0, comma),
-                      b = comma == text.npos ? "" : text.substr(comma + 1);
-    if (is_link(a) && is_link(b))
-      allowed.allow(a, b);
-    else
-      mistakes.add("--allow: must be two links of the robot with a comma between them (got \"" +
-                   printable(text, 80) + "\")");
-  }
-  return allowed;
-}
 
 /// The words a row of --steps and the answer have in common.
 std::string status_of(const Closest& closest) {
@@ -88,14 +63,6 @@ Json json_of(const Clearance& clearance, const std::vector<ClearanceBody>& bodie
   return json;
 }
 
-/// In a CSV file a name with a comma or a quote stands in quotes.
-std::string cell(const std::string& text) {
-  if (text.find_first_of(",\"\n") == text.npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + '"';
-}
-
 std::string steps_text(const Clearance& clearance, const JointPath& path,
                        const std::vector<ClearanceBody>& bodies) {
   std::ostringstream text;
@@ -104,8 +71,9 @@ std::string steps_text(const Clearance& clearance, const JointPath& path,
   for (std::size_t i = 0; i < clearance.steps.size(); ++i) {
     const Closest& step = clearance.steps[i];
     text << path.times[i] << ',' << path.times[std::min(i + 1, path.times.size() - 1)] << ','
-         << step.lower << ',' << step.upper << ',' << step.time << ',' << cell(bodies[step.a].name)
-         << ',' << cell(bodies[step.b].name) << ',' << status_of(step) << '\n';
+         << step.lower << ',' << step.upper << ',' << step.time << ','
+         << csv_cell(bodies[step.a].name) << ',' << csv_cell(bodies[step.b].name) << ','
+         << status_of(step) << '\n';
   }
   return text.str();
 }
@@ -134,9 +102,12 @@ void clearance(ClearanceVerbOptions& options, ExitCode& exit_code) {
   throw_if_any(mistakes);
   options.files->read(model->files);
   pose_model(*model, options.import, mistakes);
+  // Without a path it stands still where the options pose it.
   const std::vector<JointRow> rows =
-      read_joint_rows(options.import.joint_rows, *model, mistakes, "--path");
-  const AllowedPairs allowed = allowed_pairs(options, *model, mistakes);
+      options.import.joint_rows.empty()
+          ? std::vector<JointRow>(1)
+          : read_joint_rows(options.import.joint_rows, *model, mistakes, "--path");
+  const AllowedPairs allowed = options.allowed.read(*model, mistakes);
   throw_if_any(mistakes);
   std::vector<ClearanceBody> bodies = bodies_of(*model, options.import.geometry);
   for (const std::string& file : options.obstacles) {
@@ -169,22 +140,17 @@ void add_clearance(Parser& parser, ExitCode& exit_code) {
   const auto options = std::make_shared<ClearanceVerbOptions>();
   options->files = &verb.files();
   verb.add_option("robot", options->robot, foreign_formats()).required().reads_file();
-  verb.add_option("--path", options->import.joint_rows,
-                  "A CSV file: joints' names in its first line, values in the others, perhaps a "
-                  "column \"time\"; from row to row each joint goes at a constant rate")
-      .required()
+  verb.add_option(
+          "--path", options->import.joint_rows,
+          "A CSV file: joints' names in its first line, values in the others, perhaps a "
+          "column \"time\"; from row to row each joint goes at a constant rate. By default the "
+          "robot stands still")
       .reads_file();
   verb.add_option("--obstacle", options->obstacles,
                   "A scene or a robot's file that stands still; may be given again")
       .one_value_each()
       .reads_file();
-  verb.add_option("--srdf", options->srdf, "MoveIt's file of the links that may touch each other")
-      .reads_file();
-  verb.add_option("--allow", options->allowed,
-                  "Two links that may touch each other; may be given again. Links that a joint "
-                  "connects always may")
-      .takes("LINK,LINK")
-      .one_value_each();
+  options->allowed.add_options(verb);
   verb.add_flag("--only-obstacles", options->only_obstacles,
                 "Check obstacles only, not self-collision");
   verb.add_option("--tolerance", options->clearance.tolerance,

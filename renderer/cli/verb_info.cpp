@@ -40,12 +40,18 @@ void info(const InfoVerbOptions& options) {
     const Imported imported = import_scene(options.scene, options.import);
     const Scene& scene = imported.scene;
     const bool is_robot = imported.model.has_value();
-    const auto meshes = is_robot ? std::vector<ModelMesh>() : meshes_of_scene(options.scene);
+    std::vector<ModelMesh> meshes;
+    if (!is_robot) meshes = meshes_of_scene(options.scene);
+    for (const std::string& other : options.import.others)
+      if (!is_foreign(other))
+        for (ModelMesh& mesh : meshes_of_scene(other)) meshes.push_back(std::move(mesh));
     if (options.json) {
+      const bool has_meshes = !is_robot || !meshes.empty();
       std::cout << info_as_json(scene, is_robot ? model_as_json(*imported.model) : nullptr,
-                                is_robot ? nullptr : meshes_as_json(meshes));
+                                has_meshes ? meshes_as_json(meshes) : nullptr);
     } else {
       if (is_robot) std::cout << model_as_text(*imported.model);
+      for (const Model& model : imported.other_models) std::cout << model_as_text(model);
       std::cout << info_as_text(scene) << meshes_as_text(meshes);
     }
   }
@@ -57,6 +63,7 @@ void add_info(Parser& parser, ExitCode&) {
   const Verb verb = parser.add_verb("info");
   const auto options = std::make_shared<InfoVerbOptions>();
   add_scene_option(verb, options->scene).required(false);
+  add_other_files(verb, options->import);
   add_import_options(verb, options->import);
   verb.add_flag("--shapes", options->shapes, "List all shapes and their parameters");
   verb.add_flag("--schema", options->schema, "Print the JSON Schema of scene files");

@@ -18,6 +18,7 @@ void add_inspect(Parser& parser, ExitCode& exit_code) {
   image.samples = 16;
   image.files = &verb.files();
   add_scene_option(verb, image.scene);
+  add_other_files(verb, image.import);
   add_import_options(verb, image.import);
   const Option output =
       verb.add_option("-o,--output", image.outputs,

@@ -139,6 +139,7 @@ void add_scan(Parser& parser, ExitCode&) {
   const auto options = std::make_shared<ScanVerbOptions>();
   options->files = &verb.files();
   add_scene_option(verb, options->scene);
+  add_other_files(verb, options->import);
   verb.add_option("--rays", options->rays,
                   "A .npy array of (N, 6), origin and direction, or (N, 7) with t_max; float32 or "
                   "float64")

@@ -5,10 +5,13 @@
 #include <array>
 #include <span>
 #include <stdexcept>
+#include <utility>
 
 #include "core/files/regular_file.h"
+#include "renderer/base/hash.h"
 #include "renderer/base/of_file.h"
 #include "renderer/import/file_kind.h"
+#include "renderer/import/framing.h"
 #include "renderer/import/geometry_common.h"
 #include "renderer/import/gltf.h"
 #include "renderer/import/mjcf.h"
@@ -147,7 +150,9 @@ std::optional<Model> load_model(const std::filesystem::path& file, const ImportO
   return model_of(files.read(file), files, options, mistakes);
 }
 
-Imported import_scene(const std::filesystem::path& file, const ImportOptions& options) {
+namespace {
+
+Imported import_alone(const std::filesystem::path& file, const ImportOptions& options) {
   if (const FileContent content = content_of(file); content.kind == FileKind::other)
     throw BadInput(printable(file.string(), 200) + ": is " + content.what +
                    "; a scene is a JSON file or " + foreign_formats());
@@ -183,6 +188,67 @@ Imported import_scene(const std::filesystem::path& file, const ImportOptions& op
       break;
     }
   throw_if_any(mistakes);
+  return imported;
+}
+
+/// Adds what is in a scene, but for its camera and lights.
+void append_objects(Scene& to, Scene&& from) {
+  if (instance_count(to) + instance_count(from) > most_instances)
+    throw BadInput("all files together: must have at most " + std::to_string(most_instances) +
+                   " objects");
+  const auto shift = static_cast<std::uint32_t>(to.materials.size());
+  for (Material& material : from.materials) {
+    if (auto* mix = std::get_if<MixMaterial>(&material.kind))
+      for (std::uint32_t& index : mix->materials.indices) index += shift;
+    to.materials.push_back(std::move(material));
+  }
+  for (Object& object : from.objects) {
+    object.material += shift;
+    to.objects.push_back(std::move(object));
+  }
+  for (ParticleSet& set : from.particles) {
+    for (std::uint32_t& material : set.materials) material += shift;
+    to.particles.push_back(std::move(set));
+  }
+  to.pictures.insert(to.pictures.end(), from.pictures.begin(), from.pictures.end());
+  Hash hash;
+  hash.add(to.hash);
+  hash.add(from.hash);
+  to.hash = hash.text();
+}
+
+void take_view(Scene& to, Scene& from) {
+  to.camera = from.camera;
+  to.lights = std::move(from.lights);
+  to.background = from.background;
+  to.background_is_sky = from.background_is_sky;
+}
+
+}  // namespace
+
+Imported import_scene(const std::filesystem::path& file, const ImportOptions& options) {
+  Imported imported = import_alone(file, options);
+  if (options.others.empty()) return imported;
+  bool has_view = !imported.model;
+  ImportOptions of_robots = options;
+  of_robots.keyframe.clear();
+  of_robots.joints.clear();
+  of_robots.joint_rows.clear();
+  for (const std::string& name : options.others) {
+    Imported other = import_alone(name, is_foreign(name) ? of_robots : ImportOptions());
+    if (!has_view && !other.model) {
+      take_view(imported.scene, other.scene);
+      has_view = true;
+    }
+    append_objects(imported.scene, std::move(other.scene));
+    imported.files.insert(imported.files.end(), other.files.begin(), other.files.end());
+    if (other.model) imported.other_models.push_back(std::move(*other.model));
+  }
+  if (!has_view) {
+    imported.scene.lights.clear();
+    frame_everything(imported.scene, options.picture);
+    light_everything(imported.scene);
+  }
   return imported;
 }
 

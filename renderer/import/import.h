@@ -19,6 +19,7 @@ namespace minkray {
 struct Imported {
   Scene scene;
   std::optional<Model> model;
+  std::vector<Model> other_models = {};           ///< those of options.others that are robots
   std::vector<JointRow> rows = {};                ///< that it moves by, if it does
   std::vector<std::filesystem::path> files = {};  ///< all that were read
 };
@@ -29,8 +30,9 @@ std::string foreign_formats();
 /// True if the file holds a robot's description; of one that cannot be read, its ending tells.
 bool is_foreign(const std::filesystem::path& file);
 
-/// Throws BadInput with all mistakes, one a line; WrongUsage if a scene file is asked for what only
-/// robots have.
+/// The scene of a file, with all that options.others hold: the first file that is a scene has the
+/// camera and the lights, and joints are those of `file`. Throws BadInput with all mistakes, one a
+/// line; WrongUsage if a scene file is asked for what only robots have.
 Imported import_scene(const std::filesystem::path& file, const ImportOptions& options = {});
 
 /// The model that a text in one of the formats describes; nothing, and mistakes, if anything is

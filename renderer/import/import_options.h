@@ -30,6 +30,7 @@ struct ImportOptions {
   std::vector<std::string> joints;        ///< NAME=VALUE each
   std::string joint_rows;                 ///< a CSV or JSON file of values; empty: none
   std::vector<std::string> package_dirs;  ///< where package:// and model:// are looked for
+  std::vector<std::string> others;        ///< more files that stand in the same scene
   bool skip_missing_meshes = false;
   bool lenient = false;             ///< leaves out shapes and materials that are wrong
   bool verbose = false;             ///< tells each missing mesh, not only how many

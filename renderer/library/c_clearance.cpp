@@ -6,6 +6,7 @@
 #include "core/parallel/parallel.h"
 #include "renderer/base/errors.h"
 #include "renderer/clearance/clearance.h"
+#include "renderer/clearance/clearance_derivative.h"
 #include "renderer/library/call.h"
 #include "renderer/library/held_scene.h"
 #include "renderer/library/poses.h"
@@ -86,34 +87,102 @@ minkray_clearance plain_clearance(const Closest& found, const Affine<double>& ro
   return plain;
 }
 
-void find_clearance(const HeldScene& held, const HeldScene::Group& robot,
-                    const std::vector<JointRow>& read, std::size_t rows,
-                    const minkray_clearance_options& given, minkray_clearance* steps,
-                    minkray_clearance* least) {
+/// Where derivatives go: a row of numbers for each step, and a flag; null if they are not wanted.
+struct DerivativeRoom {
+  double* jac = nullptr;
+  std::uint8_t* is_ridge = nullptr;
+
+  explicit operator bool() const { return jac || is_ridge; }
+};
+
+/// A robot and all that it may meet.
+struct RobotAmong {
   std::vector<ClearanceBody> bodies;
   std::vector<std::uint32_t> objects;
-  std::uint32_t index = 0;
-  for (ClearanceBody& body : bodies_of(*robot.model, robot.options.geometry)) {
-    const std::uint32_t object = robot.first + index++;
-    if (held.is_removed(object)) continue;
-    bodies.push_back(std::move(body));
-    objects.push_back(object);
+  std::vector<BodyPair> pairs;
+
+  RobotAmong(const HeldScene& held, const HeldScene::Group& robot, bool self) {
+    std::uint32_t index = 0;
+    for (ClearanceBody& body : bodies_of(*robot.model, robot.options.geometry)) {
+      const std::uint32_t object = robot.first + index++;
+      if (held.is_removed(object)) continue;
+      bodies.push_back(std::move(body));
+      objects.push_back(object);
+    }
+    add_obstacles(held, robot, bodies, objects);
+    pairs = pairs_of(bodies, *robot.model, {}, self);
+    std::erase_if(pairs, [&](const BodyPair& pair) {
+      return !held.pair_rules().are_pair(objects[pair.a], objects[pair.b]);
+    });
   }
-  add_obstacles(held, robot, bodies, objects);
-  const std::vector<BodyPair> pairs = pairs_of(bodies, *robot.model, {}, given.only_obstacles == 0);
+};
+
+void find_derivatives(const Clearance& found, const JointPath& path, const RobotAmong& among,
+                      const JointWidths& joints, std::size_t steps, std::size_t numbers,
+                      const DerivativeRoom& room) {
+  parallel_for(steps, 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::size_t step = std::min(i, path.steps() - 1);
+      const ClearanceDerivative derivative =
+          derivative_of(step < found.steps.size() ? found.steps[step] : Closest{}, path,
+                        among.bodies, among.pairs, joints);
+      if (room.jac) std::ranges::copy(derivative.by_joints, room.jac + i * numbers);
+      if (room.is_ridge) room.is_ridge[i] = derivative.is_ridge ? 1 : 0;
+    }
+  });
+}
+
+struct ClearanceCall {
+  const double* path;
+  std::size_t rows, numbers;
+  minkray_clearance* steps;
+  minkray_clearance* least;
+  DerivativeRoom derivatives;
+};
+
+void find_clearance(const HeldScene& held, const HeldScene::Group& robot,
+                    const std::vector<JointRow>& read, const minkray_clearance_options& given,
+                    const ClearanceCall& asked) {
+  const RobotAmong among(held, robot, given.only_obstacles == 0);
   ClearanceOptions options;
   if (given.tolerance > 0) options.tolerance = given.tolerance;
-  options.every_step = steps != nullptr;
+  options.every_step = asked.steps || asked.derivatives;
   const JointPath path = path_of(*robot.model, read);
-  const Clearance found = clearance_of(path, bodies, pairs, options);
+  const Clearance found = clearance_of(path, among.bodies, among.pairs, options);
   throw_if_lied(held.customs());
-  if (least) *least = plain_clearance(found.closest, robot.pose, objects);
-  for (std::size_t i = 0; steps && i < std::max<std::size_t>(rows - 1, 1); ++i) {
+  if (asked.least) *asked.least = plain_clearance(found.closest, robot.pose, among.objects);
+  const std::size_t steps = std::max<std::size_t>(asked.rows - 1, 1);
+  for (std::size_t i = 0; asked.steps && i < steps; ++i) {
     const std::size_t step = std::min(i, path.steps() - 1);
-    steps[i] = plain_clearance(step < found.steps.size() ? found.steps[step] : Closest{},
-                               robot.pose, objects);
-    steps[i].row += static_cast<double>(i - step);
+    minkray_clearance& to = asked.steps[i];
+    to = plain_clearance(step < found.steps.size() ? found.steps[step] : Closest{}, robot.pose,
+                         among.objects);
+    to.row += static_cast<double>(i - step);
   }
+  if (!asked.derivatives) return;
+  find_derivatives(found, path, among, robot.joints, steps, asked.numbers, asked.derivatives);
+  throw_if_lied(held.customs());
+}
+
+void clearance_call(minkray_scene scene, std::uint32_t group,
+                    const minkray_clearance_options* options, const ClearanceCall& asked) {
+  const SceneQuery held(scene);
+  held->world();  // it is committed
+  const HeldScene::Group& robot = held->group(group);
+  if (!robot.model) wrong_use("group: must be a robot's, from URDF, MJCF, SDF or glTF");
+  if (!is_rigid(robot.pose)) wrong_use("group: must have a pose that keeps lengths");
+  minkray_clearance_options given = {sizeof given, 0, 0, 0};
+  if (options) {
+    if (options->size < sizeof given)
+      wrong_use("options.size: must be sizeof(minkray_clearance_options)");
+    given = *options;
+  }
+  if (!(given.tolerance >= 0 && given.tolerance <= 1))
+    wrong_use("options.tolerance: must be between 0 and 1 (got " + std::to_string(given.tolerance) +
+              ")");
+  const std::vector<JointRow> read = rows_of(robot, asked.path, asked.rows, asked.numbers);
+  with_threads(checked_threads(given.threads),
+               [&] { find_clearance(*held, robot, read, given, asked); });
 }
 
 }  // namespace
@@ -121,27 +190,23 @@ void find_clearance(const HeldScene& held, const HeldScene::Group& robot,
 
 using namespace minkray;
 
-extern "C" int minkray_scene_clearance(minkray_scene scene, uint32_t group, const double* path,
-                                       size_t rows, size_t numbers,
-                                       const minkray_clearance_options* options,
-                                       minkray_clearance* steps, minkray_clearance* least) {
+extern "C" {
+
+int minkray_scene_clearance(minkray_scene scene, uint32_t group, const double* path, size_t rows,
+                            size_t numbers, const minkray_clearance_options* options,
+                            minkray_clearance* steps, minkray_clearance* least) {
   return call("minkray_scene_clearance", [&] {
-    const SceneQuery held(scene);
-    held->world();  // it is committed
-    const HeldScene::Group& robot = held->group(group);
-    if (!robot.model) wrong_use("group: must be a robot's, from URDF, MJCF, SDF or glTF");
-    if (!is_rigid(robot.pose)) wrong_use("group: must have a pose that keeps lengths");
-    minkray_clearance_options given = {sizeof given, 0, 0, 0};
-    if (options) {
-      if (options->size < sizeof given)
-        wrong_use("options.size: must be sizeof(minkray_clearance_options)");
-      given = *options;
-    }
-    if (!(given.tolerance >= 0 && given.tolerance <= 1))
-      wrong_use("options.tolerance: must be between 0 and 1 (got " +
-                std::to_string(given.tolerance) + ")");
-    const std::vector<JointRow> read = rows_of(robot, path, rows, numbers);
-    with_threads(checked_threads(given.threads),
-                 [&] { find_clearance(*held, robot, read, rows, given, steps, least); });
+    clearance_call(scene, group, options, {path, rows, numbers, steps, least, {}});
   });
 }
+
+int minkray_scene_clearance_derivatives(minkray_scene scene, uint32_t group, const double* path,
+                                        size_t rows, size_t numbers,
+                                        const minkray_clearance_options* options,
+                                        minkray_clearance* steps, double* jac, uint8_t* is_ridge) {
+  return call("minkray_scene_clearance_derivatives", [&] {
+    clearance_call(scene, group, options, {path, rows, numbers, steps, nullptr, {jac, is_ridge}});
+  });
+}
+
+}  // extern "C"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "core/contact/manifold.h"
 #include "core/contact/pair_derivative.h"
@@ -62,15 +63,27 @@ void tell(double* to, std::size_t i, const TwistDerivative& derivative) {
   put(derivative.by_turn, to + 6 * i + 3);
 }
 
-void tell(const minkray_distance_arrays& to, std::size_t i, const SignedDistance& found) {
-  if (to.distances) to.distances[i] = plain_distance(found);
+/// Fills what distances and manifolds both have.
+template <class Arrays, class Found>
+void tell_bounds(const Arrays& to, std::size_t i, const Found& found) {
   tell(to.value, i, found.value);
   tell(to.lower, i, found.lower);
   tell(to.upper, i, found.upper);
+}
+
+/// Fills what distances and impacts both have.
+template <class Arrays, class Found>
+void tell_points(const Arrays& to, std::size_t i, const Found& found) {
   put(found.point_a, to.points_a, i);
   put(found.point_b, to.points_b, i);
   put(found.normal, to.normals, i);
   tell(to.status, i, code_of(found.status));
+}
+
+void tell(const minkray_distance_arrays& to, std::size_t i, const SignedDistance& found) {
+  if (to.distances) to.distances[i] = plain_distance(found);
+  tell_bounds(to, i, found);
+  tell_points(to, i, found);
   tell(to.supports, i, found.supports);
 }
 
@@ -79,10 +92,7 @@ void tell(const minkray_impact_arrays& to, std::size_t i, const Impact& found) {
   tell(to.t_lo, i, found.t_lo);
   tell(to.t_hi, i, end_of(found));
   tell(to.distance, i, found.distance);
-  put(found.point_a, to.points_a, i);
-  put(found.point_b, to.points_b, i);
-  put(found.normal, to.normals, i);
-  tell(to.status, i, code_of(found.status));
+  tell_points(to, i, found);
 }
 
 void tell(const minkray_manifold_arrays& to, std::size_t i, const minkray_manifold& found) {
@@ -95,9 +105,7 @@ void tell(const minkray_manifold_arrays& to, std::size_t i, const minkray_manifo
   if (to.points)
     for (std::size_t k = 0; k < 12; ++k) to.points[12 * i + k] = a[k] + (b[k] - a[k]) / 2;
   if (to.gaps) std::copy_n(found.gaps, 4, to.gaps + 4 * i);
-  tell(to.value, i, found.value);
-  tell(to.lower, i, found.lower);
-  tell(to.upper, i, found.upper);
+  tell_bounds(to, i, found);
   tell(to.counts, i, found.count);
   tell(to.status, i, found.status);
 }
@@ -114,6 +122,15 @@ bool wants_derivative(const Arrays& to) {
   return to.jac_a || to.jac_b || to.is_ridge;
 }
 
+/// The arrays that are to be filled. Throws CallError if there are none, or older ones.
+template <class Arrays>
+Arrays checked(const Arrays* arrays, const char* argument, const char* type) {
+  require(arrays, argument);
+  if (arrays->size < sizeof(Arrays))
+    wrong_use(std::string(argument) + ".size: must be sizeof(" + type + ")");
+  return *arrays;
+}
+
 }  // namespace
 }  // namespace minkray
 
@@ -126,10 +143,7 @@ int minkray_signed_distances(const minkray_bodies* a, const minkray_bodies* b, s
                              const minkray_distance_arrays* distances, const minkray_options* how) {
   return call("minkray_signed_distances", [&] {
     const BodiesOfPairs all_a(a, count, "a"), all_b(b, count, "b");
-    require(distances, "distances");
-    if (distances->size < sizeof(minkray_distance_arrays))
-      wrong_use("distances.size: must be sizeof(minkray_distance_arrays)");
-    const minkray_distance_arrays to = *distances;
+    const minkray_distance_arrays to = checked(distances, "distances", "minkray_distance_arrays");
     SignedDistanceOptions asked = distance_options(options);
     const bool derive = wants_derivative(to);
     if (derive) asked.tolerance = std::min(asked.tolerance, tolerance_for_derivatives);
@@ -152,11 +166,8 @@ int minkray_times_of_impact(const minkray_bodies* a, const minkray_bodies* b, si
                             const minkray_impact_arrays* impacts, const minkray_options* how) {
   return call("minkray_times_of_impact", [&] {
     const BodiesOfPairs all_a(a, count, "a"), all_b(b, count, "b");
-    require(impacts, "impacts");
-    if (impacts->size < sizeof(minkray_impact_arrays))
-      wrong_use("impacts.size: must be sizeof(minkray_impact_arrays)");
+    const minkray_impact_arrays to = checked(impacts, "impacts", "minkray_impact_arrays");
     check_ends(t_max, t_max_count, count);
-    const minkray_impact_arrays to = *impacts;
     const bool derive = wants_derivative(to);
     ask_all(all_a, all_b, count, memories, how,
             [&](size_t i, const PosedBody& one, const PosedBody& other, PairMemory* memory) {
@@ -182,10 +193,7 @@ int minkray_manifolds(const minkray_bodies* a, const minkray_bodies* b, size_t c
                       const minkray_manifold_arrays* manifolds, const minkray_options* how) {
   return call("minkray_manifolds", [&] {
     const BodiesOfPairs all_a(a, count, "a"), all_b(b, count, "b");
-    require(manifolds, "manifolds");
-    if (manifolds->size < sizeof(minkray_manifold_arrays))
-      wrong_use("manifolds.size: must be sizeof(minkray_manifold_arrays)");
-    const minkray_manifold_arrays to = *manifolds;
+    const minkray_manifold_arrays to = checked(manifolds, "manifolds", "minkray_manifold_arrays");
     const SignedDistanceOptions asked = distance_options(options);
     ask_all(all_a, all_b, count, memories, how,
             [&](size_t i, const PosedBody& one, const PosedBody& other, PairMemory* memory) {

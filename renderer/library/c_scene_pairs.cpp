@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <string>
 
 #include "core/parallel/parallel.h"
+#include "renderer/base/errors.h"
+#include "renderer/clearance/allowed_pairs.h"
+#include "renderer/import/scene_of_model.h"
 #include "renderer/library/bodies_of_pairs.h"
 #include "renderer/library/call.h"
 #include "renderer/library/held_scene.h"
@@ -114,6 +118,21 @@ std::vector<ScenePair> given_pairs(const HeldScene& held, const std::uint32_t* p
   return found;
 }
 
+/// A robot's objects by the names of their links.
+std::map<std::string, std::vector<std::uint32_t>> objects_of_links(const HeldScene::Group& robot) {
+  std::map<std::string, std::vector<std::uint32_t>> objects;
+  const Model& model = *robot.model;
+  const std::vector<bool> chosen = chosen_geoms(model, robot.options.geometry);
+  std::uint32_t object = robot.first;
+  for (std::size_t i = 0; i < model.geoms.size(); ++i) {
+    if (!chosen[i]) continue;
+    if (const int link = model.geoms[i].link; link >= 0)
+      objects[model.links[static_cast<std::size_t>(link)].name].push_back(object);
+    ++object;
+  }
+  return objects;
+}
+
 /// Calls body(i) for all, few at a time.
 void for_all(const HeldScene& held, std::size_t count, const minkray_options* how,
              const std::function<void(std::size_t)>& body) {
@@ -147,6 +166,27 @@ int minkray_scene_allow(minkray_scene scene, uint32_t object_a, uint32_t object_
     held->check_object(object_b, "object_b");
     check_two(object_a, object_b, "object_b");
     held->changed_pair_rules().allow(object_a, object_b, is_allowed != 0);
+  });
+}
+
+int minkray_scene_allow_from_srdf(minkray_scene scene, uint32_t group, const char* file) {
+  return call("minkray_scene_allow_from_srdf", [&] {
+    const SceneChange held(scene);
+    require(file, "file");
+    const HeldScene::Group& robot = held->group(group);
+    if (!robot.model) wrong_use("group: must be a robot's, from URDF, MJCF, SDF or glTF");
+    AllowedPairs allowed;
+    Mistakes mistakes(file);
+    read_srdf(file, *robot.model, allowed, mistakes);
+    throw_if_any(mistakes);
+    const auto objects = objects_of_links(robot);
+    PairRules& rules = held->changed_pair_rules();
+    for (const auto& [link_a, link_b] : allowed.pairs()) {
+      const auto of_a = objects.find(link_a), of_b = objects.find(link_b);
+      if (link_a == link_b || of_a == objects.end() || of_b == objects.end()) continue;
+      for (const std::uint32_t a : of_a->second)
+        for (const std::uint32_t b : of_b->second) rules.allow(a, b, true);
+    }
   });
 }
 

@@ -32,6 +32,14 @@ class PairRules {
     return !allowed_.empty() && allowed_.contains(key(a, b));
   }
 
+  /// Two objects that are a pair, by their masks, and are not allowed to touch.
+  bool are_pair(std::uint32_t a, std::uint32_t b) const {
+    if (allows(a, b)) return false;
+    if (masks_.empty()) return true;
+    const Masks of_a = masks(a), of_b = masks(b);
+    return (of_a.category & of_b.mask) != 0 && (of_b.category & of_a.mask) != 0;
+  }
+
  private:
   static std::uint64_t key(std::uint32_t a, std::uint32_t b) {
     return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);

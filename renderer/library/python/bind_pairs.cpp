@@ -24,14 +24,23 @@ minkray_pair_memory* memories_of(const py::object& memory) {
   return reinterpret_cast<minkray_pair_memory*>(array.mutable_data());
 }
 
-void signed_distances(const Side& a, const Side& b, std::size_t count, double tolerance,
-                      const py::object& memory, const py::dict& out, int threads,
-                      const py::object& progress) {
-  minkray_distance_arrays to = {};
-  to.size = sizeof to;
+template <class Arrays>
+Arrays empty_arrays() {
+  Arrays arrays = {};
+  arrays.size = sizeof arrays;
+  return arrays;
+}
+
+template <class Arrays>
+void add_bounds(const py::dict& out, Arrays& to) {
   to.value = room<double>(out, "value");
   to.lower = room<double>(out, "lower");
   to.upper = room<double>(out, "upper");
+}
+
+/// Adds what distances and impacts both have.
+template <class Arrays>
+void add_points_and_derivatives(const py::dict& out, Arrays& to) {
   to.points_a = room<double>(out, "point_a");
   to.points_b = room<double>(out, "point_b");
   to.normals = room<double>(out, "normal");
@@ -39,6 +48,14 @@ void signed_distances(const Side& a, const Side& b, std::size_t count, double to
   to.jac_b = room<double>(out, "jac_b");
   to.is_ridge = reinterpret_cast<std::uint8_t*>(room<bool>(out, "is_ridge"));
   to.status = room<std::uint8_t>(out, "status");
+}
+
+void signed_distances(const Side& a, const Side& b, std::size_t count, double tolerance,
+                      const py::object& memory, const py::dict& out, int threads,
+                      const py::object& progress) {
+  auto to = empty_arrays<minkray_distance_arrays>();
+  add_bounds(out, to);
+  add_points_and_derivatives(out, to);
   to.supports = room<std::int32_t>(out, "supports");
   const minkray_distance_options options = {sizeof options, tolerance, 0, 0, 0};
   minkray_pair_memory* const memories = memories_of(memory);
@@ -50,18 +67,11 @@ void signed_distances(const Side& a, const Side& b, std::size_t count, double to
 void times_of_impact(const Side& a, const Side& b, std::size_t count, const Doubles& t_max,
                      const py::object& memory, const py::dict& out, int threads,
                      const py::object& progress) {
-  minkray_impact_arrays to = {};
-  to.size = sizeof to;
+  auto to = empty_arrays<minkray_impact_arrays>();
   to.t_lo = room<double>(out, "t_lo");
   to.t_hi = room<double>(out, "t_hi");
   to.distance = room<double>(out, "distance");
-  to.points_a = room<double>(out, "point_a");
-  to.points_b = room<double>(out, "point_b");
-  to.normals = room<double>(out, "normal");
-  to.jac_a = room<double>(out, "jac_a");
-  to.jac_b = room<double>(out, "jac_b");
-  to.is_ridge = reinterpret_cast<std::uint8_t*>(room<bool>(out, "is_ridge"));
-  to.status = room<std::uint8_t>(out, "status");
+  add_points_and_derivatives(out, to);
   minkray_pair_memory* const memories = memories_of(memory);
   const double* const ends = t_max.data();
   const auto end_count = static_cast<std::size_t>(t_max.size());
@@ -74,16 +84,13 @@ void times_of_impact(const Side& a, const Side& b, std::size_t count, const Doub
 void manifolds(const Side& a, const Side& b, std::size_t count, double tolerance,
                const py::object& memory, const py::dict& out, int threads,
                const py::object& progress) {
-  minkray_manifold_arrays to = {};
-  to.size = sizeof to;
+  auto to = empty_arrays<minkray_manifold_arrays>();
   to.normals = room<double>(out, "normal");
   to.points = room<double>(out, "points");
   to.points_a = room<double>(out, "points_a");
   to.points_b = room<double>(out, "points_b");
   to.gaps = room<double>(out, "gaps");
-  to.value = room<double>(out, "value");
-  to.lower = room<double>(out, "lower");
-  to.upper = room<double>(out, "upper");
+  add_bounds(out, to);
   to.counts = room<std::int32_t>(out, "count");
   to.status = room<std::uint8_t>(out, "status");
   const minkray_distance_options options = {sizeof options, tolerance, 0, 0, 0};

@@ -70,18 +70,26 @@ py::array_t<T> column(const std::vector<minkray_clearance>& found, T minkray_cle
 }
 
 py::dict clearance(const Scene& scene, const Scene::Group& robot, const Doubles& path,
-                   double tolerance, bool only_obstacles, int threads) {
+                   double tolerance, bool only_obstacles, bool jac, int threads) {
   if (path.ndim() != 2) throw py::value_error("path: must have the shape (rows, joint values)");
   const auto rows = static_cast<std::size_t>(path.shape(0));
   std::vector<minkray_clearance> steps(std::max<std::size_t>(rows, 2) - 1);
   const minkray_clearance_options options = {sizeof options, tolerance, only_obstacles ? 1 : 0,
                                              threads};
+  const auto count = static_cast<py::ssize_t>(steps.size());
+  const auto numbers = static_cast<std::size_t>(path.shape(1));
+  py::array_t<double> by_joints({jac ? count : 0, path.shape(1)});
+  py::array_t<bool> is_ridge(jac ? count : 0);
+  double* const to_jac = by_joints.mutable_data();
+  auto* const to_ridge = reinterpret_cast<std::uint8_t*>(is_ridge.mutable_data());
   int code = MINKRAY_OK;
   {
     const Unlocked unlock;
-    code = minkray_scene_clearance(scene.handle(), robot.number(), path.data(), rows,
-                                   static_cast<std::size_t>(path.shape(1)), &options, steps.data(),
-                                   nullptr);
+    code =
+        jac ? minkray_scene_clearance_derivatives(scene.handle(), robot.number(), path.data(), rows,
+                                                  numbers, &options, steps.data(), to_jac, to_ridge)
+            : minkray_scene_clearance(scene.handle(), robot.number(), path.data(), rows, numbers,
+                                      &options, steps.data(), nullptr);
   }
   check(code);
   py::dict result;
@@ -93,6 +101,10 @@ py::dict clearance(const Scene& scene, const Scene::Group& robot, const Doubles&
   result["point_a"] = points(steps, &minkray_clearance::point_a);
   result["point_b"] = points(steps, &minkray_clearance::point_b);
   result["normal"] = points(steps, &minkray_clearance::normal);
+  if (jac) {
+    result["jac"] = by_joints;
+    result["is_ridge"] = is_ridge;
+  }
   return result;
 }
 

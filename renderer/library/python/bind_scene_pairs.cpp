@@ -108,6 +108,10 @@ void bind_scene_pairs(py::module_& module) {
   module.def("scene_allow", [](const Scene& scene, std::uint32_t a, std::uint32_t b, bool allowed) {
     check(minkray_scene_allow(scene.handle(), a, b, allowed ? 1 : 0));
   });
+  module.def("scene_allow_from_srdf",
+             [](const Scene& scene, const Scene::Group& robot, const std::string& file) {
+               check(minkray_scene_allow_from_srdf(scene.handle(), robot.number(), file.c_str()));
+             });
   module.def("scene_distances", &distances);
   module.def("scene_nearest", &nearest);
   module.def("scene_distance_to", &distance_to);

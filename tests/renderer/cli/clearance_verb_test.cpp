@@ -84,6 +84,23 @@ TEST(ClearanceVerb, obstacles_are_scenes_and_a_collision_is_told_with_its_depth)
   EXPECT_EQ(collision["b"].text(), "ball");
 }
 
+TEST(ClearanceVerb, without_a_path_it_is_that_of_one_pose) {
+  const TemporaryFolder folder;
+  write_pendulum(folder);
+  // The bob hangs down: the post's middle is sqrt(1.5^2 + 1^2) away.
+  for (const auto& [words, distance] : std::vector<std::pair<std::string, double>>{
+           {"", std::hypot(1.5, 1) - 0.3}, {"--joint swing=-1.5707963267948966", 0.2}}) {
+    const ProgramOutcome outcome = clearance(folder, words + " --tolerance 1e-6");
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const Json answer = Json::parse(outcome.out);
+    EXPECT_NEAR(answer["lower"].get<double>(), distance, 1e-6);
+    EXPECT_NEAR(answer["upper"].get<double>(), distance, 1e-6);
+    EXPECT_EQ(answer["time"].get<double>(), 0);
+    EXPECT_EQ(answer["steps"].get<int>(), 1);
+  }
+  EXPECT_EQ(clearance(folder, "--joint swing=-1.5707963267948966 --at-least 0.21").exit_code, 1);
+}
+
 /// It said "clear", with infinite bounds.
 TEST(ClearanceVerb, particles_are_obstacles) {
   const TemporaryFolder folder;
@@ -151,7 +168,7 @@ TEST(ClearanceVerb, what_is_wrong_is_told) {
       << far.err;
   EXPECT_EQ(clearance(folder, "--path swing.csv --allow bob").exit_code, 3);
   EXPECT_EQ(clearance(folder, "--path swing.csv --at-least much").exit_code, 2);
-  EXPECT_EQ(clearance(folder, "").exit_code, 2);
+  EXPECT_EQ(clearance(folder, "--joint nothing=1").exit_code, 3);
   const ProgramOutcome scene =
       run_shell("cd '" + folder / "" + "' && $MINKRAY clearance ball.json --path swing.csv");
   EXPECT_EQ(scene.exit_code, 3);

@@ -42,23 +42,31 @@ std::vector<Command> writing_commands() {
     for (Reading& one : readings) one.words += words;
     return readings;
   };
+  std::vector<Reading> several = scene;
+  several.push_back({"others", "scene.json", "r.urdf scene.json -r 8x6 "});
   return {
       {"render",
-       with(scene, "-s 1 -q"),
+       with(several, "-s 1 -q"),
        {{"--output", {"o.png"}},
         {"--contact-sheet", {"sheet.png", " --frames 0..1 --output 'o#.png'"}}}},
       {"merge", {{"parts", "part.exr", "part.exr"}}, {{"--output", {"o.png"}}}},
-      {"heatmap", with(scene, "-q"), {{"--output", {"o.png"}}}},
-      {"inspect", with(scene, "-s 1 -q"), {{"--output", {"o.html"}}}},
+      {"heatmap", with(several, "-q"), {{"--output", {"o.png"}}}},
+      {"inspect", with(several, "-s 1 -q"), {{"--output", {"o.html"}}}},
       {"compare", with(scene, "--rays 10 --directions 20 -q"), {{"--output", {"o.png"}}}},
       {"scan",
        {{"scene", "r.urdf", "r.urdf --pattern spinning:2x4 -q"},
+        {"others", "scene.json", "r.urdf scene.json --pattern spinning:2x4 -q"},
         {"--joints", "rows.csv", "r.urdf --pattern spinning:2x4 -q --joints rows.csv"},
         {"--rays", "rays.npy", "r.urdf -q --rays rays.npy"},
         {"--pattern", "pattern.csv", "r.urdf -q --pattern pattern.csv"},
         {"--pinhole", "camera.json", "r.urdf -q --pinhole camera.json"},
         {"--path", "poses.csv", "r.urdf --pattern spinning:2x4 -q --path poses.csv"}},
        {{"--output", {"o.ply"}}, {"--ids", {"o.json", " --output o.ply"}}}},
+      {"distance",
+       {{"files", "r.urdf", "r.urdf"},
+        {"files", "scene.json", "r.urdf scene.json"},
+        {"--srdf", "r.srdf", "r.urdf --srdf r.srdf"}},
+       {{"--output", {"o.csv"}}}},
       {"clearance",
        {{"robot", "r.urdf", "r.urdf --path rows.csv"},
         {"--path", "rows.csv", "r.urdf --path rows.csv"},
@@ -308,6 +316,8 @@ TEST_F(Outputs, none_is_a_file_that_an_input_names) {
 TEST_F(Outputs, none_is_a_mesh_of_an_obstacle_a_probe_or_a_pair) {
   for (const auto& [words, option, ending, named] :
        std::vector<std::tuple<std::string, std::string, std::string, std::string>>{
+           {"distance r.urdf scene.json", "--output", ".csv", "u.obj"},
+           {"distance r.urdf scene.json", "--output", ".csv", "g.bin"},
            {"clearance r.urdf --path rows.csv --obstacle scene.json", "--steps", ".csv", "u.obj"},
            {"clearance r.urdf --path rows.csv --obstacle scene.json", "--sweep", ".json",
             "paint.png"},
@@ -316,7 +326,7 @@ TEST_F(Outputs, none_is_a_mesh_of_an_obstacle_a_probe_or_a_pair) {
            {"distance-2d pair.json", "--output", ".svg", "t.obj"}})
     for (const std::string& name : other_names(named, ending))
       expect_refused(words + output(option, name), option, name);
-  expect_nothing_changed("clearance, field and distance-2d");
+  expect_nothing_changed("distance, clearance, field and distance-2d");
 }
 
 TEST_F(Outputs, none_is_written_twice) {

@@ -6,11 +6,13 @@
 
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <random>
 #include <string>
 #include <vector>
 
 #include "tests/renderer/library/shapes.h"
+#include "tests/support/temporary_folder.h"
 
 namespace {
 
@@ -296,6 +298,81 @@ TEST(LibraryPairs, objects_of_a_scene_that_are_near_points_and_shapes) {
   const mk::Manifold between = scene.manifold(0, 1);
   EXPECT_EQ(between.count, 1);
   EXPECT_NEAR(between.gaps[0], 0.2, 1e-15);
+}
+
+/// Two balls of radius 0.5 that slide on an arm: at x = 0, 2 + slide_a and 4 + slide_b.
+class SlidingBalls : public ::testing::Test {
+ protected:
+  SlidingBalls() : robot_(scene_.add_file(folder_.write("balls.urdf", urdf()), options())) {
+    scene_.commit();
+  }
+
+  static mk::FileOptions options() {
+    mk::FileOptions options;
+    options.geometry = "collision";
+    return options;
+  }
+  static std::string urdf() {
+    std::string text = "<robot name='balls'>";
+    for (const char* name : {"base", "a", "b"})
+      text += "<link name='" + std::string(name) +
+              "'><collision><geometry><sphere radius='0.5'/></geometry></collision></link>";
+    for (const auto& [name, x] : {std::pair("a", "2"), std::pair("b", "4")})
+      text += "<joint name='slide_" + std::string(name) +
+              "' type='prismatic'><parent link='base'/><child link='" + name + "'/><origin xyz='" +
+              x + " 0 0'/><limit lower='-9' upper='9' effort='1' velocity='1'/></joint>";
+    return text + "</robot>";
+  }
+
+  minkray::TemporaryFolder folder_;
+  mk::Scene scene_;
+  mk::Scene::Group robot_;
+};
+
+TEST_F(SlidingBalls, have_derivatives_of_their_clearance) {
+  // They pass from 0.6 apart to 0.2 apart, and then apart again.
+  const double path[] = {0, -0.4, 0.3, -0.5, 0, 0};
+  mk::Clearance steps[2];
+  double jac[4] = {};
+  std::uint8_t is_ridge[2] = {7, 7};
+  scene_.clearance_derivatives(robot_, path, 3, steps, jac, is_ridge);
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_NEAR(steps[i].upper, 0.2, 1e-9);
+    EXPECT_EQ(steps[i].row, 1);
+    EXPECT_NEAR(jac[2 * i], -1, 1e-12);
+    EXPECT_NEAR(jac[2 * i + 1], 1, 1e-12);
+    EXPECT_EQ(is_ridge[i], 0);
+  }
+  mk::Clearance same[2];
+  scene_.clearance(robot_, path, 3, same);
+  EXPECT_EQ(std::memcmp(same, steps, sizeof same), 0);
+  EXPECT_EQ(minkray_scene_clearance_derivatives(scene_.handle(), robot_.number(), path, 3, 2,
+                                                nullptr, nullptr, nullptr, nullptr),
+            MINKRAY_OK);
+  EXPECT_EQ(minkray_scene_clearance_derivatives(scene_.handle(), 9, path, 3, 2, nullptr, nullptr,
+                                                jac, nullptr),
+            MINKRAY_WRONG_USE);
+  EXPECT_THROW(scene_.clearance_derivatives(robot_, path, 3, {}, {jac, 3}), mk::Error);
+}
+
+TEST_F(SlidingBalls, may_touch_as_a_file_says) {
+  const double apart[] = {0, -1.2};
+  EXPECT_NEAR(scene_.clearance(robot_, apart, 1).upper, -0.2, 1e-9);
+  robot_.set("slide_b", -1.2);
+  scene_.commit();
+  EXPECT_EQ(scene_.distances().size(), 1u);
+  scene_.allow_from_srdf(
+      robot_,
+      folder_.write("balls.srdf", "<robot><disable_collisions link1='b' link2='a'/></robot>"));
+  EXPECT_TRUE(scene_.distances().empty());
+  EXPECT_EQ(scene_.clearance(robot_, apart, 1).upper, std::numeric_limits<double>::infinity());
+  const std::string wrong =
+      folder_.write("wrong.srdf", "<robot><disable_collisions link1='b' link2='c'/></robot>");
+  const minkray_scene scene = scene_.handle();
+  EXPECT_EQ(minkray_scene_allow_from_srdf(scene, 0, wrong.c_str()), MINKRAY_BAD_INPUT);
+  EXPECT_NE(std::string(minkray_last_error()).find("there is no link \"c\""), std::string::npos);
+  EXPECT_EQ(minkray_scene_allow_from_srdf(scene, 0, nullptr), MINKRAY_WRONG_USE);
+  EXPECT_EQ(minkray_scene_allow_from_srdf(scene, 5, wrong.c_str()), MINKRAY_WRONG_USE);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@ import ast
 import doctest
 import enum
 import importlib
+import importlib.util
 import inspect
 import os
 import pkgutil
@@ -16,7 +17,7 @@ import unittest
 import minkray as mk
 
 SOURCES = sys.argv.pop(1)
-OF_JAC = {"jac_ray", "jac_body", "is_ridge"}  # fields that are there with jac=True
+OF_JAC = {"jac", "jac_ray", "jac_body", "is_ridge"}  # fields that are there with jac=True
 FOLDER = os.path.join(SOURCES, "renderer/library/python/minkray")
 
 
@@ -101,7 +102,8 @@ class Stubs(unittest.TestCase):
             fields = {one.target.id for one in node.body if isinstance(one, ast.AnnAssign)}
             self.assertEqual(fields - OF_JAC, set(vars(answer)), type(answer).__name__)
         pairs = (mk.sphere(1), None, mk.sphere(1), None)
-        for answer in (scene.cast_rays(ray, jac=True), mk.signed_distances(*pairs, jac=True), mk.manifolds(*pairs),
+        for answer in (scene.cast_rays(ray, jac=True), arm.clearance(robot, [[0, 0]], jac=True),
+                       mk.signed_distances(*pairs, jac=True), mk.manifolds(*pairs),
                        mk.times_of_impact(*pairs[:2], None, *pairs[2:], None, jac=True),
                        scene.distances(within=1, jac=True), scene.nearest([0, 0, 0], jac=True),
                        scene.time_of_impact(mk.sphere(1), None, [0] * 6, jac=True)):
@@ -173,6 +175,24 @@ class Readme(unittest.TestCase):
                                      capture_output=True, text=True)
             self.assertEqual(ran.returncode, 0, ran.stderr)
             self.assertIn("bumper", ran.stdout)
+
+    def test_shows_what_pairs_answer(self):
+        """What stands behind a print is what it prints, but for blanks."""
+        with open(os.path.join(SOURCES, "docs/pairs.md")) as file:
+            blocks = re.findall("```python\n(.*?)```", file.read(), re.DOTALL)
+        self.assertEqual(len(blocks), 3)
+        program = "".join(blocks)
+        expected = re.findall(r"^print\(.*\)\s+# (.*)$", program, re.MULTILINE)
+        self.assertEqual(len(expected), program.count("print("))
+        environment = dict(os.environ)
+        if importlib.util.find_spec("torch") is None:
+            stand_in = os.path.join(SOURCES, "tests/renderer/library/without_torch")
+            environment["PYTHONPATH"] = os.pathsep.join([stand_in, os.environ["PYTHONPATH"]])
+        program = program.replace("print(", "print('>', ")
+        ran = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, env=environment)
+        self.assertEqual(ran.returncode, 0, ran.stderr)
+        found = [re.sub(r"\s", "", text) for text in ran.stdout.split(">")[1:]]
+        self.assertEqual(found, [re.sub(r"\s", "", text) for text in expected])
 
 
 if __name__ == "__main__":

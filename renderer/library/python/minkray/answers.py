@@ -136,6 +136,10 @@ class Clearance(_Arrays):
         Numbers of the nearest; NO_OBJECT where there are none.
     point_a, point_b, normal : float64, three numbers each
         The nearest points there, in the world, and the direction from a to b.
+    jac, is_ridge : (K, J) float64, (K,) bool
+        With ``jac=True``: the derivative of the distance by the joints' values at `row`, and whether
+        there may be others, as where another pair is as near then. By the two rows of the path it is
+        ``(1 - s) * jac`` and ``s * jac``, if `row` is ``s`` behind the first of them.
     """
 
     def __repr__(self):

@@ -176,3 +176,21 @@ def given_pose_of(value, argument="pose"):
     if value is None:
         raise Error(f"{argument}: must be a (4, 4) matrix (got None)")
     return pose_of(value, argument)
+
+
+def shapes_array(value, argument):
+    """Shapes, as an array of them of any number of axes."""
+    if isinstance(value, Shape):
+        array = np.empty((), object)
+        array[()] = value
+        return array
+    if not isinstance(value, (list, tuple, np.ndarray)):
+        shape_of(value, argument)
+    if all(isinstance(one, Shape) for one in value):
+        array = np.empty(len(value), object)
+        array[:] = value
+        return array
+    rows = [shapes_array(one, f"{argument}[{i}]") for i, one in enumerate(value)]
+    if any(row.shape != rows[0].shape for row in rows):
+        raise Error(f"{argument}: must be a Shape, or lists of as many each")
+    return np.stack(rows)

@@ -7,7 +7,7 @@ import numpy as np
 
 from . import _minkray
 from .answers import _Arrays
-from .calls import Error, Shape, array_of, number_of, public, shape_of, vectors_of, whole_number_of
+from .calls import Error, array_of, number_of, public, shapes_array, vectors_of, whole_number_of
 
 
 class Distances(_Arrays):
@@ -103,24 +103,6 @@ _MANIFOLDS = {"count": ((), np.int32), "normal": ((3,), np.float64), "points": (
               "status": ((), np.uint8)}
 
 _MATRIX, _QUATERNION, _MATRIX_4X4 = range(3)
-
-
-def shapes_array(value, argument):
-    """Shapes, as an array of them of any number of axes."""
-    if isinstance(value, Shape):
-        array = np.empty((), object)
-        array[()] = value
-        return array
-    if not isinstance(value, (list, tuple, np.ndarray)):
-        shape_of(value, argument)
-    if all(isinstance(one, Shape) for one in value):
-        array = np.empty(len(value), object)
-        array[:] = value
-        return array
-    rows = [shapes_array(one, f"{argument}[{i}]") for i, one in enumerate(value)]
-    if any(row.shape != rows[0].shape for row in rows):
-        raise Error(f"{argument}: must be a Shape, or lists of as many each")
-    return np.stack(rows)
 
 
 def poses_array(value, argument):

@@ -6,7 +6,7 @@ import math
 import numpy as np
 
 from . import _minkray
-from .calls import Error, Shape, array_of, number_of, poses_of, public, shape_of, vectors_of
+from .calls import Error, array_of, number_of, poses_of, public, shapes_array, vectors_of
 
 
 class DistanceStatus(enum.IntEnum):
@@ -79,20 +79,6 @@ class Impact(_Answer):
     """
 
 
-def _shapes(value, argument):
-    """Shapes, as an array of them."""
-    if isinstance(value, Shape):
-        array = np.empty((), object)
-        array[()] = value
-        return array
-    if not isinstance(value, (list, tuple, np.ndarray)):
-        shape_of(value, argument)
-    rows = [_shapes(one, f"{argument}[{i}]") for i, one in enumerate(value)]
-    if any(row.shape != rows[0].shape for row in rows):
-        raise Error(f"{argument}: must be a Shape, or lists of as many each")
-    return np.stack(rows) if rows else np.empty(0, object)
-
-
 class _Pairs:
     """Arguments that go together, as NumPy's rules of broadcasting have it."""
 
@@ -151,8 +137,8 @@ def signed_distance(a, pose_a, b, pose_b, tolerance=1e-10):
     >>> mk.signed_distance(mk.sphere(1), None, mk.sphere(1), list(poses)).value
     array([1., 2., 3.])
     """
-    pairs = _Pairs(a=(_shapes(a, "a"), 0), pose_a=(poses_of(pose_a, "pose_a"), 2),
-                   b=(_shapes(b, "b"), 0), pose_b=(poses_of(pose_b, "pose_b"), 2))
+    pairs = _Pairs(a=(shapes_array(a, "a"), 0), pose_a=(poses_of(pose_a, "pose_a"), 2),
+                   b=(shapes_array(b, "b"), 0), pose_b=(poses_of(pose_b, "pose_b"), 2))
     return pairs.answer(Distance, DistanceStatus, _minkray.signed_distance(
         pairs["a"], pairs["pose_a"], pairs["b"], pairs["pose_b"], number_of(tolerance, "tolerance"),
         pairs.count))
@@ -182,8 +168,8 @@ def time_of_impact(a, pose_a, twist_a, b, pose_b, twist_b, t_max=1.0):
     Impact
         Of arrays, if any argument is a list.
     """
-    pairs = _Pairs(a=(_shapes(a, "a"), 0), pose_a=(poses_of(pose_a, "pose_a"), 2),
-                   twist_a=(_twists(twist_a, "twist_a"), 1), b=(_shapes(b, "b"), 0),
+    pairs = _Pairs(a=(shapes_array(a, "a"), 0), pose_a=(poses_of(pose_a, "pose_a"), 2),
+                   twist_a=(_twists(twist_a, "twist_a"), 1), b=(shapes_array(b, "b"), 0),
                    pose_b=(poses_of(pose_b, "pose_b"), 2), twist_b=(_twists(twist_b, "twist_b"), 1),
                    t_max=(array_of(t_max, "t_max", "a number"), 0))
     return pairs.answer(Impact, ImpactStatus, _minkray.time_of_impact(

@@ -123,3 +123,10 @@ class Robot:
 
     def __repr__(self):
         return f"<minkray.Robot of {len(self.objects)} objects, {len(self.joint_names)} joints>"
+
+
+def robot_of(value, scene):
+    """The value, which must be a Robot of the scene."""
+    if not isinstance(value, Robot) or value._scene is not scene:
+        raise Error("robot: must be a Robot of this scene")
+    return value

@@ -10,7 +10,7 @@ from .answers import EXHAUSTED, HIT, NO_OBJECT, Clearance, Hits, Proofs
 from .calls import (Error, array_of, given_pose_of, name_of, number_of, pose_of, public, shape_of,
                     text_of, vectors_of, whole_number_of)
 from .rays import pinhole
-from .robots import Robot
+from .robots import Robot, robot_of
 from .scene_pairs import PairsOfScene
 
 
@@ -508,7 +508,7 @@ class Scene(PairsOfScene):
                                often(max_depth, "max_depth"), bool(denoise), names, _threads(threads))
 
     @public
-    def clearance(self, robot, path, tolerance=0.01, only_obstacles=False, threads=0):
+    def clearance(self, robot, path, tolerance=0.01, only_obstacles=False, threads=0, *, jac=False):
         """How near a robot comes to itself and to all else on its way, proven.
 
         Parameters
@@ -524,17 +524,19 @@ class Scene(PairsOfScene):
             Whether the robot's links are not looked at with each other.
         threads : int
             0 for one a core.
+        jac : bool
+            Whether derivatives by the joints are told, too.
 
         Returns
         -------
         Clearance
             Of each of the K - 1 steps from row to row; of one step that stands still if K is 1.
+            Pairs that `allow` or `set_masks` leave out are left out.
         """
-        if not isinstance(robot, Robot) or robot._scene is not self._scene:
-            raise Error("robot: must be a Robot of this scene")
+        robot = robot_of(robot, self._scene)
         path = np.atleast_2d(array_of(path, "path"))
         if path.ndim != 2:
             raise Error(f"path: must have the shape (rows, joint values) (got {path.shape})")
         return Clearance(_minkray.clearance(self._ready(), robot._group, path,
                                             number_of(tolerance, "tolerance"), bool(only_obstacles),
-                                            _threads(threads)))
+                                            bool(jac), _threads(threads)))

@@ -6,9 +6,10 @@ import numpy as np
 
 from . import _minkray
 from .answers import _Arrays
-from .calls import Error, array_of, number_of, public, vectors_of, whole_number_of
-from .many_pairs import (Manifolds, Together, _rows_in_one_piece, poses_array, shapes_array,
-                         threads_of, told, twists_array)
+from .calls import Error, array_of, name_of, number_of, public, shapes_array, vectors_of, whole_number_of
+from .many_pairs import (Manifolds, Together, _rows_in_one_piece, poses_array, threads_of, told,
+                         twists_array)
+from .robots import robot_of
 
 _DISTANCE = [("value", "f8"), ("lower", "f8"), ("upper", "f8"), ("point_a", "f8", 3), ("point_b", "f8", 3),
              ("normal", "f8", 3), ("status", "i4"), ("supports", "i4")]
@@ -208,6 +209,24 @@ class PairsOfScene:
               bool(allowed))
 
     @_public
+    def allow_from_srdf(self, robot, file):
+        """Allows pairs of a robot's links that a file of MoveIt says may touch.
+
+        Parameters
+        ----------
+        robot : Robot
+            Of this scene.
+        file : str or path
+            SRDF: its ``disable_collisions``, ``disable_default_collisions`` and ``enable_collisions``.
+
+        Raises
+        ------
+        Error
+            If it names a link that the robot does not have; no pair is allowed then.
+        """
+        _told(_minkray.scene_allow_from_srdf, self._scene, robot_of(robot, self._scene)._group, name_of(file))
+
+    @_public
     def distances(self, pairs=None, within=None, *, tolerance=1e-10, jac=False, threads=0):
         """All pairs of objects that are near each other.
 
@@ -262,10 +281,8 @@ class PairsOfScene:
             Objects that are proven to be further away are left out.
         mask : int
             Categories that are looked at; see `set_masks`.
-        jac : bool
-            Whether derivatives are told, too.
-        threads : int
-            0 for one a core. The answers are the same bits for any number.
+        jac, threads
+            As of `distances`.
 
         Returns
         -------

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/clearance/clearance_derivative.h"
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace minkray {
+namespace {
+
+/// All bodies at one moment.
+class Moment {
+ public:
+  Moment(const Model& posed, const std::vector<ClearanceBody>& bodies)
+      : links_(link_poses(posed)), bodies_(bodies) {}
+
+  Affine<double> pose(std::size_t index) const {
+    const ClearanceBody& body = bodies_[index];
+    if (body.link_index >= 0) return links_[static_cast<std::size_t>(body.link_index)];
+    return {body.linear, body.middle.at.rounded() - body.linear * body.shape.middle()};
+  }
+
+  SignedDistance distance(const BodyPair& pair, const SignedDistanceOptions& how) const {
+    const Affine<double> pose_a = pose(pair.a), pose_b = pose(pair.b);
+    const ClearanceBody &a = bodies_[pair.a], &b = bodies_[pair.b];
+    if (a.plane) return to_plane(*a.plane, a.link_index, b.shape, pose_b);
+    if (b.plane) return turned_round(to_plane(*b.plane, b.link_index, a.shape, pose_a));
+    return signed_distance(a.shape, pose_a, b.shape, pose_b, how);
+  }
+
+  PairDerivative derivative(const BodyPair& pair, const SignedDistance& found) const {
+    const Affine<double> pose_a = pose(pair.a), pose_b = pose(pair.b);
+    const ClearanceBody &a = bodies_[pair.a], &b = bodies_[pair.b];
+    if (a.plane) return derivative_at_half_space(pose_a.translation, b.shape, pose_b, found);
+    if (b.plane) {
+      PairDerivative derivative =
+          derivative_at_half_space(pose_b.translation, a.shape, pose_a, turned_round(found));
+      std::swap(derivative.a, derivative.b);
+      return derivative;
+    }
+    return derivative_of(a.shape, pose_a, b.shape, pose_b, found);
+  }
+
+  /// No distance of the pair is less.
+  double lower_by_balls(const BodyPair& pair) const {
+    const ClearanceBody &a = bodies_[pair.a], &b = bodies_[pair.b];
+    if (a.plane || b.plane) return -std::numeric_limits<double>::infinity();
+    const double apart =
+        (middle_in_world(b.shape, pose(pair.b)) - middle_in_world(a.shape, pose(pair.a))).norm();
+    constexpr double padding = 1e-9;
+    const double sizes = a.shape.ball_radius() + b.shape.ball_radius();
+    return apart - sizes - padding * (apart + sizes);
+  }
+
+ private:
+  static SignedDistance turned_round(SignedDistance found) {
+    std::swap(found.point_a, found.point_b);
+    found.normal = -found.normal;
+    return found;
+  }
+
+  /// A link's plane moves with it; others stand in the world.
+  SignedDistance to_plane(PlacedPlane plane, int link, const ContactShape& shape,
+                          const Affine<double>& pose) const {
+    if (link >= 0) plane = moved(plane, links_[static_cast<std::size_t>(link)]);
+    return distance_to_half_space(plane, shape, pose.linear, placed_middle(shape, pose));
+  }
+
+  std::vector<Affine<double>> links_;
+  const std::vector<ClearanceBody>& bodies_;
+};
+
+}  // namespace
+
+ClearanceDerivative derivative_of(const Closest& closest, const JointPath& path,
+                                  const std::vector<ClearanceBody>& bodies,
+                                  const std::vector<BodyPair>& pairs, const JointWidths& joints) {
+  const Model posed = path.posed_at(closest.time);
+  ClearanceDerivative result;
+  if (!std::isfinite(closest.upper)) {
+    result.by_joints = derivative_by_joints(posed, joints, {});
+    return result;
+  }
+  const Moment moment(posed, bodies);
+  SignedDistanceOptions how;
+  how.tolerance = tolerance_for_derivatives;
+  const BodyPair nearest{closest.a, closest.b};
+  const SignedDistance found = moment.distance(nearest, how);
+  const PairDerivative derivative = moment.derivative(nearest, found);
+  const std::array<LinkDerivative, 2> links = {
+      LinkDerivative{bodies[closest.a].link_index, derivative.a},
+      LinkDerivative{bodies[closest.b].link_index, derivative.b}};
+  result.by_joints = derivative_by_joints(posed, joints, links);
+  result.is_ridge = derivative.is_ridge;
+  how = {};
+  how.at_most = found.upper;
+  for (std::size_t i = 0; i < pairs.size() && !result.is_ridge; ++i) {
+    const BodyPair& pair = pairs[i];
+    if (pair.a == nearest.a && pair.b == nearest.b) continue;
+    result.is_ridge = moment.lower_by_balls(pair) <= found.upper &&
+                      moment.distance(pair, how).lower <= found.upper;
+  }
+  return result;
+}
+
+}  // namespace minkray

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// How the least distance of a robot's step changes with the joints' values at the moment of it.
+#pragma once
+
+#include <vector>
+
+#include "renderer/clearance/clearance.h"
+#include "renderer/clearance/joint_derivative.h"
+
+namespace minkray {
+
+struct ClearanceDerivative {
+  std::vector<double> by_joints;  ///< zero if there is no pair, NaN if nothing is known of it
+  /// The bounds do not exclude that there are other derivatives: of this pair, or of another one
+  /// that is as near at this moment. Other moments are not looked at.
+  bool is_ridge = false;
+};
+
+/// `closest` is an answer of clearance_of() on the same path, bodies and pairs.
+ClearanceDerivative derivative_of(const Closest& closest, const JointPath& path,
+                                  const std::vector<ClearanceBody>& bodies,
+                                  const std::vector<BodyPair>& pairs, const JointWidths& joints);
+
+}  // namespace minkray

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/clearance/joint_derivative.h"
+
+#include <array>
+#include <optional>
+#include <unordered_map>
+
+namespace minkray {
+namespace {
+
+/// Where a joint's numbers are in the answer, and what a number of it is worth there.
+struct Leader {
+  std::size_t first;
+  double factor;
+};
+
+class JointNumbers {
+ public:
+  JointNumbers(const Model& posed, const JointWidths& joints) {
+    for (const ModelLink& link : posed.links)
+      for (const ModelJoint& joint : link.joints) by_name_.emplace(joint.name, &joint);
+    for (const auto& [name, width] : joints) {
+      first_[name] = count_;
+      count_ += width;
+    }
+  }
+
+  std::size_t count() const { return count_; }
+
+  /// Nothing for joints that are none of those asked for, nor follow one.
+  std::optional<Leader> leader_of(const ModelJoint& joint) const {
+    double factor = 1;
+    const ModelJoint* other = &joint;
+    for (std::size_t steps = 0; other->mimic && steps < longest_mimicry; ++steps) {
+      factor *= other->mimic->multiplier;
+      const auto next = by_name_.find(other->mimic->joint);
+      if (next == by_name_.end()) return std::nullopt;
+      other = next->second;
+    }
+    const auto known = by_name_.find(other->name);
+    const auto first = first_.find(other->name);
+    // Values go to the first joint of a name.
+    if (first == first_.end() || known->second != other) return std::nullopt;
+    if (other != &joint && (width_of(joint.kind) != 1 || width_of(other->kind) != 1))
+      return std::nullopt;
+    return Leader{first->second, factor};
+  }
+
+ private:
+  std::unordered_map<std::string, const ModelJoint*> by_name_;
+  std::unordered_map<std::string, std::size_t> first_;
+  std::size_t count_ = 0;
+};
+
+/// The turn per unit of a quaternion's numbers w, x, y, z: twice the vector part of e_i q* / |q|^2.
+std::array<Vec3<double>, 4> turns_by_quaternion(const double* numbers) {
+  const Vec3<double> v(numbers[1], numbers[2], numbers[3]);
+  const double w = numbers[0], squared = w * w + v.squaredNorm();
+  std::array<Vec3<double>, 4> turns;
+  turns.fill(Vec3<double>::Zero());
+  if (!(squared > 0)) return turns;
+  turns[0] = -2 / squared * v;
+  for (int i = 0; i < 3; ++i) {
+    const Vec3<double> axis = Vec3<double>::Unit(i);
+    turns[static_cast<std::size_t>(i) + 1] = 2 / squared * (w * axis - axis.cross(v));
+  }
+  return turns;
+}
+
+/// What a link's derivative is by motions of all that it hangs on.
+class Motions {
+ public:
+  Motions(const TwistDerivative& by, const Vec3<double>& origin) : by_(by), origin_(origin) {}
+
+  double slide(const Vec3<double>& along) const { return by_.by_velocity.dot(along); }
+  double turn(const Vec3<double>& axis, const Vec3<double>& about) const {
+    return by_.by_velocity.dot(axis.cross(origin_ - about)) + by_.by_turn.dot(axis);
+  }
+
+ private:
+  const TwistDerivative& by_;
+  Vec3<double> origin_;
+};
+
+/// By each number of the joint; `before` and `after` are the poses on both sides of it.
+std::vector<double> by_numbers(const ModelJoint& joint, const Affine<double>& before,
+                               const Affine<double>& after, const Motions& motions) {
+  const std::vector<double>& q = joint.value;
+  switch (joint.kind) {
+    case JointKind::hinge:
+      return {motions.turn(before.linear * joint.axis, before(joint.anchor))};
+    case JointKind::slide:
+      return {motions.slide(before.linear * joint.axis)};
+    case JointKind::ball: {
+      std::vector<double> all;
+      for (const Vec3<double>& turn : turns_by_quaternion(q.data()))
+        all.push_back(motions.turn(before.linear * turn, before(joint.anchor)));
+      return all;
+    }
+    case JointKind::planar: {
+      const auto [u, v] = directions_across(joint.axis);
+      return {motions.slide(before.linear * u), motions.slide(before.linear * v),
+              motions.turn(before.linear * joint.axis, after.translation)};
+    }
+    case JointKind::free: {
+      std::vector<double> all;
+      for (int i = 0; i < 3; ++i) all.push_back(motions.slide(Vec3<double>::Unit(i)));
+      for (const Vec3<double>& turn : turns_by_quaternion(q.data() + 3))
+        all.push_back(motions.turn(turn, after.translation));
+      return all;
+    }
+    case JointKind::fixed:
+      break;
+  }
+  return {};
+}
+
+/// The poses before each joint of a link, and after the last one.
+std::vector<Affine<double>> poses_between(const ModelLink& link, const Affine<double>& parent) {
+  std::vector<Affine<double>> poses = {parent * link.rest};
+  for (const ModelJoint& joint : link.joints) {
+    const bool has_value = joint.value.size() == width_of(joint.kind) && !joint.value.empty();
+    if (!has_value) {
+      poses.push_back(poses.back());
+    } else if (joint.kind == JointKind::free) {
+      Model alone;
+      alone.links.push_back({"", -1, {}, {joint}});
+      poses.push_back(link_poses(alone)[0]);
+    } else {
+      poses.push_back(poses.back() * motion_of(joint));
+    }
+  }
+  return poses;
+}
+
+}  // namespace
+
+std::vector<double> derivative_by_joints(const Model& posed, const JointWidths& joints,
+                                         std::span<const LinkDerivative> links) {
+  const JointNumbers numbers(posed, joints);
+  std::vector<double> sum(numbers.count());
+  const std::vector<Affine<double>> poses = link_poses(posed);
+  for (const LinkDerivative& one : links) {
+    if (one.link < 0) continue;
+    const Motions motions(one.by, poses[static_cast<std::size_t>(one.link)].translation);
+    bool is_absolute = false;
+    for (int at = one.link; at >= 0 && !is_absolute;) {
+      const ModelLink& link = posed.links[static_cast<std::size_t>(at)];
+      const Affine<double> parent =
+          link.parent < 0 ? Affine<double>() : poses[static_cast<std::size_t>(link.parent)];
+      const std::vector<Affine<double>> between = poses_between(link, parent);
+      for (std::size_t j = link.joints.size(); j-- > 0 && !is_absolute;) {
+        const ModelJoint& joint = link.joints[j];
+        if (joint.value.size() != width_of(joint.kind) || joint.value.empty()) continue;
+        if (const auto leader = numbers.leader_of(joint)) {
+          const std::vector<double> by = by_numbers(joint, between[j], between[j + 1], motions);
+          for (std::size_t i = 0; i < by.size(); ++i)
+            sum[leader->first + i] += leader->factor * by[i];
+        }
+        is_absolute = joint.kind == JointKind::free;
+      }
+      at = link.parent;
+    }
+  }
+  return sum;
+}
+
+}  // namespace minkray

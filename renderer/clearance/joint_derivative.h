@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// Derivatives by the joints' numbers, of what is known by the twists of links: the chain rule along
+// the joints that a link hangs on.
+#pragma once
+
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/contact/pair_derivative.h"
+#include "renderer/import/model.h"
+
+namespace minkray {
+
+/// A derivative by the twist of a link's frame about its origin; -1: the world, which has none.
+struct LinkDerivative {
+  int link = -1;
+  TwistDerivative by;
+};
+
+/// Names of joints, and how many numbers each has.
+using JointWidths = std::vector<std::pair<std::string, std::size_t>>;
+
+/// The sum of the links' derivatives by each number of the joints, in their order. A joint that
+/// mimics another adds to that one's. The numbers of quaternions are those that were given, of any
+/// length: along the quaternion the derivative is zero.
+std::vector<double> derivative_by_joints(const Model& posed, const JointWidths& joints,
+                                         std::span<const LinkDerivative> links);
+
+}  // namespace minkray

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// The options of verbs that leave out pairs of a robot's links: --srdf and --allow.
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "renderer/clearance/allowed_pairs.h"
+#include "renderer/cli/options.h"
+
+namespace minkray {
+
+struct AllowedLinks {
+  std::string srdf;
+  std::vector<std::string> pairs;
+
+  void add_options(const Verb& verb) {
+    verb.add_option("--srdf", srdf, "MoveIt's file of the links that may touch each other")
+        .reads_file();
+    verb.add_option("--allow", pairs,
+                    "Two links that may touch each other; may be given again. Links that a joint "
+                    "connects always may")
+        .takes("LINK,LINK")
+        .one_value_each();
+  }
+
+  bool any() const { return !srdf.empty() || !pairs.empty(); }
+
+  AllowedPairs read(const Model& model, Mistakes& mistakes) const {
+    AllowedPairs allowed;
+    if (!srdf.empty()) {
+      Mistakes of_file(srdf);
+      read_srdf(srdf, model, allowed, of_file);
+      throw_if_any(of_file);
+    }
+    const auto is_link = [&](const std::string& name) {
+      return std::ranges::any_of(model.links,
+                                 [&](const ModelLink& link) { return link.name == name; });
+    };
+    for (const std::string& text : pairs) {
+      const std::size_t comma = text.find(',');
+      const std::string a = text.substr(0, comma),
+                        b = comma == text.npos ? "" : text.substr(comma + 1);
+      if (is_link(a) && is_link(b))
+        allowed.allow(a, b);
+      else
+        mistakes.add("--allow: must be two links of the robot with a comma between them (got \"" +
+                     printable(text, 80) + "\")");
+    }
+    return allowed;
+  }
+};
+
+}  // namespace minkray
