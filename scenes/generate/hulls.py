@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Writes scenes/hulls.json: Boston Dynamics' Atlas, each link the convex hull of its mesh.
+"""Writes scenes/hulls.json: Boston Dynamics' Atlas, each link the convex hull of its mesh; and
+scenes/atlas.json: the meshes themselves, beside those hulls.
 
 The joints are those of its description (URDF) in Debian's libsimbody-dev, where the meshes come
 from, too: run scenes/fetch-meshes first.
@@ -64,26 +65,54 @@ for link in robot.findall("link"):
             "name": name, "shape": {"type": "hull", "file": f"meshes/atlas/{name}.stl"},
             "material": "dark" if name in dark else "accent" if name in accent else "shell",
             "transform": pose.json()})
-objects.append({"name": "floor", "shape": {"type": "box", "half_extents": [14, 14, 0.1]},
-                "material": "floor", "transform": {"translate": [0, 0, -0.1]}})
+floor = {"name": "floor", "shape": {"type": "box", "half_extents": [14, 14, 0.1]},
+         "material": "floor", "transform": {"translate": [0, 0, -0.1]}}
 
-write("hulls.json", {
-    "$schema": "scene.schema.json",
-    "version": 1,
-    "description": "Boston Dynamics' Atlas, each of its links the convex hull of its mesh.",
-    "camera": {"position": [3.6, 2.3, 1.5], "look_at": [0.02, 0, 0.93], "up": [0, 0, 1],
-               "fov_y_degrees": 29, "resolution": [800, 960]},
-    "lights": [
-        {"type": "directional", "direction": [-0.9, 0.25, -1], "color": [1, 0.95, 0.88],
-         "intensity": 2.4},
-        {"type": "environment", "zenith": [0.5, 0.58, 0.7], "nadir": [0.25, 0.24, 0.22]},
-    ],
-    "materials": [
-        {"name": "shell", "type": "glossy", "color": [0.7, 0.7, 0.68], "roughness": 0.25},
-        {"name": "dark", "type": "glossy", "color": [0.07, 0.075, 0.085], "roughness": 0.2},
-        {"name": "accent", "type": "glossy", "color": [0.75, 0.3, 0.05], "roughness": 0.2},
-        {"name": "floor", "type": "glossy", "color": [0.35, 0.36, 0.38], "roughness": 0.2},
-    ],
-    "objects": objects,
-    "background": {"zenith": [0.5, 0.58, 0.7], "nadir": [0.8, 0.82, 0.85]},
-})
+
+def scene(description, camera, objects):
+    return {
+        "$schema": "scene.schema.json",
+        "version": 1,
+        "description": description,
+        "camera": camera,
+        "lights": [
+            {"type": "directional", "direction": [-0.9, 0.25, -1], "color": [1, 0.95, 0.88],
+             "intensity": 2.4},
+            {"type": "environment", "zenith": [0.5, 0.58, 0.7], "nadir": [0.25, 0.24, 0.22]},
+        ],
+        "materials": [
+            {"name": "shell", "type": "glossy", "color": [0.7, 0.7, 0.68], "roughness": 0.25},
+            {"name": "dark", "type": "glossy", "color": [0.07, 0.075, 0.085], "roughness": 0.2},
+            {"name": "accent", "type": "glossy", "color": [0.75, 0.3, 0.05], "roughness": 0.2},
+            {"name": "floor", "type": "glossy", "color": [0.35, 0.36, 0.38], "roughness": 0.2},
+        ],
+        "objects": [*objects, floor],
+        "background": {"zenith": [0.5, 0.58, 0.7], "nadir": [0.8, 0.82, 0.85]},
+    }
+
+
+def camera(position, look_at, fov_y_degrees, resolution):
+    return {"position": position, "look_at": look_at, "up": [0, 0, 1],
+            "fov_y_degrees": fov_y_degrees, "resolution": resolution}
+
+
+def beside(part, way, suffix):
+    """The part moved to the side, and named so."""
+    transform = dict(part["transform"])
+    transform["translate"] = [round(a + b, 6) for a, b in zip(transform["translate"], way)]
+    return {**part, "name": part["name"] + suffix, "transform": transform}
+
+
+def as_mesh(part):
+    kept = {key: value for key, value in part.items() if key != "shape"}
+    return {"name": kept.pop("name"), "mesh": {"file": part["shape"]["file"]}, **kept}
+
+
+write("hulls.json", scene(
+    "Boston Dynamics' Atlas, each of its links the convex hull of its mesh.",
+    camera([3.6, 2.3, 1.5], [0.02, 0, 0.93], 29, [800, 960]), objects))
+write("atlas.json", scene(
+    "Boston Dynamics' Atlas as its meshes are, and beside it their convex hulls.",
+    camera([4.8, 1.3, 1.5], [0, 0, 0.9], 25, [800, 500]),
+    [as_mesh(beside(part, [0.2, -0.72, 0], "")) for part in objects] +
+    [beside(part, [-0.2, 0.72, 0], " hull") for part in objects]))
