@@ -2,7 +2,6 @@
 #include "renderer/cli/import_arguments.h"
 
 #include "renderer/cli/options.h"
-#include "renderer/cli/scene_file.h"
 #include "renderer/import/import.h"
 
 namespace minkray {
@@ -13,10 +12,10 @@ std::string scene_argument() {
 }
 
 void add_other_files(const Verb& verb, ImportOptions& options) {
+  // Names of scenes that come with Minkray would be looked for before unknown options are told.
   verb.add_option("others", options.others,
-                  "More such files, in the same scene: camera and lights are those of the first "
-                  "scene file, joints' values are the first file's")
-      .replace(scene_file)
+                  "More files, in the same scene: camera and lights are those of the first scene "
+                  "file, joints' values are the first file's")
       .reads_file();
 }
 

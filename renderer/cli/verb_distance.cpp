@@ -287,7 +287,6 @@ void add_distance(Parser& parser, ExitCode&) {
                   "others: a table of its pairs with them. " +
                       scene_argument())
       .required()
-      .replace(scene_file)
       .reads_file();
   add_tolerance(verb, options->tolerance);
   verb.add_option("--within", options->within,
@@ -305,7 +304,10 @@ void add_distance(Parser& parser, ExitCode&) {
   verb.add_option("-t,--threads", options->threads, "Threads; 0: one per core")
       .between(0, 1024)
       .show_default();
-  verb.on_call([options] { with_threads(options->threads, [&] { distance(*options); }); });
+  verb.on_call([options] {
+    for (std::string& file : options->files) file = scene_file(file);
+    with_threads(options->threads, [&] { distance(*options); });
+  });
 }
 
 }  // namespace minkray
