@@ -154,7 +154,7 @@ int minkray_scene_ray_derivatives(minkray_scene scene, const minkray_ray_arrays*
   return call("minkray_scene_ray_derivatives", [&] {
     const SceneQuery held(scene);
     require(hits, "hits");
-    if (hits->size < sizeof(minkray_hit_arrays))
+    if (hits->size < offsetof(minkray_hit_arrays, parts))
       wrong_use("hits.size: must be sizeof(minkray_hit_arrays)");
     require(derivatives, "derivatives");
     if (derivatives->size < sizeof(minkray_ray_derivatives))

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -87,6 +88,40 @@ TEST(LibraryMesh, stands_in_scenes_whose_rays_are_proven) {
   scene.commit();
   EXPECT_EQ(scene.cast({{0.9, 0, 9}, {0, 0, -1}}).object, far);
   EXPECT_EQ(scene.cast({{0.9, 0, 9}, {0, 0, -1}}).t, 12);
+}
+
+TEST(LibraryMesh, tells_programs_no_more_than_their_structs_have_room_for) {
+  mk::Scene scene;
+  scene.add(open_box());
+  scene.commit();
+  const double origin[3] = {0.3, 0.2, 5}, direction[3] = {0, 0, -1};
+  minkray_ray_arrays rays = {};
+  rays.size = sizeof rays;
+  rays.origins = origin;
+  rays.directions = direction;
+  double t = 0;
+  std::int32_t part = 77;
+  minkray_hit_arrays hits = {};
+  hits.t = &t;
+  hits.parts = &part;
+  hits.size = offsetof(minkray_hit_arrays, parts);  // as it was before there were meshes
+  ASSERT_EQ(minkray_scene_cast_arrays(scene.handle(), &rays, 1, &hits, nullptr), MINKRAY_OK);
+  EXPECT_EQ(t, 5);
+  EXPECT_EQ(part, 77);
+  hits.size = sizeof hits;
+  ASSERT_EQ(minkray_scene_cast_arrays(scene.handle(), &rays, 1, &hits, nullptr), MINKRAY_OK);
+  EXPECT_LT(part, 2);
+  minkray_file_options options = {};
+  options.meshes = "neither";
+  options.size = offsetof(minkray_file_options, meshes);
+  const auto told = [&] {
+    minkray_scene_add_file(scene.handle(), "none.urdf", &options, nullptr);
+    return std::string(minkray_last_error());
+  };
+  EXPECT_EQ(told().find("options.meshes"), std::string::npos);
+  options.size = sizeof options;
+  EXPECT_NE(told().find("options.meshes: must be \"hull\" or \"exact\" (got \"neither\")"),
+            std::string::npos);
 }
 
 TEST(LibraryMesh, has_distances_to_its_surface) {
