@@ -21,6 +21,9 @@ constexpr double largest_coordinate = 0x1p300, smallest_size = 0x1p-250;
 
 constexpr std::size_t triangles_a_range = 4096;
 
+/// Squares of such numbers have all their digits.
+constexpr double ordinary = 0x1p-200;
+
 TwoFold<double> operator-(const TwoFold<double>& a, const TwoFold<double>& b) {
   return a + TwoFold<double>{-b.high, -b.low};
 }
@@ -66,6 +69,12 @@ TriangleMesh::TriangleMesh(std::vector<Vec3<double>> vertices, std::vector<Corne
 }
 
 Vec3<double> TriangleMesh::normal(std::uint32_t triangle) const {
+  const Vec3<double> a = corner(triangle, 1) - corner(triangle, 0),
+                     b = corner(triangle, 2) - corner(triangle, 0), plain = a.cross(b);
+  constexpr double wide = 1e-2;  // the square of a sine
+  const double squared = plain.squaredNorm(), of_sides = a.squaredNorm() * b.squaredNorm();
+  if (squared >= wide * of_sides && squared > ordinary && of_sides < 1 / ordinary)
+    return plain / std::sqrt(squared);
   // The two products are nearly equal where it is a sliver: their difference needs more digits.
   const TwoFoldVec3<double> p = exact_difference(corner(triangle, 1), corner(triangle, 0)),
                             q = exact_difference(corner(triangle, 2), corner(triangle, 0));

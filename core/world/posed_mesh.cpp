@@ -17,21 +17,29 @@ constexpr double largest_number = 0x1p300;
 /// of three products and their sum, in halves of epsilon.
 constexpr double map_rounding = 3 * tolerance::epsilon<double>;
 
-/// The ray in the mesh's frame. Its direction is longer by 2^exponent there, so that it is about 1.
+/// Directions that are shorter, or longer than its inverse, are brought to a length of about 1.
+constexpr double shortest = 0x1p-64;
+
+/// The ray in the mesh's frame. Its direction is longer by 2^exponent there.
 struct NearRay {
   Ray<double> ray;
   double origin_loss = 0, direction_loss = 0;  ///< what they may be off
   int exponent = 0;
   bool is_number = true;
+
+  double in_near(double t) const { return exponent == 0 ? t : std::ldexp(t, -exponent); }
+  double in_world(double t) const { return exponent == 0 ? t : std::ldexp(t, exponent); }
 };
 
 NearRay near_ray(const PosedMesh& posed, const Ray<double>& ray) {
   NearRay near;
   const double size = ray.direction.cwiseAbs().maxCoeff();
-  std::frexp(size, &near.exponent);
-  near.exponent = -near.exponent;
-  Vec3<double> direction;
-  for (int k = 0; k < 3; ++k) direction[k] = std::ldexp(ray.direction[k], near.exponent);
+  Vec3<double> direction = ray.direction;
+  if (!(size > shortest && size < 1 / shortest)) [[unlikely]] {
+    std::frexp(size, &near.exponent);
+    near.exponent = -near.exponent;
+    for (double& x : direction) x = std::ldexp(x, near.exponent);
+  }
   const TwoFoldVec3<double> from = exact_difference(ray.origin, posed.pose.translation);
   if (posed.is_turned) {
     near.ray.origin = posed.to_mesh * from.high + posed.to_mesh * from.low;
@@ -44,7 +52,7 @@ NearRay near_ray(const PosedMesh& posed, const Ray<double>& ray) {
     near.ray.direction = direction;
     if (!from.low.isZero(0)) near.origin_loss = from.low.norm();
   }
-  near.ray.t_max = std::ldexp(ray.t_max, -near.exponent);
+  near.ray.t_max = near.in_near(ray.t_max);
   near.is_number = size > 0 && near.ray.origin.cwiseAbs().maxCoeff() <= largest_number &&
                    near.ray.direction.cwiseAbs().maxCoeff() <= largest_number;
   return near;
@@ -82,7 +90,7 @@ MeshCast cast_ray(const PosedMesh& posed, const Ray<double>& ray, double most, b
   cast.status = Status::miss;
   cast.path = Path::filter;
   if (!near.is_number) return answer;
-  near.ray.t_max = std::min(near.ray.t_max, std::ldexp(most, -near.exponent));
+  near.ray.t_max = std::min(near.ray.t_max, near.in_near(most));
   const PartHit hit = closest_part(*posed.mesh, near.ray, t_min_of(posed, near, leaves), counts);
   if (!hit.found()) return answer;
   answer.part = hit.part;
@@ -96,9 +104,9 @@ MeshCast cast_ray(const PosedMesh& posed, const Ray<double>& ray, double most, b
     error = fall > 0 ? error + beside / fall : std::numeric_limits<double>::infinity();
   }
   cast.status = Status::hit;
-  cast.t_offset = std::ldexp(hit.t, near.exponent);
-  cast.offset_lo = std::ldexp(std::max(hit.t - error, 0.0), near.exponent);
-  cast.offset_hi = std::ldexp(hit.t + error, near.exponent);
+  cast.t_offset = near.in_world(hit.t);
+  cast.offset_lo = near.in_world(std::max(hit.t - error, 0.0));
+  cast.offset_hi = near.in_world(hit.t + error);
   cast.normal =
       posed.is_turned ? Vec3<double>((posed.to_mesh.transpose() * normal).normalized()) : normal;
   return answer;
@@ -116,7 +124,7 @@ CastResult<double> cast_exit(const PosedMesh& posed, const Ray<double>& ray) {
   std::size_t last = 0;
   while (last + 1 < hits.size() && hits[last].t - hits[0].t <= same) ++last;
   exit.status = Status::hit;
-  exit.t_offset = std::ldexp(hits[last].t, near.exponent);
+  exit.t_offset = near.in_world(hits[last].t);
   return exit;
 }
 
