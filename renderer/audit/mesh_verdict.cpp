@@ -5,6 +5,8 @@
 
 #include "core/bvh/traverse.h"
 #include "core/derived/triangle_of.h"
+#include "core/math/two_fold.h"
+#include "core/mesh/exact_sign.h"
 #include "core/proof/certificate.h"
 #include "core/shape/shape.h"
 
@@ -18,10 +20,29 @@ Shape<double> part_in_world(const PosedMesh& posed, std::uint32_t part) {
   return triangle_of(corners[0], corners[1], corners[2]);
 }
 
+Ray<double> seen_by(const PosedMesh& posed, const Ray<double>& ray) {
+  const TwoFoldVec3<double> from = exact_difference(ray.origin, posed.pose.translation);
+  return {posed.to_mesh * from.high + posed.to_mesh * from.low, posed.to_mesh * ray.direction,
+          ray.t_max};
+}
+
+/// Whether the ray's line passes the triangle outside of one edge and inside of another, as exact
+/// arithmetic says of the ray in the mesh's frame. Where it grazes an edge no plane proves that.
+bool passes_beside(const PosedMesh& posed, std::uint32_t part, const Ray<double>& ray) {
+  const Ray<double> seen = seen_by(posed, ray);
+  int least = 1, most = -1;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const int side = exact_side_of_edge(seen.origin, seen.direction, posed.mesh->corner(part, k),
+                                        posed.mesh->corner(part, (k + 1) % 3));
+    least = std::min(least, side);
+    most = std::max(most, side);
+  }
+  return least < 0 && most > 0;
+}
+
 /// Triangles whose boxes the ray comes near to, in the mesh's frame.
 std::vector<std::uint32_t> parts_near(const PosedMesh& posed, const Ray<double>& ray) {
-  const Ray<double> seen{posed.to_mesh * (ray.origin - posed.pose.translation),
-                         posed.to_mesh * ray.direction, ray.t_max};
+  const Ray<double> seen = seen_by(posed, ray);
   std::vector<std::uint32_t> parts;
   traverse(posed.mesh->bvh(), SlabRay(seen), [&](std::uint32_t part) {
     parts.push_back(part);
@@ -40,6 +61,26 @@ CertificateVerdict verdict_of_part(const PosedMesh& posed, std::uint32_t part,
   return check_certificate(support, ray, claim, certificate);
 }
 
+/// Whether the triangle is met, and not before t_max: where several have an edge in common, the end
+/// of the segment is too near to each for a plane between them.
+bool is_met_no_sooner(const PosedMesh& posed, std::uint32_t part, const Ray<double>& ray,
+                      double t_max) {
+  const TriangleMesh& mesh = *posed.mesh;
+  Ray<double> whole = ray;
+  whole.t_max = std::numeric_limits<double>::infinity();
+  const PartHit hit = cast_at_triangle(mesh.corner(part, 0), mesh.corner(part, 1),
+                                       mesh.corner(part, 2), seen_by(posed, whole));
+  if (!hit.found()) return false;
+  Claim claim;
+  claim.status = Status::hit;
+  claim.t_offset = hit.t;
+  claim.normal = posed.to_mesh.transpose() * mesh.normal(part) * (hit.is_back ? -1.0 : 1.0);
+  claim.normal.normalize();
+  const CertificateVerdict found = verdict_of_part(posed, part, whole, claim, nullptr);
+  const double rounding = found.allowed / ray.direction.norm();
+  return found.holds && found.t_base + found.offset_planes >= t_max - rounding;
+}
+
 /// Whether all but one are missed up to t_max; else the verdict of one that is not.
 CertificateVerdict all_missed(const PosedMesh& posed, Ray<double> ray, double t_max,
                               std::uint32_t but) {
@@ -52,7 +93,9 @@ CertificateVerdict all_missed(const PosedMesh& posed, Ray<double> ray, double t_
     if (part == but) continue;
     const CertificateVerdict of_part = verdict_of_part(posed, part, ray, miss, nullptr);
     verdict.allowed = std::max(verdict.allowed, of_part.allowed);
-    if (!of_part.holds) return of_part;
+    if (!of_part.holds && !passes_beside(posed, part, ray) &&
+        !is_met_no_sooner(posed, part, ray, t_max))
+      return of_part;
   }
   return verdict;
 }
