@@ -93,7 +93,13 @@ PartHit cast_at_triangle(const Vec3<double>& a, const Vec3<double>& b, const Vec
     hit.error = std::min(range, 1.001 * of_weights / whole_at_least + 14 * epsilon * most);
   }
   hit.t = std::isfinite(beyond_a) ? std::clamp(ta + beyond_a, first, last) : first;
-  if (!(hit.t >= 0)) return {};
+  if (!(hit.t > hit.error)) {
+    // Whether it is before the ray's origin, or there, rounding does not tell.
+    const int above = exact_side_of_plane(a, b, c, o);
+    if ((above > 0) == (sides > 0) && above != 0) return {};
+    hit.t = above == 0 ? 0 : std::max(hit.t, 0.0);
+    if (above == 0) hit.error = 0;
+  }
   hit.part = 0;
   return hit;
 }
@@ -149,6 +155,8 @@ bool is_within(const TriangleMesh& mesh, const Vec3<double>& point) {
     const Vec3<double> direction(std::sin(1.3 * i), std::cos(0.7 * i), std::sin(2.9 * i + 0.4));
     const std::vector<PartHit> hits = all_parts(mesh, {point, direction});
     if (std::ranges::any_of(hits, &PartHit::is_at_edge)) continue;
+    const double at_surface = 1e-12 * (mesh.reach() + point.norm());
+    if (!hits.empty() && hits[0].t <= at_surface) return false;
     int turns = 0;
     for (const PartHit& hit : hits) turns += hit.is_back ? 1 : -1;
     return turns != 0;

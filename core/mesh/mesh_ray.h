@@ -40,7 +40,7 @@ bool meets_part(const TriangleMesh& mesh, const Ray<double>& ray, double t_min, 
 /// All of them, by t and number.
 std::vector<PartHit> all_parts(const TriangleMesh& mesh, const Ray<double>& ray);
 
-/// Whether a closed mesh winds around the point, which is not on it. Nothing is within an open one.
+/// Whether a closed mesh winds around the point. Nothing is within an open one, nor on its surface.
 bool is_within(const TriangleMesh& mesh, const Vec3<double>& point);
 
 }  // namespace minkray

@@ -141,17 +141,18 @@ double visit_pairs(const Side& a, const Side& b, const Sight& sight, const Key& 
   return left_out;
 }
 
-/// Where surfaces do not cross: whether one body is within the other.
-bool is_one_within(const Side& a, const Affine<double>& pose_a, const Side& b,
-                   const Affine<double>& pose_b) {
-  const auto holds = [](const Side& one, const Affine<double>& pose, const Side& other,
-                        const Affine<double>& pose_other) {
-    if (!one.body().mesh()) return false;  // triangles within a shape would have overlapped it
-    const Vec3<double> point =
-        pose.linear.transpose() * (pose_other(other.point()) - pose.translation);
-    return is_within(*one.body().mesh(), point);
+/// A point of one body that is within the other one.
+std::optional<Vec3<double>> point_within(const Side& a, const Affine<double>& pose_a, const Side& b,
+                                         const Affine<double>& pose_b) {
+  const auto held_by = [](const Side& one, const Affine<double>& pose, const Side& other,
+                          const Affine<double>& pose_other) -> std::optional<Vec3<double>> {
+    if (!one.body().mesh()) return {};  // triangles within a shape overlap it
+    const Vec3<double> point = pose_other(other.point());
+    const Vec3<double> seen = pose.linear.transpose() * (point - pose.translation);
+    return is_within(*one.body().mesh(), seen) ? std::optional(point) : std::nullopt;
   };
-  return holds(a, pose_a, b, pose_b) || holds(b, pose_b, a, pose_a);
+  const auto of_b = held_by(a, pose_a, b, pose_b);
+  return of_b ? of_b : held_by(b, pose_b, a, pose_a);
 }
 
 void set_overlapping(SignedDistance& found) {
@@ -204,7 +205,9 @@ SignedDistance signed_distance(const PartsBody& body_a, const Affine<double>& po
   double lower = infinity;  // of all pairs
   int supports = 0;
   bool is_crossed = false, is_exhausted = false;
-  const double enough = options.only_sign ? 0 : options.at_most;
+  // What is within the other overlaps it, and only crossing parts are looked for.
+  const std::optional<Vec3<double>> within = point_within(a, pose_a, b, pose_b);
+  const double enough = options.only_sign || within ? 0 : options.at_most;
   const auto limit = [&] { return std::min(best.upper, enough); };
   const auto key = [&](const Bounds<double>& of_a, const Bounds<double>& of_b,
                        const Bounds<double>& b_in_a) {
@@ -244,7 +247,10 @@ SignedDistance signed_distance(const PartsBody& body_a, const Affine<double>& po
   best.status = best.lower > 0                          ? SignedStatus::separated
                 : best.status == SignedStatus::touching ? best.status
                                                         : SignedStatus::undecided;
-  if (best.lower > 0 && is_one_within(a, pose_a, b, pose_b)) set_overlapping(best);
+  if (within) {
+    set_overlapping(best);
+    best.point_a = best.point_b = *within;
+  }
   return best;
 }
 
@@ -256,7 +262,7 @@ Impact first_impact(const PartsBody& body_a, const RigidMotion& motion_a, const 
     return first_impact(*body_a.shape(), motion_a, *body_b.shape(), motion_b, t_max, options);
   const Side a(body_a), b(body_b);
   WorldImpact first = nothing_met(t_max);
-  if (is_one_within(a, motion_a.pose, b, motion_b.pose)) {
+  if (point_within(a, motion_a.pose, b, motion_b.pose)) {
     first.impact.status = ImpactStatus::inside;
     first.impact.t_lo = first.impact.t_hi = first.impact.distance = 0;
     return first.impact;

@@ -42,7 +42,7 @@ struct PartPair {
 
 /// The distance of surfaces. Where they cross, or one body lies within the other (which of meshes
 /// only closed ones allow), the status is overlapping, value and both bounds are 0, and the points
-/// are of the two parts that cross, or the nearest ones of the surfaces: there is no depth. The
+/// are of the two parts that cross, or one point of what is within: there is no depth. The
 /// poses are rigid.
 SignedDistance signed_distance(const PartsBody& a, const Affine<double>& pose_a, const PartsBody& b,
                                const Affine<double>& pose_b,

@@ -58,6 +58,14 @@ NearRay near_ray(const PosedMesh& posed, const Ray<double>& ray) {
   return near;
 }
 
+/// What t lacks, where it is rounded: from far away it has too few digits to tell the place.
+double rest_of(const Vec3<double>& corner, const Vec3<double>& normal, const Ray<double>& ray,
+               double t) {
+  TwoFoldVec3<double> from_corner = exact_difference(ray.origin, corner);
+  for (int k = 0; k < 3; ++k) from_corner.set(k, from_corner[k] + two_product(t, ray.direction[k]));
+  return -normal.dot(from_corner.rounded()) / normal.dot(ray.direction);
+}
+
 double t_min_of(const PosedMesh& posed, const NearRay& near, bool leaves) {
   if (!leaves) return 0;
   const double reach =
@@ -104,9 +112,11 @@ MeshCast cast_ray(const PosedMesh& posed, const Ray<double>& ray, double most, b
     error = fall > 0 ? error + beside / fall : std::numeric_limits<double>::infinity();
   }
   cast.status = Status::hit;
-  cast.t_offset = near.in_world(hit.t);
-  cast.offset_lo = near.in_world(std::max(hit.t - error, 0.0));
-  cast.offset_hi = near.in_world(hit.t + error);
+  const double rest = rest_of(posed.mesh->corner(hit.part, 0), normal, near.ray, hit.t);
+  cast.t_base = near.in_world(hit.t);
+  cast.t_offset = std::abs(rest) <= error ? near.in_world(rest) : 0;
+  cast.offset_lo = near.in_world(std::max(-error, -hit.t));
+  cast.offset_hi = near.in_world(error);
   cast.normal =
       posed.is_turned ? Vec3<double>((posed.to_mesh.transpose() * normal).normalized()) : normal;
   return answer;

@@ -72,7 +72,8 @@ std::vector<ClearanceBody> bodies_of(const Scene& scene) {
   std::vector<ClearanceBody> bodies;
   for (std::size_t i = 0; i < count; ++i) {
     const Object object = instance_object(scene, i);
-    if (object.mesh)
+    // A robot's mesh has its hull beside it.
+    if (object.mesh && std::holds_alternative<Point<double>>(object.shape.kind))
       throw BadInput("object \"" + object.name +
                      "\": is a mesh, from which distances are not measured yet");
     bodies.push_back(body_of(object.name, "", -1, object.shape, object.pose));
