@@ -155,6 +155,11 @@ std::optional<Vec3<double>> point_within(const Side& a, const Affine<double>& po
   return of_b ? of_b : held_by(b, pose_b, a, pose_a);
 }
 
+/// False where no pair of parts has the answer: bodies within each other, or that miss.
+bool has_parts(const PartPair& parts, const PartsBody& a, const PartsBody& b) {
+  return (!a.mesh() || parts.a != no_part) && (!b.mesh() || parts.b != no_part);
+}
+
 void set_overlapping(SignedDistance& found) {
   found.status = SignedStatus::overlapping;
   found.value = found.lower = found.upper = 0;
@@ -228,7 +233,7 @@ SignedDistance signed_distance(const PartsBody& body_a, const Affine<double>& po
     supports += found.supports;
     is_exhausted |= found.is_exhausted;
     lower = std::min(lower, found.lower);
-    if (found.upper < best.upper || (best.is_unknown() && found.value < best.value)) {
+    if (found.upper < best.upper) {
       best = found;
       if (parts) *parts = {a.number_of(part_a), b.number_of(part_b)};
     }
@@ -299,6 +304,7 @@ ContactManifold contact_manifold(const PartsBody& a, const Affine<double>& pose_
                                  const PartsBody& b, const Affine<double>& pose_b) {
   PartPair parts;
   signed_distance(a, pose_a, b, pose_b, {}, &parts);
+  if (!has_parts(parts, a, b)) return {};
   std::optional<ContactShape> room_a, room_b;
   const ContactShape &of_a = Side(a).part(parts.a, room_a), &of_b = Side(b).part(parts.b, room_b);
   return contact_manifold(of_a, pose_a, of_b, pose_b, signed_distance(of_a, pose_a, of_b, pose_b));
@@ -308,7 +314,7 @@ PairDerivative derivative_of(const PartsBody& a, const Affine<double>& pose_a, c
                              const Affine<double>& pose_b) {
   PartPair parts;
   const SignedDistance found = signed_distance(a, pose_a, b, pose_b, {}, &parts);
-  if (found.status != SignedStatus::separated) {
+  if (found.status != SignedStatus::separated || !has_parts(parts, a, b)) {
     PairDerivative none = {};
     none.is_ridge = true;
     return none;
@@ -322,8 +328,7 @@ PairDerivative derivative_of(const PartsBody& a, const RigidMotion& motion_a, co
                              const RigidMotion& motion_b, double t_max) {
   PartPair parts;
   const Impact found = first_impact(a, motion_a, b, motion_b, t_max, {}, &parts);
-  const bool has_parts = (!a.mesh() || parts.a != no_part) && (!b.mesh() || parts.b != no_part);
-  if (!has_parts) {  // missed, or one within the other
+  if (!has_parts(parts, a, b)) {
     PairDerivative none = {};
     none.is_ridge = found.status != ImpactStatus::miss;
     return none;

@@ -54,7 +54,8 @@ Impact first_impact(const PartsBody& a, const RigidMotion& motion_a, const Parts
                     const RigidMotion& motion_b, double t_max, const ImpactOptions& options = {},
                     PartPair* parts = nullptr);
 
-/// Looks at no more than the two parts that are nearest, or that cross.
+/// Looks at no more than the two parts that are nearest, or that cross. There are no points where
+/// one body is within the other without a crossing.
 ContactManifold contact_manifold(const PartsBody& a, const Affine<double>& pose_a,
                                  const PartsBody& b, const Affine<double>& pose_b);
 

@@ -13,8 +13,8 @@ namespace {
 /// The ray's origin and direction must be less, so that products of three numbers are numbers.
 constexpr double largest_number = 0x1p300;
 
-/// A number of a point or direction that a matrix maps: its own rounding, that of the matrix and
-/// of three products and their sum, in halves of epsilon.
+/// A matrix rounds once for each of its numbers, a product of three numbers with three others four
+/// times: five halves of epsilon, of which six are allowed.
 constexpr double map_rounding = 3 * tolerance::epsilon<double>;
 
 /// Directions that are shorter, or longer than its inverse, are brought to a length of about 1.

@@ -122,6 +122,8 @@ TEST(MeshPairs, what_is_within_a_closed_mesh_overlaps_it_and_in_a_hole_does_not)
   testing::Surface open = testing::torus(40, 24);
   open.triangles.pop_back();
   EXPECT_EQ(signed_distance(*open.shared(), {}, ball, at(1)).status, SignedStatus::separated);
+  EXPECT_EQ(contact_manifold(*ring, {}, ball, at(1)).count, 0);
+  EXPECT_TRUE(derivative_of(*ring, {}, ball, at(1)).is_ridge);
   // A small ring within a large ball.
   const MeshPointer large = testing::bumpy_ball(20, 30).shared();
   const MeshPointer small = mapped(*ring, 0.1 * Mat3<double>::Identity());
