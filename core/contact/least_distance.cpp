@@ -83,6 +83,7 @@ class Search {
       if (at_first - bend <= interval.lower) continue;
       interval.lower = std::max(interval.lower, std::min(at_first, pair_.gap(n, last.s)) - bend);
     }
+    interval.lower = std::max(interval.lower, pair_.least);
     intervals_.push_back(interval);
     std::push_heap(intervals_.begin(), intervals_.end(), is_later);
   }

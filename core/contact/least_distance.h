@@ -34,6 +34,8 @@ class MovingPair {
   double size = 0;          ///< of both together: what tolerances are relative to
   double speed = 0;         ///< no point of B moves faster relative to one of A
   double acceleration = 0;  ///< nor accelerates by more
+  double least =
+      -std::numeric_limits<double>::infinity();  ///< what has no depth has no less than 0
 };
 
 struct LeastDistanceOptions {

@@ -402,6 +402,19 @@ inline Shape mesh(View<const Vec3> vertices, std::initializer_list<std::uint32_t
   return mesh(vertices, View<const std::uint32_t>(triangles.begin(), triangles.size()));
 }
 
+/// A terrain as a mesh: see minkray_shape_height_field. With a `bottom`, which must outlive the
+/// call only, it is a solid.
+inline Shape height_field(View<const double> heights, std::size_t rows, std::size_t columns,
+                          double size_x, double size_y, const double* bottom = nullptr) {
+  if (rows == 0 || heights.size() % rows != 0 || heights.size() / rows != columns)
+    throw Error(MINKRAY_WRONG_USE,
+                "minkray::height_field: heights: must be rows times columns numbers");
+  minkray_shape made;
+  detail::check(
+      minkray_shape_height_field(heights.data(), rows, columns, size_x, size_y, bottom, &made));
+  return Shape(made);
+}
+
 /// What a mesh is like: see minkray_mesh_info.
 struct MeshInfo {
   std::size_t vertices = 0, triangles = 0, open_edges = 0, without_area = 0, repeated = 0;
@@ -615,7 +628,7 @@ struct FileOptions {
   Text keyframe = {};
   View<const char* const> package_dirs = {};
   bool skip_missing_meshes = false;
-  Text meshes = {};  ///< of robots: "hull", as which they are read, or "exact": triangles
+  Text meshes = {};  ///< of robots: "exact" or "hull"; empty: exact, of MJCF hull for contact
 };
 
 /// How a picture is made; see minkray_picture_options.

@@ -2,9 +2,11 @@
 #include "renderer/clearance/bodies.h"
 
 #include <algorithm>
+#include <map>
 
 #include "core/shape/composed_map.h"
 #include "renderer/base/errors.h"
+#include "renderer/import/mesh_hull.h"
 #include "renderer/import/scene_of_model.h"
 #include "renderer/scene/scene_instances.h"
 
@@ -12,6 +14,33 @@ namespace minkray {
 namespace {
 
 const Shape<double> nothing = Point<double>();
+
+bool is_rigid(const Mat3<double>& linear) {
+  constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
+  return (linear * linear.transpose() - Mat3<double>::Identity()).cwiseAbs().maxCoeff() <=
+             rounding &&
+         linear.determinant() > 0;
+}
+
+/// A map that is not rigid becomes part of the mesh.
+ClearanceBody body_of(const std::string& name, const std::string& link, int link_index,
+                      std::shared_ptr<const TriangleMesh> mesh, const Affine<double>& map) {
+  ClearanceBody body{name, link, link_index, ContactShape(nothing)};
+  constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
+  double loss = 0;
+  if (is_rigid(map.linear)) {
+    body.linear = map.linear;
+    body.mesh = std::move(mesh);
+  } else {
+    body.mesh = mapped(*mesh, map.linear);
+    loss = rounding * mesh->reach() * map.linear.norm();
+  }
+  const Vec3<double> centre = body.own_middle();
+  body.middle.at = image_of({body.linear, map.translation}, TwoFoldVec3<double>(centre));
+  if (!centre.isZero(0) && !is_along_axes(body.linear)) loss += rounding * body.mesh->reach();
+  body.middle.loss = loss;
+  return body;
+}
 
 /// The shape under a map, which may scale: it becomes part of the shape.
 ClearanceBody body_of(const std::string& name, const std::string& link, int link_index,
@@ -21,12 +50,51 @@ ClearanceBody body_of(const std::string& name, const std::string& link, int link
   return body;
 }
 
+/// The hulls of meshes, each made once.
+class Hulls {
+ public:
+  const Shape<double>& of(const std::shared_ptr<const TriangleMesh>& mesh) {
+    const auto [at, is_new] = known_.try_emplace(mesh.get(), nothing);
+    if (is_new) at->second = hull_of(*mesh);
+    return at->second;
+  }
+
+ private:
+  std::map<const TriangleMesh*, Shape<double>> known_;
+};
+
 }  // namespace
+
+double ClearanceBody::ball_radius() const {
+  if (!mesh) return shape.ball_radius();
+  constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
+  return (1 + rounding) * mesh->bounds().reach_of_centre().norm() + rounding * mesh->reach();
+}
 
 PlacedPlane moved(PlacedPlane plane, const Affine<double>& pose) {
   plane.normal = pose.linear * plane.normal;
   plane.point = image_of(pose, plane.point);
   return plane;
+}
+
+SignedDistance distance_to_half_space(const PlacedPlane& plane, const ClearanceBody& body,
+                                      const Mat3<double>& linear, const PlacedMiddle& middle) {
+  if (!body.mesh) return distance_to_half_space(plane, body.shape, linear, middle);
+  // Seen from the body's middle nothing is far away.
+  PlacedPlane near = plane;
+  near.point = TwoFoldVec3<double>((plane.point - middle.at).rounded());
+  SignedDistance found = distance_to_half_space(
+      near, body.parts(), Affine<double>{linear, -(linear * body.own_middle())});
+  const double loss =
+      middle.loss + core_rounding * (body.mesh->reach() + length_of(near.point.high));
+  found.lower -= loss;
+  found.upper += loss;
+  found.status = found.lower > 0   ? SignedStatus::separated
+                 : found.upper < 0 ? SignedStatus::overlapping
+                                   : SignedStatus::touching;
+  found.point_a += middle.at.rounded();
+  found.point_b += middle.at.rounded();
+  return found;
 }
 
 ClearanceBody seen_from(const Affine<double>& frame, ClearanceBody obstacle) {
@@ -50,6 +118,7 @@ ClearanceBody seen_from(const Affine<double>& frame, ClearanceBody obstacle) {
 std::vector<ClearanceBody> bodies_of(const Model& model, GeometryChoice geometry) {
   std::vector<ClearanceBody> bodies;
   const std::vector<bool> wanted = chosen_geoms(model, geometry);
+  Hulls hulls;
   for (std::size_t i = 0; i < model.geoms.size(); ++i) {
     const ModelGeom& geom = model.geoms[i];
     if (!wanted[i]) continue;
@@ -57,8 +126,14 @@ std::vector<ClearanceBody> bodies_of(const Model& model, GeometryChoice geometry
         geom.link < 0 ? "" : model.links[static_cast<std::size_t>(geom.link)].name;
     const std::string name =
         !geom.name.empty() ? geom.name : (link.empty() ? "world" : link) + "/" + geom.kind;
-    bodies.push_back(body_of(name, link, geom.link, geom.shape ? *geom.shape : nothing, geom.pose));
-    if (!geom.shape) bodies.back().plane = PlacedPlane::of(Vec3<double>::UnitZ(), 0, geom.pose);
+    if (geom.mesh && !geom.touches_as_hull) {
+      bodies.push_back(body_of(name, link, geom.link, geom.mesh, geom.pose));
+      continue;
+    }
+    const Shape<double> shape = geom.mesh ? hulls.of(geom.mesh) : geom.shape.value_or(nothing);
+    bodies.push_back(body_of(name, link, geom.link, shape, geom.pose));
+    if (geom.is_half_space())
+      bodies.back().plane = PlacedPlane::of(Vec3<double>::UnitZ(), 0, geom.pose);
   }
   return bodies;
 }
@@ -72,10 +147,10 @@ std::vector<ClearanceBody> bodies_of(const Scene& scene) {
   std::vector<ClearanceBody> bodies;
   for (std::size_t i = 0; i < count; ++i) {
     const Object object = instance_object(scene, i);
-    // A robot's mesh has its hull beside it.
-    if (object.mesh && std::holds_alternative<Point<double>>(object.shape.kind))
-      throw BadInput("object \"" + object.name +
-                     "\": is a mesh, from which distances are not measured yet");
+    if (object.mesh) {
+      bodies.push_back(body_of(object.name, "", -1, object.mesh, object.pose));
+      continue;
+    }
     bodies.push_back(body_of(object.name, "", -1, object.shape, object.pose));
     if (object.half_space)
       bodies.back().plane =

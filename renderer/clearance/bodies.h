@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/contact/half_space_distance.h"
+#include "core/world/parts_reach.h"
 #include "renderer/clearance/allowed_pairs.h"
 #include "renderer/import/import_options.h"
 #include "renderer/scene/scene.h"
@@ -19,22 +20,33 @@ struct ClearanceBody {
   std::string link;  ///< the name of the robot's link; empty: an obstacle
   int link_index = -1;
   ContactShape shape;
-  Mat3<double> linear = Mat3<double>::Identity();  ///< from the shape's frame to the link's axes
-  PlacedMiddle middle = {};  ///< of the shape, in the link's frame or in the world
+  Mat3<double> linear = Mat3<double>::Identity();  ///< from the body's frame to the link's axes
+  PlacedMiddle middle = {};  ///< of the body, in the link's frame or in the world
   /// If there is one it is the space below, not `shape`; in the link's frame or in the world.
   std::optional<PlacedPlane> plane = {};
+  std::shared_ptr<const TriangleMesh> mesh = {};  ///< if there is one it is that, not `shape`
 
-  /// The ball of this radius around the link's origin holds the shape.
-  double reach() const { return middle.at.high.norm() + shape.ball_radius(); }
+  PartsBody parts() const { return mesh ? PartsBody(*mesh) : PartsBody(shape); }
+  /// The middle in the body's frame, and the radius of a ball around it that holds the body.
+  Vec3<double> own_middle() const { return middle_of(parts()); }
+  double ball_radius() const;
+  /// The ball of this radius around the link's origin holds the body.
+  double reach() const { return middle.at.high.norm() + ball_radius(); }
+  /// From the body's frame to the link's, or to the world.
+  Affine<double> pose() const { return {linear, middle.at.rounded() - linear * own_middle()}; }
 };
 
 /// The plane under a rigid pose.
 PlacedPlane moved(PlacedPlane plane, const Affine<double>& pose);
 
+/// The distance of a body from a half-space, its middle at the place that is given.
+SignedDistance distance_to_half_space(const PlacedPlane& plane, const ClearanceBody& body,
+                                      const Mat3<double>& linear, const PlacedMiddle& middle);
+
 /// Returns the obstacle, seen from a frame that is at `frame` in the world, a rigid pose.
 ClearanceBody seen_from(const Affine<double>& frame, ClearanceBody obstacle);
 
-/// The shapes that `geometry` chooses.
+/// The bodies that `geometry` chooses.
 std::vector<ClearanceBody> bodies_of(const Model& model, GeometryChoice geometry);
 
 /// They are held all at once, some hundred bytes each, and looked at one by one in each step.

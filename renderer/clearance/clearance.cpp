@@ -8,6 +8,7 @@
 #include "core/contact/half_space_distance.h"
 #include "core/contact/least_distance.h"
 #include "core/parallel/parallel.h"
+#include "core/world/parts_reach.h"
 
 namespace minkray {
 namespace {
@@ -26,27 +27,28 @@ class StepPair : public MovingPair {
       is_within_numbers_ &= bound.is_within_numbers();
       speed += bound.speed;
       acceleration += bound.acceleration;
-      size += body->shape.ball_radius();
+      size += body->ball_radius();
       loss_ += bound.rounding + body->middle.loss;
       if (body->link_index >= 0) reaches += bound.reach;
     }
     loss_ += motion.turn_error(frame_) * reaches;
+    if (has_mesh() && !is_in_world) least = 0;
   }
 
   /// Points are seen from A's middle, or of half-spaces in the world.
   SignedDistance at(double s, double at_most) const override {
     const Place of_a = place(a_, s), of_b = place(b_, s);
-    if (a_.plane)
-      return distance_to_half_space(*a_.plane, b_.shape, of_b.linear, {of_b.middle, loss_});
+    if (a_.plane) return distance_to_half_space(*a_.plane, b_, of_b.linear, {of_b.middle, loss_});
     if (b_.plane) {
       SignedDistance found =
-          distance_to_half_space(*b_.plane, a_.shape, of_a.linear, {of_a.middle, loss_});
+          distance_to_half_space(*b_.plane, a_, of_a.linear, {of_a.middle, loss_});
       std::swap(found.point_a, found.point_b);
       found.normal = -found.normal;
       return found;
     }
     SignedDistanceOptions options;
     options.at_most = at_most;
+    if (has_mesh()) return of_parts(of_a, of_b, options);
     return signed_distance(a_.shape, of_a.linear, b_.shape, of_b.linear, between(of_a, of_b),
                            options, nullptr);
   }
@@ -59,6 +61,11 @@ class StepPair : public MovingPair {
       return turned > 1 - 1e-12 ? there.lower : -std::numeric_limits<double>::infinity();
     }
     const Place of_a = place(a_, s), of_b = place(b_, s);
+    if (has_mesh()) {
+      const Between apart = between(of_a, of_b);
+      return n.dot(apart.x) - reach_along(a_.parts(), of_a.linear, n) -
+             reach_along(b_.parts(), of_b.linear, -n) - core_rounding * apart.x.norm() - apart.loss;
+    }
     return gap_along(a_.shape, of_a.linear, b_.shape, of_b.linear, between(of_a, of_b), n);
   }
 
@@ -94,6 +101,22 @@ class StepPair : public MovingPair {
     TwoFoldVec3<double> middle;
     const Affine<double>* frame;
   };
+
+  bool has_mesh() const { return a_.mesh || b_.mesh; }
+
+  SignedDistance of_parts(const Place& of_a, const Place& of_b,
+                          const SignedDistanceOptions& options) const {
+    const Between apart = between(of_a, of_b);
+    const Vec3<double> middle_a = of_a.linear * a_.own_middle(),
+                       middle_b = of_b.linear * b_.own_middle();
+    SignedDistance found = signed_distance(a_.parts(), {of_a.linear, -middle_a}, b_.parts(),
+                                           {of_b.linear, apart.x - middle_b}, options);
+    const double loss =
+        apart.loss + core_rounding * (apart.x.norm() + middle_a.norm() + middle_b.norm());
+    found.lower = std::max(0.0, found.lower - loss);
+    found.upper += loss;
+    return found;
+  }
 
   Mat3<double> frame_turn(double s) const {
     if (frame_ < 0) return Mat3<double>::Identity();
@@ -134,7 +157,7 @@ class Search {
          const std::vector<BodyPair>& pairs, const ClearanceOptions& options)
       : path_(path), bodies_(bodies), pairs_(pairs), options_(options) {
     double size = 0;
-    for (const ClearanceBody& body : bodies) size = std::max(size, body.shape.ball_radius());
+    for (const ClearanceBody& body : bodies) size = std::max(size, body.ball_radius());
     constexpr double least_gap = 1e-7;
     least_gap_ = least_gap * size;
   }

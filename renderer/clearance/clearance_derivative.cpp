@@ -17,43 +17,64 @@ class Moment {
 
   Affine<double> pose(std::size_t index) const {
     const ClearanceBody& body = bodies_[index];
-    if (body.link_index >= 0) return links_[static_cast<std::size_t>(body.link_index)];
-    return {body.linear, body.middle.at.rounded() - body.linear * body.shape.middle()};
+    if (body.link_index < 0) return body.pose();
+    const Affine<double>& link = links_[static_cast<std::size_t>(body.link_index)];
+    return body.mesh ? link * body.pose() : link;
   }
 
   SignedDistance distance(const BodyPair& pair, const SignedDistanceOptions& how) const {
     const Affine<double> pose_a = pose(pair.a), pose_b = pose(pair.b);
     const ClearanceBody &a = bodies_[pair.a], &b = bodies_[pair.b];
-    if (a.plane) return to_plane(*a.plane, a.link_index, b.shape, pose_b);
-    if (b.plane) return turned_round(to_plane(*b.plane, b.link_index, a.shape, pose_a));
-    return signed_distance(a.shape, pose_a, b.shape, pose_b, how);
+    if (a.plane) return to_plane(*a.plane, a.link_index, b, pose_b);
+    if (b.plane) return turned_round(to_plane(*b.plane, b.link_index, a, pose_a));
+    return signed_distance(a.parts(), pose_a, b.parts(), pose_b, how);
   }
 
+  /// By twists about the links' origins.
   PairDerivative derivative(const BodyPair& pair, const SignedDistance& found) const {
-    const Affine<double> pose_a = pose(pair.a), pose_b = pose(pair.b);
-    const ClearanceBody &a = bodies_[pair.a], &b = bodies_[pair.b];
-    if (a.plane) return derivative_at_half_space(pose_a.translation, b.shape, pose_b, found);
-    if (b.plane) {
-      PairDerivative derivative =
-          derivative_at_half_space(pose_b.translation, a.shape, pose_a, turned_round(found));
-      std::swap(derivative.a, derivative.b);
-      return derivative;
-    }
-    return derivative_of(a.shape, pose_a, b.shape, pose_b, found);
+    PairDerivative derivative = about_bodies(pair, found);
+    derivative.a = about_link(pair.a, derivative.a);
+    derivative.b = about_link(pair.b, derivative.b);
+    return derivative;
   }
 
   /// No distance of the pair is less.
   double lower_by_balls(const BodyPair& pair) const {
     const ClearanceBody &a = bodies_[pair.a], &b = bodies_[pair.b];
     if (a.plane || b.plane) return -std::numeric_limits<double>::infinity();
-    const double apart =
-        (middle_in_world(b.shape, pose(pair.b)) - middle_in_world(a.shape, pose(pair.a))).norm();
+    const double apart = (pose(pair.b)(b.own_middle()) - pose(pair.a)(a.own_middle())).norm();
     constexpr double padding = 1e-9;
-    const double sizes = a.shape.ball_radius() + b.shape.ball_radius();
+    const double sizes = a.ball_radius() + b.ball_radius();
     return apart - sizes - padding * (apart + sizes);
   }
 
  private:
+  PairDerivative about_bodies(const BodyPair& pair, const SignedDistance& found) const {
+    const Affine<double> pose_a = pose(pair.a), pose_b = pose(pair.b);
+    const ClearanceBody &a = bodies_[pair.a], &b = bodies_[pair.b];
+    // A half-space sees no more of a mesh than its lowest point.
+    static const ContactShape point{Shape<double>(Point<double>())};
+    if (a.plane)
+      return derivative_at_half_space(pose_a.translation, b.mesh ? point : b.shape, pose_b, found);
+    if (b.plane) {
+      PairDerivative derivative = derivative_at_half_space(
+          pose_b.translation, a.mesh ? point : a.shape, pose_a, turned_round(found));
+      std::swap(derivative.a, derivative.b);
+      return derivative;
+    }
+    if (a.mesh || b.mesh) return derivative_of(a.parts(), pose_a, b.parts(), pose_b);
+    return derivative_of(a.shape, pose_a, b.shape, pose_b, found);
+  }
+
+  /// A mesh has an origin of its own on its link.
+  TwistDerivative about_link(std::size_t index, TwistDerivative by) const {
+    const ClearanceBody& body = bodies_[index];
+    if (!body.mesh || body.link_index < 0) return by;
+    const Vec3<double> link = links_[static_cast<std::size_t>(body.link_index)].translation;
+    by.by_turn += (pose(index).translation - link).cross(by.by_velocity);
+    return by;
+  }
+
   static SignedDistance turned_round(SignedDistance found) {
     std::swap(found.point_a, found.point_b);
     found.normal = -found.normal;
@@ -61,10 +82,10 @@ class Moment {
   }
 
   /// A link's plane moves with it; others stand in the world.
-  SignedDistance to_plane(PlacedPlane plane, int link, const ContactShape& shape,
+  SignedDistance to_plane(PlacedPlane plane, int link, const ClearanceBody& body,
                           const Affine<double>& pose) const {
     if (link >= 0) plane = moved(plane, links_[static_cast<std::size_t>(link)]);
-    return distance_to_half_space(plane, shape, pose.linear, placed_middle(shape, pose));
+    return distance_to_half_space(plane, body.parts(), pose);
   }
 
   std::vector<Affine<double>> links_;

@@ -13,6 +13,13 @@
 namespace minkray {
 namespace {
 
+ContactBody contact_body(const ClearanceBody& body, const Affine<double>& frame) {
+  if (!body.mesh) return {body.shape, frame};
+  ContactBody contact{body.shape, frame * body.pose()};
+  contact.mesh = body.mesh;
+  return contact;
+}
+
 /// Bodies with a hierarchy of their boxes, and half-spaces, which have no box.
 class NearSide {
  public:
@@ -22,7 +29,7 @@ class NearSide {
       if (posed.bodies[i].plane) {
         half_spaces_.push_back(i);
       } else {
-        boxed.push_back({posed.bodies[i].shape, posed.poses[i]});
+        boxed.push_back(contact_body(posed.bodies[i], posed.poses[i]));
         numbers_.push_back(i);
       }
     }
@@ -55,8 +62,7 @@ void add_near_half_spaces(const NearSide& half_spaces, const NearSide& side, con
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       if (!wanted(half_space, side.number(i))) continue;
       const SignedDistance distance =
-          distance_to_half_space(plane, bodies[i].shape, bodies[i].pose.linear,
-                                 placed_middle(bodies[i].shape, bodies[i].pose));
+          distance_to_half_space(plane, bodies[i].parts(), bodies[i].pose);
       if (!(distance.lower > within)) found.push_back({half_space, side.number(i), distance});
     }
   }

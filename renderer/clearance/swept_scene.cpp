@@ -7,6 +7,7 @@
 #include "core/contact/contact_shape.h"
 #include "core/contact/swept.h"
 #include "renderer/import/framing.h"
+#include "renderer/import/mesh_hull.h"
 
 namespace minkray {
 
@@ -21,11 +22,13 @@ Scene swept_scene(Model model, const ImportOptions& import, const JointPath& pat
     if (!wanted[i]) continue;
     const ModelGeom& geom = model.geoms[i];
     const Object& posed = scene.objects[next++];
-    if (geom.link < 0 || !geom.shape) {
+    if (geom.link < 0 || geom.is_half_space()) {
       objects.push_back(posed);
       continue;
     }
-    const ContactShape ball(*geom.shape, geom.pose);
+    // What a mesh passes over is within what its hull passes over.
+    const Shape<double> shape = geom.mesh ? hull_of(*geom.mesh) : *geom.shape;
+    const ContactShape ball(shape, geom.pose);
     const double reach = ball.middle().norm() + ball.ball_radius();
     bool stands_there = false;
     for (std::size_t step = 0; step < path.steps(); ++step) {
@@ -40,6 +43,8 @@ Scene swept_scene(Model model, const ImportOptions& import, const JointPath& pat
         return motion.links_at(s)[static_cast<std::size_t>(geom.link)] * geom.pose;
       };
       Object object = posed;
+      object.mesh = nullptr;
+      object.shape = shape;
       if (bound.speed == 0) {
         object.pose = pose(0);
         if (!stands_there) objects.push_back(object);
@@ -62,7 +67,7 @@ Scene swept_scene(Model model, const ImportOptions& import, const JointPath& pat
         const double from = static_cast<double>(part) / n, to = static_cast<double>(part + 1) / n;
         object.name = posed.name + " step " + std::to_string(step + 1) +
                       (parts > 1 ? "." + std::to_string(part + 1) : "");
-        object.shape = swept(*geom.shape, pose(from), pose(to), bound.acceleration / (n * n));
+        object.shape = swept(shape, pose(from), pose(to), bound.acceleration / (n * n));
         object.pose = {};
         objects.push_back(object);
       }

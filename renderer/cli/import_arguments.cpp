@@ -41,7 +41,7 @@ Option add_import_options(const Verb& verb, ImportOptions& options, bool rows) {
                             : name == "components" ? MeshSplit::components
                                                    : MeshSplit::none;
           },
-          "How a mesh becomes convex hulls:\nnone: one hull (default)\n"
+          "Whether a mesh becomes several hulls:\nnone: it is one body (default)\n"
           "groups: one for each part that its file names\n"
           "components: one for each part that hangs together")
       .one_of({"none", "groups", "components"})
@@ -51,8 +51,9 @@ Option add_import_options(const Verb& verb, ImportOptions& options, bool rows) {
           [&options](const std::string& name) {
             options.meshes = name == "exact" ? MeshChoice::exact : MeshChoice::hull;
           },
-          "What rays meet of a robot's mesh files (default hull):\nhull: their convex hulls\n"
-          "exact: their triangles")
+          "What mesh files of robots are (default exact; in MJCF exact for rays, and hull for "
+          "contact, as in MuJoCo; hull with --split):\nexact: their triangles\n"
+          "hull: their convex hulls")
       .one_of({"hull", "exact"})
       .group(group);
   verb.add_option("--keyframe", options.keyframe, "MJCF: the name of a keyframe, or its number")

@@ -7,6 +7,7 @@
 #include "core/contact/closed_answer.h"
 #include "core/contact/half_space_distance.h"
 #include "core/parallel/parallel.h"
+#include "core/world/mesh_pairs.h"
 #include "renderer/base/errors.h"
 
 namespace minkray {
@@ -16,6 +17,9 @@ struct Body {
   ContactShape shape;
   Affine<double> pose;  ///< that does not turn
   std::optional<PlacedPlane> plane;
+  std::shared_ptr<const TriangleMesh> mesh = {};
+
+  PartsBody parts() const { return mesh ? PartsBody(*mesh) : PartsBody(shape); }
 };
 
 /// The gap of the balls around two shapes, or a little less for rounding.
@@ -46,9 +50,13 @@ DistanceField measure_field(const Scene& scene, const Shape<double>& probe, cons
   if (!scene.particles.empty()) throw BadInput("distances from particles are not measured");
   std::vector<Body> bodies;
   for (const Object& object : scene.objects) {
-    if (object.mesh)
-      throw BadInput("object \"" + object.name +
-                     "\": is a mesh, from which distances are not measured yet");
+    if (object.mesh) {
+      bodies.push_back({ContactShape(Shape<double>(Point<double>())),
+                        {Mat3<double>::Identity(), object.pose.translation},
+                        {},
+                        mapped(*object.mesh, object.pose.linear)});
+      continue;
+    }
     const Affine<double> about_origin{object.pose.linear, Vec3<double>::Zero()};
     bodies.push_back({ContactShape(object.shape, about_origin),
                       {Mat3<double>::Identity(), object.pose.translation},
@@ -84,12 +92,13 @@ DistanceField measure_field(const Scene& scene, const Shape<double>& probe, cons
             found = distance_to_half_space(*body.plane, moving, pose.linear,
                                            placed_middle(moving, pose));
           } else {
-            const double apart = gap_of_balls(moving, pose, body.shape, body.pose);
+            const double apart =
+                body.mesh ? -none : gap_of_balls(moving, pose, body.shape, body.pose);
             if (apart > value) continue;
             SignedDistanceOptions how;
             how.tolerance = options.tolerance;
             how.at_most = value;
-            found = signed_distance(body.shape, body.pose, moving, pose, how);
+            found = signed_distance(body.parts(), body.pose, moving, pose, how);
             if (found.is_unknown()) found.lower = std::max(found.lower, apart);
           }
           asked += static_cast<std::size_t>(found.supports);

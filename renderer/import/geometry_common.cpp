@@ -145,25 +145,25 @@ void add_mesh(Model& model, XmlFiles& files, const XmlElement& element,
   if (!answer.complaint.empty()) return files.wrong(element, answer.complaint);
   for (const std::string& note : answer.notes) model.pass_over("<mesh>", note);
   if (answer.is_flattened) model.pass_over("extent of a <mesh>", "its scale is zero there");
-  if (const auto complaint = add_hulls(model, answer, std::move(geom), colouring))
+  if (const auto complaint = add_parts(model, answer, std::move(geom), colouring))
     files.wrong(element, *complaint);
 }
 
-std::optional<std::string> add_hulls(Model& model, const MeshLibrary::Answer& answer,
+std::optional<std::string> add_parts(Model& model, const MeshLibrary::Answer& answer,
                                      ModelGeom geom, Colouring colouring) {
-  const std::size_t count = model.geoms.size() + answer.hulls.size();
+  const std::size_t count = model.geoms.size() + answer.parts.size();
   if (count > most_geoms)
-    return "shows " + std::to_string(answer.hulls.size()) + " hulls: with the shapes before, a " +
+    return "shows " + std::to_string(answer.parts.size()) + " hulls: with the shapes before, a " +
            "model must have at most " + std::to_string(most_geoms) + " shapes (got " +
            std::to_string(count) + ")";
   geom.kind = "mesh";
   const std::string name = geom.name;
-  for (std::size_t i = 0; i < answer.hulls.size(); ++i) {
-    geom.shape = answer.hulls[i];
-    geom.mesh = i < answer.surfaces.size() ? answer.surfaces[i] : nullptr;
-    if (colouring == Colouring::of_mesh && i < answer.colours.size() && answer.colours[i])
-      geom.rgba = *answer.colours[i];
-    if (answer.hulls.size() > 1) geom.name = name + "[" + std::to_string(i) + "]";
+  for (std::size_t i = 0; i < answer.parts.size(); ++i) {
+    const MeshLibrary::Part& part = answer.parts[i];
+    geom.shape = part.hull;
+    geom.mesh = part.surface;
+    if (colouring == Colouring::of_mesh && part.colour) geom.rgba = *part.colour;
+    if (answer.parts.size() > 1) geom.name = name + "[" + std::to_string(i) + "]";
     model.geoms.push_back(geom);
   }
   return std::nullopt;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What the formats' shapes have in common: sizes, of which zero makes points, segments and disks,
-// and meshes that become hulls.
+// and meshes.
 #pragma once
 
 #include <functional>
@@ -52,13 +52,13 @@ void tell_missing_meshes(Model& model, XmlFiles& files, const ImportOptions& opt
 /// that tells one.
 enum class Colouring : unsigned char { of_robot, of_mesh };
 
-/// Adds a mesh's hulls as geoms like the one given. If the model would have more than most_geoms
+/// Adds a mesh's parts as geoms like the one given. If the model would have more than most_geoms
 /// then, it adds none and answers with what is wrong.
-[[nodiscard]] std::optional<std::string> add_hulls(Model& model, const MeshLibrary::Answer& answer,
+[[nodiscard]] std::optional<std::string> add_parts(Model& model, const MeshLibrary::Answer& answer,
                                                    ModelGeom geom,
                                                    Colouring colouring = Colouring::of_robot);
 
-/// Adds a mesh's hulls as geoms like the one given; or tells what is wrong with it, or passes it
+/// Adds a mesh's parts as geoms like the one given; or tells what is wrong with it, or passes it
 /// over if it is missing and that is allowed.
 void add_mesh(Model& model, XmlFiles& files, const XmlElement& element,
               const MeshLibrary::Answer& answer, ModelGeom geom, const ImportOptions& options,

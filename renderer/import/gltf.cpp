@@ -119,14 +119,14 @@ class GltfReader {
     if (physics_of(node, "joint")) model_.pass_over("joints", "nodes stand at rest");
   }
 
-  const MeshLibrary::Answer& hulls_of(std::size_t mesh) {
-    const auto known = hulls_.find(mesh);
-    if (known != hulls_.end()) return known->second;
+  const MeshLibrary::Answer& parts_of(std::size_t mesh) {
+    const auto known = parts_.find(mesh);
+    if (known != parts_.end()) return known->second;
     const MeshParts& parts = meshes_.mesh(mesh);
-    MeshLibrary::Answer& answer = hulls_[mesh];
+    MeshLibrary::Answer& answer = parts_[mesh];
     if (parts.vertices.empty()) return answer;
     const Json* name = document_.item("meshes", mesh).find("name");
-    answer = library_.hulls_of_parts(
+    answer = library_.made_of(
         parts, Vec3<double>::Ones(),
         name && name->is_string() ? name->get<std::string>() : "mesh " + std::to_string(mesh));
     if (!answer.complaint.empty())
@@ -135,23 +135,22 @@ class GltfReader {
   }
 
   /// What the nodes below show as colliders; as one hull if that is asked for.
-  const MeshLibrary::Answer& hulls_of_node(std::size_t node, bool is_one) {
-    const auto [at, is_new] = hulls_of_nodes_.try_emplace({node, is_one});
+  const MeshLibrary::Answer& parts_of_node(std::size_t node, bool is_one) {
+    const auto [at, is_new] = parts_of_nodes_.try_emplace({node, is_one});
     if (!is_new) return at->second;
     MeshParts all;
     meshes_.add_shown(std::span(&node, 1), {}, false, all);
     if (is_one) all.parts.clear();
     if (!all.vertices.empty())
-      at->second =
-          library_.hulls_of_parts(all, Vec3<double>::Ones(), "collider of " + name_of_node(node));
+      at->second = library_.made_of(all, Vec3<double>::Ones(), "collider of " + name_of_node(node));
     return at->second;
   }
 
   /// `path` is where the mesh is named. False if there are too many.
   bool add_mesh_geoms(std::size_t mesh, const ModelGeom& geom, const JsonPath& path) {
-    const MeshLibrary::Answer& answer = hulls_of(mesh);
+    const MeshLibrary::Answer& answer = parts_of(mesh);
     const std::size_t before = model_.geoms.size();
-    if (const auto complaint = add_hulls(model_, answer, geom)) {
+    if (const auto complaint = add_parts(model_, answer, geom)) {
       document_.mistakes().add(path, *complaint);
       return false;
     }
@@ -189,9 +188,9 @@ class GltfReader {
     } else if (const auto node = document_.index(*geometry, at, "node", "nodes")) {
       const Json* convex = geometry->find("convexHull");
       const MeshLibrary::Answer& answer =
-          hulls_of_node(*node, convex && convex->is_boolean() && convex->get<bool>());
+          parts_of_node(*node, convex && convex->is_boolean() && convex->get<bool>());
       if (!answer.complaint.empty()) return document_.mistakes().add(at, answer.complaint);
-      if (const auto complaint = add_hulls(model_, answer, geom))
+      if (const auto complaint = add_parts(model_, answer, geom))
         document_.mistakes().add(at, *complaint);
     } else {
       document_.mistakes().add(at, "must name a \"shape\" or a \"node\"");
@@ -203,8 +202,8 @@ class GltfReader {
   MeshLibrary library_;
   MeshSplit splits_;
   Model model_;
-  std::map<std::size_t, MeshLibrary::Answer> hulls_;
-  std::map<std::pair<std::size_t, bool>, MeshLibrary::Answer> hulls_of_nodes_;
+  std::map<std::size_t, MeshLibrary::Answer> parts_;
+  std::map<std::pair<std::size_t, bool>, MeshLibrary::Answer> parts_of_nodes_;
   bool has_colliders_ = false;
 };
 

@@ -16,16 +16,17 @@ enum class GeometryChoice : unsigned char {
   all,        ///< every shape there is
 };
 
-/// What meshes of files are shown as.
+/// What meshes of files are.
 enum class MeshChoice : unsigned char {
-  hull,   ///< the convex hulls of their vertices
-  exact,  ///< their triangles
+  of_format,  ///< triangles; in MJCF hulls where they touch; all hulls where --split asks for parts
+  hull,       ///< the convex hulls of their vertices
+  exact,      ///< triangles, for contact as well
 };
 
 struct ImportOptions {
   GeometryChoice geometry = GeometryChoice::visual;
   MeshSplit split = MeshSplit::none;
-  MeshChoice meshes = MeshChoice::hull;
+  MeshChoice meshes = MeshChoice::of_format;
   std::string keyframe;                   ///< empty: none
   std::vector<std::string> joints;        ///< NAME=VALUE each
   std::string joint_rows;                 ///< a CSV or JSON file of values; empty: none
@@ -36,10 +37,16 @@ struct ImportOptions {
   bool verbose = false;             ///< tells each missing mesh, not only how many
   Resolution picture = {960, 720};  ///< that the camera frames everything for
 
+  /// Whether meshes stay triangles.
+  bool keeps_triangles() const {
+    return meshes == MeshChoice::exact ||
+           (meshes == MeshChoice::of_format && split == MeshSplit::none);
+  }
+
   /// Whether anything is asked for that a scene file has no use of.
   bool any() const {
     return geometry != GeometryChoice::visual || split != MeshSplit::none ||
-           meshes != MeshChoice::hull || !keyframe.empty() || !joints.empty() ||
+           meshes != MeshChoice::of_format || !keyframe.empty() || !joints.empty() ||
            !joint_rows.empty() || !package_dirs.empty() || skip_missing_meshes || lenient;
   }
 };

@@ -13,7 +13,6 @@
 #include "renderer/import/collada.h"
 #include "renderer/import/gltf.h"
 #include "renderer/import/msh.h"
-#include "renderer/import/plane_tree.h"
 #include "renderer/import/xml.h"
 #include "renderer/json/mistakes.h"
 
@@ -42,38 +41,6 @@ std::string mesh_endings() {
   for (const MeshFormatReader& format : mesh_formats())
     text += (text.empty() ? "" : ", ") + std::string(format.ending);
   return text;
-}
-
-/// How far vertices lie below the surface of their hull at most: of a convex mesh, 0 but for
-/// rounding.
-double deepest_below(const std::vector<Vec3<double>>& vertices, const PointCloud<double>& hull) {
-  const FacetMesh<double>* facets = hull.facets();
-  if (!facets) return 0;
-  Vec3<double> lower = hull.points()[0], upper = lower;
-  for (const Vec3<double>& vertex : hull.points()) {
-    lower = lower.cwiseMin(vertex);
-    upper = upper.cwiseMax(vertex);
-  }
-  const Vec3<double> half = (upper - lower) / 2, centre = lower + half;
-  std::vector<PlaneTree::Plane> planes;
-  for (std::size_t i = 0; i < facets->size(); ++i) {
-    const Vec3<double> n = (*facets)[i].normal();
-    if (!n.isZero(0))
-      planes.push_back({n.x(), n.y(), n.z(), n.dot((*facets)[i].corner(0) - centre)});
-  }
-  const PlaneTree tree(std::move(planes), half.maxCoeff());
-  double deepest = 0;
-  // The hull has its own points in the vertices' order; they lie below nothing.
-  auto own = hull.points().begin();
-  for (const Vec3<double>& vertex : vertices) {
-    if (own != hull.points().end() && vertex == *own) {
-      ++own;
-      continue;
-    }
-    const double depth = tree.least_depth(vertex - centre, deepest);
-    if (std::isfinite(depth)) deepest = std::max(deepest, depth);
-  }
-  return deepest;
 }
 
 /// A format whose files say nothing but where vertices are.
@@ -203,7 +170,7 @@ const MeshContent& MeshLibrary::read(const std::filesystem::path& file,
                                      const MeshFormatReader& format, MeshSplit split) {
   const auto known = read_.find({file.string(), split});
   if (known != read_.end()) return known->second;
-  MeshContent content = format.read(file, split, options_->meshes == MeshChoice::exact);
+  MeshContent content = format.read(file, split, options_->keeps_triangles());
   const std::vector<Vec3<double>>& vertices = content.mesh.vertices;
   Hash hash;
   hash.add({reinterpret_cast<const char*>(vertices.data()), vertices.size() * sizeof vertices[0]});
@@ -270,21 +237,39 @@ MeshContent part_of(const MeshContent& content, std::size_t part, bool is_centre
   return alone;
 }
 
-/// Gives the hulls the colours of their parts, or all of them that of most faces.
+/// Gives parts their colours, or all of them that of most faces.
 void take_looks(const MeshContent& content, MeshSplit split, MeshLibrary::Answer& answer) {
   const MeshLooks& looks = content.looks;
   answer.notes.insert(answer.notes.end(), looks.notes.begin(), looks.notes.end());
-  const bool by_part = split == MeshSplit::groups && looks.parts.size() == answer.hulls.size();
-  for (std::size_t i = 0; i < answer.hulls.size(); ++i)
-    answer.colours.push_back(by_part ? colour_of(looks.parts[i]) : colour_of(looks));
+  const bool by_part = split == MeshSplit::groups && looks.parts.size() == answer.parts.size();
+  for (std::size_t i = 0; i < answer.parts.size(); ++i)
+    answer.parts[i].colour = by_part ? colour_of(looks.parts[i]) : colour_of(looks);
   if (const std::size_t count = colour_count(looks); count > 1 && !by_part)
     answer.notes.push_back("has " + std::to_string(count) +
                            " colours: that of most of its faces is shown (--split groups)");
 }
 
+void look_also_in(const std::vector<std::filesystem::path>& folders, const std::string& uri,
+                  const ImportOptions& options, std::vector<std::filesystem::path>& looked_for,
+                  std::optional<std::filesystem::path>& file) {
+  for (const std::filesystem::path& folder : folders)
+    if (!file) file = MeshLibrary(folder, options).find(uri, looked_for);
+}
+
 }  // namespace
 
-const MeshLibrary::Answer& MeshLibrary::hulls_of(
+std::optional<std::filesystem::path> MeshLibrary::find_also_in(
+    const std::string& uri, const std::vector<std::filesystem::path>& also_in) {
+  std::vector<std::filesystem::path> looked_for;
+  std::optional<std::filesystem::path> file = find(uri, looked_for);
+  look_also_in(also_in, uri, *options_, looked_for, file);
+  if (!file) return file;
+  files_.push_back(*file);
+  hash_text_ += file->string();
+  return file;
+}
+
+const MeshLibrary::Answer& MeshLibrary::parts_of(
     const std::string& uri, const Vec3<double>& scale, const Submesh& submesh,
     const std::vector<std::filesystem::path>& also_in) {
   std::string key = uri + "\n" + submesh.name + (submesh.is_centred ? "\nc" : "\n");
@@ -295,8 +280,7 @@ const MeshLibrary::Answer& MeshLibrary::hulls_of(
   Answer answer;
   std::vector<std::filesystem::path> looked_for;
   std::optional<std::filesystem::path> file = find(uri, looked_for);
-  for (const std::filesystem::path& folder : also_in)
-    if (!file) file = MeshLibrary(folder, *options_).find(uri, looked_for);
+  look_also_in(also_in, uri, *options_, looked_for, file);
   std::string title = uri;
   if (!file) {
     // Descriptions outlive their meshes' formats: the same name in another one will do.
@@ -358,8 +342,8 @@ const MeshLibrary::Answer& MeshLibrary::hulls_of(
   return made_[key] = answer;
 }
 
-MeshLibrary::Answer MeshLibrary::hulls_of_parts(const MeshParts& mesh, const Vec3<double>& scale,
-                                                const std::string& name) {
+MeshLibrary::Answer MeshLibrary::made_of(const MeshParts& mesh, const Vec3<double>& scale,
+                                         const std::string& name) {
   Hash hash;
   hash.add({reinterpret_cast<const char*>(mesh.vertices.data()),
             mesh.vertices.size() * sizeof mesh.vertices[0]});
@@ -373,7 +357,6 @@ MeshLibrary::Answer MeshLibrary::add(const MeshParts& mesh, const Vec3<double>& 
   ModelMesh facts;
   facts.file = name;
   facts.vertices = mesh.vertices.size();
-  facts.parts = std::max<std::size_t>(mesh.parts.size(), 1);
   Vec3<double> lower = mesh.vertices[0].cwiseProduct(scale), upper = lower;
   const bool is_mirrored = scale.prod() < 0;
   const auto add_part = [&](std::vector<Vec3<double>> vertices, std::vector<Corners> triangles) {
@@ -382,15 +365,20 @@ MeshLibrary::Answer MeshLibrary::add(const MeshParts& mesh, const Vec3<double>& 
       lower = lower.cwiseMin(vertex);
       upper = upper.cwiseMax(vertex);
     }
-    PointCloud<double> hull(vertices);
-    facts.corners += hull.points().size();
-    facts.deepest = std::max(facts.deepest, deepest_below(vertices, hull));
-    answer.hulls.emplace_back(Hull<double>{std::move(hull)});
-    if (options_->meshes != MeshChoice::exact) return;
+    Part part;
     const bool is_flat = (scale.array() == 0).any();
-    answer.surfaces.push_back(
-        is_flat ? nullptr : surface_of(std::move(vertices), std::move(triangles), is_mirrored));
-    if (!answer.surfaces.back()) answer.notes.emplace_back("has no triangles: its hull is shown");
+    if (options_->keeps_triangles() && !is_flat)
+      part.surface = surface_of(vertices, std::move(triangles), is_mirrored);
+    if (part.surface) {
+      facts.parts.push_back({part.surface});
+    } else {
+      PointCloud<double> hull(vertices);
+      facts.parts.push_back({{}, hull, std::move(vertices)});
+      part.hull = Hull<double>{std::move(hull)};
+      if (options_->meshes == MeshChoice::exact)
+        answer.notes.emplace_back("has no triangles: its hull is shown");
+    }
+    answer.parts.push_back(std::move(part));
   };
   try {
     if (mesh.parts.empty()) add_part(mesh.vertices, mesh.triangles);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The meshes that a robot's file names: looked for where such files keep them, each read once, and
-// made convex hulls of. The list of formats that are read is mesh_formats, and nowhere else.
+// made bodies of. The list of formats that are read is mesh_formats, and nowhere else.
 #pragma once
 
 #include <algorithm>
@@ -51,28 +51,35 @@ class MeshLibrary {
   MeshLibrary(std::filesystem::path folder, const ImportOptions& options)
       : folder_(std::move(folder)), options_(&options) {}
 
+  /// A surface, or a hull where surfaces are not asked for or there are no triangles.
+  struct Part {
+    std::shared_ptr<const TriangleMesh> surface = {};
+    std::optional<Shape<double>> hull = {};
+    std::optional<Rgba> colour = {};  ///< if the file tells
+  };
   struct Answer {
-    std::vector<Shape<double>> hulls;  ///< one for each part
-    /// The triangles of each part if they are asked for; null where there are none.
-    std::vector<std::shared_ptr<const TriangleMesh>> surfaces = {};
-    std::vector<std::optional<Rgba>> colours = {};  ///< of each hull, if the file tells
-    std::vector<std::string> notes = {};            ///< what the file has that is not shown
-    std::string complaint;                          ///< what is wrong; empty if nothing is
+    std::vector<Part> parts;
+    std::vector<std::string> notes = {};  ///< what the file has that is not shown
+    std::string complaint;                ///< what is wrong; empty if nothing is
     bool is_missing = false;
     bool is_flattened = false;  ///< by a scale of zero
   };
-  /// The hulls of a mesh file, its vertices scaled. Names may be paths, or begin with package://,
+  /// The parts of a mesh file, its vertices scaled. Names may be paths, or begin with package://,
   /// model:// or file://. `also_in` are folders where it may lie as well.
-  const Answer& hulls_of(const std::string& uri, const Vec3<double>& scale,
+  const Answer& parts_of(const std::string& uri, const Vec3<double>& scale,
                          const Submesh& submesh = {},
                          const std::vector<std::filesystem::path>& also_in = {});
 
   /// The vertices stand in the file itself.
-  Answer hulls_of_parts(const MeshParts& mesh, const Vec3<double>& scale, const std::string& name);
+  Answer made_of(const MeshParts& mesh, const Vec3<double>& scale, const std::string& name);
 
   /// The file that a name stands for, if there is one; `looked_for` gets all places.
   std::optional<std::filesystem::path> find(const std::string& uri,
                                             std::vector<std::filesystem::path>& looked_for) const;
+
+  /// Looks in other folders as well. What is found is among the model's files.
+  std::optional<std::filesystem::path> find_also_in(
+      const std::string& uri, const std::vector<std::filesystem::path>& also_in);
 
   /// Gives the model the meshes' facts, the names of their files and their hashes.
   void hand_over(Model& model);

@@ -13,7 +13,14 @@
 namespace minkray {
 namespace {
 
-using SplitFile = std::pair<std::string, MeshSplit>;
+/// A file, and what is made of it.
+struct ShownFile {
+  std::string name;
+  MeshChoice meshes = MeshChoice::hull;
+  MeshSplit split = MeshSplit::none;
+  double scale = 1;
+  bool operator==(const ShownFile&) const = default;
+};
 
 MeshSplit split_of(const Json& object) {
   const Json* written = object.find("split");
@@ -24,15 +31,23 @@ MeshSplit split_of(const Json& object) {
 }
 
 /// Hulls of files stand anywhere in shapes of shapes; a split stands beside the shape itself.
-void find_files(const Json& json, MeshSplit split, std::vector<SplitFile>& files) {
+void find_files(const Json& json, MeshSplit split, std::vector<ShownFile>& files) {
+  const auto add = [&](const ShownFile& found) {
+    if (std::ranges::find(files, found) == files.end()) files.push_back(found);
+  };
   if (json.is_array())
     for (const Json& element : json) find_files(element, MeshSplit::none, files);
   if (!json.is_object()) return;
   const Json *type = json.find("type"), *file = json.find("file");
   if (type && type->is_string() && type->text() == Hull<double>::name && file &&
       file->is_string()) {
-    const SplitFile found{file->text(), split};
-    if (std::ranges::find(files, found) == files.end()) files.push_back(found);
+    add({file->text(), MeshChoice::hull, split});
+  }
+  if (const Json* mesh = json.find("mesh"); mesh && mesh->is_object()) {
+    const Json *name = mesh->find("file"), *scale = mesh->find("scale");
+    if (name && name->is_string())
+      add({name->text(), MeshChoice::exact, MeshSplit::none,
+           scale && scale->is_number() ? scale->get<double>() : 1});
   }
   for (const auto& [key, value] : json.members())
     find_files(value, key == "shape" ? split_of(json) : MeshSplit::none, files);
@@ -44,14 +59,15 @@ std::vector<ModelMesh> meshes_of_scene(const std::filesystem::path& scene_file) 
   Mistakes mistakes(scene_file.string());
   const auto text = read_text_file(scene_file, mistakes);
   const auto json = text ? parse_json(*text, mistakes) : std::nullopt;
-  std::vector<SplitFile> files;
+  std::vector<ShownFile> files;
   if (json) find_files(*json, MeshSplit::none, files);
   std::vector<ModelMesh> meshes;
-  for (const auto& [file, split] : files) {
+  for (const ShownFile& file : files) {
     ImportOptions options;
-    options.split = split;
+    options.split = file.split;
+    options.meshes = file.meshes;
     MeshLibrary library(scene_file.parent_path(), options);
-    library.hulls_of(file, Vec3<double>::Ones());
+    library.parts_of(file.name, Vec3<double>::Constant(file.scale));
     Model model;
     library.hand_over(model);
     for (ModelMesh& mesh : model.meshes) meshes.push_back(std::move(mesh));

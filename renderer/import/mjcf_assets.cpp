@@ -1,17 +1,36 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/import/mjcf_assets.h"
 
+#include <cmath>
 #include <stdexcept>
 
 #include "renderer/import/geometry_common.h"
 #include "renderer/import/hull_mass.h"
+#include "renderer/import/mesh_hull.h"
 #include "renderer/import/mjcf_builtin.h"
+#include "renderer/import/mjcf_height_field.h"
 #include "renderer/import/orientation.h"
 
 namespace minkray {
 namespace {
 
 constexpr Rgba default_rgba = {0.5, 0.5, 0.5, 1};
+
+/// False if a number is of no vertex.
+bool read_faces(const std::vector<double>& numbers, MeshParts& mesh) {
+  if (numbers.size() % 3 != 0) return false;
+  for (std::size_t i = 0; i < numbers.size(); i += 3) {
+    Corners corners;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double number = numbers[i + k];
+      if (!(number >= 0 && number < double(mesh.vertices.size())) || number != std::floor(number))
+        return false;
+      corners[k] = static_cast<std::uint32_t>(number);
+    }
+    mesh.triangles.push_back(corners);
+  }
+  return true;
+}
 
 }  // namespace
 
@@ -44,6 +63,10 @@ void MjcfAssets::read(const XmlElement& assets, const MjcfDefaults& defaults) {
         files_.wrong(written, "vertex: must stand in the <mesh> itself, not in its defaults");
       if (!mesh_assets_.emplace(name, asset).second)
         files_.wrong(written, "name: must not be the name of two meshes");
+    } else if (asset.name == "hfield") {
+      std::string name = asset.attribute_or("name");
+      if (name.empty()) name = std::filesystem::path(asset.attribute_or("file")).stem().string();
+      height_fields_.emplace(name, asset);
     } else if (asset.name == "model") {
       std::string name = asset.attribute_or("name");
       if (name.empty()) name = std::filesystem::path(asset.attribute_or("file")).stem().string();
@@ -84,11 +107,12 @@ const MeshLibrary::Answer* MjcfAssets::mesh_of(const XmlElement& written, const 
     return nullptr;
   }
   const auto [at, is_new] = made_.try_emplace(name);
-  if (is_new) at->second = hulls_of(name, found->second);
+  if (is_new) at->second = parts_of(name, found->second);
   return &at->second;
 }
 
 void MjcfAssets::add_mesh_geom(const XmlElement& written, const XmlElement& e, ModelGeom geom) {
+  geom.touches_as_hull = options_.meshes == MeshChoice::of_format;
   if (const MeshLibrary::Answer* mesh = mesh_of(written, e))
     add_mesh(model_, files_, written, *mesh, std::move(geom), options_);
 }
@@ -97,14 +121,16 @@ std::optional<std::vector<double>> MjcfAssets::fit(const XmlElement& written, co
                                                    bool by_bounds, ModelGeom& geom) {
   const MeshLibrary::Answer* mesh = mesh_of(written, e);
   if (!mesh) return std::nullopt;
-  if (mesh->hulls.empty()) {
+  if (mesh->parts.empty()) {
     // What is wrong with the mesh is told, or it is passed over.
     add_mesh(model_, files_, written, *mesh, geom, options_);
     return std::nullopt;
   }
-  const auto* hull = std::get_if<Hull<double>>(&mesh->hulls.front().kind);
+  const MeshLibrary::Part& part = mesh->parts.front();
+  const Shape<double> shape = part.surface ? hull_of(*part.surface) : *part.hull;
+  const auto* hull = std::get_if<Hull<double>>(&shape.kind);
   const Mass mass = hull ? mass_of(hull->points) : Mass();
-  if (mesh->hulls.size() > 1 || !(mass.volume > 0)) {
+  if (mesh->parts.size() > 1 || !(mass.volume > 0)) {
     files_.wrong(written,
                  "mesh: a primitive is fitted to one mesh with a volume (without --split)");
     return std::nullopt;
@@ -136,7 +162,7 @@ std::optional<std::vector<double>> MjcfAssets::fit(const XmlElement& written, co
   return size;
 }
 
-MeshLibrary::Answer MjcfAssets::hulls_of(const std::string& name, const XmlElement& asset) {
+MeshLibrary::Answer MjcfAssets::parts_of(const std::string& name, const XmlElement& asset) {
   const Vec3<double> scale = files_.vector(asset, "scale").value_or(Vec3<double>::Ones());
   MeshLibrary::Answer answer;
   // Vertices are moved and turned before they are scaled.
@@ -152,27 +178,59 @@ MeshLibrary::Answer MjcfAssets::hulls_of(const std::string& name, const XmlEleme
     std::vector<Vec3<double>> vertices;
     for (std::size_t i = 0; i + 2 < numbers->size(); i += 3)
       vertices.emplace_back((*numbers)[i], (*numbers)[i + 1], (*numbers)[i + 2]);
-    answer = meshes_.hulls_of_parts({std::move(vertices)}, scale_of_vertices, name);
+    MeshParts mesh{std::move(vertices)};
+    if (const auto faces = files_.numbers(asset, "face", 3, 3'000'000)) {
+      if (!read_faces(*faces, mesh)) {
+        files_.wrong(asset, "face: must be numbers of vertices, three for each triangle");
+        return answer;
+      }
+    }
+    answer = meshes_.made_of(mesh, scale_of_vertices, name);
   } else if (const std::string* builtin = asset.attribute("builtin")) {
     const auto params = files_.numbers(asset, "params", 1, 5);
     try {
-      answer =
-          meshes_.hulls_of_parts({builtin_mesh(*builtin, params.value_or(std::vector<double>()))},
-                                 scale_of_vertices, name);
+      answer = meshes_.made_of({builtin_mesh(*builtin, params.value_or(std::vector<double>()))},
+                               scale_of_vertices, name);
     } catch (const std::runtime_error& error) {
       answer.complaint = std::string("<mesh>: ") + error.what();
     }
   } else {
-    std::string file = asset.attribute_or("file");
-    if (strips_path_) file = std::filesystem::path(file).filename().string();
-    // An included file may have its meshes beside it.
-    const std::filesystem::path own = files_.files()[asset.file].parent_path();
-    answer = meshes_.hulls_of(file, scale_of_vertices, {}, {own / mesh_folder_, own});
+    answer = meshes_.parts_of(name_of_file(asset), scale_of_vertices, {}, folders_of(asset));
   }
   if (moves)
-    for (Shape<double>& hull : answer.hulls)
-      hull = Transform<double>{hull, Affine<double>{scale.asDiagonal(), {0, 0, 0}} * before};
+    for (MeshLibrary::Part& part : answer.parts) {
+      const Affine<double> map = Affine<double>{scale.asDiagonal(), {0, 0, 0}} * before;
+      if (part.hull) part.hull = Transform<double>{*part.hull, map};
+      if (part.surface) part.surface = moved(*part.surface, map);
+    }
   return answer;
+}
+
+std::string MjcfAssets::name_of_file(const XmlElement& asset) const {
+  const std::string file = asset.attribute_or("file");
+  return strips_path_ ? std::filesystem::path(file).filename().string() : file;
+}
+
+/// An included file may have its meshes beside it.
+std::vector<std::filesystem::path> MjcfAssets::folders_of(const XmlElement& asset) const {
+  const std::filesystem::path own = files_.files()[asset.file].parent_path();
+  return {own / mesh_folder_, own};
+}
+
+void MjcfAssets::add_height_field(const XmlElement& written, const XmlElement& e, ModelGeom geom) {
+  const std::string name = e.attribute_or("hfield");
+  const auto found = height_fields_.find(name);
+  if (found == height_fields_.end())
+    return files_.wrong(written,
+                        "hfield: there is no <hfield> of the name \"" + printable(name, 60) + "\"");
+  const XmlElement& asset = found->second;
+  const auto [at, is_new] = terrains_.try_emplace(name);
+  if (is_new)
+    at->second = mjcf_height_field(asset, files_, [&](const std::string&) {
+      return meshes_.find_also_in(name_of_file(asset), folders_of(asset));
+    });
+  geom.mesh = at->second;
+  if (geom.mesh) model_.geoms.push_back(std::move(geom));
 }
 
 void MjcfAssets::hand_over_meshes() {

@@ -34,7 +34,10 @@ class MjcfAssets {
   /// A geom has its own colour, if it says one, or its material's.
   Rgba colour_of(const XmlElement& geom) const;
 
-  /// Adds the hulls of the mesh that a geom names; `e` is the geom with its defaults.
+  /// Adds the terrain that a geom names; `e` is the geom with its defaults.
+  void add_height_field(const XmlElement& written, const XmlElement& e, ModelGeom geom);
+
+  /// Adds the parts of the mesh that a geom names; `e` is the geom with its defaults.
   void add_mesh_geom(const XmlElement& written, const XmlElement& e, ModelGeom geom);
 
   /// A primitive's sizes as MuJoCo fits them to the mesh that a geom names: by the box of the same
@@ -51,8 +54,11 @@ class MjcfAssets {
 
  private:
   std::optional<Rgba> read_rgba(const XmlElement& element) const;
-  MeshLibrary::Answer hulls_of(const std::string& name, const XmlElement& asset);
-  /// The hulls of the mesh that a geom names; null, and a mistake, if there is none.
+  MeshLibrary::Answer parts_of(const std::string& name, const XmlElement& asset);
+  /// Where a file lies that an asset names.
+  std::string name_of_file(const XmlElement& asset) const;
+  std::vector<std::filesystem::path> folders_of(const XmlElement& asset) const;
+  /// The parts of the mesh that a geom names; null, and a mistake, if there is none.
   const MeshLibrary::Answer* mesh_of(const XmlElement& written, const XmlElement& e);
 
   Model& model_;
@@ -62,6 +68,8 @@ class MjcfAssets {
   bool strips_path_ = false;
   std::map<std::string, XmlElement> mesh_assets_;    ///< with their defaults
   std::map<std::string, MeshLibrary::Answer> made_;  ///< of these, for each geom of one
+  std::map<std::string, XmlElement> height_fields_;
+  std::map<std::string, std::shared_ptr<const TriangleMesh>> terrains_;  ///< of these
   std::map<std::string, Rgba> materials_;
   std::map<std::string, XmlElement> models_;
   std::filesystem::path mesh_folder_;  ///< relative to a file

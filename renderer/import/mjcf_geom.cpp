@@ -43,8 +43,7 @@ void add_mjcf_geom(const XmlElement& written, const XmlElement& e, ModelGeom geo
     in.model.geoms.push_back(std::move(geom));
     return;
   }
-  if (geom.kind == "hfield")
-    return in.model.pass_over("<geom type=\"hfield\">", "is no convex shape");
+  if (geom.kind == "hfield") return in.assets.add_height_field(written, e, std::move(geom));
   static const std::map<std::string, std::size_t> sizes = {
       {"sphere", 1}, {"capsule", 2}, {"cylinder", 2}, {"ellipsoid", 3}, {"box", 3}};
   const auto needed = sizes.find(geom.kind);

@@ -2,11 +2,12 @@
 #include "renderer/import/mjcf_masses.h"
 
 #include "renderer/import/hull_mass.h"
+#include "renderer/import/mesh_hull.h"
 
 namespace minkray {
 
 void GeomMasses::add(const ModelGeom& geom, std::optional<double> mass, double density) {
-  const Mass of_shape = volume_of(*geom.shape);
+  const Mass of_shape = volume_of(geom.mesh ? hull_of(*geom.mesh) : *geom.shape);
   masses_[geom.link].push_back(
       {mass.value_or(density * of_shape.volume), geom.pose, geom.pose(of_shape.centre)});
 }

@@ -14,6 +14,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "core/geometry/point_cloud.h"
 #include "core/math/affine.h"
 #include "core/mesh/triangle_mesh.h"
 #include "core/shape/shape.h"
@@ -55,19 +56,28 @@ struct ModelGeom {
   std::string kind;  ///< in the format's words: "capsule", "mesh", "plane"
   int link = -1;     ///< -1: the world
   Affine<double> pose;
-  std::optional<Shape<double>> shape = {};        ///< none: the half-space under z = 0
-  std::shared_ptr<const TriangleMesh> mesh = {};  ///< for rays; the shape is its hull
+  /// It has a shape or a mesh; with neither it is the half-space under z = 0.
+  std::optional<Shape<double>> shape = {};
+  std::shared_ptr<const TriangleMesh> mesh = {};
+  bool touches_as_hull = false;  ///< for contact the mesh is its hull, as in MuJoCo
   std::array<double, 4> rgba = {0.7, 0.7, 0.7, 1};
   bool collides = true, is_seen = true;
+
+  bool is_half_space() const { return !shape && !mesh; }
 };
 
-/// A mesh file as one of its hulls.
+/// A mesh file, at one scale.
 struct ModelMesh {
   std::string file;
-  std::size_t vertices = 0, corners = 0;
-  std::size_t parts = 1;
+  std::size_t vertices = 0;
   double diameter = 0;  ///< the longest side of its box
-  double deepest = 0;   ///< how far a vertex lies below the hull's surface at most
+  /// What each part is shown as: a surface, or a hull and the vertices that it is of.
+  struct Part {
+    std::shared_ptr<const TriangleMesh> surface = {};
+    std::optional<PointCloud<double>> hull = {};
+    std::vector<Vec3<double>> vertices = {};
+  };
+  std::vector<Part> parts;
 };
 
 /// What a file holds that is not shown, and why.

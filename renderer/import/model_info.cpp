@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <map>
 
+#include "renderer/import/mesh_hull.h"
 #include "renderer/json/mistakes.h"
 
 namespace minkray {
@@ -41,6 +42,16 @@ Json json_of(const Counts& counts) {
   return json;
 }
 
+/// "; 12 triangles, closed", and what is odd about them.
+std::string surface_as_text(const MeshFacts& facts) {
+  if (facts.triangles == 0) return "";
+  std::string text = "; " + std::to_string(facts.triangles) + " triangles, ";
+  text += facts.open_edges == 0 ? "closed" : std::to_string(facts.open_edges) + " open edges";
+  if (facts.without_area > 0) text += ", " + std::to_string(facts.without_area) + " without area";
+  if (facts.repeated > 0) text += ", " + std::to_string(facts.repeated) + " repeated";
+  return text;
+}
+
 std::string counted(const std::map<std::string, std::size_t>& counts) {
   std::string text;
   for (const auto& [name, count] : counts)
@@ -53,17 +64,19 @@ std::string counted(const std::map<std::string, std::size_t>& counts) {
 std::string meshes_as_text(const std::vector<ModelMesh>& meshes) {
   std::string text;
   for (const ModelMesh& mesh : meshes) {
+    const MeshFacts facts = facts_of(mesh);
     char depth[100];
-    const double share = mesh.diameter > 0 ? mesh.deepest / mesh.diameter : 0;
+    const double share = mesh.diameter > 0 ? facts.deepest / mesh.diameter : 0;
     if (share <= convex_enough)
       std::snprintf(depth, sizeof depth, "convex");
     else
       std::snprintf(depth, sizeof depth, "vertices up to %.3g under the hull (%.2g %% of its size)",
-                    mesh.deepest, 100 * share);
+                    facts.deepest, 100 * share);
+    const std::size_t parts = mesh.parts.size();
     text += line("mesh", printable(mesh.file, 80) + ": " + std::to_string(mesh.vertices) +
-                             " vertices, " + std::to_string(mesh.corners) + " of " +
-                             (mesh.parts > 1 ? std::to_string(mesh.parts) + " hulls" : "the hull") +
-                             "; " + depth);
+                             " vertices, " + std::to_string(facts.hull_points) + " of " +
+                             (parts > 1 ? std::to_string(parts) + " hulls" : "the hull") + "; " +
+                             depth + surface_as_text(facts));
   }
   return text;
 }
@@ -72,12 +85,20 @@ Json meshes_as_json(const std::vector<ModelMesh>& meshes) {
   Json list = Json::array();
   for (const ModelMesh& mesh : meshes) {
     Json one;
+    const MeshFacts facts = facts_of(mesh);
     one["file"] = printable(mesh.file);
     one["vertices"] = mesh.vertices;
-    one["hulls"] = mesh.parts;
-    one["hull_points"] = mesh.corners;
+    one["hulls"] = mesh.parts.size();
+    one["hull_points"] = facts.hull_points;
     one["size"] = mesh.diameter;
-    one["deepest_vertex"] = mesh.deepest;
+    one["deepest_vertex"] = facts.deepest;
+    if (facts.triangles > 0) {
+      one["triangles"] = facts.triangles;
+      one["is_closed"] = facts.open_edges == 0;
+      one["open_edges"] = facts.open_edges;
+      one["triangles_without_area"] = facts.without_area;
+      one["repeated_triangles"] = facts.repeated;
+    }
     list.push_back(std::move(one));
   }
   return list;

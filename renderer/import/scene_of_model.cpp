@@ -208,8 +208,10 @@ Scene scene_of(Model& model, const ImportOptions& options, const std::vector<Joi
     object.name = printable(object.name);
     const int again = names[object.name]++;
     if (again > 0) object.name += " " + std::to_string(again + 1);
-    if (geom.shape)
-      object.shape = *geom.shape, object.mesh = geom.mesh;
+    if (geom.mesh)
+      object.mesh = geom.mesh;
+    else if (geom.shape)
+      object.shape = *geom.shape;
     else
       object.half_space = HalfSpaceBody<double>();
     object.pose =

@@ -3,10 +3,13 @@
 
 #include <algorithm>
 
+#include "core/mesh/height_field.h"
+#include "renderer/base/of_file.h"
 #include "renderer/import/geometry_common.h"
 #include "renderer/import/orientation.h"
 #include "renderer/import/prism.h"
 #include "renderer/import/sdf_frames.h"
+#include "renderer/io/height_grid.h"
 
 namespace minkray {
 
@@ -133,16 +136,46 @@ void SdfGeometry::add_shape(const XmlElement& shape, ModelGeom geom, Colouring c
       const std::string centre = sdf_text(*child, "center");
       submesh.is_centred = centre == "true" || centre == "1";
     }
-    return add_mesh(model_, files_, shape, library_of(shape).hulls_of(uri, scale, submesh),
+    return add_mesh(model_, files_, shape, library_of(shape).parts_of(uri, scale, submesh),
                     std::move(geom), options_, colouring);
   } else if (shape.name == "empty") {
     return;
-  } else if (shape.name == "heightmap" || shape.name == "image") {
+  } else if (shape.name == "heightmap") {
+    return add_height_map(shape, std::move(geom));
+  } else if (shape.name == "image") {
     return model_.pass_over("<" + shape.name + ">", "is no convex shape");
   } else {
     return files_.wrong(shape, "is no geometry of SDF");
   }
   if (is_good) model_.geoms.push_back(std::move(geom));
+}
+
+/// White is the size's z above black, and the first row of the picture has the greatest y.
+void SdfGeometry::add_height_map(const XmlElement& shape, ModelGeom geom) {
+  const std::string uri = sdf_text(shape, "uri");
+  if (uri.empty()) return files_.wrong(shape, "uri: must be there");
+  const auto three = [&](const char* key, const Vec3<double>& otherwise) {
+    const XmlElement* child = shape.child(key);
+    if (!child) return std::optional(otherwise);
+    const auto v = files_.numbers_in(*child, child->text, key, 3, 3);
+    return v ? std::optional(Vec3<double>((*v)[0], (*v)[1], (*v)[2])) : std::nullopt;
+  };
+  const auto size = three("size", {1, 1, 1}), at = three("pos", {0, 0, 0});
+  if (!size || !at) return;
+  const auto file = library_of(shape).find_also_in(uri, {});
+  if (!file) {
+    if (options_.skip_missing_meshes) return model_.pass_over("<heightmap>", "its file is missing");
+    return files_.wrong(shape, "uri: \"" + printable(uri, 100) + "\" is not there");
+  }
+  try {
+    HeightGrid grid = read_height_picture(*file);
+    for (double& height : grid.heights) height *= size->z();
+    geom.mesh = mesh_of({grid.heights, grid.rows, grid.columns, size->x(), size->y(), {}});
+  } catch (const std::exception& error) {
+    return files_.wrong(shape, printable(file->string(), 160) + ": " + what_of(error));
+  }
+  geom.pose = geom.pose * Affine<double>{Mat3<double>::Identity(), *at};
+  model_.geoms.push_back(std::move(geom));
 }
 
 /// Each file looks for meshes beside itself; a world may include one file a thousand times. All of

@@ -29,6 +29,7 @@ class SdfGeometry {
   void read(const XmlElement& element, int link, const Affine<double>& pose);
   void add_shape(const XmlElement& shape, ModelGeom geom, Colouring colouring);
   void add_polylines(const XmlElement& geometry, ModelGeom geom);
+  void add_height_map(const XmlElement& shape, ModelGeom geom);
   MeshLibrary& library_of(const XmlElement& element);
 
   Model& model_;

@@ -274,7 +274,7 @@ class UrdfReader {
       const std::string* file = shape.attribute("filename");
       if (!file) return files_.wrong(shape, "filename: must be there");
       const Vec3<double> scale = files_.vector(shape, "scale").value_or(Vec3<double>::Ones());
-      add_mesh(model_, files_, shape, meshes_.hulls_of(*file, scale), std::move(geom), options_,
+      add_mesh(model_, files_, shape, meshes_.parts_of(*file, scale), std::move(geom), options_,
                colouring);
       return;
     } else {

@@ -106,44 +106,84 @@ std::vector<float> light_of_codes() {
   return light;
 }
 
+template <class Code>
+struct Codes {
+  int width = 0, height = 0;
+  std::unique_ptr<Code, Free> codes;
+};
+
 /// What stb_image reads, by a function of its own for codes of such a size.
 template <class Code, class Load>
-Image image_of_stb(std::string_view bytes, std::int64_t most_pixels, Load load) {
-  int width = 0, height = 0, channels = 0;
+Codes<Code> codes_of_stb(std::string_view bytes, int wanted, std::int64_t most_pixels, Load load) {
+  Codes<Code> read;
+  int channels = 0;
   const auto* begin = reinterpret_cast<const stbi_uc*>(bytes.data());
   const int size = static_cast<int>(bytes.size());
   is_out_of_memory = false;
-  if (!stbi_info_from_memory(begin, size, &width, &height, &channels)) fail_as_stb();
-  check_image_size(width, height, most_pixels);
-  const std::unique_ptr<Code, Free> codes(load(begin, size, &width, &height, &channels, 3));
-  if (!codes) fail_as_stb();
+  if (!stbi_info_from_memory(begin, size, &read.width, &read.height, &channels)) fail_as_stb();
+  check_image_size(read.width, read.height, most_pixels);
+  read.codes.reset(load(begin, size, &read.width, &read.height, &channels, wanted));
+  if (!read.codes) fail_as_stb();
+  return read;
+}
+
+template <class Code>
+Image image_of(const Codes<Code>& read) {
   const std::vector<float> light = light_of_codes<Code>();
-  Image image(width, height);
+  Image image(read.width, read.height);
   for (std::size_t i = 0; i < image.pixels.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k)
-      image.pixels[i][static_cast<int>(k)] = light[codes.get()[3 * i + k]];
+      image.pixels[i][static_cast<int>(k)] = light[read.codes.get()[3 * i + k]];
   return image;
+}
+
+template <class Code>
+GreyLevels levels_of(const Codes<Code>& read) {
+  GreyLevels grey{read.width, read.height, {}};
+  const auto count = static_cast<std::size_t>(read.width) * static_cast<std::size_t>(read.height);
+  constexpr float most = std::numeric_limits<Code>::max();
+  for (std::size_t i = 0; i < count; ++i)
+    grey.levels.push_back(static_cast<float>(read.codes.get()[i]) / most);
+  return grey;
+}
+
+std::string lower_ending(const std::filesystem::path& file) {
+  std::string ending = file.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending;
+}
+
+bool has_codes(std::string_view ending) {
+  return ending == ".png" || ending == ".jpg" || ending == ".jpeg";
+}
+
+std::string bytes_of_codes(const std::filesystem::path& file) {
+  std::string bytes = read_regular_file(file, most_picture_bytes);
+  mend_png(bytes);
+  check_jpeg(bytes);
+  return bytes;
+}
+
+bool is_wide(std::string_view bytes) {
+  return stbi_is_16_bit_from_memory(reinterpret_cast<const stbi_uc*>(bytes.data()),
+                                    static_cast<int>(bytes.size()));
 }
 
 }  // namespace
 
 Image read_image(const std::filesystem::path& file, std::int64_t most_pixels) {
-  std::string ending = file.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string ending = lower_ending(file);
   Image image;
   if (ending == ".exr") {
     image = image_of_exr(file, most_pixels);
   } else if (ending == ".hdr") {
     image = read_radiance(read_regular_file(file, most_picture_bytes), most_pixels);
-  } else if (ending == ".png" || ending == ".jpg" || ending == ".jpeg") {
-    std::string bytes = read_regular_file(file, most_picture_bytes);
-    mend_png(bytes);
-    check_jpeg(bytes);
-    const auto* begin = reinterpret_cast<const stbi_uc*>(bytes.data());
-    image = stbi_is_16_bit_from_memory(begin, static_cast<int>(bytes.size()))
-                ? image_of_stb<stbi_us>(bytes, most_pixels, stbi_load_16_from_memory)
-                : image_of_stb<stbi_uc>(bytes, most_pixels, stbi_load_from_memory);
+  } else if (has_codes(ending)) {
+    const std::string bytes = bytes_of_codes(file);
+    image = is_wide(bytes)
+                ? image_of(codes_of_stb<stbi_us>(bytes, 3, most_pixels, stbi_load_16_from_memory))
+                : image_of(codes_of_stb<stbi_uc>(bytes, 3, most_pixels, stbi_load_from_memory));
   } else {
     throw std::runtime_error(std::string("must be one of ") + readable_images);
   }
@@ -151,6 +191,19 @@ Image read_image(const std::filesystem::path& file, std::int64_t most_pixels) {
     if (!pixel.allFinite() || pixel.minCoeff() < 0 || pixel.maxCoeff() > most_brightness)
       throw std::runtime_error("must hold finite numbers from 0 to 1e15");
   return image;
+}
+
+GreyLevels read_grey(const std::filesystem::path& file, std::int64_t most_pixels) {
+  if (has_codes(lower_ending(file))) {
+    const std::string bytes = bytes_of_codes(file);
+    return is_wide(bytes)
+               ? levels_of(codes_of_stb<stbi_us>(bytes, 1, most_pixels, stbi_load_16_from_memory))
+               : levels_of(codes_of_stb<stbi_uc>(bytes, 1, most_pixels, stbi_load_from_memory));
+  }
+  const Image image = read_image(file, most_pixels);
+  GreyLevels grey{image.width, image.height, {}};
+  for (const Vec3<float>& pixel : image.pixels) grey.levels.push_back(pixel.x());
+  return grey;
 }
 
 }  // namespace minkray

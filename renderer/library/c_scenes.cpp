@@ -36,10 +36,12 @@ ImportOptions import_options(const minkray_file_options* given) {
     wrong_use("options.geometry: must be \"visual\", \"collision\" or \"all\" (got \"" +
               printable(geometry, 60) + "\")");
   const bool has_meshes = given->size >= sizeof(minkray_file_options) && given->meshes;
-  const std::string meshes = has_meshes ? given->meshes : "hull";
+  const std::string meshes = has_meshes ? given->meshes : "";
   if (meshes == "exact")
     options.meshes = MeshChoice::exact;
-  else if (meshes != "hull")
+  else if (meshes == "hull")
+    options.meshes = MeshChoice::hull;
+  else if (!meshes.empty())
     wrong_use("options.meshes: must be \"hull\" or \"exact\" (got \"" + printable(meshes, 60) +
               "\")");
   if (given->keyframe) options.keyframe = given->keyframe;

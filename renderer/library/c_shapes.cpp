@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "core/derived/shape_bounds.h"
+#include "core/mesh/height_field.h"
 #include "renderer/json/parse.h"
 #include "renderer/library/call.h"
 #include "renderer/library/held_shape.h"
@@ -127,6 +128,24 @@ int minkray_shape_mesh(const double (*vertices)[3], size_t vertex_count,
     try {
       auto mesh = std::make_shared<const TriangleMesh>(std::move(points), std::move(corners));
       *shape = {held_shapes().add(std::make_unique<HeldShape>(std::move(mesh)))};
+    } catch (const std::invalid_argument& error) {
+      wrong_use(error.what());
+    }
+  });
+}
+
+int minkray_shape_height_field(const double* heights, size_t rows, size_t columns, double size_x,
+                               double size_y, const double* bottom, minkray_shape* shape) {
+  return call("minkray_shape_height_field", [&] {
+    require(heights, "heights");
+    require(shape, "shape");
+    require_room(rows, sizeof *heights, "rows");
+    if (columns > 0 && rows > SIZE_MAX / sizeof *heights / columns)
+      wrong_use("rows, columns: are too many");
+    HeightField field{{heights, rows * columns}, rows, columns, size_x, size_y, {}};
+    if (bottom) field.bottom = *bottom;
+    try {
+      *shape = {held_shapes().add(std::make_unique<HeldShape>(mesh_of(field)))};
     } catch (const std::invalid_argument& error) {
       wrong_use(error.what());
     }

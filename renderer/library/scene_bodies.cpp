@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <memory>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "core/derived/cube.h"
 #include "core/parallel/parallel.h"
+#include "renderer/import/mesh_hull.h"
 #include "renderer/import/scene_of_model.h"
 #include "renderer/library/call.h"
 #include "renderer/library/poses.h"
@@ -55,12 +57,35 @@ double value_of(const ScenePair& pair) {
 
 }  // namespace
 
+namespace {
+
+/// Robots' meshes that touch as their hulls, by object.
+std::unordered_set<std::uint32_t> objects_as_hulls(const HeldScene& scene) {
+  std::unordered_set<std::uint32_t> as_hulls;
+  for (std::uint32_t g = 0; g < scene.groups(); ++g) {
+    const HeldScene::Group& group = scene.group(g);
+    if (!group.model) continue;
+    const std::vector<bool> wanted = chosen_geoms(*group.model, group.options.geometry);
+    std::uint32_t object = group.first;
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+      if (!wanted[i]) continue;
+      if (group.model->geoms[i].touches_as_hull) as_hulls.insert(object);
+      ++object;
+    }
+  }
+  return as_hulls;
+}
+
+}  // namespace
+
 SceneBodies::SceneBodies(const HeldScene& scene) : scene_(scene) {
   const Instances& instances = scene.world().instances();
   const PairRules& rules = scene.pair_rules();
   body_of_.assign(instances.size(), none);
   std::vector<ContactBody> bodies;
   std::unordered_map<std::uint32_t, ContactShape> ready;
+  std::unordered_map<const TriangleMesh*, ContactShape> ready_hulls;
+  const std::unordered_set<std::uint32_t> as_hulls = objects_as_hulls(scene);
   for (std::uint32_t i = 0; i < instances.size(); ++i) {
     if (scene.is_removed(i)) continue;
     const PairRules::Masks masks = rules.masks(i);
@@ -70,6 +95,15 @@ SceneBodies::SceneBodies(const HeldScene& scene) : scene_(scene) {
       // What scales is part of the mesh.
       std::shared_ptr<const TriangleMesh> mesh = instances.mesh_of(i).mesh;
       Affine<double> place = pose;
+      if (as_hulls.contains(i) && is_rigid(pose)) {
+        auto known = ready_hulls.find(mesh.get());
+        if (known == ready_hulls.end())
+          known = ready_hulls.emplace(mesh.get(), ContactShape(hull_of(*mesh))).first;
+        body_of_[i] = static_cast<std::uint32_t>(bodies.size());
+        objects_.push_back(i);
+        bodies.push_back({known->second, place, masks.category, masks.mask});
+        continue;
+      }
       if (!is_rigid(pose)) {
         mesh = mapped(*mesh, pose.linear);
         place.linear.setIdentity();

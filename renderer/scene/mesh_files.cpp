@@ -103,6 +103,7 @@ std::shared_ptr<const Image> MeshFiles::read_picture(const std::string& name, co
 std::vector<std::filesystem::path> MeshFiles::pictures() const {
   std::vector<std::filesystem::path> files;
   for (const auto& [name, picture] : pictures_) files.push_back(folder_ / name);
+  for (const auto& [name, hash] : heights_) files.push_back(folder_ / name);
   return files;
 }
 
@@ -144,7 +145,28 @@ std::shared_ptr<const TriangleMesh> MeshFiles::read_mesh(const std::string& name
   }
 }
 
+std::optional<HeightGrid> MeshFiles::read_heights(const std::string& name, const JsonPath& path,
+                                                  Mistakes& mistakes) {
+  const std::filesystem::path file = folder_ / name;
+  try {
+    HeightGrid grid = read_height_picture(file);
+    Hash hash;
+    hash.add(std::to_string(grid.columns));
+    hash.add({reinterpret_cast<const char*>(grid.heights.data()),
+              grid.heights.size() * sizeof grid.heights[0]});
+    heights_[name] = hash.text();
+    return grid;
+  } catch (const std::exception& error) {
+    mistakes.add(path, printable(file.string(), 200) + ": " + what_of(error));
+    return std::nullopt;
+  }
+}
+
 void MeshFiles::add_to(Hash& hash) const {
+  for (const auto& [name, text] : heights_) {
+    hash.add(name);
+    hash.add(text);
+  }
   for (const auto& [name, picture] : pictures_) {
     hash.add(name);
     hash.add(picture.hash);

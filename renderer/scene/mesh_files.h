@@ -16,6 +16,7 @@
 #include "core/mesh/triangle_mesh.h"
 #include "renderer/base/hash.h"
 #include "renderer/image/image.h"
+#include "renderer/io/height_grid.h"
 #include "renderer/json/mistakes.h"
 
 namespace minkray {
@@ -38,6 +39,11 @@ class MeshFiles {
   /// cannot be used. Vertices at the same place become one.
   std::shared_ptr<const TriangleMesh> read_mesh(const std::string& name, double scale,
                                                 const JsonPath& path, Mistakes& mistakes);
+
+  /// The heights of a picture's pixels, black 0 and white 1; nothing, and a mistake, if it cannot
+  /// be used.
+  std::optional<HeightGrid> read_heights(const std::string& name, const JsonPath& path,
+                                         Mistakes& mistakes);
 
   /// Adds what was read: the names, and all vertices.
   void add_to(Hash& hash) const;
@@ -67,6 +73,7 @@ class MeshFiles {
     std::string hash;  ///< of vertices and triangles
   };
   std::map<std::pair<std::string, double>, Surface> surfaces_;
+  std::map<std::string, std::string> heights_;  ///< hashes
   struct Picture {
     std::shared_ptr<const Image> image;
     std::string hash;  ///< of all pixels

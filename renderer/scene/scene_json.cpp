@@ -9,6 +9,7 @@
 #include "renderer/scene/find_focus.h"
 #include "renderer/scene/fitting_keys.h"
 #include "renderer/scene/half_space_json.h"
+#include "renderer/scene/height_field_json.h"
 #include "renderer/scene/mesh_json.h"
 #include "renderer/scene/read_particles.h"
 #include "renderer/scene/read_split.h"
@@ -182,13 +183,16 @@ class SceneReader {
     std::optional<HalfSpaceBody<double>> half_space;
     const Json* const split = object.find("split");
     std::shared_ptr<const TriangleMesh> mesh;
-    const Json* const triangles = object.find("mesh");
-    if (triangles) {
-      for (const char* other : {"shape", "split"})
-        if (object.find(other))
-          mistakes_.add(object.path(other), "must not be given beside \"mesh\"");
-      mesh = read_mesh(*triangles, object.path("mesh"), mistakes_, meshes_);
-    } else if (const Json* written = object.require("shape", "a shape, or \"mesh\"")) {
+    const Json *const triangles = object.find("mesh"), *const heights = object.find("height_field");
+    if (triangles || heights) {
+      const std::string given = triangles ? "mesh" : "height_field";
+      for (const char* other : {"shape", "split", "height_field"})
+        if (given != other && object.find(other))
+          mistakes_.add(object.path(other), "must not be given beside \"" + given + "\"");
+      mesh = triangles ? read_mesh(*triangles, object.path(given), mistakes_, meshes_)
+                       : read_height_field(*heights, object.path(given), mistakes_, meshes_);
+    } else if (const Json* written =
+                   object.require("shape", "a shape, \"mesh\" or \"height_field\"")) {
       if (split) {
         if (auto hulls = read_split_hulls(object, *split, *written, meshes_))
           shapes = std::move(*hulls);

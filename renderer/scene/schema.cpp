@@ -95,6 +95,7 @@ Json scene_schema() {
       {"shape",
        {{"anyOf", Json::array({{{"$ref", "#/$defs/shape"}}, {{"$ref", "#/$defs/half_space"}}})}}},
       {"mesh", {{"$ref", "#/$defs/mesh"}}},
+      {"height_field", {{"$ref", "#/$defs/height_field"}}},
       {"material", name},
       {"transform", {{"$ref", "#/$defs/transform"}}},
       {"visible_to", visible_to_schema()},
@@ -109,7 +110,8 @@ Json scene_schema() {
         {"items", {{"$ref", "#/$defs/key"}}},
         {"minItems", 1}}}};
   object["required"] = {"name", "material"};
-  object["oneOf"] = Json::array({{{"required", {"shape"}}}, {{"required", {"mesh"}}}});
+  object["oneOf"] = Json::array(
+      {{{"required", {"shape"}}}, {{"required", {"mesh"}}}, {{"required", {"height_field"}}}});
 
   Json key = object_schema("Where an object is at a time, after its transform.");
   key["properties"] = {{"time", {{"type", "number"}, {"description", "in seconds"}}},
@@ -208,6 +210,27 @@ Json scene_schema() {
   mesh["oneOf"] =
       Json::array({{{"required", {"file"}}}, {{"required", {"vertices", "triangles"}}}});
   definitions["mesh"] = std::move(mesh);
+  Json terrain = object_schema("A terrain: heights over a grid with its middle above the origin.");
+  terrain["properties"] = {
+      {"file", {{"type", "string"}}},
+      {"heights",
+       {{"type", "array"},
+        {"items", {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 2}}},
+        {"minItems", 2}}},
+      {"size",
+       {{"type", "array"},
+        {"items", schema_of_number(Range::positive)},
+        {"minItems", 2},
+        {"maxItems", 3}}},
+      {"bottom", {{"type", "number"}}}};
+  terrain["properties"]["file"]["description"] = "a picture, relative to the scene's folder";
+  terrain["properties"]["heights"]["description"] = "rows along x, the one of the least y first";
+  terrain["properties"]["size"]["description"] =
+      "along x and along y; with a file also the height of white";
+  terrain["properties"]["bottom"]["description"] = "the z at which walls and a bottom close it";
+  terrain["required"] = {"size"};
+  terrain["oneOf"] = Json::array({{{"required", {"file"}}}, {{"required", {"heights"}}}});
+  definitions["height_field"] = std::move(terrain);
   definitions["key"] = std::move(key);
   definitions["particles"] = std::move(particles);
   definitions["transform"] =

@@ -6,6 +6,7 @@
 #include <exception>
 #include <limits>
 
+#include "renderer/import/mesh_hull.h"
 #include "renderer/import/mesh_library.h"
 #include "renderer/json/mistakes.h"
 #include "tests/fuzz/hull_rounding.h"
@@ -45,8 +46,9 @@ std::string check_parts(const MeshParts& mesh, MeshSplit split, bool all_are_hel
 /// Along each axis the hull must reach as far as the outermost of its scaled vertices does.
 std::string check_hulls(const MeshParts& mesh, const MeshLibrary::Answer& answer,
                         const Vec3<double>& scale) {
-  if (answer.hulls.size() != std::max<std::size_t>(mesh.parts.size(), 1)) return "a part is lost";
-  for (std::size_t k = 0; k < answer.hulls.size(); ++k) {
+  if (answer.parts.size() != std::max<std::size_t>(mesh.parts.size(), 1)) return "a part is lost";
+  for (std::size_t k = 0; k < answer.parts.size(); ++k) {
+    if (!answer.parts[k].hull) continue;
     for (int i = 0; i < 6; ++i) {
       const Vec3<double> n = (i % 2 == 0 ? 1.0 : -1.0) * Vec3<double>::Unit(i / 2);
       double outermost = -std::numeric_limits<double>::infinity(), largest = 0;
@@ -60,7 +62,7 @@ std::string check_hulls(const MeshParts& mesh, const MeshLibrary::Answer& answer
       else
         for (const std::uint32_t vertex : mesh.parts[k]) look(mesh.vertices[vertex]);
       // Halves, so that no difference overflows.
-      const double beyond = n.dot(answer.hulls[k].support(n)) / 2 - outermost / 2;
+      const double beyond = n.dot(answer.parts[k].hull->support(n)) / 2 - outermost / 2;
       if (!(std::abs(beyond) <= hull_rounding * largest)) return "a hull that ends elsewhere";
     }
   }
@@ -75,6 +77,8 @@ std::string check_mesh_parts(std::string_view bytes) {
   const MeshFormatReader& format = formats[static_cast<unsigned char>(bytes[0]) % formats.size()];
   ImportOptions options;
   options.split = static_cast<MeshSplit>(static_cast<unsigned char>(bytes[1]) % 3);
+  const bool is_exact = static_cast<unsigned char>(bytes[1]) % 2 == 1;
+  options.meshes = is_exact ? MeshChoice::exact : MeshChoice::hull;
   static const TemporaryFolder folder;
   const std::string name = "mesh" + std::string(format.ending);
   folder.write(name, bytes.substr(2));
@@ -89,7 +93,7 @@ std::string check_mesh_parts(std::string_view bytes) {
   }
   MeshLibrary library(folder.path(), options);
   const Vec3<double> scale(1, -2, 0.5);
-  const MeshLibrary::Answer answer = library.hulls_of(name, scale);
+  const MeshLibrary::Answer answer = library.parts_of(name, scale);
   if (!answer.complaint.empty()) return check_message(answer.complaint);
   if (!refused.empty()) return "hulls of a mesh that is refused";
   if (const std::string bad = check_parts(mesh, options.split, format.ending == ".stl");
@@ -97,8 +101,10 @@ std::string check_mesh_parts(std::string_view bytes) {
     return bad;
   Model model;
   library.hand_over(model);
-  for (const ModelMesh& facts : model.meshes)
-    if (!(facts.deepest >= 0) || !std::isfinite(facts.deepest)) return "vertices outside the hull";
+  for (const ModelMesh& shown : model.meshes) {
+    const double deepest = facts_of(shown).deepest;
+    if (!(deepest >= 0) || !std::isfinite(deepest)) return "vertices outside the hull";
+  }
   return check_hulls(mesh, answer, scale);
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "renderer/library/python/bind.h"
@@ -163,6 +164,15 @@ Shape mesh(const py::array_t<double, py::array::c_style>& vertices,
   return minkray::mesh(points, corners);
 }
 
+Shape height_field(const py::array_t<double, py::array::c_style>& heights, double size_x,
+                   double size_y, std::optional<double> bottom) {
+  const Unlocked unlock;
+  return minkray::height_field({heights.data(), static_cast<std::size_t>(heights.size())},
+                               static_cast<std::size_t>(heights.shape(0)),
+                               static_cast<std::size_t>(heights.shape(1)), size_x, size_y,
+                               bottom ? &*bottom : nullptr);
+}
+
 py::dict mesh_info(const Shape& shape) {
   minkray::MeshInfo info;
   {
@@ -216,6 +226,7 @@ void bind_shapes(py::module_& module) {
   module.def("make", &make);
   module.def("custom", &custom);
   module.def("mesh", &mesh);
+  module.def("height_field", &height_field);
   module.def("mesh_info", &mesh_info);
   module.def("read_shape", [](const std::string& json, const std::string& folder) {
     return minkray::read_shape(json, folder);

@@ -56,7 +56,7 @@ TEST(Dialects, sizes_of_zero_are_points_segments_and_disks) {
   const std::pair<Vec3<double>, double> reaches[] = {
       {{1, 0, 0}, 0}, {{0, 1, 0}, 3}, {{0, 0, 1}, 2}};
   for (const auto& [n, reach] : reaches)
-    EXPECT_NEAR(flat.geoms[0].shape->support<double>(n).dot(n), reach, 1e-15);
+    EXPECT_NEAR(support_of(flat.geoms[0], n).dot(n), reach, 1e-15);
 }
 
 TEST(Dialects, of_vendors_name_shapes_and_joints_that_there_are) {
@@ -184,9 +184,7 @@ TEST_F(MeshFolder, a_submesh_is_shown_alone) {
   const auto model = [&](const std::string& submesh) {
     return *import("m.sdf", sdf_shape("<mesh><uri>two.obj</uri>" + submesh + "</mesh>")).model;
   };
-  const auto lower_x = [](const Model& of) {
-    return -of.geoms.at(0).shape->support<double>(Vec3<double>(-1, 0, 0)).x();
-  };
+  const auto lower_x = [](const Model& of) { return -support_of(of.geoms.at(0), {-1, 0, 0}).x(); };
   EXPECT_EQ(lower_x(model("")), 0);
   EXPECT_EQ(lower_x(model("<submesh><name>right</name></submesh>")), -5);
   EXPECT_EQ(lower_x(model("<submesh><name>right</name><center>true</center></submesh>")), 0.5);

@@ -20,17 +20,19 @@ class ExactMeshes : public ::testing::Test {
 
   MeshLibrary::Answer read(const std::string& file, const Vec3<double>& scale = {1, 1, 1}) {
     MeshLibrary library(folder_.path(), options_);
-    return library.hulls_of(file, scale);
+    return library.parts_of(file, scale);
   }
   void expect_closed(const MeshLibrary::Answer& answer, std::size_t triangles) {
     ASSERT_EQ(answer.complaint, "");
-    ASSERT_EQ(answer.surfaces.size(), 1u);
-    ASSERT_TRUE(answer.surfaces[0]);
-    EXPECT_EQ(answer.surfaces[0]->size(), triangles);
-    EXPECT_TRUE(answer.surfaces[0]->is_closed());
+    ASSERT_EQ(answer.parts.size(), 1u);
+    ASSERT_TRUE(answer.parts[0].surface);
+    EXPECT_FALSE(answer.parts[0].hull);
+    const TriangleMesh& surface = *answer.parts[0].surface;
+    EXPECT_EQ(surface.size(), triangles);
+    EXPECT_TRUE(surface.is_closed());
     // Counter-clockwise as seen from outside: a ray from there comes in at a front.
     PartCounts counts;
-    const PartHit hit = closest_part(*answer.surfaces[0], {{5, 0.1, 0.2}, {-1, 0, 0}}, 0, counts);
+    const PartHit hit = closest_part(surface, {{5, 0.1, 0.2}, {-1, 0, 0}}, 0, counts);
     ASSERT_TRUE(hit.found());
     EXPECT_FALSE(hit.is_back);
   }
@@ -71,14 +73,20 @@ TEST_F(ExactMeshes, are_those_of_obj_and_stl) {
   write_stl(folder_ / "b.stl", block);
   expect_closed(read("b.obj"), 12);
   expect_closed(read("b.stl"), 12);
-  EXPECT_EQ(read("b.stl").surfaces[0]->vertices().size(), 8u);
+  EXPECT_EQ(read("b.stl").parts[0].surface->vertices().size(), 8u);
   // A mirror turns triangles over, which are turned back.
   expect_closed(read("b.stl", {-1, 1, 1}), 12);
   const MeshLibrary::Answer flat = read("b.stl", {1, 1, 0});
-  EXPECT_FALSE(flat.surfaces[0]);
+  EXPECT_FALSE(flat.parts[0].surface);
+  EXPECT_TRUE(flat.parts[0].hull);
   EXPECT_NE(std::ranges::find(flat.notes, "has no triangles: its hull is shown"), flat.notes.end());
   options_.meshes = MeshChoice::hull;
-  EXPECT_TRUE(read("b.stl").surfaces.empty());
+  EXPECT_FALSE(read("b.stl").parts[0].surface);
+  // What is split is split into hulls, unless triangles are asked for.
+  options_.meshes = MeshChoice::of_format;
+  EXPECT_TRUE(read("b.stl").parts[0].surface);
+  options_.split = MeshSplit::components;
+  EXPECT_FALSE(read("b.stl").parts[0].surface);
 }
 
 TEST_F(ExactMeshes, are_those_of_collada) {
@@ -98,7 +106,7 @@ TEST_F(ExactMeshes, are_those_of_collada) {
   expect_closed(read("t.dae"), 4);
 }
 
-TEST_F(ExactMeshes, stand_in_scenes_of_robots_with_hulls_beside_them) {
+TEST_F(ExactMeshes, stand_in_scenes_of_robots) {
   write_stl(folder_ / "ring.stl", testing::torus(24, 12));
   std::ofstream(folder_ / "r.urdf") << R"(<robot name="r"><link name="a">
     <visual><geometry><mesh filename="ring.stl" scale="0.5 0.5 0.5"/></geometry></visual></link></robot>)";
@@ -107,7 +115,9 @@ TEST_F(ExactMeshes, stand_in_scenes_of_robots_with_hulls_beside_them) {
   ASSERT_TRUE(exact.scene.objects[0].mesh);
   EXPECT_EQ(exact.scene.objects[0].mesh->size(), 576u);
   EXPECT_NEAR(exact.scene.objects[0].mesh->bounds().upper.x(), 0.7, 1e-6);
-  const Imported hull = import_scene(folder_ / "r.urdf", {});
+  EXPECT_TRUE(import_scene(folder_ / "r.urdf", {}).scene.objects[0].mesh);
+  options_.meshes = MeshChoice::hull;
+  const Imported hull = import_scene(folder_ / "r.urdf", options_);
   EXPECT_FALSE(hull.scene.objects[0].mesh);
   // Both are framed alike.
   EXPECT_NEAR((exact.scene.camera.position - hull.scene.camera.position).norm(), 0, 1e-6);

@@ -9,6 +9,7 @@
 #include "renderer/image/colour.h"
 #include "renderer/import/gltf.h"
 #include "renderer/import/gltf_text.h"
+#include "renderer/import/mesh_hull.h"
 #include "tests/renderer/import/imports.h"
 #include "tests/support/program.h"
 
@@ -67,7 +68,7 @@ Model gltf_model(const std::string& text, const ImportOptions& options = {}) {
 double reach_of_geom(const Model& model, std::size_t i, const Vec3<double>& n) {
   const ModelGeom& geom = model.geoms[i];
   const Affine<double> pose = link_poses(model)[static_cast<std::size_t>(geom.link)] * geom.pose;
-  return n.dot(pose(geom.shape->support(Vec3<double>(pose.linear.transpose() * n))));
+  return n.dot(pose(support_of(geom, pose.linear.transpose() * n)));
 }
 
 const Vec3<double> along_x(1, 0, 0), along_y(0, 1, 0), along_z(0, 0, 1);
@@ -82,7 +83,7 @@ TEST(Gltf, y_is_turned_up_and_only_vertices_of_triangles_count) {
   EXPECT_EQ(model.links[0].name, "box");
   EXPECT_NEAR(model.geoms[0].rgba[1], to_srgb(0.25), 1e-15);
   ASSERT_EQ(model.meshes.size(), 1u);
-  EXPECT_EQ(model.meshes[0].corners, 8u);
+  EXPECT_EQ(facts_of(model.meshes[0]).hull_points, 8u);
   EXPECT_EQ(model.meshes[0].file, "crate");
 }
 
@@ -132,7 +133,8 @@ TEST(Gltf, binary_files_and_files_beside_say_the_same) {
                                       "<mesh filename='a.glb' scale='1 1 2'/></geometry></visual>"
                                       "</link></robot>";
   const Scene scene = import_scene(folder / "r.urdf").scene;
-  EXPECT_EQ(scene.objects[0].shape.support(along_z).z(), 4);
+  ASSERT_TRUE(scene.objects[0].mesh);
+  EXPECT_EQ(scene.objects[0].mesh->bounds().upper.z(), 4);
   // Whatever is cut off is refused.
   for (std::size_t size = 0; size < glb.size(); ++size) {
     Mistakes mistakes("a.glb");

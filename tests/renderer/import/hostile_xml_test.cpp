@@ -293,7 +293,7 @@ TEST(HostileXml, joints_mimic_through_a_hundred_others_at_most) {
 TEST(HostileXml, a_model_has_a_million_shapes_at_most) {
   // A mesh of a thousand parts is shown by a thousand lines.
   MeshLibrary::Answer answer;
-  answer.hulls.assign(most_geoms + 1, sphere_of(1));
+  answer.parts.assign(most_geoms + 1, {{}, sphere_of(1), {}});
   Mistakes mistakes("r.urdf");
   XmlFiles files(mistakes);
   const auto mesh = files.parse("\n<mesh filename='m.obj'/>", "r.urdf");
@@ -306,7 +306,7 @@ TEST(HostileXml, a_model_has_a_million_shapes_at_most) {
                                  "1000001)"),
             std::string::npos)
       << mistakes.text();
-  answer.hulls.assign(2, sphere_of(1));
+  answer.parts.assign(2, {{}, sphere_of(1), {}});
   add_mesh(model, files, *mesh, answer, {}, {});
   EXPECT_EQ(model.geoms.size(), 2u);
 }

@@ -47,7 +47,15 @@ inline std::string mjcf(const std::string& world, const std::string& before = ""
   return "<mujoco>" + before + "<worldbody>" + world + "</worldbody></mujoco>";
 }
 
+/// The furthest point of a shape or mesh along n, in its own frame.
+inline Vec3<double> support_of(const ModelGeom& geom, const Vec3<double>& n) {
+  if (!geom.mesh) return geom.shape->support(n);
+  return *std::ranges::max_element(geom.mesh->vertices(), {},
+                                   [&](const Vec3<double>& v) { return n.dot(v); });
+}
+
 inline std::string_view kind_of(const Model& model) {
+  if (model.geoms.size() == 1 && model.geoms[0].mesh) return "mesh";
   if (model.geoms.size() != 1 || !model.geoms[0].shape) return "none";
   return std::visit([](const auto& shape) { return shape.name; }, model.geoms[0].shape->kind);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // How far from convex the meshes of a scene file are.
 #include "renderer/import/meshes_of_scene.h"
+#include "renderer/import/mesh_hull.h"
 
 #include <gtest/gtest.h>
 
@@ -31,14 +32,14 @@ TEST(MeshesOfScene, are_told_with_how_deep_a_vertex_lies_under_the_hull) {
     {"shape": {"type": "hull", "points": [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]}}]})";
   const std::vector<ModelMesh> meshes = meshes_of_scene(folder / "s.json");
   ASSERT_EQ(meshes.size(), 2u);
-  EXPECT_EQ(meshes[0].parts, 2u);
-  EXPECT_NEAR(meshes[0].deepest, 1 / std::sqrt(3.0), 1e-12);
-  EXPECT_EQ(meshes[0].corners, 8u);
-  EXPECT_EQ(meshes[1].parts, 1u);
+  EXPECT_EQ(meshes[0].parts.size(), 2u);
+  EXPECT_NEAR(facts_of(meshes[0]).deepest, 1 / std::sqrt(3.0), 1e-12);
+  EXPECT_EQ(facts_of(meshes[0]).hull_points, 8u);
+  EXPECT_EQ(meshes[1].parts.size(), 1u);
   EXPECT_EQ(meshes[1].vertices, 9u);
   // In the hull of both the roof is far, and the vertex lies 1 under the other sides.
-  EXPECT_NEAR(meshes[1].deepest, 1, 1e-12);
-  EXPECT_EQ(meshes[1].corners, 6u);
+  EXPECT_NEAR(facts_of(meshes[1]).deepest, 1, 1e-12);
+  EXPECT_EQ(facts_of(meshes[1]).hull_points, 6u);
   EXPECT_NE(meshes_as_text(meshes).find("8 of 2 hulls; vertices up to 0.577 under the hull"),
             std::string::npos)
       << meshes_as_text(meshes);
@@ -85,13 +86,13 @@ TEST(MeshesOfScene, vertices_of_the_hull_lie_below_nothing) {
   obj.close();
   const ImportOptions options;
   MeshLibrary library(folder.path(), options);
-  EXPECT_EQ(library.hulls_of("m.obj", Vec3<double>(1, 2, -3)).complaint, "");
+  EXPECT_EQ(library.parts_of("m.obj", Vec3<double>(1, 2, -3)).complaint, "");
   Model model;
   library.hand_over(model);
   const std::vector<ModelMesh>& meshes = model.meshes;
   ASSERT_EQ(meshes.size(), 1u);
-  EXPECT_EQ(meshes[0].corners, 300u);
-  EXPECT_EQ(meshes[0].deepest, 0);
+  EXPECT_EQ(facts_of(meshes[0]).hull_points, 300u);
+  EXPECT_EQ(facts_of(meshes[0]).deepest, 0);
 }
 
 }  // namespace

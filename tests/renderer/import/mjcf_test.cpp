@@ -56,22 +56,20 @@ void expect_same_geoms(const Model& model, const MujocoModel& theirs, const std:
         geom.link < 0 ? geom.pose : links[static_cast<std::size_t>(geom.link)] * geom.pose;
     if (geom.kind == "mesh") {
       // MuJoCo moves meshes to their middle: only where the vertices are is the same.
-      for (const Vec3<double>& vertex : expected[i].vertices) {
-        const Vec3<double> at = expected[i].pose(vertex);
-        for (const Vec3<double>& n :
-             {Vec3<double>(1, 0, 0), Vec3<double>(0, 1, 0), Vec3<double>(0, 0, 1),
-              Vec3<double>(-1, 0, 0), Vec3<double>(0, -1, 0), Vec3<double>(0, 0, -1)}) {
-          const Vec3<double> inner = pose.linear.transpose() * n;
-          EXPECT_LE(n.dot(at), n.dot(pose(geom.shape->support(inner))) + same_float);
-        }
+      for (const Vec3<double>& n :
+           {Vec3<double>(1, 0, 0), Vec3<double>(0, 1, 0), Vec3<double>(0, 0, 1),
+            Vec3<double>(-1, 0, 0), Vec3<double>(0, -1, 0), Vec3<double>(0, 0, -1)}) {
+        const double reach = n.dot(pose(support_of(geom, pose.linear.transpose() * n)));
+        for (const Vec3<double>& vertex : expected[i].vertices)
+          EXPECT_LE(n.dot(expected[i].pose(vertex)), reach + same_float);
       }
       continue;
     }
     EXPECT_LT((pose.translation - expected[i].pose.translation).norm(), same);
     EXPECT_LT((pose.linear - expected[i].pose.linear).cwiseAbs().maxCoeff(), same);
-    if (!geom.shape) continue;
+    if (geom.is_half_space()) continue;
     // Sizes: as far as each reaches along the axes.
-    const auto size = [&](const Vec3<double>& n) { return geom.shape->support(n).dot(n); };
+    const auto size = [&](const Vec3<double>& n) { return support_of(geom, n).dot(n); };
     const Vec3<double>& s = expected[i].size;
     const Vec3<double> reach = geom.kind == "sphere"     ? Vec3<double>::Constant(s.x())
                                : geom.kind == "capsule"  ? Vec3<double>(s.x(), s.x(), s.x() + s.y())
@@ -240,8 +238,7 @@ TEST(Mjcf, geoms_of_one_mesh_have_one_hull) {
   ASSERT_TRUE(model) << mistakes.text();
   ASSERT_EQ(model->geoms.size(), 2u);
   EXPECT_EQ(model->meshes.size(), 1u);
-  for (const ModelGeom& geom : model->geoms)
-    EXPECT_EQ(geom.shape->support(Vec3<double>(0, 0, -1)).z(), -1);
+  for (const ModelGeom& geom : model->geoms) EXPECT_EQ(support_of(geom, {0, 0, -1}).z(), -1);
   // Few lines of it could give many meshes many vertices.
   mistakes = Mistakes("robot.xml");
   EXPECT_FALSE(parse_model(file_with("<mesh " + vertices + "/>", ""), "robot.xml", {}, mistakes));

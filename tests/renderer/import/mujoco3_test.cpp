@@ -93,8 +93,10 @@ TEST(Mujoco3, builtin_meshes_are_their_vertices) {
   };
   EXPECT_EQ(model("builtin=\"sphere\" params=\"2\"").meshes.at(0).vertices, 162u);
   EXPECT_EQ(model("builtin=\"hemisphere\" params=\"3\"").meshes.at(0).vertices, 41u);
-  EXPECT_EQ(model("builtin=\"cone\" params=\"6 0\"").meshes.at(0).corners, 7u);
-  EXPECT_EQ(model("builtin=\"cone\" params=\"6 1\" scale=\"1 1 2\"").meshes.at(0).corners, 12u);
+  EXPECT_EQ(facts_of(model("builtin=\"cone\" params=\"6 0\"").meshes.at(0)).hull_points, 7u);
+  EXPECT_EQ(
+      facts_of(model("builtin=\"cone\" params=\"6 1\" scale=\"1 1 2\"").meshes.at(0)).hull_points,
+      12u);
   EXPECT_EQ(model("builtin=\"plate\" params=\"3 4\"").meshes.at(0).vertices, 12u);
   EXPECT_EQ(model("builtin=\"supersphere\" params=\"8 1 1\"").meshes.at(0).vertices, 58u);
   const std::string wrong =
@@ -115,8 +117,7 @@ TEST(Mujoco3, primitives_are_fitted_to_meshes) {
     for (int axis = 0; axis < 3; ++axis) {
       const Vec3<double> n = Vec3<double>::Unit(axis);
       const Affine<double>& pose = box.geoms.at(0).pose;
-      const double reach =
-          (pose(box.geoms[0].shape->support<double>(pose.linear.transpose() * n))).dot(n);
+      const double reach = (pose(support_of(box.geoms[0], pose.linear.transpose() * n))).dot(n);
       EXPECT_NEAR(reach, 1.0 + axis + (axis == 0 ? 5 : 0), 1e-12) << fit;
     }
     const Model half = model_of(

@@ -130,7 +130,10 @@ TEST(Meshes, parts_have_hulls_of_their_own) {
     ASSERT_EQ(imported.scene.objects.size(), split == MeshSplit::none ? 1u : 2u);
     // Mirrored: what lay at x = 10 lies at x = -10.
     const Object& last = imported.scene.objects.back();
-    EXPECT_EQ(last.shape.support(Vec3<double>(-1, 0, 0)).x(), -11);
+    EXPECT_EQ(
+        last.mesh ? last.mesh->bounds().lower.x() : last.shape.support(Vec3<double>(-1, 0, 0)).x(),
+        -11);
+    EXPECT_EQ(last.mesh == nullptr, split != MeshSplit::none);
   }
 }
 

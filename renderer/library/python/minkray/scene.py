@@ -96,7 +96,7 @@ class Scene(PairsOfScene):
 
     @public
     def add_file(self, file, pose=None, geometry="visual", keyframe="", package_dirs=(),
-                 skip_missing_meshes=False, meshes="hull"):
+                 skip_missing_meshes=False, meshes=""):
         """Adds what is in a file: a scene of Minkray's (.json), or a robot (URDF, MJCF, SDF, glTF).
 
         Parameters
@@ -111,8 +111,9 @@ class Scene(PairsOfScene):
         package_dirs : list of str
             Where ``package://`` and ``model://`` are looked for.
         skip_missing_meshes : bool
-        meshes : {'hull', 'exact'}
-            Of robots: the convex hulls of their mesh files, or the triangles as they are.
+        meshes : {'', 'exact', 'hull'}
+            Of robots: the triangles of their mesh files, or their convex hulls. The default is
+            exact, but of MJCF the hull for contact, as MuJoCo has it.
 
         Returns
         -------
@@ -146,7 +147,7 @@ class Scene(PairsOfScene):
 
     @public
     def add_urdf(self, file, pose=None, geometry="visual", package_dirs=(), skip_missing_meshes=False,
-                 meshes="hull"):
+                 meshes=""):
         """Adds a robot from a URDF file; see `add_file`.
 
         Parameters
@@ -158,7 +159,7 @@ class Scene(PairsOfScene):
         package_dirs : list of str
             Where ``package://`` and ``model://`` are looked for.
         skip_missing_meshes : bool
-        meshes : {'hull', 'exact'}
+        meshes : {'', 'exact', 'hull'}
 
         Returns
         -------
@@ -168,7 +169,7 @@ class Scene(PairsOfScene):
 
     @public
     def add_mjcf(self, file, pose=None, geometry="visual", keyframe="", skip_missing_meshes=False,
-                 meshes="hull"):
+                 meshes=""):
         """Adds what is in an MJCF file, MuJoCo's format; see `add_file`.
 
         Parameters
@@ -180,7 +181,7 @@ class Scene(PairsOfScene):
         keyframe : str
             In whose pose it stands.
         skip_missing_meshes : bool
-        meshes : {'hull', 'exact'}
+        meshes : {'', 'exact', 'hull'}
 
         Returns
         -------
@@ -190,7 +191,7 @@ class Scene(PairsOfScene):
 
     @public
     def add_sdf(self, file, pose=None, geometry="visual", package_dirs=(), skip_missing_meshes=False,
-                 meshes="hull"):
+                 meshes=""):
         """Adds what is in an SDF file, Gazebo's format; see `add_file`.
 
         Parameters
@@ -202,7 +203,7 @@ class Scene(PairsOfScene):
         package_dirs : list of str
             Where ``package://`` and ``model://`` are looked for.
         skip_missing_meshes : bool
-        meshes : {'hull', 'exact'}
+        meshes : {'', 'exact', 'hull'}
 
         Returns
         -------

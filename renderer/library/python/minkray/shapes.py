@@ -481,6 +481,49 @@ def mesh(vertices, triangles):
 
 
 @public
+def height_field(heights, size, bottom=None):
+    """A terrain, as a mesh of two triangles for each cell of a grid.
+
+    Parameters
+    ----------
+    heights : (R, C) array
+        Rows follow each other along y, the row of the least y first; columns along x.
+    size : (2,) array
+        From the first to the last column, and row. The grid's middle is above the origin.
+    bottom : float, optional
+        The z at which walls and a bottom close the terrain to a solid. Without it it is open.
+
+    Returns
+    -------
+    Shape
+        As of `mesh`. The triangles of the cell in row r and column c are ``2 * (r * (C - 1) + c)``
+        and the next one.
+
+    Raises
+    ------
+    Error
+        If there are fewer than two rows or columns, or the bottom is not below all heights.
+
+    Examples
+    --------
+    >>> import minkray as mk
+    >>> scene = mk.Scene()
+    >>> _ = scene.add(mk.height_field([[0, 0, 0], [0, 1, 0], [0, 0, 0]], size=(2, 2)))
+    >>> scene.commit()
+    >>> float(scene.cast_rays([0.5, 0, 9, 0, 0, -1]).t)
+    8.5
+    """
+    grid = np.ascontiguousarray(heights, dtype=np.float64)
+    if grid.ndim != 2:
+        raise Error(f"heights: must be of shape (R, C) (got {grid.shape})")
+    sizes = np.asarray(size, dtype=np.float64)
+    if sizes.shape != (2,):
+        raise Error(f"size: must be two numbers (got shape {sizes.shape})")
+    return _minkray.height_field(grid, float(sizes[0]), float(sizes[1]),
+                                 None if bottom is None else float(bottom))
+
+
+@public
 def mesh_info(mesh):
     """What a mesh is like. Vertices at one place count as one for all but 'vertices'.
 

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/import/mesh_hull.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "renderer/import/plane_tree.h"
+
+namespace minkray {
+namespace {
+
+/// How far vertices lie below the surface of their hull at most: of a convex mesh, 0 but for
+/// rounding.
+double deepest_below(const std::vector<Vec3<double>>& vertices, const PointCloud<double>& hull) {
+  const FacetMesh<double>* facets = hull.facets();
+  if (!facets) return 0;
+  Vec3<double> lower = hull.points()[0], upper = lower;
+  for (const Vec3<double>& vertex : hull.points()) {
+    lower = lower.cwiseMin(vertex);
+    upper = upper.cwiseMax(vertex);
+  }
+  const Vec3<double> half = (upper - lower) / 2, centre = lower + half;
+  std::vector<PlaneTree::Plane> planes;
+  for (std::size_t i = 0; i < facets->size(); ++i) {
+    const Vec3<double> n = (*facets)[i].normal();
+    if (!n.isZero(0))
+      planes.push_back({n.x(), n.y(), n.z(), n.dot((*facets)[i].corner(0) - centre)});
+  }
+  const PlaneTree tree(std::move(planes), half.maxCoeff());
+  double deepest = 0;
+  // The hull has its own points in the vertices' order; they lie below nothing.
+  auto own = hull.points().begin();
+  for (const Vec3<double>& vertex : vertices) {
+    if (own != hull.points().end() && vertex == *own) {
+      ++own;
+      continue;
+    }
+    const double depth = tree.least_depth(vertex - centre, deepest);
+    if (std::isfinite(depth)) deepest = std::max(deepest, depth);
+  }
+  return deepest;
+}
+
+std::vector<Vec3<double>> vertices_of(const TriangleMesh& mesh) {
+  return {mesh.vertices().begin(), mesh.vertices().end()};
+}
+
+}  // namespace
+
+Shape<double> hull_of(const TriangleMesh& mesh) {
+  return Hull<double>{PointCloud<double>(vertices_of(mesh))};
+}
+
+std::shared_ptr<const TriangleMesh> moved(const TriangleMesh& mesh, const Affine<double>& map) {
+  std::vector<Vec3<double>> vertices = vertices_of(mesh);
+  for (Vec3<double>& vertex : vertices) vertex = map(vertex);
+  std::vector<Corners> triangles(mesh.triangles().begin(), mesh.triangles().end());
+  if (map.linear.determinant() < 0)
+    for (Corners& corners : triangles) std::swap(corners[1], corners[2]);
+  return std::make_shared<const TriangleMesh>(std::move(vertices), std::move(triangles));
+}
+
+MeshFacts facts_of(const ModelMesh& mesh) {
+  MeshFacts facts;
+  const auto add_hull = [&](const std::vector<Vec3<double>>& vertices,
+                            const PointCloud<double>& hull) {
+    facts.hull_points += hull.points().size();
+    facts.deepest = std::max(facts.deepest, deepest_below(vertices, hull));
+  };
+  for (const ModelMesh::Part& part : mesh.parts) {
+    if (!part.surface) {
+      add_hull(part.vertices, *part.hull);
+      continue;
+    }
+    const MeshFaults faults = part.surface->faults();
+    facts.triangles += part.surface->size();
+    facts.without_area += faults.without_area;
+    facts.repeated += faults.repeated;
+    facts.open_edges += faults.open_edges;
+    const std::vector<Vec3<double>> vertices = vertices_of(*part.surface);
+    add_hull(vertices, PointCloud<double>(vertices));
+  }
+  return facts;
+}
+
+}  // namespace minkray

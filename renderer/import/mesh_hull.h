@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// The convex hull of a mesh, made only where somebody asks for it: Qhull takes longer than reading
+// the file.
+#pragma once
+
+#include "core/mesh/triangle_mesh.h"
+#include "core/shape/shape.h"
+#include "renderer/import/model.h"
+
+namespace minkray {
+
+/// The hull of the triangles' vertices.
+Shape<double> hull_of(const TriangleMesh& mesh);
+
+/// The vertices under a map; of one that mirrors, triangles are turned round.
+std::shared_ptr<const TriangleMesh> moved(const TriangleMesh& mesh, const Affine<double>& map);
+
+/// What info tells of a mesh file.
+struct MeshFacts {
+  std::size_t triangles = 0, without_area = 0, repeated = 0, open_edges = 0;
+  std::size_t hull_points = 0;
+  double deepest = 0;  ///< how far a vertex lies below the hull's surface at most
+};
+MeshFacts facts_of(const ModelMesh& mesh);
+
+}  // namespace minkray

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// Terrains of MJCF: an <hfield>'s picture, binary file or numbers, as a solid with walls and a
+// bottom, which is what MuJoCo's rays meet.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "core/mesh/triangle_mesh.h"
+#include "renderer/import/xml.h"
+
+namespace minkray {
+
+/// `find` answers the file that a name stands for. Null, and a mistake, if anything is wrong.
+std::shared_ptr<const TriangleMesh> mjcf_height_field(
+    const XmlElement& asset, XmlFiles& files,
+    const std::function<std::optional<std::filesystem::path>(const std::string&)>& find);
+
+}  // namespace minkray
