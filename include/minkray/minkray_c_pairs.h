@@ -50,8 +50,8 @@ typedef struct minkray_pair_memory {
  * axes, then by its angular velocity about that point. `is_ridge` is 1 where the bounds do not
  * exclude that there are several derivatives: of parallel faces, an edge on a face, a depth in two
  * directions; the one that is told is one of them. Where nothing is known of the distance
- * derivatives are NaN. If any of these three is wanted the bounds are found to a tolerance of
- * 1e-15, since the normal of curved shapes is known to its square root. */
+ * derivatives are NaN. If any of these three is wanted distances are found to a tolerance of 1e-15,
+ * and the direction of a depth to rounding. */
 typedef struct minkray_distance_arrays {
   size_t size;                 /* sizeof(minkray_distance_arrays) */
   minkray_distance* distances; /* all of a pair in one struct */
