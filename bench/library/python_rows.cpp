@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A million rays in one NumPy array, compared with the same in C++. Python runs as a child process
-// and casts in turn with this one.
+// A million rays, and a million pairs of boxes, in one NumPy array, compared with the same in C++.
+// Python runs as a child process and casts in turn with this one.
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -10,6 +10,7 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "pairs.h"
 #include "rays.h"
 #include "sections.h"
 
@@ -61,8 +62,9 @@ std::vector<T> read(const std::string& file, std::size_t count) {
 /// The interpreter, with a socket for its input and output.
 class Python : public Caster {
  public:
-  Python(const std::string& interpreter, const Folder& folder, std::size_t rays)
-      : Caster("Python"), folder_(folder), rays_(rays) {
+  Python(const std::string& interpreter, const char* script, const Folder& folder,
+         std::size_t count)
+      : Caster("Python"), folder_(folder), count_(count) {
     int ends[2];
     if (socketpair(AF_UNIX, SOCK_STREAM, 0, ends) != 0) throw std::runtime_error("no socket");
     child_ = fork();
@@ -72,7 +74,7 @@ class Python : public Caster {
       dup2(ends[1], STDOUT_FILENO);
       close(ends[0]);
       close(ends[1]);
-      execlp(interpreter.c_str(), interpreter.c_str(), PYTHON_RAYS, folder.path().c_str(), nullptr);
+      execlp(interpreter.c_str(), interpreter.c_str(), script, folder.path().c_str(), nullptr);
       _exit(127);
     }
     close(ends[1]);
@@ -88,15 +90,13 @@ class Python : public Caster {
     if (::write(socket_, "cast\n", 5) != 5) throw std::runtime_error("Python: ended");
     return 1e-9 * std::stod(line());
   }
-  /// Lets Python end.
-  std::vector<Answer> answers() const override {
+
+ protected:
+  /// What Python has written before it ended.
+  template <class T>
+  std::vector<T> result(const char* name_) const {
     finish();
-    const auto t = read<double>(folder_ / "t", rays_);
-    const auto object = read<std::uint32_t>(folder_ / "object", rays_);
-    std::vector<Answer> all;
-    for (std::size_t i = 0; i < rays_; ++i)
-      all.push_back(object[i] == mk::no_object ? Answer{} : Answer{t[i], object[i]});
-    return all;
+    return read<T>(folder_ / name_, count_);
   }
 
  private:
@@ -115,10 +115,84 @@ class Python : public Caster {
   }
 
   const Folder& folder_;
-  std::size_t rays_;
+  std::size_t count_;
   mutable pid_t child_ = 0;
   int socket_ = -1;
 };
+
+class PythonRays : public Python {
+ public:
+  PythonRays(const std::string& interpreter, const Folder& folder, std::size_t rays)
+      : Python(interpreter, PYTHON_RAYS, folder, rays) {}
+  std::vector<Answer> answers() const override {
+    const auto t = result<double>("t");
+    const auto object = result<std::uint32_t>("object");
+    std::vector<Answer> all;
+    for (std::size_t i = 0; i < t.size(); ++i)
+      all.push_back(object[i] == mk::no_object ? Answer{} : Answer{t[i], object[i]});
+    return all;
+  }
+};
+
+class PythonPairs : public Python {
+ public:
+  PythonPairs(const std::string& interpreter, const Folder& folder, std::size_t pairs)
+      : Python(interpreter, PYTHON_PAIRS, folder, pairs) {}
+  std::vector<Answer> answers() const override {
+    std::vector<Answer> all;
+    for (const double value : result<double>("value")) all.push_back({value, 0});
+    return all;
+  }
+};
+
+/// One call a pair.
+class PairByPair : public Caster {
+ public:
+  PairByPair(const mk::Shape& shape, const std::vector<Meeting>& where)
+      : Caster("mk::signed_distance, a pair a call"), shape_(shape), where_(where) {
+    found_.resize(where.size());
+  }
+  void cast() override {
+    for (std::size_t i = 0; i < where_.size(); ++i)
+      found_[i] = mk::signed_distance(shape_, where_[i].a, shape_, where_[i].b);
+  }
+  std::vector<Answer> answers() const override {
+    std::vector<Answer> all;
+    for (const mk::Distance& found : found_) all.push_back({found.value, 0});
+    return all;
+  }
+
+ private:
+  const mk::Shape& shape_;
+  const std::vector<Meeting>& where_;
+  std::vector<mk::Distance> found_;
+};
+
+void measure_pairs(Table& table, const Options& options) {
+  constexpr double pairs_goal = 1 / 1.2;
+  Pair pair{"box, box", bullet_box({1, 0.5, 0.25}), bullet_box({1, 0.5, 0.25}), 0, 0};
+  const std::vector<Meeting> where = meetings(pair, ray_count, true);
+  const Folder folder;
+  std::vector<mk::Pose> a, b;
+  for (const Meeting& one : where) {
+    a.push_back(one.a);
+    b.push_back(one.b);
+  }
+  write(folder / "a", a);
+  write(folder / "b", b);
+  Casters python, cpp;
+  python.push_back(std::make_unique<PythonPairs>(options.python, folder, where.size()));
+  cpp.push_back(std::make_unique<PairByPair>(pair.a.ours.shape, where));
+  race({&python, &cpp}, options.rounds);
+  table.add(Duel{"Python, distances: box, box",
+                 "one call, " + with_commas(where.size()),
+                 *python[0],
+                 *cpp[0],
+                 "C++, ",
+                 where.size(),
+                 pairs_goal,
+                 {0, 0}});
+}
 
 void measure(Table& table, const Options& options, bool coherent) {
   const Subject subject = make_subject("rounded boxes", object_count);
@@ -142,7 +216,7 @@ void measure(Table& table, const Options& options, bool coherent) {
   write(folder / "rays", rows);
 
   Casters python, cpp;
-  python.push_back(std::make_unique<Python>(options.python, folder, rays.size()));
+  python.push_back(std::make_unique<PythonRays>(options.python, folder, rays.size()));
   cpp.push_back(minkray_span(scene, rays, Question::first_hit));
   race({&python, &cpp}, options.rounds);
   table.add(Duel{"Python, " + with_commas(object_count) + " rounded boxes",
@@ -164,6 +238,9 @@ std::vector<Section> python_sections() {
                         [coherent](Table& table, const Options& options) {
                           if (!options.python.empty()) measure(table, options, coherent);
                         }});
+  sections.push_back({"Python, pairs", [](Table& table, const Options& options) {
+                        if (!options.python.empty()) measure_pairs(table, options);
+                      }});
   return sections;
 }
 

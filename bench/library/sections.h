@@ -29,6 +29,7 @@ std::vector<Section> scene_sections();
 std::vector<Section> shape_sections();
 std::vector<Section> distance_sections();
 std::vector<Section> impact_sections();
+std::vector<Section> batch_sections();
 std::vector<Section> python_sections();
 std::vector<Section> memory_sections();
 

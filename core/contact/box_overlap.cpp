@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+
 #include "core/contact/closed_pairs.h"
 
 namespace minkray {
@@ -7,10 +9,16 @@ BoxOverlap box_overlap(const CorePair& pair, CoreDistance& found) {
   const Vec3<double>&a = pair.a.size, &b = pair.b.size, &x = pair.x;
   const Mat3<double>& R = pair.turn;
   const Mat3<double> Q = R.cwiseAbs();
-  double best = -std::numeric_limits<double>::infinity();
+  double best = -std::numeric_limits<double>::infinity(), second = best;
+  // Directions that are worse by this are worse, too, once B has moved in by half of it.
+  const double way = 2 * deeper_by(pair);
   int best_i = -1, best_j = -1;  // a face of A, one of B, or an edge of each
   const auto try_axis = [&](double gap, int i, int j) {
-    if (!(gap > best)) return;
+    if (!(gap > best)) {
+      second = std::max(second, gap);
+      return;
+    }
+    second = best;
     best = gap;
     best_i = i;
     best_j = j;
@@ -30,7 +38,8 @@ BoxOverlap box_overlap(const CorePair& pair, CoreDistance& found) {
                            b[j2] * std::abs(R(i1, j2) * n1 + R(i2, j2) * n2);
       // What is no better needs no root.
       const double gap = along - reach;
-      if (gap <= 0 && best <= 0 && gap * gap >= best * best * squared) continue;
+      const double worst = way - best;
+      if (gap <= 0 && best <= 0 && gap * gap >= worst * worst * squared) continue;
       try_axis(gap / std::sqrt(squared), i, j);
     }
   if (best > 0) return BoxOverlap::none;
@@ -41,6 +50,7 @@ BoxOverlap box_overlap(const CorePair& pair, CoreDistance& found) {
   if (n.dot(x) < 0) n = -n;
   found.status = CoreStatus::overlapping;
   found.lower = found.upper = best;
+  found.has_one_direction = second < best - way;
   found.axis = n;
   const auto corner = [](const Vec3<double>& half, const Vec3<double>& d) -> Vec3<double> {
     return {std::copysign(half.x(), d.x()), std::copysign(half.y(), d.y()),

@@ -66,6 +66,8 @@ struct CoreDistance {
   Vec3<double> c = Vec3<double>::Zero();                    ///< and from it to a point of B
   int supports = 0;                                         ///< of C
   bool is_exhausted = false;  ///< the budget ended the search, before the bounds met
+  /// Says of cores that overlap that no other direction is nearly as good: see deeper_by().
+  bool has_one_direction = false;
 
   void raise_lower(double bound, const Vec3<double>& unit_axis) {
     if (!(bound > lower)) return;
@@ -73,6 +75,15 @@ struct CoreDistance {
     axis = unit_axis;
   }
 };
+
+/// How far B is moved in along the axis, to see if there are other directions of the depth: each of
+/// them that leans by an angle from the axis gains by its cosine only. A depth that has gained all
+/// but `leaning` of the way has one direction.
+inline double deeper_by(const CorePair& pair) {
+  constexpr double step = 1e-4;  // of the sizes
+  return step * (pair.size() + pair.radii());
+}
+inline constexpr double leaning = 1e-4;  ///< 1 - cos of the angle between two directions of note
 
 /// When a search may end.
 struct CoreSearch {

@@ -159,6 +159,35 @@ CoreDistance depth_of_cores(const CorePair& pair, Enclosure enclosure, CoreDista
   return found;
 }
 
+/// The direction of a depth whose bounds are near each other, and the points with it, by Newton's
+/// method: they are known to the square root of what is between the bounds only. Returns whether
+/// they were found; the bounds hold anyway.
+bool sharpen(const CorePair& pair, CoreDistance& found) {
+  constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
+  if (!DepthDirection::helps(pair)) return false;
+  CoreSearch search;
+  using enum CoreKind;
+  CoreQuery<other, other> query{pair, search};
+  SlidingFeatures<other, other> features(query);
+  // Radii of curvature that differ from the depth by a tenth of the size lean no further.
+  const double turn =
+      std::clamp(4 * std::sqrt((found.upper - found.lower) / pair.size()), 1e-7, 1e-3);
+  const bool is_found = features.sharpen(found.axis, turn);
+  found.supports += query.result.supports;
+  if (!is_found) return false;
+  const Vec3<double>& axis = features.direction();
+  const double height = axis.dot(nearest_along(pair, axis).c);
+  ++found.supports;
+  const double rounded = rounding * (pair.size() + pair.x.norm());
+  if (!(height >= found.lower - rounded)) return false;  // another peak
+  found.lower = height;
+  found.upper = std::max(found.upper, height);
+  found.axis = axis;
+  found.a = features.sharp_a();
+  found.c = features.sharp_c();
+  return true;
+}
+
 }  // namespace
 
 CoreDistance core_signed_distance(const CorePair& pair, const SignedDistanceOptions& options,
@@ -172,7 +201,7 @@ CoreDistance core_signed_distance(const CorePair& pair, const SignedDistanceOpti
   const double radii = pair.a.radius + pair.b.radius, size = pair.size() + radii;
   CoreSearch search;
   search.apart = options.at_most + radii;
-  search.gap = std::min(1e-12, options.tolerance);
+  search.gap = std::min(options.is_for_derivatives ? 1e-15 : 1e-12, options.tolerance);
   search.memory = memory;
   Enclosure enclosure;
   found = distance_of_cores(pair, search, &enclosure);
@@ -201,8 +230,17 @@ CoreDistance core_signed_distance(const CorePair& pair, const SignedDistanceOpti
   }
   // There is no size of two points at one place.
   const double reach = pair.size() + pair.x.norm();
-  return depth_of_cores(pair, enclosure, found, options, reach > 0 ? gap / reach : 0,
-                        options.only_sign && radii == 0 && found.status != CoreStatus::overlapping);
+  const auto depth_to = [&](double gap_of_depth) {
+    return depth_of_cores(
+        pair, enclosure, found, options, reach > 0 ? gap_of_depth / reach : 0,
+        options.only_sign && radii == 0 && found.status != CoreStatus::overlapping);
+  };
+  const CoreDistance depth = depth_to(gap);
+  if (!options.is_for_derivatives) return depth;
+  const double finest = 1e-14 * size;
+  if (depth.status != CoreStatus::overlapping || depth.upper - depth.lower <= finest) return depth;
+  CoreDistance sharp = depth;
+  return sharpen(pair, sharp) ? sharp : depth_to(finest);
 }
 
 }  // namespace minkray

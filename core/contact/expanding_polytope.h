@@ -225,10 +225,15 @@ class ExpandingPolytope {
     found_.lower = height;
     found_.axis = axis;
     const Vec3<double> foot = found_.upper * axis;
+    const double way = deeper_by(pair_), all_but_leaning = way * (1 - leaning) - height;
+    found_.has_one_direction = true;
     double best = std::numeric_limits<double>::infinity();
     for (int f = 0; f < face_count_; ++f) {
       const Face& face = faces_[f];
-      if (!face.is_there || !(face.d <= -height + gap_ + in_plane * size_)) continue;
+      if (!face.is_there) continue;
+      // How far the face is once B has moved in along the axis.
+      if (!(face.d - way * face.n.dot(axis) >= all_but_leaning)) found_.has_one_direction = false;
+      if (!(face.d <= -height + gap_ + in_plane * size_)) continue;
       const Vec3<double> corners[3] = {y_[face.corner[0]] - foot, y_[face.corner[1]] - foot,
                                        y_[face.corner[2]] - foot};
       const SimplexPoint closest = closest_of_simplex(corners, 3, false);

@@ -41,6 +41,11 @@ FlatPart of_hull(const ShapeCore& core, const Vec3<double>& d, double tilt) {
   constexpr double same = 1e-12;  // points nearer to each other than this, in sizes, are one
   constexpr double straight = 1e-9;
   FlatPart part;
+  int many = 0;  // counted without a branch
+  for (int i = 0; i < core.count; ++i)
+    many += core.x[i] * d.x() + core.y[i] * d.y() + core.z[i] * d.z() >= most ? 1 : 0;
+  if (many <= 1) [[likely]]
+    return part;
   for (int i = 0; i < core.count; ++i) {
     if (core.x[i] * d.x() + core.y[i] * d.y() + core.z[i] * d.z() < most) [[likely]]
       continue;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/contact/core_pair.h"
 #include "core/contact/flat_part.h"
 
 namespace minkray {
@@ -24,10 +25,22 @@ double tilt_of(double interval, double length) {
   return tilt < most ? std::max(tilt, least) : most;  // NaN, too
 }
 
+bool has_flat_parts(const ShapeCore& core) {
+  return core.kind != CoreKind::point && core.kind != CoreKind::ellipsoid;
+}
+
+/// All points of it are looked at.
+bool is_slow(const ShapeCore& core) {
+  return core.kind == CoreKind::hull || core.kind == CoreKind::other;
+}
+
 /// Whether the bodies may touch each other in more than a point when they are moved together.
 bool have_many_points(const ContactShape& a, const Mat3<double>& linear_a, const ContactShape& b,
                       const Mat3<double>& linear_b, const Vec3<double>& normal, double interval,
                       double length) {
+  if (!has_flat_parts(a.core()) || !has_flat_parts(b.core())) return false;
+  if (is_slow(a.core()) && !is_slow(b.core()))
+    return have_many_points(b, linear_b, a, linear_a, -normal, interval, length);
   const double tilt = tilt_of(interval, length);
   const Mat3<double> turn_a = turn_in_world(a, linear_a);
   const FlatPart of_a = flat_part(a.core(), turn_a.transpose() * normal, tilt);
@@ -48,8 +61,9 @@ bool have_many_points(const ContactShape& a, const Mat3<double>& linear_a, const
 /// better than it: the depth is a concave function of where B is.
 bool has_many_directions(const ContactShape& a, const Affine<double>& pose_a, const ContactShape& b,
                          const Affine<double>& pose_b, const SignedDistance& found) {
-  constexpr double step = 1e-4;     // of the sizes
-  constexpr double leaning = 1e-4;  // 1 - cos of the angle between two directions of note
+  if (found.has_one_direction) [[likely]]
+    return false;
+  constexpr double step = 1e-4;  // of the sizes
   const double way = step * (a.ball_radius() + b.ball_radius());
   Affine<double> deeper = pose_b;
   deeper.translation -= way * found.normal;
@@ -89,9 +103,8 @@ PairDerivative derivative_of(const ContactShape& a, const Affine<double>& pose_a
 
 PairDerivative finest_derivative_of(const ContactShape& a, const Affine<double>& pose_a,
                                     const ContactShape& b, const Affine<double>& pose_b) {
-  SignedDistanceOptions how;
-  how.tolerance = tolerance_for_derivatives;
-  return derivative_of(a, pose_a, b, pose_b, signed_distance(a, pose_a, b, pose_b, how));
+  return derivative_of(a, pose_a, b, pose_b,
+                       signed_distance(a, pose_a, b, pose_b, for_derivatives()));
 }
 
 PairDerivative derivative_at_half_space(const Vec3<double>& origin, const ContactShape& b,

@@ -5,6 +5,8 @@
 // pairs of them, or several directions of the depth, there are several derivatives.
 #pragma once
 
+#include <algorithm>
+
 #include "core/contact/half_space_distance.h"
 #include "core/contact/impact.h"
 
@@ -23,12 +25,16 @@ struct PairDerivative {
   bool is_ridge = false;
 };
 
-/// The tolerance that answers for derivatives are to be found with: the normal of a curved pair is
-/// known to the square root of it.
-inline constexpr double tolerance_for_derivatives = 1e-15;
+/// What answers for derivatives are to be asked with.
+inline SignedDistanceOptions for_derivatives(SignedDistanceOptions options = {}) {
+  constexpr double coarsest = 1e-10;
+  options.tolerance = std::min(options.tolerance, coarsest);
+  options.is_for_derivatives = true;
+  return options;
+}
 
-/// `found` is the answer on this pair, with both of its bounds; else nothing is known: NaN, and a
-/// ridge.
+/// `found` is the answer on this pair, asked for_derivatives(), with both of its bounds; else
+/// nothing is known: NaN, and a ridge.
 PairDerivative derivative_of(const ContactShape& a, const Affine<double>& pose_a,
                              const ContactShape& b, const Affine<double>& pose_b,
                              const SignedDistance& found);

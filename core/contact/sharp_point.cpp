@@ -17,11 +17,26 @@ bool is_sharp_at_box(const ShapeCore& core, const Vec3<double>& point, double of
 
 /// On a rim, or at the tip of a cone.
 bool is_sharp_at_disks(const ShapeCore& core, const Vec3<double>& point, double off) {
-  const double across = std::hypot(point.x(), point.y());
+  const double across = std::sqrt(point.x() * point.x() + point.y() * point.y());
   const auto is_at = [&](double rim, double z) {
     return std::abs(point.z() - z) <= off && std::abs(across - rim) <= off;
   };
   return is_at(core.size.x(), -core.size.z()) || is_at(core.size.y(), core.size.z());
+}
+
+/// Whether the point, which three corners are seen from, is outside of their triangle or on its
+/// rim.
+template <class Corner>
+bool is_on_rim(const Corner* corners, double near) {
+  int left = 0, right = 0;
+  for (int i = 0; i < 3; ++i) {
+    const Corner &a = corners[i], &b = corners[(i + 1) % 3];
+    const double x = b.x - a.x, y = b.y - a.y;
+    const double height = (a.x * b.y - a.y * b.x) / std::sqrt(x * x + y * y);
+    left += height > near ? 1 : 0;
+    right += height < -near ? 1 : 0;
+  }
+  return left < 3 && right < 3;
 }
 
 /// The hull's points that lie in the plane, seen from the point: it is inside their polygon, or on
@@ -40,10 +55,12 @@ bool is_sharp_at_hull(const ShapeCore& core, const Vec3<double>& point, const Ve
     const Vec3<double> to = Vec3<double>(core.x[i], core.y[i], core.z[i]) - point;
     if (std::abs(n.dot(to)) > near) continue;
     const double x = u.dot(to), y = v.dot(to);
-    if (std::hypot(x, y) <= near) return true;
-    corners.push_back({std::atan2(y, x), x, y});
+    if (x * x + y * y <= near * near) return true;
+    corners.push_back({0, x, y});
   }
   if (corners.size() < 3) return true;
+  if (corners.size() == 3) return is_on_rim(corners.data(), near);
+  for (Corner& corner : corners) corner.angle = std::atan2(corner.y, corner.x);
   std::ranges::sort(corners, {}, &Corner::angle);
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Corner &a = corners[i], &b = corners[i + 1 < corners.size() ? i + 1 : 0];

@@ -29,6 +29,7 @@ SignedDistance told(const Search& search, const ContactShape& a, const ContactSh
   const CoreDistance found = search();
   result.supports = found.supports;
   result.is_exhausted = found.is_exhausted;
+  result.has_one_direction = found.has_one_direction;
   result.lower = found.lower - radii - allowed;
   result.upper = found.upper - radii + allowed;
   if (found.status == CoreStatus::overlapping && found.upper >= 0)

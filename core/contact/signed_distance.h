@@ -52,6 +52,8 @@ struct SignedDistance {
   /// The support points that may be asked for ran out: the bounds hold, but are not as near to each
   /// other as was asked.
   bool is_exhausted = false;
+  /// Says of cores that overlap that their depth has one direction, proven. Else nothing is known.
+  bool has_one_direction = false;
 
   /// The search gave up with nothing: neither is it known that they are apart or overlap, nor has
   /// the distance an upper bound. `value` is no distance then, and there are no points.
@@ -74,6 +76,9 @@ struct SignedDistanceOptions {
   /// all as good as each other no number is enough for ten digits: a ball known by its support
   /// mapping only, around a point.
   int max_supports = 50000;
+  /// The normal of curved shapes, too, is to be found to some 1e-9, and the points with it: for
+  /// derivatives. It costs less than bounds that are as near to each other as that needs.
+  bool is_for_derivatives = false;
 };
 
 /// The poses are rigid. Their rounding, and that of all numbers here, is allowed for by 16 epsilons

@@ -32,8 +32,8 @@ class SlidingFeatures {
   /// rims need it. Returns whether it came to an answer.
   bool run(const Vec3<double>& d, double damping);
 
-  /// The direction around d in which the gap of cores that overlap is the largest, to about 1e-7:
-  /// one of those in which their depth may be seen. Nothing is proven but the gaps on the way.
+  /// The direction around d in which the gap of cores that overlap is the largest: one of those in
+  /// which their depth may be seen, to about 1e-7. Nothing is proven but the gaps on the way.
   /// Returns whether it was found.
   bool settle(const Vec3<double>& d) {
     is_direction_asked_ = true;
@@ -41,6 +41,14 @@ class SlidingFeatures {
     return is_settled_;
   }
   const Vec3<double>& direction() const { return direction_; }
+
+  /// Finds the same direction to rounding, by Newton's method from one that is off by less than
+  /// `turn`: that of a peak on one feature, on the crease of two, or on a corner of more. Returns
+  /// whether it was found.
+  bool sharpen(const Vec3<double>& d, double turn);
+  /// The points that sharpen() has ended with: one of A, and from it to one of B.
+  const Vec3<double>& sharp_a() const { return sharp_a_; }
+  const Vec3<double>& sharp_c() const { return sharp_c_; }
 
   /// Calls f(point) with points of C around the one that settle() has found: those of each feature
   /// in three directions turned by so much.
@@ -134,9 +142,14 @@ class SlidingFeatures {
     return true;
   }
 
+  /// A step of sharpen(): the weights of the features, and the direction that is next. False where
+  /// that is no peak. `least` is the feature of the least weight.
+  bool step_to_peak(const Vec3<double>& n, Vec3<double>& next, int& least);
+
   CoreQuery<A, B>& query_;
   bool is_direction_asked_ = false, is_settled_ = false;
-  Vec3<double> direction_ = Vec3<double>::Zero();
+  Vec3<double> direction_ = Vec3<double>::Zero(), sharp_a_ = Vec3<double>::Zero(),
+               sharp_c_ = Vec3<double>::Zero();
   int count_ = 0;
   int feature_a_[4], feature_b_[4];
   double weight_[4];
@@ -247,6 +260,102 @@ bool SlidingFeatures<A, B>::run(const Vec3<double>& d, double damping) {
     nd = metric.out_of(closest.v);
     if (!(nd.squaredNorm() > 0)) return false;
     keep(closest);
+  }
+  return false;
+}
+
+template <CoreKind A, CoreKind B>
+bool SlidingFeatures<A, B>::step_to_peak(const Vec3<double>& n, Vec3<double>& next, int& least) {
+  DifferencePoint on[4];
+  Vec3<double> aside[4];
+  for (int i = 0; i < count_; ++i) {
+    on[i] = on_features(i, n);
+    aside[i] = on[i].c - n.dot(on[i].c) * n;
+  }
+  next = n;
+  weight_[0] = 1;
+  if (count_ == 2) {
+    const Vec3<double> across = aside[0] - aside[1];
+    const double squared = across.squaredNorm();
+    if (!(squared > 0)) return false;
+    weight_[0] = -aside[1].dot(across) / squared;
+    weight_[1] = 1 - weight_[0];
+    next -= (n.dot(on[0].c - on[1].c) / squared) * across;
+  } else if (count_ > 2) {
+    const Vec3<double> u = on[1].c - on[0].c, v = on[2].c - on[0].c, plane = u.cross(v);
+    const double squared = plane.squaredNorm();
+    constexpr double thinnest = 1e-3;  // of a right angle
+    if (!(squared > thinnest * thinnest * u.squaredNorm() * v.squaredNorm())) return false;
+    next = plane / std::sqrt(squared);
+    if (next.dot(n) < 0) next = -next;
+    // Where the plane's point nearest to the origin is, by areas.
+    const Vec3<double> to_foot = next.dot(on[0].c) * next - on[0].c;
+    weight_[1] = to_foot.cross(v).dot(plane) / squared;
+    weight_[2] = u.cross(to_foot).dot(plane) / squared;
+    weight_[0] = 1 - weight_[1] - weight_[2];
+    for (int i = 3; i < count_; ++i) weight_[i] = 0;
+  }
+  Symmetric S;
+  sharp_a_.setZero();
+  sharp_c_.setZero();
+  least = 0;
+  for (int i = 0; i < count_; ++i) {
+    if (weight_[i] < weight_[least]) least = i;
+    const Vec3<double> of_b = query_.pair.to_b(-n),
+                       b = point_of_feature<B>(query_.pair.b, feature_b_[i], of_b);
+    sharp_a_ += weight_[i] * on[i].a;
+    sharp_c_ += weight_[i] * on[i].c;
+    add_curvature<A>(S, weight_[i], query_.pair.a, Mat3<double>::Identity(), feature_a_[i], n,
+                     on[i].a);
+    add_curvature<B>(S, weight_[i], query_.pair.b, query_.pair.turn, feature_b_[i], of_b, b);
+  }
+  const double depth = -n.dot(sharp_c_);
+  if (count_ == 1) return climb(S, depth, n, sharp_c_, next);
+  if (count_ == 2) {
+    const Vec3<double> along = n.cross(on[0].c - on[1].c).normalized();
+    const double bend = along.dot(S * along), peak = bend - depth;
+    constexpr double flattest = 1e-3;
+    if (!(peak > flattest * (bend + depth))) return false;
+    next += (along.dot(sharp_c_) / peak) * along;
+  }
+  next.normalize();
+  return true;
+}
+
+template <CoreKind A, CoreKind B>
+bool SlidingFeatures<A, B>::sharpen(const Vec3<double>& d, double turn) {
+  count_ = 0;
+  const auto take = [&](const Vec3<double>& along) {
+    const DifferencePoint w = query_.nearest(along);
+    for (int i = 0; i < count_; ++i)
+      if (feature_a_[i] == w.feature_a && feature_b_[i] == w.feature_b) return true;
+    if (count_ == 4) return false;
+    append(w.feature_a, w.feature_b, 0);
+    return true;
+  };
+  const Vec3<double> e0 = d.unitOrthogonal(), e1 = d.cross(e0);
+  if (!take(d)) return false;
+  for (const double angle : {0.0, 1.0472, 2.0944, 3.1416, 4.1888, 5.236})
+    if (!take(d + turn * (std::cos(angle) * e0 + std::sin(angle) * e1))) return false;
+  constexpr int most_steps = 12;
+  constexpr double still = 1e-12;    // radians
+  constexpr double outside = -1e-9;  // of a weight
+  direction_ = d;
+  for (int step = 0; step < most_steps; ++step) {
+    Vec3<double> next;
+    int least = 0;
+    if (!step_to_peak(direction_, next, least)) return false;
+    // Corners of a face with more than three carry a point by any three of them.
+    if (count_ > 1 && count_ < 4 && weight_[least] < outside) {
+      --count_;
+      feature_a_[least] = feature_a_[count_];
+      feature_b_[least] = feature_b_[count_];
+      direction_ = d;
+      continue;
+    }
+    const bool is_still = (next - direction_).norm() <= still;
+    direction_ = next;
+    if (is_still) return true;
   }
   return false;
 }

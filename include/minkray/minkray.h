@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Minkray for C++: convex shapes, scenes of them, rays cast at them, proofs of the answers,
 // distances and times of impact. Header-only over minkray_c.h, whose comments say what is promised
-// of threads, frames and units; docs/library.md has examples.
+// of threads, frames and units; docs/cpp.md has examples.
 //
 //   namespace mk = minkray;
 //   mk::Scene scene;
@@ -30,6 +30,7 @@ namespace minkray {
 // link.
 inline namespace v0 {
 
+/// A point or a direction.
 struct Vec3 {
   double x = 0, y = 0, z = 0;
   constexpr double& operator[](std::size_t axis) { return axis == 0 ? x : axis == 1 ? y : z; }
@@ -130,17 +131,20 @@ inline const minkray_pose* plain(const Pose* pose) {
 }
 }  // namespace detail
 
+/// A rotation.
 struct Quaternion {
   double x = 0, y = 0, z = 0, w = 1;
 };
 
+/// Leaves all where it is.
 inline Pose identity() {
   return {};
 }
+/// Moves without turning.
 inline Pose translation(const Vec3& by) {
   return {{{1, 0, 0, by.x}, {0, 1, 0, by.y}, {0, 0, 1, by.z}}};
 }
-/// The quaternion may have any length but zero.
+/// Turns, then moves; the quaternion may have any length but zero.
 inline Pose pose(const Vec3& by, const Quaternion& q) {
   const double s = 2 / (q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
   const double xx = s * q.x * q.x, yy = s * q.y * q.y, zz = s * q.z * q.z;
@@ -261,6 +265,7 @@ inline Shape with_shapes(Text kind, View<const Shape> shapes) {
 }
 }  // namespace detail
 
+/// Shapes around the origin, or of points.
 inline Shape point(const Vec3& position) {
   return make("point", {{"position", {&position.x, 3}}});
 }
@@ -327,7 +332,7 @@ inline Shape hull(std::initializer_list<Vec3> points) {
 
 // The algebra: shapes made of shapes.
 
-/// Grown by a radius.
+/// A shape, grown by a radius.
 inline Shape rounded(const Shape& shape, double radius) {
   return make("rounded", {{"radius", {&radius, 1}}, {"shape", {}, {&shape, 1}}});
 }
@@ -352,7 +357,7 @@ inline Shape hull_of(View<const Shape> shapes) {
 inline Shape hull_of(std::initializer_list<Shape> shapes) {
   return hull_of(View<const Shape>(shapes.begin(), shapes.size()));
 }
-/// Under any invertible map.
+/// A shape under any invertible map; moved; scaled.
 inline Shape transformed(const Shape& shape, const Pose& map) {
   return make("transform", {{"map", {&map.rows[0][0], 12}}, {"shape", {}, {&shape, 1}}});
 }
@@ -370,7 +375,7 @@ inline Shape swept(const Shape& shape, const Vec3& way) {
   return sum(shape, segment({0, 0, 0}, way));
 }
 
-/// As scene files have it.
+/// A shape as scene files have it.
 inline Shape read_shape(Text json, Text folder = {}) {
   minkray_shape made;
   detail::check(minkray_shape_read(json.c_str(), folder.c_str(), &made));
@@ -421,6 +426,7 @@ struct MeshInfo {
   bool is_closed() const { return open_edges == 0; }
 };
 static_assert(sizeof(MeshInfo) == sizeof(minkray_mesh_info));
+/// Counts a mesh's vertices, triangles and defects.
 inline MeshInfo mesh_info(const Shape& mesh) {
   MeshInfo info;
   detail::check(
@@ -540,6 +546,7 @@ Shape custom(Support support, const Vec3& lower, const Vec3& upper) {
 
 // ---- rays ----
 
+/// What became of a ray.
 enum Status : std::int32_t {
   hit = MINKRAY_HIT,
   miss = MINKRAY_MISS,
@@ -557,6 +564,7 @@ static_assert(sizeof(Ray) == sizeof(minkray_ray));
 
 inline constexpr std::uint32_t no_object = MINKRAY_NO_OBJECT;
 
+/// What a ray met; see minkray_hit.
 struct Hit {
   double t = std::numeric_limits<double>::infinity();  ///< in lengths of the direction
   double t_lo = t, t_hi = t;                           ///< the true t is between them
@@ -724,20 +732,20 @@ class Scene {
 
   minkray_scene handle() const { return handle_; }
 
-  /// The number of what is added.
+  /// Adds a shape. Returns its number.
   std::uint32_t add(const Shape& shape, const Pose& pose = identity(), Text name = {}) {
     std::uint32_t object = 0;
     detail::check(
         minkray_scene_add(handle_, shape.handle(), detail::plain(&pose), name.c_str(), &object));
     return object;
   }
-  /// All points x with normal . x <= offset |normal|.
+  /// Adds all points x with normal . x <= offset |normal|.
   std::uint32_t add_half_space(const Vec3& normal, double offset, Text name = {}) {
     std::uint32_t object = 0;
     detail::check(minkray_scene_add_half_space(handle_, &normal.x, offset, name.c_str(), &object));
     return object;
   }
-  /// A scene file (.json) or a robot's (URDF, MJCF, SDF).
+  /// Adds a scene file (.json) or a robot's (URDF, MJCF, SDF, glTF).
   Group add_file(Text file, const FileOptions& options = {}) {
     const minkray_file_options plain = {sizeof plain,
                                         detail::plain(options.pose),
@@ -751,31 +759,35 @@ class Scene {
     detail::check(minkray_scene_add_file(handle_, file.c_str(), &plain, &group));
     return Group(handle_, group);
   }
+  /// Moves an object.
   void set_pose(std::uint32_t object, const Pose& pose) {
     detail::check(minkray_scene_set_pose(handle_, object, detail::plain(&pose)));
   }
   /// Takes an object out: its number is never used again, all others stay.
   void remove(std::uint32_t object) { detail::check(minkray_scene_remove(handle_, object)); }
-  /// Builds or refits, whichever is due.
+  /// Makes queries see all changes: builds or refits, whichever is due.
   void commit() { detail::check(minkray_scene_commit(handle_)); }
 
+  /// How many objects were added.
   std::uint32_t size() const {
     std::uint32_t objects = 0;
     detail::check(minkray_scene_size(handle_, &objects, nullptr));
     return objects;
   }
-  /// Valid as long as the scene lives.
+  /// An object's name, valid as long as the scene lives.
   const char* name(std::uint32_t object) const {
     const char* found = nullptr;
     detail::check(minkray_scene_name(handle_, object, &found));
     return found;
   }
+  /// Where an object is.
   Pose pose(std::uint32_t object) const {
     Pose found;
     detail::check(minkray_scene_pose(handle_, object, reinterpret_cast<minkray_pose*>(&found)));
     return found;
   }
 
+  /// The first object that a ray meets.
   Hit cast(const Ray& ray) const {
     Hit found;
     detail::check(minkray_scene_cast(handle_, detail::plain({&ray, 1}), 1,

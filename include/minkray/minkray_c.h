@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * Minkray for C and for every language that can call C: convex shapes, scenes of them, rays cast at
- * them, proofs of the answers, distances and times of impact. docs/library.md has examples.
+ * them, proofs of the answers, distances and times of impact. docs/c.md has examples.
  *
  * All functions that answer an int answer MINKRAY_OK or another minkray_code; what was wrong, and
  * where, minkray_last_error() says then. Nothing is written to a result of a call that failed,
@@ -124,16 +124,17 @@ typedef struct minkray_mesh_info {
   size_t without_area; /* triangles that no ray meets */
   size_t repeated;     /* triangles whose three vertices another has, too */
 } minkray_mesh_info;
+/* Counts a mesh's vertices, triangles and defects. */
 MINKRAY_API int minkray_shape_mesh_info(minkray_shape shape, minkray_mesh_info* info);
 
-/* For support functions: why this call of yours fails, for the error of the query that called it.
- * Ignored anywhere else. */
+/* Says why a support function of yours fails, for the error of the query that called it. Ignored
+ * anywhere else. */
 MINKRAY_API void minkray_support_failed(const char* reason);
 
-/* The function is asked in some hundred directions at once, and its answers are held against each
- * other: MINKRAY_BAD_SUPPORT if no convex shape has them. Whatever it answers later on is checked
- * as well, and queries that it lies to answer MINKRAY_BAD_SUPPORT. `release` is called if this
- * fails. */
+/* Makes a shape of a support function. It is asked in some hundred directions at once, and its
+ * answers are held against each other: MINKRAY_BAD_SUPPORT if no convex shape has them. Whatever it
+ * answers later on is checked as well, and queries that it lies to answer MINKRAY_BAD_SUPPORT.
+ * `release` is called if this fails. */
 MINKRAY_API int minkray_shape_custom(const minkray_support* support, minkray_shape* shape);
 
 /* Makes one of a function that is dear to call and cheap by the direction, such as those of
@@ -155,7 +156,7 @@ typedef int (*minkray_jet_function)(void* user, size_t count, const double (*dir
 MINKRAY_API int minkray_shape_custom_with_jets(const minkray_support* support,
                                                minkray_jet_function jets, minkray_shape* shape);
 
-/* One more owner; releasing takes one away. */
+/* Adds an owner; releasing takes one away. */
 MINKRAY_API int minkray_shape_retain(minkray_shape shape);
 MINKRAY_API int minkray_shape_release(minkray_shape shape);
 
@@ -182,16 +183,17 @@ typedef struct minkray_scene {
 
 #define MINKRAY_NO_OBJECT UINT32_MAX
 
+/* Makes a scene without objects; its owner releases it. */
 MINKRAY_API int minkray_scene_make(minkray_scene* scene);
 MINKRAY_API int minkray_scene_release(minkray_scene scene);
 
-/* The functions from here to minkray_scene_commit change the scene. What is added is numbered from
- * 0 on. `pose` may be any invertible map, NULL for the identity; `name` may be NULL; so may the
- * places for numbers. */
+/* Adds a shape. The functions from here to minkray_scene_commit change the scene. What is added is
+ * numbered from 0 on. `pose` may be any invertible map, NULL for the identity; `name` may be NULL;
+ * so may the places for numbers. */
 MINKRAY_API int minkray_scene_add(minkray_scene scene, minkray_shape shape,
                                   const minkray_pose* pose, const char* name, uint32_t* object);
 
-/* All points x with normal . x <= offset |normal|. */
+/* Adds all points x with normal . x <= offset |normal|. */
 MINKRAY_API int minkray_scene_add_half_space(minkray_scene scene, const double normal[3],
                                              double offset, const char* name, uint32_t* object);
 
@@ -209,8 +211,8 @@ typedef struct minkray_file_options {
                          says that it is there */
 } minkray_file_options;
 
-/* All objects of a scene file of Minkray's (.json) or of a robot's description (URDF, MJCF, SDF):
- * a group of objects with numbers that follow each other. Options may be NULL. */
+/* Adds all objects of a scene file of Minkray's (.json) or of a robot's description (URDF, MJCF,
+ * SDF): a group of objects with numbers that follow each other. Options may be NULL. */
 MINKRAY_API int minkray_scene_add_file(minkray_scene scene, const char* file,
                                        const minkray_file_options* options, uint32_t* group);
 
@@ -222,7 +224,8 @@ MINKRAY_API int minkray_scene_set_pose(minkray_scene scene, uint32_t object,
 MINKRAY_API int minkray_scene_set_group_pose(minkray_scene scene, uint32_t group,
                                              const minkray_pose* pose);
 
-/* One number for a hinge (radians) or a slide, four for a ball joint (quaternion w, x, y, z). */
+/* Sets a joint: one number for a hinge (radians) or a slide, four for a ball joint (quaternion w,
+ * x, y, z). */
 MINKRAY_API int minkray_scene_set_joint(minkray_scene scene, uint32_t group, const char* joint,
                                         const double* values, size_t count);
 
@@ -238,13 +241,15 @@ MINKRAY_API int minkray_scene_commit(minkray_scene scene);
  * all objects, once the scene is committed. */
 MINKRAY_API int minkray_scene_size(minkray_scene scene, uint32_t* objects, uint32_t* particles);
 
-/* The name is valid as long as the scene lives. */
+/* An object's name, valid as long as the scene lives. */
 MINKRAY_API int minkray_scene_name(minkray_scene scene, uint32_t object, const char** name);
+/* Where an object is. */
 MINKRAY_API int minkray_scene_pose(minkray_scene scene, uint32_t object, minkray_pose* pose);
 
 /* The objects of a group, and how many joints it has that move. */
 MINKRAY_API int minkray_scene_group(minkray_scene scene, uint32_t group, uint32_t* first_object,
                                     uint32_t* objects, uint32_t* joints);
+/* A joint's name, and how many numbers it has. */
 MINKRAY_API int minkray_scene_joint(minkray_scene scene, uint32_t group, uint32_t joint,
                                     const char** name, size_t* number_count);
 /* What the joint is set to: as many numbers as minkray_scene_joint reports, at most `size`. */
@@ -326,11 +331,13 @@ typedef struct minkray_hit_arrays {
   int32_t* parts; /* read if `size` says that it is there */
 } minkray_hit_arrays;
 
+/* Casts rays in arrays. */
 MINKRAY_API int minkray_scene_cast_arrays(minkray_scene scene, const minkray_ray_arrays* rays,
                                           size_t count, const minkray_hit_arrays* hits,
                                           const minkray_options* options);
 
-/* blocked[i] is MINKRAY_HIT if the ray meets anything, MINKRAY_MISS, or MINKRAY_EXHAUSTED. */
+/* Occlusion of rays: blocked[i] is MINKRAY_HIT if the ray meets anything, MINKRAY_MISS, or
+ * MINKRAY_EXHAUSTED. */
 MINKRAY_API int minkray_scene_occluded(minkray_scene scene, const minkray_ray_arrays* rays,
                                        size_t count, uint8_t* blocked,
                                        const minkray_options* options);
@@ -513,10 +520,10 @@ typedef struct minkray_clearance {
   int32_t reserved;
 } minkray_clearance;
 
-/* A robot's way by `rows` rows of `numbers` joint values each, in the order of minkray_scene_joint;
- * from row to row each joint goes at a constant rate. `steps` (or NULL) are one for each two rows
- * that follow each other, or one if there is one row; `least` (or NULL) is of all of them. Left out
- * are pairs that minkray_scene_allow or masks leave out. The
+/* How near a robot comes to anything on its way by `rows` rows of `numbers` joint values each, in
+ * the order of minkray_scene_joint; from row to row each joint goes at a constant rate. `steps` (or
+ * NULL) are one for each two rows that follow each other, or one if there is one row; `least` (or
+ * NULL) is of all of them. Left out are pairs that minkray_scene_allow or masks leave out. The
  * shapes looked at are those that the file was added with: see `geometry` of minkray_file_options.
  * With more than 1,000,000 objects and particles, or 10,000,000 pairs, it is MINKRAY_BAD_INPUT. The
  * scene must be committed; where the robot's joints are by now does not matter. */

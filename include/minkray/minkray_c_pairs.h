@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * Many pairs of shapes at once, and the pairs of a scene: distances with their derivatives, points
- * of contact, times of impact. docs/pairs.md has examples. What minkray_c.h says of errors, threads
+ * of contact, times of impact. docs/c.md has examples. What minkray_c.h says of errors, threads
  * and units holds here, too.
  *
  * All poses are rigid: a rotation or a reflection, and a translation. Their linear parts may be off
@@ -50,8 +50,8 @@ typedef struct minkray_pair_memory {
  * axes, then by its angular velocity about that point. `is_ridge` is 1 where the bounds do not
  * exclude that there are several derivatives: of parallel faces, an edge on a face, a depth in two
  * directions; the one that is told is one of them. Where nothing is known of the distance
- * derivatives are NaN. If any of these three is wanted the bounds are found to a tolerance of
- * 1e-15, since the normal of curved shapes is known to its square root. */
+ * derivatives are NaN. If any of these three is wanted distances are found to a tolerance of 1e-15,
+ * and the direction of a depth to rounding. */
 typedef struct minkray_distance_arrays {
   size_t size;                 /* sizeof(minkray_distance_arrays) */
   minkray_distance* distances; /* all of a pair in one struct */
@@ -68,7 +68,7 @@ typedef struct minkray_distance_arrays {
   int32_t* supports;
 } minkray_distance_arrays;
 
-/* As many signed distances as `count`: each has the bits of minkray_signed_distance, whatever the
+/* Signed distances of `count` pairs: each has the bits of minkray_signed_distance, whatever the
  * number of threads. `memories` are as many as pairs, or NULL. Either options may be NULL. */
 MINKRAY_API int minkray_signed_distances(const minkray_bodies* a, const minkray_bodies* b,
                                          size_t count, const minkray_distance_options* options,
@@ -94,7 +94,7 @@ typedef struct minkray_impact_arrays {
   uint8_t* status; /* a minkray_impact_status */
 } minkray_impact_arrays;
 
-/* As many times of impact. `t_max` are as many as pairs, or one. */
+/* Times of impact of `count` pairs. `t_max` are as many as pairs, or one. */
 MINKRAY_API int minkray_times_of_impact(const minkray_bodies* a, const minkray_bodies* b,
                                         size_t count, const double* t_max, size_t t_max_count,
                                         minkray_pair_memory* memories,
@@ -131,7 +131,7 @@ typedef struct minkray_manifold_arrays {
   uint8_t* status;
 } minkray_manifold_arrays;
 
-/* As many manifolds. */
+/* Points of contact of `count` pairs. */
 MINKRAY_API int minkray_manifolds(const minkray_bodies* a, const minkray_bodies* b, size_t count,
                                   const minkray_distance_options* options,
                                   minkray_pair_memory* memories,
@@ -143,13 +143,13 @@ MINKRAY_API int minkray_manifolds(const minkray_bodies* a, const minkray_bodies*
 /* Scenes must be committed before they are asked. Objects that were removed are in no answer;
  * particles are, numbered as in a minkray_hit. */
 
-/* Two objects are looked at as a pair if each one's mask has a bit of the other's category. As long
- * as nothing is said, categories are 1 and masks have all bits. Changes the scene; no commit is due
- * for it. */
+/* Sets which pairs are looked at. Two objects are one if each one's mask has a bit of the other's
+ * category. As long as nothing is said, categories are 1 and masks have all bits. Changes the
+ * scene; no commit is due for it. */
 MINKRAY_API int minkray_scene_set_masks(minkray_scene scene, uint32_t object, uint32_t category,
                                         uint32_t mask);
 
-/* Whether two objects may touch: pairs that may are not looked at. Changes the scene, as above. */
+/* Says if two objects may touch: pairs that may are not looked at. Changes the scene, as above. */
 MINKRAY_API int minkray_scene_allow(minkray_scene scene, uint32_t object_a, uint32_t object_b,
                                     int is_allowed);
 
@@ -238,8 +238,8 @@ typedef struct minkray_ray_derivatives {
   uint8_t* is_ridge;
 } minkray_ray_derivatives;
 
-/* Takes what minkray_scene_cast_arrays answered of the same rays: t and its bounds, points,
- * normals, objects and status must be there. */
+/* Derivatives of t. Takes what minkray_scene_cast_arrays answered of the same rays: t and its
+ * bounds, points, normals, objects and status must be there. */
 MINKRAY_API int minkray_scene_ray_derivatives(minkray_scene scene, const minkray_ray_arrays* rays,
                                               size_t count, const minkray_hit_arrays* hits,
                                               const minkray_ray_derivatives* derivatives,
@@ -247,11 +247,12 @@ MINKRAY_API int minkray_scene_ray_derivatives(minkray_scene scene, const minkray
 
 /* ---- derivatives of clearances --------------------------------------------------------------- */
 
-/* Does what minkray_scene_clearance does. `jac` gets `numbers` numbers for each step: the
- * derivative of the distance that `upper` bounds by the joints' values at `row`. Quaternions are of
- * length 1 between rows, and count as given at a row. Joints that mimic others have zeros. All are
- * zero where there is nothing to meet. `is_ridge` is 1 where there may be other derivatives, or
- * where another pair is as near at `row`. Each of `steps`, `jac` and `is_ridge` may be NULL. */
+/* Clearances with their derivatives by the joints, else as minkray_scene_clearance. `jac` gets
+ * `numbers` numbers for each step: the derivative of the distance that `upper` bounds by the
+ * joints' values at `row`. Quaternions are of length 1 between rows, and count as given at a row.
+ * Joints that mimic others have zeros. All are zero where there is nothing to meet. `is_ridge` is 1
+ * where there may be other derivatives, or where another pair is as near at `row`. Each of `steps`,
+ * `jac` and `is_ridge` may be NULL. */
 MINKRAY_API int minkray_scene_clearance_derivatives(minkray_scene scene, uint32_t group,
                                                     const double* path, size_t rows, size_t numbers,
                                                     const minkray_clearance_options* options,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Many pairs of shapes at once: distances with their derivatives, points of contact, times of
 // impact; and the pairs of a scene. Header-only over minkray_c_pairs.h, whose comments say what is
-// promised; docs/pairs.md has examples.
+// promised; docs/cpp.md has examples.
 //
 //   std::vector<mk::Distance> found(poses.size());
 //   mk::signed_distances({{&robot, 1}, poses, {}}, {{&wall, 1}, {}, {}}, found);
@@ -51,7 +51,7 @@ struct Derivatives {
   View<std::uint8_t> is_ridge = {};
 };
 
-/// How many pairs are asked.
+/// Options of queries on many pairs.
 struct PairOptions {
   double tolerance = 0;            ///< of the bounds, in the shapes' sizes; 0: 1e-10
   double at_most = 0;              ///< beyond this distance it is enough to know so; 0: none
@@ -98,8 +98,8 @@ void add_derivatives(const char* function, const Derivatives& to, std::size_t pa
 }
 }  // namespace detail
 
-/// As many pairs as there is room for answers. They are the bits of signed_distance(), whatever the
-/// number of threads.
+/// Signed distances of as many pairs as there is room for answers. They are the bits of
+/// signed_distance(), whatever the number of threads.
 inline void signed_distances(const Bodies& a, const Bodies& b, View<Distance> distances,
                              const PairOptions& options = {}) {
   constexpr const char* function = "minkray::signed_distances";
@@ -116,7 +116,7 @@ inline void signed_distances(const Bodies& a, const Bodies& b, View<Distance> di
                                &arrays, &how));
 }
 
-/// First contacts at times from 0 to t_max: one for each pair, or one for all.
+/// First contacts of many pairs, at times from 0 to t_max: one for each pair, or one for all.
 inline void times_of_impact(const Bodies& a, const Bodies& b, View<const double> t_max,
                             View<Impact> impacts, const PairOptions& options = {}) {
   constexpr const char* function = "minkray::times_of_impact";
@@ -131,7 +131,7 @@ inline void times_of_impact(const Bodies& a, const Bodies& b, View<const double>
       &arrays, &how));
 }
 
-/// Points of contact. There are no derivatives of them.
+/// Points of contact of many pairs. There are no derivatives of them.
 inline void manifolds(const Bodies& a, const Bodies& b, View<Manifold> found,
                       const PairOptions& options = {}) {
   const minkray_bodies plain_a = detail::plain(a), plain_b = detail::plain(b);
@@ -216,7 +216,7 @@ struct SceneImpact {
 static_assert(sizeof(SceneImpact) == sizeof(minkray_scene_impact) &&
               offsetof(SceneImpact, object) == offsetof(minkray_scene_impact, object));
 
-/// How the pairs of a scene are asked.
+/// Options of queries on a scene's pairs.
 struct NearOptions {
   double within = std::numeric_limits<double>::infinity();  ///< what is further apart is left out
   double tolerance = 0;      ///< of the bounds, in the shapes' sizes; 0: 1e-10

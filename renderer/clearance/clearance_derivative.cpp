@@ -105,7 +105,7 @@ ClearanceDerivative derivative_of(const Closest& closest, const JointPath& path,
   }
   const Moment moment(posed, bodies);
   SignedDistanceOptions how;
-  how.tolerance = tolerance_for_derivatives;
+  how = for_derivatives(how);
   const BodyPair nearest{closest.a, closest.b};
   const SignedDistance found = moment.distance(nearest, how);
   const PairDerivative derivative = moment.derivative(nearest, found);

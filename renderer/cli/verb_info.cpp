@@ -47,8 +47,10 @@ void info(const InfoVerbOptions& options) {
         for (ModelMesh& mesh : meshes_of_scene(other)) meshes.push_back(std::move(mesh));
     if (options.json) {
       const bool has_meshes = !is_robot || !meshes.empty();
+      Json others = Json::array();
+      for (const Model& model : imported.other_models) others.push_back(model_as_json(model));
       std::cout << info_as_json(scene, is_robot ? model_as_json(*imported.model) : nullptr,
-                                has_meshes ? meshes_as_json(meshes) : nullptr);
+                                has_meshes ? meshes_as_json(meshes) : nullptr, std::move(others));
     } else {
       if (is_robot) std::cout << model_as_text(*imported.model);
       for (const Model& model : imported.other_models) std::cout << model_as_text(model);

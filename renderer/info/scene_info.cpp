@@ -72,11 +72,12 @@ Json tagged_json(const S& described) {
 
 }  // namespace
 
-std::string info_as_json(const Scene& scene, Json model, Json meshes) {
+std::string info_as_json(const Scene& scene, Json model, Json meshes, Json other_models) {
   const SceneSummary summary = summarise(scene);
   Json json;
   json["description"] = scene.description;
   if (!model.is_null()) json["model"] = std::move(model);
+  if (!other_models.empty()) json["other_models"] = std::move(other_models);
   json["objects"] = summary.instances;
   json["particles"] = summary.particles;
   json["shapes"] = Json::object();

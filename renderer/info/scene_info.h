@@ -11,8 +11,10 @@ namespace minkray {
 
 /// What is in a scene: counts of shapes, bounds, memory, lights, camera.
 std::string info_as_text(const Scene& scene);
-/// `model` and `meshes`, if they are not null, are told as well: what the scene was made of.
-std::string info_as_json(const Scene& scene, Json model = nullptr, Json meshes = nullptr);
+/// `model`, `meshes` and `other_models`, if they are not empty, are written as well: what the scene
+/// was made of.
+std::string info_as_json(const Scene& scene, Json model = nullptr, Json meshes = nullptr,
+                         Json other_models = nullptr);
 
 /// All kinds of shapes with their parameters, units, constraints and docs.
 std::string shapes_as_text();

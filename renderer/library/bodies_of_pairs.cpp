@@ -41,10 +41,10 @@ std::string place(const std::string& argument, const char* member, std::size_t i
   return argument + member + "[" + std::to_string(i) + "]";
 }
 
-/// The matrix of (x, y, z, qw, qx, qy, qz).
-minkray_pose matrix_of(const double* numbers, const std::string& argument, std::size_t index) {
+/// The pose of (x, y, z, qw, qx, qy, qz).
+Affine<double> pose_of(const double* numbers, const std::string& argument, std::size_t index) {
   for (std::size_t k = 0; k < numbers_of_quaternion_pose; ++k)
-    if (!std::isfinite(numbers[k]))
+    if (!std::isfinite(numbers[k])) [[unlikely]]
       wrong_use(place(argument, ".poses", index) + "[" + std::to_string(k) +
                 "]: must be a finite number (got " + std::to_string(numbers[k]) + ")");
   const double largest = std::max(
@@ -54,13 +54,7 @@ minkray_pose matrix_of(const double* numbers, const std::string& argument, std::
   Eigen::Quaternion<double> q(numbers[3] / largest, numbers[4] / largest, numbers[5] / largest,
                               numbers[6] / largest);
   q.normalize();
-  const Mat3<double> turn = q.toRotationMatrix();
-  minkray_pose pose;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) pose.rows[i][j] = turn(i, j);
-    pose.rows[i][3] = numbers[i];
-  }
-  return pose;
+  return {q.toRotationMatrix(), Vec3<double>(numbers[0], numbers[1], numbers[2])};
 }
 
 inline void check_last_row(const double* row, const std::string& argument, std::size_t index) {
@@ -126,8 +120,7 @@ void BodiesOfPairs::read(std::size_t i, PosedBody& body) const {
   const double* const numbers = reinterpret_cast<const double*>(
       reinterpret_cast<const char*>(given_.poses) + static_cast<std::ptrdiff_t>(i) * pose_step_);
   if (given_.pose_kind == MINKRAY_POSE_QUATERNION) {
-    const minkray_pose pose = matrix_of(numbers, argument_, i);
-    read_pose(&pose, argument_.c_str(), body.pose_);
+    body.pose_ = pose_of(numbers, argument_, i);
     return;
   }
   if (given_.pose_kind == MINKRAY_POSE_MATRIX_4X4) check_last_row(numbers + 12, argument_, i);

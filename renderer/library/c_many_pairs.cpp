@@ -146,7 +146,7 @@ int minkray_signed_distances(const minkray_bodies* a, const minkray_bodies* b, s
     const minkray_distance_arrays to = checked(distances, "distances", "minkray_distance_arrays");
     SignedDistanceOptions asked = distance_options(options);
     const bool derive = wants_derivative(to);
-    if (derive) asked.tolerance = std::min(asked.tolerance, tolerance_for_derivatives);
+    if (derive) asked = for_derivatives(asked);
     ask_all(all_a, all_b, count, memories, how,
             [&](size_t i, const PosedBody& one, const PosedBody& other, PairMemory* memory) {
               const SignedDistance found = distance_of(one, other, memory, asked);

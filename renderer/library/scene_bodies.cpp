@@ -2,6 +2,7 @@
 #include "renderer/library/scene_bodies.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <unordered_map>
 #include <unordered_set>
@@ -47,6 +48,18 @@ ContactBody as_box(const PlacedPlane& plane, const Vec3<double>& near, double re
 /// How far the moving body gets from where its origin is at time 0.
 double way_of(const PartsBody& moving, const RigidMotion& motion, double t_max) {
   return reach_of(moving) + t_max * motion.velocity.norm();
+}
+
+constexpr double square(double x) {
+  return x * x;
+}
+
+/// The next float that is no more.
+float float_below(double x) {
+  constexpr double largest = std::numeric_limits<float>::max();
+  const float rounded = static_cast<float>(std::clamp(x, -largest, largest));
+  return double(rounded) <= x ? rounded
+                              : std::nextafter(rounded, -std::numeric_limits<float>::infinity());
 }
 
 constexpr double no_end = std::numeric_limits<double>::infinity();
@@ -129,6 +142,11 @@ SceneBodies::SceneBodies(const HeldScene& scene) : scene_(scene) {
     }
   }
   world_.emplace(std::move(bodies));
+  balls_.reserve(objects_.size());
+  for (const ContactBody& body : world_->bodies())
+    balls_.push_back(body.mesh
+                         ? Ball{body.pose.translation, no_end}
+                         : Ball{middle_in_world(body.shape, body.pose), body.shape.ball_radius()});
   for (const Instances::PosedHalfSpace& one : instances.half_spaces()) {
     if (scene.is_removed(one.instance)) continue;
     const Affine<double> pose = scene.pose_of_any(one.instance);
@@ -301,31 +319,40 @@ bool SceneBodies::is_another_at(const Vec3<double>& point, std::uint32_t object,
         std::abs(one.plane.normal.dot((TwoFoldVec3<double>(point) - one.plane.point).rounded())) <=
             near)
       return true;
-  const auto is_in = [&](const Bounds<float>& box) {
-    for (int axis = 0; axis < 3; ++axis)
-      if (!(point[axis] + near >= double(box.lower[axis])) ||
-          !(point[axis] - near <= double(box.upper[axis])))
-        return false;
-    return true;
-  };
   if (world_->bodies().empty()) return false;
+  float least[3], most[3];  // of what is near, rounded outwards
+  for (int axis = 0; axis < 3; ++axis) {
+    least[axis] = float_below(point[axis] - near);
+    most[axis] = -float_below(-(point[axis] + near));
+  }
   SignedDistanceOptions how;
   how.at_most = near;
   Affine<double> at;
   at.translation = point;
-  thread_local std::vector<std::uint32_t> open;
-  open.assign(1, 0);
-  while (!open.empty()) {
-    const std::uint32_t what = open.back();
-    open.pop_back();
+  std::uint32_t open[bvh_max_depth * (bvh_width - 1) + bvh_width];
+  int count = 0;
+  open[count++] = 0;
+  while (count > 0) {
+    const std::uint32_t what = open[--count];
     if ((what & BvhNode::leaf) == 0) {
       const BvhNode& node = world_->hierarchy().nodes[what];
-      for (int i = 0; i < bvh_width && node.children[i] != BvhNode::none; ++i)
-        if (is_in(node.box(i))) open.push_back(node.children[i]);
+      int is_in[bvh_width];  // all at once; what is no child has an empty box
+      for (int i = 0; i < bvh_width; ++i) {
+        is_in[i] = 1;
+        for (int axis = 0; axis < 3; ++axis)
+          is_in[i] &= (node.planes[0][axis][i] <= most[axis] ? 1 : 0) &
+                      (node.planes[1][axis][i] >= least[axis] ? 1 : 0);
+      }
+      for (int i = 0; i < bvh_width; ++i)
+        if (is_in[i] != 0 && node.children[i] != BvhNode::none) open[count++] = node.children[i];
       continue;
     }
     const std::uint32_t index = what & ~BvhNode::leaf;
-    if (objects_[index] == object) continue;
+    // Most boxes that hold a point are of bodies that do not: their corners.
+    const Ball& ball = balls_[index];
+    if ((point - ball.middle).squaredNorm() > square(ball.radius + 2 * near) ||
+        objects_[index] == object)
+      continue;
     const ContactBody& body = world_->bodies()[index];
     const SignedDistance distance =
         signed_distance(PartsBody(point_), at, body.parts(), body.pose, how);

@@ -65,6 +65,13 @@ class SceneBodies {
   };
   static constexpr std::uint32_t none = no_instance;
 
+  /// A ball that holds a body, apart from all else of it: many are looked at for each that is
+  /// asked.
+  struct Ball {
+    Vec3<double> middle;
+    double radius;
+  };
+
   const HalfSpace* half_space_of(std::uint32_t object) const;
   const ContactBody& body_of(std::uint32_t object) const {
     return world_->bodies()[body_of_[object]];
@@ -75,6 +82,7 @@ class SceneBodies {
   const HeldScene& scene_;
   const ContactShape point_{Shape<double>(Point<double>())};
   std::optional<ContactWorld> world_;
+  std::vector<Ball> balls_;             ///< of each body
   std::vector<std::uint32_t> objects_;  ///< of each body
   std::vector<std::uint32_t> body_of_;  ///< of each object; none of removed ones and half-spaces
   std::vector<HalfSpace> half_spaces_;

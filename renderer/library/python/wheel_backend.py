@@ -36,7 +36,7 @@ def _version():
 
 
 def _metadata():
-    with open(os.path.join(SOURCES, "docs/library.md"), encoding="utf-8") as file:
+    with open(os.path.join(SOURCES, "docs/python.md"), encoding="utf-8") as file:
         description = file.read()
     return (f"Metadata-Version: 2.1\nName: minkray\nVersion: {_version()}\nSummary: {SUMMARY}\nLicense: MIT\n"
             f"Requires-Python: >=3.9\nRequires-Dist: numpy\nDescription-Content-Type: text/markdown\n\n{description}")

@@ -77,6 +77,9 @@ TEST_F(SeveralFiles, are_described_together) {
   const Json one = Json::parse(run("info slide.urdf --json").out);
   const Json both = Json::parse(run("info slide.urdf world.sdf ball.json --json").out);
   EXPECT_EQ(one["objects"].get<int>() + 2, both["objects"].get<int>());
+  EXPECT_FALSE(one.contains("other_models"));
+  ASSERT_EQ(both["other_models"].size(), 1u);
+  EXPECT_EQ(both["other_models"][0]["format"], "SDF");
 }
 
 /// A scene file has a camera and lights; robots' files have none.

@@ -52,11 +52,26 @@ paste "$folder/answers" "$folder/of_program" | awk '
     ++hits }
   END { if (hits < 50) { print "too few hits: " hits; exit 1 } print hits " hits are the same bits" }'
 
-# What the pages show.
-for page in README.md docs/library.md; do
+# What the pages show: programs, and pieces of one that follow a page's first. What stands behind a
+# printf is what it prints.
+for page in README.md docs/cpp.md; do
   awk '/^```cpp$/ && !n {shows = 1; n = 1; next} /^```$/ {shows = 0} shows' "$sources/$page" >"$folder/shown.cpp"
   g++ -std=c++20 -Wall -Werror -I"$prefix/include" "$folder/shown.cpp" -L"$prefix/lib" -lminkray -o "$folder/shown"
   "$folder/shown" | grep -q '^bumper at '
+done
+{
+  printf '#include <minkray/minkray.h>\n#include <cstdio>\nnamespace mk = minkray;\nint main() {\n'
+  awk '/^```cpp$/ {shows = ++n > 1; next} /^```$/ {shows = 0} shows' "$sources/docs/cpp.md"
+  echo '}'
+} >"$folder/pieces.cpp"
+awk '/^```c$/ {shows = 1; next} /^```$/ {shows = 0} shows' "$sources/docs/c.md" >"$folder/page.c"
+g++ -std=c++20 -Wall -Werror -I"$prefix/include" "$folder/pieces.cpp" -L"$prefix/lib" -lminkray -o "$folder/pieces"
+gcc -std=c99 -Wall -Werror -pedantic -I"$prefix/include" "$folder/page.c" -L"$prefix/lib" -lminkray -o "$folder/page"
+sed -n 's|^.*printf(.*;  // ||p' "$folder/pieces.cpp" >"$folder/said_by_pieces"
+sed -n 's|^.*printf(.*;  /\* \(.*\) \*/$|\1|p' "$folder/page.c" >"$folder/said_by_page"
+for program in pieces page; do
+  (($(wc -l <"$folder/said_by_$program") >= 3)) || { echo "the page says nothing of what is printed"; exit 1; }
+  (cd "$sources" && "$folder/$program") | diff - "$folder/said_by_$program"
 done
 
 # With pkg-config, and with the static library.

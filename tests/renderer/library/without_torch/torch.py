@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The few names of PyTorch that docs/pairs.md shows, over NumPy: for its test where PyTorch is not installed."""
+"""The few names of PyTorch that docs/python.md shows, over NumPy: for its test where PyTorch is not installed."""
 import types
 
 import numpy as np
