@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+// minkray verify: whether a planner's motion is free of collisions, proven between its rows too.
+#include <chrono>
+#include <iostream>
+#include <memory>
+
+#include "core/parallel/parallel.h"
+#include "renderer/base/errors.h"
+#include "renderer/cli/exit_code.h"
+#include "renderer/cli/import_arguments.h"
+#include "renderer/cli/options.h"
+#include "renderer/cli/scene_file.h"
+#include "renderer/cli/verbs.h"
+#include "renderer/cli/verify_answer.h"
+#include "renderer/cli/verify_inputs.h"
+#include "renderer/import/import.h"
+#include "renderer/json/number_json.h"
+
+namespace minkray {
+namespace {
+
+struct VerifyOptions {
+  CommandFiles* files = nullptr;
+  VerifyInputs inputs;
+  std::vector<std::string> plans, outputs;
+  RefereeOptions referee;
+  std::size_t budget = 4000;
+  bool json = false, table = false, serve = false;
+  int threads = 0;
+};
+
+/// A collision weighs more than a doubt.
+ExitCode worse(ExitCode a, MotionStatus status) {
+  if (a == ExitCode::comparison_failed || status == MotionStatus::collides)
+    return ExitCode::comparison_failed;
+  return status == MotionStatus::undecided ? ExitCode::undecided : a;
+}
+
+void verify(VerifyOptions& options, ExitCode& exit_code) {
+  options.referee.budget = options.budget;
+  options.referee.every_step = options.table;
+  const VerifyCell cell = load_cell(options.inputs, *options.files);
+  for (const std::string& file : options.plans) {
+    const Plan plan = load_plan(file, cell);
+    for (const std::string& note : plan.trajectory.notes) std::cerr << file << ": " << note << '\n';
+    const auto begin = std::chrono::steady_clock::now();
+    const Verdict verdict =
+        verdict_of(plan.path, cell.cell.bodies, cell.cell.pairs, options.referee);
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
+    exit_code = worse(exit_code, verdict.status);
+    if (options.json) {
+      Json json = verdict_json(file, verdict, plan, cell.cell);
+      json["seconds"] = number_json(taken.count());
+      std::cout << json.dump() << '\n';
+    } else if (options.table) {
+      std::cout << steps_table(verdict, plan, cell.cell);
+    } else {
+      std::cout << verdict_text(file, verdict, plan, cell.cell);
+    }
+  }
+}
+
+}  // namespace
+
+void add_verify(Parser& parser, ExitCode& exit_code) {
+  const Verb verb = parser.add_verb("verify");
+  const auto options = std::make_shared<VerifyOptions>();
+  options->files = &verb.files();
+  VerifyInputs& inputs = options->inputs;
+  verb.add_option("--robot", inputs.robot, "Robot: " + foreign_formats()).required().reads_file();
+  verb.add_option(
+          "--trajectory", options->plans,
+          "JointTrajectory, RobotTrajectory or request (YAML, JSON), CSV or NPY; repeatable")
+      .required()
+      .one_value_each()
+      .reads_file();
+  verb.add_option("--scene", inputs.scenes,
+                  "Planning scene (YAML, JSON), scene file or SDF world; repeatable")
+      .one_value_each()
+      .reads_file();
+  inputs.allowed.add_options(verb);
+  verb.add_option("--state", inputs.state, "SRDF state of joints that the plan does not name")
+      .takes("NAME");
+  verb.add_option("--group", inputs.group,
+                  "SRDF group whose joints are the columns of an .npy file")
+      .takes("NAME");
+  verb.add_option("--padding", inputs.cell.padding, "Distance that links keep from obstacles (m)")
+      .between(0.0, 1e6)
+      .show_default();
+  verb.add_option("--inflate", inputs.inflate, "Padding of one link instead (m); repeatable")
+      .takes("LINK=RADIUS")
+      .one_value_each();
+  verb.add_flag("--only-obstacles", inputs.cell.only_obstacles,
+                "Check obstacles only, not self-collision");
+  verb.add_option("--tolerance", options->referee.tolerance,
+                  "Relative gap between the bounds of the least clearance")
+      .between(1e-9, 1.0)
+      .show_default();
+  verb.add_option("--budget", options->budget,
+                  "Distance queries per pair and step before a motion is undecided")
+      .between(std::size_t{1}, std::size_t{1'000'000'000})
+      .show_default();
+  verb.add_flag("--json", options->json, "Print one JSON object per plan");
+  verb.add_flag("--table", options->table, "Print the least clearance of each step as CSV");
+  add_import_options(verb, inputs.import, false);
+  verb.add_option("-t,--threads", options->threads, "Threads; 0: one per core")
+      .between(0, 1024)
+      .show_default();
+  verb.on_call([options, &exit_code] {
+    with_threads(options->threads, [&] { verify(*options, exit_code); });
+  });
+}
+
+}  // namespace minkray
