@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 // minkray verify: whether a planner's motion is free of collisions, proven between its rows too.
+#include <algorithm>
 #include <chrono>
 #include <iostream>
 #include <memory>
 
 #include "core/parallel/parallel.h"
+#include "renderer/base/build.h"
 #include "renderer/base/errors.h"
+#include "renderer/cli/csv_text.h"
 #include "renderer/cli/exit_code.h"
 #include "renderer/cli/import_arguments.h"
 #include "renderer/cli/options.h"
@@ -15,6 +18,7 @@
 #include "renderer/cli/verify_inputs.h"
 #include "renderer/import/import.h"
 #include "renderer/json/number_json.h"
+#include "renderer/verify/proof.h"
 
 namespace minkray {
 namespace {
@@ -36,8 +40,33 @@ ExitCode worse(ExitCode a, MotionStatus status) {
   return status == MotionStatus::undecided ? ExitCode::undecided : a;
 }
 
+bool is_proof(const std::string& file) {
+  return file.ends_with(".json");
+}
+
+void check_outputs(const VerifyOptions& options) {
+  for (const std::string& file : options.outputs) {
+    if (!is_proof(file)) throw WrongUsage("-o: must end in .json (a proof) (got " + file + ")");
+    check_writable(file);
+  }
+  if (!options.outputs.empty() && options.plans.size() != 1)
+    throw WrongUsage("-o: must have one --trajectory (got " + std::to_string(options.plans.size()) +
+                     ")");
+}
+
+void write_outputs(const VerifyOptions& options, const std::string& plan_file, const Plan& plan,
+                   const VerifyCell& cell, const Verdict& verdict) {
+  for (const std::string& file : options.outputs) {
+    ProofInputs inputs{std::string(version_and_commit()), cell.files};
+    inputs.files.emplace_back(plan_file);
+    write_text(file, proof_text(verdict, plan.path, cell.cell.bodies, cell.cell.pairs, inputs));
+  }
+}
+
 void verify(VerifyOptions& options, ExitCode& exit_code) {
+  check_outputs(options);
   options.referee.budget = options.budget;
+  options.referee.keep_planes = std::ranges::any_of(options.outputs, is_proof);
   options.referee.every_step = options.table;
   const VerifyCell cell = load_cell(options.inputs, *options.files);
   for (const std::string& file : options.plans) {
@@ -48,6 +77,7 @@ void verify(VerifyOptions& options, ExitCode& exit_code) {
         verdict_of(plan.path, cell.cell.bodies, cell.cell.pairs, options.referee);
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
     exit_code = worse(exit_code, verdict.status);
+    write_outputs(options, file, plan, cell, verdict);
     if (options.json) {
       Json json = verdict_json(file, verdict, plan, cell.cell);
       json["seconds"] = number_json(taken.count());
@@ -74,6 +104,9 @@ void add_verify(Parser& parser, ExitCode& exit_code) {
       .required()
       .one_value_each()
       .reads_file();
+  verb.add_option("-o,--output", options->outputs, "Proof of the verdict (.json); repeatable")
+      .one_value_each()
+      .writes_file();
   verb.add_option("--scene", inputs.scenes,
                   "Planning scene (YAML, JSON), scene file or SDF world; repeatable")
       .one_value_each()

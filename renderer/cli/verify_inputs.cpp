@@ -67,6 +67,10 @@ VerifyCell load_cell(const VerifyInputs& inputs, CommandFiles& files) {
   std::optional<Model> model = load_model(inputs.robot, inputs.import, mistakes);
   throw_if_any(mistakes);
   files.read(model->files);
+  VerifyCell cell;
+  cell.files = model->files;
+  if (!inputs.allowed.srdf.empty()) cell.files.emplace_back(inputs.allowed.srdf);
+  for (const std::string& file : inputs.scenes) cell.files.emplace_back(file);
   RobotMeaning meaning;
   if (!inputs.allowed.srdf.empty()) {
     Mistakes of_srdf(inputs.allowed.srdf);
@@ -106,7 +110,6 @@ VerifyCell load_cell(const VerifyInputs& inputs, CommandFiles& files) {
     throw_if_any(of_scene);
   }
 
-  VerifyCell cell;
   append(cell.state, planning.state);
   if (!inputs.state.empty()) {
     const GroupState* state = find_state(meaning, inputs.state, mistakes);

@@ -2,6 +2,7 @@
 // The files of `minkray verify`: a robot, what its SRDF says, scenes and plans.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,8 +31,9 @@ struct VerifyInputs {
 /// A robot among what is around it, loaded once for any number of plans.
 struct VerifyCell {
   Workcell cell;
-  JointValues state;                 ///< of joints that plans do not name
-  std::vector<std::string> columns;  ///< joints of .npy files
+  JointValues state;                         ///< of joints that plans do not name
+  std::vector<std::string> columns;          ///< joints of .npy files
+  std::vector<std::filesystem::path> files;  ///< that were read
 };
 
 /// Throws BadInput with all mistakes. Adds what is read to `files`.
