@@ -155,7 +155,7 @@ void add_to_model(const PlanningScene& scene, Model& model, Mistakes& mistakes) 
 
 Workcell workcell_of(Model model, std::vector<Scene> scenes, const PlanningScene* planning,
                      const AllowedPairs& allowed, const WorkcellOptions& options) {
-  Workcell cell{std::move(model), std::move(scenes), {}, {}, {}};
+  Workcell cell{std::move(model), std::move(scenes), {}, {}, {}, options.geometry};
   cell.bodies = bodies_of(cell.model, options.geometry);
   for (const ClearanceBody& body : cell.bodies)
     cell.owners.push_back(body.link_index >= 0 ? body.link

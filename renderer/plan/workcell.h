@@ -30,6 +30,7 @@ struct Workcell {
   std::vector<ClearanceBody> bodies;
   std::vector<std::string> owners;  ///< of each body: a link or an object
   std::vector<RefereePair> pairs;
+  GeometryChoice geometry = GeometryChoice::collision;  ///< which of the model's shapes are bodies
 };
 
 /// Adds the objects of a planning scene to the model of a robot that stands where the scene says.
