@@ -86,6 +86,13 @@ Json json_of(const Judged& judged, const VerifyCell& cell) {
   return json;
 }
 
+/// The first line, and the first stretch if there is one.
+std::string title_of(const std::string& text) {
+  const std::size_t first = text.find('\n'), second = text.find('\n', first + 1);
+  if (second == text.npos) return text.substr(0, first);
+  return text.substr(0, first) + ":" + text.substr(first + 2, second - first - 2);
+}
+
 void write_outputs(const VerifyOptions& options, const Judged& judged, const VerifyCell& cell) {
   const auto& [name, plan, verdict, seconds] = judged;
   const std::string text = verdict_text(name, verdict, plan, cell.cell);
@@ -101,7 +108,7 @@ void write_outputs(const VerifyOptions& options, const Judged& judged, const Ver
                                    verdict_json(name, verdict, plan, cell.cell), text, worst.time));
     } else {
       const Image image =
-          worst_picture(verdict, plan, cell.cell, text.substr(0, text.find('\n')), options.samples);
+          worst_picture(verdict, plan, cell.cell, title_of(text), options.samples);
       write_file(file, encode_image(image, file));
     }
   }

@@ -98,7 +98,7 @@ Image worst_picture(const Verdict& verdict, const Plan& plan, const Workcell& ce
   options.samples = samples;
   Image image = render(scene, world, options).image;
   constexpr double scale = 2;
-  fill_rectangle(image, 0, 0, image.width, 14 * scale, Vec3<float>::Zero(), 0.6f);
+  fill_rectangle(image, 0, 0, image.width, 14 * scale, Vec3<float>::Zero(), 0.9f);
   draw_text(image, 4 * scale, 4 * scale, title, Vec3<float>::Ones(), scale);
   return image;
 }

@@ -90,6 +90,31 @@ const around = (() => {
   if (low[0] > high[0]) return {middle: [0, 0, 0], size: 1};
   return {middle: mix(low, high, 0.5), size: Math.hypot(...high.map((x, i) => x - low[i])) || 1};
 })();
+/** Cuts triangles with a side longer than `longest` in half, so that far ones are drawn first. */
+function cut(body, longest) {
+  const open = [];
+  for (let i = 0; i < body.t.length; i += 3) open.push(body.t.slice(i, i + 3));
+  const done = [], corner = i => body.v.slice(3 * i, 3 * i + 3), middles = new Map();
+  while (open.length) {
+    const t = open.pop();
+    let longestSide = 0, side = 0;
+    for (let k = 0; k < 3; ++k) {
+      const p = corner(t[k]), q = corner(t[(k + 1) % 3]);
+      const length = Math.hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
+      if (length > longestSide) { longestSide = length; side = k; }
+    }
+    if (longestSide <= longest || done.length + open.length > 4000) { done.push(...t); continue; }
+    const i = t[side], j = t[(side + 1) % 3], k = t[(side + 2) % 3], key = Math.min(i, j) + ',' + Math.max(i, j);
+    if (!middles.has(key)) {
+      middles.set(key, body.v.length / 3);
+      body.v.push(...mix(corner(i), corner(j), 0.5));
+    }
+    open.push([i, middles.get(key), k], [middles.get(key), j, k]);
+  }
+  body.flat = body.t.length <= 6;
+  body.t = done;
+}
+motion.bodies.forEach(body => cut(body, around.size / 8));
 function draw() {
   const ratio = window.devicePixelRatio || 1, w = canvas.clientWidth * ratio, h = canvas.clientHeight * ratio;
   canvas.width = w; canvas.height = h;
@@ -103,6 +128,8 @@ function draw() {
       return [dot(r, right), dot(r, up), dot(r, out)];
     });
     const name = motion.names[index];
+    // What is around the robot must not hide it.
+    const alpha = body.link < 0 && name !== pair[0] && name !== pair[1] ? 0.4 : 1;
     const colour = name === pair[0] ? [235, 120, 20] : name === pair[1] ? [40, 105, 225]
       : body.link < 0 ? [165, 160, 140] : [150, 160, 170];
     for (let i = 0; i < body.t.length; i += 3) {
@@ -110,10 +137,10 @@ function draw() {
       const u = q.map((x, k) => x - p[k]), v = r.map((x, k) => x - p[k]);
       const n = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
       const size = Math.hypot(...n);
-      if (!(n[2] > 0) && body.t.length > 6) continue;
+      if (!(n[2] > 0) && !body.flat) continue;
       const light = 0.45 + 0.55 * Math.abs(n[2] * 0.8 + n[1] * 0.6) / (size || 1);
       faces.push({depth: p[2] + q[2] + r[2], points: [p, q, r],
-        colour: 'rgb(' + colour.map(c => Math.round(c * Math.min(1, light))).join(',') + ')'});
+        alpha, colour: 'rgb(' + colour.map(c => Math.round(c * Math.min(1, light))).join(',') + ')'});
     }
   });
   faces.sort((a, b) => a.depth - b.depth);
@@ -122,7 +149,9 @@ function draw() {
     face.points.forEach((p, i) => context[i ? 'lineTo' : 'moveTo'](w / 2 + scale * p[0], h / 2 - scale * p[1]));
     context.closePath();
     context.fillStyle = context.strokeStyle = face.colour;
-    context.fill(); context.stroke();
+    context.globalAlpha = face.alpha;
+    context.fill();
+    if (face.alpha === 1) context.stroke();
   }
   find('shown').textContent = time.toFixed(3) + ' s';
   find('time').value = last > first ? 1000 * (time - first) / (last - first) : 0;
