@@ -39,7 +39,7 @@ class JointPiece {
   double way() const;
   /// No less than the value anywhere on [0, 1], without its sign.
   double largest() const;
-  /// The same of the first and the second derivative by s.
+  /// No less than the first and the second derivative by s anywhere, without their signs.
   double fastest() const;
   double most_bent() const;
 

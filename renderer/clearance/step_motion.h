@@ -25,8 +25,9 @@ struct JointPath {
   Model skeleton;  ///< links and joints alone
   std::vector<double> times;
   std::vector<std::vector<std::vector<double>>> values;  ///< row, joint, number
-  /// Of hinges, slides and planar joints, by time, as `values`; empty where nothing is known. Steps
-  /// with rates at both ends are cubic for that joint; with accelerations as well quintic.
+  /// First and second derivatives by time of hinges, slides and planar joints, ordered as `values`;
+  /// a list is empty where nothing is known. Steps with rates at both ends are cubic for that
+  /// joint, with accelerations as well quintic.
   std::vector<std::vector<std::vector<double>>> rates = {}, accelerations = {};
 
   /// Number `number` of a joint on its way from row `first` to row `last`.

@@ -107,8 +107,7 @@ void write_outputs(const VerifyOptions& options, const Judged& judged, const Ver
       write_text(file, motion_page(cell.cell, plan.path,
                                    verdict_json(name, verdict, plan, cell.cell), text, worst.time));
     } else {
-      const Image image =
-          worst_picture(verdict, plan, cell.cell, title_of(text), options.samples);
+      const Image image = worst_picture(verdict, plan, cell.cell, title_of(text), options.samples);
       write_file(file, encode_image(image, file));
     }
   }

@@ -11,8 +11,9 @@
 namespace minkray {
 namespace {
 
-/// Aliases can make thousands of millions of values of a few lines.
-constexpr std::size_t most_values = 20'000'000;
+/// Aliases can make thousands of millions of values of a few lines; without them each value takes
+/// a byte at least. So many more are allowed.
+constexpr std::size_t most_values_of_aliases = 100'000;
 
 /// Plain scalars as YAML 1.2's core schema has them; numbers that are not finite stay text.
 Json scalar(const YAML::Node& node) {
@@ -36,16 +37,18 @@ Json scalar(const YAML::Node& node) {
 
 class YamlReader {
  public:
-  YamlReader(Document& document, Mistakes& mistakes) : document_(document), mistakes_(mistakes) {}
+  YamlReader(Document& document, std::size_t bytes, Mistakes& mistakes)
+      : document_(document), most_values_(bytes + most_values_of_aliases), mistakes_(mistakes) {}
 
   Json value(const YAML::Node& node, const JsonPath& path, std::size_t depth) {
-    if (++count_ > most_values || depth > deepest_json_nesting) {
+    if (++count_ > most_values_ || depth > deepest_json_nesting) {
       if (!is_full_)
-        mistakes_.add(count_ > most_values ? "must have fewer values"
-                                           : "must not be nested more deeply than 256 levels");
+        mistakes_.add(count_ > most_values_ ? "must have fewer values"
+                                            : "must not be nested more deeply than 256 levels");
       is_full_ = true;
       return nullptr;
     }
+    if (is_full_) return nullptr;
     document_.lines.emplace(path.text(), line_of(node));
     switch (node.Type()) {
       case YAML::NodeType::Scalar:
@@ -88,6 +91,7 @@ class YamlReader {
   }
 
   Document& document_;
+  const std::size_t most_values_;
   Mistakes& mistakes_;
   std::size_t count_ = 0;
   bool is_full_ = false;
@@ -112,7 +116,7 @@ std::optional<Document> yaml_document(const std::string& text, const std::string
   try {
     const YAML::Node node = only_document(text, mistakes);
     if (mistakes.messages().size() == before)
-      document.json = YamlReader(document, mistakes).value(node, {}, 0);
+      document.json = YamlReader(document, text.size(), mistakes).value(node, {}, 0);
   } catch (const YAML::Exception& error) {
     mistakes.add("line " + std::to_string(std::max(error.mark.line, 0) + 1) +
                  ": not valid YAML: " + printable(error.msg, 200));

@@ -15,7 +15,7 @@ namespace minkray {
 
 struct Trajectory {
   std::vector<JointRow> rows;
-  /// Of each row by joints' names, per second; empty rows: none are known.
+  /// Derivatives by time in each row; a row is empty where none are known.
   std::vector<JointValues> rates = {}, accelerations = {};
   JointValues start = {};               ///< of joints that rows do not name
   std::vector<std::string> notes = {};  ///< that the user should know

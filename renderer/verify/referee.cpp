@@ -323,7 +323,7 @@ Verdict verdict_of(const JointPath& path, const std::vector<ClearanceBody>& bodi
   verdict.status = collides                    ? MotionStatus::collides
                    : verdict.stretches.empty() ? MotionStatus::free
                                                : MotionStatus::undecided;
-  // Of what is left open nothing is known.
+  // A stretch that is left open has no lower bound.
   if (!verdict.stretches.empty()) least.lower = -infinity;
   least.lower = std::min(least.lower, least.upper);
   verdict.least = least;
