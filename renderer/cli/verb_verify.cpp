@@ -136,12 +136,22 @@ void serve(const VerifyOptions& options, const VerifyCell& cell) {
   }
 }
 
+/// Notes on files come by the hundred, most of one kind.
+void tell_notes(const std::vector<std::string>& notes, bool all) {
+  constexpr std::size_t most = 3;
+  for (std::size_t i = 0; i < notes.size() && (all || i < most); ++i)
+    std::cerr << printable(notes[i]) << '\n';
+  if (notes.size() > most && !all)
+    std::cerr << "and " << notes.size() - most << " more notes (--verbose shows all)\n";
+}
+
 void verify(VerifyOptions& options, ExitCode& exit_code) {
   check_outputs(options);
   options.referee.budget = options.budget;
   options.referee.every_step = options.table;
   options.referee.keep_planes = std::ranges::any_of(options.outputs, is_proof);
   const VerifyCell cell = load_cell(options.inputs, *options.files);
+  tell_notes(cell.notes, options.inputs.import.verbose);
   if (options.serve) return serve(options, cell);
   for (const std::string& file : options.plans) {
     const Judged judged = judge(file, load_plan(file, cell), cell, options);
@@ -169,7 +179,6 @@ void add_verify(Parser& parser, ExitCode& exit_code) {
   verb.add_option(
           "--trajectory", options->plans,
           "JointTrajectory, RobotTrajectory or request (YAML, JSON), CSV or NPY; repeatable")
-      .required()
       .one_value_each()
       .reads_file();
   verb.add_option("-o,--output", options->outputs,

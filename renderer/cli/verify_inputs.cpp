@@ -54,6 +54,25 @@ std::vector<std::string> columns_of(const VerifyInputs& inputs, const RobotMeani
                  ")");
 }
 
+/// Links of the SRDF that the robot does not have are noted: no pair of theirs is looked at.
+AllowedPairs allowed_pairs(const AllowedLinks& links, const Model& model,
+                           std::vector<std::string>& notes, Mistakes& mistakes) {
+  AllowedLinks others = links;
+  others.srdf.clear();
+  AllowedPairs allowed = others.read(model, mistakes);
+  if (links.srdf.empty()) return allowed;
+  Mistakes of_srdf(links.srdf), serious("");
+  read_srdf(links.srdf, model, allowed, of_srdf);
+  for (const std::string& message : of_srdf.messages())
+    if (message.find("there is no link") != message.npos ||
+        message.find("and more mistakes") != message.npos)
+      notes.push_back(message);
+    else
+      serious.add(message);
+  if (!serious.none()) throw BadInput(of_srdf.text());
+  return allowed;
+}
+
 void append(JointValues& to, const JointValues& values) {
   to.insert(to.end(), values.begin(), values.end());
 }
@@ -76,9 +95,11 @@ VerifyCell load_cell(const VerifyInputs& inputs, CommandFiles& files) {
     Mistakes of_srdf(inputs.allowed.srdf);
     meaning = read_robot_meaning(inputs.allowed.srdf, *model, of_srdf);
     throw_if_any(of_srdf);
+    for (const std::string& note : meaning.notes)
+      cell.notes.push_back(inputs.allowed.srdf + ": " + note);
   }
   pose_model(*model, inputs.import, mistakes);
-  const AllowedPairs allowed = inputs.allowed.read(*model, mistakes);
+  const AllowedPairs allowed = allowed_pairs(inputs.allowed, *model, cell.notes, mistakes);
   throw_if_any(mistakes);
 
   PlanningScene planning;
@@ -106,6 +127,7 @@ VerifyCell load_cell(const VerifyInputs& inputs, CommandFiles& files) {
                   "allowed_collision_matrix), or a scene of ours (with objects)");
     });
     throw_if_any(of_scene);
+    for (const std::string& note : planning.notes) cell.notes.push_back(file + ": " + note);
     add_to_model(planning, *model, of_scene);
     throw_if_any(of_scene);
   }

@@ -34,6 +34,7 @@ struct VerifyCell {
   JointValues state;                         ///< of joints that plans do not name
   std::vector<std::string> columns;          ///< joints of .npy files
   std::vector<std::filesystem::path> files;  ///< that were read
+  std::vector<std::string> notes;            ///< that the user should know
 };
 
 /// Throws BadInput with all mistakes. Adds what is read to `files`.

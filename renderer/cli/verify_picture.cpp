@@ -64,7 +64,8 @@ void look_at(Scene& scene, const World& world, const Vec3<double>& point) {
       const Vec3<double> position = point + distance * out;
       QueryCounts counts;
       const WorldHit hit = world.closest_hit(Ray<double>{position, -distance * out, 1}, counts);
-      // The ray ends within or between the pair, so that it meets little else if nothing hides them.
+      // The ray ends within or between the pair, so that it meets little else if nothing hides
+      // them.
       const double seen = hit.found() ? hit.cast.t() : 1;
       if (!(seen > best + 0.02)) continue;
       best = seen;

@@ -120,7 +120,7 @@ std::vector<double> values_of_transform(const Json& json, const JsonPath& path, 
 }
 
 JointValues read_robot_state(const Json& json, const JsonPath& path, const Model& model,
-                             Mistakes& mistakes) {
+                             std::vector<std::string>& notes, Mistakes& mistakes) {
   JointValues values;
   if (const Json* state = member_of(json, "joint_state")) {
     const JsonPath at = path / "joint_state";
@@ -137,7 +137,8 @@ JointValues read_robot_state(const Json& json, const JsonPath& path, const Model
     for (std::size_t i = 0; i < std::min(names.size(), positions.size()); ++i) {
       const ModelJoint* joint = joint_of(model, names[i]);
       if (!joint)
-        mistakes.add(at / "name" / i, "there is no joint \"" + printable(names[i], 60) + "\"");
+        notes.push_back((at / "name" / i).text() + ": there is no joint \"" +
+                        printable(names[i], 60) + "\"; its value is passed over");
       else if (width_of(joint->kind) == 1 && !joint->mimic)
         values.emplace_back(names[i], std::vector<double>{positions[i]});
     }
@@ -180,7 +181,7 @@ PlanningScene read_planning_scene(const Document& document, const Json& json, co
   }
   if (const Json* state = member_of(json, "robot_state")) {
     const JsonPath at = path / "robot_state";
-    scene.state = read_robot_state(*state, at, model, mistakes);
+    scene.state = read_robot_state(*state, at, model, scene.notes, mistakes);
     objects.add_attached(*state, at, scene.attached);
   }
   if (const Json* matrix = member_of(json, "allowed_collision_matrix"))

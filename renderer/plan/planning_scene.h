@@ -42,6 +42,7 @@ struct PlanningScene {
   JointValues state;
   std::map<std::string, double> padding;               ///< of links
   std::map<std::string, Affine<double>> fixed_frames;  ///< in the planning frame
+  std::vector<std::string> notes;                      ///< that the user should know
 };
 
 /// The scene that a message is or holds (in `scene`, `planning_scene`); null if there is none.
@@ -52,9 +53,10 @@ PlanningScene read_planning_scene(const Document& document, const Json& json, co
                                   const Model& model, const ImportOptions& options,
                                   Mistakes& mistakes);
 
-/// moveit_msgs/RobotState: joint_state and multi_dof_joint_state.
+/// moveit_msgs/RobotState: joint_state and multi_dof_joint_state. Joints that the robot does not
+/// have are passed over, and noted.
 JointValues read_robot_state(const Json& json, const JsonPath& path, const Model& model,
-                             Mistakes& mistakes);
+                             std::vector<std::string>& notes, Mistakes& mistakes);
 
 /// A transform as numbers of a floating or planar joint.
 std::vector<double> values_of_transform(const Json& json, const JsonPath& path, JointKind kind,

@@ -34,11 +34,17 @@ class MeaningReader {
   }
 
  private:
+  /// Files are shared by variants of a robot: MoveIt passes over what this one does not have.
+  void note(const XmlElement& element, const std::string& what) {
+    meaning_.notes.push_back("line " + std::to_string(element.line) + ": " + name_of(element) +
+                             ": " + what + "; it is passed over");
+  }
+
   int link(const XmlElement& element, std::string_view key) {
     const std::string name = element.attribute_or(key);
     for (std::size_t i = 0; i < model_.links.size(); ++i)
       if (model_.links[i].name == name) return static_cast<int>(i);
-    files_.wrong(element, std::string(key) + ": there is no link \"" + printable(name, 60) + "\"");
+    note(element, std::string(key) + ": there is no link \"" + printable(name, 60) + "\"");
     return -1;
   }
 
@@ -96,7 +102,7 @@ class MeaningReader {
       const std::string name = part.attribute_or("name");
       const auto joint = joints.find(name);
       if (joint == joints.end()) {
-        files_.wrong(part, "name: there is no joint \"" + printable(name, 60) + "\"");
+        note(part, "there is no joint \"" + printable(name, 60) + "\" that moves");
         continue;
       }
       const std::size_t width = width_of(joint->second->kind);

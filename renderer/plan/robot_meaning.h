@@ -21,6 +21,7 @@ struct GroupState {
 struct RobotMeaning {
   std::map<std::string, std::vector<std::string>> groups;  ///< joints that move, as links follow
   std::vector<GroupState> states;
+  std::vector<std::string> notes;  ///< what names joints or links that the robot does not have
 };
 
 /// Reads groups and states. A virtual joint that floats or slides in a plane becomes a joint of its

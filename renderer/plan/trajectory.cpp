@@ -48,7 +48,8 @@ class TrajectoryReader {
     }
     for (const std::string_view key : {"trajectory_start", "start_state"})
       if (const Json* state = member_of(message, key))
-        for (auto& value : read_robot_state(*state, path / key, model_, mistakes_))
+        for (auto& value :
+             read_robot_state(*state, path / key, model_, trajectory_.notes, mistakes_))
           trajectory_.start.push_back(std::move(value));
     if (member_of(message, "points")) {
       is_found_ = true;

@@ -159,8 +159,8 @@ TEST_P(RefereeOfDegree, agrees_with_dense_samples) {
   }
   // The motions are of both kinds, and none is left open.
   EXPECT_EQ(free + colliding, 40);
-  EXPECT_GT(free, 8);
-  EXPECT_GT(colliding, 8);
+  EXPECT_GE(free, 8);
+  EXPECT_GE(colliding, 8);
 }
 INSTANTIATE_TEST_SUITE_P(Motions, RefereeOfDegree, ::testing::Values(1, 3, 5));
 
