@@ -73,6 +73,16 @@ AllowedPairs allowed_pairs(const AllowedLinks& links, const Model& model,
   return allowed;
 }
 
+/// Of robots' files and worlds what collides counts, as of the robot itself.
+ImportOptions options_of_obstacles(const ImportOptions& of_robot, const std::string& file) {
+  ImportOptions options;
+  if (!is_foreign(file)) return options;
+  options = of_robot;
+  options.keyframe.clear();
+  options.joints.clear();
+  return options;
+}
+
 void append(JointValues& to, const JointValues& values) {
   to.insert(to.end(), values.begin(), values.end());
 }
@@ -110,7 +120,7 @@ VerifyCell load_cell(const VerifyInputs& inputs, CommandFiles& files) {
     const std::optional<Document> document = planning_document(file, of_scene);
     throw_if_any(of_scene);
     if (!document) {
-      Imported imported = import_scene(file);
+      Imported imported = import_scene(file, options_of_obstacles(inputs.import, file));
       files.read(imported.files);
       scenes.push_back(std::move(imported.scene));
       continue;
