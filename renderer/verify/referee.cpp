@@ -104,6 +104,8 @@ class StepsSearch {
                           double at_most, bool only_sign = false) {
     const RefereePair& pair = pairs_[index];
     ++found_.distances;
+    // Closer than a margin above 0 is no overlap.
+    only_sign &= pair.margin == 0;
     SignedDistance there = at.at(pair, bound, s, at_most + pair.margin, only_sign);
     LeastClearance& least = found_.least;
     if (there.upper - pair.margin < least.upper) {
