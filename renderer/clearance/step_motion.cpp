@@ -33,23 +33,6 @@ Quaternion quaternion_of(const std::vector<double>& values, int at) {
   return q.normalized();
 }
 
-/// From one number to another, in twice the digits, but for some epsilons of the way.
-TwoFold<double> between(double first, double last, double s) {
-  return two_sum(first, s * (last - first));
-}
-
-std::vector<double> between(JointKind kind, const std::vector<double>& first,
-                            const std::vector<double>& last, double s) {
-  std::vector<double> values(first.size());
-  for (std::size_t i = 0; i < first.size(); ++i) values[i] = between(first[i], last[i], s).high;
-  if (const int at = quaternion_at(kind); at >= 0 && !values.empty()) {
-    const Quaternion q = quaternion_of(first, at).slerp(s, quaternion_of(last, at));
-    const double numbers[4] = {q.w(), q.x(), q.y(), q.z()};
-    std::copy(numbers, numbers + 4, values.begin() + at);
-  }
-  return values;
-}
-
 /// Whether it slides along axes of its link's frame, which rounds nothing.
 bool is_exact(const ModelJoint& joint) {
   return (joint.axis.array() != 0).count() == 1;
@@ -58,34 +41,6 @@ bool is_exact(const ModelJoint& joint) {
 /// Whether the joint's values say where it is; at rest it moves nothing.
 bool has_values(const ModelJoint& joint) {
   return joint.value.size() == width_of(joint.kind) && !joint.value.empty();
-}
-
-/// By how much the joint's values move its link's origin, along the link's axes at rest, or in the
-/// world of a free joint. In twice the digits where lengths may be large.
-TwoFoldVec3<double> shift_of(const ModelJoint& joint, const std::vector<double>& first,
-                             const std::vector<double>& last, double s) {
-  const auto along = [](const Vec3<double>& axis, const TwoFold<double>& length) {
-    return TwoFoldVec3<double>(length.high * axis, length.low * axis);
-  };
-  switch (joint.kind) {
-    case JointKind::slide:
-      return along(joint.axis,
-                   between(first[0], last[0], s) + TwoFold<double>{-joint.reference, 0});
-    case JointKind::planar: {
-      const auto [u, v] = directions_across(joint.axis);
-      return along(u, between(first[0], last[0], s)) + along(v, between(first[1], last[1], s));
-    }
-    case JointKind::free: {
-      TwoFoldVec3<double> origin;
-      for (int i = 0; i < 3; ++i) {
-        const auto k = static_cast<std::size_t>(i);
-        origin.set(i, between(first[k], last[k], s));
-      }
-      return origin;
-    }
-    default:
-      return motion_of(joint).translation;
-  }
 }
 
 Vec3<double> first_three(const std::vector<double>& values) {
@@ -140,6 +95,46 @@ JointPath::JointPath(const Model& model, const std::vector<JointRow>& rows) : sk
   }
 }
 
+bool JointPath::is_curved(std::size_t first, std::size_t last, std::size_t joint) const {
+  return first != last && times[last] > times[first] && first < rates.size() &&
+         last < rates.size() && !rates[first][joint].empty() && !rates[last][joint].empty();
+}
+
+JointPiece JointPath::piece(std::size_t first, std::size_t last, std::size_t joint,
+                            std::size_t number) const {
+  const double from = values[first][joint][number], to = values[last][joint][number];
+  if (!is_curved(first, last, joint)) return {from, to};
+  const double length = times[last] - times[first];
+  JointEnds ends{from, to};
+  ends.rates = {length * rates[first][joint][number], length * rates[last][joint][number]};
+  const bool is_quintic = first < accelerations.size() && last < accelerations.size() &&
+                          !accelerations[first][joint].empty() &&
+                          !accelerations[last][joint].empty();
+  if (!is_quintic) return JointPiece::cubic(ends);
+  ends.accelerations = {length * length * accelerations[first][joint][number],
+                        length * length * accelerations[last][joint][number]};
+  return JointPiece::quintic(ends);
+}
+
+namespace {
+
+/// A joint's numbers between two rows.
+std::vector<double> values_between(const JointPath& path, std::size_t first, std::size_t last,
+                                   std::size_t joint, JointKind kind, double s) {
+  const std::vector<double>&from = path.values[first][joint], &to = path.values[last][joint];
+  std::vector<double> values(from.size());
+  for (std::size_t i = 0; i < from.size(); ++i)
+    values[i] = path.piece(first, last, joint, i).at(s).high;
+  if (const int at = quaternion_at(kind); at >= 0 && !values.empty()) {
+    const Quaternion q = quaternion_of(from, at).slerp(s, quaternion_of(to, at));
+    const double numbers[4] = {q.w(), q.x(), q.y(), q.z()};
+    std::copy(numbers, numbers + 4, values.begin() + at);
+  }
+  return values;
+}
+
+}  // namespace
+
 Model JointPath::posed_at(double time) const {
   const auto after =
       static_cast<std::size_t>(std::ranges::upper_bound(times, time) - times.begin());
@@ -151,10 +146,65 @@ Model JointPath::posed_at(double time) const {
   for (ModelLink& link : posed.links)
     for (ModelJoint& joint : link.joints) {
       joint.value =
-          s == 0 ? values[first][at] : between(joint.kind, values[first][at], values[last][at], s);
+          s == 0 ? values[first][at] : values_between(*this, first, last, at, joint.kind, s);
       ++at;
     }
   return posed;
+}
+
+StepMotion::Rate StepMotion::rate_of(const ModelJoint& joint, std::size_t at) const {
+  const std::vector<double>&from = path_.values[first_][at], &to = path_.values[last_][at];
+  Rate rate;
+  if (from.empty() || from.size() != to.size() || from.size() != width_of(joint.kind)) return rate;
+  rate.has_values = true;
+  const auto piece = [&](std::size_t number) { return path_.piece(first_, last_, at, number); };
+  // Curved pieces are computed in more steps, each of which rounds.
+  const auto angle_of = [](const JointPiece& of) {
+    return of.largest() + (of.is_straight() ? 0 : 4 * of.way());
+  };
+  if (const int q = quaternion_at(joint.kind); q >= 0)
+    rate.turn = quaternion_of(from, q).angularDistance(quaternion_of(to, q));
+  switch (joint.kind) {
+    case JointKind::hinge: {
+      const JointPiece angle = piece(0);
+      rate.angle = angle_of(angle) + std::abs(joint.reference);
+      rate.turn = angle.fastest();
+      rate.turn_change = angle.most_bent();
+      break;
+    }
+    case JointKind::slide: {
+      const JointPiece length = piece(0);
+      rate.slide = length.fastest();
+      rate.slide_change = length.most_bent();
+      if (!length.is_straight()) rate.way = length.way();
+      rate.offset = length.is_straight() ? std::max(std::abs(from[0] - joint.reference),
+                                                    std::abs(to[0] - joint.reference))
+                                         : length.largest() + std::abs(joint.reference);
+      break;
+    }
+    case JointKind::planar: {
+      const JointPiece x = piece(0), y = piece(1), angle = piece(2);
+      const bool is_straight = x.is_straight() && y.is_straight();
+      rate.slide = std::hypot(x.fastest(), y.fastest());
+      rate.slide_change = std::hypot(x.most_bent(), y.most_bent());
+      if (!is_straight) rate.way = x.way() + y.way();
+      rate.offset = is_straight ? std::max(std::hypot(from[0], from[1]), std::hypot(to[0], to[1]))
+                                : std::hypot(x.largest(), y.largest());
+      rate.angle = angle_of(angle);
+      rate.turn = angle.fastest();
+      rate.turn_change = angle.most_bent();
+      break;
+    }
+    case JointKind::free:
+      rate.slide = (first_three(to) - first_three(from)).norm();
+      rate.offset = std::max(first_three(from).norm(), first_three(to).norm());
+      rate.is_absolute = true;
+      break;
+    case JointKind::ball:
+    case JointKind::fixed:
+      break;
+  }
+  return rate;
 }
 
 StepMotion::StepMotion(const JointPath& path, std::size_t step)
@@ -169,42 +219,34 @@ StepMotion::StepMotion(const JointPath& path, std::size_t step)
     rates_.emplace_back();
     bool is_absolute = false;
     for (const ModelJoint& joint : link.joints) {
-      const std::vector<double>&from = path.values[first_][at], &to = path.values[last_][at];
-      ++at;
-      Rate rate;
-      if (!from.empty() && from.size() == to.size() && from.size() == width_of(joint.kind)) {
-        rate.has_values = true;
-        if (const int q = quaternion_at(joint.kind); q >= 0)
-          rate.turn = quaternion_of(from, q).angularDistance(quaternion_of(to, q));
-        switch (joint.kind) {
-          case JointKind::hinge:
-            rate.angle = std::max(std::abs(from[0]), std::abs(to[0])) + std::abs(joint.reference);
-            rate.turn = std::abs(to[0] - from[0]);
-            break;
-          case JointKind::slide:
-            rate.slide = std::abs(to[0] - from[0]);
-            rate.offset =
-                std::max(std::abs(from[0] - joint.reference), std::abs(to[0] - joint.reference));
-            break;
-          case JointKind::planar:
-            rate.slide = std::hypot(to[0] - from[0], to[1] - from[1]);
-            rate.offset = std::max(std::hypot(from[0], from[1]), std::hypot(to[0], to[1]));
-            rate.angle = std::max(std::abs(from[2]), std::abs(to[2]));
-            rate.turn = std::abs(to[2] - from[2]);
-            break;
-          case JointKind::free:
-            rate.slide = (first_three(to) - first_three(from)).norm();
-            rate.offset = std::max(first_three(from).norm(), first_three(to).norm());
-            rate.is_absolute = is_absolute = true;
-            break;
-          case JointKind::ball:
-          case JointKind::fixed:
-            break;
-        }
-      }
-      rates_.back().push_back(rate);
+      rates_.back().push_back(rate_of(joint, at++));
+      is_absolute |= rates_.back().back().is_absolute;
     }
     parents_.push_back(is_absolute ? -1 : link.parent);
+  }
+}
+
+/// By how much the joint's values move its link's origin, along the link's axes at rest, or in the
+/// world of a free joint. In twice the digits where lengths may be large.
+TwoFoldVec3<double> StepMotion::shift_of(const ModelJoint& joint, std::size_t at, double s) const {
+  const auto along = [](const Vec3<double>& axis, const TwoFold<double>& length) {
+    return TwoFoldVec3<double>(length.high * axis, length.low * axis);
+  };
+  const auto number = [&](std::size_t i) { return path_.piece(first_, last_, at, i).at(s); };
+  switch (joint.kind) {
+    case JointKind::slide:
+      return along(joint.axis, number(0) + TwoFold<double>{-joint.reference, 0});
+    case JointKind::planar: {
+      const auto [u, v] = directions_across(joint.axis);
+      return along(u, number(0)) + along(v, number(1));
+    }
+    case JointKind::free: {
+      TwoFoldVec3<double> origin;
+      for (int i = 0; i < 3; ++i) origin.set(i, number(static_cast<std::size_t>(i)));
+      return origin;
+    }
+    default:
+      return motion_of(joint).translation;
   }
 }
 
@@ -226,17 +268,16 @@ const StepMotion::Places& StepMotion::places_at(double s) {
     };
     go_on(link.rest.translation, link.rest.linear);
     for (ModelJoint& joint : link.joints) {
-      const std::vector<double>&from = path_.values[first_][at], &to = path_.values[last_][at];
-      ++at;
-      joint.value = between(joint.kind, from, to, s);
+      const std::size_t index = at++;
+      joint.value = values_between(path_, first_, last_, index, joint.kind, s);
       if (!has_values(joint)) continue;
       if (joint.kind == JointKind::free) {
         linear.setIdentity();
         origin = {};
         const std::vector<double>& q = joint.value;
-        go_on(shift_of(joint, from, to, s), rotation_of_quaternion(q[4], q[5], q[6], q[3]));
+        go_on(shift_of(joint, index, s), rotation_of_quaternion(q[4], q[5], q[6], q[3]));
       } else {
-        go_on(shift_of(joint, from, to, s), motion_of(joint).linear);
+        go_on(shift_of(joint, index, s), motion_of(joint).linear);
       }
     }
     places.poses.push_back({linear, origin.high});
@@ -263,15 +304,17 @@ MotionBound StepMotion::bound(int link, int ancestor, double reach) const {
       if (rate.has_values) {
         if (joint.kind != JointKind::slide)
           bound.rounding += (of_turns + 2 * epsilon * rate.angle) * bound.reach;
-        bound.rounding += of_slides * (arm + rate.slide);
+        bound.rounding += of_slides * (arm + rate.slide + rate.way);
         const bool is_rounded = joint.kind != JointKind::free && !is_exact(joint);
         if (is_rounded) bound.rounding += of_slides * rate.offset;
       }
       if (rate.turn > 0) {  // zero times a bound that is infinite is no number
         bound.acceleration += rate.turn * (rate.turn * bound.reach + 2 * bound.speed);
+        if (rate.turn_change > 0) bound.acceleration += rate.turn_change * bound.reach;
         bound.speed += rate.turn * bound.reach;
       }
       bound.speed += rate.slide;
+      bound.acceleration += rate.slide_change;
       bound.reach += arm + rate.offset;
       is_in_world = rate.is_absolute;
     }

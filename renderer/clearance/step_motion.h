@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // How a robot moves from one row of joints' values to the next: each joint at a constant rate, the
-// shorter way round where it is a ball. And bounds of how fast and how crookedly that moves its
-// links' points, by which what was seen at some times is proven for all.
+// shorter way round where it is a ball; or as a cubic or quintic where rows have rates. And bounds
+// of how fast and how crookedly that moves its links' points, by which what was seen at some times
+// is proven for all.
 #pragma once
 
 #include <limits>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "core/math/two_fold.h"
+#include "renderer/clearance/joint_piece.h"
 #include "renderer/import/model.h"
 #include "renderer/import/scene_of_model.h"
 
@@ -23,6 +25,16 @@ struct JointPath {
   Model skeleton;  ///< links and joints alone
   std::vector<double> times;
   std::vector<std::vector<std::vector<double>>> values;  ///< row, joint, number
+  /// First and second derivatives by time of hinges, slides and planar joints, ordered as `values`;
+  /// a list is empty where nothing is known. Steps with rates at both ends are cubic for that
+  /// joint, with accelerations as well quintic.
+  std::vector<std::vector<std::vector<double>>> rates = {}, accelerations = {};
+
+  /// Number `number` of a joint on its way from row `first` to row `last`.
+  JointPiece piece(std::size_t first, std::size_t last, std::size_t joint,
+                   std::size_t number) const;
+  /// Whether that joint is not at a constant rate on this way.
+  bool is_curved(std::size_t first, std::size_t last, std::size_t joint) const;
 
   /// The skeleton with the joints' values at that time of the path: those of a row as they were
   /// given, between rows with quaternions of length 1.
@@ -69,8 +81,9 @@ class StepMotion {
   /// It holds of the points within `reach` of the link's origin, as `ancestor` sees them; -1: the
   /// world.
   ///
-  /// A point p goes to R p + t. If R turns at a constant speed alpha, and p moves by v and a in its
-  /// own frame, R p moves by alpha |p| + v and accelerates by alpha^2 |p| + 2 alpha v + a.
+  /// A point p goes to R p + t. If R turns at a speed alpha that changes by beta, and p moves by v
+  /// and a in its own frame, R p moves by alpha |p| + v and accelerates by
+  /// (alpha^2 + beta) |p| + 2 alpha v + a.
   MotionBound bound(int link, int ancestor, double reach) const;
 
   /// By how much the link's linear part may differ from a rotation.
@@ -81,13 +94,19 @@ class StepMotion {
 
  private:
   struct Rate {
-    double turn = 0;           ///< radians in the step
-    double slide = 0;          ///< how far the origin goes in the step
+    double turn = 0;           ///< radians in the step, at its fastest
+    double turn_change = 0;    ///< by which that changes in the step, at most
+    double slide = 0;          ///< how far the origin goes in the step, at its fastest
+    double slide_change = 0;   ///< as turn_change
+    double way = 0;            ///< JointPiece::way() of a slide that is not straight
     double angle = 0;          ///< the largest number that an angle is made of
     double offset = 0;         ///< the furthest that the origin is from where it is at rest
     bool has_values = false;   ///< it is not at rest
     bool is_absolute = false;  ///< it places the link in the world, whatever it hangs on
   };
+
+  Rate rate_of(const ModelJoint& joint, std::size_t at) const;
+  TwoFoldVec3<double> shift_of(const ModelJoint& joint, std::size_t at, double s) const;
 
   const JointPath& path_;
   std::size_t first_, last_;

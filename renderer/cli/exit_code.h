@@ -10,6 +10,7 @@ enum class ExitCode : int {
   wrong_usage = 2,
   bad_input = 3,
   cannot_write = 4,
+  undecided = 6,  ///< `verify`: neither proven free nor found to collide (5 is ./run's)
 };
 
 }  // namespace minkray

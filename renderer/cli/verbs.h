@@ -63,6 +63,11 @@ inline constexpr VerbRow verbs[] = {
      "minkray-tools",
      {"minkray clearance robot.urdf --path path.csv --obstacle cell.json",
       "minkray clearance robot.urdf --path path.csv --srdf robot.srdf --at-least 0.05"}},
+    {"verify",
+     "Prove that a planner's motion is free of collisions, between its rows too",
+     "minkray-tools",
+     {"minkray verify --robot arm.urdf --srdf arm.srdf --scene scene.yaml --trajectory plan.yaml",
+      "minkray verify --robot arm.urdf --scene scene.yaml --trajectory plan.yaml -o proof.json"}},
     {"field",
      "Show the signed distance from a scene's objects over a plane",
      "minkray-tools",
@@ -143,5 +148,6 @@ void add_paper(Parser& parser, ExitCode& exit_code);
 void add_render(Parser& parser, ExitCode& exit_code);
 void add_scan(Parser& parser, ExitCode& exit_code);
 void add_trace(Parser& parser, ExitCode& exit_code);
+void add_verify(Parser& parser, ExitCode& exit_code);
 
 }  // namespace minkray

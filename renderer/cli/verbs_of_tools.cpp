@@ -15,6 +15,7 @@ constexpr VerbHere here[] = {
     {"scan", add_scan},
     {"distance", add_distance},
     {"clearance", add_clearance},
+    {"verify", add_verify},
     {"field", add_field},
     {"trace", add_trace},
     {"paper", add_paper},

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#include "bench/motions/fcl_sampler.h"
+
+#include <fcl/fcl.h>
+
+#include "core/derived/sandwich.h"
+#include "core/mesh/triangle_mesh.h"
+
+namespace minkray {
+namespace {
+
+using Geometry = std::shared_ptr<fcl::CollisionGeometryd>;
+using FclMesh = fcl::BVHModel<fcl::OBBRSSd>;
+
+template <class Vertices, class Corners>
+Geometry mesh_of(const Vertices& vertices, const Corners& triangles) {
+  auto mesh = std::make_shared<FclMesh>();
+  std::vector<fcl::Vector3d> points;
+  for (const Vec3<double>& vertex : vertices)
+    points.emplace_back(vertex.x(), vertex.y(), vertex.z());
+  std::vector<fcl::Triangle> corners;
+  for (const auto& triangle : triangles)
+    corners.emplace_back(triangle[0], triangle[1], triangle[2]);
+  mesh->beginModel();
+  mesh->addSubModel(points, corners);
+  mesh->endModel();
+  return mesh;
+}
+
+/// FCL's primitives where there are any; of hulls the surface.
+Geometry geometry_of(const ModelGeom& geom, Triangles triangles) {
+  if (geom.mesh && triangles == Triangles::of_meshes)
+    return mesh_of(geom.mesh->vertices(), geom.mesh->triangles());
+  const auto& kind = geom.shape->kind;
+  if (const auto* box = std::get_if<Box<double>>(&kind))
+    return std::make_shared<fcl::Boxd>(2 * box->half_extents.x(), 2 * box->half_extents.y(),
+                                       2 * box->half_extents.z());
+  if (const auto* ball = std::get_if<Sphere<double>>(&kind))
+    return std::make_shared<fcl::Sphered>(ball->radius);
+  if (const auto* cylinder = std::get_if<Cylinder<double>>(&kind))
+    return std::make_shared<fcl::Cylinderd>(cylinder->radius, 2 * cylinder->half_height);
+  const Sandwich sandwich = sandwich_of(*geom.shape);
+  std::vector<Vec3<double>> vertices;
+  for (const Vec3<double>& vertex : sandwich.inner.vertices)
+    vertices.push_back(sandwich.frame.from_frame(vertex));
+  return mesh_of(vertices, sandwich.inner.triangles);
+}
+
+fcl::Transform3d transform_of(const Affine<double>& pose) {
+  fcl::Transform3d transform = fcl::Transform3d::Identity();
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column)
+      transform.matrix()(row, column) = pose.linear(row, column);
+    transform.matrix()(row, 3) = pose.translation[row];
+  }
+  return transform;
+}
+
+}  // namespace
+
+struct FclSampler::Bodies {
+  std::vector<const ModelGeom*> geoms;
+  std::vector<std::unique_ptr<fcl::CollisionObjectd>> objects;  ///< null: a half-space
+};
+
+FclSampler::FclSampler(const Workcell& cell, Triangles triangles)
+    : cell_(cell), bodies_(std::make_unique<Bodies>()) {
+  const std::vector<bool> chosen = chosen_geoms(cell.model, cell.geometry);
+  for (std::size_t i = 0; i < cell.model.geoms.size(); ++i) {
+    if (!chosen[i]) continue;
+    const ModelGeom& geom = cell.model.geoms[i];
+    bodies_->geoms.push_back(&geom);
+    bodies_->objects.push_back(
+        geom.shape ? std::make_unique<fcl::CollisionObjectd>(geometry_of(geom, triangles))
+                   : nullptr);
+  }
+}
+
+FclSampler::~FclSampler() = default;
+
+void FclSampler::place(const JointPath& path, double time) {
+  const std::vector<Affine<double>> links = link_poses(path.posed_at(time));
+  for (std::size_t i = 0; i < bodies_->geoms.size(); ++i) {
+    const ModelGeom& geom = *bodies_->geoms[i];
+    if (!bodies_->objects[i]) continue;
+    const Affine<double> pose =
+        geom.link < 0 ? geom.pose : links[static_cast<std::size_t>(geom.link)] * geom.pose;
+    bodies_->objects[i]->setTransform(transform_of(pose));
+    bodies_->objects[i]->computeAABB();
+  }
+}
+
+std::vector<std::size_t> FclSampler::colliding_pairs(const JointPath& path, double time,
+                                                     bool first_only) {
+  place(path, time);
+  std::vector<std::size_t> found;
+  for (std::size_t pair = 0; pair < cell_.pairs.size(); ++pair) {
+    const auto& a = bodies_->objects[cell_.pairs[pair].a];
+    const auto& b = bodies_->objects[cell_.pairs[pair].b];
+    if (!a || !b || !a->getAABB().overlap(b->getAABB())) continue;
+    fcl::CollisionRequestd request;
+    fcl::CollisionResultd result;
+    if (fcl::collide(a.get(), b.get(), request, result) == 0) continue;
+    found.push_back(pair);
+    if (first_only) break;
+  }
+  return found;
+}
+
+bool FclSampler::collides(const JointPath& path, double time, std::size_t pair) {
+  place(path, time);
+  const auto& a = bodies_->objects[cell_.pairs[pair].a];
+  const auto& b = bodies_->objects[cell_.pairs[pair].b];
+  if (!a || !b) return true;
+  fcl::CollisionRequestd request;
+  fcl::CollisionResultd result;
+  return fcl::collide(a.get(), b.get(), request, result) > 0;
+}
+
+}  // namespace minkray

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+// Tables of joints' values, and the path of a robot that a trajectory says.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "renderer/import/import.h"
+#include "renderer/json/parse.h"
+#include "renderer/plan/trajectory.h"
+#include "renderer/sensor/npy.h"
+
+namespace minkray {
+namespace {
+
+bool ends_with_any(const std::string& file, std::initializer_list<std::string_view> endings) {
+  return std::ranges::any_of(endings,
+                             [&](std::string_view ending) { return file.ends_with(ending); });
+}
+
+Trajectory read_npy_rows(const std::string& file, const Model& model,
+                         const std::vector<std::string>& columns, Mistakes& mistakes) {
+  Trajectory trajectory;
+  const NpyArray array = read_npy(file);
+  std::vector<std::size_t> widths;
+  std::size_t width = 0;
+  for (const std::string& name : columns)
+    for (const ModelLink& link : model.links)
+      for (const ModelJoint& joint : link.joints)
+        if (joint.name == name) {
+          widths.push_back(width_of(joint.kind));
+          width += widths.back();
+        }
+  Mistakes of_file(file);
+  const std::size_t given = array.shape.size() == 2 ? array.shape[1] : 0;
+  if (given == 0 || (given != width && given != width + 1))
+    of_file.add("must have the shape (rows, " + std::to_string(width) + "), or one column more " +
+                "for the time (got " + array.shape_text() + "); --group names other joints");
+  else if (array.shape[0] == 0)
+    of_file.add("must have rows");
+  trajectory.has_times = given == width + 1;
+  for (std::size_t i = 0; of_file.none() && i < array.shape[0]; ++i) {
+    const double* at = array.values.data() + i * given;
+    JointRow row{trajectory.has_times ? *at++ : static_cast<double>(i), {}};
+    for (std::size_t k = 0; k < columns.size(); at += widths[k++])
+      row.values.emplace_back(columns[k], std::vector<double>(at, at + widths[k]));
+    const bool is_finite = std::all_of(array.values.begin() + std::ptrdiff_t(i * given),
+                                       array.values.begin() + std::ptrdiff_t((i + 1) * given),
+                                       [](double value) { return std::isfinite(value); });
+    if (!is_finite) of_file.add("row " + std::to_string(i + 1) + ": must be finite numbers");
+    if (i > 0 && !(row.time > trajectory.rows.back().time))
+      of_file.add("row " + std::to_string(i + 1) + ": times must rise");
+    trajectory.rows.push_back(std::move(row));
+  }
+  for (const std::string& message : of_file.messages()) mistakes.add(message);
+  return trajectory;
+}
+
+/// By how many whole turns a continuous joint's rows are moved so that no step is longer than half
+/// a turn.
+void go_shorter_way(Trajectory& trajectory, const Model& model) {
+  constexpr double whole = 2 * std::numbers::pi;
+  for (const ModelLink& link : model.links)
+    for (const ModelJoint& joint : link.joints) {
+      if (joint.kind != JointKind::hinge || joint.limits || joint.mimic) continue;
+      double turns = 0, before = 0;
+      std::size_t steps = 0;
+      bool is_first = true;
+      for (JointRow& row : trajectory.rows)
+        for (auto& [name, values] : row.values) {
+          if (name != joint.name || values.size() != 1) continue;
+          const double step = values[0] + whole * turns - before;
+          if (!is_first && std::abs(step) > std::numbers::pi * (1 + 1e-9)) {
+            turns -= std::round(step / whole);
+            ++steps;
+          }
+          values[0] += whole * turns;
+          before = values[0];
+          is_first = false;
+        }
+      if (steps > 0)
+        trajectory.notes.push_back("the joint \"" + printable(joint.name, 60) +
+                                   "\" turns by more " + "than half a turn in " +
+                                   std::to_string(steps) + (steps == 1 ? " step" : " steps") +
+                                   "; it is continuous, and is taken to go the shorter way round");
+    }
+}
+
+/// Values in the order of a path's joints, those that mimic others as they follow.
+std::vector<std::vector<double>> in_order(const Model& model, const JointValues& values) {
+  std::map<std::string_view, const std::vector<double>*> by_name;
+  for (const auto& [name, numbers] : values) by_name.emplace(name, &numbers);
+  std::map<std::string_view, const ModelJoint*> joints;
+  for (const ModelLink& link : model.links)
+    for (const ModelJoint& joint : link.joints) joints.emplace(joint.name, &joint);
+  std::vector<std::vector<double>> ordered;
+  for (const ModelLink& link : model.links)
+    for (const ModelJoint& joint : link.joints) {
+      double multiplier = 1;
+      const ModelJoint* leader = &joint;
+      for (std::size_t i = 0; leader->mimic && i <= longest_mimicry; ++i) {
+        multiplier *= leader->mimic->multiplier;
+        const auto next = joints.find(leader->mimic->joint);
+        if (next == joints.end()) break;
+        leader = next->second;
+      }
+      ordered.emplace_back();
+      const auto found = by_name.find(leader->name);
+      if (found == by_name.end() || found->second->size() != width_of(joint.kind)) continue;
+      for (const double number : *found->second) ordered.back().push_back(multiplier * number);
+    }
+  return ordered;
+}
+
+}  // namespace
+
+bool is_table(const std::string& file) {
+  return ends_with_any(file, {".csv", ".npy", ".CSV", ".NPY"});
+}
+
+Trajectory read_table(const std::string& file, Model& model,
+                      const std::vector<std::string>& columns, Mistakes& mistakes) {
+  if (ends_with_any(file, {".npy", ".NPY"})) return read_npy_rows(file, model, columns, mistakes);
+  Trajectory trajectory;
+  trajectory.rows = read_joint_rows(file, model, mistakes, "--trajectory");
+  return trajectory;
+}
+
+JointPath path_of(Trajectory& trajectory, Model& model, const JointValues& state) {
+  for (const JointValues* values : {&state, &std::as_const(trajectory).start})
+    for (const auto& [name, numbers] : *values)
+      if (ModelJoint* joint = find_joint(model, name))
+        if (numbers.size() == width_of(joint->kind)) joint->value = numbers;
+  // Where rows name a joint later than the first row, it stands at rest before.
+  for (ModelLink& link : model.links)
+    for (ModelJoint& joint : link.joints)
+      if (joint.value.empty() && joint.kind != JointKind::fixed)
+        joint.value = value_of(link, joint);
+  follow_mimics(model);
+  go_shorter_way(trajectory, model);
+  JointPath path(model, trajectory.rows);
+  for (const JointValues& row : trajectory.rates) path.rates.push_back(in_order(model, row));
+  for (const JointValues& row : trajectory.accelerations)
+    path.accelerations.push_back(in_order(model, row));
+  return path;
+}
+
+}  // namespace minkray

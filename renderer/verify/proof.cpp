@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/verify/proof.h"
+
+#include <algorithm>
+
+#include "core/files/regular_file.h"
+#include "renderer/base/errors.h"
+#include "renderer/json/number_json.h"
+#include "renderer/verify/sha256.h"
+
+namespace minkray {
+namespace {
+
+constexpr std::size_t most_file_bytes = std::size_t{1} << 30;
+
+Json numbers_json(const Mat3<double>& m) {
+  Json list = Json::array();
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 3; ++column) list.push_back(m(row, column));
+  return list;
+}
+
+Json links_json(const Model& model) {
+  Json links = Json::array();
+  for (const ModelLink& link : model.links) {
+    Json joints = Json::array();
+    for (const ModelJoint& joint : link.joints)
+      joints.push_back({{"name", printable(joint.name)},
+                        {"kind", std::string(name_of(joint.kind))},
+                        {"axis", point_json(joint.axis)},
+                        {"anchor", point_json(joint.anchor)},
+                        {"reference", joint.reference}});
+    links.push_back({{"name", printable(link.name)},
+                     {"parent", link.parent},
+                     {"turn", numbers_json(link.rest.linear)},
+                     {"origin", point_json(link.rest.translation)},
+                     {"joints", std::move(joints)}});
+  }
+  return links;
+}
+
+/// The core's kind, and its size as the file has it.
+void add_core(const ShapeCore& core, const std::string& name, Json& json) {
+  switch (core.kind) {
+    case CoreKind::point:
+      json["core"] = "point";
+      break;
+    case CoreKind::segment:
+      json["core"] = "segment";
+      json["size"] = Json::array({core.size.z()});
+      break;
+    case CoreKind::box:
+      json["core"] = "box";
+      json["size"] = point_json(core.size);
+      break;
+    case CoreKind::disks:
+      json["core"] = "disks";  // radii below and above, half the height
+      json["size"] = point_json(core.size);
+      break;
+    case CoreKind::ellipsoid:
+      json["core"] = "ellipsoid";
+      json["size"] = point_json(core.size);
+      break;
+    case CoreKind::hull: {
+      json["core"] = "hull";
+      Json points = Json::array();
+      for (int i = 0; i < core.count; ++i) {
+        // Hulls are filled up with their last point.
+        if (i > 0 && core.x[i] == core.x[i - 1] && core.y[i] == core.y[i - 1] &&
+            core.z[i] == core.z[i - 1])
+          continue;
+        points.push_back(Json::array({core.x[i], core.y[i], core.z[i]}));
+      }
+      json["points"] = std::move(points);
+      break;
+    }
+    case CoreKind::other:
+      throw BadInput("proof: the body \"" + printable(name, 100) +
+                     "\" is of a shape that proofs do not hold; without -o PROOF.json it is "
+                     "verified all the same");
+  }
+}
+
+Json bodies_json(const std::vector<ClearanceBody>& bodies) {
+  Json list = Json::array();
+  for (const ClearanceBody& body : bodies) {
+    Json json = {{"name", printable(body.name)}, {"link", body.link_index}};
+    if (body.plane) {
+      json["plane"] = point_json(body.plane->normal);
+      json["middle"] = point_json(body.plane->point.rounded());
+    } else {
+      const ShapeCore& core = body.shape.core();
+      add_core(core, body.name, json);
+      json["radius"] = core.radius;
+      json["turn"] = numbers_json(body.linear * body.shape.turn());
+      json["middle"] = point_json(body.middle.at.rounded());
+    }
+    list.push_back(std::move(json));
+  }
+  return list;
+}
+
+Json rows_json(const std::vector<std::vector<std::vector<double>>>& rows) {
+  Json list = Json::array();
+  for (const auto& row : rows) {
+    Json joints = Json::array();
+    for (const std::vector<double>& numbers : row) joints.push_back(Json(numbers));
+    list.push_back(std::move(joints));
+  }
+  return list;
+}
+
+/// One plane holds on into the next steps for as long as they have the same. Parts of one step stay
+/// apart: what a pair bends in them depends on their length.
+Json planes_json(std::vector<SeparatingPlane> planes) {
+  std::ranges::stable_sort(planes, [](const SeparatingPlane& a, const SeparatingPlane& b) {
+    if (a.pair != b.pair) return a.pair < b.pair;
+    return a.step != b.step ? a.step < b.step : a.first < b.first;
+  });
+  Json list = Json::array();
+  for (std::size_t i = 0; i < planes.size();) {
+    std::size_t last = i;
+    const auto follows = [&](const SeparatingPlane& next, const SeparatingPlane& before) {
+      return next.pair == before.pair && next.normal == before.normal &&
+             next.step == before.step + 1 && next.first == 0 && before.last == 1;
+    };
+    while (last + 1 < planes.size() && follows(planes[last + 1], planes[last])) ++last;
+    const SeparatingPlane &from = planes[i], &to = planes[last];
+    list.push_back(Json::array({from.pair, from.step, from.first, to.step, to.last, from.normal.x(),
+                                from.normal.y(), from.normal.z()}));
+    i = last + 1;
+  }
+  return list;
+}
+
+/// How much less is claimed than was proven: the checker rounds, too.
+double claimed(double lower, const std::vector<ClearanceBody>& bodies) {
+  double size = 0;
+  for (const ClearanceBody& body : bodies)
+    if (!body.plane) size = std::max(size, body.reach());
+  constexpr double rounding = 1e-10;
+  return std::max(lower - rounding * size, lower / 2);
+}
+
+}  // namespace
+
+std::string proof_text(const Verdict& verdict, const JointPath& path,
+                       const std::vector<ClearanceBody>& bodies,
+                       const std::vector<RefereePair>& pairs, const ProofInputs& inputs) {
+  if (verdict.status == MotionStatus::undecided)
+    throw BadInput("proof: the motion is undecided: there is nothing to prove");
+  Json json = {{"format", "minkray proof 1"},
+               {"by", inputs.by},
+               {"status", std::string(name_of(verdict.status))}};
+  if (verdict.status == MotionStatus::free)
+    json["lower"] = number_json(claimed(verdict.least.lower, bodies));
+  Json files = Json::array();
+  for (const std::filesystem::path& file : inputs.files)
+    files.push_back({{"name", printable(file.string())},
+                     {"sha256", sha256(read_regular_file(file, most_file_bytes))}});
+  json["files"] = std::move(files);
+  json["links"] = links_json(path.skeleton);
+  json["bodies"] = bodies_json(bodies);
+  json["times"] = path.times;
+  json["values"] = rows_json(path.values);
+  json["rates"] = rows_json(path.rates);
+  json["accelerations"] = rows_json(path.accelerations);
+  Json list = Json::array();
+  for (const RefereePair& pair : pairs) list.push_back(Json::array({pair.a, pair.b, pair.margin}));
+  json["pairs"] = std::move(list);
+  if (verdict.status == MotionStatus::free) {
+    json["planes"] = planes_json(verdict.planes);
+  } else {
+    Json collisions = Json::array();
+    for (const Stretch& stretch : verdict.stretches)
+      if (stretch.collides) collisions.push_back(Json::array({stretch.pair, stretch.time}));
+    json["collisions"] = std::move(collisions);
+  }
+  std::string text = json.dump();
+  text.pop_back();
+  return text + ",\"sha256\":\"" + sha256(text) + "\"}\n";
+}
+
+}  // namespace minkray
