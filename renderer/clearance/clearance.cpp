@@ -8,7 +8,7 @@
 #include "core/contact/half_space_distance.h"
 #include "core/contact/least_distance.h"
 #include "core/parallel/parallel.h"
-#include "core/world/parts_reach.h"
+#include "renderer/clearance/body_pair.h"
 
 namespace minkray {
 namespace {
@@ -32,7 +32,7 @@ class StepPair : public MovingPair {
       if (body->link_index >= 0) reaches += bound.reach;
     }
     loss_ += motion.turn_error(frame_) * reaches;
-    if (has_mesh() && !is_in_world) least = 0;
+    if ((a.mesh || b.mesh) && !is_in_world) least = 0;
   }
 
   /// Points are seen from A's middle, or of half-spaces in the world.
@@ -48,9 +48,7 @@ class StepPair : public MovingPair {
     }
     SignedDistanceOptions options;
     options.at_most = at_most;
-    if (has_mesh()) return of_parts(of_a, of_b, options);
-    return signed_distance(a_.shape, of_a.linear, b_.shape, of_b.linear, between(of_a, of_b),
-                           options, nullptr);
+    return distance_between(a_, of_a.linear, b_, of_b.linear, between(of_a, of_b), options);
   }
 
   double gap(const Vec3<double>& n, double s) const override {
@@ -61,12 +59,7 @@ class StepPair : public MovingPair {
       return turned > 1 - 1e-12 ? there.lower : -std::numeric_limits<double>::infinity();
     }
     const Place of_a = place(a_, s), of_b = place(b_, s);
-    if (has_mesh()) {
-      const Between apart = between(of_a, of_b);
-      return n.dot(apart.x) - reach_along(a_.parts(), of_a.linear, n) -
-             reach_along(b_.parts(), of_b.linear, -n) - core_rounding * apart.x.norm() - apart.loss;
-    }
-    return gap_along(a_.shape, of_a.linear, b_.shape, of_b.linear, between(of_a, of_b), n);
+    return gap_between(a_, of_a.linear, b_, of_b.linear, between(of_a, of_b), n);
   }
 
   /// What was found at s, as it is in the world.
@@ -101,22 +94,6 @@ class StepPair : public MovingPair {
     TwoFoldVec3<double> middle;
     const Affine<double>* frame;
   };
-
-  bool has_mesh() const { return a_.mesh || b_.mesh; }
-
-  SignedDistance of_parts(const Place& of_a, const Place& of_b,
-                          const SignedDistanceOptions& options) const {
-    const Between apart = between(of_a, of_b);
-    const Vec3<double> middle_a = of_a.linear * a_.own_middle(),
-                       middle_b = of_b.linear * b_.own_middle();
-    SignedDistance found = signed_distance(a_.parts(), {of_a.linear, -middle_a}, b_.parts(),
-                                           {of_b.linear, apart.x - middle_b}, options);
-    const double loss =
-        apart.loss + core_rounding * (apart.x.norm() + middle_a.norm() + middle_b.norm());
-    found.lower = std::max(0.0, found.lower - loss);
-    found.upper += loss;
-    return found;
-  }
 
   Mat3<double> frame_turn(double s) const {
     if (frame_ < 0) return Mat3<double>::Identity();

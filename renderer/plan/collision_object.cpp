@@ -93,7 +93,7 @@ void CollisionObjects::add_mesh(const Json& mesh, const JsonPath& path, const Af
       scale = read_message_vector(*size, path / "dimensions", mistakes_);
     const auto name = read_string(*resource, path / "resource", mistakes_);
     if (!name) return;
-    answer = meshes_.hulls_of(*name, scale);
+    answer = meshes_.parts_of(*name, scale);
   } else {
     MeshParts parts;
     const Json& vertices = list_of(mesh, "vertices", path, mistakes_);
@@ -118,14 +118,14 @@ void CollisionObjects::add_mesh(const Json& mesh, const JsonPath& path, const Af
       parts.triangles.push_back(triangle);
     }
     if (parts.vertices.empty()) return mistakes_.add(path / "vertices", "must not be empty");
-    answer = meshes_.hulls_of_parts(parts, Vec3<double>::Ones(), "mesh of " + object.id);
+    answer = meshes_.made_of(parts, Vec3<double>::Ones(), "mesh of " + object.id);
   }
   if (!answer.complaint.empty()) return mistakes_.add(path, answer.complaint);
   Model all;
   ModelGeom geom;
   geom.kind = "mesh";
   geom.pose = pose;
-  if (const auto wrong = add_hulls(all, answer, geom)) return mistakes_.add(path, *wrong);
+  if (const auto wrong = add_parts(all, answer, geom)) return mistakes_.add(path, *wrong);
   for (ModelGeom& one : all.geoms) object.geoms.push_back(std::move(one));
 }
 

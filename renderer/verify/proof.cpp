@@ -5,6 +5,7 @@
 
 #include "core/files/regular_file.h"
 #include "renderer/base/errors.h"
+#include "renderer/import/mesh_hull.h"
 #include "renderer/json/number_json.h"
 #include "renderer/verify/sha256.h"
 
@@ -81,6 +82,18 @@ void add_core(const ShapeCore& core, const std::string& name, Json& json) {
   }
 }
 
+/// A plane that keeps a mesh's hull apart keeps the mesh apart.
+void add_hull(const ClearanceBody& body, Json& json) {
+  json["core"] = "hull";
+  Json points = Json::array();
+  const Shape<double> hull = hull_of(*body.mesh);
+  for (const Vec3<double>& point : std::get<Hull<double>>(hull.kind).points.points())
+    points.push_back(point_json(point - body.own_middle()));
+  json["points"] = std::move(points);
+  json["radius"] = 0.0;
+  json["turn"] = numbers_json(body.linear);
+}
+
 Json bodies_json(const std::vector<ClearanceBody>& bodies) {
   Json list = Json::array();
   for (const ClearanceBody& body : bodies) {
@@ -89,10 +102,14 @@ Json bodies_json(const std::vector<ClearanceBody>& bodies) {
       json["plane"] = point_json(body.plane->normal);
       json["middle"] = point_json(body.plane->point.rounded());
     } else {
-      const ShapeCore& core = body.shape.core();
-      add_core(core, body.name, json);
-      json["radius"] = core.radius;
-      json["turn"] = numbers_json(body.linear * body.shape.turn());
+      if (body.mesh) {
+        add_hull(body, json);
+      } else {
+        const ShapeCore& core = body.shape.core();
+        add_core(core, body.name, json);
+        json["radius"] = core.radius;
+        json["turn"] = numbers_json(body.linear * body.shape.turn());
+      }
       json["middle"] = point_json(body.middle.at.rounded());
     }
     list.push_back(std::move(json));
@@ -149,6 +166,18 @@ std::string proof_text(const Verdict& verdict, const JointPath& path,
                        const std::vector<RefereePair>& pairs, const ProofInputs& inputs) {
   if (verdict.status == MotionStatus::undecided)
     throw BadInput("proof: the motion is undecided: there is nothing to prove");
+  const auto check = [&](std::size_t index) {
+    const ClearanceBody &a = bodies[pairs[index].a], &b = bodies[pairs[index].b];
+    if (a.mesh || b.mesh)
+      throw BadInput("proof: that " + printable(a.name, 100) + " and " + printable(b.name, 100) +
+                     (verdict.status == MotionStatus::free ? " stay apart" : " collide") +
+                     " needs a mesh's triangles, which proofs do not hold; --meshes hull takes "
+                     "hulls, and without -o PROOF.json it is verified all the same");
+  };
+  if (verdict.without_planes) check(*verdict.without_planes);
+  if (verdict.status == MotionStatus::collides)
+    for (const Stretch& stretch : verdict.stretches)
+      if (stretch.collides) check(stretch.pair);
   Json json = {{"format", "minkray proof 1"},
                {"by", inputs.by},
                {"status", std::string(name_of(verdict.status))}};

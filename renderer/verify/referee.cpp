@@ -34,8 +34,14 @@ struct Found {
   std::vector<LeastClearance> steps;
   std::vector<Piece> pieces;
   std::vector<SeparatingPlane> planes;
+  std::optional<std::size_t> without_planes = {};
   std::size_t distances = 0;
 };
+
+/// Meshes that cross have no depth.
+bool is_closer(const SignedDistance& there, double margin) {
+  return there.upper - margin < 0 || (there.status == SignedStatus::overlapping && margin <= 0);
+}
 
 class StepsSearch {
  public:
@@ -147,7 +153,7 @@ class StepsSearch {
           distance(at, index, bound, middle,
                    target() + bound.speed * length / 2 + bend + least_gap_, has_collided);
       ++distances;
-      const bool collides = there.upper - pair.margin < 0;
+      const bool collides = is_closer(there, pair.margin);
       if (collides && (!has_collided || !witness)) {
         has_collided = true;
         witness = witness_of(at, index, bound, middle, there);
@@ -157,6 +163,7 @@ class StepsSearch {
         hints_[index] = there.normal;
         continue;
       }
+      if (proves_by_speed(index, bound, length, there)) continue;
       Part low{part.first, middle, there.normal, part.collides_first, collides},
           high{middle, part.last, there.normal, collides, part.collides_last};
       if (collides) {
@@ -195,6 +202,19 @@ class StepsSearch {
     return true;
   }
 
+  /// Whether the two cannot come together from where they are in the middle of the part: what tells
+  /// meshes apart that are in each other's hollows.
+  bool proves_by_speed(std::size_t index, const StepBound& bound, double length,
+                       const SignedDistance& there) {
+    const RefereePair& pair = pairs_[index];
+    if (!bodies_[pair.a].mesh && !bodies_[pair.b].mesh) return false;
+    const double lower = there.lower - pair.margin - bound.speed * length / 2;
+    if (!(lower > target())) return false;
+    found_.least.lower = std::min(found_.least.lower, lower);
+    if (options_.keep_planes) found_.without_planes = index;
+    return true;
+  }
+
   /// Asks at the two outer ends of a part that collides in its middle; returns how often.
   std::size_t know_ends(StepPairs& at, std::size_t index, const StepBound& bound, Part& low,
                         Part& high) {
@@ -202,7 +222,7 @@ class StepsSearch {
     const auto know = [&](std::optional<bool>& collides, double s) {
       if (collides) return;
       ++asked;
-      collides = distance(at, index, bound, s, 0, true).upper - pairs_[index].margin < 0;
+      collides = is_closer(distance(at, index, bound, s, 0, true), pairs_[index].margin);
     };
     know(low.collides_first, low.first);
     know(high.collides_last, high.last);
@@ -279,7 +299,7 @@ Verdict verdict_of(const JointPath& path, const std::vector<ClearanceBody>& bodi
                    const std::vector<RefereePair>& pairs, const RefereeOptions& options) {
   double size = 0;
   for (const RefereePair& pair : pairs)
-    size = std::max({size, bodies[pair.a].shape.ball_radius(), bodies[pair.b].shape.ball_radius()});
+    size = std::max({size, bodies[pair.a].ball_radius(), bodies[pair.b].ball_radius()});
   constexpr double least_gap = 1e-7;
   const std::size_t steps = path.steps();
   const std::size_t goes = (steps + steps_in_one_go - 1) / steps_in_one_go;
@@ -309,6 +329,7 @@ Verdict verdict_of(const JointPath& path, const std::vector<ClearanceBody>& bodi
   std::vector<Piece> pieces;
   for (Found& found : all) {
     verdict.distances += found.distances;
+    if (found.without_planes) verdict.without_planes = found.without_planes;
     for (LeastClearance& step : found.steps) {
       if (step.upper < least.upper) least = step;
       verdict.steps.push_back(std::move(step));

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -65,6 +66,8 @@ struct Verdict {
   std::vector<LeastClearance> steps;    ///< if asked for
   std::vector<Stretch> stretches;       ///< in the order of pairs, then of time
   std::vector<SeparatingPlane> planes;  ///< if asked for; the other pairs' balls stay apart
+  /// A pair that only its triangles tell apart, of which there are no planes for all the time.
+  std::optional<std::size_t> without_planes = {};
   std::size_t distances = 0;
 };
 

@@ -3,8 +3,7 @@
 
 #include <cmath>
 
-#include "core/contact/half_space_distance.h"
-#include "core/contact/least_distance.h"
+#include "renderer/clearance/body_pair.h"
 
 namespace minkray {
 namespace {
@@ -20,7 +19,7 @@ StepPairs::StepPairs(const JointPath& path, const std::vector<ClearanceBody>& bo
   for (const ClearanceBody& body : bodies) {
     in_world_.push_back(body.plane ? MotionBound{}
                                    : motion_.bound(body.link_index, -1, body.reach()));
-    const double radius = body.shape.ball_radius() + in_world_.back().speed / 2 +
+    const double radius = body.ball_radius() + in_world_.back().speed / 2 +
                           in_world_.back().rounding + body.middle.loss;
     around_.push_back({place(body, 0.5).middle.high, radius});
   }
@@ -79,7 +78,7 @@ StepBound StepPairs::bound(const RefereePair& pair) const {
     bound.is_within_numbers &= one.is_within_numbers();
     bound.speed += one.speed;
     bound.acceleration += one.acceleration;
-    bound.size += body.shape.ball_radius();
+    bound.size += body.ball_radius();
     bound.loss += one.rounding + body.middle.loss;
     if (body.link_index >= 0) reaches += one.reach;
   }
@@ -114,9 +113,8 @@ SignedDistance StepPairs::at(const RefereePair& pair, const StepBound& bound, do
   if (a.plane || b.plane) {
     const std::size_t other = a.plane ? pair.b : pair.a;
     const Place& of_body = kept_place(other, s);
-    SignedDistance found =
-        distance_to_half_space(a.plane ? *a.plane : *b.plane, bodies_[other].shape, of_body.linear,
-                               {of_body.middle, bound.loss});
+    SignedDistance found = distance_to_half_space(a.plane ? *a.plane : *b.plane, bodies_[other],
+                                                  of_body.linear, {of_body.middle, bound.loss});
     if (a.plane) return found;
     std::swap(found.point_a, found.point_b);
     found.normal = -found.normal;
@@ -127,7 +125,7 @@ SignedDistance StepPairs::at(const RefereePair& pair, const StepBound& bound, do
   SignedDistanceOptions options;
   options.at_most = at_most;
   options.only_sign = only_sign;
-  return signed_distance(a.shape, turn_a, b.shape, turn_b, apart, options, nullptr);
+  return distance_between(a, turn_a, b, turn_b, apart, options);
 }
 
 double StepPairs::gap(const RefereePair& pair, const StepBound& bound, const Vec3<double>& n,
@@ -139,7 +137,7 @@ double StepPairs::gap(const RefereePair& pair, const StepBound& bound, const Vec
   }
   Mat3<double> turn_a, turn_b;
   const Between apart = between(pair, bound, s, turn_a, turn_b);
-  return gap_along(bodies_[pair.a].shape, turn_a, bodies_[pair.b].shape, turn_b, apart, n);
+  return gap_between(bodies_[pair.a], turn_a, bodies_[pair.b], turn_b, apart, n);
 }
 
 SignedDistance StepPairs::in_world(const RefereePair& pair, const StepBound& bound,
