@@ -88,7 +88,7 @@ void add_hull(const ClearanceBody& body, Json& json) {
   Json points = Json::array();
   const Shape<double> hull = hull_of(*body.mesh);
   for (const Vec3<double>& point : std::get<Hull<double>>(hull.kind).points.points())
-    points.push_back(point_json(point - body.own_middle()));
+    points.push_back(point_json(Vec3<double>(point - body.own_middle())));
   json["points"] = std::move(points);
   json["radius"] = 0.0;
   json["turn"] = numbers_json(body.linear);
