@@ -34,8 +34,9 @@ TwoFold<double> operator-(const TwoFold<double>& a, const TwoFold<double>& b) {
 
 }  // namespace
 
-TriangleMesh::TriangleMesh(std::vector<Vec3<double>> vertices, std::vector<Corners> triangles)
-    : vertices_(std::move(vertices)), triangles_(std::move(triangles)) {
+TriangleMesh::TriangleMesh(std::vector<Vec3<double>> vertices, std::vector<Corners> triangles,
+                           MeshSides sides)
+    : vertices_(std::move(vertices)), triangles_(std::move(triangles)), sides_(sides) {
   if (triangles_.empty()) wrong("triangles: must be at least one (got none)");
   if (triangles_.size() > most_triangles)
     wrong("triangles: must be at most 2^30 (got " + std::to_string(triangles_.size()) + ")");

@@ -31,16 +31,21 @@ struct MeshFaults {
   bool is_closed() const { return open_edges == 0; }
 };
 
+/// From where rays meet triangles. With `front` all of them must look the same way.
+enum class MeshSides : unsigned char { both, front };
+
 /// It never changes: any number of threads may use it, and any number of instances share it.
 class TriangleMesh {
  public:
   /// Triangles keep their numbers. Throws std::invalid_argument where there is none, more than
   /// 2^30, a number of no vertex, or a coordinate that is not finite, too large or too small.
-  TriangleMesh(std::vector<Vec3<double>> vertices, std::vector<Corners> triangles);
+  TriangleMesh(std::vector<Vec3<double>> vertices, std::vector<Corners> triangles,
+               MeshSides sides = MeshSides::both);
 
   std::span<const Vec3<double>> vertices() const { return vertices_; }
   std::span<const Corners> triangles() const { return triangles_; }
   std::size_t size() const { return triangles_.size(); }
+  MeshSides sides() const { return sides_; }
 
   const Vec3<double>& corner(std::uint32_t triangle, std::size_t k) const {
     return vertices_[triangles_[triangle][k]];
@@ -66,6 +71,7 @@ class TriangleMesh {
   std::vector<Corners> triangles_;
   Bounds<double> bounds_;
   double reach_ = 0;
+  MeshSides sides_ = MeshSides::both;
   mutable std::once_flag closed_once_;
   mutable bool is_closed_ = false;
   Bvh bvh_;

@@ -73,6 +73,12 @@ double t_min_of(const PosedMesh& posed, const NearRay& near, bool leaves) {
   return leaving_mesh * reach / near.ray.direction.cwiseAbs().maxCoeff();
 }
 
+/// All triangles of a mesh with one side look the same way: what is behind the first is seen from
+/// behind as well.
+bool is_missed_from_behind(const TriangleMesh& mesh, const PartHit& hit) {
+  return mesh.sides() == MeshSides::front && hit.is_back;
+}
+
 }  // namespace
 
 PosedMesh::PosedMesh(std::uint32_t number, std::shared_ptr<const TriangleMesh> of,
@@ -100,7 +106,7 @@ MeshCast cast_ray(const PosedMesh& posed, const Ray<double>& ray, double most, b
   if (!near.is_number) return answer;
   near.ray.t_max = std::min(near.ray.t_max, near.in_near(most));
   const PartHit hit = closest_part(*posed.mesh, near.ray, t_min_of(posed, near, leaves), counts);
-  if (!hit.found()) return answer;
+  if (!hit.found() || is_missed_from_behind(*posed.mesh, hit)) return answer;
   answer.part = hit.part;
   const Vec3<double> normal = posed.mesh->normal(hit.part) * (hit.is_back ? -1.0 : 1.0);
   // Where the ray itself may be elsewhere, its way to the triangle's plane is longer or shorter.
@@ -140,7 +146,12 @@ CastResult<double> cast_exit(const PosedMesh& posed, const Ray<double>& ray) {
 
 bool is_met(const PosedMesh& posed, const Ray<double>& ray, bool leaves, PartCounts& counts) {
   const NearRay near = near_ray(posed, ray);
-  return near.is_number && meets_part(*posed.mesh, near.ray, t_min_of(posed, near, leaves), counts);
+  if (!near.is_number) return false;
+  const double t_min = t_min_of(posed, near, leaves);
+  if (posed.mesh->sides() == MeshSides::both)
+    return meets_part(*posed.mesh, near.ray, t_min, counts);
+  const PartHit hit = closest_part(*posed.mesh, near.ray, t_min, counts);
+  return hit.found() && !is_missed_from_behind(*posed.mesh, hit);
 }
 
 }  // namespace minkray

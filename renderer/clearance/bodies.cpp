@@ -126,13 +126,14 @@ std::vector<ClearanceBody> bodies_of(const Model& model, GeometryChoice geometry
         geom.link < 0 ? "" : model.links[static_cast<std::size_t>(geom.link)].name;
     const std::string name =
         !geom.name.empty() ? geom.name : (link.empty() ? "world" : link) + "/" + geom.kind;
-    if (geom.mesh && !geom.touches_as_hull) {
+    if (geom.mesh && geom.touches == Touch::as_seen) {
       bodies.push_back(body_of(name, link, geom.link, geom.mesh, geom.pose));
       continue;
     }
-    const Shape<double> shape = geom.mesh ? hulls.of(geom.mesh) : geom.shape.value_or(nothing);
+    const bool is_hull = geom.mesh && geom.touches == Touch::as_hull;
+    const Shape<double> shape = is_hull ? hulls.of(geom.mesh) : geom.shape.value_or(nothing);
     bodies.push_back(body_of(name, link, geom.link, shape, geom.pose));
-    if (geom.is_half_space())
+    if (geom.touches_as_half_space())
       bodies.back().plane = PlacedPlane::of(Vec3<double>::UnitZ(), 0, geom.pose);
   }
   return bodies;

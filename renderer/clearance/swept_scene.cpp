@@ -22,7 +22,7 @@ Scene swept_scene(Model model, const ImportOptions& import, const JointPath& pat
     if (!wanted[i]) continue;
     const ModelGeom& geom = model.geoms[i];
     const Object& posed = scene.objects[next++];
-    if (geom.link < 0 || geom.is_half_space()) {
+    if (geom.link < 0 || geom.touches_as_half_space()) {
       objects.push_back(posed);
       continue;
     }

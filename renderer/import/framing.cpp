@@ -55,6 +55,7 @@ std::vector<PlacedBody> placings(const Scene& scene) {
   std::vector<PlacedBody> bodies;
   for (const Object& object : scene.objects) {
     if (object.half_space || object.visible_to == 0) continue;
+    if (object.mesh && object.mesh->sides() == MeshSides::front) continue;  // a plane
     if (!object.motion || object.motion->keys.empty()) {
       bodies.push_back({&object, object.pose});
       continue;

@@ -67,6 +67,17 @@ Shape<double> ellipsoid_of(const Vec3<double>& radii) {
                           radii[longest] * Vec3<double>::Unit(longest)}};
 }
 
+void make_plane(ModelGeom& geom, double half_x, double half_y) {
+  geom.kind = "plane";
+  if (!(half_x > 0) && !(half_y > 0)) return;
+  constexpr double endless = 0x1p20;  // metres
+  const double x = half_x > 0 ? half_x : endless, y = half_y > 0 ? half_y : endless;
+  geom.mesh = std::make_shared<const TriangleMesh>(
+      std::vector<Vec3<double>>{{-x, -y, 0}, {x, -y, 0}, {x, y, 0}, {-x, y, 0}},
+      std::vector<Corners>{{0, 1, 2}, {0, 2, 3}}, MeshSides::front);
+  geom.touches = Touch::as_half_space;
+}
+
 double ShapeNumbers::size(std::string_view key) {
   if (!element_.attribute(key)) {
     files_.wrong(element_, std::string(key) + ": missing");

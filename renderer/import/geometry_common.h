@@ -23,6 +23,10 @@ Shape<double> capsule_of(double radius, double half_height);
 Shape<double> cone_of(double radius, double half_height);
 Shape<double> ellipsoid_of(const Vec3<double>& radii);
 
+/// The geom is a plane z = 0 that ends at these half sizes for rays, which meet it from above, and
+/// has no end for contact. 0: it has no end that way; if both are 0 not for rays either.
+void make_plane(ModelGeom& geom, double half_x, double half_y);
+
 /// Reads the sizes of one shape from its attributes; what is missing or wrong is told.
 class ShapeNumbers {
  public:

@@ -57,7 +57,8 @@ std::shared_ptr<const TriangleMesh> moved(const TriangleMesh& mesh, const Affine
   std::vector<Corners> triangles(mesh.triangles().begin(), mesh.triangles().end());
   if (map.linear.determinant() < 0)
     for (Corners& corners : triangles) std::swap(corners[1], corners[2]);
-  return std::make_shared<const TriangleMesh>(std::move(vertices), std::move(triangles));
+  return std::make_shared<const TriangleMesh>(std::move(vertices), std::move(triangles),
+                                              mesh.sides());
 }
 
 MeshFacts facts_of(const ModelMesh& mesh) {

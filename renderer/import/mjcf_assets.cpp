@@ -112,7 +112,7 @@ const MeshLibrary::Answer* MjcfAssets::mesh_of(const XmlElement& written, const 
 }
 
 void MjcfAssets::add_mesh_geom(const XmlElement& written, const XmlElement& e, ModelGeom geom) {
-  geom.touches_as_hull = options_.meshes == MeshChoice::of_format;
+  if (options_.meshes == MeshChoice::of_format) geom.touches = Touch::as_hull;
   if (const MeshLibrary::Answer* mesh = mesh_of(written, e))
     add_mesh(model_, files_, written, *mesh, std::move(geom), options_);
 }

@@ -40,6 +40,7 @@ void add_mjcf_geom(const XmlElement& written, const XmlElement& e, ModelGeom geo
   if (geom.kind == "sdf" && e.attribute("mesh")) geom.kind = "mesh";
   if (geom.kind == "mesh") return in.assets.add_mesh_geom(written, e, std::move(geom));
   if (geom.kind == "plane") {
+    make_plane(geom, size[0], size[1]);
     in.model.geoms.push_back(std::move(geom));
     return;
   }

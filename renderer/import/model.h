@@ -51,6 +51,10 @@ struct ModelLink {
   std::vector<ModelJoint> joints = {};
 };
 
+/// What a geom that rays meet as a mesh is for contact: in MuJoCo meshes touch as their hulls, and
+/// planes that are drawn as rectangles have no end.
+enum class Touch : unsigned char { as_seen, as_hull, as_half_space };
+
 struct ModelGeom {
   std::string name;
   std::string kind;  ///< in the format's words: "capsule", "mesh", "plane"
@@ -59,11 +63,15 @@ struct ModelGeom {
   /// It has a shape or a mesh; with neither it is the half-space under z = 0.
   std::optional<Shape<double>> shape = {};
   std::shared_ptr<const TriangleMesh> mesh = {};
-  bool touches_as_hull = false;  ///< for contact the mesh is its hull, as in MuJoCo
+  Touch touches = Touch::as_seen;  ///< what a mesh is for contact
   std::array<double, 4> rgba = {0.7, 0.7, 0.7, 1};
   bool collides = true, is_seen = true;
 
+  /// For rays; for contact.
   bool is_half_space() const { return !shape && !mesh; }
+  bool touches_as_half_space() const {
+    return is_half_space() || touches == Touch::as_half_space;
+  }
 };
 
 /// A mesh file, at one scale.

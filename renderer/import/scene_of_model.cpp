@@ -217,6 +217,8 @@ Scene scene_of(Model& model, const ImportOptions& options, const std::vector<Joi
     object.pose =
         geom.link < 0 ? geom.pose : poses[static_cast<std::size_t>(geom.link)] * geom.pose;
     object.material = materials.of(geom.rgba);
+    // As mj_ray: what is transparent is met by no ray, unless what collides is to be seen.
+    if (geom.rgba[3] == 0 && options.geometry == GeometryChoice::all) object.visible_to = 0;
     scene.objects.push_back(std::move(object));
     geom_of_object.push_back(i);
   }

@@ -123,6 +123,11 @@ void SdfGeometry::add_shape(const XmlElement& shape, ModelGeom geom, Colouring c
         normal = {(*v)[0], (*v)[1], (*v)[2]};
     if (unit(normal).isZero(0)) return files_.wrong(shape, "normal: must not be zero");
     geom.pose.linear = geom.pose.linear * rotation_of_z_to(normal);
+    // What collides has no end.
+    if (shape.child("size") && !geom.collides) {
+      const auto size = numbers("size", 2);
+      make_plane(geom, size[0] / 2, size[1] / 2);
+    }
   } else if (shape.name == "mesh") {
     const std::string uri = sdf_text(shape, "uri");
     if (uri.empty()) return files_.wrong(shape, "uri: must be there");

@@ -103,8 +103,7 @@ std::vector<ScenePair> given_pairs(const HeldScene& held, const std::uint32_t* p
     found[i].a = checked_object(held, pairs[2 * i], argument + "[0]");
     found[i].b = checked_object(held, pairs[2 * i + 1], argument + "[1]");
     check_two(found[i].a, found[i].b, argument);
-    if (held.world().instances().is_half_space(found[i].a) &&
-        held.world().instances().is_half_space(found[i].b))
+    if (bodies.is_half_space(found[i].a) && bodies.is_half_space(found[i].b))
       wrong_use(argument + ": must not be two half-spaces");
   }
   SignedDistanceOptions how = query.distances;
@@ -315,10 +314,9 @@ int minkray_scene_manifold(minkray_scene scene, uint32_t object_a, uint32_t obje
     checked_object(*held, object_a, "object_a");
     checked_object(*held, object_b, "object_b");
     check_two(object_a, object_b, "object_b");
-    const Instances& instances = held->world().instances();
-    if (instances.is_half_space(object_a) && instances.is_half_space(object_b))
-      wrong_use("object_b: must not be a half-space, as object_a is");
     const SceneBodies& bodies = held->bodies();
+    if (bodies.is_half_space(object_a) && bodies.is_half_space(object_b))
+      wrong_use("object_b: must not be a half-space, as object_a is");
     const SignedDistance nearest = bodies.distance(object_a, object_b, {});
     const ContactManifold found = bodies.manifold(object_a, object_b, nearest);
     throw_if_lied(held->customs());

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <memory>
 #include <unordered_map>
-#include <unordered_set>
 
 #include "core/derived/cube.h"
 #include "core/parallel/parallel.h"
@@ -72,9 +71,9 @@ double value_of(const ScenePair& pair) {
 
 namespace {
 
-/// Robots' meshes that touch as their hulls, by object.
-std::unordered_set<std::uint32_t> objects_as_hulls(const HeldScene& scene) {
-  std::unordered_set<std::uint32_t> as_hulls;
+/// Robots' meshes that touch as something else, by object.
+std::unordered_map<std::uint32_t, Touch> touches_of_meshes(const HeldScene& scene) {
+  std::unordered_map<std::uint32_t, Touch> touches;
   for (std::uint32_t g = 0; g < scene.groups(); ++g) {
     const HeldScene::Group& group = scene.group(g);
     if (!group.model) continue;
@@ -82,11 +81,12 @@ std::unordered_set<std::uint32_t> objects_as_hulls(const HeldScene& scene) {
     std::uint32_t object = group.first;
     for (std::size_t i = 0; i < wanted.size(); ++i) {
       if (!wanted[i]) continue;
-      if (group.model->geoms[i].touches_as_hull) as_hulls.insert(object);
+      const ModelGeom& geom = group.model->geoms[i];
+      if (geom.mesh && geom.touches != Touch::as_seen) touches.emplace(object, geom.touches);
       ++object;
     }
   }
-  return as_hulls;
+  return touches;
 }
 
 }  // namespace
@@ -98,7 +98,7 @@ SceneBodies::SceneBodies(const HeldScene& scene) : scene_(scene) {
   std::vector<ContactBody> bodies;
   std::unordered_map<std::uint32_t, ContactShape> ready;
   std::unordered_map<const TriangleMesh*, ContactShape> ready_hulls;
-  const std::unordered_set<std::uint32_t> as_hulls = objects_as_hulls(scene);
+  const std::unordered_map<std::uint32_t, Touch> touches = touches_of_meshes(scene);
   for (std::uint32_t i = 0; i < instances.size(); ++i) {
     if (scene.is_removed(i)) continue;
     const PairRules::Masks masks = rules.masks(i);
@@ -108,7 +108,13 @@ SceneBodies::SceneBodies(const HeldScene& scene) : scene_(scene) {
       // What scales is part of the mesh.
       std::shared_ptr<const TriangleMesh> mesh = instances.mesh_of(i).mesh;
       Affine<double> place = pose;
-      if (as_hulls.contains(i) && is_rigid(pose)) {
+      const auto touch = touches.find(i);
+      if (touch != touches.end() && touch->second == Touch::as_half_space) {
+        half_spaces_.push_back(
+            {i, PlacedPlane::of(Vec3<double>::UnitZ(), 0, pose), pose.translation, masks});
+        continue;
+      }
+      if (touch != touches.end() && is_rigid(pose)) {
         auto known = ready_hulls.find(mesh.get());
         if (known == ready_hulls.end())
           known = ready_hulls.emplace(mesh.get(), ContactShape(hull_of(*mesh))).first;

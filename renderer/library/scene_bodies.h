@@ -56,6 +56,9 @@ class SceneBodies {
   PairDerivative derivative(const PartsBody& moving, const RigidMotion& motion,
                             const WorldImpact& found) const;
 
+  /// Whether the object is one for contact.
+  bool is_half_space(std::uint32_t object) const { return half_space_of(object) != nullptr; }
+
  private:
   struct HalfSpace {
     std::uint32_t object;

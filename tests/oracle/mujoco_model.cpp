@@ -26,11 +26,6 @@ std::unique_ptr<MujocoModel> MujocoModel::load(const std::string& file, std::str
   parts->model = mj_loadXML(file.c_str(), nullptr, message, sizeof message);
   why = message;
   if (!parts->model) return nullptr;
-  // What collides is an endless plane; rays stop at the rectangle that is drawn, unless it has no
-  // size.
-  for (int i = 0; i < parts->model->ngeom; ++i)
-    if (parts->model->geom_type[i] == mjGEOM_PLANE)
-      parts->model->geom_size[3 * i] = parts->model->geom_size[3 * i + 1] = 0;
   // Nothing asks for contacts or constraints, whose memory would be cleared each time.
   parts->model->nconmax = parts->model->njmax = 0;
   parts->model->nstack = std::min(parts->model->nstack, 1 << 16);

@@ -162,11 +162,13 @@ TEST(Mjcf, rays_meet_what_mujocos_rays_meet) {
     options.geometry = GeometryChoice::all;
     const Scene scene = import_scene(file, options).scene;
     const World world = make_world(scene);
-    bool has_mesh = false;
-    for (const auto& geom : theirs->geoms()) has_mesh |= geom.kind == "mesh";
+    // Vertices, heights and the meshes' own poses are floats.
+    bool has_floats = false;
+    for (const auto& geom : theirs->geoms())
+      has_floats |= geom.kind == "mesh" || geom.kind == "hfield";
     const Vec3<double> centre = scene.camera.look_at;
     const double extent = (scene.camera.position - centre).norm();
-    int hits = 0;
+    int hits = 0, at_edges = 0;
     for (int i = 0; i < rays; ++i) {
       const Vec3<double> from = centre + extent * random.direction();
       const Vec3<double> to = centre + 0.3 * extent * random.direction();
@@ -177,22 +179,21 @@ TEST(Mjcf, rays_meet_what_mujocos_rays_meet) {
       const WorldHit hit = world.closest_hit(ray, counts);
       // MuJoCo's rays pass surfaces from behind: they do not begin inside.
       if (hit.cast.status == Status::inside) continue;
-      if (has_mesh) {  // a hull is met no later than its mesh
-        if (hit.found()) {
-          EXPECT_LE(hit.cast.t(), t + same_float * extent) << file;
-        }
-        EXPECT_TRUE(hit.found() || t > 1e6) << file;
-        continue;
-      }
       const double our_t = hit.found() ? hit.cast.t() : std::numeric_limits<double>::infinity();
       hits += hit.found() ? 1 : 0;
       if (our_t == t) continue;  // none
+      if (has_floats) {
+        // A ray that goes along a surface, or past an edge, tells more than the floats do.
+        const bool is_near = std::abs(our_t - t) <= same_float * extent;
+        at_edges += is_near ? 0 : 1;
+        continue;
+      }
       ASSERT_NEAR(our_t, t, 1e-9 * extent) << file << " ray " << i;
       if (static_cast<int>(hit.instance) == geom) continue;
       // A tie: the other one is met there as well.
       EXPECT_GE(geom, 0);
     }
-    if (has_mesh) continue;
+    EXPECT_LE(at_edges, rays / 500) << file;
     all_hits += hits;
     all_rays += rays;
   }
