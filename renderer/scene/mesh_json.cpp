@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/scene/mesh_json.h"
 
+#include <cmath>
 #include <stdexcept>
 
 #include "renderer/json/object_reader.h"
@@ -38,6 +39,19 @@ std::optional<std::vector<Corners>> read_corners(const Json& json, const JsonPat
   return triangles;
 }
 
+/// Rounding of normals.
+constexpr double same_way = 1e-9;
+
+bool looks_one_way(const TriangleMesh& mesh) {
+  const Vec3<double> first = mesh.normal(0);
+  for (std::uint32_t i = 0; i < mesh.size(); ++i) {
+    const double height = first.dot(mesh.corner(i, 0) - mesh.corner(0, 0));
+    if ((mesh.normal(i) - first).norm() > same_way || std::abs(height) > same_way * mesh.reach())
+      return false;
+  }
+  return !first.isZero(0);
+}
+
 }  // namespace
 
 std::shared_ptr<const TriangleMesh> read_mesh(const Json& json, const JsonPath& path,
@@ -59,9 +73,25 @@ std::shared_ptr<const TriangleMesh> read_mesh(const Json& json, const JsonPath& 
   std::optional<std::vector<Corners>> triangles;
   if (points) vertices = read_points(*points, object.path("vertices"), mistakes, 3, most_items);
   if (numbers) triangles = read_corners(*numbers, object.path("triangles"), mistakes);
+  MeshSides sides = MeshSides::both;
+  if (const Json* const written = object.find("sides")) {
+    const auto name = read_string(*written, object.path("sides"), mistakes);
+    if (!name) return nullptr;
+    if (*name == "front")
+      sides = MeshSides::front;
+    else if (*name != "both")
+      mistakes.add(object.path("sides"), "must be \"both\" or \"front\" (" + found(*written) + ")");
+  }
   if (!object.finish() || !vertices || !triangles) return nullptr;
   try {
-    return std::make_shared<const TriangleMesh>(std::move(*vertices), std::move(*triangles));
+    auto mesh =
+        std::make_shared<const TriangleMesh>(std::move(*vertices), std::move(*triangles), sides);
+    if (sides == MeshSides::front && !looks_one_way(*mesh)) {
+      mistakes.add(object.path("sides"),
+                   "must be \"both\" unless all triangles lie in one plane and look the same way");
+      return nullptr;
+    }
+    return mesh;
   } catch (const std::invalid_argument& error) {
     mistakes.add(path, error.what());
     return nullptr;
@@ -70,6 +100,7 @@ std::shared_ptr<const TriangleMesh> read_mesh(const Json& json, const JsonPath& 
 
 Json write_mesh(const TriangleMesh& mesh) {
   Json json = {{"vertices", Json::array()}, {"triangles", Json::array()}};
+  if (mesh.sides() == MeshSides::front) json["sides"] = "front";
   for (const Vec3<double>& vertex : mesh.vertices()) json["vertices"].push_back(to_json(vertex));
   for (const Corners& t : mesh.triangles())
     json["triangles"].push_back(Json::array({t[0], t[1], t[2]}));

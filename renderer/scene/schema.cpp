@@ -202,7 +202,10 @@ Json scene_schema() {
       {"triangles",
        {{"type", "array"},
         {"items", schema_of_list({{"type", "integer"}, {"minimum", 0}}, 3)},
-        {"minItems", 1}}}};
+        {"minItems", 1}}},
+      {"sides", {{"enum", Json::array({"both", "front"})}}}};
+  mesh["properties"]["sides"]["description"] =
+      "from where rays meet the triangles; \"front\" if all lie in one plane and look the same way";
   mesh["properties"]["file"]["description"] = "of OBJ or STL, relative to the scene's folder";
   mesh["properties"]["scale"]["description"] = "what multiplies the file's coordinates";
   mesh["properties"]["triangles"]["description"] =
