@@ -7,6 +7,7 @@
 
 #include "renderer/clearance/clearance.h"
 #include "renderer/clearance/clearance_derivative.h"
+#include "renderer/verify/referee.h"
 #include "tests/renderer/clearance/arm.h"
 #include "tests/support/meshes.h"
 #include "tests/support/random.h"
@@ -141,6 +142,47 @@ TEST(MeshClearance, a_rod_goes_through_a_ring_whose_hull_it_crosses) {
       PointCloud<double>({ring.mesh->vertices().begin(), ring.mesh->vertices().end()})}));
   bodies.back().middle = placed_middle(bodies.back().shape, {});
   EXPECT_LT(least(bodies).upper, 0);
+}
+
+/// No plane is between the arm and the ring around it; the arm's speed tells that they stay apart.
+TEST(MeshClearance, verdicts_see_what_no_plane_separates) {
+  Model model = testing::arm_model();
+  Object ring;
+  ring.name = "ring";
+  ring.mesh = testing::torus(48, 24).shared();
+  Scene around;
+  around.objects = {ring};
+  std::vector<ClearanceBody> bodies = bodies_of(model, GeometryChoice::collision);
+  bodies.push_back(bodies_of(around)[0]);
+  std::vector<RefereePair> pairs;
+  for (const BodyPair& pair : pairs_of(bodies, model, {}, false))
+    pairs.push_back({pair.a, pair.b, 0});
+  RefereeOptions options;
+  options.keep_planes = true;
+  const auto verdict = [&](double last) {
+    const JointPath path(model, {{0, {{"shoulder", {0.0}}}}, {1, {{"shoulder", {last}}}}});
+    const Verdict found = verdict_of(path, bodies, pairs, options);
+    const Closest least = [&] {
+      std::vector<BodyPair> plain;
+      for (const RefereePair& pair : pairs) plain.push_back({pair.a, pair.b});
+      return clearance_of(path, bodies, plain, {}).closest;
+    }();
+    if (found.status == MotionStatus::free) {
+      EXPECT_LE(found.least.lower, least.upper);
+      EXPECT_GE(found.least.upper, least.lower);
+      EXPECT_GT(found.least.lower, 0.98 * least.lower - 1e-6);
+    }
+    return found;
+  };
+  const Verdict free = verdict(0.2);
+  EXPECT_EQ(free.status, MotionStatus::free);
+  EXPECT_TRUE(free.without_planes);
+  const Verdict collides = verdict(1.5);
+  ASSERT_EQ(collides.status, MotionStatus::collides);
+  ASSERT_EQ(collides.stretches.size(), 1u);
+  // The upper arm, from the first contact on.
+  EXPECT_GT(collides.stretches[0].begin, 0.2);
+  EXPECT_GT(collides.stretches[0].time, collides.stretches[0].begin);
 }
 
 /// In MJCF a mesh touches as its hull, and a ring of another format as it is.

@@ -50,6 +50,24 @@ class Meshes(unittest.TestCase):
         hits = scene.cast_rays(np.concatenate([origins, vertices - origins], axis=1))
         self.assertTrue((hits.status == mk.HIT).all())
 
+    def test_a_terrain_is_as_high_as_its_heights(self):
+        rng = np.random.default_rng(7)
+        heights = rng.uniform(-1, 1, size=(6, 9))
+        scene = mk.Scene()
+        scene.add(mk.height_field(heights, size=(4, 3)))
+        scene.commit()
+        x, y = np.meshgrid(np.linspace(-2, 2, 9), np.linspace(-1.5, 1.5, 6))
+        down = np.stack([x, y, 5 + 0 * x, 0 * x, 0 * x, -1 + 0 * x], axis=-1).reshape(-1, 6)
+        hits = scene.cast_rays(down)
+        np.testing.assert_allclose(5 - hits.t, heights.reshape(-1), atol=1e-14)
+        self.assertGreater(mk.mesh_info(mk.height_field(heights, (4, 3)))["open_edges"], 0)
+        self.assertEqual(mk.mesh_info(mk.height_field(heights, (4, 3), bottom=-2))["open_edges"], 0)
+        for wrong in ((heights[0], (4, 3)), (heights, 4), (heights, (4, 0)), (heights[:1], (4, 3))):
+            with self.assertRaises(mk.Error):
+                mk.height_field(*wrong)
+        with self.assertRaises(mk.Error):
+            mk.height_field(heights, (4, 3), bottom=0)
+
     def test_a_ball_goes_through_the_hole_of_a_ring_but_not_of_its_hull(self):
         vertices, triangles = torus()
         ring, ball = mk.mesh(vertices, triangles), mk.sphere(0.2)
