@@ -34,7 +34,7 @@ inline bool has_lanes(const TriangleMesh& mesh) {
 /// cast_at_triangle of the mesh's triangle, with its number.
 PartHit cast_at_part(const TriangleMesh& mesh, std::uint32_t triangle, const Ray<double>& ray);
 
-/// Of a triangle that the ray grazes t is hardly known.
+/// True if t is hardly known, as of a triangle that the ray grazes.
 inline bool is_wide(const PartHit& hit) {
   constexpr double wide = 0x1p-20;
   return hit.error > wide * hit.t;

@@ -13,6 +13,14 @@ namespace {
 /// Fewer rays are faster one by one.
 constexpr std::size_t least_together = 4;
 
+/// A ray meets many boxes of more meshes, and one by one it leaves out those behind its first hit.
+constexpr std::size_t most_meshes = 2;
+
+/// True if rays pass through meshes together.
+bool go_together(std::size_t rays, std::size_t meshes) {
+  return rays >= least_together && meshes > 0 && meshes <= most_meshes;
+}
+
 /// A ray and a mesh whose box it meets.
 struct RayAtMesh {
   std::uint32_t mesh, ray;
@@ -129,8 +137,7 @@ bool World::blocked_by_shapeless(const WorldRay& ray, QueryCounts& counts) const
 
 void World::closest_shapeless(const RaySpan& rays, std::span<WorldHit> closest,
                               std::span<std::uint8_t> is_exhausted, QueryCounts& counts) const {
-  const bool are_together =
-      rays.size() >= least_together && !instances_.meshes().empty() && has_screen();
+  const bool are_together = has_screen() && go_together(rays.size(), instances_.meshes().size());
   std::ranges::fill(is_exhausted, std::uint8_t{0});
   const bool has_half_spaces = !instances_.half_spaces().empty();
   for (std::size_t i = 0; (has_half_spaces || !are_together) && i < rays.size(); ++i) {
@@ -178,8 +185,7 @@ void World::closest_shapeless(const RaySpan& rays, std::span<WorldHit> closest,
 
 void World::blocked_by_shapeless(const RaySpan& rays, std::span<std::uint8_t> met,
                                  QueryCounts& counts) const {
-  const bool are_together =
-      rays.size() >= least_together && !instances_.meshes().empty() && has_screen();
+  const bool are_together = has_screen() && go_together(rays.size(), instances_.meshes().size());
   std::ranges::fill(met, std::uint8_t{0});
   const bool has_half_spaces = !instances_.half_spaces().empty();
   for (std::size_t i = 0; (has_half_spaces || !are_together) && i < rays.size(); ++i) {
