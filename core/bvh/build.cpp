@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "core/bvh/bvh.h"
+#include "core/bvh/leaves.h"
 #include "core/bvh/split.h"
 #include "core/parallel/parallel.h"
 
@@ -49,7 +50,10 @@ struct Subtree {
   }
 };
 
-template <class Splitter>
+/// Children that are no nodes: boxes, or ranges of boxes that are leaves together.
+enum class Leaves : unsigned char { boxes, ranges };
+
+template <class Splitter, Leaves leaves = Leaves::boxes>
 class Builder {
  public:
   Builder(std::span<const Primitive> primitives, const Splitter& splitter)
@@ -58,7 +62,7 @@ class Builder {
   std::unique_ptr<Subtree> build(const BuildRange& range) const {
     auto subtree = std::make_unique<Subtree>();
     if (range.count() < parallel_size) {
-      subtree->nodes.reserve(range.count() / 3 + 1);
+      subtree->nodes.reserve(range.count() / (leaves == Leaves::ranges ? 32 : 3) + 1);
       subtree->box = append(range, subtree->nodes);
       return subtree;
     }
@@ -66,12 +70,12 @@ class Builder {
     std::array<std::unique_ptr<Subtree>, bvh_width> built;
     parallel_for(children.count, 1, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i)
-        if (children.ranges[i].count() > 1) built[i] = build(children.ranges[i]);
+        if (!is_leaf(children.ranges[i])) built[i] = build(children.ranges[i]);
     });
     BvhNode root = empty_node();
     for (std::size_t i = 0; i < children.count; ++i) {
       const int child = static_cast<int>(i);
-      const BuildBox box = built[i] ? built[i]->box : primitives_[children.ranges[i].begin].box;
+      const BuildBox box = built[i] ? built[i]->box : box_of_leaf(children.ranges[i]);
       root.set(child, box.bounds(), leaf_of(children.ranges[i].begin));
       subtree->box.extend(box);
       if (built[i]) subtree->below.emplace_back(child, std::move(built[i]));
@@ -90,8 +94,10 @@ class Builder {
     for (std::size_t i = 0; i < children.count; ++i) {
       const BuildRange& child = children.ranges[i];
       std::uint32_t what = leaf_of(child.begin);
-      BuildBox box = primitives_[child.begin].box;
-      if (child.count() > 1) {
+      BuildBox box;
+      if (is_leaf(child)) {
+        box = box_of_leaf(child);
+      } else {
         what = static_cast<std::uint32_t>(nodes.size());
         box = append(child, nodes);
       }
@@ -108,8 +114,11 @@ class Builder {
       for (std::size_t i = of.begin; i < of.end; ++i)
         children.ranges[children.count++] = {i, i + 1, of.depth + 1, {}};
     };
-    if (range.count() <= width) {
-      add_all(range);
+    if (range.count() <= width) {  // with leaves of ranges: there is only one
+      if constexpr (leaves == Leaves::boxes)
+        add_all(range);
+      else
+        children.ranges[children.count++] = range;
       return children;
     }
     children.ranges[children.count++] = range;
@@ -122,6 +131,7 @@ class Builder {
       children.ranges[i] = halves.left;
       children.ranges[children.count++] = halves.right;
     }
+    if constexpr (leaves == Leaves::ranges) return children;
     // What would be a node of its own, but finds room here.
     for (;;) {
       const std::size_t free = width - children.count;
@@ -135,8 +145,19 @@ class Builder {
     }
   }
 
+  /// A leaf of a range is known by where it begins.
   std::uint32_t leaf_of(std::size_t primitive) const {
+    if constexpr (leaves == Leaves::ranges)
+      return BvhNode::leaf | static_cast<std::uint32_t>(primitive);
     return BvhNode::leaf | primitives_[primitive].index();
+  }
+  static bool is_leaf(const BuildRange& range) {
+    return range.count() <= (leaves == Leaves::ranges ? std::size_t{bvh_width} : 1);
+  }
+  BuildBox box_of_leaf(const BuildRange& range) const {
+    BuildBox box = primitives_[range.begin].box;
+    for (std::size_t i = range.begin + 1; i < range.end; ++i) box.extend(primitives_[i].box);
+    return box;
   }
 
   static BvhNode empty_node() {
@@ -188,6 +209,27 @@ FirstTouchVector<Primitive> primitives_of(std::span<const Bounds<float>> boxes) 
   return primitives;
 }
 
+/// Leaves are numbered in the order of their boxes.
+void number_leaves(BvhOfLeaves& leaves) {
+  FirstTouchVector<std::uint32_t> number;
+  number.resize(leaves.boxes.size());
+  std::ranges::fill(number, 0u);
+  const auto each_leaf = [&](const auto& visit) {
+    for (BvhNode& node : leaves.bvh.nodes)
+      for (std::uint32_t& child : node.children)
+        if (child != BvhNode::none && (child & BvhNode::leaf)) visit(child);
+  };
+  std::uint32_t count = 0;
+  each_leaf([&](std::uint32_t child) { number[child & ~BvhNode::leaf] = 1; });
+  for (std::uint32_t i = 0; i < number.size(); ++i) {
+    if (number[i] == 0) continue;
+    number[i] = count++;
+    leaves.begins.push_back(i);
+  }
+  leaves.begins.push_back(static_cast<std::uint32_t>(number.size()));
+  each_leaf([&](std::uint32_t& child) { child = BvhNode::leaf | number[child & ~BvhNode::leaf]; });
+}
+
 Bvh bvh_of(FirstTouchVector<Primitive> primitives, BvhBuild build) {
   Bvh bvh;
   if (primitives.empty()) return bvh;
@@ -209,6 +251,23 @@ Bvh build_bvh(FirstTouchVector<Bounds<float>>&& boxes, BvhBuild build) {
   FirstTouchVector<Primitive> primitives = primitives_of(boxes);
   boxes = {};
   return bvh_of(std::move(primitives), build);
+}
+
+BvhOfLeaves build_bvh_of_leaves(FirstTouchVector<Bounds<float>>&& boxes) {
+  FirstTouchVector<Primitive> primitives = primitives_of(boxes);
+  boxes = {};
+  BvhOfLeaves leaves;
+  if (primitives.empty()) return leaves;
+  const FullLeafSplitter splitter(primitives);
+  const Builder<FullLeafSplitter, Leaves::ranges> builder(primitives, splitter);
+  std::unique_ptr<Subtree> whole = builder.build(splitter.whole());
+  leaves.boxes.resize(primitives.size());
+  for (std::size_t i = 0; i < primitives.size(); ++i) leaves.boxes[i] = primitives[i].index();
+  primitives = {};
+  leaves.bvh.nodes.resize(whole->node_count());
+  put(std::move(whole), leaves.bvh.nodes, 0);
+  number_leaves(leaves);
+  return leaves;
 }
 
 }  // namespace minkray

@@ -21,6 +21,7 @@ struct BuildRange {
 
 struct BuildHalves {
   BuildRange left, right;
+  int axis = 0;  ///< across which the area splitter splits
 };
 
 /// From this depth on ranges are split into halves, which takes at most 32 levels more.
@@ -38,6 +39,21 @@ class AreaSplitter {
 
  private:
   std::span<Primitive> primitives_;
+};
+
+/// As AreaSplitter, but small ranges are split at multiples of bvh_width: leaves of so many are
+/// nearly all full.
+class FullLeafSplitter {
+ public:
+  explicit FullLeafSplitter(std::span<Primitive> primitives)
+      : primitives_(primitives), by_area_(primitives) {}
+  BuildRange whole() const { return by_area_.whole(); }
+  BuildHalves split(const BuildRange& range) const;
+  static double weight(const BuildRange& range) { return AreaSplitter::weight(range); }
+
+ private:
+  std::span<Primitive> primitives_;
+  AreaSplitter by_area_;
 };
 
 /// Where the bits of their middles' place on a Morton curve differ first (Lauterbach et al., "Fast

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <array>
 #include <utility>
 
+#include "core/bvh/bvh.h"
 #include "core/bvh/split.h"
 #include "core/parallel/parallel_reduce.h"
 
@@ -12,6 +14,10 @@ constexpr int most_bins = 16;
 /// Few primitives need few bins: sweeping over them would take longer than filling them.
 constexpr int few_bins = 8;
 constexpr std::size_t few_primitives = 64;
+
+/// Leaves are filled in ranges of up to so many: larger ones lose little by a leaf that is not
+/// full.
+constexpr std::size_t most_of_full_leaves = 256;
 
 struct Bins {
   std::array<std::array<BuildBox, most_bins>, 3> boxes;
@@ -113,6 +119,7 @@ BuildHalves AreaSplitter::split(const BuildRange& range) const {
         parallel_reduce<Bins>(range.begin, range.end, fill,
                               [](Bins& into, const Bins& of_range) { into.extend(of_range); });
     const Split best = best_split(bins, bin_count, range.count());
+    halves.axis = best.axis;
 
     // In place, from both ends; what goes to a side is added to its extent on the way.
     const auto first_right = static_cast<float>(best.bin);
@@ -138,6 +145,27 @@ BuildHalves AreaSplitter::split(const BuildRange& range) const {
   }
   halves.left = {range.begin, left, range.depth + 1, halves.left.extent};
   halves.right = {left, range.end, range.depth + 1, halves.right.extent};
+  return halves;
+}
+
+BuildHalves FullLeafSplitter::split(const BuildRange& range) const {
+  constexpr std::size_t leaf = bvh_width;
+  BuildHalves halves = by_area_.split(range);
+  if (range.count() > most_of_full_leaves || halves.left.count() % leaf == 0) return halves;
+  const std::size_t most = (range.count() - 1) / leaf * leaf;
+  const std::size_t middle =
+      range.begin + std::clamp((halves.left.count() + leaf / 2) / leaf * leaf, leaf, most);
+  const auto at = [&](std::size_t i) {
+    return primitives_.begin() + static_cast<std::ptrdiff_t>(i);
+  };
+  std::nth_element(at(range.begin), at(middle), at(range.end),
+                   [axis = halves.axis](const Primitive& a, const Primitive& b) {
+                     return a.middle().lane(axis) < b.middle().lane(axis);
+                   });
+  halves.left = {range.begin, middle, range.depth + 1, {}};
+  halves.right = {middle, range.end, range.depth + 1, {}};
+  halves.left.extent = extent_of(primitives_, range.begin, middle);
+  halves.right.extent = extent_of(primitives_, middle, range.end);
   return halves;
 }
 

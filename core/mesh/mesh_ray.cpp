@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/bvh/traverse.h"
 #include "core/mesh/exact_sign.h"
+#include "core/mesh/mesh_walk.h"
 
 namespace minkray {
 namespace {
@@ -37,17 +37,6 @@ int widest_axis(const Vec3<double>& d) {
   int axis = 0;
   d.cwiseAbs().maxCoeff(&axis);
   return axis;
-}
-
-/// Walks through the boxes that the ray meets. on_triangle(number, slabs) returns true to end.
-template <class OnTriangle>
-void walk_triangles(const TriangleMesh& mesh, const Ray<double>& ray, PartCounts& counts,
-                    OnTriangle&& on_triangle) {
-  SlabRay slabs(ray);
-  counts.nodes += traverse(mesh.bvh(), slabs, [&](std::uint32_t triangle) {
-    ++counts.triangles;
-    return on_triangle(triangle, slabs);
-  });
 }
 
 }  // namespace
@@ -104,15 +93,50 @@ PartHit cast_at_triangle(const Vec3<double>& a, const Vec3<double>& b, const Vec
   return hit;
 }
 
+PartHit cast_at_part(const TriangleMesh& mesh, std::uint32_t triangle, const Ray<double>& ray) {
+  PartHit hit = cast_at_triangle(mesh.corner(triangle, 0), mesh.corner(triangle, 1),
+                                 mesh.corner(triangle, 2), ray);
+  if (hit.found()) hit.part = triangle;
+  return hit;
+}
+
+bool yields_to_or_is_wide(const TriangleMesh& mesh, const Ray<double>& ray, const PartHit& closest,
+                          const PartHit& hit) {
+  SlabRay slabs(ray);
+  // As walks see the box of a triangle.
+  const auto is_reached = [&](std::uint32_t triangle) {
+    Bounds<double> box;
+    for (std::size_t k = 0; k < 3; ++k) box.extend(mesh.corner(triangle, k));
+    Bvh alone;
+    alone.nodes.resize(1);
+    alone.nodes[0].set(0, rounded_outwards(box), BvhNode::leaf);
+    for (int child = 1; child < bvh_width; ++child) alone.nodes[0].set(child, {}, BvhNode::none);
+    bool is_met = false;
+    traverse(alone, slabs, [&](std::uint32_t) { return is_met = true; });
+    return is_met;
+  };
+  const float whole = slabs.numbers.t_max;
+  if (is_wide(hit)) {
+    if (closest.found())
+      slabs.numbers.t_max = std::min(whole, slabs.limit(closest.t + closest.error));
+    if (!is_reached(hit.part)) return false;
+  }
+  if (is_wide(closest)) {
+    slabs.numbers.t_max = std::min(whole, slabs.limit(hit.t + hit.error));
+    if (!is_reached(closest.part)) return true;
+  }
+  return closest.yields_to(hit);
+}
+
 PartHit closest_part(const TriangleMesh& mesh, const Ray<double>& ray, double t_min,
                      PartCounts& counts) {
+  if (has_lanes(mesh) && suits_lanes(ray))
+    return closest_part_avx2(view_of(mesh), ray, t_min, counts);
   PartHit closest;
   walk_triangles(mesh, ray, counts, [&](std::uint32_t triangle, SlabRay& slabs) {
-    PartHit hit = cast_at_triangle(mesh.corner(triangle, 0), mesh.corner(triangle, 1),
-                                   mesh.corner(triangle, 2), ray);
+    const PartHit hit = cast_at_part(mesh, triangle, ray);
     if (!hit.found() || !(hit.t >= t_min) || !(hit.t <= ray.t_max)) return false;
-    hit.part = triangle;
-    if (!closest.yields_to(hit)) return false;
+    if (!takes_place(mesh, ray, closest, hit)) return false;
     closest = hit;
     slabs.numbers.t_max = std::min(slabs.numbers.t_max, slabs.limit(hit.t + hit.error));
     return false;
@@ -122,10 +146,11 @@ PartHit closest_part(const TriangleMesh& mesh, const Ray<double>& ray, double t_
 
 bool meets_part(const TriangleMesh& mesh, const Ray<double>& ray, double t_min,
                 PartCounts& counts) {
+  if (has_lanes(mesh) && suits_lanes(ray))
+    return meets_part_avx2(view_of(mesh), ray, t_min, counts);
   bool is_met = false;
   walk_triangles(mesh, ray, counts, [&](std::uint32_t triangle, SlabRay&) {
-    const PartHit hit = cast_at_triangle(mesh.corner(triangle, 0), mesh.corner(triangle, 1),
-                                         mesh.corner(triangle, 2), ray);
+    const PartHit hit = cast_at_part(mesh, triangle, ray);
     is_met = hit.found() && hit.t >= t_min && hit.t <= ray.t_max;
     return is_met;
   });
@@ -136,10 +161,8 @@ std::vector<PartHit> all_parts(const TriangleMesh& mesh, const Ray<double>& ray)
   std::vector<PartHit> hits;
   PartCounts counts;
   walk_triangles(mesh, ray, counts, [&](std::uint32_t triangle, SlabRay&) {
-    PartHit hit = cast_at_triangle(mesh.corner(triangle, 0), mesh.corner(triangle, 1),
-                                   mesh.corner(triangle, 2), ray);
+    const PartHit hit = cast_at_part(mesh, triangle, ray);
     if (!hit.found() || !(hit.t <= ray.t_max)) return false;
-    hit.part = triangle;
     hits.push_back(hit);
     return false;
   });

@@ -3,6 +3,7 @@
 // so that a ray at a closed mesh's edge or corner meets one of the triangles there.
 #pragma once
 
+#include "core/bvh/traverse.h"
 #include "core/math/ray.h"
 #include "core/mesh/triangle_mesh.h"
 
@@ -31,6 +32,25 @@ PartHit cast_at_triangle(const Vec3<double>& a, const Vec3<double>& b, const Vec
 struct PartCounts {
   std::uint64_t nodes = 0, triangles = 0;
 };
+
+/// Calls on_triangle(number, slabs) for the triangles whose boxes the ray meets, and rounding may
+/// add some. It may lower slabs.numbers.t_max, and ends the walk by returning true.
+template <class OnTriangle>
+void walk_triangles(const TriangleMesh& mesh, const Ray<double>& ray, PartCounts& counts,
+                    OnTriangle&& on_triangle) {
+  SlabRay slabs(ray);
+  Bvh triangles;
+  triangles.nodes.resize(1);
+  counts.nodes += traverse(mesh.bvh(), slabs, [&](std::uint32_t leaf) {
+    bool is_over = false;
+    triangles.nodes[0] = mesh.boxes_of_leaf(leaf);
+    traverse(triangles, slabs, [&](std::uint32_t triangle) {
+      ++counts.triangles;
+      return is_over = on_triangle(triangle, slabs);
+    });
+    return is_over;
+  });
+}
 
 /// The hit with the least t in [t_min, ray.t_max], of the least number where several have it.
 PartHit closest_part(const TriangleMesh& mesh, const Ray<double>& ray, double t_min,

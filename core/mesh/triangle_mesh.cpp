@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/bvh/leaves.h"
 #include "core/math/two_fold.h"
 #include "core/mesh/weld.h"
 #include "core/parallel/parallel.h"
@@ -24,8 +25,44 @@ constexpr std::size_t triangles_a_range = 4096;
 /// Squares of such numbers have all their digits.
 constexpr double ordinary = 0x1p-200;
 
+/// Beyond these, lanes do not look at leaves: products of float coordinates and scales are far from
+/// the limits of float.
+constexpr double largest_of_lanes = 0x1p60, smallest_of_lanes = 0x1p-60;
+
+/// Corners in units of a leaf are less than 2^16, also when the scale has lost its last bits.
+constexpr double units_of_leaf = 65530;
+
+/// A leaf whose triangles lie in one point has a cube of this share of the mesh.
+constexpr double least_leaf = 0x1p-40;
+
+constexpr std::size_t leaves_a_range = 512;
+
 TwoFold<double> operator-(const TwoFold<double>& a, const TwoFold<double>& b) {
   return a + TwoFold<double>{-b.high, -b.low};
+}
+
+/// Fills in the corners of the leaf's triangles; `size` is that of the whole mesh.
+void fit_corners(MeshLeaf& leaf, const TriangleMesh& mesh, double size) {
+  const auto count = static_cast<std::size_t>(leaf.size());
+  Bounds<double> box;
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t k = 0; k < 3; ++k) box.extend(mesh.corner(leaf.triangles[i], k));
+  const Bounds<float> rounded = rounded_outwards(box);
+  double extent = least_leaf * size;
+  for (int axis = 0; axis < 3; ++axis) {
+    leaf.origin[axis] = rounded.lower[axis];
+    extent = std::max(extent, box.upper[axis] - double{rounded.lower[axis]});
+  }
+  const auto scale = std::bit_cast<std::uint32_t>(static_cast<float>(units_of_leaf / extent));
+  leaf.packed_scale = ((scale - 8) & ~7u) | leaf.packed_scale;
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3<double>& corner = mesh.corner(leaf.triangles[i], k);
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        leaf.corners[k][axis][i] = static_cast<std::uint16_t>(
+            (corner[static_cast<int>(axis)] - double{leaf.origin[axis]}) * double{leaf.scale()} +
+            0.5);
+    }
 }
 
 [[noreturn]] void wrong(const std::string& what) {
@@ -66,7 +103,37 @@ TriangleMesh::TriangleMesh(std::vector<Vec3<double>> vertices, std::vector<Corne
   reach_ *= 1 + 8 * std::numeric_limits<double>::epsilon();
   if (!(Vec3<double>(bounds_.upper - bounds_.lower).maxCoeff() >= smallest_size))
     wrong("vertices: must be further apart than 2^-250");
-  bvh_ = build_bvh(std::move(boxes));
+  BvhOfLeaves built = build_bvh_of_leaves(std::move(boxes));
+  bvh_ = std::move(built.bvh);
+  const double size = (bounds_.upper - bounds_.lower).maxCoeff();
+  const double furthest = bounds_.lower.cwiseAbs().cwiseMax(bounds_.upper.cwiseAbs()).maxCoeff();
+  suits_lanes_ = furthest <= largest_of_lanes && size >= smallest_of_lanes;
+  leaves_.resize(built.begins.size() - 1);
+  parallel_for(leaves_.size(), leaves_a_range, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      MeshLeaf& leaf = leaves_[i];
+      leaf = {};
+      const std::uint32_t from = built.begins[i], count = built.begins[i + 1] - from;
+      leaf.packed_scale = count - 1;
+      for (std::uint32_t k = 0; k < count; ++k) leaf.triangles[k] = built.boxes[from + k];
+      if (suits_lanes_) fit_corners(leaf, *this, size);
+    }
+  });
+}
+
+BvhNode TriangleMesh::boxes_of_leaf(std::uint32_t number) const {
+  const MeshLeaf& leaf = leaves_[number];
+  BvhNode node;
+  for (int i = 0; i < bvh_width; ++i) {
+    if (i >= leaf.size()) {
+      node.set(i, {}, BvhNode::none);
+      continue;
+    }
+    Bounds<double> box;
+    for (std::size_t k = 0; k < 3; ++k) box.extend(corner(leaf.triangles[i], k));
+    node.set(i, rounded_outwards(box), BvhNode::leaf | leaf.triangles[i]);
+  }
+  return node;
 }
 
 Vec3<double> TriangleMesh::normal(std::uint32_t triangle) const {
@@ -136,7 +203,8 @@ bool TriangleMesh::is_closed() const {
 
 std::size_t TriangleMesh::bytes() const {
   return vertices_.capacity() * sizeof(vertices_[0]) +
-         triangles_.capacity() * sizeof(triangles_[0]) + bvh_.bytes();
+         triangles_.capacity() * sizeof(triangles_[0]) + bvh_.bytes() +
+         leaves_.capacity() * sizeof(leaves_[0]);
 }
 
 }  // namespace minkray

@@ -12,6 +12,7 @@
 #include "core/bvh/bvh.h"
 #include "core/math/bounds.h"
 #include "core/math/vec.h"
+#include "core/mesh/mesh_leaf.h"
 
 namespace minkray {
 
@@ -55,8 +56,13 @@ class TriangleMesh {
 
   /// The box holds the vertices that triangles have.
   const Bounds<double>& bounds() const { return bounds_; }
-  /// Its leaves are triangles.
+  /// Its children with the leaf bit are numbers of leaves().
   const Bvh& bvh() const { return bvh_; }
+  std::span<const MeshLeaf> leaves() const { return leaves_; }
+  /// The boxes of a leaf's triangles: children with the leaf bit are numbers of triangles.
+  BvhNode boxes_of_leaf(std::uint32_t leaf) const;
+  /// True if float lanes may look at leaves: its size and its numbers are far from float's limits.
+  bool suits_lanes() const { return suits_lanes_; }
   /// Looks at all triangles each time.
   MeshFaults faults() const;
   /// Finds out once what faults().is_closed() says.
@@ -74,7 +80,9 @@ class TriangleMesh {
   MeshSides sides_ = MeshSides::both;
   mutable std::once_flag closed_once_;
   mutable bool is_closed_ = false;
+  bool suits_lanes_ = false;
   Bvh bvh_;
+  FirstTouchVector<MeshLeaf> leaves_;
 };
 
 }  // namespace minkray

@@ -64,22 +64,30 @@ class Side {
   explicit Side(const PartsBody& body) : body_(body) {}
 
   struct Box {
-    std::uint32_t what = 0;  ///< as of a BvhNode's child
+    std::uint32_t what = 0;  ///< a node's number, that of a leaf with its bit, or that of a part
     Bounds<double> bounds;
-    bool is_part() const { return (what & BvhNode::leaf) != 0; }
-    std::uint32_t part() const { return what & ~BvhNode::leaf; }
+    bool is_part() const { return what >= part_bits; }
+    std::uint32_t part() const { return what & ~part_bits; }
   };
+  /// Numbers of leaves and parts are less than 2^30.
+  static constexpr std::uint32_t part_bits = BvhNode::leaf | BvhNode::leaf >> 1;
 
   Box whole() const {
     if (body_.mesh()) return {0, body_.mesh()->bounds()};
-    return {BvhNode::leaf, bounds_of(body_, {})};
+    return {part_bits, bounds_of(body_, {})};
   }
   double reach() const { return reach_of(body_); }
   template <class Each>
   void each_child(const Box& box, Each&& each) const {
-    const BvhNode& node = body_.mesh()->bvh().nodes[box.what];
-    for (int i = 0; i < bvh_width && node.children[i] != BvhNode::none; ++i)
-      each(Box{node.children[i], in_double(node.box(i))});
+    const TriangleMesh& mesh = *body_.mesh();
+    const auto each_of = [&](const BvhNode& node, std::uint32_t bits) {
+      for (int i = 0; i < bvh_width && node.children[i] != BvhNode::none; ++i)
+        each(Box{node.children[i] | bits, in_double(node.box(i))});
+    };
+    if (box.what & BvhNode::leaf)
+      each_of(mesh.boxes_of_leaf(box.what & ~BvhNode::leaf), part_bits);
+    else
+      each_of(mesh.bvh().nodes[box.what], 0);
   }
   /// The convex part; `room` holds it if it is a triangle.
   const ContactShape& part(std::uint32_t number, std::optional<ContactShape>& room) const {
@@ -375,20 +383,20 @@ bool bends_at(const TriangleMesh& mesh, const Vec3<double>& point, double near) 
   SignedDistanceOptions how;
   how.at_most = near;
   std::optional<Vec3<double>> normal;
-  std::vector<std::uint32_t> open{0};
+  const Side side(mesh);
+  std::vector<Side::Box> open{side.whole()};
   while (!open.empty()) {
-    const std::uint32_t what = open.back();
+    const Side::Box box = open.back();
     open.pop_back();
-    if ((what & BvhNode::leaf) == 0) {
-      const BvhNode& node = mesh.bvh().nodes[what];
-      for (int i = 0; i < bvh_width && node.children[i] != BvhNode::none; ++i)
-        if (box_distance({point, point}, in_double(node.box(i))) <= near)
-          open.push_back(node.children[i]);
+    if (!box.is_part()) {
+      side.each_child(box, [&](const Side::Box& child) {
+        if (box_distance({point, point}, child.bounds) <= near) open.push_back(child);
+      });
       continue;
     }
-    const std::uint32_t part = what & ~BvhNode::leaf;
+    const std::uint32_t part = box.part();
     std::optional<ContactShape> room;
-    const ContactShape& triangle = Side(mesh).part(part, room);
+    const ContactShape& triangle = side.part(part, room);
     if (signed_distance(at, {}, triangle, {}, how).lower > near) continue;
     const Vec3<double> its = mesh.normal(part);
     if (its.isZero(0)) continue;
@@ -404,7 +412,8 @@ std::shared_ptr<const TriangleMesh> mapped(const TriangleMesh& mesh, const Mat3<
   std::vector<Corners> triangles(mesh.triangles().begin(), mesh.triangles().end());
   if (linear.determinant() < 0)  // seen from outside they would be clockwise
     for (Corners& corners : triangles) std::swap(corners[1], corners[2]);
-  return std::make_shared<const TriangleMesh>(std::move(vertices), std::move(triangles));
+  return std::make_shared<const TriangleMesh>(std::move(vertices), std::move(triangles),
+                                              mesh.sides());
 }
 
 }  // namespace minkray

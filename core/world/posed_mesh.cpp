@@ -5,7 +5,9 @@
 #include <utility>
 
 #include "core/math/two_fold.h"
+#include "core/mesh/mesh_rays.h"
 #include "core/query/tolerances.h"
+#include "core/world/posed_mesh_rays.h"
 
 namespace minkray {
 namespace {
@@ -31,7 +33,8 @@ struct NearRay {
   double in_world(double t) const { return exponent == 0 ? t : std::ldexp(t, exponent); }
 };
 
-NearRay near_ray(const PosedMesh& posed, const Ray<double>& ray) {
+NearRay near_ray(const PosedMesh& posed, const Ray<double>& ray,
+                 double most = std::numeric_limits<double>::infinity()) {
   NearRay near;
   const double size = ray.direction.cwiseAbs().maxCoeff();
   Vec3<double> direction = ray.direction;
@@ -52,7 +55,7 @@ NearRay near_ray(const PosedMesh& posed, const Ray<double>& ray) {
     near.ray.direction = direction;
     if (!from.low.isZero(0)) near.origin_loss = from.low.norm();
   }
-  near.ray.t_max = near.in_near(ray.t_max);
+  near.ray.t_max = std::min(near.in_near(ray.t_max), near.in_near(most));
   near.is_number = size > 0 && near.ray.origin.cwiseAbs().maxCoeff() <= largest_number &&
                    near.ray.direction.cwiseAbs().maxCoeff() <= largest_number;
   return near;
@@ -73,39 +76,26 @@ double t_min_of(const PosedMesh& posed, const NearRay& near, bool leaves) {
   return leaving_mesh * reach / near.ray.direction.cwiseAbs().maxCoeff();
 }
 
+/// The answer to a ray whose numbers are too large, or whose direction is zero.
+MeshCast without_hit(const Ray<double>& ray) {
+  MeshCast answer;
+  if (!ray.direction.isZero(0)) return answer;  // exhausted
+  answer.cast.status = Status::miss;
+  answer.cast.path = Path::filter;
+  return answer;
+}
+
 /// All triangles of a mesh with one side look the same way: what is behind the first is seen from
 /// behind as well.
 bool is_missed_from_behind(const TriangleMesh& mesh, const PartHit& hit) {
   return mesh.sides() == MeshSides::front && hit.is_back;
 }
 
-}  // namespace
-
-PosedMesh::PosedMesh(std::uint32_t number, std::shared_ptr<const TriangleMesh> of,
-                     const Affine<double>& at)
-    : instance(number), mesh(std::move(of)), pose(at) {
-  is_turned = at.linear != Mat3<double>::Identity();
-  if (is_turned) to_mesh = accurate_inverse<double>(at.linear);
-}
-
-Bounds<double> PosedMesh::bounds_under(const Affine<double>& other) const {
-  const Bounds<double>& own = mesh->bounds();
-  const Vec3<double> middle = own.centre(), reach = own.reach_of_centre();
-  const Vec3<double> centre = other(middle), around = other.linear.cwiseAbs() * reach;
-  return {centre - around, centre + around};
-}
-
-MeshCast cast_ray(const PosedMesh& posed, const Ray<double>& ray, double most, bool leaves,
-                  double loss, PartCounts& counts) {
+MeshCast cast_of(const PosedMesh& posed, const NearRay& near, const PartHit& hit, double loss) {
   MeshCast answer;
   CastResult<double>& cast = answer.cast;
-  NearRay near = near_ray(posed, ray);
-  if (!near.is_number && !ray.direction.isZero(0)) return answer;  // exhausted
   cast.status = Status::miss;
   cast.path = Path::filter;
-  if (!near.is_number) return answer;
-  near.ray.t_max = std::min(near.ray.t_max, near.in_near(most));
-  const PartHit hit = closest_part(*posed.mesh, near.ray, t_min_of(posed, near, leaves), counts);
   if (!hit.found() || is_missed_from_behind(*posed.mesh, hit)) return answer;
   answer.part = hit.part;
   const Vec3<double> normal = posed.mesh->normal(hit.part) * (hit.is_back ? -1.0 : 1.0);
@@ -126,6 +116,52 @@ MeshCast cast_ray(const PosedMesh& posed, const Ray<double>& ray, double most, b
   cast.normal =
       posed.is_turned ? Vec3<double>((posed.to_mesh.transpose() * normal).normalized()) : normal;
   return answer;
+}
+
+}  // namespace
+
+PosedMesh::PosedMesh(std::uint32_t number, std::shared_ptr<const TriangleMesh> of,
+                     const Affine<double>& at)
+    : instance(number), mesh(std::move(of)), pose(at) {
+  is_turned = at.linear != Mat3<double>::Identity();
+  if (is_turned) to_mesh = accurate_inverse<double>(at.linear);
+}
+
+Bounds<double> PosedMesh::bounds_under(const Affine<double>& other) const {
+  const Bounds<double>& own = mesh->bounds();
+  const Vec3<double> middle = own.centre(), reach = own.reach_of_centre();
+  const Vec3<double> centre = other(middle), around = other.linear.cwiseAbs() * reach;
+  return {centre - around, centre + around};
+}
+
+MeshCast cast_ray(const PosedMesh& posed, const Ray<double>& ray, double most, bool leaves,
+                  double loss, PartCounts& counts) {
+  const NearRay near = near_ray(posed, ray, most);
+  if (!near.is_number) return without_hit(ray);
+  const PartHit hit = closest_part(*posed.mesh, near.ray, t_min_of(posed, near, leaves), counts);
+  return cast_of(posed, near, hit, loss);
+}
+
+void cast_for(const PosedMesh& posed, std::span<const MeshQuery> queries, PartCounts& counts,
+              const CastTaker& taker) {
+  FirstTouchVector<NearRay> near;
+  FirstTouchVector<PartRay> rays;
+  near.resize(queries.size());
+  rays.resize(queries.size());
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    const MeshQuery& query = queries[i];
+    near[i] = near_ray(posed, query.ray, query.most);
+    if (near[i].is_number) rays[count++] = {near[i].ray, t_min_of(posed, near[i], query.leaves)};
+  }
+  FirstTouchVector<PartHit> hits;
+  hits.resize(count);
+  closest_parts(*posed.mesh, std::span(rays.data(), count), hits, counts);
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < queries.size(); ++i)
+    taker.take(taker.context, i,
+               near[i].is_number ? cast_of(posed, near[i], hits[next++], queries[i].loss)
+                                 : without_hit(queries[i].ray));
 }
 
 CastResult<double> cast_exit(const PosedMesh& posed, const Ray<double>& ray) {
@@ -152,6 +188,27 @@ bool is_met(const PosedMesh& posed, const Ray<double>& ray, bool leaves, PartCou
     return meets_part(*posed.mesh, near.ray, t_min, counts);
   const PartHit hit = closest_part(*posed.mesh, near.ray, t_min, counts);
   return hit.found() && !is_missed_from_behind(*posed.mesh, hit);
+}
+
+void are_met(const PosedMesh& posed, std::span<const MeshQuery> queries,
+             std::span<std::uint8_t> met, PartCounts& counts) {
+  if (posed.mesh->sides() == MeshSides::front) {
+    for (std::size_t i = 0; i < queries.size(); ++i)
+      met[i] = is_met(posed, queries[i].ray, queries[i].leaves, counts) ? 1 : 0;
+    return;
+  }
+  std::vector<PartRay> rays;
+  std::vector<std::size_t> number;
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    met[i] = 0;
+    const NearRay near = near_ray(posed, queries[i].ray);
+    if (!near.is_number) continue;
+    rays.push_back({near.ray, t_min_of(posed, near, queries[i].leaves)});
+    number.push_back(i);
+  }
+  std::vector<std::uint8_t> are(rays.size());
+  meet_parts(*posed.mesh, rays, are, counts);
+  for (std::size_t i = 0; i < are.size(); ++i) met[number[i]] = are[i];
 }
 
 }  // namespace minkray

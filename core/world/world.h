@@ -106,6 +106,13 @@ class World {
   bool closer_half_space(const WorldRay& ray, WorldHit& closest, QueryCounts& counts) const;
   bool closer_mesh(const WorldRay& ray, WorldHit& closest, QueryCounts& counts) const;
   bool blocked_by_shapeless(const WorldRay& ray, QueryCounts& counts) const;
+  /// Finds the closest of these for many rays, which pass through each mesh together. Sets
+  /// is_exhausted[i] to 1 where a cast of rays[i] does not converge.
+  void closest_shapeless(const RaySpan& rays, std::span<WorldHit> closest,
+                         std::span<std::uint8_t> is_exhausted, QueryCounts& counts) const;
+  /// Sets met[i] to 1 or 0.
+  void blocked_by_shapeless(const RaySpan& rays, std::span<std::uint8_t> met,
+                            QueryCounts& counts) const;
 
   /// False if the rays are no block: nothing was answered.
   bool answer_block(const RaySpan& rays, std::size_t first, HitReceiver& to,

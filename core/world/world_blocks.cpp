@@ -74,13 +74,14 @@ bool World::answer_block(const RaySpan& rays, std::size_t first, HitReceiver& to
   std::array<float, rays_of_block> limits;
   QueryCounts of_shapeless;
   std::uint64_t exhausted = 0;
-  for (std::size_t i = 0; has_shapeless && i < rays.size(); ++i) {
-    QueryCounts own;
-    const bool is_met = closer_shapeless(rays[i], shapeless[i], own);
-    limits[i] = is_met ? detail::float_above(shapeless[i].cast.t())
-                       : std::numeric_limits<float>::infinity();
-    exhausted |= std::uint64_t{own.exhausted > 0} << i;
-    of_shapeless += own;
+  if (has_shapeless) {
+    std::array<std::uint8_t, rays_of_block> is_exhausted;
+    closest_shapeless(rays, shapeless, is_exhausted, of_shapeless);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      limits[i] = shapeless[i].found() ? detail::float_above(shapeless[i].cast.t())
+                                       : std::numeric_limits<float>::infinity();
+      exhausted |= std::uint64_t{is_exhausted[i] != 0} << i;
+    }
   }
   BlockAnswer answer;
   const BlockWorld world{bvh_.nodes.data(), instances_.places(), instances_.screens(),

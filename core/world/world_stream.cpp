@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Rays that go each their own way: the hierarchy finds pairs of ray and instance, float lanes sort
 // most of them out, and what is left is cast at.
+#include <algorithm>
+
 #include "core/world/pair_caster.h"
 #include "core/world/pair_screen.h"
 #include "core/world/world.h"
@@ -34,15 +36,18 @@ bool is_formless(const Instances& instances, std::uint32_t instance) {
 
 void World::answer_stream(const RaySpan& rays, std::size_t first, HitReceiver& to,
                           QueryCounts& counts) const {
-  RayLimits limits(rays);
   std::vector<WorldHit> hits(rays.size(), WorldHit::miss());
   QueryCounts own;
   std::vector<std::uint8_t> is_alone(rays.size());  ///< single rays decide
-  for (std::size_t i = 0; i < rays.size() && instances_.have_shapeless(); ++i) {
-    const std::uint64_t before = own.exhausted;
-    if (closer_shapeless(rays[i], hits[i], own)) limits.lower(i, hits[i].cast.t());
-    is_alone[i] = own.exhausted > before;
+  if (instances_.have_shapeless()) closest_shapeless(rays, hits, is_alone, own);
+  if (bvh_.nodes.empty()) {
+    for (std::size_t i = 0; i < rays.size(); ++i) to.take(first + i, hits[i], is_alone[i] != 0);
+    counts += own;
+    return;
   }
+  RayLimits limits(rays);
+  for (std::size_t i = 0; i < rays.size(); ++i)
+    if (hits[i].found()) limits.lower(i, hits[i].cast.t());
   const auto keep = [&](std::uint32_t ray, std::uint32_t instance, double t, const auto& result) {
     if (!hits[ray].yields_to(instance, t)) return;
     hits[ray] = {instance, instances_.turned(instance, result(), rays.time(ray))};
@@ -97,15 +102,16 @@ void World::answer_stream(const RaySpan& rays, std::size_t first, HitReceiver& t
 
 void World::occluded_in_stream(const RaySpan& rays, std::span<std::uint8_t> met,
                                QueryCounts& counts) const {
+  std::ranges::fill(met, std::uint8_t{0});
+  if (instances_.have_shapeless()) blocked_by_shapeless(rays, met, counts);
+  if (bvh_.nodes.empty()) return;
   RayLimits limits(rays);
   const auto end = [&](std::uint32_t ray) {
     met[ray] = 1;
     limits.end(ray);
   };
-  for (std::uint32_t i = 0; i < rays.size(); ++i) {
-    met[i] = 0;
-    if (blocked_by_shapeless(rays[i], counts)) end(i);
-  }
+  for (std::size_t i = 0; i < rays.size(); ++i)
+    if (met[i] != 0) limits.end(i);
   const auto end_when_found = [&](std::uint32_t ray, std::uint32_t, double, const auto&) {
     end(ray);
   };

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "core/bvh/traverse.h"
 #include "core/derived/triangle_of.h"
 #include "core/math/two_fold.h"
 #include "core/mesh/exact_sign.h"
@@ -44,7 +43,8 @@ bool passes_beside(const PosedMesh& posed, std::uint32_t part, const Ray<double>
 std::vector<std::uint32_t> parts_near(const PosedMesh& posed, const Ray<double>& ray) {
   const Ray<double> seen = seen_by(posed, ray);
   std::vector<std::uint32_t> parts;
-  traverse(posed.mesh->bvh(), SlabRay(seen), [&](std::uint32_t part) {
+  PartCounts counts;
+  walk_triangles(*posed.mesh, seen, counts, [&](std::uint32_t part, SlabRay&) {
     parts.push_back(part);
     return false;
   });

@@ -1,0 +1,352 @@
+// SPDX-License-Identifier: MIT
+// Up to 32 rays from one point that run nearly alike, such as a camera's, go through a mesh
+// together: nodes are tested by what bounds all rays, leaves by each ray's own slabs, and a leaf's
+// edge functions are made once, linear in how far a ray's direction is from that of the first.
+// Everything here has internal linkage.
+#include "core/mesh/mesh_walk.h"
+
+#if defined(__AVX2__)
+#include "core/mesh/triangle_lanes.h"
+
+namespace minkray {
+namespace {
+
+constexpr std::size_t rows = rays_of_group / 8;
+
+/// Fewer rays in each leaf are faster on their own.
+constexpr std::uint32_t least_rays_of_leaf = 2;
+
+/// The slabs of all rays, side by side; those of rays that are none meet nothing.
+struct alignas(32) GroupSlabs {
+  float origin_near[3][rays_of_group], origin_far[3][rays_of_group];
+  float inverse[3][rays_of_group], t_max[rays_of_group];
+};
+
+[[gnu::always_inline]] inline float least_of(__m256 x) {
+  x = _mm256_min_ps(x, _mm256_permute2f128_ps(x, x, 1));
+  x = _mm256_min_ps(x, _mm256_permute_ps(x, 0x4E));
+  return _mm256_cvtss_f32(_mm256_min_ps(x, _mm256_permute_ps(x, 0xB1)));
+}
+[[gnu::always_inline]] inline float greatest_of(__m256 x) {
+  x = _mm256_max_ps(x, _mm256_permute2f128_ps(x, x, 1));
+  x = _mm256_max_ps(x, _mm256_permute_ps(x, 0x4E));
+  return _mm256_cvtss_f32(_mm256_max_ps(x, _mm256_permute_ps(x, 0xB1)));
+}
+[[gnu::always_inline]] inline float least_of(const float (&of)[rays_of_group]) {
+  __m256 least = _mm256_load_ps(of);
+  for (std::size_t row = 1; row < rows; ++row)
+    least = _mm256_min_ps(least, _mm256_load_ps(of + 8 * row));
+  return least_of(least);
+}
+[[gnu::always_inline]] inline float greatest_of(const float (&of)[rays_of_group]) {
+  __m256 greatest = _mm256_load_ps(of);
+  for (std::size_t row = 1; row < rows; ++row)
+    greatest = _mm256_max_ps(greatest, _mm256_load_ps(of + 8 * row));
+  return greatest_of(greatest);
+}
+
+/// Edge functions of a leaf's triangles for the first ray, and how they change with shears.
+struct LeafEdges {
+  __m256 at_first[3], by_x[3], by_y[3];
+  __m256 nearest;    ///< least z of each triangle's corners, along the rays
+  __m128 middle;     ///< of the cube's image for the first ray, x and y
+  float far_middle;  ///< z of the cube's middle, from the rays' origin
+  float error;       ///< without what depends on the ray
+  double oz, scale, margin;
+};
+
+class Group {
+ public:
+  Group(const MeshView& view, const PartRay* rays, std::size_t count, PartHit* hits,
+        PartCounts& counts)
+      : view_(view), rays_(rays), hits_(hits), counts_(counts), count_(count) {}
+
+  /// False if the rays do not run alike: nothing was answered.
+  bool prepare() {
+    const double* const first = reinterpret_cast<const double*>(&rays_[0].ray);
+    SlabRay slabs[rays_of_group];
+    make_slabs_avx2(reinterpret_cast<const char*>(&rays_[0].ray), sizeof(PartRay), count_, slabs);
+    bool is_alike = true;
+    for (std::size_t i = 0; i < count_; ++i) {
+      const double* const ray = reinterpret_cast<const double*>(&rays_[i].ray);
+      leaf_[i] = leaf_ray(ray, ray + 3, ray[6]);
+      steps_[i] = slabs[i].steps;
+      is_alike &= leaf_[i].z == leaf_[0].z && leaf_[i].sign == leaf_[0].sign;
+      const SlabNumbers& numbers = slabs[i].numbers;
+      for (std::size_t k = 0; k < 3; ++k) {
+        is_alike &= ray[k] == first[k] && numbers.near[k] == slabs[0].numbers.near[k] &&
+                    std::abs(numbers.inverse_far[k]) < std::numeric_limits<float>::max();
+        slabs_.origin_near[k][i] = numbers.origin_near[k];
+        slabs_.origin_far[k][i] = numbers.origin_far[k];
+        slabs_.inverse[k][i] = numbers.inverse_far[k];
+      }
+      slabs_.t_max[i] = numbers.t_max;
+    }
+    if (!is_alike) return false;
+    for (std::size_t i = count_; i < rays_of_group; ++i) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        slabs_.origin_near[k][i] = slabs_.origin_near[k][0];
+        slabs_.origin_far[k][i] = slabs_.origin_far[k][0];
+        slabs_.inverse[k][i] = slabs_.inverse[k][0];
+      }
+      slabs_.t_max[i] = -1;
+    }
+    for (int k = 0; k < 3; ++k) near_[k] = slabs[0].numbers.near[k];
+    double widest = 0;
+    for (std::size_t i = 0; i < count_; ++i)
+      for (std::size_t k = 0; k < 2; ++k) {
+        const double apart = leaf_[i].shear[k] - leaf_[0].shear[k];
+        apart_[i][k] = static_cast<float>(apart);
+        widest = widest < std::abs(apart) ? std::abs(apart) : widest;
+      }
+    constexpr double of_rounding = 0x1p-30;
+    widest_ = widest + of_rounding;
+    constexpr double most_apart = 0.25;
+    return widest < most_apart;
+  }
+
+  /// Returns how many rays were looked at in each leaf.
+  std::uint32_t walk() {
+    struct Waiting {
+      float enter;
+      std::uint32_t node, child;
+    };
+    Waiting stack[bvh_max_depth * (bvh_width - 1) + 1 + bvh_width];
+    int top = 0;
+    std::uint32_t leaves = 0, looks = 0, node_number = 0;
+    float inverse_low[3], inverse_high[3];
+    for (std::size_t k = 0; k < 3; ++k) {
+      inverse_low[k] = least_of(slabs_.inverse[k]);
+      inverse_high[k] = greatest_of(slabs_.inverse[k]);
+    }
+    float t_max = greatest_of(slabs_.t_max);
+    for (;;) {
+      ++counts_.nodes;
+      const BvhNode& node = view_.nodes[node_number];
+      // Inverses have one sign: products with the least and the greatest of them bound the others,
+      // since rounding keeps their order.
+      __m256 enter = _mm256_setzero_ps(), leave = _mm256_set1_ps(t_max);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const __m256 low = _mm256_set1_ps(inverse_low[k]), high = _mm256_set1_ps(inverse_high[k]);
+        const __m256 in = _mm256_sub_ps(_mm256_load_ps(node.planes[near_[k]][k]),
+                                        _mm256_set1_ps(slabs_.origin_near[k][0]));
+        const __m256 out = _mm256_sub_ps(_mm256_load_ps(node.planes[1 - near_[k]][k]),
+                                         _mm256_set1_ps(slabs_.origin_far[k][0]));
+        enter =
+            _mm256_max_ps(_mm256_min_ps(_mm256_mul_ps(in, low), _mm256_mul_ps(in, high)), enter);
+        leave =
+            _mm256_min_ps(_mm256_max_ps(_mm256_mul_ps(out, low), _mm256_mul_ps(out, high)), leave);
+      }
+      const __m256 padded = _mm256_add_ps(_mm256_mul_ps(leave, _mm256_set1_ps(slab_padding)),
+                                          _mm256_set1_ps(slab_tiny));
+      auto met =
+          static_cast<std::uint32_t>(_mm256_movemask_ps(_mm256_cmp_ps(enter, padded, _CMP_LE_OQ)));
+      alignas(32) float enters[8];
+      _mm256_store_ps(enters, enter);
+      for (const int bottom = top; met != 0; met &= met - 1) {
+        const auto child = static_cast<std::uint32_t>(__builtin_ctz(met));
+        if (node.children[child] == BvhNode::none) break;
+        int at = top++;
+        for (; at > bottom && stack[at - 1].enter < enters[child]; --at) stack[at] = stack[at - 1];
+        stack[at] = {enters[child], node_number, child};
+      }
+      for (;;) {
+        if (top == 0) return leaves == 0 ? rays_of_group : looks / leaves;
+        const Waiting next = stack[--top];
+        if (!(next.enter <= t_max)) continue;
+        const BvhNode& of = view_.nodes[next.node];
+        const std::uint32_t what = of.children[next.child];
+        const bool is_leaf = (what & BvhNode::leaf) != 0;
+        const std::uint32_t in = rays_in(of, next.child, is_leaf);
+        if (in == 0) continue;
+        if (!is_leaf) {
+          node_number = what;
+          break;
+        }
+        ++leaves;
+        looks += static_cast<std::uint32_t>(__builtin_popcount(in));
+        if (look_at(view_.leaves[what & ~BvhNode::leaf], in)) t_max = greatest_of(slabs_.t_max);
+      }
+    }
+  }
+
+ private:
+  /// The rays that meet a child's box; if not all matter, no more than one row of them.
+  [[gnu::always_inline]] std::uint32_t rays_in(const BvhNode& node, std::uint32_t child,
+                                               bool all) const {
+    std::uint32_t in = 0;
+    for (std::size_t row = 0; row < rows; ++row) {
+      __m256 enter = _mm256_setzero_ps(), leave = _mm256_load_ps(slabs_.t_max + 8 * row);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const __m256 inverse = _mm256_load_ps(slabs_.inverse[k] + 8 * row);
+        enter = _mm256_max_ps(_mm256_mul_ps(_mm256_set1_ps(node.planes[near_[k]][k][child] -
+                                                           slabs_.origin_near[k][0]),
+                                            inverse),
+                              enter);
+        leave = _mm256_min_ps(_mm256_mul_ps(_mm256_set1_ps(node.planes[1 - near_[k]][k][child] -
+                                                           slabs_.origin_far[k][0]),
+                                            inverse),
+                              leave);
+      }
+      const __m256 padded = _mm256_add_ps(_mm256_mul_ps(leave, _mm256_set1_ps(slab_padding)),
+                                          _mm256_set1_ps(slab_tiny));
+      in |= static_cast<std::uint32_t>(_mm256_movemask_ps(_mm256_cmp_ps(enter, padded, _CMP_LE_OQ)))
+            << (8 * row);
+      if (!all && in != 0) return in;
+    }
+    return in;
+  }
+
+  /// As lanes_that_may_be_met, of which these are the bounds. For a ray whose shears are dx and dy
+  /// more, an edge function is at_first - dx by_x - dy by_y, without any rest. With P for the most
+  /// of the first ray's sheared coordinates, Z for that of z, g for the widest shear, u = 2^-24:
+  /// - Quantised corners are as far off for each ray as in lanes_that_may_be_met.
+  /// - x and y of the first ray round by 4 u P + 0.01 + far, z by 2 u Z. So at_first is off by
+  ///   21 u P^2 + (0.04 + 4 far) P, and by_x and by_y by 16 u Z P + (0.02 + 2 far) Z.
+  /// - dx and dy, two products with them and the sums round by 4 u P^2 + 12 u g Z P.
+  /// In all: less than 64 u P (P + g Z) + (0.05 + 4 far) (P + g Z).
+  [[gnu::always_inline]] LeafEdges edges_of(const MeshLeaf& leaf) const {
+    constexpr double half_cube = 32767.5, cube = 65535;
+    const LeafRay& ray = leaf_[0];
+    LeafEdges edges;
+    const double scale = static_cast<double>(leaf.scale());
+    const double oz = static_cast<double>(leaf.origin[ray.z]) - ray.origin[ray.z];
+    const double ox = static_cast<double>(leaf.origin[ray.x]) - ray.origin[ray.x];
+    const double oy = static_cast<double>(leaf.origin[ray.y]) - ray.origin[ray.y];
+    const double cx = (ox - ray.shear[0] * oz) * scale, cy = (oy - ray.shear[1] * oz) * scale;
+    const double cz = oz * scale;
+    const double middle_x = cx + half_cube * (1 - ray.shear[0]),
+                 middle_y = cy + half_cube * (1 - ray.shear[1]);
+    const auto greater = [](double a, double b) { return a < b ? b : a; };
+    const double away = std::abs(oz);
+    const double most = greater(std::abs(middle_x), std::abs(middle_y)) + cube;
+    const double most_z = std::abs(cz) + cube;
+    const double far = 0x1p-51 * scale * (greater(std::abs(ox), std::abs(oy)) + 2 * away);
+    const double spread = most + widest_ * most_z;
+    edges.error = static_cast<float>(0x1p-18 * most * spread + (0.05 + 4 * far) * spread);
+    edges.middle = _mm_setr_ps(static_cast<float>(middle_x), static_cast<float>(middle_y), 0, 0);
+    edges.far_middle = static_cast<float>(cz + half_cube);
+    edges.oz = oz;
+    edges.scale = scale;
+    edges.margin = 1.01 + 0x1p-50 * scale * away;
+
+    const __m256 from_x = _mm256_set1_ps(static_cast<float>(cx)),
+                 from_y = _mm256_set1_ps(static_cast<float>(cy)),
+                 from_z = _mm256_set1_ps(static_cast<float>(cz)),
+                 shear_x = _mm256_set1_ps(static_cast<float>(ray.shear[0])),
+                 shear_y = _mm256_set1_ps(static_cast<float>(ray.shear[1])),
+                 sign = _mm256_set1_ps(ray.sign);
+    __m256 x[3], y[3], z[3], along[3];
+    for (int k = 0; k < 3; ++k) {
+      const __m256 own = corner_row(leaf.corners[k][ray.z]);
+      x[k] =
+          _mm256_fnmadd_ps(shear_x, own, _mm256_add_ps(corner_row(leaf.corners[k][ray.x]), from_x));
+      y[k] =
+          _mm256_fnmadd_ps(shear_y, own, _mm256_add_ps(corner_row(leaf.corners[k][ray.y]), from_y));
+      z[k] = _mm256_add_ps(own, from_z);
+      along[k] = _mm256_mul_ps(own, sign);
+    }
+    edges.nearest = _mm256_min_ps(along[0], _mm256_min_ps(along[1], along[2]));
+    for (int k = 0; k < 3; ++k) {
+      const int c = (k + 1) % 3, b = k;
+      edges.at_first[k] = _mm256_fmsub_ps(x[c], y[b], _mm256_mul_ps(y[c], x[b]));
+      edges.by_x[k] = _mm256_fmsub_ps(z[c], y[b], _mm256_mul_ps(y[c], z[b]));
+      edges.by_y[k] = _mm256_fmsub_ps(x[c], z[b], _mm256_mul_ps(z[c], x[b]));
+    }
+    return edges;
+  }
+
+  /// The lanes of triangles that the ray may meet.
+  [[gnu::always_inline]] std::uint32_t lanes_of(const LeafEdges& edges, std::size_t i) const {
+    const LeafRay& ray = leaf_[i];
+    const __m256 dx = _mm256_broadcast_ss(&apart_[i][0]), dy = _mm256_broadcast_ss(&apart_[i][1]);
+    __m256 edge[3];
+    for (int k = 0; k < 3; ++k)
+      edge[k] = _mm256_fnmadd_ps(dx, edges.by_x[k],
+                                 _mm256_fnmadd_ps(dy, edges.by_y[k], edges.at_first[k]));
+    const __m256 least = _mm256_min_ps(edge[0], _mm256_min_ps(edge[1], edge[2])),
+                 greatest = _mm256_max_ps(edge[0], _mm256_max_ps(edge[1], edge[2]));
+    // Where the cube's middle is for this ray; half its image is no wider than the cube.
+    const __m128 apart = _mm_castpd_ps(_mm_load_sd(reinterpret_cast<const double*>(apart_[i])));
+    const __m128 middle = _mm_andnot_ps(
+        _mm_set1_ps(-0.0f), _mm_fnmadd_ps(apart, _mm_set1_ps(edges.far_middle), edges.middle));
+    const float most = _mm_cvtss_f32(_mm_max_ss(middle, _mm_movehdup_ps(middle))) + 65535.0f;
+    // 4 most (1 + what rounds in most), and 2 for the product of two errors.
+    constexpr float four_halves = 4.04f;
+    const __m256 bound = _mm256_set1_ps(four_halves * most + edges.error);
+    const __m256 is_beside =
+        _mm256_and_ps(_mm256_cmp_ps(least, _mm256_xor_ps(bound, _mm256_set1_ps(-0.0f)), _CMP_LT_OQ),
+                      _mm256_cmp_ps(greatest, bound, _CMP_GT_OQ));
+    const double last = (ray.reach - static_cast<double>(ray.sign) * edges.oz) * edges.scale +
+                        edges.margin + 0x1p-50 * edges.scale * ray.reach;
+    const __m256 is_behind = _mm256_cmp_ps(
+        edges.nearest, _mm256_set1_ps(static_cast<float>(last + 0x1p-22 * std::abs(last))),
+        _CMP_GT_OQ);
+    return ~static_cast<std::uint32_t>(_mm256_movemask_ps(_mm256_or_ps(is_beside, is_behind)));
+  }
+
+  /// True if any ray's t_max is lower now.
+  bool look_at(const MeshLeaf& leaf, std::uint32_t in) {
+    const LeafEdges edges = edges_of(leaf);
+    const std::uint32_t full = (2u << (leaf.packed_scale & 7u)) - 1;
+    bool is_lower = false;
+    for (; in != 0; in &= in - 1) {
+      const auto i = static_cast<std::size_t>(__builtin_ctz(in));
+      for (std::uint32_t lanes = lanes_of(edges, i) & full; lanes != 0; lanes &= lanes - 1)
+        is_lower |= cast(i, leaf.triangles[__builtin_ctz(lanes)]);
+    }
+    return is_lower;
+  }
+
+  bool cast(std::size_t i, std::uint32_t triangle) {
+    ++counts_.triangles;
+    const PartRay& ray = rays_[i];
+    const PartHit hit = cast_in_lanes(view_, triangle, cast_ray_of(ray.ray, leaf_[i]));
+    if (!hit.found() || !(hit.t >= ray.t_min) || !(hit.t <= ray.ray.t_max) ||
+        !takes_place(*view_.mesh, ray.ray, hits_[i], hit))
+      return false;
+    hits_[i] = hit;
+    leaf_[i].reach = (hit.t + hit.error) * leaf_[i].length;
+    SlabRay limits;
+    limits.steps = steps_[i];
+    const float limit = limits.limit(hit.t + hit.error);
+    if (!(limit < slabs_.t_max[i])) return false;
+    slabs_.t_max[i] = limit;
+    return true;
+  }
+
+  const MeshView& view_;
+  const PartRay* rays_;
+  PartHit* hits_;
+  PartCounts& counts_;
+  std::size_t count_;
+  int near_[3];
+  double widest_;  ///< shear from the first ray's
+  GroupSlabs slabs_;
+  LeafRay leaf_[rays_of_group];
+  double steps_[rays_of_group];
+  float apart_[rays_of_group][2];  ///< shears, without the first ray's
+};
+
+}  // namespace
+
+GroupResult closest_parts_of_group_avx2(const MeshView& view, const PartRay* rays,
+                                        std::size_t count, PartHit* hits, PartCounts& counts) {
+  Group group(view, rays, count, hits, counts);
+  if (!group.prepare()) return GroupResult::none;
+  for (std::size_t i = 0; i < count; ++i) hits[i] = {};
+  return group.walk() >= least_rays_of_leaf ? GroupResult::alike : GroupResult::scattered;
+}
+
+}  // namespace minkray
+#else
+namespace minkray {
+
+/// Never called on other machines.
+GroupResult closest_parts_of_group_avx2(const MeshView&, const PartRay*, std::size_t, PartHit*,
+                                        PartCounts&) {
+  return GroupResult::none;
+}
+
+}  // namespace minkray
+#endif

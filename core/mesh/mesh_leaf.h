@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// Up to eight triangles of a mesh for eight float lanes: their corners are whole numbers of 16 bits
+// in a cube of the leaf's own, so that lanes only see numbers as large as the leaf. A corner is off
+// by half a unit: lanes propose triangles, which double decides.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+
+namespace minkray {
+
+/// A corner is at origin + number / scale, to within half a unit and the rounding of a double.
+struct alignas(64) MeshLeaf {
+  static constexpr int most = 8;
+
+  std::uint16_t corners[3][3][most];  ///< by corner, axis, triangle
+  float origin[3];                    ///< as far down as any corner, in the mesh's frame
+  std::uint32_t packed_scale;         ///< the scale, whose last three bits are size() - 1
+  std::uint32_t triangles[most];      ///< their numbers in the mesh
+
+  int size() const { return static_cast<int>(packed_scale & 7u) + 1; }
+  /// Units per length.
+  float scale() const { return std::bit_cast<float>(packed_scale); }
+};
+static_assert(sizeof(MeshLeaf) == 192);
+
+}  // namespace minkray

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// Walks of rays through a mesh in which float lanes sort out most triangles: what they leave is
+// cast at in double, so that answers have the bits of the plain walk. On machines that have AVX2
+// and FMA.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "core/bvh/stream.h"
+#include "core/mesh/mesh_rays.h"
+
+namespace minkray {
+
+/// What is walked through.
+struct MeshView {
+  const BvhNode* nodes;
+  const MeshLeaf* leaves;
+  const double* vertices;        ///< three numbers each
+  const std::uint32_t* corners;  ///< three of each triangle
+  const TriangleMesh* mesh;
+};
+
+inline MeshView view_of(const TriangleMesh& mesh) {
+  return {mesh.bvh().nodes.data(), mesh.leaves().data(), mesh.vertices().data()->data(),
+          mesh.triangles().data()->data(), &mesh};
+}
+
+/// True if lanes may look at the mesh on this machine.
+inline bool has_lanes(const TriangleMesh& mesh) {
+  return mesh.suits_lanes() && best_walk_set() == WalkSet::avx2;
+}
+
+/// cast_at_triangle of the mesh's triangle, with its number.
+PartHit cast_at_part(const TriangleMesh& mesh, std::uint32_t triangle, const Ray<double>& ray);
+
+/// True if t is hardly known, as of a triangle that the ray grazes.
+inline bool is_wide(const PartHit& hit) {
+  constexpr double wide = 0x1p-20;
+  return hit.error > wide * hit.t;
+}
+
+/// As yields_to, where either is wide: such a hit of a triangle whose box the ray only enters
+/// behind the other one's t and error yields to that.
+bool yields_to_or_is_wide(const TriangleMesh& mesh, const Ray<double>& ray, const PartHit& closest,
+                          const PartHit& hit);
+
+/// True if the hit takes the place of the closest so far, which may be none.
+inline bool takes_place(const TriangleMesh& mesh, const Ray<double>& ray, const PartHit& closest,
+                        const PartHit& hit) {
+  if (is_wide(hit) || is_wide(closest)) [[unlikely]]
+    return yields_to_or_is_wide(mesh, ray, closest, hit);
+  return closest.yields_to(hit);
+}
+
+/// True if lanes may look at the ray: products of three of its numbers and the mesh's are numbers.
+inline bool suits_lanes(const Ray<double>& ray) {
+  constexpr double largest = 0x1p64, smallest = 0x1p-64;
+  double origin = 0, direction = 0;
+  for (int k = 0; k < 3; ++k) {
+    origin = origin < std::abs(ray.origin[k]) ? std::abs(ray.origin[k]) : origin;
+    direction = direction < std::abs(ray.direction[k]) ? std::abs(ray.direction[k]) : direction;
+  }
+  return origin <= largest && direction >= smallest && direction <= largest;
+}
+
+/// One ray that suits, at a mesh that suits.
+PartHit closest_part_avx2(const MeshView& view, const Ray<double>& ray, double t_min,
+                          PartCounts& counts);
+bool meets_part_avx2(const MeshView& view, const Ray<double>& ray, double t_min,
+                     PartCounts& counts);
+
+/// Up to most_rays_of_walk rays that suit. The hits are misses before.
+inline constexpr std::size_t most_rays_of_walk = 1024;
+void closest_parts_avx2(const MeshView& view, const PartRay* rays, std::size_t count, PartHit* hits,
+                        PartCounts& counts);
+/// Up to rays_of_group rays that suit and run nearly alike.
+inline constexpr std::size_t rays_of_group = 32;
+enum class GroupResult : unsigned char {
+  none,       ///< the rays do not run alike: nothing was answered
+  alike,      ///< all are answered
+  scattered,  ///< all are answered, but they meet leaves of their own: streams are faster
+};
+GroupResult closest_parts_of_group_avx2(const MeshView& view, const PartRay* rays,
+                                        std::size_t count, PartHit* hits, PartCounts& counts);
+
+void meet_parts_avx2(const MeshView& view, const PartRay* rays, std::size_t count,
+                     std::uint8_t* met, PartCounts& counts);
+
+}  // namespace minkray

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// Many rays at one posed mesh: the same answers as one by one, and faster.
+#pragma once
+
+#include <span>
+
+#include "core/world/posed_mesh.h"
+
+namespace minkray {
+
+/// What cast_ray needs to know of a ray.
+struct MeshQuery {
+  Ray<double> ray;
+  double most = std::numeric_limits<double>::infinity();
+  bool leaves = false;
+  double loss = 0;
+};
+
+struct CastTaker {
+  void (*take)(void* context, std::size_t i, const MeshCast& cast);
+  void* context;
+};
+void cast_for(const PosedMesh& posed, std::span<const MeshQuery> queries, PartCounts& counts,
+              const CastTaker& taker);
+/// Calls take(i, cast) with cast_ray of queries[i], in their order.
+template <class Take>
+void cast_rays(const PosedMesh& posed, std::span<const MeshQuery> queries, PartCounts& counts,
+               Take&& take) {
+  const auto plain = [](void* context, std::size_t i, const MeshCast& cast) {
+    (*static_cast<std::remove_reference_t<Take>*>(context))(i, cast);
+  };
+  cast_for(posed, queries, counts, CastTaker{plain, &take});
+}
+/// met[i] becomes 1 if is_met is true of queries[i], 0 if not; `most` and `loss` do not matter.
+void are_met(const PosedMesh& posed, std::span<const MeshQuery> queries,
+             std::span<std::uint8_t> met, PartCounts& counts);
+
+}  // namespace minkray
