@@ -39,6 +39,12 @@ bool passes_beside(const PosedMesh& posed, std::uint32_t part, const Ray<double>
   return least < 0 && most > 0;
 }
 
+/// Whether the ray sees nothing of a mesh that has one side.
+bool comes_from_behind(const PosedMesh& posed, const Ray<double>& ray) {
+  return posed.mesh->sides() == MeshSides::front &&
+         seen_by(posed, ray).direction.dot(posed.mesh->normal(0)) > 0;
+}
+
 /// Triangles whose boxes the ray comes near to, in the mesh's frame.
 std::vector<std::uint32_t> parts_near(const PosedMesh& posed, const Ray<double>& ray) {
   const Ray<double> seen = seen_by(posed, ray);
@@ -104,8 +110,16 @@ CertificateVerdict all_missed(const PosedMesh& posed, Ray<double> ray, double t_
 
 CertificateVerdict verdict_of(const PosedMesh& posed, const Ray<double>& ray, const Claim& claim,
                               Certificate* found) {
-  if (claim.status == Status::miss) return all_missed(posed, ray, ray.t_max, no_part);
+  const bool is_behind = comes_from_behind(posed, ray);
+  if (claim.status == Status::miss && !is_behind)
+    return all_missed(posed, ray, ray.t_max, no_part);
   CertificateVerdict verdict;
+  verdict.holds = claim.status == Status::miss;
+  if (verdict.holds) return verdict;
+  if (is_behind) {
+    verdict.complaint = "is met from the front only";
+    return verdict;
+  }
   verdict.complaint = "no triangle proves it";
   if (claim.status != Status::hit) return verdict;
   for (const std::uint32_t part : parts_near(posed, ray)) {
