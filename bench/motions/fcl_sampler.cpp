@@ -4,6 +4,7 @@
 #include <fcl/fcl.h>
 
 #include "core/derived/sandwich.h"
+#include "core/geometry/convex_hull.h"
 #include "core/mesh/triangle_mesh.h"
 
 namespace minkray {
@@ -39,7 +40,24 @@ Geometry geometry_of(const ModelGeom& geom, Triangles triangles) {
     return std::make_shared<fcl::Sphered>(ball->radius);
   if (const auto* cylinder = std::get_if<Cylinder<double>>(&kind))
     return std::make_shared<fcl::Cylinderd>(cylinder->radius, 2 * cylinder->half_height);
-  const Sandwich sandwich = sandwich_of(*geom.shape);
+  if (const auto* hull = std::get_if<Hull<double>>(&kind)) {
+    const std::vector<Vec3<double>> points(hull->points.points().begin(),
+                                           hull->points.points().end());
+    const ConvexHull found = convex_hull(points);
+    auto vertices = std::make_shared<std::vector<fcl::Vector3d>>();
+    for (const std::uint32_t index : found.vertices)
+      vertices->emplace_back(points[index].x(), points[index].y(), points[index].z());
+    auto faces = std::make_shared<std::vector<int>>();
+    for (std::size_t i = 0; i < found.facets.size(); ++i) {
+      faces->push_back(static_cast<int>(found.facets[i].size()));
+      for (const std::uint32_t corner : found.facets[i]) faces->push_back(static_cast<int>(corner));
+    }
+    // A solid: what lies within it collides, too.
+    return std::make_shared<fcl::Convexd>(vertices, static_cast<int>(found.facets.size()), faces);
+  }
+  SandwichOptions options;
+  options.margin = 0;
+  const Sandwich sandwich = sandwich_of(*geom.shape, options);
   std::vector<Vec3<double>> vertices;
   for (const Vec3<double>& vertex : sandwich.inner.vertices)
     vertices.push_back(sandwich.frame.from_frame(vertex));
