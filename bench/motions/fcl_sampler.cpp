@@ -4,7 +4,9 @@
 #include <fcl/fcl.h>
 
 #include "core/derived/sandwich.h"
+#include "core/geometry/convex_hull.h"
 #include "core/mesh/triangle_mesh.h"
+#include "renderer/import/mesh_hull.h"
 
 namespace minkray {
 namespace {
@@ -29,9 +31,10 @@ Geometry mesh_of(const Vertices& vertices, const Corners& triangles) {
 
 /// FCL's primitives where there are any; of hulls the surface.
 Geometry geometry_of(const ModelGeom& geom, Triangles triangles) {
-  if (geom.mesh && triangles == Triangles::of_meshes)
-    return mesh_of(geom.mesh->vertices(), geom.mesh->triangles());
-  const auto& kind = geom.shape->kind;
+  const bool is_hull = triangles == Triangles::of_hulls && geom.touches == Touch::as_hull;
+  if (geom.mesh && !is_hull) return mesh_of(geom.mesh->vertices(), geom.mesh->triangles());
+  const Shape<double> shape = geom.mesh ? hull_of(*geom.mesh) : *geom.shape;
+  const auto& kind = shape.kind;
   if (const auto* box = std::get_if<Box<double>>(&kind))
     return std::make_shared<fcl::Boxd>(2 * box->half_extents.x(), 2 * box->half_extents.y(),
                                        2 * box->half_extents.z());
@@ -39,7 +42,24 @@ Geometry geometry_of(const ModelGeom& geom, Triangles triangles) {
     return std::make_shared<fcl::Sphered>(ball->radius);
   if (const auto* cylinder = std::get_if<Cylinder<double>>(&kind))
     return std::make_shared<fcl::Cylinderd>(cylinder->radius, 2 * cylinder->half_height);
-  const Sandwich sandwich = sandwich_of(*geom.shape);
+  if (const auto* hull = std::get_if<Hull<double>>(&kind)) {
+    const std::vector<Vec3<double>> points(hull->points.points().begin(),
+                                           hull->points.points().end());
+    const ConvexHull found = convex_hull(points);
+    auto vertices = std::make_shared<std::vector<fcl::Vector3d>>();
+    for (const std::uint32_t index : found.vertices)
+      vertices->emplace_back(points[index].x(), points[index].y(), points[index].z());
+    auto faces = std::make_shared<std::vector<int>>();
+    for (std::size_t i = 0; i < found.facets.size(); ++i) {
+      faces->push_back(static_cast<int>(found.facets[i].size()));
+      for (const std::uint32_t corner : found.facets[i]) faces->push_back(static_cast<int>(corner));
+    }
+    // A solid: what lies within it collides, too.
+    return std::make_shared<fcl::Convexd>(vertices, static_cast<int>(found.facets.size()), faces);
+  }
+  SandwichOptions options;
+  options.margin = 0;
+  const Sandwich sandwich = sandwich_of(shape, options);
   std::vector<Vec3<double>> vertices;
   for (const Vec3<double>& vertex : sandwich.inner.vertices)
     vertices.push_back(sandwich.frame.from_frame(vertex));
@@ -71,8 +91,9 @@ FclSampler::FclSampler(const Workcell& cell, Triangles triangles)
     const ModelGeom& geom = cell.model.geoms[i];
     bodies_->geoms.push_back(&geom);
     bodies_->objects.push_back(
-        geom.shape ? std::make_unique<fcl::CollisionObjectd>(geometry_of(geom, triangles))
-                   : nullptr);
+        geom.touches_as_half_space()
+            ? nullptr
+            : std::make_unique<fcl::CollisionObjectd>(geometry_of(geom, triangles)));
   }
 }
 

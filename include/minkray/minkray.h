@@ -661,6 +661,24 @@ struct Clearance {
 static_assert(sizeof(Clearance) == sizeof(minkray_clearance) &&
               offsetof(Clearance, is_settled) == offsetof(minkray_clearance, is_settled));
 
+/// What Verdict::status is.
+enum MotionStatus : std::int32_t {
+  motion_free = MINKRAY_MOTION_FREE,
+  motion_collides = MINKRAY_MOTION_COLLIDES,
+  motion_undecided = MINKRAY_MOTION_UNDECIDED
+};
+/// What is proven of a robot's motion; see minkray_verdict.
+struct Verdict {
+  double lower = 0, upper = 0;
+  double row = 0, begin = 0, end = 0;
+  Vec3 point;
+  std::uint32_t object_a = no_object, object_b = no_object;
+  MotionStatus status = motion_undecided;
+  std::int32_t reserved = 0;
+};
+static_assert(sizeof(Verdict) == sizeof(minkray_verdict) &&
+              offsetof(Verdict, status) == offsetof(minkray_verdict, status));
+
 // The pairs of a scene are asked with these, which minkray/pairs.h defines.
 struct Bodies;
 struct Manifold;
@@ -859,6 +877,23 @@ class Scene {
                                           reinterpret_cast<minkray_clearance*>(steps.data()),
                                           reinterpret_cast<minkray_clearance*>(&least)));
     return least;
+  }
+
+  /// Judges a robot's motion through rows of joints' values: free at all times, or which pair
+  /// collides. With rates, as many numbers, joints go as cubics; see minkray_scene_verify.
+  Verdict verify(const Group& robot, View<const double> path, std::size_t rows,
+                 View<const double> rates = {}, double margin = 0) const {
+    constexpr const char* function = "minkray::Scene::verify";
+    const std::size_t numbers = rows > 0 ? path.size() / rows : 0;
+    detail::check_sizes(function, "path", path.size(), "numbers in its rows", rows * numbers);
+    if (rates.size() > 0)
+      detail::check_sizes(function, "rates", rates.size(), "numbers in the path", path.size());
+    const minkray_verdict_options options = {sizeof options, 0, margin, 0, 0, 0};
+    Verdict verdict;
+    detail::check(minkray_scene_verify(handle_, robot.number(), path.data(),
+                                       rates.size() > 0 ? rates.data() : nullptr, rows, numbers,
+                                       &options, reinterpret_cast<minkray_verdict*>(&verdict)));
+    return verdict;
   }
 
   // ---- pairs: see minkray/pairs.h ----

@@ -532,6 +532,40 @@ MINKRAY_API int minkray_scene_clearance(minkray_scene scene, uint32_t group, con
                                         const minkray_clearance_options* options,
                                         minkray_clearance* steps, minkray_clearance* least);
 
+/* What a motion is: proven free of collisions at all times, or a pair collides at a moment that is
+ * named, or neither is known within the budget. */
+enum { MINKRAY_MOTION_FREE = 0, MINKRAY_MOTION_COLLIDES = 1, MINKRAY_MOTION_UNDECIDED = 2 };
+
+typedef struct minkray_verdict_options {
+  size_t size;      /* sizeof(minkray_verdict_options) */
+  double tolerance; /* how near the bounds shall be, relative to the clearance; 0: 0.01 */
+  double margin;    /* how far the robot must stay from obstacles; 0: it must not touch them */
+  size_t budget;    /* distances of a pair in a step; 0: 4000 */
+  int32_t only_obstacles; /* 1: not of the robot's links to each other */
+  int32_t threads;        /* 0: one a core */
+} minkray_verdict_options;
+
+typedef struct minkray_verdict {
+  double lower; /* proven: no clearance (distance less margin) is less; -infinity unless free */
+  double upper; /* the least clearance seen; of a collision less than 0 */
+  double row;   /* where it is so: 2.25 is a quarter of the way from path[2] to path[3] */
+  double begin; /* the first stretch that collides, or may, outside of which that pair is apart */
+  double end;
+  double point[3];   /* in the middle between the two, or within both */
+  uint32_t object_a; /* the pair; MINKRAY_NO_OBJECT if there is none */
+  uint32_t object_b;
+  int32_t status; /* MINKRAY_MOTION_... */
+  int32_t reserved;
+} minkray_verdict;
+
+/* Judges a robot's motion by rows as minkray_scene_clearance has them. `rates` (or NULL) are as
+ * many numbers, the derivatives of the joints' values by the row: from row to row joints then go as
+ * cubics, those of quaternions excepted. */
+MINKRAY_API int minkray_scene_verify(minkray_scene scene, uint32_t group, const double* path,
+                                     const double* rates, size_t rows, size_t numbers,
+                                     const minkray_verdict_options* options,
+                                     minkray_verdict* verdict);
+
 #ifdef __cplusplus
 }
 #endif

@@ -73,7 +73,7 @@ AllowedPairs allowed_pairs(const AllowedLinks& links, const Model& model,
   return allowed;
 }
 
-/// Of robots' files and worlds what collides counts, as of the robot itself.
+/// Obstacles from robots' files and worlds are what collides, as it is for the robot itself.
 ImportOptions options_of_obstacles(const ImportOptions& of_robot, const std::string& file) {
   ImportOptions options;
   if (!is_foreign(file)) return options;

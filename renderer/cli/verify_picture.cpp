@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/cli/verify_picture.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -98,7 +99,8 @@ Image worst_picture(const Verdict& verdict, const Plan& plan, const Workcell& ce
   options.resolution = picture_size;
   options.samples = samples;
   Image image = render(scene, world, options).image;
-  constexpr double scale = 2;
+  const double widest = text_size(title).width;
+  const double scale = std::min(2.0, (image.width - 8) / std::max(widest, 1.0));
   fill_rectangle(image, 0, 0, image.width, 14 * scale, Vec3<float>::Zero(), 0.9f);
   draw_text(image, 4 * scale, 4 * scale, title, Vec3<float>::Ones(), scale);
   return image;

@@ -50,7 +50,8 @@ struct Stretch {
   bool collides = false;  ///< a moment of it was found at which they do; else it is undecided
   double time = 0;        ///< of that moment
   double upper = 0;       ///< their clearance then is no more than this, which is below 0
-  Vec3<double> point = Vec3<double>::Zero();  ///< that both bodies, grown by the margin, hold then
+  /// It is in the middle of the two points, one of each body, by which the overlap was found.
+  Vec3<double> point = Vec3<double>::Zero();
 };
 
 /// A plane that proves a pair apart while s goes from `first` to `last` in a step.

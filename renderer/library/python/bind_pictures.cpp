@@ -108,6 +108,40 @@ py::dict clearance(const Scene& scene, const Scene::Group& robot, const Doubles&
   return result;
 }
 
+py::dict verify(const Scene& scene, const Scene::Group& robot, const Doubles& path,
+                const Doubles& rates, double margin, double tolerance, std::size_t budget,
+                bool only_obstacles, int threads) {
+  if (path.ndim() != 2) throw py::value_error("path: must have the shape (rows, joint values)");
+  const bool has_rates = rates.size() > 0;
+  if (has_rates && rates.size() != path.size())
+    throw py::value_error("rates: must have the shape of the path");
+  const minkray_verdict_options options = {sizeof options,         tolerance, margin, budget,
+                                           only_obstacles ? 1 : 0, threads};
+  minkray_verdict found = {};
+  int code = MINKRAY_OK;
+  {
+    const Unlocked unlock;
+    code = minkray_scene_verify(scene.handle(), robot.number(), path.data(),
+                                has_rates ? rates.data() : nullptr,
+                                static_cast<std::size_t>(path.shape(0)),
+                                static_cast<std::size_t>(path.shape(1)), &options, &found);
+  }
+  check(code);
+  py::dict result;
+  result["status"] = found.status;
+  result["lower"] = found.lower;
+  result["upper"] = found.upper;
+  result["row"] = found.row;
+  result["begin"] = found.begin;
+  result["end"] = found.end;
+  result["object_a"] = found.object_a;
+  result["object_b"] = found.object_b;
+  py::array_t<double> point(3);
+  std::copy_n(found.point, 3, point.mutable_data());
+  result["point"] = point;
+  return result;
+}
+
 py::array_t<double> lidar(const std::string& pattern, const py::object& pose) {
   const minkray::Pose map = pose_of(pose, "pose");
   std::vector<minkray::Ray> rays(minkray::lidar(pattern, map));
@@ -126,6 +160,7 @@ py::array_t<double> lidar(const std::string& pattern, const py::object& pose) {
 void bind_pictures(py::module_& module) {
   module.def("render", &render);
   module.def("clearance", &clearance);
+  module.def("verify", &verify);
   module.def("lidar", &lidar);
 }
 

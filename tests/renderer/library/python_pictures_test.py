@@ -201,9 +201,38 @@ class Paths(unittest.TestCase):
             self.assertEqual({scene.names[i] for i in least.object_b}, {"ball"})
         np.testing.assert_allclose(found[0].lower, found[1].lower, atol=1e-9)
 
+    def test_verdicts_are_those_of_clearances(self):
+        ball = np.eye(4)
+        ball[:3, 3] = [1.2, 0, 0.4]
+        scene = mk.Scene()
+        arm = scene.add_urdf(ARM)
+        number = scene.add(mk.sphere(0.1), pose=ball, name="ball")
+        least = scene.clearance(arm, self.PATH).lower.min()
+        verdict = scene.verify(arm, self.PATH)
+        self.assertEqual(bool(verdict), least > 0)
+        if verdict:
+            self.assertEqual(verdict.status, mk.MotionStatus.FREE)
+            self.assertAlmostEqual(verdict.lower, least, delta=0.02 * abs(least))
+        # Nearer than a margin is a collision, which the ball's own place tells.
+        near = scene.verify(arm, self.PATH, margin=verdict.upper + 0.05, only_obstacles=True)
+        self.assertEqual(near.status, mk.MotionStatus.COLLIDES)
+        self.assertFalse(near)
+        self.assertEqual(near.object_b, number)
+        self.assertTrue(near.begin <= near.row <= near.end)
+        self.assertLess(near.upper, 0)
+        # Rates that are those of the straight way change nothing.
+        straight = scene.verify(arm, [[0, 0], [0.5, 1]])
+        cubic = scene.verify(arm, [[0, 0], [0.5, 1]], rates=[[0.5, 1], [0.5, 1]])
+        self.assertEqual(straight.status, cubic.status)
+        self.assertAlmostEqual(straight.upper, cubic.upper, delta=0.03 * abs(straight.upper))
+
     def test_mistakes_are_told(self):
         scene = mk.Scene()
         arm = scene.add_urdf(ARM)
+        with self.assertRaisesRegex(mk.Error, "rates: must have the shape"):
+            scene.verify(arm, self.PATH, rates=[[0, 0]])
+        with self.assertRaisesRegex(mk.Error, "margin"):
+            scene.verify(arm, self.PATH, margin=-1)
         for path, text in ([[0, 0, 0]], "numbers: must be 2"), (np.zeros((0, 2)), "rows"), ([[0, np.nan]], r"path\[0\]\[1\]"):
             with self.assertRaisesRegex(mk.Error, text):
                 scene.clearance(arm, path)

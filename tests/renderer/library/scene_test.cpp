@@ -269,6 +269,31 @@ TEST(LibraryScene, a_robot_does_not_pass_through_particles) {
   EXPECT_NEAR(further.point_b[0], 4.75, 1e-9);
 }
 
+/// The ball of radius 0.5 slides to the particle of radius 0.25 at 5.
+TEST(LibraryScene, motions_are_judged) {
+  BallAndParticle both;
+  const std::vector<double> near = {0, 3}, through = {0, 9};
+  const mk::Verdict free = both.scene.verify(both.robot, near, 2);
+  EXPECT_EQ(free.status, mk::motion_free);
+  EXPECT_LE(free.lower, 1.25);
+  EXPECT_NEAR(free.lower, 1.25, 0.02);
+  EXPECT_NEAR(free.upper, 1.25, 1e-9);
+  EXPECT_EQ(free.object_b, 1u);
+  EXPECT_EQ(both.scene.verify(both.robot, near, 2, {}, 1.3).status, mk::motion_collides);
+  const mk::Verdict met = both.scene.verify(both.robot, through, 2);
+  EXPECT_EQ(met.status, mk::motion_collides);
+  EXPECT_LT(met.upper, 0);
+  // They touch 0.75 on both sides of 5, which is 9 times a row's part.
+  EXPECT_NEAR(met.begin, 4.25 / 9, 0.002);
+  EXPECT_NEAR(met.end, 5.75 / 9, 0.002);
+  // From rest to rest it swings out by a rate: 3 + 4 * 8 / 27, where a cubic's bulge is largest.
+  const std::vector<double> there = {3, 3}, rates = {8, 0};
+  const mk::Verdict bulge = both.scene.verify(both.robot, there, 2, rates);
+  EXPECT_EQ(bulge.status, mk::motion_free);
+  EXPECT_NEAR(bulge.upper, 1.25 - 8 * 4.0 / 27, 0.001);
+  EXPECT_NEAR(bulge.row, 1.0 / 3, 0.02);
+}
+
 /// The pose was taken, and nothing moved.
 TEST(LibraryScene, particles_take_no_pose) {
   BallAndParticle both;

@@ -14,7 +14,7 @@ float64; others are converted. What is wrong is a `minkray.Error`, which is a `V
 """
 from . import _minkray
 from ._minkray import Error, Shape
-from .answers import EXHAUSTED, HIT, INSIDE, MISS, NO_OBJECT, Clearance, Hits, Proofs, Status
+from .answers import EXHAUSTED, HIT, INSIDE, MISS, NO_OBJECT, Clearance, Hits, MotionStatus, Proofs, Status, Verdict
 from .robots import Robot
 from .scene import Scene
 from .rays import lidar, pinhole

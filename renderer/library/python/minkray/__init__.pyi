@@ -134,6 +134,23 @@ class Clearance:
     def __iter__(self) -> Iterator[Clearance]: ...
     def __len__(self) -> int: ...
 
+class MotionStatus(enum.IntEnum):
+    FREE = 0
+    COLLIDES = 1
+    UNDECIDED = 2
+
+class Verdict:
+    status: MotionStatus
+    lower: float
+    upper: float
+    row: float
+    begin: float
+    end: float
+    object_a: int
+    object_b: int
+    point: _Floats
+    def __bool__(self) -> bool: ...
+
 class Robot:
     objects: range
     @property
@@ -175,6 +192,7 @@ class Scene:
     def manifold(self, i: int, j: int) -> Manifold: ...
     def render(self, camera: Optional[Mapping[str, Any]] = None, spp: int = 16, bounces: Optional[int] = None, aovs: Sequence[str] = (), *, lights: Optional[Sequence[Mapping[str, Any]]] = None, background: Any = None, width: int = 0, height: int = 0, integrator: Literal["auto", "path", "direct", "ambient", "normals"] = "auto", max_depth: Optional[int] = None, denoise: bool = False, seed: int = 0, threads: int = 0) -> dict[str, npt.NDArray[Any]]: ...
     def clearance(self, robot: Robot, path: npt.ArrayLike, tolerance: float = 0.01, only_obstacles: bool = False, threads: int = 0, *, jac: bool = False) -> Clearance: ...
+    def verify(self, robot: Robot, path: npt.ArrayLike, rates: Optional[npt.ArrayLike] = None, margin: float = 0.0, tolerance: float = 0.01, only_obstacles: bool = False, threads: int = 0, *, budget: int = 4000) -> Verdict: ...
 
 class Distances:
     value: _Floats

@@ -148,3 +148,44 @@ class Clearance(_Arrays):
         least = int(np.argmin(self.lower))
         return (f"<minkray.Clearance of {np.size(self.lower)} steps: at least "
                 f"{np.ravel(self.lower)[least]:.6g}, at row {np.ravel(self.row)[least]:.6g}>")
+
+
+class MotionStatus(enum.IntEnum):
+    """What a motion is: proven FREE of collisions at all times, a pair COLLIDES, or UNDECIDED."""
+
+    FREE = 0
+    COLLIDES = 1
+    UNDECIDED = 2
+
+
+class Verdict:
+    """What is proven of a robot's motion, between its rows too.
+
+    Attributes
+    ----------
+    status : MotionStatus
+        FREE, COLLIDES or UNDECIDED.
+    lower, upper : float
+        Bounds of the least clearance, which is the distance less the margin. If it is not free,
+        lower is -inf, and upper less than 0 where a pair collides.
+    row : float
+        Where it is upper: 2.25 is a quarter of the way from row 2 to row 3.
+    begin, end : float
+        The first stretch, in rows, that collides, or may; outside of it that pair is proven apart,
+        but for its other stretches. Of a free motion both are row.
+    object_a, object_b : int
+        Numbers of the pair; NO_OBJECT where there is none.
+    point : (3,) float64
+        In the middle between the two, or within both.
+    """
+
+    def __init__(self, fields):
+        self.__dict__.update(fields)
+        self.status = MotionStatus(self.status)
+
+    def __bool__(self):
+        """True if the motion is free."""
+        return self.status == MotionStatus.FREE
+
+    def __repr__(self):
+        return f"<minkray.Verdict: {self.status.name}, at least {self.lower:.6g}, at row {self.row:.6g}>"

@@ -6,7 +6,7 @@ import threading
 import numpy as np
 
 from . import _minkray
-from .answers import EXHAUSTED, HIT, NO_OBJECT, Clearance, Hits, Proofs
+from .answers import EXHAUSTED, HIT, NO_OBJECT, Clearance, Hits, Proofs, Verdict
 from .calls import (Error, array_of, given_pose_of, name_of, number_of, pose_of, public, shape_of,
                     text_of, vectors_of, whole_number_of)
 from .rays import pinhole
@@ -541,3 +541,43 @@ class Scene(PairsOfScene):
         return Clearance(_minkray.clearance(self._ready(), robot._group, path,
                                             number_of(tolerance, "tolerance"), bool(only_obstacles),
                                             bool(jac), _threads(threads)))
+
+    def verify(self, robot, path, rates=None, margin=0.0, tolerance=0.01, only_obstacles=False, threads=0,
+               *, budget=4000):
+        """Whether a robot's motion is free of collisions at all times, proven.
+
+        Parameters
+        ----------
+        robot : Robot
+            Of this scene. It need not stand on the path.
+        path : (K, J) array
+            Rows of joints' values in the order of `Robot.joint_names`.
+        rates : (K, J) array
+            Derivatives of the joints' values by the row. From row to row joints then go as cubics,
+            else at a constant rate.
+        margin : float
+            How far the robot must stay from obstacles.
+        tolerance : float
+            How near the bounds of the least clearance shall be to each other, relative to it.
+        only_obstacles : bool
+            Whether the robot's links are not looked at with each other.
+        threads : int
+            0 for one a core.
+        budget : int
+            Distances of a pair in a step; a motion that needs more is undecided.
+
+        Returns
+        -------
+        Verdict
+            True if the motion is free. Pairs that `allow` or `set_masks` leave out are left out.
+        """
+        robot = robot_of(robot, self._scene)
+        path = np.atleast_2d(array_of(path, "path"))
+        rates = np.zeros((0, 0)) if rates is None else np.atleast_2d(array_of(rates, "rates"))
+        if path.ndim != 2:
+            raise Error(f"path: must have the shape (rows, joint values) (got {path.shape})")
+        if rates.size and rates.shape != path.shape:
+            raise Error(f"rates: must have the shape of the path, {path.shape} (got {rates.shape})")
+        return Verdict(_minkray.verify(self._ready(), robot._group, path, rates,
+                                       number_of(margin, "margin"), number_of(tolerance, "tolerance"),
+                                       int(budget), bool(only_obstacles), _threads(threads)))
