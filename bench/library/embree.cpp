@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "clock.h"
+
 namespace bench {
 namespace {
 
@@ -197,9 +199,10 @@ void commit(RTCScene scene) {
   rtcCommitScene(scene);
 }
 
-void add_mesh(RTCDevice device, RTCScene scene, const Mesh& mesh) {
+void add_mesh(RTCDevice device, RTCScene scene, const Mesh& mesh,
+              RTCBuildQuality quality = RTC_BUILD_QUALITY_HIGH) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
+  rtcSetGeometryBuildQuality(geometry, quality);
   auto* to = static_cast<float*>(buffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3,
                                         3 * sizeof(float), mesh.vertices.size()));
   for (const Vec& vertex : mesh.vertices)
@@ -279,8 +282,17 @@ EmbreeScene EmbreeScene::flat(const Subject& subject, const Mesh& mesh) {
   return made;
 }
 
-EmbreeScene EmbreeScene::triangles(const Mesh& mesh) {
+double EmbreeScene::seconds_to_build(const Mesh& mesh) {
   EmbreeScene made;
+  const Clock clock;
+  add_mesh(made.device_, made.scene_, mesh, RTC_BUILD_QUALITY_MEDIUM);
+  rtcCommitScene(made.scene_);
+  return clock.processor();
+}
+
+EmbreeScene EmbreeScene::triangles(const Mesh& mesh, Edges edges) {
+  EmbreeScene made;
+  if (edges == Edges::robust) rtcSetSceneFlags(made.scene_, RTC_SCENE_FLAG_ROBUST);
   add_mesh(made.device_, made.scene_, mesh);
   commit(made.scene_);
   made.numbers_.primitives_an_object = static_cast<unsigned>(mesh.triangles.size());

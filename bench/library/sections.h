@@ -30,6 +30,7 @@ std::vector<Section> shape_sections();
 std::vector<Section> distance_sections();
 std::vector<Section> impact_sections();
 std::vector<Section> batch_sections();
+std::vector<Section> mesh_sections();
 std::vector<Section> python_sections();
 std::vector<Section> memory_sections();
 
