@@ -227,7 +227,7 @@ std::vector<mk::Pose> poses_beside(double size, std::size_t count) {
   std::vector<mk::Pose> poses;
   for (std::size_t i = 0; i < count; ++i) {
     const Vec at = (1.4 + size * random.within(0.3, 1.4)) * random.direction();
-    poses.push_back(mk::pose(random.rotation(), at));
+    poses.push_back(mk::pose(at, random.rotation()));
   }
   return poses;
 }
