@@ -93,7 +93,7 @@ class Robot {
     const JointPath path = path_of(trajectory, posed, planning.state);
 
     const auto begin = std::chrono::steady_clock::now();
-    const Verdict verdict = verdict_of(path, cell.bodies, cell.pairs);
+    const MotionVerdict verdict = verdict_of(path, cell.bodies, cell.pairs);
     counts.seconds.push_back(seconds_since(begin));
     ++counts.motions;
     const double first = path.times.front(), last = path.times.back();

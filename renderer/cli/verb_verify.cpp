@@ -68,14 +68,14 @@ void check_outputs(const VerifyOptions& options) {
 struct Judged {
   std::string name;
   Plan plan;
-  Verdict verdict;
+  MotionVerdict verdict;
   double seconds = 0;
 };
 
 Judged judge(const std::string& name, Plan&& plan, const VerifyCell& cell,
              const VerifyOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
-  Verdict verdict = verdict_of(plan.path, cell.cell.bodies, cell.cell.pairs, options.referee);
+  MotionVerdict verdict = verdict_of(plan.path, cell.cell.bodies, cell.cell.pairs, options.referee);
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
   return {name, std::move(plan), std::move(verdict), taken.count()};
 }

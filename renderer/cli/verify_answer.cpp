@@ -72,7 +72,7 @@ Json stretch_json(const Stretch& stretch, const Workcell& cell) {
 
 }  // namespace
 
-std::string verdict_text(const std::string& name, const Verdict& verdict, const Plan& plan,
+std::string verdict_text(const std::string& name, const MotionVerdict& verdict, const Plan& plan,
                          const Workcell& cell) {
   const Words words(plan, cell);
   std::string text = printable(name, 200) + ": " + std::string(name_of(verdict.status));
@@ -96,7 +96,7 @@ std::string verdict_text(const std::string& name, const Verdict& verdict, const 
   return text;
 }
 
-std::string steps_table(const Verdict& verdict, const Plan& plan, const Workcell& cell) {
+std::string steps_table(const MotionVerdict& verdict, const Plan& plan, const Workcell& cell) {
   std::string text = "begin,end,lower,upper,time,a,b\n";
   const std::vector<double>& times = plan.path.times;
   for (std::size_t i = 0; i < verdict.steps.size(); ++i) {
@@ -114,7 +114,7 @@ std::string steps_table(const Verdict& verdict, const Plan& plan, const Workcell
   return text;
 }
 
-Json verdict_json(const std::string& name, const Verdict& verdict, const Plan& plan,
+Json verdict_json(const std::string& name, const MotionVerdict& verdict, const Plan& plan,
                   const Workcell& cell) {
   const LeastClearance& least = verdict.least;
   Json json = {{"plan", printable(name)},

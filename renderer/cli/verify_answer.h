@@ -11,13 +11,13 @@ namespace minkray {
 
 /// "plan.yaml: free: every pair stays at least 12.4 mm apart (...)", and a line for each stretch in
 /// which a pair collides, or may.
-std::string verdict_text(const std::string& name, const Verdict& verdict, const Plan& plan,
+std::string verdict_text(const std::string& name, const MotionVerdict& verdict, const Plan& plan,
                          const Workcell& cell);
 
 /// The least clearance of each step.
-std::string steps_table(const Verdict& verdict, const Plan& plan, const Workcell& cell);
+std::string steps_table(const MotionVerdict& verdict, const Plan& plan, const Workcell& cell);
 
-Json verdict_json(const std::string& name, const Verdict& verdict, const Plan& plan,
+Json verdict_json(const std::string& name, const MotionVerdict& verdict, const Plan& plan,
                   const Workcell& cell);
 
 }  // namespace minkray

@@ -77,7 +77,7 @@ void look_at(Scene& scene, const World& world, const Vec3<double>& point) {
 
 }  // namespace
 
-WorstMoment worst_moment(const Verdict& verdict) {
+WorstMoment worst_moment(const MotionVerdict& verdict) {
   WorstMoment worst;
   const Stretch* deepest = nullptr;
   for (const Stretch& stretch : verdict.stretches)
@@ -88,7 +88,7 @@ WorstMoment worst_moment(const Verdict& verdict) {
   return {least.pair, least.time, (least.distance.point_a + least.distance.point_b) / 2, true};
 }
 
-Image worst_picture(const Verdict& verdict, const Plan& plan, const Workcell& cell,
+Image worst_picture(const MotionVerdict& verdict, const Plan& plan, const Workcell& cell,
                     const std::string& title, int samples) {
   WorstMoment worst = worst_moment(verdict);
   if (!worst.exists) worst.time = plan.path.times.front();

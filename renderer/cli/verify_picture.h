@@ -18,10 +18,10 @@ struct WorstMoment {
   Vec3<double> point = Vec3<double>::Zero();  ///< between the two
   bool exists = false;                        ///< false: there are no pairs
 };
-WorstMoment worst_moment(const Verdict& verdict);
+WorstMoment worst_moment(const MotionVerdict& verdict);
 
 /// Linear, with the verdict's first line written on it.
-Image worst_picture(const Verdict& verdict, const Plan& plan, const Workcell& cell,
+Image worst_picture(const MotionVerdict& verdict, const Plan& plan, const Workcell& cell,
                     const std::string& title, int samples);
 
 }  // namespace minkray

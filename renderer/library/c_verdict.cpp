@@ -46,7 +46,7 @@ std::vector<std::vector<std::vector<double>>> rates_of(const HeldScene::Group& r
   return all;
 }
 
-minkray_verdict plain_verdict(const Verdict& found, const std::vector<RefereePair>& pairs,
+minkray_verdict plain_verdict(const MotionVerdict& found, const std::vector<RefereePair>& pairs,
                               const RobotAmong& among, const Affine<double>& robot) {
   minkray_verdict plain = {};
   plain.status = static_cast<int32_t>(found.status);
@@ -104,7 +104,7 @@ minkray_verdict judge(const HeldScene& held, const HeldScene::Group& robot,
   RefereeOptions options;
   if (asked.given.tolerance > 0) options.tolerance = asked.given.tolerance;
   if (asked.given.budget > 0) options.budget = asked.given.budget;
-  const Verdict found = verdict_of(path, among.bodies, pairs, options);
+  const MotionVerdict found = verdict_of(path, among.bodies, pairs, options);
   throw_if_lied(held.customs());
   return plain_verdict(found, pairs, among, robot.pose);
 }

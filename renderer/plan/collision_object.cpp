@@ -222,11 +222,8 @@ void CollisionObjects::add_attached(const Json& state, const JsonPath& path,
     PlannedObject& object = objects.back();
     const std::string link = text_of(list[i], "link_name", at, mistakes_);
     if (link.empty()) mistakes_.add(at / "link_name", "missing: must be a link of the robot");
-    if (!object.frame.empty() && object.frame != link)
-      mistakes_.add(at / "object" / "header" / "frame_id", "must be the link that carries it, \"" +
-                                                               printable(link, 60) + "\" (got \"" +
-                                                               printable(object.frame, 60) + "\")");
-    object.frame = link;
+    object.carrier = link;
+    if (object.frame.empty()) object.frame = link;
     if (const Json* links = member_of(list[i], "touch_links"))
       for (std::string& name : read_name_list(*links, at / "touch_links", mistakes_))
         object.touch_links.insert(std::move(name));

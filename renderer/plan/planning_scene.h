@@ -29,7 +29,8 @@ struct CollisionMatrix {
 struct PlannedObject {
   std::string id;
   std::vector<ModelGeom> geoms;  ///< in the frame that the header names
-  std::string frame;             ///< a link, or the world; the link that carries it
+  std::string frame;             ///< a link, the world or a fixed frame
+  std::string carrier = {};      ///< the link that carries it; empty: none does
   std::set<std::string> touch_links = {};
 };
 

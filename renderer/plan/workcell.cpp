@@ -129,11 +129,17 @@ void add_to_model(const PlanningScene& scene, Model& model, Mistakes& mistakes) 
     }
   }
   for (const PlannedObject& object : scene.attached) {
-    const int parent = link_of(model, object.frame);
+    const int parent = link_of(model, object.carrier);
     if (parent < 0) {
       mistakes.add("attached object \"" + printable(object.id, 60) +
-                   "\": link_name: there is no link \"" + printable(object.frame, 60) + "\" (" +
-                   suggestion(object.frame, names) + ")");
+                   "\": link_name: there is no link \"" + printable(object.carrier, 60) + "\" (" +
+                   suggestion(object.carrier, names) + ")");
+      continue;
+    }
+    const auto frame = frame_of(object.frame, scene, posed, links);
+    if (!frame) {
+      mistakes.add("attached object \"" + printable(object.id, 60) +
+                   "\": frame_id: there is no frame \"" + printable(object.frame, 60) + "\"");
       continue;
     }
     ModelLink link;
@@ -145,6 +151,9 @@ void add_to_model(const PlanningScene& scene, Model& model, Mistakes& mistakes) 
     for (ModelGeom& geom : geoms) {
       if (!geom.shape && !geom.mesh)
         mistakes.add("attached object \"" + printable(object.id, 60) + "\": must have no planes");
+      // The link carries it from where it is in the scene's state.
+      if (object.frame != object.carrier)
+        geom.pose = links[static_cast<std::size_t>(parent)].inverse() * *frame * geom.pose;
       geom.link = static_cast<int>(model.links.size());
       geom.rgba = {0.75, 0.62, 0.3, 1};
       model.geoms.push_back(std::move(geom));

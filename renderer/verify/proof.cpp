@@ -161,7 +161,7 @@ double claimed(double lower, const std::vector<ClearanceBody>& bodies) {
 
 }  // namespace
 
-std::string proof_text(const Verdict& verdict, const JointPath& path,
+std::string proof_text(const MotionVerdict& verdict, const JointPath& path,
                        const std::vector<ClearanceBody>& bodies,
                        const std::vector<RefereePair>& pairs, const ProofInputs& inputs) {
   if (verdict.status == MotionStatus::undecided)

@@ -18,7 +18,7 @@ struct ProofInputs {
 
 /// `verdict` has kept its planes; it is free or collides. Throws BadInput for an undecided one, or
 /// if a body's shape is known by its support mapping only.
-std::string proof_text(const Verdict& verdict, const JointPath& path,
+std::string proof_text(const MotionVerdict& verdict, const JointPath& path,
                        const std::vector<ClearanceBody>& bodies,
                        const std::vector<RefereePair>& pairs, const ProofInputs& inputs);
 

@@ -295,8 +295,8 @@ std::string_view name_of(MotionStatus status) {
   return "undecided";
 }
 
-Verdict verdict_of(const JointPath& path, const std::vector<ClearanceBody>& bodies,
-                   const std::vector<RefereePair>& pairs, const RefereeOptions& options) {
+MotionVerdict verdict_of(const JointPath& path, const std::vector<ClearanceBody>& bodies,
+                         const std::vector<RefereePair>& pairs, const RefereeOptions& options) {
   double size = 0;
   for (const RefereePair& pair : pairs)
     size = std::max({size, bodies[pair.a].ball_radius(), bodies[pair.b].ball_radius()});
@@ -325,7 +325,7 @@ Verdict verdict_of(const JointPath& path, const std::vector<ClearanceBody>& bodi
     all[i] = searches[i].run(first, last, least);
   });
 
-  Verdict verdict;
+  MotionVerdict verdict;
   std::vector<Piece> pieces;
   for (Found& found : all) {
     verdict.distances += found.distances;

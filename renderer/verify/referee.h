@@ -61,7 +61,7 @@ struct SeparatingPlane {
   Vec3<double> normal;  ///< from a to b, in the frame that both hang on
 };
 
-struct Verdict {
+struct MotionVerdict {
   MotionStatus status = MotionStatus::undecided;
   LeastClearance least;
   std::vector<LeastClearance> steps;    ///< if asked for
@@ -74,7 +74,7 @@ struct Verdict {
 
 /// `pairs` are numbers of bodies. Uses the threads of parallel_for; the answer is the same for any
 /// number of them.
-Verdict verdict_of(const JointPath& path, const std::vector<ClearanceBody>& bodies,
-                   const std::vector<RefereePair>& pairs, const RefereeOptions& options = {});
+MotionVerdict verdict_of(const JointPath& path, const std::vector<ClearanceBody>& bodies,
+                         const std::vector<RefereePair>& pairs, const RefereeOptions& options = {});
 
 }  // namespace minkray

@@ -279,6 +279,26 @@ TEST(PlanningScenes, the_matrix_says_which_pairs_may_touch) {
   EXPECT_TRUE(pairs.contains("tool can") || pairs.contains("can tool"));
 }
 
+TEST(PlanningScenes, what_is_carried_may_be_given_in_any_frame) {
+  Model model = robot_model();
+  Mistakes mistakes("scene.yaml");
+  // The arm has turned by a quarter: its frame's x is the world's y.
+  const PlanningScene scene = scene_of_text(R"(robot_state:
+  joint_state: {name: [turn], position: [1.5707963267948966]}
+  attached_collision_objects:
+    - link_name: arm
+      object:
+        id: tool
+        header: {frame_id: world}
+        primitives: [{type: sphere, dimensions: [0.1]}]
+        primitive_poses: [{position: {x: 0, y: 2, z: 0}}]
+)",
+                                            model, mistakes);
+  add_to_model(scene, model, mistakes);
+  ASSERT_TRUE(mistakes.none()) << mistakes.text();
+  EXPECT_TRUE(model.geoms.back().pose.translation.isApprox(Vec3<double>(2, 0, 0), 1e-12));
+}
+
 TEST(PlanningScenes, what_is_wrong_is_told_with_its_line) {
   const auto wrong = [](const std::string& text) {
     Model model = robot_model();

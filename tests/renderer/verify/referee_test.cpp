@@ -107,7 +107,8 @@ struct ArmAndBall {
 };
 
 /// What dense samples say against a verdict.
-void check_by_samples(const Verdict& verdict, const RandomMotion& motion, const ArmAndBall& cell) {
+void check_by_samples(const MotionVerdict& verdict, const RandomMotion& motion,
+                      const ArmAndBall& cell) {
   constexpr int samples = 5000;
   constexpr double rounding = 1e-9;
   Long least = 1e30L;
@@ -151,7 +152,7 @@ TEST_P(RefereeOfDegree, agrees_with_dense_samples) {
   for (int k = 0; k < 40; ++k) {
     const RandomMotion motion(engine, GetParam());
     const ArmAndBall cell(engine, k % 2 == 0 ? 0 : 0.03);
-    const Verdict verdict = verdict_of(motion.path(cell.model), cell.bodies, cell.pairs);
+    const MotionVerdict verdict = verdict_of(motion.path(cell.model), cell.bodies, cell.pairs);
     check_by_samples(verdict, motion, cell);
     if (HasFatalFailure()) FAIL() << k;
     free += verdict.status == MotionStatus::free ? 1 : 0;
@@ -170,7 +171,8 @@ TEST(Referee, each_step_has_its_own_least_clearance) {
   const ArmAndBall cell(engine);
   RefereeOptions options;
   options.every_step = true;
-  const Verdict verdict = verdict_of(motion.path(cell.model), cell.bodies, cell.pairs, options);
+  const MotionVerdict verdict =
+      verdict_of(motion.path(cell.model), cell.bodies, cell.pairs, options);
   ASSERT_EQ(verdict.steps.size(), 4u);
   for (std::size_t step = 0; step < 4; ++step) {
     Long least = 1e30L;
@@ -191,7 +193,7 @@ TEST(Referee, answers_the_same_with_any_number_of_threads) {
   const RandomMotion motion(engine, 1);
   const ArmAndBall cell(engine);
   const JointPath path = motion.path(cell.model);
-  Verdict one, many;
+  MotionVerdict one, many;
   with_threads(1, [&] { one = verdict_of(path, cell.bodies, cell.pairs); });
   with_threads(4, [&] { many = verdict_of(path, cell.bodies, cell.pairs); });
   EXPECT_EQ(one.status, many.status);
@@ -229,7 +231,7 @@ TEST(Referee, bases_move_in_planes_and_float) {
     for (int i = 0; i <= 20000; ++i) least = std::min(least, gap(i / 20000.0L));
     RefereeOptions options;
     options.tolerance = 1e-4;
-    const Verdict verdict = verdict_of(JointPath(model, rows), bodies, {pair}, options);
+    const MotionVerdict verdict = verdict_of(JointPath(model, rows), bodies, {pair}, options);
     if (least < 0) {
       EXPECT_EQ(verdict.status, MotionStatus::collides) << pair.a << pair.b;
       continue;
@@ -254,7 +256,7 @@ TEST(Referee, what_a_budget_leaves_open_is_undecided) {
                                       {2, {{"shoulder", {0}}, {"elbow", {0}}, {"wrist", {-0.1}}}}};
   RefereeOptions options;
   options.budget = 200;
-  const Verdict verdict =
+  const MotionVerdict verdict =
       verdict_of(JointPath(cell.model, rows), cell.bodies, {{3, 5, 0}}, options);
   EXPECT_EQ(verdict.status, MotionStatus::undecided);
   ASSERT_FALSE(verdict.stretches.empty());
