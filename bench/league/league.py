@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The league of solvers on the hard cases: minkray league (docs/league.md)."""
+"""The league of solvers on the hard cases: minkray league (docs/benchmarks.md)."""
 import argparse
 import json
 import os

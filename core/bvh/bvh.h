@@ -52,7 +52,7 @@ struct Bvh {
 /// No path from the root is longer than this, whatever the boxes.
 inline constexpr int bvh_max_depth = 80;
 
-/// What to spend on a hierarchy (docs/decisions/wide-nodes.md has the numbers).
+/// What to spend on a hierarchy (docs/decisions/many-rays.md).
 enum class BvhBuild : unsigned char {
   quality,  ///< by the surface area heuristic in bins (Wald 2007)
   speed,    ///< along a space-filling curve (Lauterbach et al. 2009)

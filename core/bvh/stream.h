@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Walking many rays through a hierarchy that go each their own way: some of them take turns, a node
-// each, so that the processor works on all of their steps at once (docs/decisions/streams.md).
+// each, so that the processor works on all of their steps at once (docs/decisions/many-rays.md).
 #pragma once
 
 #include <span>

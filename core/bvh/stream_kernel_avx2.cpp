@@ -12,7 +12,7 @@ namespace {
 
 using Lanes = Wide<float, 8, IsaAvx2>;
 
-/// So many rays take turns (docs/decisions/streams.md has the measurement).
+/// So many rays take turns (docs/decisions/many-rays.md).
 constexpr std::uint32_t turns = 32;
 
 /// Entries that are always live, below each stack's first.
@@ -84,7 +84,7 @@ bool drop_distant(Turn& turn, float t_max) {
 namespace {
 
 /// Steps of so many rays at once, phase by phase, so that their chains of operations run side by
-/// side: the processor looks ahead no further than about one step (docs/decisions/streams.md).
+/// side: the processor looks ahead no further than about one step (docs/decisions/many-rays.md).
 constexpr std::uint32_t abreast = 4;
 
 /// What a step knows between its phases.

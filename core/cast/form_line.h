@@ -4,7 +4,7 @@
 //
 // Rays in float are moved in double in one step, without fused operations: their numbers' products
 // are exact there, and the bits are the same on every processor. Rays in double are moved by
-// ray_near's two steps. docs/theory.md ("Casts with an error bound") has the bounds.
+// ray_near's two steps. docs/forms.md ("Casts with an error bound") has the bounds.
 #pragma once
 
 #include "core/cast/prepared_shape.h"

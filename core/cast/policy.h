@@ -9,7 +9,7 @@
 
 namespace minkray {
 
-/// One way to an answer; docs/one-ray.md tells what each of them is good for.
+/// One way to an answer; docs/rays.md tells what each of them is good for.
 enum class Stage : unsigned char {
   none,
   filter,          ///< the closed form, in double, with an error bound (filter.h)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Looks at eight pairs of a ray and a posed shape at once before any is cast at: each surely
 // misses, or is met between two parameters. The closed forms are those of casts, in float lanes
-// with bounds for float (docs/theory.md, "Casts with an error bound"); sizes are numbers of the
+// with bounds for float (docs/forms.md, "Casts with an error bound"); sizes are numbers of the
 // lane, so that shapes of one kind go together whatever their sizes.
 #pragma once
 

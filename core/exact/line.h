@@ -5,7 +5,7 @@
 // packet of floats, which screens candidates (core/cast/screen.h) and may have a form in every lane
 // as well.
 //
-// docs/theory.md ("Casts with an error bound") derives the bounds.
+// docs/forms.md ("Casts with an error bound") derives the bounds.
 #pragma once
 
 #include "core/math/least_to_square.h"

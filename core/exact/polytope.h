@@ -3,7 +3,7 @@
 // passes through, or where that is in doubt, or the hull has few facets, between all its planes.
 //
 // Each plane has a bound of how far the points of its triangles lie below it, so that nothing is
-// asked of how planes were found. docs/theory.md ("Polytopes with an error bound") has the proof.
+// asked of how planes were found. docs/forms.md ("Polytopes with an error bound") has the proof.
 #pragma once
 
 #include <memory>

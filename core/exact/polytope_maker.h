@@ -124,7 +124,7 @@ class Polytope::Maker {
     }
   }
 
-  /// Adds the radius, and what rounding hides of the features beside (docs/theory.md). False if the
+  /// Adds the radius, and what rounding hides of the features beside (docs/forms.md). False if the
   /// polytope is not fit for it.
   bool make_room_for_rounding() {
     Long least = made_.radius_;

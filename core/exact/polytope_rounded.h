@@ -123,7 +123,7 @@ class RoundedWalk {
   }
 
   /// Hit or miss, unless so near to where another feature begins that its formula might be the
-  /// right one, and is further apart than E (docs/theory.md, section 13); or leans over the next
+  /// right one, and is further apart than E (docs/forms.md, section 13); or leans over the next
   /// feature, since its normal is only known to E over a radius that is small.
   void settle(const Mask<W>& which, const Contact& found, const W& nearest_end) {
     feature_ = select(which, W(feature::none), feature_);

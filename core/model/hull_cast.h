@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Casting the ray exactly on the hull of at most four translates of one ball or ellipsoid: in
-// closed form. docs/theory.md derives it.
+// closed form. docs/forms.md derives it.
 //
 // Frame: the ray runs down the z axis, from +z to -z. In a direction m with m.z > 0 the hull's
 // supporting plane cuts the axis at height support_function(m)/m.z, and the hit is the least of

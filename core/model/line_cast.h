@@ -2,7 +2,7 @@
 // The loop that all solvers on jets share. A supporting plane in direction n clips the ray: a
 // rigorous lower bound of the hit. A model of the shape, made of the features that the support
 // mapping has shown so far, is hit later (where the features are parts of the shape, and else about
-// there), and its hit's normal is the next n. The two meet. docs/theory.md has the mathematics.
+// there), and its hit's normal is the next n. The two meet. docs/forms.md has the mathematics.
 //
 // W is a number, or a packet: then every lane is a ray of its own. Lanes that have ended go along
 // without effect.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Casting the ray on the hull of up to four sums of ellipsoids by Newton's method, without support
-// calls. docs/theory.md derives it. The frame is the ray's, as in hull_cast.h.
+// calls. docs/forms.md derives it. The frame is the ray's, as in hull_cast.h.
 #pragma once
 
 #include "core/model/flat_kinks.h"

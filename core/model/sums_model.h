@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The model for all other shapes: the hull of up to four sums of ellipsoids. There is no closed
-// form; Newton's method finds the hit, without support calls (sums_cast.h). docs/theory.md derives
+// form; Newton's method finds the hit, without support calls (sums_cast.h). docs/forms.md derives
 // it.
 #pragma once
 

@@ -2,7 +2,7 @@
 // The model of a superellipsoid: itself. Its gauge along the ray is a convex function of one
 // variable, which is 1 where the ray meets the surface; the gauge's gradient there is the normal,
 // and one support call in its direction proves the hit. If the least gauge is above 1, two tangents
-// of it that cross above 1 make a plane that separates. docs/theory.md, section 9.
+// of it that cross above 1 make a plane that separates. docs/forms.md, section 9.
 #pragma once
 
 #include "core/model/line_cast.h"

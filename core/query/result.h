@@ -29,7 +29,7 @@ constexpr std::string_view name_of(Status status) {
   return "unknown";
 }
 
-/// Which stage of a cast gave the answer (docs/one-ray.md).
+/// Which stage of a cast gave the answer (docs/rays.md).
 enum class Path : unsigned char {
   filter,  ///< a closed form, whose error bound is its proof
   model,   ///< bounds, or a model of the shape between its own planes

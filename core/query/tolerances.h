@@ -182,7 +182,7 @@ template <class T>
 inline constexpr T box_padding = T(8) * epsilon<T>;
 
 /// What closed forms take a position near the shape to be known to, in units of the form's radius:
-/// E / R of docs/theory.md ("Casts with an error bound"). Float rays, worked on in double: origins
+/// E / R of docs/forms.md ("Casts with an error bound"). Float rays, worked on in double: origins
 /// up to form_far away are moved with an error of 2^-33 R, and leave up to 5 times that along the
 /// ray. Double rays: the two steps' rounding and some twenty operations' after them, 2^-53 each.
 template <class T>
@@ -218,7 +218,7 @@ inline constexpr double form_tangent = 4;
 /// what double rounds of where they touch.
 inline constexpr double form_touching = 0x1p-50;
 
-/// Limits of what docs/theory.md derives bounds for, of forms that narrow: their apex' height in
+/// Limits of what docs/forms.md derives bounds for, of forms that narrow: their apex' height in
 /// units of their radius, the smaller ball's radius in units of the larger one's, and the sine of a
 /// mantle's slope.
 inline constexpr double tapered_farthest_apex = 8;
@@ -287,7 +287,7 @@ inline constexpr double proof_close_to_claim = 32;
 inline constexpr double proof_on_the_spot = 2;
 
 /// What a position is known to in float lanes, in units of what the numbers that it was made of are
-/// as large as: 32 roundings by 2^-24: twelve for the way to the form (docs/theory.md has them),
+/// as large as: 32 roundings by 2^-24: twelve for the way to the form (docs/forms.md has them),
 /// twenty for what the form does with it.
 inline constexpr float screen_rounding = 0x1p-19f;
 

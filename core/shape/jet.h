@@ -4,7 +4,7 @@
 // features of ellipsoids ARE the hull of finitely many such features.
 //
 // With h(n) = n.s(n), c an interior point and H = ds/dn, the ellipsoid of shape matrix
-// A = h H + g g^T, g = s - c, around c has the same h, s and H at n. docs/theory.md derives how
+// A = h H + g g^T, g = s - c, around c has the same h, s and H at n. docs/forms.md derives how
 // jets compose; a factor A = F F^T is kept, since A itself loses half of the digits of flat
 // features.
 #pragma once

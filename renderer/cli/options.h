@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The command line that verbs describe themselves to: options, what they accept, and what runs. The
 // library that reads it, CLI11, is seen by options.cpp alone, for its templates take seconds to
-// compile in each file that includes them (docs/decisions/build-time.md).
+// compile in each file that includes them (docs/decisions/build.md).
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The subcommands of the command line, each in its own verb_*.cpp. The list of all of them is here
 // and nowhere else, with the program that has each: a picture is made by a program that has nothing
-// else to compile (docs/decisions/build-time.md). The others lie beside it and are run by it.
+// else to compile (docs/decisions/build.md). The others lie beside it and are run by it.
 #pragma once
 
 #include <span>

@@ -10,7 +10,7 @@ namespace {
 
 /// A ray that leaves a surface starts this far above it, in units of rounding (machine epsilon
 /// times the largest coordinate that went into the hit point). Hit points are off by a few dozen
-/// units (docs/decisions/leaving-a-surface.md); the shape itself is left out of the cast, so this
+/// units (docs/decisions/path-tracing.md); the shape itself is left out of the cast, so this
 /// only keeps other shapes with a face in the same plane from shading each other.
 constexpr double surface_offset = 256;
 

@@ -229,7 +229,7 @@ class ScreenBounds : public ::testing::Test {
 };
 
 // A ball of radius 1 is known to E = 2^-19 * (3 sqrt(2) + 1) = 1e-5, and rays are decided that pass
-// its surface by more than 2 E (docs/theory.md, section 13).
+// its surface by more than 2 E (docs/forms.md, section 13).
 TEST_F(ScreenBounds, rays_are_undecided_that_pass_by_less_than_rounding) {
   const Shape<double> ball = Sphere<double>{1};
   const auto beside = [&](double distance) {

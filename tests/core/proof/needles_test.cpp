@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Certificates of rays at needles of 1 : 1e10 to 1 : 1e12, thinner than three rounded points can
-// tell a plane of: how many hold is written down here, as docs/reliability.md has it.
+// tell a plane of: how many hold is written down here, as docs/verification.md has it.
 #include <gtest/gtest.h>
 
 #include "core/cast/cast.h"
