@@ -161,7 +161,7 @@ TEST(MeshClearance, verdicts_see_what_no_plane_separates) {
   options.keep_planes = true;
   const auto verdict = [&](double last) {
     const JointPath path(model, {{0, {{"shoulder", {0.0}}}}, {1, {{"shoulder", {last}}}}});
-    const Verdict found = verdict_of(path, bodies, pairs, options);
+    const MotionVerdict found = verdict_of(path, bodies, pairs, options);
     const Closest least = [&] {
       std::vector<BodyPair> plain;
       for (const RefereePair& pair : pairs) plain.push_back({pair.a, pair.b});
@@ -174,10 +174,10 @@ TEST(MeshClearance, verdicts_see_what_no_plane_separates) {
     }
     return found;
   };
-  const Verdict free = verdict(0.2);
+  const MotionVerdict free = verdict(0.2);
   EXPECT_EQ(free.status, MotionStatus::free);
   EXPECT_TRUE(free.without_planes);
-  const Verdict collides = verdict(1.5);
+  const MotionVerdict collides = verdict(1.5);
   ASSERT_EQ(collides.status, MotionStatus::collides);
   ASSERT_EQ(collides.stretches.size(), 1u);
   // The upper arm, from the first contact on.
