@@ -3,7 +3,7 @@
 """Writes scenes/bowl.json: a bowl, as a mesh of triangles, and dice that lie in it, as exact rounded boxes.
 
 The dice are let down one after the other. Each is moved and turned a little, again and again, and stays
-where that brings it lower without touching anything (Scene.nearest of the die, by signed distances).
+where that brings it lower without touching anything (Scene.distance_to).
 Needs NumPy and the module minkray.
 """
 import math
@@ -69,10 +69,7 @@ def times(p, q):
 
 def gap(poses):
     """How far the die is from everything, at each pose."""
-    found = scene.distance_to(die, poses, within=1.0)
-    least = np.full(len(poses), 1.0)
-    np.minimum.at(least, np.asarray(found.pose, dtype=int), np.asarray(found.value))
-    return least
+    return scene.distance_to(die, poses, within=1.0).lower
 
 
 dice = []
@@ -108,7 +105,7 @@ box = {"type": "rounded", "radius": edge, "shape": {"type": "box", "half_extents
 for i, (at, q) in enumerate(dice):
     objects.append({"name": f"die {i + 1}", "shape": box, "material": names[i % len(names)],
                     "transform": {"translate": rounded(at), "rotate": rounded(q)}})
-objects.append({"name": "table", "shape": {"type": "half_space"}, "material": "wood"})
+objects.append({"name": "table", "shape": {"type": "plane"}, "material": "wood"})
 
 write("bowl.json", {
     "$schema": "scene.schema.json",
