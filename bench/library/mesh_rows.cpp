@@ -52,7 +52,7 @@ Vec as_floats(const Vec& v) {
   return {double(float(v.x)), double(float(v.y)), double(float(v.z))};
 }
 
-/// Of a square picture, in blocks of 8 x 8.
+/// The rays make a square picture, in blocks of 8 x 8.
 std::vector<mk::Ray> camera_at(const Vec& eye, int side) {
   const Vec forward = normalized(-1.0 * eye), right = normalized(cross(forward, {0, 0, 1})),
             up = cross(right, forward);

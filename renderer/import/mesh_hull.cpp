@@ -51,6 +51,11 @@ Shape<double> hull_of(const TriangleMesh& mesh) {
   return Hull<double>{PointCloud<double>(vertices_of(mesh))};
 }
 
+std::vector<Vec3<double>> hull_points_of(const TriangleMesh& mesh) {
+  const PointCloud<double> hull(vertices_of(mesh));
+  return {hull.points().begin(), hull.points().end()};
+}
+
 std::shared_ptr<const TriangleMesh> moved(const TriangleMesh& mesh, const Affine<double>& map) {
   std::vector<Vec3<double>> vertices = vertices_of(mesh);
   for (Vec3<double>& vertex : vertices) vertex = map(vertex);

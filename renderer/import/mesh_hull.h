@@ -9,8 +9,9 @@
 
 namespace minkray {
 
-/// The hull of the triangles' vertices.
+/// The hull of the triangles' vertices, as a shape and as its points.
 Shape<double> hull_of(const TriangleMesh& mesh);
+std::vector<Vec3<double>> hull_points_of(const TriangleMesh& mesh);
 
 /// The vertices under a map; of one that mirrors, triangles are turned round.
 std::shared_ptr<const TriangleMesh> moved(const TriangleMesh& mesh, const Affine<double>& map);

@@ -86,8 +86,7 @@ void add_core(const ShapeCore& core, const std::string& name, Json& json) {
 void add_hull(const ClearanceBody& body, Json& json) {
   json["core"] = "hull";
   Json points = Json::array();
-  const Shape<double> hull = hull_of(*body.mesh);
-  for (const Vec3<double>& point : std::get<Hull<double>>(hull.kind).points.points())
+  for (const Vec3<double>& point : hull_points_of(*body.mesh))
     points.push_back(point_json(Vec3<double>(point - body.own_middle())));
   json["points"] = std::move(points);
   json["radius"] = 0.0;

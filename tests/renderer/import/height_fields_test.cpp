@@ -138,7 +138,7 @@ TEST_F(HeightFields, planes_of_a_size_are_rectangles_for_rays_and_half_spaces_fo
   const World rays = make_world(imported.scene);
   const auto met = [&](const Vec3<double>& from, const Vec3<double>& way) {
     QueryCounts counts;
-    return rays.closest_hit({from, way}, counts).found();
+    return rays.closest_hit(Ray<double>{from, way}, counts).found();
   };
   EXPECT_TRUE(met({1.9, 2.9, 1}, {0, 0, -1}));
   EXPECT_FALSE(met({2.1, 0, 1}, {0, 0, -1}));

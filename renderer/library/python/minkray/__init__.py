@@ -19,7 +19,7 @@ from .robots import Robot
 from .scene import Scene
 from .rays import lidar, pinhole
 from .shapes import (box, capsule, cone, custom, cut_cylinder, cylinder, difference, disk, ellipsoid,
-                     frustum, hull, hull_of, make, mesh, mesh_info, point, read_shape, rounded, scaled,
+                     frustum, height_field, hull, hull_of, make, mesh, mesh_info, point, read_shape, rounded, scaled,
                      segment, sphere, sum, superellipsoid, swept, tapered_capsule, transformed, translated,
                      triangle)
 from .pairs import (BEGINS_INSIDE, IMPACT, NO_IMPACT, OVERLAPPING, SEPARATED, TOUCHING, UNDECIDED,
