@@ -111,7 +111,7 @@ class StepsSearch {
     const RefereePair& pair = pairs_[index];
     ++found_.distances;
     // Closer than a margin above 0 is no overlap.
-    only_sign &= pair.margin == 0;
+    only_sign &= pair.margin == 0 && !has_mesh(pair);
     SignedDistance there = at.at(pair, bound, s, at_most + pair.margin, only_sign);
     LeastClearance& least = found_.least;
     if (there.upper - pair.margin < least.upper) {
@@ -202,12 +202,16 @@ class StepsSearch {
     return true;
   }
 
+  bool has_mesh(const RefereePair& pair) const {
+    return bodies_[pair.a].mesh || bodies_[pair.b].mesh;
+  }
+
   /// Whether the two cannot come together from where they are in the middle of the part: what tells
   /// meshes apart that are in each other's hollows.
   bool proves_by_speed(std::size_t index, const StepBound& bound, double length,
                        const SignedDistance& there) {
     const RefereePair& pair = pairs_[index];
-    if (!bodies_[pair.a].mesh && !bodies_[pair.b].mesh) return false;
+    if (!has_mesh(pair)) return false;
     const double lower = there.lower - pair.margin - bound.speed * length / 2;
     if (!(lower > target())) return false;
     found_.least.lower = std::min(found_.least.lower, lower);

@@ -28,12 +28,15 @@ struct Free {
     const Camera camera(scene.camera, picture);
     testing::Random random(7);
     for (const Object& object : scene.objects) {
-      if (object.half_space) continue;
+      const bool is_plane = object.mesh && object.mesh->sides() == MeshSides::front;
+      if (object.half_space || is_plane) continue;
       const Affine<double> pose = object.motion ? object.motion->pose_at(time) : object.pose;
       for (int i = 0; i < 300; ++i) {
-        const Vec3<double> n = random.direction();
-        const Vec3<double> point =
-            pose(object.shape.support(Vec3<double>(pose.linear.transpose() * n)));
+        const Vec3<double> n = pose.linear.transpose() * random.direction();
+        const Vec3<double> point = pose(
+            object.mesh ? *std::ranges::max_element(object.mesh->vertices(), {},
+                                                    [&](const Vec3<double>& v) { return n.dot(v); })
+                        : object.shape.support(n));
         const auto seen = camera.project(point);
         if (!seen) {
           least = -1;

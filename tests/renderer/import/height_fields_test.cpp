@@ -29,9 +29,10 @@ class HeightFields : public ::testing::Test {
     const auto add = [&](const auto& number) {
       bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
     };
-    add(std::int32_t{6});
-    add(std::int32_t{3});
-    for (int i = 0; i < 18; ++i) add(static_cast<float>(random.uniform(-3, 5)));
+    // MuJoCo 2.2.2 takes the heights of walls along y from other rows unless the grid is square.
+    add(std::int32_t{5});
+    add(std::int32_t{5});
+    for (int i = 0; i < 25; ++i) add(static_cast<float>(random.uniform(-3, 5)));
     std::ofstream(folder_ / "hills.bin", std::ios::binary) << bytes;
   }
 
@@ -99,7 +100,7 @@ TEST_F(HeightFields, of_mjcf_are_pictures_files_or_numbers) {
   const auto picture = mesh_of_asset(R"(file="hills.png" size="1 1 2 0.1")");
   EXPECT_EQ(picture->bounds().upper.z(), 2);
   EXPECT_EQ(mesh_of_asset(R"(file="hills.bin" size="1 1 2 0.1")")->vertices().size(),
-            18u + 14u + 1u);
+            25u + 16u + 1u);
   const auto told = [&](const std::string& asset) {
     return complaint(folder_.write("w.xml", "<mujoco><asset><hfield name=\"h\" " + asset +
                                                 "/></asset>" + world + "</mujoco>"));
