@@ -108,11 +108,11 @@ MINKRAY_API int minkray_shape_mesh(const double (*vertices)[3], size_t vertex_co
                                    const uint32_t (*triangles)[3], size_t triangle_count,
                                    minkray_shape* shape);
 
-/* A terrain as a mesh: heights over a grid of `rows` rows along x, the one of the least y first, and
- * `columns` columns, its middle above the origin, `size_x` and `size_y` from border to border. Its
- * cells are cut from their least corner to their greatest one; the triangles of the cell in row r
- * and column c are 2 (r (columns - 1) + c) and the next one. With a `bottom` walls go down to that
- * z and close it to a solid; NULL: it is open. The heights are copied. */
+/* A terrain as a mesh: heights over a grid of `rows` rows along x, the one of the least y first,
+ * and `columns` columns, its middle above the origin, `size_x` and `size_y` from border to border.
+ * Its cells are cut from their least corner to their greatest one; the triangles of the cell in row
+ * r and column c are 2 (r (columns - 1) + c) and the next one. With a `bottom` walls go down to
+ * that z and close it to a solid; NULL: it is open. The heights are copied. */
 MINKRAY_API int minkray_shape_height_field(const double* heights, size_t rows, size_t columns,
                                            double size_x, double size_y, const double* bottom,
                                            minkray_shape* shape);

@@ -111,8 +111,7 @@ CertificateVerdict all_missed(const PosedMesh& posed, Ray<double> ray, double t_
 CertificateVerdict verdict_of(const PosedMesh& posed, const Ray<double>& ray, const Claim& claim,
                               Certificate* found) {
   const bool is_behind = comes_from_behind(posed, ray);
-  if (claim.status == Status::miss && !is_behind)
-    return all_missed(posed, ray, ray.t_max, no_part);
+  if (claim.status == Status::miss && !is_behind) return all_missed(posed, ray, ray.t_max, no_part);
   CertificateVerdict verdict;
   verdict.holds = claim.status == Status::miss;
   if (verdict.holds) return verdict;

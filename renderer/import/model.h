@@ -69,9 +69,7 @@ struct ModelGeom {
 
   /// For rays; for contact.
   bool is_half_space() const { return !shape && !mesh; }
-  bool touches_as_half_space() const {
-    return is_half_space() || touches == Touch::as_half_space;
-  }
+  bool touches_as_half_space() const { return is_half_space() || touches == Touch::as_half_space; }
 };
 
 /// A mesh file, at one scale.
