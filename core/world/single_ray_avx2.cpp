@@ -62,6 +62,13 @@ class Pending {
     return world_.screens[world_.places[instance_[i]].body].kind;
   }
 
+  /// What is in a box that is entered after so many steps has no less t: SlabRay::limit the other
+  /// way round.
+  float least_t(float entered) const {
+    const double from = static_cast<double>(entered) - static_cast<double>(slab_tiny);
+    return static_cast<float>(from / (ray_.slabs.steps * static_cast<double>(hit_padding)));
+  }
+
   bool add_candidate(std::uint32_t instance, float first) {
     if (ray_.candidate_count == SingleRay::most_candidates) {
       // What has become pointless makes room.
@@ -79,7 +86,7 @@ class Pending {
                const float (&enters)[screen_lanes], std::size_t lanes) {
     if (kind == FormKind::none) {
       for (std::size_t i = 0; i < lanes; ++i)
-        if (!add_candidate(same[i], enters[i])) return false;
+        if (!add_candidate(same[i], least_t(enters[i]))) return false;
       return true;
     }
     for (std::size_t i = lanes; i < screen_lanes; ++i) same[i] = same[0];

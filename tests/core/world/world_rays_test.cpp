@@ -231,5 +231,26 @@ TEST(WorldRays, moved_instances_answer_as_if_built_where_they_are) {
   EXPECT_GT(hits, 500);
 }
 
+/// Lanes do not look at what is too thin or too large for them; where its box begins is compared
+/// with what is met behind.
+TEST(World, thin_and_large_shapes_are_met_by_rays_of_any_length) {
+  for (const double length : {0.01, 1.0, 2.0, 4.0, 100.0}) {
+    for (const double scale : {1.0, 0x1p-30, 0x1p30}) {
+      Instances instances;
+      instances.add(Shape<double>(Box<double>{{scale, scale, 1e-7 * scale}}));
+      instances.add(HalfSpaceBody<double>{{0, 0, 1}, -scale});
+      const World world(std::move(instances));
+      const Ray<double> ray{{0.1 * scale, 0.2 * scale, 3 * scale}, {0, 0, -length}};
+      QueryCounts counts;
+      const WorldHit alone = world.closest_hit(ray, counts);
+      EXPECT_EQ(alone.instance, 0u) << length << " " << scale;
+      const std::vector<WorldRay> rays(8, WorldRay{ray});
+      std::vector<WorldHit> hits(8);
+      world.closest_hits(rays, hits, counts);
+      EXPECT_TRUE(same(alone, hits[3])) << length << " " << scale;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace minkray

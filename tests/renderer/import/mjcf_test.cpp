@@ -67,7 +67,7 @@ void expect_same_geoms(const Model& model, const MujocoModel& theirs, const std:
     }
     EXPECT_LT((pose.translation - expected[i].pose.translation).norm(), same);
     EXPECT_LT((pose.linear - expected[i].pose.linear).cwiseAbs().maxCoeff(), same);
-    if (geom.is_half_space()) continue;
+    if (geom.touches_as_half_space()) continue;
     // Sizes: as far as each reaches along the axes.
     const auto size = [&](const Vec3<double>& n) { return support_of(geom, n).dot(n); };
     const Vec3<double>& s = expected[i].size;
