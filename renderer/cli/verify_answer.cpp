@@ -51,8 +51,9 @@ std::string stretch_text(const Stretch& stretch, const Words& words) {
   std::string text = "  " + words.pair(stretch.pair, " and ") +
                      (stretch.collides ? " collide" : " may collide") + " from " +
                      words.time(stretch.begin) + " to " + words.time(stretch.end);
-  if (stretch.collides)
-    text += ", at " + words.time(stretch.time) + " by at least " + length_text(-stretch.upper);
+  if (stretch.collides) text += ", at " + words.time(stretch.time);
+  // Meshes have no depth.
+  if (stretch.collides && stretch.upper < 0) text += " by at least " + length_text(-stretch.upper);
   return text + "\n";
 }
 

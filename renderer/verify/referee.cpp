@@ -77,8 +77,14 @@ class StepsSearch {
         sample_moment(at, 0);
         sample_moment(at, 1);
       }
+      const std::size_t before = found_.pieces.size();
       for (std::size_t pair = 0; pair < pairs_.size(); ++pair) search_pair(at, pair, step);
-      if (options_.every_step) found_.steps.push_back(found_.least);
+      if (!options_.every_step) continue;
+      // What is left open has no lower bound.
+      const bool is_open = found_.pieces.size() > before;
+      LeastClearance& least = found_.least;
+      least.lower = is_open ? -infinity : std::min(least.lower, least.upper);
+      found_.steps.push_back(least);
     }
     return std::move(found_);
   }
