@@ -110,15 +110,15 @@ TEST_F(SmallRobot, without_any_body_has_a_camera_all_the_same) {
 
 TEST_F(SmallRobot, is_not_looked_at_from_within_a_wall_nor_in_the_dark) {
   const std::string box = "<geom type='box' size='.3 .3 .2' pos='0 0 .4'/>";
-  const std::string floor = "<geom type='plane' size='1 1 1'/>";
+  const std::string floor = "<geom type='plane' size='0 0 1'/>";
   const std::string walls =
-      "<geom type='plane' size='1 1 1' zaxis='1 0 0' pos='-.5 0 0'/>"
-      "<geom type='plane' size='1 1 1' zaxis='-1 0 0' pos='.5 0 0'/>"
-      "<geom type='plane' size='1 1 1' zaxis='0 1 0' pos='0 -.5 0'/>"
-      "<geom type='plane' size='1 1 1' zaxis='0 -1 0' pos='0 .5 0'/>";
-  const std::string front_wall = "<geom type='plane' size='1 1 1' zaxis='-1 0 0' pos='.5 0 0'/>";
-  const std::string ceiling = "<geom type='plane' size='1 1 1' zaxis='0 0 -1' pos='0 0 .7'/>";
-  const std::string back_wall = "<geom type='plane' size='1 1 1' zaxis='1 0 0' pos='-.5 0 0'/>";
+      "<geom type='plane' size='0 0 1' zaxis='1 0 0' pos='-.5 0 0'/>"
+      "<geom type='plane' size='0 0 1' zaxis='-1 0 0' pos='.5 0 0'/>"
+      "<geom type='plane' size='0 0 1' zaxis='0 1 0' pos='0 -.5 0'/>"
+      "<geom type='plane' size='0 0 1' zaxis='0 -1 0' pos='0 .5 0'/>";
+  const std::string front_wall = "<geom type='plane' size='0 0 1' zaxis='-1 0 0' pos='.5 0 0'/>";
+  const std::string ceiling = "<geom type='plane' size='0 0 1' zaxis='0 0 -1' pos='0 0 .7'/>";
+  const std::string back_wall = "<geom type='plane' size='0 0 1' zaxis='1 0 0' pos='-.5 0 0'/>";
   for (const std::string& planes :
        {floor, floor + back_wall, floor + walls, floor + front_wall, ceiling}) {
     const Scene scene = scene_of_text(planes + box);
