@@ -164,7 +164,7 @@ std::optional<std::string> add_parts(Model& model, const MeshLibrary::Answer& an
                                      ModelGeom geom, Colouring colouring) {
   const std::size_t count = model.geoms.size() + answer.parts.size();
   if (count > most_geoms)
-    return "shows " + std::to_string(answer.parts.size()) + " hulls: with the shapes before, a " +
+    return "shows " + std::to_string(answer.parts.size()) + " parts: with the shapes before, a " +
            "model must have at most " + std::to_string(most_geoms) + " shapes (got " +
            std::to_string(count) + ")";
   geom.kind = "mesh";

@@ -119,14 +119,20 @@ TEST(MeshClearance, derivatives_are_those_of_the_same_shape) {
   EXPECT_GT(compared, 5);
 }
 
-TEST(MeshClearance, a_rod_goes_through_a_ring_whose_hull_it_crosses) {
-  Model model = testing::arm_model();
+/// It has a radius of 1 about z and a tube of 0.4: the arm stands in its hole.
+Scene ring_around() {
   Object ring;
   ring.name = "ring";
   ring.mesh = testing::torus(48, 24).shared();
   Scene around;
   around.objects = {ring};
-  // A radius of 1 about z with a tube of 0.4: the arm stands in the hole.
+  return around;
+}
+
+TEST(MeshClearance, a_rod_goes_through_a_ring_whose_hull_it_crosses) {
+  const Model model = testing::arm_model();
+  const Scene around = ring_around();
+  const Object& ring = around.objects[0];
   std::vector<ClearanceBody> bodies = bodies_of(model, GeometryChoice::collision);
   bodies.push_back(bodies_of(around)[0]);
   const JointPath path(model, {{0, {{"shoulder", {0.0}}}}, {1, {{"shoulder", {0.2}}}}});
@@ -146,12 +152,8 @@ TEST(MeshClearance, a_rod_goes_through_a_ring_whose_hull_it_crosses) {
 
 /// No plane is between the arm and the ring around it; the arm's speed tells that they stay apart.
 TEST(MeshClearance, verdicts_see_what_no_plane_separates) {
-  Model model = testing::arm_model();
-  Object ring;
-  ring.name = "ring";
-  ring.mesh = testing::torus(48, 24).shared();
-  Scene around;
-  around.objects = {ring};
+  const Model model = testing::arm_model();
+  const Scene around = ring_around();
   std::vector<ClearanceBody> bodies = bodies_of(model, GeometryChoice::collision);
   bodies.push_back(bodies_of(around)[0]);
   std::vector<RefereePair> pairs;

@@ -301,7 +301,7 @@ TEST(HostileXml, a_model_has_a_million_shapes_at_most) {
   Model model;
   add_mesh(model, files, *mesh, answer, {}, {});
   EXPECT_TRUE(model.geoms.empty());
-  EXPECT_NE(mistakes.text().find("line 2: <mesh filename=\"m.obj\">: shows 1000001 hulls: with the "
+  EXPECT_NE(mistakes.text().find("line 2: <mesh filename=\"m.obj\">: shows 1000001 parts: with the "
                                  "shapes before, a model must have at most 1000000 shapes (got "
                                  "1000001)"),
             std::string::npos)
