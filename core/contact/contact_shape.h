@@ -17,7 +17,9 @@ class ContactShape {
  public:
   /// `map` leads from the shape's frame to the body's; any invertible map.
   explicit ContactShape(const Shape<double>& shape, const Affine<double>& map = {})
-      : core_and_radius_(core_and_radius(shape, map)),
+      : ContactShape(core_and_radius(shape, map)) {}
+  explicit ContactShape(CoreAndRadius core_and_radius)
+      : core_and_radius_(std::move(core_and_radius)),
         is_turned_(core_and_radius_.turn != Mat3<double>::Identity()),
         is_moved_(core_and_radius_.middle != Vec3<double>::Zero()),
         offset_(length_of(core_and_radius_.middle)) {}

@@ -201,6 +201,11 @@ bool TriangleMesh::is_closed() const {
   return is_closed_;
 }
 
+const MeshSlabs& TriangleMesh::slabs() const {
+  std::call_once(slabs_once_, [this] { slabs_ = std::make_unique<const MeshSlabs>(*this); });
+  return *slabs_;
+}
+
 std::size_t TriangleMesh::bytes() const {
   return vertices_.capacity() * sizeof(vertices_[0]) +
          triangles_.capacity() * sizeof(triangles_[0]) + bvh_.bytes() +

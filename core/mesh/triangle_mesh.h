@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <mutex>
 #include <span>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "core/math/bounds.h"
 #include "core/math/vec.h"
 #include "core/mesh/mesh_leaf.h"
+#include "core/mesh/mesh_slabs.h"
 
 namespace minkray {
 
@@ -67,6 +69,8 @@ class TriangleMesh {
   MeshFaults faults() const;
   /// Finds out once what faults().is_closed() says.
   bool is_closed() const;
+  /// Makes them once, for whoever asks first: rays need none.
+  const MeshSlabs& slabs() const;
   /// The furthest vertex' distance from the frame's origin, or a little more.
   double reach() const { return reach_; }
 
@@ -80,6 +84,8 @@ class TriangleMesh {
   MeshSides sides_ = MeshSides::both;
   mutable std::once_flag closed_once_;
   mutable bool is_closed_ = false;
+  mutable std::once_flag slabs_once_;
+  mutable std::unique_ptr<const MeshSlabs> slabs_;
   bool suits_lanes_ = false;
   Bvh bvh_;
   FirstTouchVector<MeshLeaf> leaves_;

@@ -5,6 +5,7 @@
 #include <queue>
 
 #include "core/parallel/parallel.h"
+#include "core/parts/parts_distance.h"
 
 namespace minkray {
 namespace {

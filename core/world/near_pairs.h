@@ -9,7 +9,7 @@
 
 #include "core/bvh/bvh.h"
 #include "core/contact/signed_distance.h"
-#include "core/world/mesh_pairs.h"
+#include "core/parts/parts_body.h"
 
 namespace minkray {
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <queue>
 
+#include "core/parts/parts_impact.h"
+
 namespace minkray {
 namespace {
 
@@ -41,35 +43,10 @@ double meeting(const Bounds<double>& moving, const Vec3<double>& velocity,
 
 }  // namespace
 
-WorldImpact nothing_met(double t_max) {
-  WorldImpact found;
-  found.impact.status = ImpactStatus::miss;
-  found.impact.t_lo = t_max;
-  found.impact.distance = std::numeric_limits<double>::infinity();
-  return found;
-}
-
-void take(WorldImpact& found, std::size_t body, const Impact& impact) {
-  if (impact.status == ImpactStatus::miss) return;
-  const double t_lo = std::min(found.impact.t_lo, impact.t_lo);
-  const auto end_of = [](const Impact& one) {
-    const bool touch = one.status == ImpactStatus::hit || one.status == ImpactStatus::inside;
-    return touch ? one.t_hi : std::numeric_limits<double>::infinity();
-  };
-  const bool is_first = end_of(impact) < end_of(found.impact) ||
-                        (end_of(impact) == end_of(found.impact) &&
-                         (found.body == WorldImpact::none || body < found.body));
-  if (is_first) {
-    found.impact = impact;
-    found.body = body;
-  }
-  found.impact.t_lo = t_lo;
-}
-
-WorldImpact first_impact(const PartsBody& moving, const RigidMotion& motion,
+EarliestImpact first_impact(const PartsBody& moving, const RigidMotion& motion,
                          const ContactWorld& world, double t_max, std::uint32_t mask,
-                         const WorldImpact& known) {
-  WorldImpact found = known;
+                         const EarliestImpact& known) {
+  EarliestImpact found = known;
   if (world.bodies().empty()) return found;
   const Bounds<double> box = moving_box(moving, motion);
   struct Open {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 
+#include "core/mesh/mapped.h"
 #include "core/shape/composed_map.h"
 #include "renderer/base/errors.h"
 #include "renderer/import/mesh_hull.h"
@@ -32,7 +33,7 @@ ClearanceBody body_of(const std::string& name, const std::string& link, int link
     body.linear = map.linear;
     body.mesh = std::move(mesh);
   } else {
-    body.mesh = mapped(*mesh, map.linear);
+    body.mesh = mapped(*mesh, {map.linear, Vec3<double>::Zero()});
     loss = rounding * mesh->reach() * map.linear.norm();
   }
   const Vec3<double> centre = body.own_middle();

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/contact/half_space_distance.h"
-#include "core/world/parts_reach.h"
+#include "core/parts/parts_reach.h"
 #include "renderer/clearance/allowed_pairs.h"
 #include "renderer/import/import_options.h"
 #include "renderer/scene/scene.h"

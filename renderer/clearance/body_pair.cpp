@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/contact/least_distance.h"
+#include "core/parts/parts_distance.h"
 
 namespace minkray {
 

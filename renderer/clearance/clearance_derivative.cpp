@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/clearance/clearance_derivative.h"
+#include "core/parts/parts_contact.h"
+#include "core/parts/parts_distance.h"
+#include "core/parts/parts_reach.h"
 
 #include <array>
 #include <cmath>

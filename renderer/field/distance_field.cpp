@@ -7,7 +7,8 @@
 #include "core/contact/closed_answer.h"
 #include "core/contact/half_space_distance.h"
 #include "core/parallel/parallel.h"
-#include "core/world/mesh_pairs.h"
+#include "core/mesh/mapped.h"
+#include "core/parts/parts_distance.h"
 #include "renderer/base/errors.h"
 
 namespace minkray {
@@ -54,7 +55,7 @@ DistanceField measure_field(const Scene& scene, const Shape<double>& probe, cons
       bodies.push_back({ContactShape(Shape<double>(Point<double>())),
                         {Mat3<double>::Identity(), object.pose.translation},
                         {},
-                        mapped(*object.mesh, object.pose.linear)});
+                        mapped(*object.mesh, {object.pose.linear, Vec3<double>::Zero()})});
       continue;
     }
     const Affine<double> about_origin{object.pose.linear, Vec3<double>::Zero()};

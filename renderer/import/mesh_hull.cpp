@@ -56,16 +56,6 @@ std::vector<Vec3<double>> hull_points_of(const TriangleMesh& mesh) {
   return {hull.points().begin(), hull.points().end()};
 }
 
-std::shared_ptr<const TriangleMesh> moved(const TriangleMesh& mesh, const Affine<double>& map) {
-  std::vector<Vec3<double>> vertices = vertices_of(mesh);
-  for (Vec3<double>& vertex : vertices) vertex = map(vertex);
-  std::vector<Corners> triangles(mesh.triangles().begin(), mesh.triangles().end());
-  if (map.linear.determinant() < 0)
-    for (Corners& corners : triangles) std::swap(corners[1], corners[2]);
-  return std::make_shared<const TriangleMesh>(std::move(vertices), std::move(triangles),
-                                              mesh.sides());
-}
-
 MeshFacts facts_of(const ModelMesh& mesh) {
   MeshFacts facts;
   const auto add_hull = [&](const std::vector<Vec3<double>>& vertices,

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "core/mesh/mapped.h"
 #include "renderer/import/geometry_common.h"
 #include "renderer/import/hull_mass.h"
-#include "renderer/import/mesh_hull.h"
 #include "renderer/import/mjcf_builtin.h"
 #include "renderer/import/mjcf_height_field.h"
 #include "renderer/import/orientation.h"
@@ -201,7 +201,7 @@ MeshLibrary::Answer MjcfAssets::parts_of(const std::string& name, const XmlEleme
     for (MeshLibrary::Part& part : answer.parts) {
       const Affine<double> map = Affine<double>{scale.asDiagonal(), {0, 0, 0}} * before;
       if (part.hull) part.hull = Transform<double>{*part.hull, map};
-      if (part.surface) part.surface = moved(*part.surface, map);
+      if (part.surface) part.surface = mapped(*part.surface, map);
     }
   return answer;
 }

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <string>
 
+#include "core/mesh/mapped.h"
 #include "renderer/library/call.h"
 #include "renderer/library/poses.h"
 
@@ -147,7 +148,7 @@ void BodiesOfPairs::read_slowly(std::size_t i, const minkray_pose& pose, PosedBo
               "square to each other (they are off by " + text + ")");
   }
   if (body.mesh_) {
-    body.mesh_ = mapped(*body.mesh_, linear);
+    body.mesh_ = mapped(*body.mesh_, {linear, Vec3<double>::Zero()});
     body.pose_.linear.setIdentity();
     return;
   }

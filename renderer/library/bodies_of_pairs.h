@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/contact/impact.h"
-#include "core/world/mesh_pairs.h"
+#include "core/parts/parts_body.h"
 #include "renderer/library/c_header.h"
 #include "renderer/library/held_shape.h"
 

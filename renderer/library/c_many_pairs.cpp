@@ -7,6 +7,9 @@
 
 #include "core/contact/manifold.h"
 #include "core/contact/pair_derivative.h"
+#include "core/parts/parts_contact.h"
+#include "core/parts/parts_distance.h"
+#include "core/parts/parts_impact.h"
 #include "renderer/library/bodies_of_pairs.h"
 #include "renderer/library/call.h"
 #include "renderer/library/kept_memory.h"

@@ -5,7 +5,10 @@
 
 #include "core/contact/impact.h"
 #include "core/contact/signed_distance.h"
-#include "core/world/mesh_pairs.h"
+#include "core/mesh/mapped.h"
+#include "core/parts/parts_contact.h"
+#include "core/parts/parts_distance.h"
+#include "core/parts/parts_impact.h"
 #include "renderer/library/call.h"
 #include "renderer/library/held_shape.h"
 #include "renderer/library/pair_answers.h"
@@ -22,7 +25,7 @@ class PosedShape {
     refuse_if_running(held.customs(), argument);
     const bool is_rigid = read_pose(pose, argument, pose_);
     if (held.mesh()) [[unlikely]] {
-      mesh_ = is_rigid ? held.mesh() : mapped(*held.mesh(), pose_.linear);
+      mesh_ = is_rigid ? held.mesh() : mapped(*held.mesh(), {pose_.linear, Vec3<double>::Zero()});
       if (!is_rigid) pose_.linear.setIdentity();
       return;
     }

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/contact/sharp_point.h"
+#include "core/parts/bends.h"
 #include "renderer/library/call.h"
 #include "renderer/library/held_scene.h"
 #include "renderer/library/pair_answers.h"

@@ -291,12 +291,12 @@ int minkray_scene_time_of_impact(minkray_scene scene, const minkray_bodies* shap
       all.read(i, body);
       const RigidMotion motion = all.motion(i, body);
       const double end = t_max[t_max_count == 1 ? 0 : i];
-      const WorldImpact found = bodies.first_impact(body.parts(), motion, end, query.mask);
+      const EarliestImpact found = bodies.first_impact(body.parts(), motion, end, query.mask);
       minkray_scene_impact& told = impacts[i];
       told = {};
       told.impact = plain_impact(found.impact);
       told.object =
-          found.body == WorldImpact::none ? MINKRAY_NO_OBJECT : static_cast<uint32_t>(found.body);
+          found.body == EarliestImpact::none ? MINKRAY_NO_OBJECT : static_cast<uint32_t>(found.body);
       if (!query.derive) return;
       const PairDerivative derivative = bodies.derivative(body.parts(), motion, found);
       put_twist(derivative.a, told.jac);

@@ -7,7 +7,12 @@
 #include <unordered_map>
 
 #include "core/derived/cube.h"
+#include "core/mesh/mapped.h"
 #include "core/parallel/parallel.h"
+#include "core/parts/parts_contact.h"
+#include "core/parts/parts_distance.h"
+#include "core/parts/parts_impact.h"
+#include "core/parts/parts_reach.h"
 #include "renderer/import/mesh_hull.h"
 #include "renderer/import/scene_of_model.h"
 #include "renderer/library/call.h"
@@ -124,7 +129,7 @@ SceneBodies::SceneBodies(const HeldScene& scene) : scene_(scene) {
         continue;
       }
       if (!is_rigid(pose)) {
-        mesh = mapped(*mesh, pose.linear);
+        mesh = mapped(*mesh, {pose.linear, Vec3<double>::Zero()});
         place.linear.setIdentity();
       }
       body_of_[i] = static_cast<std::uint32_t>(bodies.size());
@@ -367,9 +372,9 @@ bool SceneBodies::is_another_at(const Vec3<double>& point, std::uint32_t object,
   return false;
 }
 
-WorldImpact SceneBodies::first_impact(const PartsBody& moving, const RigidMotion& motion,
+EarliestImpact SceneBodies::first_impact(const PartsBody& moving, const RigidMotion& motion,
                                       double t_max, std::uint32_t mask) const {
-  WorldImpact found = nothing_met(t_max);
+  EarliestImpact found = nothing_met(t_max);
   for (const HalfSpace& half_space : half_spaces_) {
     if ((half_space.masks.category & mask) == 0) continue;
     const ContactBody box =
@@ -378,15 +383,15 @@ WorldImpact SceneBodies::first_impact(const PartsBody& moving, const RigidMotion
          minkray::first_impact(moving, motion, box.parts(), {box.pose}, t_max));
   }
   // Bodies and half-spaces have numbers of their own until here.
-  WorldImpact met = minkray::first_impact(
+  EarliestImpact met = minkray::first_impact(
       moving, motion, *world_, std::min(t_max, found.impact.t_hi), mask, nothing_met(t_max));
-  if (met.body != WorldImpact::none) take(found, objects_[met.body], met.impact);
+  if (met.body != EarliestImpact::none) take(found, objects_[met.body], met.impact);
   return found;
 }
 
 PairDerivative SceneBodies::derivative(const PartsBody& moving, const RigidMotion& motion,
-                                       const WorldImpact& found) const {
-  if (found.body == WorldImpact::none)
+                                       const EarliestImpact& found) const {
+  if (found.body == EarliestImpact::none)
     return derivative_of(point_, motion, point_, motion, found.impact);
   const auto object = static_cast<std::uint32_t>(found.body);
   const HalfSpace* const half_space = half_space_of(object);

@@ -51,10 +51,10 @@ class SceneBodies {
   bool is_another_at(const Vec3<double>& point, std::uint32_t object, double near) const;
 
   /// The object that is touched first; its number is in `body`.
-  WorldImpact first_impact(const PartsBody& moving, const RigidMotion& motion, double t_max,
+  EarliestImpact first_impact(const PartsBody& moving, const RigidMotion& motion, double t_max,
                            std::uint32_t mask) const;
   PairDerivative derivative(const PartsBody& moving, const RigidMotion& motion,
-                            const WorldImpact& found) const;
+                            const EarliestImpact& found) const;
 
   /// Whether the object is one for contact.
   bool is_half_space(std::uint32_t object) const { return half_space_of(object) != nullptr; }

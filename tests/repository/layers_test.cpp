@@ -30,6 +30,7 @@ const std::vector<std::string> rooms = {
     "core/contact",
     "core/bvh",
     "core/mesh",
+    "core/parts",
     "core/world",
     "renderer/base",
     "renderer/image",

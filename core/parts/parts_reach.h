@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: MIT
 // How far a body reaches along a direction: by it two bodies are kept apart by a plane, whatever
-// their parts are.
+// their parts are, and a body is above a half-space.
 #pragma once
 
-#include "core/world/mesh_pairs.h"
+#include "core/contact/half_space_distance.h"
+#include "core/parts/parts_body.h"
 
 namespace minkray {
-
-/// The middle of a shape, or of the box of a mesh, in its frame.
-Vec3<double> middle_of(const PartsBody& body);
 
 /// No point of the body is further along the unit vector `n` than this, seen from its middle.
 /// `linear` turns from the body's frame to that of n.
 double reach_along(const PartsBody& body, const Mat3<double>& linear, const Vec3<double>& n);
+
+/// How far a body is above the plane of a half-space; less than 0 if a part of it is below.
+SignedDistance distance_to_half_space(const PlacedPlane& plane, const PartsBody& body,
+                                      const Affine<double>& pose);
 
 }  // namespace minkray

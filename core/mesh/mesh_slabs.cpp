@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include "core/mesh/mesh_slabs.h"
+
+#include <cmath>
+
+#include "core/mesh/triangle_mesh.h"
+
+namespace minkray {
+namespace {
+
+/// Area vectors, and the areas.
+struct Areas {
+  Vec3<double> vectors = Vec3<double>::Zero();
+  double sum = 0;
+};
+
+template <class Each>
+void each_corner_of_leaf(const TriangleMesh& mesh, std::uint32_t leaf, Each&& each) {
+  const MeshLeaf& of = mesh.leaves()[leaf];
+  for (int i = 0; i < of.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) each(mesh.corner(of.triangles[i], k));
+}
+
+Areas areas_of_leaf(const TriangleMesh& mesh, std::uint32_t leaf) {
+  Areas areas;
+  const MeshLeaf& of = mesh.leaves()[leaf];
+  for (int i = 0; i < of.size(); ++i) {
+    const std::uint32_t t = of.triangles[i];
+    const Vec3<double> one =
+        (mesh.corner(t, 1) - mesh.corner(t, 0)).cross(mesh.corner(t, 2) - mesh.corner(t, 0));
+    areas.vectors += one;
+    areas.sum += one.norm();
+  }
+  return areas;
+}
+
+/// The corners below one child of a node.
+template <class Each>
+void each_corner(const TriangleMesh& mesh, std::uint32_t what, Each&& each) {
+  std::vector<std::uint32_t> open{what};
+  while (!open.empty()) {
+    const std::uint32_t top = open.back();
+    open.pop_back();
+    if ((top & BvhNode::leaf) != 0) {
+      each_corner_of_leaf(mesh, top & ~BvhNode::leaf, each);
+      continue;
+    }
+    for (const std::uint32_t child : mesh.bvh().nodes[top].children)
+      if (child != BvhNode::none) open.push_back(child);
+  }
+}
+
+Slab slab_across(const TriangleMesh& mesh, std::uint32_t what, const Vec3<double>& n) {
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  Slab slab;
+  slab.normal = n.cast<float>();
+  const Vec3<double> along = slab.normal.cast<double>(), middle = mesh.bounds().centre();
+  double low = infinity, high = -infinity;
+  each_corner(mesh, what, [&](const Vec3<double>& corner) {
+    const double height = along.dot(corner - middle);
+    low = std::min(low, height);
+    high = std::max(high, height);
+  });
+  slab.low = std::nextafter(static_cast<float>(low), -infinity);
+  slab.high = std::nextafter(static_cast<float>(high), infinity);
+  return slab;
+}
+
+}  // namespace
+
+MeshSlabs::MeshSlabs(const TriangleMesh& mesh) {
+  const auto& nodes = mesh.bvh().nodes;
+  slabs_.resize(nodes.size() * bvh_width);
+  // Products of floats would leave their range.
+  if (!mesh.suits_lanes()) return;
+  /// Less of the area than this on one side: a box is as thin.
+  constexpr double flat_enough = 0.5;
+  std::vector<Areas> of_nodes(nodes.size());
+  // Children follow their parents.
+  for (std::size_t i = nodes.size(); i-- > 0;) {
+    for (std::size_t k = 0; k < bvh_width; ++k) {
+      const std::uint32_t what = nodes[i].children[k];
+      if (what == BvhNode::none) break;
+      const Areas areas =
+          (what & BvhNode::leaf) != 0 ? areas_of_leaf(mesh, what & ~BvhNode::leaf) : of_nodes[what];
+      of_nodes[i].vectors += areas.vectors;
+      of_nodes[i].sum += areas.sum;
+      const double length = areas.vectors.norm();
+      if (length > flat_enough * areas.sum)
+        slabs_[i * bvh_width + k] = slab_across(mesh, what, areas.vectors / length);
+    }
+  }
+}
+
+}  // namespace minkray

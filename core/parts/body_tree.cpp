@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include "core/parts/body_tree.h"
+
+#include "core/contact/core_support.h"
+
+namespace minkray {
+namespace {
+
+/// Node numbers and a child's must fit in a box' number, and none of them is `whole`.
+static_assert(bvh_width == 8 && EightBoxes::most == 8);
+
+/// About the shape's middle, along the axes of its frame.
+Vec3<double> half_extents(const ContactShape& shape, Vec3<double>& middle) {
+  Vec3<double> half;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto reach = [&](double way) {
+      const Vec3<double> d = way * shape.turn().row(axis).transpose();
+      return d.dot(support_of_core<CoreKind::other>(shape.core(), d).point);
+    };
+    const double up = reach(1), down = reach(-1);
+    middle[axis] = (up - down) / 2;
+    half[axis] = (up + down) / 2 + shape.core().radius + shape.core().rounding;
+  }
+  return half;
+}
+
+}  // namespace
+
+BodyTree::BodyTree(const PartsBody& body) : body_(body), middle_(middle_of(body)) {
+  if (mesh()) {
+    slabs_ = &mesh()->slabs();
+    whole_ = about_middle(mesh()->bounds());
+    radius_ = whole_.half.norm();
+    return;
+  }
+  whole_.half = half_extents(*body.shape(), whole_.middle);
+  radius_ = body.shape()->ball_radius() + body.shape()->core().rounding;
+}
+
+int BodyTree::open(Box box, EightBoxes& boxes, Box* children) const {
+  const std::uint32_t number = inside(box);
+  const BvhNode& node = mesh()->bvh().nodes[number];
+  int count = 0;
+  for (; count < bvh_width && node.children[count] != BvhNode::none; ++count) {
+    boxes.set(count, child(number, static_cast<std::uint32_t>(count)));
+    children[count] = number << 3 | static_cast<std::uint32_t>(count);
+  }
+  for (int i = count; i < EightBoxes::most; ++i) boxes.set(i, {});
+  return count;
+}
+
+int BodyTree::open_leaf(Box box, EightBoxes& boxes, std::uint32_t* parts) const {
+  int count = 1;
+  if (!mesh()) {
+    boxes.set(0, whole_);
+    parts[0] = 0;
+  } else {
+    const MeshLeaf& leaf = mesh()->leaves()[inside(box) & ~BvhNode::leaf];
+    count = leaf.size();
+    for (int i = 0; i < count; ++i) {
+      parts[i] = leaf.triangles[i];
+      Bounds<double> bounds;
+      for (std::size_t k = 0; k < 3; ++k) bounds.extend(mesh()->corner(parts[i], k));
+      boxes.set(i, about_middle(bounds));
+    }
+  }
+  for (int i = count; i < EightBoxes::most; ++i) boxes.set(i, {});
+  return count;
+}
+
+void BodyTree::open_leaf(Box box, EightTriangles& triangles, const Turned* at) const {
+  const MeshLeaf& leaf = mesh()->leaves()[inside(box) & ~BvhNode::leaf];
+  triangles.count = leaf.size();
+  for (int i = 0; i < triangles.count; ++i) {
+    TriangleCorners corners = triangle(leaf.triangles[i]);
+    if (at)
+      for (Vec3<double>& corner : corners) corner = at->turn * corner + at->shift;
+    triangles.set(i, leaf.triangles[i], corners);
+  }
+  triangles.fill();
+}
+
+double BodyTree::reach_along(const Vec3<double>& n) const {
+  if (mesh()) return minkray::reach_along(whole_, n);
+  const ContactShape& shape = *body_.shape();
+  const Vec3<double> d = shape.turn().transpose() * n;
+  return d.dot(support_of_core<CoreKind::other>(shape.core(), d).point) +
+         (shape.core().radius + shape.core().rounding) * n.norm();
+}
+
+}  // namespace minkray

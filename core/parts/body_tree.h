@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// A body as a walk over pairs sees it: boxes within boxes about the middle of the body, down to
+// leaves of up to eight convex parts. A shape is one leaf of one part.
+#pragma once
+
+#include "core/parts/box_gaps.h"
+#include "core/parts/parts_body.h"
+#include "core/parts/triangle_lanes.h"
+
+namespace minkray {
+
+class BodyTree {
+ public:
+  explicit BodyTree(const PartsBody& body);
+
+  const PartsBody& body() const { return body_; }
+  const TriangleMesh* mesh() const { return body_.mesh(); }
+  /// In the body's frame.
+  const Vec3<double>& middle() const { return middle_; }
+  /// The radius of a ball around the middle that holds the body.
+  double radius() const { return radius_; }
+
+  /// A box: the body's own, or a child of a node by the node's number and its own.
+  using Box = std::uint32_t;
+  static constexpr Box whole = ~Box{0};
+
+  bool is_leaf(Box box) const { return !mesh() || (inside(box) & BvhNode::leaf) != 0; }
+  MiddleBox bounds(Box box) const { return box == whole ? whole_ : child(box >> 3, box & 7); }
+
+  /// The boxes in one that is no leaf. Returns their number.
+  int open(Box box, EightBoxes& boxes, Box* children) const;
+  /// The boxes of a leaf's parts. Returns their number.
+  int open_leaf(Box box, EightBoxes& boxes, std::uint32_t* parts) const;
+
+  /// The triangles of a leaf of a mesh, about the body's middle, or where `at` has that.
+  void open_leaf(Box box, EightTriangles& triangles, const Turned* at = nullptr) const;
+
+  TriangleCorners triangle(std::uint32_t part) const {
+    return {mesh()->corner(part, 0) - middle_, mesh()->corner(part, 1) - middle_,
+            mesh()->corner(part, 2) - middle_};
+  }
+  /// How far the body reaches from its middle along a vector of its frame; of a mesh by its box.
+  double reach_along(const Vec3<double>& n) const;
+
+ private:
+  /// A node's number, or that of a leaf with its bit.
+  std::uint32_t inside(Box box) const {
+    return box == whole ? 0 : mesh()->bvh().nodes[box >> 3].children[box & 7];
+  }
+  template <class T>
+  MiddleBox about_middle(const Bounds<T>& box) const {
+    const Vec3<double> lower = box.lower.template cast<double>() - middle_,
+                       upper = box.upper.template cast<double>() - middle_;
+    MiddleBox about;
+    about.middle = (lower + upper) / 2;
+    about.half = (upper - lower) / 2;
+    return about;
+  }
+
+  MiddleBox child(std::uint32_t node, std::uint32_t number) const {
+    MiddleBox box = about_middle(mesh()->bvh().nodes[node].box(static_cast<int>(number)));
+    const Slab& slab = slabs_->of(node, number);
+    box.normal = slab.normal.cast<double>();
+    box.low = double{slab.low};
+    box.high = double{slab.high};
+    return box;
+  }
+
+  PartsBody body_;
+  const MeshSlabs* slabs_ = nullptr;
+  Vec3<double> middle_;
+  MiddleBox whole_;
+  double radius_;
+};
+
+}  // namespace minkray

@@ -1,0 +1,3 @@
+// SPDX-License-Identifier: MIT
+#define MINKRAY_BOX_GAPS box_gaps_sse2
+#include "core/parts/box_gaps.inl"

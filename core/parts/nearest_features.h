@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// The nearest points of two triangles that do not cross: on two of their edges, or a corner of one
+// and a point of the other's face (C. Ericson, "Real-Time Collision Detection", 2004, 5.1.9 and
+// 5.1.10). Three edges or corners at once, in lanes.
+#pragma once
+
+#include "core/parts/triangle_pair.h"
+
+namespace minkray {
+
+struct NearestPoints {
+  double squared = std::numeric_limits<double>::infinity();  ///< of the distance
+  Vec3<double> a = Vec3<double>::Zero(), b = Vec3<double>::Zero();
+};
+
+/// The same bits by either.
+void nearest_features_avx2(const TriangleCorners& a, const TriangleCorners& b, NearestPoints& best);
+void nearest_features_sse2(const TriangleCorners& a, const TriangleCorners& b, NearestPoints& best);
+
+}  // namespace minkray

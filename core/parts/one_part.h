@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// A part of a body as a shape: a triangle of a mesh, or the shape itself.
+#pragma once
+
+#include <optional>
+
+#include "core/contact/triangle_part.h"
+#include "core/parts/parts_body.h"
+
+namespace minkray {
+
+/// Refers to the body.
+class OnePart {
+ public:
+  OnePart(const PartsBody& body, std::uint32_t part)
+      : shape_(body.shape()), number_(body.mesh() ? part : no_part) {
+    if (const TriangleMesh* mesh = body.mesh())
+      triangle_.emplace(mesh->corner(part, 0), mesh->corner(part, 1), mesh->corner(part, 2));
+  }
+
+  const ContactShape& shape() const { return triangle_ ? triangle_->shape() : *shape_; }
+  /// The triangle's; no_part of a shape.
+  std::uint32_t number() const { return number_; }
+
+ private:
+  const ContactShape* shape_;
+  std::optional<TrianglePart> triangle_;
+  std::uint32_t number_;
+};
+
+}  // namespace minkray

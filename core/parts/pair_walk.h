@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: MIT
+// A walk over the pairs of parts of two bodies, the nearest boxes first.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "core/parts/body_tree.h"
+
+namespace minkray {
+
+/// Where two bodies are, each about its middle.
+struct Sight {
+  Turned b_in_a, a_in_b;
+  Vec3<double> middle_a;  ///< in the world
+  Mat3<double> turn_a;    ///< from A's frame to the world
+  double rounding;        ///< of what is worked out in A's frame: points, boxes, distances
+
+  Sight(const BodyTree& a, const Affine<double>& pose_a, const BodyTree& b,
+        const Affine<double>& pose_b);
+};
+
+class PairWalk {
+ public:
+  PairWalk(const BodyTree& a, const BodyTree& b, const Sight& sight)
+      : a_(a), b_(b), sight_(sight) {}
+
+  /// Planes across this unit vector, from A to B in A's frame, tell many pairs apart from here on.
+  void set_direction(const Vec3<double>& n) {
+    has_direction_ = true;
+    n_ = n;
+    n_in_b_ = sight_.b_in_a.turn.transpose() * n;
+    if (!a_.mesh()) up_a_ = a_.reach_along(n_);
+    if (!b_.mesh()) down_b_ = b_.reach_along(-n_in_b_);
+  }
+  bool has_direction() const { return has_direction_; }
+  const Vec3<double>& direction() const { return n_; }
+  /// How far a shape A reaches along the direction, and a shape B against it, from their middles.
+  double up_a() const { return up_a_; }
+  double down_b() const { return down_b_; }
+
+  /// Calls visit(part_a, part_b) for pairs until it returns true. key(gap, box_a, box_b) is a lower
+  /// bound of what it finds, less than 0 of boxes that overlap; pairs whose key is above limit()
+  /// are left out, and their least key is returned.
+  template <class Key, class Limit, class Visit>
+  double run(const Key& key, const Limit& limit, const Visit& visit) {
+    return run_leaves(key, limit, [&](BodyTree::Box a, BodyTree::Box b) {
+      return visit_leaves(a, b, key, limit, visit);
+    });
+  }
+  /// The same, for visit_leaves(a, b) of two leaves.
+  template <class Key, class Limit, class VisitLeaves>
+  double run_leaves(const Key& key, const Limit& limit, const VisitLeaves& visit_leaves);
+
+ private:
+  struct Open {
+    double key;
+    BodyTree::Box a, b;
+    bool operator<(const Open& other) const {
+      if (key != other.key) return key > other.key;
+      return a != other.a ? a > other.a : b > other.b;
+    }
+  };
+
+  double up(const MiddleBox& box) const { return a_.mesh() ? reach_along(box, n_) : up_a_; }
+  double down(const MiddleBox& box) const {
+    return b_.mesh() ? reach_along(box, -n_in_b_) : down_b_;
+  }
+  double gap_along_direction(const MiddleBox& a, const MiddleBox& b) const {
+    return n_.dot(sight_.b_in_a.shift) - down(b) - up(a);
+  }
+  void gaps_of_a(const EightBoxes& boxes, const MiddleBox& of_b, double* gaps) const {
+    const KnownDirection known{n_, has_direction_ ? down(of_b) : 0};
+    box_gaps(boxes, of_b, sight_.b_in_a, has_direction_ ? &known : nullptr, gaps);
+  }
+  void gaps_of_b(const EightBoxes& boxes, const MiddleBox& of_a, double* gaps) const {
+    const KnownDirection known{-n_in_b_, has_direction_ ? up(of_a) : 0};
+    box_gaps(boxes, of_a, sight_.a_in_b, has_direction_ ? &known : nullptr, gaps);
+  }
+  /// Takes note that a pair with this key was left out.
+  void leave_out(double key) { left_out_ = std::min(left_out_, key); }
+  /// Returns true if a visit ends the walk.
+  template <class Key, class Limit, class Visit>
+  bool visit_leaves(BodyTree::Box leaf_a, BodyTree::Box leaf_b, const Key& key, const Limit& limit,
+                    const Visit& visit);
+
+  const BodyTree &a_, &b_;
+  const Sight& sight_;
+  bool has_direction_ = false;
+  Vec3<double> n_ = Vec3<double>::Zero(), n_in_b_ = Vec3<double>::Zero();
+  double up_a_ = 0, down_b_ = 0;
+  std::vector<Open> open_;
+  double left_out_ = std::numeric_limits<double>::infinity();
+};
+
+/// Up to eight indices with their keys, the least key first.
+class OrderOfEight {
+ public:
+  void add(double key, int index) {
+    int at = count_++;
+    for (; at > 0 && keys_[at - 1] > key; --at) {
+      keys_[at] = keys_[at - 1];
+      indices_[at] = indices_[at - 1];
+    }
+    keys_[at] = key;
+    indices_[at] = index;
+  }
+  int size() const { return count_; }
+  double key(int i) const { return keys_[i]; }
+  int index(int i) const { return indices_[i]; }
+
+ private:
+  int count_ = 0;
+  double keys_[EightBoxes::most];
+  int indices_[EightBoxes::most];
+};
+
+template <class Key, class Limit, class Visit>
+bool PairWalk::visit_leaves(BodyTree::Box leaf_a, BodyTree::Box leaf_b, const Key& key,
+                            const Limit& limit, const Visit& visit) {
+  EightBoxes of_a, of_b;
+  std::uint32_t parts_a[EightBoxes::most], parts_b[EightBoxes::most];
+  const int count_a = a_.open_leaf(leaf_a, of_a, parts_a),
+            count_b = b_.open_leaf(leaf_b, of_b, parts_b);
+  double gaps[EightBoxes::most];
+  const MiddleBox all_b = b_.bounds(leaf_b);
+  OrderOfEight first;
+  gaps_of_a(of_a, all_b, gaps);
+  for (int i = 0; i < count_a; ++i)
+    first.add(key(gaps[i] - sight_.rounding, of_a.box(i), all_b), i);
+  for (int i = 0; i < first.size(); ++i) {
+    if (first.key(i) > limit()) {
+      leave_out(first.key(i));
+      return false;
+    }
+    const MiddleBox box_a = of_a.box(first.index(i));
+    OrderOfEight second;
+    gaps_of_b(of_b, box_a, gaps);
+    for (int j = 0; j < count_b; ++j)
+      second.add(key(gaps[j] - sight_.rounding, box_a, of_b.box(j)), j);
+    for (int j = 0; j < second.size(); ++j) {
+      if (second.key(j) > limit()) {
+        leave_out(second.key(j));
+        break;
+      }
+      if (visit(parts_a[first.index(i)], parts_b[second.index(j)])) return true;
+    }
+  }
+  return false;
+}
+
+template <class Key, class Limit, class VisitLeaves>
+double PairWalk::run_leaves(const Key& key, const Limit& limit, const VisitLeaves& visit_leaves) {
+  constexpr double least = -std::numeric_limits<double>::infinity();
+  EightBoxes boxes;
+  BodyTree::Box children[EightBoxes::most];
+  double gaps[EightBoxes::most];
+  open_.assign(1, {least, BodyTree::whole, BodyTree::whole});
+  while (!open_.empty()) {
+    Open pair = open_.front();
+    std::pop_heap(open_.begin(), open_.end());
+    open_.pop_back();
+    if (pair.key > limit()) return std::min(left_out_, pair.key);
+    MiddleBox box_a = a_.bounds(pair.a), box_b = b_.bounds(pair.b);
+    if (has_direction_) {  // a better one than when the pair was filed
+      const double again = key(gap_along_direction(box_a, box_b) - sight_.rounding, box_a, box_b);
+      if (again > limit()) {
+        leave_out(again);
+        continue;
+      }
+    }
+    // Goes down to leaves by the nearest child, so that a distance is known soon.
+    for (;;) {
+      const bool is_leaf_a = a_.is_leaf(pair.a), is_leaf_b = b_.is_leaf(pair.b);
+      if (is_leaf_a && is_leaf_b) {
+        if (visit_leaves(pair.a, pair.b)) return 0;
+        break;
+      }
+      const bool is_a = is_leaf_b || (!is_leaf_a && box_a.half.sum() >= box_b.half.sum());
+      const int count = (is_a ? a_ : b_).open(is_a ? pair.a : pair.b, boxes, children);
+      if (is_a)
+        gaps_of_a(boxes, box_b, gaps);
+      else
+        gaps_of_b(boxes, box_a, gaps);
+      OrderOfEight order;
+      for (int i = 0; i < count; ++i) {
+        const double gap = gaps[i] - sight_.rounding;
+        const double its = is_a ? key(gap, boxes.box(i), box_b) : key(gap, box_a, boxes.box(i));
+        if (its > limit())
+          leave_out(its);
+        else
+          order.add(its == its ? its : least, i);  // of numbers too large nothing is known
+      }
+      if (order.size() == 0) break;
+      const auto child = [&](int i) -> Open {
+        const BodyTree::Box box = children[order.index(i)];
+        return {order.key(i), is_a ? box : pair.a, is_a ? pair.b : box};
+      };
+      for (int i = 1; i < order.size(); ++i) {
+        open_.push_back(child(i));
+        std::push_heap(open_.begin(), open_.end());
+      }
+      pair = child(0);
+      (is_a ? box_a : box_b) = boxes.box(order.index(0));
+    }
+  }
+  return left_out_;
+}
+
+}  // namespace minkray

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: MIT
+#include "core/parts/parts_distance.h"
+
+#include "core/mesh/mesh_ray.h"
+#include "core/parts/one_part.h"
+#include "core/parts/pair_walk.h"
+#include "core/parts/triangle_lanes.h"
+
+namespace minkray {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Any point of the body, in its frame.
+Vec3<double> point_of(const PartsBody& body) {
+  return body.mesh() ? body.mesh()->corner(0, 0) : body.shape()->middle();
+}
+
+std::optional<Vec3<double>> point_held_by(const PartsBody& one, const Affine<double>& pose,
+                                          const PartsBody& other,
+                                          const Affine<double>& pose_other) {
+  if (!one.mesh()) return {};  // triangles within a shape overlap it
+  const Vec3<double> point = pose_other(point_of(other));
+  const Vec3<double> seen = pose.linear.transpose() * (point - pose.translation);
+  return is_within(*one.mesh(), seen) ? std::optional(point) : std::nullopt;
+}
+
+/// The least distance of the parts that a walk visits.
+class LeastDistance {
+ public:
+  LeastDistance(const PartsBody& a, const Affine<double>& pose_a, const PartsBody& b,
+                const Affine<double>& pose_b, const SignedDistanceOptions& options)
+      : pose_a_(pose_a),
+        pose_b_(pose_b),
+        options_(options),
+        a_(a),
+        b_(b),
+        sight_(a_, pose_a, b_, pose_b),
+        walk_(a_, b_, sight_),
+        near_(options.tolerance * (a_.radius() + b_.radius())) {}
+
+  /// Looks at what is no further apart than `enough`.
+  SignedDistance run(double enough, PartPair* parts) {
+    enough_ = enough;
+    const auto key = [](double gap, const MiddleBox&, const MiddleBox&) { return gap; };
+    const auto left = [&] { return limit(); };
+    const double left_out =
+        a_.mesh() && b_.mesh()
+            ? walk_.run_leaves(key, left, [&](auto a, auto b) { return visit_leaves(a, b); })
+            : walk_.run(key, left, [&](auto a, auto b) { return visit_by_search(a, b); });
+    if (parts) *parts = parts_;
+    best_.supports = supports_;
+    best_.is_exhausted = is_exhausted_;
+    if (is_crossed_) return best_;
+    best_.lower = std::min(std::max(0.0, std::min(lower_, left_out)), best_.upper);
+    if (!(best_.upper < infinity)) best_.value = best_.lower;
+    best_.status = best_.lower > 0                          ? SignedStatus::separated
+                   : best_.status == SignedStatus::touching ? best_.status
+                                                            : SignedStatus::undecided;
+    return best_;
+  }
+  bool is_crossed() const { return is_crossed_; }
+
+ private:
+  double limit() const { return std::min(best_.upper, enough_); }
+
+  /// Whether a pair with this lower bound need not be looked at more closely.
+  bool is_enough(double lower) const { return lower > limit() || lower >= best_.upper - same_; }
+
+  bool visit_leaves(BodyTree::Box leaf_a, BodyTree::Box leaf_b) {
+    EightTriangles of_a, of_b;
+    a_.open_leaf(leaf_a, of_a);
+    b_.open_leaf(leaf_b, of_b, &sight_.b_in_a);
+    for (int i = 0; i < of_a.count; ++i) {
+      const TriangleCorners triangle = of_a.triangle(i);
+      double gaps[EightTriangles::most];
+      triangle_gaps(triangle, of_a.normal(i), of_b,
+                    walk_.has_direction() ? &walk_.direction() : nullptr, gaps);
+      OrderOfEight order;
+      for (int j = 0; j < of_b.count; ++j)
+        if (const double lower = gaps[j] - sight_.rounding; is_enough(lower))
+          lower_ = std::min(lower_, lower);
+        else
+          order.add(lower, j);
+      for (int j = 0; j < order.size(); ++j) {
+        const int other = order.index(j);
+        if (is_enough(order.key(j)))
+          lower_ = std::min(lower_, order.key(j));
+        else if (visit_triangles(triangle, of_a.parts[i], of_b.triangle(other), of_b.parts[other]))
+          return true;
+      }
+    }
+    return false;
+  }
+
+  bool visit_triangles(const TriangleCorners& triangle_a, std::uint32_t of_a,
+                       const TriangleCorners& triangle_b, std::uint32_t of_b) {
+    const TriangleGap gap = triangle_gap(triangle_a, triangle_b);
+    const double lower = gap.lower - sight_.rounding, upper = gap.upper + sight_.rounding;
+    if (lower > limit()) {
+      lower_ = std::min(lower_, lower);
+      return false;
+    }
+    if (lower > 0 && upper - lower <= std::max(near_, 3 * sight_.rounding)) {
+      lower_ = std::min(lower_, lower);
+      if (upper < best_.upper) {
+        best_ = {};
+        best_.status = SignedStatus::separated;
+        best_.value = gap.upper;
+        best_.upper = upper;
+        best_.normal = sight_.turn_a * gap.normal;
+        best_.point_a = in_world(gap.point_a);
+        best_.point_b = in_world(gap.point_b);
+        parts_ = {of_a, of_b};
+        walk_.set_direction(gap.normal);
+      }
+      return false;
+    }
+    Vec3<double> common;
+    if (!(lower > 0) && surely_cross(triangle_a, triangle_b, sight_.rounding, common)) {
+      best_ = {};
+      best_.status = SignedStatus::overlapping;
+      best_.point_a = best_.point_b = in_world(common);
+      parts_ = {of_a, of_b};
+      return is_crossed_ = true;
+    }
+    return visit_by_search(of_a, of_b);
+  }
+
+  /// By GJK: parts of other shapes, and triangles that nearly touch.
+  bool visit_by_search(std::uint32_t of_a, std::uint32_t of_b) {
+    if (walk_.has_direction()) {
+      const double lower = gap_along_direction(of_a, of_b) - sight_.rounding;
+      if (is_enough(lower)) {
+        lower_ = std::min(lower_, lower);
+        return false;
+      }
+    }
+    const OnePart part_a(a_.body(), of_a), part_b(b_.body(), of_b);
+    SignedDistanceOptions how = options_;
+    how.at_most = limit();
+    const SignedDistance found =
+        signed_distance(part_a.shape(), pose_a_, part_b.shape(), pose_b_, how);
+    supports_ += found.supports;
+    is_exhausted_ |= found.is_exhausted;
+    lower_ = std::min(lower_, found.lower);
+    if (found.upper < best_.upper) {
+      best_ = found;
+      parts_ = {part_a.number(), part_b.number()};
+      if (found.lower > 0) walk_.set_direction(sight_.turn_a.transpose() * found.normal);
+    }
+    is_crossed_ = found.status == SignedStatus::overlapping;
+    return is_crossed_;
+  }
+
+  /// The gap that planes across the walk's direction leave.
+  double gap_along_direction(std::uint32_t of_a, std::uint32_t of_b) const {
+    const Vec3<double>& n = walk_.direction();
+    const auto up = [&](const TriangleCorners& corners, const Vec3<double>& along) {
+      return std::max({along.dot(corners[0]), along.dot(corners[1]), along.dot(corners[2])});
+    };
+    const double up_a = a_.mesh() ? up(a_.triangle(of_a), n) : walk_.up_a();
+    const double down_b =
+        b_.mesh() ? up(b_.triangle(of_b), -(sight_.a_in_b.turn * n)) : walk_.down_b();
+    return n.dot(sight_.b_in_a.shift) - down_b - up_a;
+  }
+
+  Vec3<double> in_world(const Vec3<double>& point) const {
+    return sight_.middle_a + sight_.turn_a * point;
+  }
+
+  const Affine<double>&pose_a_, &pose_b_;
+  const SignedDistanceOptions& options_;
+  const BodyTree a_, b_;
+  const Sight sight_;
+  PairWalk walk_;
+  const double near_;  ///< bounds this near to each other have met
+  /// Triangles at one edge, or vertex, are as far: of these a plane tells enough.
+  const double same_ = 4 * sight_.rounding;
+  double enough_ = infinity;
+  SignedDistance best_;
+  PartPair parts_;
+  double lower_ = infinity;  ///< of all pairs that were visited
+  int supports_ = 0;
+  bool is_crossed_ = false, is_exhausted_ = false;
+};
+
+void set_overlapping(SignedDistance& found) {
+  found.status = SignedStatus::overlapping;
+  found.value = found.lower = found.upper = 0;
+}
+
+}  // namespace
+
+std::optional<Vec3<double>> point_within(const PartsBody& a, const Affine<double>& pose_a,
+                                         const PartsBody& b, const Affine<double>& pose_b) {
+  const auto of_b = point_held_by(a, pose_a, b, pose_b);
+  return of_b ? of_b : point_held_by(b, pose_b, a, pose_a);
+}
+
+SignedDistance signed_distance(const PartsBody& a, const Affine<double>& pose_a, const PartsBody& b,
+                               const Affine<double>& pose_b, const SignedDistanceOptions& options,
+                               PartPair* parts) {
+  if (parts) *parts = {};
+  if (!a.mesh() && !b.mesh())
+    return signed_distance(*a.shape(), pose_a, *b.shape(), pose_b, options);
+  // What is within the other overlaps it, and only crossing parts are looked for.
+  const std::optional<Vec3<double>> within = point_within(a, pose_a, b, pose_b);
+  LeastDistance least(a, pose_a, b, pose_b, options);
+  SignedDistance found = least.run(options.only_sign || within ? 0 : options.at_most, parts);
+  if (least.is_crossed()) {
+    set_overlapping(found);
+  } else if (within) {
+    set_overlapping(found);
+    found.point_a = found.point_b = *within;
+  }
+  return found;
+}
+
+}  // namespace minkray

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#include "core/parts/parts_reach.h"
+
+#include <algorithm>
+
+#include "core/contact/core_support.h"
+
+namespace minkray {
+namespace {
+
+struct Furthest {
+  double along = -std::numeric_limits<double>::infinity();
+  Vec3<double> corner = Vec3<double>::Zero();
+};
+
+/// The corner of a mesh furthest along d, by the boxes of its hierarchy.
+Furthest furthest_corner(const TriangleMesh& mesh, const Vec3<double>& d) {
+  // Nodes go down no more than this, and seven of each level wait.
+  constexpr std::size_t room = bvh_max_depth * bvh_width;
+  struct Open {
+    double along;
+    std::uint32_t what;
+  } open[room];
+  Furthest best;
+  std::size_t count = 0;
+  open[count++] = {std::numeric_limits<double>::infinity(), 0};
+  while (count > 0) {
+    const Open top = open[--count];
+    if (!(top.along > best.along)) continue;
+    if ((top.what & BvhNode::leaf) != 0) {
+      const MeshLeaf& leaf = mesh.leaves()[top.what & ~BvhNode::leaf];
+      for (int i = 0; i < leaf.size(); ++i)
+        for (std::size_t k = 0; k < 3; ++k) {
+          const Vec3<double>& corner = mesh.corner(leaf.triangles[i], k);
+          const double along = d.dot(corner);
+          if (along > best.along) best = {along, corner};
+        }
+      continue;
+    }
+    const BvhNode& node = mesh.bvh().nodes[top.what];
+    const std::size_t first = count;
+    for (int i = 0; i < bvh_width && node.children[i] != BvhNode::none; ++i) {
+      double along = 0;
+      for (int k = 0; k < 3; ++k)
+        along += d[k] * static_cast<double>(node.planes[d[k] > 0 ? 1 : 0][k][i]);
+      if (!(along > best.along)) continue;
+      // The furthest is opened first.
+      std::size_t at = count++;
+      for (; at > first && open[at - 1].along > along; --at) open[at] = open[at - 1];
+      open[at] = {along, node.children[i]};
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+double reach_along(const PartsBody& body, const Mat3<double>& linear, const Vec3<double>& n) {
+  if (!body.mesh()) {
+    const Vec3<double> d = turn_in_world(*body.shape(), linear).transpose() * n;
+    const ShapeCore& core = body.shape()->core();
+    return d.dot(support_of_core<CoreKind::other>(core, d).point) + core.radius +
+           core_rounding * (core.ball + core.radius) + core.rounding;
+  }
+  const TriangleMesh& mesh = *body.mesh();
+  const Vec3<double> d = linear.transpose() * n;
+  return furthest_corner(mesh, d).along - d.dot(middle_of(body)) + core_rounding * mesh.reach();
+}
+
+SignedDistance distance_to_half_space(const PlacedPlane& plane, const PartsBody& body,
+                                      const Affine<double>& pose) {
+  if (body.shape())
+    return distance_to_half_space(plane, *body.shape(), pose.linear,
+                                  placed_middle(*body.shape(), pose));
+  const TriangleMesh& mesh = *body.mesh();
+  const Vec3<double> along = pose.linear.transpose() * plane.normal;
+  const Vec3<double> from_plane = (TwoFoldVec3<double>(pose.translation) - plane.point).rounded();
+  const Furthest lowest = furthest_corner(mesh, -along);
+  const double rounding = core_rounding * (from_plane.norm() + mesh.reach());
+  SignedDistance found;
+  found.value = plane.normal.dot(from_plane) - lowest.along;
+  found.lower = found.value - rounding;
+  found.upper = found.value + rounding;
+  found.status = found.lower > 0   ? SignedStatus::separated
+                 : found.upper < 0 ? SignedStatus::overlapping
+                                   : SignedStatus::touching;
+  found.normal = plane.normal;
+  found.point_b = pose(lowest.corner);
+  found.point_a = found.point_b - found.value * plane.normal;
+  return found;
+}
+
+}  // namespace minkray

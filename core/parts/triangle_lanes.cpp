@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#include "core/parts/triangle_lanes.h"
+
+namespace minkray {
+
+void EightTriangles::set(int i, std::uint32_t part, const TriangleCorners& triangle) {
+  /// Of slivers with a smaller sine, and of small numbers, the normal has too few digits.
+  constexpr double least_sine = 1e-6, least_square = 0x1p-900;
+  parts[i] = part;
+  for (int k = 0; k < 3; ++k)
+    for (int axis = 0; axis < 3; ++axis)
+      corners[k][axis][i] = triangle[static_cast<std::size_t>(k)][axis];
+  const Vec3<double> u = triangle[1] - triangle[0], v = triangle[2] - triangle[0];
+  const Vec3<double> n = u.cross(v);
+  const double squared = n.squaredNorm(),
+               of_sides = least_sine * least_sine * u.squaredNorm() * v.squaredNorm();
+  const double scale = squared > least_square && squared > of_sides ? 1 / std::sqrt(squared) : 0;
+  for (int axis = 0; axis < 3; ++axis) normals[axis][i] = scale * n[axis];
+}
+
+void EightTriangles::fill() {
+  const TriangleCorners first = triangle(0);
+  for (int i = count; i < most; ++i) set(i, parts[0], first);
+}
+
+void triangle_gaps(const TriangleCorners& one, const Vec3<double>& normal,
+                   const EightTriangles& eight, const Vec3<double>* known, double* gaps) {
+#if defined(__x86_64__) && defined(__GNUC__)
+  if (__builtin_cpu_supports("avx2")) return triangle_gaps_avx2(one, normal, eight, known, gaps);
+#endif
+  triangle_gaps_sse2(one, normal, eight, known, gaps);
+}
+
+}  // namespace minkray

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// How far eight triangles are from another one, at least: by the planes of their faces, across the
+// line between two middles, and across a direction that is known to be good. What remains is looked
+// at by itself (triangle_pair.h).
+#pragma once
+
+#include "core/parts/triangle_pair.h"
+
+namespace minkray {
+
+/// In one frame. The normals have unit length, or are 0 of slivers.
+struct EightTriangles {
+  static constexpr int most = 8;
+  int count = 0;
+  std::uint32_t parts[most];
+  alignas(32) double corners[3][3][most];  ///< by corner, axis, triangle
+  alignas(32) double normals[3][most];
+
+  /// Of unused lanes it makes copies of the first.
+  void fill();
+  TriangleCorners triangle(int i) const {
+    const auto corner = [&](int k) {
+      return Vec3<double>(corners[k][0][i], corners[k][1][i], corners[k][2][i]);
+    };
+    return {corner(0), corner(1), corner(2)};
+  }
+  Vec3<double> normal(int i) const { return {normals[0][i], normals[1][i], normals[2][i]}; }
+  void set(int i, std::uint32_t part, const TriangleCorners& triangle);
+};
+
+/// `known`, if not null, is a unit vector from the one to the eight. Rounding is not allowed for.
+/// Bounds may be less than 0.
+void triangle_gaps(const TriangleCorners& one, const Vec3<double>& normal,
+                   const EightTriangles& eight, const Vec3<double>* known, double* gaps);
+/// The same bits by either.
+void triangle_gaps_avx2(const TriangleCorners& one, const Vec3<double>& normal,
+                        const EightTriangles& eight, const Vec3<double>* known, double* gaps);
+void triangle_gaps_sse2(const TriangleCorners& one, const Vec3<double>& normal,
+                        const EightTriangles& eight, const Vec3<double>* known, double* gaps);
+
+}  // namespace minkray

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// The body of the gaps between triangles. MINKRAY_TRIANGLE_GAPS is the function's name; what else
+// is here has the instruction set in its name (core/math/wide.h).
+#include "core/math/wide.h"
+#include "core/parts/triangle_lanes.h"
+
+namespace minkray {
+namespace {
+
+template <class W>
+struct TriangleOfLane {
+  Vec3<W> corners[3];
+  Vec3<W> normal;
+};
+
+template <class W>
+W dot_of(const Vec3<W>& a, const Vec3<W>& b) {
+  return a[0] * b[0] + (a[1] * b[1] + a[2] * b[2]);
+}
+
+template <class W>
+W least_of(const W& a, const W& b, const W& c) {
+  return min(a, min(b, c));
+}
+template <class W>
+W most_of(const W& a, const W& b, const W& c) {
+  return max(a, max(b, c));
+}
+
+/// The gap between a plane and three heights on one side of it.
+template <class W>
+W gap_of_heights(const W& a, const W& b, const W& c) {
+  return max(least_of<W>(a, b, c), -most_of<W>(a, b, c));
+}
+
+template <class W>
+W gaps_of(const TriangleOfLane<W>& one, const TriangleOfLane<W>& other, const Vec3<double>* known) {
+  // From the first corner of the one, so that numbers are of the triangles' size and distance.
+  const Vec3<W>& from = one.corners[0];
+  Vec3<W> own[2], of_other[3];
+  for (int k = 0; k < 2; ++k) own[k] = one.corners[k + 1] - from;
+  for (int k = 0; k < 3; ++k) of_other[k] = other.corners[k] - from;
+  const auto gap_across = [&](const Vec3<W>& n) {
+    return least_of<W>(dot_of<W>(n, of_other[0]), dot_of<W>(n, of_other[1]),
+                       dot_of<W>(n, of_other[2])) -
+           most_of<W>(W(0), dot_of<W>(n, own[0]), dot_of<W>(n, own[1]));
+  };
+  const Vec3<W>& n = one.normal;
+  W gap = gap_of_heights<W>(dot_of<W>(n, of_other[0]), dot_of<W>(n, of_other[1]),
+                            dot_of<W>(n, of_other[2]));
+  const Vec3<W>& m = other.normal;
+  const W height = dot_of<W>(m, of_other[0]);
+  gap = max(gap, gap_of_heights<W>(-height, dot_of<W>(m, own[0]) - height,
+                                   dot_of<W>(m, own[1]) - height));
+  // Three times the way between the middles.
+  Vec3<W> way;
+  for (int i = 0; i < 3; ++i)
+    way[i] = (of_other[0][i] + of_other[1][i] + of_other[2][i]) - (own[0][i] + own[1][i]);
+  const W length = sqrt(max(dot_of<W>(way, way), W(std::numeric_limits<double>::min())));
+  const Vec3<W> u(way[0] / length, way[1] / length, way[2] / length);
+  gap = max(gap, gap_across(u));
+  return known ? max(gap, gap_across(widen<W>(*known))) : gap;
+}
+
+}  // namespace
+
+void MINKRAY_TRIANGLE_GAPS(const TriangleCorners& one, const Vec3<double>& normal,
+                           const EightTriangles& eight, const Vec3<double>* known, double* gaps) {
+  constexpr std::size_t count = IsaHere::register_bytes / sizeof(double);
+  using W = Wide<double, static_cast<int>(count), IsaHere>;
+  const TriangleOfLane<W> same{{widen<W>(one[0]), widen<W>(one[1]), widen<W>(one[2])},
+                               widen<W>(normal)};
+  for (std::size_t from = 0; from < EightTriangles::most; from += count) {
+    const auto load = [&](const double(&rows)[3][EightTriangles::most]) {
+      return Vec3<W>(W::load(rows[0] + from), W::load(rows[1] + from), W::load(rows[2] + from));
+    };
+    const TriangleOfLane<W> other{
+        {load(eight.corners[0]), load(eight.corners[1]), load(eight.corners[2])},
+        load(eight.normals)};
+    gaps_of<W>(same, other, known).store(gaps + from);
+  }
+}
+
+}  // namespace minkray

@@ -1,0 +1,3 @@
+// SPDX-License-Identifier: MIT
+#define MINKRAY_TRIANGLE_GAPS triangle_gaps_sse2
+#include "core/parts/triangle_lanes.inl"
