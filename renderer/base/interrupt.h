@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Ctrl-C and a polite kill: finish what must be finished, then end as the signal wants.
+// Ctrl-C and SIGTERM: finishes what must be finished, then ends by the signal.
 #pragma once
 
 namespace minkray {

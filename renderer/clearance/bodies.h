@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The bodies whose clearance is asked for, a robot's shapes and the obstacles around it, and which
-// of them are looked at in pairs.
+// Bodies of a clearance query, the robot's shapes and the obstacles, and which of them are pairs.
 #pragma once
 
 #include <optional>

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// How a robot moves from one row of joints' values to the next: each joint at a constant rate, the
-// shorter way round where it is a ball; or as a cubic or quintic where rows have rates. And bounds
-// of how fast and how crookedly that moves its links' points, by which what was seen at some times
-// is proven for all.
+// Motion of a robot from one row of joint values to the next: each joint at a constant rate (balls
+// the shorter way round), or as a cubic or quintic where rows have rates. Bounds of the speed and
+// curvature of the links' points extend what was found at some times to all times.
 #pragma once
 
 #include <limits>

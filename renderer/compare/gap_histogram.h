@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How far apart two parameters were, over many rays: by sign and by decade.
+// Histogram of the difference of two ray parameters, by sign and decade.
 #pragma once
 
 #include <array>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Half-spaces in comparisons. Triangles have ends, so that there is no mesh for Embree: a second
-// way to the same answer, by bisection of the height along the ray in long double, judges the
-// closed form.
+// Compares half-spaces, which are unbounded and so have no mesh for Embree. A bisection of the
+// height along the ray in long double checks the closed form.
 #pragma once
 
 #include "core/world/half_space.h"

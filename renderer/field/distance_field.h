@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The signed distance of a probe from a scene, over the points of a plane: the least of its signed
-// distances from all objects (core/contact/signed_distance.h).
+// Signed distance of a probe from a scene, over the points of a plane: the least signed distance
+// from any object (core/contact/signed_distance.h).
 #pragma once
 
 #include <functional>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What can be told of a pixel beside its colour: where its centre's ray meets the scene, and what
-// the solver did. These are numbers, not light: nothing is filtered, one ray through the pixel's
-// centre answers for all. Some are told by all samples of the picture instead.
+// AOVs: data per pixel other than colour. Most come from one unfiltered ray through the pixel's
+// centre: where it meets the scene, and the solver's cost. Some are means over all samples of the
+// picture.
 #pragma once
 
 #include <array>

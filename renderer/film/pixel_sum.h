@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A pixel while its samples come in, in their order: the same additions however many come at once,
-// and however often what is there so far is looked at.
+// Sum of a pixel's samples in their order: the same additions for any batch size and any number of
+// intermediate reads.
 #pragma once
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Whole pictures: tiles on all cores, each pixel by itself, so that the picture is equal bit for
-// bit for any number of threads and any crop.
+// Renders whole pictures: tiles on all cores, each pixel by itself, so pictures are bit-identical
+// for any number of threads and any crop.
 #pragma once
 
 #include "renderer/film/share.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One of several shares of a picture: a rectangle of its pixels, or some of each pixel's samples.
-// Which pixels and samples belong to a share depends on the picture and on "i/n" alone.
+// One share of a picture: a rectangle of its pixels, or some of each pixel's samples. Depends on
+// the picture and on "i/n" alone.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The pixels of a picture in tiles, on all threads.
+// Runs over the tiles of a picture on all threads.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Benchmark scenes of as many shapes as are asked for, the same bit for bit for the same seed.
+// Benchmark scenes with any number of shapes, bit-identical for the same seed.
 #pragma once
 
 #include <cstdint>

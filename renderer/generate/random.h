@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Random numbers that are the same on every machine: SplitMix64 (Steele, Lea and Flood, "Fast
-// Splittable Pseudorandom Number Generators", 2014), and nothing but + - * / and square roots made
-// of them, which IEEE 754 rounds in one way only.
+// Splittable Pseudorandom Number Generators", 2014). Only + - * / and square roots are used on
+// them, which IEEE 754 rounds in one way.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Bodies of many shapes that fly apart, tumbling: a scene with keys.
+// A scene with keyframes: bodies of many shapes that fly apart, tumbling.
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The pixel reconstruction filter, used by importance sampling (Ernst, Stamminger and Greiner,
-// "Filter Importance Sampling", 2006): a pixel's samples are spread as the filter weighs and then
-// count alike, so that pixels never share samples and need no order among each other.
+// Pixel reconstruction filter by importance sampling (Ernst, Stamminger and Greiner, "Filter
+// Importance Sampling", 2006): samples are distributed by the filter and weighted equally, so
+// pixels share no samples and can be rendered in any order.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a user may ask for when a robot's file is made a scene of.
+// Options for reading a robot's file as a scene.
 #pragma once
 
 #include <string>

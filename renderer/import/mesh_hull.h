@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The convex hull of a mesh, made only where somebody asks for it: Qhull takes longer than reading
-// the file.
+// Convex hull of a mesh, computed only on request: Qhull takes longer than reading the file.
 #pragma once
 
 #include "core/mesh/triangle_mesh.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What robots' files have in common: a tree of links, joints between them, and shapes on them. Each
-// format is read into this, and this is made a scene of. Lengths as in the file (metres), angles in
-// radians.
+// Common model of robots' files: a tree of links, the joints between them, and their shapes. Each
+// format is read into a Model, from which a scene is made. Lengths as in the file (metres), angles
+// in radians.
 #pragma once
 
 #include <array>

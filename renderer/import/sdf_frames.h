@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Poses in SDF: each is given relative to a link, a frame, a joint or a nested model of its model,
-// and these may be relative to others in turn. "arm::hand" is the hand of the nested model arm.
+// Poses in SDF, each relative to a link, frame, joint or nested model, which may be relative to
+// others. "arm::hand" is the hand of the nested model arm.
 #pragma once
 
 #include <map>

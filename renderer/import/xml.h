@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// XML as a tree of our own, read by tinyxml2: elements with their line and file, and numbers in
-// their attributes. What is wrong is told with both, all at once.
+// XML as a tree, read by tinyxml2: elements with line and file, and their numeric attributes. All
+// errors are reported together, each with its line and file.
 #pragma once
 
 #include <cstdint>

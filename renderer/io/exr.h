@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // OpenEXR files in memory: any number of named planes of 32-bit floats or unsigned integers, a data
-// window, and texts about the picture. The library is seen by exr.cpp alone.
+// window, and text attributes. Only exr.cpp includes the library.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A look at OpenEXR headers before the library reads them: it takes as much memory for a text as
-// its length says, 1.8 GB for one in a file of 1.3 kB.
+// Checks OpenEXR headers before the library reads them. The library allocates as much memory for a
+// text as its length says: 1.8 GB for a file of 1.3 kB.
 #pragma once
 
 #include <functional>

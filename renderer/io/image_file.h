@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Image files. The list of formats is in image_file.cpp and nowhere else.
+// Image files. Only image_file.cpp lists the formats.
 #pragma once
 
 #include <string>

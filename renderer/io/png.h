@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// PNG files in memory. stb_image_write is seen by png.cpp alone.
+// PNG files in memory. Only png.cpp includes stb_image_write.
 #pragma once
 
 #include <cstdint>

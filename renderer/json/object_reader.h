@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reads the keys of one JSON object and remembers which it was asked for, so that all others can
-// be told as mistakes.
+// Reads the keys of one JSON object and records which were requested, so that all others can be
+// reported as errors.
 #pragma once
 
 #include <initializer_list>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reading single values: each either returns the value, or adds a mistake that says what was
-// expected and what was found.
+// Reads single values: each function returns the value, or adds an error with what was expected and
+// found.
 #pragma once
 
 #include <optional>

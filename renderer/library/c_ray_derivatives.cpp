@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How the answers of rays change with the rays and with what they meet.
+// C interface: derivatives of ray casts by the rays and the bodies that they hit.
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A scene as programs in other languages hold it: objects are added and moved, and then committed,
-// by which rays meet them.
+// Scene behind a handle: objects are added and moved, then committed, and rays see the last commit.
 #pragma once
 
 #include <atomic>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A shape as programs in other languages hold it.
+// Shape behind a handle.
 #pragma once
 
 #include <atomic>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Questions and answers on pairs of shapes as the C interface has them.
+// Queries and results on pairs of shapes in the C interface's types.
 #pragma once
 
 #include <algorithm>

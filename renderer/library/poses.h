@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Poses, points and numbers that come over the border, looked at before anything is made of them.
+// Poses, points and numbers from the C interface, checked before use.
 #pragma once
 
 #include <cmath>

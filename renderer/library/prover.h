@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Proofs of what was answered about whole scenes: that an object is met where it is said to be, and
-// that no other is met before.
+// Proves results about whole scenes: the named object is hit, and no other one before it.
 #pragma once
 
 #include <optional>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A committed scene as queries on pairs see it: bodies with a hierarchy of their boxes, and
-// half-spaces, which have none.
+// Bodies of a committed scene for pair queries: a BVH of their boxes, and half-spaces, which have
+// none.
 #pragma once
 
 #include <optional>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The light that arrives along a ray: direct light with shadows, mirrored light, and light
-// scattered by surfaces that the environment and other surfaces shine on, with ambient occlusion as
-// the last word.
+// Direct light with shadows, mirrored light, and ambient occlusion: light from the environment and
+// other surfaces, scattered by the surface that a ray hits.
 #pragma once
 
 #include <cstdint>

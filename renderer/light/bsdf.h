@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// How a surface scatters light, for the path tracer: eval is its value times the cosine of w_in,
-// sample draws a direction that light comes from, pdf is the density of these draws over solid
-// angle. Directions point away from the surface, in a frame whose z is the body's outward normal:
-// w_in may lie on the other side, where light comes through.
+// Scattering at a surface, for the path tracer: eval is the BSDF times the cosine of w_in, sample
+// draws a w_in, pdf is the density of the draws over solid angle. Directions point away from the
+// surface, in a frame whose z is the body's outward normal; w_in is on the other side for
+// transmitted light.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Cameras: pixels to rays, and points of the world back to pixels.
+// Cameras: pixels to rays, and points in world space to pixels.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Metals: Fresnel's law with a complex index of refraction, or Schlick's approximation of it from a
-// colour, on a smooth or rough surface; what facets throw onto others is put back (Turquin 2019).
+// Metals, smooth or rough: Fresnel's law with a complex index of refraction, or Schlick's
+// approximation from a colour. Multiple scattering between facets is restored (Turquin 2019).
 #pragma once
 
 #include "renderer/light/bsdf.h"

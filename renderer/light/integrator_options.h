@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The integrators that there are, and what they may be asked for.
+// Integrators and their options.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What all ways to gather light have in common.
+// Interface of all integrators.
 #pragma once
 
 #include <span>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where light comes from. Every light is asked alike: sample draws a direction that its light comes
-// from, pdf is the density of these draws over solid angle. A light that has but one direction is
-// drawn surely, and has no density.
+// Light sources. For every light sample draws a direction that light comes from, and pdf is the
+// density of the draws over solid angle. A light with a single direction has no density.
 #pragma once
 
 #include <memory>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a path tracer keeps of a path: the ray that goes on from its end, where it met a surface,
-// and what lights send there.
+// State of a path: its current ray, its last vertex on a surface, and the light sampled there.
 #pragma once
 
 #include <vector>

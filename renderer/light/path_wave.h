@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Paths that go on together, step by step: where their rays come to, what lights send there, and
-// where they go on from there.
+// Wavefront of paths that advance together, step by step: ray hits, direct light, and next rays.
 #pragma once
 
 #include <optional>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How much of a surface a ray stands for: a narrow cone around it (Amanatides, "Ray Tracing with
-// Cones", 1984), the round kind of ray differentials (Igehy, "Tracing Ray Differentials", 1999).
+// Footprint of a ray on a surface: a narrow cone around it (Amanatides, "Ray Tracing with Cones",
+// 1984), a round form of ray differentials (Igehy, "Tracing Ray Differentials", 1999).
 #pragma once
 
 #include <array>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// How surfaces reflect: Fresnel's equations, the rough mirror, and the diffuse base under a
-// dielectric coat. Each part of a surface is asked alike: eval is its value, sample draws a
-// direction that light comes from, pdf is the density of these draws over solid angle. Directions
-// point away from the surface, in a frame whose z is the normal.
+// Reflection at surfaces: Fresnel's equations, the rough mirror, and the diffuse base under a
+// dielectric coat. For each part, eval is its value, sample draws a direction that light comes
+// from, pdf is the density of the draws over solid angle. Directions point away from the surface,
+// in a frame whose z is the normal.
 #pragma once
 
 #include <array>

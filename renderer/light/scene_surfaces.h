@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is known of each instance's material, made ready for the path tracer.
+// Material of each instance, prepared for the path tracer.
 #pragma once
 
 #include <memory>

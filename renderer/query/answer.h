@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Answers to queries, as JSON and for comparison with what a case expects.
+// Results of queries, as JSON and for comparison with a case's `expect`.
 #pragma once
 
 #include <optional>

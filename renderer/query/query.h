@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The queries that `minkray cast` answers, as plain data, and what a case says the answer must be.
+// Queries of `minkray cast` as plain data, and the expected result of a case.
 #pragma once
 
 #include <limits>

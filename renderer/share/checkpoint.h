@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Checkpoints of long renders: from time to time the tiles that are done are put into a file beside
-// the picture, so that a render that was killed can go on. A pixel depends on nothing but itself,
-// so the picture is the same bit for bit however often it was interrupted.
+// Checkpoints of long renders: finished tiles are saved at intervals to a file next to the picture,
+// from which a killed render resumes. Pixels are independent, so the picture has the same bits
+// after any number of interruptions.
 #pragma once
 
 #include <chrono>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The part files of one picture are put together: tiles, shares of the samples, or both.
+// Merges the part files of one picture: tiles, shares of the samples, or both.
 #pragma once
 
 #include <cstdint>
