@@ -13,7 +13,7 @@ class InterruptGuard {
   InterruptGuard(const InterruptGuard&) = delete;
   InterruptGuard& operator=(const InterruptGuard&) = delete;
 
-  /// Whether a signal came.
+  /// True if a signal came.
   static bool interrupted();
 
   /// If a signal came, ends the process as that signal does by default, so that shells and makes

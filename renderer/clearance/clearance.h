@@ -14,7 +14,7 @@ struct ClearanceOptions {
   /// How near the bounds shall be to each other, relative to the clearance; and never less than
   /// 1e-7 of the robot's size.
   double tolerance = 0.01;
-  /// Whether the least of each step is asked for, not of the whole path only.
+  /// Computes the least distance of each step, not only of the whole path.
   bool every_step = false;
 };
 

@@ -12,7 +12,7 @@ class HalfSpaceCheck {
  public:
   explicit HalfSpaceCheck(const HalfSpaceBody<double>& in_world) : half_space_(in_world) {}
 
-  /// Whether the cast's answer is what bisection finds; t_outer and t_inner are its bracket.
+  /// Compares the cast with a bisection, whose bracket is t_outer and t_inner.
   Verdict judge(const Ray<double>& ray) const;
 
   /// Rays in all directions from above the plane; about half of them hit.

@@ -66,7 +66,7 @@ struct CompareReport {
   double outer_hit_rate() const { return rays > 0 ? double(outer_hits) / rays : 0; }
 };
 
-/// What was found out about one ray. All parameters are those of the ray that was judged.
+/// Verdict on one ray. All parameters are those of that ray.
 struct Verdict {
   CastResult<double> result;
   double t_outer = std::numeric_limits<double>::infinity();  ///< infinite if the mesh was missed

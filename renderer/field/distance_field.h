@@ -36,7 +36,7 @@ struct DistanceField {
   std::vector<int> object;  ///< the index of the nearest; -1 if the scene has none or is_unknown()
   std::size_t supports = 0;
 
-  /// Whether an object of unknown distance may be nearer than `value`.
+  /// True if an object of unknown distance may be nearer than `value`.
   bool is_unknown(std::size_t pixel) const {
     return object[pixel] < 0 && lower[pixel] < std::numeric_limits<double>::infinity();
   }

@@ -27,8 +27,8 @@ struct Cryptomatte {
   std::map<std::string, std::string> texts;
 };
 
-/// It is of the region that `options` ask for, by all threads, and of no use if the watch said
-/// stop.
+/// Measures the region of `options` on all threads. The result is incomplete if the watch stopped
+/// it.
 Cryptomatte measure_cryptomatte(const Scene& scene, const World& world,
                                 const RenderOptions& options, const RenderWatch& watch = {});
 

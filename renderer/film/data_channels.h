@@ -66,10 +66,10 @@ inline constexpr std::array data_channels = {
 /// a name given twice counts once.
 std::vector<std::string_view> parse_data_channels(const std::string& list);
 
-/// Whether the planes of the channel of that name are integers.
+/// True if the channel's planes are integers.
 bool has_integers(std::string_view channel);
 
-/// Whether direct, indirect or variance are among the names: RenderOptions::light_channels.
+/// True if direct, indirect or variance are among the names: RenderOptions::light_channels.
 bool are_light_channels_wanted(const std::vector<std::string_view>& channels);
 
 /// The planes of those of the channels that a rendering with light_channels has.

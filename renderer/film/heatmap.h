@@ -12,7 +12,7 @@
 
 namespace minkray {
 
-/// What can be shown of a camera ray.
+/// Quantities of a camera ray that a heatmap can show.
 enum class HeatChannel { iterations, supports, nodes, path, status };
 
 struct HeatChannelDescription {

@@ -74,7 +74,7 @@ struct PixelSum {
   }
   /// What the standard error is told as a part of.
   double least_mean() const { return std::max(brightness.mean, least_brightness); }
-  /// Whether the standard error of its mean is small enough.
+  /// True if the standard error of the mean is small enough.
   bool is_quiet(double noise) const { return standard_error() <= noise * least_mean(); }
   /// The squared standard error of its colour, by the spread of its samples; 0 of a single one.
   Vec3<float> variance() const {

@@ -23,7 +23,7 @@ class Random {
     return x ^ (x >> 31);
   }
 
-  /// It is in [low, high).
+  /// Random number in [low, high).
   double within(double low, double high) {
     return low + (high - low) * (static_cast<double>(bits() >> 11) * 0x1p-53);
   }

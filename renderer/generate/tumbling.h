@@ -9,8 +9,8 @@
 
 namespace minkray {
 
-/// They are written into the scene file itself, each with its keys; a file of more could not be
-/// read.
+/// Greatest number of bodies. All are written into the scene file with their keys; a larger file
+/// could not be read.
 inline constexpr std::size_t most_tumbling = 100000;
 
 /// A block of `count` bodies bursts at 0 s and falls for two seconds; nothing collides.

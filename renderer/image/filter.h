@@ -29,7 +29,8 @@ class PixelFilter {
   static constexpr std::size_t steps_ = 1024;
   static constexpr std::size_t cells_ = 1024;
   std::array<double, steps_ + 1> cumulative_;
-  /// By the cell of u: the first step that may reach beyond u (Chen and Asau's guide table, 1974).
+  /// For each cell of u: the first step that may reach beyond u (Chen and Asau's guide table,
+  /// 1974).
   std::array<std::uint16_t, cells_> first_above_;
 };
 

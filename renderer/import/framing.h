@@ -8,7 +8,7 @@
 
 namespace minkray {
 
-/// What is left free at each edge of the picture, as a fraction of its width or height.
+/// Margin at each edge of the picture, as a fraction of its width or height.
 inline constexpr double framing_margin = 0.04;
 
 /// Points the scene's camera at its objects, from the front, the right and above, as near as shows

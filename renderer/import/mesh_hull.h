@@ -15,7 +15,7 @@ std::vector<Vec3<double>> hull_points_of(const TriangleMesh& mesh);
 /// The vertices under a map; of one that mirrors, triangles are turned round.
 std::shared_ptr<const TriangleMesh> moved(const TriangleMesh& mesh, const Affine<double>& map);
 
-/// What info tells of a mesh file.
+/// Facts about a mesh file for `minkray info`.
 struct MeshFacts {
   std::size_t triangles = 0, without_area = 0, repeated = 0, open_edges = 0;
   std::size_t hull_points = 0;

@@ -17,7 +17,7 @@
 
 namespace minkray {
 
-/// What a mesh file holds.
+/// Contents of a mesh file.
 struct MeshContent {
   MeshParts mesh;
   MeshLooks looks = {};  ///< of its parts, if it is split into groups, or of it as a whole

@@ -36,7 +36,7 @@ class SdfFrames {
   /// does not say relative to what.
   Affine<double> pose_in_model(const XmlElement& element, const std::string& otherwise = "");
 
-  /// Whether an element's <pose> says relative to what.
+  /// True if an element's <pose> names a frame.
   bool is_relative(const XmlElement& element) const;
 
   /// The link that a link, a frame or a joint is fixed to; the name itself if it is none of these.

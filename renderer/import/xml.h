@@ -29,9 +29,9 @@ struct XmlElement {
   int line = 0;
   std::uint32_t file = 0;  ///< into XmlFiles
 
-  /// It is null if there is none of that name.
+  /// Attribute of that name, or null.
   const std::string* attribute(std::string_view key) const;
-  /// It is empty if there is none.
+  /// Attribute of that name, or `otherwise`.
   std::string attribute_or(std::string_view key, std::string_view otherwise = {}) const;
   /// The first child of that name, or null.
   const XmlElement* child(std::string_view key) const;

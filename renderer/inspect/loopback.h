@@ -14,7 +14,7 @@ namespace minkray {
 struct WebRequest {
   std::string path;
   std::map<std::string, std::string> values;
-  /// Whether whoever asked has hung up meanwhile; any thread may ask.
+  /// True if the client has disconnected. Thread-safe.
   std::function<bool()> is_abandoned = [] { return false; };
 };
 

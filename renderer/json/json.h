@@ -108,7 +108,7 @@ class Json {
   /// Adds a member whose key is known not to be there.
   void add_new_member(std::string key, Json value);
 
-  /// Whether two values are the same; objects also in the order of their keys, numbers by value.
+  /// True if two values are equal; objects also in the order of their keys, numbers by value.
   bool operator==(const Json& other) const;
 
  private:

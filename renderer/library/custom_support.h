@@ -77,7 +77,7 @@ class CustomSupport final : public SupportSource, public BatchSource {
 /// The custom shapes that a shape is made of, each once.
 std::vector<std::shared_ptr<const CustomSupport>> customs_of(const Shape<double>& shape);
 
-/// Whether one of them wants to be asked for many directions at once.
+/// True if one of them wants many directions per call.
 bool are_gathered(const std::vector<std::shared_ptr<const CustomSupport>>& customs);
 
 /// Throws CallError if one of them has lied.

@@ -69,7 +69,7 @@ class HeldScene {
   /// The scene as files describe it. Objects are written out: for pictures and proofs, not for
   /// rays.
   Scene whole() const;
-  /// Whether a file had one.
+  /// True if a file had a camera.
   bool has_camera() const { return has_camera_; }
   const std::vector<std::shared_ptr<const CustomSupport>>& customs() const { return customs_; }
 

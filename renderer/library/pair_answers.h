@@ -11,7 +11,7 @@
 
 namespace minkray {
 
-/// What is asked for; it may be null. Throws CallError if it is wrong.
+/// Reads options, which may be null. Throws CallError if they are invalid.
 SignedDistanceOptions distance_options(const minkray_distance_options* given);
 
 minkray_distance_status code_of(SignedStatus status);

@@ -31,7 +31,7 @@ class Prover {
 
   CertificateVerdict verdict(const Body& body, const Ray<double>& ray, const Claim& claim,
                              Certificate* found) const;
-  /// Whether it is proven that the ray does not meet the body before t_lo.
+  /// True if the ray is proven not to hit the body before t_lo.
   bool keeps_off(std::uint32_t index, const Ray<double>& ray, double t_lo) const;
 
   const World& world_;

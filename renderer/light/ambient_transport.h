@@ -27,7 +27,7 @@ class AmbientTransport final : public LightTransport {
   struct Path;
   struct HitPoint;
   struct Wave;
-  /// By ray: none where it met no surface.
+  /// Hit point of each ray, if any.
   using HitPoints = std::vector<std::optional<HitPoint>>;
 
   void follow(std::span<TracedRay> rays, const Path& path, RayCounts& counts) const;
@@ -38,11 +38,12 @@ class AmbientTransport final : public LightTransport {
                   RayCounts& counts) const;
   void add_indirect(std::span<TracedRay> rays, const HitPoints& points, const Path& path,
                     RayCounts& counts) const;
-  /// By way of the base of the surfaces of some rays; `chances` are those of having come here.
+  /// Adds light scattered by the bases of some rays' surfaces; `chances` are the probabilities of
+  /// having come here.
   void add_scattered(std::span<TracedRay> rays, const HitPoints& points,
                      std::span<const std::size_t> which, std::span<const double> chances,
                      const Path& path, RayCounts& counts) const;
-  /// By way of their coats.
+  /// Adds light mirrored by their coats.
   void add_mirrored(std::span<TracedRay> rays, const HitPoints& points,
                     std::span<const std::size_t> which, std::span<const double> chances,
                     const Path& path, RayCounts& counts) const;

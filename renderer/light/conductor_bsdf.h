@@ -12,7 +12,7 @@ namespace minkray {
 /// The fraction of light that a metal mirrors in air.
 double fresnel_of_metal(double cosine, double eta, double k);
 
-/// What a metal mirrors, by the cosine of incidence.
+/// Reflectance of a metal by the cosine of incidence.
 class MetalFresnel {
  public:
   explicit MetalFresnel(const Colour& straight_ahead) : straight_ahead_(straight_ahead) {}
@@ -28,7 +28,7 @@ class MetalFresnel {
 
 class ConductorBsdf final : public Bsdf {
  public:
-  /// It is a metal by its table, or a colour.
+  /// Metal given by its table, or by a colour.
   ConductorBsdf(const MetalFresnel& fresnel, double roughness, double anisotropy);
   ConductorBsdf(const Paint& colour, double roughness, double anisotropy);
 

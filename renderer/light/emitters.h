@@ -45,7 +45,7 @@ struct EmitterSample {
 /// The instances of a world that shine.
 class Emitters {
  public:
-  /// By instance: the radiance; none where it is zero. Refers to the world.
+  /// Takes the radiance of each instance, zero for none. Refers to the world.
   Emitters(const World& world, const std::vector<Colour>& radiance_of_instance);
 
   bool none() const { return emitters_.empty(); }

@@ -8,7 +8,7 @@
 
 namespace minkray {
 
-/// Any number of threads may ask.
+/// Thread-safe.
 class LightTransport {
  public:
   virtual ~LightTransport() = default;

@@ -29,8 +29,8 @@ class SkySource {
   virtual Colour eval(const Vec3<double>& direction) const = 0;
   virtual std::optional<LightSample> sample(const Vec3<double>& point, Sampler& sampler) const = 0;
   virtual double pdf(const Vec3<double>& point, const Vec3<double>& direction) const = 0;
-  /// Whether it is worth a ray of its own: not if it is about as bright everywhere, when what
-  /// surfaces draw finds it as well.
+  /// True if the light is worth its own rays. Not if it is about equally bright everywhere, since
+  /// BSDF samples find it as well.
   virtual bool is_asked() const = 0;
 };
 

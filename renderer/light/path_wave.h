@@ -40,8 +40,8 @@ class PathTransport::Wave {
   void gather(Path& path, const Colour& light, int depth) const;
   /// Goes on through a boundary that does not count, if it can.
   void pass(Path& path, bool can) const;
-  /// What a path sees that meets nothing. Surfaces are lit by the environment and mirror it;
-  /// without one they still mirror the background that cameras see.
+  /// Light of a path that misses. Surfaces are lit by the environment and mirror it; without one
+  /// they still mirror the background that cameras see.
   Colour off_surface(const Path& path);
   void add_emission(Path& path, const Boundary& at, const PreparedMaterial& material) const;
 

@@ -22,8 +22,7 @@ struct RayCone {
   RayCone part(double size) const { return {size * width, size * spread}; }
 };
 
-/// What a cone lights of a surface: an ellipse's two axes, from one side to the other, along the
-/// surface.
+/// Footprint of a cone on a surface: the two full axes of an ellipse, along the surface.
 using SurfaceFootprint = std::array<Vec3<double>, 2>;
 
 /// What it lights of a plane, by its unit normal; `width` is that of the cone where it meets the

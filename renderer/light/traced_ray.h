@@ -9,7 +9,7 @@
 
 namespace minkray {
 
-/// A ray and where its light comes to.
+/// Ray with its light.
 struct TracedRay {
   Ray<double> ray;  ///< of unit direction
   Sampler sampler;

@@ -25,7 +25,7 @@ struct AnswerOptions {
   bool certify = false;  ///< prove the answers of casts
 };
 
-/// What --check compares.
+/// Facts of a result that --check compares.
 struct AnswerFacts {
   std::string status;
   bool hit = false;  ///< hit or inside

@@ -71,7 +71,7 @@ struct ImpactQuery {
   double t_max = 0;
 };
 
-/// What the answer must be: the part of a case that --check compares.
+/// Expected result: the part of a case that --check compares.
 struct Expectation {
   std::optional<bool> hit;
   bool either = false;  ///< the ray just touches: hit and miss are both right

@@ -38,7 +38,7 @@ class Ranks {
   [[maybe_unused]] int exceptions_ = 0;  ///< those under way when this was made
 };
 
-/// Whether this program was built with MPI.
+/// True if this program was built with MPI.
 extern const bool has_mpi;
 
 }  // namespace minkray

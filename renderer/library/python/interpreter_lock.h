@@ -36,7 +36,7 @@ class Locked {
   std::optional<PyGILState_STATE> state_;
 };
 
-/// Whether the interpreter is ending, and this is not the thread that ends it.
+/// True if another thread is ending the interpreter.
 bool is_interpreter_ending();
 
 /// Has the module told when the interpreter is about to end.
