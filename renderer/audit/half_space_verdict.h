@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A half-space is its own proof: what is claimed of a ray is looked up in its inequality, in long
-// double.
+// Checks a claim about a ray and a half-space by the half-space's inequality, in long double.
 #pragma once
 
 #include "core/proof/check_certificate.h"

@@ -25,8 +25,8 @@ Ray<double> seen_by(const PosedMesh& posed, const Ray<double>& ray) {
           ray.t_max};
 }
 
-/// Whether the ray's line passes the triangle outside of one edge and inside of another, as exact
-/// arithmetic says of the ray in the mesh's frame. Where it grazes an edge no plane proves that.
+/// True if the ray's line passes outside of one edge of the triangle and inside of another, by
+/// exact arithmetic in the mesh's frame. No plane proves this where the line grazes an edge.
 bool passes_beside(const PosedMesh& posed, std::uint32_t part, const Ray<double>& ray) {
   const Ray<double> seen = seen_by(posed, ray);
   int least = 1, most = -1;
@@ -39,7 +39,7 @@ bool passes_beside(const PosedMesh& posed, std::uint32_t part, const Ray<double>
   return least < 0 && most > 0;
 }
 
-/// Whether the ray sees nothing of a mesh that has one side.
+/// True if the ray comes from behind a one-sided mesh.
 bool comes_from_behind(const PosedMesh& posed, const Ray<double>& ray) {
   return posed.mesh->sides() == MeshSides::front &&
          seen_by(posed, ray).direction.dot(posed.mesh->normal(0)) > 0;
@@ -67,8 +67,8 @@ CertificateVerdict verdict_of_part(const PosedMesh& posed, std::uint32_t part,
   return check_certificate(support, ray, claim, certificate);
 }
 
-/// Whether the triangle is met, and not before t_max: where several have an edge in common, the end
-/// of the segment is too near to each for a plane between them.
+/// True if the triangle is hit, and not before t_max. Near a shared edge the segment's end is too
+/// close to both triangles for a separating plane.
 bool is_met_no_sooner(const PosedMesh& posed, std::uint32_t part, const Ray<double>& ray,
                       double t_max) {
   const TriangleMesh& mesh = *posed.mesh;
@@ -87,7 +87,8 @@ bool is_met_no_sooner(const PosedMesh& posed, std::uint32_t part, const Ray<doub
   return found.holds && found.t_base + found.offset_planes >= t_max - rounding;
 }
 
-/// Whether all but one are missed up to t_max; else the verdict of one that is not.
+/// Proves that all triangles but one are missed up to t_max; else returns the verdict of one that
+/// is not.
 CertificateVerdict all_missed(const PosedMesh& posed, Ray<double> ray, double t_max,
                               std::uint32_t but) {
   ray.t_max = t_max;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is claimed of a ray at a mesh, proven part by part: each triangle whose box the ray meets is
-// a convex shape with certificates of its own.
+// Proves a claim about a ray and a mesh triangle by triangle: each whose box the ray meets is a
+// convex shape with a certificate.
 #pragma once
 
 #include "core/proof/check_certificate.h"

@@ -19,7 +19,7 @@ constexpr std::size_t most_failures = 20;
 /// spare proofs.
 constexpr double box_padding = 1e-9;
 
-/// Whether the ray passes the box; where in doubt it does.
+/// True if the ray may pass through the box; also if in doubt.
 bool may_pass(const Bounds<double>& box, const Ray<double>& ray) {
   double enter = 0, leave = ray.t_max;
   for (int axis = 0; axis < 3; ++axis) {

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Proof of a picture: every answer that the world gives to a ray is proven by certificates
-// (core/proof/certificate.h), object by object and without the hierarchy, or counted as a failure.
-//
-// The hit of the first object that a ray meets is proven, and that the ray up to there misses every
-// other object; where a ray meets nothing, that it misses all; where its way is blocked, that some
-// object is met.
+// Proves every result of a picture's rays by certificates (core/proof/certificate.h), object by
+// object, without the BVH. A ray that hits needs a proof of its first hit and of a miss at every
+// object before; a ray that misses, a miss at all objects; a blocked shadow ray, one hit. All else
+// counts as a failure.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which build this is.
+// Version and commit of this build.
 #pragma once
 
 #include <string_view>

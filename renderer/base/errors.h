@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What can go wrong that is not a defect of this program. The command line turns each into its exit
-// code (renderer/cli/exit_code.h); what() is for the user, one message a line.
+// Errors that are not defects of this program. The command line maps each to its exit code
+// (renderer/cli/exit_code.h); what() is for the user, one message per line.
 #pragma once
 
 #include <stdexcept>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A fingerprint of bytes, to tell contents apart: 64-bit FNV-1a (Fowler, Noll and Vo) with a final
-// mix. Two contents that differ by chance have the same one once in 2^64; it is no protection
-// against somebody who wants them to.
+// Hash of bytes: 64-bit FNV-1a (Fowler, Noll and Vo) with a final mix. Not cryptographic; two
+// random inputs collide with probability 2^-64.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Ctrl-C and a polite kill: finish what must be finished, then end as the signal wants.
+// Ctrl-C and SIGTERM: finishes what must be finished, then ends by the signal.
 #pragma once
 
 namespace minkray {
@@ -13,7 +13,7 @@ class InterruptGuard {
   InterruptGuard(const InterruptGuard&) = delete;
   InterruptGuard& operator=(const InterruptGuard&) = delete;
 
-  /// Whether a signal came.
+  /// True if a signal came.
   static bool interrupted();
 
   /// If a signal came, ends the process as that signal does by default, so that shells and makes

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Whose mistake it is: a file's name before what is wrong with it.
+// Prefixes messages with the name of the file that they are about.
 #pragma once
 
 #include <new>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which links may touch each other: pairs whose distance nobody asks for.
+// Pairs of links that may touch, whose distance is not queried.
 #pragma once
 
 #include <set>

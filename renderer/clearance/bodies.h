@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The bodies whose clearance is asked for, a robot's shapes and the obstacles around it, and which
-// of them are looked at in pairs.
+// Bodies of a clearance query, the robot's shapes and the obstacles, and which of them are pairs.
 #pragma once
 
 #include <optional>
@@ -49,7 +48,8 @@ ClearanceBody seen_from(const Affine<double>& frame, ClearanceBody obstacle);
 /// The bodies that `geometry` chooses.
 std::vector<ClearanceBody> bodies_of(const Model& model, GeometryChoice geometry);
 
-/// They are held all at once, some hundred bytes each, and looked at one by one in each step.
+/// Limits: all are in memory at once, some hundred bytes each, and each step checks them one by
+/// one.
 inline constexpr std::size_t most_obstacles = 1'000'000;
 inline constexpr std::size_t most_pairs = 10'000'000;
 
@@ -57,7 +57,7 @@ inline constexpr std::size_t most_pairs = 10'000'000;
 /// them. Throws BadInput if there are more than most_obstacles.
 std::vector<ClearanceBody> bodies_of(const Scene& scene);
 
-/// What decides whether a robot's shape moves against another.
+/// Data that determines if a robot's shape moves against another.
 struct LinkPlace {
   int group = -1;   ///< of links that are fixed to each other; -1: the world
   int parent = -2;  ///< the group that it hangs on; of the world, and of what is fixed to it, -2
@@ -66,7 +66,8 @@ struct LinkPlace {
 /// `link` is an index, -1: the world. `groups` are rigid_groups(model).
 LinkPlace place_of(int link, const Model& model, const std::vector<int>& groups);
 
-/// Whether two shapes of a robot are looked at in a pair: they move, and no joint connects them.
+/// True if two shapes of a robot are a pair: they move against each other, and no joint connects
+/// them.
 bool are_looked_at(const LinkPlace& a, const LinkPlace& b);
 
 struct BodyPair {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Two bodies, shapes or meshes, at places that are known to within a loss: their distance, and the
-// gap that a plane leaves between them.
+// Two bodies, shapes or meshes, whose poses are known to within a loss: their distance, and the gap
+// at a plane between them.
 #pragma once
 
 #include "renderer/clearance/bodies.h"

@@ -62,7 +62,7 @@ class StepPair : public MovingPair {
     return gap_between(a_, of_a.linear, b_, of_b.linear, between(of_a, of_b), n);
   }
 
-  /// What was found at s, as it is in the world.
+  /// Converts a result at s to world space.
   SignedDistance in_world(SignedDistance found, double s) const {
     if (a_.plane || b_.plane || found.normal.isZero(0)) return found;
     const Mat3<double> turn = frame_turn(s);

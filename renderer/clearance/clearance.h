@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The clearance of a robot's path: the least signed distance of its links to each other and to
-// obstacles, all along and not at some samples, between bounds that are proven (core/contact/
-// least_distance.h). Between two rows of joints' values each joint goes at a constant rate.
+// Clearance of a robot's path: proven bounds of the least signed distance of its links to each
+// other and to obstacles, over the whole path and not at samples (core/contact/least_distance.h).
+// Between two rows each joint moves at a constant rate.
 #pragma once
 
 #include "core/contact/signed_distance.h"
@@ -14,7 +14,7 @@ struct ClearanceOptions {
   /// How near the bounds shall be to each other, relative to the clearance; and never less than
   /// 1e-7 of the robot's size.
   double tolerance = 0.01;
-  /// Whether the least of each step is asked for, not of the whole path only.
+  /// Computes the least distance of each step, not only of the whole path.
   bool every_step = false;
 };
 

@@ -33,7 +33,7 @@ class Moment {
     return signed_distance(a.parts(), pose_a, b.parts(), pose_b, how);
   }
 
-  /// By twists about the links' origins.
+  /// Derivative by twists about the links' origins.
   PairDerivative derivative(const BodyPair& pair, const SignedDistance& found) const {
     PairDerivative derivative = about_bodies(pair, found);
     derivative.a = about_link(pair.a, derivative.a);

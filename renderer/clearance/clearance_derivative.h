@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How the least distance of a robot's step changes with the joints' values at the moment of it.
+// Derivative of a step's least distance by the joint values at its time.
 #pragma once
 
 #include <vector>

@@ -67,7 +67,7 @@ std::array<Vec3<double>, 4> turns_by_quaternion(const double* numbers) {
   return turns;
 }
 
-/// What a link's derivative is by motions of all that it hangs on.
+/// Derivatives of a link by the motions of the links that it hangs on.
 class Motions {
  public:
   Motions(const TwistDerivative& by, const Vec3<double>& origin) : by_(by), origin_(origin) {}
@@ -82,7 +82,7 @@ class Motions {
   Vec3<double> origin_;
 };
 
-/// By each number of the joint; `before` and `after` are the poses on both sides of it.
+/// Derivatives by each number of the joint; `before` and `after` are the poses on both sides of it.
 std::vector<double> by_numbers(const ModelJoint& joint, const Affine<double>& before,
                                const Affine<double>& after, const Motions& motions) {
   const std::vector<double>& q = joint.value;

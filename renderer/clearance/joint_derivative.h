@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Derivatives by the joints' numbers, of what is known by the twists of links: the chain rule along
-// the joints that a link hangs on.
+// Derivatives by joint values from derivatives by the links' twists: the chain rule along the
+// joints between link and base.
 #pragma once
 
 #include <span>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One number of a joint between two rows: a polynomial of degree 1, 3 or 5 in s from 0 to 1, as
-// ros2_control executes rows with velocities and accelerations. Bounds come from Bernstein
-// coefficients, whose hull holds a polynomial (R. Farouki, V. Rajan, 1987).
+// ros2_control executes rows with velocities and accelerations. Bounds are the least and greatest
+// Bernstein coefficient (R. Farouki, V. Rajan, 1987).
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which bodies of a robot or a scene are near each other, or near those of other files, at one
-// moment: signed distances with their bounds.
+// Pairs of near bodies, within a robot or scene or between files, at one time: signed distances
+// with bounds.
 #pragma once
 
 #include <functional>

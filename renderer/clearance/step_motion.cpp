@@ -33,12 +33,12 @@ Quaternion quaternion_of(const std::vector<double>& values, int at) {
   return q.normalized();
 }
 
-/// Whether it slides along axes of its link's frame, which rounds nothing.
+/// True if the joint slides along an axis of its link's frame, which is exact.
 bool is_exact(const ModelJoint& joint) {
   return (joint.axis.array() != 0).count() == 1;
 }
 
-/// Whether the joint's values say where it is; at rest it moves nothing.
+/// True if the joint has values; at rest it moves nothing.
 bool has_values(const ModelJoint& joint) {
   return joint.value.size() == width_of(joint.kind) && !joint.value.empty();
 }
@@ -47,8 +47,8 @@ Vec3<double> first_three(const std::vector<double>& values) {
   return {values[0], values[1], values[2]};
 }
 
-/// What is wrong with a joint's way from one row to the next; empty if nothing is. Of a quaternion
-/// only the direction matters.
+/// Error in a joint's motion from one row to the next; empty if valid. Only a quaternion's
+/// direction matters.
 std::string mistake_of(const ModelJoint& joint, const std::vector<double>& before) {
   const std::vector<double>& now = joint.value;
   const int quaternion = quaternion_at(joint.kind);
@@ -226,7 +226,7 @@ StepMotion::StepMotion(const JointPath& path, std::size_t step)
   }
 }
 
-/// By how much the joint's values move its link's origin, along the link's axes at rest, or in the
+/// Translation of the link's origin by the joint's values, along the link's axes at rest, or in the
 /// world of a free joint. In twice the digits where lengths may be large.
 TwoFoldVec3<double> StepMotion::shift_of(const ModelJoint& joint, std::size_t at, double s) const {
   const auto along = [](const Vec3<double>& axis, const TwoFold<double>& length) {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// How a robot moves from one row of joints' values to the next: each joint at a constant rate, the
-// shorter way round where it is a ball; or as a cubic or quintic where rows have rates. And bounds
-// of how fast and how crookedly that moves its links' points, by which what was seen at some times
-// is proven for all.
+// Motion of a robot from one row of joint values to the next: each joint at a constant rate (balls
+// the shorter way round), or as a cubic or quintic where rows have rates. Bounds of the speed and
+// curvature of the links' points extend what was found at some times to all times.
 #pragma once
 
 #include <limits>
@@ -33,7 +32,7 @@ struct JointPath {
   /// Number `number` of a joint on its way from row `first` to row `last`.
   JointPiece piece(std::size_t first, std::size_t last, std::size_t joint,
                    std::size_t number) const;
-  /// Whether that joint is not at a constant rate on this way.
+  /// True if the joint's rate is not constant on this interval.
   bool is_curved(std::size_t first, std::size_t last, std::size_t joint) const;
 
   /// The skeleton with the joints' values at that time of the path: those of a row as they were
@@ -51,7 +50,7 @@ struct MotionBound {
   double acceleration = 0;
   double rounding = 0;  ///< no point's place is computed wrong by more
 
-  /// Whether all is so far from where numbers end that squares of lengths do not leave them.
+  /// True if squares of lengths do not overflow.
   bool is_within_numbers() const {
     return reach < 1e150 && speed < 1e150 && acceleration < std::numeric_limits<double>::infinity();
   }
@@ -78,7 +77,7 @@ class StepMotion {
   /// The seconds of the path.
   double time_at(double s) const { return begin_ + s * (end_ - begin_); }
 
-  /// It holds of the points within `reach` of the link's origin, as `ancestor` sees them; -1: the
+  /// Holds for the points within `reach` of the link's origin, as `ancestor` sees them; -1: the
   /// world.
   ///
   /// A point p goes to R p + t. If R turns at a speed alpha that changes by beta, and p moves by v
@@ -86,7 +85,7 @@ class StepMotion {
   /// (alpha^2 + beta) |p| + 2 alpha v + a.
   MotionBound bound(int link, int ancestor, double reach) const;
 
-  /// By how much the link's linear part may differ from a rotation.
+  /// Bound of the difference between the link's linear part and a rotation.
   double turn_error(int link) const;
 
   /// The link whose frame both stand in, the furthest from the world; -1: the world.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A picture of a path: all that a robot's links pass over, as one scene of swept bodies.
+// A scene of swept bodies that contain all that a robot's links pass over.
 #pragma once
 
 #include "renderer/clearance/step_motion.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What was compared, as a table, as JSON and as a picture.
+// Reports a comparison as a table, as JSON and as a picture.
 #include <algorithm>
 #include <cstdio>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The Embree sandwich for every object of a scene: what `minkray compare` shows.
+// Runs the Embree sandwich for every object of a scene, for `minkray compare`.
 #pragma once
 
 #include <functional>

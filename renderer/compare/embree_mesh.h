@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A triangle mesh in Embree, and how far Embree's answers may be off. The only place that sees
-// Embree.
+// A triangle mesh in Embree, with bounds of Embree's errors. Only this file uses Embree.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How far apart two parameters were, over many rays: by sign and by decade.
+// Histogram of the difference of two ray parameters, by sign and decade.
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@ class GapHistogram {
   /// Bins from the most negative to the most positive: [-inf, -1e-1), ... (-1e-12, 1e-12), ...
   static constexpr int bins = 2 * decades + 1;
   std::int64_t in_bin(int bin) const { return counts_[static_cast<std::size_t>(bin)]; }
-  /// They tell between which gaps a bin lies.
+  /// Edges of a bin.
   static double lower_edge(int bin);
   static double upper_edge(int bin);
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Half-spaces in comparisons. Triangles have ends, so that there is no mesh for Embree: a second
-// way to the same answer, by bisection of the height along the ray in long double, judges the
-// closed form.
+// Compares half-spaces, which are unbounded and so have no mesh for Embree. A bisection of the
+// height along the ray in long double checks the closed form.
 #pragma once
 
 #include "core/world/half_space.h"
@@ -13,7 +12,7 @@ class HalfSpaceCheck {
  public:
   explicit HalfSpaceCheck(const HalfSpaceBody<double>& in_world) : half_space_(in_world) {}
 
-  /// Whether the cast's answer is what bisection finds; t_outer and t_inner are its bracket.
+  /// Compares the cast with a bisection, whose bracket is t_outer and t_inner.
   Verdict judge(const Ray<double>& ray) const;
 
   /// Rays in all directions from above the plane; about half of them hit.

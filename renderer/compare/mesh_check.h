@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Meshes in comparisons: Embree is given the same triangles. Their vertices are rounded to float
-// for both, so that nothing but the arithmetic differs.
+// Compares meshes with Embree on the same triangles. Vertices are rounded to float for both, so
+// only the arithmetic differs.
 #pragma once
 
 #include "core/world/posed_mesh.h"

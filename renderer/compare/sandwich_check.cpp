@@ -16,8 +16,8 @@ class RandomRays {
   RandomRays(const Sandwich& sandwich, std::uint64_t seed)
       : rank_(sandwich.rank()), centre_(sandwich.centre), random_(seed) {}
 
-  /// It runs from a sphere around the shape towards a point within `spread` of its centre (a
-  /// segment's: of a point of the segment).
+  /// Next ray, from a sphere around the shape towards a point within `spread` of its centre (for a
+  /// segment, of a point on it).
   Ray<float> next(double spread) {
     const Vec3<double> origin = centre_ + start_distance * direction();
     Vec3<double> target = centre_ + spread * std::cbrt(uniform()) * direction();

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The Embree sandwich: a shape's casts against Embree's casts at a mesh within and a mesh around
-// the shape. Nothing in it knows any kind of shape.
-//
-// For every ray: a hit of the inner mesh is a hit, a miss of the outer mesh is a miss, and
-// t_outer <= t <= t_inner up to the rounding of Embree's t, which EmbreeMesh::cast bounds. Every
-// other rounding is smaller than the margin by which the meshes are kept apart from the shape.
+// The Embree sandwich, for shapes of any kind: casts at a shape against Embree's casts at a mesh
+// within it and a mesh around it. A hit of the inner mesh is a hit, a miss of the outer mesh a
+// miss, and t_outer <= t <= t_inner up to the error of Embree's t (EmbreeMesh::cast). Other
+// rounding is smaller than the gap between the meshes and the shape.
 #pragma once
 
 #include <cstdint>
@@ -68,7 +66,7 @@ struct CompareReport {
   double outer_hit_rate() const { return rays > 0 ? double(outer_hits) / rays : 0; }
 };
 
-/// What was found out about one ray. All parameters are those of the ray that was judged.
+/// Verdict on one ray. All parameters are those of that ray.
 struct Verdict {
   CastResult<double> result;
   double t_outer = std::numeric_limits<double>::infinity();  ///< infinite if the mesh was missed

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The signed distance of a probe from a scene, over the points of a plane: the least of its signed
-// distances from all objects (core/contact/signed_distance.h).
+// Signed distance of a probe from a scene, over the points of a plane: the least signed distance
+// from any object (core/contact/signed_distance.h).
 #pragma once
 
 #include <functional>
@@ -36,7 +36,7 @@ struct DistanceField {
   std::vector<int> object;  ///< the index of the nearest; -1 if the scene has none or is_unknown()
   std::size_t supports = 0;
 
-  /// Whether an object of unknown distance may be nearer than `value`.
+  /// True if an object of unknown distance may be nearer than `value`.
   bool is_unknown(std::size_t pixel) const {
     return object[pixel] < 0 && lower[pixel] < std::numeric_limits<double>::infinity();
   }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A distance field as a picture: colours by distance, blue where the probe overlaps something, with
-// lines of equal distance, a white one where it touches, and a scale below. Grey is where the
-// distance is unknown.
+// Draws a distance field: colours by distance, blue where the probe overlaps an object, lines of
+// equal distance, a white line at contact, grey where unknown, and a scale below.
 #pragma once
 
 #include "renderer/field/distance_field.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The rays that a picture's samples begin with: where in the pixel, where on the lens and when each
-// of them is. Whoever asks for a sample of a pixel gets the same ray.
+// Camera rays of a picture's samples: position in the pixel and on the lens, and time. A sample of
+// a pixel always has the same ray.
 #pragma once
 
 #include <algorithm>

@@ -10,7 +10,7 @@
 namespace minkray {
 namespace {
 
-/// So many objects of a pixel are told, two in each layer of four planes.
+/// Number of objects stored per pixel, two in each layer of four planes.
 constexpr int ranks = 6;
 
 std::string hex(std::uint32_t number) {
@@ -57,7 +57,7 @@ class Names {
   std::uint32_t instances_ = 0;
 };
 
-/// What the samples of one pixel have met, by the index of the name.
+/// Objects hit by one pixel's samples, by the index of the name.
 struct Met {
   std::vector<std::pair<std::uint32_t, int>> counts;
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Mattes of every object for compositing: by pixel, which objects its samples met and how many of
-// them (Friedman and Jones, "Fully Automatic ID Mattes with Support for Motion Blur and
-// Transparency", 2015, and the Cryptomatte specification 1.2). Camera rays are cast again as the
-// picture's samples had them, so that edges, lenses and shutters are those of the picture.
+// Mattes of every object for compositing: per pixel, which objects its samples hit and how often
+// (Friedman and Jones, "Fully Automatic ID Mattes with Support for Motion Blur and Transparency",
+// 2015, and the Cryptomatte specification 1.2). Casts the picture's camera rays again, so edges,
+// lenses and shutters match.
 #pragma once
 
 #include <map>
@@ -27,8 +27,8 @@ struct Cryptomatte {
   std::map<std::string, std::string> texts;
 };
 
-/// It is of the region that `options` ask for, by all threads, and of no use if the watch said
-/// stop.
+/// Measures the region of `options` on all threads. The result is incomplete if the watch stopped
+/// it.
 Cryptomatte measure_cryptomatte(const Scene& scene, const World& world,
                                 const RenderOptions& options, const RenderWatch& watch = {});
 

@@ -19,7 +19,7 @@ namespace {
 using Floats = std::vector<float>;
 using Integers = std::vector<std::uint32_t>;
 
-/// What the ray through a pixel's centre found.
+/// Result of the ray through a pixel's centre.
 struct Found {
   Ray<double> ray;
   WorldHit hit;

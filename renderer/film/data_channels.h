@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What can be told of a pixel beside its colour: where its centre's ray meets the scene, and what
-// the solver did. These are numbers, not light: nothing is filtered, one ray through the pixel's
-// centre answers for all. Some are told by all samples of the picture instead.
+// AOVs: data per pixel other than colour. Most come from one unfiltered ray through the pixel's
+// centre: where it meets the scene, and the solver's cost. Some are means over all samples of the
+// picture.
 #pragma once
 
 #include <array>
@@ -66,10 +66,10 @@ inline constexpr std::array data_channels = {
 /// a name given twice counts once.
 std::vector<std::string_view> parse_data_channels(const std::string& list);
 
-/// Whether the planes of the channel of that name are integers.
+/// True if the channel's planes are integers.
 bool has_integers(std::string_view channel);
 
-/// Whether direct, indirect or variance are among the names: RenderOptions::light_channels.
+/// True if direct, indirect or variance are among the names: RenderOptions::light_channels.
 bool are_light_channels_wanted(const std::vector<std::string_view>& channels);
 
 /// The planes of those of the channels that a rendering with light_channels has.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What a picture shows, without its light: the means of albedo, normal and depth over the very rays
-// that its samples begin with. On surfaces they have no noise, and at edges and beyond a lens's
-// focus they are mixed as the light is.
+// Means of albedo, normal and depth over the rays of a picture's samples, without light, for
+// denoising. They have no noise on surfaces, and are mixed as the light is at edges and out of
+// focus.
 #pragma once
 
 #include "renderer/film/render.h"

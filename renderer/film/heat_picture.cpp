@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The picture of a heatmap: panels, their titles, and the scale below.
+// Draws a heatmap: panels with titles, and a scale below.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

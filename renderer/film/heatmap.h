@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What each pixel cost: the work of its camera ray, as numbers and as a picture with a scale.
+// Cost of each pixel's camera ray, as numbers and as a picture with a scale.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace minkray {
 
-/// What can be shown of a camera ray.
+/// Quantities of a camera ray that a heatmap can show.
 enum class HeatChannel { iterations, supports, nodes, path, status };
 
 struct HeatChannelDescription {

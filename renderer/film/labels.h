@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The objects' names, each under the picture of its object.
+// Draws the name of each object under its picture.
 #pragma once
 
 #include <string>

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The one loop over a picture's pixels: tiles on all threads, within a tile blocks of neighbouring
-// pixels, within a block its pixels in rows. Pictures, heatmaps and data channels are all made by
-// it: what is to be done at a pixel depends on the pixel alone, so that the result is equal bit for
-// bit for any number of threads, any crop and any size of the blocks.
+// The loop over a picture's pixels, shared by pictures, heatmaps and data channels: tiles on all
+// threads, blocks of neighbouring pixels in tiles, rows in blocks. The work at a pixel depends on
+// the pixel alone, so results are bit-identical for any threads, crop and block size.
 #pragma once
 
 #include "renderer/film/tiles.h"

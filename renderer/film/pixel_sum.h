@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A pixel while its samples come in, in their order: the same additions however many come at once,
-// and however often what is there so far is looked at.
+// Sum of a pixel's samples in their order: the same additions for any batch size and any number of
+// intermediate reads.
 #pragma once
 
 #include <cmath>
@@ -74,7 +74,7 @@ struct PixelSum {
   }
   /// What the standard error is told as a part of.
   double least_mean() const { return std::max(brightness.mean, least_brightness); }
-  /// Whether the standard error of its mean is small enough.
+  /// True if the standard error of the mean is small enough.
   bool is_quiet(double noise) const { return standard_error() <= noise * least_mean(); }
   /// The squared standard error of its colour, by the spread of its samples; 0 of a single one.
   Vec3<float> variance() const {

@@ -160,7 +160,7 @@ class Rendered {
     });
   }
 
-  /// So many samples of each pixel that is not done. False if all are.
+  /// Adds a pass of samples to each unfinished pixel. False if all are finished.
   bool trace(const PixelBlock& pixels, const Pass& part, PixelSum* sums, RayCounts& counts) {
     std::vector<TracedRay> rays;
     rays.reserve(pixels.count() * static_cast<std::size_t>(part.end - part.first));

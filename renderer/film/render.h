@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Whole pictures: tiles on all cores, each pixel by itself, so that the picture is equal bit for
-// bit for any number of threads and any crop.
+// Renders whole pictures: tiles on all cores, each pixel by itself, so pictures are bit-identical
+// for any number of threads and any crop.
 #pragma once
 
 #include "renderer/film/share.h"
@@ -27,15 +27,15 @@ struct RenderOptions {
   /// A pixel takes no more samples when its standard error, over its brightness, is below this; 0:
   /// all of them. Not with shares of the samples.
   double noise = 0;
-  /// Whether Rendering::direct and variance are wanted as well. Not with shares of the samples.
+  /// Also computes Rendering::direct and variance. Not with shares of the samples.
   bool light_channels = false;
   IntegratorOptions integrator;
 
-  /// What all tiles make together.
+  /// Region of all tiles together.
   PixelRect picture() const {
     return crop.empty() ? PixelRect{0, 0, resolution.width, resolution.height} : crop;
   }
-  /// What is to be rendered.
+  /// Region to render.
   PixelRect region() const { return tile_of(picture(), tile); }
 };
 
@@ -56,7 +56,7 @@ struct Rendering {
 struct RenderJournal {
   Rendering begun;         ///< if any tile is done
   std::vector<bool> done;  ///< its tiles, as TileGrid counts them; empty: none
-  /// It is told after each tile, one at a time; other tiles may be written to meanwhile.
+  /// Called after each tile, one at a time; other tiles may be written to meanwhile.
   std::function<void(const Rendering&, std::size_t tile)> finished;
   /// If it is there the picture is made in passes of 1, 2, 4 ... samples a pixel, all together; it
   /// is told after each but the last, with how many there are. The last picture has the same bits

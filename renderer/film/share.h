@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One of several shares of a picture: a rectangle of its pixels, or some of each pixel's samples.
-// Which pixels and samples belong to a share depends on the picture and on "i/n" alone.
+// One share of a picture: a rectangle of its pixels, or some of each pixel's samples. Depends on
+// the picture and on "i/n" alone.
 #pragma once
 
 #include <algorithm>
@@ -33,14 +33,14 @@ Share parse_share(const std::string& text, const std::string& option);
 /// rectangle exactly once. Some are empty where there are not enough pixels for that many.
 PixelRect tile_of(const PixelRect& whole, const Share& share);
 
-/// Whether none of so many shares is empty.
+/// True if none of `count` shares is empty.
 bool can_be_tiled(const PixelRect& whole, int count);
 
 /// The samples of a pixel in blocks. Each block is summed by itself and rounded to float; the
 /// blocks' sums are added in order. That order of additions is the same wherever the blocks were
 /// rendered: any split of the samples between blocks gives the same bits.
 struct SampleBlocks {
-  /// So many blocks keep the files of shares small, and let so many machines share one pixel.
+  /// Greatest number of blocks: keeps files of shares small, and lets 64 machines share one pixel.
   static constexpr int most = 64;
 
   int samples = 1;
@@ -64,8 +64,8 @@ struct SampleBlocks {
 /// The colour of a pixel from its blocks.
 class BlockTotal {
  public:
-  /// It stands in a file of its own, for its argument must be floats: where GCC 12 sees a pair of
-  /// doubles that is rounded to floats and widened again, it leaves out the rounding.
+  /// Defined in a separate file, since GCC 12 drops the rounding when it sees doubles rounded to
+  /// float and widened again.
   void add(const Vec3<float>& block_sum);
   Vec3<float> mean(int samples) const { return (total_ / samples).cast<float>(); }
 

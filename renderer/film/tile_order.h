@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The order in which a picture's tiles are rendered.
+// Order in which a picture's tiles are rendered.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The pixels of a picture in tiles, on all threads.
+// Runs over the tiles of a picture on all threads.
 #pragma once
 
 #include <algorithm>
@@ -14,13 +14,13 @@
 
 namespace minkray {
 
-/// What a rendering is watched by; each may be missing.
+/// Callbacks of a rendering; each may be empty.
 struct RenderWatch {
-  /// It is told after each tile, one at a time: the fraction done and the rays so far.
+  /// Called after each tile, one at a time, with the fraction done and the rays so far.
   std::function<void(double fraction, std::uint64_t rays)> progress;
-  /// It is asked often, by all threads: whether to end early. A single pixel may take minutes.
+  /// Called often, by all threads. Returns true to stop early; a single pixel may take minutes.
   std::function<bool()> stop;
-  /// It is told before each progress how noisy the picture is by now: Rendering::noise.
+  /// Called before each progress with the picture's noise so far: Rendering::noise.
   std::function<void(double noise)> noise = {};
 
   bool stopped() const { return stop && stop(); }
@@ -57,7 +57,7 @@ class TileGrid {
 /// Tiles that are there already, and who hears of those that are rendered.
 struct TileJournal {
   std::vector<bool> done;  ///< by tile; empty: none
-  /// It is told after each tile, one at a time.
+  /// Called after each tile, one at a time.
   std::function<void(std::size_t tile)> finished;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Benchmark scenes of as many shapes as are asked for, the same bit for bit for the same seed.
+// Benchmark scenes with any number of shapes, bit-identical for the same seed.
 #pragma once
 
 #include <cstdint>
@@ -32,7 +32,7 @@ struct GenerateOptions {
 /// Hulls are points in the scene file itself, each hull its own; a file of more could not be read.
 inline constexpr std::size_t most_generated_hulls = 100000;
 
-/// So few poses are written into the scene file, more into a file beside it.
+/// Up to this number, poses are written into the scene file; more go into a file next to it.
 inline constexpr std::size_t most_inline_poses = 1000;
 
 /// Writes the scene file and, if there are many poses, first their file beside it: of the same

@@ -9,8 +9,8 @@
 namespace minkray {
 namespace {
 
-/// So many places are tried for one ellipsoid. At a sixth of the volume about half of them are
-/// free, so that this many in vain mean that there is no room.
+/// Places tried per ellipsoid. At a sixth of the volume about half of them are free, so this many
+/// failures mean that there is no room.
 constexpr int most_tries = 100000;
 
 Affine<double> pose_of(const PackedPose& pose) {
@@ -18,7 +18,7 @@ Affine<double> pose_of(const PackedPose& pose) {
   return {rotation_matrix_of_any(q[0], q[1], q[2], q[3]), pose.position};
 }
 
-/// It keeps those put so far, by the cells of a grid; what meets stands in neighbouring cells.
+/// Ellipsoids placed so far, by the cells of a grid; those that touch are in neighbouring cells.
 class Packing {
  public:
   explicit Packing(const Vec3<double>& radii)

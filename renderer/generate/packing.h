@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Ellipsoids without overlap: one after the other is put in a random place and dropped if it meets
-// another (random sequential addition; Widom, 1966). Whether two meet is what the distance query
-// says.
+// Ellipsoids without overlap: each gets a random place and is dropped if the distance query finds
+// that it meets another (random sequential addition; Widom, 1966).
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Random numbers that are the same on every machine: SplitMix64 (Steele, Lea and Flood, "Fast
-// Splittable Pseudorandom Number Generators", 2014), and nothing but + - * / and square roots made
-// of them, which IEEE 754 rounds in one way only.
+// Splittable Pseudorandom Number Generators", 2014). Only + - * / and square roots are used on
+// them, which IEEE 754 rounds in one way.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ class Random {
     return x ^ (x >> 31);
   }
 
-  /// It is in [low, high).
+  /// Random number in [low, high).
   double within(double low, double high) {
     return low + (high - low) * (static_cast<double>(bits() >> 11) * 0x1p-53);
   }

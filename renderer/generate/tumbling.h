@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Bodies of many shapes that fly apart, tumbling: a scene with keys.
+// A scene with keyframes: bodies of many shapes that fly apart, tumbling.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +9,8 @@
 
 namespace minkray {
 
-/// They are written into the scene file itself, each with its keys; a file of more could not be
-/// read.
+/// Greatest number of bodies. All are written into the scene file with their keys; a larger file
+/// could not be read.
 inline constexpr std::size_t most_tumbling = 100000;
 
 /// A block of `count` bodies bursts at 0 s and falls for two seconds; nothing collides.

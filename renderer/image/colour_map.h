@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Colours for numbers: Stéfan van der Walt and Nathaniel Smith's "inferno" (2015, CC0), as a
-// polynomial: equal steps of the value look equally large, and more is always lighter.
+// Colour map for numbers: Stéfan van der Walt and Nathaniel Smith's "inferno" (2015, CC0) as a
+// polynomial. Equal steps look equally large, and greater values are lighter.
 #pragma once
 
 #include "core/math/vec.h"

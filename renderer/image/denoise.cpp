@@ -141,7 +141,7 @@ class Prepared {
     return (std::isfinite(along) ? along : 0) + (std::isfinite(down) ? down : 0);
   }
 
-  /// Whether two pixels are of the same thing, from 0 to 1.
+  /// Likelihood that two pixels show the same thing, from 0 to 1.
   float likeness(int x, int y, int u, int v) const {
     const float albedo =
         (of_.albedo.at(x, y) - of_.albedo.at(u, v)).squaredNorm() / squared(albedo_scale);

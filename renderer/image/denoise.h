@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Less noise: each pixel becomes a weighted mean of those around it that are of the same thing, by
-// features that have no noise, and whose light differs by no more than noise does (Buades, Coll and
-// Morel, "A Non-Local Algorithm for Image Denoising", 2005; the distance beside what variance
-// explains, and features beside it, are those of Rousselle, Manzi and Zwicker, "Robust Denoising
-// using Feature and Color Information", 2013).
+// Denoiser: each pixel becomes a weighted mean of nearby pixels with similar noise-free features
+// and similar light (Buades, Coll and Morel, "A Non-Local Algorithm for Image Denoising", 2005).
+// Variance and features enter the weights as in Rousselle, Manzi and Zwicker, "Robust Denoising
+// using Feature and Color Information", 2013.
 #pragma once
 
 #include "renderer/image/image.h"

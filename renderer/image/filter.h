@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The pixel reconstruction filter, used by importance sampling (Ernst, Stamminger and Greiner,
-// "Filter Importance Sampling", 2006): a pixel's samples are spread as the filter weighs and then
-// count alike, so that pixels never share samples and need no order among each other.
+// Pixel reconstruction filter by importance sampling (Ernst, Stamminger and Greiner, "Filter
+// Importance Sampling", 2006): samples are distributed by the filter and weighted equally, so
+// pixels share no samples and can be rendered in any order.
 #pragma once
 
 #include <array>
@@ -29,7 +29,8 @@ class PixelFilter {
   static constexpr std::size_t steps_ = 1024;
   static constexpr std::size_t cells_ = 1024;
   std::array<double, steps_ + 1> cumulative_;
-  /// By the cell of u: the first step that may reach beyond u (Chen and Asau's guide table, 1974).
+  /// For each cell of u: the first step that may reach beyond u (Chen and Asau's guide table,
+  /// 1974).
   std::array<std::uint16_t, cells_> first_above_;
 };
 

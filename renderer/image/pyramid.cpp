@@ -13,7 +13,7 @@ struct Covered {
   float part;
 };
 
-/// By pixel of a row of `count` of them: the pixels of a row of `of` that it covers, at most three.
+/// For each pixel of a row of `count`: the pixels of a row of `of` that it covers, at most three.
 std::vector<std::vector<Covered>> covered_by(int count, int of) {
   std::vector<std::vector<Covered>> covered(static_cast<std::size_t>(count));
   const double size = static_cast<double>(of) / count;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A picture at all sizes, after Williams, "Pyramidal Parametrics" (1983): each half as wide and
-// half as high as the one before, so that a large part of it is looked up as fast as a small one.
+// Image pyramid after Williams, "Pyramidal Parametrics" (1983): each level has half the width and
+// height, so a large area is looked up as fast as a small one.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Small text in pictures. The font, stb_easy_font, is seen by text.cpp alone.
+// Small text in pictures. Only text.cpp includes the font, stb_easy_font.
 #pragma once
 
 #include <string_view>

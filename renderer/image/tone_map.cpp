@@ -36,7 +36,7 @@ Vec3<double> agx(const Vec3<double>& light) {
                            (most_stop - least_stop));
   }
   encoded = outset * encoded;
-  // It was made for screens with a gamma of 2.2.
+  // The fit was made for screens with a gamma of 2.2.
   for (int i = 0; i < 3; ++i) encoded[i] = std::pow(std::clamp(encoded[i], 0.0, 1.0), 2.2);
   return encoded;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How scenes' light becomes what a screen shows: linear numbers of any size to linear ones up to 1.
+// Tone mapping: linear light of any magnitude to linear values up to 1.
 #pragma once
 
 #include <array>

@@ -193,7 +193,7 @@ class Collada {
     return geometry;
   }
 
-  /// They are none, and a mistake, if any of them is wrong.
+  /// Numbers of an array; empty, with an error reported, if any is invalid.
   const std::vector<double>& numbers_of(const XmlElement& array) {
     const auto [at, is_new] = arrays_.try_emplace(&array);
     if (is_new)

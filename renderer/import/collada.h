@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// COLLADA 1.4 and 1.5 (.dae): the vertices of the meshes that the scene's nodes show, under the
-// nodes' transforms, in metres by the file's unit. The up axis that a file names turns nothing:
-// RViz, Gazebo and MoveIt show robots' meshes so, and their files rely on it. Skins are taken as
-// their mesh at rest.
+// COLLADA 1.4 and 1.5 (.dae): vertices of the meshes in the scene's nodes, with the nodes'
+// transforms, in metres by the file's unit. The up axis is ignored, as in RViz, Gazebo and MoveIt,
+// since robots' files rely on it. Skins are read as meshes at rest.
 #pragma once
 
 #include "renderer/import/mesh_library.h"

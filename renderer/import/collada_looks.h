@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Names and colours of what a COLLADA file shows.
+// Names and colours of a COLLADA file's meshes.
 #pragma once
 
 #include <functional>

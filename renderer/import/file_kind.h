@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What kind of file a name stands for, by its first bytes: endings are what somebody chose, such as
-// ".urdf.xacro".
+// Detects a file's format from its first bytes. File extensions are not reliable (".urdf.xacro").
 #pragma once
 
 #include <filesystem>

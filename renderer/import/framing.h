@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// A camera that frames everything, where a file has none. A convex body lies in a half-space if its
-// support value along the half-space's normal is at most the offset; so four support values of each
-// body say how close the camera can go in a direction for the body to lie in its frustum.
+// Camera that frames everything, for files without one. A convex body lies in a half-space if its
+// support value along the normal is at most the offset, so four support values per body give the
+// camera's least distance in a direction.
 #pragma once
 
 #include "renderer/scene/scene.h"
 
 namespace minkray {
 
-/// What is left free at each edge of the picture, as a fraction of its width or height.
+/// Margin at each edge of the picture, as a fraction of its width or height.
 inline constexpr double framing_margin = 0.04;
 
 /// Points the scene's camera at its objects, from the front, the right and above, as near as shows

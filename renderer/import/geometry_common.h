@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the formats' shapes have in common: sizes, of which zero makes points, segments and disks,
-// and meshes.
+// Geometry shared by the formats: meshes, and sizes, where zero makes points, segments and disks.
 #pragma once
 
 #include <functional>

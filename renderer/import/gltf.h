@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // glTF 2.0 (.gltf, .glb): nodes as links, their meshes as hulls, colliders of
-// KHR_physics_rigid_bodies with the shapes of KHR_implicit_shapes. y is up in the file and z here:
-// everything is turned.
+// KHR_physics_rigid_bodies with the shapes of KHR_implicit_shapes. y is up in the file and z here,
+// so everything is rotated.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The numbers that accessors name: of any component type, with a stride, normalized, sparse.
+// Numbers of glTF accessors: any component type, strided, normalized or sparse.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

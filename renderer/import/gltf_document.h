@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // glTF 2.0 as a container: the JSON of a .gltf or .glb file, its buffers (in the file, in data:
-// URIs, in files beside it) and the numbers that accessors name in them.
-// Khronos Group, "glTF 2.0 Specification", 2021.
+// URIs, or in files next to it) and its accessors. Khronos Group, "glTF 2.0 Specification", 2021.
 #pragma once
 
 #include <array>

@@ -239,7 +239,7 @@ std::vector<std::size_t> gltf_roots(GltfDocument& document) {
   return document.mistakes().none() ? roots : std::vector<std::size_t>();
 }
 
-/// Whether so many are more than the file may have or show, which is a mistake.
+/// True, and reports an error, if the file may not have or show so many vertices.
 bool GltfMeshes::has_too_many(std::size_t vertices) {
   constexpr std::size_t bytes_of_number = 4;
   const std::size_t most = std::min(

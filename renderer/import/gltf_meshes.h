@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The meshes and nodes of a glTF file: which vertices they show, and where.
+// Meshes and nodes of a glTF file: their vertices and transforms.
 #pragma once
 
 #include <map>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How glTF writes bytes as text: base64 in data: URIs, and %20 in names.
+// Decodes text of glTF: base64 in data: URIs, and %20 in names.
 #pragma once
 
 #include <optional>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Volume, centre of mass and inertia of shapes with a density of 1: where MuJoCo puts a body
-// without a place of its own, and how it fits primitives to meshes.
+// Volume, centre of mass and inertia of shapes with a density of 1. MuJoCo uses them to place
+// bodies that have no position and to fit primitives to meshes.
 #pragma once
 
 #include <array>

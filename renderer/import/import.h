@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Scenes from files of any format that is read: our own JSON, MJCF, URDF, SDF, glTF. The list of
-// foreign formats is in import.cpp and nowhere else.
+// Reads scenes from files of any supported format: JSON, MJCF, URDF, SDF, glTF. Only import.cpp
+// lists the formats.
 #pragma once
 
 #include <filesystem>

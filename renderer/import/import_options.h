@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a user may ask for when a robot's file is made a scene of.
+// Options for reading a robot's file as a scene.
 #pragma once
 
 #include <string>
@@ -37,13 +37,13 @@ struct ImportOptions {
   bool verbose = false;             ///< tells each missing mesh, not only how many
   Resolution picture = {960, 720};  ///< that the camera frames everything for
 
-  /// Whether meshes stay triangles.
+  /// True if meshes stay triangles.
   bool keeps_triangles() const {
     return meshes == MeshChoice::exact ||
            (meshes == MeshChoice::of_format && split == MeshSplit::none);
   }
 
-  /// Whether anything is asked for that a scene file has no use of.
+  /// True if an option is set that scene files do not use.
   bool any() const {
     return geometry != GeometryChoice::visual || split != MeshSplit::none ||
            meshes != MeshChoice::of_format || !keyframe.empty() || !joints.empty() ||

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Joints' values from files: CSV with names in its first line, or JSON.
+// Reads rows of joint values: CSV with names in its first line, or JSON.
 #include <algorithm>
 #include <charconv>
 #include <cmath>

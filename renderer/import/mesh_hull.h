@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The convex hull of a mesh, made only where somebody asks for it: Qhull takes longer than reading
-// the file.
+// Convex hull of a mesh, computed only on request: Qhull takes longer than reading the file.
 #pragma once
 
 #include "core/mesh/triangle_mesh.h"
@@ -13,7 +12,7 @@ namespace minkray {
 Shape<double> hull_of(const TriangleMesh& mesh);
 std::vector<Vec3<double>> hull_points_of(const TriangleMesh& mesh);
 
-/// What info tells of a mesh file.
+/// Facts about a mesh file for `minkray info`.
 struct MeshFacts {
   std::size_t triangles = 0, without_area = 0, repeated = 0, open_edges = 0;
   std::size_t hull_points = 0;

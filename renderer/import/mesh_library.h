@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The meshes that a robot's file names: looked for where such files keep them, each read once, and
-// made bodies of. The list of formats that are read is mesh_formats, and nowhere else.
+// Meshes that a robot's file names: finds them, reads each once, and makes bodies of them. Only
+// mesh_formats lists the formats.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 
 namespace minkray {
 
-/// What a mesh file holds.
+/// Contents of a mesh file.
 struct MeshContent {
   MeshParts mesh;
   MeshLooks looks = {};  ///< of its parts, if it is split into groups, or of it as a whole

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What mesh files say of their parts besides where vertices are: names, and colours of materials.
+// Names of a mesh file's parts, and the colours of their materials.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The mesh files that a scene file names, and how far from convex each is.
+// Mesh files of a scene file, and how far from convex each is.
 #pragma once
 
 #include <filesystem>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // MJCF, MuJoCo's models (https://mujoco.readthedocs.io/en/2.2.2/XMLreference.html): bodies, joints
-// and geoms, with includes, defaults, composites and keyframes. What moves or senses but has no
-// shape is passed over and counted.
+// and geoms, with includes, defaults, composites and keyframes. Actuators, sensors and the like
+// have no shape; they are counted and ignored.
 #pragma once
 
 #include "renderer/import/import_options.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// MJCF's <asset>: the materials' colours and the meshes, which geoms name.
+// MJCF's <asset>: colours of materials, and meshes, by the names that geoms use.
 #pragma once
 
 #include <array>

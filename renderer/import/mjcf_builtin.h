@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// MuJoCo's builtin meshes (3.3.5): the vertices that <mesh builtin="sphere" params="2"/> stands
-// for.
+// MuJoCo's builtin meshes (3.3.5): the vertices of <mesh builtin="sphere" params="2"/>.
 #pragma once
 
 #include <span>

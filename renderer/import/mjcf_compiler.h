@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What MJCF's <compiler> says of the rest of a file: the units of angles, how Euler angles go,
-// where meshes are; and the poses, which are read by it.
+// MJCF's <compiler>: the units of angles, the order of Euler angles, folders of meshes; and the
+// poses that depend on it.
 #pragma once
 
 #include <string>

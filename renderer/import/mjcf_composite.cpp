@@ -89,7 +89,7 @@ class Composite {
       }
   }
 
-  /// Whether the body around it has the name that begins a rope or cloth: "B3" or "B3_5".
+  /// True if the parent body has the name that begins a rope or cloth: "B3" or "B3_5".
   bool read_origin(int body, int& ox, int& oy) {
     const std::string name = body < 0 ? "" : model_.links[static_cast<std::size_t>(body)].name;
     const bool is_cloth = plan_.type == "cloth";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The bodies that an MJCF <composite> stands for: particles, grids, ropes, loops, cloths, and
-// boxes, cylinders and ellipsoids with a soft shell, as MuJoCo 2.2.2 has them.
+// Bodies of an MJCF <composite> as in MuJoCo 2.2.2: particles, grids, ropes, loops, cloths, and
+// boxes, cylinders and ellipsoids with a soft shell.
 #pragma once
 
 #include <array>

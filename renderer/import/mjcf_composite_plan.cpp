@@ -12,7 +12,7 @@ class PlanReader {
  public:
   PlanReader(const XmlElement& element, XmlFiles& files) : element_(element), files_(files) {}
 
-  /// Whether all of it is right.
+  /// True if everything is valid.
   bool read(const std::function<std::array<double, 4>(const XmlElement&)>& colour_of) {
     if (!read_type() || !read_counts()) return false;
     if (const auto offset = files_.vector(element_, "offset")) plan_.offset = *offset;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What an MJCF <composite> asks for: its type, how many elements, how far from each other, and the
-// geom that each of them has.
+// Parameters of an MJCF <composite>: its type, number of elements, spacing, and the geom of each
+// element.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// MJCF before its bodies are read: included files put in their place, and classes of defaults.
+// MJCF before its bodies are read: inserts included files and collects classes of defaults.
 #pragma once
 
 #include <map>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The geoms of MJCF: primitives by their sizes or two ends, or fitted to meshes, and meshes.
+// Geoms of MJCF: meshes, and primitives given by sizes, by two ends, or by a mesh to fit.
 #pragma once
 
 #include <functional>

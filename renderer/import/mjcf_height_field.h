@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Terrains of MJCF: an <hfield>'s picture, binary file or numbers, as a solid with walls and a
-// bottom, which is what MuJoCo's rays meet.
+// bottom, as MuJoCo's rays see it.
 #pragma once
 
 #include <functional>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where bodies of MJCF are that have no place of their own while coordinates are global: at the
-// centre of mass of their geoms, or in the frame of a single geom.
+// Places MJCF bodies that have no position under global coordinates: at the centre of mass of their
+// geoms, or in the frame of a single geom.
 #pragma once
 
 #include <map>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Elements of MJCF that MuJoCo got after what is read here: told by the version they belong to.
+// Elements of MJCF that are newer than the supported version, each with MuJoCo's version that added
+// it.
 #pragma once
 
 #include <algorithm>

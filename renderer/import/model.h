@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What robots' files have in common: a tree of links, joints between them, and shapes on them. Each
-// format is read into this, and this is made a scene of. Lengths as in the file (metres), angles in
-// radians.
+// Common model of robots' files: a tree of links, the joints between them, and their shapes. Each
+// format is read into a Model, from which a scene is made. Lengths as in the file (metres), angles
+// in radians.
 #pragma once
 
 #include <array>
@@ -60,7 +60,7 @@ struct ModelGeom {
   std::string kind;  ///< in the format's words: "capsule", "mesh", "plane"
   int link = -1;     ///< -1: the world
   Affine<double> pose;
-  /// It has a shape or a mesh; with neither it is the half-space under z = 0.
+  /// Geometry: a shape, a mesh, or with neither the half-space under z = 0.
   std::optional<Shape<double>> shape = {};
   std::shared_ptr<const TriangleMesh> mesh = {};
   Touch touches = Touch::as_seen;  ///< what a mesh is for contact
@@ -86,7 +86,7 @@ struct ModelMesh {
   std::vector<Part> parts;
 };
 
-/// What a file holds that is not shown, and why.
+/// Contents of a file that are ignored, and why.
 struct PassedOver {
   std::string what, why;
   std::size_t count = 1;
@@ -137,7 +137,7 @@ std::vector<double> value_of(const ModelLink& link, const ModelJoint& joint);
 /// The keyframe of that name, or of that number, counted from 0; or null.
 const ModelKeyframe* find_keyframe(const Model& model, const std::string& name);
 
-/// What keyframes are called: their names, or numbers where they have none.
+/// Names of keyframes, or numbers where they have none.
 std::vector<std::string> keyframe_names(const Model& model);
 
 /// Gives all joints the values of a keyframe, as far as they reach.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a robot's file holds, and what of it is not in the scene.
+// Contents of a robot's file, and what is not in the scene.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The ways in which robots' files spell rotations.
+// Notations of rotations in robots' files.
 #pragma once
 
 #include <algorithm>

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The plane that a point lies the least below, of many. Planes are points (normal, offset) of four
-// dimensions in a tree of boxes: how far the point is below one of them, offset - normal . point,
-// is linear, so that a box's corner bounds it. Looking at each plane took minutes for a ball of
-// half a million vertices within another one.
+// Finds, of many planes, the one that a point lies the least below. Planes are points (normal,
+// offset) in a tree of four-dimensional boxes. The depth offset - normal . point is linear, so a
+// box's corner bounds it. Checking every plane took minutes for a ball of half a million vertices.
 #pragma once
 
 #include <algorithm>

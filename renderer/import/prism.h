@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Extruded outlines (SDF's <polyline>) as convex prisms: outlines may be of any shape, and lie
-// within each other as holes do (even-odd rule). A convex outline is one prism; others are cut at
-// their corners into trapezoids (trapezoidal decomposition; de Berg et al., Computational Geometry,
-// 2008, chapter 6, by a sweep over sorted corners).
+// Splits extruded outlines (SDF's <polyline>) into convex prisms. Outlines may be of any shape, and
+// nested as holes (even-odd rule). A convex outline is one prism; others are cut at their corners
+// into trapezoids (trapezoidal decomposition by a sweep; de Berg et al., Computational Geometry,
+// 2008, chapter 6).
 #pragma once
 
 #include <array>

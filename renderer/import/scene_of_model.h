@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A robot as a scene: one object for each of its shapes, and a camera, a sun and a sky where the
-// file has none.
+// Converts a robot into a scene: one object per shape, and a default camera, sun and sky.
 #pragma once
 
 #include "renderer/import/import_options.h"

@@ -9,7 +9,7 @@
 namespace minkray {
 namespace {
 
-/// Whether a name stands for the model's own frame.
+/// True if a name stands for the model's own frame.
 bool is_of_model(const std::string& name) {
   return name.empty() || name == "__model__" || name == "world";
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Poses in SDF: each is given relative to a link, a frame, a joint or a nested model of its model,
-// and these may be relative to others in turn. "arm::hand" is the hand of the nested model arm.
+// Poses in SDF, each relative to a link, frame, joint or nested model, which may be relative to
+// others. "arm::hand" is the hand of the nested model arm.
 #pragma once
 
 #include <map>
@@ -36,7 +36,7 @@ class SdfFrames {
   /// does not say relative to what.
   Affine<double> pose_in_model(const XmlElement& element, const std::string& otherwise = "");
 
-  /// Whether an element's <pose> says relative to what.
+  /// True if an element's <pose> names a frame.
   bool is_relative(const XmlElement& element) const;
 
   /// The link that a link, a frame or a joint is fixed to; the name itself if it is none of these.

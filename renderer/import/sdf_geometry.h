@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The shapes of SDF: what a link's <visual> and <collision> hold.
+// Shapes of SDF: the contents of <visual> and <collision>.
 #pragma once
 
 #include <cstdint>

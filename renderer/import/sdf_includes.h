@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Models of other files, put in the place of the <include> that names them: what stands further
-// down or further in can then name their links and frames as those of any nested model.
+// Replaces each <include> by the model that it names, so that other elements can name its links and
+// frames as those of any nested model.
 #pragma once
 
 #include <filesystem>

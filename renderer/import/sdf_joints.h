@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The joints of SDF, which say what link hangs on what: a model's links stand beside each other in
-// the file, and become trees by them.
+// Joints of SDF. A model's links are a flat list in the file; the joints make trees of them.
 #pragma once
 
 #include <map>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// URDF, the robot description of ROS: http://wiki.ros.org/urdf/XML. Capsules, which it has not, are
-// read as "radius" and "length" of the cylinder. What is no geometry, such as transmissions and
-// plugins, is passed over; unknown geometry is a mistake.
+// URDF, the robot description of ROS (http://wiki.ros.org/urdf/XML). Capsules, which URDF lacks,
+// are read with the cylinder's "radius" and "length". Elements without geometry, such as
+// transmissions and plugins, are ignored; unknown geometry is an error.
 #pragma once
 
 #include "renderer/import/import_options.h"

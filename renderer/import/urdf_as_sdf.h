@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A URDF as the <model> of SDF that it means, for worlds that include robots: links stand where
-// their joints at rest put them.
+// Converts a URDF into an SDF <model>, for worlds that include robots. Links are where their joints
+// at rest put them.
 #pragma once
 
 #include "renderer/import/xml.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// XML as a tree of our own, read by tinyxml2: elements with their line and file, and numbers in
-// their attributes. What is wrong is told with both, all at once.
+// XML as a tree, read by tinyxml2: elements with line and file, and their numeric attributes. All
+// errors are reported together, each with its line and file.
 #pragma once
 
 #include <cstdint>
@@ -29,9 +29,9 @@ struct XmlElement {
   int line = 0;
   std::uint32_t file = 0;  ///< into XmlFiles
 
-  /// It is null if there is none of that name.
+  /// Attribute of that name, or null.
   const std::string* attribute(std::string_view key) const;
-  /// It is empty if there is none.
+  /// Attribute of that name, or `otherwise`.
   std::string attribute_or(std::string_view key, std::string_view otherwise = {}) const;
   /// The first child of that name, or null.
   const XmlElement* child(std::string_view key) const;

@@ -118,7 +118,7 @@ class Connection {
     request.append(block, static_cast<std::size_t>(count));
     return true;
   }
-  /// Whether the other side has closed it.
+  /// True if the other side has closed the connection.
   bool is_closed() const {
     char next;
     const ssize_t count = ::recv(socket_, &next, 1, MSG_PEEK | MSG_DONTWAIT);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A web server for this machine alone: it listens at 127.0.0.1, answers GET under an address that
-// holds a secret, and reads no file.
+// Web server for this machine only: listens at 127.0.0.1, replies to GET under an address with a
+// secret, and reads no file.
 #pragma once
 
 #include <functional>
@@ -14,7 +14,7 @@ namespace minkray {
 struct WebRequest {
   std::string path;
   std::map<std::string, std::string> values;
-  /// Whether whoever asked has hung up meanwhile; any thread may ask.
+  /// True if the client has disconnected. Thread-safe.
   std::function<bool()> is_abandoned = [] { return false; };
 };
 

@@ -20,7 +20,7 @@
 namespace minkray {
 namespace {
 
-/// So many pixels' casts are added before it is asked whether the page is full.
+/// Number of pixels added between two checks that the page is not full.
 constexpr std::size_t pixels_between_looks = 4;
 
 /// Pages that show more objects have coarser meshes of them.

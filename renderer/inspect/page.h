@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The inspector's page: one HTML file with its script, its style and all of its data within, which
-// needs no network.
+// The inspector's page: one HTML file with script, style and data, which needs no network.
 #pragma once
 
 #include <string>

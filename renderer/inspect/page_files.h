@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The files of renderer/inspect/page, which the build puts into the program.
+// Files of renderer/inspect/page, embedded in the program by the build.
 #pragma once
 
 #include <string>

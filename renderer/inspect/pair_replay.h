@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Two of a scene's objects, for the page: the GJK distance between them, the time of impact when
-// one goes straight at the other, and the textbook's sequence in the plane, for their shadows.
+// Replays of two of a scene's objects for the page: their GJK distance, their time of impact when
+// one moves straight at the other, and the textbook's sequence in the plane for their shadows.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What every pixel of an inspected picture tells when it is pointed at: the cast that `minkray
-// trace` would show of it, and the cost of its ray by each of the solvers.
+// Data that the page shows for each pixel: the cast that `minkray trace` prints, and the cost of
+// its ray with each solver.
 #pragma once
 
 #include "renderer/film/render.h"

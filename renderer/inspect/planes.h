@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Numbers by pixel as the page reads them: planes one after another, of each the first bytes of all
-// numbers, then the second ones, and so on, which packs better than number after number.
+// Numbers per pixel in the page's format: planes one after another, each with the first bytes of
+// all numbers, then the second ones, and so on. This compresses better than whole numbers.
 #pragma once
 
 #include <bit>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the page needs to show a cast step by step, as JSON: numbers that were computed here, since
-// the page has no solver of its own. Everything is in the shape's inner frame, from its ball's
-// centre, as CastIteration has it.
+// JSON of a cast, step by step, for the page, which has no solver of its own. All numbers are in
+// the shape's inner frame, relative to its ball's centre, as in CastIteration.
 #pragma once
 
 #include "renderer/json/json.h"

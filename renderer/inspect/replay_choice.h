@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// In which order a page takes up pixels whose casts can be replayed, until it is full: first one of
-// every kind of answer, then grids that get finer and finer.
+// Order in which pixels get a replay until the page is full: one per kind of result first, then
+// ever finer grids.
 #pragma once
 
 #include "renderer/inspect/pixel_answers.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The lines that tell the page of casts, one JSON object each: a shape's meshes ("kind": "shape"),
-// a ray's replay ("ray"), a pair of objects ("pair"). A shape comes once, before the first ray that
-// wants it.
+// Lines of the page's casts, one JSON object each: a shape's meshes ("kind": "shape"), a ray's
+// replay ("ray"), a pair of objects ("pair"). A shape comes once, before its first ray.
 #pragma once
 
 #include <map>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A scene made ready to be asked for one ray at a time: what pictures get to see of it, and the one
-// cast that is worth looking at, with all of its iterations, as `minkray trace` chooses and shows
-// it.
+// Casts single rays at a scene: the result as in pictures, and the one cast to replay with all of
+// its iterations, as chosen by `minkray trace`.
 #pragma once
 
 #include <optional>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What `minkray inspect --serve` answers to its page: any ray, other solvers and tolerances, other
-// places of the camera, pictures that get better. It asks the scene as it was read and nothing
-// else.
+// Replies of `minkray inspect --serve` to its page: any ray, other solvers, tolerances and cameras,
+// and progressive pictures. Uses only the scene as it was read.
 #pragma once
 
 #include <deque>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A shape's two meshes for the page: one within the shape and one around it, made of support points
-// alone (core/derived/sandwich.h).
+// Inner and outer mesh of a shape for the page, made of support points alone
+// (core/derived/sandwich.h).
 #pragma once
 
 #include "core/math/bounds.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Bytes made smaller as they come (zlib, RFC 1950): what browsers unpack by themselves. zlib is
-// seen by deflate.cpp alone.
+// Compresses bytes as they arrive (zlib, RFC 1950), in a format that browsers decompress. Only
+// deflate.cpp includes zlib.
 #pragma once
 
 #include <memory>

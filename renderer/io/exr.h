@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // OpenEXR files in memory: any number of named planes of 32-bit floats or unsigned integers, a data
-// window, and texts about the picture. The library is seen by exr.cpp alone.
+// window, and text attributes. Only exr.cpp includes the library.
 #pragma once
 
 #include <cstdint>
@@ -45,7 +45,7 @@ ExrImage decode_exr(std::string_view bytes, const std::string& file);
 /// decode_exr of a file.
 ExrImage read_exr(const std::string& file);
 
-/// Whether there is a file that begins as OpenEXR files do.
+/// True if the file exists and begins as OpenEXR files do.
 bool is_exr(const std::string& file);
 
 /// Just the string attributes of a file, without its pixels.

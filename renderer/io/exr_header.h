@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A look at OpenEXR headers before the library reads them: it takes as much memory for a text as
-// its length says, 1.8 GB for one in a file of 1.3 kB.
+// Checks OpenEXR headers before the library reads them. The library allocates as much memory for a
+// text as its length says: 1.8 GB for a file of 1.3 kB.
 #pragma once
 
 #include <functional>
@@ -11,9 +11,8 @@ namespace minkray {
 /// Reads on, into all of the buffer; false at the end of the file.
 using ReadOn = std::function<bool(std::span<char> buffer)>;
 
-/// Whether all attributes of the file's headers are there, each as long as it says and as values of
-/// its type are. `read` begins at the file's first byte; of what is no OpenEXR file nothing is
-/// said.
+/// True if the file's headers have all attributes, each with the length that it claims and its type
+/// needs. `read` begins at the file's first byte. True also for files that are not OpenEXR.
 bool has_whole_exr_attributes(const ReadOn& read);
 
 }  // namespace minkray

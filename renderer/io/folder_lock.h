@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One process at a time where several change a file of a folder: each reads it, changes it and
-// writes it anew.
+// Lets one process at a time read, change and rewrite a file of a folder.
 #pragma once
 
 #include <filesystem>

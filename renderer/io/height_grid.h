@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Terrains as files have them: pictures, of which white is the highest, and MuJoCo's binary files.
+// Terrains from files: pictures, where white is the highest, and MuJoCo's binary files.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Image files. The list of formats is in image_file.cpp and nowhere else.
+// Image files. Only image_file.cpp lists the formats.
 #pragma once
 
 #include <string>
@@ -9,13 +9,13 @@
 
 namespace minkray {
 
-/// Whether a format belongs to the path's extension.
+/// True if the path's extension belongs to a format.
 bool is_image_path(const std::string& path);
 
-/// Whether the path's format keeps the numbers as they are (linear, unclipped).
+/// True if the path's format keeps the numbers as they are (linear, unclipped).
 bool keeps_floats(const std::string& path);
 
-/// Whether the path's format keeps any number of named planes and texts (renderer/io/exr.h).
+/// True if the path's format keeps any number of named planes and texts (renderer/io/exr.h).
 bool keeps_planes(const std::string& path);
 
 /// The extensions, for messages: ".png, .pfm, .exr".

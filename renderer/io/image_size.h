@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How large a picture may be that is read.
+// Limits for the size of pictures that are read.
 #pragma once
 
 #include <cstdint>

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A look at the segments of JPEG files before stb_image reads them (ITU T.81, section B.2): its
-// releases up to 2.27 write behind their tables of Huffman codes if a file has longer ones than the
-// standard allows, and take memory and time for all pixels that a file says it has, as often as it
-// says.
+// Checks JPEG segments (ITU T.81, section B.2) before stb_image reads them. Releases up to 2.27
+// write beyond their Huffman tables if a file's are too long, and spend memory and time on all
+// pixels that a file claims, once per claim.
 #pragma once
 
 #include <string_view>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Files that are there in full or not at all: written beside their target under another name, put
-// on the disk, and only then renamed.
+// Writes files completely or not at all: to a temporary name next to the target, then to the disk,
+// then renamed.
 #pragma once
 
 #include <memory>

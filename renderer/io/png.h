@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// PNG files in memory. stb_image_write is seen by png.cpp alone.
+// PNG files in memory. Only png.cpp includes stb_image_write.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace minkray {
 /// 8 bits a channel, red, green and blue, rows from the top. The file says that Minkray wrote it.
 std::vector<unsigned char> png_of(int width, int height, std::span<const std::uint8_t> rgb);
 
-/// Whether the file is a PNG file that says so.
+/// True if the file is a PNG file that says so.
 bool is_own_png(const std::string& file);
 
 /// Grey in 16 bits, rows from the top: numbers as they are, such as depths in millimetres.

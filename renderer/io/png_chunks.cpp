@@ -15,7 +15,7 @@ namespace {
 constexpr std::string_view signature = "\x89PNG\r\n\x1a\n";
 /// A chunk begins with its length and name, and ends with a CRC.
 constexpr std::size_t frame = 12, name_at = 4, name_length = 4, data_at = 8;
-/// It has as many colours of three bytes as an index may name.
+/// Bytes of a full palette: 256 colours of three bytes.
 constexpr std::size_t whole_palette = 768;
 
 /// Four bytes, the highest first.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A look at the chunks of PNG files before stb_image reads them: its releases up to 2.27 copy empty
-// ones to a null pointer, take colours that a palette does not have from memory, and make room for
-// pixels that the file does not have.
+// Checks PNG chunks before stb_image reads them. Releases up to 2.27 copy empty chunks to a null
+// pointer, read palette colours that do not exist, and allocate pixels that the file does not have.
 #pragma once
 
 #include <string>

@@ -82,7 +82,7 @@ class RadianceReader {
     width_ = number_after(" +X ", text);
   }
 
-  /// So that no memory is taken for pixels that the file cannot hold.
+  /// Prevents allocating memory for pixels that the file cannot hold.
   void check_length() const {
     const std::size_t width = static_cast<std::size_t>(width_), plain = sizeof(Rgbe) * width;
     const std::size_t encoded = sizeof(Rgbe) * (1 + 2 * ((width + longest_run - 1) / longest_run));

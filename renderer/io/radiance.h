@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Pictures in Radiance's format (.hdr): rows of four bytes a pixel, three numbers and their common
-// exponent, plain or run-length encoded (Ward, Real Pixels, Graphics Gems II, 1991). stb_image
-// reads them too; its release 2.27 does not end where such a file does.
+// Reads Radiance pictures (.hdr): four bytes per pixel, three numbers and their common exponent,
+// plain or run-length encoded (Ward, Real Pixels, Graphics Gems II, 1991). stb_image reads them
+// too, but release 2.27 reads past the end of a file.
 #pragma once
 
 #include <cstdint>

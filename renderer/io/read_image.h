@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Pictures from files, as linear RGB: OpenEXR, Radiance's .hdr, PNG (8 and 16 bits) and JPEG, grey
-// ones too. stb_image is seen by read_image.cpp alone.
+// Reads pictures as linear RGB: OpenEXR, Radiance's .hdr, PNG (8 and 16 bits) and JPEG, colour or
+// grey. Only read_image.cpp includes stb_image.
 #pragma once
 
 #include <cstdint>

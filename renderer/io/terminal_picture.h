@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Pictures as the bytes that make a terminal show them: the graphics protocol of kitty
-// (sw.kovidgoyal.net/kitty/graphics-protocol), sixels (DEC VT340, STD 070), or half blocks, which
-// every terminal with colours has.
+// Encodes pictures for terminals: kitty's graphics protocol
+// (sw.kovidgoyal.net/kitty/graphics-protocol), sixels (DEC VT340, STD 070), or half blocks, for
+// every terminal with colours.
 #pragma once
 
 #include <string>

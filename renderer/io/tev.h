@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A picture shown by the viewer tev while it grows, over the protocol that tev listens for: packets
-// with their length and kind in front, numbers in little-endian order, texts that end with a zero
-// (Tom94/tev, the packets CreateImage and UpdateImageV3).
+// Shows a picture in the viewer tev while it renders, over tev's network protocol: packets that
+// begin with length and kind, little-endian numbers, zero-terminated texts (Tom94/tev, packets
+// CreateImage and UpdateImageV3).
 #pragma once
 
 #include <string>

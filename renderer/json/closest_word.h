@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The name that a mistyped word likely stands for.
+// Suggests the name that is closest to a mistyped word.
 #pragma once
 
 #include <optional>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The JSON value, compiled once: what reads a number out of a scene needs no library's templates.
-// nlohmann-json, which reads and writes the text of numbers and strings, is seen by the sources of
-// this folder alone.
+// JSON value, compiled once, so users need no library's templates. Only this folder includes
+// nlohmann-json, which reads and writes the text of numbers and strings.
 #pragma once
 
 #include <concepts>
@@ -109,7 +108,7 @@ class Json {
   /// Adds a member whose key is known not to be there.
   void add_new_member(std::string key, Json value);
 
-  /// Whether two values are the same; objects also in the order of their keys, numbers by value.
+  /// True if two values are equal; objects also in the order of their keys, numbers by value.
   bool operator==(const Json& other) const;
 
  private:

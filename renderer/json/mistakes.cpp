@@ -27,7 +27,7 @@ std::size_t utf8_length(std::string_view text, std::size_t i) {
   return length;
 }
 
-/// Whether it ends lines or turns the order of what is shown beside it: U+2028 to U+202E and U+2066
+/// True if the character breaks lines or changes the direction of text: U+2028 to U+202E and U+2066
 /// to U+2069.
 bool turns_text(std::string_view character) {
   return (character >= "\xE2\x80\xA8" && character <= "\xE2\x80\xAE") ||

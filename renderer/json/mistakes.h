@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The user's mistakes in one file, collected so that all of them can be told at once.
+// Collects the user's errors in one file, to report all of them together.
 #pragma once
 
 #include <limits>

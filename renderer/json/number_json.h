@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Numbers in answers: the fewest digits that read back as the same float or double, null for what
-// is not finite.
+// Numbers in results: the fewest digits that read back as the same float or double, and null if not
+// finite.
 #pragma once
 
 #include <charconv>

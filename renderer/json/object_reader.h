@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reads the keys of one JSON object and remembers which it was asked for, so that all others can
-// be told as mistakes.
+// Reads the keys of one JSON object and records which were requested, so that all others can be
+// reported as errors.
 #pragma once
 
 #include <initializer_list>
@@ -19,7 +19,7 @@ class ObjectReader {
   /// JSON that is no object is a mistake and reads as an object without keys.
   ObjectReader(const Json& json, JsonPath path, Mistakes& mistakes);
 
-  /// Whether the JSON is an object at all.
+  /// True if the JSON is an object.
   bool is_object() const { return is_object_; }
 
   /// The value of a key; null if it is not there. The key counts as known from now on.

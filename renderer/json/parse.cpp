@@ -27,8 +27,8 @@ struct NotFinite {
   std::string written;
 };
 
-/// Whether a word is one of those that other languages write for such numbers, or a number that
-/// nlohmann-json reads as infinite.
+/// True if a word is another language's spelling of NaN or infinity, or a number that nlohmann-json
+/// reads as infinite.
 bool is_not_finite(std::string_view word) {
   const bool has_sign = word.starts_with('-') || word.starts_with('+');
   const std::string_view digits = word.substr(has_sign ? 1 : 0);
@@ -87,7 +87,7 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
 
   Json take_root() { return std::move(root_); }
 
-  /// Whether each number that is not finite has been told.
+  /// True if each number that is not finite has been reported.
   bool has_reported_all() const { return reported_ == not_finite_.size(); }
 
   /// Where reading stopped, if it did: the bytes before the last one read, and the reason.

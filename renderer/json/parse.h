@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Strict JSON: text to value. Duplicate keys, numbers that no double can hold, NaN and Infinity,
-// and nesting without end are mistakes that name their place.
+// Strict JSON parser. Duplicate keys, numbers beyond double, NaN, Infinity and too deep nesting are
+// errors with a location.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where a value stands in a JSON document: a JSON pointer (RFC 6901) such as /objects/3/shape.
+// Location of a value in a JSON document: a JSON pointer (RFC 6901) such as /objects/3/shape.
 #pragma once
 
 #include <cstddef>

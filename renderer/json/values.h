@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reading single values: each either returns the value, or adds a mistake that says what was
-// expected and what was found.
+// Reads single values: each function returns the value, or adds an error with what was expected and
+// found.
 #pragma once
 
 #include <optional>
@@ -20,7 +20,7 @@ std::string found(const Json& json);
 /// "> 0", ">= 0" and so on; empty if any number will do.
 std::string_view constraint(Range range);
 
-/// Whether a finite number is in the range.
+/// True if a finite number is in the range.
 bool in_range(double value, Range range);
 
 std::optional<double> read_number(const Json& json, const JsonPath& path, Mistakes& mistakes,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A JSON value is written as text: numbers by their shortest digits, strings with their escapes.
+// Writes a JSON value as text: numbers with their shortest digits, strings with escapes.
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One side of many pairs, as the C interface is given it: shapes that are made ready once, poses
-// and twists that are looked at when they are read.
+// One side of many pairs in the C interface: shapes, prepared once, and poses and twists, checked
+// when read.
 #pragma once
 
 #include <memory>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The function of the C interface that bounds how near a robot comes to what is around it.
+// C interface: clearance of a robot's path.
 #include <algorithm>
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The functions of the C interface about many pairs of shapes at once.
+// C interface: queries on many pairs of shapes.
 #include <algorithm>
 #include <cmath>
 #include <limits>

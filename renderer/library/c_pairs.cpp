@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The functions of the C interface about pairs of shapes.
+// C interface: queries on a pair of shapes.
 #include <cmath>
 #include <memory>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The functions of the C interface that make pictures.
+// C interface: pictures.
 #include <algorithm>
 #include <atomic>
 #include <variant>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The function of the C interface that proves answers.
+// C interface: proofs of results.
 #include "renderer/library/call.h"
 #include "renderer/library/prover.h"
 #include "renderer/library/ray_source.h"

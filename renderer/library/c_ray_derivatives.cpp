@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How the answers of rays change with the rays and with what they meet.
+// C interface: derivatives of ray casts by the rays and the bodies that they hit.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -35,8 +35,8 @@ struct Met {
         status(hits.status[i]) {}
 };
 
-/// Whether rays on both sides, a little way aside, are met where a plane would be: of shapes that
-/// are known by their support mapping only. Across an edge the surface falls off.
+/// True if nearby rays on both sides do not hit where a plane would be, for shapes known only by
+/// their support mapping. Across an edge the surface falls off.
 bool bends_at(const World& world, const Ray<double>& ray, const Met& met, double size) {
   constexpr double step = 1e-6;  // of the size
   constexpr double bent = 1e-4;  // of the step: more than any curved surface bends over it

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The functions of the C interface that cast rays.
+// C interface: ray casts.
 #include <algorithm>
 #include <bit>
 #include <span>

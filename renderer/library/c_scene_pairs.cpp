@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The functions of the C interface about the pairs of a scene.
+// C interface: queries on the pairs of a scene.
 #include <algorithm>
 #include <cmath>
 #include <limits>

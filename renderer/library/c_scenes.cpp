@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The functions of the C interface that make scenes and change them.
+// C interface: making and changing scenes.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

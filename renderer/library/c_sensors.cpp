@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The function of the C interface that makes a lidar's rays.
+// C interface: rays of a lidar.
 #include "renderer/library/call.h"
 #include "renderer/library/poses.h"
 #include "renderer/sensor/sensor_rays.h"

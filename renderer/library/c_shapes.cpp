@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The functions of the C interface that make shapes and ask them.
+// C interface: making and querying shapes.
 #include <cmath>
 #include <cstring>
 

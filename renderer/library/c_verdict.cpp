@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The function of the C interface that judges a robot's motion.
+// C interface: verdicts on a robot's motion.
 #include <cmath>
 
 #include "core/parallel/parallel.h"

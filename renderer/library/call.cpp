@@ -10,8 +10,8 @@
 namespace minkray {
 namespace {
 
-/// What the last call of this thread that failed says: the one thing that calls leave behind, since
-/// C has no better place for a text.
+/// Message of this thread's last failed call. The only state that calls keep, since C has no better
+/// place for a text.
 std::string& kept_error() {
   thread_local std::string text;
   return text;

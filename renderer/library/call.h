@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The border to other languages: no exception crosses it, and what was wrong is kept as a text.
+// Border to other languages: no exception crosses it; error messages are kept as text.
 #pragma once
 
 #include <cstddef>

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
-// A support function of the user's, watched: what it answers is finite and never contradicts what
-// it has answered before, or it is told.
-//
-// Support points s_i along unit directions n_i belong to a convex shape if and only if no s_j lies
-// beyond any of the planes through s_i with normal n_i: the hull of the points is such a shape
-// then. So as long as no two answers contradict each other, there is a shape that has them, and
-// what was proven by them is true of it.
+// Checks a user's support function: results must be finite and consistent. Support points s_i along
+// unit directions n_i belong to a convex shape if and only if no s_j lies beyond a plane through
+// s_i with normal n_i: their hull is one. So proofs from consistent results hold for some shape
+// with these points.
 #pragma once
 
 #include <atomic>
@@ -80,7 +77,7 @@ class CustomSupport final : public SupportSource, public BatchSource {
 /// The custom shapes that a shape is made of, each once.
 std::vector<std::shared_ptr<const CustomSupport>> customs_of(const Shape<double>& shape);
 
-/// Whether one of them wants to be asked for many directions at once.
+/// True if one of them wants many directions per call.
 bool are_gathered(const std::vector<std::shared_ptr<const CustomSupport>>& customs);
 
 /// Throws CallError if one of them has lied.

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Many pieces of work on one thread that wait for each other's support points, so that a support
-// function that is dear to call is asked for many directions at once.
-//
-// Each piece runs on a stack of its own. Where it asks for support points it stands still, and the
-// next one begins or goes on; when all stand still the function is called once for all of them.
-// Solvers know nothing of that, and answers are the same.
+// Batches calls of an expensive support function over many directions. Each piece of work runs on
+// its own stack and pauses when it requests support points; when all pieces pause, one call serves
+// all. Solvers are unaware, and results are the same.
 #pragma once
 
 #include <cstddef>

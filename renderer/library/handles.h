@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Things that programs in other languages hold by number. A number is never used twice, so that one
-// which was released, or never given out, is found.
+// Handles for other languages. Numbers are never reused, so a released or invalid one is detected.
 #pragma once
 
 #include <array>

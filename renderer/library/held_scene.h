@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A scene as programs in other languages hold it: objects are added and moved, and then committed,
-// by which rays meet them.
+// Scene behind a handle: objects are added and moved, then committed, and rays see the last commit.
 #pragma once
 
 #include <atomic>
@@ -70,7 +69,7 @@ class HeldScene {
   /// The scene as files describe it. Objects are written out: for pictures and proofs, not for
   /// rays.
   Scene whole() const;
-  /// Whether a file had one.
+  /// True if a file had a camera.
   bool has_camera() const { return has_camera_; }
   const std::vector<std::shared_ptr<const CustomSupport>>& customs() const { return customs_; }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A shape as programs in other languages hold it.
+// Shape behind a handle.
 #pragma once
 
 #include <atomic>
@@ -15,7 +15,7 @@
 
 namespace minkray {
 
-/// It never changes; what is prepared of it is made when it is first asked for.
+/// Immutable; prepared data is made on first use.
 class HeldShape {
  public:
   explicit HeldShape(Shape<double> shape)

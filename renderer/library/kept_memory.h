@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the caller keeps of a pair between two calls, as numbers that mean nothing to him.
+// State of a pair that the caller keeps between two calls, as opaque numbers.
 #pragma once
 
 #include <algorithm>

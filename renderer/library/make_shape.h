@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Shapes from named parameters, by their described fields. No kind of shape is named here.
+// Makes shapes from named parameters via their described fields. Names no kind of shape.
 #pragma once
 
 #include <span>

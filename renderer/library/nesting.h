@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How large a shape made of shapes may become. Files end somewhere; handles do not: a sum of a
-// shape with itself, made forty times over, has a million million parts.
+// Limits the size of composite shapes. Files are finite, but handles can nest: a sum of a shape
+// with itself, repeated forty times, has a million million parts.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Questions and answers on pairs of shapes as the C interface has them.
+// Queries and results on pairs of shapes in the C interface's types.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace minkray {
 
-/// What is asked for; it may be null. Throws CallError if it is wrong.
+/// Reads options, which may be null. Throws CallError if they are invalid.
 SignedDistanceOptions distance_options(const minkray_distance_options* given);
 
 minkray_distance_status code_of(SignedStatus status);

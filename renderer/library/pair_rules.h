@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which pairs of a scene's objects are looked at: by bit masks, and but for allowed pairs.
+// Pairs of a scene's objects that are queried: by bit masks, without allowed pairs.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Poses, points and numbers that come over the border, looked at before anything is made of them.
+// Poses, points and numbers from the C interface, checked before use.
 #pragma once
 
 #include <cmath>
@@ -18,8 +18,8 @@ inline bool is_identity(const minkray_pose& pose) {
   return is_same;
 }
 
-/// Whether the rows are of length 1 and square to each other, but for a few roundings; false if any
-/// number is not finite.
+/// True if the rows have length 1 and are orthogonal, up to a few roundings; false if any number is
+/// not finite.
 inline bool are_orthonormal(const double (&rows)[3][4]) {
   constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
   const auto off = [&](int i, int j) {
@@ -68,7 +68,7 @@ inline Vec3<double> vector_of(const double* numbers, const char* argument,
   return {numbers[0], numbers[1], numbers[2]};
 }
 
-/// Whether lengths stay what they are, but for a few roundings.
+/// True if the pose keeps lengths, up to a few roundings.
 bool is_rigid(const Affine<double>& pose);
 
 }  // namespace minkray

@@ -21,7 +21,7 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 /// Instances that one thread takes at once.
 constexpr std::size_t grain = 256;
 
-/// Whether the ray stays off the box up to t_end, whatever is rounded.
+/// True if the ray misses the box up to t_end, including rounding.
 bool misses_box(const Bounds<double>& box, const Ray<double>& ray, double t_end) {
   double enter = 0, leave = t_end;
   for (int k = 0; k < 3; ++k) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Proofs of what was answered about whole scenes: that an object is met where it is said to be, and
-// that no other is met before.
+// Proves results about whole scenes: the named object is hit, and no other one before it.
 #pragma once
 
 #include <optional>
@@ -32,7 +31,7 @@ class Prover {
 
   CertificateVerdict verdict(const Body& body, const Ray<double>& ray, const Claim& claim,
                              Certificate* found) const;
-  /// Whether it is proven that the ray does not meet the body before t_lo.
+  /// True if the ray is proven not to hit the body before t_lo.
   bool keeps_off(std::uint32_t index, const Ray<double>& ray, double t_lo) const;
 
   const World& world_;

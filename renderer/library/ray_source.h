@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rays and answers as callers have them: in structs or in arrays, one behind the other or apart.
+// Rays and results in the caller's layout: structs or arrays, contiguous or strided.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A robot of a scene on its way: its rows of joints' values, and all that it may meet.
+// A robot's path in a scene: its rows of joint values, and all obstacles.
 #pragma once
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A committed scene as queries on pairs see it: bodies with a hierarchy of their boxes, and
-// half-spaces, which have none.
+// Bodies of a committed scene for pair queries: a BVH of their boxes, and half-spaces, which have
+// none.
 #pragma once
 
 #include <optional>
@@ -47,7 +47,7 @@ class SceneBodies {
   }
   /// Where the frame is that a twist moves.
   Vec3<double> origin(std::uint32_t object) const;
-  /// Whether another object's surface is no further from the point than `near`.
+  /// True if another object's surface is no further from the point than `near`.
   bool is_another_at(const Vec3<double>& point, std::uint32_t object, double near) const;
 
   /// The object that is touched first; its number is in `body`.
@@ -56,7 +56,7 @@ class SceneBodies {
   PairDerivative derivative(const PartsBody& moving, const RigidMotion& motion,
                             const EarliestImpact& found) const;
 
-  /// Whether the object is one for contact.
+  /// True if the object is a half-space for contact.
   bool is_half_space(std::uint32_t object) const { return half_space_of(object) != nullptr; }
 
  private:

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Uses of a scene that run now, so that none is changed or released while a call uses it.
-//
-// Each thread lists the scenes that it uses (M. Michael, "Hazard Pointers: Safe Memory Reclamation
-// for Lock-Free Objects", 2004). A use is written there before it looks for a change; a change
-// announces itself before it looks through the lists. So at least one of the two sees the other.
+// Registers running uses of a scene, so that no call changes or releases it meanwhile. Each thread
+// lists the scenes that it uses (M. Michael, "Hazard Pointers: Safe Memory Reclamation for
+// Lock-Free Objects", 2004). A use is listed before it checks for a change; a change is announced
+// before it checks the lists. So at least one of the two sees the other.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Many rays on several threads, with a caller who hears how it goes and may stop it.
+// Runs work on many rays on several threads, with progress reports and cancellation.
 #pragma once
 
 #include <functional>

@@ -15,7 +15,7 @@ class AliasTable {
   /// Weights are finite and >= 0; if all are zero each is as likely as the others.
   explicit AliasTable(std::span<const double> weights);
 
-  /// By a number in [0, 1).
+  /// Draws an index by a number u in [0, 1).
   std::size_t draw(double u) const;
   /// The chance of one of them.
   double chance(std::size_t i) const { return chances_[i]; }

@@ -100,7 +100,7 @@ void AmbientTransport::follow(std::span<TracedRay> rays, const Path& path,
   add_indirect(rays, points, path, counts);
 }
 
-/// What a ray sees that meets nothing, or begins in a shape.
+/// Light of a ray that misses, or begins in a shape.
 Colour AmbientTransport::off_surface(const Ray<double>& ray, const WorldHit& hit, const Path& path,
                                      RayCounts& counts) const {
   // Nothing there: cameras see the background. Surfaces are lit by the environment, and mirror it,
@@ -137,7 +137,7 @@ AmbientTransport::HitPoint AmbientTransport::hit_point(const TracedRay& ray,
 /// lights behind the surface.
 void AmbientTransport::add_direct(std::span<TracedRay> rays, const HitPoints& points,
                                   const Path& path, RayCounts& counts) const {
-  /// What a light sends to the point that a ray met, if nothing is in its way.
+  /// Light that arrives at a ray's hit point, if unoccluded.
   struct Arriving {
     std::size_t ray;
     Vec3<double> w_in;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The light that arrives along a ray: direct light with shadows, mirrored light, and light
-// scattered by surfaces that the environment and other surfaces shine on, with ambient occlusion as
-// the last word.
+// Direct light with shadows, mirrored light, and ambient occlusion: light from the environment and
+// other surfaces, scattered by the surface that a ray hits.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +27,7 @@ class AmbientTransport final : public LightTransport {
   struct Path;
   struct HitPoint;
   struct Wave;
-  /// By ray: none where it met no surface.
+  /// Hit point of each ray, if any.
   using HitPoints = std::vector<std::optional<HitPoint>>;
 
   void follow(std::span<TracedRay> rays, const Path& path, RayCounts& counts) const;
@@ -39,11 +38,12 @@ class AmbientTransport final : public LightTransport {
                   RayCounts& counts) const;
   void add_indirect(std::span<TracedRay> rays, const HitPoints& points, const Path& path,
                     RayCounts& counts) const;
-  /// By way of the base of the surfaces of some rays; `chances` are those of having come here.
+  /// Adds light scattered by the bases of some rays' surfaces; `chances` are the probabilities of
+  /// having come here.
   void add_scattered(std::span<TracedRay> rays, const HitPoints& points,
                      std::span<const std::size_t> which, std::span<const double> chances,
                      const Path& path, RayCounts& counts) const;
-  /// By way of their coats.
+  /// Adds light mirrored by their coats.
   void add_mirrored(std::span<TracedRay> rays, const HitPoints& points,
                     std::span<const std::size_t> which, std::span<const double> chances,
                     const Path& path, RayCounts& counts) const;

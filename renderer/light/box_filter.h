@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Means of simple functions over intervals in closed form, by their integrals. An interval that is
-// too narrow for rounding stands for its middle.
+// Means of simple functions over intervals in closed form, by their integrals. Intervals too narrow
+// for rounding are replaced by their middle.
 #pragma once
 
 #include <algorithm>

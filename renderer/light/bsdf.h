@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// How a surface scatters light, for the path tracer: eval is its value times the cosine of w_in,
-// sample draws a direction that light comes from, pdf is the density of these draws over solid
-// angle. Directions point away from the surface, in a frame whose z is the body's outward normal:
-// w_in may lie on the other side, where light comes through.
+// Scattering at a surface, for the path tracer: eval is the BSDF times the cosine of w_in, sample
+// draws a w_in, pdf is the density of the draws over solid angle. Directions point away from the
+// surface, in a frame whose z is the body's outward normal; w_in is on the other side for
+// transmitted light.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@
 
 namespace minkray {
 
-/// What a surface is asked about.
+/// Input of a BSDF.
 struct Shading {
   Vec3<double> w_out;                   ///< towards where the light goes; z != 0
   double eta_above = 1, eta_below = 1;  ///< indices of refraction outside and inside of the body
@@ -50,12 +50,11 @@ class Bsdf {
   /// Nothing where the light is absorbed.
   virtual std::optional<BsdfSample> sample(const Shading& at, const BsdfChoice& choice) const = 0;
 
-  /// Whether any light comes from a light's direction: not where all directions are sharp.
+  /// True if all directions are sharp, so no light arrives from a light's direction.
   virtual bool is_sharp() const { return false; }
-  /// Whether light gets into the body.
+  /// True if light enters the body.
   virtual bool lets_through() const { return false; }
-  /// Whether it matters which way x points across the normal: then along circles around the
-  /// object's z axis.
+  /// True if the direction of x matters: it then points along circles around the object's z axis.
   virtual bool has_grain() const { return false; }
 };
 

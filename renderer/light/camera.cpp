@@ -83,7 +83,7 @@ Ray<double> Camera::other_ray(double x, double y) const {
   return {position_, unit<double>(std::cos(angle) * forward_ + std::sin(angle) * outwards)};
 }
 
-// By the rays through the neighbouring pixels on the right and below.
+// Derived from the rays through the pixels on the right and below.
 RayCone Camera::cone(double x, double y) const {
   const Ray<double> middle = ray(x, y), right = ray(x + 1, y), down = ray(x, y + 1);
   const auto side = [](const Vec3<double>& to_right, const Vec3<double>& to_below) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Cameras: pixels to rays, and points of the world back to pixels.
+// Cameras: pixels to rays, and points in world space to pixels.
 #pragma once
 
 #include <array>
@@ -28,7 +28,7 @@ class Camera {
   /// The cone of a pixel around that ray: as large as the pixel, seen from the middle of the lens.
   RayCone cone(double x, double y) const;
 
-  /// Whether rays through other places of the lens differ: it has a size.
+  /// True if the lens has a size, so rays differ by their place on it.
   bool has_lens() const { return lens_radius_ > 0; }
   /// The ray to where a ray through the lens's middle is in focus, through a place of the lens
   /// drawn by two numbers.

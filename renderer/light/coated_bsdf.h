@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Matt and glossy surfaces (renderer/light/reflection.h) as the path tracer asks for them.
+// Matt and glossy surfaces (renderer/light/reflection.h) as BSDFs of the path tracer.
 #pragma once
 
 #include "renderer/light/bsdf.h"

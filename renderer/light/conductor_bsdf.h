@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Metals: Fresnel's law with a complex index of refraction, or Schlick's approximation of it from a
-// colour, on a smooth or rough surface; what facets throw onto others is put back (Turquin 2019).
+// Metals, smooth or rough: Fresnel's law with a complex index of refraction, or Schlick's
+// approximation from a colour. Multiple scattering between facets is restored (Turquin 2019).
 #pragma once
 
 #include "renderer/light/bsdf.h"
@@ -12,7 +12,7 @@ namespace minkray {
 /// The fraction of light that a metal mirrors in air.
 double fresnel_of_metal(double cosine, double eta, double k);
 
-/// What a metal mirrors, by the cosine of incidence.
+/// Reflectance of a metal by the cosine of incidence.
 class MetalFresnel {
  public:
   explicit MetalFresnel(const Colour& straight_ahead) : straight_ahead_(straight_ahead) {}
@@ -28,7 +28,7 @@ class MetalFresnel {
 
 class ConductorBsdf final : public Bsdf {
  public:
-  /// It is a metal by its table, or a colour.
+  /// Metal given by its table, or by a colour.
   ConductorBsdf(const MetalFresnel& fresnel, double roughness, double anisotropy);
   ConductorBsdf(const Paint& colour, double roughness, double anisotropy);
 

@@ -6,7 +6,7 @@
 namespace minkray {
 namespace {
 
-/// It is the surface as seen from the side of w_out, which is then above.
+/// Surface as seen from the side of w_out, which is above.
 struct Seen {
   Vec3<double> w_out;
   double sign;  ///< of z
@@ -51,7 +51,7 @@ DielectricBsdf::DielectricBsdf(double roughness, double index_of_refraction, con
   kept_ = KeptEnergy::of_boundary(*rough_, index_of_refraction);
 }
 
-/// They belong to one pair of directions.
+/// Parts of the result for one pair of directions.
 struct DielectricBsdf::Parts {
   double value;    ///< eval
   double density;  ///< pdf

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The boundary of two clear media, smooth or rough (Walter et al., "Microfacet Models for
-// Refraction through Rough Surfaces", 2007). Of a rough one the light that facets throw onto other
-// facets is put back, in proportion (Turquin, "Practical multiple scattering compensation for
-// microfacet models", 2019).
+// Boundary of two clear media, smooth or rough (Walter et al., "Microfacet Models for Refraction
+// through Rough Surfaces", 2007). Multiple scattering between facets is restored in proportion
+// (Turquin, "Practical multiple scattering compensation for microfacet models", 2019).
 #pragma once
 
 #include "renderer/light/bsdf.h"

@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::uint32_t no_emitter = std::numeric_limits<std::uint32_t>::max();
 
-/// So many emitters are weighed one by one at each point, by brightness, size and distance; more
-/// are chosen among by a tree of them.
+/// Up to this number, emitters are weighted one by one at each point, by brightness, size and
+/// distance; more are chosen by a tree.
 constexpr std::size_t most_weighed = 16;
 
 /// A flat body's ellipsoid is so thick, over its largest radius: directions from where the body is

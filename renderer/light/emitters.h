@@ -1,14 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Bodies that shine, of any shape. Directions towards one are drawn towards a simple body about it,
-// whichever has the smaller shadow:
-// - an ellipsoid: within the cone under which it is seen, which is that of a unit ball, drawn
-// evenly
-//   there. This is the body itself if it is a ball, an ellipsoid or a disk: every direction meets
-//   it;
-// - its box: evenly over one of the faces that are seen.
-// The map A from the world to the frame in which that is done changes solid angles by
-// |det A| / |A d|^3 for unit directions d. Whether a direction meets the body, and where, is asked
-// by casting at it.
+// Samples emissive bodies of any shape. Directions are drawn towards the ellipsoid around the body
+// (uniformly in the cone of a unit ball, exact for balls, ellipsoids and disks) or a face of its
+// box, whichever looks smaller. The map A from the world to that frame changes solid angles by |det
+// A| / |A d|^3 for unit d. A cast decides whether a direction meets the body.
 #pragma once
 
 #include <optional>
@@ -51,7 +45,7 @@ struct EmitterSample {
 /// The instances of a world that shine.
 class Emitters {
  public:
-  /// By instance: the radiance; none where it is zero. Refers to the world.
+  /// Takes the radiance of each instance, zero for none. Refers to the world.
   Emitters(const World& world, const std::vector<Colour>& radiance_of_instance);
 
   bool none() const { return emitters_.empty(); }

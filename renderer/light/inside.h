@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Where a ray goes on within clear bodies. Which bodies hold the ray is known, not measured: it
-// enters and leaves them one by one, each at a place that is cast for, so that rounding cannot put
-// it on the wrong side and no distance has to be guessed. A ray that goes out of a convex body does
-// not meet it again, one that goes in leaves it at the exit that cast_exit finds.
+// Follows a ray through nested clear bodies. Entries and exits are cast one by one, so rounding
+// cannot put the ray on the wrong side, and no offset is needed. A ray that leaves a convex body
+// does not meet it again; one that enters it leaves at the exit found by cast_exit.
 #pragma once
 
 #include <array>

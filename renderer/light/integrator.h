@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The light that arrives along a ray, gathered in the way that is asked for.
+// Light that arrives along a ray, by the requested integrator.
 #pragma once
 
 #include <memory>

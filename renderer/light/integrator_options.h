@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The integrators that there are, and what they may be asked for.
+// Integrators and their options.
 #pragma once
 
 #include <array>
@@ -30,7 +30,7 @@ inline constexpr std::array integrators = {
     IntegratorDescription{IntegratorKind::normals, "normals", "the normals' directions as colours"},
 };
 
-/// What of the light is followed, and how far.
+/// Kinds of light to follow, and how far.
 struct IntegratorOptions {
   /// How often light may be scattered between surfaces before the environment's light is the last
   /// word; 0 is ambient occlusion.
@@ -40,7 +40,7 @@ struct IntegratorOptions {
   /// How many camera rays are traced together, with all rays that follow from them. The picture is
   /// the same bit for bit.
   int ray_group = 512;
-  /// It is called for every ray and its answer, if it is there.
+  /// Called with every ray and its result, if not null.
   RayObserver* observer = nullptr;
   IntegratorKind kind = IntegratorKind::automatic;
   /// How often a path may be scattered, mirrored or refracted.

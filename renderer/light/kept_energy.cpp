@@ -11,7 +11,7 @@
 namespace minkray {
 namespace {
 
-/// So many draws a number of the table: it is off by less than half a percent.
+/// Draws per number of the table: errors are below half a percent.
 constexpr int draws = 512;
 
 /// Indices of refraction further apart than these by their logarithm count as these: air and

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How much of the light rough boundaries scatter at the first facet it meets: the rest is shadowed
-// by other facets, off which it would bounce again. Dividing by this part keeps the energy.
+// Fraction of light that rough boundaries scatter without a second facet. Dividing by it restores
+// the energy of multiple scattering.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What all ways to gather light have in common.
+// Interface of all integrators.
 #pragma once
 
 #include <span>
@@ -8,7 +8,7 @@
 
 namespace minkray {
 
-/// Any number of threads may ask.
+/// Thread-safe.
 class LightTransport {
  public:
   virtual ~LightTransport() = default;

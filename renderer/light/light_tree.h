@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Choosing one of many lights by how much it may send to a point: a binary tree of them, walked
-// down from its root by chance, at each node in proportion to the power over the squared distance
-// of either side (Conty Estevez and Kulla, "Importance Sampling of Many Lights with Adaptive Tree
-// Splitting", 2018; without cones of normals, for convex bodies shine to all sides).
+// Chooses one of many lights by its likely contribution at a point: walks a binary tree from the
+// root, at each node choosing a side in proportion to power over squared distance (Conty Estevez
+// and Kulla, "Importance Sampling of Many Lights with Adaptive Tree Splitting", 2018; without
+// normal cones, since convex bodies emit to all sides).
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where light comes from. Every light is asked alike: sample draws a direction that its light comes
-// from, pdf is the density of these draws over solid angle. A light that has but one direction is
-// drawn surely, and has no density.
+// Light sources. For every light sample draws a direction that light comes from, and pdf is the
+// density of the draws over solid angle. A light with a single direction has no density.
 #pragma once
 
 #include <memory>
@@ -30,8 +29,8 @@ class SkySource {
   virtual Colour eval(const Vec3<double>& direction) const = 0;
   virtual std::optional<LightSample> sample(const Vec3<double>& point, Sampler& sampler) const = 0;
   virtual double pdf(const Vec3<double>& point, const Vec3<double>& direction) const = 0;
-  /// Whether it is worth a ray of its own: not if it is about as bright everywhere, when what
-  /// surfaces draw finds it as well.
+  /// True if the light is worth its own rays. Not if it is about equally bright everywhere, since
+  /// BSDF samples find it as well.
   virtual bool is_asked() const = 0;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Several surfaces in one: a weighted sum of them, of which one is drawn by chance.
+// Weighted sum of several BSDFs; sampling picks one at random.
 #pragma once
 
 #include <span>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Rough boundaries as many small mirrors: the distribution of Walter et al. (2007, "GGX"), wider
-// along x or y where it is brushed, with Smith's height-correlated shadowing (Heitz, "Understanding
-// the Masking-Shadowing Function", 2014).
+// Rough boundaries as microfacets: the GGX distribution of Walter et al. (2007), anisotropic where
+// brushed, with Smith's height-correlated shadowing (Heitz, "Understanding the Masking-Shadowing
+// Function", 2014).
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Two materials in one place: so much of the one, the rest of the other.
+// Mixture of two materials by an amount.
 #pragma once
 
 #include "renderer/light/lobes.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Solid noise, smooth and the same everywhere, for textures.
+// Smooth solid noise for textures, the same on every machine.
 #pragma once
 
 #include "core/math/vec.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Normals as colours: (1 + n) / 2, white where nothing is. For a first look at shapes.
+// Normals as colours, (1 + n) / 2, and white for misses: a quick look at shapes.
 #pragma once
 
 #include "renderer/light/integrator_options.h"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where the rays of paths come to: light that they find by themselves, and the point where a path
-// is to be scattered.
+// Ends of the rays of paths: the light found there, and the point where the path scatters next.
 #include <limits>
 
 #include "renderer/light/path_wave.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What lights and shining bodies send to the ends of paths.
+// Direct light from lights and emissive bodies at the vertices of paths.
 #include "renderer/light/path_wave.h"
 
 namespace minkray {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a path tracer keeps of a path: the ray that goes on from its end, where it met a surface,
-// and what lights send there.
+// State of a path: its current ray, its last vertex on a surface, and the light sampled there.
 #pragma once
 
 #include <vector>
@@ -49,14 +48,14 @@ struct PathTransport::Point {
   Ray<double> ray(const Vec3<double>& w, const Vec3<double>& direction) const {
     return {w.z() > 0 ? Vec3<double>(position + rounding * normal) : position, direction};
   }
-  /// Whether the surface lies between the two sides for its relief as well.
+  /// True if the direction is on the same side of the surface and of its relief.
   bool is_on_side(const Vec3<double>& w, const Vec3<double>& direction) const {
     return !is_bent || (w.z() > 0) == (direction.dot(normal) > 0);
   }
   const Inside& inside(const Vec3<double>& w) const { return w.z() > 0 ? above : below; }
 };
 
-/// What a light sends to a path's end, if nothing is in its way.
+/// Light that arrives at a path's end, if unoccluded.
 struct PathTransport::Arriving {
   std::size_t path;
   Colour light;

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Path tracing: all light there is, by paths that are scattered, mirrored and refracted as often as
-// it takes. At each point light is looked for in two ways, towards the lights and along the
-// direction that the surface draws; what both can find is weighed by the balance heuristic (Veach
-// and Guibas, "Optimally Combining Sampling Techniques", 1995). Paths that carry little end by
-// chance (Russian roulette), so that nothing is lost on average.
+// Path tracing. At each vertex light is sampled in two ways, towards the lights and by the BSDF,
+// weighted by the balance heuristic (Veach and Guibas, "Optimally Combining Sampling Techniques",
+// 1995). Russian roulette ends paths of little weight without bias.
 #pragma once
 
 #include <vector>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Paths that go on together, step by step: where their rays come to, what lights send there, and
-// where they go on from there.
+// Wavefront of paths that advance together, step by step: ray hits, direct light, and next rays.
 #pragma once
 
 #include <optional>
@@ -41,8 +40,8 @@ class PathTransport::Wave {
   void gather(Path& path, const Colour& light, int depth) const;
   /// Goes on through a boundary that does not count, if it can.
   void pass(Path& path, bool can) const;
-  /// What a path sees that meets nothing. Surfaces are lit by the environment and mirror it;
-  /// without one they still mirror the background that cameras see.
+  /// Light of a path that misses. Surfaces are lit by the environment and mirror it; without one
+  /// they still mirror the background that cameras see.
   Colour off_surface(const Path& path);
   void add_emission(Path& path, const Boundary& at, const PreparedMaterial& material) const;
 

@@ -14,7 +14,7 @@ using std::numbers::pi;
 /// The clear coat's index of refraction, as glTF has it.
 constexpr double coat_eta = 1.5;
 
-/// What a coat of dielectric mirrors (renderer/light/reflection.h).
+/// Reflection of a dielectric coat (renderer/light/reflection.h).
 class SheetBsdf final : public Bsdf {
  public:
   SheetBsdf(double eta, double roughness) : coat_(eta, alpha(roughness)) {}

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-// One surface for most things, after Burley ("Physically Based Shading at Disney", 2012, and
-// "Extending the Disney BRDF", 2015), in layers: a clear coat over cloth's sheen over a mixture of
-// metal, clear glass and a matt base with a sheet of dielectric on it. What a layer mirrors the
-// ones below it do not get, by its albedo for light that leaves along w_out (as in glTF's and
-// OpenPBR's layering): white surfaces lose nothing.
+// Principled BSDF after Burley ("Physically Based Shading at Disney", 2012, and "Extending the
+// Disney BRDF", 2015), in layers: a clear coat over sheen over a mixture of metal, clear glass and
+// a coated matt base. Each layer dims those below by its albedo for light that leaves along w_out
+// (as in glTF and OpenPBR), so white surfaces lose no energy.
 #pragma once
 
 #include "renderer/light/conductor_bsdf.h"

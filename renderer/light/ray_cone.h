@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How much of a surface a ray stands for: a narrow cone around it (Amanatides, "Ray Tracing with
-// Cones", 1984), the round kind of ray differentials (Igehy, "Tracing Ray Differentials", 1999).
+// Footprint of a ray on a surface: a narrow cone around it (Amanatides, "Ray Tracing with Cones",
+// 1984), a round form of ray differentials (Igehy, "Tracing Ray Differentials", 1999).
 #pragma once
 
 #include <array>
@@ -22,8 +22,7 @@ struct RayCone {
   RayCone part(double size) const { return {size * width, size * spread}; }
 };
 
-/// What a cone lights of a surface: an ellipse's two axes, from one side to the other, along the
-/// surface.
+/// Footprint of a cone on a surface: the two full axes of an ellipse, along the surface.
 using SurfaceFootprint = std::array<Vec3<double>, 2>;
 
 /// What it lights of a plane, by its unit normal; `width` is that of the cone where it meets the

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How many rays of which kind made a picture, and what they cost. Adds up over tiles.
+// Number of rays of each kind in a picture, and their cost. Sums over tiles.
 #pragma once
 
 #include <cstdint>

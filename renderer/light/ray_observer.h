@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Who is told of every ray of a picture and its answer. An observer changes nothing.
+// Receives every traced ray of a picture and its result. Must not affect rendering.
 #pragma once
 
 #include <array>

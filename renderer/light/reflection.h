@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// How surfaces reflect: Fresnel's equations, the rough mirror, and the diffuse base under a
-// dielectric coat. Each part of a surface is asked alike: eval is its value, sample draws a
-// direction that light comes from, pdf is the density of these draws over solid angle. Directions
-// point away from the surface, in a frame whose z is the normal.
+// Reflection at surfaces: Fresnel's equations, the rough mirror, and the diffuse base under a
+// dielectric coat. For each part, eval is its value, sample draws a direction that light comes
+// from, pdf is the density of the draws over solid angle. Directions point away from the surface,
+// in a frame whose z is the normal.
 #pragma once
 
 #include <array>
@@ -71,7 +71,7 @@ class DiffuseBase {
   double scale_ = 1;  ///< 1 / the mean of what gets through the coat
 };
 
-/// What a dielectric coat mirrors: in one direction if it is smooth, around it if it is rough.
+/// Reflection of a dielectric coat: in one direction if smooth, around it if rough.
 class Coat {
  public:
   Coat(double eta, double alpha);
@@ -107,7 +107,7 @@ class Surface {
   /// Reflected radiance per irradiance of light from w_in by both, the coat taken to be at least as
   /// rough as least_alpha.
   Colour eval(const Vec3<double>& w_out, const Vec3<double>& w_in, double least_alpha = 0) const;
-  /// It differs in the colour of its base alone.
+  /// Same surface with another base colour.
   Surface recoloured(const Colour& colour) const {
     Surface other = *this;
     other.base_ = base_.recoloured(colour);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The normal of a surface with a relief: after Blinn, "Simulation of Wrinkled Surfaces" (1978), by
-// differences of the height along the surface, and by pictures of normals. No parametrisation is
-// needed: heights are functions of the place, and of mappings it is known where they have right.
+// Normals of surfaces with relief, from differences of the height along the surface (Blinn,
+// "Simulation of Wrinkled Surfaces", 1978) or from normal maps. Heights are functions of the
+// position, so no UV coordinates are needed.
 #pragma once
 
 #include "renderer/light/texture.h"

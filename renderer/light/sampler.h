@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Sample points that cover the unit square evenly: the first two Sobol dimensions under hashed Owen
-// scrambling, a fresh scramble and shuffle for each pair of dimensions; after Burley, "Practical
-// Hash-based Owen Scrambling" (JCGT 2020), with Laine and Karras' hash.
+// Evenly distributed sample points in the unit square: the first two Sobol dimensions under hashed
+// Owen scrambling, with a new scramble and shuffle per pair of dimensions (Burley, "Practical
+// Hash-based Owen Scrambling", JCGT 2020), and Laine and Karras' hash.
 #pragma once
 
 #include <array>

@@ -44,7 +44,7 @@ Medium medium_of(const Scene& scene, const Material& material) {
   return {};
 }
 
-/// Whether all of it that lets light through is thin.
+/// True if all parts of the material that transmit light are thin sheets.
 bool is_sheet(const Scene& scene, const Material& material) {
   if (std::holds_alternative<TranslucentMaterial>(material.kind)) return true;
   const auto* mix = std::get_if<MixMaterial>(&material.kind);

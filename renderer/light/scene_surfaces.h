@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is known of each instance's material, made ready for the path tracer.
+// Material of each instance, prepared for the path tracer.
 #pragma once
 
 #include <memory>
@@ -18,10 +18,10 @@ struct Medium {
   double priority = 0;
 };
 
-/// By instance: the index of its material.
+/// Index of each instance's material.
 std::vector<std::uint32_t> material_of_instance(const Scene& scene);
 
-/// What a material shines; zero if it does not.
+/// Radiance that a material emits; zero if none.
 Colour radiance_of(const Scene& scene, const Material& material);
 
 struct PreparedMaterial {
@@ -55,13 +55,13 @@ class SceneSurfaces {
   /// given.
   Vec3<double> relief_normal_at(std::uint32_t instance, const TexturePoint& at) const;
   bool has_sheets() const { return has_sheets_; }
-  /// Whether any colour or relief changes from place to place.
+  /// True if any colour or relief varies over a surface.
   bool has_textures() const { return has_textures_; }
   /// The direction of the object's z axis, around which brushed metal has its grain.
   Vec3<double> axis(std::uint32_t instance) const {
     return instance < axes_.size() ? axes_[instance] : Vec3<double>(Vec3<double>::UnitZ());
   }
-  /// By instance.
+  /// Radiance of each instance.
   std::vector<Colour> radiances() const;
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Light from all around, by a picture of the whole sphere: width by longitude, height by latitude.
-// Directions are drawn where the picture is bright, by cells of it (Pharr, Jakob and Humphreys,
+// Environment light from a picture of the whole sphere: width by longitude, height by latitude.
+// Directions are sampled by the brightness of the picture's cells (Pharr, Jakob and Humphreys,
 // "Physically Based Rendering", section on image infinite lights).
 #pragma once
 

@@ -23,7 +23,7 @@ const double sun_height = 2 * std::sin(sun_radius / 2) * std::sin(sun_radius / 2
 /// The sun above the atmosphere: 128 klx over its solid angle, in kcd/m^2.
 constexpr double sun_luminance = 1.88e6;
 
-/// What a radiance of 1 stands for, in kcd/m^2.
+/// Luminance of radiance 1, in kcd/m^2.
 constexpr double unit_luminance = 10;
 
 /// The distribution of Perez et al. by the cosine to the zenith and the angle to the sun.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The sky of a clear day and the sun in it: Preetham, Shirley and Smits, "A Practical Analytic
-// Model for Daylight" (1999), with its published coefficients. Radiance 1 stands for 10 kcd/m^2.
+// Clear sky with a sun: Preetham, Shirley and Smits, "A Practical Analytic Model for Daylight"
+// (1999), with its published coefficients. Radiance 1 is 10 kcd/m^2.
 #pragma once
 
 #include <memory>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The colour of a paint at a place.
+// Colour of a paint at a point.
 #pragma once
 
 #include "renderer/light/texture_place.h"

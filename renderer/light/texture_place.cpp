@@ -25,8 +25,8 @@ Vec3<double> on_box(const Vec3<double>& p, const Vec3<double>& normal) {
   return {p.x(), -side * p.y(), 0};
 }
 
-/// By how much longitude and latitude change when a direction does, to first order. At the poles it
-/// is a whole turn.
+/// Change of longitude and latitude with a direction, to first order. At the poles it is a whole
+/// turn.
 Vec3<double> radial_change(const Vec3<double>& direction, const Vec3<double>& change) {
   const double around = std::hypot(direction.x(), direction.y());
   const double length = std::hypot(around, direction.z());
@@ -43,8 +43,8 @@ Vec3<double> radial_change(const Vec3<double>& direction, const Vec3<double>& ch
   return {of_turn(east, 2 * pi * around), of_turn(down, pi * length), 0};
 }
 
-/// By how much the normal changes across a side of the footprint: as on a ball around the object's
-/// origin that touches the surface there.
+/// Change of the normal across a side of the footprint: as on a ball around the object's origin
+/// that touches the surface there.
 Vec3<double> normal_change(const TexturePoint& at, const Vec3<double>& side) {
   const double radius = at.position.dot(at.normal);
   return radius > 0 ? Vec3<double>(side / radius) : Vec3<double>::Zero();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where textures are looked up: places of surfaces become places in repeats of a texture, in space
-// or in the plane of a mapping, and so do their footprints.
+// Texture coordinates: maps points of surfaces, and their footprints, to repeats of a texture, in
+// space or in the plane of a mapping.
 #pragma once
 
 #include <array>

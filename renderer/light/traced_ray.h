@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What integrators are asked: a ray, and where its light goes.
+// Input of integrators: a ray, and where its light is added.
 #pragma once
 
 #include "renderer/light/ray_cone.h"
@@ -9,7 +9,7 @@
 
 namespace minkray {
 
-/// A ray and where its light comes to.
+/// Ray with its light.
 struct TracedRay {
   Ray<double> ray;  ///< of unit direction
   Sampler sampler;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A thin sheet that scatters light evenly to both of its sides: paper, a leaf, a lampshade.
+// Thin sheet that scatters light evenly to both sides: paper, a leaf, a lampshade.
 #pragma once
 
 #include "renderer/light/bsdf.h"

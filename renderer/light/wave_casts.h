@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Casts the rays of a wave, and reports them to the observer, if there is one.
+// Casts the rays of a wave, and reports them to the observer, if any.
 #pragma once
 
 #include <span>

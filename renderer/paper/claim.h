@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The claims of the papers, each rerun: what the paper says, what we find.
+// Claims of the papers, each rerun: the paper's statement and our result.
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Frame coherence: claims d and e. Many bodies move through a room; in every frame each pair is
-// asked whether it collides within the frame, by a ray cast on its configuration space obstacle.
-// What is cached for a pair is the normal that its last miss returned.
+// Frame coherence: claims d and e. Many bodies move through a room. In every frame, a ray cast at
+// the configuration space obstacle of each pair finds whether it collides. The normal of a pair's
+// last miss is cached.
 #include <algorithm>
 #include <cmath>
 #include <ctime>

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
-// How many iterations the GJK ray cast needs: claims a, b, c, f and g.
-//
-// Counting: an iteration is one turn of Algorithm 3's loop, each of which evaluates the support
-// mapping once; the last turn, which finds v short enough, counts. The algorithm is run bare, as
-// the paper has it: from the ray's own origin, without our bounding ball test, which is had by
-// making the ball large.
+// Iterations of the GJK ray cast: claims a, b, c, f and g. An iteration is one turn of Algorithm
+// 3's loop, with one support call; the last turn counts. The algorithm runs as in the paper, from
+// the ray's own origin, without the bounding ball test (the ball is made large).
 #include <cmath>
 
 #include "core/derived/convert.h"

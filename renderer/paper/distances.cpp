@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The distance algorithm: claims h and i.
+// Distance algorithm: claims h and i.
 #include <ctime>
 #include <limits>
 

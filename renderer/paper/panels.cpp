@@ -22,7 +22,7 @@ struct Step {
   std::vector<Point2> before, after;
 };
 
-/// It maps configuration space to the page.
+/// Maps configuration space to the page.
 struct Page {
   Point2 low;
   double scale;

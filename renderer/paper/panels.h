@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The distance algorithm in the plane as a strip of pictures, one an iteration, after the figures
-// of the textbook's section on distance in 2D.
+// Distance algorithm in the plane as a strip of pictures, one per iteration, after the figures of
+// the textbook's section on distance in 2D.
 #pragma once
 
 #include <string>

@@ -16,7 +16,7 @@ class Samples {
  public:
   explicit Samples(unsigned seed) : engine_(seed) {}
 
-  /// It draws the same on every machine, which std::uniform_real_distribution does not promise.
+  /// Same on every machine, which std::uniform_real_distribution does not promise.
   double in(double low, double high) {
     constexpr double scale = 1.0 / 18446744073709551616.0;
     return low + (high - low) * (static_cast<double>(engine_()) * scale);
@@ -40,8 +40,7 @@ class Samples {
     }
   }
 
-  /// It comes from 2 to 5 radii away and goes towards a point within 1.05 radii: nine of ten meet
-  /// the ball.
+  /// Ray from 2 to 5 radii away towards a point within 1.05 radii: nine of ten hit the ball.
   Ray<double> ray_at_ball(double radius) {
     const Vec3<double> origin = unit(in_ball(1)) * (radius * in(2, 5));
     const Vec3<double> target = in_ball(1.05 * radius);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One ray cast, iteration by iteration, as a picture and as a table.
+// One ray cast as a picture and as a table, one row per iteration.
 #pragma once
 
 #include <string>

@@ -20,8 +20,8 @@ double sum(T base, T offset) {
   return double(base) + double(offset);
 }
 
-/// It is not inlined: GCC 12 otherwise leaves out some of the roundings of a ray that is taken to
-/// float and back (tests/support/rounded.h has the example).
+/// Not inlined: GCC 12 otherwise drops some roundings of a ray converted to float and back
+/// (tests/support/rounded.h has the example).
 template <class T, class U>
 [[gnu::noinline]] Ray<T> convert_ray(const Ray<U>& ray) {
   return {ray.origin.template cast<T>(), ray.direction.template cast<T>(),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Answers to queries, as JSON and for comparison with what a case expects.
+// Results of queries, as JSON and for comparison with a case's `expect`.
 #pragma once
 
 #include <optional>
@@ -25,7 +25,7 @@ struct AnswerOptions {
   bool certify = false;  ///< prove the answers of casts
 };
 
-/// What --check compares.
+/// Facts of a result that --check compares.
 struct AnswerFacts {
   std::string status;
   bool hit = false;  ///< hit or inside

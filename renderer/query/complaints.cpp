@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// --check: an answer beside what its case expects.
+// --check: compares a result with a case's `expect`.
 #include <sstream>
 
 #include "core/contact/distance.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The queries that `minkray cast` answers, as plain data, and what a case says the answer must be.
+// Queries of `minkray cast` as plain data, and the expected result of a case.
 #pragma once
 
 #include <limits>
@@ -71,7 +71,7 @@ struct ImpactQuery {
   double t_max = 0;
 };
 
-/// What the answer must be: the part of a case that --check compares.
+/// Expected result: the part of a case that --check compares.
 struct Expectation {
   std::optional<bool> hit;
   bool either = false;  ///< the ray just touches: hit and miss are both right

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Queries from JSON, strictly: docs/cast.md says what they may hold.
+// Reads queries from JSON, strictly (docs/cast.md).
 #pragma once
 
 #include <optional>

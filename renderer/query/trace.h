@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a solver did, iteration by iteration, read as clipping: for --trace and `minkray trace`.
+// Iterations of a solver as clipping steps, for --trace and `minkray trace`.
 #pragma once
 
 #include <vector>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Checkpoints of long renders: from time to time the tiles that are done are put into a file beside
-// the picture, so that a render that was killed can go on. A pixel depends on nothing but itself,
-// so the picture is the same bit for bit however often it was interrupted.
+// Checkpoints of long renders: finished tiles are saved at intervals to a file next to the picture,
+// from which a killed render resumes. Pixels are independent, so the picture has the same bits
+// after any number of interruptions.
 #pragma once
 
 #include <chrono>
@@ -24,7 +24,7 @@ class Checkpoint {
   Checkpoint(const Checkpoint&) = delete;
   Checkpoint& operator=(const Checkpoint&) = delete;
 
-  /// Whether there is a file.
+  /// True if there is a file.
   bool exists() const;
 
   /// Throws CannotWrite if there is something that is no checkpoint.
@@ -34,18 +34,17 @@ class Checkpoint {
   /// another picture, and says in what they differ.
   RenderJournal load();
 
-  /// It must be told of each tile, one at a time. It writes, on a thread of its own, when it is
-  /// time.
+  /// Must be called after each tile, one at a time. Writes at intervals, on its own thread.
   void tile_finished(const Rendering& rendering, std::size_t tile);
 
-  /// It follows an interruption, when no thread renders any more, and writes once more what is
-  /// done. A rendering that has not lasted for `seconds` yet leaves no file, and another's alone.
+  /// Called after an interruption, when no thread renders, to write finished tiles once more. A
+  /// rendering shorter than `seconds` leaves no file, and does not touch another's.
   void interrupted(const Rendering& rendering);
 
   /// The picture is kept: the file, if there is one, has served.
   void remove();
 
-  /// What went wrong with writing, if anything; the rendering is not ended for it.
+  /// Error of writing, if any; the rendering continues.
   std::string complaint();
 
  private:

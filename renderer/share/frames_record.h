@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Which frames of an animation are there, in a small file beside them. Frames that are not in it
-// are rendered, whatever has their names: so frames of two scenes, or with two sets of options, are
-// never mixed when a render of frames goes on.
+// Record of an animation's finished frames, in a small file next to them. Frames that are not in it
+// are rendered even if files with their names exist, so a resumed render never mixes frames of two
+// scenes or sets of options.
 #pragma once
 
 #include <set>

@@ -16,7 +16,7 @@ namespace {
 struct PictureShare {
   Share tile, sample_share;
 
-  /// It orders by tile, then by samples.
+  /// Sorts by tile, then by samples.
   std::pair<int, int> place() const { return {tile.index, sample_share.index}; }
 };
 
@@ -141,7 +141,7 @@ class SampleSum {
   int samples_ = 0;  ///< those that are there
 };
 
-/// Whether the share has a file, by its tile and its share of the samples.
+/// File of each share, by its tile and its share of the samples.
 using FileOfShare = std::map<std::pair<int, int>, std::string>;
 
 /// The first of the shares that have no file, of `missing`: "a, b, c and 5 more".

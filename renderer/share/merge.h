@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The part files of one picture are put together: tiles, shares of the samples, or both.
+// Merges the part files of one picture: tiles, shares of the samples, or both.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace minkray {
 
-/// What one share took.
+/// Cost of one share.
 struct ShareCost {
   std::string name;  ///< "tile 3/8"
   double cpu_seconds = 0;
@@ -34,7 +34,7 @@ struct Merged {
 /// with A = 0, and of missing samples the mean of the others takes the place.
 Merged merge_part_files(const std::vector<std::string>& files, bool allow_partial);
 
-/// Whether the file is the finished part file of that picture: tile and share as in the facts.
+/// True if the file is the finished part file of that picture: tile and share as in the facts.
 bool is_part_file_of(const std::string& file, const Facts& facts);
 
 }  // namespace minkray

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Pictures and shares of pictures as OpenEXR images. What holds all samples of its pixels has the
-// planes R, G, B and A as any picture; a share of the samples has the sums of its blocks, which are
-// only added where all shares are (renderer/film/share.h).
+// Pictures and shares of pictures as OpenEXR images. Files with all samples of their pixels have
+// the planes R, G, B and A. A share of the samples has the sums of its blocks, which are added when
+// all shares are there (renderer/film/share.h).
 #pragma once
 
 #include "renderer/film/labels.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// All that decides what a picture looks like, as texts: written into the headers of OpenEXR files,
-// and compared where the shares of one picture are put together.
+// Everything that determines a picture, as texts: written to the headers of OpenEXR files, and
+// compared when shares are merged.
 #pragma once
 
 #include <map>

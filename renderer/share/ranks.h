@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The processes of an MPI job. MPI is seen by ranks_mpi.cpp alone; without it (MINKRAY_MPI=OFF)
-// ranks_alone.cpp takes its place, and there is one rank.
+// Processes of an MPI job. Only ranks_mpi.cpp includes MPI. Without MPI (MINKRAY_MPI=OFF),
+// ranks_alone.cpp replaces it, with one rank.
 #pragma once
 
 #include <optional>
@@ -38,7 +38,7 @@ class Ranks {
   [[maybe_unused]] int exceptions_ = 0;  ///< those under way when this was made
 };
 
-/// Whether this program was built with MPI.
+/// True if this program was built with MPI.
 extern const bool has_mpi;
 
 }  // namespace minkray

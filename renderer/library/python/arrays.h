@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// NumPy's arrays as the C interface wants them: rows of so many doubles, without a copy where they
-// are such already.
+// NumPy arrays for the C interface: rows of doubles, copied only where necessary.
 #pragma once
 
 #include <pybind11/numpy.h>

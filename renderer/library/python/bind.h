@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The parts of the module.
+// Parts of the extension module.
 #pragma once
 
 #include "renderer/library/python/arrays.h"

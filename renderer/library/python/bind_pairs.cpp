@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Many pairs of shapes at once, for many_pairs.py to build on: arrays come ready, and results are
-// written to arrays that are given.
+// Queries on many pairs of shapes, for many_pairs.py, which checks arrays and allocates results.
 #include "renderer/library/python/bind.h"
 #include "renderer/library/python/interruptible.h"
 #include "renderer/library/python/side.h"

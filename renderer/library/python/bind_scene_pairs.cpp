@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The pairs of a scene, for scene_pairs.py to build on: rows of structs, which it takes apart.
+// Pairs of a scene, for scene_pairs.py: rows of structs, which it takes apart.
 #include <cstring>
 
 #include "renderer/library/python/bind.h"

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Python's lock, released and taken so that the interpreter may end while a thread is at work.
-//
-// A thread that asks an ending interpreter for its lock is ended on the spot, which C++ cannot
-// unwind. So when the interpreter is about to end, no thread but its own asks any more: those at
-// work stand still for the rest of the process.
+// Python's lock, released and taken so that the interpreter may end while a thread is running. A
+// thread that requests the lock of an ending interpreter is killed, which C++ cannot unwind. So
+// before the interpreter ends, other threads stop for the rest of the process.
 #pragma once
 
 #include <optional>
@@ -38,7 +36,7 @@ class Locked {
   std::optional<PyGILState_STATE> state_;
 };
 
-/// Whether the interpreter is ending, and this is not the thread that ends it.
+/// True if another thread is ending the interpreter.
 bool is_interpreter_ending();
 
 /// Has the module told when the interpreter is about to end.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Work without the interpreter's lock that Ctrl-C stops.
+// Runs work without the interpreter's lock; Ctrl-C stops it.
 #pragma once
 
 #include <chrono>

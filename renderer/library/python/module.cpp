@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The extension module minkray._minkray, over the public C++ header alone. What users see is
-// __init__.py.
+// Extension module minkray._minkray, over the public C++ header alone. Users see __init__.py.
 #include "renderer/library/python/bind.h"
 #include "renderer/library/python/interpreter_lock.h"
 #include "renderer/library/python/support.h"

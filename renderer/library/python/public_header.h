@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The public C++ header: all that the Python module sees of Minkray.
+// Public C++ header, the only one that the Python module includes.
 #pragma once
 
 #include <minkray/minkray.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One side of many pairs of shapes, as Python has it.
+// One side of many pairs of shapes, from Python.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Support functions that are written in Python.
+// Support functions written in Python.
 #pragma once
 
 #include "renderer/library/python/arrays.h"
