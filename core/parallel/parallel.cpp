@@ -114,19 +114,22 @@ void pipeline_of_any(std::size_t most, const std::function<std::shared_ptr<void>
   using Item = std::shared_ptr<void>;
   in_some_arena([&] {
     tbb::parallel_pipeline(
-        most, tbb::make_filter<void, Item>(tbb::filter_mode::serial_in_order,
-                                           [&](tbb::flow_control& flow) {
-                                             Item item = read();
-                                             if (!item) flow.stop();
-                                             return item;
-                                           }) &
-                  tbb::make_filter<Item, Item>(tbb::filter_mode::parallel,
-                                               [&](Item item) {
-                                                 work(item.get());
-                                                 return item;
-                                               }) &
-                  tbb::make_filter<Item, void>(tbb::filter_mode::serial_in_order,
-                                               [&](const Item& item) { write(item.get()); }));
+        most,
+        tbb::make_filter<void, Item>(tbb::filter_mode::serial_in_order,
+                                     [&](tbb::flow_control& flow) {
+                                       Item item = read();
+                                       if (!item) flow.stop();
+                                       return item;
+                                     }) &
+            tbb::make_filter<Item, Item>(tbb::filter_mode::parallel,
+                                         [&](Item item) {
+                                           // Else a thread that waits within its work might
+                                           // read, and wait for another item.
+                                           tbb::this_task_arena::isolate([&] { work(item.get()); });
+                                           return item;
+                                         }) &
+            tbb::make_filter<Item, void>(tbb::filter_mode::serial_in_order,
+                                         [&](const Item& item) { write(item.get()); }));
   });
 }
 

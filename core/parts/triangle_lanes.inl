@@ -27,12 +27,6 @@ W most_of(const W& a, const W& b, const W& c) {
   return max(a, max(b, c));
 }
 
-/// The gap between a plane and three heights on one side of it.
-template <class W>
-W gap_of_heights(const W& a, const W& b, const W& c) {
-  return max(least_of<W>(a, b, c), -most_of<W>(a, b, c));
-}
-
 template <class W>
 W gaps_of(const TriangleOfLane<W>& one, const TriangleOfLane<W>& other, const Vec3<double>* known) {
   // From the first corner of the one, so that numbers are of the triangles' size and distance.
@@ -40,18 +34,26 @@ W gaps_of(const TriangleOfLane<W>& one, const TriangleOfLane<W>& other, const Ve
   Vec3<W> own[2], of_other[3];
   for (int k = 0; k < 2; ++k) own[k] = one.corners[k + 1] - from;
   for (int k = 0; k < 3; ++k) of_other[k] = other.corners[k] - from;
-  const auto gap_across = [&](const Vec3<W>& n) {
-    return least_of<W>(dot_of<W>(n, of_other[0]), dot_of<W>(n, of_other[1]),
-                       dot_of<W>(n, of_other[2])) -
-           most_of<W>(W(0), dot_of<W>(n, own[0]), dot_of<W>(n, own[1]));
+  struct Span {
+    W least, most;
   };
-  const Vec3<W>& n = one.normal;
-  W gap = gap_of_heights<W>(dot_of<W>(n, of_other[0]), dot_of<W>(n, of_other[1]),
-                            dot_of<W>(n, of_other[2]));
-  const Vec3<W>& m = other.normal;
-  const W height = dot_of<W>(m, of_other[0]);
-  gap = max(gap, gap_of_heights<W>(-height, dot_of<W>(m, own[0]) - height,
-                                   dot_of<W>(m, own[1]) - height));
+  const auto span_of_own = [&](const Vec3<W>& n) -> Span {
+    const W a = dot_of<W>(n, own[0]), b = dot_of<W>(n, own[1]);
+    return {least_of<W>(W(0), a, b), most_of<W>(W(0), a, b)};
+  };
+  const auto span_of_other = [&](const Vec3<W>& n) -> Span {
+    const W a = dot_of<W>(n, of_other[0]), b = dot_of<W>(n, of_other[1]),
+            c = dot_of<W>(n, of_other[2]);
+    return {least_of<W>(a, b, c), most_of<W>(a, b, c)};
+  };
+  const auto gap_across = [&](const Vec3<W>& n) {
+    return span_of_other(n).least - span_of_own(n).most;
+  };
+  const auto gap_either_way = [&](const Vec3<W>& n) {
+    const Span a = span_of_own(n), b = span_of_other(n);
+    return max(b.least - a.most, a.least - b.most);
+  };
+  W gap = max(gap_either_way(one.normal), gap_either_way(other.normal));
   // Three times the way between the middles.
   Vec3<W> way;
   for (int i = 0; i < 3; ++i)

@@ -2,10 +2,13 @@
 // minkray verify: whether a planner's motion is free of collisions, proven between its rows too.
 #include <algorithm>
 #include <chrono>
+#include <exception>
 #include <iostream>
 #include <memory>
+#include <optional>
 
 #include "core/parallel/parallel.h"
+#include "core/parallel/parallel_pipeline.h"
 #include "renderer/base/build.h"
 #include "renderer/base/errors.h"
 #include "renderer/cli/csv_text.h"
@@ -113,27 +116,55 @@ void write_outputs(const VerifyOptions& options, const Judged& judged, const Ver
   }
 }
 
-/// One plan per line in, one verdict per line out; what is wrong with a plan is its answer.
+/// A plan on its way from where it is read to where its verdict is printed.
+struct Passing {
+  std::string name, text;
+  std::optional<Judged> judged;
+  std::exception_ptr error;
+};
+
+/// Plans that are judged at once; verdicts come in the order of the plans.
+std::size_t plans_at_once() {
+  return static_cast<std::size_t>(std::max(thread_count(), 1));
+}
+
+/// One plan per line in, one verdict per line out; the verdict on a wrong plan is its error.
 void serve(const VerifyOptions& options, const VerifyCell& cell) {
   std::size_t number = 0;
-  for (std::string line; std::getline(std::cin, line);) {
-    ++number;
-    if (line.find_first_not_of(" \t\r") == line.npos) continue;
-    const std::string name = "line " + std::to_string(number);
+  const auto read = [&]() -> std::shared_ptr<Passing> {
+    for (std::string line; std::getline(std::cin, line);) {
+      ++number;
+      if (line.find_first_not_of(" \t\r") == line.npos) continue;
+      return std::make_shared<Passing>(
+          Passing{"line " + std::to_string(number), std::move(line), {}, {}});
+    }
+    return nullptr;
+  };
+  const auto work = [&](Passing& passing) {
     try {
       // A line is a plan itself, or the name of a file in quotes.
-      const bool is_name = line.front() == '"';
-      Plan plan =
-          is_name ? load_plan(Json::parse(line).text(), cell) : parse_plan(line, name, cell);
-      std::cout << json_of(judge(name, std::move(plan), cell, options), cell).dump() << std::endl;
-    } catch (const BadInput& error) {
-      std::cout << Json{{"plan", name}, {"status", "error"}, {"message", error.what()}}.dump()
-                << std::endl;
-    } catch (const std::invalid_argument& error) {
-      std::cout << Json{{"plan", name}, {"status", "error"}, {"message", error.what()}}.dump()
-                << std::endl;
+      const std::string& line = passing.text;
+      Plan plan = line.front() == '"' ? load_plan(Json::parse(line).text(), cell)
+                                      : parse_plan(line, passing.name, cell);
+      passing.judged = judge(passing.name, std::move(plan), cell, options);
+    } catch (...) {
+      passing.error = std::current_exception();
     }
-  }
+  };
+  const auto write_error = [](const std::string& name, const std::exception& error) {
+    std::cout << Json{{"plan", name}, {"status", "error"}, {"message", error.what()}}.dump()
+              << std::endl;
+  };
+  parallel_pipeline<Passing>(plans_at_once(), read, work, [&](Passing& passing) {
+    try {
+      if (passing.error) std::rethrow_exception(passing.error);
+      std::cout << json_of(*passing.judged, cell).dump() << std::endl;
+    } catch (const BadInput& error) {
+      write_error(passing.name, error);
+    } catch (const std::invalid_argument& error) {
+      write_error(passing.name, error);
+    }
+  });
 }
 
 /// Notes on files come by the hundred, most of one kind.
@@ -153,19 +184,32 @@ void verify(VerifyOptions& options, ExitCode& exit_code) {
   const VerifyCell cell = load_cell(options.inputs, *options.files);
   tell_notes(cell.notes, options.inputs.import.verbose);
   if (options.serve) return serve(options, cell);
-  for (const std::string& file : options.plans) {
-    const Judged judged = judge(file, load_plan(file, cell), cell, options);
+  std::size_t next = 0;
+  const auto read = [&]() -> std::shared_ptr<Passing> {
+    if (next == options.plans.size()) return nullptr;
+    return std::make_shared<Passing>(Passing{options.plans[next++], {}, {}, {}});
+  };
+  const auto work = [&](Passing& passing) {
+    try {
+      passing.judged = judge(passing.name, load_plan(passing.name, cell), cell, options);
+    } catch (...) {
+      passing.error = std::current_exception();
+    }
+  };
+  parallel_pipeline<Passing>(plans_at_once(), read, work, [&](Passing& passing) {
+    if (passing.error) std::rethrow_exception(passing.error);
+    const Judged& judged = *passing.judged;
     for (const std::string& note : judged.plan.trajectory.notes)
-      std::cerr << file << ": " << note << '\n';
+      std::cerr << judged.name << ": " << note << '\n';
     exit_code = worse(exit_code, judged.verdict.status);
-    write_outputs(options, judged, cell);
     if (options.json)
       std::cout << json_of(judged, cell).dump() << '\n';
     else if (options.table)
       std::cout << steps_table(judged.verdict, judged.plan, cell.cell);
     else
-      std::cout << verdict_text(file, judged.verdict, judged.plan, cell.cell);
-  }
+      std::cout << verdict_text(judged.name, judged.verdict, judged.plan, cell.cell);
+    write_outputs(options, judged, cell);
+  });
 }
 
 }  // namespace

@@ -169,29 +169,35 @@ Plan plan_of(Trajectory&& trajectory, const std::string& name, const VerifyCell&
   }
 }
 
+Plan plan_of_document(const Document& document, const std::string& name, const VerifyCell& cell,
+                      Mistakes& mistakes) {
+  Trajectory trajectory = read_trajectory(document, cell.cell.model, mistakes);
+  throw_if_any(mistakes);
+  return plan_of(std::move(trajectory), name, cell);
+}
+
 }  // namespace
 
 Plan load_plan(const std::string& file, const VerifyCell& cell) {
-  if (is_table(file)) {
-    Mistakes mistakes(file);
+  Mistakes mistakes(file);
+  const auto load_table = [&] {
     Model model = cell.cell.model;
     Trajectory trajectory = read_table(file, model, cell.columns, mistakes);
     throw_if_any(mistakes);
     return plan_of(std::move(trajectory), file, cell);
-  }
-  Mistakes mistakes(file);
-  const auto text = read_text_file(file, mistakes);
+  };
+  if (is_table(file)) return load_table();
+  const auto document = read_document(file, mistakes);
   throw_if_any(mistakes);
-  return parse_plan(*text, file, cell);
+  if (is_table(document->json, cell.cell.model)) return load_table();
+  return plan_of_document(*document, file, cell, mistakes);
 }
 
 Plan parse_plan(const std::string& line, const std::string& name, const VerifyCell& cell) {
   Mistakes mistakes(name);
   const std::optional<Document> document = parse_document(line, name, mistakes);
   throw_if_any(mistakes);
-  Trajectory trajectory = read_trajectory(*document, cell.cell.model, mistakes);
-  throw_if_any(mistakes);
-  return plan_of(std::move(trajectory), name, cell);
+  return plan_of_document(*document, name, cell, mistakes);
 }
 
 }  // namespace minkray

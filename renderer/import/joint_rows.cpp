@@ -15,7 +15,6 @@ namespace minkray {
 namespace {
 
 /// Rows follow each other so fast unless they say when they are.
-constexpr double rows_a_second = 24;
 
 /// Whoever has more has one mistake many times.
 constexpr std::size_t most_mistakes = 20;
@@ -40,8 +39,11 @@ constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
 
 class RowReader {
  public:
-  RowReader(Model& model, Mistakes& of_file)
-      : model_(model), of_file_(of_file), joints_(joints_by_name(model)) {
+  RowReader(Model& model, Mistakes& of_file, double rows_per_second)
+      : model_(model),
+        of_file_(of_file),
+        rows_per_second_(rows_per_second),
+        joints_(joints_by_name(model)) {
     size_ = std::max(model.links.size(), model.geoms.size());
     std::size_t joints = 0;
     for (const ModelLink& link : model.links) joints += link.joints.size();
@@ -173,7 +175,7 @@ class RowReader {
     rows_.push_back(std::move(row));
   }
 
-  double time_of_next() const { return static_cast<double>(rows_.size()) / rows_a_second; }
+  double time_of_next() const { return static_cast<double>(rows_.size()) / rows_per_second_; }
 
   /// Files that were recorded have joints that follow others, too.
   void leave_out_mimics() {
@@ -189,6 +191,7 @@ class RowReader {
 
   Model& model_;
   Mistakes& of_file_;
+  const double rows_per_second_;
   const JointsByName joints_;
   std::size_t size_ = 1, most_ = 1;  ///< of the model; of rows
   std::vector<JointRow> rows_;
@@ -197,10 +200,11 @@ class RowReader {
 }  // namespace
 
 std::vector<JointRow> read_joint_rows(const std::string& file, Model& model, Mistakes& mistakes,
-                                      const std::string& option) {
+                                      const std::string& option, double rows_per_second) {
   std::vector<JointRow> rows;
   Mistakes of_file(file);
-  if (const auto text = read_text_file(file, of_file)) rows = RowReader(model, of_file).read(*text);
+  if (const auto text = read_text_file(file, of_file))
+    rows = RowReader(model, of_file, rows_per_second).read(*text);
   for (const std::string& message : of_file.messages()) mistakes.add(option + ": " + message);
   return rows;
 }

@@ -21,9 +21,11 @@ void pose_model(Model& model, const ImportOptions& options, Mistakes& mistakes);
 
 /// Rows of values: from a CSV file with the joints' names in its first line (and "time", in
 /// seconds), or from JSON: an object of joints' names and values, or a list of such. Mistakes are
-/// added; they begin with the option that named the file.
+/// added; they begin with the option that named the file. `rows_per_second` is for rows without
+/// times.
 std::vector<JointRow> read_joint_rows(const std::string& file, Model& model, Mistakes& mistakes,
-                                      const std::string& option = "--joints");
+                                      const std::string& option = "--joints",
+                                      double rows_per_second = 24);
 
 /// Which geoms are asked for. A link without visual shapes shows its collision shapes.
 std::vector<bool> chosen_geoms(const Model& model, GeometryChoice choice);

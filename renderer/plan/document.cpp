@@ -176,11 +176,13 @@ void with_lines(const Document& document, Mistakes& mistakes,
   read(found);
   if (found.none()) return;
   const std::unordered_map<std::string, std::size_t> lines = lines_of(document);
+  // A message on one line, as JSON is sent through a pipe.
+  const bool has_lines = document.text.empty() || document.text.find('\n') != std::string::npos;
   // Each message is ": PATH: TEXT", or ": TEXT" of the document as a whole.
   for (const std::string& message : found.messages()) {
     const std::string rest = message.substr(2);
     std::size_t line = 0;
-    if (rest.starts_with('/')) line = line_of(lines, rest.substr(0, rest.find(": ")));
+    if (has_lines && rest.starts_with('/')) line = line_of(lines, rest.substr(0, rest.find(": ")));
     mistakes.add((line > 0 ? "line " + std::to_string(line) + ": " : "") + rest);
   }
 }

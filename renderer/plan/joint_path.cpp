@@ -118,11 +118,29 @@ bool is_table(const std::string& file) {
   return ends_with_any(file, {".csv", ".npy", ".CSV", ".NPY"});
 }
 
+bool is_table(const Json& json, const Model& model) {
+  if (!json.is_array() || json.empty() || !json[0].is_object() || json[0].empty()) return false;
+  const auto is_column = [&](const std::string& name) {
+    if (name == "time") return true;
+    for (const ModelLink& link : model.links)
+      for (const ModelJoint& joint : link.joints)
+        if (joint.name == name) return true;
+    return false;
+  };
+  for (const auto& [name, value] : json[0].members())
+    if (!is_column(name)) return false;
+  return true;
+}
+
 Trajectory read_table(const std::string& file, Model& model,
                       const std::vector<std::string>& columns, Mistakes& mistakes) {
   if (ends_with_any(file, {".npy", ".NPY"})) return read_npy_rows(file, model, columns, mistakes);
   Trajectory trajectory;
-  trajectory.rows = read_joint_rows(file, model, mistakes, "--trajectory");
+  trajectory.rows = read_joint_rows(file, model, mistakes, "--trajectory", 1);
+  std::size_t number = 0;
+  trajectory.has_times = std::ranges::any_of(trajectory.rows, [&](const JointRow& row) {
+    return row.time != static_cast<double>(number++);
+  });
   return trajectory;
 }
 

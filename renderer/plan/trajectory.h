@@ -22,9 +22,10 @@ struct Trajectory {
   bool has_times = true;                ///< false: rows are one second apart
 };
 
-/// True if the file's ending or first character says that it is a table of numbers: CSV, NPY, or
-/// our own JSON rows.
+/// True if the file's ending is that of a table of numbers: CSV or NPY.
 bool is_table(const std::string& file);
+/// True of JSON rows: a list of objects whose keys are "time" and joints.
+bool is_table(const Json& json, const Model& model);
 
 /// `columns` are the joints of an .npy file, in order; one column more in front is the time.
 Trajectory read_table(const std::string& file, Model& model,

@@ -130,7 +130,8 @@ TEST(MeshPairs, what_is_within_a_closed_mesh_overlaps_it_and_in_a_hole_does_not)
   EXPECT_TRUE(derivative_of(*ring, {}, ball, at(1)).is_ridge);
   // A small ring within a large ball.
   const MeshPointer large = testing::bumpy_ball(20, 30).shared();
-  const MeshPointer small = mapped(*ring, Affine<double>{0.1 * Mat3<double>::Identity(), Vec3<double>::Zero()});
+  const MeshPointer small =
+      mapped(*ring, Affine<double>{0.1 * Mat3<double>::Identity(), Vec3<double>::Zero()});
   EXPECT_EQ(signed_distance(*large, {}, *small, {}).status, SignedStatus::overlapping);
   EXPECT_EQ(signed_distance(*small, {}, *large, {}).status, SignedStatus::overlapping);
 }
