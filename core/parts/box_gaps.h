@@ -68,7 +68,7 @@ struct KnownDirection {
 /// two boxes apart: by how much they overlap along the best of their axes.
 void box_gaps(const EightBoxes& boxes, const MiddleBox& other, const Turned& at,
               const KnownDirection* known, double* gaps);
-/// The same bits by either.
+/// Both have the same bits.
 void box_gaps_avx2(const EightBoxes& boxes, const MiddleBox& other, const Turned& at,
                    const KnownDirection* known, double* gaps);
 void box_gaps_sse2(const EightBoxes& boxes, const MiddleBox& other, const Turned& at,

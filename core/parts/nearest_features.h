@@ -13,7 +13,7 @@ struct NearestPoints {
   Vec3<double> a = Vec3<double>::Zero(), b = Vec3<double>::Zero();
 };
 
-/// The same bits by either.
+/// Both have the same bits.
 void nearest_features_avx2(const TriangleCorners& a, const TriangleCorners& b, NearestPoints& best);
 void nearest_features_sse2(const TriangleCorners& a, const TriangleCorners& b, NearestPoints& best);
 

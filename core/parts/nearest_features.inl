@@ -49,7 +49,7 @@ void take_edges(const TriangleCorners& a, const TriangleCorners& b, NearestPoint
       const Vec3<W> v = to.at[r] - from.at[r], between = widen<W>(p) - from.at[r];
       const W e = max(dot_of<W>(v, v), W(least_square)), f = dot_of<W>(v, between),
               c = dot_of<W>(u, between), b_ = dot_of<W>(u, v);
-      // Of edges that are parallel any s will do.
+      // If edges are parallel, any s is as good.
       constexpr double parallel = 1e-30;
       const W denominator = max(along * e - b_ * b_, max(along * e * W(parallel), W(least_square)));
       W s = within_0_and_1<W>((b_ * f - c * e) / denominator);

@@ -48,7 +48,7 @@ class PairWalk {
       return visit_leaves(a, b, key, limit, visit);
     });
   }
-  /// The same, for visit_leaves(a, b) of two leaves.
+  /// Does the same, but calls visit_leaves(a, b) for two leaves.
   template <class Key, class Limit, class VisitLeaves>
   double run_leaves(const Key& key, const Limit& limit, const VisitLeaves& visit_leaves);
 

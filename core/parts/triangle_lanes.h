@@ -16,7 +16,7 @@ struct EightTriangles {
   alignas(32) double corners[3][3][most];  ///< by corner, axis, triangle
   alignas(32) double normals[3][most];
 
-  /// Of unused lanes it makes copies of the first.
+  /// Copies the first triangle to the unused lanes.
   void fill();
   TriangleCorners triangle(int i) const {
     const auto corner = [&](int k) {
@@ -32,7 +32,7 @@ struct EightTriangles {
 /// Bounds may be less than 0.
 void triangle_gaps(const TriangleCorners& one, const Vec3<double>& normal,
                    const EightTriangles& eight, const Vec3<double>* known, double* gaps);
-/// The same bits by either.
+/// Both have the same bits.
 void triangle_gaps_avx2(const TriangleCorners& one, const Vec3<double>& normal,
                         const EightTriangles& eight, const Vec3<double>* known, double* gaps);
 void triangle_gaps_sse2(const TriangleCorners& one, const Vec3<double>& normal,

@@ -215,7 +215,7 @@ TEST(MeshPairs, of_many_bodies_are_those_of_each_two) {
   RigidMotion motion{at.pose};
   motion.pose.translation = {-6, 0.3, 0.2};
   motion.velocity = {12, 0, 0};
-  const WorldImpact met = first_impact(at.shape, motion, world, 1, ~0u, nothing_met(1));
+  const EarliestImpact met = first_impact(at.shape, motion, world, 1, ~0u, nothing_met(1));
   double first = 1;
   for (const ContactBody& body : bodies) {
     const Impact own = first_impact(at.parts(), motion, body.parts(), {body.pose}, 1);
