@@ -6,7 +6,7 @@
 
 #include "core/contact/contact_shape.h"
 #include "core/contact/swept.h"
-#include "renderer/import/framing.h"
+#include "renderer/scene/framing.h"
 #include "renderer/import/mesh_hull.h"
 
 namespace minkray {
