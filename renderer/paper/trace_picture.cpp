@@ -95,7 +95,8 @@ std::string trace_svg(const CastTrace<T>& trace, const PreparedShape<T>& shape) 
                      px(double(step.lambda)), py(ray_height));
     ++k;
   }
-  svg << "</g>\n<g font-family=\"monospace\" font-size=\"11\" xml:space=\"preserve\">\n";
+  svg << "</g>\n<g font-family=\"monospace\" font-size=\"11\" xml:space=\"preserve\" "
+         "style=\"white-space:pre\">\n";
   double y = picture_margin;
   const auto write = [&](const std::string& text) {
     svg << formatted("<text x=\"%.0f\" y=\"%.0f\">", picture_side + 10, y) << svg_text(text)

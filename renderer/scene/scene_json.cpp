@@ -148,15 +148,10 @@ class SceneReader {
 
   /// What files leave out, once all is read.
   void settle(const SceneFile& main) {
-    if (!has_lights_) {
+    if (!has_lights_)
       scene_.lights_are_default = true;
-    } else if (!has_background_) {
-      scene_.background_is_sky =
-          std::any_of(scene_.lights.begin(), scene_.lights.end(), [](const Light& light) {
-            return std::holds_alternative<ImageSkyLight>(light) ||
-                   std::holds_alternative<SunSkyLight>(light);
-          });
-    }
+    else if (!has_background_)
+      choose_background(main.version);
     const MistakesIn naming(mistakes_, (camera_file_ ? camera_file_ : &main)->shown);
     camera_.settle(JsonPath() / "camera");
     if (scene_.lights_are_default && mistakes_.none()) {
@@ -164,6 +159,20 @@ class SceneReader {
       light_everything(scene_);
       if (has_background_) scene_.background = written;
     }
+  }
+
+  /// Cameras see the sky that lights the scene; what stands for one that is none is white in
+  /// version 1.
+  void choose_background(int version) {
+    for (const Light& light : scene_.lights)
+      if (std::holds_alternative<ImageSkyLight>(light) ||
+          std::holds_alternative<SunSkyLight>(light))
+        scene_.background_is_sky = true;
+    if (version == 1) return;
+    scene_.background = default_background;
+    for (const Light& light : scene_.lights)
+      if (const auto* sky = std::get_if<EnvironmentLight>(&light))
+        scene_.background = {sky->zenith, sky->nadir};
   }
 
   template <class Read>

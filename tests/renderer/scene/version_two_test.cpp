@@ -56,6 +56,16 @@ TEST_F(VersionTwo, a_shape_alone_is_a_scene) {
   EXPECT_GT(scene.camera.position.norm(), 1 / std::sin(20 * std::numbers::pi / 180));
 }
 
+TEST_F(VersionTwo, cameras_see_the_sky_that_lights_the_scene) {
+  const auto background = [&](const std::string& lights) {
+    return read(R"({"version": 2, "objects": [], "lights": [)" + lights + "]}").background.zenith;
+  };
+  const std::string sky =
+      R"({"type": "environment", "zenith": [0, 0.5, 1], "nadir": [0, 0, 0], "intensity": 2})";
+  EXPECT_EQ(background(sky), Colour(0, 1, 2));
+  EXPECT_LT(background("").maxCoeff(), 1);
+}
+
 TEST_F(VersionTwo, a_rotation_may_be_written_in_four_ways) {
   const double s = std::sqrt(0.5);
   const std::pair<std::string, Vec3<double>> turns[] = {
