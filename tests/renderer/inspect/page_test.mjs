@@ -169,7 +169,8 @@ test('a link leads to its pixel and step, and the address says where one is', as
 });
 
 test('the table tells of the solver that is chosen', async () => {
-  const page = await open('pixel=240,131', 2800, 1600);
+  const page = await open('', 2800, 1600);
+  await page.mouse('mouseMoved', ...await place(page, 240, 131));
   const by = async solver => {
     const says = trace(240, 131, solver);
     assert.equal(await page.text('hover-iterations'), String(says.iterations), solver);
