@@ -126,7 +126,9 @@ void trace(const TraceVerbOptions& options) {
     return;
   }
   if (!found && options.object.empty())
-    std::cout << "the ray meets no shape; this is the one whose miss took most iterations:\n";
+    std::cout
+        << "the ray meets no shape with steps (planes and meshes have none); this is the one whose "
+           "miss took most iterations:\n";
   std::cout << "object \"" << instance_object(scene, objects[chosen]).name
             << "\": " << name_of(result.result.status);
   if (found) std::cout << ", t = " << number_json(t).dump();

@@ -63,6 +63,7 @@ TEST(FirstContact, an_unknown_name_is_told_with_the_names_there_are) {
   EXPECT_EQ(outcome.exit_code, 3);
   EXPECT_NE(outcome.err.find("showcsae: must be"), std::string::npos) << outcome.err;
   EXPECT_NE(outcome.err.find("shape-zoo, showcase"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("did you mean `showcase`?"), std::string::npos) << outcome.err;
 }
 
 /// What the program says of a command line that it refuses.
