@@ -46,7 +46,9 @@ void CameraReader::settle(const JsonPath& path) {
       camera.look_at = written.look_at;
       camera.position = written.look_at + back;
     }
-    scene_.camera_is_framed = !has_position_ && !has_look_at_;
+    // What keys begin with stays as it is.
+    scene_.camera_is_framed =
+        !has_position_ && !has_look_at_ && !(json_ && json_->contains("keys"));
     if (!has_up_) choose_up(camera);
     check_view(camera, path, mistakes_);
   }

@@ -24,6 +24,8 @@ TEST(VersionTwoFiles, are_read_by_all_commands) {
   folder.write("worse.json", R"({"version": 2, "objects": [{"shape": {"type": "cube"}}]})");
   folder.write("q.jsonl",
                R"({"scene": "s.json", "ray": {"origin": [-9, 0, 0], "direction": [1, 0, 0]}})");
+  folder.write("shipped.jsonl",
+               R"({"scene": "smallest", "ray": {"origin": [-9, 0, 0], "direction": [1, 0, 0]}})");
   folder.write("r.urdf", R"(<robot name="r"><link name="base"><collision><origin xyz="4 0 0"/>
       <geometry><sphere radius="1"/></geometry></collision></link></robot>)");
   // Each with its exit code, and what is in its output.
@@ -36,6 +38,7 @@ TEST(VersionTwoFiles, are_read_by_all_commands) {
       {"scan s.json --pattern spinning:2x4 -q -o a.csv", 0, ""},
       {"trace s.json --pixel 3,3 --json", 0, "\"iterations\""},
       {"cast q.jsonl", 0, "\"object_name\":\"ball\""},
+      {"cast shipped.jsonl", 0, "\"object_name\":\"rounded 1\""},
       {"distance r.urdf s.json", 0, "far/ball"},
       {"import s.json -o again.json", 0, ""},
       {"info again.json", 0, "objects     2"},

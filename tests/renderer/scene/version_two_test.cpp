@@ -218,6 +218,7 @@ TEST_F(VersionTwo, cameras_lights_and_materials_have_keys) {
   const auto colour = [&] {
     return std::get<GlossyMaterial>(scene.materials.at(0).kind).colour.colour();
   };
+  EXPECT_FALSE(scene.camera_is_framed);
   EXPECT_EQ(intensity(), Colour(4, 0, 0));
   const Scene as_written = scene;
   set_time(scene, 0.5);
@@ -241,6 +242,16 @@ TEST_F(VersionTwo, cameras_lights_and_materials_have_keys) {
     EXPECT_EQ(std::get<PointLight>(again.lights[0]).colour, intensity());
     EXPECT_EQ(std::get<GlossyMaterial>(again.materials[0].kind).colour.colour(), colour());
   }
+}
+
+/// It was framed anew for each picture size, and stood elsewhere than its first key says.
+TEST_F(VersionTwo, a_camera_that_only_keys_place_is_where_they_say) {
+  const Scene scene =
+      read(R"({"version": 2, "camera": {"keys": [{"time": 0, "position": [0, -9, 3]}]},
+      "objects": [{)" +
+           ball + "}]}");
+  EXPECT_EQ(scene.camera.position, Vec3<double>(0, -9, 3));
+  EXPECT_FALSE(scene.camera_is_framed);
 }
 
 TEST_F(VersionTwo, motions_are_written_as_they_are) {
