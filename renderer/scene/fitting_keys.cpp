@@ -50,8 +50,9 @@ void check_view(const CameraDescription& camera, const JsonPath& path, Mistakes&
   else if (unit(camera.up).isZero())
     mistakes.add(path / "up", "must not be zero");
   else if (is_along_view(camera))
-    mistakes.add(path / "up", "must not be parallel to the direction of view: choose another, such as " +
-                                  std::string(camera.up.y() == 0 ? "[0, 1, 0]" : "[0, 0, 1]"));
+    mistakes.add(path / "up",
+                 "must not be parallel to the direction of view: choose another, such as " +
+                     std::string(camera.up.y() == 0 ? "[0, 1, 0]" : "[0, 0, 1]"));
 }
 
 void find_sun(SunSkyLight& day, const Json& json, const JsonPath& path, Mistakes& mistakes) {
