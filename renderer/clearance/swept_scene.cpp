@@ -6,8 +6,8 @@
 
 #include "core/contact/contact_shape.h"
 #include "core/contact/swept.h"
-#include "renderer/import/framing.h"
 #include "renderer/import/mesh_hull.h"
+#include "renderer/scene/framing.h"
 
 namespace minkray {
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/cli/image_arguments.h"
+#include "renderer/scene/framing.h"
 
 #include <charconv>
 #include <iostream>
@@ -101,6 +102,7 @@ void ImageArguments::add_to(const Verb& verb, const std::string& suffix) {
 
 void ImageArguments::choose_output(const std::string& suffix) {
   if (!outputs.empty()) return;
+  check_can_be_scene(scene);
   outputs.push_back(default_output(scene, suffix));
   files->write(outputs.back(), "--output");
   is_output_chosen = true;
@@ -142,6 +144,10 @@ Scene ImageArguments::load_scene() const {
   Imported imported = import_scene(scene, options);
   if (imported.model && !quiet) warn_of_limits(*imported.model, options);
   Scene loaded = std::move(imported.scene);
+  if (loaded.camera_is_framed && !resolution.empty()) {
+    loaded.camera.resolution = options.picture;
+    frame_with_own_lens(loaded);
+  }
   files->read(imported.files);
   return loaded;
 }

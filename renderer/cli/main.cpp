@@ -47,7 +47,7 @@ void check_command(const Parser& parser, const std::string& name) {
 std::vector<std::string> words_of(int argc, char** argv) {
   std::vector<std::string> words(argv, argv + argc);
   if (argc < 2 || words[1] != "help") return words;
-  if (argc == 2) return {words[0], "--help"};
+  if (argc == 2 || words[2] == "help") return {words[0], "--help"};
   return {words[0], words[2], "--help"};
 }
 

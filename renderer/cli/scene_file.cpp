@@ -6,6 +6,7 @@
 
 #include "renderer/base/errors.h"
 #include "renderer/io/png.h"
+#include "renderer/json/closest_word.h"
 
 namespace minkray {
 namespace {
@@ -55,9 +56,12 @@ std::string scene_file(const std::string& name) {
     if (fs::exists(file, error)) return file.string();
   }
   std::string names;
-  for (const std::string& scene : built_in_scenes()) names += (names.empty() ? "" : ", ") + scene;
+  const std::vector<std::string> known = built_in_scenes();
+  const auto meant = closest_word(name, known);
+  for (const std::string& scene : known) names += (names.empty() ? "" : ", ") + scene;
   throw BadInput(name + ": must be a scene's file or one of the scenes that come with Minkray (" +
-                 (names.empty() ? "none is here" : names) + ")");
+                 (names.empty() ? "none is here" : names) + ")" +
+                 (meant ? "; did you mean `" + *meant + "`?" : ""));
 }
 
 std::string default_output(const std::string& scene_file, const std::string& suffix) {

@@ -2,6 +2,7 @@
 #include "renderer/cli/scene_queries.h"
 
 #include "core/math/outward_sum.h"
+#include "renderer/cli/scene_file.h"
 #include "renderer/film/render.h"
 #include "renderer/import/import.h"
 #include "renderer/json/number_json.h"
@@ -21,7 +22,10 @@ std::shared_ptr<const SceneQueries::Loaded> SceneQueries::load(const std::string
   std::shared_ptr<const Loaded>& loaded = loaded_[name];
   if (!loaded) {
     auto made = std::make_shared<Loaded>();
-    made->scene = import_scene(folder_ / name).scene;
+    const std::filesystem::path beside = folder_ / name;
+    std::error_code error;
+    const bool is_file = beside.has_extension() || std::filesystem::exists(beside, error);
+    made->scene = import_scene(is_file ? beside.string() : scene_file(name)).scene;
     made->world = make_world(made->scene);
     loaded = std::move(made);
   }

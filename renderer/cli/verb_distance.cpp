@@ -66,7 +66,8 @@ DistanceFile kind_of_file(const std::string& file) {
   if (content_of(file).kind == FileKind::other) return DistanceFile::scene;
   Mistakes mistakes(file);
   std::optional<Json> json;
-  if (const auto text = read_text_file(file, mistakes)) json = parse_json(*text, mistakes);
+  if (const auto text = read_text_file(file, mistakes))
+    json = parse_json(without_comments(*text).text, mistakes);
   throw_if_any(mistakes);
   const bool is_scene =
       json->is_object() && (json->contains("version") || json->contains("objects"));

@@ -125,6 +125,10 @@ void trace(const TraceVerbOptions& options) {
     std::cout << json.dump() << '\n';
     return;
   }
+  if (!found && options.object.empty())
+    std::cout
+        << "the ray meets no shape with steps (planes and meshes have none); this is the one whose "
+           "miss took most iterations:\n";
   std::cout << "object \"" << instance_object(scene, objects[chosen]).name
             << "\": " << name_of(result.result.status);
   if (found) std::cout << ", t = " << number_json(t).dump();
@@ -149,7 +153,7 @@ void add_trace(Parser& parser, ExitCode&) {
       .takes("WxH");
   verb.add_option("--object", options->object, "The object's name; by default the one that is hit")
       .takes("NAME");
-  verb.add_option("--precision", options->precision, "float or double")
+  verb.add_option("--precision", options->precision, "Numbers of the cast")
       .one_of({"float", "double"})
       .show_default();
   add_solver_option(verb, options->solver);

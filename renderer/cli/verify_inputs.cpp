@@ -12,12 +12,21 @@
 namespace minkray {
 namespace {
 
+/// True of JSON with a scene's keys, which may have comments that no planner's file has.
+bool is_own_scene(const std::string& file) {
+  Mistakes unread(file);
+  const auto text = read_text_file(file, unread);
+  const auto json = text ? parse_json(without_comments(*text).text, unread) : std::nullopt;
+  return json && json->is_object() && !json->contains("world") &&
+         (json->contains("objects") || json->contains("include"));
+}
+
 /// A file that holds a planning scene, or a request that does; nothing if it is another scene.
 std::optional<Document> planning_document(const std::string& file, Mistakes& mistakes) {
-  if (is_foreign(file)) return std::nullopt;
+  if (is_foreign(file) || is_own_scene(file)) return std::nullopt;
   std::optional<Document> document = read_document(file, mistakes);
   if (document && member_of(document->json, "objects") && !member_of(document->json, "world"))
-    return std::nullopt;  // a scene of ours
+    return std::nullopt;  // a scene of ours, as YAML
   return document;
 }
 

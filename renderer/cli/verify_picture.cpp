@@ -8,7 +8,7 @@
 
 #include "renderer/film/render.h"
 #include "renderer/image/text.h"
-#include "renderer/import/framing.h"
+#include "renderer/scene/framing.h"
 
 namespace minkray {
 namespace {

@@ -101,6 +101,13 @@ std::string meant(std::span<const Meaning> meanings, std::string_view typed,
                   const std::vector<std::string>& names) {
   std::optional<std::string> word = elsewhere(meanings, typed, names);
   if (!word) word = closest_word(typed, names);
+  if (!word) {
+    // A word of another program may be mistyped as well.
+    std::vector<std::string> others;
+    for (const Meaning& one : meanings) others.emplace_back(one.typed);
+    if (const auto closest = closest_word(typed, others))
+      word = elsewhere(meanings, *closest, names);
+  }
   return word ? "did you mean `" + *word + "`?" : "";
 }
 

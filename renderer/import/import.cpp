@@ -11,7 +11,6 @@
 #include "renderer/base/hash.h"
 #include "renderer/base/of_file.h"
 #include "renderer/import/file_kind.h"
-#include "renderer/import/framing.h"
 #include "renderer/import/geometry_common.h"
 #include "renderer/import/gltf.h"
 #include "renderer/import/mjcf.h"
@@ -19,6 +18,8 @@
 #include "renderer/import/sdf.h"
 #include "renderer/import/urdf.h"
 #include "renderer/import/xml.h"
+#include "renderer/scene/default_light.h"
+#include "renderer/scene/framing.h"
 #include "renderer/scene/scene_instances.h"
 #include "renderer/scene/scene_json.h"
 
@@ -133,6 +134,12 @@ std::optional<Model> parse_model(const std::string& text, const std::filesystem:
   return model_of(files.parse(text, file), files, options, mistakes);
 }
 
+void check_can_be_scene(const std::filesystem::path& file) {
+  if (const FileContent content = content_of(file); content.kind == FileKind::other)
+    throw BadInput(printable(file.string(), 200) + ": is " + content.what +
+                   "; a scene is a JSON file or " + foreign_formats());
+}
+
 std::optional<Model> load_model(const std::filesystem::path& file, const ImportOptions& options,
                                 Mistakes& mistakes) {
   if (content_of(file).kind == FileKind::gltf) {
@@ -153,9 +160,7 @@ std::optional<Model> load_model(const std::filesystem::path& file, const ImportO
 namespace {
 
 Imported import_alone(const std::filesystem::path& file, const ImportOptions& options) {
-  if (const FileContent content = content_of(file); content.kind == FileKind::other)
-    throw BadInput(printable(file.string(), 200) + ": is " + content.what +
-                   "; a scene is a JSON file or " + foreign_formats());
+  check_can_be_scene(file);
   if (!is_foreign(file)) {
     if (options.any())
       throw WrongUsage("--geometry, --keyframe, --joint and the like are for robots' files (" +
@@ -202,6 +207,12 @@ void append_objects(Scene& to, Scene&& from) {
       for (std::uint32_t& index : mix->materials.indices) index += shift;
     to.materials.push_back(std::move(material));
   }
+  for (KeysOf<MaterialKind>& keys : from.material_keys) {
+    keys.index += shift;
+    if (auto* mix = std::get_if<MixMaterial>(&keys.keys.rest))
+      for (std::uint32_t& index : mix->materials.indices) index += shift;
+    to.material_keys.push_back(std::move(keys));
+  }
   for (Object& object : from.objects) {
     object.material += shift;
     to.objects.push_back(std::move(object));
@@ -222,6 +233,10 @@ void take_view(Scene& to, Scene& from) {
   to.lights = std::move(from.lights);
   to.background = from.background;
   to.background_is_sky = from.background_is_sky;
+  to.camera_keys = std::move(from.camera_keys);
+  to.light_keys = std::move(from.light_keys);
+  to.camera_is_framed = from.camera_is_framed;
+  to.lights_are_default = from.lights_are_default;
 }
 
 }  // namespace
@@ -249,6 +264,7 @@ Imported import_scene(const std::filesystem::path& file, const ImportOptions& op
     frame_everything(imported.scene, options.picture);
     light_everything(imported.scene);
   }
+  if (imported.scene.camera_is_framed) frame_with_own_lens(imported.scene);
   return imported;
 }
 

@@ -30,6 +30,9 @@ std::string foreign_formats();
 /// True if the file holds a robot's description; of one that cannot be read, its ending tells.
 bool is_foreign(const std::filesystem::path& file);
 
+/// Throws BadInput that tells what the file is if it is a picture, a mesh or the like.
+void check_can_be_scene(const std::filesystem::path& file);
+
 /// The scene of a file, with all that options.others hold: the first file that is a scene has the
 /// camera and the lights, and joints are those of `file`. Throws BadInput with all mistakes, one a
 /// line; WrongUsage if a scene file is asked for what only robots have.

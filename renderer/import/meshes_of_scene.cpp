@@ -9,6 +9,7 @@
 #include "renderer/json/parse.h"
 #include "renderer/json/values.h"
 #include "renderer/scene/read_split.h"
+#include "renderer/scene/scene_files.h"
 
 namespace minkray {
 namespace {
@@ -58,9 +59,18 @@ void find_files(const Json& json, MeshSplit split, std::vector<ShownFile>& files
 std::vector<ModelMesh> meshes_of_scene(const std::filesystem::path& scene_file) {
   Mistakes mistakes(scene_file.string());
   const auto text = read_text_file(scene_file, mistakes);
-  const auto json = text ? parse_json(*text, mistakes) : std::nullopt;
   std::vector<ShownFile> files;
-  if (json) find_files(*json, MeshSplit::none, files);
+  if (text) {
+    const SceneFiles scene(*text, scene_file.parent_path(), mistakes);
+    for (const auto& file : scene.all()) {
+      std::vector<ShownFile> named;
+      find_files(file->json, MeshSplit::none, named);
+      for (ShownFile& found : named) {
+        if (!file->folder.empty()) found.name = (file->folder / found.name).string();
+        if (std::ranges::find(files, found) == files.end()) files.push_back(found);
+      }
+    }
+  }
   std::vector<ModelMesh> meshes;
   for (const ShownFile& file : files) {
     ImportOptions options;

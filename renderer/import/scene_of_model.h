@@ -30,10 +30,6 @@ std::vector<JointRow> read_joint_rows(const std::string& file, Model& model, Mis
 /// Which geoms are asked for. A link without visual shapes shows its collision shapes.
 std::vector<bool> chosen_geoms(const Model& model, GeometryChoice choice);
 
-/// A sun and a sky; a lamp at the camera where a plane hides the sun from everything, as it does
-/// within walls, which have no end.
-void light_everything(Scene& scene);
-
 /// Shapes chosen by the options. With several rows, objects move from row to row.
 Scene scene_of(Model& model, const ImportOptions& options, const std::vector<JointRow>& rows);
 

@@ -7,6 +7,7 @@
 #include "renderer/json/mistakes.h"
 #include "renderer/json/values.h"
 #include "renderer/scene/describe_member.h"
+#include "renderer/scene/half_space_json.h"
 #include "renderer/scene/schema.h"
 #include "renderer/scene/summary.h"
 #include "renderer/scene/tagged_json.h"
@@ -61,6 +62,14 @@ std::string cell(std::string_view text) {
     escaped += c;
   }
   return escaped;
+}
+
+/// Calls visit.operator()<S>() for all shapes of scene files, and for planes, which are objects'
+/// only.
+template <class Visit>
+void for_each_listed_shape(Visit&& visit) {
+  for_each_alternative(std::type_identity<ShapeVariant<double>>(), visit);
+  visit.template operator()<HalfSpaceDescription>();
 }
 
 template <class S>
@@ -162,7 +171,7 @@ std::string info_as_text(const Scene& scene) {
 
 std::string shapes_as_json() {
   Json shapes = Json::array();
-  for_each_alternative(std::type_identity<ShapeVariant<double>>(), [&]<class S>() {
+  for_each_listed_shape([&]<class S>() {
     Json parameters = Json::array();
     for_each_description<S>([&](const Parameter& parameter, const MemberDescription& member) {
       parameters.push_back({{"keys", member.keys},
@@ -181,7 +190,7 @@ std::string shapes_as_json() {
 
 std::string shapes_as_text() {
   std::string text;
-  for_each_alternative(std::type_identity<ShapeVariant<double>>(), [&]<class S>() {
+  for_each_listed_shape([&]<class S>() {
     text += std::string(S::name) + ": " + std::string(S::doc) + "\n";
     for_each_description<S>([&](const Parameter& parameter, const MemberDescription& member) {
       text += "    " + member.keys + ": " + member.value;
@@ -198,7 +207,7 @@ std::string shapes_as_markdown() {
   std::string text =
       "| shape | parameter | value | unit | constraint | meaning |\n"
       "| --- | --- | --- | --- | --- | --- |\n";
-  for_each_alternative(std::type_identity<ShapeVariant<double>>(), [&]<class S>() {
+  for_each_listed_shape([&]<class S>() {
     text += "| `" + std::string(S::name) + "` | | | | | " + cell(S::doc) + " |\n";
     for_each_description<S>([&](const Parameter& parameter, const MemberDescription& member) {
       text += "| | " + member.keys + (parameter.optional ? " (optional)" : "") + " | " +

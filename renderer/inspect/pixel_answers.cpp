@@ -35,6 +35,16 @@ std::uint8_t number_of(Status status) {
   return static_cast<std::uint8_t>(at - heat_statuses.begin());
 }
 
+/// What another solver takes for the cast that is shown.
+ShownWork work_of(const Scene& scene, const SceneCasts& casts, const ShownCast& shown,
+                  const Ray<double>& ray) {
+  const std::size_t instance = std::size_t{shown.object} - 1;
+  if (shown.object == 0) return {};
+  if (instance < scene.objects.size() && !scene.objects[instance].has_shape()) return {};
+  const CastResult<double> result = casts.trace(instance, ray).result;
+  return {result.iterations, result.supports};
+}
+
 template <class Count>
 std::uint16_t in_16_bits(Count count) {
   return static_cast<std::uint16_t>(
@@ -78,13 +88,18 @@ PixelAnswers measure_pixels(const Scene& scene, const std::vector<const SceneCas
   PixelAnswers answers;
   answers.resolution = resolution;
   answers.shown.resize(pixel_count(all));
+  answers.work.assign(solvers.size(), std::vector<ShownWork>(pixel_count(all)));
   answers.of_ray.assign(solvers.size(), std::vector<RayCost>(pixel_count(all)));
   RayCounts counts;
   answers.complete = for_pixels(all, counts, watch, [&](const Pixel& pixel, RayCounts& of_tile) {
     const Ray<double> ray = camera.ray(pixel.x + 0.5, pixel.y + 0.5);
-    answers.shown[pixel.index] = shown_cast(*solvers.front(), ray, most_looked_at_in_picture);
-    for (std::size_t k = 0; k < solvers.size(); ++k)
+    const ShownCast shown = shown_cast(*solvers.front(), ray, most_looked_at_in_picture);
+    answers.shown[pixel.index] = shown;
+    for (std::size_t k = 0; k < solvers.size(); ++k) {
+      answers.work[k][pixel.index] = k == 0 ? ShownWork{shown.iterations, shown.supports}
+                                            : work_of(scene, *solvers[k], shown, ray);
       answers.of_ray[k][pixel.index] = cost_of(*solvers[k], ray);
+    }
     ++of_tile.camera;
   });
   return answers;
@@ -104,14 +119,18 @@ PackedPlanes packed(const PixelAnswers& answers) {
     planes.add(i == 0 ? "normal_u" : "normal_v", plane_of(shown, [&](const ShownCast& c) {
                  return direction_in_32_bits(c.normal)[i];
                }));
-  planes.add("iterations",
-             plane_of(shown, [](const ShownCast& c) { return in_16_bits(c.iterations); }));
-  planes.add("supports",
-             plane_of(shown, [](const ShownCast& c) { return in_16_bits(c.supports); }));
   for (std::size_t k = 0; k < answers.of_ray.size(); ++k) {
     const auto& rays = answers.of_ray[k];
+    const auto name_of_plane = [&](const char* name) {
+      return name + std::string(":") + std::to_string(k);
+    };
+    const auto add_work = [&](const char* name, const auto& get) {
+      planes.add(name_of_plane(name), plane_of(answers.work[k], get));
+    };
+    add_work("iterations", [](const ShownWork& w) { return in_16_bits(w.iterations); });
+    add_work("supports", [](const ShownWork& w) { return in_16_bits(w.supports); });
     const auto add = [&](const char* name, const auto& get) {
-      planes.add(name + std::string(":") + std::to_string(k), plane_of(rays, get));
+      planes.add(name_of_plane(name), plane_of(rays, get));
     };
     add("ray_iterations", [](const RayCost& c) { return in_16_bits(c.work.iterations); });
     add("ray_supports", [](const RayCost& c) { return in_16_bits(c.work.supports); });

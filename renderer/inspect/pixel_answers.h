@@ -19,6 +19,11 @@ struct ShownCast {
   int iterations = 0, supports = 0;
 };
 
+/// What that cast takes by one of the solvers.
+struct ShownWork {
+  int iterations = 0, supports = 0;
+};
+
 /// What a pixel's ray cost in all, by one solver.
 struct RayCost {
   QueryCounts work;
@@ -28,8 +33,10 @@ struct RayCost {
 
 struct PixelAnswers {
   Resolution resolution;
-  std::vector<ShownCast> shown;              ///< by pixel, in rows
-  std::vector<std::vector<RayCost>> of_ray;  ///< by solver, then by pixel
+  std::vector<ShownCast> shown;  ///< by pixel, in rows
+  std::vector<std::vector<ShownWork>>
+      work;  ///< of the cast that is shown; by solver, then by pixel
+  std::vector<std::vector<RayCost>> of_ray;  ///< the same of the whole ray
   bool complete = false;
 };
 

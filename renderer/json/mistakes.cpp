@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/json/mistakes.h"
 
+#include <utility>
+
 namespace minkray {
 namespace {
 
@@ -80,7 +82,7 @@ void Mistakes::add(const JsonPath& path, std::string_view message) {
     ++more_;
     return;
   }
-  if (!paths_.insert(path.text()).second) return;
+  if (!paths_.insert(file_ + '\0' + path.text()).second) return;
   add(printable(path.text(), longest_path) + ": " + std::string(message));
 }
 
@@ -91,6 +93,10 @@ void Mistakes::add(std::string_view message) {
   }
   // Whoever gives us a file also gives it its name.
   messages_.push_back(printable(file_ + ": " + std::string(message)));
+}
+
+std::string Mistakes::set_file(std::string file) {
+  return std::exchange(file_, std::move(file));
 }
 
 std::string Mistakes::text() const {

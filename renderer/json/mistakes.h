@@ -26,6 +26,10 @@ class Mistakes {
   /// One mistake of the file as a whole.
   void add(std::string_view message);
 
+  /// Gives the messages to come the name of another file, as that of an include; returns the name
+  /// before.
+  std::string set_file(std::string file);
+
   bool none() const { return messages_.empty(); }
   const std::vector<std::string>& messages() const { return messages_; }
   const std::string& file() const { return file_; }
@@ -38,6 +42,20 @@ class Mistakes {
   std::vector<std::string> messages_;
   std::size_t more_ = 0;  ///< that are not kept
   std::unordered_set<std::string> paths_;
+};
+
+/// Names another file in all messages of a block.
+class MistakesIn {
+ public:
+  MistakesIn(Mistakes& mistakes, std::string file)
+      : mistakes_(mistakes), before_(mistakes.set_file(std::move(file))) {}
+  ~MistakesIn() { mistakes_.set_file(std::move(before_)); }
+  MistakesIn(const MistakesIn&) = delete;
+  MistakesIn& operator=(const MistakesIn&) = delete;
+
+ private:
+  Mistakes& mistakes_;
+  std::string before_;
 };
 
 /// Throws BadInput with all of the messages, if there are any.

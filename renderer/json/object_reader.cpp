@@ -12,6 +12,40 @@ namespace {
 /// The beginning is told of longer lists.
 constexpr std::size_t most_names = 40;
 
+/// Keys of other programs and formats, and the one here.
+struct KeyElsewhere {
+  std::string_view written, name;
+};
+constexpr KeyElsewhere keys_elsewhere[] = {
+    {"keyframes", "keys"},
+    {"animation", "keys"},
+    {"position", "translate"},
+    {"location", "translate"},
+    {"translation", "translate"},
+    {"rotation", "rotate"},
+    {"quaternion", "rotate"},
+    {"rotate_degrees", "rotate"},
+    {"euler", "rotate"},
+    {"size", "half_extents"},
+    {"dimensions", "half_extents"},
+    {"diameter", "radius"},
+    {"height", "half_height"},
+    {"length", "half_height"},
+    {"center", "translate"},
+    {"geometry", "shape"},
+    {"target", "look_at"},
+    {"lookat", "look_at"},
+    {"fov", "fov_y_degrees"},
+    {"t", "time"},
+    {"frame", "time"},
+    {"ior", "index_of_refraction"},
+    {"colour", "color"},
+    {"albedo", "color"},
+    {"rgb", "color"},
+    {"children", "objects"},
+    {"includes", "include"},
+};
+
 }  // namespace
 
 std::string suggestion(std::string_view written, const std::vector<std::string>& names) {
@@ -51,12 +85,19 @@ void ObjectReader::allow(std::initializer_list<std::string_view> keys) {
   }
 }
 
+std::string ObjectReader::key_meant(std::string_view written) const {
+  for (const KeyElsewhere& one : keys_elsewhere)
+    if (one.written == written && std::ranges::find(known_, one.name) != known_.end())
+      return "did you mean \"" + std::string(one.name) + "\"?";
+  return suggestion(written, known_);
+}
+
 bool ObjectReader::finish() {
   if (!is_object_) return false;
   bool all_known = true;
   for (const Json::Member& member : json_.members()) {
     if (std::find(known_.begin(), known_.end(), member.key) == known_.end()) {
-      mistakes_.add(path_ / member.key, "unknown key (" + suggestion(member.key, known_) + ")");
+      mistakes_.add(path_ / member.key, "unknown key (" + key_meant(member.key) + ")");
       all_known = false;
     }
   }

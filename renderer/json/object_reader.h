@@ -39,6 +39,9 @@ class ObjectReader {
   Mistakes& mistakes() const { return mistakes_; }
 
  private:
+  /// A suggestion of the key that stands for an unknown one.
+  std::string key_meant(std::string_view written) const;
+
   const Json& json_;
   JsonPath path_;
   Mistakes& mistakes_;

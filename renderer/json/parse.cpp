@@ -244,10 +244,25 @@ std::optional<Json> parse_json(std::string_view text, Mistakes& mistakes) {
     mistakes.add(tree.path(),
                  "not valid JSON at line:column " + line_and_column(text, tree.error_position) +
                      ": " +
-                     (is_comment ? "JSON has no comments: remove it, or write a \"description\""
+                     (is_comment ? "JSON has no comments (scenes of version 2 have: // to the "
+                                   "end of a line): remove it"
                                  : printable(reason(tree.error_reason), 200)));
   }
   return std::nullopt;
+}
+
+Uncommented without_comments(std::string_view text) {
+  Uncommented made{std::string(text), ""};
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    if (text[at] == '"') {
+      for (++at; at < text.size() && text[at] != '"' && text[at] != '\n';)
+        at += text[at] == '\\' ? 2 : 1;
+    } else if (text.substr(at, 2) == "//") {
+      if (made.first_comment.empty()) made.first_comment = line_and_column(text, at);
+      for (; at < text.size() && text[at] != '\n' && text[at] != '\r'; ++at) made.text[at] = ' ';
+    }
+  }
+  return made;
 }
 
 Json Json::parse(std::string_view text) {

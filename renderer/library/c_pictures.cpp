@@ -8,12 +8,13 @@
 #include "renderer/base/errors.h"
 #include "renderer/film/data_channels.h"
 #include "renderer/film/features.h"
-#include "renderer/import/framing.h"
 #include "renderer/import/scene_of_model.h"
 #include "renderer/json/parse.h"
 #include "renderer/library/call.h"
 #include "renderer/library/held_scene.h"
 #include "renderer/library/work_on_rays.h"
+#include "renderer/scene/default_light.h"
+#include "renderer/scene/framing.h"
 #include "renderer/scene/scene_json.h"
 
 namespace minkray {
@@ -71,12 +72,18 @@ Scene seen(const HeldScene& held, const minkray_picture_options& options) {
   throw_if_any(mistakes);
   if (has_camera) {
     scene.camera = read->camera;
-  } else if (!held.has_camera()) {
+  } else if (!held.has_camera() || scene.camera_is_framed) {
     const auto side = [](std::uint32_t given, int or_else) {
       return given > 0 && given <= most_pixels_a_side ? static_cast<int>(given) : or_else;
     };
-    frame_everything(scene, {side(options.width, scene.camera.resolution.width),
-                             side(options.height, scene.camera.resolution.height)});
+    const Resolution picture = {side(options.width, scene.camera.resolution.width),
+                                side(options.height, scene.camera.resolution.height)};
+    if (held.has_camera()) {
+      scene.camera.resolution = picture;
+      frame_with_own_lens(scene);
+    } else {
+      frame_everything(scene, picture);
+    }
   }
   if (!has_lights && !held.has_camera()) light_everything(scene);
   if (has_lights) scene.lights = read->lights;

@@ -118,6 +118,7 @@ void HeldScene::append(Scene&& from) {
     scene_.lights = std::move(from.lights);
     scene_.background = from.background;
     scene_.background_is_sky = from.background_is_sky;
+    scene_.camera_is_framed = from.camera_is_framed;
     has_camera_ = true;
   }
 }

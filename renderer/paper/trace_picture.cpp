@@ -25,7 +25,14 @@ std::string trace_table(const CastTrace<T>& trace) {
                       static_cast<int>(step.clip.which), trace.t(step.clip.lambda),
                       trace.t(step.lower), trace.t(step.upper), double(step.v.norm()),
                       static_cast<int>(step.simplex.size()));
-  return text;
+  return text +
+         (trace.iterations.empty() ? "no iterations: this shape is met in closed form; --solver "
+                                     "paper shows those of the paper\n"
+                                   : "") +
+         "k: iteration; case: the plane bounds t from below (1) or above (2), or is parallel to\n"
+         "  the ray (3); t_clip: where it clips the ray; t_lo, t_hi: bounds of t so far; |v|: "
+         "length\n"
+         "  of the search direction; simplex: support points that are kept\n";
 }
 
 template <class T>
@@ -66,12 +73,19 @@ std::string trace_svg(const CastTrace<T>& trace, const PreparedShape<T>& shape) 
   int k = 0;
   for (const TracedIteration<T>& step : trace.iterations) {
     const double clip = double(step.clip.lambda);
-    if (std::isfinite(clip) && std::abs(clip) < 4 * radius)
+    // The whole plane v . x = v . p, where it crosses the picture's plane: a line through where it
+    // clips the ray, square to what is seen of v.
+    const double v_along = double(step.v.dot(r)), v_up = double(step.v.dot(up)),
+                 seen = std::hypot(v_along, v_up);
+    if (std::isfinite(clip) && std::abs(clip) < 4 * radius && seen > 0) {
+      const double reach = 6 * radius / seen;
       svg << formatted(
           "<line x1=\"%.2f\" y1=\"%.2f\" x2=\"%.2f\" y2=\"%.2f\" stroke=\"%s\" "
           "stroke-dasharray=\"4 3\"/>\n",
-          px(double(step.p.dot(r))), py(double(step.p.dot(up))), px(clip), py(ray_height),
+          px(clip - reach * v_up), py(ray_height + reach * v_along), px(clip + reach * v_up),
+          py(ray_height - reach * v_along),
           step.clip.which == ClipCase::lower_bound ? "#0072b2" : "#d55e00");
+    }
     svg << formatted(
                "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"3\" fill=\"#009e73\"/>"
                "<text x=\"%.2f\" y=\"%.2f\">p%d</text>\n",
@@ -81,7 +95,8 @@ std::string trace_svg(const CastTrace<T>& trace, const PreparedShape<T>& shape) 
                      px(double(step.lambda)), py(ray_height));
     ++k;
   }
-  svg << "</g>\n<g font-family=\"monospace\" font-size=\"11\" xml:space=\"preserve\">\n";
+  svg << "</g>\n<g font-family=\"monospace\" font-size=\"11\" xml:space=\"preserve\" "
+         "style=\"white-space:pre\">\n";
   double y = picture_margin;
   const auto write = [&](const std::string& text) {
     svg << formatted("<text x=\"%.0f\" y=\"%.0f\">", picture_side + 10, y) << svg_text(text)

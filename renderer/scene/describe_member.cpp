@@ -2,6 +2,7 @@
 #include "renderer/scene/describe_member.h"
 
 #include "renderer/json/values.h"
+#include "renderer/scene/read_colour.h"
 
 namespace minkray {
 namespace {
@@ -92,6 +93,8 @@ MemberDescription describe(const Parameter& parameter, Member<std::array<double,
 }
 
 MemberDescription describe(const Parameter& parameter, Member<Vec3<double>>) {
+  if (is_of_colours(parameter.range))
+    return one_key(parameter, "a colour", colour_schema(parameter.range));
   return one_key(parameter, "3 numbers", schema_of_list(schema_of_number(parameter.range), 3));
 }
 
@@ -135,14 +138,15 @@ MemberDescription describe(const Parameter&, Member<AffineMap<double>>) {
   const Json four = schema_of_list(number, 4);
   MemberDescription description;
   description.keys = "translate, rotate, scale, or matrix";
-  description.value = "3 numbers, 4 numbers, 1 or 3 numbers, or 3 rows of 3 or 4 numbers";
+  description.value = "3 numbers, a rotation, 1 or 3 numbers, or 3 rows of 3 or 4 numbers";
   description.properties = {
       {"translate", three},
-      {"rotate", four},
+      {"rotate", reference("rotation")},
       {"scale", {{"oneOf", {number, three}}}},
       {"matrix", {{"oneOf", {schema_of_list(three, 3), schema_of_list(four, 3)}}}}};
   description.properties["translate"]["description"] = "added last";
-  description.properties["rotate"]["description"] = "a quaternion [x, y, z, w]";
+  description.properties["rotate"]["description"] =
+      "a quaternion [x, y, z, w], or an axis and degrees, angles, or a point to look at";
   description.properties["scale"]["description"] = "applied first; negative numbers mirror";
   description.properties["matrix"]["description"] = "an invertible map; a fourth column is added";
   for (const char* key : {"translate", "rotate", "scale"}) {
@@ -165,8 +169,8 @@ MemberDescription describe(const Parameter& parameter, Member<std::string>) {
 }
 
 MemberDescription describe(const Parameter& parameter, Member<Paint>) {
-  const Json colour = schema_of_list(schema_of_number(parameter.range), 3);
-  return one_key(parameter, "3 numbers, or a texture", either(colour, reference("texture")));
+  return one_key(parameter, "a colour, or a texture",
+                 either(colour_schema(parameter.range), reference("texture")));
 }
 
 MemberDescription describe(const Parameter& parameter, Member<PaintIfAny>) {

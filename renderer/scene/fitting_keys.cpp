@@ -12,6 +12,15 @@ namespace {
 /// More cannot be told from a round aperture.
 constexpr int most_blades = 100;
 
+/// A view direction and "up" are taken for parallel if the sine of their angle is below this: the
+/// picture would turn by noise.
+constexpr double parallel_sine = 1e-9;
+
+bool is_along_view(const CameraDescription& camera) {
+  const Vec3<double> view = unit<double>(camera.look_at - camera.position);
+  return !(view.cross(unit(camera.up)).norm() > parallel_sine);
+}
+
 }  // namespace
 
 void check_lens(const CameraDescription& camera, const Json& json, const JsonPath& path,
@@ -27,6 +36,23 @@ void check_lens(const CameraDescription& camera, const Json& json, const JsonPat
     mistakes.add(path / "blades", "must be 0 or a whole number from 3 to " +
                                       std::to_string(most_blades) + " (" +
                                       found(*json.find("blades")) + ")");
+}
+
+void choose_up(CameraDescription& camera) {
+  if (!is_along_view(camera)) return;
+  camera.up = {0, 1, 0};
+  if (is_along_view(camera)) camera.up = {0, 0, 1};
+}
+
+void check_view(const CameraDescription& camera, const JsonPath& path, Mistakes& mistakes) {
+  if (unit<double>(camera.look_at - camera.position).isZero())
+    mistakes.add(path / "look_at", "must not be the camera's position");
+  else if (unit(camera.up).isZero())
+    mistakes.add(path / "up", "must not be zero");
+  else if (is_along_view(camera))
+    mistakes.add(path / "up",
+                 "must not be parallel to the direction of view: choose another, such as " +
+                     std::string(camera.up.y() == 0 ? "[0, 1, 0]" : "[0, 0, 1]"));
 }
 
 void find_sun(SunSkyLight& day, const Json& json, const JsonPath& path, Mistakes& mistakes) {
@@ -59,6 +85,14 @@ void find_sun(SunSkyLight& day, const Json& json, const JsonPath& path, Mistakes
   // It is written as the direction that it is.
   day.time.clear();
   day.latitude_degrees = day.longitude_degrees = std::nullopt;
+}
+
+void check_suns(const MemberKeys<Light>& keys, const JsonPath& path, Mistakes& mistakes) {
+  for (std::size_t i = 0; i < keys.keys.size(); ++i) {
+    const auto* day = std::get_if<SunSkyLight>(&keys.keys[i].values);
+    if (day && !(day->sun.z() > 0))
+      mistakes.add(path / i / "sun", "must be above the horizon: its third number > 0");
+  }
 }
 
 void check_relief(const Relief& relief, const JsonPath& path, Mistakes& mistakes) {

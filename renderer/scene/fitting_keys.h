@@ -13,8 +13,17 @@ namespace minkray {
 void check_lens(const CameraDescription& camera, const Json& json, const JsonPath& path,
                 Mistakes& mistakes);
 
+/// Takes another direction for up where that is the direction of view.
+void choose_up(CameraDescription& camera);
+
+/// A camera must look somewhere, and its "up" elsewhere.
+void check_view(const CameraDescription& camera, const JsonPath& path, Mistakes& mistakes);
+
 /// Settles where the sun is: by its direction, or by time and place.
 void find_sun(SunSkyLight& day, const Json& json, const JsonPath& path, Mistakes& mistakes);
+
+/// A sun that moves must stay above the horizon.
+void check_suns(const MemberKeys<Light>& keys, const JsonPath& path, Mistakes& mistakes);
 
 void check_relief(const Relief& relief, const JsonPath& path, Mistakes& mistakes);
 

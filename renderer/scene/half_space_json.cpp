@@ -2,8 +2,7 @@
 #include "renderer/scene/half_space_json.h"
 
 #include "renderer/json/object_reader.h"
-#include "renderer/json/values.h"
-#include "renderer/scene/scene.h"
+#include "renderer/scene/read_member.h"
 #include "renderer/scene/write_member.h"
 
 namespace minkray {
@@ -14,24 +13,17 @@ bool is_half_space(const Json& shape) {
 }
 
 std::optional<HalfSpaceBody<double>> read_half_space(const Json& json, const JsonPath& path,
-                                                     Mistakes& mistakes) {
+                                                     Mistakes& mistakes, MeshFiles& meshes) {
   ObjectReader object(json, path, mistakes);
   object.allow({"type"});
+  HalfSpaceDescription written;
+  bool is_good = read_members(object, written, meshes);
   HalfSpaceBody<double> half_space;
-  bool is_good = true;
-  if (const Json* written = object.find("normal")) {
-    const auto normal = read_vector(*written, object.path("normal"), mistakes);
-    is_good = normal.has_value();
-    if (normal) half_space.normal = unit(*normal);
-    if (normal && half_space.normal.isZero(0)) {
-      mistakes.add(object.path("normal"), "must not be zero");
-      is_good = false;
-    }
-  }
-  if (const Json* written = object.find("offset")) {
-    const auto offset = read_number(*written, object.path("offset"), mistakes);
-    is_good &= offset.has_value();
-    half_space.offset = offset.value_or(0);
+  half_space.normal = unit(written.normal);
+  half_space.offset = written.offset;
+  if (half_space.normal.isZero(0)) {
+    mistakes.add(object.path("normal"), "must not be zero");
+    is_good = false;
   }
   return object.finish() && is_good ? std::optional(half_space) : std::nullopt;
 }

@@ -29,8 +29,9 @@ std::string advice(const std::filesystem::path& folder, const std::filesystem::p
 
 }  // namespace
 
-std::optional<PointCloud<double>> MeshFiles::read(const std::string& name, const JsonPath& path,
+std::optional<PointCloud<double>> MeshFiles::read(const std::string& written, const JsonPath& path,
                                                   Mistakes& mistakes) {
+  const std::string name = from_scene(written);
   const auto known = read_.find(name);
   if (known != read_.end()) return known->second.points;
   const std::filesystem::path file = folder_ / name;
@@ -50,10 +51,11 @@ std::optional<PointCloud<double>> MeshFiles::read(const std::string& name, const
   }
 }
 
-std::optional<std::vector<PointCloud<double>>> MeshFiles::read_parts(const std::string& name,
+std::optional<std::vector<PointCloud<double>>> MeshFiles::read_parts(const std::string& written,
                                                                      MeshSplit split,
                                                                      const JsonPath& path,
                                                                      Mistakes& mistakes) {
+  const std::string name = from_scene(written);
   const auto known = parts_.find({name, split});
   if (known != parts_.end()) return known->second.hulls;
   const std::filesystem::path file = folder_ / name;
@@ -80,8 +82,9 @@ std::optional<std::vector<PointCloud<double>>> MeshFiles::read_parts(const std::
   }
 }
 
-std::shared_ptr<const Image> MeshFiles::read_picture(const std::string& name, const JsonPath& path,
-                                                     Mistakes& mistakes) {
+std::shared_ptr<const Image> MeshFiles::read_picture(const std::string& written,
+                                                     const JsonPath& path, Mistakes& mistakes) {
+  const std::string name = from_scene(written);
   const auto known = pictures_.find(name);
   if (known != pictures_.end()) return known->second.image;
   const std::filesystem::path file = folder_ / name;
@@ -115,8 +118,9 @@ std::vector<std::filesystem::path> MeshFiles::meshes() const {
   return files;
 }
 
-std::shared_ptr<const TriangleMesh> MeshFiles::read_mesh(const std::string& name, double scale,
+std::shared_ptr<const TriangleMesh> MeshFiles::read_mesh(const std::string& written, double scale,
                                                          const JsonPath& path, Mistakes& mistakes) {
+  const std::string name = from_scene(written);
   const auto known = surfaces_.find({name, scale});
   if (known != surfaces_.end()) return known->second.mesh;
   const std::filesystem::path file = folder_ / name;
@@ -145,8 +149,9 @@ std::shared_ptr<const TriangleMesh> MeshFiles::read_mesh(const std::string& name
   }
 }
 
-std::optional<HeightGrid> MeshFiles::read_heights(const std::string& name, const JsonPath& path,
+std::optional<HeightGrid> MeshFiles::read_heights(const std::string& written, const JsonPath& path,
                                                   Mistakes& mistakes) {
+  const std::string name = from_scene(written);
   const std::filesystem::path file = folder_ / name;
   try {
     HeightGrid grid = read_height_picture(file);

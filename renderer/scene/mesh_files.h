@@ -26,6 +26,15 @@ class MeshFiles {
   /// File names are relative to `folder`: that of the scene or query file.
   explicit MeshFiles(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
+  /// Files that are named from now on are relative to this folder, which is relative to the
+  /// scene's: that of an include.
+  void set_folder_of_names(std::filesystem::path folder) { of_names_ = std::move(folder); }
+
+  /// A file's name relative to the scene's folder.
+  std::string from_scene(const std::string& name) const {
+    return of_names_.empty() ? name : (of_names_ / name).string();
+  }
+
   /// The vertices of a mesh file; nothing, and a mistake at `path`, if it cannot be used.
   std::optional<PointCloud<double>> read(const std::string& name, const JsonPath& path,
                                          Mistakes& mistakes);
@@ -61,7 +70,7 @@ class MeshFiles {
     PointCloud<double> points;
     std::string hash;  ///< of all vertices, in the file's order
   };
-  std::filesystem::path folder_;
+  std::filesystem::path folder_, of_names_;
   std::map<std::string, Mesh> read_;
   struct Parts {
     std::vector<PointCloud<double>> hulls;

@@ -13,6 +13,9 @@ using Quaternion = std::array<double, 4>;
 /// they differ by the sine's square, and dividing by it would only add noise.
 constexpr double small_sine = 1e-6;
 
+/// Maps whose axes differ by more in length or angle are uneven.
+constexpr double most_uneven = 1e-9;
+
 struct Between {
   const PoseKey *from, *to;
   double fraction;
@@ -66,6 +69,27 @@ Affine<double> Motion::pose_at(double time) const {
   const Between at = between(keys, time);
   const Quaternion q = slerp(at);
   return Affine<double>{rotation_matrix(q[0], q[1], q[2], q[3]), lerp(at)} * rest;
+}
+
+std::optional<Motion> Motion::posed(const Affine<double>& frame) const {
+  const bool turns = std::ranges::any_of(keys, [](const PoseKey& key) {
+    return key.rotate != Quaternion{0, 0, 0, 1} && key.rotate != Quaternion{0, 0, 0, -1};
+  });
+  Motion made{keys, {frame.linear * rest.linear, frame.linear * rest.translation}};
+  // G K rest is (Q K Q^-1 moved) G rest, where the map G is Q and a scale: axes turn with Q.
+  const double size = std::cbrt(std::abs(frame.linear.determinant()));
+  const Mat3<double> turn = frame.linear / size;
+  const double uneven = (turn * turn.transpose() - Mat3<double>::Identity()).norm();
+  if (turns && !(uneven < most_uneven)) return std::nullopt;
+  const double handed = turn.determinant() < 0 ? -1 : 1;
+  for (PoseKey& key : made.keys) {
+    key.translate = frame(key.translate);
+    if (!turns) continue;
+    const Vec3<double> axis =
+        handed * (turn * Vec3<double>(key.rotate[0], key.rotate[1], key.rotate[2]));
+    key.rotate = {axis.x(), axis.y(), axis.z(), key.rotate[3]};
+  }
+  return made;
 }
 
 Movement<double> Motion::movement(double begin, double end) const {

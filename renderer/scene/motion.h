@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "core/world/movement.h"
@@ -28,6 +29,9 @@ struct Motion {
   /// From where it stands at the first time straight to where it stands at the second, and by the
   /// shorter way: just what the keys say if none lies between.
   Movement<double> movement(double begin, double end) const;
+  /// The motion within a frame that is posed so. Nothing if it turns and the map is uneven: it
+  /// would be no rigid motion.
+  std::optional<Motion> posed(const Affine<double>& frame) const;
 };
 
 }  // namespace minkray

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/json/values.h"
 #include "renderer/scene/read_member.h"
+#include "renderer/scene/read_rotation.h"
 
 namespace minkray {
 namespace {
@@ -76,27 +77,7 @@ std::optional<Vec3<double>> read_scale(const Json& json, const JsonPath& path, M
   return read_vector(json, path, mistakes);
 }
 
-std::optional<Mat3<double>> read_rotation(const Json& json, const JsonPath& path,
-                                          Mistakes& mistakes) {
-  const auto q = read_quaternion(json, path, mistakes);
-  if (!q) return std::nullopt;
-  return rotation_matrix_of_any((*q)[0], (*q)[1], (*q)[2], (*q)[3]);
-}
-
 }  // namespace
-
-std::optional<std::array<double, 4>> read_quaternion(const Json& json, const JsonPath& path,
-                                                     Mistakes& mistakes) {
-  const auto q = read_numbers(json, path, mistakes, 4);
-  if (!q) return std::nullopt;
-  double largest = 0;
-  for (const double entry : *q) largest = std::max(largest, std::abs(entry));
-  if (!(largest > 0)) {
-    mistakes.add(path, "must be a quaternion [x, y, z, w] other than zero (" + found(json) + ")");
-    return std::nullopt;
-  }
-  return std::array{(*q)[0], (*q)[1], (*q)[2], (*q)[3]};
-}
 
 std::optional<Affine<double>> read_affine(ObjectReader& object) {
   Mistakes& mistakes = object.mistakes();
@@ -115,7 +96,12 @@ std::optional<Affine<double>> read_affine(ObjectReader& object) {
   std::optional<Vec3<double>> t = Vec3<double>::Zero(), s = Vec3<double>::Ones();
   std::optional<Mat3<double>> r = Mat3<double>::Identity();
   if (translate) t = read_vector(*translate, object.path("translate"), mistakes);
-  if (rotate) r = read_rotation(*rotate, object.path("rotate"), mistakes);
+  if (rotate) {
+    const auto q =
+        read_rotation(*rotate, object.path("rotate"), mistakes, t.value_or(Vec3<double>::Zero()));
+    r = std::nullopt;
+    if (q) r = rotation_matrix_of_any((*q)[0], (*q)[1], (*q)[2], (*q)[3]);
+  }
   if (scale) s = read_scale(*scale, object.path("scale"), mistakes);
   if (!t || !r || !s) return std::nullopt;
   const Affine<double> map = from_translate_rotate_scale<double>(*t, *r, *s);

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "renderer/json/values.h"
+#include "renderer/scene/read_colour.h"
 #include "renderer/scene/read_paint.h"
 #include "renderer/scene/shape_json.h"
 
@@ -72,7 +73,9 @@ bool read_member(ObjectReader& object, const Parameter& parameter, std::array<do
 bool read_member(ObjectReader& object, const Parameter& parameter, Vec3<double>& member,
                  MeshFiles&) {
   return read_key(object, parameter, member, [&](const Json& json, const JsonPath& path) {
-    return read_vector(json, path, object.mistakes(), parameter.range);
+    return is_of_colours(parameter.range)
+               ? read_colour(json, path, object.mistakes(), parameter.range)
+               : read_vector(json, path, object.mistakes(), parameter.range);
   });
 }
 
@@ -190,7 +193,7 @@ bool read_member(ObjectReader& object, const Parameter& parameter, PictureFile& 
                     if (!name) return std::nullopt;
                     auto image = files.read_picture(*name, path, object.mistakes());
                     if (!image) return std::nullopt;
-                    return PictureFile{*name, std::move(image)};
+                    return PictureFile{files.from_scene(*name), std::move(image)};
                   });
 }
 

@@ -61,19 +61,25 @@ bool read_member(ObjectReader& object, const Parameter& parameter, NameOf<List>&
 /// The keys "translate", "rotate" and "scale", each optional, or "matrix".
 std::optional<Affine<double>> read_affine(ObjectReader& object);
 
-/// A quaternion [x, y, z, w] of any length but zero.
-std::optional<std::array<double, 4>> read_quaternion(const Json& json, const JsonPath& path,
-                                                     Mistakes& mistakes);
+/// A list of keyed poses with rising times. Translations start from `place`, which is added.
+std::vector<PoseKey> read_keys(const Json& json, const JsonPath& path, Mistakes& mistakes,
+                               const Vec3<double>& place);
 
-/// A list of keyed poses with rising times.
-std::vector<PoseKey> read_keys(const Json& json, const JsonPath& path, Mistakes& mistakes);
+/// The time of a key, which must be later than the one before, if there is one.
+double read_key_time(ObjectReader& key, std::optional<double> before);
+
+/// Which parameters may be left out.
+enum class Leave { optional_ones, any };
 
 /// All parameters of a described struct: a shape, a light, a material, the camera.
 template <class S>
-bool read_members(ObjectReader& object, S& described, MeshFiles& meshes) {
+bool read_members(ObjectReader& object, S& described, MeshFiles& meshes,
+                  Leave leave = Leave::optional_ones) {
   bool all_read = true;
   for_each_field<S>([&](const auto& field) {
-    all_read &= read_member(object, parameter_of(field), described.*(field.member), meshes);
+    Parameter parameter = parameter_of(field);
+    parameter.optional |= leave == Leave::any;
+    all_read &= read_member(object, parameter, described.*(field.member), meshes);
   });
   return all_read;
 }

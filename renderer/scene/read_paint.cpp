@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/scene/read_paint.h"
 
+#include "renderer/scene/read_colour.h"
 #include "renderer/scene/tagged_json.h"
 #include "renderer/scene/write_member.h"
 
@@ -9,7 +10,7 @@ namespace minkray {
 std::optional<Paint> read_paint(const Json& json, const JsonPath& path, Mistakes& mistakes,
                                 Range range, MeshFiles& files) {
   if (!json.is_object()) {
-    const auto colour = read_vector(json, path, mistakes, range);
+    const auto colour = read_colour(json, path, mistakes, range);
     return colour ? std::optional<Paint>(*colour) : std::nullopt;
   }
   ObjectReader object(json, path, mistakes);

@@ -170,9 +170,10 @@ std::optional<ParticleSet> read_particles(const Json& json, const JsonPath& path
   }
   const auto name = read_string(*file, block.path("file"), mistakes);
   if (!name) return std::nullopt;
-  const std::filesystem::path named = source.folder / *name;
+  const std::string from_scene = source.meshes.from_scene(*name);
+  const std::filesystem::path named = source.folder / from_scene;
   try {
-    source.hash.add(*name);
+    source.hash.add(from_scene);
     source.files.push_back(named);
     read_particle_file(named, count, source.most_rows, rows, source.hash);
   } catch (const std::runtime_error& error) {

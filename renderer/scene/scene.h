@@ -20,6 +20,7 @@
 #include "renderer/scene/camera_description.h"
 #include "renderer/scene/light_descriptions.h"
 #include "renderer/scene/materials.h"
+#include "renderer/scene/member_keys.h"
 #include "renderer/scene/motion.h"
 #include "renderer/scene/particles.h"
 
@@ -81,6 +82,12 @@ struct Scene {
   bool labels = false;  ///< whether the objects' names are drawn into the picture
   std::string hash;     ///< of the file it came from and of all files it names; or empty
   double time = 0;      ///< when the shutter opens, in seconds
+  /// Cameras, lights and materials with keys: those above are what they are at the scene's time.
+  std::optional<MemberKeys<CameraDescription>> camera_keys;
+  std::vector<KeysOf<Light>> light_keys;
+  std::vector<KeysOf<MaterialKind>> material_keys;
+  bool camera_is_framed = false;    ///< no file says where it stands: it shows everything
+  bool lights_are_default = false;  ///< no file says which there are
   /// The files of its textures and skies: no picture of it may take the place of one.
   std::vector<std::filesystem::path> pictures;
 };
@@ -88,8 +95,8 @@ struct Scene {
 /// Whether any object has keys.
 bool moves(const Scene& scene);
 
-/// Puts all objects where they are at that time, in seconds. While the shutter is open objects go
-/// straight on and do not turn.
+/// Makes the scene what it is at that time, in seconds. While the shutter is open the camera, the
+/// lights and the materials stay as they are. Throws BadInput if the camera then has no direction.
 void set_time(Scene& scene, double time);
 
 }  // namespace minkray

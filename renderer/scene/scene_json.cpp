@@ -2,34 +2,35 @@
 #include "renderer/scene/scene_json.h"
 
 #include <algorithm>
-#include <map>
 
 #include "renderer/json/parse.h"
 #include "renderer/json/values.h"
-#include "renderer/scene/find_focus.h"
+#include "renderer/scene/default_light.h"
 #include "renderer/scene/fitting_keys.h"
-#include "renderer/scene/half_space_json.h"
-#include "renderer/scene/height_field_json.h"
-#include "renderer/scene/mesh_json.h"
+#include "renderer/scene/material_names.h"
+#include "renderer/scene/read_camera.h"
+#include "renderer/scene/read_colour.h"
+#include "renderer/scene/read_member_keys.h"
+#include "renderer/scene/read_objects.h"
 #include "renderer/scene/read_particles.h"
-#include "renderer/scene/read_split.h"
 #include "renderer/scene/read_visible_to.h"
+#include "renderer/scene/scene_files.h"
 #include "renderer/scene/scene_instances.h"
-#include "renderer/scene/shape_json.h"
 #include "renderer/scene/tagged_json.h"
 
 namespace minkray {
 namespace {
 
-/// A view direction and "up" are taken for parallel if the sine of their angle is below this: the
-/// picture would turn by noise.
-constexpr double parallel_sine = 1e-9;
-
-/// Reads the parts of one scene file into `scene`.
+/// Reads the parts of a scene's files into `scene`.
 class SceneReader {
  public:
   SceneReader(Scene& scene, const std::filesystem::path& folder, Mistakes& mistakes)
-      : scene_(scene), folder_(folder), meshes_(folder), mistakes_(mistakes) {}
+      : scene_(scene),
+        folder_(folder),
+        meshes_(folder),
+        mistakes_(mistakes),
+        materials_(scene),
+        camera_(scene, meshes_, mistakes) {}
 
   std::vector<std::filesystem::path> pictures() const { return meshes_.pictures(); }
   std::vector<std::filesystem::path> other_files() const {
@@ -43,52 +44,137 @@ class SceneReader {
     if (!scene_.particles.empty()) hash.add(particle_files_.text());
   }
 
-  void read(const Json& json) {
-    ObjectReader file(json, JsonPath(), mistakes_);
-    if (!file.is_object()) return;
-    if (const Json* version = file.require("version", std::to_string(scene_version))) {
-      read_integer(*version, file.path("version"), mistakes_, scene_version, scene_version);
+  void read(const SceneFiles& files) {
+    const SceneFile& main = *files.main();
+    std::vector<const SceneFile*> whole;
+    add_whole(main, whole);
+    // Materials may be named by all files, and mixed of those of files that are included.
+    for (const auto& file : files.all()) {
+      const bool is_whole = std::ranges::find(whole, file.get()) != whole.end();
+      in(*file, [&] { read_head(*file, file.get() == &main, is_whole); });
     }
+    ObjectsReader objects(scene_, materials_, meshes_, mistakes_);
+    for (const SceneFile* file : whole)
+      in(*file, [&] {
+        objects.read(*file);
+        read_particles_of(*file);
+      });
+    for (const auto& file : files.all())
+      in(*file, [&] {
+        read_rest(*file, file.get() == &main, std::ranges::find(whole, file.get()) != whole.end());
+      });
+    settle(main);
+  }
+
+ private:
+  static constexpr std::string_view keys_of_files[] = {
+      "version",   "$schema", "description", "labels",     "camera", "lights",
+      "materials", "objects", "particles",   "background", "include"};
+
+  /// Adds the files that are read with all that is in them: those that are included at the top of
+  /// each other. Each comes after those that it includes.
+  static void add_whole(const SceneFile& file, std::vector<const SceneFile*>& whole) {
+    for (const SceneFile* included : file.included_by_file)
+      if (std::ranges::find(whole, included) == whole.end()) add_whole(*included, whole);
+    whole.push_back(&file);
+  }
+
+  /// Reads something of a file: mistakes are its own, and names of files relative to it.
+  template <class Read>
+  void in(const SceneFile& file, Read&& read) {
+    const MistakesIn naming(mistakes_, file.shown);
+    meshes_.set_folder_of_names(file.folder);
+    read();
+  }
+
+  void read_head(const SceneFile& scene_file, bool is_main, bool is_whole) {
+    ObjectReader file(scene_file.json, JsonPath(), mistakes_);
+    if (!file.is_object()) return;
+    const bool is_version_one = scene_file.version == 1;
     if (const Json* schema = file.find("$schema")) {  // for editors
       read_string(*schema, file.path("$schema"), mistakes_);
     }
     if (const Json* description = file.find("description")) {
-      if (auto text = read_string(*description, file.path("description"), mistakes_)) {
-        scene_.description = *text;
-      }
+      const auto text = read_string(*description, file.path("description"), mistakes_);
+      if (text && is_main) scene_.description = *text;
     }
     if (const Json* labels = file.find("labels")) {
-      scene_.labels = read_bool(*labels, file.path("labels"), mistakes_).value_or(false);
+      const auto drawn = read_bool(*labels, file.path("labels"), mistakes_);
+      if (is_main) scene_.labels = drawn.value_or(false);
     }
-    if (const Json* camera = file.require("camera", "an object")) {
-      read_camera(*camera, file.path("camera"));
+    const Json* camera = is_version_one ? file.require("camera", "an object") : file.find("camera");
+    if (camera && is_whole && (is_main || !has_camera_)) {
+      // The scene's own comes last, and takes the place of an included one.
+      camera_.read(*camera, file.path("camera"), scene_file.version);
+      camera_file_ = &scene_file;
+      has_camera_ = true;
     }
-    for_each_item(file, "lights",
-                  [&](const Json& light, const JsonPath& path) { read_light(light, path); });
-    for_each_item(file, "materials", [&](const Json& material, const JsonPath& path) {
-      read_material(material, path);
-    });
-    for_each_item(file, "objects",
-                  [&](const Json& object, const JsonPath& path) { read_object(object, path); });
-    if (file.find("particles")) {
-      for_each_item(file, "particles", [&](const Json& block, const JsonPath& path) {
-        read_particle_block(block, path);
+    const bool has_lights = file.find("lights");
+    if (is_whole && (is_version_one || has_lights)) {
+      has_lights_ = true;
+      for_each_item(file, "lights", [&](const Json& light, const JsonPath& path) {
+        read_light(light, path, is_version_one);
       });
     }
-    if (const Json* background = file.find("background")) {
+    if (is_version_one || file.find("materials"))
+      for_each_item(file, "materials", [&](const Json& material, const JsonPath& path) {
+        read_material(material, path, is_version_one);
+      });
+    if (is_version_one || (is_main && !file.find("include") && !file.find("particles")))
+      file.require("objects", "a list");
+  }
+
+  void read_particles_of(const SceneFile& scene_file) {
+    ObjectReader file(scene_file.json, JsonPath(), mistakes_);
+    if (!file.find("particles")) return;
+    for_each_item(file, "particles", [&](const Json& block, const JsonPath& path) {
+      read_particle_block(block, path);
+    });
+  }
+
+  /// Reads what comes behind objects; unknown keys are told last.
+  void read_rest(const SceneFile& scene_file, bool is_main, bool is_whole) {
+    ObjectReader file(scene_file.json, JsonPath(), mistakes_);
+    if (!file.is_object()) return;
+    const Json* background = file.find("background");
+    if (background && is_whole && (is_main || !has_background_)) {
       read_background(*background, file.path("background"));
-    } else {
-      scene_.background_is_sky =
-          std::any_of(scene_.lights.begin(), scene_.lights.end(), [](const Light& light) {
-            return std::holds_alternative<ImageSkyLight>(light) ||
-                   std::holds_alternative<SunSkyLight>(light);
-          });
+      has_background_ = true;
     }
-    find_focus(scene_, file.path("camera"), mistakes_);
+    for (const std::string_view key : keys_of_files)
+      if (key != "include" || scene_file.version != 1) file.allow({key});
     file.finish();
   }
 
- private:
+  /// What files leave out, once all is read.
+  void settle(const SceneFile& main) {
+    if (!has_lights_)
+      scene_.lights_are_default = true;
+    else if (!has_background_)
+      choose_background(main.version);
+    const MistakesIn naming(mistakes_, (camera_file_ ? camera_file_ : &main)->shown);
+    camera_.settle(JsonPath() / "camera");
+    if (scene_.lights_are_default && mistakes_.none()) {
+      const Background written = scene_.background;
+      light_everything(scene_);
+      if (has_background_) scene_.background = written;
+    }
+  }
+
+  /// Cameras see the sky that lights the scene; what stands for one that is none is white in
+  /// version 1.
+  void choose_background(int version) {
+    for (const Light& light : scene_.lights)
+      if (std::holds_alternative<ImageSkyLight>(light) ||
+          std::holds_alternative<SunSkyLight>(light))
+        scene_.background_is_sky = true;
+    if (version == 1) return;
+    scene_.background = default_background;
+    for (const Light& light : scene_.lights)
+      if (const auto* sky = std::get_if<EnvironmentLight>(&light))
+        scene_.background = {sky->zenith, sky->nadir};
+  }
+
   template <class Read>
   void for_each_item(ObjectReader& file, std::string_view key, Read&& read) {
     const Json* list = file.require(key, "a list");
@@ -101,53 +187,44 @@ class SceneReader {
     for (std::size_t i = 0; i < list->size(); ++i) read((*list)[i], path / i);
   }
 
-  void read_camera(const Json& json, const JsonPath& path) {
-    ObjectReader object(json, path, mistakes_);
-    if (!object.is_object()) return;
-    CameraDescription& camera = scene_.camera;
-    const bool all_read = read_members(object, camera, meshes_);
-    object.finish();
-    check_lens(scene_.camera, json, path, mistakes_);
-    if (!all_read) return;
-    const Vec3<double> view = unit<double>(camera.look_at - camera.position);
-    const Vec3<double> up = unit(camera.up);
-    if (view.isZero()) {
-      mistakes_.add(path / "look_at", "must not be the camera's position");
-    } else if (up.isZero()) {
-      mistakes_.add(path / "up", "must not be zero");
-    } else if (!(view.cross(up).norm() > parallel_sine)) {
-      mistakes_.add(path / "up", "must not be parallel to the direction of view");
-    }
-  }
-
-  void read_light(const Json& json, const JsonPath& path) {
+  void read_light(const Json& json, const JsonPath& path, bool is_version_one) {
     ObjectReader object(json, path, mistakes_);
     double intensity = 1;
     if (const Json* factor = object.find("intensity")) {
       intensity =
           read_number(*factor, object.path("intensity"), mistakes_, Range::brightness).value_or(1);
     }
+    const Json* keys = is_version_one ? nullptr : object.find("keys");
     auto light = read_tagged<Light>(
         object, "a light", [&](auto& kind) { return read_members(object, kind, meshes_); });
     if (!light) return;
-    std::visit([&](auto& kind) { kind.scale(intensity); }, *light);
     const auto* directional = std::get_if<DirectionalLight>(&*light);
     if (directional && directional->direction.isZero(0)) {
       mistakes_.add(path / "direction", "must not be zero");
     }
     if (auto* day = std::get_if<SunSkyLight>(&*light)) find_sun(*day, json, path, mistakes_);
+    if (keys) {
+      auto read = read_member_keys(*keys, path / "keys", mistakes_, meshes_, *light, intensity);
+      check_suns(read, path / "keys", mistakes_);
+      scene_.light_keys.push_back(
+          {static_cast<std::uint32_t>(scene_.lights.size()), std::move(read)});
+    }
+    std::visit([&](auto& kind) { kind.scale(intensity); }, *light);
     scene_.lights.push_back(std::move(*light));
   }
 
-  void read_material(const Json& json, const JsonPath& path) {
+  void read_material(const Json& json, const JsonPath& path, bool is_version_one) {
     ObjectReader object(json, path, mistakes_);
     std::string name;
     if (const Json* written = object.require("name", "the material's name")) {
-      name = read_name(*written, object.path("name"));
+      const auto text = read_string(*written, object.path("name"), mistakes_);
+      if (text && text->empty()) mistakes_.add(object.path("name"), "must not be empty");
+      name = text.value_or("");
     }
     Relief relief;
     if (read_members(object, relief, meshes_)) check_relief(relief, path, mistakes_);
     const RayKinds visible_to = read_visible_to(object);
+    const Json* keys = is_version_one ? nullptr : object.find("keys");
     auto kind = read_tagged<MaterialKind>(
         object, "a material", [&](auto& made) { return read_members(object, made, meshes_); });
     if (kind) check_metal(*kind, path, mistakes_);
@@ -156,12 +233,12 @@ class SceneReader {
     // A material with mistakes still takes its name and place, so that objects of it are no
     // mistakes, too.
     const auto index = static_cast<std::uint32_t>(scene_.materials.size());
-    if (!material_index_.emplace(name, index).second) {
-      mistakes_.add(path / "name", "must not be the name of two materials (got \"" +
-                                       printable(name, 60) + "\" again)");
+    if (!materials_.add({name, kind.value_or(LambertMaterial()), relief, visible_to}, path,
+                        mistakes_))
       return;
-    }
-    scene_.materials.push_back({name, kind.value_or(LambertMaterial()), relief, visible_to});
+    if (kind && keys)
+      scene_.material_keys.push_back(
+          {index, read_member_keys(*keys, path / "keys", mistakes_, meshes_, *kind)});
     check_visible(scene_, index, all_ray_kinds, object);
   }
 
@@ -169,92 +246,17 @@ class SceneReader {
     auto* mix = std::get_if<MixMaterial>(&kind);
     for (std::size_t i = 0; mix && i < 2; ++i)
       mix->materials.indices[i] =
-          read_material_name(Json((*mix->materials.names)[i]), path / "materials" / i);
-  }
-
-  void read_object(const Json& json, const JsonPath& path) {
-    ObjectReader object(json, path, mistakes_);
-    if (!object.is_object()) return;
-    std::string name;
-    if (const Json* written = object.require("name", "the object's name")) {
-      name = read_name(*written, object.path("name"));
-    }
-    std::vector<Shape<double>> shapes;
-    std::optional<HalfSpaceBody<double>> half_space;
-    const Json* const split = object.find("split");
-    std::shared_ptr<const TriangleMesh> mesh;
-    const Json *const triangles = object.find("mesh"), *const heights = object.find("height_field");
-    if (triangles || heights) {
-      const std::string given = triangles ? "mesh" : "height_field";
-      for (const char* other : {"shape", "split", "height_field"})
-        if (given != other && object.find(other))
-          mistakes_.add(object.path(other), "must not be given beside \"" + given + "\"");
-      mesh = triangles ? read_mesh(*triangles, object.path(given), mistakes_, meshes_)
-                       : read_height_field(*heights, object.path(given), mistakes_, meshes_);
-    } else if (const Json* written =
-                   object.require("shape", "a shape, \"mesh\" or \"height_field\"")) {
-      if (split) {
-        if (auto hulls = read_split_hulls(object, *split, *written, meshes_))
-          shapes = std::move(*hulls);
-      } else if (is_half_space(*written)) {
-        half_space = read_half_space(*written, object.path("shape"), mistakes_);
-      } else if (auto shape = read_shape(*written, object.path("shape"), mistakes_, meshes_)) {
-        shapes.push_back(std::move(*shape));
-      }
-    }
-    std::uint32_t material = 0;
-    if (const Json* written = object.require("material", "the name of a material")) {
-      material = read_material_name(*written, object.path("material"));
-    }
-    Affine<double> pose;
-    if (const Json* written = object.find("transform")) {
-      ObjectReader transform(*written, object.path("transform"), mistakes_);
-      pose = read_affine(transform).value_or(Affine<double>());
-      transform.finish();
-    }
-    std::optional<Motion> motion;
-    if (const Json* written = object.find("keys"))
-      motion = Motion{read_keys(*written, object.path("keys"), mistakes_), pose};
-    const RayKinds visible_to = read_visible_to(object);
-    check_visible(scene_, material, visible_to, object);
-    object.finish();
-    Object made{name, Point<double>(), pose, material, std::move(motion)};
-    made.half_space = half_space;
-    made.visible_to = visible_to;
-    made.mesh = std::move(mesh);
-    if (!made.has_shape()) scene_.objects.push_back(made);
-    for (std::size_t i = 0; i < shapes.size(); ++i) {
-      if (split) made.name = name + "[" + std::to_string(i) + "]";
-      made.shape = std::move(shapes[i]);
-      scene_.objects.push_back(made);
-    }
+          materials_.named(Json((*mix->materials.names)[i]), path / "materials" / i, mistakes_);
   }
 
   void read_particle_block(const Json& json, const JsonPath& path) {
     auto set = read_particles(
         json, path, mistakes_,
         {scene_, folder_, meshes_, particle_files_, pose_files_,
-         most_instances - instance_count(scene_),
-         [&](const Json& name, const JsonPath& at) { return read_material_name(name, at); }});
+         most_instances - instance_count(scene_), [&](const Json& name, const JsonPath& at) {
+           return materials_.named(name, at, mistakes_);
+         }});
     if (set) scene_.particles.push_back(std::move(*set));
-  }
-
-  std::uint32_t read_material_name(const Json& json, const JsonPath& path) {
-    const auto name = read_string(json, path, mistakes_);
-    if (!name) return 0;
-    const auto material = material_index_.find(*name);
-    if (material != material_index_.end()) return material->second;
-    std::vector<std::string> names;
-    for (const Material& known : scene_.materials) names.push_back(printable(known.name, 60));
-    mistakes_.add(path, "must be the name of a material (" + found(json) + "; " +
-                            suggestion(*name, names) + ")");
-    return 0;
-  }
-
-  std::string read_name(const Json& json, const JsonPath& path) {
-    const auto name = read_string(json, path, mistakes_);
-    if (name && name->empty()) mistakes_.add(path, "must not be empty");
-    return name.value_or("");
   }
 
   /// One colour, or two.
@@ -263,12 +265,12 @@ class SceneReader {
       ObjectReader object(json, path, mistakes_);
       read_members(object, scene_.background, meshes_);
       object.finish();
-    } else if (!json.is_array()) {
+    } else if (!json.is_array() && !json.is_string()) {
       mistakes_.add(path,
                     "must be a colour (a list of 3 numbers) or an object with \"zenith\" "
                     "and \"nadir\" (" +
                         found(json) + ")");
-    } else if (const auto colour = read_vector(json, path, mistakes_, Range::brightness)) {
+    } else if (const auto colour = read_colour(json, path, mistakes_, Range::brightness)) {
       scene_.background = {*colour, *colour};
     }
   }
@@ -279,7 +281,10 @@ class SceneReader {
   std::vector<std::filesystem::path> pose_files_;
   MeshFiles meshes_;
   Mistakes& mistakes_;
-  std::map<std::string, std::uint32_t> material_index_;
+  MaterialNames materials_;
+  CameraReader camera_;
+  const SceneFile* camera_file_ = nullptr;
+  bool has_camera_ = false, has_lights_ = false, has_background_ = false;
 };
 
 }  // namespace
@@ -287,19 +292,27 @@ class SceneReader {
 std::optional<Scene> parse_scene(std::string_view text, const std::filesystem::path& folder,
                                  Mistakes& mistakes,
                                  std::vector<std::filesystem::path>* other_files) {
-  const auto json = parse_json(text, mistakes);
-  if (!json) return std::nullopt;
+  const SceneFiles files(text, folder, mistakes);
+  if (!files.main()) return std::nullopt;
   Scene scene;
   SceneReader reader(scene, folder, mistakes);
-  reader.read(*json);
+  reader.read(files);
   if (!mistakes.none()) return std::nullopt;
-  set_time(scene, 0);
+  try {
+    set_time(scene, 0);
+  } catch (const BadInput& bad) {
+    mistakes.add(bad.what());
+    return std::nullopt;
+  }
   Hash hash;
   hash.add(text);
+  files.add_to(hash);
   reader.add_files_to(hash);
   scene.hash = hash.text();
   scene.pictures = reader.pictures();
-  if (other_files) *other_files = reader.other_files();
+  if (!other_files) return scene;
+  *other_files = reader.other_files();
+  other_files->insert(other_files->end(), files.paths().begin(), files.paths().end());
   return scene;
 }
 

@@ -12,12 +12,13 @@
 
 namespace minkray {
 
-/// The one version of the format there is.
+/// Versions of the format: what programs write unless they need more, and the newest one.
 inline constexpr int scene_version = 1;
+inline constexpr int newest_scene_version = 2;
 
 /// The scene that the text describes. Nothing if there is any mistake in it; all of them are
-/// added to the mistakes. Mesh files are looked for in `folder`. `other_files`, if any, gets the
-/// files that were read besides pictures.
+/// added to the mistakes. Mesh files and included files are looked for in `folder`. `other_files`,
+/// if any, gets the files that were read besides pictures.
 std::optional<Scene> parse_scene(std::string_view text, const std::filesystem::path& folder,
                                  Mistakes& mistakes,
                                  std::vector<std::filesystem::path>* other_files = nullptr);

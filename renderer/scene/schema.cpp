@@ -2,7 +2,11 @@
 #include "renderer/scene/schema.h"
 
 #include "renderer/scene/describe_member.h"
+#include "renderer/scene/half_space_json.h"
+#include "renderer/scene/member_keys.h"
 #include "renderer/scene/particles.h"
+#include "renderer/scene/read_colour.h"
+#include "renderer/scene/read_rotation.h"
 #include "renderer/scene/read_split.h"
 #include "renderer/scene/read_visible_to.h"
 #include "renderer/scene/scene_json.h"
@@ -72,6 +76,37 @@ Json list_of(const char* definition) {
   return {{"type", "array"}, {"items", {{"$ref", std::string("#/$defs/") + definition}}}};
 }
 
+/// What the keys of a described struct hold: those of its parameters that can change.
+template <class S>
+Json keys_schema(bool has_intensity) {
+  Json key = object_schema("Some of its values at a time; between keys they go along lines.");
+  key["properties"]["time"] = {{"type", "number"}, {"description", "in seconds"}};
+  for_each_field<S>([&](const auto& field) {
+    using M = typename std::remove_cvref_t<decltype(field)>::Member;
+    if constexpr (can_be_keyed<M>) {
+      if (keeps_still(field.name)) return;
+      const Parameter parameter = parameter_of(field);
+      const MemberDescription member = describe(parameter, Member<M>());
+      for (const Json::Member& property : member.properties.members())
+        key["properties"][property.key] = property.value;
+    }
+  });
+  if (has_intensity) key["properties"]["intensity"] = schema_of_number(Range::brightness);
+  key["required"] = {"time"};
+  return {{"type", "array"}, {"items", std::move(key)}, {"minItems", 1}};
+}
+
+/// What version 1 asks for that later ones leave to defaults. Keys of later versions are refused
+/// when a file is read.
+Json version_one_schema() {
+  Json schema;
+  schema["required"] = {"camera", "lights", "materials", "objects"};
+  schema["properties"]["camera"] = {{"required", {"position", "look_at"}}};
+  schema["properties"]["objects"] = {{"items", {{"required", {"name", "material"}}}}};
+  schema["properties"]["include"] = false;
+  return schema;
+}
+
 Json described_object(Json schema, auto add) {
   add(schema);
   return schema;
@@ -82,7 +117,9 @@ Json described_object(Json schema, auto add) {
 Json scene_schema() {
   const Json text = {{"type", "string"}};
   const Json name = {{"type", "string"}, {"minLength", 1}};
-  const Json colour = schema_of_list(schema_of_number(Range::brightness), 3);
+  const Json include = {{"description", "scene files, relative to this one, that are part of it"},
+                        {"oneOf", Json::array({name, {{"type", "array"}, {"items", name}}})}};
+  const Json colour = colour_schema(Range::brightness);
   const Json background =
       described_object(object_schema(Background::doc), [](Json& o) { add_members<Background>(o); });
 
@@ -97,7 +134,11 @@ Json scene_schema() {
       {"mesh", {{"$ref", "#/$defs/mesh"}}},
       {"height_field", {{"$ref", "#/$defs/height_field"}}},
       {"material", name},
+      {"color",
+       {{"oneOf",
+         Json::array({colour_schema(Range::zero_to_one), {{"$ref", "#/$defs/texture"}}})}}},
       {"transform", {{"$ref", "#/$defs/transform"}}},
+      {"pivot", schema_of_list({{"type", "number"}}, 3)},
       {"visible_to", visible_to_schema()},
       {"split",
        {{"description",
@@ -109,15 +150,20 @@ Json scene_schema() {
         {"description", "where it is when, with rising times"},
         {"items", {{"$ref", "#/$defs/key"}}},
         {"minItems", 1}}}};
-  object["required"] = {"name", "material"};
+  object["properties"]["color"]["description"] = "instead of a material: matt, of this colour";
+  object["properties"]["pivot"]["description"] =
+      "what keys turn it about, in the frame around it; its own origin if left out";
+  object["not"] = {{"required", {"material", "color"}}};
   object["oneOf"] = Json::array(
       {{{"required", {"shape"}}}, {{"required", {"mesh"}}}, {{"required", {"height_field"}}}});
 
-  Json key = object_schema("Where an object is at a time, after its transform.");
+  Json key = object_schema(
+      "Where an object is at a time: turned about its origin, and moved from its transform's place "
+      "(in version 1 about the world's origin, after its transform).");
   key["properties"] = {{"time", {{"type", "number"}, {"description", "in seconds"}}},
                        {"translate", schema_of_list({{"type", "number"}}, 3)},
-                       {"rotate", schema_of_list({{"type", "number"}}, 4)}};
-  key["properties"]["rotate"]["description"] = "a quaternion [x, y, z, w] of any length but zero";
+                       {"rotate", {{"$ref", "#/$defs/rotation"}}}};
+  key["properties"]["rotate"]["description"] = "from how its transform turns it";
   key["required"] = {"time"};
 
   Json column_names = Json::array();
@@ -157,23 +203,46 @@ Json scene_schema() {
   for (const auto& [keyword, value] : of_object.members()) schema[keyword] = value;
   schema["properties"] = {
       {"$schema", text},
-      {"version", {{"const", scene_version}}},
+      {"version", {{"enum", Json::array({scene_version, newest_scene_version})}}},
       {"description", text},
       {"labels", {{"type", "boolean"}, {"description", "draw the objects' names"}}},
       {"camera", {{"$ref", "#/$defs/camera"}}},
       {"lights", list_of("light")},
       {"materials", list_of("material")},
-      {"objects", list_of("object")},
+      {"include", include},
+      {"objects", {{"$ref", "#/$defs/objects"}}},
       {"particles", list_of("particles")},
       {"background", {{"oneOf", {colour, background}}}}};
-  schema["required"] = {"version", "camera", "lights", "materials", "objects"};
+  schema["required"] = {"version"};
+  const Json of_version_one = {{"properties", {{"version", {{"const", scene_version}}}}}};
+  schema["if"] = of_version_one;
+  schema["then"] = version_one_schema();
 
   Json& definitions = schema["$defs"];
-  definitions["camera"] = described_object(object_schema(CameraDescription::doc),
-                                           [](Json& o) { add_members<CameraDescription>(o); });
+  definitions["camera"] = described_object(object_schema(CameraDescription::doc), [](Json& o) {
+    add_members<CameraDescription>(o);
+    o["required"] = Json::array();  // those of version 1 are told there
+    o["properties"]["keys"] = keys_schema<CameraDescription>(false);
+  });
+  definitions["rotation"] = rotation_schema();
+  definitions["objects"] = {
+      {"type", "array"},
+      {"items",
+       {{"anyOf", Json::array({{{"$ref", "#/$defs/object"}}, {{"$ref", "#/$defs/group"}}})}}}};
+  Json group = object_schema("Objects that stand in one frame, of a file or not.");
+  group["properties"] = {{"name", text},
+                         {"transform", {{"$ref", "#/$defs/transform"}}},
+                         {"include", name},
+                         {"objects", {{"$ref", "#/$defs/objects"}}}};
+  group["properties"]["name"]["description"] = "comes before its objects' names, with a slash";
+  group["properties"]["include"]["description"] =
+      "a scene file, relative to this one: its materials and objects";
+  group["anyOf"] = Json::array({{{"required", {"include"}}}, {{"required", {"objects"}}}});
+  definitions["group"] = std::move(group);
   definitions["light"] = tagged_schema<Light>("A light.", []<class S>(Json& light) {
     light["properties"]["intensity"] = schema_of_number(Range::brightness);
     light["properties"]["intensity"]["description"] = "multiplies its colours";
+    light["properties"]["keys"] = keys_schema<S>(true);
   });
   definitions["material"] =
       tagged_schema<MaterialKind>("A material.", [&]<class S>(Json& material) {
@@ -181,17 +250,14 @@ Json scene_schema() {
         material["required"].push_back("name");
         add_members<Relief>(material);
         material["properties"]["visible_to"] = visible_to_schema();
+        material["properties"]["keys"] = keys_schema<S>(false);
       });
   definitions["texture"] = tagged_schema<TextureKind>("A texture.", []<class S>(Json&) {});
   definitions["object"] = std::move(object);
-  Json half_space = object_schema("All points x with normal . x <= offset: a plane, solid below.");
-  half_space["properties"] = {{"type", {{"const", std::string(half_space_name)}}},
-                              {"normal", schema_of_list({{"type", "number"}}, 3)},
-                              {"offset", {{"type", "number"}}}};
-  half_space["properties"]["normal"]["description"] =
-      "of any length but zero; [0, 0, 1] if left out";
-  half_space["properties"]["offset"]["description"] = "along the normal, as if that had length 1";
+  Json half_space = object_schema(HalfSpaceDescription::doc);
+  half_space["properties"]["type"] = {{"const", std::string(half_space_name)}};
   half_space["required"] = {"type"};
+  add_members<HalfSpaceDescription>(half_space);
   definitions["half_space"] = std::move(half_space);
   Json mesh = object_schema("Triangles as they are: of a file, or of vertices.");
   mesh["properties"] = {

@@ -57,7 +57,8 @@ constexpr bool takes_list_of_operands() {
 /// type is the only mistake told about the object: its keys cannot be judged.
 template <class Variant, class Read>
 std::optional<Variant> read_tagged(ObjectReader& object, std::string_view what, Read&& read) {
-  const std::vector<std::string> names = type_names<Variant>();
+  std::vector<std::string> names = type_names<Variant>();
+  if constexpr (std::is_same_v<Variant, ShapeVariant<double>>) names.emplace_back(half_space_name);
   const Json* type = object.require("type", "the name of " + std::string(what));
   if (!type) return std::nullopt;
   const auto name = read_string(*type, object.path("type"), object.mistakes());

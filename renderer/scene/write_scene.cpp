@@ -26,6 +26,49 @@ Json pose_json(const Affine<double>& pose) {
   return json;
 }
 
+bool needs_version_two(const Scene& scene) {
+  return scene.camera_keys || !scene.light_keys.empty() || !scene.material_keys.empty();
+}
+
+/// Those parameters that each key names.
+template <class V>
+Json keys_json(const MemberKeys<V>& keys) {
+  Json list = Json::array();
+  for (std::size_t i = 0; i < keys.keys.size(); ++i) {
+    const MemberKey<V>& key = keys.keys[i];
+    Json written;
+    written["time"] = key.time;
+    visit_struct(key.values, [&]<class S>(const S& values) {
+      std::uint64_t bit = 1;
+      for_each_field<S>([&](const auto& field) {
+        if (key.given & bit) write_member(written, field.name, values.*(field.member));
+        bit <<= 1;
+      });
+    });
+    if (key.given & intensity_bit) written["intensity"] = keys.intensities[i];
+    list.push_back(std::move(written));
+  }
+  return list;
+}
+
+/// The keys of the thing with that index; null if it has none.
+template <class V>
+const MemberKeys<V>* keys_of(const std::vector<KeysOf<V>>& all, std::size_t index) {
+  for (const KeysOf<V>& keyed : all)
+    if (keyed.index == index) return &keyed.keys;
+  return nullptr;
+}
+
+Json light_json(const Light& light) {
+  return std::visit(
+      [](const auto& kind) {
+        Json written = tagged(kind);
+        if constexpr (requires { kind.strength; }) written["intensity"] = kind.strength;
+        return written;
+      },
+      light);
+}
+
 Json object_json(const Object& object, const Scene& scene) {
   Json json;
   json["name"] = object.name;
@@ -39,6 +82,8 @@ Json object_json(const Object& object, const Scene& scene) {
   if (!(pose == Affine<double>())) json["transform"] = pose_json(pose);
   write_visible_to(json, object.visible_to);
   if (!object.motion) return json;
+  // The motion as it is: in version 2 about the origin of all, instead of the object's own.
+  if (needs_version_two(scene)) json["pivot"] = Json::array({0, 0, 0});
   json["keys"] = Json::array();
   for (const PoseKey& key : object.motion->keys) {
     Json written;
@@ -55,25 +100,32 @@ Json object_json(const Object& object, const Scene& scene) {
 std::string scene_text(const Scene& scene) {
   if (!scene.particles.empty()) throw BadInput("a scene with particles is not written");
   Json json;
-  json["version"] = scene_version;
+  json["version"] = needs_version_two(scene) ? newest_scene_version : scene_version;
   if (!scene.description.empty()) json["description"] = scene.description;
+  if (scene.labels) json["labels"] = true;
   json["camera"] = Json::object();
-  write_members(json["camera"], scene.camera);
+  write_members(json["camera"], scene.camera_keys ? scene.camera_keys->rest : scene.camera);
+  if (scene.camera_keys) json["camera"]["keys"] = keys_json(*scene.camera_keys);
   json["lights"] = Json::array();
-  for (const Light& light : scene.lights)
-    json["lights"].push_back(std::visit(
-        [](const auto& kind) {
-          Json written = tagged(kind);
-          if constexpr (requires { kind.strength; }) written["intensity"] = kind.strength;
-          return written;
-        },
-        light));
+  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+    const auto* keys = keys_of(scene.light_keys, i);
+    Json written = light_json(keys ? keys->rest : scene.lights[i]);
+    if (keys) {
+      written["intensity"] = keys->intensity;
+      written["keys"] = keys_json(*keys);
+    }
+    json["lights"].push_back(std::move(written));
+  }
   json["materials"] = Json::array();
-  for (const Material& material : scene.materials) {
-    Json written = std::visit([](const auto& kind) { return tagged(kind); }, material.kind);
+  for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+    const Material& material = scene.materials[i];
+    const auto* keys = keys_of(scene.material_keys, i);
+    Json written = std::visit([](const auto& kind) { return tagged(kind); },
+                              keys ? keys->rest : material.kind);
     written["name"] = material.name;
     if (material.relief.any()) write_members(written, material.relief);
     write_visible_to(written, material.visible_to);
+    if (keys) written["keys"] = keys_json(*keys);
     json["materials"].push_back(std::move(written));
   }
   json["objects"] = Json::array();

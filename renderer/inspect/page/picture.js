@@ -100,7 +100,7 @@ class Picture {
 
   /** @param {string} name */
   plane(name) {
-    return this.view.planes[name.startsWith('ray_') ? name + ':' + this.solver : name];
+    return this.view.planes[name + ':' + this.solver] || this.view.planes[name];
   }
 
   makeHeat() {
@@ -235,8 +235,8 @@ class Picture {
       t: found ? planes.t[i] : null,
       bounds: found ? 't - ' + short(below, 2) + ' \u2026 t + ' + short(above, 2) : '-',
       normal: directionOf(planes.normal_u[i], planes.normal_v[i]),
-      iterations: planes.iterations[i],
-      supports: planes.supports[i],
+      iterations: this.plane('iterations')[i],
+      supports: this.plane('supports')[i],
       cost: cost('iterations') + ' iterations, ' + cost('supports') + ' supports, ' + cost('nodes') + ' nodes, ' +
         short(nanosecondsOf(cost('time')), 2) + ' ns, answered by: ' + this.about.paths[cost('path')],
     };

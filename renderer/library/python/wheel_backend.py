@@ -59,7 +59,8 @@ def _scenes():
     """The scenes that come with Minkray, as an installation has them."""
     folder = os.path.join(SOURCES, "scenes")
     return {f"minkray/share/minkray/scenes/{name}": os.path.join(folder, name)
-            for name in os.listdir(folder) if name.endswith((".json", ".csv"))}
+            for part in ("", "parts/") for name in (part + of_part for of_part in os.listdir(os.path.join(folder, part)))
+            if name.endswith((".json", ".csv"))}
 
 
 def _files(folder, programs):

@@ -93,12 +93,12 @@ TEST(Cli, wrong_usage_is_2) {
 
 TEST(Cli, bad_input_is_3_and_all_mistakes_are_on_stderr) {
   const TemporaryFolder folder;
-  const std::string file = folder.write("bad.json", R"({"version": 2,
+  const std::string file = folder.write("bad.json", R"({"version": 3,
             "camera": {"position": [0, 0, 0], "look_at": [0, 0, 0]}, "lights": [], "materials": [], "objects": {}})");
   const ProgramOutcome bad = run("info '" + file + "'");
   EXPECT_EQ(bad.exit_code, 3);
   EXPECT_EQ(bad.out, "");
-  EXPECT_EQ(bad.err, file + ": /version: must be 1 (got 2)\n" + file +
+  EXPECT_EQ(bad.err, file + ": /version: must be 1 or 2 (got 3)\n" + file +
                          ": /camera/look_at: must not be the camera's position\n" + file +
                          ": /objects: must be a list (got an object)\n");
   std::filesystem::remove(file);

@@ -63,6 +63,7 @@ TEST(FirstContact, an_unknown_name_is_told_with_the_names_there_are) {
   EXPECT_EQ(outcome.exit_code, 3);
   EXPECT_NE(outcome.err.find("showcsae: must be"), std::string::npos) << outcome.err;
   EXPECT_NE(outcome.err.find("shape-zoo, showcase"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("did you mean `showcase`?"), std::string::npos) << outcome.err;
 }
 
 /// What the program says of a command line that it refuses.
@@ -88,6 +89,7 @@ TEST(FirstContact, words_that_are_not_known_are_told_with_what_to_write) {
       {"render shape-zoo --samples 4", "unknown option `--samples`; did you mean `--spp N`?"},
       {"render shape-zoo --width 320", "did you mean `--resolution WIDTHxHEIGHT`?"},
       {"render shape-zoo --camera 1,2,3", "the scene file says it: \"camera\""},
+      {"render shape-zoo --smaples 4", "did you mean `--spp N`?"},
       {"render shape-zoo --toenmap agx", "did you mean `--tonemap`?"},
       {"render shape-zoo --no-such-thing", "minkray render --help lists all"},
       {"import shape-zoo other.json", "unexpected argument `other.json`"},
@@ -118,9 +120,14 @@ TEST(FirstContact, files_and_words_of_other_programs_are_told_with_ours) {
       {"a.json", scene("sphere", "glass", "point"), "did you mean \"dielectric\"?"},
       {"a.json", scene("sphere", "metal", "point"), "did you mean \"conductor\"?"},
       {"a.json", scene("sphere", "lambert", "area"), "an object with an \"emissive\" material"},
+      {"a.json", scene("sphere", "lambert", "area light"),
+       "an object with an \"emissive\" material"},
+      {"a.json", scene("sphere", "area light", "point"), "did you mean \"emissive\"?"},
+      {"a.json", scene("xyzzy", "lambert", "point"), "hull_of, transform, plane"},
+      {"a.json", scene("floor", "lambert", "point"), "did you mean \"plane\"?"},
       {"a.json", scene("sphere", "lambert", "spot"), "there are no spot lights"},
       {"a.json", "// mine\n{\"version\": 1}", "JSON has no comments"},
-      {"a.json", "{\"version\": 1, // mine\n}", "JSON has no comments"},
+      {"a.json", "{\"version\": 1 // mine\n}", "JSON has no comments"},
       {"a.json", "{\"version\": 1} # mine\n", "JSON has no comments"},
       {"a.png", "\x89PNG\r\n", "is a picture (PNG)"},
       {"a.blend", "BLENDER-v402", "is a Blender file: export it as glTF"},
@@ -129,6 +136,10 @@ TEST(FirstContact, files_and_words_of_other_programs_are_told_with_ours) {
     const std::string told = refusal("info '" + folder.write(name, text) + "'", 3);
     EXPECT_NE(told.find(expected), std::string::npos) << text << "\n" << told;
   }
+  // The picture's own name would be that of its output.
+  EXPECT_NE(
+      refusal("render '" + folder.write("a.png", "\x89PNG\r\n") + "'", 3).find("is a picture"),
+      std::string::npos);
   const std::string robot =
       folder.write("r.xml", "<mujoco><worldbody><geom size=\"1\"/></worldbody></mujoco>");
   EXPECT_NE(refusal("info '" + robot + "' --keyframe squat", 3)
@@ -140,6 +151,7 @@ TEST(FirstContact, help_is_a_command_too) {
   const std::string all = run_shell("$MINKRAY --help").out;
   EXPECT_NE(all.find("Subcommands:"), std::string::npos);
   EXPECT_EQ(run_shell("$MINKRAY help").out, all);
+  EXPECT_EQ(run_shell("$MINKRAY help help").out, all);
   for (const VerbRow& row : minkray::verbs) {
     const std::string name(row.name);
     const ProgramOutcome help = run_shell("$MINKRAY help " + name);

@@ -168,6 +168,20 @@ test('a link leads to its pixel and step, and the address says where one is', as
   assert.equal(await second.text('step-sentence'), await first.text('step-sentence'));
 });
 
+test('the table tells of the solver that is chosen', async () => {
+  const page = await open('', 2800, 1600);
+  await page.mouse('mouseMoved', ...await place(page, 240, 131));
+  const by = async solver => {
+    const says = trace(240, 131, solver);
+    assert.equal(await page.text('hover-iterations'), String(says.iterations), solver);
+    assert.equal(await page.text('hover-supports'), String(says.supports), solver);
+    return says.iterations;
+  };
+  const first = await by('auto');
+  await page.value("document.querySelectorAll('#solvers input')[1].click()");
+  assert.notEqual(await by('paper'), first);
+});
+
 test('everything can be reached by the keyboard', async () => {
   const page = await open('pixel=233,196&step=1&solver=paper');
   await page.value("document.getElementById('picture').focus()");

@@ -142,7 +142,7 @@ TEST(SceneJson, whole_numbers_that_are_too_large_are_refused_and_never_wrap) {
   for (const std::string& number : too_large) {
     const std::string got = "(got " + Json::parse(number).dump() + ")";
     EXPECT_EQ(with("\"version\": 1", "\"version\": " + number),
-              "x.json: /version: must be 1 " + got);
+              "x.json: /version: must be 1 or 2 " + got);
     const std::string side =
         "must be a whole number from 1 to " + std::to_string(most_pixels_a_side) + " " + got;
     EXPECT_EQ(with("[320, 200]", "[" + number + ", 200]"), "x.json: /camera/resolution/0: " + side);

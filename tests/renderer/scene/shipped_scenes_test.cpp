@@ -84,6 +84,7 @@ TEST(ShippedScenes, all_can_be_read_and_say_what_they_show) {
   std::size_t count = 0;
   for (const SourceFile& file : files_in("scenes")) {
     if (!file.name.ends_with(".json") || file.name == schema_file) continue;
+    if (file.name.starts_with("scenes/parts/")) continue;  // read where they are included
     if (!has_meshes && file.text.find("\"meshes/") != std::string::npos) continue;
     Mistakes mistakes(file.name);
     const auto scene = parse_scene(file.text, source_folder() / "scenes", mistakes);

@@ -6,8 +6,8 @@
 #include <fstream>
 
 #include "core/world/half_space.h"
-#include "renderer/import/framing.h"
 #include "renderer/light/camera.h"
+#include "renderer/scene/framing.h"
 #include "tests/renderer/import/imports.h"
 #include "tests/support/program.h"
 #include "tests/support/random.h"

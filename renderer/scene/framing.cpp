@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "renderer/import/framing.h"
+#include "renderer/scene/framing.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,11 +10,16 @@
 
 #include "core/mesh/triangle_mesh.h"
 #include "core/world/half_space.h"
+#include "renderer/scene/summary.h"
 
 namespace minkray {
 namespace {
 
-constexpr double fov_y_degrees = 36;
+constexpr double default_fov_y_degrees = 36;
+/// Wider lenses, and those of fisheyes, are framed as this one.
+constexpr double widest_framed_degrees = 90;
+/// A camera that a scene does not place leaves more free around, as pictures of things do.
+constexpr double part_of_lens = 0.8;
 
 /// Between two keys a body is framed at so many moments that it turns by no more than this from one
 /// to the next, in radians; what it can stick out between them is far less than the margin.
@@ -27,13 +32,15 @@ constexpr int halvings = 24;
 /// A fraction of half the longest side. A segment in the line of sight would touch the camera else.
 constexpr double skin_of_size = 0.01;
 
-/// A body where it stands at one moment.
+/// A body where it stands at one moment, or a box.
 struct PlacedBody {
-  const Object* object;
+  const Object* object;  ///< null: a box
   Affine<double> pose;
+  Bounds<double> box = {};
 
   /// The largest n . x of its points x.
   double support_value(const Vec3<double>& n) const {
+    if (!object) return n.cwiseProduct(box.lower).cwiseMax(n.cwiseProduct(box.upper)).sum();
     const Vec3<double> inner = pose.linear.transpose() * n;
     if (!object->mesh) return n.dot(pose(object->shape.support(inner)));
     double most = -std::numeric_limits<double>::infinity();
@@ -82,6 +89,14 @@ struct Axes {
 Axes axes_looking(const Vec3<double>& forward) {
   const Vec3<double> right = unit<double>(forward.cross(Vec3<double>(0, 0, 1)));
   return {right, right.cross(forward), forward};
+}
+
+/// Boxes around each set of particles.
+void add_particles(const Scene& scene, std::vector<PlacedBody>& bodies) {
+  for (const ParticleSet& set : scene.particles) {
+    const Bounds<double> box = bounds_of(set);
+    if (set.visible_to != 0 && !box.empty()) bodies.push_back({nullptr, {}, box});
+  }
 }
 
 /// All bodies as one: their hull, in a skin that gives even a point a size.
@@ -143,15 +158,14 @@ std::vector<Vec3<double>> directions_to_look() {
 
 }  // namespace
 
-void frame_everything(Scene& scene, const Resolution& picture) {
-  CameraDescription& camera = scene.camera;
-  camera.fov_y_degrees = fov_y_degrees;
-  camera.resolution = picture;
+View view_of_everything(const Scene& scene, double fov_y_degrees, const Resolution& picture) {
+  View view{{0, -1, 0}, {0, 0, 0}};
   constexpr double kept = 1 - 2 * framing_margin;
   const double tan_y = kept * std::tan(fov_y_degrees * std::numbers::pi / 360);
   const double tan_x = tan_y * picture.width / picture.height;
 
   Framed all{placings(scene)};
+  add_particles(scene, all.bodies);
   const Object nothing;
   if (all.bodies.empty()) all.bodies.push_back({&nothing, {}});
   double size = 0;
@@ -177,12 +191,29 @@ void frame_everything(Scene& scene, const Resolution& picture) {
     const Vec3<double> position = to_right * axes.right + upwards * axes.up + nearest * forward;
     const bool is_free = !is_in_a_half_space(scene, position);
     if ((is_first || is_free) && position.allFinite()) {
-      camera.position = position;
-      camera.look_at = position + (middle - nearest) * forward;
+      view = {position, position + (middle - nearest) * forward};
     }
     if (is_free) break;
     is_first = false;
   }
+  return view;
+}
+
+void frame_everything(Scene& scene, const Resolution& picture) {
+  CameraDescription& camera = scene.camera;
+  camera.fov_y_degrees = default_fov_y_degrees;
+  camera.resolution = picture;
+  const View view = view_of_everything(scene, camera.fov_y_degrees, picture);
+  camera.position = view.position;
+  camera.look_at = view.look_at;
+}
+
+void frame_with_own_lens(Scene& scene) {
+  CameraDescription& camera = scene.camera;
+  const double framed = part_of_lens * std::min(camera.fov_y_degrees, widest_framed_degrees);
+  const View view = view_of_everything(scene, framed, camera.resolution);
+  camera.position = view.position;
+  camera.look_at = view.look_at;
 }
 
 }  // namespace minkray
