@@ -50,27 +50,26 @@ void each_corner(const TriangleMesh& mesh, std::uint32_t what, Each&& each) {
   }
 }
 
-Slab slab_across(const TriangleMesh& mesh, std::uint32_t what, const Vec3<double>& n) {
+void set_slab(NodeSlabs& slabs, int child, const TriangleMesh& mesh, std::uint32_t what,
+              const Vec3<double>& n) {
   constexpr float infinity = std::numeric_limits<float>::infinity();
-  Slab slab;
-  slab.normal = n.cast<float>();
-  const Vec3<double> along = slab.normal.cast<double>(), middle = mesh.bounds().centre();
+  for (int axis = 0; axis < 3; ++axis) slabs.normals[axis][child] = static_cast<float>(n[axis]);
+  const Vec3<double> along = slabs.normal(child).cast<double>(), middle = mesh.bounds().centre();
   double low = infinity, high = -infinity;
   each_corner(mesh, what, [&](const Vec3<double>& corner) {
     const double height = along.dot(corner - middle);
     low = std::min(low, height);
     high = std::max(high, height);
   });
-  slab.low = std::nextafter(static_cast<float>(low), -infinity);
-  slab.high = std::nextafter(static_cast<float>(high), infinity);
-  return slab;
+  slabs.low[child] = std::nextafter(static_cast<float>(low), -infinity);
+  slabs.high[child] = std::nextafter(static_cast<float>(high), infinity);
 }
 
 }  // namespace
 
 MeshSlabs::MeshSlabs(const TriangleMesh& mesh) {
   const auto& nodes = mesh.bvh().nodes;
-  slabs_.resize(nodes.size() * bvh_width);
+  slabs_.resize(nodes.size());
   // Products of floats would leave their range.
   if (!mesh.suits_lanes()) return;
   /// Less of the area than this on one side: a box is as thin.
@@ -78,7 +77,7 @@ MeshSlabs::MeshSlabs(const TriangleMesh& mesh) {
   std::vector<Areas> of_nodes(nodes.size());
   // Children follow their parents.
   for (std::size_t i = nodes.size(); i-- > 0;) {
-    for (std::size_t k = 0; k < bvh_width; ++k) {
+    for (int k = 0; k < bvh_width; ++k) {
       const std::uint32_t what = nodes[i].children[k];
       if (what == BvhNode::none) break;
       const Areas areas =
@@ -87,7 +86,7 @@ MeshSlabs::MeshSlabs(const TriangleMesh& mesh) {
       of_nodes[i].sum += areas.sum;
       const double length = areas.vectors.norm();
       if (length > flat_enough * areas.sum)
-        slabs_[i * bvh_width + k] = slab_across(mesh, what, areas.vectors / length);
+        set_slab(slabs_[i], k, mesh, what, areas.vectors / length);
     }
   }
 }

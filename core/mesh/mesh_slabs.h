@@ -11,25 +11,26 @@ namespace minkray {
 
 class TriangleMesh;
 
-/// Between two planes across `normal`, which need not have unit length; about the middle of the
-/// mesh's box. A normal of 0 is no slab.
-struct Slab {
-  Vec3<float> normal = Vec3<float>::Zero();
-  float low = 0, high = 0;
+/// Each child of a node lies between two planes across a normal, which need not have unit length;
+/// about the middle of the mesh's box. A normal of 0 is no slab.
+struct NodeSlabs {
+  float normals[3][bvh_width];
+  float low[bvh_width], high[bvh_width];
+
+  Vec3<float> normal(int child) const {
+    return {normals[0][child], normals[1][child], normals[2][child]};
+  }
 };
 
-/// By node and child.
 class MeshSlabs {
  public:
   explicit MeshSlabs(const TriangleMesh& mesh);
 
-  const Slab& of(std::uint32_t node, std::uint32_t child) const {
-    return slabs_[std::size_t{node} * bvh_width + child];
-  }
-  std::size_t bytes() const { return slabs_.capacity() * sizeof(Slab); }
+  const NodeSlabs& of(std::uint32_t node) const { return slabs_[node]; }
+  std::size_t bytes() const { return slabs_.capacity() * sizeof(NodeSlabs); }
 
  private:
-  std::vector<Slab> slabs_;
+  std::vector<NodeSlabs> slabs_;
 };
 
 }  // namespace minkray

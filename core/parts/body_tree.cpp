@@ -40,12 +40,22 @@ BodyTree::BodyTree(const PartsBody& body) : body_(body), middle_(middle_of(body)
 int BodyTree::open(Box box, EightBoxes& boxes, Box* children) const {
   const std::uint32_t number = inside(box);
   const BvhNode& node = mesh()->bvh().nodes[number];
+  const NodeSlabs& slabs = slabs_->of(number);
   int count = 0;
-  for (; count < bvh_width && node.children[count] != BvhNode::none; ++count) {
-    boxes.set(count, child(number, static_cast<std::uint32_t>(count)));
-    children[count] = number << 3 | static_cast<std::uint32_t>(count);
+  while (count < bvh_width && node.children[count] != BvhNode::none) ++count;
+  for (int i = 0; i < count; ++i) children[i] = number << 3 | static_cast<std::uint32_t>(i);
+  for (int axis = 0; axis < 3; ++axis)
+    for (int i = 0; i < bvh_width; ++i) {
+      const double lower = double{node.planes[0][axis][i]} - middle_[axis],
+                   upper = double{node.planes[1][axis][i]} - middle_[axis];
+      boxes.middle[axis][i] = (lower + upper) / 2;
+      boxes.half[axis][i] = (upper - lower) / 2;
+      boxes.normal[axis][i] = double{slabs.normals[axis][i]};
+    }
+  for (int i = 0; i < bvh_width; ++i) {
+    boxes.low[i] = double{slabs.low[i]};
+    boxes.high[i] = double{slabs.high[i]};
   }
-  for (int i = count; i < EightBoxes::most; ++i) boxes.set(i, {});
   return count;
 }
 

@@ -25,7 +25,9 @@ class BodyTree {
   static constexpr Box whole = ~Box{0};
 
   bool is_leaf(Box box) const { return !mesh() || (inside(box) & BvhNode::leaf) != 0; }
-  MiddleBox bounds(Box box) const { return box == whole ? whole_ : child(box >> 3, box & 7); }
+  MiddleBox bounds(Box box) const {
+    return box == whole ? whole_ : child(box >> 3, static_cast<int>(box & 7));
+  }
 
   /// The boxes in one that is no leaf. Returns their number.
   int open(Box box, EightBoxes& boxes, Box* children) const;
@@ -57,12 +59,12 @@ class BodyTree {
     return about;
   }
 
-  MiddleBox child(std::uint32_t node, std::uint32_t number) const {
-    MiddleBox box = about_middle(mesh()->bvh().nodes[node].box(static_cast<int>(number)));
-    const Slab& slab = slabs_->of(node, number);
-    box.normal = slab.normal.cast<double>();
-    box.low = double{slab.low};
-    box.high = double{slab.high};
+  MiddleBox child(std::uint32_t node, int number) const {
+    MiddleBox box = about_middle(mesh()->bvh().nodes[node].box(number));
+    const NodeSlabs& slabs = slabs_->of(node);
+    box.normal = slabs.normal(number).cast<double>();
+    box.low = double{slabs.low[number]};
+    box.high = double{slabs.high[number]};
     return box;
   }
 

@@ -71,8 +71,15 @@ class LeastDistance {
     EightTriangles of_a, of_b;
     a_.open_leaf(leaf_a, of_a);
     b_.open_leaf(leaf_b, of_b, &sight_.b_in_a);
+    const double down = walk_.has_direction() ? of_b.reach_along(-walk_.direction()) : infinity;
+    const Vec3<double> n = walk_.direction();
     for (int i = 0; i < of_a.count; ++i) {
       const TriangleCorners triangle = of_a.triangle(i);
+      if (const double lower = -down - reach_along(triangle, n) - sight_.rounding;
+          is_enough(lower)) {
+        lower_ = std::min(lower_, lower);
+        continue;
+      }
       double gaps[EightTriangles::most];
       triangle_gaps(triangle, of_a.normal(i), of_b,
                     walk_.has_direction() ? &walk_.direction() : nullptr, gaps);
@@ -156,12 +163,9 @@ class LeastDistance {
   /// The gap that planes across the walk's direction leave.
   double gap_along_direction(std::uint32_t of_a, std::uint32_t of_b) const {
     const Vec3<double>& n = walk_.direction();
-    const auto up = [&](const TriangleCorners& corners, const Vec3<double>& along) {
-      return std::max({along.dot(corners[0]), along.dot(corners[1]), along.dot(corners[2])});
-    };
-    const double up_a = a_.mesh() ? up(a_.triangle(of_a), n) : walk_.up_a();
+    const double up_a = a_.mesh() ? reach_along(a_.triangle(of_a), n) : walk_.up_a();
     const double down_b =
-        b_.mesh() ? up(b_.triangle(of_b), -(sight_.a_in_b.turn * n)) : walk_.down_b();
+        b_.mesh() ? reach_along(b_.triangle(of_b), -(sight_.a_in_b.turn * n)) : walk_.down_b();
     return n.dot(sight_.b_in_a.shift) - down_b - up_a;
   }
 

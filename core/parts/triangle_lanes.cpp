@@ -18,6 +18,15 @@ void EightTriangles::set(int i, std::uint32_t part, const TriangleCorners& trian
   for (int axis = 0; axis < 3; ++axis) normals[axis][i] = scale * n[axis];
 }
 
+double EightTriangles::reach_along(const Vec3<double>& n) const {
+  double furthest = -std::numeric_limits<double>::infinity();
+  for (int k = 0; k < 3; ++k)
+    for (int i = 0; i < EightTriangles::most; ++i)
+      furthest = std::max(
+          furthest, n[0] * corners[k][0][i] + n[1] * corners[k][1][i] + n[2] * corners[k][2][i]);
+  return furthest;
+}
+
 void EightTriangles::fill() {
   const TriangleCorners first = triangle(0);
   for (int i = count; i < most; ++i) set(i, parts[0], first);

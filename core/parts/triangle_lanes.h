@@ -26,6 +26,8 @@ struct EightTriangles {
   }
   Vec3<double> normal(int i) const { return {normals[0][i], normals[1][i], normals[2][i]}; }
   void set(int i, std::uint32_t part, const TriangleCorners& triangle);
+  /// How far they reach along a vector.
+  double reach_along(const Vec3<double>& n) const;
 };
 
 /// `known`, if not null, is a unit vector from the one to the eight. Rounding is not allowed for.

@@ -22,6 +22,11 @@ struct TriangleGap {
 };
 TriangleGap triangle_gap(const TriangleCorners& a, const TriangleCorners& b);
 
+/// How far the triangle reaches along a vector.
+inline double reach_along(const TriangleCorners& triangle, const Vec3<double>& n) {
+  return std::max({n.dot(triangle[0]), n.dot(triangle[1]), n.dot(triangle[2])});
+}
+
 /// The gap between two planes across the unit vector n that have a and b on their sides.
 double gap_along(const TriangleCorners& a, const TriangleCorners& b, const Vec3<double>& n);
 

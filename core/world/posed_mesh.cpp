@@ -97,6 +97,8 @@ MeshCast cast_of(const PosedMesh& posed, const NearRay& near, const PartHit& hit
   cast.status = Status::miss;
   cast.path = Path::filter;
   if (!hit.found() || is_missed_from_behind(*posed.mesh, hit)) return answer;
+  // Of the shortest directions t is no number: exhausted.
+  if (!std::isfinite(near.in_world(hit.t))) return {};
   answer.part = hit.part;
   const Vec3<double> normal = posed.mesh->normal(hit.part) * (hit.is_back ? -1.0 : 1.0);
   // Where the ray itself may be elsewhere, its way to the triangle's plane is longer or shorter.

@@ -94,30 +94,31 @@ TEST(MeshSlabs, hold_the_triangles_below_them) {
   const auto mesh = testing::torus(40, 24).shared();
   const Vec3<double> middle = mesh->bounds().centre();
   const auto& nodes = mesh->bvh().nodes;
-  std::size_t slabs = 0, children = 0;
-  const auto below = [&](auto&& self, std::uint32_t what, const Slab& slab) -> void {
+  std::size_t count = 0, children = 0;
+  const auto below = [&](auto&& self, std::uint32_t what, const NodeSlabs& slabs,
+                         int child) -> void {
     if ((what & BvhNode::leaf) == 0) {
-      for (const std::uint32_t child : nodes[what].children)
-        if (child != BvhNode::none) self(self, child, slab);
+      for (const std::uint32_t inner : nodes[what].children)
+        if (inner != BvhNode::none) self(self, inner, slabs, child);
       return;
     }
     const MeshLeaf& leaf = mesh->leaves()[what & ~BvhNode::leaf];
     for (int i = 0; i < leaf.size(); ++i)
       for (std::size_t k = 0; k < 3; ++k) {
         const double height =
-            slab.normal.cast<double>().dot(mesh->corner(leaf.triangles[i], k) - middle);
-        ASSERT_GE(height, double{slab.low} - 1e-15);
-        ASSERT_LE(height, double{slab.high} + 1e-15);
+            slabs.normal(child).cast<double>().dot(mesh->corner(leaf.triangles[i], k) - middle);
+        ASSERT_GE(height, double{slabs.low[child]} - 1e-15);
+        ASSERT_LE(height, double{slabs.high[child]} + 1e-15);
       }
   };
   for (std::uint32_t i = 0; i < nodes.size(); ++i)
-    for (std::uint32_t k = 0; k < bvh_width && nodes[i].children[k] != BvhNode::none; ++k) {
+    for (int k = 0; k < bvh_width && nodes[i].children[k] != BvhNode::none; ++k) {
       ++children;
-      const Slab& slab = mesh->slabs().of(i, k);
-      slabs += slab.normal.isZero(0) ? 0 : 1;
-      below(below, nodes[i].children[k], slab);
+      const NodeSlabs& slabs = mesh->slabs().of(i);
+      count += slabs.normal(k).isZero(0) ? 0 : 1;
+      below(below, nodes[i].children[k], slabs, k);
     }
-  EXPECT_GT(slabs, children / 2);
+  EXPECT_GT(count, children / 2);
 }
 
 TEST(PartsReach, is_that_of_the_furthest_corner) {

@@ -185,6 +185,9 @@ TEST(MeshWorld, answers_rays_that_have_no_direction_or_too_large_numbers) {
   EXPECT_EQ(world.closest_hit({{0, 0, -9}, {0, 0, 1e250}}, counts).cast.t(), 8e-250);
   EXPECT_FALSE(world.closest_hit({{0, 0, 1e305}, {0, 0, -1}}, counts).found());
   EXPECT_EQ(counts.exhausted, 1u);
+  // Here t would be more than the largest double.
+  EXPECT_FALSE(world.closest_hit({{0, 0, 2}, {0, 0, -1e-320}}, counts).found());
+  EXPECT_EQ(counts.exhausted, 2u);
 }
 
 }  // namespace
