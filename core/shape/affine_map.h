@@ -20,7 +20,7 @@ class AffineMap {
 
   const Affine<T>& affine() const { return affine_; }
 
-  /// It tells by how much the map scales all lengths alike, up to rounding; 0 if it does not.
+  /// The factor by which the map scales all lengths alike, up to rounding; 0 if there is none.
   T similarity() const { return similarity_; }
 
   template <class U>

@@ -59,7 +59,7 @@ struct ComposedMap {
   TwoFoldVec3<double> image(const TwoFoldVec3<double>& point) const {
     return linear * point + translation;
   }
-  /// By how much the image of a point may be off that is known to `error`.
+  /// Bounds the error of the image of a point whose own error is at most `error`.
   double loss_of_image(const Vec3<double>& point, double error = 0) const {
     const double far = length_of(point);
     return loss + stretch() * error + (turn_error + two_fold_rounding * stretch()) * far +
