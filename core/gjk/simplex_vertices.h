@@ -16,7 +16,7 @@
 
 namespace minkray {
 
-/// What every distance subalgorithm answers.
+/// Result of every distance subalgorithm.
 template <class T, int Dim>
 struct SubalgorithmAnswer {
   Vec<T, Dim> v = Vec<T, Dim>::Zero();  ///< the simplex' point closest to the origin
@@ -40,7 +40,7 @@ class SimplexVertices {
   const Vec<T, Dim>& p(int slot) const { return p_[static_cast<std::size_t>(slot)]; }
   const Vec<T, Dim>& y(int slot) const { return y_[static_cast<std::size_t>(slot)]; }
 
-  /// Whether p is a vertex already, to the last digit.
+  /// True if p is a vertex already, to the last digit.
   bool holds(const Vec<T, Dim>& p) const {
     for (int i = 0; i < slots; ++i)
       if (uses(i) && this->p(i) == p) return true;
