@@ -23,10 +23,10 @@ struct Mesh {
 };
 
 struct SandwichOptions {
-  /// How many quasi-uniform directions to begin with.
+  /// Number of quasi-uniform directions to begin with.
   int directions = 500;
-  /// How far at least the outer mesh lies outside of the shape and the inner one within, in units
-  /// of the frame: room for the rounding of whoever reads the meshes.
+  /// Least distance of the outer mesh outside of the shape, and of the inner one within it, in
+  /// units of the frame: room for the rounding of programs that read the meshes.
   double margin = 0x1p-20;
   /// Shapes thinner than this, relative to their size, count as flat.
   double flatness = 0x1p-20;

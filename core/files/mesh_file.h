@@ -26,8 +26,8 @@ struct MeshTriangles {
   std::vector<std::uint32_t> groups;
 };
 
-/// All vertices, in the file's order and unit; at least one, each finite. If `triangles` are wanted
-/// they are added there. Throws std::runtime_error that says what is wrong with the file, without
+/// All vertices, in the file's order and unit; at least one, each finite. If `triangles` are
+/// wanted they are added there. Throws std::runtime_error with the mistake in the file, without
 /// its name: "line 12: ...".
 std::vector<Vec3<double>> read_mesh_vertices(const std::filesystem::path& path,
                                              MeshTriangles* triangles = nullptr);
