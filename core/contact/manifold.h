@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Up to four points of contact of two shapes, which is what keeps a box from tipping over its one
-// nearest point: where the faces, edges or caps that look at each other lie over each other.
+// Up to four points of contact of two shapes, which keep a box from tipping over its one nearest
+// point: the overlap of the faces, edges or caps that face each other.
 //
 // The support points of each shape in directions tilted a little around the normal are the corners
-// of what looks at the other one; seen along the normal, the two polygons are clipped against each
-// other (I. Sutherland, G. Hodgman, "Reentrant Polygon Clipping", 1974). Of more than four corners
-// those are kept that span the most.
+// of the part that faces the other one; projected along the normal, the two polygons are clipped
+// against each other (I. Sutherland, G. Hodgman, "Reentrant Polygon Clipping", 1974). If there are
+// more than four corners, those that span the most are kept.
 #pragma once
 
 #include <array>
