@@ -24,7 +24,7 @@ constexpr std::string_view mattes_name = "cryptomatte";  // tables in a file's h
 constexpr std::int64_t most_pixels = std::int64_t{1} << 28;
 constexpr std::uint32_t most_samples = 1 << 24;
 
-/// Which part of a picture is asked for by a name, and how many numbers of a pixel it has.
+/// Part of a picture requested by a name, and the count of its numbers per pixel.
 struct Channel {
   std::string_view name;  ///< empty: the light
   std::uint32_t numbers = 3;
@@ -59,7 +59,7 @@ Scene seen(const HeldScene& held, const minkray_picture_options& options) {
   }
   const bool has_camera = json.contains("camera"), has_lights = json.contains("lights"),
              has_background = json.contains("background");
-  // All the rest that a scene file must have; what is read of it is not looked at.
+  // Adds all the rest that a scene file must have, as placeholders.
   json["version"] = scene_version;
   if (!has_camera) json["camera"] = {{"position", {0, -1, 0}}, {"look_at", {0, 0, 0}}};
   for (const char* key : {"lights", "materials", "objects"})
@@ -93,7 +93,7 @@ std::uint32_t checked(std::uint32_t given, std::uint32_t or_else, std::uint32_t 
   return given == 0 ? or_else : given;
 }
 
-/// What is asked of the picture of a scene that is seen already.
+/// Options for the picture of a scene that is seen already.
 RenderOptions render_options(const Scene& scene, const minkray_picture_options& given) {
   RenderOptions options;
   const Resolution& own = scene.camera.resolution;

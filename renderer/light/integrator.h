@@ -20,7 +20,7 @@ class Integrator {
  public:
   Integrator(const Scene& scene, const World& world, const IntegratorOptions& options = {});
 
-  /// As LightTransport says.
+  /// Same as LightTransport::trace.
   void trace(std::span<TracedRay> rays, RayCounts& counts) const {
     transport_->trace(rays, counts);
   }
