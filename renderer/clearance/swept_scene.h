@@ -9,8 +9,8 @@
 namespace minkray {
 
 struct SweptSceneOptions {
-  /// Steps are cut into so many parts that no body is larger than what it holds by more than this,
-  /// relative to the body's own size.
+  /// Steps are cut into enough parts that no body exceeds its contents by more than this, relative
+  /// to the body's own size.
   double slack = 0.01;
   std::size_t most_parts = 64;  ///< of one step
   /// A scene of more is a mistake: a path of a few megabytes could ask for a thousand million.

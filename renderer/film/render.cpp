@@ -12,7 +12,7 @@
 namespace minkray {
 namespace {
 
-/// How so many rays are taken from pixels and samples.
+/// Distribution of a group of rays over pixels and samples.
 struct RayGroupShape {
   int samples;
   BlockSize pixels;
@@ -29,8 +29,8 @@ bool is_on_the_move(const Scene& scene) {
                      [](const Object& object) { return !object.movement.stands(); });
 }
 
-/// With a limit to the noise a pixel is looked at after so many samples, and again and again: at
-/// the same samples however many rays go together.
+/// With a limit on the noise, a pixel is checked each time it has this many more samples: at the
+/// same samples, however many rays go together.
 constexpr int samples_between_looks = 16;
 
 /// Samples from the first on, up to the end.
@@ -196,7 +196,7 @@ class Rendered {
           of_block;
   }
 
-  /// What is known of the pixel by now.
+  /// Writes the current state of the pixel.
   void write(const Pixel& pixel, const PixelSum& sum, const Pass& pass) {
     if (sum.samples > 1) noise_.add(sum.standard_error() / sum.least_mean());
     const int samples = std::max(sum.samples, 1);

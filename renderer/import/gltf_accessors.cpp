@@ -90,7 +90,7 @@ double number_at(const char* at, int type, bool normalized) {
 
 }  // namespace
 
-/// Where numbers lie: each item `stride` bytes behind the one before.
+/// Location of numbers: each item is `stride` bytes behind the one before.
 struct GltfDocument::Source {
   const char* data = nullptr;
   std::size_t stride = 0;

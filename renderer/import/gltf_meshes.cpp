@@ -14,7 +14,7 @@ namespace {
 
 using GltfTriangle = std::array<std::uint32_t, 3>;
 
-/// How a primitive's indices make triangles.
+/// Modes by which a primitive's indices make triangles.
 constexpr std::size_t mode_triangles = 4, mode_fan = 6;
 
 /// Strips turn over at every other triangle.
@@ -239,7 +239,7 @@ std::vector<std::size_t> gltf_roots(GltfDocument& document) {
   return document.mistakes().none() ? roots : std::vector<std::size_t>();
 }
 
-/// True, and reports an error, if the file may not have or show so many vertices.
+/// True, and reports an error, if the file may not have or show this many vertices.
 bool GltfMeshes::has_too_many(std::size_t vertices) {
   constexpr std::size_t bytes_of_number = 4;
   const std::size_t most = std::min(

@@ -17,7 +17,7 @@ namespace {
 /// Rows follow each other so fast unless they say when they are.
 constexpr double rows_a_second = 24;
 
-/// Whoever has more has one mistake many times.
+/// Limit of reported mistakes: a file with more has one mistake many times.
 constexpr std::size_t most_mistakes = 20;
 
 /// In each row each link, joint and shape of the model has its place. Ten minutes of a humanoid at

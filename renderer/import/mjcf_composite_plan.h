@@ -31,7 +31,7 @@ struct CompositePlan {
   ModelGeom geom;            ///< without link, name and pose
   bool hides_skin = false;   ///< the geoms stand for a skin, which is not shown
 
-  /// How many there are, in a block that is full: a shell has fewer.
+  /// Number of elements in a full block: a shell has fewer.
   double elements() const { return 1.0 * count[0] * count[1] * count[2]; }
   bool is_shell() const { return type == "box" || type == "cylinder" || type == "ellipsoid"; }
 };

@@ -25,7 +25,7 @@ void pose_model(Model& model, const ImportOptions& options, Mistakes& mistakes);
 std::vector<JointRow> read_joint_rows(const std::string& file, Model& model, Mistakes& mistakes,
                                       const std::string& option = "--joints");
 
-/// Which geoms are asked for. A link without visual shapes shows its collision shapes.
+/// Selects the requested geoms. A link without visual shapes shows its collision shapes.
 std::vector<bool> chosen_geoms(const Model& model, GeometryChoice choice);
 
 /// A sun and a sky; a lamp at the camera where a plane hides the sun from everything, as it does
@@ -35,7 +35,7 @@ void light_everything(Scene& scene);
 /// Shapes chosen by the options. With several rows, objects move from row to row.
 Scene scene_of(Model& model, const ImportOptions& options, const std::vector<JointRow>& rows);
 
-/// Where a link stands or moves by the rows; nothing if there is none of that name.
+/// Frame of a link, fixed or moving by the rows; nothing if there is none of that name.
 std::optional<MovingFrame> frame_of_link(Model& model, const std::vector<JointRow>& rows,
                                          const std::string& name);
 

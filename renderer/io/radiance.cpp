@@ -63,7 +63,7 @@ class RadianceReader {
     if (!is_rgbe) wrong("must have FORMAT=32-bit_rle_rgbe in its header");
   }
 
-  /// The number behind a name; the text goes on behind it.
+  /// The number behind a name; advances the text to its end.
   static int number_after(std::string_view name, std::string_view& text) {
     int number = 0;
     if (text.starts_with(name)) {
