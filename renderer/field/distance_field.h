@@ -44,7 +44,7 @@ struct DistanceField {
 
 struct FieldOptions {
   double tolerance = 1e-6;  ///< of the bounds, relative to the sizes of probe and object
-  /// Is asked once a row; says whether to go on.
+  /// Called once per row; returns true to continue.
   std::function<bool()> go_on;
 };
 

@@ -23,12 +23,12 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t most_bytes_of_request = 8192;
-/// When there are more, the oldest goes: whoever asks does so at once.
+/// Limit of open connections; the oldest is closed first, since requests follow at once.
 constexpr std::size_t most_connections = 64;
-/// Browsers open connections in advance, which say nothing for a while. Whoever is slower than this
-/// with all of a request is not answered.
+/// Time within which a request must be complete. Browsers open connections in advance, which are
+/// silent for a while.
 constexpr auto longest_request = std::chrono::seconds(20);
-/// How long a reader may take none of an answer.
+/// Time after which a reader that receives nothing is dropped.
 constexpr int longest_write_ms = 5000;
 constexpr int poll_ms = 200;
 

@@ -17,9 +17,10 @@ struct InspectedSolver {
 
 struct InspectOptions {
   std::string name;        ///< of the scene
-  RenderOptions picture;   ///< what is rendered, and its size
+  RenderOptions picture;   ///< options and size of the rendered picture
   std::size_t pairs = 12;  ///< of objects, whose distances can be replayed
-  /// What the page may take. As many pixels can be replayed as fit; all else is there in any case.
+  /// Largest size of the page. As many pixels can be replayed as fit; all else is included in any
+  /// case.
   std::size_t most_bytes = 6'000'000;
   bool is_served = false;  ///< the page may ask where it came from for more
 };
