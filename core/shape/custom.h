@@ -112,7 +112,7 @@ struct Custom {
     }
   }
 
-  /// A vertex as far as anybody knows, and casts learn of the surface point by point; or, of a
+  /// A vertex as far as is known, and casts learn of the surface point by point; or, of a
   /// function that knows more, the ellipsoid around the middle that has its derivative.
   template <class W>
   Jet<W> jet(const Vec3<W>& n) const {

@@ -93,7 +93,7 @@ class Prepared {
         if ((u != x || v != y) && holds(u, v)) visit(u, v);
   }
 
-  /// Clamps a light that is brighter than all around it and has few samples to the brightest of
+  /// Clamps a light that is brighter than all around it and very uncertain to the brightest of
   /// those.
   void limit_specks() {
     const Image before = light_;
