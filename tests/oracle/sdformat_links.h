@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where libsdformat puts the links of an SDF file, and along what its joints turn.
+// Poses of an SDF file's links, and axes of its joints, by libsdformat.
 #pragma once
 
 #include <map>

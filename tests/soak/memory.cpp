@@ -18,9 +18,9 @@ namespace {
 /// of a second and a half.
 constexpr double most_in_use_growth = 64 * 1024;
 
-/// In bytes: what an allocator may hold back, as rounds differ in what runs beside what. Resident
-/// memory was seen to go up and down by 1 MiB, with oneTBB's leak of 8 KiB a call up by 1 MiB in
-/// four rounds.
+/// In bytes: memory that an allocator may hold back, as rounds differ in what runs together.
+/// Resident memory varied by 1 MiB, and with oneTBB's leak of 8 KiB per call grew by 1 MiB in four
+/// rounds.
 constexpr double most_resident_growth = 4 * 1024 * 1024;
 
 std::size_t entries(const char* folder) {

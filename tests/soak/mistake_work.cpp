@@ -8,7 +8,7 @@
 namespace soak {
 namespace {
 
-/// What is said names no number of a handle: those are never given out again.
+/// Messages contain no number of a handle: those are never given out again.
 template <class Call>
 void refused(Answers& answers, Call&& call, bool with_text = true) {
   try {

@@ -60,7 +60,7 @@ void stopped_pictures(const Common& common, Answers& answers) {
     });
     common.stopped += stopped;
   }
-  // What comes after is what it would have been.
+  // Later results are unaffected.
   render(common, small_picture(), {"rgb"}, answers);
 }
 

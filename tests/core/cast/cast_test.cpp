@@ -43,7 +43,7 @@ TEST(Cast, no_ray_is_too_far_away_to_be_told_of) {
       CastPacket<float> together;
       cast_packet(in_float, packet, LaneBits(1), together);
       EXPECT_EQ(together.result(0).status, coarse.status) << power << " " << speed;
-      // Beside the ball, as far off.
+      // Next to the ball, as far off.
       const Ray<double> beside{{1.5, 0, -std::pow(10.0, power)}, {0, 0, speed}};
       EXPECT_NE(name_of(cast_ray(ball, beside).status), name_of(Status::hit)) << power;
       if (fine.status != Status::hit) continue;
@@ -56,7 +56,7 @@ TEST(Cast, no_ray_is_too_far_away_to_be_told_of) {
   }
 }
 
-/// Where a ray ends on the surface it hits it, and a hit is within the ray, whatever is rounded.
+/// A ray that ends on the surface hits it, and a hit is within the ray, whatever is rounded.
 TEST(Cast, the_rays_ends_belong_to_it) {
   Random random(9);
   int hits = 0;

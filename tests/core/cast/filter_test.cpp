@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Answers of the filter beside school geometry in more digits: no bound is broken, no hit or miss
-// is false, wherever rays come from and however shapes are posed.
+// Compares results of the filter with school geometry in more digits: no bound is broken, no hit
+// or miss is false, wherever rays come from and however shapes are posed.
 #include <gtest/gtest.h>
 
 #include "core/derived/convert.h"

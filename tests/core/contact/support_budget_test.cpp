@@ -19,7 +19,8 @@ Shape<double> hull_of(const Shape<double>& shape) {
   return HullOf<double>{shapes};
 }
 
-/// What is asked beside branch and bound: searches before it, and the points of contact after it.
+/// Support points used outside of branch and bound: searches before it, and the points of contact
+/// after it.
 constexpr int beside_each = 1500;
 
 TEST(SupportBudget, directions_that_are_all_as_good_end_with_bounds_that_hold) {
@@ -36,7 +37,7 @@ TEST(SupportBudget, directions_that_are_all_as_good_end_with_bounds_that_hold) {
     EXPECT_TRUE(found.is_exhausted) << budget;
     EXPECT_LE(found.supports, budget + beside_each) << budget;
     EXPECT_EQ(found.status == SignedStatus::overlapping, found.upper < 0) << budget;
-    // What more of them are for.
+    // Purpose of a larger budget.
     EXPECT_LT(found.upper - found.lower, before) << budget;
     before = found.upper - found.lower;
   }

@@ -118,8 +118,8 @@ TEST(FacetMesh, is_the_same_in_float) {
   }
 }
 
-/// What reaches furthest along a facet's normal is its first corner, or the facet says that it does
-/// not know.
+/// The point furthest along a facet's normal is its first corner, or the facet is marked as
+/// unsupported.
 template <class T>
 void expect_supported(const std::vector<Vec3<T>>& points) {
   const PointCloud<T> cloud(points);

@@ -19,8 +19,8 @@ minkray_shape ball() {
   return shape;
 }
 
-/// Puts the shape into a sum, so many times, and that into the next; the code of the first that
-/// fails, and how many were made.
+/// Puts `copies` of the shape into a sum, and that into the next; the code of the first that
+/// fails, and the number made.
 int sums_of(std::size_t copies, int most, int& made) {
   minkray_shape shape = ball();
   int code = MINKRAY_OK;
@@ -78,7 +78,7 @@ minkray_shape superellipsoid(double size) {
   return shape;
 }
 
-/// Where support points are gathered, casts run on stacks of their own; shapes 499 deep ran over
+/// With gathered support points, casts run on stacks of their own; shapes 499 deep overflowed
 /// them.
 TEST(NestedShapes, are_a_thousand_deep_beside_shapes_that_are_gathered) {
   const minkray_shape small = superellipsoid(1e-4);
