@@ -168,7 +168,7 @@ TEST(SweptImpact, what_comes_straight_at_the_other_from_far_away_is_no_miss) {
       }
 }
 
-/// The same motion in a time that is 2^power times as short.
+/// Repeats the motion in a time that is 2^power times as short.
 Moving in_other_time(Moving pair, int power) {
   const auto scaled = [power](const Vec3<double>& v) -> Vec3<double> {
     return v.unaryExpr([power](double x) { return std::ldexp(x, power); });

@@ -90,7 +90,7 @@ TEST_F(SeveralFiles, are_seen_by_the_camera_of_the_first_scene_file) {
     EXPECT_EQ(seen["camera"].dump(), ball["camera"].dump()) << files;
     EXPECT_EQ(seen["lights"].dump(), ball["lights"].dump()) << files;
   }
-  // Without one, both are in the picture: the camera stands elsewhere than for one of them.
+  // Without one, both are in the picture: the camera is elsewhere than for one of them.
   const Json both = Json::parse(run("info slide.urdf world.sdf --json").out);
   const Json one = Json::parse(run("info slide.urdf --json").out);
   EXPECT_NE(both["camera"].dump(), one["camera"].dump());

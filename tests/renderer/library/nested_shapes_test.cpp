@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Shapes of shapes made through handles: each may stand in the next, as often as a program likes,
-// until that is more than anybody can ask.
+// Shapes of shapes made through handles: each may occur in the next, any number of times, up
+// to the limits of queries.
 #include <gtest/gtest.h>
 #include <minkray/minkray_c.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Materials, textures, skies and lenses in scene files: what is wrong is told, all at once, and
-// what is right survives being written and read again.
+// Materials, textures, skies and lenses in scene files: mistakes are reported all at once, and
+// valid input survives being written and read again.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -220,7 +220,7 @@ TEST_F(Pictures, of_20000_pixels_a_side_and_of_16_bits_in_grey_are_read_or_told)
   EXPECT_NEAR(grey.at(1, 0).x(), 0.214F, 0.001);
   EXPECT_EQ(grey.at(1, 0).x(), grey.at(1, 0).z());
 
-  // Its header says that it is as large, and nothing follows.
+  // The header has a large size, and nothing follows.
   std::vector<unsigned char> large = png_of(1, 1, std::vector<std::uint8_t>(3));
   for (const std::size_t number : {16, 20}) {
     large[number + 2] = 20000 / 256;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where the sun stands, where others have said so.
+// Compares the position of the sun with published ones.
 #include "renderer/scene/sun_position.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-/// What the formulas promise, in degrees, and the air's refraction where a reference has it.
+/// Precision of the formulas, in degrees, and the air's refraction where a reference includes it.
 constexpr double precision = 0.02, refraction = 0.017;
 
 struct Place {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rays at their own times beside a world that is posed anew for each time.
+// Compares rays at their own times with a world that is posed for each time.
 #include "renderer/sensor/moving_scene.h"
 
 #include <gtest/gtest.h>
