@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// MuJoCo before 3.1 tells distances by contacts with a margin alone. Its function for the pair of
-// shapes is called without what surrounds it.
+// MuJoCo before 3.1 returns distances only as contacts with a margin. Its function for the pair of
+// shapes is called directly.
 #include <mujoco/mujoco.h>
 
 #include <algorithm>

@@ -31,7 +31,7 @@ class EmbreeScene {
   RTCScene scene_;
 };
 
-/// Which of a hit's numbers says which instance it is.
+/// Number of a hit that identifies its instance.
 enum class EmbreeNumber : unsigned char { instance, geometry, primitive };
 
 std::vector<std::string> embree_entries();

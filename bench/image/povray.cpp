@@ -67,7 +67,7 @@ void write_scenes(const std::string& generated, const std::string& ours, const s
   if (!out.flush()) throw std::runtime_error(povs + ": could not be written");
 }
 
-/// What a command took, of all its threads together or of the wall's clock.
+/// Time of a command, of all its threads together or of the wall clock.
 double seconds_of(const std::string& command, int threads) {
   const auto children = [] {
     rusage usage;

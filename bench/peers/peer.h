@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What every ray caster that is measured looks like: it answers a whole batch of rays at one shape,
-// as its users would ask it: with rays and answers in its own layout.
+// Interface of every ray caster that is measured: answers a whole batch of rays at one shape, as
+// its users would call it: with rays and results in its own layout.
 #pragma once
 
 #include <functional>

@@ -24,9 +24,9 @@ struct OddWords {
 
 /// Folders that still have odd words. Lower a count when it falls.
 const std::map<std::string, OddWords> recorded = {
-    {"bench", {61, 77}},           {"core/mesh", {5, 7}},         {"core/parts", {28, 11}},
-    {"renderer/cli", {61, 66}},    {"renderer/plan", {11, 17}},   {"renderer/scene", {49, 37}},
-    {"renderer/sensor", {16, 10}}, {"renderer/verify", {17, 15}}, {"tests", {0, 0}}};
+    {"core/mesh", {5, 7}},        {"core/parts", {28, 11}},     {"renderer/cli", {61, 66}},
+    {"renderer/plan", {11, 17}},  {"renderer/scene", {49, 37}}, {"renderer/sensor", {16, 10}},
+    {"renderer/verify", {17, 15}}};
 
 constexpr std::array starts_of_no_sentence = {"What ", "Whether ", "Who ", "It ", "They ", "Of "};
 constexpr std::array starts_of_no_comment = {"Where ", "Whose ",   "That ",  "Its ",      "So ",
