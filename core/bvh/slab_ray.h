@@ -60,7 +60,7 @@ inline float float_below(double x) {
 /// The numbers of a ray, and how long a step is.
 struct SlabRay {
   SlabNumbers numbers;
-  double steps;  ///< number of steps at t = 1
+  double steps;  ///< number of steps that make t = 1
 
   SlabRay() = default;
   /// Origin and direction must be finite; components of the direction may be zero (also -0), all of

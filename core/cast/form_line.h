@@ -44,7 +44,7 @@ struct FormLine {
   Mask<W> bounded;  ///< lanes in which line.E is valid
   W base, shift, per;
   W begin, end;  ///< the ray's, as parameters of the line
-  W slack;       ///< uncertainty of t_near and t_far
+  W slack;       ///< uncertainty of begin and end
 };
 
 namespace detail {

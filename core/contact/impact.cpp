@@ -41,7 +41,7 @@ class Turning {
     return placed_middle(shape_, motion_.pose);
   }
 
-  /// Pose of the body at a time: its linear part, and its middle relative to the observer.
+  /// Pose of the body at a time: its linear part, and its middle relative to seen_from().
   Affine<double> at(double time) const {
     if (!(speed_ > 0)) return {motion_.pose.linear, Vec3<double>::Zero()};
     const Mat3<double> turn = Eigen::AngleAxis<double>(time * speed_, axis_).toRotationMatrix();

@@ -19,7 +19,7 @@ bool has_extreme_proportions(const Shape<T>& shape);
 bool is_lost_in_rounding(const Shape<float>& shape);
 
 /// True if the shape is made of points in float that are a sliver: a ray in its plane is off by
-/// the rounding of its length divided by how thin it is.
+/// the rounding of its length times its ratio of length to thickness.
 bool is_sliver(const Shape<float>& shape);
 
 /// True if the shape is made of points in float that lie in a plane but for their rounding.

@@ -102,7 +102,7 @@ MINKRAY_API int minkray_times_of_impact(const minkray_bodies* a, const minkray_b
                                         const minkray_impact_arrays* impacts,
                                         const minkray_options* how);
 
-/* Up to four points of contact: corners of the parts of the two faces that face each other, one
+/* Up to four points of contact: corners of the parts of the two shapes that face each other, one
  * over the other along the normal: point_b - point_a = gap normal. The first is that of the signed
  * distance. */
 typedef struct minkray_manifold {

@@ -28,7 +28,7 @@ class PathTransport::Wave {
   /// Draws the direction in which the path continues, or ends the path.
   void scatter(Path& path, const Point& point);
 
-  // Arrival of rays (path_arrival.cpp). Returns the clear body that counts where bodies overlap:
+  // Arrival of rays (path_arrival.cpp). Returns the medium that counts where bodies overlap:
   // the one of the greatest priority, among equals the one entered last.
   const Medium& medium(const Inside& inside, std::uint32_t* which = nullptr) const;
   static Colour left_after(const Medium& medium, double length);

@@ -55,8 +55,8 @@ Colour interpolated(const Image& image, const Vec3<double>& at) {
   return ((1 - fy) * upper + fy * lower).cwiseMin(1.0);
 }
 
-/// Interpolates a picture at all sizes, between the two whose pixels are closest to `pixels` of
-/// the largest one's.
+/// Interpolates a picture at all sizes, between the two whose pixels are about `pixels` times as
+/// wide as the largest one's.
 Colour interpolated(const Image& image, const std::vector<Image>& smaller, const Vec3<double>& at,
                     double pixels) {
   if (!(pixels > 1) || smaller.empty()) return interpolated(image, at);
