@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Rays prepared for slab tests against boxes of floats, eight boxes at a time. The tests are padded
-// after Ize, "Robust BVH Ray Traversal" (2013), so that rounding never loses a box that the exact
-// ray meets.
-//
-// Rays of any scalar are tested in float. Digits that float cannot hold are rounded to the safe
-// side: the origin towards where the first planes come earlier and the last ones later. Along the
-// ray, t is counted in steps of a power of two so large that the direction's largest component is
-// about 1: directions of any length stay in range.
+// Rays prepared for slab tests against eight boxes of floats, padded after Ize, "Robust BVH Ray
+// Traversal" (2013): rounding never loses a box that the exact ray meets. Rays of any scalar are
+// tested in float, with the origin rounded towards earlier first planes and later last planes. t is
+// counted in steps of a power of two so large that the direction's largest component is about 1:
+// any length stays in range.
 #pragma once
 
 #include <algorithm>

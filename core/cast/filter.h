@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The first stage of a cast, and for nearly all rays the last: the shape's closed form in double,
-// with an error bound. Where a decision is nearer than the bound the result is "in doubt", and the
-// next stage runs. After the filters of exact geometric computation (Fortune and Van Wyk 1996;
-// Shewchuk, "Adaptive Precision Floating-Point Arithmetic", 1997).
-//
-// Single rays and packets share this code, so their results are bit-identical.
+// with an error bound. A decision nearer than the bound is "in doubt", and the next stage runs
+// (after Shewchuk, "Adaptive Precision Floating-Point Arithmetic", 1997). Single rays and packets
+// share this code, so their results are bit-identical.
 #pragma once
 
 #include "core/cast/form_line.h"

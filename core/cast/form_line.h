@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The ray as a shape's closed form sees it: a line in double in the form's frame, moved near, and
-// how exact that is. F is float or double, or a packet of them; W the same in double.
-//
-// Rays in float are moved in double in one step, without fused operations: their numbers' products
-// are exact there, and the bits are the same on every processor. Rays in double are moved by
-// ray_near's two steps. docs/forms.md ("Casts with an error bound") has the bounds.
+// The ray in the frame of a shape's closed form: a line in double, moved near, and its error bound
+// (docs/forms.md, "Casts with an error bound"). F is float or double, or a packet of them; W the
+// same in double. Float rays are moved in one step without fused operations: their products are
+// exact in double, and the bits are the same everywhere. Double rays are moved by ray_near's two
+// steps.
 #pragma once
 
 #include "core/cast/prepared_shape.h"

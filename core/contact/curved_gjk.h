@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The distance of two cores: GJK, which switches to second order where surfaces are curved.
-//
-// GJK keeps up to four points of C and adds the support point in the direction d of their closest
-// point to the origin. On curved surfaces it converges linearly: after a few turns it hands over
-// to flat ends (flat_ends.h) and to features that slide (sliding_features.h).
-//
-// Every turn has a lower bound, the plane through the support point, and an upper one, the length
-// of the combination of points: the loop ends when they meet.
+// The distance of two cores: GJK keeps up to four points of C and adds the support point in the
+// direction d of their closest point to the origin. On curved surfaces GJK converges linearly and,
+// after a few turns, hands over to flat ends (flat_ends.h) and sliding features
+// (sliding_features.h). The plane through the support point is a lower bound, the combination of
+// points an upper one; the loop ends when they meet.
 #pragma once
 
 #include "core/contact/flat_ends.h"

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Up to four points of contact of two shapes, which keep a box from tipping over its one nearest
-// point: the overlap of the faces, edges or caps that face each other.
-//
-// The support points of each shape in directions tilted a little around the normal are the corners
-// of the part that faces the other one; projected along the normal, the two polygons are clipped
-// against each other (I. Sutherland, G. Hodgman, "Reentrant Polygon Clipping", 1974). If there are
-// more than four corners, those that span the most are kept.
+// point. The support points of each shape in directions tilted a little around the normal bound the
+// part that faces the other one. Projected along the normal, the two polygons are clipped (I.
+// Sutherland, G. Hodgman, "Reentrant Polygon Clipping", 1974), and at most four corners, which span
+// the most, are kept.
 #pragma once
 
 #include <array>

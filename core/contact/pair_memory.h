@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Final state of a query on a pair of bodies, which a caller keeps for the next frame: the paper's
-// caching of the separating axis (G. van den Bergen, "Ray Casting against General Convex Objects",
-// 2004, section 4), and of the features that the nearest points lay on.
-//
-// Only the start of a search, never the basis of a result: whatever the contents, even from
-// another pair, the bounds are proven again.
+// Final state of a query on a pair of bodies, kept by the caller for the next frame: the separating
+// axis (G. van den Bergen, "Ray Casting against General Convex Objects", 2004, section 4) and the
+// features of the nearest points. Only the start of a search, never the basis of a result: whatever
+// the contents, even from another pair, the bounds are proven again.
 #pragma once
 
 #include <cstdint>

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Distance of two convex shapes, or their penetration depth: one number, with its proof.
-//
-// If they are apart, the number is their distance. If they overlap, it is minus the length of the
-// least translation that separates them, their penetration depth (S. Cameron, R. Culley,
-// "Determining the minimum translational distance between two convex polyhedra", 1986). Either is
-// the largest gap between two parallel planes that have A on one side and B on the other, over all
-// directions: so one plane proves the lower bound. The upper one is proven by two points if they
-// are apart, and if they overlap by an inner approximation of B - A around the origin.
+// Distance of two convex shapes or, if they overlap, minus the length of the least translation that
+// separates them (S. Cameron, R. Culley, "Determining the minimum translational distance between
+// two convex polyhedra", 1986): the largest gap between two parallel planes with A on one side and
+// B on the other. One plane proves the lower bound; two points, or points of B - A around the
+// origin, the upper one.
 #pragma once
 
 #include <limits>

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: MIT
-// First contact of two cores where one moves without turning: a ray meets C. Uses portals (G.
-// Snethen, "XenoCollide: Complex Collision Made Simple", in Game Programming Gems 7, 2008): in the
-// shadow of C along the motion GJK in the plane finds three points around the origin, or a line
-// that proves a miss; the triangle of the three, which the ray pierces, is moved outwards by the
-// support point along its normal until that is on the triangle. Every turn has two bounds of the
-// time: at the triangle the two touch for sure, before the support plane they do not.
-//
-// The search is finite and exact for polytopes. Where surfaces are curved it hands over to
-// features that slide (sliding_portal.h) after a few turns.
+// First contact of two cores where one moves without turning: a ray meets C. By portals (G.
+// Snethen, "XenoCollide", in Game Programming Gems 7, 2008): GJK in the shadow of C finds three
+// points around the origin, or proves a miss; their triangle is moved outwards by support points.
+// The triangle and the support plane bound the time. Exact for polytopes; on curved surfaces
+// sliding_portal.h takes over after a few turns.
 #pragma once
 
 #include "core/contact/sliding_portal.h"

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Two meshes made from nothing but a shape's support mapping, one within the shape and one around
-// it: a ray meets the outer mesh no later than the shape, and the shape no later than the inner
-// one.
-//
-// Inner: the hull of support points. Outer: the intersection of the half-spaces that those supports
-// bound. Polytopes come out exactly: half of the directions are
-// the facet normals of the hull that the other half made.
+// Two meshes made from a shape's support mapping alone: a ray meets the outer mesh no later than
+// the shape, and the shape no later than the inner one. Inner: the hull of support points. Outer:
+// the intersection of the half-spaces that those supports bound. Polytopes are exact: half of the
+// directions are facet normals of the hull of the other half's supports.
 #pragma once
 
 #include <array>

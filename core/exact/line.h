@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Input and output of closed forms: a line relative to a nearby point and where it enters, with a
-// bound of its error. W is double, or a packet of doubles: a line in every lane. The same
-// operations in the same order, so that a packet's lanes have a single line's bits. Or W is a
-// packet of floats, which screens candidates (core/cast/screen.h) and may have a form in every
-// lane as well.
-//
-// docs/forms.md ("Casts with an error bound") derives the bounds.
+// Input and output of closed forms: a line relative to a nearby point and where it enters, with an
+// error bound (docs/forms.md, "Casts with an error bound"). W is double, or a packet of doubles
+// with a line in every lane and the same bits as single lines. Or W is a packet of floats, which
+// screens candidates (core/cast/screen.h) and may have a form in every lane as well.
 #pragma once
 
 #include "core/math/least_to_square.h"

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Finds where a line enters the convex hull of points: by walking over its triangles to the one
-// the line passes through, or where that is in doubt, or the hull has few facets, between all its
-// planes.
-//
-// Each plane has a bound of how far the points of its triangles lie below it, so that nothing is
-// assumed about how planes were found. docs/forms.md ("Polytopes with an error bound") has the
-// proof.
+// Finds where a line enters the convex hull of points: by walking over its triangles to the one the
+// line passes through; if that is in doubt, or the hull has few facets, between all its planes.
+// Each plane has a bound on the depth of its triangles' points below it, so that nothing is assumed
+// about how planes were found (docs/forms.md, "Polytopes with an error bound").
 #pragma once
 
 #include <memory>

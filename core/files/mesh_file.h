@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The vertices of mesh files: Wavefront OBJ, and STL as text or binary. Only positions matter, for
-// their convex hull is all that is wanted, or those of parts, for which faces tell what belongs
-// together. But files that are cut off are refused where that shows: at faces without vertices,
-// solids without an end, and fewer bytes than the triangles need.
-// Read here rather than by tinyobjloader, which takes a malformed coordinate for 0, 1e999 for
-// infinity, and rounds 0.3 to another double than C++ does.
+// Reads the vertices of mesh files: Wavefront OBJ, and STL as text or binary. Only positions are
+// used, for convex hulls; faces tell parts apart and reveal truncated files, which are rejected.
+// Not read by tinyobjloader, which takes a malformed coordinate for 0, 1e999 for infinity, and
+// rounds 0.3 to another double than C++ does.
 #pragma once
 
 #include <array>

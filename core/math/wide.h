@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Several numbers that are calculated with at once: the scalar of packets of rays. Uses the
-// compiler's vector types, so that one source serves every instruction set.
-//
-// `Isa` names the instruction set that the including file is compiled for. `Isa` is a part of the
-// type so that code for different instruction sets has different names and is never mixed up by
-// the linker (docs/decisions/packets.md).
+// A packet of numbers: the scalar of packets of rays, made of the compiler's vector types, so that
+// one source serves every instruction set. `Isa` names the instruction set that the including file
+// is compiled for. As a part of the type it gives code for different instruction sets different
+// names, so that the linker never mixes it up (docs/decisions/packets.md).
 #pragma once
 
 #if defined(__AVX2__)

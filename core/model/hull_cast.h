@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Casting the ray exactly on the hull of at most four translates of one ball or ellipsoid: in
-// closed form. docs/forms.md derives it.
-//
-// Frame: the ray runs down the z axis, from +z to -z. In a direction m with m.z > 0 the hull's
+// Casts the ray exactly at the hull of at most four translates of one ball or ellipsoid, in closed
+// form (docs/forms.md). The ray runs down the z axis. In a direction m with m.z > 0 the hull's
 // supporting plane cuts the axis at height support_function(m)/m.z, and the hit is the least of
 // these heights. m.z = 0 with support_function(m) < 0 separates hull and ray.
 #pragma once

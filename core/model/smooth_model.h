@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The model for smooth shapes, which jets only osculate: the newest jet's ellipsoid, and, where
-// other patches of the surface were seen in nearly the same direction, translates of it that touch
-// their planes at their support points. Converges as Newton's method does; a step to a lower plane
-// is taken back by half, which helps since the planes' cuts are a concave function.
-//
-// The model's hit is the shape's only as far as support points prove it: see `settled`.
+// The model for smooth shapes, which jets only osculate: the newest jet's ellipsoid, and translates
+// of it for other patches seen in nearly the same direction, which touch their planes at their
+// support points. Converges as Newton's method does; a step to a lower plane is halved, which helps
+// since the planes' cuts are a concave function. Support points prove the hit: see `settled`.
 #pragma once
 
 #include "core/model/hull_cast.h"

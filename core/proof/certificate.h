@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Certificates: a short proof of what a ray cast claims, that anyone can check with the shape's
-// support mapping alone (core/proof/check_certificate.h). docs/certificates.md defines the
-// guarantees, and up to which rounding they hold.
-//
-// A hit is enclosed: a supporting plane keeps the shape off the ray before t_lo, and at most four
-// support points span a point of the shape that lies on the ray at t_hi. An origin inside is such a
-// point itself. A miss has a plane between the shape and the ray.
+// Certificates: short proofs of the claims of ray casts, checked with the support mapping alone
+// (core/proof/check_certificate.h, docs/certificates.md). A hit is enclosed: a supporting plane
+// keeps the shape off the ray before t_lo, and at most four support points span a point of the
+// shape on the ray at t_hi. An inner origin is such a point itself. A miss has a plane between the
+// shape and the ray.
 #pragma once
 
 #include <array>
