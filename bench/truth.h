@@ -47,7 +47,7 @@ struct Judgement {
   Spread supports_of_hits, supports_of_misses;
   Spread along_normal;     ///< |t - exact| * cosine
   Spread along_ray;        ///< |t - exact|
-  Spread normal_angle;     ///< of smooth places, from those who tell
+  Spread normal_angle;     ///< of smooth places, from peers that return normals
   std::uint64_t hash = 0;  ///< of all answers, bit by bit
 };
 

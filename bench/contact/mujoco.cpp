@@ -17,7 +17,7 @@ using Rows = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 struct World {
   mjModel* model = nullptr;
   mjData* data = nullptr;
-  /// Meshes stand in their own principal frame, which leads to that of their vertices.
+  /// Meshes are in their own principal frame, which leads to that of their vertices.
   Mat3<double> turn[2];
   Vec3<double> middle[2];
 

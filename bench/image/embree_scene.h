@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// An Embree scene that counts its memory, and the four ways to ask it: one ray, eight rays, a
+// An Embree scene that counts its memory, and the four kinds of calls: one ray, eight rays, a
 // stream of single rays, a stream of packets of eight. As everywhere in the benchmarks, Embree is
 // used with its fastest (not its robust) intersection.
 #pragma once

@@ -44,7 +44,7 @@ std::string count_text(std::size_t count) {
   return std::to_string(count);
 }
 
-/// Runs the parts and collects what they say.
+/// Runs the parts and collects their output.
 class Bench {
  public:
   explicit Bench(const ImageBenchOptions& options) : options_(options) {

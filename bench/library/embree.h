@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Embree 3 at its best: scenes built at its highest quality, and every way to ask them. Its fastest
+// Embree 3 at its best: scenes built at its highest quality, and every kind of call. Its fastest
 // intersection is used, and its robust one at meshes.
 #pragma once
 

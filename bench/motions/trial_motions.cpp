@@ -38,7 +38,7 @@ struct Options {
 struct Counts {
   std::size_t motions = 0, free = 0, colliding = 0, undecided = 0, bad = 0;
   std::size_t false_free = 0, unconfirmed = 0, states = 0;
-  std::size_t grazing = 0;  ///< not confirmed by FCL, and shallower than it can tell
+  std::size_t grazing = 0;  ///< not confirmed by FCL, and shallower than its resolution
   std::vector<double> seconds, fcl_seconds;
 };
 

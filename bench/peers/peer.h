@@ -31,7 +31,7 @@ struct Hit {
   Outcome outcome = Outcome::miss;
   int supports = 0;  ///< support calls, where there are any
   double t_base = 0, t_offset = 0;
-  Vec3<float> normal = Vec3<float>::Zero();  ///< zero from those who do not tell
+  Vec3<float> normal = Vec3<float>::Zero();  ///< zero from peers without normals
 };
 
 class Peer {

@@ -322,7 +322,7 @@ std::uint64_t walk_stream_avx2(const BvhNode* nodes, SlabRay* rays, std::size_t 
 #else
 namespace minkray {
 
-/// Other machines never ask.
+/// Never called on other machines.
 void make_slabs_avx2(const char*, std::size_t, std::size_t, SlabRay*) {}
 std::uint64_t walk_stream_avx2(const BvhNode*, SlabRay*, std::size_t, const PairVisitor&) {
   return 0;

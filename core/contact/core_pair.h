@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Two cores A and B in A's frame, and the questions that the solvers ask of C, all differences
-// b - a of a point of B and one of A: the distance of the shapes is that of C from the origin, and
-// where they overlap, their penetration depth is how deep the origin lies in C. Either way it is,
-// signed, the most that n.c can be kept above over all c of C, over all unit vectors n.
+// Two cores A and B in A's frame, and the queries of the solvers on C, all differences b - a of a
+// point of B and one of A: the distance of the shapes is that of C from the origin, and where they
+// overlap, their penetration depth is how deep the origin lies in C. Either way it is, signed, the
+// most that n.c can be kept above over all c of C, over all unit vectors n.
 #pragma once
 
 #include "core/contact/core_support.h"

@@ -114,7 +114,7 @@ void find_contact(const CorePair& pair, CoreDistance& found) {
 /// The depth of cores that were found to overlap, or whose distance rounding hides.
 CoreDistance depth_of_cores(const CorePair& pair, Enclosure enclosure, CoreDistance found,
                             const SignedDistanceOptions& options, double gap, bool only_sign) {
-  // Points that are as near to each other tell enough of an overlap so slight.
+  // Points that are as near to each other are a sufficient result for so slight an overlap.
   const double slight = gap * (pair.size() + pair.x.norm());
   if (found.status == CoreStatus::overlapping && found.lower >= -slight) {
     if (!(found.c.norm() <= slight / 2)) improve_plane(pair, found);

@@ -9,7 +9,7 @@
 
 namespace minkray {
 
-/// Two bodies and where they stand. Their shapes must outlive the question.
+/// Two bodies and their poses. Their shapes must outlive the query.
 struct PosedPair {
   const ContactShape* a = nullptr;
   const ContactShape* b = nullptr;

@@ -99,7 +99,7 @@ SignedDistance signed_distance(const ContactShape& a, const Mat3<double>& linear
                                const Between& between, const SignedDistanceOptions& options,
                                PairMemory* memory);
 
-/// Both shapes stand in the world.
+/// Both shapes are in the world's frame.
 SignedDistance signed_distance(const ContactShape& a, const ContactShape& b,
                                const SignedDistanceOptions& options = {});
 

@@ -164,7 +164,7 @@ bool SlidingFeatures<A, B>::is_inside(const Vec3<double>& n, double depth, const
   const auto holds = [&](const Vec3<double>& p, const Vec3<double>& q, const Vec3<double>& r) {
     const Vec3<double> corners[4] = {p, q, r, query_.pair.x};
     const SimplexPoint closest = closest_of_simplex(corners, 4, false);
-    // Rounding may tell wrongly: what it is worth is how near to the origin the weights come.
+    // Rounding may give a wrong result: its quality is how near to the origin the weights come.
     common = Vec3<double>::Zero();
     for (int i = 0; i < 4; ++i) common += closest.weight[i] * corners[i];
     return closest.is_inside();

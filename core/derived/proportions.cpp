@@ -136,7 +136,7 @@ double ratio_of_points(std::span<const Vec3<T>> points) {
   const Spread spread = spread_of(points);
   if (!(spread.size > 0)) return 1;
   if (!std::isfinite(spread.size)) return spread.size;
-  // Not in float, whose rays are rounded as coarsely: in double, a cast would tell that they pass
+  // Not in float, whose rays are rounded as coarsely: in double, a cast would find that they pass
   // it by.
   if (std::is_same_v<T, double> && is_lost_needle(spread, points))
     return std::numeric_limits<double>::infinity();

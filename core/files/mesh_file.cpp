@@ -149,8 +149,7 @@ class ObjFaces {
  public:
   explicit ObjFaces(TriangleFans& fans) : fans_(&fans) {}
 
-  /// Takes the words of a face ("7", "7/1", "7//2" or "-1/2/3"), above which `count` vertices
-  /// stand.
+  /// Takes the words of a face ("7", "7/1", "7//2" or "-1/2/3"), with `count` vertices above it.
   void add(std::string_view line, std::size_t count, std::size_t line_number) {
     for (;;) {
       const std::string_view word = next_word(line);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Reads the vertices of mesh files: Wavefront OBJ, and STL as text or binary. Only positions are
-// used, for convex hulls; faces tell parts apart and reveal truncated files, which are rejected.
-// Not read by tinyobjloader, which takes a malformed coordinate for 0, 1e999 for infinity, and
-// rounds 0.3 to another double than C++ does.
+// used, for convex hulls; faces define parts and reveal truncated files, which are rejected. Not
+// read by tinyobjloader, which takes a malformed coordinate for 0, 1e999 for infinity, and rounds
+// 0.3 to another double than C++ does.
 #pragma once
 
 #include <array>

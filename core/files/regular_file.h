@@ -19,7 +19,8 @@ class RegularFile {
   RegularFile(const RegularFile&) = delete;
   RegularFile& operator=(const RegularFile&) = delete;
 
-  /// When it was opened; a hint only: files of /proc say 0, and a file may grow while it is read.
+  /// Size at the time of opening; a hint only: files of /proc have 0, and a file may grow while it
+  /// is read.
   std::size_t size() const { return size_; }
 
   /// Fills the buffer, less of it only at the end of the file; answers how much.

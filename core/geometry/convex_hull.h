@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The convex hull of points, and the polytope that half-spaces cut out (its dual). Solid hulls come
-// from Qhull: Barber, Dobkin and Huhdanpaa, "The Quickhull Algorithm for Convex Hulls" (1996),
-// which convex_hull.cpp alone knows; flat ones from Andrew's monotone chain (1979).
+// The convex hull of points, and the polytope that half-spaces cut out (its dual). Solid hulls
+// come from Qhull: Barber, Dobkin and Huhdanpaa, "The Quickhull Algorithm for Convex Hulls"
+// (1996), which convex_hull.cpp alone includes; flat ones from Andrew's monotone chain (1979).
 #pragma once
 
 #include <cstdint>

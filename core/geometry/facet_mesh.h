@@ -40,8 +40,8 @@ class FacetMesh {
       return static_cast<std::size_t>(numbers_[neighbours + k]);
     }
     /// No vertex of the hull reaches further along the normal than corner 0, nor do the other
-    /// corners reach less but for rounding, and the facet is thick enough for rounding to tell
-    /// whether a line passes through it.
+    /// corners reach less but for rounding, and the facet is thick enough that rounding does not
+    /// decide whether a line passes through it.
     bool is_supported() const { return numbers_[supported] != T(0); }
 
     /// The facet is rounded to U; whether it is supported is not known then. Where U is more
@@ -106,8 +106,8 @@ class FacetMesh {
     }
   }
 
-  /// False of a hull that is thinner than the rounding of its points: what its facets say of a line
-  /// is rounding alone.
+  /// False for a hull that is thinner than the rounding of its points: for a line, its facets are
+  /// rounding alone.
   bool is_supported() const {
     return std::any_of(facets_.begin(), facets_.end(),
                        [](const Facet& facet) { return facet.numbers_[Facet::supported] > T(0); });

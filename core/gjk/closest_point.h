@@ -136,7 +136,7 @@ ClosestPoint<T> closest_on_face(const SimplexPoints<T>& simplex, int i, int j, i
 }
 
 /// The origin lies on the far side of face ijk from vertex l, or the tetrahedron is too flat to
-/// tell.
+/// decide.
 template <class T>
 bool beyond_face(const SimplexPoints<T>& simplex, int i, int j, int k, int l) {
   const auto y = [&](int index) -> const Vec3<T>& {
@@ -146,8 +146,8 @@ bool beyond_face(const SimplexPoints<T>& simplex, int i, int j, int k, int l) {
   const Vec3<T> zero = Vec3<T>::Zero();
   const T height_of_vertex = normal.dot(y(l) - nearest_of(y(i), y(j), y(k), y(l)));
   const T height_of_origin = -normal.dot(nearest_of(y(i), y(j), y(k), zero));
-  // A height within the rounding of its vertex has no sign: the four points are in one plane (the
-  // support of an octahedron's face is its middle, say) and enclose nothing.
+  // A height within the rounding of its vertex has no sign: the four points are in one plane (for
+  // example, the support of an octahedron's face is its middle) and enclose nothing.
   const T size = std::max({y(i).cwiseAbs().maxCoeff(), y(j).cwiseAbs().maxCoeff(),
                            y(k).cwiseAbs().maxCoeff(), y(l).cwiseAbs().maxCoeff()});
   const T rounding = tolerance::flat_simplex<T> * size * normal.norm();

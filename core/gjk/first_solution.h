@@ -88,7 +88,7 @@ requires SupportMapped<S, T> CastResult<T> first_solution(
       return miss(joined_plane(axis, has_advanced ? n : x, r));
     }
     if (clipped > near.lambda_max) return miss(axis);
-    // No advance that lambda can tell: as close as rounding lets it come.
+    // The advance is too small for lambda: as close as rounding allows.
     if (!(clipped > lambda)) return finish();
     lambda = clipped;
     n = axis;

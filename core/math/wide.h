@@ -262,7 +262,7 @@ Vec3<W> per_lane(VectorOf&& vector_of) {
   (std::make_integer_sequence<int, LaneOf<W>::count>());
 }
 
-/// The numbers that the lanes' indices stand for, which are small whole numbers.
+/// The numbers at the lanes' indices, which are small whole numbers.
 template <class W, class NumberOf>
 requires(LaneOf<W>::count > 1) W lookup(const W& index, NumberOf&& number_of) {
   return [&]<int... i>(std::integer_sequence<int, i...>) {

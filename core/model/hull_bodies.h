@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The bodies whose translates a hull cast knows: a ball and an ellipsoid, each with its support
-// function and the normals where the ray meets it alone, or swept along an edge.
-// docs/forms.md derives them. The frame is hull_cast.h's.
+// The bodies whose translates a hull cast supports: a ball and an ellipsoid, each with its support
+// function and the normals where the ray meets it alone, or swept along an edge. docs/forms.md
+// derives them. The frame is hull_cast.h's.
 #pragma once
 
 #include "core/query/ray_frame.h"

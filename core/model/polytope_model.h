@@ -195,7 +195,7 @@ class PolytopeModel {
 
   using Known = Facets<W, Core>;
 
-  /// Asking for a support point takes longer than knowing those in the directions of facets.
+  /// A call for a support point takes longer than a look-up of those in the directions of facets.
   static constexpr bool looks_up = declared_by<Core>.support_where;
 
   const Core& core_;

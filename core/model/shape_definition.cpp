@@ -66,8 +66,8 @@ T uncertain_slope_of(ModelKind model, FormKind form) {
   return is_round ? tolerance::uncertain_smooth_slope<T> : tolerance::uncertain_slope<T>;
 }
 
-/// A Transform that holds no shape: as many poses as there are instances ask for bounds, and to
-/// share a shape among threads costs more than its supports.
+/// A Transform that holds no shape: bounds are computed for as many poses as there are instances,
+/// and sharing a shape among threads costs more than its supports.
 template <class T>
 struct Posed {
   const Shape<T>& shape;

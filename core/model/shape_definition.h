@@ -88,7 +88,7 @@ class ShapeDefinition {
   Placement placed(const Affine<T>& pose) const;
 
  private:
-  /// Takes off outer transforms, which are what `outer_` and `moved_` then say.
+  /// Takes off outer transforms, and adds them to `outer_` and `moved_`.
   void take_off();
 
   Nested<T> original_;

@@ -54,7 +54,7 @@ class SuperellipsoidModel {
 
   /// Called only where the plane does not meet the hit that `begin` found. Where planes are so
   /// steep that their rounding is long, the plane itself may meet the ray at a point of the shape,
-  /// up to rounding; or else the ray is tangent up to rounding, which a plane along it will tell.
+  /// up to rounding; or else the ray is tangent up to rounding, which a plane along it will show.
   ModelHit<W> step(const Feature& feature, const Vec3<W>& n, int) {
     const W z = against_ray(n);
     const Mask<W> ahead = z > W(0);

@@ -97,7 +97,7 @@ class Checker {
       complain("the hit lies beyond t_max");
     if (!(lambda - near_.lambda_of(0, 0) >= -verdict_.allowed))
       complain("the hit lies before the ray");
-    // Planes along the ray say nothing of where on it.
+    // Planes along the ray do not locate a point on it.
     if (!(lambda >= near_.begin - verdict_.allowed && lambda <= near_.end + verdict_.allowed))
       complain("the hit lies before or behind the shape");
     expect_at_most(std::abs(above), "the hit point is not on the plane of its normal");

@@ -60,8 +60,8 @@ struct CastResult {
   Path path = Path::model;
 
   /// The hit parameter is t_base + t_offset. The two are kept apart because their sum, for a far
-  /// origin, loses the digits that tell where on the shape the ray arrived: t_base is the ray's
-  /// closest approach to the shape's centre, t_offset is counted from there.
+  /// origin, loses the digits that locate the hit on the shape: t_base is the ray's closest
+  /// approach to the shape's centre, t_offset is counted from there.
   T t_base = T(0);
   T t_offset = T(0);
 

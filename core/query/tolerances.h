@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Every tolerance of the solvers, with its unit and its reason. All are relative: to the shape's
-// size, or to the numbers they are compared with. Numbers that steer a search and leave its answers
-// as they are stand where the search is; the checker of certificates, which must not depend on what
-// it checks, has its own (core/proof/check_certificate.h).
+// size, or to the numbers they are compared with. Numbers that steer a search without changing its
+// results are next to the search; the checker of certificates, which must not depend on what it
+// checks, has its own (core/proof/check_certificate.h).
 #pragma once
 
 #include <limits>

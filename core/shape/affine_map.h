@@ -28,7 +28,7 @@ class AffineMap {
     return AffineMap<U>(affine_.template cast<U>());
   }
 
-  /// The direction to ask the inner shape's support for.
+  /// The direction for the inner shape's support mapping.
   template <class W>
   Vec3<W> inner_direction(const Vec3<W>& n) const {
     return times(to_inner_, n);

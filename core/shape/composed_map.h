@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Maps of shapes within shapes, composed in twice the digits: a shape that one map moves far away
-// and the next one back is where the maps' numbers put it. Carries what the numbers do not tell.
+// and the next one back is where the maps' numbers put it. Carries a bound of the numbers' errors.
 #pragma once
 
 #include "core/math/length.h"

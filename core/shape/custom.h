@@ -112,8 +112,8 @@ struct Custom {
     }
   }
 
-  /// A vertex as far as is known, and casts learn of the surface point by point; or, of a
-  /// function that knows more, the ellipsoid around the middle that has its derivative.
+  /// A vertex as far as is known, and casts learn of the surface point by point; or, of a function
+  /// with derivatives, the ellipsoid around the middle that has its derivative.
   template <class W>
   Jet<W> jet(const Vec3<W>& n) const {
     if (!source->has_jets()) return PointJet<W>{support(n)};

@@ -51,13 +51,13 @@ Jet<W> select(const Mask<W>& condition, const Jet<W>& a, const Jet<W>& b) {
   return chosen;
 }
 
-/// A shape that knows its jets.
+/// A shape with jets.
 template <class S, class T>
 concept JetMapped = requires(const S& shape, const Vec3<T>& n) {
   { shape.jet(n) } -> std::convertible_to<Jet<T>>;
 };
 
-// The jets of common shapes say more in their types: solvers make use of it.
+// Common shapes have more specific types of jets, which solvers use.
 
 /// A vertex.
 template <class W>

@@ -23,8 +23,8 @@ Vec3<T> tilted_direction(int i) {
   return Vec3<T>(T(x) + T(0.11), T(y) + T(0.07), T(z) + T(0.13));
 }
 
-/// Found by asking for jets in 27 slightly tilted directions: a description that steers the
-/// choice of a solver, on which no answer's correctness may depend.
+/// Found by the jets in 27 slightly tilted directions: a description that steers the choice of a
+/// solver, but no result's correctness may depend on it.
 template <class T, class S>
 requires JetMapped<S, T> SurfaceKind surface_of(const S& shape) {
   bool all_points = true, all_exact = true, all_inexact = true, one_patch = true;

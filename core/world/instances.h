@@ -109,8 +109,8 @@ class Instances {
     return cast;
   }
 
-  /// True if two instances that stand still have the same shape, place and ray kinds, to the last
-  /// digit. Not of half-spaces and meshes.
+  /// True if two instances at rest have the same shape, place and ray kinds, to the last digit.
+  /// Not for half-spaces and meshes.
   bool are_same(std::size_t i, std::size_t j) const;
 
   /// Makes room for `count` more instances.
@@ -253,7 +253,7 @@ class Instances {
   FirstTouchVector<TrailingDigits> digits_;  ///< by instance; empty if all are zero
   std::unordered_map<std::uint32_t, Rest> rests_;
   std::unordered_map<std::uint32_t, Mat3<double>> wide_;  ///< maps that float does not hold
-  std::vector<Movement<double>> movements_;               ///< by instance; empty if all stand still
+  std::vector<Movement<double>> movements_;               ///< by instance; empty if all are at rest
   FirstTouchVector<Bounds<float>> boxes_;
   bool are_boxes_stale_ = false;
   std::vector<PosedHalfSpace> half_spaces_;  ///< in the order of their instances

@@ -519,7 +519,7 @@ struct SupportJet {
   Vec3 point;
   double derivative[3][3];  ///< of the point by a direction of length 1
 };
-/// Makes a smooth shape of a function that knows its curvature, `jet(const Vec3& n)` answering a
+/// Makes a smooth shape of a function with its curvature, `jet(const Vec3& n)` returning a
 /// SupportJet: casts take a fraction of the support points. Wrong derivatives cost time only.
 template <class Function>
 Shape custom_with_jets(Function jet) {
@@ -902,7 +902,7 @@ class Scene {
   /// Left out is what masks and `allow` leave out, and what a robot's joints connect.
   ScenePairs distances(double within = 0) const;
   ScenePairs distances(const NearOptions& options) const;
-  /// Those pairs, in their order, whatever was said of them.
+  /// Exactly those pairs, in their order, regardless of masks and allowed pairs.
   ScenePairs distances(View<const ObjectPair> pairs) const;
   ScenePairs distances(View<const ObjectPair> pairs, const NearOptions& options) const;
   /// The k objects nearest to each point: k answers a point, the nearest first.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Many pairs of shapes at once: distances with their derivatives, points of contact, times of
-// impact; and the pairs of a scene. Header-only over minkray_c_pairs.h, whose comments say what is
-// promised; docs/cpp.md has examples.
+// impact; and the pairs of a scene. Header-only over minkray_c_pairs.h, whose comments specify the
+// details; docs/cpp.md has examples.
 //
 //   std::vector<mk::Distance> found(poses.size());
 //   mk::signed_distances({{&robot, 1}, poses, {}}, {{&wall, 1}, {}, {}}, found);

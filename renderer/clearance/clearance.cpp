@@ -73,7 +73,7 @@ class StepPair : public MovingPair {
     return found;
   }
 
-  /// If not, nothing can be said of the step.
+  /// If not, nothing can be proven about the step.
   bool is_within_numbers() const { return is_within_numbers_; }
 
   /// No distance of the step is less, by the balls around the two alone.

@@ -29,7 +29,7 @@ struct Closest {
 };
 
 struct Clearance {
-  Closest closest;             ///< a, b and the rest say nothing if there are no pairs
+  Closest closest;             ///< a, b and the rest are meaningless if there are no pairs
   std::vector<Closest> steps;  ///< if requested
   std::size_t pairs = 0, steps_count = 0, distances = 0;
 };

@@ -88,7 +88,7 @@ class StepMotion {
   /// Bound of the difference between the link's linear part and a rotation.
   double turn_error(int link) const;
 
-  /// The link whose frame both stand in, the furthest from the world; -1: the world.
+  /// The link whose frame contains both, the furthest from the world; -1: the world.
   int common_ancestor(int a, int b) const;
 
  private:

@@ -49,7 +49,8 @@ std::vector<Pass> passes_of(int first, int end, bool one_by_one) {
   return passes;
 }
 
-/// The mean of what several threads tell; to be shown, for its last digits depend on their order.
+/// The mean over several threads' values; for display only, since its last digits depend on their
+/// order.
 class MeanNoise {
  public:
   void clear() { sum_ = 0, count_ = 0; }
@@ -115,7 +116,7 @@ class Rendered {
     if (options_.light_channels) rendering_.direct = rendering_.variance = black;
   }
 
-  /// Only the last pass finishes tiles. False if the watch said stop.
+  /// Only the last pass finishes tiles. False if the watch stopped it.
   bool render(const Pass& pass, bool is_last) {
     // The rays of a group: samples of one pixel first, they are the closest together; then pixels.
     const int samples = pass.end - pass.first;

@@ -49,7 +49,7 @@ struct Rendering {
   /// rendered here and have two samples or more; negative if none has.
   double noise = -1;
   RayCounts counts;
-  bool complete = false;  ///< false if the watch said stop
+  bool complete = false;  ///< false if the watch stopped it
 };
 
 /// A rendering to continue, and callbacks for its progress.

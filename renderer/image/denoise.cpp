@@ -112,7 +112,7 @@ class Prepared {
       }
   }
 
-  /// A few samples tell little of their variance: half of it is that of the pixels around.
+  /// A few samples are a poor estimate of their variance: half of it is that of the pixels around.
   void spread_variance() {
     const Image before = variance_;
     for (int y = 0; y < height_; ++y)

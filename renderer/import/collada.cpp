@@ -113,7 +113,7 @@ class Collada {
     return map;
   }
 
-  /// The node's transforms, in the order in which they stand.
+  /// The node's transforms, in document order.
   Affine<double> transform_of(const XmlElement& node) {
     Affine<double> all;
     for (const XmlElement& step : node.children) {

@@ -13,8 +13,8 @@ inline constexpr double framing_margin = 0.04;
 
 /// Points the scene's camera at its objects, from the front, the right and above, as near as shows
 /// all of them within the margin, at every moment if they move. The picture's width and height
-/// become the camera's. Half-spaces are not framed; where the camera would stand in one, it looks
-/// down more steeply, and then from other sides.
+/// become the camera's. Half-spaces are not framed; if the camera would be in one, it looks down
+/// more steeply, and then from other sides.
 void frame_everything(Scene& scene, const Resolution& picture);
 
 }  // namespace minkray

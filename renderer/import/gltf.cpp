@@ -99,7 +99,7 @@ class GltfReader {
       ModelGeom geom;
       geom.link = link;
       geom.collides = !has_colliders_;
-      // A skin's vertices stand where they are, wherever its node is.
+      // A skin's vertices keep their places, wherever its node is.
       Affine<double> pose;
       if (json.contains("skin")) pose = in_world.inverse() * gltf_z_up();
       for (const Affine<double>& instance : gltf_instances(document_, node)) {

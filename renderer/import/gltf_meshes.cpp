@@ -88,8 +88,8 @@ const GltfMeshes::Read& GltfMeshes::read(std::size_t index) {
   return read;
 }
 
-/// Adds what a primitive's morph targets move its points by, as much as their weights say. False,
-/// and a mistake, if they cannot be read.
+/// Adds the displacements of a primitive's morph targets to its points, times their weights.
+/// False, and a mistake, if they cannot be read.
 bool GltfMeshes::add_targets(const Json& primitive, const JsonPath& path,
                              const std::vector<double>& weights,
                              std::vector<Vec3<double>>& points) {
@@ -338,7 +338,7 @@ void GltfMeshes::add_shown(std::span<const std::size_t> nodes, const Affine<doub
         const Json* name = named.find("name");
         return name && name->is_string() ? name->get<std::string>() : std::string();
       };
-      // A skin's vertices stand where they are, wherever its node is.
+      // A skin's vertices keep their places, wherever its node is.
       const Affine<double> there = json.contains("skin") ? pose : at.pose;
       for (const Affine<double>& instance : gltf_instances(document_, at.node)) {
         shown_ += shown.vertices.size();

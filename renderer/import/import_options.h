@@ -31,7 +31,7 @@ struct ImportOptions {
   std::vector<std::string> joints;        ///< NAME=VALUE each
   std::string joint_rows;                 ///< a CSV or JSON file of values; empty: none
   std::vector<std::string> package_dirs;  ///< search path for package:// and model://
-  std::vector<std::string> others;        ///< more files that stand in the same scene
+  std::vector<std::string> others;        ///< more files in the same scene
   bool skip_missing_meshes = false;
   bool lenient = false;             ///< leaves out shapes and materials that are wrong
   bool verbose = false;             ///< reports each missing mesh, not only their number

@@ -14,7 +14,7 @@
 namespace minkray {
 namespace {
 
-/// Rows follow each other so fast unless they say when they are.
+/// Default rate of rows without times.
 constexpr double rows_a_second = 24;
 
 /// Limit of reported mistakes: a file with more has one mistake many times.

@@ -43,7 +43,7 @@ std::string mesh_endings() {
   return text;
 }
 
-/// A format whose files say nothing but where vertices are.
+/// A format whose files contain vertices only.
 template <MeshParts (*read)(const std::filesystem::path&, MeshSplit, bool)>
 MeshContent bare(const std::filesystem::path& file, MeshSplit split, bool with_triangles) {
   return {read(file, split, with_triangles), {}};

@@ -70,7 +70,7 @@ class MeshLibrary {
                          const Submesh& submesh = {},
                          const std::vector<std::filesystem::path>& also_in = {});
 
-  /// The vertices stand in the file itself.
+  /// The vertices are in the file itself.
   Answer made_of(const MeshParts& mesh, const Vec3<double>& scale, const std::string& name);
 
   /// The file that a name refers to, if there is one; `looked_for` gets all places.

@@ -58,7 +58,7 @@ void MjcfAssets::read(const XmlElement& assets, const MjcfDefaults& defaults) {
       std::string name = asset.attribute_or("name");
       if (name.empty()) name = std::filesystem::path(asset.attribute_or("file")).stem().string();
       if (name.empty()) files_.wrong(written, "must have a name or a file");
-      // As in MuJoCo: of a mesh, defaults say no more than the scale.
+      // As in MuJoCo: for a mesh, defaults set the scale only.
       if (asset.attribute("vertex") && !written.attribute("vertex"))
         files_.wrong(written, "vertex: must stand in the <mesh> itself, not in its defaults");
       if (!mesh_assets_.emplace(name, asset).second)

@@ -16,7 +16,7 @@ struct JointRow {
   std::vector<std::pair<std::string, std::vector<double>>> values;
 };
 
-/// Keyframe and joints as the options ask.
+/// Applies the keyframe and joints of the options.
 void pose_model(Model& model, const ImportOptions& options, Mistakes& mistakes);
 
 /// Rows of values: from a CSV file with the joints' names in its first line (and "time", in

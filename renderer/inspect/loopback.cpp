@@ -72,7 +72,7 @@ std::string_view word(std::string_view& text, char end) {
   return first;
 }
 
-/// Does not tell by its time how much of a guess was right.
+/// Takes the same time however much of a guess was right.
 bool is_same_secret(std::string_view a, std::string_view b) {
   if (a.size() != b.size()) return false;
   unsigned different = 0;
@@ -221,7 +221,8 @@ void LoopbackServer::serve(const std::function<WebReply(const WebRequest&)>& ans
   while (!stopped()) {
     std::vector<pollfd> waits{{socket_, POLLIN, 0}};
     for (const Connection& connection : open) waits.push_back({connection.socket(), POLLIN, 0});
-    if (::poll(waits.data(), waits.size(), poll_ms) < 0) continue;  // a signal: stopped() knows
+    if (::poll(waits.data(), waits.size(), poll_ms) < 0)
+      continue;  // a signal: stopped() returns true
     std::vector<Connection> still_open;
     for (std::size_t i = 0; i < open.size(); ++i) {
       Connection& connection = open[i];

@@ -16,7 +16,8 @@ using Rgbe = std::array<unsigned char, 4>;
 
 /// Rows so narrow or so wide are never run-length encoded.
 constexpr int least_encoded = 8, most_encoded = 32767;
-/// Bytes beyond this stand for a run, and say how long it is; others how many bytes follow.
+/// Bytes beyond this start a run, and hold its length; others hold the number of bytes that
+/// follow.
 constexpr int run = 128, longest_run = 127;
 
 class RadianceReader {

@@ -17,9 +17,9 @@
 namespace minkray {
 
 /// A JSON value: null, true or false, a number, a string, a list or an object, whose keys stay in
-/// the order in which they were added. A braced list makes an object if each of its items is a pair
-/// that begins with a string, and a list otherwise; `Json::array` always makes a list. Asking for
-/// what a value is not throws std::logic_error.
+/// the order in which they were added. A braced list makes an object if each of its items is a
+/// pair that begins with a string, and a list otherwise; `Json::array` always makes a list.
+/// Reading a value as another type throws std::logic_error.
 class Json {
  public:
   struct Member;

@@ -79,7 +79,7 @@ std::vector<NotFinite> replace_not_finite(std::string& text) {
   return replaced;
 }
 
-/// Builds the value while nlohmann-json reads the text, and knows the path it is at.
+/// Builds the value while nlohmann-json reads the text, and tracks its path.
 class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
  public:
   TreeBuilder(const std::vector<NotFinite>& not_finite, Mistakes& mistakes)

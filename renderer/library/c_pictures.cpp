@@ -45,8 +45,8 @@ Channel channel_of(const char* name, const std::string& argument) {
   wrong_use(argument + ": must be one of " + names + " (got \"" + printable(name, 60) + "\")");
 }
 
-/// The scene with the camera and the light that the options ask for, or else those of its files, or
-/// of robots if it has none.
+/// The scene with the camera and the light of the options, or else those of its files, or of
+/// robots if it has none.
 Scene seen(const HeldScene& held, const minkray_picture_options& options) {
   Scene scene = held.whole();
   Json json = Json::object();

@@ -22,7 +22,8 @@ namespace minkray {
 /// some thousand roundings of double, but less than any float would make.
 inline constexpr double support_contradiction = 1e-12;
 
-/// Any number of threads may ask. After the first lie it answers the same point for ever.
+/// Any number of threads may call it. After the first inconsistency it returns the same point for
+/// ever.
 class CustomSupport final : public SupportSource, public BatchSource {
  public:
   /// Calls the function in some hundred directions. Throws CallError if it fails or is

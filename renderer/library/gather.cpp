@@ -21,7 +21,7 @@ constexpr std::size_t stack_bytes = std::size_t{1} << 22;
 /// Below a stack, so that a frame of several pages that is too much does not reach beyond it.
 constexpr std::size_t guard_bytes = std::size_t{1} << 16;
 
-/// Pieces of work that stand still at once.
+/// Largest number of suspended tasks.
 constexpr std::size_t most_turns = 256;
 
 /// Memory for a stack, above what must not be touched.

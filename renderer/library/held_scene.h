@@ -25,13 +25,13 @@ namespace minkray {
 
 class SceneBodies;
 
-/// One call changes it, or any number ask: see scene_use.h.
+/// One call changes it, or any number query it: see scene_use.h.
 class HeldScene {
  public:
   /// Objects that came from one file.
   struct Group {
     std::uint32_t first = 0, count = 0;
-    std::uint32_t first_in_scene = 0;     ///< among the objects with all that files say
+    std::uint32_t first_in_scene = 0;     ///< among the objects of all files
     Affine<double> pose;                  ///< of all of them
     std::vector<Affine<double>> in_file;  ///< poses in the file's frame
     bool has_particles = false;           ///< particles have no poses of their own

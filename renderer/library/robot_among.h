@@ -16,7 +16,7 @@
 
 namespace minkray {
 
-/// One row of numbers as values of the joints, which stand in it one behind the other.
+/// One row of numbers as values of the joints, in their order.
 inline JointRow row_of(const HeldScene::Group& robot, const double* numbers, std::size_t index) {
   JointRow row;
   row.time = static_cast<double>(index);

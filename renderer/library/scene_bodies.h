@@ -21,7 +21,7 @@ struct ScenePair {
   SignedDistance distance;
 };
 
-/// Immutable: any number of threads may ask.
+/// Immutable: any number of threads may query it.
 class SceneBodies {
  public:
   /// The scene is committed, and outlives this.
@@ -30,7 +30,7 @@ class SceneBodies {
   /// All tested pairs whose distance is not proven to be above `within`, by their numbers: a < b.
   std::vector<ScenePair> near(double within, double tolerance) const;
 
-  /// Whatever rules say. Throws CallError if both are half-spaces.
+  /// Independent of the rules. Throws CallError if both are half-spaces.
   SignedDistance distance(std::uint32_t a, std::uint32_t b, const SignedDistanceOptions& how) const;
   ContactManifold manifold(std::uint32_t a, std::uint32_t b, const SignedDistance& nearest) const;
   PairDerivative derivative(const ScenePair& pair) const;

@@ -14,7 +14,7 @@ namespace minkray {
 /// The kind that is meant: `automatic` is settled by the scene.
 IntegratorKind settled(IntegratorKind kind, const Scene& scene);
 
-/// Refers to the scene's world; keeps everything else itself. Any number of threads may ask.
+/// Refers to the scene's world; keeps everything else itself. Any number of threads may call it.
 /// Instances of the scene and of the world share their indices.
 class Integrator {
  public:

@@ -23,7 +23,7 @@ constexpr RayKinds kinds_of(RayKind kind) {
                                    : scattered_rays;
 }
 
-/// Any number of threads may tell it at once.
+/// Any number of threads may call it at once.
 class RayObserver {
  public:
   virtual ~RayObserver() = default;

@@ -17,7 +17,7 @@ class Checkpoint {
   /// The file that belongs to a picture.
   static std::string path_for(const std::string& output) { return output + ".checkpoint"; }
 
-  /// `facts` tell of what picture it is; a file is written every `seconds` at most, never if 0.
+  /// `facts` identify the picture; a file is written every `seconds` at most, never if 0.
   Checkpoint(std::string path, const RenderOptions& options, Facts facts, double seconds);
   /// Waits for a file that is being written.
   ~Checkpoint();

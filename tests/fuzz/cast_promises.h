@@ -46,7 +46,7 @@ class CastReferee {
 
  private:
   struct Claim {
-    Vec3<Real> x;  ///< said to be in the shape; from the centre
+    Vec3<Real> x;  ///< claimed to be in the shape; from the centre
     std::string by;
   };
 

@@ -117,7 +117,7 @@ std::string check_ray(const Shape<T>& shape, const PreparedShape<T>& prepared, c
     const CastResult<T> result = cast_ray(prepared, ray, options);
     if (const std::string bad = referee.check(solver.name, result); !bad.empty())
       return complaint(solver.name, bad);
-    // At extreme proportions casts prove what they say themselves, in the shape's own frame.
+    // At extreme proportions casts prove their own results, in the shape's own frame.
     const bool is_ordinary = referee.in_range() && !prepared.definition().is_extreme();
     if (solver.kind == SolverKind::automatic && is_ordinary)
       if (const std::string bad = check_proof(shape, ray, result, referee.rounding()); !bad.empty())

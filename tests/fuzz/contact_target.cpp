@@ -92,7 +92,7 @@ class Referee {
 
   const Body &a_, &b_;
   double size_, rounding_;
-  bool is_known_;  ///< of others it may be said that nothing is known
+  bool is_known_;  ///< others may be unknown
 };
 
 }  // namespace

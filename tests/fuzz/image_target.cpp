@@ -21,8 +21,8 @@
 namespace minkray::fuzz {
 namespace {
 
-/// Pictures that say they have more pixels, but not too many, are not read here: that takes the
-/// memory and the time that they say.
+/// Pictures whose headers claim more pixels, but not too many, are not read here: that takes that
+/// much memory and time.
 constexpr std::int64_t most_tried = 1 << 18, most_allowed = std::int64_t{1} << 27;
 
 const TemporaryFolder& folder() {

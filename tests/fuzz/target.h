@@ -16,12 +16,12 @@ std::string check_scene(std::string_view bytes);
 /// Lines of queries: each answered, in float and in double, or refused with messages.
 std::string check_queries(std::string_view bytes);
 
-/// A mesh file, its first byte telling OBJ from STL: read into points whose hull holds them all, or
-/// refused with a message.
+/// A mesh file, its first byte selecting OBJ or STL: read into points whose hull holds them all,
+/// or rejected with a message.
 std::string check_mesh(std::string_view bytes);
 
 /// A mesh file of any format that robots' files name: read, split into parts and made hulls of, or
-/// refused with a message. The first two bytes tell the format and the split.
+/// rejected with a message. The first two bytes select the format and the split.
 std::string check_mesh_parts(std::string_view bytes);
 
 /// A robot's file, or the contents of its root element: read into a model and a scene

@@ -27,8 +27,7 @@ class MujocoModel {
   };
   std::vector<Geom> geoms() const;
 
-  /// Puts the joints where the numbers say, all of them in MuJoCo's order; empty: as the file has
-  /// them.
+  /// Sets the joints to these numbers, all of them in MuJoCo's order; empty: as the file has them.
   void set_positions(const std::vector<double>& qpos);
   std::size_t positions() const;
   std::size_t bodies() const;

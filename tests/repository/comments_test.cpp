@@ -24,9 +24,9 @@ struct OddWords {
 
 /// Folders that still have odd words. Lower a count when it falls.
 const std::map<std::string, OddWords> recorded = {
-    {"core/mesh", {5, 7}},        {"core/parts", {28, 11}},     {"renderer/cli", {61, 66}},
-    {"renderer/plan", {11, 17}},  {"renderer/scene", {49, 37}}, {"renderer/sensor", {16, 10}},
-    {"renderer/verify", {17, 15}}};
+    {"core/mesh", {5, 7}},        {"core/parts", {28, 12}},     {"renderer/cli", {61, 79}},
+    {"renderer/plan", {11, 19}},  {"renderer/scene", {49, 58}}, {"renderer/sensor", {16, 12}},
+    {"renderer/verify", {17, 16}}};
 
 constexpr std::array starts_of_no_sentence = {"What ", "Whether ", "Who ", "It ", "They ", "Of "};
 constexpr std::array starts_of_no_comment = {"Where ", "Whose ",   "That ",  "Its ",      "So ",
@@ -35,11 +35,12 @@ constexpr std::array starts_of_no_comment = {"Where ", "Whose ",   "That ",  "It
                                              "its ",   "whether ", "how ",   "which "};
 
 /// Usual words are report, query, is, check, continue, fail, next to, again, N, via, instead of.
-constexpr std::array odd_words = {"anew",       "anybody", "asked",     "asks",     "beside",
-                                  "by way of",  "gave up", "give up",   "gives up", "go on",
-                                  "goes on",    "look at", "looked at", "looks at", "in place of",
-                                  "made ready", "nobody",  "of which",  "says",     "so many",
-                                  "stands",     "tells",   "told",      "whoever"};
+constexpr std::array odd_words = {
+    "anew",      "anybody", "ask",       "asked",    "asking",     "asks",    "beside",
+    "by way of", "gave up", "give up",   "gives up", "go on",      "goes on", "in place of",
+    "knows",     "look at", "looked at", "looks at", "made ready", "nobody",  "of which",
+    "said",      "say",     "says",      "so many",  "stand",      "stands",  "stood",
+    "tell",      "telling", "tells",     "told",     "whoever"};
 
 bool is_blank(std::string_view text) {
   return text.find_first_not_of(' ') == std::string_view::npos;

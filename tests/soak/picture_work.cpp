@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures of the scene that all threads ask at once, whole and stopped half-way.
+// Pictures of the scene that all threads query at once, whole and stopped half-way.
 #include "tests/soak/work.h"
 
 namespace soak {

@@ -25,7 +25,7 @@ struct Scatter {
   }
 };
 
-/// Shapes have models for packets or none; some stand in the same place twice.
+/// Shapes have models for packets or none; some are in the same place twice.
 inline Instances scattered_shapes(int count, Scatter& random) {
   const std::vector<Shape<double>> kinds = {
       Sphere<double>{0.7},

@@ -23,8 +23,8 @@ TEST(Cast, a_far_origin_costs_no_precision_in_float) {
   EXPECT_EQ(far.t_base, 262144.0f);
 }
 
-/// Further off than numbers with the digits of two can tell, no answer is an answer: rays through a
-/// ball's middle were once missed, and with a certificate.
+/// Further off than numbers with the digits of two can represent, no result is valid: rays through
+/// a ball's middle were once missed, and with a certificate.
 TEST(Cast, no_ray_is_too_far_away_to_be_told_of) {
   const PreparedShape<double> ball(Sphere<double>{1});
   const PreparedShape<float> in_float(Sphere<float>{1});
@@ -187,8 +187,8 @@ TEST(Cast, t_max_is_as_sharp_from_afar) {
   check_ends_from_afar<float>();
 }
 
-/// Between a side that the ray grazes and a steep one, rounding cannot tell which it enters by, but
-/// only one of them is where it meets the hull.
+/// Between a side that the ray grazes and a steep one, rounding cannot decide which it enters by,
+/// but only one of them is where it meets the hull.
 template <class T>
 void check_spots_near_edges(double least_slope) {
   Random random(23);

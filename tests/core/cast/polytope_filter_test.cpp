@@ -99,7 +99,7 @@ TYPED_TEST(PolytopeFilter, no_bound_of_a_ray_through_points_or_along_edges_is_br
   EXPECT_GT(counted.answered, counted.in_doubt);
 }
 
-/// The checker knows nothing but supports.
+/// The checker uses supports only.
 TYPED_TEST(PolytopeFilter, answers_are_certified) {
   using T = TypeParam;
   for (const NamedPoints& named : hulls()) {

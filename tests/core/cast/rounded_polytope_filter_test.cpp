@@ -153,7 +153,7 @@ TEST(RoundedPolytope, a_line_in_a_faces_plane_is_no_miss) {
   EXPECT_NEAR(answer.t(), 5, 1e-14);
 }
 
-/// The checker knows nothing but supports.
+/// The checker uses supports only.
 TYPED_TEST(RoundedPolytopeFilter, answers_are_certified) {
   using T = TypeParam;
   for (const NamedPoints& named : cores()) {

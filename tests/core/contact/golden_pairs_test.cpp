@@ -182,7 +182,7 @@ TEST(GoldenAlignedPairs, are_as_recorded) {
                         other = aligned_shape(k / kinds_of_aligned_bodies, random);
     const Mat3<double> turn_a = right_angle(random), turn_b = right_angle(random);
     const Body a(one, {turn_a, Vec3<double>::Zero()}), b(other, {turn_b, grid_point(random)});
-    // Some ask for as much as they may.
+    // Some use as many support points as they may.
     SignedDistanceOptions options;
     options.max_supports = 2000;
     const SignedDistance found = signed_distance(a.ready, a.pose, b.ready, b.pose, options);

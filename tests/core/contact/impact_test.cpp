@@ -95,8 +95,7 @@ TEST(Impact, points_in_one_place_part_or_touch) {
 }
 
 /// Found by the fuzz target `query`, with a length that is infinite in float: at each of a hundred
-/// times all support points that a distance may ask for were used up, for a minute under
-/// sanitizers.
+/// times all support points of a distance's budget were used up, for a minute under sanitizers.
 TEST(Impact, of_infinite_bodies_is_given_up_soon) {
   const double infinity = std::numeric_limits<double>::infinity();
   const ContactShape needle{Shape<double>(Capsule<double>{0.5, infinity})};

@@ -64,7 +64,7 @@ TEST(LeastDistance, of_a_point_that_passes_a_ball_is_where_the_path_is_nearest) 
     EXPECT_NEAR(found.s, nearest, 1e-4);
     EXPECT_EQ(found.there.upper, found.upper);
     EXPECT_NEAR(found.there.normal.y(), 1, 1e-8);
-    // Planes tell as much as the square of the steps: bounds of speed alone would need millions.
+    // Planes give bounds to the square of the steps: bounds of speed alone would need millions.
     EXPECT_LE(found.distances, 8) << nearest;
   }
 }

@@ -128,7 +128,7 @@ TEST(ShapeCast, touching_at_the_start_is_inside_when_approaching) {
 }
 
 /// A cylinder that touches a plate's edge with its rim, and a box that comes down on a disk's: in
-/// double no solver could tell.
+/// double no solver could decide.
 TEST(ShapeCast, rims_and_edges_that_touch_are_told) {
   for (const double scale : {1.0, 1e-3}) {
     const Shape<double> cylinder = Cylinder<double>{scale, scale},

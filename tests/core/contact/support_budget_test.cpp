@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// No signed distance takes longer than its budget of support points: what cannot be closed within
-// it is said so, with bounds that hold. Two points known by their support mapping only, at one
-// place, took 300,000 of them, since there was no size that a gap could be relative to.
+// No signed distance takes longer than its budget of support points: a gap that cannot be closed
+// within it is reported, with bounds that hold. Two points known by their support mapping only, at
+// one place, took 300,000 of them, since there was no size that a gap could be relative to.
 #include <gtest/gtest.h>
 
 #include "tests/core/contact/pair_judge.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Swept bodies hold what they say, and least distances are those of dense samples: judged by the
+// Swept bodies contain the motion, and least distances are those of dense samples: judged by the
 // shapes' support functions and by closed forms in long double.
 #include "core/contact/swept.h"
 

@@ -335,7 +335,7 @@ TEST(MeshParts, an_obj_has_its_bodies_however_their_faces_are_written) {
                    two_bodies);
     }
   }
-  // Vertices may stand below the faces that name them, or between.
+  // Vertices may follow the faces that name them, or be between them.
   expect_parts(MeshFormat::obj, "f 1 2 3 4\ng second\nf 5 6 7 8\n" + eight_vertices, two_bodies);
   expect_parts(MeshFormat::obj,
                "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf -1 -2 -3 -4\n"

@@ -42,7 +42,7 @@ TEST(FacetMesh, closes_and_every_neighbour_shares_the_edge) {
       for (std::size_t k = 0; k < 3; ++k) {
         const auto& other = mesh[mesh[f].neighbour(k)];
         ASSERT_NE(mesh[f].neighbour(k), f);
-        // The neighbour walks the edge the other way round, and knows the way back.
+        // The neighbour walks the edge the other way round, and links back.
         bool shared = false;
         for (std::size_t j = 0; j < 3; ++j)
           shared =

@@ -207,7 +207,7 @@ TEST(Certificate, of_a_hit_where_a_faces_plane_is_crossed_beside_it_is_refused) 
             "the hit point lies outside the shape");
 }
 
-// In a face, the planes say nothing of where the ray is: what is claimed and what is spanned do.
+// In a face, the planes do not locate the ray: the claimed and the spanned points do.
 TEST(Certificate, of_a_ray_in_a_face_is_of_what_lies_between_its_ends) {
   const Shape<double> box = Box<double>{{1, 1, 1}};
   const SupportFunction support = supports_of(box);

@@ -124,8 +124,8 @@ TEST(FarOrigins, are_answered_up_to_where_t_tells_the_spot) {
   check_hits<double>(62);
 }
 
-/// From further away, by the most that a position may be wrong there: what passes the ball by more
-/// than that misses it, and nothing is said of what passes by less.
+/// From further away, up to the largest error of a position there: a ray that passes the ball by
+/// more than that misses it, and closer ones may have any result.
 template <class T>
 void check_misses(double limit) {
   const PreparedShape<T> ball{Shape<T>(Sphere<T>{T(1)})};

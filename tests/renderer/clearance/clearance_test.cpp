@@ -245,7 +245,7 @@ TEST(Clearance, a_swept_scene_has_a_body_for_each_part_of_a_step_and_stands_stil
   const JointPath path(model, {{0, {{"elbow", {0.0}}}}, {1, {{"elbow", {1.0}}}}});
   const Scene scene = swept_scene(model, import, path, {}, mistakes);
   EXPECT_TRUE(mistakes.none());
-  // Base and upper arm stand still.
+  // Base and upper arm are at rest.
   std::size_t whole = 0, swept_ones = 0;
   for (const Object& object : scene.objects)
     (object.name.find(" step ") == std::string::npos ? whole : swept_ones) += 1;
@@ -264,7 +264,7 @@ TEST(Clearance, links_that_may_touch_are_left_out) {
   EXPECT_EQ(pairs_of(bodies, model, allowed, false).size(), 0u);
 }
 
-/// A robot's paths said "clear" with particles in their way.
+/// A robot's paths were "clear" with particles in their way.
 TEST(Clearance, particles_are_obstacles_as_objects_are) {
   const Model model = arm_model();
   const JointPath path(model, {{0, {{"elbow", {0.0}}}}, {1, {{"elbow", {1.5}}}}});
@@ -298,8 +298,8 @@ TEST(Clearance, particles_are_obstacles_as_objects_are) {
   EXPECT_EQ(found[0].closest.upper, found[1].closest.upper);
 }
 
-/// The clearance was "proven" to be 2.9 for rows of quaternions 1e200 times as long: the squares of
-/// their numbers are none, so the arm was taken to stand still while it passes the ball.
+/// The clearance was "proven" to be 2.9 for rows of quaternions 1e200 times as long: the squares
+/// of their numbers are out of range, so the arm was assumed at rest while it passes the ball.
 TEST(Clearance, quaternions_turn_alike_whatever_their_length) {
   Model model;
   ModelLink link;

@@ -23,8 +23,8 @@ struct ShownCommand {
   std::vector<std::string> words;
 };
 
-/// README.md and the pages of docs/ that tell what is: not the changelog, records and decisions,
-/// which tell what was.
+/// README.md and the pages of docs/ that describe the current state: not the changelog, records
+/// and decisions, which describe the past.
 std::vector<SourceFile> pages() {
   std::vector<SourceFile> pages = {{"README.md", text_of_file(source_folder() / "README.md")}};
   for (const SourceFile& file : files_in("docs"))

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Pictures that several processes share, on one machine: GNU parallel, and Slurm's array jobs with
-// a stand-in for sbatch.
+// a substitute for sbatch.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -73,10 +73,10 @@ TEST_F(Drivers, what_a_driver_needs_is_named_if_it_is_missing) {
   }
 }
 
-// A stand-in for Slurm: runs each task as in sbatch's manual, with the array's variables and logs,
-// one after the other, and rejects unknown options, arrays that are too large, unknown patterns in
-// a log's name, jobs after the $LAST_JOB-th, and jobs that depend on unknown ones. Counts jobs
-// from 17.
+// A substitute for Slurm: runs each task as in sbatch's manual, with the array's variables and
+// logs, one after the other, and rejects unknown options, arrays that are too large, unknown
+// patterns in a log's name, jobs after the $LAST_JOB-th, and jobs that depend on unknown ones.
+// Counts jobs from 17.
 TEST_F(Drivers, slurm_array) {
   std::ofstream(folder_ / "sbatch") << R"sh(#!/usr/bin/env bash
 echo job >> jobs

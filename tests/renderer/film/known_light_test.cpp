@@ -11,7 +11,7 @@
 namespace minkray {
 namespace {
 
-/// A solver that ends when the gap |v| is within rounding knows the normal to the square root of
+/// A solver that ends when the gap |v| is within rounding finds the normal to the square root of
 /// it.
 constexpr double normal_error = 4e-8;
 

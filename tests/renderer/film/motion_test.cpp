@@ -129,8 +129,8 @@ TEST(Motion, a_frame_does_not_depend_on_the_frames_before_it) {
   EXPECT_EQ(after_others.pixels, render(scene, make_world(scene), coarse_picture()).image.pixels);
 }
 
-// The heart of the blur: at each moment a ray sees just what it would see if the moved things stood
-// there for good.
+// The principle of the blur: at each moment a ray sees exactly what it would see if the moved
+// things stayed there for good.
 TEST(Motion, every_ray_of_a_blurred_picture_sees_the_scene_as_it_stands_at_its_moment) {
   Scene blurred = flight(0.5);
   set_time(blurred, 0.3);

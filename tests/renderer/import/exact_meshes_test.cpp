@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Robots' meshes as they are: the triangles of each format stand where the hull does.
+// Robots' meshes as they are: the triangles of each format are at the place of the hull.
 #include <gtest/gtest.h>
 
 #include <cstring>

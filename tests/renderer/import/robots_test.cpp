@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// URDF and SDF: real models, what small files say, and what is wrong with them.
+// URDF and SDF: real models, small files, and mistakes in them.
 #include <gtest/gtest.h>
 
 #include <fstream>

@@ -25,7 +25,7 @@ std::string table(int short_codes, int long_codes) {
          static_cast<char>(length & 255) + '\0' + counts + codes;
 }
 
-/// A segment of any kind: what programs have to say, or a scan.
+/// A segment of any kind: data of applications, or a scan.
 std::string segment(char marker, const std::string& text) {
   const std::size_t length = 2 + text.size();
   return std::string("\xff") + marker + static_cast<char>(length >> 8) +

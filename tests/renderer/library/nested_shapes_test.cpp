@@ -56,7 +56,7 @@ TEST(NestedShapes, are_at_most_a_thousand_deep) {
   EXPECT_EQ(made, 999);
 }
 
-/// Forty sums of a shape with itself took a second to make, and for ever to ask.
+/// Forty sums of a shape with itself took a second to make, and queries never ended.
 TEST(NestedShapes, are_at_most_a_million) {
   int made = 0;
   EXPECT_EQ(sums_of(2, 10, made), MINKRAY_OK);

@@ -97,7 +97,7 @@ TEST(SceneUse, threads_that_change_and_ask_get_answers_or_errors) {
             hits[0] = scene.cast(rays[0]);
           else
             scene.cast(rays, hits, {.threads = t});
-          // Balls stand at whole places, and never at two heights at once.
+          // Balls are at whole places, and never at two heights at once.
           for (const mk::Hit& hit : hits) EXPECT_NEAR(hit.found() ? hit.t : 8.8, 8.8, 1e-12);
           EXPECT_FALSE(std::string(scene.name(0)).empty());
           ++answered;

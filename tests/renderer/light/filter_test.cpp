@@ -158,7 +158,7 @@ TEST(FilteredTexture, a_picture_far_away_is_its_mean_and_near_by_as_it_was) {
   }
 }
 
-// Around a ball, for which all four mappings tell by how much places change.
+// Around a ball, where all four mappings have a known rate of change.
 TEST(FilteredTexture, footprints_go_through_mappings) {
   const double h = 1e-5;
   for (const char* name : {"radial", "box", "planar", "normal", ""}) {

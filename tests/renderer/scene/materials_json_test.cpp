@@ -176,7 +176,7 @@ TEST_F(Pictures, skies_and_lenses_are_checked) {
       complaints(scene(matt, R"({"type": "sun_sky", "time": "2026-06-21T12:00Z")" + place + "}"))
           .empty());
   EXPECT_NE(one("", R"(, "type": "fish")").find("the name of a camera"), std::string::npos);
-  // A plain environment must still say both colours.
+  // A plain environment must still have both colours.
   EXPECT_NE(one(R"({"type": "environment", "zenith": [1, 1, 1]})", "").find("/lights/0/nadir"),
             std::string::npos);
 }

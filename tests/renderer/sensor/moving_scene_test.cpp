@@ -13,7 +13,7 @@
 namespace minkray {
 namespace {
 
-/// Balls, boxes and planes that stand, go, turn and tumble.
+/// Balls, boxes and planes that rest, move, turn and tumble.
 Scene restless(testing::Random& random, int count) {
   Scene scene;
   scene.materials.push_back({"matt", LambertMaterial{}});
