@@ -83,7 +83,7 @@ double seconds_of(const std::string& command, int threads) {
   return threads == 1 ? children() - before : clock.seconds();
 }
 
-/// The bytes of a binary PPM, one a channel.
+/// The bytes of a binary PPM, one per channel.
 std::vector<unsigned char> read_ppm(const std::string& file) {
   std::ifstream in(file, std::ios::binary);
   std::string magic;

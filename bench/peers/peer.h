@@ -48,7 +48,7 @@ class Peer {
   virtual void prepare(const RayBatch& rays) = 0;
   /// Answers the batch that was prepared, into the peer's own layout. This is timed.
   virtual void cast() = 0;
-  /// The answers, one a ray of the batch. Not timed.
+  /// The answers, one per ray of the batch. Not timed.
   virtual void read(std::span<Hit> hits) const = 0;
 
  private:

@@ -19,7 +19,7 @@ struct MovingBody {
   Shape<T> shape;
   Affine<T> pose;  ///< at time 0, from the shape's frame to the world; its translation is the pivot
   Vec3<T> velocity = Vec3<T>::Zero();          ///< of the pivot
-  Vec3<T> angular_velocity = Vec3<T>::Zero();  ///< about the pivot, radians a unit of time
+  Vec3<T> angular_velocity = Vec3<T>::Zero();  ///< about the pivot, radians per unit of time
 };
 
 template <class T>

@@ -581,7 +581,7 @@ static_assert(sizeof(Hit) == sizeof(minkray_hit));
 
 /// Options of long calls: threads, and a callback that reports progress and can stop the call.
 struct Options {
-  int threads = 0;                                     ///< 0: one a core
+  int threads = 0;                                     ///< 0: one per core
   int (*progress)(void* user, double done) = nullptr;  ///< answers anything but 0 to stop
   void* user = nullptr;
 };
@@ -925,7 +925,7 @@ class Scene {
   /// Allows the pairs of the robot's links that an SRDF file lists.
   void allow_from_srdf(const Group& robot, Text file);
   /// The least distance of each step of a robot's way, with its derivative by the joints' values at
-  /// its row: as many numbers a step as a row has. See minkray_scene_clearance_derivatives.
+  /// its row: as many numbers per step as a row has. See minkray_scene_clearance_derivatives.
   void clearance_derivatives(const Group& robot, View<const double> path, std::size_t rows,
                              View<Clearance> steps, View<double> jac,
                              View<std::uint8_t> is_ridge = {}) const;

@@ -324,8 +324,8 @@ typedef struct minkray_hit_arrays {
   double* t_lo;
   double* t_hi;
   double* distance; /* t times the direction's length */
-  double* points;   /* three a ray */
-  double* normals;  /* three a ray */
+  double* points;   /* three per ray */
+  double* normals;  /* three per ray */
   uint32_t* objects;
   uint8_t* status;
   int32_t* supports;
@@ -502,7 +502,7 @@ typedef struct minkray_clearance_options {
   size_t size;            /* sizeof(minkray_clearance_options) */
   double tolerance;       /* largest gap of the bounds, relative to the clearance; 0: 0.01 */
   int32_t only_obstacles; /* 1: not of the robot's links to each other */
-  int32_t threads;        /* 0: one a core */
+  int32_t threads;        /* 0: one per core */
 } minkray_clearance_options;
 
 /* The least signed distance between the robot and the objects around it, and between its links that
@@ -542,7 +542,7 @@ typedef struct minkray_verdict_options {
   double margin;          /* least distance from obstacles; 0: the robot must not touch them */
   size_t budget;          /* distances of a pair in a step; 0: 4000 */
   int32_t only_obstacles; /* 1: not of the robot's links to each other */
-  int32_t threads;        /* 0: one a core */
+  int32_t threads;        /* 0: one per core */
 } minkray_verdict_options;
 
 typedef struct minkray_verdict {

@@ -59,10 +59,10 @@ typedef struct minkray_distance_arrays {
   double* value;
   double* lower;
   double* upper;
-  double* points_a; /* three a pair */
+  double* points_a; /* three per pair */
   double* points_b;
   double* normals;
-  double* jac_a; /* six a pair */
+  double* jac_a; /* six per pair */
   double* jac_b;
   uint8_t* is_ridge;
   uint8_t* status; /* a minkray_distance_status */
@@ -121,11 +121,11 @@ typedef struct minkray_manifold {
 typedef struct minkray_manifold_arrays {
   size_t size; /* sizeof(minkray_manifold_arrays) */
   minkray_manifold* manifolds;
-  double* normals;  /* three a pair */
-  double* points;   /* in the middle between those of a and b: four times three a pair */
+  double* normals;  /* three per pair */
+  double* points;   /* in the middle between those of a and b: four times three per pair */
   double* points_a; /* likewise */
   double* points_b;
-  double* gaps; /* four a pair */
+  double* gaps; /* four per pair */
   double* value;
   double* lower;
   double* upper;

@@ -21,7 +21,7 @@ constexpr double rows_a_second = 24;
 constexpr std::size_t most_mistakes = 20;
 
 /// In each row each link, joint and shape of the model has its place. Ten minutes of a humanoid at
-/// a thousand rows a second have a fifth of these.
+/// a thousand rows per second have a fifth of these.
 constexpr std::size_t most_keys = 100'000'000;
 
 std::vector<std::string> cells_of(const std::string& line) {

@@ -30,7 +30,7 @@ class Mistakes {
   const std::vector<std::string>& messages() const { return messages_; }
   const std::string& file() const { return file_; }
 
-  /// All messages, one a line, without a newline at the end; each as printable() has it.
+  /// All messages, one per line, without a newline at the end; each as printable() has it.
   std::string text() const;
 
  private:

@@ -13,7 +13,7 @@ namespace minkray {
 
 namespace fact {
 
-inline constexpr const char* rate = "minkray.rate";          ///< frames a second
+inline constexpr const char* rate = "minkray.rate";          ///< frames per second
 inline constexpr const char* exposure = "minkray.exposure";  ///< in stops
 
 }  // namespace fact

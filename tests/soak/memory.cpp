@@ -14,7 +14,7 @@ namespace {
 
 /// In bytes. All that a round allocates is freed at its end, but what threads that live on keep:
 /// small blocks in glibc's caches of the threads (switched off by the task: GLIBC_TUNABLES),
-/// oneTBB's queues. A leak of a pointer's 32 bytes a round is twice this within an hour of rounds
+/// oneTBB's queues. A leak of a pointer's 32 bytes per round is twice this within an hour of rounds
 /// of a second and a half.
 constexpr double most_in_use_growth = 64 * 1024;
 

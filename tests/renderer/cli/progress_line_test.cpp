@@ -47,7 +47,7 @@ TEST(Progress, the_noise_is_about_the_error_of_the_picture) {
     error += std::abs(rendering.image.pixels[i].mean() - truth.pixels[i].mean()) /
              std::max(double{truth.pixels[i].mean()}, 0.02) /
              static_cast<double>(truth.pixels.size());
-  EXPECT_EQ(times, 6);  // once a tile
+  EXPECT_EQ(times, 6);  // once per tile
   EXPECT_NEAR(told, rendering.noise, 1e-12);
   EXPECT_GT(rendering.noise, error);
   EXPECT_LT(rendering.noise, 6 * error);

@@ -18,7 +18,7 @@ std::string header(int width, int height) {
          std::to_string(height) + " +X " + std::to_string(width) + "\n";
 }
 
-/// Four bytes a pixel.
+/// Four bytes per pixel.
 std::string random_row(int width, std::mt19937& random) {
   std::string row;
   // Few values, so that there are runs; the first is never taken for an encoded row's.

@@ -240,7 +240,7 @@ TEST_F(Pictures, numbers_of_pictures_are_linear) {
   EXPECT_NEAR(board.at(0, 0).x(), 0.5F, 0.005);
   EXPECT_NEAR(board.at(1, 1).y(), 0.25F, 0.005);
   EXPECT_EQ(read_image(folder_ / "sky.exr").at(0, 0), Vec3<float>(0.5F, 2, 8));
-  // Radiance's format: a header, and four bytes a pixel with a common exponent.
+  // Radiance's format: a header, and four bytes per pixel with a common exponent.
   std::string hdr = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n";
   for (const int byte : {128, 64, 32, 129, 128, 128, 128, 132}) hdr += static_cast<char>(byte);
   write("two.hdr", {hdr.begin(), hdr.end()});
