@@ -25,8 +25,8 @@ namespace {
 
 using namespace minkray;
 
-/// They start 5 R away and aim at points of the ball of 0.6 R around the middle; none is moved
-/// beforehand.
+/// Rays that start 5 R away and aim at points of the ball of 0.6 R around the middle; none is
+/// moved beforehand.
 std::vector<Ray<float>> random_rays(const Ball<double>& ball, std::size_t count) {
   testing::Random random(2004);
   std::vector<Ray<float>> rays;

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Distances, penetration depths and times of impact of all pairs of nine shapes, beside FCL,
-// libccd, Bullet, ODE and MuJoCo and beside what Minkray had before, and whether that is as fast as
-// it is meant to be:
+// Distances, penetration depths and times of impact of all pairs of nine shapes, compared with
+// FCL, libccd, Bullet, ODE and MuJoCo, with Minkray's older functions, and with the speed goals:
 //
 //   contact-bench [--rounds N] [--queries N] [NAME]   only pairs whose name has NAME in it
 //
 // Prints a table; exit code 1 if something is missed. One thread, processor time, the best round.
-// Poses are in each library's own words beforehand; making the shapes is not counted.
+// Poses are converted to each library's own types beforehand; making the shapes is not counted.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -90,7 +89,7 @@ const Contestant* fastest(const std::vector<Contestant>& all, const char* begin,
   return best;
 }
 
-/// All others, with what is asked of the fastest.
+/// All others, with the goal against the fastest.
 void rows(Table& table, const char* what, const Asked& asked, const std::vector<Contestant>& all,
           std::size_t first_other, const Contestant* judged, double times,
           const std::vector<double>& proven) {
@@ -118,12 +117,12 @@ void compare_distances(Table& table, const Asked& asked, const Options& options)
 }
 
 void compare_impacts(Table& table, const Asked& all_asked, const Options& options) {
-  // What an overlap at the start is, libraries do not agree on.
+  // Libraries do not agree on an overlap at the start.
   Asked asked{all_asked.a, all_asked.b, {}};
   std::vector<double> proven;
   for (const Placement& at : all_asked.where) {
     if (signed_distance(asked.a.ready, at.a, asked.b.ready, at.b).lower < 0.01) continue;
-    // By another way than that which is timed: a turn of next to nothing.
+    // Computed in another way than the timed one: a turn of next to nothing.
     const RigidMotion still{at.a};
     const RigidMotion moving{at.b, at.motion, Vec3<double>(0, 0, 1e-100)};
     const Impact found = first_impact(asked.a.ready, still, asked.b.ready, moving, 1);

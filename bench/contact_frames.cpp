@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// What a memory of pairs is worth from frame to frame (core/contact/pair_memory.h), on real motion:
+// Benefit of a memory of pairs from frame to frame (core/contact/pair_memory.h), on real motion:
 //
 //   contact-frames [--bodies N] [--frames N] [ROBOT JOINTS.csv]
 //
-// Bodies that tumble through a room, in each frame all pairs whose boxes are nearer than a tenth of
-// a body: their signed distances, their overlap alone, and whether they touch within the frame;
-// with ROBOT the distances of all pairs of links along a path as `minkray clearance` takes it. Each
-// is asked anew and with a memory for each pair, in turns, one thread, processor time.
+// Bodies that tumble through a room, in each frame all pairs whose boxes are nearer than a tenth
+// of a body: their signed distances, their overlap alone, and whether they touch within the frame;
+// with ROBOT the distances of all pairs of links along a path as `minkray clearance` takes it.
+// Each is computed from the beginning and with a memory for each pair, in turns, one thread,
+// processor time.
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -27,11 +28,11 @@ namespace {
 
 using namespace minkray;
 
-/// One question about one pair, anew and with its memory.
+/// Cost of one query about one pair, without and with its memory.
 struct Cost {
   double anew = 0, kept = 0;  ///< nanoseconds of all queries
   long supports_anew = 0, supports_kept = 0, queries = 0;
-  double furthest = 0;  ///< how far the two answers are from each other, in sizes
+  double furthest = 0;  ///< difference of the two results, in sizes
 };
 
 struct Asked {
@@ -45,7 +46,8 @@ double now() {
   return 1e9 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
-/// All pairs of a frame of the same kinds, so many times that the clock has something to measure.
+/// Queries all pairs of a frame of the same kinds, repeatedly, so that the clock has something to
+/// measure.
 template <class Ask>
 void ask_all(const std::vector<Asked>& pairs, Cost& cost, const Ask& ask) {
   constexpr int rounds = 3;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// minkray-many-rays: tens of millions of casts at every shape that is measured, each beside an
-// oracle in long double (tests/oracle/line_entry.h): errors, false hits and misses, casts that
-// gave up; how many the filter left to later stages, and the greatest error by the bound that came
-// with it. Not timed.
-//   many_rays [RAYS [NAME]]   so many random rays (default 100,000), and a tenth as many of each
-//                             other kind, for shapes whose names contain NAME
+// minkray-many-rays: tens of millions of casts at every shape that is measured, each compared with
+// an oracle in long double (tests/oracle/line_entry.h): errors, false hits and misses, casts that
+// did not converge; the number that the filter left to later stages, and the greatest error by the
+// bound that came with it. Not timed.
+//   many_rays [RAYS [NAME]]   RAYS random rays (default 100,000), and a tenth as many of each other
+//                             kind, for shapes whose names contain NAME
 #include <algorithm>
 #include <iomanip>
 #include <iostream>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What casters do with the same rays: their times beside the baseline's, and how right they are.
+// Compares casters on the same rays: their times, relative to the baseline's, and their errors.
 //
 // All casters answer the same batch of rays in turn, round after round, so that a noisy moment hits
 // all of them; a caster's speed is the median over the rounds of its time divided by that of the

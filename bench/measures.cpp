@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// minkray-bench: rays at single shapes, ours beside other people's casters, on one thread.
+// minkray-bench: rays at single shapes, ours compared with other casters, on one thread.
 #include <fstream>
 #include <iostream>
 #include <sstream>
@@ -22,7 +22,7 @@ struct Options {
   std::string json;
   std::string shape;   ///< only shapes whose names contain this
   std::string family;  ///< only this kind of rays
-  std::string only;    ///< only peers whose names begin so, beside the baseline
+  std::string only;    ///< only peers whose names begin like this, and the baseline
   std::size_t rays = 4096;
   int rounds = 15;
   bool quick = false;
@@ -34,7 +34,7 @@ void append(Peers& peers, Peers more) {
   for (auto& peer : more) peers.push_back(std::move(peer));
 }
 
-/// What is measured at one shape in one size: which families, and whether beside others.
+/// Measurements at one shape in one size: the families, and if others are compared.
 struct Size {
   std::string label;
   double scale = 1;

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Distances, overlap tests and shape casts beside Bullet 3.24 (float), FCL 0.7 and libccd 2.1 on
-// the same random queries: time and error side by side. The reference for errors is our double
-// answer; for distances its own certificate is printed, which is its proof.
-//
-// Times are the best of several interleaved rounds on one core and include what each library does
-// for a query, but not making the shapes.
+// Distances, overlap tests and shape casts compared with Bullet 3.24 (float), FCL 0.7 and libccd
+// 2.1 on the same random queries: time and error side by side. Errors refer to our double result,
+// whose certificate is printed for distances. Times are the best of several interleaved rounds on
+// one core and include what each library does for a query, but not making the shapes.
 #include <array>
 #include <cstdio>
 #include <utility>

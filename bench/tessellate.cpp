@@ -19,8 +19,8 @@ struct Grid {
   std::vector<std::array<Index, 3>> triangles;
 };
 
-/// Rows of directions between the poles. Shapes' rims and faces have their normals on the poles and
-/// the coordinate planes: rows and columns are half a step beside them.
+/// Rows of directions between the poles. Shapes' rims and faces have their normals on the poles
+/// and the coordinate planes: rows and columns are half a step off them.
 Grid latitudes(int fineness) {
   Grid grid;
   const int columns = 2 * fineness, rows = fineness;
@@ -68,8 +68,8 @@ Grid octahedron(int fineness) {
   return grid;
 }
 
-/// The normal with which the grid's direction is asked for: where the shape is long it is less
-/// curved across, and a superellipsoid's normals crowd where it is most curved.
+/// The normal for the grid's direction: where the shape is long it is less curved across, and a
+/// superellipsoid's normals crowd where it is most curved.
 Vec3<double> normal_for(const Shape<double>& shape, const Vec3<double>& half,
                         const Vec3<double>& direction) {
   Vec3<double> n = direction;
@@ -152,7 +152,7 @@ TriangleMesh tessellate(const Shape<double>& shape, double error, std::size_t mo
       return mesh_of(shape, support_points(shape, grid), grid.triangles, error);
     };
   };
-  // Which grid suits the shape shows at a coarse error.
+  // A coarse error shows which grid suits the shape.
   const double coarse = std::max(error, 1e-3 * bounds_of<double>(shape).half_extents().norm());
   constexpr std::size_t few_triangles = 100'000;
   const TriangleMesh rows = fine_enough(by_grid(latitudes), coarse, few_triangles),

@@ -66,7 +66,7 @@ Truth truth_of(const Shape<double>& shape, const testing::PortalCast& portal,
     truth.t_offset = slow.t_lo;
   }
   if (truth.answer != Truth::Answer::hit) return truth;
-  // Where the portal has no opinion, the cosine of errors is unknown too.
+  // If the portal has no result, the cosine of errors is unknown too.
   if (slow.answer != testing::PortalHit::Answer::hit) return {};
   truth.normal = slow.normal.cast<double>();
   truth.is_smooth = is_smooth(shape, truth.normal, ball.radius);

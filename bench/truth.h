@@ -13,8 +13,8 @@ namespace minkray::bench {
 /// pixels.
 std::vector<std::string> family_names();
 
-/// It comes from closed forms in long double where there is one, else by a slow portal refinement
-/// in long double (tests/oracle).
+/// Result of closed forms in long double where there is one, else of a slow portal refinement in
+/// long double (tests/oracle).
 struct Truth {
   enum class Answer : unsigned char { hit, miss, unknown } answer = Answer::unknown;
   long double t_base = 0, t_offset = 0;  ///< t is their sum
@@ -29,7 +29,7 @@ struct RaysWithTruth {
   double radius = 0;
 };
 
-/// They meet the shape as rounded to float, so that all precisions mean the same one.
+/// Rays at the shape as rounded to float, so that all precisions mean the same one.
 RaysWithTruth make_rays(const Shape<double>& shape, std::string_view family, std::size_t count);
 
 struct Spread {
@@ -47,7 +47,7 @@ struct Judgement {
   Spread supports_of_hits, supports_of_misses;
   Spread along_normal;     ///< |t - exact| * cosine
   Spread along_ray;        ///< |t - exact|
-  Spread normal_angle;     ///< of smooth places, from those who tell
+  Spread normal_angle;     ///< of smooth places, from peers that return normals
   std::uint64_t hash = 0;  ///< of all answers, bit by bit
 };
 

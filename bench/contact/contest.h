@@ -10,7 +10,7 @@
 
 namespace minkray::bench {
 
-/// What a contestant answers that has no answer.
+/// Result of a contestant that has none.
 inline constexpr double no_answer = std::numeric_limits<double>::quiet_NaN();
 
 struct Contestant {
@@ -20,10 +20,10 @@ struct Contestant {
   double nanoseconds = std::numeric_limits<double>::infinity();  ///< a query, of the best round
 };
 
-/// Asks all of them, round after round, so that a noisy moment hits all. Processor time counts.
+/// Runs all of them, round after round, so that a noisy moment hits all. Processor time counts.
 void race(std::vector<Contestant>& contestants, std::size_t queries, int rounds);
 
-/// How far answers are from those that are proven.
+/// Errors of results against the proven ones.
 struct Errors {
   double worst = 0;
   int wrong =

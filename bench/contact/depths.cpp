@@ -10,7 +10,7 @@
 namespace minkray::bench {
 namespace {
 
-/// A shape of ours for libccd, which asks for supports in the world.
+/// A shape of ours for libccd, which calls for supports in the world.
 struct CcdShape {
   const ContactShape* shape;
   Mat3<double> turn;

@@ -43,7 +43,7 @@ Contestant fcl_distance(const Asked& asked, fcl::GJKSolverType solver, const cha
           }};
 }
 
-/// What was there before signed distances: its shapes are made for the poses.
+/// The function from before signed distances: its shapes are made for the poses.
 Contestant older_distance(const Asked& asked) {
   return {"older", [&asked, a = centred(asked.a.ours), b = centred(asked.b.ours)](std::size_t i) {
             const auto place = [](const CentredShape<double>& shape, const Affine<double>& pose) {

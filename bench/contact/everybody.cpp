@@ -17,7 +17,7 @@
 namespace minkray::bench {
 namespace {
 
-/// What ODE refers to and does not copy.
+/// Data that ODE refers to and does not copy.
 struct Planes {
   std::vector<double> planes, points;
   std::vector<unsigned> polygons;

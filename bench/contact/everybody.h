@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The nine shapes whose pairs are compared, in every library's words, and where they are asked for.
+// The nine shapes whose pairs are compared, in every library's types, and their poses.
 #pragma once
 
 #include <BulletCollision/CollisionShapes/btConvexShape.h>
@@ -40,7 +40,7 @@ std::vector<Everybody> everybody();
 btTransform to_bullet(const Affine<double>& pose);
 fcl::Transform3d to_fcl(const Affine<double>& pose);
 
-/// A stands at the origin. B is asked for at its pose, and moves from there by `motion`.
+/// A is at the origin. B is at its pose, and moves from there by `motion`.
 struct Placement {
   Affine<double> a, b;
   Vec3<double> motion;

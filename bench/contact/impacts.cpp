@@ -44,7 +44,7 @@ Contestant fcl_cast(const Asked& asked) {
           }};
 }
 
-/// What was there before: the pair is prepared for the poses.
+/// The older function: the pair is prepared for the poses.
 Contestant older_cast(const Asked& asked) {
   return {"older", [&asked](std::size_t i) {
             const Placement& placed = asked.where[i];
@@ -63,7 +63,7 @@ std::vector<Contestant> impacts(const Asked& asked) {
        [&asked](std::size_t i) {
          const Placement& placed = asked.where[i];
          ImpactOptions options;
-         options.points_of_misses = false;  // none of the others tells them
+         options.points_of_misses = false;  // none of the others returns them
          const Impact found = first_impact(asked.a.ready, {placed.a}, asked.b.ready,
                                            {placed.b, placed.motion}, 1, options);
          return found.status == ImpactStatus::hit ? found.t_lo : no_answer;

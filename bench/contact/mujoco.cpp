@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// MuJoCo before 3.1 tells distances by contacts with a margin alone. Its function for the pair of
-// shapes is called without what surrounds it.
+// MuJoCo before 3.1 returns distances only as contacts with a margin. Its function for the pair of
+// shapes is called directly.
 #include <mujoco/mujoco.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ using Rows = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 struct World {
   mjModel* model = nullptr;
   mjData* data = nullptr;
-  /// Meshes stand in their own principal frame, which leads to that of their vertices.
+  /// Meshes are in their own principal frame, which leads to that of their vertices.
   Mat3<double> turn[2];
   Vec3<double> middle[2];
 

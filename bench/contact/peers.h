@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Who answers what about a pair of shapes, at given placements. The lists begin with ours.
+// Contestants for each query about a pair of shapes, at given placements. The lists begin with
+// ours.
 #pragma once
 
 #include "bench/contact/contest.h"
@@ -7,7 +8,7 @@
 
 namespace minkray::bench {
 
-/// A pair of shapes and where it is asked about. Contestants keep a reference to it.
+/// A pair of shapes and its placements. Contestants keep a reference to it.
 struct Asked {
   const Everybody& a;
   const Everybody& b;

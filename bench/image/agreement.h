@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Whether two tracers see the same: a speed without that is no result.
+// Checks that two tracers get the same hits: a speed without that is no result.
 #pragma once
 
 #include <span>
@@ -8,7 +8,7 @@
 
 namespace minkray::bench {
 
-/// It compares the answers to the same rays.
+/// Compares the results for the same rays.
 struct Agreement {
   std::size_t rays = 0, hits = 0;  ///< hits: of the reference
   std::size_t only_one = 0;        ///< rays that only one of the two saw meet something

@@ -13,7 +13,7 @@
 namespace minkray::bench {
 namespace {
 
-/// Where a light lies that is far away: that of `minkray generate`'s scenes, about.
+/// Direction of a distant light: approximately that of `minkray generate`'s scenes.
 const Vec3<float> towards_light = Vec3<float>(0.3f, -1, 1.4f).normalized();
 
 /// A batch has as many rays as a tile has.
@@ -89,7 +89,7 @@ CastResults results_of(const std::vector<Race>& races, std::size_t rays) {
   return results;
 }
 
-/// Camera rays of a square picture of about so many pixels.
+/// Camera rays of a square picture of about this many pixels.
 std::vector<Ray<float>> coherent_rays(const Scene& scene, std::size_t count) {
   const int side = std::max(
       tile_side, static_cast<int>(std::sqrt(static_cast<double>(count))) / tile_side * tile_side);

@@ -16,7 +16,7 @@ struct CastSpeed {
   Agreement agreement;     ///< with our answers
 };
 
-/// Which rays, and what is asked of them: where they meet something first or, of shadows, whether.
+/// Kind of rays, and their query: the first hit or, for shadows, if there is any.
 enum class RayKindAsked : unsigned char { camera, scattered, scattered_shadows, light_shadows };
 
 struct CastResults {
@@ -31,8 +31,8 @@ struct CastResults {
 };
 
 /// Coherent rays of the camera, and incoherent ones: from where those arrive to all sides, in
-/// random order. About `rays` of each. `with_shadows`: these are also asked whether they meet
-/// anything, and so are rays to the light.
+/// random order. About `rays` of each. `with_shadows`: these are also tested for any hit, and so
+/// are rays to the light.
 std::vector<CastResults> measure_casts(const Subject& subject,
                                        const std::vector<Contender>& contenders, std::size_t rays,
                                        int rounds, bool with_shadows = false);

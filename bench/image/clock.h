@@ -7,8 +7,8 @@
 
 namespace minkray::bench {
 
-/// Since it was made. What runs on one thread is measured by its processor time, which hardly
-/// notices what else the machine does; what runs on several, by the wall's.
+/// Seconds since construction. Work on one thread is measured by its processor time, which hardly
+/// depends on the machine's other work; work on several, by the wall clock.
 class Clock {
  public:
   double seconds() const {

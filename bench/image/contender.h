@@ -17,7 +17,7 @@ struct Contender {
 /// Minkray in float, which all others are compared with.
 inline constexpr std::string_view ours = "minkray";
 
-/// What they are asked for.
+/// Options for the contenders.
 struct ContenderWishes {
   std::vector<double> mesh_errors = {1e-4, 1e-6};
   bool user_geometry = true;

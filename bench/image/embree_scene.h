@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// An Embree scene that counts its memory, and the four ways to ask it: one ray, eight rays, a
+// An Embree scene that counts its memory, and the four kinds of calls: one ray, eight rays, a
 // stream of single rays, a stream of packets of eight. As everywhere in the benchmarks, Embree is
 // used with its fastest (not its robust) intersection.
 #pragma once
@@ -31,7 +31,7 @@ class EmbreeScene {
   RTCScene scene_;
 };
 
-/// Which of a hit's numbers says which instance it is.
+/// Number of a hit that identifies its instance.
 enum class EmbreeNumber : unsigned char { instance, geometry, primitive };
 
 std::vector<std::string> embree_entries();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Embree on triangles, as its manual builds a scene for speed: each mesh once, and instances of it.
-// A shape that stands in one place only is not worth an instance: its triangles go into the scene
-// itself.
+// Embree on triangles, as its manual builds a scene for speed: each mesh once, and instances of
+// it. A shape that occurs in one place only is not worth an instance: its triangles go into the
+// scene itself.
 #include <algorithm>
 
 #include "bench/image/clock.h"

@@ -12,7 +12,7 @@ namespace {
 /// The light is this much brighter than the sky.
 constexpr float light_strength = 1.5f, sky_strength = 0.6f;
 
-/// What one thread needs for a tile.
+/// Data of one thread for a tile.
 struct Workshop {
   std::vector<Ray<float>> rays;
   std::vector<std::array<int, 2>> pixel_of;

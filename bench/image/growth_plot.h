@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How the time to an image grows with the number of objects, as a picture: both axes logarithmic.
+// Plots the growth of the time to an image with the number of objects: both axes logarithmic.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ struct GrowthLine {
   std::vector<std::pair<double, double>> build, trace, bytes;  ///< by the number of objects
 };
 
-/// The whole SVG file: seconds to trace, seconds to build, and bytes beside each other.
+/// The whole SVG file: seconds to trace, seconds to build, and bytes side by side.
 std::string growth_svg(const std::string& title, const std::vector<GrowthLine>& lines);
 
 }  // namespace minkray::bench

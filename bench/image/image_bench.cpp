@@ -44,7 +44,7 @@ std::string count_text(std::size_t count) {
   return std::to_string(count);
 }
 
-/// Runs the parts and collects what they say.
+/// Runs the parts and collects their output.
 class Bench {
  public:
   explicit Bench(const ImageBenchOptions& options) : options_(options) {
@@ -152,7 +152,7 @@ class Bench {
              ": Embree's triangles of error 1e-4",
          ">= 3", 3, false, least_ratio(times, "embree triangles 0.0001", measured));
     if (options_.samples == 16) return;
-    // Tracing takes so many times as long as samples are taken, building does not.
+    // Tracing time is proportional to the samples, building time is not.
     const double more = 16.0 / options_.samples;
     const auto projected = [&](const ImageTime& time) {
       return (time.build_seconds + more * time.trace_seconds) /

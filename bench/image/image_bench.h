@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The comparisons of whole scenes: which there are, and what they are asked for.
+// The comparisons of whole scenes, and their options.
 #pragma once
 
 #include <string>
@@ -21,7 +21,7 @@ struct ImageBenchOptions {
   int threads = 1;
 };
 
-/// Runs what is wanted, prints it and writes the files that are asked for.
+/// Runs the selected comparisons, prints them and writes the requested files.
 void run_image_bench(const ImageBenchOptions& options);
 
 }  // namespace minkray::bench

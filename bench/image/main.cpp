@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// minkray-image-bench: whole scenes, exact shapes beside triangles, user geometry and POV-Ray.
+// minkray-image-bench: whole scenes, exact shapes compared with triangles, user geometry and
+// POV-Ray.
 //
-// Ratios are other / ours: how many times sooner Minkray (in float) has done it. What is compared
-// is interleaved in one run. On one thread processor time is measured, on several the wall's clock.
+// Ratios are other / ours: the factor by which Minkray (in float) is faster. Compared tracers are
+// interleaved in one run. On one thread processor time is measured, on several the wall's clock.
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <iostream>

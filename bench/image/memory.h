@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Memory where no two objects have the same shape: exact shapes beside triangles of equal error.
+// Memory where no two objects have the same shape: exact shapes compared with triangles of equal
+// error.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +14,7 @@ struct MemoryOfUnshared {
   double triangles = 0;  ///< an object
 };
 
-/// Rounded boxes of random sizes. Of meshes, which are all of about the same size, a few will do.
+/// Rounded boxes of random sizes. All meshes have about the same size, so a few suffice.
 MemoryOfUnshared measure_memory(std::size_t exact_objects, std::size_t meshes,
                                 double relative_error);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a triangle ray tracer draws in the place of a scene's shapes: one mesh for each of them.
+// Meshes that a triangle ray tracer draws instead of a scene's shapes: one for each of them.
 #pragma once
 
 #include "bench/tessellate.h"
@@ -10,7 +10,7 @@ namespace minkray::bench {
 struct Meshes {
   double relative_error = 0;         ///< of each shape's bounding radius
   std::vector<TriangleMesh> meshes;  ///< in the order of shapes_of(scene)
-  double seconds = 0;                ///< it took to make them: no part of any time to image
+  double seconds = 0;                ///< time to make them: no part of any time to image
 
   std::size_t triangles() const;
 };

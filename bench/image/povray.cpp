@@ -67,7 +67,7 @@ void write_scenes(const std::string& generated, const std::string& ours, const s
   if (!out.flush()) throw std::runtime_error(povs + ": could not be written");
 }
 
-/// What a command took, of all its threads together or of the wall's clock.
+/// Time of a command, of all its threads together or of the wall clock.
 double seconds_of(const std::string& command, int threads) {
   const auto children = [] {
     rusage usage;
@@ -83,7 +83,7 @@ double seconds_of(const std::string& command, int threads) {
   return threads == 1 ? children() - before : clock.seconds();
 }
 
-/// The bytes of a binary PPM, one a channel.
+/// The bytes of a binary PPM, one per channel.
 std::vector<unsigned char> read_ppm(const std::string& file) {
   std::ifstream in(file, std::ios::binary);
   std::string magic;

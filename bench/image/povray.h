@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// POV-Ray, as its users run it: the whole command, sphere for sphere, beside the whole command
-// `minkray render` of the same scene.
+// POV-Ray, as its users run it: the whole command, sphere for sphere, compared with the whole
+// command `minkray render` of the same scene.
 #pragma once
 
 #include <optional>

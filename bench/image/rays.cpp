@@ -22,7 +22,7 @@ void camera_rays(const Camera& camera, const PixelRect& tile, int samples,
     rays.push_back({ray.origin.cast<float>(), ray.direction.cast<float>()});
     pixel_of.push_back({x, y});
   };
-  // 4 x 2 pixels for packets of eight, 8 of those for whoever takes 64 rays together.
+  // 4 x 2 pixels for packets of eight, 8 of those for tracers that take 64 rays together.
   for (int sample = 0; sample < samples; ++sample)
     for (int y = tile.y0; y < tile.y1; y += 8)
       for (int x = tile.x0; x < tile.x1; x += 8)

@@ -17,11 +17,12 @@ struct SecondaryRays {
 };
 
 /// A tile's camera rays: sample by sample, in blocks of 8 x 8 pixels made of blocks of 4 x 2, so
-/// that neighbours make packets. `pixel_of` tells their pixels.
+/// that neighbours make packets. `pixel_of` gets their pixels.
 void camera_rays(const Camera& camera, const PixelRect& tile, int samples,
                  std::vector<Ray<float>>& rays, std::vector<std::array<int, 2>>& pixel_of);
 
-/// How far above a surface rays begin: beyond the error of any mesh, and far below what is seen.
+/// Height above a surface at which rays begin: beyond the error of any mesh, and far below what is
+/// visible.
 float lift_for(const Scene& scene);
 
 /// A direction for each hit: `towards` the light for all, or, without one, one of the hemisphere

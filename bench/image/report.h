@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What was measured, as tables to read and as JSON.
+// Measurements, as tables to read and as JSON.
 #pragma once
 
 #include <iosfwd>
@@ -10,7 +10,7 @@
 
 namespace minkray::bench {
 
-/// One line of the table of what is asked for.
+/// One line of the table of goals.
 struct Goal {
   std::string what;
   std::string asked;     ///< "at least 3"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where a ray enters a rounded box, in closed form. The squared distance to the box within is,
-// along the ray, a chain of parabolas, one for each way in which the ray's point may lie beside the
+// Entry of a ray into a rounded box, in closed form. The squared distance to the box within is,
+// along the ray, a chain of parabolas, one for each position of the ray's point relative to the
 // three pairs of faces; the entry is the first root of distance^2 = radius^2.
 #pragma once
 

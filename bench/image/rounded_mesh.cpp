@@ -25,13 +25,13 @@ double angle_between(const V& a, const V& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-/// How near the triangle of three unit vectors comes to the origin.
+/// Distance of the triangle of three unit vectors from the origin.
 double least_distance(const V& a, const V& b, const V& c) {
   const V n = (b - a).cross(c - a).normalized();
   const V foot = n.dot(a) * n;
   const auto within = [&](const V& p, const V& q) { return n.dot((q - p).cross(foot - p)) >= 0; };
   if (within(a, b) && within(b, c) && within(c, a)) return n.dot(a);
-  // Else it is an edge, of which the middle is nearest.
+  // Otherwise an edge is nearest, at its middle.
   return std::min({(a + b).norm(), (b + c).norm(), (c + a).norm()}) / 2;
 }
 
@@ -215,7 +215,7 @@ class Builder {
   void zip(const std::vector<Index>& inner, const std::vector<Index>& outer) {
     std::size_t i = 0, o = 0;
     while (i + 1 < inner.size() || o + 1 < outer.size()) {
-      // The row that has come less far goes on.
+      // Advances the row that has come less far.
       const bool along_outer =
           i + 1 == inner.size() ||
           (o + 1 < outer.size() && (o + 1) * (inner.size() - 1) <= (i + 1) * (outer.size() - 1));

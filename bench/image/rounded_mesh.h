@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A triangle mesh of a rounded polytope as one would build it by hand: the facets moved outwards, a
-// strip of rectangles along each edge, and a patch of the sphere at each corner. It takes far fewer
-// triangles than a grid of directions, which knows nothing of edges.
+// A triangle mesh of a rounded polytope as one would build it by hand: the facets moved outwards,
+// a strip of rectangles along each edge, and a patch of the sphere at each corner. The mesh has
+// far fewer triangles than a grid of directions, which ignores edges.
 #pragma once
 
 #include <optional>

@@ -7,10 +7,10 @@
 namespace minkray::bench {
 namespace {
 
-/// What is asked of one kind of rays: so many times as fast as the others.
+/// Goal for one kind of rays: a factor of speed over the others.
 struct Asked {
   RayKindAsked rays;
-  std::string_view other;  ///< what the contender's name begins with
+  std::string_view other;  ///< beginning of the contender's name
   double at_least;
 };
 

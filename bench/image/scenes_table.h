@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rays in scenes of many kinds, beside Embree's best way to have the same shapes: what is asked of
+// Rays in scenes of many kinds, compared with Embree's best way to have the same shapes: goals for
 // scenes, row by row.
 #pragma once
 

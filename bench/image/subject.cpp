@@ -14,7 +14,7 @@ namespace minkray::bench {
 
 namespace {
 
-/// Points of an ellipsoid, all of which are vertices.
+/// Points of an ellipsoid; all of them are vertices.
 Shape<double> hull_of(int points) {
   Random random(7);
   std::vector<Vec3<double>> corners;

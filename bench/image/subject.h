@@ -21,9 +21,8 @@ struct Subject {
 };
 
 /// A kind of `minkray generate`, or one of its scenes with other shapes: "rounded-hulls" (its
-/// hulls, each rounded by a tenth of its size), "hulls-16" and "hulls-64" (one hull of so many
-/// points of an ellipsoid in place of rounded boxes), "mixed" (eight kinds of shapes in their
-/// place).
+/// hulls, each rounded by a tenth of its size), "hulls-16" and "hulls-64" (one hull of that many
+/// points of an ellipsoid instead of rounded boxes), "mixed" (eight kinds of shapes instead).
 Subject make_subject(const std::string& kind, std::size_t objects);
 
 /// All shapes there are, each once.

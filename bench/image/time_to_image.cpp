@@ -15,7 +15,7 @@ std::size_t heap_bytes() {
   return info.uordblks + info.hblkhd;
 }
 
-/// What the rounds of one contender took.
+/// Times of the rounds of one contender.
 struct Rounds {
   std::vector<double> build, hierarchy, trace, image;
   ImageTime last;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What every ray tracer that is measured on whole scenes looks like. Rays come in batches, so that
+// Interface of every ray tracer that is measured on whole scenes. Rays come in batches, so that
 // each can have its best case: one by one, eight at a time, or as a stream. Everything around the
 // casts, from rays to colours, is the same code for all of them (frame.h).
 #pragma once
@@ -19,8 +19,8 @@ namespace minkray::bench {
 /// The numbers are floats, whatever the tracer casts in.
 struct RaySpan {
   std::span<const Ray<float>> rays;
-  /// It names for each ray the instance that it leaves; if it is empty, none leaves one. Those who
-  /// can, leave it out; the rays begin above its surface, so that nobody must.
+  /// For each ray the instance that it leaves; if empty, none leaves one. Tracers that can, leave
+  /// it out; the rays begin above its surface, so that none must.
   std::span<const std::uint32_t> leaves = {};
   bool coherent = false;  ///< neighbours start close to each other and go nearly the same way
 
@@ -57,13 +57,13 @@ class Tracer {
   Tracer(const Tracer&) = delete;
   Tracer& operator=(const Tracer&) = delete;
 
-  /// How it can be asked: "packets", "stream".
+  /// Kinds of calls that it supports: "packets", "stream".
   virtual std::vector<std::string> entries() const = 0;
   virtual std::unique_ptr<RayQueue> queue(std::size_t entry) const = 0;
   /// The normal has unit length and points outwards.
   virtual Vec3<float> world_normal(const FirstHit& hit) const = 0;
 
-  /// What it says of itself.
+  /// Memory use that it reports.
   virtual std::size_t bytes() const = 0;
   /// The part of the building that the hierarchy over all instances took, in seconds.
   virtual double hierarchy_seconds() const = 0;

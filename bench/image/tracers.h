@@ -20,7 +20,7 @@ std::unique_ptr<Tracer> embree_triangles(const Scene& scene, const Meshes& meshe
 /// one ray at one shape.
 std::unique_ptr<Tracer> embree_with_our_cast(const Scene& scene, int threads);
 
-/// Whether all shapes of a scene are rounded boxes.
+/// True if all shapes of a scene are rounded boxes.
 bool has_closed_form(const Scene& scene);
 
 /// Embree's own spheres or round curves, where all shapes of a scene are spheres, or all capsules.

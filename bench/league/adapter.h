@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a program is made of that answers queries of tests/cases line by line: it reads them as any
-// stranger's solver would, and knows nothing of Minkray.
+// Common part of programs that answer queries of tests/cases line by line: reads them as any other
+// solver would, independent of Minkray.
 #pragma once
 
 #include <array>
@@ -37,7 +37,7 @@ struct Query {
   Solid b;  ///< the moving one, or the second one
   Vec origin = {}, direction = {};
   double t_max = 0;  ///< if the query has none: until far behind the shapes
-  double size = 0;   ///< how far the shapes reach, with the ray's origin
+  double size = 0;   ///< extent of the shapes, with the ray's origin
 };
 
 struct Answer {
@@ -60,7 +60,7 @@ inline Answer miss() {
 }
 Answer at_distance(double distance);
 
-/// A query that was made ready, in the solver's own words. Asking it is what is timed.
+/// A prepared query, in the solver's own types. Running it is timed.
 using Ask = std::function<Answer()>;
 
 struct Solver {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// FCL: distances by either of its solvers, casts by conservative advancement. It has no rays.
+// FCL: distances by either of its solvers, casts by conservative advancement. No rays.
 #include <fcl/fcl.h>
 
 #include "bench/league/adapter.h"
@@ -68,7 +68,7 @@ Ask prepare(const Query& query, fcl::GJKSolverType solver) {
       return result.is_collide ? hit(result.time_of_contact * t_max) : miss();
     };
   }
-  // Its own solver tells no depths: asked for them, it ends at an assertion.
+  // FCL's own solver has no depths: a request for them ends at an assertion.
   const bool is_signed = query.asked == Asked::signed_distance;
   const bool has_depths = solver == fcl::GJKSolverType::GST_LIBCCD;
   return [=] {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// libccd: whether shapes overlap and how deep, by its GJK and EPA or by its MPR. It has no shapes:
-// the support functions are the user's.
+// libccd: overlap and depth, by its GJK and EPA or by its MPR. Has no shapes: the support
+// functions are the user's.
 #include <ccd/ccd.h>
 #include <ccd/vec3.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the sources of the adapters' library share.
+// Shared by the sources of the adapters' library.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -12,7 +12,7 @@ namespace bench {
 
 inline constexpr std::uint32_t nothing = 0xffffffffu;
 
-/// What a ray meets first.
+/// First hit of a ray.
 struct Answer {
   double t = std::numeric_limits<double>::infinity();
   std::uint32_t object = nothing;
@@ -23,7 +23,7 @@ struct Agreement {
   std::string text;
 };
 
-/// What may be expected of the other's answers.
+/// Expected accuracy of the other's results.
 struct Trust {
   double error = 0;  ///< of its surfaces, a length; directions have length 1
   /// Part of the rays that may meet something else: those that pass an edge seen from the side

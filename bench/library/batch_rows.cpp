@@ -351,7 +351,7 @@ void measure_near_pairs(Table& table, const Options& options) {
   mk::NearOptions asked;
   asked.within = within;
   asked.how.threads = 1;
-  mk::ScenePairs found = scene.distances(asked);  // what it needs is built by the first question
+  mk::ScenePairs found = scene.distances(asked);  // the first query builds its data
   double least = INFINITY;
   for (int round = 0; round < options.rounds; ++round) {
     const Clock clock;

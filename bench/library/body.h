@@ -29,7 +29,7 @@ Body cylinder(double radius, double half_height);
 Body cone(double radius, double half_height);
 Body hull(const std::vector<Vec>& points);
 
-/// Points of an ellipsoid, all of which are vertices of their hull.
+/// Points of an ellipsoid; all of them are vertices of their hull.
 std::vector<Vec> random_points(int count, const Vec& radii, std::uint64_t seed);
 
 }  // namespace bench

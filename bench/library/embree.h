@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Embree 3 at its best: scenes built at its highest quality, and every way to ask them. Its fastest
+// Embree 3 at its best: scenes built at its highest quality, and every kind of call. Its fastest
 // intersection is used, and its robust one at meshes.
 #pragma once
 
@@ -37,7 +37,7 @@ class EmbreeScene {
   /// rtcIntersect1 alone.
   std::unique_ptr<Caster> single(const std::vector<mk::Ray>& rays) const;
 
-  /// Says which object is met: the instance, or so many primitives each.
+  /// Identifies the object that is met: by the instance, or by a fixed number of primitives each.
   struct Numbers {
     bool are_instances = false;
     unsigned primitives_an_object = 1;

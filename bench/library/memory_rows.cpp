@@ -43,7 +43,7 @@ void measure(Table& table, const Body& body) {
   const Clock committing;
   scene.commit();
   const double commit_seconds = committing.processor();
-  // Asked once, lest anything be made at the first ray.
+  // Cast once, so that nothing is made at the first ray.
   scene.cast(rays, hits, {.threads = 1});
   scene.cast(rays[0]);
   const double bytes = (resident_bytes() - before) / each;

@@ -133,7 +133,7 @@ class MeshArena {
     peer_.add_casters(peers, rays, Question::first_hit, coherent);
     peer_single.push_back(peer_.single(rays));
     race({&span, &peers, &single, &peer_single}, options_.rounds);
-    // A ray beside an edge may meet either triangle, or what is behind the silhouette.
+    // A ray next to an edge may meet either triangle, or the surface behind the silhouette.
     const Trust trust{1e-4, 2e-3};
     const double goal = mesh_.triangles.size() > 20'000 ? goal_many : goal_few;
     table_.add(Duel{name_of_mesh(mesh_), name + ", " + with_commas(rays.size()), *span[0],

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The nine shapes whose pairs are asked in batches, as Minkray's, Bullet's and FCL's.
+// The nine shapes whose pairs are queried in batches, as Minkray's, Bullet's and FCL's.
 #pragma once
 
 #include <fcl/fcl.h>

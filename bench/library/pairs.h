@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The pairs of shapes that are asked about, and where they are.
+// The pairs of shapes of the queries, and their poses.
 #pragma once
 
 #include "bullet.h"

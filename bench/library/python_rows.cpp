@@ -92,7 +92,7 @@ class Python : public Caster {
   }
 
  protected:
-  /// What Python has written before it ended.
+  /// Output that Python has written before it ended.
   template <class T>
   std::vector<T> result(const char* name_) const {
     finish();

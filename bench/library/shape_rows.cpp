@@ -83,7 +83,7 @@ void against_bullet(Table& table, const Options& options, const BulletBody& body
   if (body.with_margin)
     peers.push_back(std::make_unique<BulletRays>("usual margin", body.with_margin, pose, rays));
   race({&ours, &peers}, options.rounds);
-  // Its tolerance is so coarse that rays a hundredth of a radius beside the shape count as hits.
+  // The tolerance is so coarse that rays a hundredth of a radius off the shape count as hits.
   const Trust trust = {5e-3 * body.ours.radius, 0.05};
   const auto right = [&](const Caster& peer) {
     return compare(ours[0]->answers(), peer.answers(), trust).holds;

@@ -14,7 +14,7 @@ struct Duel {
   std::string what, rays;
   const Caster& ours;
   const Caster& peer;
-  std::string peer_name;  ///< such as "Embree's spheres"; how it was asked is added
+  std::string peer_name;  ///< such as "Embree's spheres"; the kind of call is added
   std::size_t count = 1;  ///< of rays or queries
   double goal = 0;        ///< the least ratio peer / Minkray; 0: none
   Trust trust = {};       ///< in the peer's answers

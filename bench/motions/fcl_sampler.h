@@ -20,7 +20,7 @@ class FclSampler {
   FclSampler(const Workcell& cell, Triangles triangles);
   ~FclSampler();
 
-  /// Indices of the pairs of which FCL says that they collide; those with a plane are left out.
+  /// Indices of the pairs that collide according to FCL; those with a plane are left out.
   std::vector<std::size_t> colliding_pairs(const JointPath& path, double time, bool first_only);
   bool collides(const JointPath& path, double time, std::size_t pair);
 

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 constexpr double fcl_tolerance = 1e-5;
 
 struct Options {
-  std::size_t states = 1000;  ///< that FCL looks at in each free motion
+  std::size_t states = 1000;  ///< number that FCL checks in each free motion
   std::size_t rows = 2;       ///< of each motion
   std::size_t percent = 100;  ///< of the way to the goal that is gone
   std::string set;            ///< of problems; empty: all
@@ -38,7 +38,7 @@ struct Options {
 struct Counts {
   std::size_t motions = 0, free = 0, colliding = 0, undecided = 0, bad = 0;
   std::size_t false_free = 0, unconfirmed = 0, states = 0;
-  std::size_t grazing = 0;  ///< not confirmed by FCL, and shallower than it can tell
+  std::size_t grazing = 0;  ///< not confirmed by FCL, and shallower than its resolution
   std::vector<double> seconds, fcl_seconds;
 };
 
@@ -131,7 +131,7 @@ class Robot {
   }
 
  private:
-  /// The straight way as so many rows.
+  /// The straight way, divided into `rows` rows.
   static void divide(Trajectory& trajectory, const Options& options) {
     const std::size_t rows = options.rows;
     const JointRow first = trajectory.rows.front(), last = trajectory.rows.back();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is compared with other libraries, for one pair of shapes each.
+// Comparisons with other libraries, for one pair of shapes each.
 #pragma once
 
 #include "bench/papers/contest.h"
@@ -7,13 +7,13 @@
 
 namespace minkray::bench {
 
-/// Distances, beside Bullet and FCL.
+/// Distances, compared with Bullet and FCL.
 void compare_distances(const Everywhere& a, const Everywhere& b, const std::vector<Query>& list);
 
-/// Whether two shapes overlap, beside libccd.
+/// Overlap tests, compared with libccd.
 void compare_overlaps(const Everywhere& a, const Everywhere& b, const std::vector<Query>& list);
 
-/// Shape casts, beside Bullet and FCL. Peers differ in what an overlap at the start is: queries
+/// Shape casts, compared with Bullet and FCL. Peers differ on an overlap at the start: queries
 /// that begin so are left out.
 void compare_casts(const Everywhere& a, const Everywhere& b, const std::vector<Query>& list);
 

@@ -34,7 +34,7 @@ struct Contestant {
   double seconds = std::numeric_limits<double>::infinity();
 };
 
-/// Asks all of them, round after round; the best round counts.
+/// Runs all of them, round after round; the best round counts.
 void race(std::vector<Contestant>& contestants, const std::vector<Query>& list);
 
 void print(const std::string& what, const std::vector<Contestant>& contestants);

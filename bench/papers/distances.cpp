@@ -29,7 +29,7 @@ Contestant our_distance(const Everywhere& a, const Everywhere& b, SubalgorithmKi
       }};
 }
 
-/// A shape of ours for libccd, which asks for supports in the world.
+/// A shape of ours for libccd, which calls for supports in the world.
 struct CcdShape {
   const Shape<double>* shape;
   Affine<double> pose;

@@ -43,7 +43,7 @@ std::unique_ptr<btConvexShape> bullet_shape(const Shape<double>& shape) {
   return nullptr;
 }
 
-/// What a cast refers to.
+/// Objects that a cast refers to.
 struct Pair {
   std::unique_ptr<btConvexShape> shape;
   btSphereShape point{0};

@@ -11,7 +11,7 @@
 
 namespace minkray::bench {
 
-/// What every closed form answers for a miss.
+/// Result of every closed form for a miss.
 template <class T>
 inline constexpr T no_hit = std::numeric_limits<T>::infinity();
 
@@ -95,8 +95,8 @@ T cone_entry(T radius, T half_height, const Ray<T>& ray) {
   return enter <= leave ? enter : no_hit<T>;
 }
 
-/// Past the slabs of the grown box, from one region beside the box within to the next: in each the
-/// distance to it is that to a face, an edge or a corner.
+/// Walks past the slabs of the grown box, from one region around the box within to the next: in
+/// each the distance to the box is that to a face, an edge or a corner.
 template <class T>
 T rounded_box_entry(const Vec3<T>& half_extents, T radius, const Ray<T>& ray) {
   Vec3<T> s, d, into, out;  // mirrored, so that the line runs towards positive coordinates

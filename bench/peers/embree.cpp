@@ -49,7 +49,7 @@ Hit as_hit(bool met, float t, float x, float y, float z) {
   return hit;
 }
 
-/// What one and eight rays share: the scene, and whether the batch is coherent.
+/// Shared by one and eight rays: the scene, and the coherence of the batch.
 class EmbreePeer : public Peer {
  public:
   EmbreePeer(std::string name, ScenePointer scene)

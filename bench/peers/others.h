@@ -11,7 +11,7 @@ namespace minkray::bench {
 /// none. Nothing for shapes that it does not have.
 Peers bullet(const Shape<double>& shape);
 
-/// Embree on triangles, one ray and eight rays at a time; `label` tells which mesh.
+/// Embree on triangles, one ray and eight rays at a time; `label` names the mesh.
 Peers embree_triangles(const TriangleMesh& mesh, const std::string& label);
 
 /// Embree's own sphere and round curve, one ray and eight at a time. Nothing for other shapes.

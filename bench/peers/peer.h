@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What every ray caster that is measured looks like: it answers a whole batch of rays at one shape,
-// as its users would ask it: with rays and answers in its own layout.
+// Interface of every ray caster that is measured: answers a whole batch of rays at one shape, as
+// its users would call it: with rays and results in its own layout.
 #pragma once
 
 #include <functional>
@@ -31,7 +31,7 @@ struct Hit {
   Outcome outcome = Outcome::miss;
   int supports = 0;  ///< support calls, where there are any
   double t_base = 0, t_offset = 0;
-  Vec3<float> normal = Vec3<float>::Zero();  ///< zero from those who do not tell
+  Vec3<float> normal = Vec3<float>::Zero();  ///< zero from peers without normals
 };
 
 class Peer {
@@ -48,7 +48,7 @@ class Peer {
   virtual void prepare(const RayBatch& rays) = 0;
   /// Answers the batch that was prepared, into the peer's own layout. This is timed.
   virtual void cast() = 0;
-  /// The answers, one a ray of the batch. Not timed.
+  /// The answers, one per ray of the batch. Not timed.
   virtual void read(std::span<Hit> hits) const = 0;
 
  private:

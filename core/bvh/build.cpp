@@ -35,8 +35,8 @@ struct ChildRanges {
   }
 };
 
-/// A subtree that one thread has built: nodes[0] is its root, and children are counted from there.
-/// In a large one the root stands alone, and its children are subtrees.
+/// A subtree built by one thread: nodes[0] is its root, and children are indices relative to it. A
+/// large subtree stores only its root; the children are subtrees.
 struct Subtree {
   FirstTouchVector<BvhNode> nodes;
   std::vector<std::pair<int, std::unique_ptr<Subtree>>>
@@ -132,7 +132,7 @@ class Builder {
       children.ranges[children.count++] = halves.right;
     }
     if constexpr (leaves == Leaves::ranges) return children;
-    // What would be a node of its own, but finds room here.
+    // Adopts the contents of nodes that fit here instead of making them nodes.
     for (;;) {
       const std::size_t free = width - children.count;
       const std::size_t i = children.heaviest(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A bounding volume hierarchy over boxes. It knows nothing of what is in them.
+// A bounding volume hierarchy over boxes, independent of their contents.
 #pragma once
 
 #include <cstdint>
@@ -52,7 +52,7 @@ struct Bvh {
 /// No path from the root is longer than this, whatever the boxes.
 inline constexpr int bvh_max_depth = 80;
 
-/// What to spend on a hierarchy (docs/decisions/many-rays.md).
+/// Build time or quality of a hierarchy (docs/decisions/many-rays.md).
 enum class BvhBuild : unsigned char {
   quality,  ///< by the surface area heuristic in bins (Wald 2007)
   speed,    ///< along a space-filling curve (Lauterbach et al. 2009)
@@ -61,15 +61,17 @@ enum class BvhBuild : unsigned char {
 /// The hierarchy of boxes [0, count), which must be at most 2^30. The same for any number of
 /// threads. The boxes must not be empty; they may be flat, alike, or infinite.
 Bvh build_bvh(std::span<const Bounds<float>> boxes, BvhBuild build = BvhBuild::quality);
-/// It frees the boxes as soon as they are read.
+/// Frees the boxes as soon as they are read.
 Bvh build_bvh(FirstTouchVector<Bounds<float>>&& boxes, BvhBuild build = BvhBuild::quality);
 
-/// Puts the hierarchy around other boxes: those of things that have moved. The further they moved
-/// against each other, the more rays visit too much; rays find the same as after a build anew.
+/// Refits the hierarchy to other boxes: those of objects that have moved. The further they moved
+/// against each other, the more nodes rays visit needlessly; rays find the same as after a
+/// rebuild.
 void refit(Bvh& bvh, std::span<const Bounds<float>> boxes);
 
-/// How many nodes, and how many boxes of leaves, a random line that meets the root's box visits:
-/// the sums of surface areas over that of the whole. What the surface area heuristic makes small.
+/// Expected number of nodes, and of boxes in leaves, visited by a random line that meets the
+/// root's box: the sums of surface areas over that of the root. The surface area heuristic
+/// minimises these.
 struct VisitEstimate {
   double nodes = 0, leaves = 0;
 };

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Hierarchies with several boxes in a leaf, for contents that lanes look at together.
+// Hierarchies with several boxes per leaf, for contents that are tested in lanes together.
 #pragma once
 
 #include "core/bvh/bvh.h"
 
 namespace minkray {
 
-/// Its children with the leaf bit are numbers of leaves.
+/// Children with the leaf bit are indices of leaves.
 struct BvhOfLeaves {
   Bvh bvh;
   FirstTouchVector<std::uint32_t> boxes;   ///< numbers of all boxes, leaf by leaf
-  FirstTouchVector<std::uint32_t> begins;  ///< where each leaf begins, and where the last one ends
+  FirstTouchVector<std::uint32_t> begins;  ///< begin of each leaf, then the end of the last one
 };
 
 /// As build_bvh for fast rays, with up to bvh_width boxes in each leaf, and nearly as many in most.

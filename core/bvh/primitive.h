@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What builders of hierarchies work on: boxes in registers, with their index.
+// Primitives of the builders: boxes in registers, with their index.
 #pragma once
 
 #include <bit>

@@ -24,7 +24,7 @@ double half_area(const Bounds<float>& box) {
 }  // namespace
 
 void refit(Bvh& bvh, std::span<const Bounds<float>> boxes) {
-  // Children follow their parents, so backwards all are ready when they are asked for.
+  // Children follow their parents, so in a backward loop they are refitted before their parents.
   for (std::size_t i = bvh.nodes.size(); i-- > 0;) {
     BvhNode& node = bvh.nodes[i];
     for_children(node, [&](int child, std::uint32_t what) {

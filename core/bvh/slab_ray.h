@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Rays prepared for slab tests against boxes of floats, eight boxes at a time. The tests are padded
-// after Ize, "Robust BVH Ray Traversal" (2013), so that rounding never loses a box that the exact
-// ray meets.
-//
-// Rays of any scalar are tested in float. What float cannot hold is rounded to the safe side: the
-// origin towards where the first planes come earlier and the last ones later. Along the ray, t is
+// Rays prepared for slab tests against eight boxes of floats, padded after Ize, "Robust BVH Ray
+// Traversal" (2013): rounding never loses a box that the exact ray meets. Rays of any scalar are
+// tested in float, with the origin rounded towards earlier first planes and later last planes. t is
 // counted in steps of a power of two so large that the direction's largest component is about 1:
-// directions of any length stay in range.
+// any length stays in range.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +18,7 @@
 
 namespace minkray {
 
-/// What a slab test needs to know of a ray. Planes are met first (near) or last (far).
+/// Numbers of a ray for slab tests. Planes are met first (near) or last (far).
 struct SlabNumbers {
   float origin_near[3], origin_far[3];
   float inverse_near[3], inverse_far[3];  ///< 1 / direction: infinite where there is no component
@@ -38,7 +35,7 @@ inline constexpr float slab_padding = 1 + 4 * std::numeric_limits<float>::epsilo
 /// still entered so much behind a hit.
 inline constexpr float hit_padding = 1 + 32 * std::numeric_limits<float>::epsilon();
 
-/// What is lost where numbers are too small to have all digits.
+/// Error where numbers are too small to have all digits.
 inline constexpr float slab_tiny = std::numeric_limits<float>::min();
 
 namespace detail {
@@ -60,7 +57,7 @@ inline float float_below(double x) {
 /// The numbers of a ray, and how long a step is.
 struct SlabRay {
   SlabNumbers numbers;
-  double steps;  ///< so many steps are t = 1
+  double steps;  ///< number of steps that make t = 1
 
   SlabRay() = default;
   /// Origin and direction must be finite; components of the direction may be zero (also -0), all of

@@ -9,9 +9,9 @@
 
 namespace minkray {
 
-/// Where the near and far planes of an axis are met, in lanes. A ray within a plane gives
-/// 0 * infinity = NaN: max and min are such that it falls through, and the plane does not limit the
-/// ray.
+/// Parameters at which the near and far planes of an axis are met, in lanes. A ray within a plane
+/// gives 0 * infinity = NaN: the order of operands in max and min drops it, so the plane does not
+/// limit the ray.
 template <class Lanes>
 struct SlabInterval {
   Lanes enter, leave;
@@ -24,7 +24,7 @@ struct SlabInterval {
   Mask<Lanes> is_met() const { return enter <= leave * Lanes(slab_padding) + Lanes(slab_tiny); }
 };
 
-/// Which of a node's boxes are met up to t_max, and where.
+/// Returns which of a node's boxes are met up to t_max, and writes where.
 template <class Lanes>
 std::uint32_t boxes_met(const BvhNode& node, const SlabNumbers& ray, float t_max,
                         float (&enters)[bvh_width]) {

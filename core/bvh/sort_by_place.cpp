@@ -11,12 +11,12 @@
 namespace minkray {
 namespace {
 
-/// Sorted by so many bits at a time: their counts stay in the first cache.
+/// Bits per pass of the sort: few enough that their counts stay in the first cache.
 constexpr int bits_a_pass = 10;
 constexpr std::size_t buckets = std::size_t{1} << bits_a_pass;
 
-/// Each range's keys are counted, and moved, by one thread: long enough that the ranges' counts are
-/// few beside the keys.
+/// Each range's keys are counted and moved by one thread. Ranges are long enough that their counts
+/// are few compared with the keys.
 constexpr std::size_t range_size = std::size_t{1} << 16;
 
 using Counts = std::array<std::size_t, buckets>;

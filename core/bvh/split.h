@@ -10,7 +10,7 @@
 
 namespace minkray {
 
-/// Primitives [begin, end), found by so many splits.
+/// Primitives [begin, end), found after `depth` splits.
 struct BuildRange {
   std::size_t begin = 0, end = 0;
   int depth = 0;
@@ -41,8 +41,8 @@ class AreaSplitter {
   std::span<Primitive> primitives_;
 };
 
-/// As AreaSplitter, but small ranges are split at multiples of bvh_width: leaves of so many are
-/// nearly all full.
+/// Like AreaSplitter, but small ranges are split at multiples of bvh_width, so that nearly all
+/// leaves are full.
 class FullLeafSplitter {
  public:
   explicit FullLeafSplitter(std::span<Primitive> primitives)
@@ -56,8 +56,8 @@ class FullLeafSplitter {
   AreaSplitter by_area_;
 };
 
-/// Where the bits of their middles' place on a Morton curve differ first (Lauterbach et al., "Fast
-/// BVH Construction on GPUs", 2009). Sorts the primitives when made.
+/// Splits at the first bit that differs among the middles' positions on a Morton curve (Lauterbach
+/// et al., "Fast BVH Construction on GPUs", 2009). Sorts the primitives when constructed.
 class CurveSplitter {
  public:
   explicit CurveSplitter(FirstTouchVector<Primitive>& primitives);

@@ -15,7 +15,7 @@ constexpr int most_bins = 16;
 constexpr int few_bins = 8;
 constexpr std::size_t few_primitives = 64;
 
-/// Leaves are filled in ranges of up to so many: larger ones lose little by a leaf that is not
+/// Size of ranges up to which leaves are filled: larger ranges lose little by a leaf that is not
 /// full.
 constexpr std::size_t most_of_full_leaves = 256;
 
@@ -32,7 +32,7 @@ struct Bins {
   }
 };
 
-/// Where a primitive's middle falls among the bins of a range.
+/// Assigns the middles of a range's primitives to bins.
 class Binning {
  public:
   Binning(const BuildBox& middles, int bins)

@@ -9,13 +9,13 @@
 
 namespace minkray {
 
-/// So many pairs are told at once, or fewer.
+/// Largest number of pairs per call.
 inline constexpr std::size_t most_pairs_at_once = 5 * std::size_t{bvh_width};
 
-/// Told which rays meet which boxes, pair by pair. Rounding may add some. A plain function, so that
-/// kernels share no code.
+/// Receives the pairs of rays and boxes that meet. Rounding may add some. A plain function, so
+/// that kernels share no code.
 struct PairVisitor {
-  /// It may lower numbers.t_max of any ray; a negative one ends the ray's walk.
+  /// May lower numbers.t_max of any ray; a negative one ends the ray's walk.
   void (*visit)(void* context, const std::uint32_t* rays, const std::uint32_t* boxes,
                 std::size_t pairs);
   void* context;
@@ -26,8 +26,8 @@ struct PairVisitor {
 std::uint64_t walk_stream(const Bvh& bvh, std::span<SlabRay> rays, const PairVisitor& visitor,
                           WalkSet set = best_walk_set());
 
-/// SlabRay(ray) of rays in double, the same bits; only on machines that have AVX2 and FMA. They
-/// follow each other `stride` bytes apart.
+/// SlabRay(ray) of rays in double, the same bits; only on machines that have AVX2 and FMA. The
+/// rays are `stride` bytes apart.
 void make_slabs_avx2(const char* rays, std::size_t stride, std::size_t count, SlabRay* slabs);
 
 /// Only on machines that have AVX2 and FMA.

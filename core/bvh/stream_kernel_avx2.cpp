@@ -12,14 +12,15 @@ namespace {
 
 using Lanes = Wide<float, 8, IsaAvx2>;
 
-/// So many rays take turns (docs/decisions/many-rays.md).
+/// Number of rays that take turns (docs/decisions/many-rays.md).
 constexpr std::uint32_t turns = 32;
 
 /// Entries that are always live, below each stack's first.
 constexpr int sentinels = 8;
 constexpr int stack_size = sentinels + bvh_max_depth * (bvh_width - 1) + 1 + bvh_width;
 
-/// Pairs wait until there are so many; each of the steps abreast adds up to eight.
+/// Pairs are queued until there are at least this many; each of the steps abreast adds up to
+/// eight.
 constexpr std::uint32_t pairs_at_once = 8, queue_size = 2 * most_pairs_at_once;
 
 /// The nodes that a ray has yet to visit, the nearest on top, and where it enters their boxes.
@@ -83,11 +84,11 @@ bool drop_distant(Turn& turn, float t_max) {
 
 namespace {
 
-/// Steps of so many rays at once, phase by phase, so that their chains of operations run side by
+/// Number of rays stepped at once, phase by phase, so that their chains of operations run side by
 /// side: the processor looks ahead no further than about one step (docs/decisions/many-rays.md).
 constexpr std::uint32_t abreast = 4;
 
-/// What a step knows between its phases.
+/// State of a step between its phases.
 template <std::uint32_t count>
 struct Steps {
   Turn* turn[count];
@@ -321,7 +322,7 @@ std::uint64_t walk_stream_avx2(const BvhNode* nodes, SlabRay* rays, std::size_t 
 #else
 namespace minkray {
 
-/// Other machines never ask.
+/// Never called on other machines.
 void make_slabs_avx2(const char*, std::size_t, std::size_t, SlabRay*) {}
 std::uint64_t walk_stream_avx2(const BvhNode*, SlabRay*, std::size_t, const PairVisitor&) {
   return 0;

@@ -10,7 +10,7 @@
 
 namespace minkray {
 
-/// The instruction sets that walks are compiled for. They find the same.
+/// The instruction sets that walks are compiled for. All find the same boxes.
 enum class WalkSet : unsigned char { sse2, avx2 };
 WalkSet best_walk_set();
 
@@ -28,9 +28,9 @@ void expected(const void* context, std::uint32_t box) {
   (*static_cast<const OnExpected*>(context))(box);
 }
 
-/// Calls on_box(index) for the boxes that the ray meets with 0 <= t <= t_max, and rounding may add
-/// some. It may lower ray.numbers.t_max, and ends the walk by returning true. Answers how many
-/// nodes were visited. on_expected(index) is told beforehand of boxes that may be met soon.
+/// Calls on_box(index) for the boxes that the ray meets with 0 <= t <= t_max; rounding may add
+/// some. on_box may lower ray.numbers.t_max, and ends the walk by returning true. Returns the
+/// number of visited nodes. Calls on_expected(index) ahead for boxes that may be met soon.
 template <class OnBox, class OnExpected = ExpectNothing>
 std::uint32_t traverse(const Bvh& bvh, const SlabRay& ray, OnBox&& on_box,
                        const OnExpected& on_expected = {}, WalkSet set = best_walk_set()) {

@@ -10,7 +10,7 @@ namespace minkray {
 
 /// Receives the boxes that are met. Plain functions, so that kernels share no code.
 struct BoxVisitor {
-  /// Returns true to end the walk. It may lower t_max of the ray.
+  /// Returns true to end the walk. May lower t_max of the ray.
   bool (*visit)(void* context, std::uint32_t box);
   void* context;
   /// Receives boxes that may be visited soon, so that what they hold can be fetched.

@@ -7,7 +7,7 @@
 
 namespace minkray {
 
-/// It is exhausted where the model gives up, and where a beginning inside is in doubt.
+/// Exhausted if the model does not converge, or if it is uncertain whether the origin lies inside.
 template <class T, class Observer>
 CastResult<T> cast_with_model(Stage stage, const StageQuestion<T>& question, Observer&& observer) {
   const PreparedShape<T>& shape = question.shape;
@@ -29,7 +29,7 @@ CastResult<T> cast_with_model(Stage stage, const StageQuestion<T>& question, Obs
   const auto cast = [&](const auto& make_model) {
     CastLanes<T> lanes = model_cast<T>(make_model, near, ball, shape.inner_half_extents(), true,
                                        max_iterations, observer);
-    // A portal's plane that is no more than a direction tells nothing about a curved shape.
+    // A portal's plane that is no more than a direction proves nothing about a curved shape.
     if (is_portal && lanes.by_model) lanes.hit = false;
     if (lanes.uncertain && shape.definition().uncertain_slope() > T(0)) lanes.inside = false;
     return result_of(lanes);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Casts whose iterations are looked at, for traces and pictures: not compiled for speed.
+// Casts whose iterations are observed, for traces and pictures: not compiled for speed.
 #include "core/cast/ask_gjk.h"
 #include "core/cast/ask_model.h"
 

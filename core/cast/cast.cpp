@@ -8,8 +8,8 @@
 namespace minkray {
 namespace {
 
-/// Whether the shape's closed form may answer: not where a particular solver was asked for, nor
-/// where its steps are to be seen.
+/// True if the shape's closed form may answer: no particular solver was requested, and no observer
+/// needs its steps.
 template <class T>
 bool asks_filter(const PreparedShape<T>& shape, const CastOptions<T>& options) {
   return options.solver == SolverKind::automatic &&

@@ -27,15 +27,16 @@ struct CastOptions {
 template <class T>
 using CastObserver = std::function<void(const CastIteration<T>&)>;
 
-/// Where the ray enters the shape: the least t in [0, t_max] at which origin + t * direction lies
-/// in it. Origin in the shape: status inside, t = 0. Numbers must be finite, t_max may be infinite.
-/// The observer, if any, sees every iteration, in the shape's inner frame.
+/// Finds where the ray enters the shape: the least t in [0, t_max] at which origin + t * direction
+/// lies in it. Origin in the shape: status inside, t = 0. Numbers must be finite, t_max may be
+/// infinite. The observer, if any, receives every iteration, in the shape's inner frame.
 template <class T>
 CastResult<T> cast_ray(const PreparedShape<T>& shape, const Ray<T>& ray,
                        const CastOptions<T>& options = {}, const CastObserver<T>& observer = {});
 
-/// Where the ray leaves the shape: the greatest t in [0, t_max] at which it lies in it. Status hit:
-/// it leaves at t. Inside: it ends at t = t_max still in the shape. Miss: it never meets the shape.
+/// Finds where the ray leaves the shape: the greatest t in [0, t_max] at which the ray lies in the
+/// shape. Status hit: it leaves at t. Inside: it ends at t = t_max still in the shape. Miss: it
+/// never meets the shape.
 template <class T>
 CastResult<T> cast_exit(const PreparedShape<T>& shape, const Ray<T>& ray,
                         const CastOptions<T>& options = {});

@@ -19,7 +19,7 @@ constexpr int most_corners = 7, most_refinements = 32;
 /// Stops refining when the bound is within this many times the plane's rounding.
 constexpr double good_share = 3;
 
-/// A support point seen from the hit: beside the ray, and along it.
+/// A support point relative to the hit: its offset across the ray, and along it.
 struct Corner {
   Vec2 beside = Vec2::Zero();
   double along = 0;
@@ -63,7 +63,7 @@ class Portal {
     return outward;
   }
 
-  /// How the triangle's plane rises along the ray for each length beside it.
+  /// Slope of the triangle's plane: rise along the ray per length across it.
   Vec2 rise() const {
     const Vec2 u = corners_[1].beside - corners_[0].beside,
                v = corners_[2].beside - corners_[0].beside;
@@ -109,7 +109,7 @@ class Portal {
   double turn() const {
     return cross(corners_[1].beside - corners_[0].beside, corners_[2].beside - corners_[0].beside);
   }
-  /// How far the ray passes to the left of the edge, to the right if `turn` is negative.
+  /// Distance at which the ray passes to the left of the edge, to the right if `turn` is negative.
   static double distance_within(const Corner& from, const Corner& to, double turn) {
     const double length = (to.beside - from.beside).norm();
     return length > 0 ? std::copysign(1.0, turn) * cross(from.beside, to.beside) / length : 0;

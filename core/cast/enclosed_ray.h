@@ -7,12 +7,12 @@
 
 namespace minkray {
 
-/// Bounds a hit's parameter from above where its solver has not. Looks for support points around
-/// the ray in directions tilted a little from the hit's normal: on a flat face those are its
-/// corners, on a patch of curvature radius rho and a tilt delta they lie rho * delta from the hit
-/// and rho * delta^2 under it. Where that is far, the triangle is refined as portals are (G.
-/// Snethen, "XenoCollide", 2008). Leaves the bound infinite where the ray passes an edge within
-/// rounding. The ray and the normal are in the shape's inner frame.
+/// Bounds a hit's parameter from above where its solver has not, by support points in directions
+/// tilted slightly from the hit's normal. A flat face gives its corners; a patch of curvature
+/// radius rho and a tilt delta gives points rho * delta from the hit and rho * delta^2 under it.
+/// Where that is far, the triangle is refined as portals are (G. Snethen, "XenoCollide", 2008).
+/// Leaves the bound infinite where the ray passes an edge within rounding. The ray and the normal
+/// are in the shape's inner frame.
 void enclose_ray(const PreparedShape<double>& shape, const RayNearBall<double>& near,
                  const Vec3<double>& normal, CastResult<double>& hit);
 

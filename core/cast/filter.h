@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The first stage of a cast, and for nearly all rays the last: the shape's closed form in double,
-// with an error bound. Where a decision is nearer than the bound the answer is "in doubt", and the
-// next stage is asked. After the filters of exact geometric computation (Fortune and Van Wyk 1996;
-// Shewchuk, "Adaptive Precision Floating-Point Arithmetic", 1997).
-//
-// One text for single rays and for packets of them, which therefore have the same bits.
+// with an error bound. A decision nearer than the bound is "in doubt", and the next stage runs
+// (after Shewchuk, "Adaptive Precision Floating-Point Arithmetic", 1997). Single rays and packets
+// share this code, so their results are bit-identical.
 #pragma once
 
 #include "core/cast/form_line.h"
@@ -30,7 +28,7 @@ template <class W>
   return v * (W(1) / sqrt(W(v.squaredNorm())));
 }
 
-/// Calls exact::enter, but is not copied to where it is asked.
+/// Calls exact::enter without being inlined.
 template <class W>
 [[gnu::noinline, gnu::cold]] exact::Entry<W> enter_rarely(const exact::Form& form,
                                                           const exact::Line<W>& line,
@@ -38,9 +36,9 @@ template <class W>
   return exact::enter<W>(form, line, open);
 }
 
-/// Where each ray enters the shape, or (`leaves`) where it leaves it for the last time. Only `open`
-/// lanes count. The shape's definition must have a form.
-/// The shape is a PreparedShape, or what stands in its place in lanes.
+/// Finds where each ray enters the shape, or (`leaves`) where it leaves it for the last time. Only
+/// `open` lanes count. The shape's definition must have a form. The shape is a PreparedShape, or
+/// its substitute in lanes.
 template <bool leaves, class F, class Placed>
 [[gnu::always_inline]] inline Filtered<F> filter(const Placed& shape, const Ray<F>& ray,
                                                  const Mask<Work<F>>& open) {
@@ -57,7 +55,7 @@ template <bool leaves, class F, class Placed>
   const W first = leaves ? W(-near.end) : near.begin, last = leaves ? W(-near.begin) : near.end;
   exact::Entry<W> entry = exact::enter<W>(form, line, open & near.bounded);
 
-  // A plane beside the line runs along it, to rounding of its own.
+  // A plane that separates the line runs along it, to rounding of its own.
   if (any(entry.miss)) {
     const W towards = entry.normal.dot(line.d) * line.inv;
     entry.normal = select<W>(entry.miss, Vec3<W>(entry.normal - line.d * towards), entry.normal);

@@ -130,7 +130,7 @@ template <FormKind kind>
     return exact::enter_frustum(form.slope, form.sine, a[2], a[3], form.R, line, open);
 }
 
-/// It is not copied to where it is asked.
+/// Not inlined.
 template <FormKind kind>
 [[gnu::noinline]] exact::Entry<W> enter_again(const FormInLanes& form, const exact::Line<W>& line,
                                               const Mask<W>& open) {

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The ray as a shape's closed form sees it: a line in double in the form's frame, moved near, and
-// how exact that is. F is float or double, or a packet of them; W the same in double.
-//
-// Rays in float are moved in double in one step, without fused operations: their numbers' products
-// are exact there, and the bits are the same on every processor. Rays in double are moved by
-// ray_near's two steps. docs/forms.md ("Casts with an error bound") has the bounds.
+// The ray in the frame of a shape's closed form: a line in double, moved near, and its error bound
+// (docs/forms.md, "Casts with an error bound"). F is float or double, or a packet of them; W the
+// same in double. Float rays are moved in one step without fused operations: their products are
+// exact in double, and the bits are the same everywhere. Double rays are moved by ray_near's two
+// steps.
 #pragma once
 
 #include "core/cast/prepared_shape.h"
@@ -25,7 +24,7 @@ struct WorkOf<Wide<T, N, Isa>> {
 };
 }  // namespace detail
 
-/// What closed forms work with, for rays of F.
+/// Number type that closed forms work with, for rays of F.
 template <class F>
 using Work = typename detail::WorkOf<F>::type;
 
@@ -41,10 +40,10 @@ auto convert(const F& x) {
 template <class W>
 struct FormLine {
   exact::Line<W> line;
-  Mask<W> bounded;  ///< lanes in which line.E is what it says
+  Mask<W> bounded;  ///< lanes in which line.E is valid
   W base, shift, per;
   W begin, end;  ///< the ray's, as parameters of the line
-  W slack;       ///< how uncertain those are
+  W slack;       ///< uncertainty of begin and end
 };
 
 namespace detail {
@@ -66,7 +65,7 @@ template <class P>
   }
 }
 
-/// It sums the squares of all entries: a bound of how much longer vectors become.
+/// The sum of the squares of all entries: a bound on how much vectors are lengthened.
 template <class P>
 [[gnu::always_inline]] inline Work<P> squared_size(const Mat3<P>& m) {
   return wider(m).squaredNorm();
@@ -87,7 +86,8 @@ template <class F, class W, class Placed>
   if constexpr (requires { shape.two_fold_centre(); }) centre += wider(shape.two_fold_centre().low);
   Vec3<W> p = wider(ray.origin) - widen<W>(centre), d = wider(ray.direction);
   const W far(tolerance::form_far * tolerance::form_far * form.R * form.R);
-  // What a map with an error in the last digit of each product may add, of origin and direction.
+  // Error of the mapped origin and direction if each product of the map has an error in its last
+  // digit.
   W spread(0), spread_per(0);
   if (const auto* map = shape.linear_to_inner()) {
     const auto squared = squared_size(*map);
@@ -194,7 +194,7 @@ template <class W, class Placed>
 
 }  // namespace detail
 
-/// The shape is a PreparedShape, or what stands in its place in lanes.
+/// The shape is a PreparedShape, or its substitute in lanes.
 template <class F, class Placed>
 [[gnu::always_inline]] inline FormLine<Work<F>> form_line(const exact::Form& form,
                                                           const Placed& shape, const Ray<F>& ray) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A float ray at a float shape, asked in double: the same query, whose numbers are all exact there,
-// but for the map into the shape's frame.
+// Casts a float ray at a float shape in double: the same query, whose numbers are all exact there
+// except for the map into the shape's frame.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Questions and answers of casts in other numbers, to be asked again with more digits.
+// Queries and results of casts converted to another number type, to be repeated with more digits.
 #pragma once
 
 #include "core/query/ray_near_ball.h"

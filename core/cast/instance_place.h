@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where an instance stands, in as few bytes as kernels can read: the leading digits, one cache
-// line, answer nearly all questions; the trailing ones make the map exact.
+// Pose of an instance, in as few bytes as kernels can read: the leading digits, one cache line,
+// suffice for nearly all queries; the trailing ones make the map exact.
 #pragma once
 
 #include <bit>

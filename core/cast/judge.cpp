@@ -85,7 +85,7 @@ CastResult<T> Judge<T>::verdict() const {
   if (accepted_) {
     result = *accepted_;
   } else if (proven_) {
-    // What nearly touches an ordinary shape is answered as it is, if nothing better was found.
+    // A near miss or touch of an ordinary shape is returned as it is if nothing better was found.
     const bool is_answered = proven_->holds || (unproven_ && proof_ != Proof::all);
     result = in_precision<T>(proven_->answer);
     result.path = Path::finer;

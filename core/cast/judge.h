@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which of the answers of a cast's stages to believe: the first that needs no proof, or has a sharp
-// one; else the first that has any.
+// Selects which result of a cast's stages to believe: the first that needs no proof, or has a
+// sharp one; else the first that has any.
 #pragma once
 
 #include <optional>
@@ -15,15 +15,15 @@ class Judge {
  public:
   Judge(const StageQuestion<T>& question, Proof proof) : question_(question), proof_(proof) {}
 
-  /// Whether no other stage has to be asked.
+  /// True if no further stage has to run.
   bool accepts(CastResult<T> answer);
   /// Does what accepts() does with an answer in wider numbers, which always has to be proven.
   bool accepts_finer(const CastResult<double>& answer);
-  /// It comes last, for rims and edges that are just touched: a proof tells whether a hit that has
-  /// none is one before where it was claimed, past an edge, or else whether the last stage that
-  /// gave up with a plane did so at a hit.
+  /// Runs last, for rims and edges that are just touched. A proof decides whether an unproven hit
+  /// is really one before the claimed point, past an edge, or else whether the last stage that
+  /// failed to converge with a plane did so at a hit.
   void try_once_more();
-  /// What to answer once a stage was accepted, or there is none left; with the work of all stages.
+  /// The result once a stage was accepted, or none is left; with the work of all stages.
   CastResult<T> verdict() const;
 
  private:

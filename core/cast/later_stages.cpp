@@ -25,7 +25,7 @@ ShapeKinds kind_of(const ShapeDefinition<T>& definition) {
                                                           : shape_kind::with_model;
 }
 
-/// Whether an answer is meant to be exact: coarser tolerances prove nothing.
+/// True if the result is meant to be exact: coarser tolerances prove nothing.
 template <class T>
 bool is_exact(const CastOptions<T>& options) {
   return options.eps_tol <= tolerance::gjk_squared<T>;
@@ -47,7 +47,7 @@ CastResult<T> ask_stages(const StageQuestion<T>& question) {
     switch (stage) {
       case Stage::none:
         return judge.verdict();
-      case Stage::filter:  // were asked of the ray as it was given
+      case Stage::filter:  // already run on the original ray
       case Stage::in_double:
       case Stage::bounds:
         continue;
@@ -152,7 +152,7 @@ void bound_hit(const PreparedShape<T>& shape, const RayNearBall<T>& near,
       enclose_ray(shape, near, shape.normal_to_inner(result.normal), result);
 }
 
-/// A miss that the shape's box tells, if the policy asks it.
+/// A miss found by the shape's box, if the policy includes that stage.
 template <class T>
 std::optional<CastResult<T>> ask_bounds(const PreparedShape<T>& shape, const Ray<T>& ray,
                                         const CastOptions<T>& options) {
@@ -165,7 +165,7 @@ std::optional<CastResult<T>> ask_bounds(const PreparedShape<T>& shape, const Ray
   return CastResult<T>{Status::miss, Path::model, T(0), T(0), T(0), T(0), normal, 0, 0};
 }
 
-/// Whether the policy asks in double, which rays in double are already.
+/// True if the policy includes a cast in double; rays in double are so already.
 template <class T>
 bool asks_in_double(const PreparedShape<T>& shape, const CastOptions<T>& options) {
   return std::is_same_v<T, float> && is_exact(options) &&
@@ -182,8 +182,8 @@ CastResult<float> cast_in_double(const PreparedShape<float>& shape, const Ray<fl
   return ask_in_double(shape, ray, options, cast);
 }
 
-/// Whether rounding across a hit's plane is so much longer along the ray that it is asked in double
-/// in place of proven.
+/// True if rounding across a hit's plane is so much longer along the ray that the cast is repeated
+/// in double instead of proven.
 template <class T>
 bool is_steep_in_float(const StageQuestion<T>& question, const CastResult<T>& answer) {
   const ShapeDefinition<T>& definition = question.shape.definition();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a cast asks where the filter (core/cast/filter.h) is in doubt or has no form for a shape:
-// bounds, models, the GJK ray cast, and both with more digits.
+// Later stages of a cast, for shapes without a form or where the filter (core/cast/filter.h) is in
+// doubt: bounds, models, the GJK ray cast, and both with more digits.
 #pragma once
 
 #include "core/cast/cast.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What every answer of a cast goes through last, whichever stage gave it: for a single ray, or for
-// a packet of them in lanes. Answers are CastResult, Filtered or CastLanes.
+// Final step of every cast, whichever stage gave the result: for a single ray, or for a packet of
+// rays in lanes. Results are CastResult, Filtered or CastLanes.
 #pragma once
 
 #include <cmath>

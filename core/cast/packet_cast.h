@@ -45,11 +45,11 @@ using LaneBits = std::uint32_t;
 template <class T>
 inline constexpr LaneBits all_lanes = (LaneBits(1) << packet_lanes<T>)-1;
 
-/// CastResult, lane by lane. Lanes that were not asked for hold nothing of meaning, nor do the
-/// numbers of t in lanes that miss.
+/// CastResult, lane by lane. Lanes not requested hold nothing of meaning, nor do the numbers of t
+/// in lanes that miss.
 template <class T>
 struct alignas(32) CastPacket {
-  LaneBits hit = 0, inside = 0, miss = 0;  ///< a lane that was asked for and has none: exhausted
+  LaneBits hit = 0, inside = 0, miss = 0;  ///< a requested lane that has none of them: exhausted
   PacketNumbers<T> t_base, t_offset, offset_lo, offset_hi;
   std::array<PacketNumbers<T>, 3> normal;
   PacketNumbers<T> supports;  ///< also the number of iterations
@@ -68,7 +68,7 @@ struct alignas(32) CastPacket {
 enum class InstructionSet : unsigned char { sse2, avx2 };
 InstructionSet best_instruction_set();
 
-/// cast_ray for the lanes asked for. The instruction set must be one that the machine has.
+/// cast_ray for the lanes requested. The instruction set must be one that the machine has.
 template <class T>
 void cast_packet(const PreparedShape<T>& shape, const RayPacket<T>& rays, LaneBits lanes,
                  CastPacket<T>& answers, InstructionSet set = best_instruction_set());

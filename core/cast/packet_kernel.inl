@@ -56,7 +56,7 @@ void part(const PreparedShape<Lane<W>>& shape, const RayPacket<Lane<W>>& rays, L
       abs(result.t_base + result.t_offset) < W(std::numeric_limits<T>::infinity());
   const Mask<W> numbers = has_numbers(result, normal);
   keep_on_ray(ray, result);
-  // What is uncertain is left to the single casts.
+  // Uncertain lanes are left to the single casts.
   Mask<W> hit = result.hit & in_range & numbers, inside = result.inside & numbers;
   if (const T uncertain = shape.definition().uncertain_slope(); uncertain > T(0)) {
     hit &= -result.normal.dot(near.r) >= W(uncertain);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which stages a cast asks, in order, and which of their answers have to be proven: one table. A
-// stage is asked if those before it gave up, or if their answers could not be proven.
+// Stages of a cast, in order, and which of their results have to be proven: one table. A stage
+// runs if those before it failed to converge, or if their results could not be proven.
 #pragma once
 
 #include <array>
@@ -9,12 +9,12 @@
 
 namespace minkray {
 
-/// One way to an answer; docs/rays.md tells what each of them is good for.
+/// A stage of a cast; docs/rays.md explains what each of them is good for.
 enum class Stage : unsigned char {
   none,
   filter,          ///< the closed form, in double, with an error bound (filter.h)
   bounds,          ///< the box of a miss
-  in_double,       ///< the shape and the ray in double, which is final; rays in double go on
+  in_double,       ///< the shape and the ray in double, which is final; rays in double skip it
   model,           ///< the hull of the features that support calls have shown (core/model)
   gjk,             ///< the GJK ray cast
   support_portal,  ///< the model of a polytope, whatever the shape
@@ -24,20 +24,20 @@ enum class Stage : unsigned char {
   algorithm_1,     ///< the paper's slow reference
 };
 
-/// Which hits have to be proven before they are answered, where shapes may have corners.
+/// Hits that must be proven before they are returned, where shapes may have corners.
 enum class Proof : unsigned char {
   none,
-  steep_hits,  ///< those whose plane is nearly along the ray; in float they are asked in double
+  steep_hits,  ///< those whose plane is nearly along the ray; float rays are cast in double
   all,
 };
 
 /// Kinds of shapes, as bits: each shape is of one kind.
 using ShapeKinds = unsigned;
 namespace shape_kind {
-inline constexpr ShapeKinds with_form = 1;   ///< it declares a closed form
-inline constexpr ShapeKinds with_model = 2;  ///< it has none, but a model that is exact
-inline constexpr ShapeKinds osculated = 4;   ///< its model only osculates it
-inline constexpr ShapeKinds extreme = 8;     ///< its proportions are (core/derived/proportions.h)
+inline constexpr ShapeKinds with_form = 1;   ///< has a closed form
+inline constexpr ShapeKinds with_model = 2;  ///< has no closed form, but an exact model
+inline constexpr ShapeKinds osculated = 4;   ///< the model only osculates the shape
+inline constexpr ShapeKinds extreme = 8;     ///< extreme proportions (core/derived/proportions.h)
 inline constexpr ShapeKinds lost = 16;       ///< a needle of points thinner than float's rounding
 inline constexpr ShapeKinds ordinary = with_form | with_model | osculated | lost;
 inline constexpr ShapeKinds every = ordinary | extreme;
@@ -65,13 +65,13 @@ inline constexpr std::array policies = {
            with_form,
            steep,
            {filter, in_double, bounds, model, gjk, support_portal, finer}},
-    // Flat slivers in float are asked in double: their models lose as many digits as they are thin.
+    // Flat slivers in float are cast in double: their models lose as many digits as they are thin.
     Policy{
         Kind::automatic, with_model, steep, {in_double, bounds, model, gjk, support_portal, finer}},
     Policy{Kind::automatic, osculated, steep, {gjk, model, support_portal, finer}},
     Policy{Kind::automatic, lost, steep, {gjk, support_portal, finer}},
     Policy{Kind::automatic, extreme, always, {in_double, model, gjk, finer}},
-    // Hulls of two features need digits: their models are asked in double.
+    // Hulls of two features need digits: their models are cast in double.
     Policy{Kind::jet, with_form, steep, {in_double, bounds, model, gjk, support_portal, finer}},
     Policy{Kind::jet, ordinary, steep, {in_double, bounds, model, gjk, support_portal, finer}},
     Policy{Kind::jet, extreme, always, {in_double, model, gjk, finer}},

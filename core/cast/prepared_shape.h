@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A shape made ready to be cast at many times: affine maps around it are pulled out, so that the
-// solver works in the innermost frame with as few and as exact operations as possible, and the
-// bounding ball is computed once.
+// A shape prepared for many casts: affine maps around it are pulled out, so that the solver works
+// in the innermost frame with as few and as exact operations as possible, and the bounding ball is
+// computed once.
 #pragma once
 
 #include <memory>
@@ -56,16 +56,16 @@ class PreparedShape {
   /// The ball's centre in the outer frame: as forms take it, and all of it.
   const Vec3<T>& centre() const { return centre_.high; }
   const TwoFoldVec3<T>& two_fold_centre() const { return centre_; }
-  /// It is null for the identity.
+  /// Null for the identity.
   const Mat3<T>* linear_to_inner() const { return is_rigid_identity_ ? nullptr : &to_inner_; }
 
   const Shape<T>& inner_shape() const { return definition_->inner_shape(); }
   const Ball<T>& inner_ball() const { return definition_->inner_ball(); }
-  /// They are those of the inner shape's axis-aligned bounds.
+  /// Half extents of the inner shape's axis-aligned bounds.
   const Vec3<T>& inner_half_extents() const { return definition_->inner_half_extents(); }
 
-  /// Whether the centre is so many radii from the outer frame's origin that a float ray loses
-  /// digits which it has, where it is moved there in float.
+  /// True if the centre is so far from the outer frame's origin, in radii, that a float ray loses
+  /// digits when it is moved there.
   bool is_far_out() const {
     if constexpr (std::is_same_v<T, double>) return false;
     const T size = is_rigid_identity_ ? T(1) : to_inner_.cwiseAbs().maxCoeff();
@@ -73,7 +73,7 @@ class PreparedShape {
     return R > T(0) && centre_.high.cwiseAbs().maxCoeff() * size > T(tolerance::far_out) * R;
   }
 
-  /// What the solvers on jets model it as.
+  /// Model of the shape for the solvers on jets.
   ModelKind model() const { return definition_->model(); }
 
   /// The ray in the inner frame, relative to the ball's centre; W is T or a packet of it.

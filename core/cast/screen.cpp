@@ -10,7 +10,7 @@
 namespace minkray {
 namespace {
 
-/// Whether all that a form of this radius calculates stays among float's numbers.
+/// True if all numbers that a form of this radius computes are within float's range.
 bool is_in_range(double R) {
   return R > tolerance::screen_least_radius && R < tolerance::screen_largest_radius;
 }
@@ -77,7 +77,7 @@ ScreenForm screen_form(const exact::Form& form, const Vec3<double>& centre) {
   return screen;
 }
 
-/// Polytopes of more planes are looked at by their box.
+/// Polytopes of more planes are screened by their box.
 constexpr std::size_t most_planes = 128;
 
 std::shared_ptr<const std::vector<float>> planes_of(const exact::Polytope& polytope) {

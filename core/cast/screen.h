@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Looks at eight pairs of a ray and a posed shape at once before any is cast at: each surely
-// misses, or is met between two parameters. The closed forms are those of casts, in float lanes
-// with bounds for float (docs/forms.md, "Casts with an error bound"); sizes are numbers of the
-// lane, so that shapes of one kind go together whatever their sizes.
+// Screens eight pairs of a ray and a posed shape at once before any cast: each surely misses, or
+// is met between two parameters. The closed forms are those of casts, in float lanes with bounds
+// for float (docs/forms.md, "Casts with an error bound"); sizes are numbers of the lane, so that
+// shapes of one kind go together whatever their sizes.
 #pragma once
 
 #include <array>
@@ -26,23 +26,23 @@ struct alignas(64) ScreenForm {
   /// round, and R.
   float least = 0;
   std::array<float, 3> scale = {1, 1, 1};
-  /// What a position near the form is as large as, in the form's frame.
+  /// Magnitude of positions near the form, in the form's frame.
   float extent = 0;
   std::array<float, 3> offset = {};
   float up = 1;  ///< -1: upside down
 };
 
-/// A definition as lanes look at it: by its form or, where lanes have none for it, by a box around
+/// A definition for screening in lanes: its form or, where lanes have none for it, a box around
 /// it.
 struct Screen {
   ScreenForm form;
-  FormKind kind = FormKind::none;  ///< none: lanes cannot look at it
+  FormKind kind = FormKind::none;  ///< none: lanes cannot screen it
   bool is_whole = false;           ///< the form is the shape, and not a box around it
   /// Five floats per plane of a polytope: normal, offset, depth.
   std::shared_ptr<const std::vector<float>> planes = {};
 };
 
-/// How many kinds of forms there are lanes for.
+/// Number of kinds of forms that lanes support.
 inline constexpr std::size_t form_kinds = static_cast<std::size_t>(FormKind::polytope) + 1;
 
 /// `centre`: of the inner ball, from the origin of the places' frame.
@@ -68,7 +68,7 @@ struct ScreenBits {
   std::uint32_t open, sure;
 };
 
-/// Looks at eight pairs, all of one kind other than `none`; on machines that have AVX2 and FMA.
+/// Screens eight pairs, all of one kind other than `none`; on machines that have AVX2 and FMA.
 ScreenBits screen_avx2(FormKind kind, const ScreenList& list, const std::uint32_t* rays,
                        const std::uint32_t* instances, Screened& answers);
 

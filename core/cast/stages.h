@@ -8,7 +8,7 @@
 
 namespace minkray {
 
-/// What all of them are asked. The observer is told of iterations, if it is there.
+/// Input of all stages. The observer, if any, receives the iterations.
 template <class T>
 struct StageQuestion {
   const PreparedShape<T>& shape;

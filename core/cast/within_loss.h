@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Casts of rays whose place beside the shape is known to a length only (RayNearBall::loss): answers
-// that hold for every ray that is no further off. Along a ray, entry into a convex shape is a
-// convex function of where the ray passes. So if rays through the corners of a triangle enter it,
-// all rays between them do, no later than the latest of those three.
+// Casts of rays whose place relative to the shape is known to a length only (RayNearBall::loss):
+// answers that hold for every ray that is no further off. Along a ray, entry into a convex shape
+// is a convex function of where the ray passes: if rays through the corners of a triangle enter
+// it, so do all rays between them, no later than the latest of those three.
 #pragma once
 
 #include <algorithm>

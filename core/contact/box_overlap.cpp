@@ -36,7 +36,7 @@ BoxOverlap box_overlap(const CorePair& pair, CoreDistance& found) {
       const double reach = a[i1] * std::abs(n1) + a[i2] * std::abs(n2) +
                            b[j1] * std::abs(R(i1, j1) * n1 + R(i2, j1) * n2) +
                            b[j2] * std::abs(R(i1, j2) * n1 + R(i2, j2) * n2);
-      // What is no better needs no root.
+      // An axis that is no better needs no root.
       const double gap = along - reach;
       const double worst = way - best;
       if (gap <= 0 && best <= 0 && gap * gap >= worst * worst * squared) continue;

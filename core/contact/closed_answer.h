@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What closed forms of pairs of cores have in common: the answer whose bounds are one number.
+// Common part of the closed forms of pairs of cores: the result whose bounds are one number.
 #pragma once
 
 #include "core/contact/core_pair.h"

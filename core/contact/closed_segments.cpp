@@ -78,9 +78,9 @@ Vec3<double> across(const Vec3<double>& p, const Vec3<double>& q, const Vec3<dou
   return Vec3<double>::UnitX();
 }
 
-/// The direction of c = x + t q - s p, of which no point of A is further along, and none of B less
-/// far. Where c is as good as zero, it is one of rounding: that is taken out, twice where that is
-/// most of it, since the first time leaves some.
+/// The direction of c = x + t q - s p: no point of A is further along it, and none of B less far.
+/// If c is as good as zero, it is one of rounding: that is taken out, twice where that is most of
+/// it, since the first time leaves some.
 Vec3<double> direction_between(const Vec3<double>& p, const Vec3<double>& q, double pp, double qq,
                                const Vec3<double>& c, double s, double t, const Vec3<double>& n,
                                bool is_crossing) {
@@ -125,8 +125,8 @@ CoreDistance point_and_segment(const Vec3<double>& q, const Vec3<double>& x) {
 
 CoreDistance between_segments(const Vec3<double>& p, const Vec3<double>& q, const Vec3<double>& x) {
   const double pp = p.squaredNorm(), qq = q.squaredNorm();
-  // Products of squares of what is shorter are no normal numbers, and beside the smallest length
-  // that counts it is less than a rounding.
+  // Products of squares of shorter lengths are no normal numbers, and compared with the smallest
+  // length that counts such a length is less than a rounding.
   constexpr double shortest = smallest_length * 0x1p-60;
   const bool is_point_a = !(pp > shortest * shortest), is_point_b = !(qq > shortest * shortest);
   if (is_point_a && is_point_b)

@@ -41,7 +41,7 @@ CoreDistance point_and_cylinder(double radius, double half, const Vec3<double>& 
   return closed_answer(gap, axis, p - c, c);
 }
 
-/// What is left of d between two unit vectors m and n: of a d that is a difference of neighbours,
+/// The part of d between two unit vectors m and n: for a d that is a difference of neighbours,
 /// rounding may lead out of there.
 std::array<double, 2> between_directions(const double* m, const double* n, double d0, double d1) {
   const double area = m[0] * n[1] - m[1] * n[0];
@@ -72,7 +72,7 @@ CoreDistance point_and_disks(const Vec3<double>& size, const Vec3<double>& p) {
     gap[k] = normal[k][0] * (rho - on_face[k][0]) + normal[k][1] * (z - on_face[k][1]);
     if (gap[k] > gap[face]) face = k;
   }
-  // Where along the side p stands, from the rim below: before 0 and after `slant` it is beyond one.
+  // Position of p along the side, from the rim below: before 0 and after `slant` it is beyond one.
   const double along =
       slant > 0 ? (2 * half * (z + half) - (below - above) * (rho - below)) / slant : 0;
   const bool is_by_face = gap[face] <= 0 || (face == 0 && rho <= below) ||

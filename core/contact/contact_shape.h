@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A shape made ready for queries on pairs, once: no pair needs to be prepared. And where two of
-// them are from each other: here all pairs are brought near, and solvers see numbers of the bodies'
+// A shape prepared for queries on pairs, once: no pair needs to be prepared. And the relative pose
+// of two of them: here all pairs are brought near, so that solvers handle numbers of the bodies'
 // size and of their distance only.
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace minkray {
 
-/// It is immutable and cheap to copy. Its numbers are doubles, whatever the shape's are.
+/// Immutable and cheap to copy. All numbers are doubles, even for shapes in float.
 class ContactShape {
  public:
   /// `map` leads from the shape's frame to the body's; any invertible map.
@@ -26,17 +26,17 @@ class ContactShape {
   explicit ContactShape(const Shape<float>& shape) : ContactShape(convert<double>(shape)) {}
 
   const ShapeCore& core() const { return core_and_radius_.core; }
-  /// It leads from the core's frame to the body's, and keeps lengths.
+  /// Rotation from the core's frame to the body's; keeps lengths.
   const Mat3<double>& turn() const { return core_and_radius_.turn; }
   const Vec3<double>& middle() const { return core_and_radius_.middle; }
   TwoFoldVec3<double> exact_middle() const {
     return {core_and_radius_.middle, core_and_radius_.middle_low};
   }
-  /// Whether the core's frame is turned, and whether its middle is not the body's origin: most are
+  /// True if the core's frame is turned, and if its middle is not the body's origin: most are
   /// neither, which saves half of the work of placing a pair.
   bool is_turned() const { return is_turned_; }
   bool is_moved() const { return is_moved_; }
-  /// How far the middle is from the body's origin.
+  /// Distance of the middle from the body's origin.
   double offset() const { return offset_; }
   /// Middles further out than this, in the body's size, are placed in twice the digits.
   bool is_far_out() const {
@@ -52,7 +52,7 @@ class ContactShape {
   double offset_;
 };
 
-/// Where a core is in the world.
+/// Pose of a core in the world.
 struct PlacedCore {
   Mat3<double> turn;  ///< from the core's frame to the world
   Vec3<double> middle;

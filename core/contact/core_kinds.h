@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which pairs of kinds the solvers are compiled for.
+// Pairs of kinds that the solvers are compiled for.
 #pragma once
 
 #include "core/contact/core_pair.h"

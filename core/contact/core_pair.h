@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Two cores A and B in A's frame, and the questions that the solvers ask of C, all differences
-// b - a of a point of B and one of A: the distance of the shapes is that of C from the origin, and
-// where they overlap, their penetration depth is how deep the origin lies in C. Either way it is,
-// signed, the most that n.c can be kept above over all c of C, over all unit vectors n.
+// Two cores A and B in A's frame, and the queries of the solvers on C, all differences b - a of a
+// point of B and one of A: the distance of the shapes is that of C from the origin, and where they
+// overlap, their penetration depth is how deep the origin lies in C. Either way it is, signed, the
+// most that n.c can be kept above over all c of C, over all unit vectors n.
 #pragma once
 
 #include "core/contact/core_support.h"
@@ -11,7 +11,7 @@
 
 namespace minkray {
 
-/// What all roundings of a query amount to, relative to the sizes and the middles' distance.
+/// Sum of all roundings of a query, relative to the sizes and the middles' distance.
 inline constexpr double core_rounding = 16 * std::numeric_limits<double>::epsilon();
 
 struct CorePair {
@@ -24,7 +24,7 @@ struct CorePair {
   /// Radii of balls around the middles: what roundings are relative to.
   double size() const { return a.ball + b.ball; }
   double radii() const { return a.radius + b.radius; }
-  /// What a gap between the grown cores may be off by.
+  /// Error bound of a gap between the grown cores.
   double rounding() const { return core_rounding * (size() + radii() + x.norm()) + loss; }
   Vec3<double> to_b(const Vec3<double>& d) const { return turn.transpose() * d; }
 };
@@ -45,7 +45,7 @@ inline DifferencePoint nearest_along(const CorePair& pair, const Vec3<double>& d
   return {pair.x + pair.turn * b.point - a.point, a.point, a.feature, b.feature};
 }
 
-/// Here the cores' kinds are looked at each time.
+/// Looks up the cores' kinds in each call.
 inline DifferencePoint nearest_along(const CorePair& pair, const Vec3<double>& d) {
   return nearest_along<CoreKind::other, CoreKind::other>(pair, d);
 }
@@ -66,7 +66,7 @@ struct CoreDistance {
   Vec3<double> c = Vec3<double>::Zero();                    ///< and from it to a point of B
   int supports = 0;                                         ///< of C
   bool is_exhausted = false;  ///< the budget ended the search, before the bounds met
-  /// Says of cores that overlap that no other direction is nearly as good: see deeper_by().
+  /// True for overlapping cores if no other direction is nearly as good: see deeper_by().
   bool has_one_direction = false;
 
   void raise_lower(double bound, const Vec3<double>& unit_axis) {
@@ -76,9 +76,9 @@ struct CoreDistance {
   }
 };
 
-/// How far B is moved in along the axis, to see if there are other directions of the depth: each of
-/// them that leans by an angle from the axis gains by its cosine only. A depth that has gained all
-/// but `leaning` of the way has one direction.
+/// Distance that B is moved in along the axis, to find other directions of the depth: each of them
+/// that leans by an angle from the axis gains by its cosine only. A depth that has gained all but
+/// `leaning` of the way has one direction.
 inline double deeper_by(const CorePair& pair) {
   constexpr double step = 1e-4;  // of the sizes
   return step * (pair.size() + pair.radii());
@@ -88,11 +88,11 @@ inline constexpr double leaning = 1e-4;  ///< 1 - cos of the angle between two d
 /// When a search may end.
 struct CoreSearch {
   double gap = 1e-12;  ///< upper - lower, relative to the size
-  /// Whether the distance is above `apart`: no more is asked. Infinite: all of it.
+  /// Once the distance is known to be above `apart`, the query ends. Infinite: never.
   double apart = std::numeric_limits<double>::infinity();
   int max_turns = 200;
-  bool may_slide = true;  ///< whether curved surfaces are looked at to second order
-  /// Where the search begins, if there is something in it, and what it ended with.
+  bool may_slide = true;  ///< curved surfaces are searched to second order
+  /// Start of the search, if it is not empty; receives its end.
   PairMemory* memory = nullptr;
 };
 

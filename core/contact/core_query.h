@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A distance that is being searched for: two cores, when the search may end, and what has been
-// found so far. What looks for it in several ways (GJK, sliding features, flat ends) shares it.
+// A distance search: two cores, the criteria for its end, and the best result so far. Shared by
+// the methods that search for it (GJK, sliding features, flat ends).
 #pragma once
 
 #include "core/contact/core_pair.h"

@@ -40,7 +40,7 @@ bool enclose(const CorePair& pair, double gap, CoreDistance& found, Enclosure& e
 bool depth_by_polytope(const CorePair& pair, double gap, Enclosure enclosure, CoreDistance& found) {
   constexpr double shallow = 1e-4;
   const bool is_shallow = found.lower > -shallow * pair.size();
-  // What GJK has found then is as flat as rounding lets it be.
+  // GJK's enclosure is then as flat as rounding allows.
   Enclosure finer;
   if (is_shallow && enclose(pair, gap, found, finer)) enclosure = finer;
   if (!enclosure.is_found) {
@@ -57,7 +57,7 @@ bool depth_by_polytope(const CorePair& pair, double gap, Enclosure enclosure, Co
   return expand<other, other>(pair, gap, enclosure, found);
 }
 
-/// How deep the origin is within four points of C; negative if that is not known.
+/// Depth of the origin within four points of C; negative if it is not known.
 double depth_within(const Enclosure& four) {
   if (!four.is_found) return -1;
   double least = std::numeric_limits<double>::infinity();
@@ -73,9 +73,9 @@ double depth_within(const Enclosure& four) {
   return least;
 }
 
-/// Where the cores nearly touch, what is between their nearest points is short of digits for a
-/// direction. B stands off along the axis: the plane that is found there is one here, too, and its
-/// axis a better one to stand off along; the points are some here, too.
+/// If the cores nearly touch, the difference of their nearest points is short of digits for a
+/// direction. B is moved out along the axis: the plane that is found there is a separating plane
+/// here, too, and its axis a better one to move out along; the points can be used here, too.
 void improve_plane(const CorePair& pair, CoreDistance& found) {
   constexpr double stand_offs[] = {1e-3, 1e-3, 1e-5};
   for (const double stand_off : stand_offs) {
@@ -99,7 +99,7 @@ void improve_plane(const CorePair& pair, CoreDistance& found) {
 }
 
 /// The points of first contact when B is moved out along the axis: the nearest points of the two
-/// once B stands off by a fair distance, where they are found most exactly.
+/// once B is at a fair distance, where they are found most exactly.
 void find_contact(const CorePair& pair, CoreDistance& found) {
   constexpr double stand_off = 1e-3;
   const double apart = stand_off * pair.size();
@@ -114,7 +114,7 @@ void find_contact(const CorePair& pair, CoreDistance& found) {
 /// The depth of cores that were found to overlap, or whose distance rounding hides.
 CoreDistance depth_of_cores(const CorePair& pair, Enclosure enclosure, CoreDistance found,
                             const SignedDistanceOptions& options, double gap, bool only_sign) {
-  // Points that are as near to each other tell enough of an overlap so slight.
+  // Points that are as near to each other are a sufficient result for so slight an overlap.
   const double slight = gap * (pair.size() + pair.x.norm());
   if (found.status == CoreStatus::overlapping && found.lower >= -slight) {
     if (!(found.c.norm() <= slight / 2)) improve_plane(pair, found);
@@ -214,7 +214,7 @@ CoreDistance core_signed_distance(const CorePair& pair, const SignedDistanceOpti
       return true;
     return !overlaps && found.upper - found.lower <= settled_core_gap * size;
   };
-  // A common point tells an overlap if it is deeper than rounding can make it.
+  // A common point proves an overlap if it is deeper than rounding can make it.
   if (options.only_sign && found.status == CoreStatus::overlapping) {
     const double depth = std::max(depth_within(enclosure), 0.0);
     if (depth + radii > 2 * pair.rounding()) {

@@ -9,8 +9,8 @@ namespace minkray {
 
 struct SignedDistanceOptions;
 
-/// How near the bounds are where a query is called settled, relative to the sizes. What is not is
-/// looked at by branch and bound.
+/// Gap of the bounds, relative to the sizes, at which a query is settled. Others go to branch and
+/// bound.
 inline constexpr double settled_core_gap = 1e-9;
 
 /// A's kind is not after B's. There may be a memory.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What the solvers ask of a core: its support points, each with the feature of the surface that it
-// lies on (a vertex, a rim, an ellipsoid); where a feature's support point slides when the
-// direction turns; and how fast. Written once for every kind, so that the kinds of a pair may be
-// known when it is compiled; `CoreKind::other` there stands for a kind that is looked at each time.
+// Support mapping of a core for the solvers: its support points, each with the feature of the
+// surface that it lies on (a vertex, a rim, an ellipsoid); where a feature's support point slides
+// when the direction turns; and how fast. Written once for every kind, so that the kinds of a pair
+// may be known at compile time; `CoreKind::other` is a kind that is looked up in each call.
 #pragma once
 
 #include "core/contact/hull_scan.h"
@@ -36,7 +36,7 @@ auto with_core_kind(CoreKind kind, F&& f) {
   return f.template operator()<CoreKind::other>();
 }
 
-/// Whether features of such a core slide, in a way that `add_curvature` knows.
+/// True if features of such a core slide, in a way that `add_curvature` supports.
 constexpr bool slides(CoreKind kind) {
   return kind == CoreKind::disks || kind == CoreKind::ellipsoid;
 }
@@ -112,7 +112,7 @@ inline CoreSupport support_of_core(const ShapeCore& core, const Vec3<double>& d)
   }
 }
 
-/// A symmetric matrix, of which sums of t t^T are made.
+/// A symmetric matrix, for sums of t t^T.
 struct Symmetric {
   double xx = 0, yy = 0, zz = 0, xy = 0, xz = 0, yz = 0;
 

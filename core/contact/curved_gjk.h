@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The distance of two cores: GJK, which goes over to second order where surfaces are curved.
-//
-// GJK keeps up to four points of C and asks for the support point in the direction d of their
-// closest point to the origin. On curved surfaces it converges linearly: after a few turns it hands
-// over to flat ends (flat_ends.h) and to features that slide (sliding_features.h).
-//
-// Every turn has a lower bound, the plane through the support point, and an upper one, the length
-// of the combination of points: what ends the loop is that they meet.
+// The distance of two cores: GJK keeps up to four points of C and adds the support point in the
+// direction d of their closest point to the origin. On curved surfaces GJK converges linearly and,
+// after a few turns, hands over to flat ends (flat_ends.h) and sliding features
+// (sliding_features.h). The plane through the support point is a lower bound, the combination of
+// points an upper one; the loop ends when they meet.
 #pragma once
 
 #include "core/contact/flat_ends.h"
@@ -70,7 +67,7 @@ class CurvedGjk {
     return finish(CoreStatus::unsettled);
   }
 
-  /// Whether the search ended with four points of C around the origin: c, and the a of each.
+  /// True if the search ended with four points of C around the origin: c, and the a of each.
   bool encloses(Vec3<double>* c, Vec3<double>* a) const {
     if (count_ != 4 || query_.result.status != CoreStatus::overlapping) return false;
     std::copy(y_, y_ + 4, c);
@@ -81,7 +78,7 @@ class CurvedGjk {
  private:
   /// Turns of GJK before features slide: with a separating plane, and without one.
   static constexpr int turns_apart = 2, turns_near = 6;
-  /// It damps the first step of features that slide, in sizes; less where they were the right ones.
+  /// Damping of the first step of features that slide, in sizes; less if they were the right ones.
   static constexpr double resumed_damping = 1e-3;
   static constexpr bool any_slides =
       (A == CoreKind::other || slides(A) || slides(B)) || B == CoreKind::other;
@@ -106,7 +103,7 @@ class CurvedGjk {
     count_ = kept;
   }
 
-  /// Goes on to second order.
+  /// Continues to second order.
   bool slide(const Vec3<double>& d, double damping) {
     SlidingFeatures<A, B> features(query_);
     for (int i = 0; i < count_; ++i) features.add(feature_a_[i], feature_b_[i], weight_[i]);
@@ -120,10 +117,10 @@ class CurvedGjk {
     return true;
   }
 
-  /// Begins with what the last query on the pair ended with: its features are points of C wherever
-  /// the bodies are by now. Returns whether that was an answer; if not, d and the points that are
-  /// kept are where to go on from. The direction alone is no start: on a surface that is known by
-  /// its support mapping only, a simplex of points as near to each other has few digits.
+  /// Begins with the last state of the previous query on the pair: its features are points of C
+  /// wherever the bodies are by now. Returns true if that was the result; if not, d and the points
+  /// that are kept are where to continue. The direction alone is no start: on a surface that is
+  /// known by its support mapping only, a simplex of points as near to each other has few digits.
   bool resume(const PairMemory& memory, Vec3<double>& d, double& squared) {
     if (!memory.has_axis()) return false;
     take_features_of(memory);
@@ -132,7 +129,8 @@ class CurvedGjk {
     keep(closest);
     if (closest.is_inside()) {
       finish(CoreStatus::overlapping);
-      // Points that were not chosen for it may lie in a plane: then rounding says that.
+      // Points that were not chosen for it may lie in a plane: then only rounding encloses the
+      // origin.
       constexpr double in_plane = 1e-13;
       if (query_.result.upper <= in_plane * query_.size) return true;
     } else if (count_ > 0) {
@@ -151,7 +149,7 @@ class CurvedGjk {
         return false;
       }
     }
-    // It is GJK from the beginning.
+    // Restarts GJK from the beginning.
     count_ = 0;
     query_.result.status = CoreStatus::unsettled;
     query_.result.upper = std::numeric_limits<double>::infinity();
@@ -201,8 +199,8 @@ class CurvedGjk {
     return query_.result;
   }
 
-  /// Where the two nearly touch, the closest point is short of digits for a direction; the face
-  /// that it lies on is not.
+  /// If the two nearly touch, the closest point is short of digits for a direction; the face that
+  /// it lies on is not.
   void use_face() {
     Vec3<double> n = (y_[1] - y_[0]).cross(y_[2] - y_[0]);
     const double length = n.norm();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Where curved cores that overlap are the least deep, to second order (sliding_features.h), and
-// points of C around there. A polytope that grows from the nearest face alone comes near a curved
-// surface slowly, and into an overlap of a millionth of the size hardly ever.
+// Finds where overlapping curved cores are the least deep, to second order (sliding_features.h),
+// and points of C around there. A polytope that grows from the nearest face alone approaches a
+// curved surface slowly, and hardly ever finds an overlap of a millionth of the size.
 #pragma once
 
 #include <array>

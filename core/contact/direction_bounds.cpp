@@ -63,7 +63,7 @@ class Search {
 
   void add(DirectionCell& cell) {
     for (const DirectionSample& corner : cell.corners) cell.add_point(corner.c);
-    // Large cells are cut before they are looked at more closely.
+    // Large cells are cut before they are bounded more closely.
     constexpr double large = 0.5;
     const int most = cell.length() > large ? 4 : DirectionCell::most_points;
     DirectionCellBound bound(cell, size_);

@@ -68,7 +68,7 @@ struct DirectionCell {
     return longest;
   }
   double length() const { return std::sqrt(squared_side(longest_side())); }
-  /// Whether it is a new one.
+  /// True if the point is new.
   bool add_point(const PlainVector& c) {
     for (int i = 0; i < count; ++i)
       if (point(i) == c) return false;
@@ -152,7 +152,7 @@ class DirectionCellBound {
     candidates_[at(count_++)] = {n, least, apart, turn};
   }
 
-  /// Where n.p = n.q on the cell's sides.
+  /// Adds the candidates on the cell's sides where n.p = n.q.
   void add_pair(const PlainVector& p, const PlainVector& q) {
     const PlainVector between = p - q;
     const double along[] = {cell_.corner(0).dot(between), cell_.corner(1).dot(between),
@@ -167,11 +167,11 @@ class DirectionCellBound {
     }
   }
 
-  /// Where n.p = n.q = n.r, if that is in the cell or just beside it. Of points in a line the one
-  /// between the others bounds nothing. Of slivers rounding turns n much: it matters where the foot
-  /// of their plane is in the triangle (elsewhere u is larger at another candidate), and that is no
-  /// further along n than the furthest of the three, nor is the plane but for the square of the
-  /// turn.
+  /// Adds the candidate where n.p = n.q = n.r, if it is in the cell or just outside. For points in
+  /// a line the one between the others bounds nothing. For slivers rounding turns n much: that
+  /// matters where the foot of their plane is in the triangle (elsewhere u is larger at another
+  /// candidate), and the foot is no further along n than the furthest of the three, nor is the
+  /// plane but for the square of the turn.
   void add_triple(const PlainVector& p, const PlainVector& q, const PlainVector& r) {
     constexpr double in_line = 1e-12, beside = 1e-3;
     // A cross product is rounded by so much of its factors' lengths.

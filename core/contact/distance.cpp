@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where the distance algorithm meets the shapes, in 3D and in the plane.
+// Connects the distance algorithm to the shapes, in 3D and in the plane.
 #include "core/contact/distance.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ Vec<T, Dim> support_in(const Shape<T>& shape, const Vec<T, Dim>& v) {
   return shape.support(direction).template head<Dim>();
 }
 
-/// Tells the observer the iteration with lengths in another unit.
+/// Passes the iteration to the observer, with lengths in another unit.
 template <class T, int Dim>
 void tell_in(T unit, const DistanceIteration<T, Dim>& iteration,
              const std::function<void(const DistanceIteration<T, Dim>&)>& observer) {
@@ -38,7 +38,7 @@ T unit_for(T largest) {
   return largest < least ? least : leading_power_of_two(largest);
 }
 
-/// Works in numbers of type F, of which the shapes' supports are T.
+/// Computes in numbers of type F; the shapes' supports are of type T.
 template <class F, class T, int Dim>
 DistanceResult<T, Dim> solve(
     const CentredShape<T>& a, const CentredShape<T>& b, const DistanceOptions<T, Dim>& options,
@@ -87,7 +87,7 @@ DistanceResult<T, Dim> solve(
           found.backups};
 }
 
-/// Where rounding ended the loop before its two bounds met: curved surfaces near each other make
+/// True if rounding ended the loop before its two bounds met: curved surfaces near each other make
 /// simplices that are slivers.
 template <class T>
 bool is_coarse(const DistanceResult<T, 3>& result, T size) {

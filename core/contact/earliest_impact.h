@@ -23,7 +23,7 @@ inline EarliestImpact nothing_met(double t_max) {
   return found;
 }
 
-/// Takes the body's answer in, which was asked for at times until found.impact.t_hi, or all.
+/// Merges the body's result, which was computed for times until found.impact.t_hi, or all.
 inline void take(EarliestImpact& found, std::size_t body, const Impact& impact) {
   if (impact.status == ImpactStatus::miss) return;
   const double t_lo = std::min(found.impact.t_lo, impact.t_lo);

@@ -2,7 +2,7 @@
 // The penetration depth of cores that overlap, by a polytope within C that grows around the origin
 // (G. van den Bergen, "Proximity Queries and Penetration Depth Computation on 3D Game Objects",
 // 2001): the face nearest to the origin gives way to the support point beyond it, until there is
-// none. Of polytopes that is exact.
+// none. For polytopes that is exact.
 //
 // Both bounds hold whatever rounding does to the faces. The plane through a support point bounds
 // the depth from above. From below it is bounded by the least distance d of a face, since the faces
@@ -24,7 +24,7 @@ namespace minkray {
 template <CoreKind A, CoreKind B>
 class ExpandingPolytope {
  public:
-  /// The bounds shall be this near to each other, in sizes. What was found is the starting point.
+  /// Searches until the bounds are this near to each other, in sizes. Starts from what was found.
   ExpandingPolytope(const CorePair& pair, double gap, const CoreDistance& found)
       : pair_(pair), size_(pair.size() + pair.x.norm()), gap_(gap * size_), found_(found) {
     found_.upper = 0;
@@ -56,7 +56,7 @@ class ExpandingPolytope {
     return false;
   }
 
-  /// Whether the origin is within four points of C for sure: then a polytope may begin with them.
+  /// True if the origin is within four points of C for sure: then a polytope may begin with them.
   bool begins(const Vec3<double>* c, const Vec3<double>* a) { return start(c, a); }
 
   const CoreDistance& found() const { return found_; }
@@ -66,8 +66,8 @@ class ExpandingPolytope {
                        most_heaped = 4 * most_faces, most_supports = 1000;
   /// In sizes: what is as near to a plane is in it.
   static constexpr double in_plane = 1e-14;
-  /// What a volume between four points of C is rounded by, in products of the lengths of two sides
-  /// and the size: differences, a cross product and a dot product of numbers no larger than that.
+  /// Rounding of a volume between four points of C, in products of the lengths of two sides and
+  /// the size: differences, a cross product and a dot product of numbers no larger than that.
   static constexpr double rounded_volume = 32 * std::numeric_limits<double>::epsilon();
 
   struct Face {
@@ -100,8 +100,8 @@ class ExpandingPolytope {
     count_ = 4;
     constexpr int corners[4][3] = {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {0, 2, 3}};
     for (const auto& corner : corners) {
-      // Here the origin must be on the inner side for sure: all else follows from that. Of slivers
-      // n itself is rounding.
+      // Here the origin must be on the inner side for sure: all else follows from that. For
+      // slivers n itself is rounding.
       const Vec3<double>& from = y_[corner[0]];
       const Vec3<double> e1 = y_[corner[1]] - from, e2 = y_[corner[2]] - from, n = e1.cross(e2);
       const double n_rounding = rounded_volume * e1.norm() * e2.norm();
@@ -137,7 +137,7 @@ class ExpandingPolytope {
       is_flat = std::max(std::max(a, b), c) - face.d <= in_plane * size_;
     }
     if (!is_flat || !(face.d > 0)) {
-      // A sliver: the point nearest to the origin says more than a normal of rounding.
+      // A sliver: the point nearest to the origin is more precise than a normal of rounding.
       const Vec3<double> corners[3] = {y_[i], y_[j], y_[k]};
       const SimplexPoint closest = closest_of_simplex(corners, 3, false);
       const double length = std::sqrt(closest.squared);
@@ -146,7 +146,7 @@ class ExpandingPolytope {
       face.d = std::min({face.n.dot(y_[i]), face.n.dot(y_[j]), face.n.dot(y_[k])});
       if (!(face.d > 0)) return -1;
     }
-    // No face is looked at that is further off than the depth can be.
+    // Leaves out faces that are further away than the depth can be.
     if (face.d >= -found_.lower) return index;
     if (heaped_ == most_heaped) return -1;
     heap_[heaped_++] = {face.d, index};
@@ -188,7 +188,7 @@ class ExpandingPolytope {
         }
       }
     }
-    // What was taken for an edge of the hole may have gone later.
+    // Edges of the hole may have been removed since.
     int kept = 0;
     for (int e = 0; e < edges; ++e)
       if (faces_[edges_[e].beside / 4].is_there) edges_[kept++] = edges_[e];
@@ -196,7 +196,8 @@ class ExpandingPolytope {
     return kept >= 3 && close(kept);
   }
 
-  /// A fan over the edges of the hole. They must be one loop, or loops that share no vertex.
+  /// Fills the hole with a fan over its edges. The edges must be one loop, or loops that share no
+  /// vertex.
   bool close(int edges) {
     for (int e = 0; e < edges; ++e) from_[edges_[e].from] = -1;
     for (int e = 0; e < edges; ++e) {
@@ -231,7 +232,7 @@ class ExpandingPolytope {
     for (int f = 0; f < face_count_; ++f) {
       const Face& face = faces_[f];
       if (!face.is_there) continue;
-      // How far the face is once B has moved in along the axis.
+      // Distance of the face once B has moved in along the axis.
       if (!(face.d - way * face.n.dot(axis) >= all_but_leaning)) found_.has_one_direction = false;
       if (!(face.d <= -height + gap_ + in_plane * size_)) continue;
       const Vec3<double> corners[3] = {y_[face.corner[0]] - foot, y_[face.corner[1]] - foot,

@@ -9,8 +9,8 @@
 namespace minkray {
 namespace detail {
 
-/// A flat end's axis, where its support point jumps from one side of the rim to the other: it is
-/// the answer where the other's nearest point stands over the disk.
+/// A flat end's axis, where its support point jumps from one side of the rim to the other: the
+/// result if the other's nearest point lies over the disk.
 template <CoreKind Other, CoreKind A, CoreKind B>
 bool flat_end(CoreQuery<A, B>& query, const ShapeCore& disks, const ShapeCore& other,
               const Mat3<double>& to_other, const Vec3<double>& d, bool is_of_a) {
@@ -45,8 +45,8 @@ bool flat_end(CoreQuery<A, B>& query, const ShapeCore& disks, const ShapeCore& o
 
 }  // namespace detail
 
-/// Looks at the flat ends of both cores, as the direction d from A to B meets them. Returns whether
-/// that came to an answer.
+/// Tries the flat ends of both cores, as the direction d from A to B meets them. Returns true if
+/// that gave a result.
 template <CoreKind A, CoreKind B>
 bool try_flat_ends(CoreQuery<A, B>& query, const Vec3<double>& d) {
   const CorePair& pair = query.pair;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// How much of a core lies as far along a direction as its support point does: a vertex, an edge or
-// a face. Where both of two bodies have more than a vertex, there may be many pairs of nearest
-// points.
+// The part of a core that lies as far along a direction as its support point does: a vertex, an
+// edge or a face. If both of two bodies have more than a vertex, there may be many pairs of
+// nearest points.
 #pragma once
 
 #include "core/contact/core_support.h"
@@ -14,9 +14,9 @@ struct FlatPart {
   double length = 0;                           ///< of the edge
 };
 
-/// Takes, of the directions that lean by at most `tilt` radians against d (of unit length), the one
-/// with the largest part. Of a core known by its support mapping only, it is what its points
-/// do where d is tilted a little.
+/// Among the directions that lean by at most `tilt` radians from d (of unit length), uses the one
+/// with the largest part. For a core known by its support mapping only, the part is the set of its
+/// support points where d is tilted a little.
 FlatPart flat_part(const ShapeCore& core, const Vec3<double>& d, double tilt);
 
 }  // namespace minkray

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which of a hull's points lies furthest along a direction: a scan of all of them, eight at a time.
+// Finds which of a hull's points lies furthest along a direction: a scan of all of them, eight at
+// a time.
 #pragma once
 
 #include "core/shape/core_and_radius.h"

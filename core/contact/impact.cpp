@@ -13,12 +13,12 @@ namespace {
 /// A body's own rounding, relative to its size and its pivot's way.
 constexpr double rounding = 32 * std::numeric_limits<double>::epsilon();
 
-/// Bodies that part are looked at again after at least this part of the time asked for, or of that
+/// Bodies that part are checked again after at least this part of the requested time, or of that
 /// in which they turn by a radian.
 constexpr double first_step = 1e-30;
 
-/// So many distances at single times may run out of support points before the impact is given up:
-/// those of infinite bodies all do, and each takes as long as a thousand others.
+/// Number of distances at single times that may run out of support points before the impact is
+/// exhausted: those of infinite bodies all do, and each takes as long as a thousand others.
 constexpr int most_exhausted = 10;
 
 /// A body that may turn, seen from its pivot; one that does not turn is seen from its middle.
@@ -41,7 +41,7 @@ class Turning {
     return placed_middle(shape_, motion_.pose);
   }
 
-  /// Where the body is at a time: its linear part, and its middle from where it is seen from.
+  /// Pose of the body at a time: its linear part, and its middle relative to seen_from().
   Affine<double> at(double time) const {
     if (!(speed_ > 0)) return {motion_.pose.linear, Vec3<double>::Zero()};
     const Mat3<double> turn = Eigen::AngleAxis<double>(time * speed_, axis_).toRotationMatrix();
@@ -124,8 +124,8 @@ class Advance {
     return result_.steps < options_.max_steps && exhausted_ < most_exhausted;
   }
 
-  /// Whether a distance looks like a contact only since its search ended without an upper bound, or
-  /// with one too far away to be a contact.
+  /// True if a distance looks like a contact only since its search ended without an upper bound,
+  /// or with one too far away to be a contact.
   bool gave_up(const SignedDistance& now) const {
     return now.is_unknown() || (now.value <= touching_ && now.upper > 2 * touching_);
   }
@@ -146,7 +146,7 @@ class Advance {
              turning_b_.speed() * turning_b_.reach();
   }
 
-  /// What times and angles are rounded by moves the bodies by so much.
+  /// Displacement of the bodies by the rounding of times and angles.
   double loss_at(double t) const {
     return start_.loss + 2 * std::numeric_limits<double>::epsilon() * t * speed_;
   }
@@ -159,8 +159,8 @@ class Advance {
     return there;
   }
 
-  /// Its upper bound is no more than 0 only if they overlap. GJK alone is asked first, and what it
-  /// leaves open is searched for at some cost.
+  /// The upper bound is no more than 0 only if they overlap. GJK alone is tried first, and cases
+  /// that it leaves open are searched at some cost.
   SignedDistance overlap_at(double t) {
     SignedDistanceOptions how;
     how.only_sign = true;
@@ -190,9 +190,9 @@ class Advance {
   /// Slower is rest.
   double parting() const { return options_.touching * speed_; }
 
-  /// After a contact at time 0 that parts, it finds a time at which they are apart, or less a time
-  /// at which they overlap. What turns may come back: the first look is when they may be apart at
-  /// the earliest, and the time is doubled from there.
+  /// After a contact at time 0 that parts, finds a time at which the bodies are apart, or minus a
+  /// time at which they overlap. Turning bodies may come back: the first check is when they may be
+  /// apart at the earliest, and the time is doubled from there.
   double leave(const SignedDistance& now) {
     const double turning = std::max(turning_a_.speed(), turning_b_.speed()), apart = 4 * touching_;
     const double at_this_speed = apart / approach(now, 0);
@@ -251,7 +251,7 @@ class Advance {
     if (options_.points_of_misses) {
       const SignedDistance there = at(t_end);
       if (!there.is_unknown()) return finish(ImpactStatus::miss, t_end, t_end, there);
-      // By then they have gone further apart than distances are numbers.
+      // Their distance then exceeds the range of numbers.
       result_.distance = std::numeric_limits<double>::infinity();
     }
     result_.normal = normal;
@@ -260,8 +260,8 @@ class Advance {
     return result_;
   }
 
-  /// Without turns it is where a ray meets the difference of the two. Returns whether that told:
-  /// not at contacts at the start, nor of grazing ones.
+  /// Without turns the impact is where a ray meets the difference of the two. Returns true if that
+  /// was conclusive: not for contacts at the start, nor for grazing ones.
   bool run_swept() {
     // The solvers are compiled for one order of two kinds.
     const bool is_turned = a_.core().kind > b_.core().kind;
@@ -293,11 +293,11 @@ class Advance {
     return true;
   }
 
-  /// They touch at t, to rounding; when they do for sure.
+  /// The bodies touch at t, to rounding; finds when they do for sure.
   Impact meet(double t, double t_end, const SignedDistance& now) {
     double t_hi = t;
     if (now.upper > 0) {
-      // Into each other, if they go on; if not, coming so near is a contact.
+      // Moves into each other, if they continue; if not, coming so near is a contact.
       const double speed = -approach(now, t);
       constexpr double deep = 0.5;
       double later = std::max((2 * now.upper + deep * touching_) / std::max(speed, 1e-6 * speed_),

@@ -18,8 +18,8 @@
 
 namespace minkray {
 
-/// Where a body is at time 0 and how it moves: its pivot by `velocity`, and about its pivot by
-/// `angular_velocity`, in the world, radians a unit of time.
+/// Pose of a body at time 0 and its motion: its pivot by `velocity`, and about its pivot by
+/// `angular_velocity`, in the world, radians per unit of time.
 struct RigidMotion {
   Affine<double> pose;  ///< rigid; the translation is the pivot
   Vec3<double> velocity = Vec3<double>::Zero();
@@ -29,9 +29,9 @@ struct RigidMotion {
 };
 
 enum class ImpactStatus : unsigned char {
-  miss,       ///< they do not touch before t_max
+  miss,       ///< no contact before t_max
   hit,        ///< the first contact is between t_lo and t_hi
-  inside,     ///< they overlap at time 0, or touch and approach each other
+  inside,     ///< overlap at time 0, or touch and approach each other
   undecided,  ///< none before t_lo; no more is known
 };
 
@@ -51,15 +51,15 @@ constexpr std::string_view name_of(ImpactStatus status) {
 
 struct Impact {
   ImpactStatus status = ImpactStatus::undecided;
-  double t_lo = 0;  ///< they are apart before this; from where they touch at 0 and part, after 0
-  double t_hi = std::numeric_limits<double>::infinity();  ///< they touch or overlap here
+  double t_lo = 0;  ///< apart before this; if they touch at 0 and part, from just after 0
+  double t_hi = std::numeric_limits<double>::infinity();  ///< touch or overlap here
   /// These are at t_lo, of misses at t_max: the nearest points, and the normal from A to B, in the
   /// world.
   Vec3<double> point_a = Vec3<double>::Zero();
   Vec3<double> point_b = Vec3<double>::Zero();
   Vec3<double> normal = Vec3<double>::Zero();
   double distance = 0;  ///< between them at t_lo; infinite where it is not known, without points
-  int steps = 0;        ///< distances asked for
+  int steps = 0;        ///< number of distance queries
 };
 
 struct ImpactOptions {
@@ -68,7 +68,7 @@ struct ImpactOptions {
   /// away: what is called a miss is one.
   double touching = 1e-10;
   int max_steps = 2000;
-  /// Whether the nearest points at t_max of what misses are asked for; the normal is told anyway.
+  /// True if the nearest points at t_max are wanted for misses; the normal is set anyway.
   bool points_of_misses = true;
 };
 

@@ -35,7 +35,7 @@ class MovingPair {
   double speed = 0;         ///< no point of B moves faster relative to one of A
   double acceleration = 0;  ///< nor accelerates by more
   double least =
-      -std::numeric_limits<double>::infinity();  ///< what has no depth has no less than 0
+      -std::numeric_limits<double>::infinity();  ///< pairs without depth have no less than 0
 };
 
 struct LeastDistanceOptions {
@@ -43,7 +43,7 @@ struct LeastDistanceOptions {
   /// least distance.
   double gap = 0;
   double relative_gap = 0;
-  /// It ends as well when the distance is known to be no less than this less the gap.
+  /// The search also ends when the distance is known to be no less than this minus the gap.
   double enough = std::numeric_limits<double>::infinity();
   int max_distances = 20000;
 };
@@ -51,9 +51,9 @@ struct LeastDistanceOptions {
 struct LeastDistance {
   double lower = -std::numeric_limits<double>::infinity();  ///< over all of [0, 1]
   double upper = std::numeric_limits<double>::infinity();   ///< of `there`
-  double s = 0;                                             ///< where the least was seen
+  double s = 0;  ///< parameter of the least distance found
   SignedDistance there;
-  int distances = 0;  ///< asked for
+  int distances = 0;  ///< number of queries
   bool is_settled = false;
 };
 

@@ -53,7 +53,7 @@ Polygon hull_of(std::array<Corner, directions> points, double near) {
   return hull;
 }
 
-/// What of a polygon lies within the other, an edge of which may be the whole of it.
+/// Clips one polygon by another, which may be a single edge.
 Polygon clipped(Polygon polygon, const Polygon& by, double near) {
   for (int i = 0; i < by.count; ++i) {
     const Corner &from = by[i], &to = by[(i + 1) % by.count];
@@ -127,7 +127,7 @@ class Manifold {
         e0_(nearest.normal.unitOrthogonal()),
         e1_(nearest.normal.cross(e0_)) {}
 
-  /// What looks along `sign` times the normal, seen from point_a.
+  /// Face that points along `sign` times the normal, relative to point_a.
   Polygon face(const Seen& seen, double sign, double near) const {
     std::array<Corner, directions> corners;
     const Vec3<double>& n = nearest_.normal;
@@ -217,7 +217,7 @@ ContactManifold contact_manifold(const ContactShape& a, const Affine<double>& po
   const Seen seen_a{a, turn_in_world(a, pose_a), Vec3<double>::Zero()},
       seen_b{b, turn_in_world(b, pose_b), between_middles(a, pose_a, b, pose_b).x};
   const Polygon of_a = manifold.face(seen_a, 1, near), of_b = manifold.face(seen_b, -1, near);
-  // What lies within the other's face is kept of a point or an edge.
+  // The part of a point or an edge within the other's face is kept.
   const Polygon common =
       of_a.count <= of_b.count ? clipped(of_a, of_b, near) : clipped(of_b, of_a, near);
   const bool has_face = std::max(of_a.count, of_b.count) > 2;

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Up to four points of contact of two shapes, which is what keeps a box from tipping over its one
-// nearest point: where the faces, edges or caps that look at each other lie over each other.
-//
-// The support points of each shape in directions tilted a little around the normal are the corners
-// of what looks at the other one; seen along the normal, the two polygons are clipped against each
-// other (I. Sutherland, G. Hodgman, "Reentrant Polygon Clipping", 1974). Of more than four corners
-// those are kept that span the most.
+// Up to four points of contact of two shapes, which keep a box from tipping over its one nearest
+// point. The support points of each shape in directions tilted a little around the normal bound the
+// part that faces the other one. Projected along the normal, the two polygons are clipped (I.
+// Sutherland, G. Hodgman, "Reentrant Polygon Clipping", 1974), and at most four corners, which span
+// the most, are kept.
 #pragma once
 
 #include <array>

@@ -9,7 +9,7 @@
 
 namespace minkray {
 
-/// Two bodies and where they stand. Their shapes must outlive the question.
+/// Two bodies and their poses. Their shapes must outlive the query.
 struct PosedPair {
   const ContactShape* a = nullptr;
   const ContactShape* b = nullptr;
@@ -21,7 +21,7 @@ struct PosedPair {
 void signed_distances(std::span<const PosedPair> pairs, std::span<SignedDistance> answers,
                       const SignedDistanceOptions& options = {});
 
-/// A stands still, B is at one pose after the other.
+/// A is fixed, B is at one pose after the other.
 void signed_distances(const ContactShape& a, const Affine<double>& pose_a, const ContactShape& b,
                       std::span<const Affine<double>> poses_b, std::span<SignedDistance> answers,
                       const SignedDistanceOptions& options = {});

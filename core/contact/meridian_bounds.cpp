@@ -84,7 +84,7 @@ struct Sample {
 struct Arc {
   Sample from, to;
   double bound = 0;   ///< g is no larger between the two
-  double middle = 0;  ///< where both bound it alike, or halfway
+  double middle = 0;  ///< direction where both bounds are equal, or halfway
 
   Arc(const Sample& first, const Sample& last) : from(first), to(last) {
     const double across = to.across - from.across, along = to.along - from.along;
@@ -106,7 +106,7 @@ class MeridianSearch {
   MeridianSearch(const CorePair& pair, const CoreDistance& known, const HalfPlane& plane)
       : pair_(pair), best_(known), axis_(plane.along), across_(plane.across) {}
 
-  /// Whether the largest bound comes as near to `lower` as that.
+  /// Returns true once the largest bound is within `gap` of `lower`.
   bool run(double gap) {
     constexpr int arcs = 4;
     Sample from = sample(-std::numbers::pi / 2);

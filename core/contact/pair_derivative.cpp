@@ -16,11 +16,11 @@ PairDerivative unknown(bool is_ridge) {
   return {{nans, nans}, {nans, nans}, is_ridge};
 }
 
-/// By how much the normal may lean, if a step of that length along it is between bounds this far
-/// apart.
+/// Angle by which the normal may lean, if a step of that length along it is between bounds this
+/// far apart.
 double tilt_of(double interval, double length) {
   constexpr double most = 1e-3;
-  constexpr double least = 1e-12;  // what turning a direction to a body's frame costs, and more
+  constexpr double least = 1e-12;  // rounding of a direction turned to a body's frame, and more
   const double tilt = std::sqrt(2 * interval / length);
   return tilt < most ? std::max(tilt, least) : most;  // NaN, too
 }
@@ -29,12 +29,12 @@ bool has_flat_parts(const ShapeCore& core) {
   return core.kind != CoreKind::point && core.kind != CoreKind::ellipsoid;
 }
 
-/// All points of it are looked at.
+/// Slow cores are those whose points are all visited.
 bool is_slow(const ShapeCore& core) {
   return core.kind == CoreKind::hull || core.kind == CoreKind::other;
 }
 
-/// Whether the bodies may touch each other in more than a point when they are moved together.
+/// True if the bodies may touch each other in more than a point when they are moved together.
 bool have_many_points(const ContactShape& a, const Mat3<double>& linear_a, const ContactShape& b,
                       const Mat3<double>& linear_b, const Vec3<double>& normal, double interval,
                       double length) {
@@ -57,8 +57,8 @@ bool have_many_points(const ContactShape& a, const Mat3<double>& linear_a, const
   return sine <= tilt || sine * shorter <= std::sqrt(2 * interval * length);
 }
 
-/// Whether the depth may have more than one direction. Deeper along the normal, all others are
-/// better than it: the depth is a concave function of where B is.
+/// True if the depth may have more than one direction. Deeper along the normal, all others are
+/// better than it: the depth is a concave function of B's place.
 bool has_many_directions(const ContactShape& a, const Affine<double>& pose_a, const ContactShape& b,
                          const Affine<double>& pose_b, const SignedDistance& found) {
   if (found.has_one_direction) [[likely]]
@@ -140,7 +140,7 @@ PairDerivative derivative_of(const ContactShape& a, const RigidMotion& motion_a,
   const double closing = found.normal.dot(velocity_a - velocity_b);
   const Mat3<double> turn_a = turned_by(time * motion_a.angular_velocity),
                      turn_b = turned_by(time * motion_b.angular_velocity);
-  // What turns a body at time 0 turns it later about an axis that has turned with it.
+  // A turn of the body at time 0 acts later about an axis that has turned with it.
   const auto back = [&](TwistDerivative derivative, const Mat3<double>& turn) {
     derivative.by_turn = turn.transpose() * derivative.by_turn;
     return derivative;

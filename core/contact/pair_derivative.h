@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// How a pair's signed distance, and the time of its first contact, change when the bodies are moved
-// a little: by the envelope theorem the nearest points may be taken to stay where they are on the
-// bodies (J. Danskin, "The Theory of Max-Min, with Applications", 1966). Where there are several
+// Derivatives of a pair's signed distance, and of the time of its first contact, when the bodies
+// are moved a little: by the envelope theorem the nearest points may be assumed fixed on the
+// bodies (J. Danskin, "The Theory of Max-Min, with Applications", 1966). If there are several
 // pairs of them, or several directions of the depth, there are several derivatives.
 #pragma once
 
@@ -12,8 +12,8 @@
 
 namespace minkray {
 
-/// By the velocity of the body's origin along the world's axes, and by its angular velocity about
-/// that point.
+/// Derivatives by the velocity of the body's origin along the world's axes, and by its angular
+/// velocity about that point.
 struct TwistDerivative {
   Vec3<double> by_velocity = Vec3<double>::Zero();
   Vec3<double> by_turn = Vec3<double>::Zero();
@@ -25,7 +25,7 @@ struct PairDerivative {
   bool is_ridge = false;
 };
 
-/// What answers for derivatives are to be asked with.
+/// Options for queries whose results are used for derivatives.
 inline SignedDistanceOptions for_derivatives(SignedDistanceOptions options = {}) {
   constexpr double coarsest = 1e-10;
   options.tolerance = std::min(options.tolerance, coarsest);
@@ -33,17 +33,17 @@ inline SignedDistanceOptions for_derivatives(SignedDistanceOptions options = {})
   return options;
 }
 
-/// `found` is the answer on this pair, asked for_derivatives(), with both of its bounds; else
-/// nothing is known: NaN, and a ridge.
+/// `found` is the result on this pair, computed with for_derivatives(), with both of its bounds;
+/// else nothing is known: NaN, and a ridge.
 PairDerivative derivative_of(const ContactShape& a, const Affine<double>& pose_a,
                              const ContactShape& b, const Affine<double>& pose_b,
                              const SignedDistance& found);
 
-/// Asks for the answer, too, as finely as that needs.
+/// Computes the signed distance, too, as finely as that needs.
 PairDerivative finest_derivative_of(const ContactShape& a, const Affine<double>& pose_a,
                                     const ContactShape& b, const Affine<double>& pose_b);
 
-/// B is what distance_to_half_space() was asked of. A's origin is `origin`.
+/// B is the shape passed to distance_to_half_space(). A's origin is `origin`.
 PairDerivative derivative_at_half_space(const Vec3<double>& origin, const ContactShape& b,
                                         const Affine<double>& pose_b, const SignedDistance& found);
 

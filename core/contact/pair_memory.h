@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What a query on a pair of bodies ended with, which a caller keeps for the next frame: the paper's
-// caching of the separating axis (G. van den Bergen, "Ray Casting against General Convex Objects",
-// 2004, section 4), and of the features that the nearest points lay on.
-//
-// It is where a search begins and never what an answer rests on: whatever is in here, from another
-// pair or from nowhere, the bounds are proven anew.
+// Final state of a query on a pair of bodies, kept by the caller for the next frame: the separating
+// axis (G. van den Bergen, "Ray Casting against General Convex Objects", 2004, section 4) and the
+// features of the nearest points. Only the start of a search, never the basis of a result: whatever
+// the contents, even from another pair, the bounds are proven again.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +25,7 @@ struct PairMemory {
   }
 };
 
-/// Whether the core has a feature of this number.
+/// True if the core has a feature of this number.
 inline bool is_feature_of(const ShapeCore& core, std::int32_t feature) {
   switch (core.kind) {
     case CoreKind::point:

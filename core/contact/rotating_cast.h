@@ -19,7 +19,7 @@ struct MovingBody {
   Shape<T> shape;
   Affine<T> pose;  ///< at time 0, from the shape's frame to the world; its translation is the pivot
   Vec3<T> velocity = Vec3<T>::Zero();          ///< of the pivot
-  Vec3<T> angular_velocity = Vec3<T>::Zero();  ///< about the pivot, radians a unit of time
+  Vec3<T> angular_velocity = Vec3<T>::Zero();  ///< about the pivot, radians per unit of time
 };
 
 template <class T>
@@ -28,7 +28,7 @@ struct RotatingCastResult {
   T t = T(0);               ///< the approximation's first contact
   T t_lo = T(0);            ///< no true contact before this; a miss: none at all if `proven`
   bool proven = false;      ///< a miss holds for the true motion too
-  T position_error = T(0);  ///< how far apart the true bodies may be, or overlap, at t
+  T position_error = T(0);  ///< bound on the true bodies' gap, or overlap, at t
   Vec3<T> point_a = Vec3<T>::Zero(), point_b = Vec3<T>::Zero(), normal = Vec3<T>::Zero();
   int steps = 0;  ///< that were cast
   int iterations = 0;

@@ -8,8 +8,8 @@ namespace minkray {
 inline constexpr double largest_length = 0x1p160;
 inline constexpr double smallest_length = 1 / largest_length;
 
-/// Whether products of a pair's lengths are numbers, as those of 0 are. Bodies far apart need none
-/// of small ones.
+/// True if products of a pair's lengths are normal numbers or 0. Bodies far apart need none of
+/// small lengths.
 inline bool are_searchable(double size, double distance) {
   const double length = size + distance;
   return size < largest_length && (length > smallest_length || length == 0);

@@ -8,11 +8,12 @@
 namespace minkray {
 namespace {
 
-/// The contact: the closest points of the two at the time of impact. There they touch, and a
-/// simplex around a common point on the boundary is as flat as rounding makes it; so B is taken
-/// back along the normal by a rounding error, and by more where that leaves them touching still.
-/// Where they graze each other, the distance query may end with points that are not the closest:
-/// those that are further apart than its steps explain are asked of the signed distance.
+/// Finds the contact: the closest points of the two at the time of impact. At that time they
+/// touch, and a simplex around a common point on the boundary is as flat as rounding makes it; so
+/// B is taken back along the normal by a rounding error, and by more where that leaves them
+/// touching still. Where they graze each other, the distance query may end with points that are
+/// not the closest: points that are further apart than its steps explain are computed by the
+/// signed distance.
 template <class T>
 void find_contact(const PreparedPair<T>& pair, const Vec3<T>& direction,
                   ShapeCastResult<T>& result) {

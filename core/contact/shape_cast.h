@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Continuous collision detection of two shapes that move without turning: van den Bergen (2004),
-// sections 1 and 4. B, moving by t * direction relative to A, meets A at the least t for which
-// t * direction lies in the configuration space obstacle A - B (both at t = 0): a ray cast, which
-// any of the solvers does. The obstacle is taken about the two shapes' centres, so that precision
-// does not depend on where in the world they stand.
+// sections 1 and 4. B, moving by t * direction relative to A, meets A at the least t for which t *
+// direction lies in the configuration space obstacle A - B (both at t = 0): a ray cast, which any
+// of the solvers does. The obstacle is taken about the two shapes' centres, so that precision does
+// not depend on their places in the world.
 #pragma once
 
 #include "core/cast/cast.h"

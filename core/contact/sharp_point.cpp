@@ -24,8 +24,7 @@ bool is_sharp_at_disks(const ShapeCore& core, const Vec3<double>& point, double 
   return is_at(core.size.x(), -core.size.z()) || is_at(core.size.y(), core.size.z());
 }
 
-/// Whether the point, which three corners are seen from, is outside of their triangle or on its
-/// rim.
+/// True if the viewpoint of the three corners is outside of their triangle or on its rim.
 template <class Corner>
 bool is_on_rim(const Corner* corners, double near) {
   int left = 0, right = 0;

@@ -11,10 +11,10 @@
 namespace minkray {
 namespace {
 
-/// Bounds and points of the shapes, with their radii, as `search` finds them of the cores; nothing
-/// is searched for at sizes that are out of its range, but for balls. `distance` is that of the
-/// middles, and may be off by `loss`; `to_world` turns from the frame of what was found, which
-/// stands about A's middle, and that is at `origin`.
+/// Bounds and points of the shapes, with their radii, as `search` finds them for the cores; sizes
+/// out of its range are not searched, except for balls. `distance` is that of the middles, with an
+/// error of at most `loss`; `to_world` turns from the frame of the search, whose origin is A's
+/// middle, at `origin`.
 template <class Search, class ToWorld>
 SignedDistance told(const Search& search, const ContactShape& a, const ContactShape& b,
                     double distance, double loss, const Vec3<double>& origin,
@@ -49,7 +49,7 @@ SignedDistance told(const Search& search, const ContactShape& a, const ContactSh
   const Vec3<double>& on_a = to_world(found.a);
   const Vec3<double>& between = to_world(found.c);
   result.normal = unit<double>(axis);
-  // Where the points of the cores lead a little aside of the normal, those of the bodies still lead
+  // If the cores' points are connected slightly aside of the normal, those of the bodies still are
   // along it, by a path as long as the value. Closed forms end with one direction for both.
   const bool is_aside = is_from_points && found.lower < found.upper && radii > 0;
   const Vec3<double> outwards =
@@ -59,7 +59,7 @@ SignedDistance told(const Search& search, const ContactShape& a, const ContactSh
   return result;
 }
 
-/// Two bodies that have been brought near, and where A's middle is as points are told.
+/// Two bodies that have been brought near, and A's middle in the frame of the reported points.
 struct NearBodies {
   const ContactShape& a;
   const Mat3<double>& linear_a;

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
-// How far apart two convex shapes are, or how deep in each other: one number, with its proof.
-//
-// Apart it is their distance. Overlapping it is less the length of the least translation that
-// separates them, their penetration depth (S. Cameron, R. Culley, "Determining the minimum
-// translational distance between two convex polyhedra", 1986). Either is the largest gap between
-// two parallel planes that have A on one side and B on the other, over all directions: so one
-// plane proves the lower bound. The upper one is proven by two points where they are apart, and
-// where they overlap by an inner approximation of B - A around the origin.
+// Distance of two convex shapes or, if they overlap, minus the length of the least translation that
+// separates them (S. Cameron, R. Culley, "Determining the minimum translational distance between
+// two convex polyhedra", 1986): the largest gap between two parallel planes with A on one side and
+// B on the other. One plane proves the lower bound; two points, or points of B - A around the
+// origin, the upper one.
 #pragma once
 
 #include <limits>
@@ -18,9 +15,9 @@ namespace minkray {
 
 enum class SignedStatus : unsigned char {
   separated,    ///< lower > 0
-  touching,     ///< the bounds are on both sides of 0, and as near to each other as was asked
+  touching,     ///< the bounds are on both sides of 0, and within the tolerance
   overlapping,  ///< upper < 0
-  undecided,    ///< the bounds hold, but are not as near to each other as was asked
+  undecided,    ///< the bounds hold, but are not within the tolerance
 };
 
 constexpr std::string_view name_of(SignedStatus status) {
@@ -42,42 +39,42 @@ struct SignedDistance {
   double value = 0;  ///< in [lower, upper], which allow for rounding; see is_unknown()
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
-  /// They are points of A and B, in the world, with point_b - point_a = value * normal but for what
-  /// docs/contact.md allows aside: the nearest ones; or where the two touch first, moved apart.
+  /// Points of A and B, in the world, with point_b - point_a = value * normal but for the
+  /// deviation allowed in docs/contact.md: the nearest ones; or where the two touch first, moved
+  /// apart.
   Vec3<double> point_a = Vec3<double>::Zero();
   Vec3<double> point_b = Vec3<double>::Zero();
-  /// It has unit length, from A to B, across planes `lower` apart. Moving B by it separates.
+  /// Unit vector from A to B, across planes `lower` apart. Moving B by it separates.
   Vec3<double> normal = Vec3<double>::Zero();
   int supports = 0;  ///< of the difference B - A: each is one of A and one of B
-  /// The support points that may be asked for ran out: the bounds hold, but are not as near to each
-  /// other as was asked.
+  /// Set if the limit of support points was reached: the bounds hold, but are not within the
+  /// tolerance.
   bool is_exhausted = false;
-  /// Says of cores that overlap that their depth has one direction, proven. Else nothing is known.
+  /// True if the depth of overlapping cores has one direction, proven. Else nothing is known.
   bool has_one_direction = false;
 
-  /// The search gave up with nothing: neither is it known that they are apart or overlap, nor has
-  /// the distance an upper bound. `value` is no distance then, and there are no points.
+  /// The search failed: it is unknown if they are apart or overlap, and the distance has no upper
+  /// bound. `value` is no distance then, and there are no points.
   bool is_unknown() const {
     return status == SignedStatus::undecided && !(upper < std::numeric_limits<double>::infinity());
   }
 };
 
 struct SignedDistanceOptions {
-  /// How near the bounds shall be to each other, relative to the sum of the shapes' sizes.
+  /// Largest gap between the bounds, relative to the sum of the shapes' sizes.
   double tolerance = 1e-10;
   /// Beyond this distance it is enough to know that they are: value is `lower` then, and upper may
   /// be infinite.
   double at_most = std::numeric_limits<double>::infinity();
-  /// Whether they overlap is all that is asked: the depth is not, and lower is -infinity or what
-  /// was found in passing.
+  /// Computes only if they overlap: not the depth, and lower is -infinity or a bound found in
+  /// passing.
   bool only_sign = false;
-  /// Branch and bound, which takes what all else leaves open, asks for no more support points (but
-  /// for some tens in the end, which find the points of contact). Of a body whose directions are
-  /// all as good as each other no number is enough for ten digits: a ball known by its support
-  /// mapping only, around a point.
+  /// Limit of support points for branch and bound, the last resort (some tens more are used in the
+  /// end to find the points of contact). No number suffices for ten digits on a body whose
+  /// directions are all equally good: a ball known by its support mapping only, around a point.
   int max_supports = 50000;
-  /// The normal of curved shapes, too, is to be found to some 1e-9, and the points with it: for
-  /// derivatives. It costs less than bounds that are as near to each other as that needs.
+  /// Finds the normal of curved shapes, too, to some 1e-9, and the points with it: for
+  /// derivatives. Costs less than a tolerance fine enough for that.
   bool is_for_derivatives = false;
 };
 
@@ -102,7 +99,7 @@ SignedDistance signed_distance(const ContactShape& a, const Mat3<double>& linear
                                const Between& between, const SignedDistanceOptions& options,
                                PairMemory* memory);
 
-/// Both shapes stand in the world.
+/// Both shapes are in the world's frame.
 SignedDistance signed_distance(const ContactShape& a, const ContactShape& b,
                                const SignedDistanceOptions& options = {});
 

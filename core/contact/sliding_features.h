@@ -155,8 +155,8 @@ class SlidingFeatures {
   double weight_[4];
 };
 
-/// Whether the origin is within a tetrahedron of C's middle and three points around n, in whose
-/// direction C ends at -depth; `common` is where its weights lead to.
+/// True if the origin is within a tetrahedron of C's middle and three points around n, in whose
+/// direction C ends at -depth; `common` is the point of its weights.
 template <CoreKind A, CoreKind B>
 bool SlidingFeatures<A, B>::is_inside(const Vec3<double>& n, double depth, const Vec3<double>* z,
                                       Vec3<double>& common) {
@@ -164,7 +164,7 @@ bool SlidingFeatures<A, B>::is_inside(const Vec3<double>& n, double depth, const
   const auto holds = [&](const Vec3<double>& p, const Vec3<double>& q, const Vec3<double>& r) {
     const Vec3<double> corners[4] = {p, q, r, query_.pair.x};
     const SimplexPoint closest = closest_of_simplex(corners, 4, false);
-    // Rounding may tell wrongly: what it is worth is how near to the origin the weights come.
+    // Rounding may give a wrong result: its quality is how near to the origin the weights come.
     common = Vec3<double>::Zero();
     for (int i = 0; i < 4; ++i) common += closest.weight[i] * corners[i];
     return closest.is_inside();
@@ -226,7 +226,7 @@ bool SlidingFeatures<A, B>::run(const Vec3<double>& d, double damping) {
     }
     if (v.norm() - query_.result.lower <= query_.gap)
       return query_.end_at(CoreStatus::separated, on_a, v);
-    // Where the gap is small or negative, C is moved on until there is one.
+    // If the gap is small or negative, C is moved until there is one.
     const double least = query_.size * std::max(1e-4, damping);
     const double shift = gap > least ? 0 : least - gap;
     if (shift > 0 && gap <= 0 && is_known) {
@@ -288,7 +288,7 @@ bool SlidingFeatures<A, B>::step_to_peak(const Vec3<double>& n, Vec3<double>& ne
     if (!(squared > thinnest * thinnest * u.squaredNorm() * v.squaredNorm())) return false;
     next = plane / std::sqrt(squared);
     if (next.dot(n) < 0) next = -next;
-    // Where the plane's point nearest to the origin is, by areas.
+    // The plane's point nearest to the origin, by areas.
     const Vec3<double> to_foot = next.dot(on[0].c) * next - on[0].c;
     weight_[1] = to_foot.cross(v).dot(plane) / squared;
     weight_[2] = u.cross(to_foot).dot(plane) / squared;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The time of impact of curved cores to second order. Of all planes with normal n, n.u = -1 (u
-// along the motion), that keep C on one side, the last to be met tells the time: a concave function
-// of n, the least of one for each feature of the surfaces (sliding_features.h). Around the n that
-// there is, each is t_i + q_i.m - m S m / 2, q_i its shadow and S the features' curvature; the m
-// that is best for the least of them comes from the dual, a quadratic program of at most four
-// weights, which is solved by going through all subsets (sequential quadratic programming).
+// The time of impact of curved cores to second order. Among all planes with normal n, n.u = -1 (u
+// along the motion), that keep C on one side, the last one met gives the time: a concave function
+// of n, the least of one for each feature of the surfaces (sliding_features.h). Around the current
+// n, each is t_i + q_i.m - m S m / 2, q_i its shadow and S the features' curvature; the m that is
+// best for the least of them comes from the dual, a quadratic program of at most four weights,
+// which is solved by going through all subsets (sequential quadratic programming).
 #pragma once
 
 #include "core/contact/swept_query.h"
@@ -84,7 +84,7 @@ class SlidingPortal {
     S.add(-k / (length * length), nd);
   }
 
-  /// Over a flat end the support point jumps: the portal alone goes on there.
+  /// Over a flat end the support point jumps: only the portal continues there.
   bool is_along_an_end(const Vec3<double>& nd) const {
     constexpr double flat = 1e-6;
     const auto is_along = [](const ShapeCore& core, const Vec3<double>& d) {

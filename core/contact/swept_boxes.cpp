@@ -6,7 +6,7 @@
 namespace minkray {
 namespace {
 
-/// Which pair of planes: a face of A (j < 0), one of B (i < 0), or an edge of each.
+/// Indices of a pair of planes: a face of A (j < 0), one of B (i < 0), or an edge of each.
 struct Slab {
   int i, j;
 };
@@ -51,15 +51,15 @@ class BoxSweep {
  private:
   static constexpr double infinity = std::numeric_limits<double>::infinity();
 
-  /// The ray is at s + t v of the slab between -reach and reach; numbers are relative to the length
-  /// of the slab's normal, or a little more. Returns whether to go on. Which slab is the last to be
-  /// entered nobody can foresee: it is looked for once, in the end.
+  /// The ray is at s + t v of the slab between -reach and reach; numbers are relative to the
+  /// length of the slab's normal, or a little more. Returns true to continue. The last slab to be
+  /// entered cannot be foreseen: it is searched once, at the end.
   bool pass(double s, double v, double reach, double length, int i, int j) {
     const double allowed = rounding_ * length, sign = std::copysign(1.0, v), speed = sign * v;
     slabs_[count_] = {i, j};
     sides_[count_] = -sign;
     if (speed == 0) {
-      // Beside it for ever, between its planes for ever, or too near to tell.
+      // Outside of it for ever, between its planes for ever, or too near to decide.
       if (std::abs(s) < reach - allowed) return true;
       if (std::abs(s) - reach > near_ * length + allowed) {
         sides_[count_] = s < 0 ? -1 : 1;

@@ -6,7 +6,7 @@
 namespace minkray {
 namespace {
 
-/// What the distance at a time is, in the frame of the search.
+/// Signed distance at a time, in the frame of the search.
 template <class DistanceAt>
 class ClosedSweep {
  public:

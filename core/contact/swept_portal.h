@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: MIT
-// When two cores first touch of which one moves without turning: where a ray meets C. By portals
-// (G. Snethen, "XenoCollide: Complex Collision Made Simple", in Game Programming Gems 7, 2008): in
-// the shadow of C along the motion GJK in the plane finds three points around the origin, or a line
-// that proves a miss; the triangle of the three, which the ray pierces, is moved outwards by the
-// support point along its normal until that is on the triangle. Every turn has two bounds of the
-// time: at the triangle the two touch for sure, before the support plane they do not.
-//
-// It is finite and exact for polytopes. Where surfaces are curved it hands over to features that
-// slide (sliding_portal.h) after a few turns.
+// First contact of two cores where one moves without turning: a ray meets C. By portals (G.
+// Snethen, "XenoCollide", in Game Programming Gems 7, 2008): GJK in the shadow of C finds three
+// points around the origin, or proves a miss; their triangle is moved outwards by support points.
+// The triangle and the support plane bound the time. Exact for polytopes; on curved surfaces
+// sliding_portal.h takes over after a few turns.
 #pragma once
 
 #include "core/contact/sliding_portal.h"
@@ -25,7 +21,7 @@ class SweptPortal {
                  (slides(pair.a.kind) || slides(pair.b.kind) || query_.radius > 0);
   }
 
-  /// There may be a memory: the plane that it has is looked at first.
+  /// `memory` may be null; else its plane is tried first.
   SweptTime run(const PairMemory* memory) {
     if (!(query_.speed > 0) || query_.passes_by()) return query_.result;
     if (memory && memory->has_axis()) {
@@ -55,7 +51,7 @@ class SweptPortal {
         query_.end(SweptStatus::miss, d);
         return false;
       }
-      if (reach > 0) return false;  // too near to tell
+      if (reach > 0) return false;  // too near to decide
       if (++count == 3) {
         const double c01 = side(0, 1), c12 = side(1, 2), c20 = side(2, 0), area = c01 + c12 + c20;
         const double sign = area < 0 ? -1 : 1;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A time of impact that is being searched for: two cores of which B moves without turning, and what
-// is proven so far. Their radii are in the points: C is grown by both.
+// A search for a time of impact: two cores, B moving without turning, and the bounds proven so
+// far. The radii are included in the points: C is grown by both.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ enum class SweptStatus : unsigned char {
 struct SweptTime {
   SweptStatus status = SweptStatus::open;
   double t_lo = -std::numeric_limits<double>::infinity();  ///< no contact since long before
-  double t_hi = std::numeric_limits<double>::infinity();   ///< they touch or overlap
+  double t_hi = std::numeric_limits<double>::infinity();   ///< the cores touch or overlap
   Vec3<double> axis = Vec3<double>::Zero();  ///< across the plane between them, of unit length
   Vec3<double> a = Vec3<double>::Zero();     ///< a point of A, which at t_hi is one of B
   int supports = 0;
@@ -93,7 +93,7 @@ struct SweptQuery {
     return true;
   }
 
-  /// What the plane with normal n through w proves. Returns whether that is a miss.
+  /// Applies what the plane with normal n through w proves. Returns true if that is a miss.
   bool judge(const Vec3<double>& n, const SweptPoint& w) {
     const double length = n.norm(), gap = n.dot(w.y) - rounding * length,
                  approach = -n.dot(velocity);
@@ -127,9 +127,9 @@ struct SweptQuery {
           std::abs(area) > sliver * size * reach))
       return false;
     const double of_r = at_r / area, of_s = at_s / area, of_t = at_t / area;
-    // The weights of a thin triangle lead to a point that is a little beside the origin: it is put
-    // right along the triangle's plane. Rounding moves the points across, which counts as much as
-    // that is steep.
+    // The weights of a thin triangle give a point slightly off the origin: it is corrected along
+    // the triangle's plane. Rounding moves the points across, which counts in proportion to the
+    // steepness.
     const double p1 = s.p - r.p, q1 = s.q - r.q, h1 = s.h - r.h, p2 = t.p - r.p, q2 = t.q - r.q,
                  h2 = t.h - r.h, across = p1 * q2 - q1 * p2;
     const double rise_p = (h1 * q2 - q1 * h2) / across, rise_q = (p1 * h2 - h1 * p2) / across;

@@ -32,7 +32,7 @@ SweptTime of_balls(const CorePair& pair, const Vec3<double>& velocity, double t_
   const double t = towards / squared - std::sqrt(deep);
   const Vec3<double> there = pair.x + t * velocity;
   const double speed = std::sqrt(squared), approach = -there.dot(velocity) / there.norm();
-  // What is wrong of the distance there, by the speed at which it changes.
+  // Error of the distance there, by the speed at which it changes.
   const double off = std::abs(there.norm() - radius) + rounding;
   if (!(t * speed > near) || !(approach > 0)) return result;
   if ((t - t_max) * approach > near + off) return miss(pair.x + t_max * velocity);

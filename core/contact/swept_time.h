@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// When two cores first touch of which one moves without turning, compiled for the kinds that are
-// asked for most.
+// First contact of two cores where one moves without turning, compiled for the most common kinds.
 #pragma once
 
 #include "core/contact/swept_query.h"

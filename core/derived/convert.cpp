@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Shapes are converted by way of their described fields.
+// Converts shapes via their described fields.
 #include "core/derived/convert.h"
 
 #include <utility>

@@ -6,7 +6,7 @@
 
 namespace minkray {
 
-/// It stands around the origin, with sides of twice that length.
+/// A cube around the origin, with sides of twice that length.
 template <class T>
 Shape<T> cube_of(T half) {
   return Box<T>{Vec3<T>::Constant(half)};

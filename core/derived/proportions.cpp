@@ -11,8 +11,8 @@
 namespace minkray {
 namespace {
 
-/// It limits longest to thinnest for shapes that lie along the axes: their supports are products
-/// with each axis' own length, which rounding leaves as precise as that length.
+/// Limits longest to thinnest for shapes that lie along the axes: their supports are products with
+/// each axis' own length, which rounding leaves as precise as that length.
 template <class T>
 constexpr double most_along_axes = std::is_same_v<T, float> ? 0x1p13 : 0x1p20;
 /// Points may lie askew: their coordinates are rounded to the longest.
@@ -25,9 +25,9 @@ constexpr double most_in_float = 0x1p6;
 /// The longest to what it is rounded by: what is hardly rounded is nearly a sharp edge.
 constexpr double most_to_rounding = 0x1p20;
 
-/// By how much a superellipsoid's exponent is above 1, at least: below, its edges are curved so
-/// much more than its faces that a model which agrees with a plane of it may still be far off (seen
-/// at 2^-13 in float and 2^-14 in double). At 1 it has corners, which are known.
+/// Least excess of a superellipsoid's exponent over 1: below, its edges are curved so much more
+/// than its faces that a model which agrees with one of its planes may still be far off (at 2^-13
+/// in float and 2^-14 in double). At 1 it has corners, which are known.
 constexpr double least_above_1 = 0x1p-10;
 
 /// The longest over the thinnest; 1 if there is nothing but one length. `flat`: lengths up to it
@@ -83,14 +83,14 @@ bool is_on_a_line(std::span<const Vec3<T>> points) {
   return true;
 }
 
-/// What points look like along their principal axes.
+/// Extents of points along their principal axes.
 struct Spread {
   double size = 0;                              ///< of the box around them
   Vec3<double> lengths = Vec3<double>::Zero();  ///< by the size, the shortest first
   double flat = 0;                              ///< lengths up to it are rounding
 };
 
-/// They are scaled, lest squares leave the range.
+/// Scales the points, so that squares stay in range.
 template <class T>
 Spread spread_of(std::span<const Vec3<T>> points) {
   Vec3<double> lower = points[0].template cast<double>(), upper = lower;
@@ -136,14 +136,14 @@ double ratio_of_points(std::span<const Vec3<T>> points) {
   const Spread spread = spread_of(points);
   if (!(spread.size > 0)) return 1;
   if (!std::isfinite(spread.size)) return spread.size;
-  // Not in float, whose rays are rounded as coarsely: in double, a cast would tell that they pass
+  // Not in float, whose rays are rounded as coarsely: in double, a cast would find that they pass
   // it by.
   if (std::is_same_v<T, double> && is_lost_needle(spread, points))
     return std::numeric_limits<double>::infinity();
   return ratio_of(spread.lengths.cast<long double>(), spread.flat);
 }
 
-/// How much maps lengthen and shorten what they map, at most.
+/// Largest and least factor by which maps stretch what they map.
 struct Stretch {
   double most = 1, least = 1;
   double ratio() const { return most / least; }
@@ -158,8 +158,8 @@ Stretch operator*(const Stretch& outer, const Mat3<T>& linear) {
   return {outer.most * size * std::sqrt(squares[2]), outer.least * size * std::sqrt(squares[0])};
 }
 
-/// Whether points are so little apart along an axis that the products of that length and their size
-/// have lost digits: planes through such points lean by more than rounding.
+/// True if points are so close along an axis that the products of that length and their size have
+/// lost digits: planes through such points lean by more than rounding.
 template <class T>
 bool loses_digits(const Bounds<T>& bounds) {
   const Vec3<long double> lengths = half_extents_of(bounds);
@@ -169,7 +169,7 @@ bool loses_digits(const Bounds<T>& bounds) {
                      [&](long double length) { return length > 0 && length < limit; });
 }
 
-/// What the walk over a shape's operands has seen.
+/// Properties collected by the walk over a shape's operands.
 struct Seen {
   bool extreme_operand = false, lost_digits = false, nearly_sharp = false;
   double longest = 0, shortest = std::numeric_limits<double>::infinity();
@@ -198,7 +198,7 @@ void look_at(const Shape<T>& shape, const Stretch& stretch, Seen& seen) {
         } else if constexpr (std::is_same_v<S, Triangle<T>> || std::is_same_v<S, Segment<T>>) {
           look_at_points(kind, kind.points);
         } else if constexpr (std::is_same_v<S, Rounded<T>>) {
-          // What is rounded that far is as thick as that, however thin its core.
+          // A shape rounded by that radius is at least that thick, however thin its core.
           const double radius = double(kind.radius);
           const double size = double(bounds_of<T>(*kind.shape).half_extents().maxCoeff());
           if (radius * most_askew > size) {
@@ -232,7 +232,7 @@ void look_at(const Shape<T>& shape, const Stretch& stretch, Seen& seen) {
       shape.kind);
 }
 
-/// Whether the shape is a hull or a triangle, mapped or not, whose points are so.
+/// True if the shape is a hull or a triangle, mapped or not, whose points satisfy the condition.
 template <class AreThey>
 bool are_points_that(const Shape<float>& shape, const AreThey& are_they) {
   return std::visit(

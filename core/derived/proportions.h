@@ -1,28 +1,28 @@
 // SPDX-License-Identifier: MIT
-// Shapes whose proportions are beyond what the solvers' rounding was made for: needles, plates and
-// slivers of more than 1 : 10^4 to 10^6, and edges as sharp beside faces.
+// Shapes whose proportions exceed the design of the solvers' rounding: needles, plates and slivers
+// of more than 1 : 10^4 to 10^6, and edges as sharp next to faces.
 #pragma once
 
 #include "core/shape/shape.h"
 
 namespace minkray {
 
-/// Whether any of the shapes it is made of is so much longer than it is thick, the maps around it
+/// True if any of its component shapes is so much longer than it is thick, the maps around it
 /// included, or so much larger than another of them. Operands without any thickness (disks,
 /// segments, flat hulls) are not thin; points in double that lie on a line but for rounding are.
 /// Superellipsoids whose edges are nearly, but not quite, sharp count as well.
 template <class T>
 bool has_extreme_proportions(const Shape<T>& shape);
 
-/// Whether the shape is made of points in float that are a needle thinner than their rounding: rays
-/// in float still meet it, and only the GJK ray cast says where.
+/// True if the shape is made of points in float that are a needle thinner than their rounding:
+/// rays in float still meet it, and only the GJK ray cast finds where.
 bool is_lost_in_rounding(const Shape<float>& shape);
 
-/// Whether the shape is made of points in float that are a sliver: what a ray in its plane comes to
-/// is off by the rounding of its length times how thin it is.
+/// True if the shape is made of points in float that are a sliver: a ray in its plane is off by
+/// the rounding of its length times its ratio of length to thickness.
 bool is_sliver(const Shape<float>& shape);
 
-/// Whether the shape is made of points in float that lie in a plane but for their rounding.
+/// True if the shape is made of points in float that lie in a plane but for their rounding.
 bool is_flat_but_for_rounding(const Shape<float>& shape);
 
 extern template bool has_extreme_proportions(const Shape<float>&);

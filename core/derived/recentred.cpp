@@ -19,7 +19,7 @@ constexpr T far_away = T(4);
 template <class T>
 constexpr T far_part = T(0.5);
 
-/// How coarsely the entries of a rotation's matrix are rounded that was made of a quaternion.
+/// Rounding of the entries of a rotation's matrix that was made of a quaternion.
 template <class T>
 constexpr T turn_rounding = T(2) * std::numeric_limits<T>::epsilon();
 
@@ -28,7 +28,7 @@ T corner_of(const Bounds<T>& bounds) {
   return bounds.lower.cwiseAbs().cwiseMax(bounds.upper.cwiseAbs()).stableNorm();
 }
 
-/// Tells by how much to move a part; zero along axes along which there is nothing to gain.
+/// Vector by which to move a part; zero along axes along which there is nothing to gain.
 template <class T, class S>
 Vec3<T> way_to(const S& shape) {
   const Bounds<T> bounds = bounds_of<T>(shape);
@@ -213,7 +213,7 @@ T largest_coordinate(const Shape<T>& shape) {
 
 template <class T>
 std::optional<Recentred<T>> recentred(const Shape<T>& shape) {
-  if (std::holds_alternative<Custom<T>>(shape.kind)) return {};  // whose supports may be dear
+  if (std::holds_alternative<Custom<T>>(shape.kind)) return {};  // supports may be expensive
   const T radius = bounds_of<T>(shape).half_extents().stableNorm();
   const T largest = largest_coordinate(shape);
   if (!(largest > far_away<T> * radius)) return {};

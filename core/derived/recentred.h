@@ -23,8 +23,8 @@ struct Recentred {
 template <class T>
 T stretch_of(const Mat3<T>& linear);
 
-/// How far rounding of a map's entries may have moved a point at this distance. Scales and swaps of
-/// axes are as they were given; other maps may have been made of a quaternion.
+/// Bounds the displacement of a point at this distance by rounding of a map's entries. Scales and
+/// swaps of axes are exact; other maps may have been made of a quaternion.
 template <class T>
 T loss_of_turning(const Mat3<T>& linear, T distance);
 

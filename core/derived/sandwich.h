@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Two meshes made from nothing but a shape's support mapping, one within the shape and one around
-// it: a ray meets the outer mesh no later than the shape, and the shape no later than the inner
-// one.
-//
-// Inner: the hull of support points. Outer: the intersection of the half-spaces that those supports
-// bound. Polytopes come out exactly: half of the directions are
-// the facet normals of the hull that the other half made.
+// Two meshes made from a shape's support mapping alone: a ray meets the outer mesh no later than
+// the shape, and the shape no later than the inner one. Inner: the hull of support points. Outer:
+// the intersection of the half-spaces that those supports bound. Polytopes are exact: half of the
+// directions are facet normals of the hull of the other half's supports.
 #pragma once
 
 #include <array>
@@ -23,10 +20,10 @@ struct Mesh {
 };
 
 struct SandwichOptions {
-  /// How many quasi-uniform directions to begin with.
+  /// Number of quasi-uniform directions to begin with.
   int directions = 500;
-  /// How far at least the outer mesh lies outside of the shape and the inner one within, in units
-  /// of the frame: room for the rounding of whoever reads the meshes.
+  /// Least distance of the outer mesh outside of the shape, and of the inner one within it, in
+  /// units of the frame: room for the rounding of programs that read the meshes.
   double margin = 0x1p-20;
   /// Shapes thinner than this, relative to their size, count as flat.
   double flatness = 0x1p-20;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where a line enters a ball around the origin.
+// Finds where a line enters a ball around the origin.
 #pragma once
 
 #include "core/exact/line.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where a line enters a box around the origin: after the last of its three slabs is entered, if
-// none has been left by then.
+// Finds where a line enters a box around the origin: after the last of its three slabs is entered,
+// if none has been left by then.
 #pragma once
 
 #include "core/exact/line.h"

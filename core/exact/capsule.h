@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where a line enters a capsule along the z axis: its mantle, or the ball at the end beyond which
-// the line would meet the mantle.
+// Finds where a line enters a capsule along the z axis: its mantle, or the ball at the end beyond
+// which the line would meet the mantle.
 #pragma once
 
 #include "core/exact/mantle.h"

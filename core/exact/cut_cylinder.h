@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where a line enters a cylinder around the z axis that two planes cut off at any angle.
+// Finds where a line enters a cylinder around the z axis that two planes cut off at any angle.
 #pragma once
 
 #include "core/exact/form.h"
@@ -8,11 +8,11 @@
 
 namespace minkray::exact {
 
-/// What lies below the plane normal.x = offset.
+/// The half-space below the plane normal.x = offset.
 template <class W>
 struct Cut {
   Vec3<W> normal;
-  W in, out, e;  ///< where the line enters and leaves it, and the error of both
+  W in, out, e;  ///< parameters at which the line enters and leaves it, and the error of both
 
   Cut(const double* outward, double offset, const Line<W>& line)
       : normal(W(outward[0]), W(outward[1]), W(outward[2])) {
@@ -53,7 +53,7 @@ template <class W>
   using std::min;
   const double r = sizes[0];
   Entry<W> entry;
-  // Far misses_ball the ball, planes were rounded more than E says.
+  // For lines far from the ball, planes were rounded by more than E.
   const W reach = W(R) + W(2) * line.E;
   const Mask<W> misses_ball = open & (line.s.squaredNorm() > reach * reach);
   const Mantle<W> round(r, line, open & !misses_ball);

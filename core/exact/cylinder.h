@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where a line enters a cylinder around the z axis: an endless one, between two planes.
+// Finds where a line enters a cylinder around the z axis: an endless one, between two planes.
 #pragma once
 
 #include "core/exact/mantle.h"

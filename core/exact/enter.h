@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where a line enters a form of any kind.
+// Finds where a line enters a form of any kind.
 #pragma once
 
 #include "core/exact/box.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A shape's closed form made ready to be cast at: what it declares (core/shape/exact_form.h), as
-// seen from the middle of the shape's bounding ball.
+// A shape's closed form prepared for casts: its declaration (core/shape/exact_form.h), relative to
+// the middle of the shape's bounding ball.
 #pragma once
 
 #include <memory>
@@ -24,7 +24,7 @@ struct Form {
   Vec3<double> scale = {1, 1, 1};
   double slope = 0;  ///< of a cone's mantle: radius by height below the apex
   double sine = 0;   ///< of the same angle
-  /// They are as declared, but in balls' frames; forms with a cone have radii below and above, half
+  /// Sizes as declared, but in balls' frames; forms with a cone have radii below and above, half
   /// height, apex.
   FormSizes sizes = {};
   std::shared_ptr<const Polytope> polytope;  ///< null for other kinds

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where a line enters a frustum around the z axis, its wider disk below: an endless cone, between
-// two planes. A cone is one whose upper disk is a point.
+// Finds where a line enters a frustum around the z axis, its wider disk below: an endless cone,
+// between two planes. A cone is one whose upper disk is a point.
 #pragma once
 
 #include "core/exact/nappe.h"

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What closed forms are asked, and what they answer: a line seen from nearby and where it enters,
-// with a bound of its error. W is double, or a packet of doubles: a line in every lane. The same
-// operations in the same order, so that a packet's lanes have a single line's bits. Or it is a
-// packet of floats, which screens candidates (core/cast/screen.h) and may have a form in every lane
-// as well.
-//
-// docs/forms.md ("Casts with an error bound") derives the bounds.
+// Input and output of closed forms: a line relative to a nearby point and where it enters, with an
+// error bound (docs/forms.md, "Casts with an error bound"). W is double, or a packet of doubles
+// with a line in every lane and the same bits as single lines. Or W is a packet of floats, which
+// screens candidates (core/cast/screen.h) and may have a form in every lane as well.
 #pragma once
 
 #include "core/math/least_to_square.h"
@@ -19,8 +16,8 @@ template <class W>
 struct Line {
   Vec3<W> s, d;
   W dd, inv;  ///< d.d and 1 / d.d
-  /// How far each point with |t| |d| up to the form's size may lie beside where it should be, and
-  /// along the line: a length that bounds the rounding of s, and of what a form does with it.
+  /// Bounds the displacement, across the line and along it, of each point with |t| |d| up to the
+  /// form's size: covers the rounding of s, and of what a form does with it.
   W E;
   /// A square of a component of d below this counts as zero: it moves the line by less than E / 4.
   W parallel;
@@ -28,8 +25,8 @@ struct Line {
   Line reversed() const { return {s, -d, dd, inv, E, parallel}; }
 };
 
-/// Where a line enters a form, whose sizes may be numbers for all lanes or W, one for each. A lane
-/// that neither hits nor misses is in doubt.
+/// Entry of a line into a form, whose sizes may be numbers for all lanes or W, one for each. A
+/// lane that neither hits nor misses is in doubt.
 template <class W>
 struct Entry {
   Mask<W> hit = Mask<W>(false), miss = Mask<W>(false);
@@ -50,7 +47,7 @@ inline constexpr Lane<W> least_component = least_to_square<Lane<W>>;
 template <class W>
 Vec3<W> between(const Vec3<W>& entered, const Vec3<W>& left, const Vec3<W>& d) {
   const W inwards = entered.dot(d), outwards = left.dot(d);
-  // Where the line runs along both, it is above either.
+  // If the line runs along both, it is above either.
   const Mask<W> is_along = (inwards == W(0)) & (outwards == W(0));
   return entered * select(is_along, W(1), outwards) - left * inwards;
 }

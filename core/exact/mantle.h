@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where a line enters and leaves an endless cylinder around the z axis: what cylinders and capsules
-// have in common.
+// Finds where a line enters and leaves an endless cylinder around the z axis: shared by cylinders
+// and capsules.
 #pragma once
 
 #include "core/exact/ball.h"
@@ -11,7 +11,7 @@ template <class W>
 struct Mantle {
   Mask<W> hit, miss;  ///< neither: in doubt
   W in, out, e;       ///< the parameters, and the error of both
-  W x, y;             ///< where the line is closest to the axis
+  W x, y;             ///< point of the line closest to the axis
   W half;             ///< from there to either end, a parameter
 
   template <class S>

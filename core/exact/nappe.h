@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where a line enters and leaves an endless cone around the z axis, below its apex: what frustums
-// and tapered capsules have in common.
+// Finds where a line enters and leaves an endless cone around the z axis, below its apex: shared
+// by frustums and tapered capsules.
 #pragma once
 
 #include "core/exact/line.h"

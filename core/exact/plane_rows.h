@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Planes around a polytope in an order in which several are looked at together, and a line between
+// Planes around a polytope in an order in which several are tested together, and a line between
 // all of them. Compiled once for each instruction set, without fused operations: the same bits.
 #pragma once
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Where a line enters the convex hull of points: by walking over its triangles to the one the line
-// passes through, or where that is in doubt, or the hull has few facets, between all its planes.
-//
-// Each plane has a bound of how far the points of its triangles lie below it, so that nothing is
-// asked of how planes were found. docs/forms.md ("Polytopes with an error bound") has the proof.
+// Finds where a line enters the convex hull of points: by walking over its triangles to the one the
+// line passes through; if that is in doubt, or the hull has few facets, between all its planes.
+// Each plane has a bound on the depth of its triangles' points below it, so that nothing is assumed
+// about how planes were found (docs/forms.md, "Polytopes with an error bound").
 #pragma once
 
 #include <memory>
@@ -17,23 +16,23 @@ namespace minkray::exact {
 /// Immutable once made; all lengths are counted from the middle that was given.
 class Polytope {
  public:
-  /// It is null where the points' hull is flat, or so thin that its planes' depths use it up, or
-  /// has more points than planes are looked for; or is to be grown by a radius and is not convex,
-  /// or its triangles not high, enough for rounding to tell which of its features are next to a
-  /// line. Points are multiplied by `down` first.
+  /// Null if the points' hull is flat, or so thin that its planes' depths use it up, or has more
+  /// points than planes are searched for; or if it is to be grown by a radius and is not convex,
+  /// or its triangles are not high enough for rounding to decide which of its features are next to
+  /// a line. Points are multiplied by `down` first.
   template <class T>
   static std::shared_ptr<const Polytope> of(const PointCloud<T>& points, const Vec3<double>& middle,
                                             double down, double rounded_by = 0);
 
-  /// A triangle grown by a radius, which counts from the middle and has two sides. It is null where
-  /// the radius is 0 or the triangle not high enough.
+  /// A triangle grown by a radius, which counts from the middle and has two sides. Null if the
+  /// radius is 0 or the triangle not high enough.
   static std::shared_ptr<const Polytope> of(const std::array<Vec3<double>, 3>& corners,
                                             double rounded_by);
 
   /// The ball of this radius around the middle holds it.
   double radius() const { return radius_; }
-  /// It bounds how far rounding moves where a line crosses a plane, across it, or meets what is
-  /// next to it in the grown polytope: it is to be added to the line's E.
+  /// Bounds how far rounding moves the point where a line crosses a plane, across the line, or
+  /// meets an adjacent feature of the grown polytope; to be added to the line's E.
   double rounding() const { return rounding_; }
   std::size_t planes() const { return tables_.plane_count(); }
   const PolytopeTables& tables() const { return tables_; }
@@ -41,7 +40,7 @@ class Polytope {
  private:
   class Maker;
 
-  /// The ball around the vertices, and what is told by their extents.
+  /// Computes the ball around the vertices, and the values that follow from their extents.
   Polytope(const std::vector<Vec3<double>>& vertices, double rounded_by);
 
   PolytopeTables tables_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How a polytope's tables are filled: triangles and their neighbours, planes that support all
-// points, and a map from directions to triangles. Included by polytope.cpp alone.
+// Fills a polytope's tables: triangles and their neighbours, planes that support all points, and a
+// map from directions to triangles. Included by polytope.cpp alone.
 #pragma once
 
 #include <algorithm>
@@ -124,7 +124,7 @@ class Polytope::Maker {
     }
   }
 
-  /// Adds the radius, and what rounding hides of the features beside (docs/forms.md). False if the
+  /// Adds the radius, and the rounding that hides adjacent features (docs/forms.md). False if the
   /// polytope is not fit for it.
   bool make_room_for_rounding() {
     Long least = made_.radius_;
@@ -143,8 +143,8 @@ class Polytope::Maker {
     }
     const double room = static_cast<double>(least) / made_.radius_;
     if (!(room > tolerance::rounded_polytope_height)) return false;
-    // What is beside a feature rises by no more than rounding where it seems to fall, and what is
-    // further away by so many times more.
+    // A feature next to another rises by no more than rounding where it seems to fall, and one
+    // further away by proportionally more.
     made_.radius_ += made_.tables_.rounded_by;
     made_.rounding_ = tolerance::polytope_rounding * made_.radius_ + 2 * made_.rounding_ / room;
     return true;
@@ -211,7 +211,7 @@ class Polytope::Maker {
             static_cast<double>(twin), u.x(), u.y(), u.z(), static_cast<double>(length)});
   }
 
-  /// Goes by way of the shorter edges, whose rounding is least.
+  /// Uses the shorter edges, whose rounding is least.
   Vec3<double> normal_of(const Triangle& triangle) const {
     const Vec3<double>&a = vertices_[triangle.corner[0]], &b = vertices_[triangle.corner[1]],
           &c = vertices_[triangle.corner[2]];
@@ -221,7 +221,7 @@ class Polytope::Maker {
 
   Plane supporting(const Vec3<double>& normal) const {
     Plane plane{normal, -std::numeric_limits<Long>::infinity()};
-    // What is clearly less in double need not be known better.
+    // Points that are clearly lower in double need no more digits.
     double furthest = -std::numeric_limits<double>::infinity();
     const double unsure = 2 * made_.rounding_;
     for (const Vec3<double>& p : vertices_) {
@@ -237,7 +237,7 @@ class Polytope::Maker {
     return normal.cast<Long>().dot(p.cast<Long>());
   }
 
-  /// How far the lowest corner is below the plane.
+  /// Depth of the lowest corner below the plane.
   Long depth_of(const Plane& plane, const Triangle& triangle) const {
     Long lowest = plane.offset;
     for (const std::uint32_t corner : triangle.corner)

@@ -28,8 +28,8 @@ struct PlaneRow {
   }
 };
 
-/// Where the line enters a plane that is entered last, if that is not steeper: the cosine of the
-/// angle between the line and the normal is more than `steepest`.
+/// Computes where the line enters a plane that is entered last, if that is not steeper: the cosine
+/// of the angle between the line and the normal is more than `steepest`.
 template <class W>
 void settle_hit(const PolytopeTables& of, const W& plane, const Line<W>& line, const Mask<W>& open,
                 Lane<W> steepest, Entry<W>& entry) {

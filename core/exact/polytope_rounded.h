@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Where a line enters a polytope that is grown by a radius: the nearest face moved out, or the
-// cylinder around an edge, or the ball around a vertex, whichever its contact says is supported by
-// what is next to it. From feature to feature as Lin and Canny do ("A Fast Algorithm for
-// Incremental Distance Calculation", 1991); one text for a line and for one in each lane.
+// Finds where a line enters a polytope that is grown by a radius: the nearest face moved out, or
+// the cylinder around an edge, or the ball around a vertex, whichever is supported at its contact
+// with respect to its neighbours. Walks from feature to feature as Lin and Canny do ("A Fast
+// Algorithm for Incremental Distance Calculation", 1991); the same code for a line and for one in
+// each lane.
 #pragma once
 
 #include "core/exact/polytope_walk.h"
@@ -12,7 +13,7 @@ namespace minkray::exact {
 /// Whichever feature supports, of all features: for lines that walks have lost.
 Entry<double> enter_any_feature(const PolytopeTables& of, const Line<double>& line);
 
-/// Which feature of the surface a half-edge stands for: its triangle, itself, its origin.
+/// Feature of the surface that a half-edge represents: its triangle, itself, its origin.
 namespace feature {
 inline constexpr double none = 0, face = 1, edge = 2, vertex = 3;
 }
@@ -186,8 +187,8 @@ class RoundedWalk {
     const W at = s_along + d_along * found.t;
     leave(at < W(0), feature::vertex, here);
     leave(at > length(edge), feature::vertex, next(edge));
-    // The edge supports, if both triangles beside it fall away, and, lest they are in one plane,
-    // what is behind them.
+    // The edge supports if both adjacent triangles fall away, and, in case they are in one plane,
+    // so do those behind them.
     if (!any(which)) return;
     const W other = twin(edge);
     const W rise = found.out.dot(inwards(edge));
@@ -259,9 +260,9 @@ void find_lost(const PolytopeTables& of, const Line<W>& line, const Mask<W>& los
   }
 }
 
-/// Where lines enter the polytope grown by a radius, those that meet its ball. From the face whose
-/// normal is near that of the entry, or, if that faces away, from where the line passes the
-/// polytope itself.
+/// Finds where lines enter the polytope grown by a radius, those that meet its ball. Starts from
+/// the face whose normal is near that of the entry, or, if that faces away, from where the line
+/// passes the polytope itself.
 template <class W>
 Entry<W> enter_features(const PolytopeTables& of, const Line<W>& line, const Mask<W>& open) {
   WalkEnd<W> start;

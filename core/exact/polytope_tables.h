@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a line's way over a polytope reads: rows of numbers, so that the lanes of a packet gather
+// Tables for a line's way over a polytope: rows of numbers, so that the lanes of a packet gather
 // them. Links are numbers as well; they count half-edges: triangle f has 3 f, 3 f + 1, 3 f + 2,
 // counter-clockwise from outside.
 #pragma once

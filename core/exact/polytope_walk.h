@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The line's way over a polytope's triangles (Devillers, Pion and Teillaud, "Walking in a
-// Triangulation", 2002). One text for a line and for one in each lane, which go on side by side
-// until the last has arrived.
+// Triangulation", 2002). The same code for a line and for one in each lane; lanes continue side by
+// side until the last has arrived.
 #pragma once
 
 #include "core/exact/line.h"
@@ -11,8 +11,8 @@
 
 namespace minkray::exact {
 
-/// Where a walk ended: in a triangle that the line passes through, clearly or not, or at an edge
-/// beyond which it passes the polytope by. Or nowhere, if it has lost its way.
+/// End of a walk: in a triangle that the line passes through, clearly or not, or at an edge beyond
+/// which it passes the polytope by. Neither of them if it has lost its way.
 template <class W>
 struct WalkEnd {
   Mask<W> in_triangle = Mask<W>(false), is_clear = Mask<W>(false), past_edge = Mask<W>(false);
@@ -20,7 +20,7 @@ struct WalkEnd {
   W beyond = W(0);  ///< a half-edge of the triangle beyond that
 };
 
-/// Whether the line passes a triangle's edges, as seen along it, by more than its error.
+/// True if the line passes a triangle's edges, viewed along the line, by more than its error.
 template <class W>
 Mask<W> is_clear(const std::array<Seen<W>, 3>& p, const std::array<W, 3>& side, const W& E) {
   using std::abs;
@@ -36,7 +36,7 @@ template <class W>
 W first_edge(const PolytopeTables& of, const Line<W>& line) {
   using std::max;
   using std::sqrt;
-  // How far a line that passes the ellipsoid's ball by is taken to come into it, squared.
+  // Squared depth to which a line that passes the ellipsoid's ball by is assumed to enter it.
   constexpr double least_depth = 1.0 / 64;
   const Vec3<W> by_extents = widen<W>(of.by_extents);
   const Vec3<W> d = line.d.cwiseProduct(by_extents), s = line.s.cwiseProduct(by_extents);
@@ -81,7 +81,7 @@ WalkEnd<W> follow(const PolytopeTables& of, const Line<W>& line, Mask<W> open) {
   const W first = first_edge(of, line);
   const Mask<W> faces = begin_at(first);
   if (any(open & !faces)) open &= begin_at(select(faces, first, facing_edge(of, line)));
-  // Lanes that have arrived go on to wherever it is.
+  // Lanes that have arrived keep stepping without effect.
   WalkEnd<W> end;
   for (int step = 0; step < most_steps && any(open); ++step) {
     const Mask<W> second = side[1] < side[0];
@@ -171,11 +171,11 @@ inline WalkEnd<double> follow(const PolytopeTables& of, const Line<double>& line
   return end;
 }
 
-/// Where lines enter the polytope as it is, those that meet its ball.
+/// Finds where lines enter the polytope as it is, those that meet its ball.
 template <class W>
 Entry<W> enter_planes(const PolytopeTables& of, const Line<W>& line, const Mask<W>& open) {
   using std::max;
-  // Up to so many planes are looked at without a walk.
+  // Number of planes up to which all are tested without a walk.
   constexpr std::size_t most_scanned = 8;
   Entry<W> entry;
   Mask<W> unsure = open;
@@ -183,8 +183,8 @@ Entry<W> enter_planes(const PolytopeTables& of, const Line<W>& line, const Mask<
     const WalkEnd<W> end = follow(of, line, open);
     const Mask<W> through = end.in_triangle & end.is_clear;
     const W plane = plane_of(of, end.edge);
-    // So nearly in a triangle's plane, whether a line enters before or beyond its edges is known by
-    // rounding alone; among all planes, it is within all of them.
+    // For a line so nearly in a triangle's plane, only rounding decides whether it enters before
+    // or beyond the triangle's edges; among all planes, it is within all of them.
     if (any(through))
       settle_hit(of, plane, line, through, tolerance::uncertain_slope<Lane<W>>, entry);
     if (any(end.past_edge))

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Where a line enters a rounded box around the origin. The slabs of the box divide space into a
-// face's, an edge's or a corner's share: the line is followed from where it enters the box grown by
-// the radius, through the shares, to the first whose plane, cylinder or ball it enters there.
+// Finds where a line enters a rounded box around the origin. The slabs of the box divide space
+// into a face's, an edge's or a corner's share: the line is followed from where it enters the box
+// grown by the radius, through the shares, to the first whose plane, cylinder or ball it enters
+// there.
 #pragma once
 
 #include "core/exact/ball.h"
@@ -61,7 +62,7 @@ template <class W, class Sizes>
   entry.t = t;
   entry.e = select(by_x, e.x(), select(by_y, e.y(), e.z()));
   entry.normal = select<W>(by_face, Vec3<W>(-axis(by_x, by_y)), entry.normal);
-  // Beside a share's end the next one's surface is as far apart as the square of the way there: no
+  // Near a share's end the next one's surface is as far apart as the square of the way there: no
   // doubt, unless that is more than E r (core/exact/capsule.h).
   const W area = r * line.E;
   const W w2 = entry.e * entry.e * line.dd;

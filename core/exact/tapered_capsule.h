@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Where a line enters a tapered capsule along the z axis, its larger ball below: the mantle of the
-// cone that touches both balls, or the ball at the end beyond which the line would meet the cone.
+// Finds where a line enters a tapered capsule along the z axis, its larger ball below: the mantle
+// of the cone that touches both balls, or the ball at the end beyond which the line would meet the
+// cone.
 #pragma once
 
 #include "core/exact/ball.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where a line enters a capsule along any axis: the one along z, after a turn.
+// Finds where a line enters a capsule along any axis: the one along z, after a turn.
 #pragma once
 
 #include "core/exact/capsule.h"

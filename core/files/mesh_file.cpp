@@ -58,7 +58,7 @@ std::string place(std::size_t line_number) {
   return "line " + std::to_string(line_number) + ": ";
 }
 
-/// Whether the whole word is a number, which may have a plus sign.
+/// True if the whole word is a number, which may have a plus sign.
 template <class Number>
 bool read_number(std::string_view word, Number& number) {
   if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
@@ -77,7 +77,7 @@ Vec3<double> coordinates(std::string_view line, std::size_t line_number) {
   return vertex;
 }
 
-/// Makes triangles of faces that are told corner by corner; if nobody wants them, nothing.
+/// Makes triangles of faces that are given corner by corner; none if no triangles are wanted.
 class TriangleFans {
  public:
   explicit TriangleFans(MeshTriangles* triangles) : triangles_(triangles) {}
@@ -114,8 +114,8 @@ class TriangleFans {
   std::uint32_t first_ = 0, last_ = 0;
 };
 
-/// Numbers the groups of an OBJ, one for each pair of an object's and a group's name. What is above
-/// the first name has none, as have the faces below a "g" alone.
+/// Numbers the groups of an OBJ, one for each pair of an object's and a group's name. Faces above
+/// the first name have none, as do the faces below a "g" alone.
 class ObjGroups {
  public:
   ObjGroups() { number(); }
@@ -143,14 +143,13 @@ class ObjGroups {
   std::map<std::pair<std::string, std::string>, std::uint32_t> numbers_;
 };
 
-/// The vertices that the faces of an OBJ name. They may stand below the faces: only at the end is
+/// The vertices that the faces of an OBJ name. Vertices may follow the faces: only at the end is
 /// it known which are missing.
 class ObjFaces {
  public:
   explicit ObjFaces(TriangleFans& fans) : fans_(&fans) {}
 
-  /// Takes the words of a face ("7", "7/1", "7//2" or "-1/2/3"), above which `count` vertices
-  /// stand.
+  /// Takes the words of a face ("7", "7/1", "7//2" or "-1/2/3"), with `count` vertices above it.
   void add(std::string_view line, std::size_t count, std::size_t line_number) {
     for (;;) {
       const std::string_view word = next_word(line);
@@ -231,7 +230,7 @@ Vertices vertices_of_obj(std::string_view text, TriangleFans fans) {
   return vertices;
 }
 
-/// Whether the word is the keyword, which is in small letters: "VERTEX" is "vertex", too.
+/// True if the word is the keyword, given in small letters: "VERTEX" is "vertex", too.
 bool is_keyword(std::string_view word, std::string_view keyword) {
   return std::equal(word.begin(), word.end(), keyword.begin(), keyword.end(),
                     [](char a, char b) { return (a | 0x20) == b; });
@@ -240,12 +239,12 @@ bool is_keyword(std::string_view word, std::string_view keyword) {
 constexpr std::string_view solid = "solid";
 constexpr std::string_view endsolid = "endsolid";
 
-/// Whether the words begin with "facet normal".
+/// True if the words begin with "facet normal".
 bool begins_facet(std::string_view line) {
   return is_keyword(next_word(line), "facet") && is_keyword(next_word(line), "normal");
 }
 
-/// Whether the words begin with "endsolid" or "end solid". A zero or a Ctrl-Z may stick to it.
+/// True if the words begin with "endsolid" or "end solid". A zero or a Ctrl-Z may be attached.
 bool begins_endsolid(std::string_view line) {
   const std::string_view word = next_word(line);
   return is_keyword(word.substr(0, endsolid.size()), endsolid) ||
@@ -259,9 +258,10 @@ std::string_view behind_name(std::string_view line) {
   return line;
 }
 
-/// There may be several solids, each from its "solid" to its "endsolid". The first line neither
-/// blank nor a comment must begin with "solid"; between and behind solids all but facets may stand.
-/// The corners of a facet are what stands before the next facet, or before the end of this one.
+/// There may be several solids, each from its "solid" to its "endsolid". The first line that is
+/// neither blank nor a comment must begin with "solid"; anything but facets may follow between and
+/// behind solids. The corners of a facet are those before the next facet, or before the end of
+/// this one.
 Vertices vertices_of_text_stl(std::string_view text, TriangleFans fans) {
   Vertices vertices;
   std::uint32_t solids_read = 0;
@@ -311,9 +311,9 @@ std::uint32_t little_endian(std::string_view bytes) {
   return value;
 }
 
-/// Whether an STL is text. Not whether it begins with "solid": binary files do so, too. But the
-/// highest byte of their number of triangles is zero, for larger ones are not read, and text with
-/// a facet has no zero that early.
+/// True if an STL is text. Beginning with "solid" is no test: binary files do so, too. But the
+/// highest byte of their number of triangles is zero, since larger ones are not read, and text
+/// with a facet has no zero that early.
 bool is_text_stl(std::string_view bytes) {
   constexpr std::size_t highest_byte = stl_header_bytes + 3;
   if (bytes.size() > highest_byte && bytes[highest_byte] == '\0') return false;

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The vertices of mesh files: Wavefront OBJ, and STL as text or binary. Only positions matter, for
-// their convex hull is all that is wanted, or those of parts, for which faces tell what belongs
-// together. But files that are cut off are refused where that shows: at faces without vertices,
-// solids without an end, and fewer bytes than the triangles need.
-// Read here rather than by tinyobjloader, which takes a malformed coordinate for 0, 1e999 for
-// infinity, and rounds 0.3 to another double than C++ does.
+// Reads the vertices of mesh files: Wavefront OBJ, and STL as text or binary. Only positions are
+// used, for convex hulls; faces define parts and reveal truncated files, which are rejected. Not
+// read by tinyobjloader, which takes a malformed coordinate for 0, 1e999 for infinity, and rounds
+// 0.3 to another double than C++ does.
 #pragma once
 
 #include <array>
@@ -26,8 +24,8 @@ struct MeshTriangles {
   std::vector<std::uint32_t> groups;
 };
 
-/// All vertices, in the file's order and unit; at least one, each finite. If `triangles` are wanted
-/// they are added there. Throws std::runtime_error that says what is wrong with the file, without
+/// All vertices, in the file's order and unit; at least one, each finite. If `triangles` are
+/// wanted they are added there. Throws std::runtime_error with the mistake in the file, without
 /// its name: "line 12: ...".
 std::vector<Vec3<double>> read_mesh_vertices(const std::filesystem::path& path,
                                              MeshTriangles* triangles = nullptr);

@@ -17,11 +17,11 @@ namespace minkray {
 
 enum class MeshSplit : unsigned char { none, groups, components };
 
-/// Vertices, and where the parts end that the file tells apart: at least one.
+/// Vertices, and the end of each part that the file distinguishes: at least one.
 struct MeshParts {
   std::vector<Vec3<double>> vertices;
   std::vector<std::vector<std::uint32_t>> parts = {};  ///< vertices of each; empty: all are one
-  std::vector<std::array<std::uint32_t, 3>> triangles = {};  ///< of all parts, if asked for
+  std::vector<std::array<std::uint32_t, 3>> triangles = {};  ///< of all parts, if requested
 };
 
 /// Reads OBJ and STL as read_mesh_vertices() does. Groups are what follows an "o" or "g" with

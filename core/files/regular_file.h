@@ -10,8 +10,8 @@
 
 namespace minkray {
 
-/// A file that is read piece by piece. All throw std::runtime_error that says what is wrong with
-/// the file, without its name. Never waits for another process.
+/// A file that is read piece by piece. All throw std::runtime_error with the mistake in the file,
+/// without its name. Never waits for another process.
 class RegularFile {
  public:
   explicit RegularFile(const std::filesystem::path& path);
@@ -19,7 +19,8 @@ class RegularFile {
   RegularFile(const RegularFile&) = delete;
   RegularFile& operator=(const RegularFile&) = delete;
 
-  /// When it was opened; a hint only: files of /proc say 0, and a file may grow while it is read.
+  /// Size at the time of opening; a hint only: files of /proc have 0, and a file may grow while it
+  /// is read.
   std::size_t size() const { return size_; }
 
   /// Fills the buffer, less of it only at the end of the file; answers how much.
@@ -30,9 +31,9 @@ class RegularFile {
   std::size_t size_ = 0;
 };
 
-/// The contents. Throws std::runtime_error that says what is wrong with the file, without its name,
-/// if it cannot be read, is no regular file, or holds more than `most_bytes` (of a larger file
-/// nothing is read). Never waits for another process.
+/// The contents. Throws std::runtime_error with the cause, without the file's name, if the file
+/// cannot be read, is no regular file, or holds more than `most_bytes` (nothing of a larger file
+/// is read). Never waits for another process.
 std::string read_regular_file(const std::filesystem::path& path, std::size_t most_bytes);
 
 }  // namespace minkray

@@ -113,7 +113,7 @@ class QhullRun {
   FILE* message_file_ = nullptr;
 };
 
-/// How Qhull is asked, in this order, until it does not give up on a degenerate set: merging all
+/// Options for Qhull, tried in this order until it succeeds on a degenerate set: merging all
 /// facets that are not clearly convex as it goes; merging only those that are concave until the
 /// end, so that none becomes too wide; and on copies of the points that are joggled by some
 /// roundings, or by as much more as it takes.
@@ -162,7 +162,8 @@ RoundFrame round_frame(std::span<const Vec3<double>> points, double flatness) {
 
   // Gram-Schmidt along the point furthest from the first one, from the line, from the plane.
   for (int axis = 0; axis < 3; ++axis) {
-    // What of a point's position is across the axes so far; twice, for the digits the first loses.
+    // Component of a point's position across the axes so far; twice, for the digits the first pass
+    // loses.
     const auto across = [&](const Vec3<double>& p) {
       Vec3<double> rest = (p - frame.origin) / size;
       for (int pass = 0; pass < 2; ++pass)
@@ -250,7 +251,8 @@ ConvexHull convex_hull(std::span<const Vec3<double>> points) {
     throw std::runtime_error("must not be wider than the largest number");
   if (largest == 0 || (largest < most_in_range && largest > 1 / most_in_range))
     return hull_in_range(points);
-  // By a power of two, so that the points stay the same: but for those that are nothing beside.
+  // Scales by a power of two, which keeps the points exact except for coordinates that are
+  // negligible.
   const int exponent = std::ilogb(largest);
   std::vector<Vec3<double>> scaled;
   scaled.reserve(points.size());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The convex hull of points, and the polytope that half-spaces cut out (its dual). Solid hulls come
-// from Qhull: Barber, Dobkin and Huhdanpaa, "The Quickhull Algorithm for Convex Hulls" (1996),
-// which convex_hull.cpp alone knows; flat ones from Andrew's monotone chain (1979).
+// The convex hull of points, and the polytope that half-spaces cut out (its dual). Solid hulls
+// come from Qhull: Barber, Dobkin and Huhdanpaa, "The Quickhull Algorithm for Convex Hulls"
+// (1996), which convex_hull.cpp alone includes; flat ones from Andrew's monotone chain (1979).
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace minkray {
 
 /// Polygons as lists of indices, one after the other.
 struct Polygons {
-  std::vector<std::uint32_t> begin = {0};  ///< where each polygon's corners begin, and the end
+  std::vector<std::uint32_t> begin = {0};  ///< begin of each polygon's corners, then the end
   std::vector<std::uint32_t> corners;
 
   std::size_t size() const { return begin.size() - 1; }
@@ -51,7 +51,7 @@ RoundFrame round_frame(std::span<const Vec3<double>> points, double flatness = 0
 
 struct ConvexHull {
   RoundFrame frame;
-  /// The extreme points, as ascending indices into the input. Of equal points, one is kept.
+  /// The extreme points, as ascending indices into the input. Equal points are kept once.
   std::vector<std::uint32_t> vertices;
   /// Rank 3: the facets, counter-clockwise from outside, neighbours in one plane merged. Rank 2:
   /// the polygon, once. Corners are positions in `vertices`.
@@ -60,10 +60,10 @@ struct ConvexHull {
   int rank() const { return frame.rank; }
 };
 
-/// The hull of at least one finite point. A set thinner than the rounding of its coordinates counts
-/// as flat; other than that a point is dropped only if it lies in the hull of the others, or within
-/// rounding of it. Throws std::runtime_error if Qhull fails, or if they are further apart than any
-/// number says.
+/// The hull of at least one finite point. A set thinner than the rounding of its coordinates
+/// counts as flat; other than that a point is dropped only if it lies in the hull of the others,
+/// or within rounding of it. Throws std::runtime_error if Qhull fails, or if the points' distances
+/// exceed the range of numbers.
 ConvexHull convex_hull(std::span<const Vec3<double>> points);
 
 /// The points x with normal.x <= offset.

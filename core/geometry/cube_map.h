@@ -17,7 +17,7 @@ class CubeMap {
     double u, v, width;  ///< from u to u + width in the component after `axis`, v in the next one
   };
 
-  /// About so many cells, and no more than numbers of float precision can count.
+  /// Makes about this many cells, and no more than float can count.
   explicit CubeMap(double about_cells)
       : resolution_(static_cast<std::size_t>(
             std::ceil(std::sqrt(std::min(std::max(about_cells, 1.0), most_cells) / 6)))) {}

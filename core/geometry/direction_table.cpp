@@ -56,8 +56,8 @@ struct Square {
   }
 };
 
-/// Whether the normal cone of a vertex meets the square: the square is clipped by the half-plane of
-/// every edge, as Sutherland and Hodgman (1974) do.
+/// True if the normal cone of a vertex meets the square: the square is clipped by the half-plane
+/// of every edge, as Sutherland and Hodgman (1974) do.
 class ConeInSquare {
  public:
   bool operator()(const Square& square, std::span<const Vec3<double>> q, std::uint32_t vertex,
@@ -108,7 +108,7 @@ DirectionTable::DirectionTable(const ConvexHull& hull, std::span<const Vec3<doub
     return vertex;
   };
 
-  std::vector<std::size_t> seen_in(vertices.size(), 0);  // the last cell + 1 that looked at it
+  std::vector<std::size_t> seen_in(vertices.size(), 0);  // the last cell + 1 that visited it
   ConeInSquare meets;
   std::uint32_t start = 0;
   for (std::size_t cell = 0; cell < directions_.cells(); ++cell) {

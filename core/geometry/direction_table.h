@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Which of a polytope's vertices can be its support point, by direction: a cube map whose cells
-// list the vertices with a normal cone that meets the cell. A query reads one short list instead of
-// all vertices; unlike hill climbing it has no steps that wait for each other, cannot stall where
-// rounding has left the polytope dented, and needs no vertex adjacency.
+// Lists which of a polytope's vertices can be its support point, by direction: a cube map whose
+// cells list the vertices with a normal cone that meets the cell. A query reads one short list
+// instead of all vertices; unlike hill climbing it has no steps that wait for each other, cannot
+// stall where rounding has left the polytope dented, and needs no vertex adjacency.
 #pragma once
 
 #include <cstdint>
@@ -38,7 +38,7 @@ class DirectionTable {
   std::size_t cells() const { return begin_.size() - 1; }
 
  private:
-  /// It maps directions to the hull's round frame, where the vertices' normal cones are of similar
+  /// Maps directions to the hull's round frame, where the vertices' normal cones are of similar
   /// size even if the hull is a needle: n.p = m.q + constant for m = extents * axes^T n.
   Mat3<double> to_frame_;
   CubeMap directions_;

@@ -23,8 +23,8 @@ class FacetMesh {
  public:
   class Facet {
    public:
-    /// Where the numbers begin: of three corners, three neighbours, the normal, and a 1 where the
-    /// facet is supported.
+    /// First index of the numbers of three corners, of three neighbours, of the normal, and of a 1
+    /// if the facet is supported.
     static constexpr std::size_t corners = 0, neighbours = 9, normals = 12, supported = 15;
     static constexpr std::size_t size = 16;
 
@@ -33,15 +33,15 @@ class FacetMesh {
 
     /// Counter-clockwise from outside.
     Vec3<T> corner(std::size_t k) const { return vector_at(corners + 3 * k); }
-    /// It points outward and has unit length; it is zero of a triangle without area.
+    /// Outward normal of unit length; zero for a triangle without area.
     Vec3<T> normal() const { return vector_at(normals); }
     /// The facet beyond the edge from corner k to k + 1.
     std::size_t neighbour(std::size_t k) const {
       return static_cast<std::size_t>(numbers_[neighbours + k]);
     }
     /// No vertex of the hull reaches further along the normal than corner 0, nor do the other
-    /// corners reach less but for rounding, and the facet is thick enough for rounding to tell
-    /// whether a line passes through it.
+    /// corners reach less but for rounding, and the facet is thick enough that rounding does not
+    /// decide whether a line passes through it.
     bool is_supported() const { return numbers_[supported] != T(0); }
 
     /// The facet is rounded to U; whether it is supported is not known then. Where U is more
@@ -63,7 +63,7 @@ class FacetMesh {
     Vec3<T> vector_at(std::size_t i) const {
       return {numbers_[i], numbers_[i + 1], numbers_[i + 2]};
     }
-    /// Goes by way of the shorter edges, whose rounding is least.
+    /// Uses the shorter edges, whose rounding is least.
     void find_normal();
     /// The least height of the triangle.
     T thickness() const;
@@ -106,8 +106,8 @@ class FacetMesh {
     }
   }
 
-  /// False of a hull that is thinner than the rounding of its points: what its facets say of a line
-  /// is rounding alone.
+  /// False for a hull that is thinner than the rounding of its points: for a line, its facets are
+  /// rounding alone.
   bool is_supported() const {
     return std::any_of(facets_.begin(), facets_.end(),
                        [](const Facet& facet) { return facet.numbers_[Facet::supported] > T(0); });
@@ -139,8 +139,8 @@ class FacetMesh {
   friend class FacetMesh;
   FacetMesh() = default;
 
-  /// They multiply the largest coordinate: a few roundings of a reach, and many of a corner's place
-  /// as a ray sees it.
+  /// Multiples of the largest coordinate: a few roundings of a reach, and many of a corner's place
+  /// in the ray's frame.
   static constexpr T uneven = 16 * std::numeric_limits<T>::epsilon();
   static constexpr T thin = 64 * std::numeric_limits<T>::epsilon();
 

@@ -44,8 +44,8 @@ PointCloud<T>::PointCloud(std::vector<Vec3<T>> points, std::string source)
 
 namespace {
 
-/// The best of so many indices. By index: keeping the point itself would copy three numbers
-/// wherever a maximum is beaten.
+/// The best of `size` indices. Compares by index: keeping the point itself would copy three
+/// numbers wherever a maximum is beaten.
 template <class T, class Index>
 std::size_t furthest_of(const Vec3<T>* points, std::size_t size, Index&& index, const Vec3<T>& n) {
   std::size_t best = index(0);

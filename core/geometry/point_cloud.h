@@ -13,7 +13,7 @@
 
 namespace minkray {
 
-/// It is immutable and shared: copies are cheap. Coplanar, collinear and single points are legal.
+/// Immutable and shared: copies are cheap. Coplanar, collinear and single points are legal.
 template <class T>
 class PointCloud {
  public:
@@ -25,12 +25,12 @@ class PointCloud {
   const std::vector<Vec3<T>>& points() const { return *points_; }
   const std::string& source() const { return source_; }
 
-  /// It is null if the hull is flat, or as thin as rounding. Its normals are the points' before
+  /// Null if the hull is flat, or as thin as rounding. The normals are those of the points before
   /// they were rounded to T.
   const FacetMesh<T>* facets() const { return facets_.get(); }
 
-  /// The points are rounded to U. What was found out about the points is shared rather than found
-  /// out again: the support stays a maximum up to the rounding of the points.
+  /// The points are rounded to U. Data computed from the points is shared rather than computed
+  /// again: the support stays a maximum up to the rounding of the points.
   template <class U>
   PointCloud<U> cast() const {
     PointCloud<U> converted;

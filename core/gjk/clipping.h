@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The ray cast seen as clipping, after van den Bergen's later account of casting a ray on the
+// The ray cast viewed as clipping, after van den Bergen's later account of casting a ray on the
 // configuration space obstacle: conservative advancement by supporting planes (Mirtich and Canny,
-// 1995). Every support point p along n tells what part of the ray cannot hold the hit point:
+// 1995). Every support point p along n excludes a part of the ray that cannot hold the hit point:
 //   1. n.r < 0: nothing before lambda_clip, a lower bound;
 //   2. n.r > 0: nothing after lambda_clip, an upper bound; below the lower bound the ray is
 //   rejected;
 //   3. n.r = 0: nothing is clipped, or all of it if the ray runs in front of the plane.
-// Any solver's iterations can be read so, whatever it makes of them itself.
+// Any solver's iterations can be interpreted this way.
 #pragma once
 
 #include <limits>
@@ -24,7 +24,7 @@ struct Clip {
   bool rejects;  ///< no part of the ray is left
 };
 
-/// What is left of a ray. Numbers are RayNearBall's: lengths from the closest approach.
+/// The remaining part of a ray. Numbers are RayNearBall's: lengths from the closest approach.
 template <class T>
 class ClippedRay {
  public:

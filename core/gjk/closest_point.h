@@ -12,7 +12,7 @@
 
 namespace minkray {
 
-/// It has at most four vertices, in configuration space.
+/// At most four vertices, in configuration space.
 template <class T>
 struct SimplexPoints {
   std::array<Vec3<T>, 4> y;
@@ -61,8 +61,8 @@ ClosestPoint<T> closest_on_edge(const SimplexPoints<T>& simplex, int i, int j) {
   // From the nearer end, so that the product that is rounded is the smaller one.
   result.v = towards_b < towards_a ? Vec3<T>(a + result.weights[ib] * edge)
                                    : Vec3<T>(b - result.weights[ia] * edge);
-  // Square to the edge once more: where v is short its direction is rounding's, and a support
-  // mapping asked along it would answer with a vertex that is already here.
+  // Made orthogonal to the edge once more: where v is short its direction is dominated by
+  // rounding, and its support point would be a vertex that is already here.
   result.v -= (result.v.dot(edge) / squared) * edge;
   result.kept = (1u << i) | (1u << j);
   return result;
@@ -110,7 +110,8 @@ ClosestPoint<T> closest_on_face(const SimplexPoints<T>& simplex, int i, int j, i
     const T weight_S = -from_origin.dot(across) / across_squared;
     const T weight_Q = origin_along_e - weight_S * f_along_e;
     const T weight_P = T(1) - weight_Q - weight_S;
-    // Where vertices lie in a line, what is across is rounding's: the edges will do.
+    // If vertices lie in a line, the direction across it is dominated by rounding: the edges
+    // suffice.
     const Vec3<T> zero = Vec3<T>::Zero(), normal = face_normal(y(P), y(Q), y(S));
     const bool is_flat =
         !(normal.squaredNorm() >
@@ -135,7 +136,7 @@ ClosestPoint<T> closest_on_face(const SimplexPoints<T>& simplex, int i, int j, i
 }
 
 /// The origin lies on the far side of face ijk from vertex l, or the tetrahedron is too flat to
-/// tell.
+/// decide.
 template <class T>
 bool beyond_face(const SimplexPoints<T>& simplex, int i, int j, int k, int l) {
   const auto y = [&](int index) -> const Vec3<T>& {
@@ -145,8 +146,8 @@ bool beyond_face(const SimplexPoints<T>& simplex, int i, int j, int k, int l) {
   const Vec3<T> zero = Vec3<T>::Zero();
   const T height_of_vertex = normal.dot(y(l) - nearest_of(y(i), y(j), y(k), y(l)));
   const T height_of_origin = -normal.dot(nearest_of(y(i), y(j), y(k), zero));
-  // A height within the rounding of its vertex has no sign: the four points are in one plane (the
-  // support of an octahedron's face is its middle, say) and enclose nothing.
+  // A height within the rounding of its vertex has no sign: the four points are in one plane (for
+  // example, the support of an octahedron's face is its middle) and enclose nothing.
   const T size = std::max({y(i).cwiseAbs().maxCoeff(), y(j).cwiseAbs().maxCoeff(),
                            y(k).cwiseAbs().maxCoeff(), y(l).cwiseAbs().maxCoeff()});
   const T rounding = tolerance::flat_simplex<T> * size * normal.norm();

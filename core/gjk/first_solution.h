@@ -72,7 +72,7 @@ requires SupportMapped<S, T> CastResult<T> first_solution(
     // x is close enough to c; this includes x inside, at the beginning.
     const bool is_close = closest.status == DistanceStatus::overlapping ||
                           closest.distance <= tolerance::gjk_rounding<T> * ball.radius;
-    // The nested query's best plane in place of |n|^2: it is never beyond the object.
+    // The nested query's best plane instead of |n|^2: never beyond the object.
     const Vec3<T> axis = closest.axis;
     observer(CastIteration<T>{lambda, x, axis, c, x - c, {}});
     if (is_close) return finish();
@@ -88,7 +88,7 @@ requires SupportMapped<S, T> CastResult<T> first_solution(
       return miss(joined_plane(axis, has_advanced ? n : x, r));
     }
     if (clipped > near.lambda_max) return miss(axis);
-    // No advance that lambda can tell: as close as rounding lets it come.
+    // The advance is too small for lambda: as close as rounding allows.
     if (!(clipped > lambda)) return finish();
     lambda = clipped;
     n = axis;

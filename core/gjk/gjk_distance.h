@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The GJK distance algorithm: Algorithm 2 of van den Bergen (2004), section 3, in 2D and 3D.
-//
-// The paper's letters: v is the point closest to the origin of a simplex in the configuration space
-// obstacle, w the support point s(-v), Y the simplex with w, W the smallest part of Y that carries
-// v. The obstacle is written C = {x} - (A - B) here, so that the same loop answers for two objects
-// whose centres are x apart and, with B a point, for the closest point of an object to x.
+// The GJK distance algorithm: Algorithm 2 of van den Bergen (2004), section 3, in 2D and 3D, in the
+// paper's letters: v is the simplex' point closest to the origin, w the support point s(-v), Y the
+// simplex with w, W the smallest part of Y that carries v. The obstacle is C = {x} - (A - B): x is
+// the offset of the two objects' centres or, if B is a point, the query point.
 #pragma once
 
 #include <array>

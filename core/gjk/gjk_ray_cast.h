@@ -26,7 +26,7 @@ namespace minkray {
 
 template <class T>
 struct GjkCastOptions {
-  /// It is relative to max|x - p|^2; see tolerance::gjk_squared. At least the square of the machine
+  /// Relative to max|x - p|^2; see tolerance::gjk_squared. At least the square of the machine
   /// epsilon: below that the loop can only end by stalling.
   T eps_tol = tolerance::gjk_squared<T>;
   int max_iterations = tolerance::gjk_max_iterations;

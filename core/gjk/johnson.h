@@ -4,8 +4,8 @@
 //   D_i({i}) = 1,  D_j(X + {j}) = sum over i in X of D_i(X) (y_k - y_j).y_i  for any k in X,
 // and D(X) their sum. The smallest X that carries v is the one with D_i(X) > 0 for all i in X and
 // D_j(X + {j}) <= 0 for all others. The differences y_k - y_j are cached for as long as both
-// vertices live, whether or not the object is translated; the determinants are kept while it stands
-// still and recomputed when x moves (section 4).
+// vertices live, whether or not the object is translated; the determinants are kept while it rests
+// and recomputed when x moves (section 4).
 //
 // Where rounding has spoilt the signs of the determinants no X may pass. The backup procedure of
 // Gilbert, Johnson and Keerthi (1988) then takes the closest v of all X with D_i(X) > 0.
@@ -25,7 +25,7 @@ class JohnsonSubalgorithm : public SimplexVertices<T, Dim> {
   /// No vertices, and the origin of the configuration space at x.
   void begin(const Vec<T, Dim>& x) { Base::clear(x); }
 
-  /// x moved: the vertices are translated and the determinants computed anew.
+  /// x moved: the vertices are translated and the determinants recomputed.
   void move(const Vec<T, Dim>& x) {
     Base::translate(x);
     for (unsigned X = 1; X <= Base::all_slots; ++X)

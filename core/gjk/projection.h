@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// closest_point.h, the closest point by projections, as a distance subalgorithm: the one that the
-// solvers use unless told otherwise. In 2D the simplex is a flat one in 3D, which loses nothing.
+// closest_point.h, the closest point by projections, as a distance subalgorithm: the default of
+// the solvers. In 2D the simplex is a flat one in 3D, which loses nothing.
 #pragma once
 
 #include "core/gjk/closest_point.h"

@@ -3,7 +3,7 @@
 // GJK Algorithm for Faster and More Reliable Distance Queries Between Convex Objects", ACM
 // Transactions on Graphics 36(3), 2017, section 4. The barycentric coordinates of the origin's
 // projection are ratios of volumes, areas and lengths, measured where the simplex' shadow on a
-// coordinate plane or axis is largest; a coordinate of the wrong sign says which face to look at.
+// coordinate plane or axis is largest; a coordinate of the wrong sign selects the face to examine.
 #pragma once
 
 #include "core/gjk/simplex_vertices.h"

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The vertices of a simplex as the distance subalgorithms keep them, and what those answer. A
-// vertex stays in its slot for as long as it lives, so that whatever is cached for it stays valid.
-//
-// In the paper's letters: x is a point, p a support point of the object C, y = x - p a vertex of
-// the simplex in {x} - C, and v the simplex' point closest to the origin. For distances x is fixed,
-// in a ray cast it moves, which translates all y by the same vector.
+// The vertices of a simplex as the distance subalgorithms store them, and their result. A vertex
+// keeps its slot, so that data cached for it stays valid. In the paper's letters: x is a point, p a
+// support point of the object C, y = x - p a vertex of the simplex in {x} - C, and v the simplex'
+// point closest to the origin. In a ray cast x moves, which translates all y by the same vector.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +14,7 @@
 
 namespace minkray {
 
-/// What every distance subalgorithm answers.
+/// Result of every distance subalgorithm.
 template <class T, int Dim>
 struct SubalgorithmAnswer {
   Vec<T, Dim> v = Vec<T, Dim>::Zero();  ///< the simplex' point closest to the origin
@@ -40,7 +38,7 @@ class SimplexVertices {
   const Vec<T, Dim>& p(int slot) const { return p_[static_cast<std::size_t>(slot)]; }
   const Vec<T, Dim>& y(int slot) const { return y_[static_cast<std::size_t>(slot)]; }
 
-  /// Whether p is a vertex already, to the last digit.
+  /// True if p is a vertex already, to the last digit.
   bool holds(const Vec<T, Dim>& p) const {
     for (int i = 0; i < slots; ++i)
       if (uses(i) && this->p(i) == p) return true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The list of distance subalgorithms, and what a solver asks of one.
+// The list of distance subalgorithms, and their interface for solvers.
 #pragma once
 
 #include <concepts>

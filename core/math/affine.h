@@ -66,7 +66,7 @@ Mat3<T> rotation_matrix(T x, T y, T z, T w) {
   return m;
 }
 
-/// It takes a quaternion of any length but zero. A unit quaternion stays as it is; the squares of
+/// Takes a quaternion of any length but zero. A unit quaternion stays as it is; the squares of
 /// others could leave the range of T.
 template <class T>
 Mat3<T> rotation_matrix_of_any(T x, T y, T z, T w) {

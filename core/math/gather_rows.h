@@ -81,8 +81,8 @@ void transpose(const std::array<const Lane<W>*, LaneOf<W>::count>& rows, W* colu
 
 }  // namespace detail
 
-/// The numbers at `table` and behind it, `count` of them (a multiple of 4), from the row that the
-/// index stands for: a small whole number. Rows begin `row_size` numbers after each other.
+/// The numbers at `table` and behind it, `count` of them (a multiple of 4), from the row with this
+/// index, a small whole number. Rows begin `row_size` numbers after each other.
 template <std::size_t count, std::floating_point W>
 std::array<W, count> gather_row(W index, const W* table, std::size_t row_size) {
   std::array<W, count> columns;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where a type's numbers have room for a square.
+// Range in which the square of a type's numbers is representable.
 #pragma once
 
 #include <limits>

@@ -9,7 +9,8 @@
 
 namespace minkray {
 
-/// Whether squares of what counts are normal numbers, as of unit() (core/math/vec.h).
+/// True if squares of the components that count are normal numbers, as for unit()
+/// (core/math/vec.h).
 template <class T>
 bool is_ordinary_square(T squared) {
   constexpr T smallest = std::numeric_limits<T>::min() / std::numeric_limits<T>::epsilon() * T(16);

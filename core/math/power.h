@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Powers of numbers that are not negative, for one number or for a packet: the same operations and
-// so the same bits for both, which the C library's pow does not promise for packets, and without
-// its table look-ups, which packets would have to make lane by lane. In long double that one asks
-// the processor for logarithms, whose last bits differ between makers.
+// so the same bits for both, which the C library's pow does not promise for packets. That one also
+// uses table look-ups, which packets would do lane by lane, and in long double the processor's
+// logarithms, whose last bits differ between makers.
 //
-// By way of logarithm and exponential, each a power of two that is read off the bits times a
+// Computed from logarithm and exponential, each a power of two that is read off the bits times a
 // Taylor series. A power is precise to a few epsilon as long as its logarithm is of moderate size;
 // small powers lose digits relative to themselves, but none relative to 1.
 #pragma once
@@ -53,7 +53,7 @@ W exp2_of(const W& x) {
   constexpr T least = T(std::numeric_limits<T>::min_exponent - 1);
   constexpr T most = T(std::numeric_limits<T>::max_exponent - 1);
   const W bounded = min(max(x, W(least)), W(most));
-  // To the nearest whole number, by way of numbers that have no digits after the point.
+  // To the nearest whole number, via numbers that have no digits after the point.
   constexpr T no_fraction = T(1.5) / std::numeric_limits<T>::epsilon();
   const W k = (bounded + W(no_fraction)) - W(no_fraction);
   const W y = (bounded - k) * W(ln2);

@@ -10,7 +10,7 @@ namespace minkray {
 
 struct PrincipalAxes {
   Vec3<double> values;  ///< ascending
-  Mat3<double> axes;    ///< its columns, of unit length, in the order of the values
+  Mat3<double> axes;    ///< unit columns, in the order of the values
 };
 
 inline PrincipalAxes principal_axes(const Mat3<double>& symmetric) {

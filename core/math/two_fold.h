@@ -120,7 +120,7 @@ TwoFoldMat3<T> operator*(const TwoFoldMat3<T>& a, const TwoFoldMat3<T>& b) {
   return product;
 }
 
-/// Where a map of given numbers takes a point.
+/// Image of a point under a map with exactly the given numbers.
 template <class T>
 TwoFoldVec3<T> image_of(const Affine<T>& map, const TwoFoldVec3<T>& point) {
   return TwoFoldMat3<T>(map.linear) * point + TwoFoldVec3<T>(map.translation);

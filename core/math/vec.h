@@ -45,12 +45,12 @@ W select(bool condition, W a, W b) {
   return condition ? a : b;
 }
 
-/// Whether the condition holds in any lane.
+/// True if the condition holds in any lane.
 inline bool any(bool condition) {
   return condition;
 }
 
-/// Whether the condition holds in all lanes.
+/// True if the condition holds in all lanes.
 inline bool all(bool condition) {
   return condition;
 }
@@ -144,7 +144,7 @@ template <class W>
   return v * (W(1) / sqrt(squared));
 }
 
-/// The number that an index stands for, which is a small whole number.
+/// The number at an index, which is a small whole number.
 template <std::floating_point W, class NumberOf>
 W lookup(W index, NumberOf&& number_of) {
   return number_of(static_cast<std::size_t>(index));

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Several numbers that are calculated with at once: the scalar of packets of rays. By way of the
-// compiler's vector types, so that one source serves every instruction set.
-//
-// `Isa` names the instruction set that the including file is compiled for. It is a part of the type
-// so that code for different instruction sets has different names and is never mixed up by the
-// linker (docs/decisions/packets.md).
+// A packet of numbers: the scalar of packets of rays, made of the compiler's vector types, so that
+// one source serves every instruction set. `Isa` names the instruction set that the including file
+// is compiled for. As a part of the type it gives code for different instruction sets different
+// names, so that the linker never mixes it up (docs/decisions/packets.md).
 #pragma once
 
 #if defined(__AVX2__)
@@ -25,7 +23,7 @@ namespace minkray {
 struct IsaSse2 {
   static constexpr std::size_t register_bytes = 16;
 };
-/// It has FMA.
+/// The instruction set includes FMA.
 struct IsaAvx2 {
   static constexpr std::size_t register_bytes = 32;
 };
@@ -138,8 +136,8 @@ struct Wide {
   friend Wide select(const Mask& condition, const Wide& a, const Wide& b) {
     return Wide(condition.bits ? a.lanes : b.lanes);
   }
-  /// They do as std::min and std::max: where a comparison with NaN fails, they answer a. The
-  /// machine's own answer their second argument there, and for zeros of either sign.
+  /// Like std::min and std::max: if a comparison with NaN fails, they return a. The machine's own
+  /// instructions return their second argument there, and for zeros of either sign.
   friend Wide min(const Wide& a, const Wide& b) {
 #if defined(__AVX2__)
     if constexpr (sizeof(Lanes) == 32 && sizeof(T) == 4)
@@ -264,7 +262,7 @@ Vec3<W> per_lane(VectorOf&& vector_of) {
   (std::make_integer_sequence<int, LaneOf<W>::count>());
 }
 
-/// The numbers that the lanes' indices stand for, which are small whole numbers.
+/// The numbers at the lanes' indices, which are small whole numbers.
 template <class W, class NumberOf>
 requires(LaneOf<W>::count > 1) W lookup(const W& index, NumberOf&& number_of) {
   return [&]<int... i>(std::integer_sequence<int, i...>) {
@@ -275,7 +273,7 @@ requires(LaneOf<W>::count > 1) W lookup(const W& index, NumberOf&& number_of) {
 
 }  // namespace minkray
 
-/// What Eigen needs to know of a scalar.
+/// Properties of the scalar for Eigen.
 template <class T, int N, class Isa>
 struct Eigen::NumTraits<minkray::Wide<T, N, Isa>> {
   using Real = minkray::Wide<T, N, Isa>;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Which of a leaf's eight triangles a ray may meet: edge functions in float lanes, in coordinates
-// that are sheared along the ray (Woop, Benthin and Wald, "Watertight Ray/Triangle Intersection",
-// 2013), with a bound of what they may be off. Everything here has internal linkage.
+// Finds which of a leaf's eight triangles a ray may meet: edge functions in float lanes, in
+// coordinates that are sheared along the ray (Woop, Benthin and Wald, "Watertight Ray/Triangle
+// Intersection", 2013), with a bound of their errors. Everything here has internal linkage.
 #pragma once
 
 #if defined(__AVX2__)
@@ -17,7 +17,7 @@ namespace {
 /// A ray as leaves see it.
 struct LeafRay {
   double origin[3];      ///< by x, y, z
-  double shear[4];       ///< how far x and y go while z goes by 1
+  double shear[4];       ///< change of x and y while z increases by 1
   double to_t;           ///< 1 / direction along z
   double reach, length;  ///< z up to which hits matter, of t_max; z of t = 1, not negative
   int x, y, z;           ///< axes: the ray follows z most
@@ -53,8 +53,8 @@ struct LeafRay {
 /// - A sheared coordinate of a true corner is at most `most`: all corners are in the leaf's cube,
 ///   whose image has its middle at `middle` and half its width at 32767.5 (1 + |shear|).
 /// - It is off by `off`: half a unit for x and for z (1), the roundings of cx, of the shear and of
-///   two sums (u (3 most + 2 * 65535), of which 4 u most + 0.01 are allowed), and those of the way
-///   from the ray's origin, in double (`far`, twice what they are).
+/// two sums (u (3 most + 2 * 65535); the bound allows 4 u most + 0.01), and those of the way
+/// from the ray's origin, in double (`far`, twice their size).
 /// - A product of two is off by 2 most off + off^2, and rounds; so does the difference of two.
 [[gnu::always_inline]] inline std::uint32_t lanes_that_may_be_met(const MeshLeaf& leaf,
                                                                   const LeafRay& ray) {

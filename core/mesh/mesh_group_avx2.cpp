@@ -105,7 +105,7 @@ class Group {
     return widest < most_apart;
   }
 
-  /// Returns how many rays were looked at in each leaf.
+  /// Returns the number of rays tested in each leaf.
   std::uint32_t walk() {
     struct Waiting {
       float enter;
@@ -197,9 +197,9 @@ class Group {
     return in;
   }
 
-  /// As lanes_that_may_be_met, of which these are the bounds. For a ray whose shears are dx and dy
-  /// more, an edge function is at_first - dx by_x - dy by_y, without any rest. With P for the most
-  /// of the first ray's sheared coordinates, Z for that of z, g for the widest shear, u = 2^-24:
+  /// As lanes_that_may_be_met, with these bounds. For a ray whose shears are dx and dy more, an
+  /// edge function is at_first - dx by_x - dy by_y, without any rest. With P for the most of the
+  /// first ray's sheared coordinates, Z for that of z, g for the widest shear, u = 2^-24:
   /// - Quantised corners are as far off for each ray as in lanes_that_may_be_met.
   /// - x and y of the first ray round by 4 u P + 0.01 + far, z by 2 u Z. So at_first is off by
   ///   21 u P^2 + (0.04 + 4 far) P, and by_x and by_y by 16 u Z P + (0.02 + 2 far) Z.
@@ -266,7 +266,7 @@ class Group {
                                  _mm256_fnmadd_ps(dy, edges.by_y[k], edges.at_first[k]));
     const __m256 least = _mm256_min_ps(edge[0], _mm256_min_ps(edge[1], edge[2])),
                  greatest = _mm256_max_ps(edge[0], _mm256_max_ps(edge[1], edge[2]));
-    // Where the cube's middle is for this ray; half its image is no wider than the cube.
+    // Distance of the cube's middle from this ray; half its image is no wider than the cube.
     const __m128 apart = _mm_castpd_ps(_mm_load_sd(reinterpret_cast<const double*>(apart_[i])));
     const __m128 middle = _mm_andnot_ps(
         _mm_set1_ps(-0.0f), _mm_fnmadd_ps(apart, _mm_set1_ps(edges.far_middle), edges.middle));

@@ -83,7 +83,7 @@ PartHit cast_at_triangle(const Vec3<double>& a, const Vec3<double>& b, const Vec
   }
   hit.t = std::isfinite(beyond_a) ? std::clamp(ta + beyond_a, first, last) : first;
   if (!(hit.t > hit.error)) {
-    // Whether it is before the ray's origin, or there, rounding does not tell.
+    // Rounding does not decide if the plane is before the ray's origin, or at it.
     const int above = exact_side_of_plane(a, b, c, o);
     if ((above > 0) == (sides > 0) && above != 0) return {};
     hit.t = above == 0 ? 0 : std::max(hit.t, 0.0);

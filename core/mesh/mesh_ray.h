@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where rays meet a mesh. The sides on which a ray passes the edges of a triangle are true signs,
-// so that a ray at a closed mesh's edge or corner meets one of the triangles there.
+// Finds where rays meet a mesh. The sides on which a ray passes the edges of a triangle are true
+// signs, so that a ray at a closed mesh's edge or corner meets one of the triangles there.
 #pragma once
 
 #include "core/bvh/traverse.h"
@@ -24,17 +24,17 @@ struct PartHit {
   }
 };
 
-/// Where the ray passes through one triangle with 0 <= t; a ray within its plane does not.
+/// Finds where the ray passes through one triangle with 0 <= t; a ray within its plane does not.
 PartHit cast_at_triangle(const Vec3<double>& a, const Vec3<double>& b, const Vec3<double>& c,
                          const Ray<double>& ray);
 
-/// What walks through a mesh's triangles cost.
+/// Cost of walks through a mesh's triangles.
 struct PartCounts {
   std::uint64_t nodes = 0, triangles = 0;
 };
 
-/// Calls on_triangle(number, slabs) for the triangles whose boxes the ray meets, and rounding may
-/// add some. It may lower slabs.numbers.t_max, and ends the walk by returning true.
+/// Calls on_triangle(number, slabs) for the triangles whose boxes the ray meets; rounding may add
+/// some. on_triangle may lower slabs.numbers.t_max, and ends the walk by returning true.
 template <class OnTriangle>
 void walk_triangles(const TriangleMesh& mesh, const Ray<double>& ray, PartCounts& counts,
                     OnTriangle&& on_triangle) {
@@ -60,7 +60,8 @@ bool meets_part(const TriangleMesh& mesh, const Ray<double>& ray, double t_min, 
 /// All of them, by t and number.
 std::vector<PartHit> all_parts(const TriangleMesh& mesh, const Ray<double>& ray);
 
-/// Whether a closed mesh winds around the point. Nothing is within an open one, nor on its surface.
+/// True if a closed mesh winds around the point. No point is within an open one, nor on the
+/// surface.
 bool is_within(const TriangleMesh& mesh, const Vec3<double>& point);
 
 }  // namespace minkray

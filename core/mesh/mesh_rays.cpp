@@ -11,7 +11,7 @@ namespace {
 /// Fewer rays are faster one by one.
 constexpr std::size_t least_many = 4, least_group = 12;
 
-/// many(from, count) of rays that lanes may look at, one(i) of the others.
+/// Calls many(from, count) for rays that suit lanes, one(i) for the others.
 template <class Many, class One>
 void split_by_suitability(const TriangleMesh& mesh, std::span<const PartRay> rays, const Many& many,
                           const One& one) {
@@ -29,7 +29,8 @@ void split_by_suitability(const TriangleMesh& mesh, std::span<const PartRay> ray
   }
 }
 
-/// After a group whose rays meet leaves of their own, so many go to streams without a try.
+/// After a group whose rays meet leaves of their own, this many groups go to streams without a
+/// try.
 constexpr std::size_t groups_passed_over = 7;
 
 /// True if the first and the last ray have one origin and nearly one direction.

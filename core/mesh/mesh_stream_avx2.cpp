@@ -10,7 +10,7 @@
 namespace minkray {
 namespace {
 
-/// So many rays take turns, so many at a step.
+/// Number of rays that take turns, and of those stepped at once.
 constexpr std::uint32_t turns = 32, abreast = 4;
 
 /// Entries that are always live, below each stack's first.
@@ -65,7 +65,7 @@ __m256i in_order(__m256i keys, __m256i others) {
                             upper_lanes);
 }
 
-/// What the nodes of several turns hold goes on their stacks, phase by phase.
+/// Pushes the children in the nodes of several turns on their stacks, phase by phase.
 template <std::uint32_t count>
 [[gnu::always_inline]] inline void take_nodes(const BvhNode* nodes, Turn* const* turn) {
   const __m256i lane_numbers = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
@@ -106,8 +106,8 @@ template <std::uint32_t count>
     met[k] = static_cast<std::uint32_t>(
         _mm256_movemask_ps(_mm256_andnot_ps(is_none, _mm256_cmp_ps(enter[k], padded, _CMP_LE_OQ))));
   }
-  // The furthest first: where boxes are entered, cut off to make room for the lane's number, is not
-  // negative, and so in order as a whole number. What is not met comes last, as -1.
+  // The furthest first: parameters at which boxes are entered, cut off to make room for the lane's
+  // number, are not negative, and so in order as whole numbers. Missed boxes come last, as -1.
 #pragma GCC unroll 8
   for (std::uint32_t k = 0; k < count; ++k) {
     const __m256i is_missed =

@@ -12,7 +12,7 @@
 
 namespace minkray {
 
-/// What is walked through.
+/// Data of a walk.
 struct MeshView {
   const BvhNode* nodes;
   const MeshLeaf* leaves;
@@ -26,7 +26,7 @@ inline MeshView view_of(const TriangleMesh& mesh) {
           mesh.triangles().data()->data(), &mesh};
 }
 
-/// True if lanes may look at the mesh on this machine.
+/// True if the mesh and this machine are suitable for lanes.
 inline bool has_lanes(const TriangleMesh& mesh) {
   return mesh.suits_lanes() && best_walk_set() == WalkSet::avx2;
 }
@@ -53,7 +53,8 @@ inline bool takes_place(const TriangleMesh& mesh, const Ray<double>& ray, const 
   return closest.yields_to(hit);
 }
 
-/// True if lanes may look at the ray: products of three of its numbers and the mesh's are numbers.
+/// True if the ray is suitable for lanes: products of three of its numbers and the mesh's are
+/// finite.
 inline bool suits_lanes(const Ray<double>& ray) {
   constexpr double largest = 0x1p64, smallest = 0x1p-64;
   double origin = 0, direction = 0;

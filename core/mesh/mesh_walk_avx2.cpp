@@ -23,8 +23,9 @@ void fetch(const MeshView& view, std::uint32_t what) {
   for (int line = 0; line < 4; ++line) __builtin_prefetch(at + 64 * line);
 }
 
-/// Calls on_lanes(leaf, lanes) for what lanes leave of the leaves that the ray meets, near ones
-/// first. It may lower t_max and reach, and ends the walk by returning true.
+/// Calls on_lanes(leaf, lanes) for the triangles that lanes cannot rule out in the leaves that the
+/// ray meets, near ones first. on_lanes may lower t_max and reach, and ends the walk by returning
+/// true.
 template <class OnLanes>
 [[gnu::always_inline]] inline std::uint32_t walk_leaves(const MeshView& view, SlabRay& slabs,
                                                         LeafRay& ray, OnLanes&& on_lanes) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // cast_at_triangle with the three edges in lanes of double: the same operations in the same order,
-// and so the same bits. What is not plain, that decides. Everything here has internal linkage.
+// and so the same bits. Cases that are not plain are left to cast_at_triangle. Everything here has
+// internal linkage.
 #pragma once
 
 #if defined(__AVX2__)

@@ -37,7 +37,7 @@ void weld(std::vector<Vec3<double>>& vertices, std::vector<Corners>& triangles) 
       vertices[kept] = vertices[i];
       number[i] = kept++;
     } else {
-      number[i] = number[number[i]];  // which comes before and has its new number
+      number[i] = number[number[i]];  // an earlier vertex, which has its new number
     }
   }
   vertices.resize(kept);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A shape seen from its own middle: where in the world it stands is kept apart, so that queries on
-// two shapes are as precise a kilometre from the world's origin as at it.
+// A shape relative to its own middle: the middle's place in the world is stored apart, so that
+// queries on two shapes are as precise a kilometre from the world's origin as at it.
 #pragma once
 
 #include "core/derived/shape_bounds.h"

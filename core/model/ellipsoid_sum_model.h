@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The model of a sum of ellipsoids. Its support function is a sum of roots, so that the direction
-// of the hit is found in closed form's way before anything is asked of the shape: by osculating
+// of the hit is found, nearly as in closed form, before any support call: by osculating
 // ellipsoids, as SmoothModel does, and where these lead astray by ellipsoids around the sum that
-// touch it. One support call proves the hit. What is left over goes on as SmoothModel.
+// touch it. One support call proves the hit. Casts not settled by then continue as SmoothModel.
 #pragma once
 
 #include <optional>
@@ -60,7 +60,7 @@ class EllipsoidSumModel {
     const Vec3<W> n_frame = smooth_->to_frame(n);
     ModelHit<W> hit = smooth_->step(smooth_->support(n_frame, Mask<W>(true)), n_frame, iteration);
     hit.m = smooth_->to_shape(hit.m);
-    // Across the ray nothing reaches less than the direction that was asked for.
+    // Across the ray, no direction's support is less than that of the requested one.
     hit.repeated |= across_;
     // A plane that is right up to rounding, but so steep that this is much along the ray: is the
     // ray tangent?
@@ -120,8 +120,8 @@ class EllipsoidSumModel {
                     select(meets, W(a_y * root - y * volume), W(-y)), det * root});
   }
 
-  /// The hit is in the ray's frame. What is not certain is a direction across the ray in which the
-  /// sum hardly reaches to it, or else the best that is known.
+  /// Returns the hit in the ray's frame. If uncertain, m is a direction across the ray in which
+  /// the sum hardly reaches the ray, or else the best direction found.
   ModelHit<W> find() const {
     using std::sqrt;
     const W rounding = W(tolerance::epsilon<T> * R_);
@@ -159,8 +159,8 @@ class EllipsoidSumModel {
       const W h = c_.dot(m) + height;
       const Mask<W> ahead = m.z() > W(tolerance::model_rounding<T>);
 
-      // What is to be least: ahead, where the plane cuts the ray; across it, the ratio of how far
-      // the sum reaches to where the ray is.
+      // The value to minimise: ahead, where the plane cuts the ray; across it, the ratio of the
+      // sum's reach to the ray's distance.
       const W cut = h / select(ahead, m.z(), W(1));
       const W beyond = -c_.dot(m);
       const W ratio = height / select(beyond > W(0), beyond, W(T(1) / T(1024)));
@@ -208,12 +208,13 @@ class EllipsoidSumModel {
     return hit;
   }
 
-  /// Sums of two ordinary ellipsoids need three or four, those of needles dozens: SmoothModel goes
-  /// on with these.
+  /// Sums of two ordinary ellipsoids need three or four, those of needles dozens: SmoothModel
+  /// continues with these.
   static constexpr int max_evaluations = 12;
   /// The directions across the ray converge in about four.
   static constexpr int max_across = 6;
-  /// It is in units of R: how close to the ray an osculating ellipsoid is trusted (cbrt epsilon).
+  /// Distance from the ray, in units of R, up to which an osculating ellipsoid is trusted (cbrt
+  /// epsilon).
   inline static const T model_reach = std::cbrt(tolerance::epsilon<T>);
 
   const S& shape_;
@@ -225,8 +226,9 @@ class EllipsoidSumModel {
   Vec3<W> c_;                                     ///< the sum's centre, in the ray's frame
   std::array<Mat3<W>, EllipsoidSum<T>::most> F_;  ///< the same
   W height_ = W(0);
-  Mask<W> hits_ = Mask<W>(false);    ///< at height_, and no plane was asked for yet
-  Mask<W> across_ = Mask<W>(false);  ///< asked for was the least direction across the ray
+  Mask<W> hits_ =
+      Mask<W>(false);  ///< the line hits the sum at height_, and no plane has been requested yet
+  Mask<W> across_ = Mask<W>(false);  ///< the requested direction was the least one across the ray
   std::optional<SmoothModel<W, S>> smooth_;
 };
 

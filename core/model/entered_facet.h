@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where a line enters a polytope that knows its facets, for every kind of polytope that there is:
-// between its slabs, or by walking from triangle to triangle.
+// Finds where a line enters a polytope with stored facets, for every kind of polytope: between its
+// slabs, or by walking from triangle to triangle.
 #pragma once
 
 #include "core/model/entered_slab.h"

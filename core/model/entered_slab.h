@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where a line enters a box: through the last of its slabs.
+// Finds where a line enters a box: through the last of its slabs.
 #pragma once
 
 #include "core/model/facet_plane.h"

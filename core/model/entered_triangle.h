@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where a line enters a hull that knows its triangles: a walk from one to the next, over the hull
-// or over the hull grown by a radius.
+// Finds where a line enters a hull with stored triangles: a walk from one to the next, over the
+// hull or over the hull grown by a radius.
 #pragma once
 
 #include "core/geometry/facet_mesh.h"
@@ -89,14 +89,15 @@ requires(declared_by<Core>.facets) struct Facets<W, Core> {
     return facet;
   }
 
-  /// Where the line meets a facet's plane moved out by the radius tells, by that point's foot on
-  /// the facet, where to go next. Between two facets that point to each other is their edge.
+  /// The line meets a facet's plane, moved out by the radius, at a point whose foot on the facet
+  /// gives the direction to the next facet. Between two facets that point to each other is their
+  /// edge.
   static EnteredFacet<W> around(const Core& hull, T radius, const Vec3<T>& half_extents,
                                 const Vec3<W>& s, const Vec3<W>& from, const RayFrame<W>& frame) {
     const FacetMesh<T>& mesh = *hull.points.facets();
     const Vec3<W> guess = normal_on_extents<W>(half_extents, s, Vec3<W>(-frame.z));
-    // Facets count as supported if they are thick beside the hull; they must also be beside the
-    // radius, or rounding tells on which of them the foot is.
+    // Facets count as supported if they are thick compared with the hull; they must also be thick
+    // compared with the radius, or rounding decides on which of them the foot is.
     const T R = half_extents.maxCoeff();
     const bool tells = T(4) * (R - radius) >= R;
 
@@ -181,9 +182,9 @@ requires(declared_by<Core>.facets) struct Facets<W, Core> {
  private:
   using Row = typename FacetMesh<T>::Facet;
 
-  /// Where the line passes an edge within rounding, the facet beyond it is entered as well, at a
-  /// distance that is rounded less if it faces the ray more: a facet that is seen nearly edge-on
-  /// has a plane that rounding may let the line cross long before the edge.
+  /// If the line passes an edge within rounding, the facet beyond it is entered as well, at a
+  /// distance that is rounded less if it faces the ray more: a facet nearly edge-on to the ray has
+  /// a plane that rounding may let the line cross long before the edge.
   static void settle(const FacetMesh<T>& mesh, const Vec3<W>& from, const RayFrame<W>& frame,
                      const Mask<W>& at_edge, const W& rounding, W& at,
                      std::array<Vec3<W>, 3>& corners) {
@@ -198,7 +199,8 @@ requires(declared_by<Core>.facets) struct Facets<W, Core> {
         const W its = frame.z.dot(normal_of(row));
         const Vec3<W>&a = corners[k], &b = corners[(k + 1) % 3];
         const W length = abs(b.x() - a.x()) + abs(b.y() - a.y());
-        // Beside the edge, not beyond its ends: of slivers, all edges are in line with the ray.
+        // Requires a line next to the edge, not beyond its ends: on slivers, all edges are in line
+        // with the ray.
         const W along = a.x() * b.x() + a.y() * b.y();
         const Mask<W> near = (cross_2d(a, b) <= rounding * length) & (along <= rounding * length);
         const Mask<W> better = at_edge & near & (its > facing);
@@ -219,7 +221,7 @@ requires(declared_by<Core>.facets) struct Facets<W, Core> {
     return {row[Row::normals], row[Row::normals + 1], row[Row::normals + 2]};
   }
 
-  /// It is in the frame, as seen from a point.
+  /// Corners in the ray's frame, relative to a point.
   template <class Numbers>
   static std::array<Vec3<W>, 3> corners_of(const Numbers& row, const Vec3<W>& from,
                                            const RayFrame<W>& frame) {
@@ -237,9 +239,9 @@ requires(declared_by<Core>.facets) struct Facets<W, Core> {
                   select(second, row[Row::neighbours + 1], row[Row::neighbours]));
   }
 
-  /// How far the guess is tilted towards the ray where a walk begins: little, so that most guesses
-  /// at right angles to the ray face it; and more if it has found itself on a facet which faces
-  /// away, which is less near but faces the ray more surely.
+  /// Tilt of the guess towards the ray where a walk begins: little, so that most guesses at right
+  /// angles to the ray face it; and more after a facet that faces away, which is less near but
+  /// faces the ray more surely.
   static constexpr std::array<T, 3> tilts = {T(1) / T(32), T(1) / T(2), T(4)};
   static constexpr int restarts = static_cast<int>(tilts.size()) - 1;
   static W start(const FacetMesh<T>& mesh, const Vec3<W>& guess, const RayFrame<W>& frame,
@@ -248,10 +250,10 @@ requires(declared_by<Core>.facets) struct Facets<W, Core> {
   }
 
   /// The sine below which a facet counts as seen edge-on; a rounded one, as facing away: the line
-  /// crosses its moved plane a thousand radii beside it.
+  /// crosses its moved plane a thousand radii from it.
   static constexpr T least_facing = T(1) / T(1024);
-  /// Walks of regular triangulations end by themselves, but for rounding; from a start that is near
-  /// they are short. What takes longer goes on without known facets.
+  /// Walks of regular triangulations end by themselves, but for rounding; from a start that is
+  /// near they are short. Longer ones continue without known facets.
   static constexpr int max_steps = 64;
 };
 

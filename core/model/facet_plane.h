@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A facet of a polytope that a line enters, and its supporting plane. It is a guess for the
-// solvers, which ask the support mapping whether it is right, or know what it said when the
-// polytope was made.
+// A facet of a polytope that a line enters, and its supporting plane. A guess for the solvers,
+// which verify it by the support mapping, or by results stored when the polytope was made.
 #pragma once
 
 #include "core/model/line_cast.h"
@@ -10,7 +9,7 @@
 
 namespace minkray {
 
-/// It is in the ray's frame: the ray runs down the z axis.
+/// Expressed in the ray's frame: the ray runs down the z axis.
 template <class W>
 struct EnteredFacet {
   Mask<W> known = Mask<W>(false);  ///< there is an answer
@@ -19,15 +18,16 @@ struct EnteredFacet {
   Mask<W> enters = Mask<W>(false);
   /// Known: no point of the polytope is further along the facet's normal than `corner`.
   Mask<W> supported = Mask<W>(false);
-  /// Outward, of unit length: the facet's. Of a line that passes by, one at right angles to it in
-  /// which the line lies beyond the polytope.
+  /// Outward normal of the facet, of unit length. For a line that passes by, one at right angles
+  /// to it, with the line beyond the polytope in that direction.
   Vec3<W> normal = Vec3<W>::Zero();
   Vec3<W> in_shape = Vec3<W>::Zero();  ///< the normal in the shape's frame
   W height = W(0);                     ///< the line enters at lambda = -height, if it does
   Vec3<W> corner = Vec3<W>::Zero();    ///< one of the facet's
-  /// Corners beside it.
+  /// Adjacent corners.
   std::array<Vec3<W>, 3> neighbours = {Vec3<W>::Zero(), Vec3<W>::Zero(), Vec3<W>::Zero()};
-  std::array<Mask<W>, 3> there = {Mask<W>(false), Mask<W>(false), Mask<W>(false)};  ///< which
+  std::array<Mask<W>, 3> there = {Mask<W>(false), Mask<W>(false),
+                                  Mask<W>(false)};  ///< mask of the valid ones
 };
 
 /// The supporting plane of the facet that a line enters, to know it again.
@@ -41,7 +41,7 @@ class FacetPlane {
         corner_(facet.corner),
         supported_(facet.enters & facet.supported) {}
 
-  /// Whether n is its normal, and the corner the polytope's support point in that direction.
+  /// True if n is the facet's normal, and `corner` the polytope's support point in that direction.
   Mask<W> is_known(const Vec3<W>& n) const { return supported_ & is_normal(n); }
   const Vec3<W>& corner() const { return corner_; }
 

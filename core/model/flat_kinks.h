@@ -12,12 +12,12 @@ template <class W>
 struct Kink {
   Mat3<W> F = Mat3<W>::Zero();
   Vec3<W> axis = Vec3<W>::Zero();
-  Mask<W> here = Mask<W>(false);    ///< the model is asked exactly there
+  Mask<W> here = Mask<W>(false);    ///< the requested direction is exactly the kink's axis
   Mask<W> solved = Mask<W>(false);  ///< and is hit there
   Mask<W> tried = Mask<W>(false);
 };
 
-/// Where the flat summand that all features were given at the kink is theirs.
+/// Lanes in which all features have the flat summand that was given to them at the kink.
 template <class W>
 Mask<W> all_have(const SumFeatures<W>& features, const Kink<W>& kink,
                  const std::array<W, 4>& weights) {
@@ -38,13 +38,13 @@ Mask<W> all_have(const SumFeatures<W>& features, const Kink<W>& kink,
   return have;
 }
 
-/// Where the step from `before` to m leads across the axis of a flat summand, the axis comes
-/// next; where the model is not hit there either, a direction near it.
+/// If the step from `before` to m leads across the axis of a flat summand, the axis comes next; if
+/// the model is not hit there either, a direction near it.
 template <class W>
 void pass_kinks(const SumFeatures<W>& features, Kink<W>& kink, const Vec3<W>& before,
                 const Mask<W>& open, Vec3<W>& m) {
   using T = Lane<W>;
-  // How far beside a kink the iteration goes on, relative to the step that was wanted.
+  // Distance from a kink at which the iteration continues, relative to the step that was wanted.
   constexpr T kink_margin = T(1) / T(8);
   const Mask<W> leaves = open & kink.here;
   if (any(leaves))

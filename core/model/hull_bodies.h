@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The bodies whose translates a hull cast knows: a ball and an ellipsoid, each with its support
-// function and the normals where the ray meets it alone, or swept along an edge.
-// docs/forms.md derives them. The frame is hull_cast.h's.
+// The bodies whose translates a hull cast supports: a ball and an ellipsoid, each with its support
+// function and the normals where the ray meets it alone, or swept along an edge. docs/forms.md
+// derives them. The frame is hull_cast.h's.
 #pragma once
 
 #include "core/query/ray_frame.h"
@@ -9,12 +9,12 @@
 
 namespace minkray {
 
-/// What translates of one body look like: a ball.
+/// Translates of one body: balls.
 template <class W>
 struct RoundBody {
   W radius;
 
-  /// How far it reaches along m, of unit length but for rounding.
+  /// Support function along m, of unit length but for rounding.
   W support_function(const Vec3<W>& m) const {
     return radius * (W(Lane<W>(0.5)) * (W(1) + m.squaredNorm()));
   }
@@ -55,8 +55,8 @@ struct EllipsoidBody {
   Mat3<W> F;
 
   W support_function(const Vec3<W>& m) const { return (F.transpose() * m).norm(); }
-  /// Goes by way of a unit vector, so that it is a point of the ellipsoid even where F^T m is
-  /// nothing but rounding. A disk's along its axis: the centre.
+  /// Uses a unit vector, so that the result is a point of the ellipsoid even where F^T m is
+  /// nothing but rounding. For a disk along its axis: the centre.
   Vec3<W> support_point(const Vec3<W>& m) const {
     const Vec3<W> u = F.transpose() * m;
     const Vec3<W> support_point = F * unit<W>(u);
@@ -64,15 +64,15 @@ struct EllipsoidBody {
     return any(along) ? select<W>(along, Vec3<W>(Vec3<W>::Zero()), support_point) : support_point;
   }
 
-  /// Whether F is a disk and u = F^T m zero but for rounding.
+  /// True if F is a disk and u = F^T m zero but for rounding.
   Mask<W> is_along_axis(const Vec3<W>& u) const {
     const Mask<W> is_disk = F.col(2).cwiseAbs().sum() == W(0);
     if (!any(is_disk)) return is_disk;
     return is_disk & (u.cwiseAbs().sum() <= F.cwiseAbs().sum() * W(tolerance::flat_disk<Lane<W>>));
   }
 
-  /// Where two disks lie in one plane, across m: which point between their centres, b + share e, is
-  /// such that the ray meets a disk around it, and whether it does.
+  /// For two disks in one plane, across m: finds the point between their centres, b + share e,
+  /// with a disk around it that the ray meets, and whether there is one.
   void between_disks(const Vec3<W>& m, const Vec3<W>& b, const Vec3<W>& e, W& share,
                      Mask<W>& meets) const {
     const Mask<W> along = is_along_axis(F.transpose() * m);

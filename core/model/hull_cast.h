@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Casting the ray exactly on the hull of at most four translates of one ball or ellipsoid: in
-// closed form. docs/forms.md derives it.
-//
-// Frame: the ray runs down the z axis, from +z to -z. In a direction m with m.z > 0 the hull's
+// Casts the ray exactly at the hull of at most four translates of one ball or ellipsoid, in closed
+// form (docs/forms.md). The ray runs down the z axis. In a direction m with m.z > 0 the hull's
 // supporting plane cuts the axis at height support_function(m)/m.z, and the hit is the least of
 // these heights. m.z = 0 with support_function(m) < 0 separates hull and ray.
 #pragma once
@@ -15,7 +13,7 @@
 
 namespace minkray {
 
-/// The bodies' centres that are there beside the newest one.
+/// The valid centres of the bodies other than the newest one.
 template <class W>
 struct Translates {
   std::array<Vec3<W>, 3> c = {Vec3<W>::Zero(), Vec3<W>::Zero(), Vec3<W>::Zero()};
@@ -25,15 +23,14 @@ struct Translates {
 /// The hit on the hull.
 template <class W>
 struct HullCastHit {
-  Vec3<W> m = Vec3<W>::Zero();  ///< of unit length
-  Mask<W> found =
-      Mask<W>(false);  ///< it is the hit, or separates; otherwise the best that is known
+  Vec3<W> m = Vec3<W>::Zero();     ///< of unit length
+  Mask<W> found = Mask<W>(false);  ///< hit or separation is certain; otherwise the best known
   std::array<W, 3> weights = {W(0), W(0),
                               W(0)};  ///< of the others' support points; the newest's completes 1
   W height = W(std::numeric_limits<Lane<W>>::infinity());  ///< height of the hull's plane
 };
 
-/// The cast; `rounding` is how far beside the ray counts as on it.
+/// The cast; points within `rounding` of the ray count as on it.
 template <class W, class Body>
 class HullCast {
  public:
@@ -87,7 +84,8 @@ class HullCast {
     return {others_.c[k], W(0), at, others_.valid[k]};
   }
 
-  /// What another body reaches beyond by hardly more than rounding may be all there is, after all.
+  /// Tries all candidates again with a wider margin: one that another body exceeds by hardly more
+  /// than rounding may be the hit after all.
   void try_all(const Furthest& newest) {
     beaten_by_ = rounding_;
     for (std::size_t k = 0; k < 3; ++k) edge(newest, other(k));
@@ -129,7 +127,7 @@ class HullCast {
     const W out_of_reach = W(std::numeric_limits<T>::max());
     const W height = select(ahead, W(value / select(ahead, m.z(), W(1))),
                             select(value < W(0), W(-out_of_reach), out_of_reach));
-    // What separates for sure does so wherever its bodies are met.
+    // A certain separation holds wherever its bodies are met.
     const Mask<W> separates = (!ahead) & ((value < -rounding_) | (meets & (value < W(0))));
     const Mask<W> useful = unbeaten & ((ahead & meets) | separates);
     const Mask<W> wins = candidate & (!hit_.found) & (useful | (height < hit_.height));
@@ -191,8 +189,9 @@ class HullCast {
   Vec3<W> newest_;
   const Translates<W>& others_;
   W rounding_;
-  /// How much further another body may reach than a candidate's carrier, whose plane is moved out
-  /// to it: as much too early. At first what two reaches are rounded by, a quarter of rounding_.
+  /// Margin by which another body may reach further than a candidate's carrier, whose plane is
+  /// moved out to it: as much too early. At first the rounding of two reaches, a quarter of
+  /// rounding_.
   W beaten_by_;
   HullCastHit<W> hit_;
 };

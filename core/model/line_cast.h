@@ -14,18 +14,18 @@
 
 namespace minkray {
 
-/// What a model answers.
+/// Hit of a line with a model.
 template <class W>
 struct ModelHit {
   Vec3<W> m = Vec3<W>::Zero();  ///< the normal, of unit length; zero or not finite: none was found
-  W height = W(0);              ///< where the ray enters the model: at lambda = -height
+  W height = W(0);              ///< the line enters the model at lambda = -height
   Mask<W> certain = Mask<W>(false);  ///< `height` is the model's, up to rounding
   /// The carriers of the hit are parts of the shape, so that it bounds the shape's hit.
   Mask<W> inner = Mask<W>(true);
   Mask<W> repeated = Mask<W>(false);  ///< the newest feature had been seen before
 };
 
-/// Where the whole line s + lambda r meets the shape first.
+/// First hit of the whole line s + lambda r with the shape.
 template <class W>
 struct LineHit {
   Mask<W> hit = Mask<W>(false);
@@ -51,19 +51,19 @@ LineHit<W> pick(const Mask<W>& condition, const LineHit<W>& a, const LineHit<W>&
           select(condition, a.supports, b.supports)};
 }
 
-/// A model may calculate in a frame of its own, in which all vectors here are; the answer's normal
-/// is in the shape's. It offers
+/// A model may calculate in a frame of its own, and all vectors here are in that frame; the
+/// result's normal is in the shape's. Members of a model:
 /// - `to_frame(n)`, `to_shape(n)`: a direction of the shape's frame in its own, and back;
 /// - `against_ray(n)`: the component of n against the ray's direction;
-/// - `begin(half_extents)`: what is known before the first support: a first direction, and a hit if
-///   the model knows features of the shape already; half_extents are the shape's;
+/// - `begin(half_extents)`: the state before the first support: a first direction, and a hit if
+/// the model has features of the shape already; half_extents are the shape's;
 /// - `support(n, wanted)`: the shape's support in direction n of unit length, relative to the ray's
 ///   closest approach s, as a feature with support_function(n) and support_point(n), its support
 ///   point; in lanes that are not wanted, any feature;
 /// - `step(feature, n, iteration)`: the model's hit once the feature is a part of it.
 ///
-/// The line is given up beyond lambda_end; R is the size that rounding refers to. Only `open` lanes
-/// count. `observer` may be NoObserver, or else is told of each plane.
+/// The search ends beyond lambda_end; R is the size that rounding refers to. Only `open` lanes
+/// count. `observer` may be NoObserver, or else receives each plane.
 template <class W, class Model, class Observer>
 LineHit<W> first_on_line(Model& model, const Vec3<Lane<W>>& half_extents, const W& lambda_end,
                          Lane<W> R, Mask<W> open, int max_iterations, Observer&& observer) {
@@ -85,7 +85,7 @@ LineHit<W> first_on_line(Model& model, const Vec3<Lane<W>>& half_extents, const 
     result.supports += select(open, W(1), W(0));
     const W h = feature.support_function(n), z = model.against_ray(n);
     const Mask<W> ahead = z > W(0), steep = z > least_slope, beyond = h < -gap;
-    // Where it is not steep, only what lies clearly beyond rounding counts.
+    // If the plane is not steep, only a distance clearly beyond rounding counts.
     const W clear = select(steep, h, W(h + gap));
     const W lambda =
         select(steep | (ahead & beyond), W(-clear / select(ahead, z, W(1))), W(-infinity));
@@ -101,7 +101,7 @@ LineHit<W> first_on_line(Model& model, const Vec3<Lane<W>>& half_extents, const 
     open &= !misses;
     if (!any(open)) break;
 
-    // Where the model, as it was, is hit no further than rounding beyond the best plane.
+    // Lanes in which the model, as it was, is hit no further than rounding beyond the best plane.
     const auto meets = [&](const W& slope, const W& within) {
       const W along = select(model_hit.certain, W(-model_hit.height - result.lambda), W(0));
       const W missing = along * min(slope, max(best_slope, W(0)));
@@ -109,7 +109,7 @@ LineHit<W> first_on_line(Model& model, const Vec3<Lane<W>>& half_extents, const 
                           (along <= gap_along);
       const Mask<W> contradicts = missing < W(-16) * gap;
       result.hit |= met & !contradicts;
-      // Where the plane is beyond it by rounding, the model is right: it lies between points. But
+      // If the plane is beyond it by rounding, the model is right: it lies between points. But
       // where the model's own plane is so nearly along the line that the model is off by more than
       // the best plane's rounding, that plane is, and the model bounds the hit from below.
       const Mask<W> inner = met & model_hit.inner & !contradicts;
@@ -125,7 +125,7 @@ LineHit<W> first_on_line(Model& model, const Vec3<Lane<W>>& half_extents, const 
     // The hit on the model with the new feature.
     model_hit = model.step(feature, n, iteration);
     meets(model.against_ray(model_hit.m), select(model_hit.repeated, W(W(4) * gap), gap));
-    // A tangent line: where along it the shape is touched, no plane along it tells.
+    // A tangent line: planes along it do not determine where it touches the shape.
     const Mask<W> touches = (!steep) & model_hit.repeated & (abs(h) <= gap);
     const Mask<W> stuck = model_hit.repeated & ((model_hit.m - n).squaredNorm() == W(0));
     const Mask<W> tangent = open & touches;
@@ -140,9 +140,9 @@ LineHit<W> first_on_line(Model& model, const Vec3<Lane<W>>& half_extents, const 
   return result;
 }
 
-/// The normal where the line s + lambda r first meets the ellipsoid around the origin with these
-/// radii, all positive, or, if it passes by, the ellipsoid's normal towards it, at right angles to
-/// r. Of unit length. `meets` says which.
+/// Returns the normal, of unit length, where the line s + lambda r first meets the ellipsoid
+/// around the origin with these radii, all positive; if the line passes by, the ellipsoid's normal
+/// towards it, at right angles to r. `meets` is the mask of the former.
 template <class W>
 Vec3<W> normal_on_ellipsoid(const Vec3<Lane<W>>& radii, const Vec3<W>& s, const Vec3<W>& r,
                             Mask<W>& meets) {
@@ -151,7 +151,7 @@ Vec3<W> normal_on_ellipsoid(const Vec3<Lane<W>>& radii, const Vec3<W>& s, const 
   const Vec3<W> to_ball = widen<W>(Vec3<Lane<W>>(radii.cwiseInverse()));
   const Vec3<W> r_ball = unit<W>(r.cwiseProduct(to_ball));
   const Vec3<W> s_ball = s.cwiseProduct(to_ball);
-  // By cross products, which keep the digits of components that are nothing beside others.
+  // Uses cross products, which keep the digits of components that are negligible next to others.
   const Vec3<W> crosswise = r_ball.cross(s_ball.cross(r_ball));
   const W den = W(1) - crosswise.squaredNorm();
   meets = den > W(0);
@@ -162,8 +162,9 @@ Vec3<W> normal_on_ellipsoid(const Vec3<Lane<W>>& radii, const Vec3<W>& s, const 
   return all(some) ? n : select<W>(some, n, Vec3<W>(-r));
 }
 
-/// About the same for a shape with these half extents: a first direction to ask, of unit length.
-/// Extents that are nothing beside the largest are taken for a little more.
+/// Approximately the same for a shape with these half extents: a first direction for the support
+/// mapping, of unit length. Extents that are negligible next to the largest are increased
+/// slightly.
 template <class W>
 Vec3<W> normal_on_extents(const Vec3<Lane<W>>& half_extents, const Vec3<W>& s, const Vec3<W>& r) {
   using std::max;

@@ -39,7 +39,7 @@ CastLanes<W> model_cast(const MakeModel& make_model, const RayNearBall<W>& near,
   CastLanes<W> result;
   result.t_base = near.t_base;
 
-  // Where the line enters the shape.
+  // Finds where the line enters the shape.
   const Vec3<W>& s = near.s;
   const Vec3<W>& r = near.r;
   const W depth =
@@ -61,7 +61,8 @@ CastLanes<W> model_cast(const MakeModel& make_model, const RayNearBall<W>& near,
     auto model = make_model(from, direction);
     return first_on_line<W>(model, half_extents, until, R, open, max_iterations, watch(sign));
   };
-  // Where a line is tangent within rounding, one that is no further away enters at a steeper angle.
+  // A tangent line within rounding is replaced by one that is no further away and enters at a
+  // steeper angle.
   const auto not_touching = [&](const LineHit<W>& found, const Vec3<W>& direction, const W& until,
                                 const W& sign) {
     const Vec3<W> pushed = s - found.normal * W(tolerance::tangent_push<T> * R);
@@ -108,12 +109,12 @@ CastLanes<W> model_cast(const MakeModel& make_model, const RayNearBall<W>& near,
   }
   const Mask<W> enters = entry.hit & (entry.lambda >= near.lambda_min);
   result.hit = enters;
-  // Where planes are so steep that their rounding is long, the model's hit is the better answer: it
+  // If planes are so steep that their rounding is long, the model's hit is the better result: it
   // lies between points of the shape. But not where the model is the steeper one.
   Mask<W> bounded = entry.lambda_above < W(std::numeric_limits<T>::infinity());
   const W gap = select(bounded, W(entry.lambda_above - entry.lambda), W(0));
   bounded &= gap * z <= W(T(4) * tolerance::jet_gap<T> * R);
-  // Where the two are apart, the model had only a plane nearly along the ray, and nothing is known.
+  // If the two are apart, the model had only a plane nearly along the ray, which decides nothing.
   result.hit &= bounded | !(entry.lambda_above < W(std::numeric_limits<T>::infinity()));
   result.t_offset = near.t_offset(select(bounded, entry.lambda_above, entry.lambda));
   // Both ends are known to the rounding of a plane's offset, which is longer along a slanted ray.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which model suits a shape: found out when the shape is prepared, by what its jets are in a few
+// Selects the model that suits a shape when the shape is prepared, by its jets in a few
 // directions.
 #pragma once
 

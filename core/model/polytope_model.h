@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The model for polytopes: the hull of up to four vertices. A triangle of them that the ray passes
-// through is a portal, whose plane's normal is asked next. While there is none, vertices are made
-// round, by balls that touch the planes they were found with from inside: what a curved shape would
-// look like there. The balls shrink, so that this cannot go on for ever. Where the polytope's
-// facets are known, the first portal is the one that the ray enters by.
+// through is a portal, whose plane's normal is the next direction. While there is none, vertices
+// are rounded by balls that touch the planes they were found with from inside, as on a curved
+// shape. The balls shrink, so that this ends. If the polytope's facets are known, the first portal
+// is the one that the ray enters by.
 #pragma once
 
 #include <array>
@@ -189,13 +189,13 @@ class PolytopeModel {
     }
   }
 
-  /// They are in units of R. Balls smaller than the least are as good as points.
+  /// Radii in units of R. Balls smaller than the least are as good as points.
   static constexpr T first_ball = T(1) / T(2);
   static constexpr T least_ball = T(1) / T(1024);
 
   using Known = Facets<W, Core>;
 
-  /// Asking for a support point takes longer than knowing those in the directions of facets.
+  /// A call for a support point takes longer than a look-up of those in the directions of facets.
   static constexpr bool looks_up = declared_by<Core>.support_where;
 
   const Core& core_;

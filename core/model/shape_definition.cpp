@@ -30,7 +30,7 @@ exact::Form rounded_polytope(const Rounded<T>& shape, const Vec3<double>& ball_c
       shape.shape->kind);
 }
 
-/// What an inner shape declares; of one brought to unit size, what the shape within does.
+/// Declared form of an inner shape; for one brought to unit size, that of the shape within.
 template <class T>
 exact::Form exact_form_of(const Shape<T>& inner, const Vec3<double>& ball_centre) {
   const auto* resized = std::get_if<Transform<T>>(&inner.kind);
@@ -66,8 +66,8 @@ T uncertain_slope_of(ModelKind model, FormKind form) {
   return is_round ? tolerance::uncertain_smooth_slope<T> : tolerance::uncertain_slope<T>;
 }
 
-/// A Transform that holds no shape: as many poses as there are instances ask for bounds, and to
-/// share a shape among threads costs more than its supports.
+/// A Transform that holds no shape: bounds are computed for as many poses as there are instances,
+/// and sharing a shape among threads costs more than its supports.
 template <class T>
 struct Posed {
   const Shape<T>& shape;
@@ -140,7 +140,7 @@ ShapeDefinition<T>::ShapeDefinition(Shape<T> shape) : original_(shape), inner_(s
   ball_ = ball_around(bounds);
   middle_ = moved_ + outer_ * TwoFoldVec3<T>(ball_.centre * up_);
   if (!(ball_.radius > T(0))) outer_ = {};       // no map matters to a point
-  const bool is_point = !(ball_.radius > T(0));  // whose numbers are its place
+  const bool is_point = !(ball_.radius > T(0));  // a point is given by its place alone
   support_loss_ = is_point ? T(0)
                            : T(tolerance::support_rounding<T> *
                                std::max(T(largest_coordinate(inner_) - ball_.radius), T(0)));

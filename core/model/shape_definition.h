@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What all instances of one shape share: the innermost shape with its bounding ball and what the
-// solvers know of it. Instances refer to it, so that a hull is stored once however often it is
-// posed.
+// Data shared by all instances of one shape: the innermost shape with its bounding ball and
+// precomputed data for the solvers. Instances refer to it, so that a hull is stored once however
+// often it is posed.
 #pragma once
 
 #include <memory>
@@ -26,38 +26,38 @@ class ShapeDefinition {
   const Shape<T>& original_shape() const { return *original_; }
   const Shape<T>& inner_shape() const { return inner_; }
   const Ball<T>& inner_ball() const { return ball_; }
-  /// They are those of the inner shape's axis-aligned bounds, around the ball's centre.
+  /// Half extents of the inner shape's axis-aligned bounds, around the ball's centre.
   const Vec3<T>& inner_half_extents() const { return half_extents_; }
   ModelKind model() const { return model_; }
-  /// What the inner shape is, where model() says that it is a sum of ellipsoids.
+  /// The inner shape, if model() is a sum of ellipsoids.
   const EllipsoidSum<T>& ellipsoid_sum() const { return ellipsoid_sum_; }
   /// Casts at it are proven, one by one and in double, before they are answered.
   bool is_extreme() const { return is_extreme_; }
   bool is_lost_in_rounding() const { return is_lost_in_rounding_; }
-  /// It is the inner shape in double, made when it is first asked for, of float shapes of which
-  /// some casts are asked there: all but smooth ones without a closed form, and needles that are
-  /// lost in rounding. It is null for those.
+  /// The inner shape in double, made on first use, for float shapes with casts that fall back to
+  /// double: all but smooth ones without a closed form, and needles that are lost in rounding.
+  /// Null for those.
   const ShapeDefinition<double>* in_double() const;
-  /// Whether all casts in float that the filter is in doubt of are asked there, and not only hits
-  /// at planes nearly along the ray: those of extreme shapes, flat slivers and what has a form. Not
-  /// of polytopes, whose facets would take more memory than the uncertain few are worth, but for
-  /// plates that are flat but for rounding.
+  /// True if all float casts in which the filter is in doubt are repeated in double, and not only
+  /// hits at planes nearly along the ray: those of extreme shapes, flat slivers and shapes with a
+  /// form. Not for polytopes, whose facets would take more memory than the uncertain few are
+  /// worth, except plates that are flat but for rounding.
   bool is_asked_in_double() const { return is_asked_in_double_; }
-  /// It is the inner shape of extreme shapes in long double; it is null for others.
+  /// The inner shape of extreme shapes in long double; null for others.
   const Shape<long double>* in_long_double() const { return in_long_double_.get(); }
   /// The inner shape's closed form, if it declares one; none of extreme shapes.
   const exact::Form& form() const { return form_; }
-  /// Hits whose normal's component against the ray is less are looked at again: none, if it is
-  /// known that the surface has neither corners nor flat faces.
+  /// Hits whose normal's component against the ray is less are checked again; zero if the surface
+  /// is known to have neither corners nor flat faces.
   T uncertain_slope() const { return uncertain_slope_; }
-  /// Whether the ball's centre is the origin of the shape's own frame: where a pose moves it to is
-  /// one of the pose's numbers then.
+  /// True if the ball's centre is the origin of the shape's own frame: its place under a pose is
+  /// then one of the pose's numbers.
   bool is_centred() const { return middle_.is_zero(); }
-  /// How much coarser support points are rounded than their distance from the ball's centre is, and
-  /// what rounding of maps may have moved them all by: a length in the inner frame.
+  /// Excess of the support points' rounding over that of their distance from the ball's centre,
+  /// including the rounding of maps that may have moved them all: a length in the inner frame.
   T support_loss() const { return support_loss_; }
   bool has_large_loss() const { return support_loss_ > tolerance::small_loss<T> * ball_.radius; }
-  /// Whether packets of rays have a solver of their own.
+  /// True if packets of rays have a solver of their own.
   bool has_packets() const {
     if (form_.kind != FormKind::none) return true;  // an extreme shape has none
     return !is_extreme_ && !is_sliver_ && !is_lost_in_rounding_ && !has_large_loss() &&
@@ -67,7 +67,7 @@ class ShapeDefinition {
   /// Bounds of the whole shape (the transforms on) under a pose.
   Bounds<T> bounds_of(const Affine<T>& pose) const;
 
-  /// Where an instance stands. Each number of `to_inner` is rounded about once.
+  /// Place of an instance. Each number of `to_inner` is rounded about once.
   struct Placement {
     TwoFoldVec3<T> centre;  ///< the inner ball's, in the frame of the pose
     Mat3<T> to_inner;       ///< of directions
@@ -75,7 +75,8 @@ class ShapeDefinition {
     /// The pose keeps lengths and there is no outer map: to_inner is the transposed linear part of
     /// the pose, and the centre is the pose of the inner ball's.
     bool is_plain = false;
-    T loss = T(0);  ///< what rounding of the pose may have moved the centre by, in the inner frame
+    T loss =
+        T(0);  ///< bound on the centre's displacement by rounding of the pose, in the inner frame
   };
 
   /// The ball's centre under a plain pose: the rounded part is what lanes make of it.
@@ -87,7 +88,7 @@ class ShapeDefinition {
   Placement placed(const Affine<T>& pose) const;
 
  private:
-  /// Takes off outer transforms, which are what `outer_` and `moved_` then say.
+  /// Takes off outer transforms, and adds them to `outer_` and `moved_`.
   void take_off();
 
   Nested<T> original_;
@@ -95,7 +96,7 @@ class ShapeDefinition {
   TwoFoldMat3<T> outer_;  ///< the shape is outer_ * up * inner + moved_
   TwoFoldVec3<T> moved_;
   TwoFoldVec3<T> middle_;  ///< the ball's centre in the shape's frame
-  T moved_loss_ = T(0);    ///< what rounding of maps may have moved that by
+  T moved_loss_ = T(0);    ///< bound on its displacement by rounding of maps
   T up_ = T(1), down_ = T(1);
   Ball<T> ball_;
   Vec3<T> half_extents_;

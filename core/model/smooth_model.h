@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The model for smooth shapes, which jets only osculate: the newest jet's ellipsoid, and, where
-// other patches of the surface were seen in nearly the same direction, translates of it that touch
-// their planes at their support points. Converges as Newton's method does; a step to a lower plane
-// is taken back by half, which helps since the planes' cuts are a concave function.
-//
-// The model's hit is the shape's only as far as support points prove it: see `settled`.
+// The model for smooth shapes, which jets only osculate: the newest jet's ellipsoid, and translates
+// of it for other patches seen in nearly the same direction, which touch their planes at their
+// support points. Converges as Newton's method does; a step to a lower plane is halved, which helps
+// since the planes' cuts are a concave function. Support points prove the hit: see `settled`.
 #pragma once
 
 #include "core/model/hull_cast.h"
@@ -21,7 +19,7 @@ class SmoothModel {
   struct Feature {
     Vec3<W> s;  ///< the support point, relative to the ray's s
     Mat3<W> F;
-    Vec3<W> patch;  ///< the jet's centre, which tells the patches of the surface apart
+    Vec3<W> patch;  ///< the jet's centre, which distinguishes the patches of the surface
     W height;       ///< of the supporting plane over the origin
     W support_function(const Vec3<W>&) const { return height; }
     const Vec3<W>& support_point(const Vec3<W>&) const { return s; }
@@ -91,8 +89,8 @@ class SmoothModel {
   }
 
  private:
-  /// A direction (x, y, 1), where the model wants to go from it, and where its support point lies
-  /// beside the ray.
+  /// A direction (x, y, 1), the direction that the model proposes from it, and the offset of its
+  /// support point from the ray.
   struct Point {
     W x = W(0), y = W(0), to_x = W(0), to_y = W(0), offset_x = W(0), offset_y = W(0);
   };
@@ -118,8 +116,8 @@ class SmoothModel {
   }
 
   /// The support points of the carriers, joined by the hit's weights, are a point p of the shape:
-  /// hardly below the newest supporting plane and hardly beside the ray. What the iteration would
-  /// still gain is half the product of its step and the distance beside the ray.
+  /// hardly below the newest supporting plane and hardly off the ray. The remaining gain of the
+  /// iteration is half the product of its step and the distance from the ray.
   Mask<W> settled(const Feature& feature, const Vec3<W>& n, const HullCastHit<W>& on_hull) const {
     using std::sqrt;
     Vec3<W> p = feature.s;
@@ -130,9 +128,9 @@ class SmoothModel {
            (offset <= W(model_reach * R_));
   }
 
-  /// A step to a lower plane, or one that clearly overshoots, is taken back: to where, between the
-  /// two directions, the support point should lie beside the ray in no direction of the step. The
-  /// direction as a function of that distance is interpolated (Hermite), from both ends' values and
+  /// Takes back a step to a lower plane, or one that clearly overshoots: to where, between the two
+  /// directions, the support point's offset from the ray has no component along the step. The
+  /// direction as a function of that offset is interpolated (Hermite), from both ends' values and
   /// Newton steps: where curvature vanishes, it is smooth and its inverse is not.
   void step_back(const Feature& feature, const Vec3<W>& n, ModelHit<W>& hit) {
     using std::abs;
@@ -239,9 +237,10 @@ class SmoothModel {
     }
   };
 
-  /// It is in units of R: how close to the ray an osculating ellipsoid is trusted (cbrt epsilon).
+  /// Distance from the ray, in units of R, up to which an osculating ellipsoid is trusted (cbrt
+  /// epsilon).
   inline static const T model_reach = std::cbrt(tolerance::epsilon<T>);
-  /// How far a step goes that the model would have lead past the shape.
+  /// Length of a step where the model's own would have led past the shape.
   static constexpr T far_step = T(4);
   static constexpr T infinity = std::numeric_limits<T>::infinity();
 

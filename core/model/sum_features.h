@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The sums of ellipsoids whose hull stands for a shape: up to four, each with the direction in
+// The sums of ellipsoids whose hull represents a shape: up to four, each with the direction in
 // which it was found.
 #pragma once
 
@@ -7,7 +7,7 @@
 
 namespace minkray {
 
-/// It is in the ray's frame, relative to s.
+/// Expressed in the ray's frame, relative to s.
 template <class W>
 struct SumFeature {
   EllipsoidSum<W> sum;
@@ -40,8 +40,9 @@ class SumFeatures {
     return {features_[0].sum.c, features_[1].sum.c, features_[2].sum.c, features_[3].sum.c};
   }
 
-  /// Adds the newest feature and says whether it was there already. Osculating features keep their
-  /// ellipsoids only beside those of other patches that were found in nearly the same direction.
+  /// Adds the newest feature and returns whether it was there already. Osculating features keep
+  /// their ellipsoids only together with those of other patches that were found in nearly the same
+  /// direction.
   Mask<W> add(const Feature& feature, const Vec3<W>& n) {
     Mask<W> repeated(false);
     for (std::size_t k = 0; k < newest; ++k) {

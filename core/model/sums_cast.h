@@ -60,8 +60,8 @@ class SumsCast {
 
   /// A feature as it looks from one direction.
   struct Look {
-    Vec3<W> g = Vec3<W>::Zero();  ///< its support point, relative to its centre
-    W h = W(0);                   ///< how far it reaches beyond its centre
+    Vec3<W> g = Vec3<W>::Zero();  ///< the support point, relative to the sum's centre
+    W h = W(0);                   ///< support function relative to the sum's centre
     Mat3<W> H = Mat3<W>::Zero();  ///< derivative of g by the direction
     Mat3<W> G = Mat3<W>::Zero();  ///< sum of g g^T/h of its summands
   };
@@ -190,10 +190,11 @@ class SumsCast {
     return solution;
   }
 
-  /// Where the plane of direction m is higher than the lowest one so far, takes a part of the step
-  /// from there instead, to where the parabola through what is known is lowest; a step past the
-  /// shape is repeated as one that cannot be too long (the ellipsoid A = sum h_k sum A_k/h_k holds
-  /// the sum of ellipsoids and touches it where it is asked). Answers where. For one feature.
+  /// If the plane of direction m is higher than the lowest one so far, takes a part of the step
+  /// from the lowest instead, to the minimum of the parabola through the known values; a step past
+  /// the shape is repeated as one that cannot be too long (the ellipsoid A = sum h_k sum A_k/h_k
+  /// holds the sum of ellipsoids and touches it in this direction). Returns the lanes whose plane is
+  /// higher. For one feature.
   Mask<W> step_back(Lowest& lowest, Vec3<W>& m, const Look& look, const Mask<W>& lanes) const {
     using std::max;
     using std::min;
@@ -221,8 +222,8 @@ class SumsCast {
     return higher;
   }
 
-  /// Whether the solution is the model's hit up to rounding: all carriers agree, nothing reaches
-  /// further, and the carriers' support points combine to a point on the ray; of osculating
+  /// Keeps the solution certain if it is the model's hit up to rounding: all carriers agree, nothing
+  /// reaches further, and the carriers' support points combine to a point on the ray; for osculating
   /// carriers, which prove nothing by themselves, their support points where they were found.
   void judge(Solution& solution, const Mask<W>& common, const Mask<W>& at_kink) const {
     using std::max;
@@ -265,7 +266,7 @@ class SumsCast {
   }
 
   static constexpr int newton_steps = 12;
-  /// Where the surrogate is so small, points are taken as they are.
+  /// Scale of the surrogate below which points are used as they are.
   static constexpr T least_shrink = T(1e-3);
   /// An osculating ellipsoid is trusted so close to the ray, in units of the bounding radius.
   inline static const T model_reach = std::cbrt(tolerance::epsilon<T>);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What casting the ray on the hull of up to four sums of ellipsoids answers.
+// Casts the ray at the hull of up to four sums of ellipsoids.
 #pragma once
 
 #include <array>

@@ -54,7 +54,7 @@ class SuperellipsoidModel {
 
   /// Called only where the plane does not meet the hit that `begin` found. Where planes are so
   /// steep that their rounding is long, the plane itself may meet the ray at a point of the shape,
-  /// up to rounding; or else the ray is tangent up to rounding, which a plane along it will tell.
+  /// up to rounding; or else the ray is tangent up to rounding, which a plane along it will show.
   ModelHit<W> step(const Feature& feature, const Vec3<W>& n, int) {
     const W z = against_ray(n);
     const Mask<W> ahead = z > W(0);
@@ -95,7 +95,7 @@ class SuperellipsoidModel {
     Vec3<W> gradient;
   };
 
-  /// Where two tangents on either side of the least gauge cross: its lower bound. Their mean there
+  /// Crossing of two tangents on either side of the least gauge: its lower bound. Their mean there
   /// that does not change along the ray is the gradient of a plane along it.
   static Crossing crossing(const Tangent& left, const Tangent& right, const Mask<W>& both) {
     const W fall = -left.slope, sum = select(both, W(fall + right.slope), W(1));
@@ -104,7 +104,7 @@ class SuperellipsoidModel {
             Vec3<W>((left.gradient * right.slope + right.gradient * fall) / sum)};
   }
 
-  /// It is at right angles to the ray; the ray's own direction if nothing is left.
+  /// The component at right angles to the ray; the ray's own direction if nothing is left.
   Vec3<W> across(const Vec3<W>& n) const {
     const Vec3<W> crosswise = unit<W>(Vec3<W>(n - r_ * n.dot(r_)));
     return select<W>(crosswise.squaredNorm() > W(0), crosswise, Vec3<W>(-r_));
@@ -121,7 +121,7 @@ class SuperellipsoidModel {
     using std::sqrt;
     const W separated = W(T(2) * tolerance::jet_gap<T> * R_);
 
-    // Where the line meets a ball between the inscribed and the circumscribed one.
+    // Starts where the line meets a ball between the inscribed and the circumscribed one.
     const W v_squared = v_.squaredNorm(), v_length = sqrt(v_squared), along = u_.dot(v_);
     const Vec3<W> nearest = u_ - v_ * (along / v_squared);
     const W radius_squared = W(between_balls());
@@ -133,7 +133,7 @@ class SuperellipsoidModel {
     left.lambda = lower;
     left.value = left.slope = right.lambda = right.value = right.slope = W(0);
     Found found{Mask<W>(false), lambda, Vec3<W>::Zero()};
-    // Lanes that pass by the bounding ball, or have no direction, are not asked for.
+    // Lanes that pass by the bounding ball, or have no direction, are left out.
     Mask<W> open = (s_.squaredNorm() <= W(T(1.01) * R_ * R_)) & (v_squared > W(0));
     for (int i = 0; i < max_evaluations; ++i) {
       const auto gauge = shape_.template gauge_along<W>(u_, v_, lambda);
@@ -181,7 +181,7 @@ class SuperellipsoidModel {
 
       lower = select(falls, max(lower, tangent_zero), lower);
       upper = select(falls & outside, upper, min(upper, lambda));
-      // A bound that is beyond the least gauge says that nothing is hit, not where that gauge is.
+      // A bound that is beyond the least gauge proves a miss, but does not locate that gauge.
       const Mask<W> in_order = lower < upper;
       const W from = select(in_order, lower, left.lambda);
       const Mask<W> fits = (next > from) & (next < upper), creeps = in_order & (next <= from);
@@ -196,7 +196,7 @@ class SuperellipsoidModel {
     return gradient.cwiseProduct(to_unit_).norm() * W(T(2) * tolerance::epsilon<T> * R_);
   }
 
-  /// Whether the parabola is as good as the gauge over a step of this length, in units of the
+  /// True if the parabola is as good as the gauge over a step of this length, in units of the
   /// radii. The gauge's third derivative is about p^2 at most for p >= 3; for less it is unbounded
   /// where a coordinate changes its sign, and there the gauge deviates as |x|^p.
   Mask<W> trusted(const W& step) const {

@@ -14,7 +14,7 @@ namespace minkray {
 /// One of the translates.
 template <class W, class Body>
 struct Translate {
-  Vec3<W> c;  ///< its centre
+  Vec3<W> c;  ///< centre
   Body body;
   W support_function(const Vec3<W>& n) const { return c.dot(n) + body.support_function(n); }
   Vec3<W> support_point(const Vec3<W>& n) const { return c + body.support_point(n); }
@@ -74,7 +74,7 @@ struct JetTranslates {
   }
 };
 
-/// `Bodies` says which translates there are.
+/// `Bodies` selects the kind of translates.
 template <class W, class Bodies>
 class TranslatesModel {
  public:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Arrays of millions of entries that several threads fill: nobody writes them before, so that their
-// pages come when they are filled, near to whom fills them and from all threads at once.
+// Arrays of millions of entries that several threads fill: no entry is written before, so that
+// pages are allocated when they are filled, near to the thread that fills them and from all
+// threads at once.
 #pragma once
 
 #include <memory>

@@ -18,8 +18,8 @@
 namespace minkray {
 namespace {
 
-/// Arenas that nobody is in. They are kept, for oneTBB (2021.8 was measured) does not give back the
-/// 8 KiB of an arena that had workers: a program that casts a batch of rays a million times would
+/// Arenas that no thread is in. Kept, since oneTBB (2021.8 was measured) does not give back the 8
+/// KiB of an arena that had workers: a program that casts a batch of rays a million times would
 /// have lost 8 GB. For the same reason no thread's own, implicit arena gets work: a thread that
 /// ends takes it along.
 class Arenas {
@@ -64,7 +64,7 @@ Arenas& arenas() {
   return kept;
 }
 
-/// Whether this thread called into one of the arenas; workers have not, but are in it.
+/// True if this thread called into one of the arenas; workers have not, but are in it.
 thread_local bool has_called = false;
 
 void in_arena(int threads, const std::function<void()>& work) {

@@ -16,7 +16,7 @@ void parallel_for(std::size_t count, std::size_t grain,
 /// Calls `work` where parallel_for uses at most `threads` threads; 0: one per core.
 void with_threads(int threads, const std::function<void()>& work);
 
-/// How many threads parallel_for may use here.
+/// Number of threads that parallel_for may use here.
 int thread_count();
 
 }  // namespace minkray

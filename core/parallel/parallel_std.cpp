@@ -51,14 +51,14 @@ class InTeam {
 /// Keeps the first of several threads' exceptions.
 class FirstException {
  public:
-  /// It must be called in a catch block.
+  /// Must be called in a catch block.
   void take() {
     failed_.store(true, std::memory_order_relaxed);
     const std::lock_guard lock(mutex_);
     if (!exception_) exception_ = std::current_exception();
   }
   bool failed() const { return failed_.load(std::memory_order_relaxed); }
-  /// It must be called after all threads were joined.
+  /// Must be called after all threads were joined.
   void pass_on() const {
     if (exception_) std::rethrow_exception(exception_);
   }
@@ -86,8 +86,8 @@ int one_per_core() {
   return std::max(fewest_threads, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
-/// The index ranges of one parallel_for, taken by whoever is free. Every atomic is relaxed: ranges
-/// of different threads must not look ordered, for oneTBB does not promise that.
+/// The index ranges of one parallel_for, taken by any free thread. Every atomic is relaxed: ranges
+/// of different threads must not look ordered, since oneTBB does not promise that.
 class Ranges {
  public:
   Ranges(std::size_t count, std::size_t grain,
@@ -166,7 +166,7 @@ void pipeline_of_any(std::size_t most, const std::function<std::shared_ptr<void>
         write(item.get());
         ++written_count;
       } catch (...) {
-        const std::lock_guard lock(writing);  // nobody is between looking and waiting
+        const std::lock_guard lock(writing);  // no thread is between checking and waiting
         exception.take();
       }
       written.notify_all();

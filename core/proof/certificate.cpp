@@ -15,7 +15,7 @@ using proof::Finder;
 /// The best proof so far.
 struct Candidate {
   double off =
-      std::numeric_limits<double>::infinity();  ///< how far its point is from where it should be
+      std::numeric_limits<double>::infinity();  ///< distance of its point from the required place
   Certificate certificate;
 
   /// Keeps what the finder holds if it is better; where that has no plane, n is one.
@@ -40,11 +40,11 @@ Vec3<double> first_direction(const Claim& claim, const Vec3<double>& towards) {
   return other.squaredNorm() > 0 ? other : Vec3<double>::UnitX();
 }
 
-/// A hit with the normal n at lambda, as claimed. First the hit is found anew, which gives the
-/// tightest bounds. Where rounding decides what is hit (rays that just touch, or run in a face) it
-/// may be found elsewhere; then a point of the shape at the claimed point is the proof, or on the
-/// ray as little beyond it as the plane's slope makes of rounding. Last, where the ray cast ended
-/// beside the shape: a point around those that it had come to.
+/// A hit with the normal n at lambda, as claimed. First the hit is found again, which gives the
+/// tightest bounds. If rounding decides what is hit (rays that just touch, or run in a face)
+/// another hit may be found; then a point of the shape at the claimed point is the proof, or on
+/// the ray as little beyond it as rounding divided by the plane's slope. Last, if the ray cast
+/// ended off the shape: a point around those that it had reached.
 void certify_hit(Finder& finder, const Claim& claim, const Vec3<double>& n) {
   const NearSegment& near = finder.near();
   const double claimed = near.lambda_of(claim.t_base, claim.t_offset);

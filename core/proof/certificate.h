@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Certificates: a short proof of what a ray cast claims, that anybody can check with the shape's
-// support mapping alone (core/proof/check_certificate.h). docs/certificates.md says what is
-// promised, and up to which rounding.
-//
-// A hit is enclosed: a supporting plane keeps the shape off the ray before t_lo, and at most four
-// support points span a point of the shape that lies on the ray at t_hi. An origin inside is such a
-// point itself. A miss has a plane between the shape and the ray.
+// Certificates: short proofs of the claims of ray casts, checked with the support mapping alone
+// (core/proof/check_certificate.h, docs/certificates.md). A hit is enclosed: a supporting plane
+// keeps the shape off the ray before t_lo, and at most four support points span a point of the
+// shape on the ray at t_hi. An inner origin is such a point itself. A miss has a plane between the
+// shape and the ray.
 #pragma once
 
 #include <array>
@@ -25,7 +23,7 @@ inline SupportFunction supports_of(const Shape<double>& shape) {
   return [&shape](const Vec3<double>& n) { return shape.support(n); };
 }
 
-/// What a solver says of a ray, in the ray's frame.
+/// A solver's result for a ray, in the ray's frame.
 struct Claim {
   Status status = Status::exhausted;
   double t_base = 0, t_offset = 0;  ///< of hits: t is their sum
@@ -55,8 +53,8 @@ struct Certificate {
   int supports = 0;  ///< support calls that finding it took
 };
 
-/// A proof of the claim, as good as can be found; whether it holds the checker says. The claim's
-/// normal is what the search begins with. Nothing is proven of the status exhausted.
+/// A proof of the claim, as good as can be found; the checker decides if it holds. The search
+/// begins with the claim's normal. Nothing is proven of the status exhausted.
 Certificate certify(const SupportFunction& support, const Ray<double>& ray, const Claim& claim);
 
 }  // namespace minkray

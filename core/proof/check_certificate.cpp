@@ -97,7 +97,7 @@ class Checker {
       complain("the hit lies beyond t_max");
     if (!(lambda - near_.lambda_of(0, 0) >= -verdict_.allowed))
       complain("the hit lies before the ray");
-    // Planes along the ray say nothing of where on it.
+    // Planes along the ray do not locate a point on it.
     if (!(lambda >= near_.begin - verdict_.allowed && lambda <= near_.end + verdict_.allowed))
       complain("the hit lies before or behind the shape");
     expect_at_most(std::abs(above), "the hit point is not on the plane of its normal");
@@ -133,8 +133,8 @@ class Checker {
         !(at_q <= near_.lambda_of(ray_.t_max, 0) + verdict_.allowed))
       complain("the support points span no point of the ray");
     verdict_.offset_spanned = near_.t_offset(at_q);
-    // The shape's surface bends away from its plane: twice what the plane says, up to the shape's
-    // end.
+    // The shape's surface bends away from its plane: allows twice the plane's own distance, up to
+    // the shape's end.
     const double beside = 2 * (verdict_.lateral + rounding_) / least_slope;
     const double latest = std::max(lower, at_q);
     const double end = std::max(latest, near_.end) + rounding_;

@@ -11,19 +11,18 @@
 
 namespace minkray {
 
-/// How far each condition may be off, in units of the claim's machine epsilon times the `size` of
+/// Error allowed in each condition, in units of the claim's machine epsilon times the `size` of
 /// NearSegment: support points, the ray near the shape, planes and sums of points are each rounded
-/// to a few of these units. See docs/certificates.md for what was measured.
+/// to a few of these units. See docs/certificates.md for measurements.
 inline constexpr double certificate_rounding = 64;
 
 /// Lengths are the scene's.
 struct CertificateVerdict {
   bool holds = false;
-  std::string_view complaint;  ///< what does not hold, first of all; empty if it holds
+  std::string_view complaint;  ///< the first condition that fails; empty if it holds
 
-  /// Hit: t lies in t_base + [lo, hi], what is rounded allowed for: planes and the spanned point
-  /// are
-  /// known to so much across the plane, which is longer along the ray.
+  /// Hit: t lies in t_base + [lo, hi], with an allowance for rounding: planes and the spanned point
+  /// are rounded across the plane, which is longer along the ray.
   double t_base = 0, offset_lo = 0, offset_hi = 0;
   double offset_planes = 0;   ///< hit: where the ray crosses the last of the planes
   double offset_spanned = 0;  ///< hit: where the point is; rounding may put planes beyond it
@@ -33,7 +32,7 @@ struct CertificateVerdict {
   /// Hit: how far the claimed point lies off the claimed plane or above the proven one.
   double claim_error = 0;
   double late = 0;     ///< hit: how far beyond the proven t_hi the claimed t is, along the ray
-  double allowed = 0;  ///< what gap, lateral, -margin and claim_error may be
+  double allowed = 0;  ///< limit of gap, lateral, -margin and claim_error
 
   double t_lo() const { return sum_or_less(t_base, offset_lo); }
   double t_hi() const { return sum_or_more(t_base, offset_hi); }

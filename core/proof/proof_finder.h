@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Finding what proves an answer, by the GJK ray cast and the GJK distance of van den Bergen (2004),
-// both of which end with a point that is spanned by support points. Points are relative to the
+// Finds the proof of a result, by the GJK ray cast and the GJK distance of van den Bergen (2004),
+// which both end with a point that is spanned by support points. Points are relative to the
 // shape's middle.
 #pragma once
 
@@ -23,9 +23,10 @@ inline constexpr std::array tilts = {0x1p-26, 0x1p-24, 0x1p-21, 0x1p-14};
 inline constexpr int tilt_directions = 6;
 inline constexpr int refinements = 24;
 
-/// They converge as fast as Newton's method once they are near.
+/// Steps converge as fast as Newton's method once they are near.
 inline constexpr int secant_steps = 16;
-/// Where a step led nowhere, as within a corner's normals, the next one is so many times as long.
+/// Factor by which the next step is longer after one that led nowhere, as within a corner's
+/// normals.
 inline constexpr double longer_step = 16;
 
 /// Finds points of one shape near one ray.
@@ -151,7 +152,7 @@ class Finder {
     for (const Vec3<double>& from : {n, unit<double>(x.cast<double>())})
       if (!is_near_enough() && !from.isZero(0) && see(towards(x, from))) try_with_last();
     for (int round = 0; round < refinements && !is_near_enough(); ++round) {
-      // What lies beyond the triangle's side: n turned towards it, little and much.
+      // Searches beyond the triangle's side: n turned towards it, little and much.
       const Vec3<double> v = (best.v / std::sqrt(best_squared)).cast<double>(),
                          aside = unit<double>(v - n.dot(v) * n);
       bool found = false;

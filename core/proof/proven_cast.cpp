@@ -37,7 +37,8 @@ ProvenCast proven(const Shape<double>& shape, const Ball<double>& ball,
     claim.t_offset = std::clamp(spanned, 0.0, ray.t_max);
     verdict = check_certificate(support, ray, claim, certificate);
     if (verdict.holds) {
-      // The point is beside the ray, and the plane is rounded, by so much along it.
+      // Displacement along the ray that corresponds to the point's distance from the ray and the
+      // plane's rounding.
       const double along =
           (verdict.lateral + tolerance::plane_rounding<double> * size + near.loss) / slope;
       proof.answer.t_offset = near.t_offset(begin + claim.t_offset);

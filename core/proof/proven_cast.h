@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Answers that are looked at again, with the proofs of certificate.h, before they are given: where
-// a solver's own rounding is no measure of them.
+// Results that are checked again, with the proofs of certificate.h, before they are returned:
+// where a solver's own rounding is no measure of them.
 #pragma once
 
 #include "core/math/bounds.h"

@@ -37,11 +37,11 @@ class SpannedPoint {
     return true;
   }
   bool full() const { return simplex_.full(); }
-  /// It leads from the spanned point to x.
+  /// Vector from the spanned point to x.
   const Vec3<long double>& v() const { return closest_.v; }
 
-  /// How far x is from the point that the weights span: v, but where the simplex is a tetrahedron,
-  /// which holds x and of which v is zero, the rounding of its volumes.
+  /// Distance of x from the point that the weights span: |v|, except for a tetrahedron that holds
+  /// x, where v is zero and this is the rounding of its volumes.
   double off() const {
     Vec3<long double> sum = Vec3<long double>::Zero();
     long double weights = 0;

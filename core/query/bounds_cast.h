@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a shape's bounds tell of a cast before the shape itself is asked: first its box, of the line
-// as it was given, then its ball, of the ray as seen from nearby.
+// Casts at a shape's bounds, before the shape itself: first its box, with the original line, then
+// its ball, with the ray relative to a nearby point.
 #pragma once
 
 #include "core/math/bounds.h"
@@ -27,9 +27,10 @@ struct BoundsCast {
   Vec3<W> normal = Vec3<W>::Zero();
 };
 
-/// The line at the axis-aligned box with these half extents around the centre, which has a ball of
-/// radius R around it. Nothing is divided and the ray is not moved, so that what misses is told
-/// quickly; what passes by within rounding, which grows with the origin's distance, stays open.
+/// Casts the line at the axis-aligned box with these half extents around the centre, which has a
+/// ball of radius R around it. Nothing is divided and the ray is not moved, so that misses are
+/// found quickly; lines that pass by within rounding, which grows with the origin's distance, stay
+/// open.
 template <class W>
 [[gnu::always_inline]] inline BoundsCast<W> cast_at_box(const LineFromCentre<W>& line,
                                                         const Vec3<Lane<W>>& half_extents,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a distance query answers: the distance between its bounds, the points that have it, the
-// plane that proves it, and what it cost.
+// Result of a distance query: the distance between its bounds, the points that have it, the plane
+// that proves it, and its cost.
 #pragma once
 
 #include <span>
@@ -13,7 +13,8 @@ namespace minkray {
 enum class DistanceStatus : unsigned char {
   separated,    ///< a plane lies between the two; distance > 0
   overlapping,  ///< a common point was found, to within rounding; distance 0
-  exhausted,    ///< the solver gave up: the distance lies in [lower, distance], no more is claimed
+  exhausted,    ///< the solver did not converge: the distance lies in [lower, distance], no more is
+                ///< claimed
 };
 
 constexpr std::string_view name_of(DistanceStatus status) {
@@ -28,7 +29,7 @@ constexpr std::string_view name_of(DistanceStatus status) {
   return "unknown";
 }
 
-/// It tells about objects A and B. Points and the axis are in the frame of the query.
+/// Result for objects A and B. Points and the axis are in the frame of the query.
 template <class T, int Dim>
 struct DistanceResult {
   DistanceStatus status = DistanceStatus::exhausted;
@@ -43,13 +44,13 @@ struct DistanceResult {
   Vec<T, Dim> axis = Vec<T, Dim>::Zero();
   int iterations = 0;
   int supports = 0;  ///< of A - B, each one support of A and one of B
-  int backups = 0;   ///< how often the distance subalgorithm fell back on its backup procedure
+  int backups = 0;  ///< number of times the distance subalgorithm fell back on its backup procedure
 };
 
 /// One iteration of the distance algorithm, in the paper's letters with C = {x} - (A - B).
 template <class T, int Dim>
 struct DistanceIteration {
-  Vec<T, Dim> v;                        ///< the direction whose support point was asked for
+  Vec<T, Dim> v;                        ///< the direction of the support call
   Vec<T, Dim> w;                        ///< that support point, in C
   Vec<T, Dim> v_next;                   ///< the new simplex' point closest to the origin
   T lower;                              ///< lower bound of the distance so far

@@ -16,7 +16,7 @@ namespace minkray {
 struct NearSegment {
   Vec3<double> centre, s, r;
   double begin = 0, end = 0;
-  double first = 0;  ///< where the supporting plane is that the ray meets from outside
+  double first = 0;  ///< parameter of the supporting plane that the ray meets from outside
   double t_base = 0, t_shift = 0;  ///< their sum is the ray's parameter at lambda = 0
   bool is_too_far = false;         ///< the origin: the segment is not where it should be
   double speed = 0;                ///< length of the ray's direction
@@ -29,7 +29,7 @@ struct NearSegment {
   double t_offset(double lambda) const { return speed > 0 ? t_shift + lambda / speed : 0; }
 };
 
-/// Asks for eight support points. `support` is called with directions, Vec3<double>.
+/// Calls for eight support points. `support` is called with directions, Vec3<double>.
 template <class Support>
 NearSegment near_segment(const Support& support, const Ray<double>& ray) {
   struct Named {
@@ -65,7 +65,7 @@ NearSegment near_segment(const Support& support, const Ray<double>& ray) {
   near.t_shift = parameter();
   move(near.t_shift);
   near.s = (s - centre).cast<double>();
-  // So many times as far, long double's epsilon is what double's is of one.
+  // At this many times the distance, long double's epsilon is what double's is at one.
   const double most = std::numeric_limits<double>::epsilon() / std::numeric_limits<Long>::epsilon();
   near.is_too_far = !(step <= most * (near.size + near.s.norm()));
   const double pad = 8 * std::numeric_limits<double>::epsilon() * near.size;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a solver shows of its work, one call an iteration: for traces, pictures and heatmaps.
+// Reports the steps of a solver, one call per iteration: for traces, pictures and heatmaps.
 #pragma once
 
 #include <span>
@@ -13,7 +13,7 @@ template <class T>
 struct CastIteration {
   T lambda;                          ///< lower bound of the hit, a length from the closest approach
   Vec3<T> x;                         ///< the ray's point at lambda
-  Vec3<T> v;                         ///< the direction whose support point was asked for
+  Vec3<T> v;                         ///< the direction of the support call
   Vec3<T> p;                         ///< that support point
   Vec3<T> w;                         ///< x - p
   std::span<const Vec3<T>> simplex;  ///< the support points kept after the iteration

@@ -25,14 +25,14 @@ struct RayFrame {
   Vec3<W> out_of(const Vec3<W>& v) const { return x * v.x() + y * v.y() + z * v.z(); }
 };
 
-/// It is the cross product of the projections along the ray.
+/// Cross product of the projections along the ray.
 template <class W>
 W cross_2d(const Vec3<W>& a, const Vec3<W>& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// The upper normal of the plane through three points, by way of the shorter edges, whose rounding
-/// is least; of unit length, zero if they are in line.
+/// The upper normal of the plane through three points, computed from the shorter edges, whose
+/// rounding is least; of unit length, zero if they are in line.
 template <class W>
 Vec3<W> upper_normal(const Vec3<W>& a, const Vec3<W>& b, const Vec3<W>& c) {
   const Vec3<W> ab = b - a, ac = c - a, bc = c - b;
@@ -41,7 +41,7 @@ Vec3<W> upper_normal(const Vec3<W>& a, const Vec3<W>& b, const Vec3<W>& c) {
   return select<W>(N.z() < W(0), Vec3<W>(-N), N);
 }
 
-/// Whether the ray passes within `rounding` of the edge from a to b.
+/// True if the ray passes within `rounding` of the edge from a to b.
 template <class W>
 Mask<W> passes_edge(const Vec3<W>& a, const Vec3<W>& b, const W& rounding) {
   using std::max;
@@ -55,7 +55,7 @@ Mask<W> passes_edge(const Vec3<W>& a, const Vec3<W>& b, const W& rounding) {
   return in_line & (offset_x * offset_x + offset_y * offset_y <= near);
 }
 
-/// Whether the ray passes between three points.
+/// True if the ray passes between three points.
 template <class W>
 Mask<W> passes_between(const Vec3<W>& a, const Vec3<W>& b, const Vec3<W>& c) {
   const W of_a = cross_2d(b, c), of_b = cross_2d(c, a), of_c = cross_2d(a, b);

@@ -17,24 +17,24 @@ template <class W>
 struct RayNearBall {
   Vec3<W> s;
   Vec3<W> r;
-  W lambda_min;  ///< where the ray's origin is
-  W lambda_max;  ///< where the ray ends
+  W lambda_min;  ///< position of the ray's origin
+  W lambda_max;  ///< position of the ray's end
   W t_base;      ///< the ray's own parameter at s is t_base + t_shift
   W t_shift;
   W t_per_length;
-  /// How far a point of these may lie beside where it should be, near the shape and beyond what
-  /// rounds the shape's own points: what its place and its map are known to.
+  /// Bounds the displacement of points on this ray, near the shape and beyond the rounding of the
+  /// shape's own points: the uncertainty of its place and its map.
   W loss = W(0);
 
   W t_offset(W lambda) const { return t_shift + lambda * t_per_length; }
-  /// What that is rounded by: the parts, their sum, and the length.
+  /// Rounding error of that offset: the parts, their sum, and the length.
   W offset_rounding(W offset) const {
     using std::abs;
     return (abs(t_shift) + abs(offset)) * W(tolerance::offset_rounding<Lane<W>>);
   }
 
-  /// Whether s lost digits to the distance of the ray's origin, beside a shape of radius R: the
-  /// first step's parameter is rounded as coarsely as that, and its remainder must be small.
+  /// True if s lost digits to the distance of the ray's origin, compared with a shape of radius R:
+  /// the first step's parameter is rounded as coarsely as that, and its remainder must be small.
   Mask<W> is_from_afar(Lane<W> R) const {
     using std::abs;
     return (abs(lambda_min) > W(tolerance::far_origin<Lane<W>> * R)) & (W(R) > W(0));
@@ -52,8 +52,8 @@ struct RayNearBall {
     return mapped_by(linear);
   }
 
-  /// Does what `mapped` does, and says what it loses at a ball of radius R around the new centre,
-  /// if the map's numbers have been rounded once.
+  /// Like `mapped`, and adds the loss at a ball of radius R around the new centre, if the map's
+  /// numbers have been rounded once.
   RayNearBall mapped_with_loss(const Mat3<Lane<W>>& linear, Lane<W> R) const {
     using std::abs;
     W length, correction;
@@ -165,8 +165,8 @@ template <class W, class Centre>
 }
 
 #if defined(__x86_64__)
-/// Uses fma as an instruction, where the machine has it; elsewhere it is a function call, six times
-/// over. It is compiled in one place, so that no other flags give other bits.
+/// Uses fma as an instruction, where the machine has it; elsewhere fma is a function call, six
+/// times over. Compiled in one place, so that no other flags give other bits.
 RayNearBall<float> ray_near_with_fma(const Vec3<float>& centre, const Ray<float>& ray);
 RayNearBall<double> ray_near_with_fma(const Vec3<double>& centre, const Ray<double>& ray);
 RayNearBall<float> ray_near_with_fma(const TwoFoldVec3<float>& centre, const Ray<float>& ray);

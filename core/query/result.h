@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a cast answers: an honest status, the hit parameter, the normal, and what it cost.
+// Result of a cast: an honest status, the hit parameter, the normal, and the cost.
 #pragma once
 
 #include <string_view>
@@ -12,7 +12,7 @@ enum class Status : unsigned char {
   hit,        ///< the ray enters the shape at t > 0
   miss,       ///< no point of the ray with 0 <= t <= t_max lies in the shape; proven by a plane
   inside,     ///< the ray's origin lies in the shape: t = 0
-  exhausted,  ///< the solver gave up: neither a hit nor a miss is claimed
+  exhausted,  ///< the solver did not converge: neither a hit nor a miss is claimed
 };
 
 constexpr std::string_view name_of(Status status) {
@@ -29,12 +29,12 @@ constexpr std::string_view name_of(Status status) {
   return "unknown";
 }
 
-/// Which stage of a cast gave the answer (docs/rays.md).
+/// Stage of a cast that gave the result (docs/rays.md).
 enum class Path : unsigned char {
   filter,  ///< a closed form, whose error bound is its proof
   model,   ///< bounds, or a model of the shape between its own planes
   gjk,     ///< the GJK ray cast, by the support mapping alone
-  finer,   ///< looked at again with more digits, and proven
+  finer,   ///< cast again with more digits, and proven
 };
 
 inline constexpr std::size_t path_count = 4;
@@ -60,16 +60,17 @@ struct CastResult {
   Path path = Path::model;
 
   /// The hit parameter is t_base + t_offset. The two are kept apart because their sum, for a far
-  /// origin, loses the digits that tell where on the shape the ray arrived: t_base is the ray's
-  /// closest approach to the shape's centre, t_offset is counted from there.
+  /// origin, loses the digits that locate the hit on the shape: t_base is the ray's closest
+  /// approach to the shape's centre, t_offset is counted from there.
   T t_base = T(0);
   T t_offset = T(0);
 
-  /// The hit parameter lies in t_base + [offset_lo, offset_hi], at the shape where it was prepared
-  /// to be. Of the path `filter`: by the closed form's error bound. Else the lower end comes from a
-  /// supporting plane, the upper end from support points that the ray passes between, both with
-  /// what their rounding leaves; infinite where there are no such points, as at an edge that the
-  /// ray passes within rounding, and of solvers that are asked for by name.
+  /// The hit parameter lies in t_base + [offset_lo, offset_hi], for the shape at its prepared
+  /// place. On the path `filter` the interval is the closed form's error bound. Otherwise the
+  /// lower end comes from a supporting plane, the upper end from support points that the ray
+  /// passes between, both with an allowance for rounding; infinite where there are no such points,
+  /// as at an edge that the ray passes within rounding, and for solvers that are requested by
+  /// name.
   T offset_lo = T(0);
   T offset_hi = std::numeric_limits<T>::infinity();
 

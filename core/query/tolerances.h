@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Every tolerance of the solvers, with its unit and its reason. All are relative: to the shape's
-// size, or to the numbers they are compared with. Numbers that steer a search and leave its answers
-// as they are stand where the search is; the checker of certificates, which must not depend on what
-// it checks, has its own (core/proof/check_certificate.h).
+// size, or to the numbers they are compared with. Numbers that steer a search without changing its
+// results are next to the search; the checker of certificates, which must not depend on what it
+// checks, has its own (core/proof/check_certificate.h).
 #pragma once
 
 #include <limits>
@@ -16,8 +16,8 @@ inline constexpr T epsilon = std::numeric_limits<T>::epsilon();
 
 /// eps_tol of the GJK ray cast: the loop ends when |v|^2 <= eps_tol * max|x - p|^2 (a ratio of
 /// squared lengths). The paper proposes ten times the machine epsilon, for errors of |v|^2 in
-/// proportion to max|x-p|^2, as Johnson's determinants have them. Our closest point is rounded
-/// to a few epsilon of |x - p| itself, so its square may be asked for.
+/// proportion to max|x-p|^2, as Johnson's determinants have them. Our closest point is rounded to
+/// a few epsilon of |x - p| itself, so its square may be required.
 template <class T>
 inline constexpr T gjk_squared = T(16) * epsilon<T>* T(16) * epsilon<T>;
 
@@ -26,9 +26,9 @@ inline constexpr T gjk_squared = T(16) * epsilon<T>* T(16) * epsilon<T>;
 template <class T>
 inline constexpr T gjk_rounding = T(4) * epsilon<T>;
 
-/// Where |v| no longer shrinks and the lower bound no longer moves, rounding has the last word: a
-/// hit if |v| <= this * R, exhausted otherwise. Nearly flat simplices lose up to six bits more than
-/// single support points.
+/// If |v| no longer shrinks and the lower bound no longer moves, rounding decides: a hit if |v| <=
+/// this * R, exhausted otherwise. Nearly flat simplices lose up to six bits more than single
+/// support points.
 template <class T>
 inline constexpr T gjk_stalled = T(256) * epsilon<T>;
 /// Long double answers are given, and proven, in double.
@@ -50,24 +50,24 @@ inline constexpr int gjk_max_iterations = 1000;
 template <class T>
 inline constexpr T jet_gap = T(4) * epsilon<T>;
 
-/// What the distance between a plane and a ray's point is known to, in units of the bounding
-/// radius: half an epsilon of R each for the support point, its way from the centre and the ray's
-/// point, one for the difference of up to 2 R, three for its product with the normal. Intervals
-/// allow for it.
+/// Uncertainty of the distance between a plane and a ray's point, in units of the bounding radius:
+/// half an epsilon of R each for the support point, its way from the centre and the ray's point,
+/// one for the difference of up to 2 R, three for its product with the normal. Intervals allow for
+/// it.
 template <class T>
 inline constexpr T plane_rounding = T(8) * epsilon<T>;
 
-/// A supporting plane whose normal's component against the ray is no more than this tells nothing
-/// of where along the ray the shape begins, but for what lies clearly beyond rounding. Rays at
-/// plates of 1:1000 were seen to need 1e-4 in float; rays in the plane of a face have a few
+/// Slope up to which a supporting plane does not determine where along the ray the shape begins,
+/// except for what lies clearly beyond rounding: its normal's component against the ray. Rays at
+/// plates of 1:1000 were found to need 1e-4 in float; rays in the plane of a face have a few
 /// epsilon.
 template <class T>
 inline constexpr T least_slope = std::is_same_v<T, float> ? T(0x1p-16) : T(0x1p-36);
 
-/// Hits whose normal's component against the ray is less than this are looked at again where the
+/// Hits whose normal's component against the ray is less than this are checked again where the
 /// shape may have corners: rounding across the plane is so much longer along the ray, and past a
-/// corner the ray leaves the shape's neighbourhood. Rays within 3e-5 R of a round silhouette; what
-/// is not looked at is known along the ray to 2^7 times what it is across.
+/// corner the ray leaves the shape's neighbourhood. Rays within 3e-5 R of a round silhouette;
+/// other hits are known along the ray to 2^7 times their uncertainty across it.
 template <class T>
 inline constexpr T uncertain_slope = T(0x1p-7);
 
@@ -76,33 +76,33 @@ inline constexpr T uncertain_slope = T(0x1p-7);
 template <class T>
 inline constexpr T uncertain_smooth_slope = std::is_same_v<T, float> ? T(0) : T(0x1p-12);
 
-/// How coarsely maps round their images, in units of what the sums of products are as large as:
-/// three products and their sums, the inverse map's numbers, half an epsilon each; and as much for
-/// the entries of a rotation that was made of a quaternion.
+/// Rounding of images under maps, in units of the summands' magnitude: three products and their
+/// sums, the inverse map's numbers, half an epsilon each; and as much for the entries of a
+/// rotation that was made of a quaternion.
 template <class T>
 inline constexpr T map_rounding = T(4) * epsilon<T>;
 
-/// How coarsely a support point is rounded that is made of larger coordinates than it ends up with.
+/// Rounding of a support point that is made of larger coordinates than it ends up with.
 template <class T>
 inline constexpr T support_rounding = T(2) * epsilon<T>;
 
-/// How far the transpose of a matrix that keeps lengths (core/math/affine.h) may move a point, in
-/// units of its distance from the centre.
+/// Bounds the displacement of a point by the transpose of a matrix that keeps lengths
+/// (core/math/affine.h), in units of its distance from the centre.
 template <class T>
 inline constexpr T transposed_rounding = T(4) * epsilon<T>;
 
-/// How far the rounding of a rotation's entries may move a shape, in units of the distance of its
-/// centre from the origin of its frame.
+/// Bounds the displacement of a shape by the rounding of a rotation's entries, in units of the
+/// distance of its centre from the origin of its frame.
 template <class T>
 inline constexpr T turned_rounding = T(8) * epsilon<T>;
 
-/// How coarsely a near ray's parameter is rounded, in units of its parts.
+/// Rounding of a near ray's parameter, in units of its parts.
 template <class T>
 inline constexpr T offset_rounding = T(4) * epsilon<T>;
 
 /// Losses of a ray's place, in units of the bounding radius, up to which they only widen a hit's
-/// interval; beyond that, rays beside it by as much must agree on what is answered. A thousand
-/// roundings: rays that pass an edge so near are as rare.
+/// interval; beyond that, all rays within the loss must agree on the result. A thousand roundings:
+/// rays that pass an edge so near are as rare.
 template <class T>
 inline constexpr T small_loss = T(1024) * epsilon<T>;
 
@@ -112,24 +112,25 @@ inline constexpr T small_loss = T(1024) * epsilon<T>;
 template <class T>
 inline constexpr T jet_gap_along = std::is_same_v<T, float> ? T(0x1p-11) : T(0x1p-30);
 
-/// How deep a line that is tangent within rounding is pushed into the shape to find where it
+/// Depth to which a line that is tangent within rounding is pushed into the shape to find where it
 /// enters, in units of the bounding radius: more than jet_gap.
 template <class T>
 inline constexpr T tangent_push = T(8) * epsilon<T>;
 
-/// How far beside the ray, in units of the bounding radius, a point of the model counts as on it,
-/// and how much further a feature must reach than another to matter: a few roundings of a position.
-/// Also the sine below which a direction counts as at right angles to the ray.
+/// Distance from the ray, in units of the bounding radius, up to which a point of the model counts
+/// as on it, and by which a feature must reach further than another to matter: a few roundings of
+/// a position. Also the sine below which a direction counts as at right angles to the ray.
 template <class T>
 inline constexpr T model_rounding = T(8) * epsilon<T>;
 
-/// How little the direction moves (of 1; squared) when the search on a hull of sums, which
-/// converges quadratically, has used up the digits: the value's error is the square.
+/// Change of the direction (of 1; squared) at which the search on a hull of sums, which converges
+/// quadratically, has used up the digits: the value's error is the square.
 template <class T>
 inline constexpr T settled_squared = T(4) * epsilon<T>;
 
-/// How far beside its point the ray may cross the tangent plane of a hull of sums, in units of the
-/// bounding radius, squared: the surface is lower there by half of it over the radius of curvature.
+/// Distance from its point, in units of the bounding radius, squared, at which the ray may cross
+/// the tangent plane of a hull of sums: the surface is lower there by half of it over the radius
+/// of curvature.
 template <class T>
 inline constexpr T on_the_ray_squared = T(0.36) * epsilon<T>;
 
@@ -138,8 +139,8 @@ inline constexpr T on_the_ray_squared = T(0.36) * epsilon<T>;
 template <class T>
 inline constexpr T ordinary_size = std::is_same_v<T, float> ? T(0x1p16) : T(0x1p128);
 
-/// How far a disk may reach along a direction, relative to its size, for that to count as its axis:
-/// a few roundings of either.
+/// Reach of a disk along a direction, relative to its size, up to which the direction counts as
+/// its axis: a few roundings of either.
 template <class T>
 inline constexpr T flat_disk = T(8) * epsilon<T>;
 
@@ -150,12 +151,12 @@ inline constexpr int jet_max_iterations = 48;
 /// cast takes over: smooth shapes were seen to need up to 60 in double.
 inline constexpr int portal_max_iterations = 256;
 
-/// How far beyond its radius a bounding ball is still taken for hit, relative to the radius.
+/// Margin around a bounding ball within which a ray still counts as a hit, relative to the radius.
 template <class T>
 inline constexpr T ball_padding = T(8) * epsilon<T>;
 
-/// How far beyond its end a ray still meets the shape, in units of the bounding radius: a few
-/// roundings of a position. The answer's t is not beyond t_max.
+/// Margin beyond its end within which a ray still meets the shape, in units of the bounding
+/// radius: a few roundings of a position. The result's t is not beyond t_max.
 template <class T>
 inline constexpr T end_slack = T(8) * epsilon<T>;
 
@@ -165,9 +166,9 @@ inline constexpr T end_slack = T(8) * epsilon<T>;
 template <class T>
 inline constexpr T far_origin = std::is_same_v<T, float> ? T(0x1p24) : T(0x1p53);
 
-/// Distances beyond which no pair of numbers, t_base and t_offset, tells where on the shape a ray
-/// arrives (float), or the ray moved in long double has lost its digits (double): a cast from there
-/// is exhausted.
+/// Distances beyond which no pair of numbers, t_base and t_offset, determines where on the shape a
+/// ray arrives (float), or the ray moved in long double has lost its digits (double): a cast from
+/// there is exhausted.
 template <class T>
 inline constexpr T farthest_origin = std::is_same_v<T, float> ? T(0x1p46) : T(0x1p62);
 
@@ -175,16 +176,17 @@ inline constexpr T farthest_origin = std::is_same_v<T, float> ? T(0x1p46) : T(0x
 /// float, whose steps there are 2^-24 of that: 3e-5 of the radius.
 inline constexpr double far_out = 0x1p9;
 
-/// How far beside a bounding box, relative to the sizes of what was added up, a line counts as
-/// meeting it: origin and direction, mapped, are sums of up to four rounded numbers, and their
+/// Distance from a bounding box, relative to the sizes of the summands, up to which a line counts
+/// as meeting it: origin and direction, mapped, are sums of up to four rounded numbers, and their
 /// cross product and the box's reach round a few times more.
 template <class T>
 inline constexpr T box_padding = T(8) * epsilon<T>;
 
-/// What closed forms take a position near the shape to be known to, in units of the form's radius:
-/// E / R of docs/forms.md ("Casts with an error bound"). Float rays, worked on in double: origins
-/// up to form_far away are moved with an error of 2^-33 R, and leave up to 5 times that along the
-/// ray. Double rays: the two steps' rounding and some twenty operations' after them, 2^-53 each.
+/// Uncertainty that closed forms assume of a position near the shape, in units of the form's
+/// radius: E / R of docs/forms.md ("Casts with an error bound"). Float rays, computed in double:
+/// origins up to form_far away are moved with an error of 2^-33 R, and leave up to 5 times that
+/// along the ray. Double rays: the two steps' rounding and some twenty operations' after them,
+/// 2^-53 each.
 template <class T>
 inline constexpr double form_rounding = std::is_same_v<T, float> ? 0x1p-30 : 0x1p-49;
 
@@ -193,16 +195,16 @@ inline constexpr double form_rounding = std::is_same_v<T, float> ? 0x1p-30 : 0x1
 template <class T>
 inline constexpr double form_parallel = form_rounding<T>* form_rounding<T> / 16;
 
-/// Distances of origins, in units of the form's radius, up to which closed forms are asked: from
+/// Distances of origins, in units of the form's radius, up to which closed forms are used: from
 /// there 2^-53 is form_rounding's 2^-33 for float rays.
 inline constexpr double form_far = 0x1p20;
 
-/// How much coarser than a form's own points a map may make them for forms to be asked, whose
+/// Largest ratio of a map's rounding to that of a form's own points at which forms are used, whose
 /// bounds leave out squares of errors: 2^-30 of the radius.
 inline constexpr double form_worst_map = 0x1p19;
 
-/// What the rounding of t's bound and of t adds to the bound: a share of itself, and epsilons of
-/// the offset; for double rays also what the ray's length and its inverse were rounded by.
+/// Increase of the bound by the rounding of t's bound and of t: a share of itself, and epsilons of
+/// the offset; for double rays also the rounding of the ray's length and its inverse.
 inline constexpr double form_margin = 0x1p-20;
 template <class T>
 inline constexpr double form_digits = (std::is_same_v<T, float> ? 1 : 8) * double(epsilon<T>);
@@ -210,8 +212,8 @@ inline constexpr double form_digits = (std::is_same_v<T, float> ? 1 : 8) * doubl
 /// Rays in double have this limit for lengths of directions and for their inverses.
 inline constexpr double form_longest_step = 1e250;
 
-/// How near to tangent: r^2 - |x|^2 of the closest point x is known to 2 r |dx| and a few roundings
-/// of r^2, less than this times E r.
+/// Bounds closeness to tangency: r^2 - |x|^2 of the closest point x is known to 2 r |dx| and a few
+/// roundings of r^2, less than this times E r.
 inline constexpr double form_tangent = 4;
 
 /// The share of their distance by which two planes may cross within the cylinder that they cut:
@@ -225,22 +227,22 @@ inline constexpr double tapered_farthest_apex = 8;
 inline constexpr double tapered_least_ball = 0x1p-10;
 inline constexpr double tapered_steepest = 0.99;
 
-/// What a polytope's plane and a line round by where they cross, across the plane, in units of the
-/// polytope's radius: the plane's offset 1, the line's height 5 and its slope 3 (three products and
-/// their sum each), the way 2, 2^-53 each, and one more.
+/// Rounding of the crossing of a polytope's plane and a line, across the plane, in units of the
+/// polytope's radius: the plane's offset 1, the line's height 5 and its slope 3 (three products
+/// and their sum each), the way 2, 2^-53 each, and one more.
 inline constexpr double polytope_rounding = 12 * 0x1p-53;
 
-/// The least height of a triangle, in radii of its polytope, at which rounded polytopes are
-/// answered by their features: what rounding hides of the features beside grows by its inverse.
+/// The least height of a triangle, in radii of its polytope, at which rounded polytopes use their
+/// features: the rounding that hides adjacent features grows by its inverse.
 inline constexpr double rounded_polytope_height = 0x1p-12;
 
 /// The error E of a line, in units of the radius that a polytope is grown by, from which on the
 /// normals of its features are known less well than points.
 inline constexpr double rounded_line_error = 0x1p-40;
 
-/// How far a polytope's corner, seen along a line that is known to E, may lie beside where it
-/// should be, in units of E: E of the line, and 20 * 2^-53 of the radius for the view's axes and
-/// its products, of which E holds 12.
+/// Bounds the displacement of a polytope's corner, viewed along a line that is known to E, in
+/// units of E: E of the line, and 20 * 2^-53 of the radius for the view's axes and its products; E
+/// includes 12 of these.
 inline constexpr double polytope_beside = 4;
 
 /// The GJK distance ends when |v|^2 - v.w <= this * |v| (|v| + R): v.w is a difference of numbers
@@ -256,8 +258,8 @@ inline constexpr int distance_max_iterations = 400;
 /// Algorithm 1 was seen to need some 1500 support points in its nested queries for grazing rays.
 inline constexpr int first_solution_max_supports = 10000;
 
-/// How far the shapes are parted to find where they touched, relative to their sizes' sum: hits are
-/// precise to a few epsilon, those that stalled to gjk_stalled.
+/// Distance by which the shapes are parted to find where they touched, relative to their sizes'
+/// sum: hits are precise to a few epsilon, those that stalled to gjk_stalled.
 template <class T>
 inline constexpr T contact_back_off[] = {T(8) * epsilon<T>, T(64) * epsilon<T>,
                                          T(512) * epsilon<T>};
@@ -270,25 +272,25 @@ inline constexpr T collinear = T(4) * epsilon<T>;
 /// Proofs end so far along the ray from the ball's centre, in its radii: nothing further matters.
 inline constexpr double proof_reach = 2;
 
-/// How much more rounding than double's a proof is allowed: the middle of a sliver is only known so
-/// much worse than its corners.
+/// Factor by which a proof may exceed double's rounding: the middle of a sliver is known so much
+/// less precisely than its corners.
 inline constexpr double proof_roundings = 16;
 
-/// What the search for a proof is content with, in machine epsilons of the size: a quarter of what
-/// the checker allows.
+/// Precision at which the search for a proof stops, in machine epsilons of the size: a quarter of
+/// what the checker allows.
 inline constexpr double proof_good_enough = 16;
 
-/// A hit found anew this near to the claimed one, along the normal in epsilons of the claim's
-/// precision, is taken for the same.
+/// A hit found again this near to the claimed one, along the normal in epsilons of the claim's
+/// precision, counts as the same.
 inline constexpr double proof_close_to_claim = 32;
 
 /// A spanned point no further off than this, in machine epsilons of the size, is as good as one on
 /// the hit point: the support points are rounded as coarsely.
 inline constexpr double proof_on_the_spot = 2;
 
-/// What a position is known to in float lanes, in units of what the numbers that it was made of are
-/// as large as: 32 roundings by 2^-24: twelve for the way to the form (docs/forms.md has them),
-/// twenty for what the form does with it.
+/// Uncertainty of a position in float lanes, in units of the magnitude of its summands: 32
+/// roundings by 2^-24: twelve for the way to the form (listed in docs/forms.md), twenty for what
+/// the form does with it.
 inline constexpr float screen_rounding = 0x1p-19f;
 
 /// Positions must be known to this share of a form's least radius: squares of errors, which the
@@ -302,7 +304,7 @@ inline constexpr float screen_longest_squared = 1e8f;
 inline constexpr double screen_least_radius = 1e-7;
 inline constexpr double screen_largest_radius = 1e7;
 
-/// How uncertain t is in float lanes, in units of its own size: it is a sum of two numbers.
+/// Uncertainty of t in float lanes, in units of its own size: t is a sum of two numbers.
 inline constexpr float screen_digits = 0x1p-21f;
 
 /// A box around a shape that has no form is made wider by this share of the shape's radius: more

@@ -26,7 +26,7 @@ double similarity_of(const ComposedMap& map) {
 struct Rebuilder {
   const ComposedMap& map;
 
-  /// What is about its origin already.
+  /// Already about its origin.
   template <class S>
   AboutMiddle operator()(const S& shape) const {
     return {under(map.linear.high, shape), map.translation,
@@ -55,7 +55,7 @@ struct Rebuilder {
             map.loss_of_image(middle) + loss_of_turns(moved, map, similarity_of(map))};
   }
 
-  /// Where its box is, its own support points say.
+  /// Finds the box by its own support points.
   AboutMiddle operator()(const Custom<double>& custom) const {
     Bounds<double> bounds;
     for (int axis = 0; axis < 3; ++axis) {

@@ -21,12 +21,12 @@ struct AboutMiddle {
 /// which is a loss.
 AboutMiddle about_middle(const Shape<double>& shape, const ComposedMap& map);
 
-/// By how much an image of a shape that is about its origin may be off, for what the map's turns
-/// were rounded to; a map that keeps angles may have one of those turns for nothing, since what it
-/// does to a shape is an epsilon of the shape's size.
+/// Bounds the error of an image of a shape that is about its origin, caused by rounding of the
+/// map's turns. A map that keeps angles may have one of those turns for free, since its effect on
+/// a shape is an epsilon of the shape's size.
 double loss_of_turns(const Shape<double>& shape, const ComposedMap& map, double similarity);
 
-/// The shape, moved by a vector that is not long beside its size.
+/// The shape, moved by a vector that is not long compared with its size.
 Shape<double> moved_by(const Shape<double>& shape, const Vec3<double>& way);
 
 /// Points under a map, about the middle of their box, which is at `middle` + `points[i]`.

@@ -20,7 +20,7 @@ class AffineMap {
 
   const Affine<T>& affine() const { return affine_; }
 
-  /// It tells by how much the map scales all lengths alike, up to rounding; 0 if it does not.
+  /// The factor by which the map scales all lengths alike, up to rounding; 0 if there is none.
   T similarity() const { return similarity_; }
 
   template <class U>
@@ -28,7 +28,7 @@ class AffineMap {
     return AffineMap<U>(affine_.template cast<U>());
   }
 
-  /// The direction to ask the inner shape's support for.
+  /// The direction for the inner shape's support mapping.
   template <class W>
   Vec3<W> inner_direction(const Vec3<W>& n) const {
     return times(to_inner_, n);

@@ -22,10 +22,10 @@ Vec3<T> radii_of(const Shape<T>& shape) {
 
 }  // namespace detail
 
-/// The sum of a box and an ellipsoid as an affine image of a rounded box, of which a solver knows
-/// more; nothing for other shapes. Half the box's sizes by the radii are rounded once. Rounding of
-/// the image, as far as it is relative to size, is that of the rounded box times the ellipsoid's
-/// proportions, so those beyond 1:4 are left as they are; sizes beyond 2^+-16 as well.
+/// The sum of a box and an ellipsoid as an affine image of a rounded box, which solvers support
+/// better; nothing for other shapes. Half the box's sizes by the radii are rounded once. Rounding
+/// of the image, as far as it is relative to size, is that of the rounded box times the
+/// ellipsoid's proportions, so those beyond 1:4 are left as they are; sizes beyond 2^+-16 as well.
 template <class T>
 std::optional<Shape<T>> as_rounded_box(const Shape<T>& shape) {
   constexpr T most_slender = T(4), largest = T(0x1p16);

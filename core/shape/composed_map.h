@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Maps of shapes within shapes, composed in twice the digits: a shape that one map moves far away
-// and the next one back is where the maps' numbers put it. Carries what the numbers do not tell.
+// and the next one back is where the maps' numbers put it. Carries a bound of the numbers' errors.
 #pragma once
 
 #include "core/math/length.h"
@@ -59,7 +59,7 @@ struct ComposedMap {
   TwoFoldVec3<double> image(const TwoFoldVec3<double>& point) const {
     return linear * point + translation;
   }
-  /// By how much the image of a point may be off that is known to `error`.
+  /// Bounds the error of the image of a point whose own error is at most `error`.
   double loss_of_image(const Vec3<double>& point, double error = 0) const {
     const double far = length_of(point);
     return loss + stretch() * error + (turn_error + two_fold_rounding * stretch()) * far +

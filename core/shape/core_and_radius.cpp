@@ -10,7 +10,7 @@ namespace minkray {
 namespace {
 
 using namespace cores;
-/// Goes by the support mapping. A box of it is asked for, about whose middle it then stands.
+/// Uses the support mapping, about the middle of a box found with it.
 CoreAndRadius of_other(const Shape<double>& shape, const ComposedMap& map, double radius) {
   const AboutMiddle about = about_middle(shape, map);
   Vec3<double> low, high;
@@ -27,7 +27,7 @@ CoreAndRadius of_other(const Shape<double>& shape, const ComposedMap& map, doubl
   core.radius = radius;
   core.ball = length_of((high - low) / 2) * padding;
   core.shape = about_middle.get();
-  // What stands beside the middle of its parts has lost those digits before it comes to its own.
+  // The core's own place relative to the middle of its parts has already lost those digits.
   constexpr double lost = 4 * std::numeric_limits<double>::epsilon();
   CoreAndRadius found =
       placed(core, Mat3<double>::Identity(), place, about.loss + lost * length_of(middle));
@@ -49,14 +49,14 @@ Numbers scaled_down(const Numbers& numbers, int exponent) {
   return numbers.unaryExpr([exponent](double x) { return std::ldexp(x, -exponent); });
 }
 
-/// By how much the map scales all lengths; 0 if it does not.
+/// The factor by which the map scales all lengths; 0 if there is none.
 double similarity_of(const Mat3<double>& linear) {
   const int exponent = exponent_of_largest(linear);
   const Affine<double> map{scaled_down(linear, exponent), Vec3<double>::Zero()};
   return std::ldexp(AffineMap<double>(map).similarity(), exponent);
 }
 
-/// Whether the map keeps the coordinate axes at right angles, but for a few roundings: boxes stay
+/// True if the map keeps the coordinate axes at right angles, but for a few roundings: boxes stay
 /// boxes then, and ellipsoids keep their axes.
 bool keeps_right_angles(const Mat3<double>& linear) {
   constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
@@ -73,7 +73,7 @@ bool keeps_right_angles(const Mat3<double>& linear) {
 
 CoreAndRadius find(const Shape<double>& shape, const ComposedMap& map, double radius);
 
-/// Whether the shape is about its origin: neither points nor other shapes are put anywhere.
+/// True if the shape is about its origin: neither points nor other shapes are moved.
 bool is_about_origin(const Shape<double>& shape) {
   const auto is_within = []<class... Kinds>(const Shape<double>& one, std::variant<Kinds...>*) {
     return (std::holds_alternative<Kinds>(one.kind) || ...);
@@ -84,11 +84,11 @@ bool is_about_origin(const Shape<double>& shape) {
   return !is_within(shape, static_cast<Others*>(nullptr));
 }
 
-/// A Minkowski sum of which all operands but one at most are points and balls: those move that one
-/// and make it rounder.
+/// A Minkowski sum whose operands are all points and balls, except for at most one: they move that
+/// one and make it rounder.
 class BallsAndOne {
  public:
-  /// Whether it still is one.
+  /// Returns false if the sum is no longer of that kind.
   bool add(const Shape<double>& operand, const ComposedMap& about_origin) {
     CoreAndRadius one = find(operand, about_origin, 0);
     offset_ = offset_ + TwoFoldVec3<double>(one.middle, one.middle_low);

@@ -38,13 +38,13 @@ struct ShapeCore {
   const Shape<double>* shape = nullptr;  ///< of `other`
 };
 
-/// It is immutable and shared: copies are cheap.
+/// Immutable and shared: copies are cheap.
 struct CoreAndRadius {
   ShapeCore core;
-  /// It leads from the core's frame to the shape's; it keeps lengths: the core has the scales.
+  /// Rotation from the core's frame to the shape's; keeps lengths, since the core has the scales.
   Mat3<double> turn = Mat3<double>::Identity();
   Vec3<double> middle = Vec3<double>::Zero();
-  Vec3<double> middle_low = Vec3<double>::Zero();  ///< what rounding has left of `middle`
+  Vec3<double> middle_low = Vec3<double>::Zero();  ///< rounding error of `middle`
   std::shared_ptr<const void> storage;             ///< of what the core points to
 };
 

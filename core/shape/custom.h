@@ -19,9 +19,9 @@ using Coordinates = std::array<double, 3>;
 /// A matrix of 3 x 3, row by row.
 using Derivative = std::array<double, 9>;
 
-/// A support mapping from elsewhere. Any number of threads ask at once; equal directions must get
-/// equal points. Whatever goes wrong, the points must be finite: who gives the function keeps what
-/// went wrong, and tells it when the query is done.
+/// A support mapping supplied by the caller. Any number of threads call it at once; equal
+/// directions must get equal points. Points must be finite even after an error: the implementation
+/// stores the error and reports it when the query is done.
 class SupportSource {
  public:
   virtual ~SupportSource();
@@ -30,17 +30,18 @@ class SupportSource {
   /// length; for zero, some point.
   void ask(std::size_t count, Coordinates* directions, Coordinates* points) const;
 
-  /// Whether it knows how its points move as directions turn; with a point in the shape's middle.
+  /// True if it provides derivatives of its points with respect to the direction; with a point in
+  /// the shape's middle.
   bool has_jets() const { return has_jets_; }
   const Coordinates& middle() const { return middle_; }
-  /// What a jet along a direction is made of; an ellipsoid where it is `curved`, else a point.
+  /// Numbers of the jet along a direction; an ellipsoid if it is `curved`, else a point.
   struct JetNumbers {
     bool curved = false;
     Coordinates point = {0, 0, 0};
     Derivative factor = {};  ///< of the ellipsoid around the middle
   };
-  /// Asks for the point and its derivative, which is symmetric. Casts are guided by it, and believe
-  /// nothing: wrong ones cost time.
+  /// Returns the point and its derivative, which is symmetric. Derivatives only guide casts, and
+  /// are not trusted: wrong ones cost time.
   JetNumbers jet_along(Coordinates direction) const;
 
   static constexpr std::size_t most = 16;
@@ -55,7 +56,7 @@ class SupportSource {
   /// Answers `ask`, which has made the directions of unit length.
   virtual void support(std::size_t count, const Coordinates* directions,
                        Coordinates* points) const = 0;
-  /// Answers `ask_jets`; asked only of those that have called know_jets.
+  /// Implements `ask_jets`; called only on objects that have called know_jets.
   virtual void jets(std::size_t count, const Coordinates* directions, Coordinates* points,
                     Derivative* derivatives) const;
 
@@ -111,8 +112,8 @@ struct Custom {
     }
   }
 
-  /// A vertex as far as anybody knows, and casts learn of the surface point by point; or, of a
-  /// function that knows more, the ellipsoid around the middle that has its derivative.
+  /// A vertex as far as is known, and casts learn of the surface point by point; or, of a function
+  /// with derivatives, the ellipsoid around the middle that has its derivative.
   template <class W>
   Jet<W> jet(const Vec3<W>& n) const {
     if (!source->has_jets()) return PointJet<W>{support(n)};

@@ -67,7 +67,7 @@ struct CutCylinder {
     return {p.x(), p.y(), select(rims.is_upper, height(1, upper_slope), height(0, lower_slope))};
   }
 
-  /// It is the jet of the ellipse in which one of the planes cuts the cylinder.
+  /// The jet of the ellipse in which one of the planes cuts the cylinder.
   template <class W>
   Jet<W> jet(const Vec3<W>& n) const {
     const Mask<W> is_upper = Rims<W>(*this, n).is_upper;
@@ -81,8 +81,8 @@ struct CutCylinder {
   }
 
  private:
-  /// Where above the unit disk each plane's ellipse reaches furthest along n, and whether the upper
-  /// one reaches further.
+  /// Points over the unit disk at which each plane's ellipse reaches furthest along n, and a mask
+  /// that is set if the upper one reaches further.
   template <class W>
   struct Rims {
     Vec3<W> lower, upper;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What a shape's header declares of it beyond its support mapping and its jets. A shape that
-// declares nothing is cast at with those alone: what its fields and functions are called says
-// nothing of it.
+// Optional declarations in a shape's header beyond its support mapping and its jets. A shape
+// without declarations is cast at with those alone: the names of its fields and functions imply
+// nothing.
 #pragma once
 
 #include <concepts>
@@ -9,11 +9,11 @@
 namespace minkray {
 
 struct Declared {
-  /// It is the box of all points with |x_k| <= half_extents[k].
+  /// The shape is the box of all points with |x_k| <= half_extents[k].
   bool slabs = false;
-  /// It is a polytope, and points.facets() are its facets, or null.
+  /// The shape is a polytope, and points.facets() are its facets, or null.
   bool facets = false;
-  /// Its surface is smooth, and gauge_along(u, v, lambda) tells how far it is from points of a
+  /// The surface is smooth, and gauge_along(u, v, lambda) returns its distance from points of a
   /// line.
   bool gauge = false;
   /// support_where(wanted, n) is support(n) where it is wanted, and cheaper where it is not.
@@ -22,7 +22,7 @@ struct Declared {
   bool by_program = false;
 };
 
-/// What S declares, as `static constexpr Declared declared = {...};`.
+/// Declarations of S: `static constexpr Declared declared = {...};`.
 template <class S>
 inline constexpr Declared declared_by = [] {
   if constexpr (requires { requires std::same_as<decltype(S::declared), const Declared>; })

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Sums of ellipsoids: a jet with its summands kept separate. What Minkowski sums make of two curved
-// features is no ellipsoid, so that one ellipsoid can only osculate it; but the list of both is the
-// part of the shape as a whole, h(n) = c.n + sum |F_k^T n|. Nearly every shape is the hull of
+// Sums of ellipsoids: a jet with its summands kept separate. The Minkowski sum of two curved
+// features is not an ellipsoid, so one ellipsoid can only osculate it; but the list of both is
+// that part of the shape exactly, h(n) = c.n + sum |F_k^T n|. Nearly every shape is the hull of
 // finitely many of these.
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace minkray {
 
-/// { c + sum F_k b_k : |b_k| <= 1 }, seen from one direction n that was asked for.
+/// { c + sum F_k b_k : |b_k| <= 1 }, the part that touches in one requested direction n.
 template <class W>
 struct EllipsoidSum {
   /// More are joined into one that osculates.
@@ -25,10 +25,10 @@ struct EllipsoidSum {
   std::size_t used = 0;                             ///< those from here on are zero in all lanes
   Mask<W> exact = Mask<W>(true);                    ///< part of the shape, not only osculating
   Vec3<W> s = Vec3<W>::Zero();                      ///< the shape's support point in direction n
-  /// Where it is exact, c; else what all the ellipsoids that osculate one patch have in common.
+  /// If it is exact, c; else the common part of all the ellipsoids that osculate one patch.
   Vec3<W> patch = Vec3<W>::Zero();
 
-  /// How far it reaches along n, in lengths of n.
+  /// Support function along n, in lengths of n.
   W support_function(const Vec3<W>& n) const {
     W reach = c.dot(n);
     for (std::size_t k = 0; k < used; ++k) reach += (F[k].transpose() * n).norm();
@@ -164,7 +164,7 @@ EllipsoidSum<W> touching_sum(const Shape<T>& shape, const Vec3<W>& n) {
 extern template EllipsoidSum<float> touching_sum(const Shape<float>&, const Vec3<float>&);
 extern template EllipsoidSum<double> touching_sum(const Shape<double>&, const Vec3<double>&);
 
-/// Whether the shape is the hull of such sums, as far as a few directions tell.
+/// True if the shape is the hull of such sums, judged by a few directions.
 template <class T>
 bool has_exact_sums(const Shape<T>& shape) {
   for (int i = 0; i < tilted_directions; ++i)
@@ -172,7 +172,7 @@ bool has_exact_sums(const Shape<T>& shape) {
   return true;
 }
 
-/// Whether the shape is one such sum, without flat summands, as far as a few directions tell.
+/// True if the shape is one such sum, without flat summands, judged by a few directions.
 template <class T>
 bool is_ellipsoid_sum(const Shape<T>& shape) {
   const EllipsoidSum<T> first = touching_sum<T>(shape, tilted_direction<T>(0));

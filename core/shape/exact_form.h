@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What a shape says of itself so that casts may use a closed form: the form's name and its numbers.
-// A shape that says nothing is cast at by its support mapping alone. Nothing is ever guessed from
-// the names or the number of a shape's parameters.
+// Closed form of a shape for casts: the form's name and its numbers. A shape that declares none is
+// cast at by its support mapping alone. Nothing is ever guessed from the names or the number of a
+// shape's parameters.
 #pragma once
 
 #include <array>
@@ -23,10 +23,10 @@ enum class FormKind : unsigned char {
   cut_cylinder,     ///< radius, the planes' heights on the z axis, lower and upper slope along x, y
   segment,          ///< half the way from end to end, along x, y, z; the radius it is grown by
   triangle,         ///< three corners; the radius it is grown by
-  polytope,         ///< none: shapes declare its facets (declared.h). It stays the last
+  polytope,         ///< has no numbers: shapes declare its facets (declared.h). Must be last
 };
 
-/// It has as many numbers as the form with the most.
+/// As many numbers as the largest form has.
 using FormSizes = std::array<double, 10>;
 
 struct ExactForm {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// How a shape describes its parameters. From these descriptions come JSON in and out, error
-// messages that name the parameter, `minkray info --shapes`, the JSON Schema, the conversion
-// between float and double, and the typed tests.
+// Descriptions of a shape's parameters. JSON in and out, error messages that name the parameter,
+// `minkray info --shapes`, the JSON Schema, the conversion between float and double, and the typed
+// tests are all derived from them.
 #pragma once
 
 #include <string_view>
@@ -11,8 +11,8 @@ namespace minkray {
 
 enum class Unit { none, length, degrees };
 
-/// What values a number may take. Numbers must be finite whatever their range. zero_to_180 leaves
-/// out both ends.
+/// Valid values of a number. Numbers must be finite whatever their range. zero_to_180 excludes
+/// both ends.
 enum class Range {
   any,
   positive,
@@ -27,11 +27,11 @@ enum class Range {
 /// of them, are finite in a picture, whose numbers end at 3.4e38.
 inline constexpr double most_brightness = 1e15;
 
-/// One parameter: the member of shape S that holds it. The member's type says how it is spelled:
-/// T a number, std::array<T, 2> and Vec3<T> lists of two and three, std::array<Vec3<T>, N> a list
-/// of N points, Nested<T> a shape, ShapeList<T> a list of shapes, PointCloud<T> points or a mesh
-/// file, AffineMap<T> the keys of a pose. An optional parameter keeps its initial value if left
-/// out.
+/// One parameter: the member of shape S that holds it. The member's type determines its form in
+/// JSON: T a number, std::array<T, 2> and Vec3<T> lists of two and three, std::array<Vec3<T>, N> a
+/// list of N points, Nested<T> a shape, ShapeList<T> a list of shapes, PointCloud<T> points or a
+/// mesh file, AffineMap<T> the keys of a pose. An optional parameter keeps its initial value if
+/// left out.
 template <class S, class M>
 struct Field {
   using Member = M;

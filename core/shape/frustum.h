@@ -45,7 +45,7 @@ struct Frustum {
   }
 
  private:
-  /// Whether the upper disk reaches further along n; `rim` is the unit disk's support point.
+  /// True if the upper disk reaches further along n; `rim` is the unit disk's support point.
   template <class W>
   auto is_upper(const Vec3<W>& n, const Vec3<W>& rim) const {
     return n.z() * W(T(2) * half_height) + n.dot(rim) * W(radii[1] - radii[0]) > W(0);

@@ -15,11 +15,11 @@
 
 namespace minkray {
 
-/// The ellipsoid { c + F b : |b| <= 1 }; columns of F may be zero. `exact` says that the ellipsoid
-/// is part of the shape as a whole (the same one for all directions that it answers), not only
-/// osculating in the direction asked for; then `s` is the shape's support point there, and the
-/// ellipsoid may agree with it less well than the mathematics says (where a radius of curvature is
-/// infinite).
+/// The ellipsoid { c + F b : |b| <= 1 }; columns of F may be zero. `exact` means that the
+/// ellipsoid is part of the shape as a whole (the same one for all directions in which it
+/// touches), not only osculating in the requested direction; then `s` is the shape's support point
+/// there, and the ellipsoid may agree with it less well than in theory (where a radius of
+/// curvature is infinite).
 template <class W>
 struct Jet {
   Vec3<W> c = Vec3<W>::Zero();
@@ -27,12 +27,12 @@ struct Jet {
   Mask<W> exact = Mask<W>(true);
   Vec3<W> s = Vec3<W>::Zero();
 
-  /// The shape's support point in the direction n that was asked for.
+  /// The shape's support point in the requested direction n.
   Vec3<W> support(const Vec3<W>& n) const {
     if (!any(exact)) return s;
     return select<W>(exact, Vec3<W>(c + F * unit<W>(F.transpose() * n)), s);
   }
-  /// How far the shape reaches along that n, in lengths of n.
+  /// Support function of the shape along that n, in lengths of n.
   W support_function(const Vec3<W>& n) const {
     return select(exact, W(n.dot(c) + (F.transpose() * n).norm()), W(n.dot(s)));
   }
@@ -51,13 +51,13 @@ Jet<W> select(const Mask<W>& condition, const Jet<W>& a, const Jet<W>& b) {
   return chosen;
 }
 
-/// A shape that knows its jets.
+/// A shape with jets.
 template <class S, class T>
 concept JetMapped = requires(const S& shape, const Vec3<T>& n) {
   { shape.jet(n) } -> std::convertible_to<Jet<T>>;
 };
 
-// The jets of common shapes say more in their types: solvers make use of it.
+// Common shapes have more specific types of jets, which solvers use.
 
 /// A vertex.
 template <class W>
@@ -134,7 +134,7 @@ Jet<W> add(const Jet<W>& a, const Jet<W>& b, const Vec3<W>& n) {
   };
   const Mask<W> a_point = a.is_point(), b_point = b.is_point();
   const Mask<W> balls = is_ball(a.F) & is_ball(b.F);
-  const Mask<W> simple = a_point | b_point | balls;  // where F of a point is zero, factors add
+  const Mask<W> simple = a_point | b_point | balls;  // factors add if F of a point is zero
   const Jet<W> joined{c, Mat3<W>(a.F + b.F), Mask<W>(a.exact & b.exact), s};
   if (all(simple)) return joined;
 

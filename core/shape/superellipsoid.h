@@ -77,8 +77,8 @@ struct Superellipsoid {
   template <class W>
   struct Gauge {
     W value;
-    /// It is that by x/a: it has length 1 in the dual norm, so that gradient/a is the normal of the
-    /// supporting plane where a line from the middle to x meets the surface, and the gauge of x
+    /// Gradient by x/a: has length 1 in the dual norm, so that gradient/a is the normal of the
+    /// supporting plane where a line from the middle to x meets the surface, and the gauge of x is
     /// never less than gradient.(x/a).
     Vec3<W> gradient;
     W slope;      ///< by lambda
@@ -115,7 +115,8 @@ struct Superellipsoid {
   }
 
  private:
-  /// Where curvature is infinite (p < 2, on the coordinate planes), as it is so far beside.
+  /// Floor of the coordinates that divide in the second derivative, which is infinite on the
+  /// coordinate planes for p < 2.
   static constexpr T least_curvature = T(1) / T(4096);
   /// For p up to 4, the osculating ellipsoid is at most about 1/this times as long as the shape.
   static constexpr T least_of_jet = T(1) / T(256);

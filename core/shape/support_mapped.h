@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a convex shape must offer: its support mapping, and nothing else.
+// Requirements on a convex shape: its support mapping, and nothing else.
 #pragma once
 
 #include <concepts>

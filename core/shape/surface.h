@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a shape's surface is made of, as its jets tell: which solver suits a shape depends on it.
+// Classifies a shape's surface by its jets: the choice of solver depends on it.
 #pragma once
 
 #include "core/shape/jet.h"
@@ -11,20 +11,20 @@ enum class SurfaceKind : unsigned char {
   translates,  ///< faces and edges between finitely many translates of one ellipsoid
   ellipsoids,  ///< faces and edges between finitely many ellipsoids
   smooth,      ///< one curved patch, which jets only osculate
-  mixed,       ///< several patches, some of which jets only osculate
+  mixed,       ///< several patches, some of them only osculated by jets
 };
 
 inline constexpr int tilted_directions = 27;
 
-/// Slightly beside the directions of a cube's faces, edges and corners, where shapes are special.
+/// Slightly off the directions of a cube's faces, edges and corners, where shapes are special.
 template <class T>
 Vec3<T> tilted_direction(int i) {
   const int x = i % 3 - 1, y = i / 3 % 3 - 1, z = i / 9 - 1;
   return Vec3<T>(T(x) + T(0.11), T(y) + T(0.07), T(z) + T(0.13));
 }
 
-/// Found by asking for jets in 27 slightly tilted directions: a description that steers the
-/// choice of a solver, on which no answer's correctness may depend.
+/// Found by the jets in 27 slightly tilted directions: a description that steers the choice of a
+/// solver, but no result's correctness may depend on it.
 template <class T, class S>
 requires JetMapped<S, T> SurfaceKind surface_of(const S& shape) {
   bool all_points = true, all_exact = true, all_inexact = true, one_patch = true;

@@ -47,7 +47,7 @@ struct TaperedCapsule {
   }
 
  private:
-  /// Whether the upper ball reaches further along the unit vector u.
+  /// True if the upper ball reaches further along the unit vector u.
   template <class W>
   auto is_upper(const Vec3<W>& u) const {
     return u.z() * W(T(2) * half_height) + W(radii[1] - radii[0]) * u.squaredNorm() > W(0);

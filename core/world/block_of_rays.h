@@ -22,7 +22,7 @@ constexpr double widest = 0.25;
 constexpr float block_padding = 1 + 8 * std::numeric_limits<float>::epsilon();
 
 struct alignas(32) Block {
-  /// By ray: its direction less the middle's, and 1 / direction, which is never infinite.
+  /// Indexed by ray: its direction minus the middle's, and 1 / direction, which is never infinite.
   float delta[3][all_rays], inverse[3][all_rays];
   double origin[4], middle[4];
   double middle_squared;
@@ -158,7 +158,7 @@ bool make_block(const char* rays, std::size_t stride, std::size_t count, Block& 
   return true;
 }
 
-/// Which of a node's boxes any of the rays may meet up to t_max, and where.
+/// Returns which of a node's boxes any of the rays may meet up to t_max, and writes where.
 [[gnu::always_inline]] inline std::uint32_t boxes_met(const BvhNode& node, const Block& block,
                                                       float t_max, float* enters) {
   __m256 enter = _mm256_setzero_ps(), leave = _mm256_set1_ps(t_max);

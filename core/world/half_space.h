@@ -40,13 +40,14 @@ struct HalfSpaceBody {
   }
 };
 
-/// Where the ray enters: at the surface or below it, inside. The interval holds what the roundings
-/// of this division can have moved; a ray along the plane meets nothing, or begins inside.
-/// Exhausted where a height, a fall or the way to the plane is no number of this type.
+/// Finds where the ray enters: at the surface or, if it begins below it, inside. The interval
+/// holds what the roundings of this division can have moved; a ray along the plane meets nothing,
+/// or begins inside. Exhausted where a height, a fall or the way to the plane is no number of this
+/// type.
 template <class T>
 CastResult<T> cast_ray(const HalfSpaceBody<T>& half_space, const Ray<T>& ray) {
   using std::abs, std::isfinite;
-  // Three products and their sums round by less than so many units of what they add.
+  // Bounds the rounding of three products and their sums, relative to what they add.
   constexpr T rounding = T(4) * std::numeric_limits<T>::epsilon();
   const Vec3<T>& n = half_space.normal;
   const T height = n.dot(ray.origin) - half_space.offset;

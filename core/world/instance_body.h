@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the instances of one definition share: the definition, and how their places refer to it.
+// Data shared by the instances of one definition: the definition, and how their places refer to
+// it.
 #pragma once
 
 #include <memory>

@@ -187,11 +187,11 @@ void Instances::place_many(std::size_t first, std::size_t count,
     std::size_t last_which = wide_body;
     for (std::size_t i = first + begin; i < first + end; ++i) {
       const std::uint32_t definition = definition_of(i);
-      if (definition == no_body) {  // it has none
+      if (definition == no_body) {  // half-spaces and meshes have none
         digits_[i] = {};
         continue;
       }
-      const Affine<double> pose = pose_of(i);  // which may be made of what stands here
+      const Affine<double> pose = pose_of(i);  // may read the instance's current pose
       const Placed placed = this->placed(i, definition, pose);
       digits_[i] = placed.digits;
       if (placed.has_digits) has_digits.store(true, std::memory_order_relaxed);

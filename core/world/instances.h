@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The shapes of a world, each with its pose: definitions once, and for each instance no more than
-// where it stands, so that there may be tens of millions.
+// The shapes of a world, each with its pose: definitions once, and for each instance only its
+// place, so that there may be tens of millions.
 #pragma once
 
 #include <array>
@@ -45,10 +45,11 @@ class Instances {
     add(define(std::move(shape)), pose);
   }
 
-  /// Adds a half-space under a pose. It has no definition and no box; `at` must not be called.
+  /// Adds a half-space under a pose. A half-space has no definition and no box; `at` must not be
+  /// called.
   void add(const HalfSpaceBody<double>& half_space, const Affine<double>& pose = {});
 
-  /// Adds a mesh under a pose. It has no definition either, but a box.
+  /// Adds a mesh under a pose. A mesh has no definition either, but a box.
   void add(std::shared_ptr<const TriangleMesh> mesh, const Affine<double>& pose = {});
 
   /// Adds `count` instances, the i-th at pose_of(i), which several threads call at once.
@@ -76,19 +77,19 @@ class Instances {
   bool is_shown_to(std::size_t i, RayKinds kinds) const {
     return shown_to_.empty() || (shown_to_[i] & kinds) != 0;
   }
-  /// By instance; null if all are shown to all rays.
+  /// Indexed by instance; null if all are shown to all rays.
   const RayKinds* shown_to() const { return shown_to_.empty() ? nullptr : shown_to_.data(); }
 
   /// Moves every instance: the i-th to pose_of(i), which several threads call at once. With a
-  /// movement_of, the i-th does what movement_of(i) says while time goes from 0 to 1, and its box
-  /// holds all of that. Boxes are due to be taken again.
+  /// movement_of, the i-th follows movement_of(i) while time goes from 0 to 1, and its box holds
+  /// all of that motion. Boxes are stale until they are computed again.
   void pose_all(const std::function<Affine<double>(std::size_t)>& pose_of,
                 const std::function<Movement<double>(std::size_t)>& movement_of = {});
 
   /// True if any instance moves.
   bool move() const { return !movements_.empty(); }
 
-  /// The ray as the i-th instance sees it at that time, from where it stands at time 0.
+  /// The ray relative to the i-th instance at that time, in coordinates of time 0.
   Ray<double> seen_by(std::size_t i, const Ray<double>& ray, double time) const {
     return movements_.empty() ? ray : movements_[i].unmoved(ray, time);
   }
@@ -108,8 +109,8 @@ class Instances {
     return cast;
   }
 
-  /// True if two instances that stand still have the same shape, place and ray kinds, to the last
-  /// digit. Not of half-spaces and meshes.
+  /// True if two instances at rest have the same shape, place and ray kinds, to the last digit.
+  /// Not for half-spaces and meshes.
   bool are_same(std::size_t i, std::size_t j) const;
 
   /// Makes room for `count` more instances.
@@ -134,8 +135,8 @@ class Instances {
   /// True if any has none.
   bool have_shapeless() const { return !half_spaces_.empty() || !meshes_.empty(); }
 
-  /// Asks for an instance with a shape. Refers to this object, which must outlive it. `loss` is
-  /// what a ray's place is known to, in the inner frame.
+  /// Returns an instance with a shape, prepared for casts. Refers to this object, which must
+  /// outlive it. `loss` is the uncertainty of a ray's place, in the inner frame.
   PreparedShape<double> at(std::size_t i, double loss = 0) const {
     const InstancePlace& place = places_[i];
     const InstanceBody& body = bodies_[place.body];
@@ -158,7 +159,7 @@ class Instances {
     const double loss = loss_of_seen_by(i, ray);
     return loss == 0 ? at(i) : at(i, loss * to_inner(i).norm());
   }
-  /// What `seen_by` has rounded, in the world.
+  /// Rounding error of `seen_by`, in the world's frame.
   double loss_of_seen_by(std::size_t i, const Ray<double>& ray) const {
     return movements_.empty() || movements_[i].stands() ? 0 : movements_[i].rounding(ray.origin);
   }
@@ -166,7 +167,7 @@ class Instances {
   const InstanceBody& body_of(std::size_t i) const { return bodies_[places_[i].body]; }
   std::uint32_t definition_of(std::size_t i) const { return body_of(i).number; }
 
-  // What kernels read.
+  // Arrays that kernels read.
   const InstancePlace* places() const { return places_.data(); }
   /// Null if no map has more digits than float.
   const TrailingDigits* digits() const { return digits_.empty() ? nullptr : digits_.data(); }
@@ -206,11 +207,12 @@ class Instances {
  private:
   struct Defined {
     std::shared_ptr<const ShapeDefinition<double>> shared;
-    /// Its bodies, or no_body.
+    /// Bodies of this definition, or no_body.
     std::array<std::uint32_t, 5> bodies;
   };
 
-  /// What the origin of an instance that is not plain lacks, and what its pose is known to.
+  /// Digits missing from the origin of an instance that is not plain, and the uncertainty of its
+  /// pose.
   struct Rest {
     Vec3<double> centre = Vec3<double>::Zero();
     double loss = 0;
@@ -251,7 +253,7 @@ class Instances {
   FirstTouchVector<TrailingDigits> digits_;  ///< by instance; empty if all are zero
   std::unordered_map<std::uint32_t, Rest> rests_;
   std::unordered_map<std::uint32_t, Mat3<double>> wide_;  ///< maps that float does not hold
-  std::vector<Movement<double>> movements_;               ///< by instance; empty if all stand still
+  std::vector<Movement<double>> movements_;               ///< by instance; empty if all are at rest
   FirstTouchVector<Bounds<float>> boxes_;
   bool are_boxes_stale_ = false;
   std::vector<PosedHalfSpace> half_spaces_;  ///< in the order of their instances

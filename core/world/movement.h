@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What a body does while time goes from 0 to 1: it turns at constant speed about a pivot, which
-// goes along a line. A ray meets it at its time just where the ray, moved back, meets the body
-// where it stood at time 0: no shape is stretched or put together from slices.
+// Motion of a body while time goes from 0 to 1: the body turns at constant speed about a pivot,
+// which goes along a line. A ray meets the body at its time exactly where the ray, moved back,
+// meets the body at its place of time 0: no shape is stretched or put together from slices.
 #pragma once
 
 #include <cmath>
@@ -18,11 +18,11 @@ struct Movement {
   Vec3<T> shift = Vec3<T>::Zero();
   T angle = T(0);  ///< in radians, by the right-hand rule
   Vec3<T> axis = Vec3<T>::UnitZ();
-  Vec3<T> pivot = Vec3<T>::Zero();  ///< where it is at time 0
+  Vec3<T> pivot = Vec3<T>::Zero();  ///< place at time 0
 
   bool stands() const { return angle == T(0) && shift.isZero(T(0)); }
 
-  /// The direction as the body sees it that stands as at time 0, and the way back.
+  /// Rotates a direction back to the body's orientation at time 0, and forth.
   Vec3<T> unturned(const Vec3<T>& direction, T time) const {
     return angle == T(0) ? direction : by_angle(direction, -angle * time);
   }
@@ -39,20 +39,20 @@ struct Movement {
     return angle == T(0) ? unshifted : Vec3<T>(pivot + unturned(unshifted - pivot, time));
   }
 
-  /// How far a ray from there, moved back, may lie beside where it should, near the pivot or the
-  /// origin: a dozen roundings of the way between them.
+  /// Bounds the error of a ray from there that is moved back, near the pivot or the origin: a
+  /// dozen roundings of the way between them.
   T rounding(const Vec3<T>& origin) const {
     constexpr T roundings = T(6) * std::numeric_limits<T>::epsilon();
     return roundings * (origin.norm() + pivot.norm() + shift.norm());
   }
 
-  /// Where a point of the body has come to that was there at time 0.
+  /// Place at `time` of a point of the body that was at `point` at time 0.
   Vec3<T> moved(const Vec3<T>& point, T time) const {
     return angle == T(0) ? Vec3<T>(point + time * shift)
                          : Vec3<T>(pivot + time * shift + turned(point - pivot, time));
   }
 
-  /// What has become of a pose at time 0.
+  /// Pose at `time` of a body whose pose at time 0 is given.
   Affine<T> moved(const Affine<T>& pose, T time) const {
     Affine<T> now = pose;
     for (int column = 0; column < 3; ++column)

@@ -158,7 +158,7 @@ std::vector<NearPair> nearest_bodies(const ContactBody& to, const ContactWorld& 
     open.pop();
     const bool is_full = best.size() == count;
     if (top.distance > at_most) break;
-    // Boxes that meet say nothing of how deep the bodies are in each other.
+    // Boxes that meet give no bound on the depth of the bodies' overlap.
     if (is_full && top.distance > std::max(value_of(best.back()), 0.0)) break;
     if ((top.what & BvhNode::leaf) == 0) {
       const BvhNode& node = world.hierarchy().nodes[top.what];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which of many bodies are near each other, with their signed distances: by a hierarchy of boxes
-// that is walked against itself or another one. Not for half-spaces, which have no box.
+// Finds which of many bodies are near each other, with their signed distances: by a hierarchy of
+// boxes that is walked against itself or another one. Not for half-spaces, which have no box.
 #pragma once
 
 #include <cstdint>
@@ -54,7 +54,8 @@ struct NearPair {
 struct NearPairsOptions {
   double at_most =
       0;  ///< pairs that are further apart are left out; 0: those that overlap or touch
-  /// Says of two indices whether they are asked for, if masks do not tell enough: allowed pairs.
+  /// Returns true if the pair of these two indices is wanted, where masks are not enough: allowed
+  /// pairs.
   std::function<bool(std::size_t a, std::size_t b)> wanted;
   double tolerance = SignedDistanceOptions{}.tolerance;
 };
@@ -67,10 +68,10 @@ std::vector<NearPair> near_pairs(const ContactWorld& world, const NearPairsOptio
 std::vector<NearPair> near_pairs(const ContactWorld& first, const ContactWorld& second,
                                  const NearPairsOptions& options);
 
-/// The `count` bodies nearest to another one, the nearest first; fewer if there are not so many.
-/// `a` is 0. Masks are heeded. Bodies whose distance is unknown (SignedDistance::is_unknown()) come
-/// last, and only if there are not so many others: whether they are near nobody knows. Those that
-/// are proven to be further away than `at_most` are left out.
+/// The `count` bodies nearest to another one, the nearest first; fewer if there are fewer. `a` is
+/// 0. Masks apply. Bodies whose distance is unknown (SignedDistance::is_unknown()) come last, and
+/// only if there are fewer than `count` others. Those that are proven to be further away than
+/// `at_most` are left out.
 std::vector<NearPair> nearest_bodies(const ContactBody& to, const ContactWorld& world,
                                      std::size_t count,
                                      double at_most = std::numeric_limits<double>::infinity());

@@ -51,7 +51,7 @@ class PairCaster {
   }
 
   /// Casts at pairs whose bodies have no closed form, those that are met first before others.
-  /// is_due(pair) says if a pair still matters.
+  /// is_due(pair) returns true if a pair still matters.
   template <class IsDue>
   void cast_formless(std::vector<OpenPair>& pairs, const IsDue& is_due) {
     std::sort(pairs.begin(), pairs.end(), [](const OpenPair& a, const OpenPair& b) {

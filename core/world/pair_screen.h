@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Pairs of a ray and an instance as a walk finds them: eight of a kind at a time go to float lanes,
-// which sort most of them out. What may be met is passed on.
+// Queues the pairs of a ray and an instance that a walk finds: eight of a kind at a time go to
+// float lanes, which sort most of them out. Pairs that may meet are passed on.
 #pragma once
 
 #include <array>
@@ -13,10 +13,10 @@
 
 namespace minkray {
 
-/// How far each ray goes on: what it may still meet lies no further than what it surely meets.
+/// Largest parameter of interest of each ray: no further than its first sure hit.
 struct RayLimits {
   std::vector<SlabRay> slabs;
-  std::vector<float> t;            ///< not below the double that it stands for
+  std::vector<float> t;            ///< not below the double that it represents
   std::vector<std::uint8_t> sure;  ///< 1: it is that of a pair that is not cast at yet
 
   explicit RayLimits(const RaySpan& rays) : slabs(rays.size()), t(rays.size()), sure(rays.size()) {
@@ -28,7 +28,7 @@ struct RayLimits {
     t[ray] = -1;
     slabs[ray].numbers.t_max = -1;
   }
-  /// It is met at t at the latest.
+  /// Lowers the limit to t = `at`, where the ray is met at the latest.
   void lower(std::size_t ray, double at) {
     const float above = detail::float_above(at);
     if (!(above < t[ray])) return;
@@ -92,7 +92,7 @@ class PairScreen {
     std::uint32_t ray[screen_lanes], instance[screen_lanes];
   };
 
-  /// By kind.
+  /// Sorts the waiting pairs into queues by kind.
   void sort_waiting() {
     for (std::size_t i = 0; i < count_; ++i) {
       const std::uint32_t ray = ray_[i], instance = instance_[i];
@@ -111,7 +111,7 @@ class PairScreen {
     count_ = 0;
   }
 
-  /// Eight are read, of which `used` count.
+  /// Screens eight entries; only the first `used` count.
   void look_at(FormKind kind, std::uint32_t* ray, std::uint32_t* instance, std::size_t used) {
     for (std::size_t i = used; i < screen_lanes; ++i) {
       ray[i] = ray[0];

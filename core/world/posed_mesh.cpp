@@ -16,7 +16,7 @@ namespace {
 constexpr double largest_number = 0x1p300;
 
 /// A matrix rounds once for each of its numbers, a product of three numbers with three others four
-/// times: five halves of epsilon, of which six are allowed.
+/// times: five halves of epsilon; six halves are allowed.
 constexpr double map_rounding = 3 * tolerance::epsilon<double>;
 
 /// Directions that are shorter, or longer than its inverse, are brought to a length of about 1.
@@ -25,7 +25,7 @@ constexpr double shortest = 0x1p-64;
 /// The ray in the mesh's frame. Its direction is longer by 2^exponent there.
 struct NearRay {
   Ray<double> ray;
-  double origin_loss = 0, direction_loss = 0;  ///< what they may be off
+  double origin_loss = 0, direction_loss = 0;  ///< bounds on their errors
   int exponent = 0;
   bool is_number = true;
 
@@ -61,7 +61,8 @@ NearRay near_ray(const PosedMesh& posed, const Ray<double>& ray,
   return near;
 }
 
-/// What t lacks, where it is rounded: from far away it has too few digits to tell the place.
+/// The remainder of t, lost where t was rounded: from far away t has too few digits to determine
+/// the place.
 double rest_of(const Vec3<double>& corner, const Vec3<double>& normal, const Ray<double>& ray,
                double t) {
   TwoFoldVec3<double> from_corner = exact_difference(ray.origin, corner);
@@ -101,7 +102,7 @@ MeshCast cast_of(const PosedMesh& posed, const NearRay& near, const PartHit& hit
   if (!std::isfinite(near.in_world(hit.t))) return {};
   answer.part = hit.part;
   const Vec3<double> normal = posed.mesh->normal(hit.part) * (hit.is_back ? -1.0 : 1.0);
-  // Where the ray itself may be elsewhere, its way to the triangle's plane is longer or shorter.
+  // If the ray itself is uncertain, its way to the triangle's plane is longer or shorter.
   const double beside =
       near.origin_loss + loss * posed.to_mesh.norm() + hit.t * near.direction_loss;
   double error = hit.error;

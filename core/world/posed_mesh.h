@@ -25,8 +25,8 @@ struct PosedMesh {
   Bounds<double> bounds_under(const Affine<double>& other) const;
 };
 
-/// Where a ray meets a posed mesh, and in which triangle. The normal is that of the triangle, on
-/// the side that the ray comes from.
+/// A ray's hit of a posed mesh, and the triangle. The normal is that of the triangle, on the side
+/// that the ray comes from.
 struct MeshCast {
   CastResult<double> cast;
   std::uint32_t part = no_part;
@@ -40,10 +40,10 @@ inline constexpr double leaving_mesh = 0x1p-36;
 /// place may be off. A miss is exhausted instead where numbers are too large.
 MeshCast cast_ray(const PosedMesh& posed, const Ray<double>& ray, double most, bool leaves,
                   double loss, PartCounts& counts);
-/// Where a ray from outside of a closed mesh leaves it again: the second time that it passes
-/// through, or the first where there is no second. Only the status and t are told.
+/// Finds where a ray from outside of a closed mesh leaves it again: the second time that it passes
+/// through, or the first if there is no second. Only the status and t are set.
 CastResult<double> cast_exit(const PosedMesh& posed, const Ray<double>& ray);
-/// Whether it is met up to ray.t_max.
+/// True if the mesh is met up to ray.t_max.
 bool is_met(const PosedMesh& posed, const Ray<double>& ray, bool leaves, PartCounts& counts);
 
 }  // namespace minkray

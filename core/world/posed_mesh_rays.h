@@ -8,7 +8,7 @@
 
 namespace minkray {
 
-/// What cast_ray needs to know of a ray.
+/// Parameters of a ray for cast_ray.
 struct MeshQuery {
   Ray<double> ray;
   double most = std::numeric_limits<double>::infinity();

@@ -15,8 +15,8 @@ inline constexpr std::size_t rays_of_block = 64;
 
 /// Rays of a block. Numbers are parameters of the rays.
 struct alignas(32) BlockAnswer {
-  /// By ray: nothing beyond `limit` is of interest; `lo` is where at the earliest the instance that
-  /// is surely met is met, infinite if there is none.
+  /// Indexed by ray: nothing beyond `limit` is of interest; `lo` is the earliest parameter at
+  /// which the sure hit's instance is met, infinite if there is none.
   float limit[rays_of_block], lo[rays_of_block];
   std::uint32_t instance[rays_of_block];  ///< the one that is surely met first, or no_instance
   /// Pairs that may be met before that, or instead of it.
@@ -30,7 +30,7 @@ struct alignas(32) BlockAnswer {
   std::uint32_t nodes;
 };
 
-/// What a block is traced through.
+/// Data that a block is traced through.
 struct BlockWorld {
   const BvhNode* nodes;
   const InstancePlace* places;

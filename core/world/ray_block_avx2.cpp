@@ -48,8 +48,8 @@ void see(const Block& block, const InstancePlace& place, const ScreenForm& form,
     dd += d * d;
     for (int column = 0; column < 3; ++column) seen.map[row][column] = W(scale * m[3 * column]);
   }
-  // How large all is that was added up: see `look` of core/cast/screen_kernel_avx2.cpp, at the
-  // worst of the rays.
+  // Magnitude of all numbers that were added up: see `look` of core/cast/screen_kernel_avx2.cpp,
+  // at the worst of the rays.
   const auto wide = static_cast<float>(block.widest);
   const float size = std::sqrt(map_squared) * largest_scale;
   const float reach_near = static_cast<float>(std::sqrt(near_squared)) + std::abs(k) * wide;
@@ -215,7 +215,7 @@ bool walk_block(const BlockWorld& world, const Block& block, RayKinds kinds, Blo
   struct alignas(16) Waiting {
     float enter;
     int child;
-    std::uint32_t node, what;  ///< what: a node, or the bit of leaves and an instance
+    std::uint32_t node, what;  ///< `what` is a node, or an instance with the bit of leaves
   };
   Waiting stack[bvh_max_depth * (bvh_width - 1) + 1];
   int top = 0;

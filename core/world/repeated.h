@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Instances that stand several times on one spot: rays need only know of two of them.
+// Instances that occur several times in one place: rays need only find two of them.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One ray through the hierarchy, near boxes first: float lanes look at the instances of a node
-// together, and what may be met is left to be cast at.
+// Traces one ray through the hierarchy, near boxes first: float lanes screen the instances of a
+// node together, and those that may be met are left to be cast at.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace minkray {
 
-/// What a single ray is traced through.
+/// Data that a single ray is traced through.
 struct SingleWorld {
   const BvhNode* nodes;
   const InstancePlace* places;

@@ -31,7 +31,7 @@ class Pending {
     __builtin_prefetch(world_.places + instance);
   }
 
-  /// Looks at all. False if there are too many candidates.
+  /// Screens all candidates. False if there are too many.
   bool look() {
     while (count_ != 0) {
       const FormKind kind = kind_of(count_ - 1);
@@ -62,8 +62,8 @@ class Pending {
     return world_.screens[world_.places[instance_[i]].body].kind;
   }
 
-  /// What is in a box that is entered after so many steps has no less t: SlabRay::limit the other
-  /// way round.
+  /// The contents of a box that is entered after this many steps have no less t: SlabRay::limit
+  /// the other way round.
   float least_t(float entered) const {
     const double from = static_cast<double>(entered) - static_cast<double>(slab_tiny);
     return static_cast<float>(from / (ray_.slabs.steps * static_cast<double>(hit_padding)));
@@ -71,7 +71,7 @@ class Pending {
 
   bool add_candidate(std::uint32_t instance, float first) {
     if (ray_.candidate_count == SingleRay::most_candidates) {
-      // What has become pointless makes room.
+      // Drops candidates beyond the limit.
       std::size_t kept = 0;
       for (const SingleRay::Candidate& one : ray_.candidates)
         if (one.first <= ray_.limit) ray_.candidates[kept++] = one;

@@ -183,7 +183,7 @@ void World::pose_all(const std::function<Affine<double>(std::size_t)>& pose_of,
   kind_of_all_ = instances_.kind_of_all();
   const FirstTouchVector<Bounds<float>> boxes = instances_.take_boxes();
   if (visits_as_built_ == 0) visits_as_built_ = visits();
-  if (has_repeated_) {  // they may stand apart now
+  if (has_repeated_) {  // the instances may be at different poses now
     build(boxes);
     visits_as_built_ = visits();
     return;

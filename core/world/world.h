@@ -35,19 +35,19 @@ class HitReceiver {
   virtual void take(std::size_t first, std::uint64_t which, const BlockHits& hits) = 0;
 };
 
-/// Any number of threads may query it while none changes it. An answer depends on nothing but the
-/// ray: it is the same bit for bit whether the ray is asked alone or with others, and for whatever
-/// hierarchy.
+/// Any number of threads may query a world while none changes it. A result depends on nothing but
+/// the ray: it is the same bit for bit for a single ray and within a batch, and for any hierarchy.
 class World {
  public:
   World() = default;
   explicit World(Instances instances, const CastOptions<double>& options = {},
                  BvhBuild build = BvhBuild::quality);
 
-  /// The instance that the ray meets first, with 0 <= t <= t_max; where several are met at the same
-  /// t, that of the least index. `skip` is left out: a ray that leaves a convex shape does not meet
-  /// it again. Of a mesh, only what is nearest to the ray's origin is left out (leaving_mesh). A
-  /// cast that does not converge is neither a hit nor a miss; check `counts.exhausted`.
+  /// The instance that the ray meets first, with 0 <= t <= t_max; where several are met at the
+  /// same t, that of the least index. `skip` is left out: a ray that leaves a convex shape does
+  /// not meet it again. On a mesh, only the part nearest to the ray's origin is left out
+  /// (leaving_mesh). A cast that does not converge is neither a hit nor a miss; check
+  /// `counts.exhausted`.
   WorldHit closest_hit(const Ray<double>& ray, QueryCounts& counts,
                        std::uint32_t skip = no_instance, double time = 0) const {
     return closest_hit(WorldRay{ray, skip, time}, counts);
@@ -74,8 +74,9 @@ class World {
   }
 
   /// Moves all instances: the i-th to pose_of(i), which several threads call at once, and with a
-  /// movement_of, from there as that says while time goes from 0 to 1. The hierarchy stays the same
-  /// tree around other boxes, unless these make rays visit half as much again: then it is rebuilt.
+  /// movement_of, from there along movement_of(i) while time goes from 0 to 1. The hierarchy stays
+  /// the same tree around other boxes, unless these make rays visit half as much again: then it is
+  /// rebuilt.
   void pose_all(const std::function<Affine<double>(std::size_t)>& pose_of,
                 const std::function<Movement<double>(std::size_t)>& movement_of = {});
 
@@ -94,7 +95,7 @@ class World {
  private:
   void build(const FirstTouchVector<Bounds<float>>& boxes);
   std::vector<Bounds<float>> boxes_of_meshes(const FirstTouchVector<Bounds<float>>& boxes) const;
-  /// By float lanes first; false if they do not decide.
+  /// Tries float lanes first; false if they do not decide.
   bool closer_candidate(const WorldRay& ray, WorldHit& closest, QueryCounts& counts) const;
   SingleRay single_ray(const WorldRay& ray) const;
   SingleWorld single_world() const;
@@ -122,7 +123,7 @@ class World {
                      QueryCounts& counts) const;
   void occluded_in_stream(const RaySpan& rays, std::span<std::uint8_t> met,
                           QueryCounts& counts) const;
-  /// True if float lanes may look at pairs first.
+  /// True if float lanes may screen pairs first.
   bool has_screen() const;
   auto prefetching() const {
     return [this](std::uint32_t instance) { instances_.prefetch(instance); };

@@ -133,7 +133,7 @@ bool World::answer_block(const RaySpan& rays, std::size_t first, HitReceiver& to
   }
   for (std::uint64_t left = special; left != 0; left &= left - 1) {
     const auto i = static_cast<std::size_t>(std::countr_zero(left));
-    // Where a sure hit was not found, or a solver failed to converge, the single ray decides.
+    // If a sure hit was not found, or a solver failed to converge, the single ray decides.
     const bool is_sure = hits.instance[i] != no_instance;
     const bool is_met =
         closest[i].found() && closest[i].cast.t() <= static_cast<double>(answer.limit[i]);

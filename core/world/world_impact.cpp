@@ -52,7 +52,7 @@ EarliestImpact first_impact(const PartsBody& moving, const RigidMotion& motion,
   struct Open {
     double time;
     std::uint32_t what;
-    /// The first to be looked at is the least.
+    /// Orders the queue so that the least time comes first.
     bool operator<(const Open& other) const {
       return time != other.time ? time > other.time : what > other.what;
     }

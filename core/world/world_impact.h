@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which of many bodies at rest a moving one touches first, and when: bodies are looked at in the
+// Finds which of many bodies at rest a moving one touches first, and when: bodies are tried in the
 // order in which the moving one's box meets theirs.
 #pragma once
 
@@ -8,8 +8,8 @@
 
 namespace minkray {
 
-/// A is the moving body, which all bodies with a bit of `mask` in their category are looked at
-/// for; `known` is what is known already of others.
+/// A is the moving body. All bodies with a bit of `mask` in their category are tested; `known` is
+/// the earliest impact already found with others.
 EarliestImpact first_impact(const PartsBody& moving, const RigidMotion& motion,
                          const ContactWorld& world, double t_max, std::uint32_t mask,
                          const EarliestImpact& known);

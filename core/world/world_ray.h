@@ -12,7 +12,7 @@
 
 namespace minkray {
 
-/// What queries cost, and how often a solver failed to converge. Adds up over rays.
+/// Cost of queries, and how often a solver failed to converge. Adds up over rays.
 struct QueryCounts {
   std::uint64_t nodes = 0;  ///< visited; by rays that go together, once for all of them
   std::uint64_t casts = 0;  ///< shapes cast at

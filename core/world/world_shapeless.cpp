@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Half-spaces and meshes, of which a world has few: asked before shapes, which what they hit
-// limits.
+// Half-spaces and meshes. A world has few of them: cast at before shapes, since their hits limit
+// the rays.
 #include <algorithm>
 
 #include "core/bvh/traverse.h"
@@ -33,7 +33,7 @@ class Rounds {
       : begins_(rays.size() + 1), next_(rays.size()) {
     for (std::size_t i = 0; i < rays.size(); ++i) {
       begins_[i] = next_[i] = meshes_.size();
-      if (meshes == 1) {  // its own walk begins with its box
+      if (meshes == 1) {  // a single mesh's own walk begins with its box
         meshes_.push_back(0);
         continue;
       }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Minkray for C++: convex shapes, scenes of them, rays cast at them, proofs of the answers,
-// distances and times of impact. Header-only over minkray_c.h, whose comments say what is promised
-// of threads, frames and units; docs/cpp.md has examples.
+// Minkray for C++: convex shapes, scenes of them, rays cast at them, proofs of the results,
+// distances and times of impact. Header-only over minkray_c.h, whose comments specify threads,
+// frames and units; docs/cpp.md has examples.
 //
 //   namespace mk = minkray;
 //   mk::Scene scene;
@@ -10,7 +10,7 @@
 //   mk::Hit hit = scene.cast({{-9, 0, 0}, {1, 0, 0}});
 //   if (hit.status == mk::hit) use(hit.t, hit.t_lo, hit.t_hi, hit.normal);
 //
-// Whatever goes wrong is a minkray::Error, which says what, and where.
+// Every failure throws a minkray::Error, whose text names what failed, and where.
 #pragma once
 
 #include <concepts>
@@ -84,7 +84,7 @@ class Text {
   const char* text_ = nullptr;
 };
 
-/// What went wrong: what() names the function, the argument and what it must be.
+/// An error of a call: what() names the function, the argument and what it must be.
 class Error : public std::exception {
  public:
   /// Takes the text of this thread's last call that failed.
@@ -382,10 +382,10 @@ inline Shape read_shape(Text json, Text folder = {}) {
   return Shape(made);
 }
 
-/// A mesh: triangles with shared vertices, counter-clockwise as seen from outside. It is met as it
-/// is, not as its hull. `triangles` is a contiguous range of numbers of vertices, or of anything
-/// that is three std::uint32_t, such as std::array<std::uint32_t, 3>. Scenes and rays take it as
-/// they take a shape; it is not convex, so that no shape is made of it.
+/// A mesh: triangles with shared vertices, counter-clockwise as seen from outside. Rays meet the
+/// mesh itself, not its hull. `triangles` is a contiguous range of numbers of vertices, or of
+/// anything that is three std::uint32_t, such as std::array<std::uint32_t, 3>. Scenes and rays
+/// accept a mesh like a shape; it is not convex, so it cannot be an operand of other shapes.
 template <class Triangles>
 Shape mesh(View<const Vec3> vertices, const Triangles& triangles) {
   using Item = std::remove_cvref_t<decltype(*triangles.data())>;
@@ -420,7 +420,7 @@ inline Shape height_field(View<const double> heights, std::size_t rows, std::siz
   return Shape(made);
 }
 
-/// What a mesh is like: see minkray_mesh_info.
+/// Properties of a mesh: see minkray_mesh_info.
 struct MeshInfo {
   std::size_t vertices = 0, triangles = 0, open_edges = 0, without_area = 0, repeated = 0;
   bool is_closed() const { return open_edges == 0; }
@@ -435,7 +435,7 @@ inline MeshInfo mesh_info(const Shape& mesh) {
 }
 
 namespace detail {
-/// Runs a support function; what it throws is told by the query that called it.
+/// Runs a support function; the query that called it reports its exceptions.
 template <class Work>
 int answer(Work&& work) {
   try {
@@ -488,16 +488,16 @@ int answer_jets(const Function& function, std::size_t count, const double (*n)[3
 }
 }  // namespace detail
 
-/// Your own shape: `support(const Vec3& n)` is to answer the point furthest along n, which has
-/// length 1. It is called by several threads at once. What it throws ends the query with an Error
-/// that has its text, and so does any answer that no convex shape can have.
+/// Your own shape: `support(const Vec3& n)` returns the point furthest along n, which has length
+/// 1. Several threads call it at once. An exception ends the query with an Error that has its
+/// text, and so does any result that no convex shape can have.
 template <class Support>
 Shape custom(Support support) {
   return detail::custom_within(std::move(support), nullptr, nullptr);
 }
-/// Makes a shape of a function that is asked for many points at once:
-/// `support(View<const Vec3> directions, View<Vec3> points)`. With `gathered`, rays wait for each
-/// other until there are so many, as is worth while if a call is dear.
+/// Makes a shape of a function that computes many points per call: `support(View<const Vec3>
+/// directions, View<Vec3> points)`. With `gathered`, rays wait for each other until there are that
+/// many directions, which pays off if a call is expensive.
 template <class Support>
 Shape custom_batched(Support support, std::size_t gathered = 0) {
   minkray_support given = {};
@@ -519,7 +519,7 @@ struct SupportJet {
   Vec3 point;
   double derivative[3][3];  ///< of the point by a direction of length 1
 };
-/// Makes a smooth shape of a function that knows its curvature, `jet(const Vec3& n)` answering a
+/// Makes a smooth shape of a function with its curvature, `jet(const Vec3& n)` returning a
 /// SupportJet: casts take a fraction of the support points. Wrong derivatives cost time only.
 template <class Function>
 Shape custom_with_jets(Function jet) {
@@ -546,12 +546,12 @@ Shape custom(Support support, const Vec3& lower, const Vec3& upper) {
 
 // ---- rays ----
 
-/// What became of a ray.
+/// Result of a ray.
 enum Status : std::int32_t {
   hit = MINKRAY_HIT,
   miss = MINKRAY_MISS,
   inside = MINKRAY_INSIDE,       ///< the ray begins in the object
-  exhausted = MINKRAY_EXHAUSTED  ///< gave up: neither a hit nor a miss
+  exhausted = MINKRAY_EXHAUSTED  ///< did not converge: neither a hit nor a miss
 };
 
 /// The points origin + t direction, 0 <= t <= t_max; a direction of zero is an Error. As in
@@ -564,7 +564,7 @@ static_assert(sizeof(Ray) == sizeof(minkray_ray));
 
 inline constexpr std::uint32_t no_object = MINKRAY_NO_OBJECT;
 
-/// What a ray met; see minkray_hit.
+/// Hit of a ray; see minkray_hit.
 struct Hit {
   double t = std::numeric_limits<double>::infinity();  ///< in lengths of the direction
   double t_lo = t, t_hi = t;                           ///< the true t is between them
@@ -579,9 +579,9 @@ struct Hit {
 };
 static_assert(sizeof(Hit) == sizeof(minkray_hit));
 
-/// What takes long may be told of, and stopped.
+/// Options of long calls: threads, and a callback that reports progress and can stop the call.
 struct Options {
-  int threads = 0;                                     ///< 0: one a core
+  int threads = 0;                                     ///< 0: one per core
   int (*progress)(void* user, double done) = nullptr;  ///< answers anything but 0 to stop
   void* user = nullptr;
 };
@@ -619,7 +619,7 @@ inline std::size_t lidar(Text pattern, const Pose& pose, View<Ray> rays = {}) {
   return needed;
 }
 
-/// What is met of one shape alone.
+/// Casts a ray at one shape alone.
 inline Hit cast(const Shape& shape, const Ray& ray, const Pose& pose = identity()) {
   Hit found;
   detail::check(minkray_shape_cast(shape.handle(), detail::plain(&pose), detail::plain({&ray, 1}),
@@ -629,7 +629,7 @@ inline Hit cast(const Shape& shape, const Ray& ray, const Pose& pose = identity(
 
 // ---- scenes ----
 
-/// How a file is read.
+/// Options for reading a file.
 struct FileOptions {
   const Pose* pose = nullptr;  ///< of all that is in it
   Text geometry = {};          ///< of robots: "visual", "collision" or "all"
@@ -639,7 +639,7 @@ struct FileOptions {
   Text meshes = {};  ///< of robots: "exact" or "hull"; empty: exact, of MJCF hull for contact
 };
 
-/// How a picture is made; see minkray_picture_options.
+/// Options of a picture; see minkray_picture_options.
 struct PictureOptions {
   Text view = {};  ///< camera, lights and background, as scene files have them
   std::uint32_t width = 0, height = 0;
@@ -661,13 +661,13 @@ struct Clearance {
 static_assert(sizeof(Clearance) == sizeof(minkray_clearance) &&
               offsetof(Clearance, is_settled) == offsetof(minkray_clearance, is_settled));
 
-/// What Verdict::status is.
+/// Values of Verdict::status.
 enum MotionStatus : std::int32_t {
   motion_free = MINKRAY_MOTION_FREE,
   motion_collides = MINKRAY_MOTION_COLLIDES,
   motion_undecided = MINKRAY_MOTION_UNDECIDED
 };
-/// What is proven of a robot's motion; see minkray_verdict.
+/// Proven result for a robot's motion; see minkray_verdict.
 struct Verdict {
   double lower = 0, upper = 0;
   double row = 0, begin = 0, end = 0;
@@ -679,7 +679,7 @@ struct Verdict {
 static_assert(sizeof(Verdict) == sizeof(minkray_verdict) &&
               offsetof(Verdict, status) == offsetof(minkray_verdict, status));
 
-// The pairs of a scene are asked with these, which minkray/pairs.h defines.
+// Types for queries on the pairs of a scene, which minkray/pairs.h defines.
 struct Bodies;
 struct Manifold;
 struct NearOptions;
@@ -693,11 +693,11 @@ struct ObjectPair {
   std::uint32_t a = 0, b = 0;
 };
 
-/// Shapes with poses. Any number of threads may ask one. Changing one that is asked, or asking one
-/// that is changed, is an Error.
+/// Shapes with poses. Any number of threads may query one. Changing a scene during a query, or
+/// querying it during a change, is an Error.
 class Scene {
  public:
-  /// What came from a file: objects with numbers that follow each other.
+  /// Contents of a file: objects with consecutive numbers.
   class Group {
    public:
     std::uint32_t number() const { return group_; }
@@ -786,7 +786,7 @@ class Scene {
   /// Makes queries see all changes: builds or refits, whichever is due.
   void commit() { detail::check(minkray_scene_commit(handle_)); }
 
-  /// How many objects were added.
+  /// Number of objects that were added.
   std::uint32_t size() const {
     std::uint32_t objects = 0;
     detail::check(minkray_scene_size(handle_, &objects, nullptr));
@@ -798,7 +798,7 @@ class Scene {
     detail::check(minkray_scene_name(handle_, object, &found));
     return found;
   }
-  /// Where an object is.
+  /// Pose of an object.
   Pose pose(std::uint32_t object) const {
     Pose found;
     detail::check(minkray_scene_pose(handle_, object, reinterpret_cast<minkray_pose*>(&found)));
@@ -819,7 +819,7 @@ class Scene {
     detail::check(
         minkray_scene_cast(handle_, detail::plain(rays), rays.size(), detail::plain(hits), &how));
   }
-  /// Whether anything is met: hit, miss, or exhausted.
+  /// Tests if anything is met: hit, miss, or exhausted.
   Status occluded(const Ray& ray) const {
     std::uint8_t answer = 0;
     detail::check(
@@ -833,7 +833,7 @@ class Scene {
     detail::check(minkray_scene_occluded_rays(handle_, detail::plain(rays), rays.size(),
                                               answers.data(), &how));
   }
-  /// Where a ray leaves an object.
+  /// Finds where a ray leaves an object.
   Hit exit(std::uint32_t object, const Ray& ray) const {
     Hit found;
     detail::check(minkray_scene_exit(handle_, object, detail::plain({&ray, 1}), 1,
@@ -861,8 +861,8 @@ class Scene {
     detail::check(
         minkray_scene_render(handle_, &plain, channels.data(), channels.size(), &plain_how));
   }
-  /// How near a robot comes to itself and to all else on its way through rows of joints' values:
-  /// one answer for each two rows, and the least of all.
+  /// Clearance of a robot to itself and to all else on its way through rows of joint values: one
+  /// result for each two rows, and the least of all.
   Clearance clearance(const Group& robot, View<const double> path, std::size_t rows,
                       View<Clearance> steps = {}) const {
     constexpr const char* function = "minkray::Scene::clearance";
@@ -902,7 +902,7 @@ class Scene {
   /// Left out is what masks and `allow` leave out, and what a robot's joints connect.
   ScenePairs distances(double within = 0) const;
   ScenePairs distances(const NearOptions& options) const;
-  /// Those pairs, in their order, whatever was said of them.
+  /// Exactly those pairs, in their order, regardless of masks and allowed pairs.
   ScenePairs distances(View<const ObjectPair> pairs) const;
   ScenePairs distances(View<const ObjectPair> pairs, const NearOptions& options) const;
   /// The k objects nearest to each point: k answers a point, the nearest first.
@@ -911,7 +911,7 @@ class Scene {
   /// The object nearest to each of many shapes that are no part of the scene.
   void distance_to(const Bodies& shapes, View<ScenePair> nearest, const NearOptions& options) const;
   ScenePair distance_to(const Shape& shape, const Pose& pose) const;
-  /// What shapes that move through the scene touch first, at times from 0 to t_max.
+  /// Finds what moving shapes touch first in the scene, at times from 0 to t_max.
   void times_of_impact(const Bodies& shapes, View<const double> t_max, View<SceneImpact> impacts,
                        const NearOptions& options) const;
   SceneImpact time_of_impact(const Shape& shape, const Pose& pose, const Twist& twist,
@@ -920,12 +920,12 @@ class Scene {
   Manifold manifold(std::uint32_t object_a, std::uint32_t object_b) const;
   /// Objects are a pair if each one's mask has a bit of the other's category.
   void set_masks(std::uint32_t object, std::uint32_t category, std::uint32_t mask);
-  /// Says if two objects may touch: such pairs are left out.
+  /// Allows two objects to touch, or not: allowed pairs are left out.
   void allow(std::uint32_t object_a, std::uint32_t object_b, bool is_allowed = true);
-  /// Allows what an SRDF file says of the robot's links.
+  /// Allows the pairs of the robot's links that an SRDF file lists.
   void allow_from_srdf(const Group& robot, Text file);
   /// The least distance of each step of a robot's way, with its derivative by the joints' values at
-  /// its row: as many numbers a step as a row has. See minkray_scene_clearance_derivatives.
+  /// its row: as many numbers per step as a row has. See minkray_scene_clearance_derivatives.
   void clearance_derivatives(const Group& robot, View<const double> path, std::size_t rows,
                              View<Clearance> steps, View<double> jac,
                              View<std::uint8_t> is_ridge = {}) const;
@@ -942,14 +942,14 @@ class Scene {
 
 // ---- pairs of shapes ----
 
-/// What Distance::status is.
+/// Values of Distance::status.
 enum DistanceStatus : std::int32_t {
   separated = MINKRAY_SEPARATED,
   touching = MINKRAY_TOUCHING,  ///< the bounds are on both sides of 0
   overlapping = MINKRAY_OVERLAPPING,
-  undecided = MINKRAY_UNDECIDED  ///< the bounds hold, but are further apart than was asked
+  undecided = MINKRAY_UNDECIDED  ///< the bounds hold, but are not within the tolerance
 };
-/// What Impact::status is.
+/// Values of Impact::status.
 enum ImpactStatus : std::int32_t {
   impact = MINKRAY_IMPACT,
   no_impact = MINKRAY_NO_IMPACT,  ///< proven
@@ -957,7 +957,7 @@ enum ImpactStatus : std::int32_t {
   impact_undecided = MINKRAY_IMPACT_UNDECIDED  ///< none before t_lo; no more is known
 };
 
-/// How far apart two shapes are; see minkray_distance.
+/// Distance of two shapes; see minkray_distance.
 struct Distance {
   double value = 0, lower = 0, upper = 0;
   Vec3 point_a, point_b, normal;
@@ -966,7 +966,7 @@ struct Distance {
 static_assert(sizeof(Distance) == sizeof(minkray_distance) &&
               offsetof(Distance, status) == offsetof(minkray_distance, status));
 
-/// How a shape moves: the origin of its frame by `velocity`, and about that by `turn`, a rotation
+/// Motion of a shape: the origin of its frame by `velocity`, and about that by `turn`, a rotation
 /// vector in the world, radians per unit of time.
 struct Twist {
   Vec3 velocity, turn;
@@ -983,7 +983,7 @@ struct Impact {
 static_assert(sizeof(Impact) == sizeof(minkray_impact) &&
               offsetof(Impact, status) == offsetof(minkray_impact, status));
 
-/// How far apart, or how deep in each other (less than zero): lower <= value <= upper, proven.
+/// Distance, or minus the penetration depth: lower <= value <= upper, proven.
 inline Distance signed_distance(const Shape& a, const Pose& pose_a, const Shape& b,
                                 const Pose& pose_b, double tolerance = 0) {
   const minkray_distance_options options = {sizeof options, tolerance, 0, 0, 0};

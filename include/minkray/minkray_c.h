@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: MIT
  * Minkray for C and for every language that can call C: convex shapes, scenes of them, rays cast at
- * them, proofs of the answers, distances and times of impact. docs/c.md has examples.
+ * them, proofs of the results, distances and times of impact. docs/c.md has examples.
  *
- * All functions that answer an int answer MINKRAY_OK or another minkray_code; what was wrong, and
- * where, minkray_last_error() says then. Nothing is written to a result of a call that failed,
- * unless its description says so.
+ * All functions that return an int return MINKRAY_OK or another minkray_code; minkray_last_error()
+ * then names the error and its place. A failed call writes no results, unless its description
+ * allows it.
  *
- * Handles are numbers, never addresses: one that was released, or never made, is an error that is
- * told, whatever was made since.
+ * Handles are numbers, never addresses: using one that was released, or never made, is a reported
+ * error, even if others were made since.
  *
- * Threads: functions that take a scene and do not say that they change it may be called for it by
- * any number of threads at once, and so may all functions of shapes. A call that changes or
- * releases a scene while another call uses it, from any thread or from a callback, returns
- * MINKRAY_WRONG_USE and changes nothing; so does a call that uses a scene while it is changed.
+ * Threads: functions that take a scene and are not described as changing it may be called by any
+ * number of threads at once, and so may all functions of shapes. A call that changes or releases a
+ * scene while another call uses it, from any thread or from a callback, returns MINKRAY_WRONG_USE
+ * and changes nothing; so does a call that uses a scene while it is changed.
  *
  * All points, directions and poses are in the frame of the world, of one unit of length, in double.
  */
@@ -36,22 +36,22 @@
 extern "C" {
 #endif
 
-/* What became of a call. */
+/* Return codes. */
 typedef enum minkray_code {
   MINKRAY_OK = 0,
   MINKRAY_WRONG_USE = 1,   /* an argument that cannot be, or a call at the wrong time */
   MINKRAY_BAD_INPUT = 2,   /* a file or text that cannot be used */
-  MINKRAY_BAD_SUPPORT = 3, /* a support function of yours is none: it contradicts itself; results
-                            * may be filled in part */
+  MINKRAY_BAD_SUPPORT = 3, /* a support function of yours contradicts itself; results may be filled
+                            * in part */
   MINKRAY_NO_MEMORY = 4,
-  MINKRAY_STOPPED = 5, /* you asked for it; results are filled in part */
+  MINKRAY_STOPPED = 5, /* stopped by your callback; results are filled in part */
   MINKRAY_DEFECT = 6   /* an error of Minkray's own: please report it */
 } minkray_code;
 
 /* "0.1.0", of the library that is running. */
 MINKRAY_API const char* minkray_version(void);
 
-/* What the last call of this thread that failed says, one mistake a line. Valid until the next. */
+/* Message of this thread's last failed call, one mistake per line. Valid until the next call. */
 MINKRAY_API const char* minkray_last_error(void);
 
 /* ---- shapes ---------------------------------------------------------------------------------- */
@@ -76,19 +76,19 @@ typedef struct minkray_parameter {
   size_t shape_count;
 } minkray_parameter;
 
-/* A shape of any kind that scene files know, by the same names: `minkray info --shapes` lists kinds
+/* Makes a shape of any kind in scene files, by the same names: `minkray info --shapes` lists kinds
  * and parameters. The operands may be released afterwards. */
 MINKRAY_API int minkray_shape_make(const char* kind, const minkray_parameter* parameters,
                                    size_t count, minkray_shape* shape);
 
-/* What a scene file says of a shape, as text. Mesh files are looked for in `folder`, which may be
- * NULL for the working folder. */
+/* Reads a shape from the JSON text of a scene file. Mesh files are searched in `folder`, which may
+ * be NULL for the working folder. */
 MINKRAY_API int minkray_shape_read(const char* json, const char* folder, minkray_shape* shape);
 
-/* Your own shape: points[i] is to be the point of it furthest along directions[i], which has length
- * 1. Equal directions must get equal points. It is called by several threads at once. Queries of
- * the shape itself, or of what it is part of, return MINKRAY_WRONG_USE from within it. It answers
- * 0, or anything else if it failed: see minkray_support_failed. */
+/* Your own shape: points[i] is its point furthest along directions[i], which has length 1. Equal
+ * directions must get equal points. Several threads call it at once. Queries of the shape itself,
+ * or of shapes made of it, return MINKRAY_WRONG_USE from within it. Returns 0, or anything else if
+ * it failed: see minkray_support_failed. */
 typedef int (*minkray_support_function)(void* user, size_t count, const double (*directions)[3],
                                         double (*points)[3]);
 
@@ -101,9 +101,10 @@ typedef struct minkray_support {
 } minkray_support;
 
 /* A mesh: triangles with shared vertices, three numbers of vertices each, counter-clockwise as seen
- * from outside. It is met as it is, not as its hull, from both sides, and a ray at an edge or
- * vertex of a closed mesh meets one of the triangles there. Scenes take it as they take a shape;
- * where a shape must be convex, as in minkray_shape_make, it is refused. Both arrays are copied. */
+ * from outside. Rays meet the mesh itself, not its hull, from both sides, and a ray at an edge or
+ * vertex of a closed mesh meets one of the triangles there. Scenes accept a mesh like a shape;
+ * functions that need a convex shape, such as minkray_shape_make, reject it. Both arrays are
+ * copied. */
 MINKRAY_API int minkray_shape_mesh(const double (*vertices)[3], size_t vertex_count,
                                    const uint32_t (*triangles)[3], size_t triangle_count,
                                    minkray_shape* shape);
@@ -117,7 +118,7 @@ MINKRAY_API int minkray_shape_height_field(const double* heights, size_t rows, s
                                            double size_x, double size_y, const double* bottom,
                                            minkray_shape* shape);
 
-/* What a mesh is like. Vertices at one place count as one for all but `vertices`. */
+/* Properties of a mesh. Vertices at one place count as one for all but `vertices`. */
 typedef struct minkray_mesh_info {
   size_t vertices, triangles;
   size_t open_edges;   /* edges without as many triangles on one side as on the other; 0: closed */
@@ -127,32 +128,31 @@ typedef struct minkray_mesh_info {
 /* Counts a mesh's vertices, triangles and defects. */
 MINKRAY_API int minkray_shape_mesh_info(minkray_shape shape, minkray_mesh_info* info);
 
-/* Says why a support function of yours fails, for the error of the query that called it. Ignored
- * anywhere else. */
+/* Sets the reason why a support function of yours fails, for the error of the query that called it.
+ * Ignored anywhere else. */
 MINKRAY_API void minkray_support_failed(const char* reason);
 
-/* Makes a shape of a support function. It is asked in some hundred directions at once, and its
- * answers are held against each other: MINKRAY_BAD_SUPPORT if no convex shape has them. Whatever it
- * answers later on is checked as well, and queries that it lies to answer MINKRAY_BAD_SUPPORT.
- * `release` is called if this fails. */
+/* Makes a shape of a support function. The function is called for some hundred directions at once,
+ * and its results are compared with each other: MINKRAY_BAD_SUPPORT if no convex shape has them.
+ * Later results are checked as well, and queries that get inconsistent ones return
+ * MINKRAY_BAD_SUPPORT. `release` is called if this fails. */
 MINKRAY_API int minkray_shape_custom(const minkray_support* support, minkray_shape* shape);
 
-/* Makes one of a function that is dear to call and cheap by the direction, such as those of
- * interpreters: where many rays are cast they wait for each other, so that up to `gathered`
- * directions are asked for at once. The answers are the same; others come in calls of at most 16.
- */
+/* Makes one of a function that is expensive per call and cheap per direction, such as those of
+ * interpreters: when many rays are cast they wait for each other, so that one call has up to
+ * `gathered` directions. The results are the same; other queries call with at most 16. */
 MINKRAY_API int minkray_shape_custom_gathered(const minkray_support* support, size_t gathered,
                                               minkray_shape* shape);
 
-/* How support points move as directions turn: derivatives[i] is that of points[i] by the direction,
+/* Derivatives of support points with respect to the direction: derivatives[i] is that of points[i],
  * for directions of length 1: a symmetric matrix, row by row, whose product with the direction is
  * zero. Radii of curvature are its other eigenvalues; at a vertex it is zero. */
 typedef int (*minkray_jet_function)(void* user, size_t count, const double (*directions)[3],
                                     double (*points)[3], double (*derivatives)[9]);
 
-/* Makes one of a smooth shape that knows its curvature, which saves most of the support points of a
- * cast. `jets` gets the same `user`, and must answer the same points. Derivatives guide casts, and
- * nothing is believed of them: wrong ones cost time. */
+/* Makes one of a smooth shape with known curvature, which saves most of the support points of a
+ * cast. `jets` gets the same `user`, and must return the same points. Derivatives only guide casts,
+ * and are not trusted: wrong ones cost time. */
 MINKRAY_API int minkray_shape_custom_with_jets(const minkray_support* support,
                                                minkray_jet_function jets, minkray_shape* shape);
 
@@ -160,8 +160,9 @@ MINKRAY_API int minkray_shape_custom_with_jets(const minkray_support* support,
 MINKRAY_API int minkray_shape_retain(minkray_shape shape);
 MINKRAY_API int minkray_shape_release(minkray_shape shape);
 
-/* What minkray_shape_read makes the same shape of. Writes at most `size` bytes, the last of them 0,
- * and to `needed` (if not NULL) how many it takes. Custom shapes cannot be written. */
+/* Writes the JSON text from which minkray_shape_read makes the same shape: at most `size` bytes,
+ * the last of them 0, and to `needed` (if not NULL) the number of bytes required. Custom shapes
+ * cannot be written. */
 MINKRAY_API int minkray_shape_write(minkray_shape shape, char* text, size_t size, size_t* needed);
 
 /* The kind's name, such as "rounded". */
@@ -187,9 +188,9 @@ typedef struct minkray_scene {
 MINKRAY_API int minkray_scene_make(minkray_scene* scene);
 MINKRAY_API int minkray_scene_release(minkray_scene scene);
 
-/* Adds a shape. The functions from here to minkray_scene_commit change the scene. What is added is
- * numbered from 0 on. `pose` may be any invertible map, NULL for the identity; `name` may be NULL;
- * so may the places for numbers. */
+/* Adds a shape. The functions from here to minkray_scene_commit change the scene. Objects are
+ * numbered from 0 on. `pose` may be any invertible map, NULL for the identity; `name` and the
+ * output pointers may be NULL. */
 MINKRAY_API int minkray_scene_add(minkray_scene scene, minkray_shape shape,
                                   const minkray_pose* pose, const char* name, uint32_t* object);
 
@@ -203,24 +204,24 @@ typedef struct minkray_file_options {
                                       must be for one with particles */
   const char* geometry;            /* of robots: "visual" (or NULL), "collision" or "all" */
   const char* keyframe;            /* or NULL */
-  const char* const* package_dirs; /* where package:// and model:// are looked for */
+  const char* const* package_dirs; /* search path for package:// and model:// */
   size_t package_dir_count;
   int skip_missing_meshes;
   const char* meshes; /* of robots: "exact" keeps their triangles, "hull" takes the convex hulls of
-                         their vertices; NULL: exact, but of MJCF hull for contact. Read if `size`
-                         says that it is there */
+                       * their vertices; NULL: exact, but hull for contact in MJCF. Read only if
+                       * `size` covers it */
 } minkray_file_options;
 
 /* Adds all objects of a scene file of Minkray's (.json) or of a robot's description (URDF, MJCF,
- * SDF): a group of objects with numbers that follow each other. Options may be NULL. */
+ * SDF): a group of objects with consecutive numbers. Options may be NULL. */
 MINKRAY_API int minkray_scene_add_file(minkray_scene scene, const char* file,
                                        const minkray_file_options* options, uint32_t* group);
 
-/* Moves an object. Of robots, joints move it again. */
+/* Moves an object. Setting a joint moves a robot's object again. */
 MINKRAY_API int minkray_scene_set_pose(minkray_scene scene, uint32_t object,
                                        const minkray_pose* pose);
 
-/* Moves all that came from a file. One with particles cannot be moved: MINKRAY_WRONG_USE. */
+/* Moves all objects of a file. One with particles cannot be moved: MINKRAY_WRONG_USE. */
 MINKRAY_API int minkray_scene_set_group_pose(minkray_scene scene, uint32_t group,
                                              const minkray_pose* pose);
 
@@ -233,26 +234,26 @@ MINKRAY_API int minkray_scene_set_joint(minkray_scene scene, uint32_t group, con
  * it return MINKRAY_WRONG_USE; all other numbers stay. */
 MINKRAY_API int minkray_scene_remove(minkray_scene scene, uint32_t object);
 
-/* Makes rays meet what was added and moved since the last commit: builds the hierarchy, or if
- * things only moved, refits it. */
+/* Makes rays meet the objects added and moved since the last commit: builds the hierarchy, or if
+ * objects only moved, refits it. */
 MINKRAY_API int minkray_scene_commit(minkray_scene scene);
 
-/* How many objects were added, removed ones included. Particles of scene files are numbered after
- * all objects, once the scene is committed. */
+/* Number of objects that were added, removed ones included. Particles of scene files are numbered
+ * after all objects, once the scene is committed. */
 MINKRAY_API int minkray_scene_size(minkray_scene scene, uint32_t* objects, uint32_t* particles);
 
 /* An object's name, valid as long as the scene lives. */
 MINKRAY_API int minkray_scene_name(minkray_scene scene, uint32_t object, const char** name);
-/* Where an object is. */
+/* Pose of an object. */
 MINKRAY_API int minkray_scene_pose(minkray_scene scene, uint32_t object, minkray_pose* pose);
 
-/* The objects of a group, and how many joints it has that move. */
+/* Objects of a group, and the number of its joints that move. */
 MINKRAY_API int minkray_scene_group(minkray_scene scene, uint32_t group, uint32_t* first_object,
                                     uint32_t* objects, uint32_t* joints);
-/* A joint's name, and how many numbers it has. */
+/* Name of a joint, and the count of its numbers. */
 MINKRAY_API int minkray_scene_joint(minkray_scene scene, uint32_t group, uint32_t joint,
                                     const char** name, size_t* number_count);
-/* What the joint is set to: as many numbers as minkray_scene_joint reports, at most `size`. */
+/* Value of a joint: as many numbers as minkray_scene_joint reports, at most `size`. */
 MINKRAY_API int minkray_scene_joint_value(minkray_scene scene, uint32_t group, uint32_t joint,
                                           double* values, size_t size);
 
@@ -271,7 +272,7 @@ typedef enum minkray_status {
   MINKRAY_HIT = 0,
   MINKRAY_MISS = 1,
   MINKRAY_INSIDE = 2,   /* the ray begins in the object: t = 0 */
-  MINKRAY_EXHAUSTED = 3 /* the solver gave up: this is neither a hit nor a miss */
+  MINKRAY_EXHAUSTED = 3 /* the solver did not converge: neither a hit nor a miss */
 } minkray_status;
 
 typedef struct minkray_hit {
@@ -281,31 +282,31 @@ typedef struct minkray_hit {
   double t_base; /* t is t_base + t_offset, which have more digits than their sum */
   double t_offset;
   double point[3];  /* NaN where nothing is met */
-  double normal[3]; /* outward, of length 1; zero where there is none. Of a mesh: towards the ray */
+  double normal[3]; /* outward, of length 1; zero if there is none; on a mesh towards the ray */
   uint32_t object;  /* or MINKRAY_NO_OBJECT */
   int32_t status;   /* a minkray_status */
-  int32_t supports; /* how often the object's support mapping was asked */
+  int32_t supports; /* calls of the object's support mapping */
   int32_t part;     /* of a mesh: the triangle that is met; -1 of all else */
 } minkray_hit;
 
 typedef struct minkray_options {
   size_t size;     /* sizeof(minkray_options) */
-  int32_t threads; /* 0: one a core. The answers are the same bits for any number */
+  int32_t threads; /* 0: one per core. The results are the same bits for any number */
   int32_t reserved;
-  /* Told now and then what part is done, by one thread at a time; answers anything but 0 to stop.
-   * May be NULL. */
+  /* Called now and then with the part that is done, by one thread at a time; returns anything but 0
+   * to stop. May be NULL. */
   int (*progress)(void* user, double done);
   void* user;
 } minkray_options;
 
-/* What each ray meets first; where several are met at the same t, the one of the least number. The
- * answers are the same bits however rays are cut into calls. A ray whose solver gave up at any
- * object is MINKRAY_EXHAUSTED, though something may have been met: then it is told. Options may be
- * NULL. */
+/* Finds what each ray meets first; where several objects are met at the same t, the one of the
+ * least number. The results are the same bits however rays are split into calls. A ray is
+ * MINKRAY_EXHAUSTED if the solver did not converge at any object, even if another was met; that hit
+ * is then filled in. Options may be NULL. */
 MINKRAY_API int minkray_scene_cast(minkray_scene scene, const minkray_ray* rays, size_t count,
                                    minkray_hit* hits, const minkray_options* options);
 
-/* Rays and answers as arrays: strides are in bytes from one ray to the next. */
+/* Rays and results as arrays: strides are in bytes from one ray to the next. */
 typedef struct minkray_ray_arrays {
   size_t size; /* sizeof(minkray_ray_arrays) */
   const double* origins;
@@ -323,12 +324,12 @@ typedef struct minkray_hit_arrays {
   double* t_lo;
   double* t_hi;
   double* distance; /* t times the direction's length */
-  double* points;   /* three a ray */
-  double* normals;  /* three a ray */
+  double* points;   /* three per ray */
+  double* normals;  /* three per ray */
   uint32_t* objects;
   uint8_t* status;
   int32_t* supports;
-  int32_t* parts; /* read if `size` says that it is there */
+  int32_t* parts; /* read only if `size` covers it */
 } minkray_hit_arrays;
 
 /* Casts rays in arrays. */
@@ -347,34 +348,33 @@ MINKRAY_API int minkray_scene_occluded_rays(minkray_scene scene, const minkray_r
                                             size_t count, uint8_t* blocked,
                                             const minkray_options* options);
 
-/* Where rays leave one object: MINKRAY_HIT at the greatest t, MINKRAY_INSIDE if they end in it at
- * t_max, MINKRAY_MISS if they never meet it. Not for half-spaces, which have no end. */
+/* Finds where rays leave one object: MINKRAY_HIT at the greatest t, MINKRAY_INSIDE if they end in
+ * it at t_max, MINKRAY_MISS if they never meet it. Not for half-spaces, which are unbounded. */
 MINKRAY_API int minkray_scene_exit(minkray_scene scene, uint32_t object, const minkray_ray* rays,
                                    size_t count, minkray_hit* hits, const minkray_options* options);
 
-/* What is met of one shape, alone. `pose` may be NULL. */
+/* Casts rays at one shape alone. `pose` may be NULL. */
 MINKRAY_API int minkray_shape_cast(minkray_shape shape, const minkray_pose* pose,
                                    const minkray_ray* rays, size_t count, minkray_hit* hits,
                                    const minkray_options* options);
 
 /* ---- proofs ---------------------------------------------------------------------------------- */
 
-/* Whether an answer holds, found by support points alone (docs/certificates.md). */
+/* Verdict on a result, found by support points alone (docs/certificates.md). */
 typedef struct minkray_proof {
   int32_t holds; /* 1 if so */
   int32_t reserved;
   uint32_t against; /* the object that the proof failed at, or MINKRAY_NO_OBJECT */
   uint32_t checked; /* objects for which something had to be proven */
-  double t_lo;      /* of hits: what is proven of t, rounding allowed for */
+  double t_lo;      /* of hits: proven bounds of t, with an allowance for rounding */
   double t_hi;
   double plane[3]; /* of hits: nothing of the object lies beyond this plane through t_lo */
   char complaint[56];
-  double allowed; /* how far across a plane what is proven may be rounded, as a length */
+  double allowed; /* rounding allowed across a plane, as a length */
 } minkray_proof;
 
-/* Proves answers of minkray_scene_cast: that the object is hit where it is said to be, and that all
- * others are missed before. What is proven is that, up to the rounding that docs/certificates.md
- * names. */
+/* Proves results of minkray_scene_cast: the object is hit at the reported place, and all others are
+ * missed before. The proof holds up to the rounding that docs/certificates.md specifies. */
 MINKRAY_API int minkray_scene_prove(minkray_scene scene, const minkray_ray* rays,
                                     const minkray_hit* hits, size_t count, minkray_proof* proofs,
                                     const minkray_options* options);
@@ -394,9 +394,9 @@ MINKRAY_API int minkray_lidar_rays(const char* pattern, const minkray_pose* pose
 
 typedef struct minkray_picture_options {
   size_t size; /* sizeof(minkray_picture_options) */
-  /* What scene files say as "camera", "lights" and "background", in an object, as text: those of
-   * them that are there are taken in the place of those of the scene's files. May be NULL. If there
-   * are none at all, everything is framed, and lit by a sun and a sky. */
+  /* The keys "camera", "lights" and "background" of scene files, in an object, as text; keys that
+   * are present replace those of the scene's files. May be NULL. If there are none at all,
+   * everything is framed, and lit by a sun and a sky. */
   const char* view;
   uint32_t width; /* in pixels; 0: the camera's */
   uint32_t height;
@@ -415,16 +415,16 @@ typedef struct minkray_channel {
   size_t count;     /* of values: width * height * numbers of a pixel */
 } minkray_channel;
 
-/* How many numbers of a pixel a channel has, and whether they are whole; both may be NULL. */
+/* Count of a channel's numbers per pixel, and if they are integers; both may be NULL. */
 MINKRAY_API int minkray_picture_channel(const char* name, uint32_t* numbers, int32_t* is_integer);
 
-/* How large a picture becomes. Options may be NULL. */
+/* Size of a picture. Options may be NULL. */
 MINKRAY_API int minkray_scene_picture_size(minkray_scene scene,
                                            const minkray_picture_options* options, uint32_t* width,
                                            uint32_t* height);
 
-/* A picture of the scene, the same bits as `minkray render` makes of a file that says the same, for
- * any number of threads. Shapes that were added are grey. Either options may be NULL. */
+/* Renders the scene: the same bits as `minkray render` makes of an equivalent file, for any number
+ * of threads. Added shapes are grey. Either options may be NULL. */
 MINKRAY_API int minkray_scene_render(minkray_scene scene, const minkray_picture_options* options,
                                      const minkray_channel* channels, size_t count,
                                      const minkray_options* how);
@@ -435,7 +435,7 @@ typedef enum minkray_distance_status {
   MINKRAY_SEPARATED = 0,
   MINKRAY_TOUCHING = 1, /* the bounds are on both sides of 0 */
   MINKRAY_OVERLAPPING = 2,
-  MINKRAY_UNDECIDED = 3 /* the bounds hold, but are further apart than was asked */
+  MINKRAY_UNDECIDED = 3 /* the bounds hold, but are not within the tolerance */
 } minkray_distance_status;
 
 typedef struct minkray_distance {
@@ -451,22 +451,22 @@ typedef struct minkray_distance {
 
 typedef struct minkray_distance_options {
   size_t size;       /* sizeof(minkray_distance_options) */
-  double tolerance;  /* how near the bounds shall be, relative to the shapes' sizes; 0: 1e-10 */
+  double tolerance;  /* largest gap of the bounds, relative to the shapes' sizes; 0: 1e-10 */
   double at_most;    /* beyond this distance it is enough to know so; 0: none */
-  int32_t only_sign; /* 1: only whether they overlap is asked */
+  int32_t only_sign; /* 1: computes only if they overlap */
   int32_t reserved;
 } minkray_distance_options;
 
-/* How far apart two shapes are, or how deep in each other. Poses are any invertible maps, NULL for
- * the identity; so may the options be. */
+/* Signed distance of two shapes: their distance, or minus their penetration depth. Poses are any
+ * invertible maps, NULL for the identity; options may be NULL, too. */
 MINKRAY_API int minkray_signed_distance(minkray_shape a, const minkray_pose* pose_a,
                                         minkray_shape b, const minkray_pose* pose_b,
                                         const minkray_distance_options* options,
                                         minkray_distance* distance);
 
-/* How a shape moves: its frame's origin, which the pose's translation is, by `velocity`; about
- * that point by `turn`, a rotation vector in the world, radians per unit of time. `minkray cast`
- * turns shapes about the same point, unless a query names another. */
+/* Motion of a shape: its frame's origin, which is the pose's translation, by `velocity`; about that
+ * point by `turn`, a rotation vector in the world, radians per unit of time. `minkray cast` turns
+ * shapes about the same point, unless a query names another. */
 typedef struct minkray_twist {
   double velocity[3];
   double turn[3];
@@ -476,12 +476,12 @@ typedef enum minkray_impact_status {
   MINKRAY_IMPACT = 0,
   MINKRAY_NO_IMPACT = 1, /* proven */
   MINKRAY_BEGINS_INSIDE = 2,
-  MINKRAY_IMPACT_UNDECIDED = 3 /* none before t_lo; no more is known */
+  MINKRAY_IMPACT_UNDECIDED = 3 /* no impact before t_lo; no more is known */
 } minkray_impact_status;
 
 typedef struct minkray_impact {
-  double t_lo;     /* they are apart before this, which is proven; t_max of MINKRAY_NO_IMPACT */
-  double t_hi;     /* they touch here; infinite of MINKRAY_NO_IMPACT and MINKRAY_IMPACT_UNDECIDED */
+  double t_lo;     /* proven to be apart before this; t_max of MINKRAY_NO_IMPACT */
+  double t_hi;     /* contact here; infinite of MINKRAY_NO_IMPACT and MINKRAY_IMPACT_UNDECIDED */
   double distance; /* between them at t_lo; infinite if it is not known */
   double point_a[3];
   double point_b[3];
@@ -500,56 +500,56 @@ MINKRAY_API int minkray_time_of_impact(minkray_shape a, const minkray_pose* pose
 
 typedef struct minkray_clearance_options {
   size_t size;            /* sizeof(minkray_clearance_options) */
-  double tolerance;       /* how near the bounds shall be, relative to the clearance; 0: 0.01 */
+  double tolerance;       /* largest gap of the bounds, relative to the clearance; 0: 0.01 */
   int32_t only_obstacles; /* 1: not of the robot's links to each other */
-  int32_t threads;        /* 0: one a core */
+  int32_t threads;        /* 0: one per core */
 } minkray_clearance_options;
 
-/* The least signed distance between the robot and what is around it, and between its links that no
- * joint connects, all along and not at some samples. */
+/* The least signed distance between the robot and the objects around it, and between its links that
+ * no joint connects, along the whole path and not at some samples. */
 typedef struct minkray_clearance {
-  double lower; /* proven: it is never less than this; infinite if there is nothing to meet */
-  double upper; /* it is so at `row` */
+  double lower; /* proven lower bound; infinite if there is nothing to meet */
+  double upper; /* reached at `row` */
   double row;   /* 2.25: a quarter of the way from path[2] to path[3] */
   double point_a[3];
   double point_b[3];
   double normal[3];  /* from a to b, of length 1 */
   uint32_t object_a; /* particles are numbered as in a minkray_hit */
   uint32_t object_b;
-  int32_t is_settled; /* 0 if the bounds are further apart than was asked */
+  int32_t is_settled; /* 0 if the bounds are not within the tolerance */
   int32_t reserved;
 } minkray_clearance;
 
-/* How near a robot comes to anything on its way by `rows` rows of `numbers` joint values each, in
- * the order of minkray_scene_joint; from row to row each joint goes at a constant rate. `steps` (or
- * NULL) are one for each two rows that follow each other, or one if there is one row; `least` (or
- * NULL) is of all of them. Left out are pairs that minkray_scene_allow or masks leave out. The
- * shapes looked at are those that the file was added with: see `geometry` of minkray_file_options.
- * With more than 1,000,000 objects and particles, or 10,000,000 pairs, it is MINKRAY_BAD_INPUT. The
- * scene must be committed; where the robot's joints are by now does not matter. */
+/* Clearance of a robot on its way by `rows` rows of `numbers` joint values each, in the order of
+ * minkray_scene_joint; from row to row each joint moves at a constant rate. `steps` (or NULL) has
+ * one result for each two consecutive rows, or one if there is one row; `least` (or NULL) is the
+ * least of all. Pairs excluded by minkray_scene_allow or masks are left out. The shapes are those
+ * that the file was added with: see `geometry` of minkray_file_options. With more than 1,000,000
+ * objects and particles, or 10,000,000 pairs, returns MINKRAY_BAD_INPUT. The scene must be
+ * committed; the current values of the robot's joints do not matter. */
 MINKRAY_API int minkray_scene_clearance(minkray_scene scene, uint32_t group, const double* path,
                                         size_t rows, size_t numbers,
                                         const minkray_clearance_options* options,
                                         minkray_clearance* steps, minkray_clearance* least);
 
-/* What a motion is: proven free of collisions at all times, or a pair collides at a moment that is
- * named, or neither is known within the budget. */
+/* Verdict on a motion: proven free of collisions at all times, or a pair collides at a named
+ * moment, or neither is known within the budget. */
 enum { MINKRAY_MOTION_FREE = 0, MINKRAY_MOTION_COLLIDES = 1, MINKRAY_MOTION_UNDECIDED = 2 };
 
 typedef struct minkray_verdict_options {
-  size_t size;      /* sizeof(minkray_verdict_options) */
-  double tolerance; /* how near the bounds shall be, relative to the clearance; 0: 0.01 */
-  double margin;    /* how far the robot must stay from obstacles; 0: it must not touch them */
-  size_t budget;    /* distances of a pair in a step; 0: 4000 */
+  size_t size;            /* sizeof(minkray_verdict_options) */
+  double tolerance;       /* largest gap of the bounds, relative to the clearance; 0: 0.01 */
+  double margin;          /* least distance from obstacles; 0: the robot must not touch them */
+  size_t budget;          /* distances of a pair in a step; 0: 4000 */
   int32_t only_obstacles; /* 1: not of the robot's links to each other */
-  int32_t threads;        /* 0: one a core */
+  int32_t threads;        /* 0: one per core */
 } minkray_verdict_options;
 
 typedef struct minkray_verdict {
   double lower; /* proven: no clearance (distance less margin) is less; -infinity unless free */
   double upper; /* the least clearance seen; of a collision less than 0 */
-  double row;   /* where it is so: 2.25 is a quarter of the way from path[2] to path[3] */
-  double begin; /* the first stretch that collides, or may, outside of which that pair is apart */
+  double row;   /* place of `upper`: 2.25 is a quarter of the way from path[2] to path[3] */
+  double begin; /* the first stretch that collides, or may; outside that pair is apart */
   double end;
   double point[3];   /* in the middle between the two, or within both */
   uint32_t object_a; /* the pair; MINKRAY_NO_OBJECT if there is none */
@@ -558,9 +558,9 @@ typedef struct minkray_verdict {
   int32_t reserved;
 } minkray_verdict;
 
-/* Judges a robot's motion by rows as minkray_scene_clearance has them. `rates` (or NULL) are as
- * many numbers, the derivatives of the joints' values by the row: from row to row joints then go as
- * cubics, those of quaternions excepted. */
+/* Judges a robot's motion by rows as in minkray_scene_clearance. `rates` (or NULL) are as many
+ * numbers, the derivatives of the joints' values by the row: from row to row joints then move as
+ * cubics, except quaternions. */
 MINKRAY_API int minkray_scene_verify(minkray_scene scene, uint32_t group, const double* path,
                                      const double* rates, size_t rows, size_t numbers,
                                      const minkray_verdict_options* options,

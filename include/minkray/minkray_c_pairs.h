@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
  * Many pairs of shapes at once, and the pairs of a scene: distances with their derivatives, points
- * of contact, times of impact. docs/c.md has examples. What minkray_c.h says of errors, threads
- * and units holds here, too.
+ * of contact, times of impact. docs/c.md has examples. The rules of minkray_c.h for errors, threads
+ * and units hold here, too.
  *
- * All poses are rigid: a rotation or a reflection, and a translation. Their linear parts may be off
- * that by 1e-6; the answers are those of the numbers that were given. What is further off is
+ * All poses are rigid: a rotation or a reflection, and a translation. Their linear parts may
+ * deviate by 1e-6; the results are those of the given numbers. A larger deviation is
  * MINKRAY_WRONG_USE.
  */
 #ifndef MINKRAY_MINKRAY_C_PAIRS_H
@@ -24,7 +24,8 @@ typedef enum minkray_pose_kind {
   MINKRAY_POSE_MATRIX_4X4 = 2  /* 16 numbers, row by row; the last row is 0, 0, 0, 1 */
 } minkray_pose_kind;
 
-/* One side of many pairs. Of each of the three there are as many as pairs, or one for all pairs. */
+/* One side of many pairs. Each of the three arrays has as many items as pairs, or one for all
+ * pairs. */
 typedef struct minkray_bodies {
   size_t size; /* sizeof(minkray_bodies) */
   const minkray_shape* shapes;
@@ -38,47 +39,47 @@ typedef struct minkray_bodies {
   int32_t reserved;
 } minkray_bodies;
 
-/* What a query on a pair ended with, kept by its caller for the next one on the same pair, which is
- * then faster if the two have moved little. Zeros are an empty one. The bounds hold whatever is in
- * it; the answer's last digits depend on it. */
+/* Final state of a query on a pair, kept by its caller for the next one on the same pair, which is
+ * then faster if the two have moved little. Zeros are an empty one. The bounds hold for any
+ * contents; the result's last digits depend on it. */
 typedef struct minkray_pair_memory {
   uint64_t words[8];
 } minkray_pair_memory;
 
-/* Those that are NULL are not filled. A pair's derivative is by a twist of a body at the time of
- * the question: by the velocity of its frame's origin (the pose's translation) along the world's
- * axes, then by its angular velocity about that point. `is_ridge` is 1 where the bounds do not
- * exclude that there are several derivatives: of parallel faces, an edge on a face, a depth in two
- * directions; the one that is told is one of them. Where nothing is known of the distance
- * derivatives are NaN. If any of these three is wanted distances are found to a tolerance of 1e-15,
- * and the direction of a depth to rounding. */
+/* NULL arrays are not filled. A pair's derivative is by a twist of a body at the time of the query:
+ * by the velocity of its frame's origin (the pose's translation) along the world's axes, then by
+ * its angular velocity about that point. `is_ridge` is 1 where the bounds do not exclude that there
+ * are several derivatives: for parallel faces, an edge on a face, a depth in two directions; the
+ * reported one is one of them. Where nothing is known of the distance derivatives are NaN. If any
+ * of these three is wanted distances are found to a tolerance of 1e-15, and the direction of a
+ * depth to rounding. */
 typedef struct minkray_distance_arrays {
   size_t size;                 /* sizeof(minkray_distance_arrays) */
   minkray_distance* distances; /* all of a pair in one struct */
   double* value;
   double* lower;
   double* upper;
-  double* points_a; /* three a pair */
+  double* points_a; /* three per pair */
   double* points_b;
   double* normals;
-  double* jac_a; /* six a pair */
+  double* jac_a; /* six per pair */
   double* jac_b;
   uint8_t* is_ridge;
   uint8_t* status; /* a minkray_distance_status */
   int32_t* supports;
 } minkray_distance_arrays;
 
-/* Signed distances of `count` pairs: each has the bits of minkray_signed_distance, whatever the
- * number of threads. `memories` are as many as pairs, or NULL. Either options may be NULL. */
+/* Signed distances of `count` pairs: each has the bits of minkray_signed_distance, for any number
+ * of threads. `memories` are as many as pairs, or NULL. Either options may be NULL. */
 MINKRAY_API int minkray_signed_distances(const minkray_bodies* a, const minkray_bodies* b,
                                          size_t count, const minkray_distance_options* options,
                                          minkray_pair_memory* memories,
                                          const minkray_distance_arrays* distances,
                                          const minkray_options* how);
 
-/* Those that are NULL are not filled. Derivatives are those of the first contact's time by a twist
- * of each body's pose at time 0; NaN where there is no contact, zero where the two begin inside
- * each other. `is_ridge` is 1 where there may be several or none, as where they graze. */
+/* NULL arrays are not filled. Derivatives are those of the first contact's time by a twist of each
+ * body's pose at time 0; NaN where there is no contact, zero where the two begin inside each other.
+ * `is_ridge` is 1 where there may be several or none, as where they graze. */
 typedef struct minkray_impact_arrays {
   size_t size; /* sizeof(minkray_impact_arrays) */
   minkray_impact* impacts;
@@ -101,17 +102,18 @@ MINKRAY_API int minkray_times_of_impact(const minkray_bodies* a, const minkray_b
                                         const minkray_impact_arrays* impacts,
                                         const minkray_options* how);
 
-/* Up to four points of contact: corners of what of the two faces each other, one over the other
- * along the normal: point_b - point_a = gap normal. The first is that of the signed distance. */
+/* Up to four points of contact: corners of the parts of the two shapes that face each other, one
+ * over the other along the normal: point_b - point_a = gap normal. The first is that of the signed
+ * distance. */
 typedef struct minkray_manifold {
   double normal[3]; /* from a to b, of length 1 */
   double points_a[4][3];
   double points_b[4][3];
-  double gaps[4]; /* less than zero: so deep are the two in each other there */
+  double gaps[4]; /* negative: the depth of the overlap there */
   double value;   /* the signed distance, as in a minkray_distance */
   double lower;
   double upper;
-  int32_t count;  /* 0 if nothing is known of the distance; what is beyond it is NaN */
+  int32_t count;  /* 0 if nothing is known of the distance; entries beyond it are NaN */
   int32_t status; /* a minkray_distance_status */
 } minkray_manifold;
 
@@ -119,11 +121,11 @@ typedef struct minkray_manifold {
 typedef struct minkray_manifold_arrays {
   size_t size; /* sizeof(minkray_manifold_arrays) */
   minkray_manifold* manifolds;
-  double* normals;  /* three a pair */
-  double* points;   /* in the middle between those of a and b: four times three a pair */
+  double* normals;  /* three per pair */
+  double* points;   /* in the middle between those of a and b: four times three per pair */
   double* points_a; /* likewise */
   double* points_b;
-  double* gaps; /* four a pair */
+  double* gaps; /* four per pair */
   double* value;
   double* lower;
   double* upper;
@@ -140,27 +142,27 @@ MINKRAY_API int minkray_manifolds(const minkray_bodies* a, const minkray_bodies*
 
 /* ---- the pairs of a scene -------------------------------------------------------------------- */
 
-/* Scenes must be committed before they are asked. Objects that were removed are in no answer;
- * particles are, numbered as in a minkray_hit. */
+/* Scenes must be committed before queries. Removed objects are in no result; particles are,
+ * numbered as in a minkray_hit. */
 
-/* Sets which pairs are looked at. Two objects are one if each one's mask has a bit of the other's
- * category. As long as nothing is said, categories are 1 and masks have all bits. Changes the
- * scene; no commit is due for it. */
+/* Sets which pairs are tested: those where each object's mask has a bit of the other's category. By
+ * default categories are 1 and masks have all bits. Changes the scene; no commit is due for it. */
 MINKRAY_API int minkray_scene_set_masks(minkray_scene scene, uint32_t object, uint32_t category,
                                         uint32_t mask);
 
-/* Says if two objects may touch: pairs that may are not looked at. Changes the scene, as above. */
+/* Allows two objects to touch, or not: allowed pairs are not tested. Changes the scene. */
 MINKRAY_API int minkray_scene_allow(minkray_scene scene, uint32_t object_a, uint32_t object_b,
                                     int is_allowed);
 
-/* Allows the pairs of links that an SRDF file, MoveIt's description of a robot, says may touch: its
- * `disable_collisions`, `disable_default_collisions` and `enable_collisions`. `group` is a robot's.
- * A link that the robot does not have is MINKRAY_BAD_INPUT, and no pair is allowed then. */
+/* Allows the pairs of links that may touch according to an SRDF file, MoveIt's description of a
+ * robot: its `disable_collisions`, `disable_default_collisions` and `enable_collisions`.
+ * `group` is a robot's. A link that the robot does not have is MINKRAY_BAD_INPUT, and no pair
+ * is allowed then. */
 MINKRAY_API int minkray_scene_allow_from_srdf(minkray_scene scene, uint32_t group,
                                               const char* file);
 
-/* Two objects and how far apart they are. `jac_a` and `jac_b` are by a twist of each about the
- * origin of its frame, and zero if no derivatives were asked for; see minkray_distance_arrays. */
+/* Two objects and their distance. `jac_a` and `jac_b` are by a twist of each about the origin of
+ * its frame, and zero unless derivatives were requested; see minkray_distance_arrays. */
 typedef struct minkray_scene_pair {
   minkray_distance distance;
   double jac_a[6];
@@ -173,39 +175,39 @@ typedef struct minkray_scene_pair {
 
 typedef struct minkray_near_options {
   size_t size;         /* sizeof(minkray_near_options) */
-  double within;       /* what is proven to be further apart is left out; at least 0, or infinite */
+  double within;       /* pairs proven to be further apart are left out; at least 0, or infinite */
   double tolerance;    /* as in minkray_distance_options */
-  int32_t derivatives; /* 1: they are told, too */
-  uint32_t mask;       /* of shapes of no object: categories that are looked at; 0: all */
+  int32_t derivatives; /* 1: computes derivatives, too */
+  uint32_t mask;       /* for shapes that are no object: categories to test; 0: all */
 } minkray_near_options;
 
-/* Gets all pairs at once, in the order of their numbers, on the thread that called. They are gone
- * when it returns. It answers 0, or anything else to have the call answer MINKRAY_STOPPED. */
+/* Receives all pairs at once, in the order of their numbers, on the calling thread. The pairs are
+ * invalid after it returns. Returns 0, or anything else to end the call with MINKRAY_STOPPED. */
 typedef int (*minkray_take_pairs)(void* user, const minkray_scene_pair* pairs, size_t count);
 
-/* All pairs of objects that are no further apart than `within`. Left out are pairs that masks leave
- * out, or that are allowed; pairs of two half-spaces; and of a robot from a file those that do not
- * move against each other, or that a joint connects. `pairs` may be NULL; else those are asked, two
- * numbers each, `count` of them, whatever else was said of them, in their order. Options may be
- * NULL: 0 and no derivatives. Of `how` only the threads count. */
+/* All pairs of objects that are no further apart than `within`. Left out are pairs that masks
+ * exclude, or that are allowed; pairs of two half-spaces; and for a robot from a file pairs that do
+ * not move against each other, or that a joint connects. `pairs` may be NULL; otherwise exactly
+ * those pairs are computed, two numbers each, `count` of them, in their order, regardless of masks
+ * and allowed pairs. Options may be NULL: 0 and no derivatives. In `how` only the threads count. */
 MINKRAY_API int minkray_scene_distances(minkray_scene scene, const uint32_t* pairs, size_t count,
                                         const minkray_near_options* options,
                                         minkray_take_pairs take, void* user,
                                         const minkray_options* how);
 
-/* The k objects nearest to each of `count` points, the nearest first: k answers a point, less than
- * k of them of an object if there are not so many. Points are the a of a pair. */
+/* The k objects nearest to each of `count` points, the nearest first: k results per point, with
+ * MINKRAY_NO_OBJECT in those beyond the number of objects. Points are the a of a pair. */
 MINKRAY_API int minkray_scene_nearest(minkray_scene scene, const double (*points)[3], size_t count,
                                       size_t k, const minkray_near_options* options,
                                       minkray_scene_pair* nearest, const minkray_options* how);
 
-/* The object nearest to each of many shapes that are no part of the scene. They are the a of a
+/* The object nearest to each of many shapes that are no part of the scene. These are the a of a
  * pair. With `within` NULL or infinite there is always one, if the scene is not empty. */
 MINKRAY_API int minkray_scene_distance_to(minkray_scene scene, const minkray_bodies* shapes,
                                           size_t count, const minkray_near_options* options,
                                           minkray_scene_pair* nearest, const minkray_options* how);
 
-/* What a shape that moves through the scene touches first. */
+/* First contact of a shape that moves through the scene. */
 typedef struct minkray_scene_impact {
   minkray_impact impact; /* no object is touched before t_lo; the object is, at t_hi */
   double jac[6];         /* of the time, by a twist of the shape at time 0 */
@@ -214,22 +216,22 @@ typedef struct minkray_scene_impact {
 } minkray_scene_impact;
 
 /* Casts shapes through the scene, at times from 0 to t_max: one, or one for each. Options may be
- * NULL; of them derivatives and the mask count. */
+ * NULL; only derivatives and the mask count. */
 MINKRAY_API int minkray_scene_time_of_impact(minkray_scene scene, const minkray_bodies* shapes,
                                              size_t count, const double* t_max, size_t t_max_count,
                                              const minkray_near_options* options,
                                              minkray_scene_impact* impacts,
                                              const minkray_options* how);
 
-/* Points of contact of two objects, whatever masks say of them. */
+/* Points of contact of two objects, regardless of masks. */
 MINKRAY_API int minkray_scene_manifold(minkray_scene scene, uint32_t object_a, uint32_t object_b,
                                        minkray_manifold* manifold);
 
 /* ---- derivatives of rays --------------------------------------------------------------------- */
 
-/* Those that are NULL are not filled: six numbers a ray. Of a ray's t by its origin and its
+/* NULL arrays are not filled: six numbers per ray. Derivatives of a ray's t by its origin and its
  * direction, and by a twist of the object that it meets about the origin of its frame. Zero where
- * the ray begins inside, NaN where nothing is met. `is_ridge` is 1 where there may be others: of a
+ * the ray begins inside, NaN where nothing is met. `is_ridge` is 1 where there may be others: for a
  * ray through an edge, that grazes a shape, or that meets two objects at once. */
 typedef struct minkray_ray_derivatives {
   size_t size; /* sizeof(minkray_ray_derivatives) */
@@ -238,7 +240,7 @@ typedef struct minkray_ray_derivatives {
   uint8_t* is_ridge;
 } minkray_ray_derivatives;
 
-/* Derivatives of t. Takes what minkray_scene_cast_arrays answered of the same rays: t and its
+/* Derivatives of t. Takes the results of minkray_scene_cast_arrays for the same rays: t and its
  * bounds, points, normals, objects and status must be there. */
 MINKRAY_API int minkray_scene_ray_derivatives(minkray_scene scene, const minkray_ray_arrays* rays,
                                               size_t count, const minkray_hit_arrays* hits,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Many pairs of shapes at once: distances with their derivatives, points of contact, times of
-// impact; and the pairs of a scene. Header-only over minkray_c_pairs.h, whose comments say what is
-// promised; docs/cpp.md has examples.
+// impact; and the pairs of a scene. Header-only over minkray_c_pairs.h, whose comments specify the
+// details; docs/cpp.md has examples.
 //
 //   std::vector<mk::Distance> found(poses.size());
 //   mk::signed_distances({{&robot, 1}, poses, {}}, {{&wall, 1}, {}, {}}, found);
@@ -26,8 +26,8 @@ struct Bodies {
   View<const Twist> twists = {};
 };
 
-/// What a query on a pair ended with, for the next one on the same pair: a value to be copied and
-/// kept. It begins empty.
+/// Final state of a query on a pair, for the next one on the same pair: a value to be copied and
+/// kept. Initially empty.
 struct PairMemory {
   std::uint64_t words[8] = {};
 };
@@ -45,7 +45,7 @@ static_assert(sizeof(Manifold) == sizeof(minkray_manifold) &&
               offsetof(Manifold, count) == offsetof(minkray_manifold, count));
 
 /// Derivatives by a twist of each body: by the velocity of its origin, and by a turn about that.
-/// `is_ridge` tells where there may be others. Those without room are not told.
+/// `is_ridge` is set where there may be others. Those without room are omitted.
 struct Derivatives {
   View<Twist> by_a = {}, by_b = {};
   View<std::uint8_t> is_ridge = {};
@@ -98,8 +98,8 @@ void add_derivatives(const char* function, const Derivatives& to, std::size_t pa
 }
 }  // namespace detail
 
-/// Signed distances of as many pairs as there is room for answers. They are the bits of
-/// signed_distance(), whatever the number of threads.
+/// Signed distances of as many pairs as there is room for results. The bits are those of
+/// signed_distance(), for any number of threads.
 inline void signed_distances(const Bodies& a, const Bodies& b, View<Distance> distances,
                              const PairOptions& options = {}) {
   constexpr const char* function = "minkray::signed_distances";
@@ -160,11 +160,11 @@ inline Distance signed_distance(const Shape& a, const Pose& pose_a, const Shape&
 
 // ---- the pairs of a scene ----
 
-/// Two objects and how far apart they are; no_object stands for a shape or point of none, or says
-/// that there is no such object.
+/// Two objects and their distance; no_object represents a shape or point that is no object, or
+/// means that there is no such object.
 struct ScenePair {
   Distance distance;
-  Twist by_a, by_b;  ///< derivatives, zero unless they were asked for
+  Twist by_a, by_b;  ///< derivatives, zero unless requested
   std::uint32_t object_a = no_object, object_b = no_object;
   std::int32_t is_ridge = 0, reserved = 0;
 };
@@ -206,7 +206,7 @@ class ScenePairs {
   std::size_t size_ = 0;
 };
 
-/// What a shape that moves through a scene touches first.
+/// First contact of a shape that moves through a scene.
 struct SceneImpact {
   Impact impact;   ///< no object is touched before t_lo; the object is, at t_hi
   Twist by_shape;  ///< the time's derivative by a twist of the shape's pose at time 0
@@ -218,10 +218,10 @@ static_assert(sizeof(SceneImpact) == sizeof(minkray_scene_impact) &&
 
 /// Options of queries on a scene's pairs.
 struct NearOptions {
-  double within = std::numeric_limits<double>::infinity();  ///< what is further apart is left out
+  double within = std::numeric_limits<double>::infinity();  ///< pairs further apart are left out
   double tolerance = 0;      ///< of the bounds, in the shapes' sizes; 0: 1e-10
-  bool derivatives = false;  ///< they are told, too
-  std::uint32_t mask = 0;    ///< of shapes of no object: categories that are looked at; 0: all
+  bool derivatives = false;  ///< computes derivatives, too
+  std::uint32_t mask = 0;    ///< for shapes that are no object: categories to test; 0: all
   Options how = {};
 };
 
@@ -231,7 +231,7 @@ inline minkray_near_options plain(const NearOptions& options) {
           options.derivatives ? 1 : 0, options.mask};
 }
 
-/// Keeps the pairs that minkray_scene_distances tells; `no_room`: there was no memory for them.
+/// Keeps the pairs from minkray_scene_distances; `no_room`: there was no memory for them.
 struct TakenPairs {
   ScenePairs pairs;
   bool no_room = false;

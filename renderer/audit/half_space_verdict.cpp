@@ -26,7 +26,7 @@ CertificateVerdict verdict_of(const HalfSpaceBody<double>& half_space, const Ray
   const Number end = claim.status == Status::hit ? t : 0;
   verdict.allowed = static_cast<double>(unit_of_rounding * size_at(end));
   if (claim.status == Status::hit) {
-    // Where the plane is crossed, to what is allowed across it.
+    // Uncertainty of the plane's crossing along the ray, from the error allowed across the plane.
     const Number crossing = height / -rise - t, along_ray = Number(verdict.allowed) / -rise;
     verdict.t_base = static_cast<double>(t);
     verdict.offset_planes = verdict.offset_spanned = static_cast<double>(crossing);

@@ -12,7 +12,7 @@
 namespace minkray {
 namespace {
 
-/// The triangle where it stands: its corners round once.
+/// The triangle in the world: its corners round once.
 Shape<double> part_in_world(const PosedMesh& posed, std::uint32_t part) {
   std::array<Vec3<double>, 3> corners;
   for (std::size_t k = 0; k < 3; ++k) corners[k] = posed.pose(posed.mesh->corner(part, k));

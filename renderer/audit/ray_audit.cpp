@@ -15,8 +15,8 @@ namespace {
 /// Enough to see a pattern.
 constexpr std::size_t most_failures = 20;
 
-/// How much longer boxes are than what they hold, relative to their largest coordinate: they only
-/// spare proofs.
+/// Margin of boxes around their contents, relative to their largest coordinate: boxes only spare
+/// proofs.
 constexpr double box_padding = 1e-9;
 
 /// True if the ray may pass through the box; also if in doubt.
@@ -135,7 +135,7 @@ void RayAudit::closest(RayKind kind, const Ray<double>& ray, std::uint32_t skip,
   const CertificateVerdict hit = verdict(answer.instance, ray, claim_of(answer.cast));
   if (!hit.holds) return fail(kind, answer.instance, ray, hit.complaint);
   if (answer.cast.status == Status::inside) return;
-  // Where two objects touch, rounding decides which one is met first.
+  // If two objects touch, rounding decides which one is met first.
   const double rounding = hit.allowed / ray.direction.norm();
   all_missed(kind, {ray.origin, ray.direction, std::max(0.0, hit.t_lo() - rounding)}, skip,
              answer.instance);

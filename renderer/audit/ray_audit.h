@@ -25,7 +25,7 @@ struct AuditFailure {
   std::string query;  ///< a line for `minkray cast`
 };
 
-/// Refers to scene and world, object by object. Any number of threads may ask.
+/// Refers to scene and world, object by object. Any number of threads may call it.
 class RayAudit final : public RayObserver {
  public:
   RayAudit(const Scene& scene, const World& world);

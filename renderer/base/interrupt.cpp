@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::array signals = {SIGINT, SIGTERM, SIGHUP};
 
-/// How signals are handled belongs to the process, and so does what it was before the first guard.
+/// Signal handling is process-wide, and so is the state before the first guard.
 std::mutex mutex;
 int guards = 0;
 std::array<struct sigaction, signals.size()> before = {};
@@ -33,7 +33,7 @@ InterruptGuard::InterruptGuard() {
   struct sigaction noting = {};
   noting.sa_handler = note;
   sigemptyset(&noting.sa_mask);
-  noting.sa_flags = 0;  // what waits (for a pipe's reader) is to wake up
+  noting.sa_flags = 0;  // interrupts blocking calls (waiting for a pipe's reader)
   for (std::size_t i = 0; i < signals.size(); ++i) {
     sigaction(signals[i], nullptr, &before[i]);
     if (before[i].sa_handler != SIG_IGN) sigaction(signals[i], &noting, nullptr);

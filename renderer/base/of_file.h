@@ -10,13 +10,13 @@
 
 namespace minkray {
 
-/// What went wrong while a file was read, in words for the user.
+/// Description of an error while a file was read, in words for the user.
 inline std::string what_of(const std::exception& error) {
   return dynamic_cast<const std::bad_alloc*>(&error) ? "there is not enough memory to read it"
                                                      : error.what();
 }
 
-/// Runs `work`, which reads the file. What is wrong is BadInput that begins with the file's name.
+/// Runs `work`, which reads the file. Mistakes are BadInput that begins with the file's name.
 template <class Work>
 auto of_file(const std::string& file, const Work& work) {
   try {

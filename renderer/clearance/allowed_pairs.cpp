@@ -24,7 +24,7 @@ void read_srdf(const std::string& file, const Model& model, AllowedPairs& allowe
       files.wrong(element, std::string(key) + ": there is no link \"" + printable(name, 60) + "\"");
     return name;
   };
-  // Exceptions come last, wherever they stand.
+  // Exceptions come last, wherever they are.
   for (const XmlElement& element : root->children) {
     if (element.name == "disable_collisions") {
       allowed.allow(link(element, "link1"), link(element, "link2"));

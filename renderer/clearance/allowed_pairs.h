@@ -27,9 +27,9 @@ class AllowedPairs {
   std::set<std::pair<std::string, std::string>> pairs_;
 };
 
-/// Adds what an SRDF, MoveIt's description of a robot's meaning (http://wiki.ros.org/srdf), says:
-/// <disable_collisions>, <disable_default_collisions> and <enable_collisions>. Links that the model
-/// does not have are mistakes.
+/// Adds the contents of an SRDF, MoveIt's description of a robot's meaning
+/// (http://wiki.ros.org/srdf): <disable_collisions>, <disable_default_collisions> and
+/// <enable_collisions>. Links that the model does not have are mistakes.
 void read_srdf(const std::string& file, const Model& model, AllowedPairs& allowed,
                Mistakes& mistakes);
 

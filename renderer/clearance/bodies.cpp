@@ -103,7 +103,7 @@ ClearanceBody seen_from(const Affine<double>& frame, ClearanceBody obstacle) {
   const auto seen = [&](const TwoFoldVec3<double>& point) {
     return turned_back * (point - TwoFoldVec3<double>(frame.translation));
   };
-  // What is rigid to rounding has its transpose for an inverse to rounding.
+  // The inverse of a map that is rigid to rounding is its transpose, to rounding.
   constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
   const bool is_exact = is_along_axes(frame.linear);
   obstacle.linear = turned_back.high * obstacle.linear;
@@ -181,7 +181,7 @@ std::vector<BodyPair> pairs_of(const std::vector<ClearanceBody>& bodies, const M
                                const AllowedPairs& allowed, bool self) {
   const std::vector<int> groups = rigid_groups(model);
   std::vector<LinkPlace> places;
-  // Obstacles are not looked at in pairs: there may be a million of them.
+  // Pairs of two obstacles are not tested: there may be a million obstacles.
   std::vector<std::size_t> all, links, obstacles;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     places.push_back(place_of(bodies[i].link_index, model, groups));

@@ -74,9 +74,9 @@ struct BodyPair {
   std::size_t a, b;
 };
 
-/// Pairs of which one moves against the other; not of links that a joint connects, nor of allowed
-/// ones. Without `self` only those of the robot and an obstacle. Throws BadInput if there are more
-/// than most_pairs.
+/// Pairs that move against each other; not of links that a joint connects, nor of allowed ones.
+/// Without `self` only those of the robot and an obstacle. Throws BadInput if there are more than
+/// most_pairs.
 std::vector<BodyPair> pairs_of(const std::vector<ClearanceBody>& bodies, const Model& model,
                                const AllowedPairs& allowed, bool self);
 

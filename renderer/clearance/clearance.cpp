@@ -73,7 +73,7 @@ class StepPair : public MovingPair {
     return found;
   }
 
-  /// If not, nothing can be said of the step.
+  /// If not, nothing can be proven about the step.
   bool is_within_numbers() const { return is_within_numbers_; }
 
   /// No distance of the step is less, by the balls around the two alone.
@@ -88,7 +88,7 @@ class StepPair : public MovingPair {
   }
 
  private:
-  /// Where a body is: the middle in the world, the turn to the axes of the common frame.
+  /// Place of a body: the middle in the world, the turn to the axes of the common frame.
   struct Place {
     Mat3<double> linear;
     TwoFoldVec3<double> middle;
@@ -144,7 +144,7 @@ class Search {
     result.pairs = pairs_.size();
     result.steps_count = path_.steps();
     if (pairs_.empty()) return result;
-    // What is seen at the rows says where there is no need to look closely.
+    // Distances at the rows show which steps need no close examination.
     std::vector<Closest> at_rows(path_.times.size());
     parallel_for(at_rows.size(), 4, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) at_rows[i] = least_at_row(i);

@@ -11,8 +11,8 @@
 namespace minkray {
 
 struct ClearanceOptions {
-  /// How near the bounds shall be to each other, relative to the clearance; and never less than
-  /// 1e-7 of the robot's size.
+  /// Largest gap between the bounds, relative to the clearance; and never less than 1e-7 of the
+  /// robot's size.
   double tolerance = 0.01;
   /// Computes the least distance of each step, not only of the whole path.
   bool every_step = false;
@@ -23,14 +23,14 @@ struct Closest {
   double lower = std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
   double time = 0;
-  std::size_t a = 0, b = 0;  ///< which bodies
+  std::size_t a = 0, b = 0;  ///< indices of the bodies
   SignedDistance distance;
-  bool is_settled = true;  ///< whether the bounds are as near to each other as was asked
+  bool is_settled = true;  ///< true if the bounds are within the tolerance
 };
 
 struct Clearance {
-  Closest closest;             ///< a, b and the rest say nothing if there are no pairs
-  std::vector<Closest> steps;  ///< if asked for
+  Closest closest;             ///< a, b and the rest are meaningless if there are no pairs
+  std::vector<Closest> steps;  ///< if requested
   std::size_t pairs = 0, steps_count = 0, distances = 0;
 };
 

@@ -84,7 +84,7 @@ class Moment {
     return found;
   }
 
-  /// A link's plane moves with it; others stand in the world.
+  /// A link's plane moves with it; others are fixed in the world.
   SignedDistance to_plane(PlacedPlane plane, int link, const ClearanceBody& body,
                           const Affine<double>& pose) const {
     if (link >= 0) plane = moved(plane, links_[static_cast<std::size_t>(link)]);

@@ -12,7 +12,7 @@ namespace minkray {
 struct ClearanceDerivative {
   std::vector<double> by_joints;  ///< zero if there is no pair, NaN if nothing is known of it
   /// The bounds do not exclude that there are other derivatives: of this pair, or of another one
-  /// that is as near at this moment. Other moments are not looked at.
+  /// that is as near at this moment. Other moments are not considered.
   bool is_ridge = false;
 };
 

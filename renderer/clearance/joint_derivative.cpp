@@ -8,7 +8,7 @@
 namespace minkray {
 namespace {
 
-/// Where a joint's numbers are in the answer, and what a number of it is worth there.
+/// Index of a joint's numbers in the result, and the factor of a number there.
 struct Leader {
   std::size_t first;
   double factor;
@@ -27,7 +27,7 @@ class JointNumbers {
 
   std::size_t count() const { return count_; }
 
-  /// Nothing for joints that are none of those asked for, nor follow one.
+  /// Nothing for joints that are not among the requested ones and do not follow one.
   std::optional<Leader> leader_of(const ModelJoint& joint) const {
     double factor = 1;
     const ModelJoint* other = &joint;

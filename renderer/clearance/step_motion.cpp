@@ -13,7 +13,7 @@
 namespace minkray {
 namespace {
 
-/// Where a joint's quaternion w, x, y, z begins in its values; negative if it has none.
+/// Index of a joint's quaternion w, x, y, z in its values; negative if it has none.
 int quaternion_at(JointKind kind) {
   if (kind == JointKind::ball) return 0;
   return kind == JointKind::free ? 3 : -1;
@@ -158,7 +158,7 @@ StepMotion::Rate StepMotion::rate_of(const ModelJoint& joint, std::size_t at) co
   if (from.empty() || from.size() != to.size() || from.size() != width_of(joint.kind)) return rate;
   rate.has_values = true;
   const auto piece = [&](std::size_t number) { return path_.piece(first_, last_, at, number); };
-  // Curved pieces are computed in more steps, each of which rounds.
+  // Curved pieces are computed in more steps, and each step rounds.
   const auto angle_of = [](const JointPiece& of) {
     return of.largest() + (of.is_straight() ? 0 : 4 * of.way());
   };
@@ -324,7 +324,7 @@ MotionBound StepMotion::bound(int link, int ancestor, double reach) const {
     }
     at = parents_[index];
   }
-  // What the poses' own roundings amount to.
+  // Padding for the poses' own roundings.
   constexpr double padding = 1 + 1e-12;
   bound.reach *= padding;
   bound.speed *= padding;

@@ -17,8 +17,8 @@ namespace minkray {
 
 /// All joints' values in each row, in the model's order; mimics follow.
 struct JointPath {
-  /// Throws BadInput if a value, or how far a joint goes in a step, is beyond numbers, or if a
-  /// joint gets its first value after the first row: nobody knows how it comes there.
+  /// Throws BadInput if a value, or a joint's way in a step, exceeds the range of numbers, or if a
+  /// joint gets its first value after the first row: its motion until then is unknown.
   JointPath(const Model& model, const std::vector<JointRow>& rows);
 
   Model skeleton;  ///< links and joints alone
@@ -39,11 +39,11 @@ struct JointPath {
   /// given, between rows with quaternions of length 1.
   Model posed_at(double time) const;
 
-  /// A single row is a path of one step that stands still.
+  /// A single row is a path of one step at rest.
   std::size_t steps() const { return times.size() > 1 ? times.size() - 1 : 1; }
 };
 
-/// What holds of a link's points while s goes from 0 to 1, as another link sees them.
+/// Bounds for a link's points while s goes from 0 to 1, relative to another link.
 struct MotionBound {
   double reach = 0;  ///< no point is further from the other's origin
   double speed = 0;
@@ -66,7 +66,7 @@ class StepMotion {
   /// Their translations in twice the digits: a robot may be far from the world's origin.
   struct Places {
     std::vector<Affine<double>> poses;
-    std::vector<Vec3<double>> lows;  ///< what rounding has left of the poses' translations
+    std::vector<Vec3<double>> lows;  ///< rounding errors of the poses' translations
 
     TwoFoldVec3<double> origin(std::size_t link) const {
       return {poses[link].translation, lows[link]};
@@ -88,20 +88,20 @@ class StepMotion {
   /// Bound of the difference between the link's linear part and a rotation.
   double turn_error(int link) const;
 
-  /// The link whose frame both stand in, the furthest from the world; -1: the world.
+  /// The link whose frame contains both, the furthest from the world; -1: the world.
   int common_ancestor(int a, int b) const;
 
  private:
   struct Rate {
     double turn = 0;           ///< radians in the step, at its fastest
     double turn_change = 0;    ///< by which that changes in the step, at most
-    double slide = 0;          ///< how far the origin goes in the step, at its fastest
+    double slide = 0;          ///< the origin's way in the step, at its fastest
     double slide_change = 0;   ///< as turn_change
     double way = 0;            ///< JointPiece::way() of a slide that is not straight
     double angle = 0;          ///< the largest number that an angle is made of
     double offset = 0;         ///< the furthest that the origin is from where it is at rest
-    bool has_values = false;   ///< it is not at rest
-    bool is_absolute = false;  ///< it places the link in the world, whatever it hangs on
+    bool has_values = false;   ///< false if at rest
+    bool is_absolute = false;  ///< places the link in the world, independent of its parents
   };
 
   Rate rate_of(const ModelJoint& joint, std::size_t at) const;
@@ -112,7 +112,7 @@ class StepMotion {
   double begin_, end_;
   Model model_;
   std::vector<std::vector<Rate>> rates_;  ///< link, joint
-  std::vector<int> parents_;              ///< what a free joint places has none
+  std::vector<int> parents_;              ///< links placed by a free joint have none
   std::map<double, Places> kept_;
 };
 

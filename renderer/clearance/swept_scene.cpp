@@ -26,7 +26,7 @@ Scene swept_scene(Model model, const ImportOptions& import, const JointPath& pat
       objects.push_back(posed);
       continue;
     }
-    // What a mesh passes over is within what its hull passes over.
+    // The region swept by a mesh is within that swept by its hull.
     const Shape<double> shape = geom.mesh ? hull_of(*geom.mesh) : *geom.shape;
     const ContactShape ball(shape, geom.pose);
     const double reach = ball.middle().norm() + ball.ball_radius();

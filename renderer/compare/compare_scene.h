@@ -16,12 +16,12 @@ namespace minkray {
 
 struct ObjectComparison {
   std::string name;
-  std::string shape;  ///< its kind
+  std::string shape;  ///< kind of the shape
   CompareReport report;
 };
 
-/// What the camera's rays found: per pixel, of the nearest object, how far apart the two meshes are
-/// there, as a length in units of the object's size.
+/// Results of the camera's rays: per pixel, for the nearest object, the distance between the two
+/// meshes there, as a length in units of the object's size.
 struct DifferencePicture {
   int width = 0, height = 0;
   std::vector<double> t;        ///< infinite where nothing is hit
@@ -31,7 +31,7 @@ struct DifferencePicture {
 
 struct SceneComparison {
   std::vector<ObjectComparison> objects;
-  DifferencePicture difference;  ///< empty unless asked for
+  DifferencePicture difference;  ///< empty unless requested
 
   int violations() const;
   int pixel_violations() const;

@@ -15,8 +15,8 @@ namespace minkray {
 
 struct MeshHit {
   double t;
-  /// How far Embree's t may be off (as a parameter, like t), for the mesh with vertices in float:
-  /// see EmbreeMesh::cast.
+  /// Error bound of Embree's t (as a parameter, like t), for the mesh with vertices in float: see
+  /// EmbreeMesh::cast.
   double t_bound;
   unsigned triangle;
 };
@@ -42,9 +42,9 @@ class EmbreeMesh {
   ///     |error of t| |D| c <= gamma_12 (d + L^3 / |N|)
   std::optional<MeshHit> cast(const Ray<float>& ray) const;
 
-  /// Asks every triangle, in double, where edges are off by 1e-15: the parameter at which the ray
-  /// first meets the mesh, if it does. It is the referee where Embree and a solver disagree: a ray
-  /// may slip through between two slivers in float.
+  /// Tests every triangle, in double, with errors of 1e-15 at edges: returns the parameter at
+  /// which the ray first meets the mesh, if it does. The referee where Embree and a solver
+  /// disagree: in float a ray may slip through between two slivers.
   std::optional<double> nearest(const Ray<float>& ray) const;
 
  private:

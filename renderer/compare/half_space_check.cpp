@@ -12,7 +12,7 @@ using Number = long double;
 /// Doublings of t until the ray is below the plane, and halvings from there.
 constexpr int most_doublings = 200, most_halvings = 100;
 
-/// What the heights at double numbers may be off, in units of their epsilon times what is added.
+/// Error bound of heights at double numbers, in units of their epsilon times the summands.
 constexpr Number rounding = 8 * Number(std::numeric_limits<double>::epsilon());
 
 }  // namespace

@@ -27,7 +27,7 @@ class RandomRays {
   }
 
  private:
-  // By hand: the standard's distributions differ between libraries, seeds must not.
+  // Written here since the standard's distributions differ between libraries, and seeds must not.
   double uniform() { return static_cast<double>(random_() >> 11) * 0x1p-53; }
   Vec3<double> direction() {
     for (;;) {

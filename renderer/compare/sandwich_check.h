@@ -40,7 +40,7 @@ struct Violator {
   Status status;
   double t;
   double t_outer, t_inner;  ///< infinite where the mesh was missed
-  double bounds;            ///< how far beyond, in units of Embree's bound; early and late only
+  double bounds;            ///< excess, in units of Embree's bound; early and late only
 };
 
 struct CompareReport {
@@ -71,13 +71,13 @@ struct Verdict {
   CastResult<double> result;
   double t_outer = std::numeric_limits<double>::infinity();  ///< infinite if the mesh was missed
   double t_inner = std::numeric_limits<double>::infinity();
-  double bounds = 0;  ///< how far beyond t_outer or t_inner, in units of Embree's bound
+  double bounds = 0;  ///< excess over t_outer or t_inner, in units of Embree's bound
   std::optional<Violation> violation;
   bool embree_at_fault = false;
 };
 
-/// A ray in the sandwich's frame. It starts near the shape, has unit length and numbers in float,
-/// so that Embree and the solver are given the same one; t_world = t_base + t * t_per_length.
+/// A ray in the sandwich's frame. Starts near the shape, has unit length and numbers in float, so
+/// that Embree and the solver get the same one; t_world = t_base + t * t_per_length.
 struct RayInFrame {
   Ray<float> ray;
   double t_base = 0;

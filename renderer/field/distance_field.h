@@ -25,11 +25,11 @@ struct FieldPlane {
 FieldPlane plane_facing(const Vec3<double>& middle, const Vec3<double>& normal, double extent,
                         int width, int height);
 
-/// A number a pixel, rows from the top. The truth is between lower and upper.
+/// One number per pixel, rows from the top. The truth is between lower and upper.
 ///
 /// An object may be so large or far that its distance is unknown (SignedDistance::is_unknown()):
-/// `lower` has what the balls around it and the probe tell, which may be -infinity; `value` is the
-/// least distance of the others, infinite if there are none.
+/// `lower` is the bound from the balls around it and the probe, which may be -infinity; `value` is
+/// the least distance of the others, infinite if there are none.
 struct DistanceField {
   FieldPlane plane;
   std::vector<double> value, lower, upper;
@@ -44,7 +44,7 @@ struct DistanceField {
 
 struct FieldOptions {
   double tolerance = 1e-6;  ///< of the bounds, relative to the sizes of probe and object
-  /// Is asked once a row; says whether to go on.
+  /// Called once per row; returns true to continue.
   std::function<bool()> go_on;
 };
 

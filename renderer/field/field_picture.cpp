@@ -13,7 +13,7 @@ namespace {
 
 const Vec3<float> ink{0.8f, 0.8f, 0.8f}, ground{0.01f, 0.01f, 0.012f}, unknown{0.3f, 0.3f, 0.3f};
 
-/// What the picture's colours stand for.
+/// Scale of the picture's colours.
 struct Scale {
   double least = 0, most = 0;  ///< of the values: least <= 0 <= most
   double step = 1;             ///< between lines of equal distance

@@ -21,7 +21,7 @@ class CameraRays {
         blurs_(world.instances().move()),
         of_samples_(is_painted(scene) ? 1 / std::sqrt(options.samples) : 0) {}
 
-  /// Its sampler goes on behind the numbers that were spent on the ray.
+  /// The ray's sampler continues after the numbers used for the ray.
   TracedRay ray(const Pixel& pixel, int sample) const {
     TracedRay traced;
     traced.sampler = Sampler(seed_, pixel.x, pixel.y, static_cast<std::uint32_t>(sample));

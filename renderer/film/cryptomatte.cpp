@@ -35,7 +35,7 @@ class Names {
     for (const Object& object : scene.objects) add(object.name, 1);
     for (const ParticleSet& set : scene.particles) add(set.name, set.size());
   }
-  /// Which name an instance has: an index into ids().
+  /// Name of an instance: an index into ids().
   std::uint32_t of(std::uint32_t instance) const {
     const auto after = std::upper_bound(first_.begin(), first_.end(), instance);
     return static_cast<std::uint32_t>(after - first_.begin() - 1);

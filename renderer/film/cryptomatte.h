@@ -23,7 +23,8 @@ struct Cryptomatte {
   /// CryptoObject00.R and .G are the id of the object that covers most of the pixel and how much,
   /// .B and .A the next one, and so on for six objects.
   std::vector<ExrPlane> planes;
-  /// What the header says: the manifest has the objects' names; particles have that of their set.
+  /// Attributes for the header: the manifest has the objects' names; particles have that of their
+  /// set.
   std::map<std::string, std::string> texts;
 };
 

@@ -46,7 +46,7 @@ std::uint32_t status_of(const Found& found) {
   return static_cast<std::uint32_t>(at - heat_statuses.begin());
 }
 
-/// Puts one channel of one pixel into its planes, the first of which is `planes[0]`.
+/// Writes one channel of one pixel to its planes, starting at `planes[0]`.
 using Put = void (*)(const Found& found, const Vec3<double>& forward, std::size_t pixel,
                      ExrPlane* planes);
 
@@ -60,7 +60,7 @@ void put(ExrPlane* planes, std::size_t pixel, const Vec3<double>& value) {
   for (int i = 0; i < 3; ++i) put(planes[i], pixel, value[i]);
 }
 
-/// How each of `data_channels` is found, in the same order; nothing for those that samples tell.
+/// Computation of each of `data_channels`, in the same order; nothing for those from samples.
 struct Filling {
   bool is_integer = false;
   Put put = nullptr;
@@ -128,8 +128,7 @@ constexpr std::
                               ExrPlane* planes) { put(planes[0], i, status_of(f)); }},
                 }};
 
-/// Where the point that was met is seen when the shutter closes, from where it is seen when it
-/// opens.
+/// Motion of the hit point in the picture between the shutter's opening and closing.
 Eigen::Vector2d motion_of(const Scene& scene, const Camera& camera, const Found& found) {
   if (found.hit.cast.status != Status::hit) return Eigen::Vector2d::Zero();
   const Movement<double> movement = instance_movement(scene, found.hit.instance);

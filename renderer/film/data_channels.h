@@ -14,7 +14,7 @@
 
 namespace minkray {
 
-/// A channel that may be asked for, and the planes of an OpenEXR file it becomes.
+/// A channel that may be requested, and the planes of an OpenEXR file it becomes.
 struct DataChannelDescription {
   std::string_view name;
   std::string_view planes;  ///< after the name: "" for one plane, "XYZ" for .X, .Y and .Z
@@ -76,8 +76,8 @@ bool are_light_channels_wanted(const std::vector<std::string_view>& channels);
 std::vector<ExrPlane> light_planes(const Rendering& rendering,
                                    const std::vector<std::string_view>& channels);
 
-/// The planes of those of the channels that the rays through pixels' centres tell, of the region
-/// that `options` ask for; all threads. They are of no use if the watch said stop.
+/// The planes of those channels that come from rays through pixels' centres, of the region in
+/// `options`; all threads. Incomplete if the watch returned stop.
 std::vector<ExrPlane> measure_data_channels(const Scene& scene, const World& world,
                                             const std::vector<std::string_view>& channels,
                                             const RenderOptions& options,

@@ -7,7 +7,7 @@
 namespace minkray {
 namespace {
 
-/// More rays tell no more of a pixel's features.
+/// More rays add nothing to a pixel's features.
 constexpr int most_rays = 16;
 
 }  // namespace

@@ -17,8 +17,8 @@ Vec3<float> from_codes(int red, int green, int blue) {
   return {linear(red), linear(green), linear(blue)};
 }
 
-/// Okabe and Ito's colours (2008), which the colour-blind tell apart as well; a solver that gave up
-/// must stand out most.
+/// Okabe and Ito's colours (2008), which are distinguishable with colour blindness; a solver that
+/// did not converge must be the most conspicuous.
 Vec3<float> status_colour(Status status) {
   switch (status) {
     case Status::miss:

@@ -35,7 +35,7 @@ inline constexpr std::array heat_channels = {
                            "hit, miss, inside, or exhausted if any cast gave up"},
 };
 
-/// The answers that the status channel tells apart, in the order of its numbers.
+/// The statuses that the status channel distinguishes, in the order of its numbers.
 inline constexpr std::array heat_statuses = {Status::miss, Status::hit, Status::inside,
                                              Status::exhausted};
 
@@ -47,8 +47,8 @@ struct HeatField {
   bool complete = false;
 };
 
-/// Casts one ray through each pixel's centre (samples 1), or samples evenly spread over it, of
-/// which counts are averaged and statuses give way to the gravest.
+/// Casts one ray through each pixel's centre (samples 1), or samples evenly spread over it: counts
+/// are averaged, and the gravest status wins.
 HeatField measure_heat(const Scene& scene, const World& world, HeatChannel channel,
                        const RenderOptions& options, const RenderWatch& watch = {});
 
@@ -67,10 +67,10 @@ struct HeatPanel {
   const HeatField* field;
 };
 
-/// The panels beside each other on one scale, above a colour bar with numbers and unit.
+/// The panels side by side on one scale, above a colour bar with numbers and unit.
 Image heat_picture(const std::vector<HeatPanel>& panels, HeatChannel channel);
 
-/// The numbers in all three channels, panels beside each other, for formats that keep floats.
+/// The numbers in all three channels, panels side by side, for formats that keep floats.
 Image heat_numbers(const std::vector<HeatPanel>& panels);
 
 }  // namespace minkray

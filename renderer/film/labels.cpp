@@ -36,7 +36,7 @@ std::vector<Label> labels_of(const Scene& scene, const Resolution& resolution) {
   const Camera camera(scene.camera, resolution);
   const double scale = label_scale(resolution);
   for (const auto& object : scene.objects) {
-    if (object.half_space) continue;  // it has no middle
+    if (object.half_space) continue;  // a half-space has no middle
     const std::string& name = object.name;
     const auto seen = projected(camera, bounds_of(object));
     if (name.empty() || !seen) continue;

@@ -25,7 +25,7 @@ inline std::size_t pixel_count(const PixelRect& region) {
   return static_cast<std::size_t>(region.width()) * static_cast<std::size_t>(region.height());
 }
 
-/// How many neighbouring pixels come to one call: at most so many columns and rows of them.
+/// Largest number of columns and rows of neighbouring pixels per call.
 struct BlockSize {
   int width = 1, height = 1;
 };
@@ -50,8 +50,8 @@ class PixelBlock {
 };
 
 /// Calls on_block(block, counts) for the blocks of all tiles of `region` that are not done yet,
-/// those of one tile one after another. Counts, watch, journal and answer are those of for_tiles.
-/// The watch is asked once a tile: what takes long at one pixel asks it again.
+/// those of one tile one after another. Counts, watch, journal and result are those of for_tiles.
+/// The watch is called once per tile: code that takes long at one pixel calls it again.
 template <class Counts, class OnBlock>
 bool for_blocks(const PixelRect& region, const BlockSize& size, Counts& counts,
                 const RenderWatch& watch, const OnBlock& on_block,

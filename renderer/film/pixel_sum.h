@@ -46,7 +46,7 @@ struct Spread {
   }
 };
 
-/// What is darker than this counts as noisy as this: a part of white.
+/// Darker values count as noisy as this one: a part of white.
 inline constexpr double least_brightness = 0.02;
 
 struct PixelSum {
@@ -66,13 +66,12 @@ struct PixelSum {
     direct.add(ray.direct);
     colour.add(ray.radiance.array(), samples);
   }
-  /// The standard error of its mean brightness, as the spread of its samples tells it; 0 of a
-  /// single one.
+  /// The standard error of its mean brightness, by the spread of its samples; 0 for a single one.
   double standard_error() const {
     const double n = samples;
     return samples < 2 ? 0 : std::sqrt(brightness.deviations / (n * (n - 1)));
   }
-  /// What the standard error is told as a part of.
+  /// Reference for the relative standard error.
   double least_mean() const { return std::max(brightness.mean, least_brightness); }
   /// True if the standard error of the mean is small enough.
   bool is_quiet(double noise) const { return standard_error() <= noise * least_mean(); }

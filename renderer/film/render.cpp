@@ -12,7 +12,7 @@
 namespace minkray {
 namespace {
 
-/// How so many rays are taken from pixels and samples.
+/// Distribution of a group of rays over pixels and samples.
 struct RayGroupShape {
   int samples;
   BlockSize pixels;
@@ -29,8 +29,8 @@ bool is_on_the_move(const Scene& scene) {
                      [](const Object& object) { return !object.movement.stands(); });
 }
 
-/// With a limit to the noise a pixel is looked at after so many samples, and again and again: at
-/// the same samples however many rays go together.
+/// With a limit on the noise, a pixel is checked each time it has this many more samples: at the
+/// same samples, however many rays go together.
 constexpr int samples_between_looks = 16;
 
 /// Samples from the first on, up to the end.
@@ -49,7 +49,8 @@ std::vector<Pass> passes_of(int first, int end, bool one_by_one) {
   return passes;
 }
 
-/// The mean of what several threads tell; to be shown, for its last digits depend on their order.
+/// The mean over several threads' values; for display only, since its last digits depend on their
+/// order.
 class MeanNoise {
  public:
   void clear() { sum_ = 0, count_ = 0; }
@@ -115,7 +116,7 @@ class Rendered {
     if (options_.light_channels) rendering_.direct = rendering_.variance = black;
   }
 
-  /// Only the last pass finishes tiles. False if the watch said stop.
+  /// Only the last pass finishes tiles. False if the watch stopped it.
   bool render(const Pass& pass, bool is_last) {
     // The rays of a group: samples of one pixel first, they are the closest together; then pixels.
     const int samples = pass.end - pass.first;
@@ -196,7 +197,7 @@ class Rendered {
           of_block;
   }
 
-  /// What is known of the pixel by now.
+  /// Writes the current state of the pixel.
   void write(const Pixel& pixel, const PixelSum& sum, const Pass& pass) {
     if (sum.samples > 1) noise_.add(sum.standard_error() / sum.least_mean());
     const int samples = std::max(sum.samples, 1);

@@ -14,7 +14,7 @@ namespace minkray {
 World make_world(const Scene& scene, const CastOptions<double>& options = {},
                  BvhBuild build = BvhBuild::quality);
 
-/// Moves a world's instances to where the scene, of which it was made, has them by now.
+/// Moves a world's instances to the current poses of its scene.
 void follow(World& world, const Scene& scene);
 
 struct RenderOptions {
@@ -40,7 +40,7 @@ struct RenderOptions {
 };
 
 struct Rendering {
-  Image image;  ///< linear radiance, of the region asked for; empty for a share of the samples
+  Image image;  ///< linear radiance, of the requested region; empty for a share of the samples
   std::vector<Image> block_sums;   ///< of a share of the samples: the sums of its blocks, in order
   std::vector<std::uint32_t> met;  ///< by pixel: how many of the samples' rays met an object
   Image direct;    ///< of the light, what was scattered at most once; empty unless wanted
@@ -49,18 +49,18 @@ struct Rendering {
   /// rendered here and have two samples or more; negative if none has.
   double noise = -1;
   RayCounts counts;
-  bool complete = false;  ///< false if the watch said stop
+  bool complete = false;  ///< false if the watch stopped it
 };
 
-/// A rendering to go on with, and who hears how it grows.
+/// A rendering to continue, and callbacks for its progress.
 struct RenderJournal {
   Rendering begun;         ///< if any tile is done
-  std::vector<bool> done;  ///< its tiles, as TileGrid counts them; empty: none
+  std::vector<bool> done;  ///< flags of its tiles, in the order of TileGrid; empty: none
   /// Called after each tile, one at a time; other tiles may be written to meanwhile.
   std::function<void(const Rendering&, std::size_t tile)> finished;
-  /// If it is there the picture is made in passes of 1, 2, 4 ... samples a pixel, all together; it
-  /// is told after each but the last, with how many there are. The last picture has the same bits
-  /// as without. Not with shares of the samples. Takes 200 bytes a pixel.
+  /// If set, the picture is made in passes of 1, 2, 4 ... samples per pixel, all together; called
+  /// after each but the last, with their number. The last picture has the same bits as without.
+  /// Not with shares of the samples. Uses 200 bytes per pixel.
   std::function<void(const Rendering&, int samples)> passed;
 };
 

@@ -10,7 +10,7 @@ namespace {
 
 struct Halves {
   PixelRect first, second;
-  int in_first;  ///< how many of the shares lie in the first
+  int in_first;  ///< number of shares in the first
 };
 
 /// Cuts the longer side in proportion to the shares; there are at least two.

@@ -24,8 +24,8 @@ struct Share {
 /// No picture is split into more.
 inline constexpr int most_shares = 1 << 20;
 
-/// The share that the text "i/n" says, nothing else around it. Throws WrongUsage that begins with
-/// `option`.
+/// Parses the share from the text "i/n", with nothing around it. Throws WrongUsage that begins
+/// with `option`.
 Share parse_share(const std::string& text, const std::string& option);
 
 /// The rectangle of a share: the longer side is halved again and again (unequal counts get unequal

@@ -8,13 +8,13 @@
 namespace minkray {
 namespace {
 
-/// How far along the curve through a square of `side` (a power of two) a place is.
+/// Position of a place along the curve through a square of `side` (a power of two).
 std::uint64_t place_on_curve(std::uint64_t side, std::uint64_t x, std::uint64_t y) {
   std::uint64_t place = 0;
   for (std::uint64_t half = side / 2; half > 0; half /= 2) {
     const bool right = (x & half) != 0, below = (y & half) != 0;
     place += half * half * ((right ? 3u : 0u) ^ (below ? 1u : 0u));
-    // Quarters are turned so that the curve goes on where the one before ends.
+    // Quarters are turned so that the curve continues where the one before ends.
     if (!below) {
       if (right) {
         x = side - 1 - x;

@@ -61,9 +61,10 @@ struct TileJournal {
   std::function<void(std::size_t tile)> finished;
 };
 
-/// Calls render_tile(PixelRect) -> counts for the tiles of `region` that are not done yet, possibly
-/// at once, and joins the counts with +=; counts.total() are rays. Answers whether all tiles were
-/// done without being stopped. Of tiles that were stopped neither counts nor the journal hear.
+/// Calls render_tile(PixelRect) -> counts for the tiles of `region` that are not done yet,
+/// possibly at once, and joins the counts with +=; counts.total() are rays. Returns true if all
+/// tiles were done without being stopped. Tiles that were stopped go neither to the counts nor to
+/// the journal.
 template <class Counts, class RenderTile>
 bool for_tiles(const PixelRect& region, Counts& counts, const RenderWatch& watch,
                const RenderTile& render_tile, const TileJournal& journal = {}) {

@@ -27,7 +27,7 @@ constexpr double packed_fill = 0.17;
 /// A row of numbers, as the file's floats.
 using Row = std::vector<float>;
 
-/// What a kind of scene is made of: poses of one shape, each with the numbers of its columns.
+/// Contents of a kind of scene: poses of one shape, each with the numbers of its columns.
 struct Posed {
   Json shape;
   std::vector<std::string> columns;

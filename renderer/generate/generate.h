@@ -35,7 +35,7 @@ inline constexpr std::size_t most_generated_hulls = 100000;
 /// Up to this number, poses are written into the scene file; more go into a file next to it.
 inline constexpr std::size_t most_inline_poses = 1000;
 
-/// Writes the scene file and, if there are many poses, first their file beside it: of the same
+/// Writes the scene file and, if there are many poses, first their file next to it: of the same
 /// name, but ending in .f32. Each is there in full or not at all. Throws CannotWrite, and
 /// WrongUsage if the kind is unknown or the count not possible.
 void generate_scene(const GenerateOptions& options, const std::string& file);

@@ -9,7 +9,7 @@
 namespace minkray {
 namespace {
 
-/// Keys stand so far apart, in seconds: near enough for the fall to look like a parabola.
+/// Interval between keys, in seconds: short enough for the fall to look like a parabola.
 constexpr double key_step = 0.25;
 constexpr int key_count = 9;
 

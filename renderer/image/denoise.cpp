@@ -12,15 +12,15 @@ namespace {
 /// Pixels up to so far away count, in rows and columns.
 constexpr int reach = 8;
 
-/// Light is compared in squares of so many pixels to each side.
+/// Pixels to each side in the squares in which light is compared.
 constexpr int patch = 1;
 
-/// How large a difference of light is told from noise: a part of its standard deviation (the k of
+/// Largest difference of light that counts as noise: a part of its standard deviation (the k of
 /// non-local means).
 constexpr float noise_scale = 0.5F;
 
-/// Differences of features that count as one: of albedo, of unit normals, and of depth beside what
-/// its slope explains, as a part of the depth.
+/// Differences of features that count as one: of albedo, of unit normals, and of depth beyond its
+/// slope, as a part of the depth.
 constexpr float albedo_scale = 0.1F, normal_scale = 0.35F, depth_scale = 0.01F;
 
 /// Light is divided by the albedo where that is more than this, so that textures are kept.
@@ -40,7 +40,7 @@ float squared(float x) {
   return x * x;
 }
 
-/// The picture made ready: its light without the albedo.
+/// The prepared picture: its light without the albedo.
 class Prepared {
  public:
   explicit Prepared(const NoisyPicture& picture)
@@ -93,7 +93,8 @@ class Prepared {
         if ((u != x || v != y) && holds(u, v)) visit(u, v);
   }
 
-  /// What is brighter than all around it and hardly known is as bright as the brightest of those.
+  /// Clamps a light that is brighter than all around it and very uncertain to the brightest of
+  /// those.
   void limit_specks() {
     const Image before = light_;
     for (int y = 0; y < height_; ++y)
@@ -111,7 +112,7 @@ class Prepared {
       }
   }
 
-  /// A few samples tell little of their variance: half of it is that of the pixels around.
+  /// A few samples are a poor estimate of their variance: half of it is that of the pixels around.
   void spread_variance() {
     const Image before = variance_;
     for (int y = 0; y < height_; ++y)
@@ -126,8 +127,8 @@ class Prepared {
       }
   }
 
-  /// How much the depth changes from a pixel to the next one on the same surface: the least change
-  /// to either side, along rows and columns.
+  /// Change of the depth from a pixel to the next one on the same surface: the least change to
+  /// either side, along rows and columns.
   float slope_at(int x, int y) const {
     const float here = of_.depth[index(x, y)];
     const auto change = [&](int u, int v) {
@@ -158,7 +159,7 @@ class Prepared {
     return std::exp(-std::max({albedo, normal, depth}));
   }
 
-  /// How far the light around two pixels differs by more than noise.
+  /// Difference of the light around two pixels beyond noise.
   float light_distance(int x, int y, int u, int v) const {
     float sum = 0, count = 0;
     for (int dy = -patch; dy <= patch; ++dy)

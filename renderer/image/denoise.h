@@ -13,7 +13,7 @@ namespace minkray {
 struct NoisyPicture {
   Image light;
   Image variance;            ///< the squared standard error of the light
-  Image albedo;              ///< what the light was multiplied by last; 0 where it was not
+  Image albedo;              ///< last factor of the light; 0 if there was none
   Image normal;              ///< or 0
   std::vector<float> depth;  ///< infinite or 0 where nothing is
 };

@@ -10,8 +10,8 @@
 namespace minkray {
 
 /// The smaller ones, down to a single pixel, which is the mean. Sides are halved and rounded up; a
-/// pixel is the mean of what it covers, parts of pixels included. What is brighter than white
-/// counts as white.
+/// pixel is the mean of the area that it covers, parts of pixels included. Values above white are
+/// clamped to white.
 std::vector<Image> smaller_images(const Image& image);
 
 }  // namespace minkray

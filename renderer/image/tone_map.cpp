@@ -14,7 +14,7 @@ double filmic(double x) {
 /// AgX takes stops of light from here to there, in logarithms of base 2.
 constexpr double least_stop = -12.47393, most_stop = 4.026069;
 
-/// Its contrast curve, by a polynomial.
+/// AgX's contrast curve, by a polynomial.
 double agx_curve(double x) {
   const double x2 = x * x, x4 = x2 * x2;
   return 15.5 * x4 * x2 - 40.14 * x4 * x + 31.96 * x4 - 6.868 * x2 * x + 0.4298 * x2 + 0.1191 * x -

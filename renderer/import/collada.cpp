@@ -66,20 +66,20 @@ class Collada {
   }
 
  private:
-  /// What a node shows, in the order in which it stands there.
+  /// Something that a node shows, in document order.
   struct Shown {
     const XmlElement* node = nullptr;
     const XmlElement* geometry = nullptr;        ///< if it is no node
-    const XmlElement* instance = nullptr;        ///< which names the geometry and its materials
-    std::string of_node = {};                    ///< what the node is called
-    std::optional<Affine<double>> in_skin = {};  ///< where the mesh stands, of one in a skin
+    const XmlElement* instance = nullptr;        ///< element with the geometry and its materials
+    std::string of_node = {};                    ///< name of the node
+    std::optional<Affine<double>> in_skin = {};  ///< pose of a mesh in a skin
   };
   struct Node {
     Affine<double> pose;
     std::vector<Shown> shows;
   };
 
-  /// Where vertices lie among the numbers of an array.
+  /// Positions of the vertices in an array of numbers.
   struct Vertices {
     const std::vector<double>* numbers;
     std::size_t begin, stride, count;
@@ -113,7 +113,7 @@ class Collada {
     return map;
   }
 
-  /// The node's transforms, in the order in which they stand.
+  /// The node's transforms, in document order.
   Affine<double> transform_of(const XmlElement& node) {
     Affine<double> all;
     for (const XmlElement& step : node.children) {
@@ -250,7 +250,7 @@ class Collada {
     }
   }
 
-  /// Where the first vertex begins, and how many numbers there are to the next one.
+  /// Offset of the first vertex, and the count of numbers to the next one.
   std::pair<std::size_t, std::size_t> layout_of(const XmlElement& source) {
     const XmlElement* common = source.child("technique_common");
     const XmlElement* accessor = common ? common->child("accessor") : nullptr;

@@ -8,7 +8,7 @@
 namespace minkray {
 namespace {
 
-/// The diffuse colour that a material's symbol stands for.
+/// The diffuse colour bound to a material's symbol.
 std::optional<Rgba> colour_of_symbol(const XmlElement& instance, const std::string& symbol,
                                      const ColladaTarget& target, XmlFiles& files) {
   const XmlElement* bind = instance.child("bind_material");

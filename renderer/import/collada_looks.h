@@ -15,7 +15,7 @@ namespace minkray {
 /// Follows the reference of an element's attribute; null if it leads nowhere.
 using ColladaTarget = std::function<const XmlElement*(const XmlElement&, std::string_view key)>;
 
-/// What an element is called: its name, or its id.
+/// Name of an element: its name, or its id.
 std::string collada_name(const XmlElement& element);
 
 /// The look of a geometry as `instance`, if any, binds its materials.

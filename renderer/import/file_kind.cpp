@@ -11,7 +11,7 @@
 namespace minkray {
 namespace {
 
-/// A glTF tells what it is within so many bytes.
+/// Length of a glTF's beginning that identifies its kind.
 constexpr std::size_t looked_at = std::size_t{1} << 16;
 
 struct Signature {

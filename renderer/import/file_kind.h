@@ -8,7 +8,7 @@
 namespace minkray {
 
 enum class FileKind : unsigned char {
-  scene,  ///< JSON, or what is to be told as such
+  scene,  ///< JSON, or a file to be reported as invalid JSON
   xml,
   gltf,
   other,  ///< a picture, an archive, a mesh
@@ -19,7 +19,7 @@ struct FileContent {
   std::string what = {};  ///< of other files: "a picture (PNG)"
 };
 
-/// A file that cannot be read, or is empty, is told by its ending.
+/// The kind of a file that cannot be read, or is empty, follows from its extension.
 FileContent content_of(const std::filesystem::path& file);
 
 /// Does this for the first bytes of a file.

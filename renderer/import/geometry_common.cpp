@@ -48,7 +48,7 @@ Shape<double> cone_of(double radius, double half_height) {
 
 Shape<double> ellipsoid_of(const Vec3<double>& radii) {
   if ((radii.array() > 0).all()) return Ellipsoid<double>{radii};
-  // What is flat is a disk or a segment along z, turned.
+  // A flat ellipsoid is a disk or a segment along z, turned.
   int flat = 0, longest = 0;
   for (int i = 1; i < 3; ++i) {
     if (radii[i] < radii[flat]) flat = i;

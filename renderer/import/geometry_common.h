@@ -26,7 +26,7 @@ Shape<double> ellipsoid_of(const Vec3<double>& radii);
 /// has no end for contact. 0: it has no end that way; if both are 0 not for rays either.
 void make_plane(ModelGeom& geom, double half_x, double half_y);
 
-/// Reads the sizes of one shape from its attributes; what is missing or wrong is told.
+/// Reads the sizes of one shape from its attributes; reports missing and wrong ones.
 class ShapeNumbers {
  public:
   ShapeNumbers(XmlFiles& files, const XmlElement& element) : files_(files), element_(element) {}
@@ -48,11 +48,10 @@ class ShapeNumbers {
 void read_shapes(Model& model, XmlFiles& files, const ImportOptions& options,
                  const std::function<void()>& read);
 
-/// Adds one mistake for all meshes that are missing and asked for, or one for each with --verbose.
+/// Adds one mistake for all required meshes that are missing, or one for each with --verbose.
 void tell_missing_meshes(Model& model, XmlFiles& files, const ImportOptions& options);
 
-/// Where the colour of a mesh comes from: what the robot's file says, or the mesh's own file if
-/// that tells one.
+/// Source of a mesh's colour: the robot's file, or the mesh's own file if that has one.
 enum class Colouring : unsigned char { of_robot, of_mesh };
 
 /// Adds a mesh's parts as geoms like the one given. If the model would have more than most_geoms
@@ -61,8 +60,8 @@ enum class Colouring : unsigned char { of_robot, of_mesh };
                                                    ModelGeom geom,
                                                    Colouring colouring = Colouring::of_robot);
 
-/// Adds a mesh's parts as geoms like the one given; or tells what is wrong with it, or passes it
-/// over if it is missing and that is allowed.
+/// Adds a mesh's parts as geoms like the one given; reports a mistake in the mesh, or skips a
+/// missing mesh if that is allowed.
 void add_mesh(Model& model, XmlFiles& files, const XmlElement& element,
               const MeshLibrary::Answer& answer, ModelGeom geom, const ImportOptions& options,
               Colouring colouring = Colouring::of_robot);

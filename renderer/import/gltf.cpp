@@ -99,7 +99,7 @@ class GltfReader {
       ModelGeom geom;
       geom.link = link;
       geom.collides = !has_colliders_;
-      // A skin's vertices stand where they are, wherever its node is.
+      // A skin's vertices keep their places, wherever its node is.
       Affine<double> pose;
       if (json.contains("skin")) pose = in_world.inverse() * gltf_z_up();
       for (const Affine<double>& instance : gltf_instances(document_, node)) {
@@ -134,7 +134,7 @@ class GltfReader {
     return answer;
   }
 
-  /// What the nodes below show as colliders; as one hull if that is asked for.
+  /// Colliders that the nodes below show; as one hull if requested.
   const MeshLibrary::Answer& parts_of_node(std::size_t node, bool is_one) {
     const auto [at, is_new] = parts_of_nodes_.try_emplace({node, is_one});
     if (!is_new) return at->second;

@@ -19,7 +19,7 @@ Model read_gltf(std::string bytes, const std::filesystem::path& file, const Impo
                 Mistakes& mistakes);
 
 /// All meshes that the file's scene shows, as one mesh; each of them is a part, if groups are
-/// asked for. Throws std::runtime_error without the file's name.
+/// requested. Throws std::runtime_error without the file's name.
 MeshContent read_gltf_content(const std::filesystem::path& file, MeshSplit split,
                               bool with_triangles);
 

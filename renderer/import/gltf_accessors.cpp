@@ -12,7 +12,7 @@ namespace minkray {
 namespace {
 
 constexpr std::size_t most_numbers = 100'000'000;
-/// Sparse accessors may leave out what they change: zeros, which no bytes of the file stand for.
+/// Sparse accessors may omit the unchanged items: zeros that take no bytes of the file.
 constexpr std::size_t most_zeros = 100'000;
 constexpr std::size_t most_numbers_read = 400'000'000;
 
@@ -49,7 +49,7 @@ double read_as(const char* at, double unit) {
   return std::max(static_cast<double>(number) / unit, -1.0);
 }
 
-/// Normalized integers stand for numbers from -1 or 0 to 1.
+/// Normalized integers represent numbers from -1 or 0 to 1.
 double number_at(const char* at, int type, bool normalized) {
   if (type == component_float32) {
     float number;
@@ -90,7 +90,7 @@ double number_at(const char* at, int type, bool normalized) {
 
 }  // namespace
 
-/// Where numbers lie: each item `stride` bytes behind the one before.
+/// Location of numbers: each item is `stride` bytes behind the one before.
 struct GltfDocument::Source {
   const char* data = nullptr;
   std::size_t stride = 0;

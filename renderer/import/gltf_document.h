@@ -18,19 +18,19 @@ namespace minkray {
 
 class GltfDocument {
  public:
-  /// `bytes` are a file's; other files are looked for beside `file`. What is wrong is a mistake.
+  /// `bytes` are a file's; other files are searched next to `file`. Reports errors as mistakes.
   GltfDocument(std::string bytes, std::filesystem::path file, Mistakes& mistakes);
 
   /// The root object, or null if the file is no glTF that is read.
   const Json* root() const { return root_ ? &*root_ : nullptr; }
 
-  /// How many items a list of the root has: "nodes", "meshes".
+  /// Number of items in a list of the root: "nodes", "meshes".
   std::size_t count(std::string_view list) const;
   /// The item of a list of the root that a key of an object names by its number; nothing if the key
   /// is not there, or is wrong, which is a mistake.
   std::optional<std::size_t> index(const Json& object, const JsonPath& path, std::string_view key,
                                    std::string_view list);
-  /// Reads a number that stands in a list in the same way.
+  /// Reads a number that occurs in a list in the same way.
   std::optional<std::size_t> index_of(const Json& number, const JsonPath& path,
                                       std::string_view list);
   const Json& item(std::string_view list, std::size_t index) const;
@@ -45,7 +45,7 @@ class GltfDocument {
   /// Extensions that the file uses and that are not read.
   std::vector<std::string> unread_extensions() const;
 
-  /// How many the buffers hold that were asked for so far.
+  /// Size of the buffers loaded so far.
   std::size_t bytes_of_buffers() const { return buffer_bytes_; }
 
   /// Hashes of all that was read.
@@ -76,7 +76,7 @@ class GltfDocument {
   std::optional<Json> root_;
   std::map<std::size_t, std::string> buffers_;
   std::size_t buffer_bytes_ = 0;
-  std::size_t numbers_read_ = 0;  ///< accessors may share what they read, and be asked again
+  std::size_t numbers_read_ = 0;  ///< accessors may share data and be read repeatedly
   std::string hash_text_;
   std::vector<std::filesystem::path> files_;
 };

@@ -14,7 +14,7 @@ namespace {
 
 using GltfTriangle = std::array<std::uint32_t, 3>;
 
-/// How a primitive's indices make triangles.
+/// Modes by which a primitive's indices make triangles.
 constexpr std::size_t mode_triangles = 4, mode_fan = 6;
 
 /// Strips turn over at every other triangle.
@@ -88,8 +88,8 @@ const GltfMeshes::Read& GltfMeshes::read(std::size_t index) {
   return read;
 }
 
-/// Adds what a primitive's morph targets move its points by, as much as their weights say. False,
-/// and a mistake, if they cannot be read.
+/// Adds the displacements of a primitive's morph targets to its points, times their weights.
+/// False, and a mistake, if they cannot be read.
 bool GltfMeshes::add_targets(const Json& primitive, const JsonPath& path,
                              const std::vector<double>& weights,
                              std::vector<Vec3<double>>& points) {
@@ -239,7 +239,7 @@ std::vector<std::size_t> gltf_roots(GltfDocument& document) {
   return document.mistakes().none() ? roots : std::vector<std::size_t>();
 }
 
-/// True, and reports an error, if the file may not have or show so many vertices.
+/// True, and reports an error, if the file may not have or show this many vertices.
 bool GltfMeshes::has_too_many(std::size_t vertices) {
   constexpr std::size_t bytes_of_number = 4;
   const std::size_t most = std::min(
@@ -338,7 +338,7 @@ void GltfMeshes::add_shown(std::span<const std::size_t> nodes, const Affine<doub
         const Json* name = named.find("name");
         return name && name->is_string() ? name->get<std::string>() : std::string();
       };
-      // A skin's vertices stand where they are, wherever its node is.
+      // A skin's vertices keep their places, wherever its node is.
       const Affine<double> there = json.contains("skin") ? pose : at.pose;
       for (const Affine<double>& instance : gltf_instances(document_, at.node)) {
         shown_ += shown.vertices.size();

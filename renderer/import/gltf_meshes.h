@@ -16,7 +16,8 @@ namespace minkray {
 /// No file shows more vertices, meshes that are shown again counted again.
 inline constexpr std::size_t most_gltf_vertices = 8'000'000;
 
-/// Colliders may each name a node with many below it; these are visited so often, beside once each.
+/// Limit of visits to nodes below colliders, beyond the first visit to each: many colliders may
+/// name the same node.
 inline constexpr std::size_t most_gltf_visits = 100'000;
 
 /// Turns y up to z up.
@@ -30,10 +31,10 @@ class GltfMeshes {
   /// piece (components), or none. Empty, and maybe mistakes, if there are none.
   const MeshParts& mesh(std::size_t index);
 
-  /// Tells which primitive each part of mesh() is, if groups are asked for.
+  /// The primitive of each part of mesh(), if groups are requested.
   const std::vector<std::size_t>& primitives_of_parts(std::size_t index);
 
-  /// How many primitives were points or lines.
+  /// Number of primitives that were points or lines.
   std::size_t left_out() const { return left_out_; }
 
   /// Adds all meshes that are shown by nodes and those below them. `looks`, if any, get a part for
@@ -58,7 +59,7 @@ class GltfMeshes {
   MeshSplit split_;
   std::map<std::size_t, Read> read_;
   std::size_t vertices_ = 0;  ///< of all meshes
-  std::size_t shown_ = 0;     ///< by all nodes that were asked for
+  std::size_t shown_ = 0;     ///< by all requested nodes
   std::size_t visits_ = 0, left_out_ = 0;
 };
 
@@ -69,7 +70,7 @@ std::vector<Affine<double>> gltf_instances(GltfDocument& document, std::size_t n
 std::optional<Rgba> gltf_colour(GltfDocument& document, const Json& primitive,
                                 const JsonPath& path);
 
-/// What a node is by itself.
+/// Local pose of a node.
 Affine<double> gltf_pose(GltfDocument& document, std::size_t node);
 
 /// The nodes below a node.

@@ -11,7 +11,7 @@ namespace minkray {
 /// The bytes of base64 text (RFC 4648); nothing if it is none.
 std::optional<std::string> from_base64(std::string_view text);
 
-/// The text with what "%20" and the like stand for (RFC 3986).
+/// The text with "%20" and the like decoded (RFC 3986).
 std::string percent_decoded(std::string_view text);
 
 }  // namespace minkray

@@ -26,7 +26,7 @@
 namespace minkray {
 namespace {
 
-/// What is XML is known by its root element, whatever its file is called.
+/// XML is recognised by its root element, whatever the file's name.
 struct ForeignFormat {
   std::string_view name;
   std::array<std::string_view, 3> endings;

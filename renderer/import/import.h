@@ -27,19 +27,20 @@ struct Imported {
 /// Their names with the endings of their files, for messages: "MJCF (.xml, .mjcf), URDF (.urdf)..."
 std::string foreign_formats();
 
-/// True if the file holds a robot's description; of one that cannot be read, its ending tells.
+/// True if the file holds a robot's description; for one that cannot be read, its extension
+/// decides.
 bool is_foreign(const std::filesystem::path& file);
 
 /// Throws BadInput that tells what the file is if it is a picture, a mesh or the like.
 void check_can_be_scene(const std::filesystem::path& file);
 
 /// The scene of a file, with all that options.others hold: the first file that is a scene has the
-/// camera and the lights, and joints are those of `file`. Throws BadInput with all mistakes, one a
-/// line; WrongUsage if a scene file is asked for what only robots have.
+/// camera and the lights, and joints are those of `file`. Throws BadInput with all mistakes, one
+/// per line; WrongUsage if options for robots are used with a scene file.
 Imported import_scene(const std::filesystem::path& file, const ImportOptions& options = {});
 
 /// The model that a text in one of the formats describes; nothing, and mistakes, if anything is
-/// wrong. `file` says where other files are looked for.
+/// wrong. Other files are searched next to `file`.
 std::optional<Model> parse_model(const std::string& text, const std::filesystem::path& file,
                                  const ImportOptions& options, Mistakes& mistakes);
 

@@ -11,14 +11,14 @@
 namespace minkray {
 
 enum class GeometryChoice : unsigned char {
-  visual,     ///< what the file's own viewer shows; collision shapes if nothing is shown
-  collision,  ///< what collides
+  visual,     ///< shapes that the file's own viewer shows; collision shapes if nothing is shown
+  collision,  ///< collision shapes
   all,        ///< every shape there is
 };
 
-/// What meshes of files are.
+/// Representation of meshes from files.
 enum class MeshChoice : unsigned char {
-  of_format,  ///< triangles; in MJCF hulls where they touch; all hulls where --split asks for parts
+  of_format,  ///< triangles; in MJCF hulls for contact; all hulls where --split requests parts
   hull,       ///< the convex hulls of their vertices
   exact,      ///< triangles, for contact as well
 };
@@ -30,11 +30,11 @@ struct ImportOptions {
   std::string keyframe;                   ///< empty: none
   std::vector<std::string> joints;        ///< NAME=VALUE each
   std::string joint_rows;                 ///< a CSV or JSON file of values; empty: none
-  std::vector<std::string> package_dirs;  ///< where package:// and model:// are looked for
-  std::vector<std::string> others;        ///< more files that stand in the same scene
+  std::vector<std::string> package_dirs;  ///< search path for package:// and model://
+  std::vector<std::string> others;        ///< more files in the same scene
   bool skip_missing_meshes = false;
   bool lenient = false;             ///< leaves out shapes and materials that are wrong
-  bool verbose = false;             ///< tells each missing mesh, not only how many
+  bool verbose = false;             ///< reports each missing mesh, not only their number
   Resolution picture = {960, 720};  ///< that the camera frames everything for
 
   /// True if meshes stay triangles.

@@ -14,13 +14,12 @@
 namespace minkray {
 namespace {
 
-/// Rows follow each other so fast unless they say when they are.
 
-/// Whoever has more has one mistake many times.
+/// Limit of reported mistakes: a file with more has one mistake many times.
 constexpr std::size_t most_mistakes = 20;
 
 /// In each row each link, joint and shape of the model has its place. Ten minutes of a humanoid at
-/// a thousand rows a second have a fifth of these.
+/// a thousand rows per second have a fifth of these.
 constexpr std::size_t most_keys = 100'000'000;
 
 std::vector<std::string> cells_of(const std::string& line) {

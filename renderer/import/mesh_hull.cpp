@@ -9,8 +9,8 @@
 namespace minkray {
 namespace {
 
-/// How far vertices lie below the surface of their hull at most: of a convex mesh, 0 but for
-/// rounding.
+/// Largest depth of vertices below the surface of their hull: 0 but for rounding for a convex
+/// mesh.
 double deepest_below(const std::vector<Vec3<double>>& vertices, const PointCloud<double>& hull) {
   const FacetMesh<double>* facets = hull.facets();
   if (!facets) return 0;

@@ -16,7 +16,7 @@ std::vector<Vec3<double>> hull_points_of(const TriangleMesh& mesh);
 struct MeshFacts {
   std::size_t triangles = 0, without_area = 0, repeated = 0, open_edges = 0;
   std::size_t hull_points = 0;
-  double deepest = 0;  ///< how far a vertex lies below the hull's surface at most
+  double deepest = 0;  ///< largest depth of a vertex below the hull's surface
 };
 MeshFacts facts_of(const ModelMesh& mesh);
 

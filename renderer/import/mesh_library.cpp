@@ -43,7 +43,7 @@ std::string mesh_endings() {
   return text;
 }
 
-/// A format whose files say nothing but where vertices are.
+/// A format whose files contain vertices only.
 template <MeshParts (*read)(const std::filesystem::path&, MeshSplit, bool)>
 MeshContent bare(const std::filesystem::path& file, MeshSplit split, bool with_triangles) {
   return {read(file, split, with_triangles), {}};
@@ -67,7 +67,7 @@ const std::vector<MeshFormatReader>& mesh_formats() {
 
 namespace {
 
-/// A folder has few packages; more than these are not looked at.
+/// Largest number of folders to search; a folder has few packages.
 constexpr std::size_t most_folders_looked_at = 1000;
 
 /// The name in a folder's package.xml; empty if there is none.
@@ -132,8 +132,8 @@ std::optional<std::filesystem::path> MeshLibrary::find(
       look_at(std::filesystem::path(folder) / in_package);
       look_at(std::filesystem::path(folder) / std::filesystem::path(rest).filename());
     }
-    // Packages lie in a folder of their name, beside or above the file, or in one whose package.xml
-    // gives them the name.
+    // Packages are in a folder of their name, next to the file or above it, or in one whose
+    // package.xml gives them the name.
     const std::string package = rest.substr(0, rest.find('/'));
     std::filesystem::path folder =
         std::filesystem::absolute(folder_.empty() ? "." : folder_).lexically_normal();
@@ -219,7 +219,7 @@ std::shared_ptr<const TriangleMesh> surface_of(std::vector<Vec3<double>> vertice
   return std::make_shared<const TriangleMesh>(std::move(vertices), std::move(triangles));
 }
 
-/// The part by itself, around the origin if that is asked for.
+/// The part by itself, around the origin if requested.
 MeshContent part_of(const MeshContent& content, std::size_t part, bool is_centred) {
   MeshContent alone;
   for (const std::uint32_t i : content.mesh.parts[part])

@@ -23,21 +23,21 @@ struct MeshContent {
   MeshLooks looks = {};  ///< of its parts, if it is split into groups, or of it as a whole
 };
 
-/// A part of a mesh file that is shown alone, its middle at the origin if that is asked for (SDF).
+/// A part of a mesh file that is shown alone, its middle at the origin if requested (SDF).
 struct Submesh {
   std::string name = {};  ///< empty: the whole mesh
   bool is_centred = false;
 };
 
-/// A reader throws std::runtime_error that says what is wrong, without the file's name.
+/// A reader throws std::runtime_error with the mistake, without the file's name.
 struct MeshFormatReader {
   std::string_view ending;
   MeshContent (*read)(const std::filesystem::path& file, MeshSplit split, bool with_triangles);
 };
 const std::vector<MeshFormatReader>& mesh_formats();
 
-/// How many vertices a file of meshes may show that holds so many numbers: what is shown again and
-/// again makes vertices without end of few bytes, and Qhull takes up to 50 us for each of them.
+/// Limit of vertices that a file of meshes with this many numbers may show: instances could make
+/// endless vertices of few bytes, and Qhull takes up to 50 us for each of them.
 constexpr std::size_t most_shown_vertices(std::size_t numbers) {
   return std::max<std::size_t>(200'000, 8 * numbers);
 }
@@ -51,16 +51,16 @@ class MeshLibrary {
   MeshLibrary(std::filesystem::path folder, const ImportOptions& options)
       : folder_(std::move(folder)), options_(&options) {}
 
-  /// A surface, or a hull where surfaces are not asked for or there are no triangles.
+  /// A surface, or a hull where surfaces are not requested or there are no triangles.
   struct Part {
     std::shared_ptr<const TriangleMesh> surface = {};
     std::optional<Shape<double>> hull = {};
-    std::optional<Rgba> colour = {};  ///< if the file tells
+    std::optional<Rgba> colour = {};  ///< if the file has one
   };
   struct Answer {
     std::vector<Part> parts;
-    std::vector<std::string> notes = {};  ///< what the file has that is not shown
-    std::string complaint;                ///< what is wrong; empty if nothing is
+    std::vector<std::string> notes = {};  ///< contents of the file that are not shown
+    std::string complaint;                ///< description of the mistake; empty if there is none
     bool is_missing = false;
     bool is_flattened = false;  ///< by a scale of zero
   };
@@ -70,14 +70,14 @@ class MeshLibrary {
                          const Submesh& submesh = {},
                          const std::vector<std::filesystem::path>& also_in = {});
 
-  /// The vertices stand in the file itself.
+  /// The vertices are in the file itself.
   Answer made_of(const MeshParts& mesh, const Vec3<double>& scale, const std::string& name);
 
-  /// The file that a name stands for, if there is one; `looked_for` gets all places.
+  /// The file that a name refers to, if there is one; `looked_for` gets all places.
   std::optional<std::filesystem::path> find(const std::string& uri,
                                             std::vector<std::filesystem::path>& looked_for) const;
 
-  /// Looks in other folders as well. What is found is among the model's files.
+  /// Searches other folders as well. A file that is found is added to the model's files.
   std::optional<std::filesystem::path> find_also_in(
       const std::string& uri, const std::vector<std::filesystem::path>& also_in);
 

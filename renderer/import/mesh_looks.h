@@ -18,21 +18,21 @@ using Rgba = std::array<double, 4>;
 inline constexpr std::size_t most_part_looks = 10'000;
 
 struct PartLook {
-  std::vector<std::string> names;       ///< any of which stands for the part
+  std::vector<std::string> names;       ///< each of them names the part
   std::map<Rgba, std::size_t> colours;  ///< faces of each
 };
 
 struct MeshLooks {
   std::vector<PartLook> parts;  ///< in the order of the parts, if these are the file's groups
   std::vector<std::filesystem::path> files = {};  ///< that were read for them
-  std::vector<std::string> notes = {};            ///< what could not be used
+  std::vector<std::string> notes = {};            ///< contents that could not be used
 };
 
 /// The colour of most faces of a part, or of all parts together; nothing if none has one.
 std::optional<Rgba> colour_of(const PartLook& part);
 std::optional<Rgba> colour_of(const MeshLooks& looks);
 
-/// How many colours there are in all parts.
+/// Number of colours in all parts.
 std::size_t colour_count(const MeshLooks& looks);
 
 /// Reads an OBJ file's groups and the materials (.mtl) that it names.

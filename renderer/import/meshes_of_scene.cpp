@@ -31,7 +31,7 @@ MeshSplit split_of(const Json& object) {
   return MeshSplit::none;
 }
 
-/// Hulls of files stand anywhere in shapes of shapes; a split stands beside the shape itself.
+/// Hulls of files may occur anywhere in shapes of shapes; a split is next to the shape itself.
 void find_files(const Json& json, MeshSplit split, std::vector<ShownFile>& files) {
   const auto add = [&](const ShownFile& found) {
     if (std::ranges::find(files, found) == files.end()) files.push_back(found);

@@ -26,8 +26,8 @@ constexpr double most_replicas = 100'000;
 constexpr int deepest_content = 600;  ///< each level is one of the stack
 constexpr int deepest_attachment = 32, most_attachments = 10'000;
 
-/// What surrounds an element of a body: its link, the pose of frames around it, default classes,
-/// and what replicas and attached models add to names.
+/// Context of an element of a body: its link, the pose of frames around it, default classes, and
+/// the additions of replicas and attached models to names.
 struct Around {
   int link = -1;
   Affine<double> frame = {};  ///< in the link's frame
@@ -71,7 +71,7 @@ class MjcfReader {
   }
 
  private:
-  /// Reads what a file says of all of its elements.
+  /// Reads the settings of a file that apply to all of its elements.
   Source* open(XmlElement root) {
     expand_includes(root, files_);
     sources_.push_back(std::make_unique<Source>(std::move(root), model_, files_, options_));
@@ -115,7 +115,7 @@ class MjcfReader {
                : rest_in_world_[static_cast<std::size_t>(around.link)].inverse() * given;
   }
 
-  /// Reads what stands in a body, in <worldbody> or in a <frame>.
+  /// Reads the contents of a body, of <worldbody> or of a <frame>.
   void read_body_content(const XmlElement& body, const Around& around) {
     if (nesting_ >= deepest_content)
       return files_.wrong(body, "is nested more than " + std::to_string(deepest_content) +
@@ -162,8 +162,8 @@ class MjcfReader {
     }
   }
 
-  /// Each replica stands a turn and a step further than the one before it; the turn is about where
-  /// they begin, so that steps turn as well.
+  /// Each replica is a turn and a step further than the one before it; the turn is about the first
+  /// place, so that steps turn as well.
   void read_replicas(const XmlElement& element, const Around& around) {
     const auto count = files_.number(element, "count");
     if (!count || !(*count >= 0) || *count != std::floor(*count) || *count > most_replicas)
@@ -274,7 +274,7 @@ class MjcfReader {
   }
 
   void read_body(const XmlElement& body, const Around& around) {
-    // Where coordinates are global and a body has no place, it is where its mass is.
+    // With global coordinates, a body without a position is at its mass.
     const bool has_no_place = source_->compiler.is_global() && !body.attribute("pos");
     const XmlElement* inertial = has_no_place ? body.child("inertial") : nullptr;
     const Affine<double> given =

@@ -58,7 +58,7 @@ void MjcfAssets::read(const XmlElement& assets, const MjcfDefaults& defaults) {
       std::string name = asset.attribute_or("name");
       if (name.empty()) name = std::filesystem::path(asset.attribute_or("file")).stem().string();
       if (name.empty()) files_.wrong(written, "must have a name or a file");
-      // As in MuJoCo: of a mesh, defaults say no more than the scale.
+      // As in MuJoCo: for a mesh, defaults set the scale only.
       if (asset.attribute("vertex") && !written.attribute("vertex"))
         files_.wrong(written, "vertex: must stand in the <mesh> itself, not in its defaults");
       if (!mesh_assets_.emplace(name, asset).second)
@@ -122,7 +122,7 @@ std::optional<std::vector<double>> MjcfAssets::fit(const XmlElement& written, co
   const MeshLibrary::Answer* mesh = mesh_of(written, e);
   if (!mesh) return std::nullopt;
   if (mesh->parts.empty()) {
-    // What is wrong with the mesh is told, or it is passed over.
+    // Reports a mistake in the mesh, or skips it.
     add_mesh(model_, files_, written, *mesh, geom, options_);
     return std::nullopt;
   }
@@ -174,7 +174,7 @@ MeshLibrary::Answer MjcfAssets::parts_of(const std::string& name, const XmlEleme
   const Vec3<double> scale_of_vertices = moves ? Vec3<double>::Ones() : scale;
   if (asset.attribute("vertex")) {
     const auto numbers = files_.numbers(asset, "vertex", 12, 3'000'000);
-    if (!numbers) return answer;  // which was told
+    if (!numbers) return answer;  // already reported
     std::vector<Vec3<double>> vertices;
     for (std::size_t i = 0; i + 2 < numbers->size(); i += 3)
       vertices.emplace_back((*numbers)[i], (*numbers)[i + 1], (*numbers)[i + 2]);
@@ -211,7 +211,7 @@ std::string MjcfAssets::name_of_file(const XmlElement& asset) const {
   return strips_path_ ? std::filesystem::path(file).filename().string() : file;
 }
 
-/// An included file may have its meshes beside it.
+/// An included file may have its meshes next to it.
 std::vector<std::filesystem::path> MjcfAssets::folders_of(const XmlElement& asset) const {
   const std::filesystem::path own = files_.files()[asset.file].parent_path();
   return {own / mesh_folder_, own};

@@ -23,15 +23,15 @@ class MjcfAssets {
         options_(options),
         meshes_(std::filesystem::path(), options) {}
 
-  /// Says where mesh files are: in a folder relative to the model's file, or to the file that names
-  /// them; and whether their own folders in the file count for nothing.
+  /// Sets the search path of mesh files: a folder relative to the model's file, or to the file
+  /// that names them; and if folders in their names are ignored.
   void look_in(const std::filesystem::path& file_folder, const std::filesystem::path& mesh_folder,
                bool strips_path);
 
   /// Reads an <asset>.
   void read(const XmlElement& assets, const MjcfDefaults& defaults);
 
-  /// A geom has its own colour, if it says one, or its material's.
+  /// The geom's own colour, if it has one, or its material's.
   Rgba colour_of(const XmlElement& geom) const;
 
   /// Adds the terrain that a geom names; `e` is the geom with its defaults.
@@ -46,7 +46,7 @@ class MjcfAssets {
   std::optional<std::vector<double>> fit(const XmlElement& written, const XmlElement& e,
                                          bool by_bounds, ModelGeom& geom);
 
-  /// Where models to attach are, by name: files as they are written, with the element of each.
+  /// Models to attach, by name: files as they are written, with the element of each.
   const std::map<std::string, XmlElement>& models() const { return models_; }
 
   /// Gives the model the meshes that were read, and their hashes.
@@ -55,7 +55,7 @@ class MjcfAssets {
  private:
   std::optional<Rgba> read_rgba(const XmlElement& element) const;
   MeshLibrary::Answer parts_of(const std::string& name, const XmlElement& asset);
-  /// Where a file lies that an asset names.
+  /// File of an asset.
   std::string name_of_file(const XmlElement& asset) const;
   std::vector<std::filesystem::path> folders_of(const XmlElement& asset) const;
   /// The parts of the mesh that a geom names; null, and a mistake, if there is none.

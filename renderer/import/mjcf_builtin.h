@@ -10,8 +10,8 @@
 
 namespace minkray {
 
-/// Rounded to float, as MuJoCo has them. Throws std::runtime_error that says what is wrong with the
-/// name or the parameters.
+/// Rounded to float, as in MuJoCo. Throws std::runtime_error that names the mistake in the name or
+/// the parameters.
 std::vector<Vec3<double>> builtin_mesh(const std::string& name, std::span<const double> params);
 
 }  // namespace minkray

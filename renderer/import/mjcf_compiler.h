@@ -30,7 +30,7 @@ class MjcfCompiler {
   /// The turn by three angles of the file.
   Mat3<double> turn_of(const Vec3<double>& angles) const;
 
-  /// The pose that an element's attributes say.
+  /// The pose in an element's attributes.
   Affine<double> pose_in(const XmlElement& e) const;
 
  private:

@@ -105,7 +105,7 @@ class PlanReader {
     plan_.size = *size;
     plan_.geom.kind = kind;
     plan_.geom.rgba = colour_of(*geom);
-    // Where there is a skin, the shapes are what it hides.
+    // With a skin, the shapes are those it hides.
     plan_.hides_skin = element_.child("skin") && type != "particle" && type != "rope" &&
                        type != "loop" && !(type == "grid" && plan_.count[1] == 1);
     // A skin itself is no convex shape: what it covers is shown in its place.

@@ -16,8 +16,8 @@
 
 namespace minkray {
 
-/// The most a file's composites may ask for, with all its geoms: fifty bytes of text make as many
-/// bodies as they like, and a picture of this many still takes seconds.
+/// The most that a file's composites may request, with all its geoms: fifty bytes of text make any
+/// number of bodies, and a picture of this many still takes seconds.
 inline constexpr double most_composite_elements = 100'000;
 
 struct CompositePlan {
@@ -29,9 +29,9 @@ struct CompositePlan {
   bool twists = false, stretches = false;
   std::vector<double> size;  ///< of the geom
   ModelGeom geom;            ///< without link, name and pose
-  bool hides_skin = false;   ///< the geoms stand for a skin, which is not shown
+  bool hides_skin = false;   ///< the geoms represent a skin, which is not shown
 
-  /// How many there are, in a block that is full: a shell has fewer.
+  /// Number of elements in a full block: a shell has fewer.
   double elements() const { return 1.0 * count[0] * count[1] * count[2]; }
   bool is_shell() const { return type == "box" || type == "cylinder" || type == "ellipsoid"; }
 };

@@ -15,10 +15,12 @@ constexpr int deepest_include = 32;
 /// Each level is one of the stack when bodies are read.
 constexpr int deepest_nesting = 500;
 
-/// What an element gets from its classes, names with values: few lines ask for it again and again.
+/// Limit of an element's attributes from its classes, names with values: few lines can request
+/// them again and again.
 constexpr std::size_t most_default_bytes = 10'000;
 
-/// What all classes hold, with what each has from those around it. Robots' files have a hundredth.
+/// Limit of all classes together, each with its inherited attributes. Robots' files have a
+/// hundredth.
 constexpr std::size_t most_bytes_of_classes = std::size_t{64} << 20;
 
 class Includes {
@@ -47,7 +49,7 @@ class Includes {
         files_.wrong(child, "file: must be there");
         continue;
       }
-      // Beside the first file, or beside the one that includes it.
+      // Next to the first file, or next to the one that includes it.
       std::filesystem::path file = folder_ / *name;
       const std::filesystem::path beside = files_.files()[child.file].parent_path() / *name;
       std::error_code error;
@@ -58,7 +60,7 @@ class Includes {
         continue;
       }
       std::optional<XmlElement> root = files_.read(file);
-      if (!root) continue;  // which was told
+      if (!root) continue;  // already reported
       expand(*root, depth + 1, nesting);
       for (XmlElement& included : root->children) children.push_back(std::move(included));
     }
@@ -100,8 +102,8 @@ std::string filled_up(const std::string& own, const std::string& other) {
   return rest.empty() ? own : own + " " + std::string(rest);
 }
 
-/// Attributes of which any one says the same thing as the others: an element's own one is not
-/// joined by another one of its class.
+/// Attributes that replace each other: an element's own one is not joined by another one of its
+/// class.
 bool is_orientation(const std::string& name) {
   return name == "quat" || name == "axisangle" || name == "xyaxes" || name == "zaxis" ||
          name == "euler";
@@ -110,7 +112,7 @@ bool is_orientation(const std::string& name) {
 void merge(std::vector<XmlAttribute>& own, const std::vector<XmlAttribute>& defaults) {
   bool has_orientation = false;
   for (const XmlAttribute& attribute : own) has_orientation |= is_orientation(attribute.name);
-  // No name is twice among the defaults: what is added of them need not be looked at again.
+  // The names of the defaults are distinct, so additions need not be checked again.
   const std::size_t written = own.size();
   for (const XmlAttribute& given : defaults) {
     if (given.name == "class" || (has_orientation && is_orientation(given.name))) continue;

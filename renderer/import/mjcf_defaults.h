@@ -8,8 +8,8 @@
 
 namespace minkray {
 
-/// Puts what other files hold in the place of each <include>. Files are looked for beside the
-/// root's own one, then beside the one that includes them; none may be included twice, as in
+/// Replaces each <include> by the contents of the other file. Files are searched next to the
+/// root's own one, then next to the one that includes them; none may be included twice, as in
 /// MuJoCo.
 void expand_includes(XmlElement& root, XmlFiles& files);
 

@@ -16,8 +16,8 @@ struct GeomSource {
   MjcfAssets& assets;
 };
 
-/// Adds what a <geom> stands for to the model; `e` is the element with its defaults, `geom` has its
-/// name and link. `local` makes a pose that the file gives one in the link's frame.
+/// Adds the geometry of a <geom> to the model; `e` is the element with its defaults, `geom` has
+/// its name and link. `local` converts a pose of the file to the link's frame.
 void add_mjcf_geom(const XmlElement& written, const XmlElement& e, ModelGeom geom,
                    const std::function<Affine<double>(const Affine<double>&)>& local,
                    const GeomSource& in);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t most_points = 10'000'000;
 
-/// MuJoCo asks no more of the differences of heights.
+/// Least difference of heights, as in MuJoCo.
 constexpr double least_difference = 1e-15;
 
 /// From 0 to 1, as far as they differ.
@@ -34,7 +34,7 @@ HeightGrid written_heights(const XmlElement& asset, XmlFiles& files, std::size_t
   HeightGrid grid{rows, columns, std::vector<double>(rows * columns)};
   if (!asset.attribute("elevation")) return grid;
   const auto numbers = files.numbers(asset, "elevation", rows * columns, rows * columns);
-  if (!numbers) throw std::invalid_argument("");  // which was told
+  if (!numbers) throw std::invalid_argument("");  // already reported
   for (std::size_t row = 0; row < rows; ++row)
     std::copy_n(numbers->begin() + static_cast<std::ptrdiff_t>((rows - 1 - row) * columns), columns,
                 grid.heights.begin() + static_cast<std::ptrdiff_t>(row * columns));

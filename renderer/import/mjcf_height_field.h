@@ -12,7 +12,7 @@
 
 namespace minkray {
 
-/// `find` answers the file that a name stands for. Null, and a mistake, if anything is wrong.
+/// `find` returns the file that a name refers to. Null, and a mistake, if anything is wrong.
 std::shared_ptr<const TriangleMesh> mjcf_height_field(
     const XmlElement& asset, XmlFiles& files,
     const std::function<std::optional<std::filesystem::path>(const std::string&)>& find);

@@ -37,7 +37,7 @@ void move_frame(Model& model, int link, const Affine<double>& frame) {
     joint.axis = back.linear * joint.axis;
     joint.anchor = back(joint.anchor);
   }
-  // Its geoms and those of the links below it came last.
+  // The geoms of this link and those of the links below it were added last.
   for (std::size_t i = model.geoms.size(); i-- > 0 && model.geoms[i].link >= link;)
     if (model.geoms[i].link == link) model.geoms[i].pose = back * model.geoms[i].pose;
   for (std::size_t i = index + 1; i < model.links.size(); ++i)

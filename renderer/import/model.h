@@ -23,8 +23,8 @@ namespace minkray {
 
 enum class JointKind : unsigned char { fixed, hinge, slide, ball, free, planar };
 
-/// How many numbers place a joint: a ball's are a quaternion w, x, y, z; a free joint's a position
-/// and a quaternion; a planar joint's two lengths and an angle.
+/// Count of numbers that place a joint: a ball's are a quaternion w, x, y, z; a free joint's a
+/// position and a quaternion; a planar joint's two lengths and an angle.
 std::size_t width_of(JointKind kind);
 std::string_view name_of(JointKind kind);
 
@@ -38,7 +38,7 @@ struct ModelJoint {
   JointKind kind = JointKind::fixed;
   Vec3<double> axis = {0, 0, 1};               ///< of unit length, in the link's frame
   Vec3<double> anchor = Vec3<double>::Zero();  ///< a point of the axis, in the link's frame
-  double reference = 0;                        ///< the value at which the link stands at rest
+  double reference = 0;                        ///< the value at the link's rest pose
   std::optional<std::array<double, 2>> limits = {};
   std::optional<Mimic> mimic = {};
   std::vector<double> value = {};  ///< empty: at rest
@@ -46,13 +46,13 @@ struct ModelJoint {
 
 struct ModelLink {
   std::string name;
-  int parent = -1;      ///< its index, less than the link's own; -1: the world
+  int parent = -1;      ///< the parent's index, less than the link's own; -1: the world
   Affine<double> rest;  ///< in the parent's frame, its joints at rest
   std::vector<ModelJoint> joints = {};
 };
 
-/// What a geom that rays meet as a mesh is for contact: in MuJoCo meshes touch as their hulls, and
-/// planes that are drawn as rectangles have no end.
+/// Contact shape of a geom that rays meet as a mesh: in MuJoCo meshes touch as their hulls, and
+/// planes that are drawn as rectangles are unbounded.
 enum class Touch : unsigned char { as_seen, as_hull, as_half_space };
 
 struct ModelGeom {
@@ -63,7 +63,7 @@ struct ModelGeom {
   /// Geometry: a shape, a mesh, or with neither the half-space under z = 0.
   std::optional<Shape<double>> shape = {};
   std::shared_ptr<const TriangleMesh> mesh = {};
-  Touch touches = Touch::as_seen;  ///< what a mesh is for contact
+  Touch touches = Touch::as_seen;  ///< contact shape of a mesh
   std::array<double, 4> rgba = {0.7, 0.7, 0.7, 1};
   bool collides = true, is_seen = true;
 
@@ -77,7 +77,7 @@ struct ModelMesh {
   std::string file;
   std::size_t vertices = 0;
   double diameter = 0;  ///< the longest side of its box
-  /// What each part is shown as: a surface, or a hull and the vertices that it is of.
+  /// Shown form of each part: a surface, or a hull and its vertices.
   struct Part {
     std::shared_ptr<const TriangleMesh> surface = {};
     std::optional<PointCloud<double>> hull = {};
@@ -113,18 +113,18 @@ struct Model {
   void pass_over(const std::string& what, const std::string& why, std::size_t count = 1);
 };
 
-/// How a joint's value moves its link, in the link's frame at rest; not of free joints, whose
+/// Motion of the link for a joint's value, in the link's frame at rest; not for free joints, whose
 /// values are the link's pose in the world.
 Affine<double> motion_of(const ModelJoint& joint);
 
 /// Two directions of a plane with that normal, along which a planar joint slides.
 std::array<Vec3<double>, 2> directions_across(const Vec3<double>& normal);
 
-/// Where the links stand in the world, by the joints' values.
+/// Poses of the links in the world, by the joints' values.
 std::vector<Affine<double>> link_poses(const Model& model);
 
-/// The joints that have a value, by name: of several of one name the first. It holds as long as the
-/// model's links and names do.
+/// The joints that have a value, by name: the first one if several have the same name. Valid as
+/// long as the model's links and names.
 using JointsByName = std::unordered_map<std::string_view, ModelJoint*>;
 JointsByName joints_by_name(Model& model);
 

@@ -21,7 +21,7 @@ std::string line(std::string_view title, const std::string& value) {
 
 using Counts = std::map<std::string, std::size_t>;
 
-/// What there is of each kind.
+/// Counts of each kind.
 struct ModelCounts {
   explicit ModelCounts(const Model& model) {
     for (const ModelLink& link : model.links)

@@ -35,8 +35,8 @@ inline Mat3<double> rotation_about(const Vec3<double>& axis, double angle) {
   return rotation_matrix(s.x(), s.y(), s.z(), std::cos(angle / 2));
 }
 
-/// Turns about x, y and z one after the other, as the letters say: small ones about the axes as
-/// they have turned, capital ones about those that stand still (MJCF).
+/// Turns about x, y and z one after the other, in the order of the letters: small ones about the
+/// axes as they have turned, capital ones about fixed axes (MJCF).
 inline Mat3<double> rotation_of_euler(const Vec3<double>& angles, std::string_view letters) {
   Mat3<double> m = Mat3<double>::Identity();
   for (std::size_t i = 0; i < 3 && i < letters.size(); ++i) {

@@ -18,7 +18,7 @@ class PlaneTree {
  public:
   using Plane = std::array<double, 4>;  ///< normal and offset: normal . x = offset
 
-  /// Planes that are not finite are left out. Points are asked about up to `size` from the origin.
+  /// Planes that are not finite are left out. Query points are at most `size` from the origin.
   PlaneTree(std::vector<Plane> planes, double size) : planes_(std::move(planes)), size_(size) {
     std::erase_if(planes_, [](const Plane& plane) {
       return !std::ranges::all_of(plane, [](double x) { return std::isfinite(x); });
@@ -26,8 +26,8 @@ class PlaneTree {
     if (!planes_.empty()) build(0, planes_.size());
   }
 
-  /// How far the point is below the plane it is the least below; infinity without planes. If it is
-  /// no more than `enough` below any of them, the answer is some distance up to `enough`.
+  /// Least depth of the point below any plane; infinity without planes. If the depth is no more
+  /// than `enough` below any of them, the result is some distance up to `enough`.
   double least_depth(const Vec3<double>& point, double enough) const {
     double least = std::numeric_limits<double>::infinity();
     if (!nodes_.empty()) search(0, point, enough, least);

@@ -29,7 +29,7 @@ struct Edge {
   }
 };
 
-/// What lies between two edges, from one x to another.
+/// The area between two edges, from one x to another.
 struct Trapezoid {
   std::size_t below = 0, above = 0;  ///< edges
   double from = 0, to = 0;
@@ -112,7 +112,7 @@ class Decomposition {
     return done;
   }
 
-  /// Its corners, three where two of its edges meet.
+  /// Corners of the trapezoid, three if two of its edges meet.
   std::vector<Corner> corners_of(const Trapezoid& trapezoid) const {
     const Edge &below = edges_[trapezoid.below], &above = edges_[trapezoid.above];
     std::vector<Corner> corners;
@@ -124,7 +124,7 @@ class Decomposition {
   }
 
  private:
-  /// Where edges cross each other, they are cut as well.
+  /// Cuts edges that cross each other at the crossing.
   void add_crossings() {
     for (std::size_t i = 0; i < edges_.size(); ++i)
       for (std::size_t j = 0; j < i; ++j) {
@@ -153,7 +153,7 @@ class Decomposition {
   }
 
   std::vector<Edge> edges_;
-  std::vector<double> stops_;  ///< where trapezoids may begin and end
+  std::vector<double> stops_;  ///< x at which trapezoids may begin and end
 };
 
 }  // namespace

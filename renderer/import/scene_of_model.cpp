@@ -65,7 +65,7 @@ struct BeyondLimits {
 };
 using JointsBeyond = std::map<const ModelJoint*, BeyondLimits>;
 
-/// Joints stand where they are asked to, but not in silence if that is beyond their limits.
+/// Joints take the requested values, but values beyond their limits are reported.
 void find_beyond(const Model& model, JointsBeyond& beyond) {
   for (const ModelLink& link : model.links)
     for (const ModelJoint& joint : link.joints) {
@@ -170,7 +170,7 @@ std::optional<MovingFrame> frame_of_link(Model& model, const std::vector<JointRo
 
 Scene scene_of(Model& model, const ImportOptions& options, const std::vector<JointRow>& rows) {
   Scene scene;
-  // What is not UTF-8 could not be written as a scene file.
+  // Text that is not UTF-8 could not be written as a scene file.
   scene.description = model.format + (model.name.empty() ? "" : " " + printable(model.name));
   Materials materials(scene);
   const std::vector<bool> wanted = chosen_geoms(model, options.geometry);

@@ -16,7 +16,7 @@ struct JointRow {
   std::vector<std::pair<std::string, std::vector<double>>> values;
 };
 
-/// Keyframe and joints as the options ask.
+/// Applies the keyframe and joints of the options.
 void pose_model(Model& model, const ImportOptions& options, Mistakes& mistakes);
 
 /// Rows of values: from a CSV file with the joints' names in its first line (and "time", in
@@ -27,13 +27,13 @@ std::vector<JointRow> read_joint_rows(const std::string& file, Model& model, Mis
                                       const std::string& option = "--joints",
                                       double rows_per_second = 24);
 
-/// Which geoms are asked for. A link without visual shapes shows its collision shapes.
+/// Selects the requested geoms. A link without visual shapes shows its collision shapes.
 std::vector<bool> chosen_geoms(const Model& model, GeometryChoice choice);
 
 /// Shapes chosen by the options. With several rows, objects move from row to row.
 Scene scene_of(Model& model, const ImportOptions& options, const std::vector<JointRow>& rows);
 
-/// Where a link stands or moves by the rows; nothing if there is none of that name.
+/// Frame of a link, fixed or moving by the rows; nothing if there is none of that name.
 std::optional<MovingFrame> frame_of_link(Model& model, const std::vector<JointRow>& rows,
                                          const std::string& name);
 

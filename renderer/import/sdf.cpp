@@ -33,7 +33,7 @@ class SdfReader {
   }
 
  private:
-  /// Where a model stands, and what it is called there.
+  /// Place of a model, and its name there.
   struct Placing {
     Affine<double> outer;  ///< of what it is in
     std::string prefix = {};
@@ -93,7 +93,7 @@ class SdfReader {
     }
   }
 
-  /// What could not be put in its place is a mistake that was told, or one of Gazebo's own.
+  /// An include that could not be resolved is a mistake that was reported, or one of Gazebo's own.
   void read_include(const XmlElement& include, const Affine<double>& outer, SdfFrames& frames) {
     has_content_ = true;
     if (sdf_text(include, "uri") == "model://ground_plane")

@@ -9,7 +9,7 @@
 namespace minkray {
 namespace {
 
-/// True if a name stands for the model's own frame.
+/// True if the name means the model's own frame.
 bool is_of_model(const std::string& name) {
   return name.empty() || name == "__model__" || name == "world";
 }
@@ -65,7 +65,7 @@ std::string sdf_text(const XmlElement& element) {
 SdfFrames::SdfFrames(const XmlElement& model, XmlFiles& files) : model_(model), files_(files) {
   for (const XmlElement& child : model.children) {
     if (child.name == "include") {
-      // Without a name of its own it has that of the included model, which nobody here knows.
+      // Without a name of its own it has that of the included model, which is unknown here.
       const std::string own = sdf_text(child, "name");
       if (!own.empty() &&
           !frames_.emplace(own, Frame{sdf_pose(child, files), relative_to(child), &child}).second)
@@ -143,7 +143,7 @@ std::string SdfFrames::link_of(const std::string& name) const {
     else
       return at;
   }
-  return name;  // in a circle, which is told where poses are asked for
+  return name;  // in a circle, which is reported when its pose is computed
 }
 
 /// Chains of frames may be long: each is made known from its end, without recursion.
@@ -176,7 +176,7 @@ void SdfFrames::find(Frame& frame) {
   }
   for (auto one = chain.rbegin(); one != chain.rend(); ++one) {
     outer = outer * (*one)->pose;
-    // What a pose places may be one of the nested model's own frames.
+    // The frame that a pose places may be one of the nested model's own.
     const XmlElement& element = *(*one)->element;
     const std::string* placed = element.attribute("placement_frame");
     if (placed && element.name == "model")

@@ -13,7 +13,7 @@
 
 namespace minkray {
 
-/// The pose that an element's <pose> says; the identity without one.
+/// The pose in an element's <pose>; the identity without one.
 Affine<double> sdf_pose(const XmlElement& element, XmlFiles& files);
 
 /// The text of an element, without the blanks around it.
@@ -25,15 +25,15 @@ std::string sdf_text(const XmlElement& element, std::string_view key);
 /// The names of a <model> or a <world>, each with its pose in its frame.
 class SdfFrames {
  public:
-  /// Collects the names of links, frames, joints and nested models before any pose is asked for:
-  /// poses may be relative to what stands further down.
+  /// Collects the names of links, frames, joints and nested models before any pose is computed:
+  /// poses may be relative to elements further down.
   SdfFrames(const XmlElement& model, XmlFiles& files);
 
   /// The pose of a name in the model's frame; `asks` is the element that a mistake names.
   Affine<double> pose_of(const std::string& name, const XmlElement& asks);
 
-  /// The pose that an element's <pose> says, in the model's frame; in that of `otherwise` if it
-  /// does not say relative to what.
+  /// The pose in an element's <pose>, in the model's frame; relative to `otherwise` if the element
+  /// names no frame.
   Affine<double> pose_in_model(const XmlElement& element, const std::string& otherwise = "");
 
   /// True if an element's <pose> names a frame.
@@ -49,7 +49,7 @@ class SdfFrames {
     std::string relative_to;
     const XmlElement* element;
     bool is_known = false;
-    bool is_open = false;  ///< it is being looked for: to find it again is a circle
+    bool is_open = false;  ///< in progress: finding it again is a circle
     Affine<double> in_model = {};
   };
 
@@ -59,8 +59,7 @@ class SdfFrames {
   const XmlElement& model_;
   XmlFiles& files_;
   std::map<std::string, Frame> frames_;
-  std::map<const XmlElement*, std::unique_ptr<SdfFrames>>
-      inner_;  ///< of nested models that were asked for
+  std::map<const XmlElement*, std::unique_ptr<SdfFrames>> inner_;  ///< resolved nested models
 };
 
 }  // namespace minkray

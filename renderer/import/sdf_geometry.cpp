@@ -123,7 +123,7 @@ void SdfGeometry::add_shape(const XmlElement& shape, ModelGeom geom, Colouring c
         normal = {(*v)[0], (*v)[1], (*v)[2]};
     if (unit(normal).isZero(0)) return files_.wrong(shape, "normal: must not be zero");
     geom.pose.linear = geom.pose.linear * rotation_of_z_to(normal);
-    // What collides has no end.
+    // A collision plane is unbounded.
     if (shape.child("size") && !geom.collides) {
       const auto size = numbers("size", 2);
       make_plane(geom, size[0] / 2, size[1] / 2);
@@ -183,8 +183,8 @@ void SdfGeometry::add_height_map(const XmlElement& shape, ModelGeom geom) {
   model_.geoms.push_back(std::move(geom));
 }
 
-/// Each file looks for meshes beside itself; a world may include one file a thousand times. All of
-/// them share one list of meshes' facts.
+/// Each file searches for meshes next to itself; a world may include one file a thousand times.
+/// All of them share one list of meshes' facts.
 MeshLibrary& SdfGeometry::library_of(const XmlElement& element) {
   const std::filesystem::path folder = files_.files()[element.file].parent_path();
   const std::uint32_t first = first_in_folder_.try_emplace(folder, element.file).first->second;

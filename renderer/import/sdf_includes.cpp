@@ -69,7 +69,7 @@ void SdfIncludes::expand(XmlElement& parent, int depth) {
   parent.children = std::move(children);
 }
 
-/// What the model holds becomes the parent's own, placed by a frame that stands for the model.
+/// The contents of the model become the parent's own, placed by a frame that represents the model.
 void SdfIncludes::merge(XmlElement model, std::vector<XmlElement>& children) {
   const std::string frame_name = "_merged__" + model.attribute_or("name") + "__model__";
   const auto is_of_model = [](const std::string& name) {
@@ -178,7 +178,7 @@ std::optional<XmlElement> SdfIncludes::model_for(const XmlElement& include) {
     }
     model = std::move(*found);
   }
-  // What is wrong with its pose or name is wrong with the <include>.
+  // A mistake in its pose or name is a mistake of the <include>.
   model.line = include.line;
   model.file = include.file;
   if (const std::string name = sdf_text(include, "name"); !name.empty()) {

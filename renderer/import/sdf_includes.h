@@ -19,7 +19,7 @@ inline constexpr int deepest_sdf_model = 32;
 
 class SdfIncludes {
  public:
-  /// `model` is told what is passed over.
+  /// Notes on skipped elements go to `model`.
   SdfIncludes(Model& model, XmlFiles& files, const ImportOptions& options)
       : model_(model), files_(files), options_(options) {}
 

@@ -52,7 +52,7 @@ void SdfTree::find_parents() {
     }
     const auto c = static_cast<std::size_t>(child);
     if (joint_of_[c] >= 0) {
-      // A loop: the links stand where they are, and the first joint moves the child.
+      // A loop: the links keep their places, and the first joint moves the child.
       model_.pass_over("<joint>", "closes a loop");
       continue;
     }

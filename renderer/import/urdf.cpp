@@ -24,7 +24,7 @@ class UrdfReader {
     model_.name = robot.attribute_or("name");
     for (const XmlElement& child : robot.children)
       if (child.name.starts_with("xacro:")) {
-        // What is between macros cannot be judged.
+        // Elements between macros cannot be judged.
         files_.wrong(child, "is a macro: expand the file first (xacro robot.urdf.xacro)");
         return {};
       }
@@ -208,7 +208,7 @@ class UrdfReader {
       const auto& next = children[name];
       open.insert(open.end(), next.rbegin(), next.rend());
     }
-    // What hangs on a link that is missing was told.
+    // Links below a missing one were reported.
     if (is_link_missing_ || model_.links.size() == link_order_.size()) return;
     for (const std::string& name : link_order_)
       if (!index.contains(name)) {

@@ -110,7 +110,7 @@ XmlElement sdf_of_urdf(XmlElement robot, XmlFiles& files) {
       set(joint, "name", child.attribute_or("name"));
       const std::string type = child.attribute_or("type");
       const std::string parent = parent_of(child);
-      // SDF has no joints that are free in all or three ways: the link stands where it is.
+      // SDF has no joints that are free in all or three ways: the link stays at its place.
       if (type == "floating" || type == "planar" || parent == "__model__") continue;
       set(joint, "type", type == "spherical" ? "ball" : type);
       joint.children.push_back(element(child, "parent", parent));

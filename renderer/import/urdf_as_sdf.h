@@ -7,7 +7,7 @@
 
 namespace minkray {
 
-/// The model of a <robot>. Mistakes of the robot's tree are told.
+/// The model of a <robot>. Mistakes in the robot's tree are reported.
 XmlElement sdf_of_urdf(XmlElement robot, XmlFiles& files);
 
 }  // namespace minkray

@@ -17,18 +17,18 @@
 namespace minkray {
 namespace {
 
-/// Whoever has more has one mistake many times.
+/// Limit of reported mistakes: a file with more has one mistake many times.
 constexpr std::size_t most_reported = 100;
 
 /// A piece of what was found, for messages.
 constexpr std::size_t longest_quote = 60;
 
-/// What names something: many elements of a model may carry one of these that the file says once.
+/// Attributes with names: many elements of a model may carry one of these that the file has once.
 constexpr std::array<std::string_view, 4> multiplied_names = {"name", "class", "childclass",
                                                               "prefix"};
 
-/// What may hold quotes and angle brackets that mean nothing; the last one is told by what the
-/// others leave.
+/// Sections in which quotes and angle brackets mean nothing; the last one is recognised after the
+/// others.
 struct Markup {
   std::string_view opens, closes;
 };
@@ -38,11 +38,11 @@ constexpr std::array<Markup, 4> no_elements = {
 /// The tag with the most attributes of a text.
 struct LargestTag {
   std::size_t attributes = 0;
-  std::size_t at = 0;  ///< where it begins
+  std::size_t at = 0;  ///< begin
 };
 
 /// tinyxml2 compares each attribute of an element with all before it, so that these are counted
-/// first: quotes that open in a tag. What a tag is, is told as tinyxml2 tells it. Of what is no XML
+/// first: quotes that open in a tag. Tags are recognised as in tinyxml2. For text that is not XML
 /// any number is right.
 LargestTag largest_tag(std::string_view text) {
   LargestTag largest;
@@ -214,7 +214,7 @@ std::optional<XmlElement> XmlFiles::parse(const std::string& text,
   return root;
 }
 
-/// Whether there are any.
+/// Returns true if there are any.
 bool XmlFiles::tell_long_names(const XmlElement& element) {
   bool any = false;
   for (const XmlAttribute& one : element.attributes) {

@@ -42,11 +42,11 @@ inline constexpr std::size_t most_xml_bytes = std::size_t{32} << 20;
 inline constexpr std::size_t most_collada_bytes = std::size_t{256} << 20;
 inline constexpr std::size_t most_xml_elements = 2'000'000;
 
-/// Robots' formats have some fifty for an element. What looks at each of them, or compares each
+/// Robots' formats have some fifty per element. Code that visits each of them, or compares each
 /// with each, relies on there being few.
 inline constexpr std::size_t most_xml_attributes = 200;
 
-/// A name, a class or a prefix has at most so many bytes: few lines can make each body carry it.
+/// Longest name, class or prefix in bytes: few lines can make each body carry it.
 inline constexpr std::size_t longest_xml_name = 1000;
 
 /// Takes the prefix off names that a vendor has added to a format for what it could as well have:
@@ -93,7 +93,7 @@ class XmlFiles {
   /// attribute is not there, or is wrong (a mistake).
   std::optional<std::vector<double>> numbers(const XmlElement& element, std::string_view key,
                                              std::size_t least, std::size_t most);
-  /// The text stands in an element; `what` names it in the mistake.
+  /// The text is in an element; `what` names it in the mistake.
   std::optional<std::vector<double>> numbers_in(const XmlElement& element, std::string_view text,
                                                 std::string_view what, std::size_t least,
                                                 std::size_t most);
@@ -112,8 +112,8 @@ class XmlFiles {
   std::size_t reported_ = 0, elements_ = 0, bytes_ = 0;
 };
 
-/// What is wrong with the length of a name: "must have at most 1000 bytes (got 5000)"; nothing if
-/// it is not too long.
+/// Message for a name that is too long: "must have at most 1000 bytes (got 5000)"; nothing if it
+/// is not.
 std::optional<std::string> complaint_of_length(std::string_view name);
 
 /// "<geom name="x">": an element as messages name it.

@@ -140,7 +140,7 @@ std::string info_as_text(const Scene& scene) {
   if (!summary.bounds.empty()) {
     text += line("bounds", text_of(summary.bounds.lower) + " to " + text_of(summary.bounds.upper));
   }
-  // What is read, and what is made of it for rays.
+  // Memory of the scene as read, and of the structures for rays.
   const World world = make_world(scene);
   const auto per_object = [&](std::size_t bytes) {
     const std::size_t objects = std::max<std::size_t>(summary.instances, 1);

@@ -9,7 +9,7 @@
 
 namespace minkray {
 
-/// What is in a scene: counts of shapes, bounds, memory, lights, camera.
+/// Contents of a scene: counts of shapes, bounds, memory, lights, camera.
 std::string info_as_text(const Scene& scene);
 /// `model`, `meshes` and `other_models`, if they are not empty, are written as well: what the scene
 /// was made of.

@@ -23,12 +23,12 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t most_bytes_of_request = 8192;
-/// When there are more, the oldest goes: whoever asks does so at once.
+/// Limit of open connections; the oldest is closed first, since requests follow at once.
 constexpr std::size_t most_connections = 64;
-/// Browsers open connections in advance, which say nothing for a while. Whoever is slower than this
-/// with all of a request is not answered.
+/// Time within which a request must be complete. Browsers open connections in advance, which are
+/// silent for a while.
 constexpr auto longest_request = std::chrono::seconds(20);
-/// How long a reader may take none of an answer.
+/// Time after which a reader that receives nothing is dropped.
 constexpr int longest_write_ms = 5000;
 constexpr int poll_ms = 200;
 
@@ -72,7 +72,7 @@ std::string_view word(std::string_view& text, char end) {
   return first;
 }
 
-/// Does not tell by its time how much of a guess was right.
+/// Takes the same time however much of a guess was right.
 bool is_same_secret(std::string_view a, std::string_view b) {
   if (a.size() != b.size()) return false;
   unsigned different = 0;
@@ -221,7 +221,8 @@ void LoopbackServer::serve(const std::function<WebReply(const WebRequest&)>& ans
   while (!stopped()) {
     std::vector<pollfd> waits{{socket_, POLLIN, 0}};
     for (const Connection& connection : open) waits.push_back({connection.socket(), POLLIN, 0});
-    if (::poll(waits.data(), waits.size(), poll_ms) < 0) continue;  // a signal: stopped() knows
+    if (::poll(waits.data(), waits.size(), poll_ms) < 0)
+      continue;  // a signal: stopped() returns true
     std::vector<Connection> still_open;
     for (std::size_t i = 0; i < open.size(); ++i) {
       Connection& connection = open[i];

@@ -10,7 +10,7 @@
 
 namespace minkray {
 
-/// What was asked for: "/TOKEN/cast?x=1" has the path "cast" and the value "1" of "x".
+/// The parsed request: "/TOKEN/cast?x=1" has the path "cast" and the value "1" of "x".
 struct WebRequest {
   std::string path;
   std::map<std::string, std::string> values;
@@ -42,8 +42,8 @@ class LoopbackServer {
   /// "http://127.0.0.1:PORT/TOKEN/"
   std::string address() const;
 
-  /// Answers one request after another until `stopped` says so, which it is asked a few times a
-  /// second and whenever a request comes.
+  /// Answers one request after another until `stopped` returns true; called a few times per second
+  /// and at each request.
   void serve(const std::function<WebReply(const WebRequest&)>& answer,
              const std::function<bool()>& stopped);
 

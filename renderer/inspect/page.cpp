@@ -26,7 +26,7 @@ constexpr std::size_t pixels_between_looks = 4;
 /// Pages that show more objects have coarser meshes of them.
 constexpr std::size_t most_fine_meshes = 40;
 
-/// What those and their shapes may take at most, packed.
+/// Space reserved for those and their shapes, packed.
 constexpr std::size_t reserve_bytes = 60'000;
 
 std::string packed_text(std::span<const unsigned char> bytes) {
@@ -35,7 +35,7 @@ std::string packed_text(std::span<const unsigned char> bytes) {
   return base64(deflater.finish());
 }
 
-/// Text that cannot end the script it stands in.
+/// Escapes text so that it cannot end the enclosing script.
 std::string for_script(std::string text) {
   for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos;)
     text.replace(at, 1, "\\u003c");

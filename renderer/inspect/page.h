@@ -17,11 +17,12 @@ struct InspectedSolver {
 
 struct InspectOptions {
   std::string name;        ///< of the scene
-  RenderOptions picture;   ///< what is rendered, and its size
+  RenderOptions picture;   ///< options and size of the rendered picture
   std::size_t pairs = 12;  ///< of objects, whose distances can be replayed
-  /// What the page may take. As many pixels can be replayed as fit; all else is there in any case.
+  /// Largest size of the page. As many pixels can be replayed as fit; all else is included in any
+  /// case.
   std::size_t most_bytes = 6'000'000;
-  bool is_served = false;  ///< the page may ask where it came from for more
+  bool is_served = false;  ///< the page may request more from its server
 };
 
 /// The pixels' numbers as the page reads them: {"resolution", "planes", "names", "bytes"}, the last
@@ -33,7 +34,7 @@ Json view_json(const Scene& scene, const std::vector<InspectedSolver>& solvers,
 struct InspectPage {
   std::string html;
   std::size_t pixels = 0, replayed = 0;
-  bool complete = false;  ///< false if the watch said stop; then nothing of it is of use
+  bool complete = false;  ///< false if the watch stopped it; then the page is incomplete
 };
 
 /// The first of the solvers is the one whose answers are shown; there is at least one.

@@ -16,10 +16,10 @@ namespace {
 
 using Point2 = Vec<double, 2>;
 
-/// Directions around the plane in which an outline is looked at.
+/// Number of directions around the plane for an outline.
 constexpr int outline_directions = 240;
 
-/// Pairs are looked for among the scene's first objects, so many of them.
+/// Number of the scene's first objects among which pairs are searched.
 constexpr std::size_t most_objects_paired = 300;
 
 template <int Dim>

@@ -11,7 +11,7 @@
 namespace minkray {
 namespace {
 
-/// A ray is asked so often for its time; others run on the machine, too.
+/// Number of casts of a ray to measure its time; other programs run on the machine, too.
 constexpr int tries = 3;
 
 RayCost cost_of(const SceneCasts& casts, const Ray<double>& ray) {

@@ -9,22 +9,22 @@
 
 namespace minkray {
 
-/// What the page says of the cast that is shown at a pixel, by the first solver.
+/// Data of the cast that the page shows at a pixel, by the first solver.
 struct ShownCast {
   std::uint32_t object = 0;  ///< 1 + the instance; 0: no cast is shown
-  std::uint8_t status = 0;   ///< its place in heat_statuses
+  std::uint8_t status = 0;   ///< index in heat_statuses
   double t = 0;
-  double below = 0, above = 0;  ///< how far the bounds of t lie from it
+  double below = 0, above = 0;  ///< distance of the bounds of t from it
   Vec3<double> normal = Vec3<double>::Zero();
   int iterations = 0, supports = 0;
 };
 
-/// What that cast takes by one of the solvers.
+/// Work of that cast by one of the solvers.
 struct ShownWork {
   int iterations = 0, supports = 0;
 };
 
-/// What a pixel's ray cost in all, by one solver.
+/// Total cost of a pixel's ray, by one solver.
 struct RayCost {
   QueryCounts work;
   Path last_path = Path::filter;
@@ -40,15 +40,14 @@ struct PixelAnswers {
   bool complete = false;
 };
 
-/// Asks the rays through the centres of all pixels; all threads.
+/// Casts the rays through the centres of all pixels; all threads.
 PixelAnswers measure_pixels(const Scene& scene, const std::vector<const SceneCasts*>& solvers,
                             const Resolution& resolution, const RenderWatch& watch);
 
-/// The cast that is shown of a ray: what the page says of a pixel.
+/// The cast that is shown for a ray: the page's data of a pixel.
 ShownCast shown_cast(const SceneCasts& casts, const Ray<double>& ray, std::size_t most_looked_at);
 
-/// How many instances are looked at for the hardest miss of a pixel in a picture, and of a single
-/// one.
+/// Number of instances searched for the hardest miss of a pixel in a picture, and of a single one.
 inline constexpr std::size_t most_looked_at_in_picture = 400;
 inline constexpr std::size_t most_looked_at_alone = 1000000;
 

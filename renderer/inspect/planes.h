@@ -15,7 +15,7 @@
 
 namespace minkray {
 
-/// What the page calls the types.
+/// Names of the types in the page.
 template <class V>
 constexpr const char* plane_type = "";
 template <>
@@ -63,8 +63,8 @@ inline std::uint8_t time_in_8_bits(double nanoseconds) {
 }
 
 /// A direction as a point of the unfolded octahedron (Cigolle et al., "A Survey of Efficient
-/// Representations for Independent Unit Vectors", 2014), to 7e-5. Zero is told apart by its second
-/// number, which no direction has.
+/// Representations for Independent Unit Vectors", 2014), to 7e-5. Zero has a second number that no
+/// direction has.
 inline std::array<std::int16_t, 2> direction_in_32_bits(const Vec3<double>& n) {
   constexpr double most = 32767;
   const double sum = n.cwiseAbs().sum();

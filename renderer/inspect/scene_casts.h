@@ -11,7 +11,7 @@
 
 namespace minkray {
 
-/// What a ray through the scene met, and what it cost.
+/// Hit of a ray through the scene, and its cost.
 struct SceneAnswer {
   WorldHit hit;
   QueryCounts work;

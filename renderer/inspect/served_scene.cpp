@@ -20,11 +20,11 @@ namespace {
 constexpr std::size_t most_kept = 4;
 constexpr int most_samples = 256;
 constexpr double most_zoom = 64;
-/// A picture that is asked for has no more, so that an answer takes seconds at most.
+/// Limit of a requested picture's pixels, so that a reply takes seconds at most.
 constexpr int most_pixels = 4'000'000;
 
-/// What nobody waits for any more is not finished: it is no picture, and is not to be taken for one
-/// by whoever only ceased to send.
+/// Reply to an abandoned request: an unfinished picture must not look like a finished one to a
+/// client that only ceased to send.
 WebReply left() {
   return {503, "text/plain; charset=utf-8", "not finished: nobody waits for it any more\n"};
 }
@@ -50,8 +50,8 @@ std::vector<double> numbers_of(const std::string& text, const std::string& key, 
   return numbers;
 }
 
-/// The watch of an answer that nobody waits for any more, when the page has turned to something
-/// else. It is asked by all threads and often, the connection seldom.
+/// The watch of a reply that is abandoned when the page turns to something else. All threads call
+/// it often; it checks the connection seldom.
 RenderWatch until_abandoned(const RenderWatch& watch, const WebRequest& request) {
   struct State {
     std::atomic<unsigned> calls = 0;

@@ -16,7 +16,7 @@ namespace minkray {
 ///   cast      x, y: the lines (ReplayLines) of the cast that is shown there, by all solvers
 ///   pair      a, b: the line of two objects
 ///   picture   samples, zoom, window (x0,y0,x1,y1 in pixels of the zoomed picture): a PNG
-///   view      what each pixel tells, as in the page (view_json)
+/// view the data of each pixel, as in the page (view_json)
 class ServedScene {
  public:
   /// All must outlive it. The page is what "" answers.

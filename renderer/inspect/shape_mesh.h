@@ -9,12 +9,12 @@
 
 namespace minkray {
 
-/// Directions for a mesh: smooth enough to look at; few enough for a page of hundreds of shapes.
+/// Directions for a mesh: smooth enough for a view; few enough for a page of hundreds of shapes.
 inline constexpr int fine_mesh = 160, coarse_mesh = 60;
 
 /// {"rank", "scale", "inner": {"v": [x, y, z, ...], "t": [corners, ...]}, "outer"}: coordinates
-/// from the ball's centre, as whole numbers to be multiplied by the scale. What Qhull fails at has
-/// no meshes; shapes of rank 1 and 0 have no inner one.
+/// from the ball's centre, as whole numbers to be multiplied by the scale. Shapes that Qhull fails
+/// at have no meshes; shapes of rank 1 and 0 have no inner one.
 Json mesh_json(const Shape<double>& shape, const Ball<double>& ball, int directions);
 
 }  // namespace minkray

@@ -18,7 +18,7 @@ class Deflater {
   void add(std::span<const unsigned char> bytes);
   void add(std::string_view text);
 
-  /// How many bytes there are so far, if what was added ended here. It costs some bytes to ask.
+  /// Number of bytes if the data ended here. Each call costs some bytes.
   std::size_t size();
 
   /// The whole stream; nothing is to be added after.

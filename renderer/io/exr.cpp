@@ -72,7 +72,7 @@ class FromMemory : public Imf::IStream {
   std::size_t at_ = 0;
 };
 
-/// Reads on as far as it is asked to: a header, without what comes behind it.
+/// Reads only as far as requested: a header, without the data behind it.
 class FromFile : public Imf::IStream {
  public:
   FromFile(RegularFile& file, const std::string& name) : Imf::IStream(name.c_str()), file_(file) {}
@@ -140,7 +140,7 @@ BadInput too_large(const std::string& file) {
   return BadInput(file + ": there is not enough memory to read it");
 }
 
-/// How an OpenEXR file begins.
+/// First bytes of an OpenEXR file.
 constexpr std::array<char, 4> magic = {0x76, 0x2f, 0x31, 0x01};
 
 /// The pixels that a header promises. In a damaged file the numbers may be anything.
@@ -185,7 +185,8 @@ Imf::Header read_header(Imf::IStream& stream, std::size_t file_bytes) {
   return header;
 }
 
-/// The header alone. Throws if the file is no OpenEXR file, or far longer than its header says.
+/// Reads the header alone. Throws if the file is no OpenEXR file, or far longer than its header
+/// implies.
 Imf::Header header_of(RegularFile& file, const std::string& name) {
   RegularFile ahead(name);
   std::size_t left = most_header_bytes;

@@ -13,8 +13,8 @@ namespace {
 constexpr std::uint32_t magic_number = 20000630, multi_part_flag = 0x1000;
 constexpr std::size_t longest_name = 255;
 
-/// Values of these types are read by what they are, whatever length the file says they have: with
-/// another one, what comes behind them would be read as something else than here.
+/// Values of these types are read by their type, whatever length the file gives: with another
+/// length, the data behind them would be read differently here.
 struct TypeOfOneLength {
   std::string_view name;
   std::uint32_t length;
@@ -43,8 +43,7 @@ constexpr std::array types_of_one_length = {TypeOfOneLength{"box2f", 16},
                                             TypeOfOneLength{"v3d", 24},
                                             TypeOfOneLength{"v3f", 12},
                                             TypeOfOneLength{"v3i", 12}};
-/// A list of channels ends with an empty name; of each channel there are so many bytes behind its
-/// name.
+/// A list of channels ends with an empty name; each channel has this many bytes behind its name.
 constexpr std::string_view type_of_channels = "chlist";
 constexpr std::uint32_t channel_bytes = 16;
 
@@ -60,7 +59,7 @@ class Reader {
       number = number * 256 + static_cast<unsigned char>(bytes[i]);
     return number;
   }
-  /// What ends with a zero.
+  /// Reads a text that ends with a zero.
   std::string name() {
     std::string name;
     std::array<char, 1> byte = {};
@@ -76,7 +75,7 @@ class Reader {
       count -= part;
     }
   }
-  /// An attribute's value, which must end where the file says.
+  /// An attribute's value, which must end at the length in the file.
   void value(std::string_view type, std::uint32_t length) {
     const auto* fixed = std::ranges::find(types_of_one_length, type, &TypeOfOneLength::name);
     if (fixed != types_of_one_length.end() && length != fixed->length) is_whole_ = false;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Checks OpenEXR headers before the library reads them. The library allocates as much memory for a
-// text as its length says: 1.8 GB for a file of 1.3 kB.
+// text as its length field: 1.8 GB for a file of 1.3 kB.
 #pragma once
 
 #include <functional>

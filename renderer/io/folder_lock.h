@@ -7,8 +7,8 @@
 namespace minkray {
 
 /// Waits for others that hold the lock of the folder, and holds it as long as it lives. Advisory,
-/// and the system's: it goes with a process that dies. Where a file system has no locks nobody
-/// waits.
+/// and the system's: released when the process dies. On file systems without locks it does not
+/// wait.
 class FolderLock {
  public:
   explicit FolderLock(const std::filesystem::path& folder);

@@ -12,7 +12,8 @@ namespace {
 
 constexpr unsigned first_frame = 0xc0, last_frame = 0xc2;  ///< of those that stb_image reads
 constexpr unsigned huffman_tables = 0xc4, scan = 0xda;
-constexpr std::size_t lengths = 16;  ///< of codes, in bits: a table says how many codes have each
+constexpr std::size_t lengths =
+    16;  ///< lengths of codes, in bits: a table has the number of codes of each
 constexpr std::size_t most_codes = 256;
 /// Each may go over all of the picture with a few bytes. Programs write ten at most.
 constexpr int most_scans = 100;
@@ -37,13 +38,13 @@ class From {
   std::size_t at_;
 };
 
-/// The tables of a segment whose length stands at `at`.
+/// Checks the tables of a segment whose length is at `at`.
 bool are_usable(std::string_view bytes, std::size_t at) {
   From from(bytes, at);
   const std::size_t length = from.number();
   const std::size_t end = at + length;
   while (from.at() < end && !from.at_end()) {
-    from.byte();  // which table it is
+    from.byte();  // number of the table
     std::size_t codes = 0;
     for (std::size_t i = 0; i < lengths; ++i) codes += from.byte();
     if (codes > most_codes) return false;
@@ -52,7 +53,7 @@ bool are_usable(std::string_view bytes, std::size_t at) {
   return true;
 }
 
-/// At least so many blocks make the picture of a frame whose length stands at `at`.
+/// Least number of blocks in the picture of a frame whose length is at `at`.
 std::uint64_t least_blocks(std::string_view bytes, std::size_t at) {
   From from(bytes, at);
   from.number();
@@ -65,9 +66,9 @@ std::uint64_t least_blocks(std::string_view bytes, std::size_t at) {
   const std::size_t count = std::min<std::size_t>(from.byte(), components.size());
   Sampling most = {1, 1};
   for (std::size_t i = 0; i < count; ++i) {
-    from.byte();  // its name
+    from.byte();  // name
     const unsigned sampling = from.byte();
-    from.byte();  // its table
+    from.byte();  // table
     components[i] = {sampling >> 4, sampling & 15};
     most = {std::max(most.across, components[i].across), std::max(most.down, components[i].down)};
   }

@@ -41,7 +41,7 @@ std::string temporary_name(const std::string& path, const fs::path& target) {
 class TemporaryFile {
  public:
   TemporaryFile(const std::string& path, const fs::path& target) : path_(path) {
-    // What is there already is another's, and stays.
+    // Existing files belong to others, and are kept.
     fs::path temporary;
     do {
       temporary = target.parent_path() / temporary_name(path, target);
@@ -89,7 +89,7 @@ void write_all(int descriptor, std::span<const unsigned char> bytes, const std::
   }
 }
 
-/// What a path leads to.
+/// Target of a path.
 struct Target {
   fs::path path;  ///< behind all symbolic links
   bool exists = false;

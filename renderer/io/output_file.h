@@ -9,15 +9,16 @@
 
 namespace minkray {
 
-/// Throws CannotWrite where `write_file` would fail for want of a folder, a right or a file name,
-/// so that nobody waits for an image that cannot be kept. Leaves nothing behind.
+/// Throws CannotWrite where `write_file` would fail for lack of a folder, a permission or a file
+/// name, so that no time is spent on an image that cannot be written. Leaves nothing behind.
 void check_writable(const std::string& path);
 
-/// Writes the bytes; an existing file is replaced in one step and keeps its rights. Devices and
-/// pipes are written to as they are. Throws CannotWrite; the existing file, if any, is then as it
-/// was and nothing is left beside it, nor if a signal that may be noted (renderer/base/interrupt.h)
-/// comes; SIGKILL or a crash of the machine may leave ".NAME.PROCESS.RANDOM.tmp" beside
-/// it. Whoever writes the same file at the same time has a temporary file of his own.
+/// Writes the bytes; an existing file is replaced in one step and keeps its permissions. Devices
+/// and pipes are written directly. Throws CannotWrite; the existing file, if any, is then
+/// unchanged and no temporary file is left, nor after a signal that may be noted
+/// (renderer/base/interrupt.h); SIGKILL or a crash of the machine may leave
+/// ".NAME.PROCESS.RANDOM.tmp" in its folder. Concurrent writers of the same file have a temporary
+/// file each.
 void write_file(const std::string& path, std::span<const unsigned char> bytes);
 
 /// Writes a regular file block by block: more than fits in memory. The file is there when `finish`

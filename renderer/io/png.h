@@ -9,10 +9,11 @@
 
 namespace minkray {
 
-/// 8 bits a channel, red, green and blue, rows from the top. The file says that Minkray wrote it.
+/// 8 bits per channel, red, green and blue, rows from the top. A text chunk names Minkray as the
+/// writer.
 std::vector<unsigned char> png_of(int width, int height, std::span<const std::uint8_t> rgb);
 
-/// True if the file is a PNG file that says so.
+/// True if the file is a PNG file with that text chunk.
 bool is_own_png(const std::string& file);
 
 /// Grey in 16 bits, rows from the top: numbers as they are, such as depths in millimetres.

@@ -26,7 +26,7 @@ std::int64_t number_at(std::string_view bytes, std::size_t at) {
   return number;
 }
 
-/// A chunk is as long as it says, or ends with the file.
+/// A chunk has the length in its header, or ends with the file.
 struct Chunk {
   std::size_t begin, length, end;
   std::string_view name;
@@ -37,15 +37,15 @@ Chunk chunk_at(std::string_view bytes, std::size_t begin) {
           bytes.substr(begin + name_at, name_length)};
 }
 
-/// stb_image takes a PNG that is too large for it for no picture. Its header tells how large it is.
+/// stb_image reports a PNG that is too large for it as no picture. The header has its size.
 void check_size(std::string_view bytes) {
   constexpr std::size_t width_at = 16, height_at = 20, header = 24;
   if (bytes.size() < header) return;
   check_image_size(number_at(bytes, width_at), number_at(bytes, height_at));
 }
 
-/// stb_image makes room for all bytes that a chunk says it has, up to 2 GB, before it sees that the
-/// file has not so many.
+/// stb_image allocates all bytes that a chunk's header claims, up to 2 GB, before it finds that
+/// the file is shorter.
 void check_data(std::string_view bytes) {
   for (std::size_t at = signature.size(); bytes.size() - at >= data_at;) {
     const Chunk chunk = chunk_at(bytes, at);
@@ -56,7 +56,7 @@ void check_data(std::string_view bytes) {
   }
 }
 
-/// Chunks of no pixels are allowed. Of one whose CRC is cut off stb_image would copy them as well.
+/// Chunks without pixels are allowed. stb_image would copy one whose CRC is cut off as well.
 void drop_empty_data(std::string& bytes) {
   std::size_t to = signature.size(), from = to;
   while (bytes.size() - from >= data_at) {

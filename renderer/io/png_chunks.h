@@ -7,8 +7,8 @@
 
 namespace minkray {
 
-/// Checks the size that the file's header says, and makes the chunks of pixels and the palette what
-/// stb_image can read. What does not begin as PNG files do stays as it is. Throws
+/// Checks the size in the file's header, and makes the chunks of pixels and the palette readable
+/// for stb_image. Data that does not begin as PNG files do stays as it is. Throws
 /// std::runtime_error if there are no pixels, or too many, or if the file ends among them.
 void mend_png(std::string& bytes);
 

@@ -16,7 +16,8 @@ using Rgbe = std::array<unsigned char, 4>;
 
 /// Rows so narrow or so wide are never run-length encoded.
 constexpr int least_encoded = 8, most_encoded = 32767;
-/// Bytes beyond this stand for a run, and say how long it is; others how many bytes follow.
+/// Bytes beyond this start a run, and hold its length; others hold the number of bytes that
+/// follow.
 constexpr int run = 128, longest_run = 127;
 
 class RadianceReader {
@@ -63,7 +64,7 @@ class RadianceReader {
     if (!is_rgbe) wrong("must have FORMAT=32-bit_rle_rgbe in its header");
   }
 
-  /// The number behind a name; the text goes on behind it.
+  /// The number behind a name; advances the text to its end.
   static int number_after(std::string_view name, std::string_view& text) {
     int number = 0;
     if (text.starts_with(name)) {

@@ -29,7 +29,8 @@
 namespace minkray {
 namespace {
 
-/// True if stb_image asked for memory that there is not: it gives other reasons then, or none.
+/// True if stb_image failed to allocate memory: the reasons that it gives then are others, or
+/// none.
 thread_local bool is_out_of_memory = false;
 
 void* cleared(std::size_t bytes) {
@@ -112,7 +113,7 @@ struct Codes {
   std::unique_ptr<Code, Free> codes;
 };
 
-/// What stb_image reads, by a function of its own for codes of such a size.
+/// Decodes a file with stb_image, by its function for codes of this size.
 template <class Code, class Load>
 Codes<Code> codes_of_stb(std::string_view bytes, int wanted, std::int64_t most_pixels, Load load) {
   Codes<Code> read;

@@ -16,8 +16,8 @@ namespace minkray {
 /// The extensions, for messages.
 inline constexpr const char* readable_images = ".exr, .hdr, .png, .jpg";
 
-/// Throws std::runtime_error, which says what is wrong, for a file that cannot be used: also one
-/// with numbers that are negative or none, or with more pixels than `most_pixels`.
+/// Throws std::runtime_error with the reason for a file that cannot be used: also one with numbers
+/// that are negative or not finite, or with more pixels than `most_pixels`.
 Image read_image(const std::filesystem::path& file, std::int64_t most_pixels = most_image_pixels);
 
 /// Grey levels as their codes have them, rows from the top: of 8 or 16 bits from 0 to 1, of OpenEXR

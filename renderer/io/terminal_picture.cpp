@@ -168,7 +168,7 @@ std::string block_picture(const Image& image) {
   return out;
 }
 
-/// Terminals' characters are about so many pixels wide.
+/// Approximate width of a terminal's character in pixels.
 constexpr int pixels_a_column = 9;
 
 }  // namespace

@@ -28,7 +28,7 @@ class PacketText {
  public:
   PacketText(Packet kind, const std::string& name) : bytes_(4, '\0') {
     bytes_ += static_cast<char>(kind);
-    bytes_ += '\0';  // the viewer's user goes on looking at what he looks at
+    bytes_ += '\0';  // does not change the selected image in the viewer
     text(name);
   }
   void text(const std::string& text) { bytes_ += text + '\0'; }
@@ -102,7 +102,7 @@ void TevPicture::show(const Image& image, const PixelRect& part) {
   packet.number(part.y0);
   packet.number(part.width());
   packet.number(part.height());
-  // Where each channel's first number is, and how far it is from one pixel to the next.
+  // Offset of each channel's first number, and the stride from one pixel to the next.
   const auto stride = static_cast<std::int64_t>(channels.size());
   for (std::int64_t channel = 0; channel < stride; ++channel) packet.long_number(channel);
   for (std::int64_t channel = 0; channel < stride; ++channel) packet.long_number(stride);

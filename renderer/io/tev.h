@@ -10,7 +10,7 @@
 
 namespace minkray {
 
-/// Where tev listens unless it is told otherwise.
+/// Default port of tev.
 inline constexpr const char* tev_port = "14158";
 
 class TevPicture {
@@ -26,7 +26,7 @@ class TevPicture {
   /// gone.
   void show(const Image& image, const PixelRect& part);
 
-  /// What went wrong, if anything: the picture itself does not need its viewer.
+  /// The error, if any: the picture itself does not need its viewer.
   const std::string& complaint() const { return complaint_; }
 
  private:

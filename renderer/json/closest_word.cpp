@@ -7,11 +7,11 @@
 namespace minkray {
 namespace {
 
-/// Longer words are not compared: nobody mistypes those.
+/// Longer words are not compared: they are not typing errors.
 constexpr std::size_t longest_word = 64;
 
-/// How many letters must be added, removed, changed or swapped with their neighbour to turn one
-/// word into the other (optimal string alignment, Damerau 1964).
+/// Number of letters that must be added, removed, changed or swapped with their neighbour to turn
+/// one word into the other (optimal string alignment, Damerau 1964).
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
   for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = i;

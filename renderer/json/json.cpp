@@ -10,7 +10,7 @@
 namespace minkray {
 namespace {
 
-/// Makes the error of asking a value for what it is not.
+/// Makes the error for reading a value as another type.
 std::logic_error is_not(const Json& json, const std::string& expected) {
   constexpr std::array<const char*, 8> names = {"null",           "true or false", "a whole number",
                                                 "a whole number", "a number",      "a string",

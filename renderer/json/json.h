@@ -17,9 +17,9 @@
 namespace minkray {
 
 /// A JSON value: null, true or false, a number, a string, a list or an object, whose keys stay in
-/// the order in which they were added. A braced list makes an object if each of its items is a pair
-/// that begins with a string, and a list otherwise; `Json::array` always makes a list. Asking for
-/// what a value is not throws std::logic_error.
+/// the order in which they were added. A braced list makes an object if each of its items is a
+/// pair that begins with a string, and a list otherwise; `Json::array` always makes a list.
+/// Reading a value as another type throws std::logic_error.
 class Json {
  public:
   struct Member;
@@ -56,12 +56,11 @@ class Json {
   static Json array(std::initializer_list<Json> items);
   static Json object();
 
-  /// The value that a text says; throws std::invalid_argument, which tells all mistakes of the
-  /// text.
+  /// Parses the value of a text; throws std::invalid_argument with all mistakes of the text.
   static Json parse(std::string_view text);
 
-  /// The value as text: in one line, or with each item in a line of its own, indented by so many
-  /// blanks a level. Throws std::logic_error if a string is not valid UTF-8.
+  /// The value as text: in one line, or with each item in a line of its own, indented by `indent`
+  /// blanks per level. Throws std::logic_error if a string is not valid UTF-8.
   std::string dump(int indent = -1) const;
 
   Kind kind() const;
@@ -79,7 +78,7 @@ class Json {
   /// The characters of a string.
   const std::string& text() const;
 
-  /// How many items a list or an object has; 0 for null, 1 for anything else.
+  /// Number of items of a list or an object; 0 for null, 1 for anything else.
   std::size_t size() const;
   bool empty() const { return size() == 0; }
 

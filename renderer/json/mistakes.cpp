@@ -9,7 +9,7 @@ namespace {
 /// Longer paths have their middle left out.
 constexpr std::size_t longest_path = 160;
 
-/// Nobody reads so many, and each may be a kilobyte.
+/// Limit of stored messages, since each may be a kilobyte.
 constexpr std::size_t most_messages = 10'000;
 
 /// The number of bytes of the UTF-8 character that starts at text[i], 0 if none does.
@@ -91,7 +91,7 @@ void Mistakes::add(std::string_view message) {
     ++more_;
     return;
   }
-  // Whoever gives us a file also gives it its name.
+  // The file's name comes from its author, and may hold anything.
   messages_.push_back(printable(file_ + ": " + std::string(message)));
 }
 

@@ -19,8 +19,8 @@ class Mistakes {
   explicit Mistakes(std::string file) : file_(std::move(file)) {}
 
   /// One mistake at a place in the document: what was expected and what was found. Only the first
-  /// one at each place is kept: what follows from it would be noise. Of very many the first
-  /// 10,000 are kept, and the others counted.
+  /// one at each place is kept: its consequences would be noise. The first 10,000 are kept, and
+  /// the others counted.
   void add(const JsonPath& path, std::string_view message);
 
   /// One mistake of the file as a whole.
@@ -34,7 +34,7 @@ class Mistakes {
   const std::vector<std::string>& messages() const { return messages_; }
   const std::string& file() const { return file_; }
 
-  /// All messages, one a line, without a newline at the end; each as printable() has it.
+  /// All messages, one per line, without a newline at the end; each as printable() has it.
   std::string text() const;
 
  private:

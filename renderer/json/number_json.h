@@ -15,7 +15,7 @@ inline Json number_json(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
-/// Goes by way of its shortest decimal, so that 0.1f is written 0.1.
+/// Uses its shortest decimal, so that 0.1f is written 0.1.
 inline Json number_json(float value) {
   if (!std::isfinite(value)) return nullptr;
   char text[32];

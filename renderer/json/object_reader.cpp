@@ -9,7 +9,7 @@
 namespace minkray {
 namespace {
 
-/// The beginning is told of longer lists.
+/// Longer lists are cut.
 constexpr std::size_t most_names = 40;
 
 /// Keys of other programs and formats, and the one here.

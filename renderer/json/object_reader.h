@@ -28,10 +28,10 @@ class ObjectReader {
   /// Does as find, but a missing key is a mistake: "missing: must be <expected>".
   const Json* require(std::string_view key, std::string_view expected);
 
-  /// Names keys that are known without being asked for.
+  /// Names keys that are valid without being read.
   void allow(std::initializer_list<std::string_view> keys);
 
-  /// Adds a mistake for each key that nobody has asked for; true if there is none. Call it last.
+  /// Adds a mistake for each key that was not read; returns true if there is none. Call it last.
   bool finish();
 
   const JsonPath& path() const { return path_; }

@@ -18,12 +18,12 @@
 namespace minkray {
 namespace {
 
-/// After so many numbers that are not finite the rest of the text is not read.
+/// Number of numbers that are not finite after which parsing stops.
 constexpr std::size_t most_not_finite = 100;
 
 /// A number that is not finite (NaN, -Infinity, 1e999).
 struct NotFinite {
-  std::size_t ordinal = 0;  ///< how many numbers, trues, falses and nulls stand before it
+  std::size_t ordinal = 0;  ///< count of numbers, trues, falses and nulls before it
   std::string written;
 };
 
@@ -79,7 +79,7 @@ std::vector<NotFinite> replace_not_finite(std::string& text) {
   return replaced;
 }
 
-/// Builds the value while nlohmann-json reads the text, and knows the path it is at.
+/// Builds the value while nlohmann-json reads the text, and tracks its path.
 class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
  public:
   TreeBuilder(const std::vector<NotFinite>& not_finite, Mistakes& mistakes)
@@ -90,7 +90,8 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
   /// True if each number that is not finite has been reported.
   bool has_reported_all() const { return reported_ == not_finite_.size(); }
 
-  /// Where reading stopped, if it did: the bytes before the last one read, and the reason.
+  /// Position at which reading stopped, if it did: the bytes before the last one read, and the
+  /// reason.
   std::size_t error_position = 0;
   std::string error_reason;
   bool too_deep = false;

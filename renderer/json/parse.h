@@ -13,8 +13,8 @@
 
 namespace minkray {
 
-/// How deep lists and objects may be nested: far beyond what scenes need, far below what the stack
-/// can hold.
+/// Largest depth of nested lists and objects: far beyond the needs of scenes, far below the
+/// capacity of the stack.
 inline constexpr std::size_t deepest_json_nesting = 256;
 
 /// Some million objects. The values take about twenty times as much memory as the text.

@@ -92,7 +92,7 @@ std::optional<double> read_number(const Json& json, const JsonPath& path, Mistak
 
 std::optional<int> read_integer(const Json& json, const JsonPath& path, Mistakes& mistakes,
                                 int lowest, int highest) {
-  // By its value, not its spelling: 1.0 is a whole number, too.
+  // Checks the value, not its spelling: 1.0 is a whole number, too.
   if (json.is_number()) {
     const double value = json.get<double>();
     if (value >= lowest && value <= highest && value == std::floor(value)) {

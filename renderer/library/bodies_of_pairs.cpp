@@ -13,7 +13,7 @@
 namespace minkray {
 namespace {
 
-/// How far a linear part may be off a rotation: what is further off is a mistake, and no rounding.
+/// Tolerated deviation of a linear part from a rotation: more is a mistake, not rounding.
 constexpr double most_off_rigid = 1e-6;
 
 constexpr std::size_t numbers_of_quaternion_pose = 7;
@@ -98,7 +98,8 @@ BodiesOfPairs::BodiesOfPairs(const minkray_bodies* given, std::size_t count, con
       if (std::ranges::find(customs_, custom) == customs_.end()) customs_.push_back(custom);
   }
   refuse_if_running(customs_, argument);
-  // Before pairs wait for each other's support points: a shape that is made ready is locked.
+  // Prepares shapes before pairs wait for each other's support points, since a shape is locked
+  // while it is prepared.
   for (const HeldShape* const held : shapes_)
     if (!held->mesh()) held->contact();
 }
@@ -127,7 +128,7 @@ void BodiesOfPairs::read(std::size_t i, PosedBody& body) const {
   if (given_.pose_kind == MINKRAY_POSE_MATRIX_4X4) check_last_row(numbers + 12, argument_, i);
   const auto& pose = *reinterpret_cast<const minkray_pose*>(numbers);
   const double x = pose.rows[0][3], y = pose.rows[1][3], z = pose.rows[2][3];
-  // What is finite times zero is zero, anything else is not.
+  // A finite number times zero is zero, any other is not.
   if (!are_orthonormal(pose.rows) || 0 * x + 0 * y + 0 * z != 0) [[unlikely]]
     return read_slowly(i, pose, body);
   for (int row = 0; row < 3; ++row)

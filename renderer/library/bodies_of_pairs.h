@@ -14,7 +14,7 @@
 
 namespace minkray {
 
-/// A shape and where it stands. Made once for many pairs: nothing is allocated for each.
+/// A shape and its pose. Made once for many pairs: nothing is allocated for each.
 class PosedBody {
  public:
   PartsBody parts() const { return mesh_ ? PartsBody(*mesh_) : PartsBody(*shape_); }
@@ -22,7 +22,7 @@ class PosedBody {
   const std::shared_ptr<const TriangleMesh>& mesh() const { return mesh_; }
   /// Not of a mesh.
   const ContactShape& shape() const { return *shape_; }
-  /// A point stands for a mesh, and is not looked at.
+  /// A placeholder point for a mesh.
   const ContactShape& shape_or_point() const;
   const Affine<double>& pose() const { return pose_; }
 
@@ -31,7 +31,7 @@ class PosedBody {
   const ContactShape* shape_ = nullptr;
   std::shared_ptr<const TriangleMesh> mesh_;
   Affine<double> pose_;
-  /// Where the pose is not rigid to the last digits, and so part of the shape.
+  /// Set if the pose is not rigid to the last digits, and so part of the shape.
   std::unique_ptr<const ContactShape> own_;
 };
 
@@ -43,7 +43,7 @@ class BodiesOfPairs {
 
   /// The i-th body. Throws CallError if its pose is not finite or not rigid.
   void read(std::size_t i, PosedBody& body) const;
-  /// How it moves from there. Throws CallError if a number is not finite.
+  /// The body's motion from its pose. Throws CallError if a number is not finite.
   RigidMotion motion(std::size_t i, const PosedBody& body) const;
 
   /// Those of all shapes, each once.

@@ -37,7 +37,7 @@ minkray_clearance plain_clearance(const Closest& found, const Affine<double>& ro
   return plain;
 }
 
-/// Where derivatives go: a row of numbers for each step, and a flag; null if they are not wanted.
+/// Output of derivatives: a row of numbers for each step, and a flag; null if they are not wanted.
 struct DerivativeRoom {
   double* jac = nullptr;
   std::uint8_t* is_ridge = nullptr;
@@ -95,7 +95,7 @@ void find_clearance(const HeldScene& held, const HeldScene::Group& robot,
 void clearance_call(minkray_scene scene, std::uint32_t group,
                     const minkray_clearance_options* options, const ClearanceCall& asked) {
   const SceneQuery held(scene);
-  held->world();  // it is committed
+  held->world();  // checks that the scene is committed
   const HeldScene::Group& robot = held->group(group);
   if (!robot.model) wrong_use("group: must be a robot's, from URDF, MJCF, SDF or glTF");
   if (!is_rigid(robot.pose)) wrong_use("group: must have a pose that keeps lengths");

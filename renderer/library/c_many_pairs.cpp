@@ -22,7 +22,7 @@ namespace {
 /// Pairs that a thread takes at once: the longest take some tens of milliseconds each.
 constexpr std::size_t pairs_a_part = 64;
 
-/// Asks for each pair by itself, on as many threads as the options say: ask(i, a, b, memory).
+/// Queries each pair by itself, on as many threads as the options allow: ask(i, a, b, memory).
 template <class Ask>
 void ask_all(const BodiesOfPairs& a, const BodiesOfPairs& b, std::size_t count,
              minkray_pair_memory* memories, const minkray_options* how, const Ask& ask) {
@@ -43,7 +43,7 @@ void ask_all(const BodiesOfPairs& a, const BodiesOfPairs& b, std::size_t count,
   throw_if_lied(b.customs());
 }
 
-/// Neither is a mesh, of which pairs keep nothing in memories.
+/// True if neither is a mesh; pairs with meshes keep nothing in memories.
 bool are_shapes(const PosedBody& a, const PosedBody& b) {
   return !a.is_mesh() && !b.is_mesh();
 }

@@ -17,8 +17,8 @@
 namespace minkray {
 namespace {
 
-/// A shape and where it stands, as queries on pairs want it: what keeps lengths is the pose, any
-/// other map is part of the shape.
+/// A shape and its pose, for queries on pairs: a map that keeps lengths is the pose, any other map
+/// is part of the shape.
 class PosedShape {
  public:
   PosedShape(const HeldShape& held, const minkray_pose* pose, const char* argument) {
@@ -43,7 +43,7 @@ class PosedShape {
   const Affine<double>& pose() const { return pose_; }
 
  private:
-  std::unique_ptr<const ContactShape> own_;  ///< where the map is part of it
+  std::unique_ptr<const ContactShape> own_;  ///< set if the map is part of it
   const ContactShape* shape_ = nullptr;
   std::shared_ptr<const TriangleMesh> mesh_;
   Affine<double> pose_;

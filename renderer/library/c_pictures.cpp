@@ -25,7 +25,7 @@ constexpr std::string_view mattes_name = "cryptomatte";  // tables in a file's h
 constexpr std::int64_t most_pixels = std::int64_t{1} << 28;
 constexpr std::uint32_t most_samples = 1 << 24;
 
-/// Which part of a picture is asked for by a name, and how many numbers of a pixel it has.
+/// Part of a picture requested by a name, and the count of its numbers per pixel.
 struct Channel {
   std::string_view name;  ///< empty: the light
   std::uint32_t numbers = 3;
@@ -46,8 +46,8 @@ Channel channel_of(const char* name, const std::string& argument) {
   wrong_use(argument + ": must be one of " + names + " (got \"" + printable(name, 60) + "\")");
 }
 
-/// The scene with the camera and the light that the options ask for, or else those of its files, or
-/// of robots if it has none.
+/// The scene with the camera and the light of the options, or else those of its files, or of
+/// robots if it has none.
 Scene seen(const HeldScene& held, const minkray_picture_options& options) {
   Scene scene = held.whole();
   Json json = Json::object();
@@ -60,7 +60,7 @@ Scene seen(const HeldScene& held, const minkray_picture_options& options) {
   }
   const bool has_camera = json.contains("camera"), has_lights = json.contains("lights"),
              has_background = json.contains("background");
-  // All the rest that a scene file must have; what is read of it is not looked at.
+  // Adds all the rest that a scene file must have, as placeholders.
   json["version"] = scene_version;
   if (!has_camera) json["camera"] = {{"position", {0, -1, 0}}, {"look_at", {0, 0, 0}}};
   for (const char* key : {"lights", "materials", "objects"})
@@ -100,7 +100,7 @@ std::uint32_t checked(std::uint32_t given, std::uint32_t or_else, std::uint32_t 
   return given == 0 ? or_else : given;
 }
 
-/// What is asked of the picture of a scene that is seen already.
+/// Options for the picture of a scene that is seen already.
 RenderOptions render_options(const Scene& scene, const minkray_picture_options& given) {
   RenderOptions options;
   const Resolution& own = scene.camera.resolution;

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
-/// What rays met, as the caller has it.
+/// Hits of rays, in the caller's form.
 struct Met {
   double t, t_lo, t_hi;
   Vec3<double> point, normal;
@@ -109,7 +109,7 @@ class Derivatives {
     } else if (body) {
       const ShapeCore& core = body->shape.core();
       const double near = rounded + rounding * body->shape.ball_radius() + core.rounding;
-      // What is grown by a radius has no edge.
+      // A shape grown by a radius has no edge.
       if (!(core.radius > 0)) {
         if (core.kind == CoreKind::other) {
           if (bends_at(world_, ray, met, core.ball)) return true;

@@ -84,7 +84,7 @@ minkray_scene_pair plain_pair(const ScenePair& pair, const PairDerivative& deriv
   return plain;
 }
 
-/// Where there is no object.
+/// Result if there is no object.
 minkray_scene_pair no_pair(double within) {
   minkray_scene_pair none = {};
   none.distance.value = none.distance.upper = infinite;

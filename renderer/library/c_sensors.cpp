@@ -12,7 +12,7 @@ extern "C" int minkray_lidar_rays(const char* pattern, const minkray_pose* pose,
     require(pattern, "pattern");
     if (size > 0) require(rays, "rays");
     const Affine<double> sensor = pose_of(pose, "pose");
-    constexpr double any_turn = 1;  // times are not asked for
+    constexpr double any_turn = 1;  // times are not requested
     const std::vector<SensorRay> read = rays_of_pattern(pattern, any_turn).rays;
     if (needed) *needed = read.size();
     for (size_t i = 0; i < std::min(size, read.size()); ++i) {

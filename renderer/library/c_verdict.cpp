@@ -122,7 +122,7 @@ int minkray_scene_verify(minkray_scene scene, uint32_t group, const double* path
   return call("minkray_scene_verify", [&] {
     require(verdict, "verdict");
     const SceneQuery held(scene);
-    held->world();  // it is committed
+    held->world();  // checks that the scene is committed
     const HeldScene::Group& robot = held->group(group);
     if (!robot.model) wrong_use("group: must be a robot's, from URDF, MJCF, SDF or glTF");
     if (!is_rigid(robot.pose)) wrong_use("group: must have a pose that keeps lengths");

@@ -30,8 +30,8 @@ inline void require(const void* pointer, const char* argument) {
     wrong_null(argument);
 }
 
-/// Throws unless so many things of so many bytes can be in memory: a count of less than zero, taken
-/// for one without a sign, cannot.
+/// Throws unless an array of `count` items of this size fits in memory: a negative count,
+/// converted to unsigned, does not.
 void require_room(std::size_t count, std::size_t bytes_each, const char* argument);
 
 /// The code of what is being thrown right now, whose text is kept for this thread.

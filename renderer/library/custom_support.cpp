@@ -53,12 +53,12 @@ std::string text_of(const Coordinates& p) {
   return text;
 }
 
-/// A function of the user's that this thread is running. They are linked from the innermost to the
-/// outermost, for a support function may query other shapes.
+/// A user's function that this thread is running. Linked from the innermost to the outermost,
+/// since a support function may query other shapes.
 struct Running {
   const CustomSupport& custom;
   Running* outer;
-  std::string reason = {};  ///< why it fails, if it says so
+  std::string reason = {};  ///< reason for its failure, if it gives one
 
   explicit Running(const CustomSupport& one) : custom(one), outer(innermost()) {
     innermost() = this;
@@ -116,7 +116,7 @@ CustomSupport::CustomSupport(const minkray_support& function, std::size_t gather
 CustomSupport::~CustomSupport() {
   try {
     if (function_.release) function_.release(function_.user);
-  } catch (...) {  // nobody is left to hear of it
+  } catch (...) {  // no caller is left to report it to
   }
 }
 
@@ -246,7 +246,7 @@ void CustomSupport::run(const char* function, Call&& call) const {
     failed = call();
   } catch (const abi::__forced_unwind&) {  // the thread is being ended
     throw;
-  } catch (const std::bad_alloc&) {  // which says nothing of the shape
+  } catch (const std::bad_alloc&) {  // implies nothing about the shape
     throw;
   } catch (const std::exception& error) {
     running.reason = error.what();

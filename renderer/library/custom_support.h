@@ -18,34 +18,36 @@
 
 namespace minkray {
 
-/// How far a support point may lie beyond the plane of another, in sizes of the shape: some
-/// thousand roundings of double, but less than any float would make.
+/// Tolerance by which a support point may lie beyond the plane of another, in sizes of the shape:
+/// some thousand roundings of double, but less than any float would make.
 inline constexpr double support_contradiction = 1e-12;
 
-/// Any number of threads may ask. After the first lie it answers the same point for ever.
+/// Any number of threads may call it. After the first inconsistency it returns the same point for
+/// ever.
 class CustomSupport final : public SupportSource, public BatchSource {
  public:
-  /// Asks the function in some hundred directions. Throws CallError if it fails or lies.
+  /// Calls the function in some hundred directions. Throws CallError if it fails or is
+  /// inconsistent.
   explicit CustomSupport(const minkray_support& function, std::size_t gathered = 0,
                          minkray_jet_function with_derivatives = nullptr);
   ~CustomSupport() override;
 
-  /// What was wrong with an answer; empty if nothing was.
+  /// Description of an invalid result; empty if there was none.
   std::string complaint() const;
   bool has_lied() const { return lied_.load(std::memory_order_acquire); }
 
   std::size_t most_at_once() const override { return gathered_; }
 
-  /// Two answers of it; tells if they contradict each other.
+  /// Compares two of its results; records a contradiction.
   void compare(const Vec3<double>& n, const Vec3<double>& along_n, const Vec3<double>& m,
                const Vec3<double>& along_m) const;
 
  private:
-  /// What was asked when it was made, number by number, for loops without branches.
+  /// Directions and results of the first calls, number by number, for loops without branches.
   struct Probes {
     std::vector<double> nx, ny, nz;  ///< directions
     std::vector<double> x, y, z;     ///< their points
-    std::vector<double> h;           ///< how far the shape reaches along them
+    std::vector<double> h;           ///< support function along them
   };
 
   void support(std::size_t count, const Coordinates* directions,

@@ -11,8 +11,8 @@ namespace {
 
 using Customs = std::vector<std::shared_ptr<const CustomSupport>>;
 
-/// Each once, however often it stands in the shape: a sum of a shape with itself, made twenty times
-/// over, has it a million times.
+/// Visits each once, however often it occurs in the shape: a sum of a shape with itself, made
+/// twenty times over, has it a million times.
 class Walk {
  public:
   void of(const Shape<double>& shape) {

@@ -12,16 +12,16 @@
 namespace minkray {
 namespace {
 
-/// Each piece of work has so many: traversal and solvers take some ten thousand, and each level of
-/// nested shapes, of which there may be a thousand (nesting.h), up to 1632 where hulls of shapes
-/// are asked in lanes of doubles; as much again is for other compilers. Memory that is never
-/// touched costs nothing but addresses.
+/// Size of each task's stack: traversal and solvers take some ten thousand bytes, and each level of
+/// nested shapes (at most a thousand, nesting.h) up to 1632 where hulls of shapes are evaluated in
+/// lanes of doubles; as much again is for other compilers. Memory that is never touched costs
+/// nothing but addresses.
 constexpr std::size_t stack_bytes = std::size_t{1} << 22;
 
 /// Below a stack, so that a frame of several pages that is too much does not reach beyond it.
 constexpr std::size_t guard_bytes = std::size_t{1} << 16;
 
-/// Pieces of work that stand still at once.
+/// Largest number of suspended tasks.
 constexpr std::size_t most_turns = 256;
 
 /// Memory for a stack, above what must not be touched.
@@ -44,7 +44,7 @@ class Stack {
   void* memory_;
 };
 
-/// What stands still, and what it waits for.
+/// A suspended task, and the source it waits for.
 struct Turn {
   Stack stack;
   ucontext_t context;
@@ -85,7 +85,8 @@ class Gathering::Turns {
       }
       try {
         answer(waiting);
-      } catch (...) {  // those that wait are told, and end: nothing of theirs stays on their stacks
+      } catch (...) {  // waiting tasks are resumed with an error, and end: nothing of theirs stays
+                       // on their stacks
         thrown_ = std::current_exception();
       }
       ready.swap(waiting);
@@ -104,15 +105,15 @@ class Gathering::Turns {
     if (thrown_) std::rethrow_exception(thrown_);
   }
 
-  /// Whose work this thread is doing; null if none's. It is what a support mapping, deep in a
-  /// solver, has no argument for.
+  /// The tasks of this thread; null if it has none. Thread-local, since a support mapping, deep in
+  /// a solver, has no argument for it.
   static Turns*& of_this_thread() {
     thread_local Turns* turns = nullptr;
     return turns;
   }
 
  private:
-  /// What it does is begun anew each time: it may be another thread's by then.
+  /// Initialised each time: the task may run on another thread by then.
   void begin(Turn& turn) {
     getcontext(&turn.context);
     turn.context.uc_stack.ss_sp = turn.stack.lowest();
@@ -130,7 +131,8 @@ class Gathering::Turns {
     }
   }
 
-  /// Asks each source once for all that it is asked for, or as often as that is too much at once.
+  /// Calls each source once for all its requested directions, or as often as needed if that is too
+  /// much at once.
   void answer(std::vector<Turn*>& waiting) {
     for (std::size_t first = 0; first < waiting.size();) {
       const BatchSource& source = *waiting[first]->source;

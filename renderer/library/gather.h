@@ -14,13 +14,13 @@
 
 namespace minkray {
 
-/// Where support points come from by the hundred.
+/// A source of support points in batches.
 class BatchSource {
  public:
   virtual ~BatchSource() = default;
   virtual void answer(std::size_t count, const Coordinates* directions,
                       Coordinates* points) const = 0;
-  /// Directions that may be asked for at once; 0 if that is none of its business.
+  /// Largest number of directions per call; 0 if they are not to be gathered.
   virtual std::size_t most_at_once() const = 0;
 };
 
@@ -36,8 +36,8 @@ class Gathering {
   /// throws.
   void run(std::size_t count, const std::function<void(std::size_t)>& work);
 
-  /// Within `run`'s work: the source's answer, when others have asked as well. Answers false, and
-  /// does nothing, anywhere else.
+  /// Within a task of `run`: the source's result, once other tasks have requested theirs as well.
+  /// Returns false, and does nothing, anywhere else.
   static bool wait(const BatchSource& source, std::size_t count, const Coordinates* directions,
                    Coordinates* points);
 

@@ -17,7 +17,7 @@ namespace minkray {
 template <class Thing>
 class Handles {
  public:
-  /// `kind` tells the numbers of one kind of thing from those of another: less than 256.
+  /// `kind` distinguishes the numbers of one kind of thing from those of another: less than 256.
   constexpr explicit Handles(std::uint64_t kind) : kind_(kind << 56) {}
   Handles(const Handles&) = delete;
   Handles& operator=(const Handles&) = delete;

@@ -225,7 +225,7 @@ Scene HeldScene::whole() const {
   Scene scene = scene_;
   scene.objects.clear();
   scene.objects.reserve(size_);
-  Object nothing;  // what no ray meets and gives no light
+  Object nothing;  // met by no ray, and gives no light
   nothing.material = grey_.value_or(0);
   nothing.visible_to = 0;
   for (std::uint32_t i = 0; i < size_; ++i)
@@ -298,7 +298,7 @@ std::vector<double> HeldScene::joint_value(const Group& group, const std::string
 
 void HeldScene::remove(std::uint32_t number) {
   check_object(number);
-  // Its place stays, so that all numbers do.
+  // The place is kept, so that all numbers stay the same.
   removed_.insert(number);
   poses_.erase(number);
   Instances& instances = changed();

@@ -25,16 +25,16 @@ namespace minkray {
 
 class SceneBodies;
 
-/// One call changes it, or any number ask: see scene_use.h.
+/// One call changes it, or any number query it: see scene_use.h.
 class HeldScene {
  public:
   /// Objects that came from one file.
   struct Group {
     std::uint32_t first = 0, count = 0;
-    std::uint32_t first_in_scene = 0;     ///< among the objects with all that files say
+    std::uint32_t first_in_scene = 0;     ///< among the objects of all files
     Affine<double> pose;                  ///< of all of them
-    std::vector<Affine<double>> in_file;  ///< where they stand in the file's frame
-    bool has_particles = false;           ///< which have no poses of their own
+    std::vector<Affine<double>> in_file;  ///< poses in the file's frame
+    bool has_particles = false;           ///< particles have no poses of their own
     std::optional<Model> model;           ///< if it is a robot's
     ImportOptions options;
     std::vector<std::pair<std::string, std::size_t>> joints;  ///< that move: names and widths
@@ -50,7 +50,7 @@ class HeldScene {
   void remove(std::uint32_t object);
   void commit();
 
-  /// How many objects were ever added.
+  /// Number of objects ever added.
   std::uint32_t size() const { return size_; }
   const std::vector<ParticleSet>& particles() const { return scene_.particles; }
   /// Throws CallError if the number is that of no object, or of a removed one.
@@ -61,7 +61,7 @@ class HeldScene {
   bool is_removed(std::uint32_t object) const {
     return !removed_.empty() && removed_.contains(object);
   }
-  /// What a joint of the group is set to.
+  /// Value of a joint of the group.
   std::vector<double> joint_value(const Group& group, const std::string& name) const;
   /// The object's name, at a place where it stays as long as the scene.
   const char* name(std::uint32_t object) const;
@@ -73,8 +73,8 @@ class HeldScene {
   bool has_camera() const { return has_camera_; }
   const std::vector<std::shared_ptr<const CustomSupport>>& customs() const { return customs_; }
 
-  /// What rays are cast at. Throws CallError if the scene was not committed since it was changed,
-  /// or if this is called from within the support function of a shape in it.
+  /// The world that rays are cast at. Throws CallError if the scene was not committed since it was
+  /// changed, or if this is called from within the support function of a shape in it.
   const World& world() const;
 
   const PairRules& pair_rules() const { return pair_rules_; }
@@ -83,14 +83,14 @@ class HeldScene {
     bodies_.reset();
     return pair_rules_;
   }
-  /// For queries on pairs; made by the first that asks after a change. Throws as world() does.
+  /// For queries on pairs; made by the first call after a change. Throws as world() does.
   const SceneBodies& bodies() const;
-  /// Where an object or a particle stands.
+  /// Pose of an object or a particle.
   Affine<double> pose_of_any(std::uint32_t number) const;
   std::uint32_t groups() const { return static_cast<std::uint32_t>(groups_.size()); }
 
  private:
-  /// What the next commit has to do.
+  /// Work of the next commit.
   enum class Due { nothing, refit, build };
 
   void check_room(std::size_t more) const;
@@ -98,7 +98,7 @@ class HeldScene {
   void keep_customs(const std::vector<std::shared_ptr<const CustomSupport>>& customs);
   void append(Scene&& from);
   std::uint32_t number_of_added(const char* name);
-  /// The object with all that its file says; null if it is of no file.
+  /// The object with all data of its file; null if it is not from a file.
   const Object* of_file(std::uint32_t number) const;
   Object object(std::uint32_t number) const;
   const Instances& instances() const {
@@ -111,12 +111,12 @@ class HeldScene {
   void set_instance_pose(std::uint32_t number, const Affine<double>& pose);
   void show_instances(Instances& instances) const;
 
-  // An object that is added to the scene is no more than an instance: its shape and pose are there.
-  // Names and poses that instances do not hold are kept beside; objects of files are, too.
+  // An object that is added to the scene is only an instance: its shape and pose are there. Names
+  // and poses that instances do not hold are kept separately; so are objects of files.
   std::uint32_t size_ = 0;
   Instances instances_;  ///< of objects, while a build is due; else the world has them
   std::unordered_map<std::uint32_t, Affine<double>> poses_;
-  Scene scene_;                        ///< what came from files
+  Scene scene_;                        ///< contents of files
   std::optional<std::uint32_t> grey_;  ///< the material of what is added without one
   bool has_camera_ = false;            ///< and lights, of the first file that has them
   std::vector<Group> groups_;
@@ -128,10 +128,10 @@ class HeldScene {
 
   PairRules pair_rules_;
   mutable std::mutex bodies_mutex_;
-  mutable std::shared_ptr<const SceneBodies> bodies_;  ///< null until they are asked for
+  mutable std::shared_ptr<const SceneBodies> bodies_;  ///< null until first used
 
   mutable std::mutex names_mutex_;
-  mutable std::unordered_map<std::uint32_t, std::string> names_;  ///< given or asked for
+  mutable std::unordered_map<std::uint32_t, std::string> names_;  ///< given, or derived on request
 
   friend class SceneQuery;
   friend class SceneChange;
@@ -143,7 +143,8 @@ inline Handles<HeldScene>& held_scenes() {
   return scenes_for_ever.handles;
 }
 
-/// Throws CallError if there is none of that number. It may be released at once: see SceneUse.
+/// Throws CallError if there is none of that number. The scene may be released at once: see
+/// SceneUse.
 HeldScene& scene_of(minkray_scene scene);
 
 }  // namespace minkray

@@ -23,7 +23,7 @@ class HeldShape {
   explicit HeldShape(std::shared_ptr<const TriangleMesh> mesh)
       : mesh_(std::move(mesh)), shape_(Point<double>()) {}
 
-  /// Null, but of a mesh. What follows throws CallError for a mesh, which is not convex.
+  /// Null unless it is a mesh. The members below throw CallError for a mesh, which is not convex.
   const std::shared_ptr<const TriangleMesh>& mesh() const { return mesh_; }
 
   const Nested<double>& shape() const { return convex().shape_; }

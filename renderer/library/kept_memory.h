@@ -10,7 +10,7 @@
 
 namespace minkray {
 
-/// Reads the memory, and writes it back when it goes. It may be null.
+/// Reads the memory, and writes it back when destroyed. The memory may be null.
 class KeptMemory {
  public:
   explicit KeptMemory(minkray_pair_memory* kept) : kept_(kept) {

@@ -33,7 +33,7 @@ class Arguments {
     }
   }
 
-  /// Tells parameters that the shape does not have.
+  /// Reports parameters that the shape does not have.
   void tell_unknown(const std::vector<std::string>& known) {
     for (const minkray_parameter& given : parameters_)
       if (std::ranges::find(known, given.name) == known.end())
@@ -75,7 +75,7 @@ class Arguments {
     return list;
   }
 
-  /// Tells what JSON has no word for.
+  /// Reports numbers that JSON cannot represent.
   bool are_finite(std::span<const double> numbers, const Parameter& field) {
     for (std::size_t i = 0; i < numbers.size(); ++i) {
       if (std::isfinite(numbers[i])) continue;

@@ -9,11 +9,11 @@
 
 namespace minkray {
 
-/// How deep shapes may stand in shapes: far below what the stack holds.
+/// Largest depth of shapes within shapes: far below the capacity of the stack.
 inline constexpr std::size_t deepest_shape = 1000;
 
-/// How many shapes one may have, each counted as often as it stands in it: a support point asks
-/// for one of each.
+/// Largest number of shapes within one, each counted as often as it occurs: a support point needs
+/// one of each.
 inline constexpr std::size_t most_shapes_in_one = std::size_t{1} << 20;
 
 /// Throws CallError if the shape is larger.

@@ -21,7 +21,7 @@ class PairRules {
     return found == masks_.end() ? Masks() : found->second;
   }
 
-  /// A pair that is allowed to touch is not looked at.
+  /// A pair that is allowed to touch is skipped.
   void allow(std::uint32_t a, std::uint32_t b, bool is_allowed) {
     if (is_allowed)
       allowed_.insert(key(a, b));

@@ -9,8 +9,8 @@
 namespace minkray {
 namespace {
 
-/// What the product of a matrix and its inverse may be off: more means that there is none to speak
-/// of.
+/// Tolerance for the product of a matrix and its inverse: beyond it, the matrix counts as
+/// singular.
 constexpr double most_off_identity = 1e-3;
 
 [[noreturn, gnu::cold]] void not_finite(const std::string& place, double number) {

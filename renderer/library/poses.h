@@ -40,7 +40,7 @@ inline bool read_pose(const minkray_pose* pose, const char* argument, Affine<dou
   if (!pose) return true;
   const bool is_rigid = are_orthonormal(pose->rows);
   const double x = pose->rows[0][3], y = pose->rows[1][3], z = pose->rows[2][3];
-  // What is finite times zero is zero, anything else is not.
+  // A finite number times zero is zero, any other is not.
   if (!is_rigid || 0 * x + 0 * y + 0 * z != 0) [[unlikely]]
     check_pose(*pose, argument);
   for (int i = 0; i < 3; ++i)

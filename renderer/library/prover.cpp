@@ -56,7 +56,7 @@ class Witnesses {
     };
   }
 
-  /// How far one lies beyond another's plane at most.
+  /// Largest distance of a point beyond another's plane.
   double contradiction() const {
     double most = 0;
     for (const auto& [n, along_n] : asked_)

@@ -11,7 +11,7 @@
 
 namespace minkray {
 
-/// Refers to the scene, which must be committed. Any number of threads may ask.
+/// Refers to the scene, which must be committed. Any number of threads may call it.
 class Prover {
  public:
   explicit Prover(const HeldScene& scene);

@@ -43,7 +43,7 @@ void RaySource::check() {
     const double* o = at(origins_, origin_stride_, i);
     const double* d = at(directions_, direction_stride_, i);
     const double t_max = t_max_ ? *at(t_max_, t_max_stride_, i) : 1;
-    // What is finite times zero is zero, anything else is not.
+    // A finite number times zero is zero, any other is not.
     const double zero = 0 * ((o[0] + 0 * o[1]) + 0 * o[2]) + 0 * ((d[0] + 0 * d[1]) + 0 * d[2]);
     const bool has_direction = d[0] != 0 || d[1] != 0 || d[2] != 0;
     if (zero != 0 || !has_direction || !(t_max >= 0)) [[unlikely]]
@@ -69,7 +69,7 @@ void RaySource::complain(std::size_t i) const {
 
 void plain_hit(const Ray<double>& ray, const WorldHit& hit, bool gave_up, minkray_hit& to) {
   const CastResult<double>& cast = hit.cast;
-  // What a solver gave up on may have been in front of anything.
+  // A body whose solver did not converge may have been in front of anything.
   to.status = gave_up ? MINKRAY_EXHAUSTED : static_cast<int>(cast.status);
   to.object = hit.instance;
   to.supports = cast.supports;

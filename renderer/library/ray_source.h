@@ -78,7 +78,7 @@ inline minkray_hit plain_hit(const Ray<double>& ray, const WorldHit& hit, bool g
   return plain;
 }
 
-/// The i-th answer of a block that needs not be asked for alone.
+/// The i-th result of a block, which needs no cast of its own.
 void plain_hit(const Ray<double>& ray, const BlockHits& hits, std::size_t i, minkray_hit& to);
 
 /// Writes one answer into the arrays that there are.

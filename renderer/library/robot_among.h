@@ -16,7 +16,7 @@
 
 namespace minkray {
 
-/// One row of numbers as values of the joints, which stand in it one behind the other.
+/// One row of numbers as values of the joints, in their order.
 inline JointRow row_of(const HeldScene::Group& robot, const double* numbers, std::size_t index) {
   JointRow row;
   row.time = static_cast<double>(index);
@@ -42,7 +42,7 @@ inline std::vector<JointRow> rows_of(const HeldScene::Group& robot, const double
       wrong_use("path[" + std::to_string(i / width) + "][" + std::to_string(i % width) +
                 "]: must be a finite number (got " + std::to_string(path[i]) + ")");
   std::vector<JointRow> read;
-  // A robot without joints stands still all the time: rows of nothing cost its caller nothing.
+  // A robot without joints rests all the time: rows of nothing cost its caller nothing.
   for (std::size_t i = 0; i < (width > 0 ? rows : 1); ++i)
     read.push_back(row_of(robot, path + i * width, i));
   return read;

@@ -34,7 +34,7 @@ void turn_round(PairDerivative& derivative) {
   std::swap(derivative.a, derivative.b);
 }
 
-/// What of the half-space is within `reach` of the point, as a box: all that a body of that reach
+/// The part of the half-space within `reach` of the point, as a box: all that a body of that reach
 /// can touch.
 ContactBody as_box(const PlacedPlane& plane, const Vec3<double>& near, double reach) {
   const Vec3<double>& n = plane.normal;
@@ -49,7 +49,7 @@ ContactBody as_box(const PlacedPlane& plane, const Vec3<double>& near, double re
   return {ContactShape(cube_of(half)), pose};
 }
 
-/// How far the moving body gets from where its origin is at time 0.
+/// Largest distance that the moving body gets from its origin at time 0.
 double way_of(const PartsBody& moving, const RigidMotion& motion, double t_max) {
   return reach_of(moving) + t_max * motion.velocity.norm();
 }
@@ -110,7 +110,7 @@ SceneBodies::SceneBodies(const HeldScene& scene) : scene_(scene) {
     if (instances.is_half_space(i)) continue;
     const Affine<double> pose = scene.pose_of_any(i);
     if (instances.is_mesh(i)) {
-      // What scales is part of the mesh.
+      // Scaling is part of the mesh.
       std::shared_ptr<const TriangleMesh> mesh = instances.mesh_of(i).mesh;
       Affine<double> place = pose;
       const auto touch = touches.find(i);
@@ -146,7 +146,7 @@ SceneBodies::SceneBodies(const HeldScene& scene) : scene_(scene) {
       if (known == ready.end()) known = ready.emplace(number, ContactShape(shape)).first;
       bodies.push_back({known->second, pose, masks.category, masks.mask});
     } else {
-      // What scales is part of the shape.
+      // Scaling is part of the shape.
       const Affine<double> map{pose.linear, Vec3<double>::Zero()};
       const Affine<double> place{Mat3<double>::Identity(), pose.translation};
       bodies.push_back({ContactShape(shape, map), place, masks.category, masks.mask});

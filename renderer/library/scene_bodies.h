@@ -21,31 +21,30 @@ struct ScenePair {
   SignedDistance distance;
 };
 
-/// Immutable: any number of threads may ask.
+/// Immutable: any number of threads may query it.
 class SceneBodies {
  public:
   /// The scene is committed, and outlives this.
   explicit SceneBodies(const HeldScene& scene);
 
-  /// All pairs that are looked at and whose distance is not proven to be above `within`, by their
-  /// numbers: a < b.
+  /// All tested pairs whose distance is not proven to be above `within`, by their numbers: a < b.
   std::vector<ScenePair> near(double within, double tolerance) const;
 
-  /// Whatever rules say. Throws CallError if both are half-spaces.
+  /// Independent of the rules. Throws CallError if both are half-spaces.
   SignedDistance distance(std::uint32_t a, std::uint32_t b, const SignedDistanceOptions& how) const;
   ContactManifold manifold(std::uint32_t a, std::uint32_t b, const SignedDistance& nearest) const;
   PairDerivative derivative(const ScenePair& pair) const;
 
   /// The objects nearest to a body, the nearest first; of those in a category of the mask.
   std::vector<ScenePair> nearest(const ContactBody& to, std::size_t count, double at_most) const;
-  /// By a twist of the body that was asked for.
+  /// Derivative by a twist of body `of`.
   PairDerivative derivative(const ContactBody& of, const ScenePair& pair) const;
 
   /// Null of a half-space.
   const ContactBody* body(std::uint32_t object) const {
     return body_of_[object] == none ? nullptr : &body_of(object);
   }
-  /// Where the frame is that a twist moves.
+  /// Origin of the frame that a twist moves.
   Vec3<double> origin(std::uint32_t object) const;
   /// True if another object's surface is no further from the point than `near`.
   bool is_another_at(const Vec3<double>& point, std::uint32_t object, double near) const;
@@ -68,8 +67,8 @@ class SceneBodies {
   };
   static constexpr std::uint32_t none = no_instance;
 
-  /// A ball that holds a body, apart from all else of it: many are looked at for each that is
-  /// asked.
+  /// A ball that holds a body, stored apart from the rest of it: many balls are tested for each
+  /// body that is queried.
   struct Ball {
     Vec3<double> middle;
     double radius;
@@ -90,7 +89,7 @@ class SceneBodies {
   std::vector<std::uint32_t> body_of_;  ///< of each object; none of removed ones and half-spaces
   std::vector<HalfSpace> half_spaces_;
   std::vector<LinkPlace> places_;        ///< of each object of a robot
-  std::vector<std::uint32_t> robot_of_;  ///< which robot an object is of, or none; empty: no robots
+  std::vector<std::uint32_t> robot_of_;  ///< robot of each object, or none; empty: no robots
 };
 
 }  // namespace minkray

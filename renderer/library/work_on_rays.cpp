@@ -16,7 +16,7 @@ namespace {
 
 constexpr int most_threads = 1024;
 
-/// What the caller hears, by whichever thread has done a part while no other tells him.
+/// Reports progress to the caller, from whichever thread has done a part while no other reports.
 class Progress {
  public:
   Progress(const minkray_options* options, std::size_t count) : options_(options), count_(count) {}

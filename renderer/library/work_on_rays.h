@@ -11,13 +11,15 @@ namespace minkray {
 /// Rays that one thread takes at once; a multiple of most_rays_at_once.
 inline constexpr std::size_t rays_a_part = 2048;
 
-/// Throws CallError unless so many threads may be asked for.
+/// Throws CallError unless this number of threads is valid.
 int checked_threads(int threads);
 
-/// How many threads the options ask for; throws CallError if they are wrong. They may be null.
+/// Number of threads that the options specify; throws CallError if they are wrong. The options may
+/// be null.
 int threads_of(const minkray_options* options);
 
-/// Tells the caller how far it is; whether he wants it to stop. Throws CallError if he throws.
+/// Reports progress to the caller; returns true if the caller wants to stop. Throws CallError if
+/// the callback throws.
 bool wants_stop(const minkray_options* options, double done);
 
 /// Calls body(begin, end) for parts of [0, count), at once. Throws CallError if the options are
@@ -25,7 +27,7 @@ bool wants_stop(const minkray_options* options, double done);
 void work_on_rays(std::size_t count, const minkray_options* options,
                   const std::function<void(std::size_t begin, std::size_t end)>& body);
 
-/// Likewise, for parts of so many things: of those that take long, few.
+/// Likewise, for parts of `part_size` items: few for those that take long.
 void work_on_parts(std::size_t count, std::size_t part_size, const minkray_options* options,
                    const std::function<void(std::size_t begin, std::size_t end)>& body);
 

@@ -23,7 +23,7 @@ class AliasTable {
  private:
   struct Column {
     double own;           ///< the part of the column that is its own
-    std::uint32_t other;  ///< whose the rest is
+    std::uint32_t other;  ///< outcome that has the rest
   };
   std::vector<Column> columns_;
   std::vector<double> chances_;

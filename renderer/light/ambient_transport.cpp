@@ -20,7 +20,7 @@ constexpr double least_alpha_behind_bounce = 0.3;
 
 }  // namespace
 
-/// What came before rays that go together.
+/// State before rays that go together.
 struct AmbientTransport::Path {
   int bounces = 0;
   int mirrors = 0;
@@ -29,7 +29,7 @@ struct AmbientTransport::Path {
   /// Camera rays of neighbouring pixels go side by side, and shadow rays of what they see.
 };
 
-/// Rays that go on together, and what each of them is a continuation of: a place in the wave
+/// Rays that continue together, and what each of them is a continuation of: a place in the wave
 /// before.
 struct AmbientTransport::Wave {
   std::vector<TracedRay> rays;
@@ -43,11 +43,11 @@ struct AmbientTransport::Wave {
   }
 };
 
-/// Where a ray met a surface.
+/// Hit of a ray with a surface.
 struct AmbientTransport::HitPoint {
   Vec3<double> position;  ///< a little above the surface
   Frame frame;
-  Vec3<double> w_out;  ///< where the ray came from, in the frame
+  Vec3<double> w_out;  ///< direction to the ray's origin, in the frame
   const Surface& surface;
   std::uint32_t instance;
   double time;
@@ -72,9 +72,9 @@ void AmbientTransport::trace(std::span<TracedRay> rays, RayCounts& counts) const
   follow(rays, {}, counts);
 }
 
-/// The rays as one wave, then the shadow rays of what they meet, light by light, then what comes to
-/// them by way of other surfaces, as waves of their own. The order of a ray's random numbers is
-/// that of a ray by itself, whatever goes with it.
+/// The rays as one wave, then the shadow rays of what they meet, light by light, then light that
+/// arrives via other surfaces, as waves of their own. The order of a ray's random numbers is that
+/// of a ray by itself, whatever rays are traced with it.
 void AmbientTransport::follow(std::span<TracedRay> rays, const Path& path,
                               RayCounts& counts) const {
   if (rays.empty()) return;
@@ -174,11 +174,11 @@ void AmbientTransport::add_direct(std::span<TracedRay> rays, const HitPoints& po
   }
 }
 
-/// Adds what comes to the points by way of other surfaces and from the environment.
+/// Adds light that arrives at the points via other surfaces and from the environment.
 void AmbientTransport::add_indirect(std::span<TracedRay> rays, const HitPoints& points,
                                     const Path& path, RayCounts& counts) const {
-  // What the camera sees directly follows both of a coat and its base, for a quiet picture; behind
-  // that, one of the two by chance.
+  // Hits that the camera sees directly follow both the coat and its base, for less noise; later
+  // hits follow one of the two by chance.
   std::vector<std::size_t> bases, coats;
   std::vector<double> chances(rays.size(), 1);
   for (std::size_t i = 0; i < rays.size(); ++i) {

@@ -58,7 +58,7 @@ class Bsdf {
   virtual bool has_grain() const { return false; }
 };
 
-/// The material stands by itself; it is no mixture.
+/// The material must be plain, not a mixture.
 std::unique_ptr<const Bsdf> make_bsdf(const Material& material);
 
 }  // namespace minkray

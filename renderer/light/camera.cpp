@@ -31,7 +31,8 @@ Eigen::Vector2d between_blades(int blades, const std::array<double, 2>& u) {
 
 Camera::Camera(const CameraDescription& description, const Resolution& resolution)
     : position_(description.position), centre_(0.5 * resolution.width, 0.5 * resolution.height) {
-  // Looking at where it stands, or up along where it looks: any choice will do, but a definite one.
+  // Looking at its own position, or up along its view direction: any choice will do, but a
+  // definite one.
   forward_ = unit<double>(description.look_at - description.position);
   if (forward_.isZero(0)) forward_ = Vec3<double>::UnitY();
   const auto sideways = [&](const Vec3<double>& up) {

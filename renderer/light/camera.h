@@ -34,12 +34,12 @@ class Camera {
   /// drawn by two numbers.
   Ray<double> through_lens(const Ray<double>& ray, const std::array<double, 2>& u) const;
 
-  /// Where a point is seen; nothing if it lies behind the camera, or of cameras that are neither
-  /// perspective nor orthographic.
+  /// Pixel position of a point; nothing if it lies behind the camera, or for cameras that are
+  /// neither perspective nor orthographic.
   std::optional<Eigen::Vector2d> project(const Vec3<double>& point) const;
 
-  /// Where a point is seen by a camera of any type; nothing if it is not. Around a panorama's back
-  /// edge it is seen on either side.
+  /// Pixel position of a point, for a camera of any type; nothing if it is not visible. Around a
+  /// panorama's back edge it is seen on either side.
   std::optional<Eigen::Vector2d> seen_at(const Vec3<double>& point) const;
 
  private:

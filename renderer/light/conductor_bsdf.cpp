@@ -6,7 +6,7 @@
 namespace minkray {
 namespace {
 
-/// The widest highlights are so many times as wide as they are high, by a square root (Burley,
+/// Largest anisotropy: the roughnesses along and across then have the ratio 1 / (1 - this) (Burley,
 /// "Physically Based Shading at Disney", 2012).
 constexpr double most_anisotropy = 0.9;
 

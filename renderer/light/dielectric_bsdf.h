@@ -16,7 +16,7 @@ double fresnel_either_way(double cosine, double eta);
 
 class DielectricBsdf final : public Bsdf {
  public:
-  /// What is let through at each boundary is dimmed to the root of `tint`: twice, to its colour.
+  /// Light transmitted at each boundary is dimmed to the root of `tint`: twice, to its colour.
   DielectricBsdf(double roughness, double index_of_refraction, const Paint& tint = Colour::Ones());
 
   Colour eval(const Shading& at, const Vec3<double>& w_in) const override;

@@ -17,8 +17,8 @@ constexpr std::uint32_t no_emitter = std::numeric_limits<std::uint32_t>::max();
 /// distance; more are chosen by a tree.
 constexpr std::size_t most_weighed = 16;
 
-/// A flat body's ellipsoid is so thick, over its largest radius: directions from where the body is
-/// seen edge-on must still be told apart from those that pass it.
+/// Least thickness of a flat body's ellipsoid, over its largest radius: directions that meet a
+/// body edge-on must still be distinguishable from those that pass it.
 constexpr double least_thickness = 1e-6;
 
 /// 1 - cos of the half angle under which the unit ball is seen from squared distance d2 > 1, in the
@@ -27,8 +27,8 @@ double cone_height(double d2) {
   return (1 / d2) / (1 + std::sqrt(1 - 1 / d2));
 }
 
-/// How much an ellipsoid with these half axes, around the middle of the shape's bounding ball, is
-/// to grow to hold the support points of many directions, and a little more.
+/// Factor by which an ellipsoid with these half axes, around the middle of the shape's bounding
+/// ball, must grow to hold the support points of many directions, and a little more.
 double growth_to_hold(const ShapeDefinition<double>& shape, const Vec3<double>& axes) {
   constexpr int directions = 512;
   constexpr double golden_turn = 2.399963229728653, margin = 1.01;
@@ -193,7 +193,7 @@ Emitters::Emitters(const World& world, const std::vector<Colour>& radiance_of_in
   std::vector<LightTree::Light> lights;
   for (std::size_t i = 0; i < radiance_of_instance.size(); ++i) {
     const Colour& radiance = radiance_of_instance[i];
-    // What has no end, or no size, and meshes, are found by chance alone.
+    // Bodies that are unbounded or without size, and meshes, are found by chance alone.
     if (!(radiance.maxCoeff() > 0) || !world.instances().has_shape(i)) continue;
     const PreparedShape<double> body = world.instances().at(i);
     if (!(body.inner_ball().radius > 0)) continue;
@@ -208,7 +208,7 @@ Emitters::Emitters(const World& world, const std::vector<Colour>& radiance_of_in
   if (emitters_.size() > most_weighed) tree_ = LightTree(lights);
 }
 
-/// The point as the emitter sees it, from where that stands at time 0.
+/// The point relative to the emitter, in coordinates of time 0.
 Vec3<double> Emitters::seen_from(const Emitter& emitter, const Vec3<double>& point,
                                  double time) const {
   return world_.instances().seen_by(emitter.instance, point, time);

@@ -16,7 +16,7 @@
 namespace minkray {
 
 /// An ellipsoid about a body, |map (x - centre)| <= 1, or its box, |map (x - centre)| <=
-/// half_extents. What looks out of the ellipsoid is not drawn.
+/// half_extents. Points outside of the ellipsoid are not drawn.
 struct AroundBody {
   Vec3<double> centre;
   Mat3<double> map;
@@ -52,7 +52,7 @@ class Emitters {
   std::uint32_t instance(std::size_t emitter) const { return emitters_[emitter].instance; }
   const Colour& radiance(std::size_t emitter) const { return emitters_[emitter].radiance; }
 
-  /// Where the emitters are at that time, while the shutter is open.
+  /// Places of the emitters at that time, while the shutter is open.
   std::optional<EmitterSample> sample(const Vec3<double>& point, double time,
                                       Sampler& sampler) const;
   /// The density with which `sample` draws a direction that meets the instance.

@@ -11,7 +11,7 @@ struct Frame {
   Vec3<double> x, y, z;
 
   explicit Frame(const Vec3<double>& normal) : z(normal) {
-    // Where the two halves meet neighbouring samples see different patterns: not at z = 0, where
+    // Neighbouring samples see different patterns where the two halves meet: not at z = 0, where
     // the upright faces are.
     const double sign = z.z() < -0.6 ? -1.0 : 1.0;
     const double a = -1 / (sign + z.z()), b = z.x() * z.y() * a;

@@ -14,7 +14,7 @@ namespace {
 /// only keeps other shapes with a face in the same plane from shading each other.
 constexpr double surface_offset = 256;
 
-/// Where the ray leaves a body that it is in.
+/// Finds where the ray leaves a body that it is in.
 Boundary exit_of(const World& world, const WorldRay& ray, std::uint32_t body, QueryCounts& counts) {
   const Instances& instances = world.instances();
   const Ray<double> seen = instances.seen_by(body, ray.ray, ray.time);
@@ -40,7 +40,7 @@ Boundary exit_of(const World& world, const WorldRay& ray, std::uint32_t body, Qu
         cast_ray(instances.mesh_of(body), seen, std::numeric_limits<double>::infinity(), true,
                  instances.loss_of_seen_by(body, ray.ray), parts);
     counts.add_parts(parts);
-    exit.is_lost = !next.cast.found();  // it is not closed
+    exit.is_lost = !next.cast.found();  // the mesh is not closed
     exit.t = next.cast.t();
     exit.normal = instances.turned(body, -next.cast.normal, ray.time);
     return exit;

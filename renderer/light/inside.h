@@ -30,30 +30,30 @@ class Inside {
   std::size_t count_ = 0;
 };
 
-/// What comes next along a ray.
+/// The next boundary along a ray.
 struct Boundary {
-  std::uint32_t instance = no_instance;  ///< none: the ray goes on for ever
+  std::uint32_t instance = no_instance;  ///< none: the ray is unbounded
   bool leaves = false;                   ///< goes out of the body, not in
   bool is_within = false;  ///< the ray begins in a body that it was not known to be in
-  bool is_lost = false;    ///< the solver gave up
+  bool is_lost = false;    ///< the solver did not converge
   double t = 0;
   Vec3<double> normal = Vec3<double>::Zero();  ///< outward
 };
 
 /// The first body entered or left. `left` is the instance whose surface the ray begins on. Where a
-/// body is entered within rounding of where another is left, it is entered: what stands on glass is
-/// seen through it.
+/// body is entered within rounding of where another is left, it is entered: an object on glass is
+/// seen through the glass.
 Boundary next_boundary(const World& world, const WorldRay& ray, const Inside& inside,
                        QueryCounts& counts);
 
-/// How far a ray goes within the body that it has met, or begins in; 0 where it met none.
+/// Length of a ray within the body that it has met, or begins in; 0 if it met none.
 double length_within(const World& world, const Ray<double>& ray, const WorldHit& hit);
 
 /// A hit of the world as the boundary that it is.
 Boundary boundary_of(const WorldHit& hit);
 
-/// How far hit points may be off, in lengths: a few hundred roundings of the largest number that
-/// went into it.
+/// Error bound of hit points, in lengths: a few hundred roundings of the largest number that went
+/// into them.
 double rounding_at(const World& world, std::uint32_t instance, const Vec3<double>& point, double t);
 
 }  // namespace minkray

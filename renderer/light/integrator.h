@@ -14,13 +14,13 @@ namespace minkray {
 /// The kind that is meant: `automatic` is settled by the scene.
 IntegratorKind settled(IntegratorKind kind, const Scene& scene);
 
-/// Refers to the scene's world; keeps everything else itself. Any number of threads may ask.
+/// Refers to the scene's world; keeps everything else itself. Any number of threads may call it.
 /// Instances of the scene and of the world share their indices.
 class Integrator {
  public:
   Integrator(const Scene& scene, const World& world, const IntegratorOptions& options = {});
 
-  /// As LightTransport says.
+  /// Same as LightTransport::trace.
   void trace(std::span<TracedRay> rays, RayCounts& counts) const {
     transport_->trace(rays, counts);
   }

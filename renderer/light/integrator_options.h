@@ -9,7 +9,7 @@
 
 namespace minkray {
 
-/// Which light a picture is made of.
+/// Rendering method: the light that a picture shows.
 enum class IntegratorKind : unsigned char { automatic, path, direct, ambient, normals };
 
 struct IntegratorDescription {
@@ -32,21 +32,21 @@ inline constexpr std::array integrators = {
 
 /// Kinds of light to follow, and how far.
 struct IntegratorOptions {
-  /// How often light may be scattered between surfaces before the environment's light is the last
-  /// word; 0 is ambient occlusion.
+  /// Largest number of scatterings between surfaces before the environment's light is used; 0 is
+  /// ambient occlusion.
   int bounces = 1;
-  /// How many mirrors in a row are followed; behind the last, the environment is seen.
+  /// Largest number of mirrors in a row; behind the last, the environment is seen.
   int mirrors = 4;
-  /// How many camera rays are traced together, with all rays that follow from them. The picture is
-  /// the same bit for bit.
+  /// Number of camera rays that are traced together, with all rays that follow from them. The
+  /// picture is the same bit for bit.
   int ray_group = 512;
   /// Called with every ray and its result, if not null.
   RayObserver* observer = nullptr;
   IntegratorKind kind = IntegratorKind::automatic;
-  /// How often a path may be scattered, mirrored or refracted.
+  /// Largest number of times that a path may be scattered, mirrored or refracted.
   int max_depth = 16;
-  /// Light that comes by way of more than one surface counts for no more than this: fewer bright
-  /// specks, and less light. 0: no limit.
+  /// Clamps light that arrives via more than one surface: fewer fireflies, slightly darker
+  /// (biased). 0: no limit.
   double clamp = 0;
 };
 

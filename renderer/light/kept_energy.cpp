@@ -18,7 +18,7 @@ constexpr int draws = 512;
 /// diamond are 0.9 apart.
 constexpr double most_log_eta = 1.0;
 
-/// What is left of light that leaves along w_out, of one facet.
+/// Share of light that leaves along w_out, for one facet.
 double kept(const Microfacets& rough, const Vec3<double>& w_out, const Vec3<double>& m,
             bool mirrors, double eta) {
   const double c = m.dot(w_out);

@@ -13,8 +13,8 @@ class LightTransport {
  public:
   virtual ~LightTransport() = default;
 
-  /// Fills in what camera rays see, however many; one ray is a span of one. Neighbours in the span
-  /// should be neighbours in the picture. What a ray sees does not depend on the others.
+  /// Computes what camera rays see, however many; one ray is a span of one. Neighbours in the span
+  /// should be neighbours in the picture. The result of a ray does not depend on the others.
   virtual void trace(std::span<TracedRay> rays, RayCounts& counts) const = 0;
 };
 

@@ -33,7 +33,7 @@ class LightTree {
   double chance(const Vec3<double>& point, std::size_t light) const;
 
  private:
-  /// Its first child comes right behind it.
+  /// The first child is the next node.
   struct Node {
     Vec3<double> centre;
     double radius2, power;
@@ -45,7 +45,7 @@ class LightTree {
   std::uint32_t build(std::span<const Light> lights, std::span<std::uint32_t> which,
                       std::uint32_t parent);
   double importance(const Node& node, const Vec3<double>& point) const;
-  /// To go on with the first child of an inner node.
+  /// Probability of continuing with the first child of an inner node.
   double chance_of_first(std::uint32_t node, const Vec3<double>& point) const;
 
   std::vector<Node> nodes_;

@@ -82,13 +82,14 @@ class Lights {
  public:
   explicit Lights(const std::vector<Light>& lights);
 
-  /// How many shine from a single direction at each point: these are asked one by one with a ray
-  /// towards them, directional ones first.
+  /// Number of lights that shine from a single direction at each point: each gets a shadow ray of
+  /// its own, directional ones first.
   std::size_t count() const { return narrow_.size(); }
   std::optional<LightSample> sample(std::size_t light, const Vec3<double>& point,
                                     Sampler& sampler) const;
 
-  /// What comes from all around is found by rays that leave the scene, and some of it is asked for.
+  /// Light from all around is found by rays that leave the scene; part of it is also sampled
+  /// directly.
   const std::vector<std::unique_ptr<const SkySource>>& skies() const { return environments_; }
   bool has_environment() const { return !environments_.empty(); }
   Colour environment(const Vec3<double>& direction) const;

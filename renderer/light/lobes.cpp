@@ -30,7 +30,7 @@ std::optional<BsdfSample> sample_of(std::span<const Lobe> lobes, const Shading& 
     left -= lobe.chance;
   }
   if (!chosen) return std::nullopt;
-  // What is left of the number chooses within the lobe.
+  // The remainder of the number chooses within the lobe.
   const double which = std::clamp(left / chosen->chance, 0.0, 1.0 - 0x1p-53);
   auto sample = chosen->bsdf->sample(at, {choice.u, which});
   if (!sample) return std::nullopt;

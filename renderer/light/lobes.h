@@ -11,7 +11,7 @@ namespace minkray {
 /// One part of a sum.
 struct Lobe {
   const Bsdf* bsdf;
-  Colour weight;  ///< what its value is multiplied by
+  Colour weight;  ///< factor of its value
   double chance;  ///< to be drawn; all of them sum up to 1
 };
 

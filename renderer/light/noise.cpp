@@ -48,8 +48,8 @@ double gradient_noise(const Vec3<double>& at) {
 }
 
 double faded(double width) {
-  // What is nearest to the mean over squares of that width, measured for widths of 0.1 to 4 cells;
-  // a hundredth of it is not seen.
+  // Factor nearest to the mean over squares of that width, measured for widths of 0.1 to 4 cells;
+  // a hundredth of it is not visible.
   constexpr double steepness = 0.53, least = 0.01;
   const double left = std::exp(-steepness * width * width);
   return left > least ? left : 0;

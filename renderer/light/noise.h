@@ -18,7 +18,7 @@ double faded(double width);
 /// mean over a box of that width.
 double fractal_noise(const Vec3<double>& at, double width = 0);
 
-/// How wide the range is that it has within such a box, about.
+/// Approximate width of its range within such a box.
 double fractal_range(double width);
 
 }  // namespace minkray

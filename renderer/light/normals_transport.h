@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Normals as colours, (1 + n) / 2, and white for misses: a quick look at shapes.
+// Normals as colours, (1 + n) / 2, and white for misses: a quick view of shapes.
 #pragma once
 
 #include "renderer/light/integrator_options.h"

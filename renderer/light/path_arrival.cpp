@@ -90,7 +90,7 @@ void PathTransport::Wave::arrive(std::size_t i) {
   Frame frame = frame_of(at.normal);
   if (material.relief.any()) {
     const Frame bent = frame_of(in_world(of_.surfaces_.relief_normal_at(at.instance, place)));
-    // What is seen from behind its bent normal is seen as it is.
+    // A surface seen from behind its bent normal keeps its own normal.
     if ((bent.z.dot(path.ray.direction) > 0) == at.leaves) frame = bent;
   }
   shading.w_out = frame.to_local(-path.ray.direction);

@@ -9,7 +9,7 @@
 
 namespace minkray {
 
-/// A path, and the ray that goes on from its end.
+/// A path, and the ray that continues from its end.
 struct PathTransport::Path {
   Ray<double> ray;
   Sampler sampler;
@@ -26,12 +26,12 @@ struct PathTransport::Path {
   bool is_straight = true;        ///< nothing was passed since the last scattering
   bool only_sharp = true;         ///< all directions so far had none
   double pdf = 0;                 ///< of the ray's direction
-  Vec3<double> from = {0, 0, 0};  ///< where it was scattered last
+  Vec3<double> from = {0, 0, 0};  ///< place of the last scattering
   double gathered = 1;            ///< eta^2 of where the path is: dense media gather radiance
   bool goes_on = true;
 };
 
-/// Where a path met a surface that scatters light.
+/// A point where a path met a surface that scatters light.
 struct PathTransport::Point {
   Vec3<double> position;
   double rounding;
@@ -40,8 +40,8 @@ struct PathTransport::Point {
   Shading shading;
   const Bsdf* bsdf;
   std::uint32_t instance;
-  Inside above, below;  ///< what holds the places beside the surface
-  TexturePoint place;   ///< which `shading` refers to
+  Inside above, below;  ///< bodies that contain the places just above and below the surface
+  TexturePoint place;   ///< place that `shading` refers to
   bool is_bent;         ///< by a relief
 
   /// A ray that goes from here; what holds it is `inside(w)`.
@@ -62,8 +62,8 @@ struct PathTransport::Arriving {
   std::uint32_t emitter = no_instance;  ///< that must be met
 };
 
-/// Rays towards lights, asked together. Whatever order they are asked in, a path's sum is the same:
-/// it takes one ray of each of these.
+/// Shadow rays, traced together. In whatever order they are traced, a path's sum is the same: each
+/// path has one ray in each of these.
 struct PathTransport::ShadowRays {
   std::vector<WorldRay> rays;
   std::vector<Arriving> arriving;

@@ -14,8 +14,8 @@
 
 namespace minkray {
 
-/// Refers to the world. Paths of a wave go on together, step by step; each has its own random
-/// numbers and sums, so that it does not matter which go together.
+/// Refers to the world. Paths of a wave continue together, step by step; each has its own random
+/// numbers and sums, so that the result does not depend on which go together.
 class PathTransport final : public LightTransport {
  public:
   PathTransport(const Scene& scene, const World& world, const IntegratorOptions& options);

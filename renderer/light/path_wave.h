@@ -23,14 +23,13 @@ class PathTransport::Wave {
   RayKind kind(const Path& path) const {
     return path.depth == 0 ? RayKind::camera : RayKind::indirect;
   }
-  /// Where the rays of all paths that go on come to.
+  /// Finds where the rays of all continuing paths arrive.
   void find_boundaries();
-  /// Draws the direction in which the path goes on, or ends it.
+  /// Draws the direction in which the path continues, or ends the path.
   void scatter(Path& path, const Point& point);
 
-  // Where rays come to (path_arrival.cpp).
-  /// The clear body that counts where bodies overlap: of the greatest priority, of equals that
-  /// which was entered last.
+  // Arrival of rays (path_arrival.cpp). Returns the medium that counts where bodies overlap:
+  // the one of the greatest priority, among equals the one entered last.
   const Medium& medium(const Inside& inside, std::uint32_t* which = nullptr) const;
   static Colour left_after(const Medium& medium, double length);
   /// Light that the ray finds by itself, and the point where it is to be scattered.
@@ -38,16 +37,16 @@ class PathTransport::Wave {
   /// Adds light that was scattered so often; what the camera sees directly and what is lit directly
   /// is never limited.
   void gather(Path& path, const Colour& light, int depth) const;
-  /// Goes on through a boundary that does not count, if it can.
+  /// Continues through a boundary that does not count, if possible.
   void pass(Path& path, bool can) const;
   /// Light of a path that misses. Surfaces are lit by the environment and mirror it; without one
   /// they still mirror the background that cameras see.
   Colour off_surface(const Path& path);
   void add_emission(Path& path, const Boundary& at, const PreparedMaterial& material) const;
 
-  // What lights send (path_lights.cpp).
-  /// Light of a kind to all paths' ends: draw(point, sampler) is a sample of it, and part(point, w,
-  /// sample) what counts of that beside what the surface itself draws; 0 is not asked for.
+  // Light from lights (path_lights.cpp), one kind for all paths' ends: draw(point, sampler) is a
+  // sample of it, and part(point, w, sample) its MIS weight against the surface's own sampling; 0
+  // sends no shadow ray.
   template <class Draw, class Part>
   void ask_for(const Draw& draw, const Part& part);
   /// Light from the only direction of a light, which no surface draws.
@@ -56,10 +55,10 @@ class PathTransport::Wave {
   void ask_sky(const SkySource& sky);
   /// Adds what arrives where nothing is in the way.
   void ask_shadows();
-  /// Light from one shining body for each path's end, drawn at random. Whether the body is met, and
-  /// before anything else, is one question.
+  /// Light from one shining body for each path's end, drawn at random. One query decides if the
+  /// body is met before anything else.
   void ask_emitters();
-  /// Asks within clear bodies.
+  /// Traces a shadow ray within clear bodies.
   void ask_within(const WorldRay& ray, const Inside& inside, Arriving light);
   void add(const Arriving& arriving);
 

@@ -11,7 +11,7 @@
 
 namespace minkray {
 
-/// How much of an even light a surface throws back along w_out, a table over its cosine.
+/// Share of an even light that a surface reflects along w_out, a table over its cosine.
 class Albedo {
  public:
   explicit Albedo(const Bsdf& bsdf);

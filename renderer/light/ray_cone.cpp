@@ -12,8 +12,7 @@ SurfaceFootprint footprint_of(const RayCone& cone, const Vec3<double>& direction
                               const Vec3<double>& normal) {
   const double width = std::abs(cone.width);
   if (!(width > 0)) return {Vec3<double>::Zero(), Vec3<double>::Zero()};
-  // A ray that is closer to the surface than that, by its cosine, is not told from one that lies in
-  // it.
+  // A ray that is closer to the surface than this, by its cosine, counts as lying in it.
   constexpr double least_cosine = 1e-6;
   const Vec3<double> across = normal.cross(direction);
   const double sine = across.norm();

@@ -16,7 +16,7 @@ struct RayCone {
 
   /// Further along the ray.
   RayCone at(double distance) const { return {width + spread * distance, spread}; }
-  /// Behind a flat surface: eta is the index of refraction where it goes on, over where it was.
+  /// Behind a flat surface: eta is the ratio of the refractive indices, behind over in front.
   RayCone refracted(double eta) const { return {width, spread / eta}; }
   /// One of many that share its place.
   RayCone part(double size) const { return {size * width, size * spread}; }
@@ -25,8 +25,8 @@ struct RayCone {
 /// Footprint of a cone on a surface: the two full axes of an ellipse, along the surface.
 using SurfaceFootprint = std::array<Vec3<double>, 2>;
 
-/// What it lights of a plane, by its unit normal; `width` is that of the cone where it meets the
-/// plane. What grazes is as long as it can be.
+/// The part of a plane that the cone covers, by the plane's unit normal; `width` is that of the
+/// cone where it meets the plane. The length is limited at grazing angles.
 SurfaceFootprint footprint_of(const RayCone& cone, const Vec3<double>& direction,
                               const Vec3<double>& normal);
 

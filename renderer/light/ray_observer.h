@@ -16,14 +16,14 @@ enum class RayKind : unsigned char { camera, shadow, ambient, indirect };
 inline constexpr std::array<std::string_view, 4> ray_kind_names = {"camera", "shadow", "ambient",
                                                                    "indirect"};
 
-/// What a ray of the kind meets.
+/// Objects that a ray of the kind may meet.
 constexpr RayKinds kinds_of(RayKind kind) {
   return kind == RayKind::camera   ? camera_rays
          : kind == RayKind::shadow ? shadow_rays
                                    : scattered_rays;
 }
 
-/// Any number of threads may tell it at once.
+/// Any number of threads may call it at once.
 class RayObserver {
  public:
   virtual ~RayObserver() = default;

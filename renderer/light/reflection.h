@@ -113,8 +113,8 @@ class Surface {
     other.base_ = base_.recoloured(colour);
     return other;
   }
-  /// The chance to go on with the coat where one of the two is drawn: its part of what both
-  /// reflect.
+  /// Probability of continuing with the coat where one of the two is drawn: its part of the sum
+  /// that both reflect.
   double chance_of_coat(const Vec3<double>& w_out) const;
 
  private:

@@ -41,7 +41,7 @@ double step_of(const TextureKind& texture, const TexturePoint& at) {
       texture);
 }
 
-/// How the height rises along the surface.
+/// Slope of the height along the surface.
 Vec3<double> slope(const Paint& bump, const TexturePoint& at) {
   if (!bump.texture()) return Vec3<double>::Zero();
   const double finest = step_of(*bump.texture(), at);

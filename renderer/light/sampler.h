@@ -49,8 +49,8 @@ constexpr std::uint32_t sobol_second_reversed(std::uint32_t index) {
 
 }  // namespace detail
 
-/// The points of one sample of one pixel: they depend on (seed, pixel, sample) and on how many were
-/// asked for before, never on tiles or threads.
+/// The points of one sample of one pixel: they depend on (seed, pixel, sample) and on the number
+/// of points drawn before, never on tiles or threads.
 class Sampler {
  public:
   Sampler() = default;

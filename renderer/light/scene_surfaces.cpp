@@ -31,7 +31,8 @@ Colour radiance_of(const Scene& scene, const Material& material) {
 
 namespace {
 
-/// What fills a body of the material; of a mixture its second part's, if that lets light through.
+/// Medium inside a body of the material; for a mixture that of its second part, if that transmits
+/// light.
 Medium medium_of(const Scene& scene, const Material& material) {
   if (const auto* glass = std::get_if<DielectricMaterial>(&material.kind))
     return {glass->index_of_refraction, glass->absorption, glass->priority};
@@ -61,7 +62,7 @@ bool is_sheet(const Scene& scene, const Material& material) {
   return any;
 }
 
-/// What a material is told by: metals have what they mirror straight ahead, glass is white.
+/// Main colour of a material: for metals, what they mirror straight ahead; for glass, white.
 Paint paint_of(const Scene& scene, const Material& material) {
   if (const auto* metal = std::get_if<ConductorMaterial>(&material.kind)) {
     for (const Metal& known : metals)

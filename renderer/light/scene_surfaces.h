@@ -30,7 +30,7 @@ struct PreparedMaterial {
   Colour radiance;
   Medium inside;
   Relief relief;
-  bool is_sheet = false;  ///< what goes through it is on its other side, not within
+  bool is_sheet = false;  ///< transmitted light is on the other side, not within
 };
 
 class SceneSurfaces {

@@ -19,8 +19,8 @@ double band(int row, int rows) {
   return std::cos(pi * row / rows) - std::cos(pi * (row + 1) / rows);
 }
 
-/// How bright each cell is, times its solid angle. What is drawn between pixels comes from their
-/// neighbours, too, so that each cell counts those around it.
+/// Brightness of each cell, times its solid angle. Places between pixels are interpolated from
+/// their neighbours, so that each cell counts those around it, too.
 std::vector<double> weights_of(const Image& image, int columns, int rows) {
   std::vector<double> bright(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
   const auto pixel_of = [](int cell, int cells, int pixels) {

@@ -28,7 +28,7 @@ class SkyImage final : public SkySource {
  private:
   Colour texel(int x, int y) const;
   std::size_t cell_of(const Vec3<double>& direction) const;
-  /// Where in the picture a direction is: 0 to 1 from its left and from its top.
+  /// Position of a direction in the picture: 0 to 1 from its left and from its top.
   std::array<double, 2> place(const Vec3<double>& direction) const;
 
   std::shared_ptr<const Image> image_;

@@ -95,8 +95,8 @@ class Sky {
   double scale_luminance_ = 0, scale_x_ = 0, scale_y_ = 0;
 };
 
-/// What gets through the air to the ground, of red, green and blue: scattered by molecules and by
-/// haze (the paper's appendix, without its weaker absorbers).
+/// Share of red, green and blue light that gets through the air to the ground: scattered by
+/// molecules and by haze (the paper's appendix, without its weaker absorbers).
 Colour through_air(double cosine, double turbidity) {
   const double degrees = std::acos(std::clamp(cosine, 0.0, 1.0)) * 180 / pi;
   const double mass = 1 / (std::max(cosine, 0.0) + 0.15 * std::pow(93.885 - degrees, -1.253));

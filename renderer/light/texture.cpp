@@ -55,8 +55,8 @@ Colour interpolated(const Image& image, const Vec3<double>& at) {
   return ((1 - fy) * upper + fy * lower).cwiseMin(1.0);
 }
 
-/// Interpolates a picture at all sizes, between the two whose pixels are about as large as so many
-/// of the largest one's.
+/// Interpolates a picture at all sizes, between the two whose pixels are about `pixels` times as
+/// wide as the largest one's.
 Colour interpolated(const Image& image, const std::vector<Image>& smaller, const Vec3<double>& at,
                     double pixels) {
   if (!(pixels > 1) || smaller.empty()) return interpolated(image, at);
@@ -67,7 +67,7 @@ Colour interpolated(const Image& image, const std::vector<Image>& smaller, const
          part * interpolated(smaller[larger], at);
 }
 
-/// What a box is filled with.
+/// Mean of a texture over a box.
 struct MeanOver {
   const TextureBox& box;
 

@@ -10,12 +10,12 @@ namespace {
 
 using std::numbers::pi;
 
-/// Textures in space are asked so deep below the surface, in repeats: a face that lies just where
-/// two fields meet is not speckled by rounding.
+/// Depth below the surface at which textures in space are evaluated, in repeats: a face that lies
+/// just where two fields meet is not speckled by rounding.
 constexpr double below_surface = 1e-6;
 
-/// Where the surface faces x, y or z most, the other two of a vector; upright sides have z
-/// downwards.
+/// The two coordinates of a vector other than the axis of x, y or z that the surface faces most;
+/// upright sides have z downwards.
 Vec3<double> on_box(const Vec3<double>& p, const Vec3<double>& normal) {
   int axis = 0;
   normal.cwiseAbs().maxCoeff(&axis);

@@ -14,7 +14,7 @@ namespace minkray {
 struct TexturePoint {
   Vec3<double> position = Vec3<double>::Zero();
   Vec3<double> normal = Vec3<double>::UnitZ();  ///< outward, of unit length
-  /// What the colour is to be the mean of; zero: the point itself.
+  /// Footprint that the colour is averaged over; zero: the point itself.
   SurfaceFootprint footprint = {Vec3<double>::Zero(), Vec3<double>::Zero()};
 };
 
@@ -36,7 +36,7 @@ TexturePlace texture_place(const TexturePoint& at, const Mapping& mapping, doubl
 /// top down as a part of half a turn; the third number is 0.
 Vec3<double> radial_place(const Vec3<double>& direction);
 
-/// Which way pictures of a mapping have right, seen from outside; not along the surface.
+/// Direction that is right in pictures of a mapping, seen from outside; not along the surface.
 Vec3<double> picture_right(const TexturePoint& at, const Mapping& mapping);
 
 }  // namespace minkray

@@ -15,10 +15,10 @@ struct TracedRay {
   Sampler sampler;
   Colour radiance = Colour::Zero();
   Colour direct = Colour::Zero();    ///< of it: what was scattered at most once
-  bool met = false;                  ///< whether it met an object
+  bool met = false;                  ///< true if it met an object
   double time = 0;                   ///< while the shutter is open: from 0 to 1
   std::uint32_t left = no_instance;  ///< the instance that it leaves
-  RayCone cone = {};                 ///< what textures are the means over
+  RayCone cone = {};                 ///< footprint for textures
 };
 
 /// No more rays can be traced together.

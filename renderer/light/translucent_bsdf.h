@@ -16,7 +16,7 @@ class TranslucentBsdf final : public Bsdf {
   bool lets_through() const override { return true; }
 
  private:
-  /// How much of the light that is scattered goes to the side on which w_in is.
+  /// Share of the scattered light that goes to the side of w_in.
   double part(const Shading& at, const Vec3<double>& w_in) const {
     const bool goes_through = (w_in.z() > 0) != (at.w_out.z() > 0);
     return goes_through ? material_.transmission : 1 - material_.transmission;

@@ -23,7 +23,7 @@ struct ClaimResult {
 };
 
 struct PaperClaim {
-  std::string_view id;  ///< what --only takes
+  std::string_view id;  ///< value for --only
   std::string_view title;
   std::string_view paper;  ///< the paper's statement
   ClaimResult (*run)(const ClaimOptions& options);

@@ -73,8 +73,8 @@ struct Run {
   double a_query() const { return supports / queries; }
 };
 
-/// Where a cast without a cache begins: at the paper's arbitrary point of the obstacle, or, as
-/// ours, with the vector between the centres.
+/// Start of a cast without a cache: at the paper's arbitrary point of the obstacle, or, as ours,
+/// with the vector between the centres.
 enum class Kind { arbitrary_start, centre_start, cached_cast, cached_separation };
 
 Run run(Kind kind, unsigned seed) {
@@ -138,8 +138,8 @@ Run run(Kind kind, unsigned seed) {
   return result;
 }
 
-/// Asks our own queries about those pairs and frames (core/contact): the distance, and whether
-/// the two touch within the frame; each anew, or with a memory for each pair.
+/// Runs our own queries on those pairs and frames (core/contact): the distance, and if the two
+/// touch within the frame; each from the beginning, or with a memory for each pair.
 struct OwnRun {
   double distance_seconds = 0, impact_seconds = 0;
   double supports = 0;  ///< of the distances

@@ -15,7 +15,7 @@
 namespace minkray {
 namespace {
 
-/// Rays at single shapes begin within so many radii of a shape; see Samples::ray_at_ball.
+/// Largest distance of the origins of rays at single shapes, in radii; see Samples::ray_at_ball.
 constexpr double bare_ball = 6;
 
 template <class T>

@@ -110,7 +110,7 @@ Scores compare(const char* precision, const std::vector<Pair>& pairs,
 ClaimResult subalgorithm_comparison(const ClaimOptions& options) {
   const int count = std::max(100, options.rays / 10);
   const std::vector<Pair> pairs = make_pairs(options, count);
-  // The reference: the projections' answer in long double's stead, with its certificate looked at.
+  // The reference: the projections' result instead of long double, with its certificate checked.
   std::vector<double> reference;
   double widest = 0;
   for (const Pair& pair : pairs) {

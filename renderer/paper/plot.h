@@ -25,7 +25,7 @@ struct Plot {
 /// The whole SVG file.
 std::string plot_svg(const Plot& plot);
 
-/// Text as it may stand in SVG.
+/// Text escaped for SVG.
 std::string svg_text(const std::string& text);
 
 }  // namespace minkray

@@ -13,7 +13,7 @@ template <class T>
 std::string trace_table(const CastTrace<T>& trace);
 
 /// The SVG file: the shape's shadow on the plane through the ray and the centre of its ball, the
-/// ray, the support points, where their planes clip the ray, and the bounds beside it.
+/// ray, the support points, the clip points of their planes on the ray, and the bounds next to it.
 template <class T>
 std::string trace_svg(const CastTrace<T>& trace, const PreparedShape<T>& shape);
 

@@ -52,7 +52,7 @@ void add_costs(Answer& answer, int iterations, int supports) {
   answer.json["supports"] = supports;
 }
 
-/// Proves the answer, and says how well: docs/certificates.md.
+/// Proves the answer, and reports the margins: docs/certificates.md.
 template <class T>
 void add_certificate(Answer& answer, const Shape<T>& shape, const Ray<T>& ray,
                      const CastResult<T>& result) {
@@ -198,7 +198,7 @@ void solve(const DistanceQuery& query, const AnswerOptions& options, Answer& ans
   if (options.trace) answer.json["trace"] = std::move(trace);
 }
 
-/// A length in the precision that was asked for; bounds are rounded outward.
+/// A length in the requested precision; bounds are rounded outward.
 template <class T>
 Json bound_json(double value, T outward) {
   T rounded = static_cast<T>(value);
@@ -291,7 +291,7 @@ void solve(const ImpactQuery& query, const AnswerOptions&, Answer& answer) {
   answer.json["t_hi"] = answer.facts.hit ? bound_json<T>(result.t_hi, infinity) : Json();
   answer.facts.normal = result.normal;
   answer.json["normal"] = point_json(Vec3<T>(result.normal.cast<T>()));
-  if (std::isfinite(result.distance)) {  // where it is known
+  if (std::isfinite(result.distance)) {  // the distance is known
     answer.json["distance"] = number_json(static_cast<T>(result.distance));
     answer.json["point_a"] = point_json(Vec3<T>(result.point_a.cast<T>()));
     answer.json["point_b"] = point_json(Vec3<T>(result.point_b.cast<T>()));

@@ -37,19 +37,19 @@ struct AnswerFacts {
 struct Answer {
   Json json;
   AnswerFacts facts;
-  std::optional<CertificateVerdict> verdict;  ///< on the answer's certificate, if one was asked for
+  std::optional<CertificateVerdict> verdict;  ///< on the answer's certificate, if requested
 };
 
 Answer answer(const Query& query, const AnswerOptions& options);
 
-/// What is wrong with the answer: empty if it is as expected. In float, `float_allowance` is added
-/// to the tolerances of a case, which are meant for double.
+/// Lists the errors of the answer: empty if it is as expected. In float, `float_allowance` is
+/// added to the tolerances of a case, which are meant for double.
 std::vector<std::string> complaints(const Query& query, const AnswerFacts& facts,
                                     Precision precision);
 
-/// How far from the exact answer one in float may be, by the rounding of the query's own numbers:
-/// in lengths, float_roundings machine epsilons of the largest coordinate; in t that, divided by
-/// the speed against the surface; in the normal, as an angle, its square root.
+/// Tolerance between the exact answer and one in float, for the rounding of the query's own
+/// numbers: in lengths, float_roundings machine epsilons of the largest coordinate; in t that,
+/// divided by the speed against the surface; in the normal, as an angle, its square root.
 inline constexpr double float_roundings = 8;
 
 }  // namespace minkray

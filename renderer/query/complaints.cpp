@@ -47,8 +47,8 @@ struct Allowance {
   double length = 0, t = 0, normal = 0;
 };
 
-/// What is allowed for in float, beyond the case's own tolerances; in double, for the normals,
-/// which have none, the rounding of a plane through points that are rounded themselves.
+/// Allowance in float, beyond the case's own tolerances; in double, for the normals, which have
+/// none, the rounding of a plane through points that are rounded themselves.
 Allowance allowance(const Query& query, const AnswerFacts& facts, Precision precision) {
   constexpr double normal_in_double = 1e-6;
   if (precision == Precision::in_double) return {0, 0, normal_in_double};

@@ -12,7 +12,7 @@
 
 namespace minkray {
 
-/// Where a ray enters a shape.
+/// Query for where a ray enters a shape.
 struct RayQuery {
   Shape<double> shape;
   Ray<double> ray;
@@ -33,13 +33,13 @@ struct ShapeQuery {
   bool turns() const { return !turn.isZero(0) || !obstacle_turn.isZero(0); }
 };
 
-/// How far apart two shapes are.
+/// Query for the distance of two shapes.
 struct DistanceQuery {
   Shape<double> a;
   Shape<double> b;
 };
 
-/// How far apart two shapes are, or how deep in each other (core/contact/signed_distance.h).
+/// Query for the signed distance of two shapes (core/contact/signed_distance.h).
 struct SignedDistanceQuery {
   Shape<double> a;
   Shape<double> b;
@@ -55,7 +55,7 @@ struct ManifoldQuery {
   std::optional<double> within;  ///< in sizes of the smaller shape
 };
 
-/// How a shape of an impact moves: its pivot by `velocity`, and about that by `turn`.
+/// Motion of a shape of an impact: its pivot by `velocity`, and about that by `turn`.
 struct ImpactMotion {
   Vec3<double> velocity = Vec3<double>::Zero();
   Vec3<double> turn = Vec3<double>::Zero();   ///< rotation vector, radians per unit of time

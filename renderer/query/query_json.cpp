@@ -9,9 +9,9 @@
 namespace minkray {
 namespace {
 
-/// A step more costs a cast more: nobody means more than this.
+/// Limit of steps; each step costs a cast more.
 constexpr int most_steps = 1000000;
-/// What leans by more looks at nothing on the other side.
+/// Largest tilt: beyond it, a direction misses the other side.
 constexpr double most_tilt = 0.5;
 
 class QueryReader {
@@ -182,7 +182,7 @@ std::optional<Query> parse_query(std::string_view text, MeshFiles& meshes, Mista
   if (!object.is_object()) return std::nullopt;
 
   std::optional<Query> query(Query{{}, DistanceQuery{Point<double>{}, Point<double>{}}, {}});
-  // What a published case says of itself and its proof (tests/cases).
+  // Descriptive keys of a published case and its proof (tests/cases).
   object.allow({"was", "source", "numbers", "certificate"});
   if (const Json* name = object.find("name"))
     if (const auto read = read_string(*name, object.path("name"), mistakes)) query->name = *read;

@@ -21,8 +21,8 @@ constexpr double widest_framed_degrees = 90;
 /// A camera that a scene does not place leaves more free around, as pictures of things do.
 constexpr double part_of_lens = 0.8;
 
-/// Between two keys a body is framed at so many moments that it turns by no more than this from one
-/// to the next, in radians; what it can stick out between them is far less than the margin.
+/// Largest turn of a body between two moments at which it is framed, in radians: keys are
+/// subdivided so that the body's motion in between is far less than the margin.
 constexpr double most_turn = 0.1;
 /// However many keys and bodies there are: so that the camera is found in seconds.
 constexpr std::size_t most_placings = 300'000;
@@ -32,7 +32,7 @@ constexpr int halvings = 24;
 /// A fraction of half the longest side. A segment in the line of sight would touch the camera else.
 constexpr double skin_of_size = 0.01;
 
-/// A body where it stands at one moment, or a box.
+/// A body at its pose of one moment, or a box.
 struct PlacedBody {
   const Object* object;  ///< null: a box
   Affine<double> pose;
@@ -50,7 +50,7 @@ struct PlacedBody {
   }
 };
 
-/// How far the quaternions of two keys are turned from each other, in radians.
+/// Angle between the quaternions of two keys, in radians.
 double turn_between(const PoseKey& a, const PoseKey& b) {
   double cosine = 0;
   for (std::size_t i = 0; i < 4; ++i) cosine += a.rotate[i] * b.rotate[i];
@@ -125,9 +125,9 @@ Wedge wedge_around(const Framed& all, const Vec3<double>& side, const Vec3<doubl
   return {(h - h_other) / 2, -(h + h_other) / (2 * tangent)};
 }
 
-/// How far to the side a camera stands that is so far forward, for as much to be free on one side
-/// of the picture as on the other: of the wedge with the tangent, at most the given one, whose line
-/// lies there. The narrower a wedge, the further back it begins.
+/// Sideways offset of a camera at this forward distance, so that as much is free on one side of
+/// the picture as on the other: within the wedge with the tangent, at most the given one, whose
+/// line lies there. The narrower a wedge, the further back it begins.
 double middle_of_picture(const Framed& all, const Vec3<double>& side, const Vec3<double>& forward,
                          double tangent, double place) {
   double narrow = 0, wide = tangent;
@@ -146,8 +146,8 @@ bool is_in_a_half_space(const Scene& scene, const Vec3<double>& point) {
   });
 }
 
-/// Where the camera may look, the first ones first: from the front, the right and above, then from
-/// the other sides; more steeply, level, from below, and down into a box of planes.
+/// View directions to try, in order: from the front, the right and above, then from the other
+/// sides; more steeply, level, from below, and down into a box of planes.
 std::vector<Vec3<double>> directions_to_look() {
   std::vector<Vec3<double>> directions;
   for (const double height : {0.9, 2.7, 0.0, -0.9, 12.0, 200.0})

@@ -12,7 +12,7 @@
 namespace minkray {
 namespace {
 
-/// The plane that tells which pixels are there: 1 or 0.
+/// The plane that marks the finished pixels: 1 or 0.
 constexpr const char* done_plane = "done";
 
 /// A checkpoint keeps the counts of rays that met something as they are; the plane A is rounded.

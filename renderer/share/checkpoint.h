@@ -17,7 +17,7 @@ class Checkpoint {
   /// The file that belongs to a picture.
   static std::string path_for(const std::string& output) { return output + ".checkpoint"; }
 
-  /// `facts` tell of what picture it is; a file is written every `seconds` at most, never if 0.
+  /// `facts` identify the picture; a file is written every `seconds` at most, never if 0.
   Checkpoint(std::string path, const RenderOptions& options, Facts facts, double seconds);
   /// Waits for a file that is being written.
   ~Checkpoint();
@@ -30,8 +30,8 @@ class Checkpoint {
   /// Throws CannotWrite if there is something that is no checkpoint.
   void check_replaceable() const;
 
-  /// The rendering to go on with, as the file has it. Throws BadInput if it cannot be used or is of
-  /// another picture, and says in what they differ.
+  /// The rendering to continue, from the file. Throws BadInput, with the differences, if the file
+  /// cannot be used or is of another picture.
   RenderJournal load();
 
   /// Must be called after each tile, one at a time. Writes at intervals, on its own thread.
@@ -59,7 +59,7 @@ class Checkpoint {
   std::chrono::duration<double> pause_;
   Clock::time_point last_ = Clock::now();
   std::vector<bool> done_;
-  bool is_ours_ = false;              ///< whether the file, if any, was loaded or written here
+  bool is_ours_ = false;              ///< true if the file, if any, was loaded or written here
   std::future<std::string> writing_;  ///< gives the complaint
   std::string complaint_;
 };

@@ -50,7 +50,7 @@ Content read(const std::string& path) {
   return content;
 }
 
-/// Tells in what the facts of two renders of frames differ; empty if in nothing.
+/// Lists the differences between the facts of two renders of frames; empty if there are none.
 std::string differences(const Facts& found, const Facts& wanted) {
   std::vector<std::string> names = common_facts();
   names.insert(names.end(), {fact::rate, fact::exposure});
@@ -86,7 +86,7 @@ void FramesRecord::add(int frame) {
     Content found = read(path_);
     if (differences(found.facts, facts_).empty()) frames_.merge(found.frames);
   } catch (const BadInput&) {
-    // Whoever removed it has it again.
+    // Restores the file if it was removed.
   }
   write();
 }

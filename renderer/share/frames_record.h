@@ -13,7 +13,7 @@ namespace minkray {
 
 namespace fact {
 
-inline constexpr const char* rate = "minkray.rate";          ///< frames a second
+inline constexpr const char* rate = "minkray.rate";          ///< frames per second
 inline constexpr const char* exposure = "minkray.exposure";  ///< in stops
 
 }  // namespace fact
@@ -23,10 +23,10 @@ class FramesRecord {
   /// The file that belongs to frames; `name` has # in the place of their numbers.
   static std::string path_for(const std::string& name) { return name + ".frames"; }
 
-  /// `facts` are those that all frames have in common. Takes over the frames of a record that is
-  /// there; writes nothing yet. One of other frames is replaced; with `resume` it throws BadInput
-  /// that says in what they differ. Of something that is no record it throws BadInput with
-  /// `resume`, and CannotWrite without.
+  /// `facts` are those that all frames have in common. Takes over the frames of an existing
+  /// record; writes nothing yet. One of other frames is replaced; with `resume` it throws BadInput
+  /// with the differences. If the file is no record it throws BadInput with `resume`, and
+  /// CannotWrite without.
   FramesRecord(std::string path, Facts facts, bool resume);
 
   bool has(int frame) const { return frames_.contains(frame); }

@@ -12,7 +12,7 @@
 namespace minkray {
 namespace {
 
-/// Which share of the picture a file holds.
+/// The part of the picture in a file.
 struct PictureShare {
   Share tile, sample_share;
 
@@ -165,7 +165,7 @@ std::string names_of_missing(const FileOfShare& file_of, const PictureShare& spl
 Merged merge_part_files(const std::vector<std::string>& files, bool allow_partial) {
   if (files.empty()) throw WrongUsage("merge: needs part files");
 
-  // What there is, from the headers.
+  // Overview of all parts, from the headers.
   Merged merged;
   Facts facts;
   PictureShare first_share;

@@ -20,7 +20,7 @@ struct ShareCost {
 struct Merged {
   ExrImage exr;  ///< all planes of the picture; the facts that its shares have in common
   RayCounts counts;
-  std::uint64_t missing = 0;     ///< so many shares
+  std::uint64_t missing = 0;     ///< number of shares
   std::string missing_names;     ///< the first of them: "tile 3/8, samples 1/2 of tile 3/8"
   std::vector<ShareCost> costs;  ///< in the order of the files
 

@@ -30,13 +30,13 @@ inline constexpr const char* variance_planes = "variance";
 /// The integers of a plane. Throws BadInput if there is none of that name.
 const std::vector<std::uint32_t>& integers_of(const ExrImage& exr, const std::string& name);
 
-/// How many of the samples' rays met an object: the plane that shares of the samples have.
+/// Number of the samples' rays that met an object: a plane in shares of the samples.
 inline constexpr const char* met_plane = "met";
 
 /// The fraction of the samples that met an object, as the plane A has it.
 std::vector<float> coverage(const std::vector<std::uint32_t>& met, int samples);
 
-/// What a rendering cost, and the labels of its picture, as texts for the header.
+/// Cost of a rendering, and the labels of its picture, as texts for the header.
 inline constexpr const char* counts_fact = "minkray.counts";
 std::string counts_text(const RayCounts& counts);
 RayCounts counts_of(const Facts& facts);

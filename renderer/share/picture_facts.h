@@ -39,7 +39,8 @@ Facts picture_facts(const Scene& scene, const World& world, const RenderOptions&
 /// The names of the facts that all shares of one picture have in common.
 std::vector<std::string> common_facts();
 
-/// What differs in the named facts, for a message: "minkray.seed is 3, not 4"; empty if nothing.
+/// Lists the differences in the named facts, for a message: "minkray.seed is 3, not 4"; empty if
+/// there are none.
 std::string difference(const Facts& found, const Facts& wanted,
                        const std::vector<std::string>& names);
 

@@ -27,7 +27,7 @@ class Bytes {
   }
   /// 0 .. n - 1, n at most 256.
   int below(int n) { return static_cast<int>(byte()) % n; }
-  /// It is in [0, 1), in steps of 2^-16.
+  /// In [0, 1), in steps of 2^-16.
   double fraction() {
     // One after the other: in which order operands are evaluated differs between compilers.
     const unsigned high = byte(), low = byte();

@@ -14,7 +14,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-/// It has any size in a wild program, and in any it may be no number.
+/// A number of any size in a wild program, and in any program possibly not finite.
 double CallProgram::number() {
   static constexpr std::array odd = {nan, infinity, -infinity, 1e308, -1e308, 5e-324, 0.0, -0.0};
   if (hostile()) return odd[static_cast<std::size_t>(bytes_.below(odd.size()))];

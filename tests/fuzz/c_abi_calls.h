@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What every call of the C interface promises, whatever it is given: a code, a text if it failed,
-// and nothing written then.
+// Guarantees of every call of the C interface, for any input: a code, a message if it failed, and
+// nothing written then.
 #pragma once
 
 #include <minkray/minkray_c.h>
@@ -11,7 +11,7 @@
 
 namespace minkray::fuzz {
 
-/// Whether a call must succeed, must say MINKRAY_WRONG_USE, or may do one or the other.
+/// Required result of a call: success, MINKRAY_WRONG_USE, or either of them.
 enum class Sure { right, wrong, either };
 
 inline Sure both(Sure a, Sure b) {
@@ -62,11 +62,12 @@ class Promises {
     if (!holds && broken_.empty()) broken_ = otherwise;
   }
 
-  /// A support function that lies is in the game: whatever is asked may say so.
+  /// Allows MINKRAY_BAD_SUPPORT from every query, since an inconsistent support function is in
+  /// use.
   void allow_bad_support() { has_liar_ = true; }
 
-  /// Looks at what a call answered; `untouched` says whether its results are what they were, and
-  /// `may_fail_with` which code it may also have where it is not right. Answers whether it is OK.
+  /// Checks the result of a call; `untouched` is true if its results are unchanged, and
+  /// `may_fail_with` is a code it may also return where it is not right. Returns true if it is OK.
   bool call(const char* function, int code, Sure sure, bool untouched,
             int may_fail_with = MINKRAY_WRONG_USE);
 

@@ -81,7 +81,7 @@ void CallProgram::clearance() {
   const std::uint32_t group = bytes_.byte() % 4;
   const bool is_robot = held && group < held->groups.size() && held->groups[group].is_robot;
   Sure sure = both(of.sure, held ? held->committed : Sure::wrong);
-  // Its pose may be one that does not keep lengths.
+  // The pose may be one that does not keep lengths.
   sure = both(sure, is_robot ? Sure::either : Sure::wrong);
   std::size_t numbers = is_robot ? held->groups[group].numbers : 1;
   if (hostile()) numbers += 1, sure = Sure::wrong;

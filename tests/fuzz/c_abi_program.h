@@ -18,12 +18,12 @@ struct Given {
   Sure sure = Sure::right;
 };
 
-/// How often a program was told that it may free what a support function needs.
+/// Number of calls that released the data of a support function.
 struct Released {
   int times = 0;
 };
 
-/// What a program's support function answers by.
+/// Behaviour of a program's support function.
 struct Support {
   double radius = 1;
   enum Kind { honest, not_a_number, fails, inside_out, changes } kind = honest;
@@ -35,7 +35,7 @@ class CallProgram {
  public:
   explicit CallProgram(Bytes bytes) : bytes_(bytes), wild_(bytes_.byte() % 4 == 0) {}
 
-  /// Makes the calls, releases everything, and says what is wrong.
+  /// Makes the calls, releases everything, and returns a description of the first error.
   std::string run();
 
  private:
@@ -46,7 +46,7 @@ class CallProgram {
   };
   struct HeldGroup {
     bool is_robot = false;
-    bool has_particles = false;  ///< it cannot be moved then
+    bool has_particles = false;  ///< cannot be moved then
     std::uint32_t joints = 0;
     std::size_t numbers = 0;  ///< of all joints together
   };
@@ -112,7 +112,7 @@ class CallProgram {
   std::vector<HeldScene> scenes_;
   std::deque<Support> supports_;
   Released released_;
-  // What arguments point to.
+  // Targets of pointer arguments.
   minkray_pose pose_[2];
   int next_pose_ = 0;
   minkray_options options_;

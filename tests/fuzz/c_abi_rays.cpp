@@ -11,7 +11,7 @@ bool is_finite(const double (&v)[3]) {
   return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
 }
 
-/// What is wrong with one answer.
+/// Description of an error in one result.
 std::string wrong_hit(const minkray_ray& ray, const minkray_hit& hit, std::uint32_t instances) {
   if (hit.status < MINKRAY_HIT || hit.status > MINKRAY_EXHAUSTED) return "no status";
   if (hit.status == MINKRAY_EXHAUSTED) return "";
@@ -133,7 +133,7 @@ void CallProgram::cast_at_one() {
   if (!held || object >= held->objects + held->particles) sure = both(sure, Sure::wrong);
   const int code =
       minkray_scene_exit(of.value, object, given.value.data(), count, hits.data(), how.value);
-  // It may be a half-space.
+  // The object may be a half-space.
   promises_.call("minkray_scene_exit", code, both(sure, Sure::either), hits.is_untouched());
   promises_.expect(hits.is_kept_behind(), "an answer too many");
 }
@@ -149,7 +149,7 @@ void CallProgram::prove() {
                       minkray_scene_cast(of.value, given.value.data(), count, hits.data(), nullptr),
                       sure, hits.is_untouched()))
     return;
-  if (count > 0 && bytes_.below(3) == 0) {  // what nobody answered
+  if (count > 0 && bytes_.below(3) == 0) {  // corrupts the result
     minkray_hit& changed = hits.data()[bytes_.byte() % count];
     changed.t_base = number();
     changed.status = bytes_.below(6) - 1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Calls that make shapes and ask them.
+// Calls that make shapes and query them.
 #include <cmath>
 #include <limits>
 
@@ -86,7 +86,7 @@ void release(void* user) {
 void CallProgram::make_shape() {
   static const std::vector<Kind> kinds = all_kinds();
   const Kind& kind = kinds[bytes_.byte() % kinds.size()];
-  Sure sure = Sure::either;  // numbers must fit each other in ways that only a shape knows
+  Sure sure = Sure::either;  // numbers must fit each other in ways that depend on the shape
   bool has_custom = false;
   std::vector<std::vector<double>> numbers;
   std::vector<std::vector<minkray_shape>> operands;

@@ -6,7 +6,7 @@
 namespace minkray::fuzz {
 namespace {
 
-/// It is in epsilons of the largest number that occurs, times the condition of the maps: twice what
+/// In epsilons of the largest number that occurs, times the condition of the maps: twice what
 /// tests/core/cast/cast_truths_test.cpp allows two casts.
 constexpr Real allowed = 2048;
 /// Iterations of the search for a plane that keeps a claimed point off: a plane that it finds is
@@ -55,7 +55,7 @@ CastReferee<T>::CastReferee(const Shape<T>& shape, const Ray<T>& ray)
   // Parameters in steps of the least number, too.
   const Real least = Real(Limits::denorm_min()) * (1 + speed_) * 64;
   rounding_ = allowed * epsilon_ * extent.condition * (extent.size + epsilon_ * distance) + least;
-  // Where the ray begins and ends is known as well as its parameter there.
+  // The ray's begin and end are as uncertain as its parameter there.
   end_rounding_ = 64 * epsilon_ * extent.condition * distance;
   if (std::isfinite(t_max_)) end_rounding_ += 64 * epsilon_ * extent.condition * t_max_ * speed_;
   constexpr Real margin = 1024;
@@ -89,7 +89,7 @@ std::string CastReferee<T>::kept_off(const Claim& claim, const Vec3<Real>& n) co
 
 template <class T>
 std::string CastReferee<T>::check_miss(const Vec3<Real>& n) const {
-  // What of the line is in the ball, as lengths from the closest point.
+  // The part of the line in the ball, as lengths from the closest point.
   const Real squared = radius_ * radius_ - closest_.squaredNorm();
   Real low = -t_closest_ * speed_, high = (t_max_ - t_closest_) * speed_;
   if (speed_ == 0) low = high = 0;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// What a cast promises, checked with nothing but support points, computed in long double from the
-// same shape. Everything is allowed the rounding of its own numbers, and no more:
+// Guarantees of a cast, checked with support points only, computed in long double from the same
+// shape. Everything is allowed the rounding of its own numbers, and no more:
 //
 // - a miss is proven by its plane: all of the ray that could meet the shape lies on its other side;
 // - a hit lies on a supporting plane that faces the ray: the ray does not enter the shape earlier;
-// - a hit and an origin that is inside lie in the shape: no plane that anyone finds keeps it off;
+// - a hit and an origin that is inside lie in the shape: no plane that is found keeps it off;
 // - nothing is NaN, the normal is of unit length, t is in [0, t_max], the bounds are in order.
 #pragma once
 
@@ -20,7 +20,7 @@
 namespace minkray::fuzz {
 
 using Real = long double;
-/// It is for what cancels: a ray's far origin against the shape's own position.
+/// For cancellation: a ray's far origin against the shape's own position.
 __extension__ using Quad = __float128;
 
 /// One shape and one ray; what all solvers answer to it is checked against the same facts.
@@ -30,27 +30,27 @@ class CastReferee {
   /// The shape as it lies in the ray's frame.
   CastReferee(const Shape<T>& shape, const Ray<T>& ray);
 
-  /// Whether the numbers of the answer are in T's range at all: t is distance over speed.
+  /// True if the numbers of the result are in T's range at all: t is distance over speed.
   bool in_range() const { return in_range_; }
-  /// What a plane or a point may be off: a length.
+  /// Tolerance of a plane or a point: a length.
   double rounding() const { return static_cast<double>(rounding_); }
 
-  /// What is wrong with the answer; nothing if nothing is. Remembers its plane.
+  /// Description of an error in the result; empty if there is none. Stores its plane.
   std::string check(std::string_view solver, const CastResult<T>& result);
   std::string check_exit(std::string_view solver, const CastResult<T>& entry,
                          const CastResult<T>& exit);
 
-  /// Whether a point that is claimed to be in the shape is kept off by any plane: those that have
-  /// been remembered, and those that a search of our own finds.
+  /// Checks that no plane separates a point that is claimed to be in the shape: those that were
+  /// stored, and those that a search of our own finds.
   std::string check_claimed();
 
  private:
   struct Claim {
-    Vec3<Real> x;  ///< said to be in the shape; from the centre
+    Vec3<Real> x;  ///< claimed to be in the shape; from the centre
     std::string by;
   };
 
-  /// It tells how far o + t d is beyond the shape's furthest point along n, relative to the centre.
+  /// Height of o + t d above the shape's furthest point along n, relative to the centre.
   Real height(const Vec3<Real>& n) const { return n.dot(shape_.support(n) - centre_); }
   Vec3<Real> at(Real t_base, Real t_offset) const;
   std::string check_miss(const Vec3<Real>& n) const;

@@ -21,7 +21,7 @@ bool same_bits(const A& a, const A& b) {
   return std::memcmp(&a, &b, sizeof a) == 0;
 }
 
-/// What the packet says of a lane, beside what cast_ray says: nothing if it is the same, bit for
+/// Compares a lane of the packet with the result of cast_ray: empty if they are the same, bit for
 /// bit.
 template <class T>
 std::string compare(const CastResult<T>& one, const CastResult<T>& lane) {
@@ -77,8 +77,8 @@ std::string check_packets(const PreparedShape<T>& prepared, const RayPacket<T>& 
   return "";
 }
 
-/// Whether the answer's certificate holds, if it is allowed `rounding`, and one of a hit that is
-/// claimed too early does not.
+/// Checks that the result's certificate holds, if it is allowed `rounding`, and that one of a hit
+/// that is claimed too early does not.
 template <class T>
 std::string check_proof(const Shape<T>& shape, const Ray<T>& ray, const CastResult<T>& result,
                         double rounding) {
@@ -117,7 +117,7 @@ std::string check_ray(const Shape<T>& shape, const PreparedShape<T>& prepared, c
     const CastResult<T> result = cast_ray(prepared, ray, options);
     if (const std::string bad = referee.check(solver.name, result); !bad.empty())
       return complaint(solver.name, bad);
-    // At extreme proportions casts prove what they say themselves, in the shape's own frame.
+    // At extreme proportions casts prove their own results, in the shape's own frame.
     const bool is_ordinary = referee.in_range() && !prepared.definition().is_extreme();
     if (solver.kind == SolverKind::automatic && is_ordinary)
       if (const std::string bad = check_proof(shape, ray, result, referee.rounding()); !bad.empty())

@@ -20,7 +20,7 @@ struct Body {
   Affine<double> pose;
   ContactShape ready;
 
-  /// How far it reaches along n, seen from a point, by its own support mapping.
+  /// Support function along n, relative to a point, by its own support mapping.
   Long support_function(const Vec3<double>& n, const Vec3<double>& from) const {
     const Vec3<double> s = shape.support(Vec3<double>(pose.linear.transpose() * n));
     return n.cast<Long>().dot(pose.linear.cast<Long>() * s.cast<Long>() +
@@ -92,7 +92,7 @@ class Referee {
 
   const Body &a_, &b_;
   double size_, rounding_;
-  bool is_known_;  ///< of others it may be said that nothing is known
+  bool is_known_;  ///< others may be unknown
 };
 
 }  // namespace

@@ -41,7 +41,7 @@ RenderOptions options_of_picture() {
   return options;
 }
 
-/// All that common_facts() names; what the texts say is compared, but for three of them.
+/// All of common_facts(); all but three of the texts are compared.
 Facts facts_of(const RenderOptions& options) {
   Facts facts;
   for (const std::string& name : common_facts()) facts[name] = "same";

@@ -11,7 +11,7 @@
 
 namespace minkray::fuzz {
 
-/// A picture of which there are parts.
+/// A picture that exists in parts.
 struct PartsOfPicture {
   RenderOptions options;         ///< of the first part
   Facts facts;                   ///< of the first part
@@ -22,15 +22,15 @@ struct PartsOfPicture {
 inline constexpr int kinds_of_parts = 3;
 PartsOfPicture parts_of_kind(int kind);
 
-/// What a render leaves behind that was interrupted after one tile: plain, with channels of the
-/// light, and of a share of the samples.
+/// Files left by a render that was interrupted after one tile: plain, with channels of the light,
+/// and of a share of the samples.
 inline constexpr int kinds_of_checkpoints = 3;
 PartsOfPicture checkpoint_of_kind(int kind);
 
-/// Edits the images by lines: "NAME=TEXT" says something else in the header, "-NAME" takes a text
-/// or a plane away, "w X0 Y0 X1 Y1" is another window, "d X0 Y0 X1 Y1" another display, "i NAME"
-/// and "f NAME" make a plane one of integers and of floats, "p NAME NUMBER" fills it, "> NAME NAME"
-/// renames it; after "2" the second image is edited. Lines that are none of these are passed over.
+/// Edits the images by lines: "NAME=TEXT" changes a text of the header, "-NAME" takes a text or a
+/// plane away, "w X0 Y0 X1 Y1" is another window, "d X0 Y0 X1 Y1" another display, "i NAME" and "f
+/// NAME" make a plane one of integers and of floats, "p NAME NUMBER" fills it, "> NAME NAME"
+/// renames it; after "2" the second image is edited. Other lines are ignored.
 void edit(std::vector<ExrImage>& images, std::string_view lines);
 
 }  // namespace minkray::fuzz

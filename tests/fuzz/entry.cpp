@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where libFuzzer enters: MINKRAY_FUZZ_CHECK is one of the targets.
+// Entry point of libFuzzer: MINKRAY_FUZZ_CHECK is one of the targets.
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The numbers that a shape's support points are computed by way of: what their rounding is relative
-// to. A large shape minus a large shape may be small, but is not known any better.
+// Magnitude of the numbers from which a shape's support points are computed: the reference of
+// their rounding. A large shape minus a large shape may be small, but its rounding is no smaller.
 #pragma once
 
 #include <Eigen/LU>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// How far a vertex may lie outside of the hull that is made of it.
+// Tolerance of a vertex outside of the hull that is made of it.
 #pragma once
 
 #include <limits>
 
 namespace minkray::fuzz {
 
-/// As core/geometry/convex_hull.cpp says: a set thinner than 16 epsilon of its coordinates is flat;
+/// As in core/geometry/convex_hull.cpp: a set thinner than 16 epsilon of its coordinates is flat;
 /// a facet's plane is rounded by as much again, in each of three dimensions.
 constexpr double hull_rounding = 64 * std::numeric_limits<double>::epsilon();
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Image files that Minkray reads. The first byte tells as what the others are read: one of the
+// Image files that Minkray reads. The first byte selects how the others are read: one of the
 // formats of pictures, an OpenEXR file of planes, part files or a checkpoint; or, of the last two,
 // edits of what Minkray writes (edited_parts.h).
 #include <algorithm>
@@ -21,8 +21,8 @@
 namespace minkray::fuzz {
 namespace {
 
-/// Pictures that say they have more pixels, but not too many, are not read here: that takes the
-/// memory and the time that they say.
+/// Pictures whose headers claim more pixels, but not too many, are not read here: that takes that
+/// much memory and time.
 constexpr std::int64_t most_tried = 1 << 18, most_allowed = std::int64_t{1} << 27;
 
 const TemporaryFolder& folder() {
@@ -45,7 +45,8 @@ std::string_view text_of(const std::vector<unsigned char>& bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-/// How many pixels a PNG, JPEG or Radiance file says it has; nothing if it does not get that far.
+/// Number of pixels in the header of a PNG, JPEG or Radiance file; nothing if it has no complete
+/// header.
 std::optional<std::int64_t> said_pixels(std::string_view bytes) {
   const auto number = [&](std::size_t at, std::size_t count) {
     std::int64_t value = 0;
@@ -160,7 +161,7 @@ std::string check_parts(const std::vector<std::string>& files, bool allow_partia
 }
 
 std::string check_checkpoint(const std::string& file, const PartsOfPicture& of) {
-  constexpr double never = 0;  // it writes none
+  constexpr double never = 0;  // no checkpoint is written
   try {
     const RenderJournal journal = Checkpoint(file, of.options, of.facts, never).load();
     const PixelRect region = of.options.region();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What every message to the user must be, whatever the input held.
+// Requirements on every message to the user, for any input.
 #pragma once
 
 #include <string>

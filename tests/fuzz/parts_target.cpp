@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Mesh files of every format that robots' files name: the first byte tells which, the second how
-// they are split.
+// Mesh files of every format that robots' files name: the first byte selects the format, the
+// second how they are split.
 #include <algorithm>
 #include <cmath>
 #include <exception>

@@ -17,8 +17,8 @@ bool has_null(const Json& numbers) {
   return numbers.dump().find("null") != std::string::npos;
 }
 
-/// Whether numbers, one or a point's three, are null in float only where the same ones in double
-/// are beyond all floats: what is not finite is written as null.
+/// True if numbers, one or a point's three, are null in float only where the same ones in double
+/// are beyond all floats: numbers that are not finite are written as null.
 bool are_null_beyond_floats(const Json& in_float, const Json& in_double) {
   if (in_float.is_array()) {
     if (!in_double.is_array() || in_double.size() != in_float.size()) return false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What every reader of robots' files promises: a model whose links are in order and a scene that
+// Guarantees of every reader of robots' files: a model whose links are in order and a scene that
 // can be described and written, or messages.
 #pragma once
 
@@ -8,11 +8,11 @@
 
 namespace minkray::fuzz {
 
-/// Says what is wrong with the outcome; `file` says which format it is.
+/// Returns a description of an error in the outcome; the extension of `file` selects the format.
 std::string check_robot(const std::string& text, const std::string& file);
 
-/// The bytes are a document with that root element, or what stands within it: so inventions stay in
-/// the format.
+/// The bytes are a document with that root element, or its contents: so inventions stay in the
+/// format.
 std::string check_robot_within(std::string_view root, std::string_view bytes,
                                const std::string& file);
 

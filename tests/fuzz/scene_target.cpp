@@ -11,7 +11,7 @@ namespace {
 /// No mesh file is found there, and none is read.
 constexpr const char* no_folder = "no-such-folder";
 
-/// What a shape is written as is read as the same shape.
+/// A shape that is written and read again is the same shape.
 std::string check_written(const Shape<double>& shape) {
   const Json written = write_shape(shape);
   Mistakes mistakes("written");

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What is fuzzed. Each target takes any bytes, does with them what a user or a caller could, and
-// says what is wrong with the outcome: nothing, if every promise was kept. libFuzzer runs them
-// (tests/fuzz/entry.cpp) on inputs that it invents, the suite (tests/fuzz/replay_test.cpp) on those
-// that are kept.
+// List of the fuzz targets. Each takes any bytes, does with them what a user or a caller could,
+// and returns a description of an error in the outcome: empty, if every promise was kept.
+// libFuzzer runs them (tests/fuzz/entry.cpp) on inputs that it invents, the suite
+// (tests/fuzz/replay_test.cpp) on those that are kept.
 #pragma once
 
 #include <string>
@@ -16,16 +16,16 @@ std::string check_scene(std::string_view bytes);
 /// Lines of queries: each answered, in float and in double, or refused with messages.
 std::string check_queries(std::string_view bytes);
 
-/// A mesh file, its first byte telling OBJ from STL: read into points whose hull holds them all, or
-/// refused with a message.
+/// A mesh file, its first byte selecting OBJ or STL: read into points whose hull holds them all,
+/// or rejected with a message.
 std::string check_mesh(std::string_view bytes);
 
 /// A mesh file of any format that robots' files name: read, split into parts and made hulls of, or
-/// refused with a message. The first two bytes tell the format and the split.
+/// rejected with a message. The first two bytes select the format and the split.
 std::string check_mesh_parts(std::string_view bytes);
 
-/// A robot's file, or what stands within its root element: read into a model and a scene
-/// (tests/fuzz/robot_promises.h), or refused with messages.
+/// A robot's file, or the contents of its root element: read into a model and a scene
+/// (tests/fuzz/robot_promises.h), or rejected with messages.
 std::string check_mjcf(std::string_view bytes);
 std::string check_urdf(std::string_view bytes);
 std::string check_sdf(std::string_view bytes);
@@ -36,7 +36,8 @@ std::string check_gltf(std::string_view bytes);
 /// accurate solvers and in packets; the answers checked by tests/fuzz/cast_promises.h.
 std::string check_cast(std::string_view bytes);
 
-/// Two shapes made of the bytes: their signed distance beside planes of their own support mappings.
+/// Two shapes made of the bytes: their signed distance compared with planes of their own support
+/// mappings.
 std::string check_contact(std::string_view bytes);
 
 /// An image file, a part file or a checkpoint, or edits of one (tests/fuzz/image_target.cpp): read

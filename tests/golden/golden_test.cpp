@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Pictures have the same bits for any number of threads and any split into tiles and shares of the
-// samples, and the bits that hashes.txt records. `./run golden` records them anew.
+// samples, and the bits recorded in hashes.txt. `./run golden` records them.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -14,8 +14,8 @@
 namespace minkray {
 namespace {
 
-/// The colours, and each data channel by itself: what has changed is told. The header is left out:
-/// it says when and how the picture was made.
+/// Hashes of the colours, and of each data channel by itself, so that changes are reported by
+/// channel. The header is left out: it contains the date and the command of the picture.
 std::map<std::string, std::string> hashes_of(const std::string& file) {
   std::map<std::string, std::string> hashes;
   for (const ExrPlane& plane : read_exr(file).planes) {

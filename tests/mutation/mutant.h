@@ -13,7 +13,7 @@ namespace minkray::mutant {
 /// else is initialized.
 extern int active;
 
-/// Which mutants the process came by, whether they were on or not.
+/// Mutants that the process reached, on or off.
 inline constexpr int most_mutants = 8192;
 extern bool reached[most_mutants];
 

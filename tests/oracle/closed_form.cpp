@@ -80,7 +80,7 @@ Interval frustum(const V& o, const V& d, Long z0, Long r0, Long z1, Long r1) {
   if (const auto t = roots(a, b, c)) {
     if (a > 0) {
       inside = both(here, *t);
-    } else {  // outside of the roots: one branch a nappe, of which the slab holds one
+    } else {  // outside of the roots: one branch per nappe; the slab holds one of them
       const Interval low = both(here, {-infinity, t->lower});
       const Interval high = both(here, {t->upper, infinity});
       inside = either(low, high);

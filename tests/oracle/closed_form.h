@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where a line enters and leaves a shape, in long double, by school geometry: quadratics, slabs and
-// unions of them. Shares no code with the solvers, nor with the support mappings.
+// Finds where a line enters and leaves a shape, in long double, by school geometry: quadratics,
+// slabs and unions of them. Shares no code with the solvers, nor with the support mappings.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Answers that claim an error bound beside school geometry in more digits: whether the claim holds.
+// Compares results that claim an error bound with school geometry in more digits.
 #pragma once
 
 #include "core/cast/prepared_shape.h"

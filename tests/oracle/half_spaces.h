@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where a line meets the hull of few points: clipped by the planes of its facets, which are found
-// by looking at every three of the points, in long double. Knows nothing of Qhull or of supports.
+// Finds where a line meets the hull of few points: clipped by the planes of its facets, which are
+// found by trying every three of the points, in long double. Independent of Qhull and of supports.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where lines enter a shape, in long double, fast enough for tens of millions of lines. Shares no
-// code with the solvers.
+// Finds where lines enter a shape, in long double, fast enough for tens of millions of lines.
+// Shares no code with the solvers.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@ struct LineEntry {
 ///   its radii): as unions of prisms over the facets, cylinders around edges, balls at corners;
 /// - sums of two ellipsoids between a supporting plane and the ball within the sum that touches it
 ///   there, whose radius is the sum of the ellipsoids' least radii of curvature (Blaschke's rolling
-///   theorem). Where to begin is asked from outside; it is no matter of trust, as nothing but the
+///   theorem). The start is supplied by the caller and need not be trusted, as nothing but the
 ///   two bounds decides.
 class LineEntries {
  public:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The oracle for many lines, beside the slow one.
+// Compares the oracle for many lines with the slow one.
 #include "tests/oracle/line_entry.h"
 
 #include <gtest/gtest.h>

@@ -26,7 +26,7 @@ std::unique_ptr<MujocoModel> MujocoModel::load(const std::string& file, std::str
   parts->model = mj_loadXML(file.c_str(), nullptr, message, sizeof message);
   why = message;
   if (!parts->model) return nullptr;
-  // Nothing asks for contacts or constraints, whose memory would be cleared each time.
+  // Disables contacts and constraints, whose memory would be cleared each time.
   parts->model->nconmax = parts->model->njmax = 0;
   parts->model->nstack = std::min(parts->model->nstack, 1 << 16);
   parts->data = mj_makeData(parts->model);

@@ -14,7 +14,7 @@ namespace minkray::testing {
 
 class MujocoModel {
  public:
-  /// It is null if MuJoCo refuses the file; `why` gets what it says.
+  /// Null if MuJoCo rejects the file; `why` gets its message.
   static std::unique_ptr<MujocoModel> load(const std::string& file, std::string& why);
   ~MujocoModel();
 
@@ -27,15 +27,15 @@ class MujocoModel {
   };
   std::vector<Geom> geoms() const;
 
-  /// Puts the joints where the numbers say, all of them in MuJoCo's order; empty: as the file has
-  /// them.
+  /// Sets the joints to these numbers, all of them in MuJoCo's order; empty: as the file has them.
   void set_positions(const std::vector<double>& qpos);
   std::size_t positions() const;
   std::size_t bodies() const;
   std::vector<double> keyframe(std::size_t i) const;
   std::size_t keyframes() const;
 
-  /// Where a ray first meets a geom from outside, as mj_ray says; infinite if it meets none.
+  /// Parameter at which a ray first meets a geom from outside, by mj_ray; infinite if it meets
+  /// none.
   double ray(const Ray<double>& ray, int& geom) const;
 
  private:

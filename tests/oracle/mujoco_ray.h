@@ -16,7 +16,7 @@ class MujocoRay {
   static std::optional<MujocoRay> make(const Shape<double>& shape);
 
   /// The ray's parameter where it meets the surface first, from outside or inside; infinite for no
-  /// hit. The ray's t_max is not looked at.
+  /// hit. The ray's t_max is ignored.
   double entry(const Ray<double>& ray) const;
 
  private:

@@ -6,7 +6,7 @@
 namespace minkray::testing {
 namespace {
 
-/// ODE wants to be told before and after; once for the whole program.
+/// ODE needs a call before and after; once for the whole program.
 struct OdeLibrary {
   OdeLibrary() { dInitODE2(0); }
   ~OdeLibrary() { dCloseODE(); }

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 // A slow ray cast in long double, for shapes without a closed form: portal refinement (after
-// Snethen, "XenoCollide: Complex Collision Made Simple", 2008), seen along the ray.
+// Snethen, "XenoCollide: Complex Collision Made Simple", 2008), projected along the ray.
 //
 // A portal is a triangle of points of the shape that the ray pierces: the hit is no later than
 // there. The supporting plane along the portal's normal touches the shape no later than the ray
-// enters it: the hit is no earlier. Its support point splits the portal in three, one of which the
-// ray pierces. Shares nothing with the solvers; the support mapping is evaluated in long double.
+// enters it: the hit is no earlier. Its support point splits the portal in three, and the ray
+// pierces one of them. Shares nothing with the solvers; the support mapping is evaluated in long
+// double.
 #pragma once
 
 #include <array>
@@ -25,13 +26,13 @@ struct PortalHit {
   int supports = 0;
 };
 
-/// Where lines enter one shape.
+/// Finds where lines enter one shape.
 class PortalCast {
  public:
   explicit PortalCast(const Shape<double>& shape) : shape_(convert<Long>(shape)) {
     const Bounds<Long> bounds = bounds_of<Long>(shape_);
     radius_ = bounds.half_extents().norm();
-    // Beside the middle: seen from a centre of symmetry, portals have the line in their sides.
+    // Off the middle: viewed from a centre of symmetry, portals have the line in their sides.
     middle_.setZero();
     int weight = 0;
     for (int axis = 0; axis < 3; ++axis)
@@ -117,7 +118,7 @@ class PortalCast {
         const Long reach = u.dot(across(further));
         if (reach < 0) return PortalHit::Answer::miss;
         if (reach - u.dot(across(p)) <= tolerance * Long(1e-3)) break;
-        // Which half is the line in?
+        // Half that contains the line.
         const Vec2 split = across(further) - inner;
         const bool with_p = cross(split, -inner) * cross(split, across(p) - inner) >= 0;
         (with_p ? q : p) = further;
@@ -133,7 +134,7 @@ class PortalCast {
       return bc2 >= ca2 ? ca.cross(ab) : ab.cross(bc);
     }
 
-    /// How far within a triangle the line is: the least of three areas, negative if it is outside.
+    /// Depth of the line within a triangle: the least of three areas, negative if it is outside.
     Long room(const Vec3<Long>& p, const Vec3<Long>& q, const Vec3<Long>& s) const {
       const Vec2 i = across(p), j = across(q), k = across(s);
       const Long turn = cross(j - i, k - i) < 0 ? Long(-1) : Long(1);

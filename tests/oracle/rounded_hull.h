@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Where a line meets the hull of few points grown by a radius: the union of the hull, of its
-// facets' prisms, and of the capsules around its edges, in long double. Three points are a triangle
-// with two facets, two are a segment.
+// Finds where a line meets the hull of few points grown by a radius: the union of the hull, of its
+// facets' prisms, and of the capsules around its edges, in long double. Three points are a
+// triangle with two facets, two are a segment.
 #pragma once
 
 #include "tests/oracle/closed_form.h"
@@ -46,7 +46,7 @@ class RoundedHull {
   static constexpr Interval all = {-std::numeric_limits<Long>::infinity(),
                                    std::numeric_limits<Long>::infinity()};
 
-  /// What is left of it below a plane.
+  /// Clips the interval to the part below a plane.
   static void cut(Interval& part, const Vec3<Long>& o, const Vec3<Long>& d,
                   const Vec3<Long>& normal, Long offset) {
     const Long slope = normal.dot(d), room = offset - normal.dot(o);
@@ -55,7 +55,7 @@ class RoundedHull {
     if (slope == 0 && room < 0) part = {};
   }
 
-  /// Within r of what is `from` beside it and goes `way`.
+  /// Interval within r of an axis that is `from` off the line and has the direction `way`.
   Interval within(const Vec3<Long>& from, const Vec3<Long>& way) const {
     const Long across = way.squaredNorm();
     if (across == 0) return from.squaredNorm() <= r_ * r_ ? all : Interval{};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where libsdformat puts the links of an SDF file, and along what its joints turn.
+// Poses of an SDF file's links, and axes of its joints, by libsdformat.
 #pragma once
 
 #include <map>
@@ -16,7 +16,7 @@ struct SdformatLinks {
 
 }  // namespace minkray::testing
 
-/// False, and why, if it does not read the file. Tests load this where they ask it, as libsdformat
-/// makes all its tables at once: half of what it takes to begin a test.
+/// False, and why, if it does not read the file. Tests load this on first use, as libsdformat
+/// makes all its tables at once: half of a test's start-up time.
 extern "C" bool minkray_sdformat_links(const std::string& file,
                                        minkray::testing::SdformatLinks& all, std::string& why);

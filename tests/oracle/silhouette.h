@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How near a ray passes to a shape's silhouette, from supports alone.
+// Distance of a ray from a shape's silhouette, from supports alone.
 #pragma once
 
 #include <cmath>
@@ -11,7 +11,7 @@
 
 namespace minkray::testing {
 
-/// How far within the shape's shadow along the ray the ray lies; negative: outside of it.
+/// Depth of the ray within the shape's shadow along the ray; negative: outside of it.
 inline double room_in_shadow(const Shape<double>& shape, const Ray<double>& ray) {
   const Vec3<double> r = ray.direction.normalized(), a = r.unitOrthogonal(), b = r.cross(a);
   const Vec3<double> near = ray.origin + (shape.support(r) - ray.origin).dot(r) * r;

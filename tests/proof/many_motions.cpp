@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Many random motions of bodies that move and turn: when they first touch, beside dense sampling
-// with bisection in long double (tests/core/contact/moving_pairs.h). Prints what is wrong.
+// Compares the first contacts in many random motions of bodies that move and turn with dense
+// sampling and bisection in long double (tests/core/contact/moving_pairs.h). Prints errors.
 #include <cstdio>
 #include <cstdlib>
 

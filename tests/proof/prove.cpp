@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The offline proof: certifies many casts at every sample shape, in float and double, and tells
+// The offline proof: certifies many casts at every sample shape, in float and double, and reports
 // what does not hold with a line that `minkray cast` reads.
-//   prove [RAYS [NAME [SOLVER]]]   so many rays (default 100,000) for each shape, precision and
-//   kind
-//                                  of ray; the shapes whose names contain NAME; SOLVER: default
-//                                  auto
+//   prove [RAYS [NAME [SOLVER]]]
+// RAYS (default 100,000) is the number for each shape, precision and kind of ray; NAME selects the
+// shapes whose names contain it; SOLVER is auto by default.
 #include <algorithm>
 #include <atomic>
 #include <charconv>

@@ -1,60 +1,172 @@
 // SPDX-License-Identifier: MIT
-// Comments are sentences: none starts with "Of ..." or "The same ...", which have no verb to
-// follow.
+// Counts odd words in comments, folder by folder. Comments start with a verb or a noun and use the
+// usual verb, so the recorded counts may only fall.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <cctype>
+#include <map>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "tests/support/source_files.h"
 
 namespace minkray {
 namespace {
 
-constexpr std::array<std::string_view, 2> verbless = {"Of ", "The same"};
+struct OddWords {
+  int starts = 0;  ///< comments and sentences without a verb or noun at their start
+  int words = 0;   ///< words with a more usual one
+  bool operator==(const OddWords&) const = default;
+};
 
-/// Counts the lines of comments of their own; adds the verbless ones to `found`.
-std::size_t look_at_comments(std::string_view text, std::vector<std::string>& found) {
-  std::size_t count = 0;
-  while (!text.empty()) {
-    const std::string_view line = text.substr(0, text.find('\n'));
-    text.remove_prefix(std::min(text.size(), line.size() + 1));
-    const std::size_t begin = line.find_first_not_of(' ');
-    if (begin == std::string_view::npos || !line.substr(begin).starts_with("//")) continue;
-    ++count;
-    const std::size_t word = line.find_first_not_of("/ ", begin);
-    if (word == std::string_view::npos) continue;
-    for (const std::string_view start : verbless)
-      if (line.substr(word).starts_with(start)) found.emplace_back(line);
+/// Folders that still have odd words. Lower a count when it falls.
+const std::map<std::string, OddWords> recorded = {
+    {"core/mesh", {5, 7}},        {"core/parts", {28, 12}},     {"renderer/cli", {61, 79}},
+    {"renderer/plan", {11, 19}},  {"renderer/scene", {49, 58}}, {"renderer/sensor", {16, 12}},
+    {"renderer/verify", {17, 16}}};
+
+constexpr std::array starts_of_no_sentence = {"What ", "Whether ", "Who ", "It ", "They ", "Of "};
+constexpr std::array starts_of_no_comment = {"Where ", "Whose ",   "That ",  "Its ",      "So ",
+                                             "By ",    "How ",     "Which ", "The same ", "what ",
+                                             "where ", "who ",     "they ",  "whose ",    "it ",
+                                             "its ",   "whether ", "how ",   "which "};
+
+/// Usual words are report, query, is, check, continue, fail, next to, again, N, via, instead of.
+constexpr std::array odd_words = {
+    "anew",      "anybody", "ask",       "asked",    "asking",     "asks",    "beside",
+    "by way of", "gave up", "give up",   "gives up", "go on",      "goes on", "in place of",
+    "knows",     "look at", "looked at", "looks at", "made ready", "nobody",  "of which",
+    "said",      "say",     "says",      "so many",  "stand",      "stands",  "stood",
+    "tell",      "telling", "tells",     "told",     "whoever"};
+
+bool is_blank(std::string_view text) {
+  return text.find_first_not_of(' ') == std::string_view::npos;
+}
+
+/// Position of a line's comment; npos if it has none.
+std::size_t comment_in(std::string_view line) {
+  bool is_quoted = false;
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+    if (line[i] == '\\')
+      ++i;
+    else if (line[i] == '"' && (i == 0 || line[i - 1] != '\''))
+      is_quoted = !is_quoted;
+    else if (!is_quoted && line[i] == '/' && (line[i + 1] == '/' || line[i + 1] == '*'))
+      return i;
   }
+  return std::string_view::npos;
+}
+
+/// All comments of a source, each in one line: lines below each other are one comment.
+std::vector<std::string> comments_of(std::string_view source) {
+  constexpr std::string_view license = "SPDX-License-Identifier: MIT ";
+  std::vector<std::string> comments;
+  std::size_t column = std::string_view::npos;  // of the line before
+  bool is_open = false;                         // in /* */
+  while (!source.empty()) {
+    const std::string_view line = source.substr(0, source.find('\n'));
+    source.remove_prefix(std::min(source.size(), line.size() + 1));
+    const std::size_t at = is_open ? 0 : comment_in(line);
+    const bool continues = is_open || (at == column && is_blank(line.substr(0, at)));
+    column = at;
+    if (at == std::string_view::npos) continue;
+    if (!is_open) is_open = line[at + 1] == '*';
+    std::string_view text = line.substr(std::min(line.size(), line.find_first_not_of("/*!< ", at)));
+    if (const std::size_t end = text.find("*/"); is_open && end != std::string_view::npos) {
+      text = text.substr(0, end);
+      is_open = false;
+      column = std::string_view::npos;
+    } else if (is_open && line.ends_with("*/")) {
+      is_open = false;
+    }
+    if (!continues) comments.emplace_back();
+    comments.back().append(text).append(" ");
+    if (comments.back() == license) comments.back().clear();
+  }
+  return comments;
+}
+
+int occurrences(std::string_view text, std::string_view part) {
+  int count = 0;
+  for (std::size_t at = 0; (at = text.find(part, at)) != std::string_view::npos; ++at) ++count;
   return count;
 }
 
-TEST(Comments, that_have_no_verb_are_found) {
-  std::vector<std::string> found;
-  EXPECT_EQ(
-      look_at_comments("int a;\n\n  /// Of a ball.\n// A ball.\n/// Offers.\nint b;  ///< Of b\n"
-                       "// The same\n",
-                       found),
-      4u);
-  EXPECT_EQ(found, (std::vector<std::string>{"  /// Of a ball.", "// The same"}));
+OddWords odd_words_in(const std::string& comment) {
+  OddWords found;
+  for (const std::string start : starts_of_no_sentence) {
+    found.starts += comment.starts_with(start);
+    for (const char* end : {". ", "! ", "? "}) found.starts += occurrences(comment, end + start);
+  }
+  for (const char* start : starts_of_no_comment) found.starts += comment.starts_with(start);
+  std::string plain = " ";
+  for (const char c : comment) {
+    const auto letter = static_cast<unsigned char>(c);
+    const bool is_name = std::isalnum(letter) || c == '_' || c == '`' || c == '"' || c == '(';
+    plain += is_name ? static_cast<char>(std::tolower(letter)) : ' ';
+  }
+  for (const std::string word : odd_words) found.words += occurrences(plain, " " + word + " ");
+  return found;
 }
 
-TEST(Comments, have_a_verb) {
-  std::size_t count = 0;
-  for (const char* folder : {"core", "renderer", "include", "tests", "bench"}) {
-    if (!std::filesystem::exists(source_folder() / folder)) continue;
-    for (const SourceFile& file : files_in(folder)) {
+/// core/bvh, renderer/light; tests, include, bench and tools are one folder each.
+std::string folder_of(const std::string& name) {
+  const std::size_t top = name.find('/');
+  const std::string first = name.substr(0, top);
+  return first == "core" || first == "renderer" ? name.substr(0, name.find('/', top + 1)) : first;
+}
+
+TEST(Comments, odd_words_are_found) {
+  const std::string source =
+      "// SPDX-License-Identifier: MIT\n// Of a ball. It is\n// round.\n"
+      "int a;  ///< what it tells\nf(\"// Who\");\n/* By way of `asks`. */\n/// asked, again\n";
+  const std::vector<std::string> comments = comments_of(source);
+  EXPECT_EQ(comments, (std::vector<std::string>{"Of a ball. It is round. ", "what it tells ",
+                                                "By way of `asks`.  ", "asked, again "}));
+  OddWords sum;
+  for (const std::string& comment : comments) {
+    sum.starts += odd_words_in(comment).starts;
+    sum.words += odd_words_in(comment).words;
+  }
+  EXPECT_EQ(sum, (OddWords{4, 3}));
+}
+
+TEST(Comments, have_no_more_odd_words_than_recorded) {
+  std::map<std::string, OddWords> found = recorded;
+  for (auto& [folder, count] : found) count = {};
+  std::map<std::string, std::string> examples;
+  std::size_t comments = 0;
+  for (const char* top : {"core", "renderer", "include", "tests", "bench", "tools"}) {
+    if (!std::filesystem::exists(source_folder() / top)) continue;
+    for (const SourceFile& file : files_in(top)) {
       if (!file.name.ends_with(".h") && !file.name.ends_with(".cpp") &&
           !file.name.ends_with(".inl"))
         continue;
-      std::vector<std::string> found;
-      count += look_at_comments(file.text, found);
-      for (const std::string& line : found)
-        ADD_FAILURE() << file.name << ": no verb follows in: " << line;
+      for (const std::string& comment : comments_of(file.text)) {
+        ++comments;
+        const OddWords odd = odd_words_in(comment);
+        if (odd == OddWords{}) continue;
+        const std::string folder = folder_of(file.name);
+        found[folder].starts += odd.starts;
+        found[folder].words += odd.words;
+        examples[folder] += "  " + file.name + ": " + comment + "\n";
+      }
     }
   }
-  EXPECT_GT(count, 1000u);  // the test has found the comments
+  EXPECT_GT(comments, 10000u);  // the test has found the comments
+  for (const auto& [folder, count] : found) {
+    const auto known = recorded.find(folder);
+    const OddWords most = known == recorded.end() ? OddWords{} : known->second;
+    EXPECT_TRUE(count == most) << folder << " has {" << count.starts << ", " << count.words
+                               << "} odd starts and words, recorded {" << most.starts << ", "
+                               << most.words << "}"
+                               << (count.starts > most.starts || count.words > most.words
+                                       ? ": reword\n" + examples[folder]
+                                       : ": lower the recorded counts");
+  }
 }
 
 }  // namespace

@@ -54,7 +54,7 @@ TEST(Docs, the_index_has_every_page) {
   EXPECT_GT(count, 25u);
 }
 
-/// Whether a CMakeLists.txt of its own folder, or of one above, names the file.
+/// True if a CMakeLists.txt of its own folder, or of one above, names the file.
 bool is_built(const std::filesystem::path& file) {
   for (auto folder = file.parent_path(); !folder.empty(); folder = folder.parent_path()) {
     const std::filesystem::path list = source_folder() / folder / "CMakeLists.txt";

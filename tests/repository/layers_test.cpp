@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which part of the sources may know which other part, and which library.
+// Dependencies allowed between parts of the sources, and on libraries.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -63,7 +63,7 @@ std::string folder_of(const std::string& file) {
   return file.substr(0, file.rfind('/'));
 }
 
-/// Tells a room's place in `rooms`; their number if it is not there.
+/// Index of a room in `rooms`; their number if it is not there.
 std::size_t floor_of(const std::string& room) {
   return static_cast<std::size_t>(std::find(rooms.begin(), rooms.end(), room) - rooms.begin());
 }
@@ -150,7 +150,7 @@ TEST(Layers, each_library_is_seen_in_one_place) {
       {"stb/stb_image.h", "renderer/io/read_image.cpp"},
       {"stb/stb_easy_font", "renderer/image/text.cpp"},
   };
-  // What only tests see; there may be one line for each of several places.
+  // Libraries for tests only; there may be one line for each of several places.
   const std::vector<std::pair<std::string, std::string>> places_in_tests = {
       {"gtest/", "tests/"},
       {"rapidcheck", "tests/support/property.h"},
@@ -198,7 +198,7 @@ TEST(Layers, each_library_is_seen_in_one_place) {
   }
 }
 
-/// Whether a kind of shape has operands.
+/// True if a kind of shape has operands.
 template <class S>
 constexpr bool is_operator() {
   bool found = false;
@@ -231,11 +231,11 @@ TEST(Layers, no_shape_is_named_outside_of_its_header_and_the_list) {
     if (file.name.starts_with("core/shape/") || file.name.starts_with("core/derived/")) continue;
     // Generated scenes are of particular shapes.
     if (file.name.starts_with("renderer/generate/")) continue;
-    // So are those of other programs' files.
+    // Other programs' files are read there.
     if (file.name.starts_with("renderer/import/")) continue;
     // Parts of meshes are hulls.
     if (file.name == "renderer/scene/read_split.cpp") continue;
-    // What programs give comes in there.
+    // Input from programs arrives there.
     if (file.name == "renderer/library/c_shapes.cpp") continue;
     if (file.name.starts_with("renderer/paper/")) continue;  // repeats the papers' own experiments
     std::smatch match;
@@ -245,7 +245,7 @@ TEST(Layers, no_shape_is_named_outside_of_its_header_and_the_list) {
   }
 }
 
-/// So its header is known to compile alone; the others are looked at by tests/CMakeLists.txt.
+/// Ensures that its header compiles alone; the others are checked by tests/CMakeLists.txt.
 TEST(Repository, a_source_includes_its_own_header_first) {
   for (const SourceFile& file : sources()) {
     if (!file.name.ends_with(".cpp")) continue;

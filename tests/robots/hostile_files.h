@@ -16,7 +16,7 @@ struct HostileRow {
   bool holds() const { return exit_code == expected && seconds < 10 && megabytes < 1500; }
 };
 
-/// What a program costs that was started.
+/// Cost of a process.
 struct ProcessCost {
   int exit_code = -1;
   double seconds = 0, megabytes = 0;

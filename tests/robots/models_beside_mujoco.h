@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A model beside MuJoCo: geoms, poses, rays and speed.
+// Compares a model with MuJoCo: geoms, poses, rays and speed.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What reading and scanning robots must hold, beside what it does: models beside MuJoCo and DART,
-// speeds, hostile files (./run robots [RAYS]).
+// Requirements on reading and scanning robots, with measurements: models compared with MuJoCo and
+// DART, speeds, hostile files (./run robots [RAYS]).
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What several kinds of work need.
+// Shared by several kinds of work.
 #include "tests/soak/work.h"
 
 namespace soak {

@@ -14,13 +14,13 @@ namespace {
 
 /// In bytes. All that a round allocates is freed at its end, but what threads that live on keep:
 /// small blocks in glibc's caches of the threads (switched off by the task: GLIBC_TUNABLES),
-/// oneTBB's queues. A leak of a pointer's 32 bytes a round is twice this within an hour of rounds
+/// oneTBB's queues. A leak of a pointer's 32 bytes per round is twice this within an hour of rounds
 /// of a second and a half.
 constexpr double most_in_use_growth = 64 * 1024;
 
-/// In bytes: what an allocator may hold back, as rounds differ in what runs beside what. Resident
-/// memory was seen to go up and down by 1 MiB, with oneTBB's leak of 8 KiB a call up by 1 MiB in
-/// four rounds.
+/// In bytes: memory that an allocator may hold back, as rounds differ in what runs together.
+/// Resident memory varied by 1 MiB, and with oneTBB's leak of 8 KiB per call grew by 1 MiB in four
+/// rounds.
 constexpr double most_resident_growth = 4 * 1024 * 1024;
 
 std::size_t entries(const char* folder) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a process holds at one moment, and whether that grows from round to round.
+// Memory and handles of a process at one moment, and their growth from round to round.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace soak {
 
-/// What is held at the same point of a round, when all that the round made is gone.
+/// Resources held at the same point of a round, after all objects of the round are released.
 struct Held {
   double seconds = 0;        ///< since the beginning
   std::size_t in_use = 0;    ///< bytes that were allocated and not freed (mallinfo2)
@@ -19,9 +19,9 @@ struct Held {
 
 Held held_now(double seconds);
 
-/// Tells what grew, or nothing. The first tenth of the time, and the first two rounds, are warm-up:
-/// oneTBB's threads start, tables are made when they are first asked for. Of the rounds after that
-/// the medians of the first and the last quarter are compared.
+/// Describes the growth, or returns an empty text. The first tenth of the time, and the first two
+/// rounds, are warm-up: oneTBB's threads start, tables are made on first use. The medians of the
+/// first and the last quarter of the later rounds are compared.
 std::string what_grew(const std::vector<Held>& rounds);
 
 }  // namespace soak

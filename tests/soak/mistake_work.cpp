@@ -8,7 +8,7 @@
 namespace soak {
 namespace {
 
-/// What is said names no number of a handle: those are never given out again.
+/// Messages contain no number of a handle: those are never given out again.
 template <class Call>
 void refused(Answers& answers, Call&& call, bool with_text = true) {
   try {
@@ -53,7 +53,7 @@ void mistakes(const Common& common, Answers& answers) {
   refused(answers, [&] { mk::lidar("spinning:0x0", mk::identity()); });
   answers.add(scene.cast({{0, 0, 5}, {0, 0, -1}}));  // none of them did it any harm
 
-  // Pictures that cannot be, of the scene that the others are asking.
+  // Impossible pictures, of the scene that the others are querying.
   double light[12];
   const mk::Channel channel[] = {{"rgb", light, 12}}, unknown[] = {{"red", light, 12}};
   mk::PictureOptions options;

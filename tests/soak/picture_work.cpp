@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures of the scene that all threads ask at once, whole and stopped half-way.
+// Pictures of the scene that all threads query at once, whole and stopped half-way.
 #include "tests/soak/work.h"
 
 namespace soak {
@@ -60,7 +60,7 @@ void stopped_pictures(const Common& common, Answers& answers) {
     });
     common.stopped += stopped;
   }
-  // What comes after is what it would have been.
+  // Later results are unaffected.
   render(common, small_picture(), {"rgb"}, answers);
 }
 

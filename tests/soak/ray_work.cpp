@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rays at the scene that all threads ask at once: one by one, in batches, by a lidar, proven,
+// Rays at the scene that all threads query at once: one by one, in batches, by a lidar, proven,
 // stopped half-way.
 #include "tests/renderer/library/rays.h"
 #include "tests/soak/work.h"

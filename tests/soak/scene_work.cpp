@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Scenes of a thread's own, that are changed between questions, and shapes of the user's own. The
-// library takes nothing out of a scene: without an object it is made anew; a hidden one is far
+// Scenes of a thread's own that are changed between queries, and shapes of the user's own. The
+// library removes nothing from a scene: to lose an object it is rebuilt; a hidden object is far
 // away.
 #include <cmath>
 
@@ -46,7 +46,7 @@ void edits(const Common& common, Answers& answers) {
   expect(before.hash() != hidden.hash(), "what is hidden must not be met");
   answers.add(hidden.hash());
 
-  // More are added: it is built anew. A robot is among them, whose joints move.
+  // Adds more, so that it is rebuilt; among them a robot, whose joints move.
   for (std::uint32_t i = 0; i < 40; ++i)
     scene.add(mk::sphere(0.1 + 0.005 * i), mk::translation({-2 + 0.1 * i, 2, 0.5}), "pearl");
   auto arm = scene.add_file(source_file("examples/arm.urdf"));

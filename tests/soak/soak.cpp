@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Renders, scans and queries for as long as is asked, in one process, by several threads at once,
-// with edits, cancelled calls and mistakes in between:
+// Renders, scans and queries for the given time, in one process, by several threads at once, with
+// edits, cancelled calls and mistakes in between:
 //   minkray_soak SECONDS [leak|answer]
 // Every round makes the same scene, in which the same things move and are added; each kind of work
-// (work.h) is done in each of its states. Every round must give the bits of the first one, and what
-// the process holds must stay what it was. With the second word it has a fault, which it must find:
-// 16 KiB leaked each round, or a wrong answer in the last one. Exit codes: 0 all held, 1 not, 2
-// usage.
+// (work.h) is done in each of its states. Every round must give the bits of the first one, and the
+// resources of the process must stay the same. With the second word it has a fault, which it must
+// find: 16 KiB leaked each round, or a wrong answer in the last one. Exit codes: 0 all held, 1
+// not, 2 usage.
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -31,8 +31,8 @@ struct Tally {
   std::mutex printing;
 };
 
-/// All kinds of work, by several threads; which ones are done beside each other differs from round
-/// to round.
+/// All kinds of work, by several threads; the combination that runs together differs from round to
+/// round.
 void all_kinds(const mk::Scene& scene, std::size_t round, int state, bool lie, Tally& tally) {
   std::atomic<std::size_t> next = 0;
   const Common common = {scene, static_cast<int>(round % 3) + 1, tally.stopped};
@@ -63,7 +63,7 @@ void all_kinds(const mk::Scene& scene, std::size_t round, int state, bool lie, T
   for (std::thread& thread : threads) thread.join();
 }
 
-/// A scene from its making to its end: built, refitted where things moved, built anew with more.
+/// A scene from its making to its end: built, refitted after moves, rebuilt with more objects.
 void one_round(std::size_t round, bool lie, Tally& tally) {
   static_assert(kind_count % 7 != 0);
   mk::Scene scene = scene_of_shapes();

@@ -37,9 +37,9 @@ class Answers {
   std::uint64_t hash_ = 0xcbf29ce484222325u;
 };
 
-/// What all the work of one phase of a round shares.
+/// Data shared by all the work of one phase of a round.
 struct Common {
-  const mk::Scene& scene;      ///< which all ask at once
+  const mk::Scene& scene;      ///< queried by all at once
   int threads = 1;             ///< that a call may use: another number in each round
   std::atomic<long>& stopped;  ///< counts the calls that were stopped half-way
 };
@@ -90,8 +90,8 @@ inline void expect(bool holds, const char* what) {
   if (!holds) throw std::runtime_error(what);
 }
 
-/// Calls `call(options)`, and asks it to stop once this part of it is done. It must end as stopped
-/// if and only if it was asked to; answers whether it was.
+/// Calls `call(options)`, and stops it once this part of it is done. The call must end as stopped
+/// if and only if it was requested to; returns true if it was.
 bool stopped_after(double part, int threads, const std::function<void(const mk::Options&)>& call);
 
 }  // namespace soak

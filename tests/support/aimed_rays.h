@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Random rays at a shape of which about half hit it.
+// Random rays at a shape; about half of them hit it.
 #pragma once
 
 #include "core/derived/shape_bounds.h"

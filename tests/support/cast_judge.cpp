@@ -12,7 +12,7 @@ using Long = long double;
 
 namespace {
 
-/// How far from the silhouette hit and miss may be mistaken, in units of R.
+/// Distance from the silhouette within which hit and miss may be mistaken, in units of R.
 template <class T>
 constexpr double band = std::is_same_v<T, float> ? 1e-6 : 1e-12;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Answers of casts beside an oracle in long double: what is right, how far off it is, and what is
-// too near the silhouette to tell.
+// Compares results of casts with an oracle in long double: right ones, their errors, and those too
+// near the silhouette to decide.
 #pragma once
 
 #include "core/derived/shape_bounds.h"
@@ -18,7 +18,7 @@ constexpr double allowed_error = std::is_same_v<T, float> ? 5e-7 : 1e-12;
 
 enum class Verdict : unsigned char {
   right,
-  exhausted,      ///< the cast gave up
+  exhausted,      ///< the cast did not converge
   undecided,      ///< the oracle did
   at_silhouette,  ///< a hit for a miss or the reverse, or entered elsewhere along a side
   wrong           ///< a hit for a miss or the reverse, further from the silhouette than the band
@@ -29,7 +29,7 @@ struct Judgement {
   double error = 0;  ///< of a right hit: |t - exact| along the normal, in units of R
 };
 
-/// Where a ray's whole line enters a shape.
+/// Entry of a ray's whole line into a shape.
 struct TrueEntry {
   LineEntry entry;
   double cosine = 1;  ///< between the ray and the normal of a hit
@@ -40,12 +40,12 @@ class CastJudge {
   /// LineEntries must know the shape (else std::invalid_argument).
   explicit CastJudge(const Shape<double>& shape);
 
-  /// `normal`: what a cast in double says that it is where the ray enters. It is where the oracle
-  /// begins, and its cosine is used if a supporting plane says that it is one of the normals there.
+  /// `normal`: the reported normal of a cast in double at the ray's entry. The oracle begins with
+  /// it, and uses its cosine if a supporting plane proves that it is one of the normals there.
   TrueEntry truth(const Ray<double>& ray, const Vec3<double>& normal) const;
 
-  /// `ray`: as it was cast at, without an end, from outside. The answer's own normal, too, is
-  /// believed only if it is one where the ray enters: beside an edge it may be of either side.
+  /// `ray`: the ray that was cast, unbounded, from outside. The result's own normal, too, is
+  /// accepted only if it is one at the ray's entry: next to an edge it may be of either side.
   template <class T>
   Judgement operator()(const Ray<double>& ray, const CastResult<T>& answer,
                        const TrueEntry& truth) const;

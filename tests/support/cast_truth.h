@@ -9,16 +9,16 @@
 
 namespace minkray::testing {
 
-/// What a line does at a shape.
+/// True relation of a line to a shape.
 struct CastTruth {
   bool hit;
-  /// How far the line would have to be moved to just touch, at most: negative inside.
+  /// Distance by which the line would have to be moved to just touch, at most: negative inside.
   double beside;
   long double t;
   Vec3<long double> normal;  ///< of unit length
 };
 
-/// Where is_before, true first and false then, turns between low and high.
+/// Finds where is_before, true first and false then, changes between low and high.
 long double bisected(long double low, long double high, const auto& is_before) {
   for (int i = 0; i < 200; ++i) {
     const long double middle = (low + high) / 2;
@@ -28,16 +28,16 @@ long double bisected(long double low, long double high, const auto& is_before) {
   return high;
 }
 
-/// It tells in units of R how near to the silhouette either answer is right.
+/// Distance from the silhouette, in units of R, within which either result is right.
 template <class T>
 constexpr double silhouette_band = std::is_same_v<T, float> ? 1e-6 : 1e-14;
 
-/// What became of many casts at one shape of bounding radius R.
+/// Statistics of many casts at one shape of bounding radius R.
 struct CastOutcome {
   int hits = 0, misses = 0, others = 0, supports = 0, most_supports = 0;
   int wrong = 0;        ///< status, further from the silhouette than the band
   double worst = 0;     ///< error of t times cosine, in units of R
-  double unproven = 0;  ///< how far the lower bound is behind the true hit, likewise
+  double unproven = 0;  ///< distance of the lower bound behind the true hit, likewise
 
   template <class T>
   void add(const CastResult<T>& result, const CastTruth& truth, const Vec3<double>& direction,

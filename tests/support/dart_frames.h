@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The links of a URDF beside DART's forward kinematics, where python3-dartpy is installed.
+// Compares the links of a URDF with DART's forward kinematics, where python3-dartpy is installed.
 #pragma once
 
 #include <optional>
@@ -17,7 +17,7 @@ struct FrameErrors {
 /// Nothing if DART is not installed, or does not read the file.
 std::optional<FrameErrors> frames_beside_dart(const std::string& urdf, int states);
 
-/// The robots that this is asked of, relative to robot_models().
+/// The robots of this comparison, relative to robot_models().
 inline constexpr const char* robots_beside_dart[] = {
     "simbody/TaskSpaceControl-Atlas/models/atlas_v4.urdf", "dart/urdf/wam/wam.urdf",
     "dart/urdf/KR5/KR5 sixx R650.urdf", "dart/urdf/drchubo/drchubo.urdf"};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Whether directions that are drawn at random have the density that is claimed for them: the sphere
-// is cut into cells, and what is drawn into each is compared with the density's integral over it.
+// Tests if directions that are drawn at random have the claimed density: the sphere is cut into
+// cells, and the number drawn into each is compared with the density's integral over it.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -18,9 +18,9 @@ namespace minkray {
 
 struct DensityCheck {
   double total;           ///< the density's integral over the sphere
-  double drawn;           ///< which part of the draws gave a direction
+  double drawn;           ///< part of the draws that gave a direction
   double largest_excess;  ///< of a cell's drawn part over its integral, in standard deviations
-  int cells;              ///< of which at least one draw in 2000 is expected
+  int cells;              ///< number of cells with at least one expected draw in 2000
 };
 
 /// draw(sampler) is a direction or nothing, pdf(direction) its density over solid angle. Cells are

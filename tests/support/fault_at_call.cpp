@@ -36,7 +36,7 @@ long number_from(const char* variable) {
   return text == nullptr ? 0 : std::atol(text);
 }
 
-/// Asks the system call itself: it is not to be counted.
+/// Makes the system call directly: it is not to be counted.
 void log(const std::string& line) {
   const char* file = std::getenv("MINKRAY_FAULT_LOG");
   if (file == nullptr) return;
@@ -59,7 +59,7 @@ bool fails(const char* call, const std::string& file, bool may_fail = true) {
   return is_now;
 }
 
-/// Whether it is open for writing a file on a disk, or a folder.
+/// True if it is open for writing a file on a disk, or a folder.
 bool counts(int descriptor) {
   const int before = errno;
   struct stat status = {};
@@ -86,7 +86,7 @@ Function* next(const char* name) {
 using Open = int(const char*, int, ...);
 using OpenAt = int(int, const char*, int, ...);
 
-/// Whether a mode follows. O_TMPFILE has O_DIRECTORY in it, which alone makes nothing.
+/// True if a mode follows. O_TMPFILE has O_DIRECTORY in it, which alone makes nothing.
 bool has_mode(int flags) {
   return (flags & O_CREAT) != 0 || (flags & O_TMPFILE) == O_TMPFILE;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the tests of the filter have in common: poses, rays that begin and end anywhere, and the
-// judgement of an answer.
+// Shared by the tests of the filter: poses, rays that begin and end anywhere, and the judgement of
+// a result.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -47,8 +47,8 @@ struct Counted {
   double worst = 0;  ///< error by bound
 };
 
-/// What an answer of the filter says beside `line_in(at, along)`, which is the interval of a line
-/// in the inner shape's frame.
+/// Compares a result of the filter with `line_in(at, along)`, the interval of a line in the inner
+/// shape's frame.
 template <class T, class LineIn>
 void judge_by(const LineIn& line_in, const PreparedShape<T>& prepared, const Ray<T>& ray,
               Counted& counted) {
@@ -77,8 +77,8 @@ void judge_by(const LineIn& line_in, const PreparedShape<T>& prepared, const Ray
   }
 }
 
-/// The filter's answers to so many rays of each family, by a checker that knows nothing but
-/// supports.
+/// Checks the filter's results for `rays_each` rays of each family, by a checker that uses
+/// supports only.
 template <class T>
 void expect_certified(const Shape<T>& shape, const PreparedShape<T>& prepared, std::uint64_t seed,
                       int rays_each) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Hashes of what queries answer, and of by which way and at which cost they do, beside those that a
-// file records.
+// Hashes of the results of queries, and of their paths and costs, compared with those that a file
+// records.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -24,8 +24,8 @@ struct HashedBits {
   }
 };
 
-/// The bits of all ways in which `of` was asked, by the ways' names: fails where others are
-/// recorded, or records them. Skips where the library's sines have other last bits.
+/// The bits of all ways of querying `of`, by the ways' names: fails if they differ from the
+/// recorded ones, or records them. Skips if the library's sines have other last bits.
 template <class Bits>
 void expect_as_recorded(RecordedHashes& recorded, const std::string& of,
                         const std::map<std::string, Bits>& bits) {

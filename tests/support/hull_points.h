@@ -19,7 +19,7 @@ inline Points on_a_sphere(int count, const Vec3<double>& extents) {
   return points;
 }
 
-/// Both ends are polygons of so many corners, each in one plane.
+/// Both ends are polygons of `sides` corners, each in one plane.
 inline Points prism(int sides, double half_height) {
   Points points;
   for (int i = 0; i < sides; ++i)
@@ -64,7 +64,7 @@ inline std::vector<NamedPoints> hulls() {
   };
 }
 
-/// They run along edges, through vertices, in the planes of facets; as a ray of T can.
+/// Rays along edges, through vertices, in the planes of facets; as a ray of T can.
 class PointRays {
  public:
   PointRays(Points points, double R) : points_(std::move(points)), R_(R), random_(5) {}

@@ -15,7 +15,7 @@ struct MeasuredShape {
   Shape<double> shape;
 };
 
-/// What GoogleTest prints in place of bytes.
+/// Printed by GoogleTest instead of bytes.
 inline void PrintTo(const MeasuredShape& measured, std::ostream* out) {
   *out << measured.name;
 }

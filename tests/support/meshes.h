@@ -47,7 +47,7 @@ inline Surface torus(std::uint32_t around, std::uint32_t across) {
   return torus;
 }
 
-/// Its latitudes are close together in places, its longitudes meet at the poles.
+/// Latitudes are close together in places, longitudes meet at the poles.
 inline Surface bumpy_ball(std::uint32_t rings, std::uint32_t around) {
   Surface ball;
   for (std::uint32_t i = 0; i < rings; ++i)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Figures that a test has measured beside what they must be, for the table of `./run light`: they
-// are kept in the report that --gtest_output=json: writes.
+// Measured figures of a test with their limits, for the table of `./run light`: stored in the
+// report that --gtest_output=json: writes.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 
 namespace minkray {
 
-/// `name` has letters, digits and _ alone, and is told once a test.
+/// `name` has letters, digits and _ alone, and is reported once per test.
 inline void tell_figure(const std::string& name, double measured, const std::string& asked) {
   std::ostringstream text;
   text.precision(3);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Longer runs of random tests: MINKRAY_TIMES=20 in the environment asks for twenty times as many
-// cases, the first of which are those of an ordinary run.
+// Longer runs of random tests: MINKRAY_TIMES=20 in the environment makes twenty times as many
+// cases, and the first of them are those of an ordinary run.
 #pragma once
 
 #include <cstdlib>

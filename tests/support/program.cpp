@@ -20,7 +20,7 @@ pid_t start_program(std::vector<std::string> words) {
   pointers.push_back(nullptr);
   std::fflush(nullptr);  // or the child would write what waits, too
   const pid_t child = ::fork();
-  // Who kills process -1 kills all there are.
+  // Killing process -1 kills all there are.
   if (child < 0) throw std::runtime_error("cannot start a process");
   if (child == 0) {
     // Under nohup, or in a shell's background, it would ignore what the test sends it.

@@ -30,14 +30,14 @@ struct ProgramOutcome {
 /// Runs a shell's command in which $MINKRAY is the program.
 ProgramOutcome run_shell(const std::string& command);
 
-/// Tells a shell that what follows may have 1 GiB of address space. It says nothing under
-/// AddressSanitizer, which needs terabytes of it.
+/// Limits the shell's next commands to 1 GiB of address space. Empty under AddressSanitizer, which
+/// needs terabytes of it.
 std::string limited_memory();
 
 /// Writes a small scene: a ball under an even sky; `radius` makes another one.
 void write_ball_scene(const std::string& file, double radius = 1);
 
-/// Whether a shell finds a program of that name.
+/// True if a shell finds a program of that name.
 bool has_program(const std::string& name);
 
 }  // namespace minkray

@@ -39,7 +39,7 @@ inline std::string draw_bytes(int count) {
   return bytes;
 }
 
-/// Any shape of ordinary size, nested up to `depth` deep; a counterexample is told as JSON.
+/// Any shape of ordinary size, nested up to `depth` deep; a counterexample is reported as JSON.
 inline Shape<double> draw_shape(int depth = 2) {
   const std::string drawn = draw_bytes(96);
   fuzz::Bytes bytes(drawn);

@@ -32,7 +32,7 @@ inline constexpr std::array ray_families = {
                          "from one point 4 R away, through all of a picture of the shape"},
 };
 
-/// Rays at one shape, of which t_max is infinite. R is the radius of its bounding ball.
+/// Rays at one shape, with infinite t_max. R is the radius of its bounding ball.
 class FamilyRays {
  public:
   FamilyRays(const Shape<double>& shape, RayFamily family, std::uint64_t seed)
@@ -62,14 +62,14 @@ class FamilyRays {
 
  private:
   Ray<double> aimed(double distance) {
-    // Points of flat shapes are hit by nothing that is aimed beside them.
+    // Points of flat shapes are not hit by rays aimed off them.
     const Vec3<double> target =
         ball_.centre + 0.6 * ball_.radius * std::cbrt(random_.uniform()) * random_.direction();
     const Vec3<double> origin = ball_.centre + distance * ball_.radius * random_.direction();
     return {origin, (target - origin) / distance};
   }
 
-  /// The picture is as wide as the bounding ball; it is looked at from obliquely above.
+  /// The picture is as wide as the bounding ball, viewed from obliquely above.
   Ray<double> through_picture() {
     const Vec3<double> towards = Vec3<double>(-2, 3, -1).normalized();
     const Vec3<double> right = towards.unitOrthogonal(), up = towards.cross(right);
@@ -78,7 +78,7 @@ class FamilyRays {
     return {ball_.centre - 4 * R * towards, unit<double>(4 * towards + at)};
   }
 
-  /// It runs along r, past the support point of a direction at right angles to it.
+  /// A ray along r, past the support point of a direction at right angles to it.
   Ray<double> grazing() {
     const Vec3<double> r = random_.direction();
     const Vec3<double> n = unit<double>(r.cross(random_.direction()));

@@ -5,8 +5,8 @@
 //   struct D { double x, y, z; };  struct F { float x, y, z; };
 //   D twice(const D& a) { F f{(float)a.x, (float)a.y, (float)a.z}; return {f.x, f.y, f.z}; }
 //
-// answers 0.7 for 0.7 in two of the three. A test that meant to ask in double what it had asked in
-// float asked something else. Across a call that is not inlined nothing is dropped.
+// returns 0.7 for 0.7 in two of the three. A test that meant to repeat a query of float in double
+// made a different query. Across a call that is not inlined nothing is dropped.
 #pragma once
 
 #include "core/math/ray.h"

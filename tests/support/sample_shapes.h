@@ -17,7 +17,7 @@ struct SampleShape {
   Shape<double> shape;
 };
 
-/// What GoogleTest prints in place of bytes.
+/// Printed by GoogleTest instead of bytes.
 inline void PrintTo(const SampleShape& sample, std::ostream* out) {
   *out << sample.name;
 }

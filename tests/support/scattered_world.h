@@ -25,7 +25,7 @@ struct Scatter {
   }
 };
 
-/// Shapes have models for packets or none; some stand in the same place twice.
+/// Shapes have models for packets or none; some are in the same place twice.
 inline Instances scattered_shapes(int count, Scatter& random) {
   const std::vector<Shape<double>> kinds = {
       Sphere<double>{0.7},
@@ -44,7 +44,7 @@ inline Instances scattered_shapes(int count, Scatter& random) {
   return shapes;
 }
 
-/// A few definitions of many instances, some of which are moved only.
+/// A few definitions of many instances, some of them only moved.
 inline Instances scattered_instances(int count, Scatter& random) {
   const Shape<double> box = Box<double>{{0.6, 0.5, 0.3}};
   std::vector<Vec3<double>> points;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which solvers tests hold to the last bits.
+// Solvers that tests hold to the last bits.
 #pragma once
 
 #include <vector>

@@ -8,7 +8,7 @@
 
 namespace minkray {
 
-/// Where the sources are.
+/// Folder of the sources.
 std::filesystem::path source_folder();
 
 struct SourceFile {
@@ -21,7 +21,7 @@ std::vector<SourceFile> files_in(const std::string& folder);
 
 std::string text_of_file(const std::filesystem::path& file);
 
-/// What the file includes by <...> and by "...", without the brackets.
+/// Names that the file includes by <...> and by "...", without the brackets.
 std::vector<std::string> library_includes(const SourceFile& file);
 std::vector<std::string> own_includes(const SourceFile& file);
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A folder for files that a test, a fuzz target or a benchmark writes. It is gone when the object
-// is.
+// A folder for files that a test, a fuzz target or a benchmark writes. Removed by the destructor.
 #pragma once
 
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Whether a calculation would be stopped by floating-point traps: invalid operations (0 * inf,
+// Tests if a calculation would be stopped by floating-point traps: invalid operations (0 * inf,
 // inf - inf, comparisons with NaN) and divisions by zero.
 #pragma once
 
@@ -15,8 +15,9 @@ inline void leave_by_trap(int) {
 }
 }  // namespace detail
 
-/// Runs `calculate` with traps on: false if it was trapped, and was then left where it was. What it
-/// calls must own nothing at that point. x86 and GNU C library only; elsewhere nothing is trapped.
+/// Runs `calculate` with traps on: false if it was trapped, and abandoned at that point. The
+/// functions that it calls must own nothing then. x86 and GNU C library only; elsewhere nothing is
+/// trapped.
 template <class Calculate>
 bool runs_without_trap(const Calculate& calculate) {
 #if defined(__GLIBC__) && defined(__x86_64__)
@@ -24,7 +25,7 @@ bool runs_without_trap(const Calculate& calculate) {
   handler.sa_handler = detail::leave_by_trap;
   sigaction(SIGFPE, &handler, &before);
   volatile bool finished = false;
-  std::feclearexcept(FE_ALL_EXCEPT);  // what has been raised would trap at the next operation
+  std::feclearexcept(FE_ALL_EXCEPT);  // exceptions already raised would trap at the next operation
   if (sigsetjmp(detail::after_trap, 1) == 0) {
     feenableexcept(FE_INVALID | FE_DIVBYZERO);
     calculate();

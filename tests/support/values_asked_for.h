@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Parameters of tests that take time to make, made only where these tests are asked for. ctest runs
+// Parameters of tests that take time to make, made only if these tests are selected. ctest runs
 // each test in a process of its own, and GoogleTest makes the parameters of all in each of them.
 #pragma once
 
@@ -14,8 +14,8 @@
 
 namespace minkray::testing {
 
-/// Whether GoogleTest's filter can let a test of this suite pass. One that names whole tests, as
-/// ctest does, lets no others pass; all other filters may.
+/// True if GoogleTest's filter can let a test of this suite pass. A filter that names whole tests,
+/// as ctest does, lets no others pass; all other filters may.
 template <class Suite>
 bool may_be_asked_for() {
   const std::string filter = GTEST_FLAG_GET(filter);
@@ -28,8 +28,8 @@ bool may_be_asked_for() {
   return !names_whole_tests || filter.find(name.substr(name.rfind(':') + 1)) != std::string::npos;
 }
 
-/// For INSTANTIATE_TEST_SUITE_P: what `make` returns, a vector, or nothing if no test of the suite
-/// is asked for.
+/// For INSTANTIATE_TEST_SUITE_P: the result of `make`, a vector, or nothing if no test of the
+/// suite is selected.
 template <class Suite, class Make>
 auto values_asked_for(const Make& make) {
   using Values = std::decay_t<decltype(make())>;

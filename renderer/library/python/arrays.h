@@ -19,7 +19,7 @@ using AnyDoubles = py::array_t<double, py::array::forcecast>;
 /// Arrays that lie one row behind the other.
 using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
-/// Rows of `width` numbers each of which lies in one piece; a copy is made of others.
+/// Rows of `width` numbers, each in one piece; others are copied.
 struct Rows {
   AnyDoubles array;
   std::size_t count;

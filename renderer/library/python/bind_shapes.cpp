@@ -48,7 +48,7 @@ py::array_t<double> support(const Shape& shape, const py::object& directions) {
   return points;
 }
 
-/// What is one for each pair, or one for all of them.
+/// The element for a pair: one for each pair, or one for all of them.
 template <class Thing>
 const Thing& of_pair(const std::vector<Thing>& things, std::size_t i) {
   return things[things.size() == 1 ? 0 : i];

@@ -11,10 +11,11 @@
 namespace minkray_python {
 namespace {
 
-/// How long the end of the interpreter waits for support functions that run.
+/// Time that the end of the interpreter waits for running support functions.
 constexpr std::chrono::seconds longest_wait(5);
 
-/// What all threads share; never destroyed, since some may stand still until the process ends.
+/// State shared by all threads; never destroyed, since some threads may be blocked until the
+/// process ends.
 struct Gate {
   std::mutex mutex;  ///< held while the lock is waited for, and never by one who holds the lock
   bool is_ending = false;

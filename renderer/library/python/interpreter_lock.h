@@ -39,7 +39,7 @@ class Locked {
 /// True if another thread is ending the interpreter.
 bool is_interpreter_ending();
 
-/// Has the module told when the interpreter is about to end.
+/// Makes the interpreter notify the module before it ends.
 void watch_end_of_interpreter();
 
 }  // namespace minkray_python

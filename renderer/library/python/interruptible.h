@@ -13,9 +13,9 @@ inline void check(int code) {
   if (code != MINKRAY_OK) throw minkray::Error(code);
 }
 
-/// Lets Ctrl-C stop what takes long: signals are looked at by the thread that called, which also
-/// calls a function of the caller's, if there is one, with the part that is done. If that answers
-/// true, or raises, the work is stopped.
+/// Lets Ctrl-C stop long calls: signals are checked by the calling thread, which also calls the
+/// caller's progress function, if there is one, with the part that is done. If that returns true,
+/// or raises, the work is stopped.
 class Interruptible {
  public:
   explicit Interruptible(int threads, py::object progress = py::none())
@@ -41,7 +41,7 @@ class Interruptible {
   static int look(void* user, double done) {
     auto* self = static_cast<Interruptible*>(user);
     if (std::this_thread::get_id() != self->caller_) return 0;
-    // The lock is not asked for more often than anybody would notice.
+    // Limits how often the lock is taken to a rate that is not noticeable.
     const Clock::time_point now = Clock::now();
     if (now < self->next_look_) return 0;
     self->next_look_ = now + std::chrono::milliseconds(20);
@@ -61,7 +61,7 @@ class Interruptible {
   Clock::time_point next_look_ = Clock::now();
   std::thread::id caller_ = std::this_thread::get_id();
   minkray_options options_;
-  py::object progress_;  ///< None: nobody is told
+  py::object progress_;  ///< None: no callback
 };
 
 }  // namespace minkray_python

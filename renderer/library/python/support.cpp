@@ -9,10 +9,10 @@
 namespace minkray_python {
 namespace {
 
-/// Directions that are asked for at once at most: by then a call of the interpreter costs nothing.
+/// Largest number of directions per call: at this number a call of the interpreter costs nothing.
 constexpr std::size_t gathered = 4096;
 
-/// How many of them this thread is running, one called by the other.
+/// Number of support functions that this thread is running, one called by the other.
 int& depth() {
   thread_local int running = 0;
   return running;

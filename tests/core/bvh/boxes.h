@@ -58,7 +58,7 @@ inline std::vector<WalkSet> walk_sets() {
   return sets;
 }
 
-/// It asks the hierarchy.
+/// Uses the hierarchy.
 template <class T>
 BoxSet boxes_found(const Bvh& bvh, const Ray<T>& ray, WalkSet set = best_walk_set()) {
   BoxSet found;
@@ -73,7 +73,7 @@ BoxSet boxes_found(const Bvh& bvh, const Ray<T>& ray, WalkSet set = best_walk_se
   return found;
 }
 
-/// Whether a ray meets a box that is closed and may be flat or without end: by division, in long
+/// True if a ray meets a box that is closed and may be flat or unbounded: by division, in long
 /// double.
 inline bool meets(const Bounds<double>& box, const Ray<double>& ray) {
   long double enter = 0, leave = ray.t_max;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Keys are sorted as a stable sort does it, by the bits that are asked for, on any number of
-// threads.
+// Keys are sorted as by a stable sort, by the requested bits, on any number of threads.
 #include "core/bvh/sort_by_place.h"
 
 #include <gtest/gtest.h>

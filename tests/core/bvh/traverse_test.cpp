@@ -59,8 +59,8 @@ TYPED_TEST(TraverseOf, a_box_is_entered_where_it_should) {
   EXPECT_FALSE(is_found(only, R{{0, T(1.00001), 0}, {1, T(-0.0), 0}}));
 }
 
-// A ray within the plane of a face, and the same with -0: 0 * infinity must not lose the box.
-// A step is a power of two, of which the next one above is no number.
+// A ray within the plane of a face, and the same with -0: 0 * infinity must not lose the box. A
+// step is a power of two, and the next one above is not finite.
 TEST(Traverse, the_longest_directions_enter_boxes_too) {
   const Bounds<double> only = box({1, -1, -1}, {3, 1, 1});
   for (const double length : {8e307, 9e307, std::numeric_limits<double>::max()}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The interval that a hit in float claims, beside the hit in double.
+// Compares the interval that a hit in float claims with the hit in double.
 #include <gtest/gtest.h>
 
 #include "core/cast/cast.h"
@@ -16,7 +16,7 @@ struct Beside {
   double worst = 0;  ///< |t - exact| along the normal, in units of R
 };
 
-/// It casts one shape's rays that hit in float and in double.
+/// Casts one shape's rays that hit in float and in double.
 Beside beside_double(const Shape<double>& shape, SolverKind solver, RayFamily family) {
   const Shape<float> in_float = convert<float>(shape);
   const PreparedShape<float> prepared(in_float);

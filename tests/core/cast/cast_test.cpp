@@ -23,8 +23,8 @@ TEST(Cast, a_far_origin_costs_no_precision_in_float) {
   EXPECT_EQ(far.t_base, 262144.0f);
 }
 
-/// Further off than numbers with the digits of two can tell, no answer is an answer: rays through a
-/// ball's middle were once missed, and with a certificate.
+/// Further off than numbers with the digits of two can represent, no result is valid: rays through
+/// a ball's middle were once missed, and with a certificate.
 TEST(Cast, no_ray_is_too_far_away_to_be_told_of) {
   const PreparedShape<double> ball(Sphere<double>{1});
   const PreparedShape<float> in_float(Sphere<float>{1});
@@ -43,7 +43,7 @@ TEST(Cast, no_ray_is_too_far_away_to_be_told_of) {
       CastPacket<float> together;
       cast_packet(in_float, packet, LaneBits(1), together);
       EXPECT_EQ(together.result(0).status, coarse.status) << power << " " << speed;
-      // Beside the ball, as far off.
+      // Next to the ball, as far off.
       const Ray<double> beside{{1.5, 0, -std::pow(10.0, power)}, {0, 0, speed}};
       EXPECT_NE(name_of(cast_ray(ball, beside).status), name_of(Status::hit)) << power;
       if (fine.status != Status::hit) continue;
@@ -56,7 +56,7 @@ TEST(Cast, no_ray_is_too_far_away_to_be_told_of) {
   }
 }
 
-/// Where a ray ends on the surface it hits it, and a hit is within the ray, whatever is rounded.
+/// A ray that ends on the surface hits it, and a hit is within the ray, whatever is rounded.
 TEST(Cast, the_rays_ends_belong_to_it) {
   Random random(9);
   int hits = 0;
@@ -187,8 +187,8 @@ TEST(Cast, t_max_is_as_sharp_from_afar) {
   check_ends_from_afar<float>();
 }
 
-/// Between a side that the ray grazes and a steep one, rounding cannot tell which it enters by, but
-/// only one of them is where it meets the hull.
+/// Between a side that the ray grazes and a steep one, rounding cannot decide which it enters by,
+/// but only one of them is where it meets the hull.
 template <class T>
 void check_spots_near_edges(double least_slope) {
   Random random(23);

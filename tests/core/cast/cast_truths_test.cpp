@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What must be true of every cast at every shape, whoever casts.
+// Properties of every cast at every shape, with every solver.
 #include <gtest/gtest.h>
 
 #include "core/cast/cast.h"
@@ -21,11 +21,11 @@ std::vector<SampleShape> certified_shapes() {
   return all;
 }
 
-/// It is in epsilons of the shape's radius, as a distance between planes: what closed_form_test.cpp
+/// In epsilons of the shape's radius, as a distance between planes: what closed_form_test.cpp
 /// allows a cast, for each of the two casts that are compared.
 constexpr double allowed_epsilons = 2 * 512;
 
-/// Whether the support points span space.
+/// True if the support points span space.
 bool is_solid(const Shape<double>& shape) {
   Random random(51);
   std::vector<Vec3<double>> points;
@@ -50,7 +50,8 @@ struct CountedCasts {
   int rays = 0, hits = 0;
 };
 
-/// visit(name, shape, ray, solver) for many rays at all solid shapes, about half of which hit.
+/// Calls visit(name, shape, ray, solver) for many rays at all solid shapes; about half of them
+/// hit.
 template <class T, class Visit>
 void for_rays(int count, double distance, const Visit& visit) {
   for (const SampleShape& sample : certified_shapes()) {
@@ -87,8 +88,8 @@ double radius_of(const PreparedShape<T>& shape) {
   return double(shape.definition().bounds_of(Affine<T>{}).half_extents().norm());
 }
 
-/// The certificate of a hit: its plane touches the shape, and the hit point lies on it. Of a miss:
-/// no point of the shape lies on the ray's side of the plane. Checked with supports alone.
+/// The certificate of a hit: its plane touches the shape, and the hit point lies on it. For a
+/// miss: no point of the shape lies on the ray's side of the plane. Checked with supports alone.
 TYPED_TEST(CastTruths, planes_of_hits_touch_and_planes_of_misses_separate) {
   using T = TypeParam;
   const double epsilon = double(std::numeric_limits<T>::epsilon());
@@ -103,8 +104,8 @@ TYPED_TEST(CastTruths, planes_of_hits_touch_and_planes_of_misses_separate) {
                                         ray.direction.template cast<double>()};
                 const Vec3<double> n = result.normal.template cast<double>();
                 const double radius = radius_of(prepared);
-                // In float the GJK ray cast gives up on about one of 10,000 rays at polytopes; the
-                // automatic choice then asks the jet cast.
+                // In float the GJK ray cast does not converge for about one of 10,000 rays at
+                // polytopes; the automatic choice then runs the jet cast.
                 if (std::is_same_v<T, double> || solver != SolverKind::paper) {
                   EXPECT_NE(result.status, Status::exhausted) << name;
                 }

@@ -14,17 +14,17 @@
 namespace minkray::testing {
 namespace {
 
-/// A cast may be wrong by so many epsilons of the shape's radius, as a distance between planes
-/// (error of t times cosine of incidence): where its search stalls, a solver takes a distance of
-/// tolerance::gjk_stalled = 256 epsilon for zero, and the inner frame of a transform loses about as
-/// much again.
+/// Allowed error of a cast in epsilons of the shape's radius, as a distance between planes (error
+/// of t times cosine of incidence): where its search stalls, a solver takes a distance of
+/// tolerance::gjk_stalled = 256 epsilon for zero, and the inner frame of a transform loses about
+/// as much again.
 constexpr double allowed = 512;
 
 struct Outcome {
   int rays = 0, hits = 0, undecided = 0, exhausted = 0, wrong = 0;
   double worst = 0;  ///< error of t times cosine, in epsilons of the radius
   double worst_normal =
-      0;  ///< how far the hit point lies from the normal's supporting plane, likewise
+      0;  ///< distance of the hit point from the normal's supporting plane, likewise
   std::string first_wrong, worst_ray;
 };
 
@@ -41,7 +41,7 @@ struct Query {
   double towards;  ///< |direction . normal| at the entry; infinite next to the silhouette
 };
 
-/// How steeply a line enters, from two lines beside it.
+/// Steepness of a line's entry, from two lines next to it.
 double steepness(const Shape<double>& shape, const Ray<double>& ray, Long entry, double radius) {
   const Vec3<Long> o = exact(ray.origin), d = exact(ray.direction);
   const Vec3<Long> u = d.unitOrthogonal() * (1e-7L * radius), v = d.cross(u) / d.norm();
@@ -62,7 +62,7 @@ struct Queries {
 template <class T>
 Queries<T> queries_of(const Shape<double>& shape_in_double, int count, double distance,
                       double scale) {
-  // Numbers that T holds exactly, so that the oracle is asked about the same shape and ray.
+  // Numbers that T holds exactly, so that the oracle gets the same shape and ray.
   const Shape<double> scaled =
       scale == 1 ? shape_in_double
                  : Shape<double>(Transform<double>{
@@ -168,11 +168,13 @@ class ClosedForms : public ::testing::Test {};
 using Scalars = ::testing::Types<float, double>;
 TYPED_TEST_SUITE(ClosedForms, Scalars);
 
-/// What is known to be less accurate than it should be. To be taken off the list once it is right.
+/// Cases known to be less accurate than they should be. To be taken off the list once they are
+/// right.
 template <class T>
 bool is_known_defect(const std::string& name, SolverKind solver) {
   if (!std::is_same_v<T, float>) return false;
-  // The GJK ray cast: gives up on 1 of 100 rays from 1e5 sizes away at a plate of 1 : 2 : 0.001.
+  // The GJK ray cast: does not converge for 1 of 100 rays from 1e5 sizes away at a plate of 1 : 2
+  // : 0.001.
   if (name == "box, a plate") return solver == SolverKind::paper;
   return false;
 }

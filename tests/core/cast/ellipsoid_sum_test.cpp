@@ -38,7 +38,7 @@ std::vector<NamedSum> ordinary() {
       {"difference", MinkowskiDifference<double>{egg, other}}};
 }
 
-/// Radii of which one is nothing beside the others.
+/// Radii where one is negligible next to the others.
 std::vector<NamedSum> extreme() {
   const S needle = turned(ellipsoid(1, 0.01, 0.01), {1, 2, 3}, 1.1);
   return {{"needles", MinkowskiSum<double>{{needle, ellipsoid(0.01, 1, 0.01)}}},
@@ -59,7 +59,7 @@ SumsOutcome cast_at(const S& wanted, RayFamily family, int count) {
   const PortalCast portal(same);
   FamilyRays rays(same, family, 71);
   const double R = rays.ball().radius;
-  // How near to the silhouette either answer is right, in units of R.
+  // Distance from the silhouette within which either result is right, in units of R.
   const double band = std::is_same_v<T, float> ? 1e-6 : 1e-14;
   SumsOutcome outcome;
   for (int i = 0; i < count; ++i) {
@@ -79,7 +79,7 @@ SumsOutcome cast_at(const S& wanted, RayFamily family, int count) {
     outcome.hits += hit;
     outcome.misses += result.status == Status::miss;
     if (hit != hits) {
-      // Moved by the band, does the ray do what the cast says?
+      // Moved by the band, does the ray do what the cast claims?
       const Vec3<Long> n = result.normal.template cast<Long>();
       const Vec3<Long> beside =
           unit<double>((n - d * (n.dot(d) / d.squaredNorm())).cast<double>()).cast<Long>();

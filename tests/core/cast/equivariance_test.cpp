@@ -41,7 +41,7 @@ CastResult<T> cast(const Case& query) {
                   Ray<T>{ray.origin.cast<T>(), ray.direction.cast<T>(), T(ray.t_max)});
 }
 
-/// It allows, as a distance, the rounding of two casts (tests/core/cast/cast_truths_test.cpp),
+/// Allows, as a distance, the rounding of two casts (tests/core/cast/cast_truths_test.cpp),
 /// relative to the largest numbers that occur.
 template <class T>
 double rounding(const Case& a) {

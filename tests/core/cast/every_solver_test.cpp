@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What all solvers promise, the slow references as well.
+// Guarantees of all solvers, including the slow references.
 #include <gtest/gtest.h>
 
 #include "core/cast/cast.h"
@@ -9,7 +9,7 @@ namespace {
 
 using V = Vec3<double>;
 
-// Algorithm 1 was asked about hits alone.
+// Algorithm 1 was only tested with hits.
 TEST(Cast, of_every_solver_tells_hits_misses_and_insides_apart) {
   for (const SolverDescription& solver : solver_descriptions) {
     CastOptions<double> options;

@@ -16,7 +16,7 @@ namespace {
 
 using Long = long double;
 
-/// How often each was answered.
+/// Counts of each result.
 struct Answered {
   int hits = 0, misses = 0, exhausted = 0;
   int compared = 0;  ///< with a truth that rounding leaves no doubt about
@@ -33,7 +33,7 @@ Ray<double> ray_at(const Vec3<double>& radii, Random& random) {
 }
 
 /// The first point of the line in the ellipsoid, by the quadratic formula of the ball it is mapped
-/// to; the discriminant relative to its terms says how far from touching it is.
+/// to; the discriminant relative to its terms measures the distance from tangency.
 struct EllipsoidTruth {
   bool hit, certain;
   Long t;
@@ -145,7 +145,7 @@ TEST(ExtremeShapes, slivers_are_met_where_they_are) {
   }
   EXPECT_GT(answered.hits, 300);
   EXPECT_GT(answered.misses, 300);
-  // Where the sliver is so thin that even its middle is lost in rounding.
+  // The sliver is so thin that even its middle is lost in rounding.
   EXPECT_LE(answered.exhausted, 60);
 }
 
@@ -202,8 +202,8 @@ TEST(ExtremeShapes, in_a_thin_skin_one_is_inside) {
     }
 }
 
-/// What facets of such hulls say of a line in float is rounding: rays were stopped by a fiftieth of
-/// the needle's length before they met it.
+/// Facets of such hulls are dominated by rounding for a line in float: rays were stopped by a
+/// fiftieth of the needle's length before they met it.
 TEST(ExtremeShapes, needles_thinner_than_rounding_are_met_where_they_are_in_float) {
   Random random(3);
   int hits = 0;

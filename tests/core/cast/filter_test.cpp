@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Answers of the filter beside school geometry in more digits: no bound is broken, no hit or miss
-// is false, wherever rays come from and however shapes are posed.
+// Compares results of the filter with school geometry in more digits: no bound is broken, no hit
+// or miss is false, wherever rays come from and however shapes are posed.
 #include <gtest/gtest.h>
 
 #include "core/derived/convert.h"
@@ -133,7 +133,7 @@ TYPED_TEST(Filter, ties_are_answered_truly_or_are_in_doubt) {
   EXPECT_GT(counted.answered, 2 * counted.in_doubt);
 }
 
-/// The checker knows nothing but supports.
+/// The checker uses supports only.
 TYPED_TEST(Filter, answers_are_certified) {
   using T = TypeParam;
   for (const NamedShape& named : filtered_shapes()) {

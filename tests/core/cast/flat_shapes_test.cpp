@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Rays and motions in the plane of flat shapes, which are met there as any figure in the plane is:
-// beside clipping with the sides of the figure's hull.
+// compared with clipping by the sides of the figure's hull.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -61,7 +61,7 @@ Inside clip(const std::vector<P>& hull, const P& o, const P& d, Long grown) {
   return inside;
 }
 
-/// What the figure's hull answers; nothing where the ray passes too near to its silhouette.
+/// Result for the figure's hull; nothing where the ray passes too near to its silhouette.
 std::optional<Status> status_of(const std::vector<P>& points, const P& o, const P& d, Long band,
                                 Long& t) {
   const std::vector<P> hull = hull_of(points);
@@ -173,7 +173,7 @@ TYPED_TEST(FlatShapes, meet_others_in_the_same_plane) {
     std::vector<P> differences;
     for (const Vec3<double>& p : a)
       for (const Vec3<double>& q : b) differences.push_back(in_plane(axis, p - q - shift));
-    // Where both are segments they must not be parallel.
+    // Two segments must not be parallel.
     const std::vector<P> hull = hull_of(differences);
     if (hull.size() < 3 || direction.isZero(0)) continue;
     Long area = 0;

@@ -19,7 +19,7 @@ S turned(S shape, const Mat3<double>& rotation) {
                            AffineMap<double>(Affine<double>{rotation, {0, 0, 0}})};
 }
 
-/// How far (x, y) lies beside the segment from -`half` to `half`.
+/// Distance of (x, y) from the segment from -`half` to `half`.
 double beside(const Vec3<double>& x, const Vec3<double>& half) {
   const double length = half.squaredNorm();
   const double share = length > 0 ? std::clamp(x.dot(half) / length, -1.0, 1.0) : 0;
@@ -93,7 +93,7 @@ TEST(FlatSides, of_disks_swept_by_ellipsoids) {
   check(MinkowskiSum<double>{{disk, segment, S(Ellipsoid<double>{{0.3, 0.2, 0.5}})}}, reach, 0.5);
 }
 
-/// Two disks in one plane, but of different sizes: beside the smaller one nothing is hit early.
+/// Two disks in one plane, but of different sizes: next to the smaller one nothing is hit early.
 TEST(FlatSides, of_disks_of_two_sizes) {
   const S shape = Rounded<double>{0.05, S(Frustum<double>{{1, 0.3}, 0.4})};
   const PreparedShape<double> prepared(shape);

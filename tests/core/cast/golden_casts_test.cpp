@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Casts answer what tests/golden/casts.txt records, bit for bit, and by the same ways: each solver,
-// exits, packets and proofs, at every kind of shape, in poses that are easy and hard. Whether the
-// answers are right others test; here nothing changes unnoticed, be it only what a cast costs.
-// `./run golden` records anew.
+// Casts return what tests/golden/casts.txt records, bit for bit, and on the same paths: each
+// solver, exits, packets and proofs, at every kind of shape, in poses that are easy and hard.
+// Other tests check that the results are right; here nothing changes unnoticed, not even the cost
+// of a cast. `./run golden` records the results.
 #include <gtest/gtest.h>
 
 #include "core/cast/cast.h"

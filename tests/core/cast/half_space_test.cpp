@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Casts at hulls and boxes beside half-space clipping in long double.
+// Compares casts at hulls and boxes with half-space clipping in long double.
 #include <gtest/gtest.h>
 
 #include "core/cast/cast.h"
@@ -67,7 +67,7 @@ std::vector<Polytope> polytopes() {
 template <class T>
 void compare(const Polytope& polytope, RayFamily family, int count, bool detour = false) {
   SCOPED_TRACE(polytope.name);
-  // Numbers that T holds exactly, so that both are asked about the same.
+  // Numbers that T holds exactly, so that both get the same query.
   std::vector<Vec3<double>> points;
   for (const auto& p : polytope.points)
     points.push_back(detour ? Vec3<double>(p.cast<float>().cast<double>())

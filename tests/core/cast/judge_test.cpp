@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is answered where nothing could be proven, and how much rounding proofs are allowed.
+// Results where nothing could be proven, and the rounding that proofs are allowed.
 #include "core/cast/judge.h"
 
 #include <gtest/gtest.h>
@@ -47,8 +47,8 @@ TEST(Judge, hits_are_proven_that_are_off_by_less_than_sixteen_times_a_checkers_r
   }
 }
 
-// Where the ray leaves the shape, or would enter it, along its surface: at shapes with corners an
-// origin inside is looked at again.
+// The ray leaves the shape, or would enter it, along its surface: at shapes with corners an origin
+// inside is checked again.
 TEST(Judge, origins_just_inside_smooth_shapes_are_told_by_models) {
   CastOptions<double> options;
   options.solver = SolverKind::jet;

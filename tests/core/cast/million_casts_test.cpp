@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A million casts, each beside an oracle in long double: no hit is taken for a miss or the other
-// way round, and no t is further off than is promised. `./run bench --many` casts many more.
+// Compares a million casts with an oracle in long double: no hit is reported as a miss or the
+// other way round, and no t is further off than promised. `./run bench --many` casts many more.
 #include <gtest/gtest.h>
 
 #include <cctype>
@@ -74,7 +74,7 @@ TEST(CastJudge, notices_what_is_wrong) {
   EXPECT_LE(judge(ray, answer, truth).error, allowed_error<double>);
   answer.t_offset += 1e-6;
   EXPECT_NEAR(judge(ray, answer, truth).error, 2e-6 / R, 1e-12);
-  // That its normal is nearly across the ray makes it no better.
+  // A normal nearly across the ray makes it no better.
   answer.normal = {-1e-9, 0, 1};
   EXPECT_NEAR(judge(ray, answer, truth).error, 2e-6 / R, 1e-12);
   answer.status = Status::miss;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rays without a direction are points, whatever the shape and whichever solver is asked.
+// Rays without a direction are points, for any shape and solver.
 #include <gtest/gtest.h>
 
 #include "core/cast/cast.h"
@@ -10,7 +10,8 @@
 namespace minkray::testing {
 namespace {
 
-/// The middle of the shape's bounds may lie beside it: these points are clearly in or clearly out.
+/// The middle of the shape's bounds may lie outside of it: these points are clearly in or clearly
+/// out.
 template <class T>
 void check(const SampleShape& sample, const CastOptions<T>& options) {
   const Shape<T> shape = convert<T>(sample.shape);

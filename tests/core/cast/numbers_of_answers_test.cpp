@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// An answer of which any one number has left the number range is none.
+// A result with any number out of range is none.
 #include <gtest/gtest.h>
 
 #include <limits>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Casts in double beside the ray functions of MuJoCo and ODE, which know each shape by its formula.
+// Compares casts in double with the ray functions of MuJoCo and ODE, which have a formula for each
+// shape.
 #include <gtest/gtest.h>
 
 #include "core/cast/cast.h"

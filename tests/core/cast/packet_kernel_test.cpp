@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What packets of models settle by themselves: nearly every lane that they are asked for, and no
-// other. What they leave goes to single casts, so that answers do not tell.
+// Lanes that packets of models settle by themselves: nearly every requested lane, and no other.
+// The others go to single casts, so that results do not show it.
 #include "core/cast/packet_kernel.h"
 
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ void ask(const PreparedShape<T>& shape, const RayPacket<T>& rays, LaneBits lanes
     packet_kernel_sse2(shape, rays, lanes, answers);
 }
 
-/// How far the plane lies between the ray's lane and the shape.
+/// Distance of the plane between the ray's lane and the shape.
 template <class T>
 double margin(const Shape<double>& shape, const RayPacket<T>& rays, const CastPacket<T>& answers,
               int lane) {

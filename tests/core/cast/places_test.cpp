@@ -174,7 +174,7 @@ std::string report(Long off, const CastResult<double>& found) {
   return text.data();
 }
 
-/// What is wrong with the certified interval of a hit, if it has one.
+/// Error of the certified interval of a hit, if it has one.
 std::string complaint_of_certificate(const S& shape, const Ray<double>& ray,
                                      const CastResult<double>& found, const Truth& truth) {
   if (found.status != Status::hit || truth.status != Status::hit) return "";
@@ -227,7 +227,7 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 constexpr std::array places = {0.0, 10.0, 100.0, 1e4, 1e6, 1e9};
 
-/// What the truth is known to, along t.
+/// Uncertainty of the truth, along t.
 Long unsure(const Truth& truth, const Ray<double>& ray, double R) {
   return 1e-17L * R / (truth.slope * ray.direction.norm());
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Answers of the filter at convex hulls beside planes through every three of their points, in more
-// digits: no bound is broken, no hit or miss is false.
+// Compares results of the filter at convex hulls with planes through every three of their points,
+// in more digits: no bound is broken, no hit or miss is false.
 #include "core/cast/packet_cast.h"
 #include "core/derived/convert.h"
 #include "core/exact/polytope.h"
@@ -81,7 +81,7 @@ TYPED_TEST(PolytopeFilter, no_bound_of_a_grazing_ray_is_broken_and_few_are_in_do
 
 TYPED_TEST(PolytopeFilter, no_bound_of_a_degenerate_ray_is_broken) {
   const Counted counted = judge_hulls_by<TypeParam>(RayFamily::degenerate, 400);
-  // In double most of them are ties, which no bound tells apart.
+  // In double most of them are ties, which no bound can decide.
   EXPECT_GT(counted.answered, counted.in_doubt / 2);
 }
 
@@ -99,7 +99,7 @@ TYPED_TEST(PolytopeFilter, no_bound_of_a_ray_through_points_or_along_edges_is_br
   EXPECT_GT(counted.answered, counted.in_doubt);
 }
 
-/// The checker knows nothing but supports.
+/// The checker uses supports only.
 TYPED_TEST(PolytopeFilter, answers_are_certified) {
   using T = TypeParam;
   for (const NamedPoints& named : hulls()) {
@@ -156,8 +156,8 @@ TEST(Polytope, flat_hulls_have_no_form) {
 }
 
 /// Hulls of floats that are 1e3 to 1e4 radii from their frame's origin were hit up to 9.5e-4 radii
-/// beside where they are, with rays whose numbers are floats as well: they were worked on where
-/// they stood, in steps of 2^-24 of the way there.
+/// away from their place, with rays whose numbers are floats as well: they were computed at their
+/// place, in steps of 2^-24 of the way there.
 TEST(Polytope, hulls_far_from_their_origin_are_hit_where_they_are) {
   constexpr float step = 0x1p-10f;  // of floats from 8192 to 16384
   for (const double distance : {1000.0, 9000.0}) {

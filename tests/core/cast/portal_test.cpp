@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Casts at shapes without a closed form beside a slow portal refinement in long double.
+// Compares casts at shapes without a closed form with a slow portal refinement in long double.
 #include <gtest/gtest.h>
 
 #include "core/cast/cast.h"
@@ -13,7 +13,7 @@
 namespace minkray::testing {
 namespace {
 
-/// It is in radii, as a distance between planes.
+/// In radii, as a distance between planes.
 constexpr Long gap = 1e-15L;
 
 using S = Shape<double>;
@@ -73,7 +73,8 @@ void compare(const S& sample, RayFamily family, int count) {
   const PreparedShape<T> prepared(rounded);
   const PortalCast portal(same);
   FamilyRays rays(same, family, 32);
-  // What certificates allow (core/proof/check_certificate.h), here against an independent answer.
+  // Allowance of certificates (core/proof/check_certificate.h), here against an independent
+  // result.
   const double allowed = 64 * double(std::numeric_limits<T>::epsilon());
   int hits = 0;
   for (int i = 0; i < count; ++i) {

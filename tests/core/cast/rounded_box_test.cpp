@@ -28,7 +28,7 @@ struct Form {
     if (is_by_ball()) return Rounded<double>{radii.x(), box};
     return MinkowskiSum<double>{{box, Shape<double>(Ellipsoid<double>{radii})}};
   }
-  /// What rounding that is relative to size grows by.
+  /// Factor of rounding that is relative to size.
   double slenderness() const { return radii.maxCoeff() / radii.minCoeff(); }
 };
 
@@ -108,7 +108,7 @@ std::string name_of(const Form& form) {
   return text.str();
 }
 
-/// What rounding leaves of a support plane: a few epsilon.
+/// Rounding error of a support plane: a few epsilon.
 template <class T>
 constexpr double exactness = 4 * std::numeric_limits<T>::epsilon();
 
@@ -139,7 +139,7 @@ TEST(RoundedBox, is_grazed_to_rounding) {
   check_ordinary<float>(RayFamily::grazing);
 }
 
-/// They run along axes, edges and in the planes of faces, which the ray touches within rounding.
+/// Rays along axes, edges and in the planes of faces, which they touch within rounding.
 template <class T>
 void check_degenerate() {
   for (const Form& form : forms()) {

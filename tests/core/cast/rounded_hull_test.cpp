@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Casts at rounded hulls, ones with corners that rounding cannot tell apart too, against bisection
-// of the distance from the hull in long double.
+// Casts at rounded hulls, including ones with corners that rounding cannot distinguish, against
+// bisection of the distance from the hull in long double.
 #include <gtest/gtest.h>
 
 #include "core/cast/cast.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Answers of the filter at rounded hulls, triangles and segments beside the union of their facets'
-// prisms and their edges' capsules, in more digits: no bound is broken, no hit or miss is false.
+// Compares results of the filter at rounded hulls, triangles and segments with the union of their
+// facets' prisms and their edges' capsules, in more digits: no bound is broken, no hit or miss is
+// false.
 #include "core/derived/convert.h"
 #include "tests/oracle/rounded_hull.h"
 #include "tests/support/filter_cases.h"
@@ -140,9 +141,9 @@ TYPED_TEST(RoundedPolytopeFilter, no_bound_of_a_ray_along_edges_is_broken) {
   EXPECT_GT(counted.answered, 10 * counted.in_doubt);
 }
 
-/// A line in the plane of a cube's face, across the middle of that face, meets the edge between the
-/// face's two triangles at no distance, and was told as a miss by the same edge of the face
-/// opposite: to both of its triangles, the direction into the cube is a normal as well.
+/// A line in the plane of a cube's face, across the middle of that face, meets the edge between
+/// the face's two triangles at no distance, and was reported as a miss by the same edge of the
+/// face opposite: to both of its triangles, the direction into the cube is a normal as well.
 TEST(RoundedPolytope, a_line_in_a_faces_plane_is_no_miss) {
   const PreparedShape<double> shape(rounded_hull(0.1, cube()));
   const CastResult<double> answer =
@@ -152,7 +153,7 @@ TEST(RoundedPolytope, a_line_in_a_faces_plane_is_no_miss) {
   EXPECT_NEAR(answer.t(), 5, 1e-14);
 }
 
-/// The checker knows nothing but supports.
+/// The checker uses supports only.
 TYPED_TEST(RoundedPolytopeFilter, answers_are_certified) {
   using T = TypeParam;
   for (const NamedPoints& named : cores()) {

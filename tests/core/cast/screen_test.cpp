@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What lanes of floats say of rays and shapes holds for the casts at them: where they say miss, no
-// cast meets; where they say when, casts meet then.
+// Results of float lanes for rays and shapes hold for the casts at them: where lanes report a
+// miss, no cast meets; where they report an interval, casts meet within it.
 #include "core/cast/screen.h"
 
 #include <gtest/gtest.h>
@@ -53,7 +53,7 @@ InstancePlace place_of(const PreparedShape<double>& shape, std::uint32_t body) {
   return place;
 }
 
-/// A pair in each lane, each of its own sizes, and what a cast says of it.
+/// A pair in each lane, each of its own sizes, and the result of a cast.
 void compare(const std::vector<PreparedShape<double>>& shapes, const std::vector<Ray<double>>& rays,
              Seen& seen) {
   std::vector<InstancePlace> places;
@@ -92,7 +92,7 @@ void compare(const std::vector<PreparedShape<double>>& shapes, const std::vector
   }
 }
 
-/// Shapes of one kind, whose sizes are drawn anew.
+/// Shapes of one kind, with sizes drawn at random.
 std::vector<std::function<Shape<double>(const std::function<double()>&)>> kinds() {
   using Size = std::function<double()>;
   return {
@@ -198,7 +198,7 @@ TEST_F(ScreenOf, shapes_without_a_form_have_a_box_around_them) {
   EXPECT_GT(seen.misses, seen.pairs / 20);
 }
 
-/// What the lanes say of one pair.
+/// Result of the lanes for one pair.
 struct Said {
   double first, last;
   bool misses() const { return std::isinf(first); }

@@ -68,8 +68,8 @@ std::vector<std::pair<std::string, Shape<T>>> shapes_with_faces(Random& random) 
   };
 }
 
-/// From a hit of a ray at the shape, a ray through that point, or one between corners of the face
-/// around it, as steep to the plane there as the random number says.
+/// From a hit of a ray at the shape, makes a ray through that point, or one between corners of the
+/// face around it, as steep to the plane there as the random number.
 template <class T>
 bool make_steep(const Shape<T>& shape, const PreparedShape<T>& prepared, Random& random,
                 Ray<T>& ray) {
@@ -129,15 +129,15 @@ void check_steep_rays(std::uint64_t seed, int rounds) {
   EXPECT_GT(cast, rounds * 60);
 }
 
-/// Before such hits were asked in double, one in 16 of those of triangles at slopes of 2^-12 to
+/// Before such hits were repeated in double, one in 16 of those of triangles at slopes of 2^-12 to
 /// 2^-16 was off, by up to 1e-2 of the size.
 TEST(SteepHits, are_where_they_are_in_float) {
   check_steep_rays<float>(1, 120);
 }
 
-/// At slopes below 2^-30 one in a thousand was off by up to 1e-5 of the size, beyond an edge, since
-/// no point of the shape was looked for before the claimed hit; and exits of hulls were, since all
-/// planes together were asked by sums in another order than the plane alone.
+/// At slopes below 2^-30 one in a thousand was off by up to 1e-5 of the size, beyond an edge,
+/// since no point of the shape was searched for before the claimed hit; and exits of hulls were,
+/// since all planes together were evaluated by sums in another order than the plane alone.
 TEST(SteepHits, are_where_they_are_in_double) {
   check_steep_rays<double>(2, 120);
 }

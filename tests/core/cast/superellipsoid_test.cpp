@@ -28,7 +28,7 @@ struct Line {
     for (int i = 0; i < 3; ++i) sum += std::pow(x[i] / largest, p);
     return largest * std::pow(sum, 1 / p);
   }
-  /// It is the gradient of the gauge, in the shape's frame.
+  /// The gradient of the gauge, in the shape's frame.
   Vec3<Long> normal(Long t) const {
     const Vec3<Long> x = at(t);
     const Long largest = x.cwiseAbs().maxCoeff();
@@ -88,7 +88,7 @@ std::string name_of(const Superellipsoid<double>& shape) {
   return text.str();
 }
 
-/// What rounding leaves of a support plane, and of the gauge: a few epsilon.
+/// Rounding error of a support plane, and of the gauge: a few epsilon.
 template <class T>
 constexpr double exactness = 6 * std::numeric_limits<T>::epsilon();
 
@@ -123,7 +123,7 @@ TEST(Superellipsoid, is_grazed_to_rounding_by_one_support_call) {
   check_ordinary<float>(RayFamily::grazing);
 }
 
-/// They run along axes and in coordinate planes, where curvature vanishes or is infinite, at the
+/// Rays along axes and in coordinate planes, where curvature vanishes or is infinite, at the
 /// middle of flat sides and tangential there.
 template <class T>
 void check_degenerate() {
@@ -157,9 +157,10 @@ TEST(Superellipsoid, of_extreme_exponents_is_hit_and_missed) {
   }
 }
 
-/// Beside the creases of exponents below 2 the radius of curvature falls to nothing. A jet of a
-/// larger one agreed with planes that cut off what lies on the crease. The jet must say how the
-/// support point moves with the direction, which the difference of two support points tells.
+/// Near the creases of exponents below 2 the radius of curvature falls to nothing. A jet of a
+/// larger one agreed with planes that cut off the points on the crease. The jet must predict how
+/// the support point moves with the direction, which the difference of two support points
+/// measures.
 TEST(Superellipsoid, has_the_curvature_of_its_jet_up_to_its_creases) {
   const Superellipsoid<Long> shape{{0.045L, 0.09L, 9.7L}, 1.16L};
   for (Long slope = 0.3L; slope > 1e-6L; slope /= 4) {

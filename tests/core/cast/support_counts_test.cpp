@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How many support calls the default solver needs: what makes it fast, and what a change of a
-// solver must not lose unnoticed.
+// Number of support calls of the default solver: these make it fast, and a change of a solver must
+// not lose that unnoticed.
 #include <gtest/gtest.h>
 
 #include "core/cast/cast.h"

@@ -35,7 +35,7 @@ TEST(TinyNumbers, a_ray_may_end_so_near_a_point_that_the_way_has_no_square) {
   check_ends<double>();
 }
 
-/// They are answered in different ways: by closed forms, planes, models and GJK.
+/// Shapes on different paths: closed forms, planes, models and GJK.
 std::vector<Shape<double>> reached() {
   const auto nested = [](const Shape<double>& shape) { return Nested<double>(shape); };
   const Shape<double> box = Box<double>{{1, 2, 3}}, egg = Ellipsoid<double>{{1, 2, 3}};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Solvers calculate with finite numbers: with floating-point traps on, none fires. What is left
-// out, and why, is in docs/verification.md: sources that serve numbers and packets alike
+// Solvers calculate with finite numbers: with floating-point traps on, none fires. The exceptions,
+// with their reasons, are in docs/verification.md: sources that serve numbers and packets alike
 // divide first and choose afterwards.
 #include <gtest/gtest.h>
 

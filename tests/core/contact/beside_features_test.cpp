@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Bodies beside a corner, an edge or a rim of another, in a direction in which the nearest feature
-// changes, from touching to far away. Rounding tells which feature it is there, and turns the
-// direction by the more, the nearer the two are: of segments beside segments one in thirteen had a
-// lower bound beyond its plane.
+// Bodies next to a corner, an edge or a rim of another, in a direction in which the nearest
+// feature changes, from touching to far away. Rounding decides which feature it is there, and
+// turns the direction by the more, the nearer the two are: of segments next to segments one in
+// thirteen had a lower bound beyond its plane.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -27,7 +27,7 @@ P somewhere_between(const P& a, const P& b, RandomShapes& random) {
   return (random.in(0, 1) * a + random.in(0, 1) * b).normalized();
 }
 
-/// Its direction is that of either neighbouring side, or one in between.
+/// A direction of either neighbouring side, or one in between.
 Feature feature(int kind, RandomShapes& random) {
   const double r = random.in(0.1, 1), h = random.in(0.1, 1), angle = random.in(0, 7);
   const P around(std::cos(angle), std::sin(angle), 0), up = P::UnitZ();

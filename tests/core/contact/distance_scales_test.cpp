@@ -68,7 +68,7 @@ TEST(Distance, scales_to_the_ends_of_the_number_range) {
   EXPECT_EQ(none.status, DistanceStatus::exhausted);
 }
 
-/// Neither the way between the middles nor the difference of the sizes tells how large they are.
+/// Neither the way between the middles nor the difference of the sizes shows how large they are.
 template <class T>
 void expect_overlap_in_one_place(const std::vector<int>& powers) {
   for (const int power : powers) {

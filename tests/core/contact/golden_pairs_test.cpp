@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Queries on pairs answer what tests/golden/pairs.txt records, bit for bit, and by the same ways:
+// Queries on pairs return what tests/golden/pairs.txt records, bit for bit, and on the same paths:
 // signed distances, contact points, times of impact, casts of shapes and the distances of GJK, for
-// every two kinds of bodies, apart, touching and in each other. Whether the answers are right
-// others test; here nothing changes unnoticed, be it only what a query costs. `./run golden`
-// records anew.
+// every two kinds of bodies, apart, touching and in each other. Other tests check that the results
+// are right; here nothing changes unnoticed, not even the cost of a query. `./run golden` records
+// the results.
 #include <gtest/gtest.h>
 
 #include "core/contact/half_space_distance.h"
@@ -182,7 +182,7 @@ TEST(GoldenAlignedPairs, are_as_recorded) {
                         other = aligned_shape(k / kinds_of_aligned_bodies, random);
     const Mat3<double> turn_a = right_angle(random), turn_b = right_angle(random);
     const Body a(one, {turn_a, Vec3<double>::Zero()}), b(other, {turn_b, grid_point(random)});
-    // Some ask for as much as they may.
+    // Some use as many support points as they may.
     SignedDistanceOptions options;
     options.max_supports = 2000;
     const SignedDistance found = signed_distance(a.ready, a.pose, b.ready, b.pose, options);

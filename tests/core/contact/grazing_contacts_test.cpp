@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where two shapes touch that only just meet: the two points of the contact are one.
+// Contacts of two shapes that only just meet: the two points of the contact are one.
 #include <gtest/gtest.h>
 
 #include "core/contact/shape_cast.h"
@@ -15,8 +15,8 @@ using testing::Random;
 using testing::sample_shapes;
 using testing::SampleShape;
 
-/// Moves b past a at random, nearer and nearer to where they touch no more, and tells how far apart
-/// the points of the contacts are at worst, in sizes.
+/// Moves b past a at random, nearer and nearer to where they no longer touch, and returns how far
+/// apart the points of the contacts are at worst, in sizes.
 double worst_contact(const CentredShape<double>& a, const CentredShape<double>& b, Random& random,
                      int& hits) {
   const double size = a.radius + b.radius;
@@ -48,7 +48,7 @@ TEST(GrazingContacts, are_one_point_of_both_shapes) {
     if (!name.starts_with("minkowski_sum of three")) continue;
     for (const auto& [other, b] : shapes)
       for (int i = 0; i < 5; ++i) {
-        // As near as the signed distance is asked for, and rounding.
+        // As near as the tolerance of the signed distance, and rounding.
         EXPECT_LT(worst_contact(a, b, random, hits), 2e-10) << name << " and " << other;
         EXPECT_LT(worst_contact(b, a, random, hits), 2e-10) << other << " and " << name;
       }

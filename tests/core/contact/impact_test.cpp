@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Times of impact of bodies that move and turn, beside dense sampling and bisection in long double
-// of closed forms.
+// Compares times of impact of bodies that move and turn with dense sampling and bisection in long
+// double of closed forms.
 #include "core/contact/impact.h"
 
 #include <gtest/gtest.h>
@@ -38,14 +38,14 @@ RigidMotion at(double x, double y, double z, const Vec3<double>& velocity,
 }
 
 TEST(Impact, of_a_rod_that_leaves_with_one_end_is_that_of_the_other) {
-  // It lies on a cube with its left end. The right one is next to nothing above it, and comes down
+  // The rod's left end lies on a cube. The right one is next to nothing above it, and comes down
   // as the rod turns.
   constexpr double tilt = 1e-7;
   ImpactOptions options;
   options.touching = 1e-6;
   const ContactShape rod{Shape<double>(Capsule<double>{0.125, 0.5})};
   RigidMotion motion = at(0, 0, 1.125 + tilt / 2, {0, 0, 0}, {0, 1, 0});
-  motion.pose.linear << tilt, 0, 1, 0, 1, 0, -1, 0, tilt;  // its axis along x
+  motion.pose.linear << tilt, 0, 1, 0, 1, 0, -1, 0, tilt;  // axis along x
   motion.pose.linear.col(2) = Vec3<double>(1, 0, tilt);
   const Impact found = first_impact(cube, at(0, 0, 0, {0, 0, 0}), rod, motion, 1, options);
   ASSERT_EQ(found.status, ImpactStatus::hit);
@@ -78,8 +78,8 @@ TEST(Impact, a_contact_at_the_start_counts_unless_the_two_part) {
             ImpactStatus::inside);
 }
 
-/// The step away from a contact was as long as a part of their sizes, which are none: it was taken
-/// for ever. Whether points in one place part depends on a normal, which any direction is.
+/// The step away from a contact was as long as a part of their sizes, which are none: it was
+/// repeated for ever. If points in one place part depends on a normal, which any direction is.
 TEST(Impact, points_in_one_place_part_or_touch) {
   const ContactShape point{Shape<double>(Point<double>{{0, 0, 0}})};
   const RigidMotion rests = at(1, 2, 3, {0, 0, 0});
@@ -95,8 +95,7 @@ TEST(Impact, points_in_one_place_part_or_touch) {
 }
 
 /// Found by the fuzz target `query`, with a length that is infinite in float: at each of a hundred
-/// times all support points that a distance may ask for were used up, for a minute under
-/// sanitizers.
+/// times all support points of a distance's budget were used up, for a minute under sanitizers.
 TEST(Impact, of_infinite_bodies_is_given_up_soon) {
   const double infinity = std::numeric_limits<double>::infinity();
   const ContactShape needle{Shape<double>(Capsule<double>{0.5, infinity})};
@@ -142,12 +141,12 @@ TEST(Impact, of_a_ball_that_leaves_and_comes_round_is_found_in_the_longest_time)
   }
 }
 
-/// It parts so slowly that it is back, and into the other, before it would be apart at that speed.
+/// Parts so slowly that it is back, and into the other, before it would be apart at that speed.
 TEST(Impact, of_a_ball_that_leaves_slowly_and_comes_back_is_not_leapt_over) {
   const RigidMotion rest = at(0, 0, 0, {0, 0, 0});
   for (const double slow : {1e-1, 1e-2, 1e-6, 1e-8, 2e-8}) {
-    // Its arm is (1, -slow) at first, from a pivot to the left, so that it moves by (slow, 1). It
-    // is furthest where the arm leads along the way from the middle to the pivot.
+    // The arm is (1, -slow) at first, from a pivot to the left, so that the ball moves by (slow,
+    // 1). The ball is furthest where the arm leads along the way from the middle to the pivot.
     const Affine<double> arm{Mat3<double>::Identity(), {1, -slow, 0}};
     const ContactShape on_arm{
         Shape<double>(Transform<double>{Shape<double>(Sphere<double>{1}), AffineMap<double>(arm)})};
@@ -160,8 +159,8 @@ TEST(Impact, of_a_ball_that_leaves_slowly_and_comes_back_is_not_leapt_over) {
   }
 }
 
-/// They touch, and part more slowly than the second spins: it takes more steps than there may
-/// be until they are apart, and nothing is known of any later time.
+/// The two touch, and part more slowly than the second spins: more steps are needed than allowed
+/// until they are apart, and nothing is known of any later time.
 TEST(Impact, that_runs_out_of_steps_takes_no_more_and_proves_nothing) {
   const RigidMotion rest = at(0, 0, 0, {0, 0, 0}), spins = at(2, 0, 0, {0.05, 0, 0}, {0, 0, 1});
   for (int steps = 1; steps <= 4; ++steps) {
@@ -201,8 +200,8 @@ TEST(Impact, at_a_time_that_is_no_number_is_no_hit) {
   EXPECT_NE(comes(1e-310).status, ImpactStatus::hit);
 }
 
-/// A distance that gave up has the value 0, which counted as touching: balls 1e200 from each other
-/// were `inside` of each other, and one beside an infinite one was hit in the end.
+/// A distance that did not converge has the value 0, which counted as touching: balls 1e200 from
+/// each other were `inside` of each other, and one next to an infinite one was hit in the end.
 TEST(Impact, is_given_up_where_the_distance_is_unknown) {
   const ContactShape infinite{
       Shape<double>(Sphere<double>{std::numeric_limits<double>::infinity()})};
@@ -232,7 +231,7 @@ TEST(Impact, of_bodies_that_part_beyond_all_distances_is_not_told) {
     }
 }
 
-/// What comes near enough to be touching does so a little before it meets.
+/// Bodies come near enough to be touching a little before they meet.
 TEST(Impact, is_never_after_the_time_that_was_asked_for) {
   const RigidMotion rest = at(0, 0, 0, {0, 0, 0});
   const ContactShape cylinder{Shape<double>(Cylinder<double>{1, 1})};
@@ -242,7 +241,7 @@ TEST(Impact, is_never_after_the_time_that_was_asked_for) {
   for (const Vec3<double>& turn : {Vec3<double>(0, 0, 0), Vec3<double>(0, 0, 1e-9)})
     for (const ContactShape* body : {&ball, &cube, &cylinder})
       for (int i = 0; i < 20; ++i) {
-        const double t_max = 3 - i * 2e-4;  // they meet at 3
+        const double t_max = 3 - i * 2e-4;  // the bodies meet at 3
         const Impact found =
             first_impact(*body, rest, *body, at(5, 0, 0, {-1, 0, 0}, turn), t_max, coarse);
         EXPECT_LE(found.t_lo, t_max);

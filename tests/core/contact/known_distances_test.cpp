@@ -128,7 +128,7 @@ TEST(SignedDistance, of_what_has_a_part_without_length_is_known) {
       EXPECT_NEAR(inside.lower, -0.75, 1e-13) << half_height << ", " << x;
       EXPECT_NEAR(inside.upper, -0.75, 1e-13) << half_height << ", " << x;
     }
-  // Where two disks have no height the larger one is all there is, from above and from below.
+  // If two disks have no height only the larger one counts, from above and from below.
   for (const std::array<double, 2>& radii : {std::array{0.5, 1.0}, std::array{1.0, 0.5}})
     for (const double rho : {0.25, 0.75, 1.5})
       for (const double z : {-1.0, 1.0}) {
@@ -169,7 +169,8 @@ TEST(SignedDistance, is_known_up_to_the_largest_length_and_undecided_beyond) {
                                       Cylinder<double>{half, half},
                                       Ellipsoid<double>{{half, half / 2, half}}};
   };
-  // Sizes, of both together, are 0.87 to 1 of the unit; distances are asked for to 1e-10 of them.
+  // Sizes, of both together, are 0.87 to 1 of the unit; distances have a tolerance of 1e-10 of
+  // them.
   constexpr double largest = 0x1p160;
   for (std::size_t i = 0; i < of_size(1).size(); ++i)
     for (const double unit : {largest * 0.9, largest * 0x1p-3, largest * 0x1p2}) {

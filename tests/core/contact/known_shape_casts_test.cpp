@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Shape casts of balls, boxes and capsules beside closed forms.
+// Compares shape casts of balls, boxes and capsules with closed forms.
 #include <gtest/gtest.h>
 
 #include <optional>
@@ -89,7 +89,7 @@ void expect_entry(const ShapeCastResult<double>& result, std::optional<double> e
   EXPECT_LT((result.point_a - result.point_b).norm(), 1e-12) << i;
 }
 
-/// How much less precise t is than the position: grazing contacts slide along.
+/// Loss of precision of t compared with the position: grazing contacts slide along.
 double slope(const ShapeCastResult<double>& result, const V& d) {
   return 1 / std::max(std::abs(result.cast.normal.dot(d)), 1e-3);
 }

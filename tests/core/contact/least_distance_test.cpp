@@ -64,7 +64,7 @@ TEST(LeastDistance, of_a_point_that_passes_a_ball_is_where_the_path_is_nearest) 
     EXPECT_NEAR(found.s, nearest, 1e-4);
     EXPECT_EQ(found.there.upper, found.upper);
     EXPECT_NEAR(found.there.normal.y(), 1, 1e-8);
-    // Planes tell as much as the square of the steps: bounds of speed alone would need millions.
+    // Planes give bounds to the square of the steps: bounds of speed alone would need millions.
     EXPECT_LE(found.distances, 8) << nearest;
   }
 }
@@ -150,13 +150,13 @@ TEST(LeastDistance, that_is_not_known_at_one_moment_is_settled_by_none_around_it
     EXPECT_FALSE(found.is_settled);
     EXPECT_LE(found.lower, 0);
     EXPECT_EQ(found.upper, 1);
-    // The times beside it are halved until no number is between two of them.
+    // The times next to it are halved until no number is between two of them.
     EXPECT_LE(found.distances, 120) << moment;
     EXPECT_GE(found.distances, 100);
   }
 }
 
-/// It comes nearer as fast as it can, and planes are known at the beginning only.
+/// Approaches as fast as it can, and planes are known at the beginning only.
 class StraightOn : public MovingPair {
  public:
   StraightOn() { size = speed = 1; }
@@ -173,7 +173,7 @@ TEST(LeastDistance, is_known_by_the_speed_where_planes_tell_nothing) {
   EXPECT_EQ(found.distances, 2);
 }
 
-/// It comes nearer at one speed, by numbers that subtract without rounding.
+/// Approaches at one speed, by numbers that subtract without rounding.
 class Nearing : public MovingPair {
  public:
   Nearing(double from, double to) : from_(from) { size = 1, speed = from - to; }
@@ -213,7 +213,7 @@ TEST(LeastDistance, that_is_left_unsettled_has_bounds_that_hold) {
   EXPECT_LE(found.distances, 5);
 }
 
-/// What planes of two balls with cores of a point and of a box leave between them along n.
+/// Gap between planes of two balls with cores of a point and of a box along n.
 long double exact_gap(double radius_a, const Affine<double>& pose_a, const Vec3<double>& half,
                       double radius_b, const Affine<double>& pose_b, const Vec3<double>& n) {
   using Long = long double;

@@ -24,7 +24,7 @@ Affine<double> turned(const Vec3<double>& axis, double angle, const Vec3<double>
   return {Eigen::AngleAxis<double>(angle, axis.normalized()).toRotationMatrix(), to};
 }
 
-/// Each is of both shapes, to rounding, and so far apart as it says.
+/// Each point is of both shapes, to rounding, and the gap is the reported one.
 void expect_of_shapes(const Body& a, const Body& b, const ContactManifold& found,
                       RandomShapes& random) {
   const double size = a.ready.ball_radius() + b.ready.ball_radius() + 1e-6;
@@ -45,7 +45,7 @@ TEST(ContactManifold, of_a_box_that_rests_on_a_plate_are_its_corners) {
     ASSERT_EQ(found.count, 4) << deep;
     expect_of_shapes(a, b, found, random);
     for (const ContactPoint& point : found.points) EXPECT_NEAR(point.distance, -deep, 1e-9);
-    // They stand around the box' middle.
+    // The points are around the box' middle.
     double area = 0;
     for (int i = 0; i < 4; ++i)
       for (int j = 0; j < 4; ++j)

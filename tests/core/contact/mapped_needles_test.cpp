@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Boxes that maps within maps make needles, blades and plates of, down to 10^-12 of their length:
-// their distances from balls are within the bounds, and no status is false. What turns a box,
-// scales it and turns it again loses digits that the thin sides need. Judged in quadruple precision
-// by all faces, edges and corners of the box's image.
+// Boxes that maps within maps turn into needles, blades and plates, down to 10^-12 of their
+// length: their distances from balls are within the bounds, and no status is false. Turning a box,
+// scaling it and turning it again loses digits that the thin sides need. Judged in quadruple
+// precision by all faces, edges and corners of the box's image.
 #include <gtest/gtest.h>
 
 #include "core/contact/signed_distance.h"

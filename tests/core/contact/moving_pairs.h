@@ -69,7 +69,7 @@ struct MovingPair {
   ContactShape a, b;
   RigidMotion of_a, of_b;
   double t_max;
-  std::function<Long(Long)> gap;  ///< its sign says whether they are apart
+  std::function<Long(Long)> gap;  ///< negative if they overlap
 };
 
 inline void move_at_random(MovingPair& pair, RandomNumbers& random) {
@@ -105,7 +105,7 @@ struct SeenImpacts {
   double width = 0;
 };
 
-/// What is wrong with the impact that is told; empty: nothing.
+/// Description of an error in the reported impact; empty if there is none.
 inline std::string impact_complaint(const MovingPair& pair, int samples, SeenImpacts& seen) {
   const Impact impact = first_impact(pair.a, pair.of_a, pair.b, pair.of_b, pair.t_max);
   const Long truth = first_contact(pair, samples);
@@ -124,7 +124,7 @@ inline std::string impact_complaint(const MovingPair& pair, int samples, SeenImp
   }
   ++seen.hits;
   if (truth >= 0 && !(impact.t_lo <= truth)) return "t_lo is later than the contact";
-  // They are in each other at t_hi, or as near as touching is.
+  // At t_hi they overlap, or are as near as touching is.
   if (!(pair.gap(impact.t_hi) <= 2e-10L * size)) return "apart at t_hi";
   if (!(impact.t_hi >= impact.t_lo)) return "t_hi before t_lo";
   if (!(std::abs(impact.normal.norm() - 1) <= 1e-12)) return "a normal not of unit length";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a signed distance promises, judged by planes and points of the shapes' own support mappings
+// Guarantees of a signed distance, judged by planes and points of the shapes' own support mappings
 // in long double, which the solvers do not use.
 #pragma once
 
@@ -42,7 +42,7 @@ inline double best_gap(const Body& a, const Body& b, const Vec3<double>& start,
   return best_of_all;
 }
 
-/// How far a point is outside of a body, as far as some directions tell.
+/// Distance of a point outside of a body, judged by some directions.
 inline double outside(const Body& body, const Vec3<double>& point, const Vec3<double>& normal,
                       RandomShapes& random) {
   double most = 0;
@@ -55,14 +55,14 @@ inline double outside(const Body& body, const Vec3<double>& point, const Vec3<do
   return most;
 }
 
-/// What is wrong with the answer; empty: nothing.
+/// Description of an error in the result; empty if there is none.
 inline std::string complaint(const Body& a, const Body& b, const SignedDistance& result,
                              RandomShapes& random) {
   const double size = a.ready.ball_radius() + b.ready.ball_radius();
   const double reaches = size + a.ready.middle().norm() + b.ready.middle().norm() +
                          (b.pose.translation - a.pose.translation).norm();
   const double rounding = 16 * tolerance::epsilon<double> * reaches;
-  // The world's own digits, in which the points are told.
+  // The world's own digits, in which the points are reported.
   const double far = rounding + 4 * tolerance::epsilon<double> * a.pose.translation.norm();
   std::ostringstream text;
   text.precision(17);

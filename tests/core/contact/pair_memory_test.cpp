@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is kept of a pair is where a search begins, never what its answer rests on: whatever is in a
-// memory, the bounds hold, and they are as near to each other.
+// The memory of a pair is only where a search begins, never the basis of its result: for any
+// memory the bounds hold, and are as near to each other.
 #include "core/contact/pair_memory.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 namespace minkray::testing {
 namespace {
 
-/// What another pair has left, and what nobody ever would.
+/// Contents from another pair, and arbitrary ones.
 PairMemory garbage(int k, RandomShapes& random) {
   PairMemory memory;
   memory.axis = random.direction();
@@ -59,8 +59,8 @@ TEST(PairMemory, garbage_in_it_changes_no_promise) {
 }
 
 TEST(PairMemory, corners_of_one_plane_in_it_are_not_taken_for_an_overlap) {
-  // Four corners of two boxes' faces, in one plane with the origin: rounding alone says whether
-  // that is inside of their tetrahedron.
+  // Four corners of two boxes' faces, in one plane with the origin: rounding alone decides if that
+  // is inside of their tetrahedron.
   const Body a(Shape<double>(Box<double>{{1, 1, 1}}), {}),
       b(Shape<double>(Box<double>{{1, 1, 1}}),
         {Mat3<double>::Identity(), Vec3<double>(5, 0.3, 0.1)});

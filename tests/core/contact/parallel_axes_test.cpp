@@ -30,7 +30,7 @@ TEST(ParallelAxes, bodies_of_revolution_take_no_more_support_points_than_others)
   int overlapping = 0, all = 0;
   for (int k = 0; k < 3000; ++k) {
     const Mat3<double> turn = random.turn();
-    // On one axis, next to it by anything from rounding on, or beside it.
+    // On one axis, next to it by anything from rounding on, or clearly off it.
     double beside = 0;
     if (k % 3 == 1) beside = std::pow(10, random.in(-17, -3));
     if (k % 3 == 2) beside = random.in(0, 1);

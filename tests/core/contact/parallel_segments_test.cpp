@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Segments and capsules that are parallel, or nearly so, beside or in one another. The normal came
-// of a cross product that was nothing but rounding: capsules on one line had a normal along it, as
-// deep as their lengths instead of their radii. Of the pairs here every fifth was wrong.
+// Segments and capsules that are parallel, or nearly so, next to or in one another. The normal
+// came of a cross product that was nothing but rounding: capsules on one line had a normal along
+// it, as deep as their lengths instead of their radii. Every fifth of the pairs here was wrong.
 #include <gtest/gtest.h>
 
 #include "core/contact/closed_pairs.h"
@@ -43,8 +43,8 @@ TEST(ParallelSegments, nearly_so_have_planes_and_points_that_hold) {
   EXPECT_LT(overlapping, all * 3 / 4);
 }
 
-/// Where two lean by some dozens of roundings of a direction, their ends are already further apart
-/// than lengths are rounded by.
+/// If two lean by some dozens of roundings of a direction, their ends are already further apart
+/// than the rounding of lengths.
 TEST(ParallelSegments, that_cross_in_their_middle_touch_however_little_they_lean) {
   RandomShapes random(3);
   constexpr double epsilon = tolerance::epsilon<double>;
@@ -58,7 +58,7 @@ TEST(ParallelSegments, that_cross_in_their_middle_touch_however_little_they_lean
   }
 }
 
-/// An end of one is beside the other, across both: the way between them is short of digits where
+/// An end of one is next to the other, across both: the way between them is short of digits if
 /// they lean by little.
 TEST(ParallelSegments, that_lean_by_little_have_bounds_of_a_few_roundings) {
   // Bounds were up to 1.5e-15 of the sizes apart, and 4e-10 without the plane across both.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Penetration depths beside all candidates there are, in long double: the direction in which two
+// Compares penetration depths with all candidates, in long double: the direction in which two
 // polytopes are separated by the least translation is a face's normal of one of them, or at right
 // angles to an edge of each.
 #include <gtest/gtest.h>
@@ -131,11 +131,11 @@ TEST(Penetration, one_body_in_the_middle_of_another_leaves_by_the_nearest_face) 
   EXPECT_NEAR(signed_distance(rod, {}, rod, {}).value, -0.5, 1e-9);
 }
 
-/// A corner of the upper cube stands over an edge of the lower one, or beside it by `out`.
+/// A corner of the upper cube is over an edge of the lower one, or off it by `out`.
 ///       ______
 ///      |      |
 ///      |______|_____
-///      |______|     |   where they touch first: all that the two faces have in common
+/// |______| | first contact: the area that the two faces have in common
 ///             |_____|
 TEST(Penetration, of_cubes_is_seen_at_points_of_both_where_a_corner_stands_out) {
   const ContactShape cube(Shape<double>(Box<double>{{1, 1, 1}}));
@@ -148,7 +148,7 @@ TEST(Penetration, of_cubes_is_seen_at_points_of_both_where_a_corner_stands_out) 
     const double of_a = found.point_a.cwiseAbs().maxCoeff() - 1,
                  of_b = (found.point_b - middle).cwiseAbs().maxCoeff() - 1;
     EXPECT_LE(std::max(of_a, of_b), 1e-12 * size + 1e-15) << out;
-    // What stands out by no more than that is no reason to search.
+    // An offset of no more than that is no reason to search.
     if (std::abs(out) < 1e-12 * size) {
       EXPECT_EQ(found.supports, 0) << out;
     }
@@ -156,7 +156,7 @@ TEST(Penetration, of_cubes_is_seen_at_points_of_both_where_a_corner_stands_out) 
 }
 
 TEST(Penetration, of_curved_pairs_next_to_touching_seldom_takes_branch_and_bound) {
-  // What was a third of cones that overlap by less than a millionth took half a millisecond.
+  // A third of the cones that overlap by less than a millionth took half a millisecond.
   using testing::Body;
   testing::RandomShapes random(53);
   constexpr int ellipsoid = 4, cylinder = 7, cone = 8, box = 5;

@@ -155,7 +155,7 @@ TEST(Places, contacts_are_as_deep_as_they_are_nearby) {
     };
     const ContactManifold near = manifold(Vec3<double>::Zero());
     if (near.count < 3) continue;
-    // The gap between two faces is linear along them, but for corners 1e-6 of the size beside an
+    // The gap between two faces is linear along them, but for corners 1e-6 of the size from an
     // edge; which of equal corners are kept may differ.
     Mat3<double> edges;
     Vec3<double> rises;

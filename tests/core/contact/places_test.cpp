@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Pairs are as far apart wherever they are: 6 % of the distances of capsules 100 sizes from the
-// origin were out of their bounds, and all of those 10^6 sizes away. The same pair is asked for
-// near the origin and moved, in its poses, in its shapes and in what those are made of.
+// origin were out of their bounds, and all of those 10^6 sizes away. Each pair is computed near
+// the origin and moved, in its poses, in its shapes and in their parts.
 #include <gtest/gtest.h>
 
 #include "tests/core/contact/places.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Shapes somewhere in the world, for tests of what is asked of two of them.
+// Shapes somewhere in the world, for tests of queries on pairs.
 #pragma once
 
 #include <vector>

@@ -11,7 +11,7 @@ namespace {
 
 using V = Vec3<double>;
 
-// A bar that turns about its middle, a ball beside it: they meet when the bar's flat side has
+// A bar that turns about its middle, a ball next to it: they meet when the bar's flat side has
 // turned up to the ball.
 MovingBody<double> bar() {
   return {Box<double>{{2, 0.1, 0.1}}, {}, V::Zero(), V(0, 0, 1)};
@@ -36,7 +36,7 @@ TEST(RotatingCast, approaches_the_truth_as_steps_shrink_and_never_claims_more) {
   }
 }
 
-/// It has one also where the orientation's change at once has put them into each other.
+/// There is a normal also where the orientation's change at once has put them into each other.
 TEST(RotatingCast, every_hit_has_a_normal_between_the_two) {
   testing::Random random(4);
   int hits = 0;

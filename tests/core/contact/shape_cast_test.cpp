@@ -48,7 +48,7 @@ TEST(ShapeCast, ends_where_bisection_on_the_distance_ends_with_every_solver) {
       const auto result = cast_shape<double>(pair, d, 1, options);
       const bool is_determinant = solver.kind == SolverKind::paper_johnson ||
                                   solver.kind == SolverKind::paper_signed_volumes;
-      // Those two may give up on slivers, but never lie.
+      // Those two may not converge on slivers, but are never wrong.
       if (is_determinant && result.cast.status == Status::exhausted) continue;
       ASSERT_EQ(result.cast.status, Status::hit) << i << " " << solver.name;
       EXPECT_NEAR(result.cast.t(), together, is_determinant ? 1e-6 : 1e-12)
@@ -128,7 +128,7 @@ TEST(ShapeCast, touching_at_the_start_is_inside_when_approaching) {
 }
 
 /// A cylinder that touches a plate's edge with its rim, and a box that comes down on a disk's: in
-/// double no solver could tell.
+/// double no solver could decide.
 TEST(ShapeCast, rims_and_edges_that_touch_are_told) {
   for (const double scale : {1.0, 1e-3}) {
     const Shape<double> cylinder = Cylinder<double>{scale, scale},
@@ -155,7 +155,8 @@ TEST(ShapeCast, of_two_moving_shapes_is_that_of_their_relative_motion) {
 }
 
 TEST(ShapeCast, of_two_moving_shapes_that_miss_has_no_points) {
-  // They pass by each other at 2.12, 10 from where they begin; a box around both would be met.
+  // The balls pass by each other at 2.12, 10 from where they begin; a box around both would be
+  // met.
   const auto pair = pair_of(Sphere<double>{1}, {}, Sphere<double>{1}, at(V(10, 1.5, 1.5)));
   for (const SolverDescription& solver : solver_descriptions) {
     CastOptions<double> options;

@@ -86,7 +86,7 @@ TEST(SignedDistance, early_answers_agree_with_whole_ones) {
   EXPECT_GT(overlapping, 300);
 }
 
-/// A search that ends between a plane and a common point has neither: it must go on.
+/// A search that ends between a plane and a common point has neither: it must continue.
 TEST(SignedDistance, the_sign_alone_is_that_of_the_whole_answer_where_bodies_overlap_by_little) {
   RandomShapes random(19);
   constexpr int cone = 8, frustum = 10, hull = 11, tapered_capsule = 15, all = 450;
@@ -110,8 +110,8 @@ TEST(SignedDistance, the_sign_alone_is_that_of_the_whole_answer_where_bodies_ove
   EXPECT_GT(overlapping, all * 9 / 10);
 }
 
-/// Those beside the ball are known by their support mappings only, so that the search comes as near
-/// as it must and no nearer.
+/// The others are known by their support mappings only, so that the search comes as near as it
+/// must and no nearer.
 TEST(SignedDistance, bounds_are_as_near_to_each_other_as_is_asked) {
   RandomShapes random(8);
   int all = 0, nearer = 0;
@@ -158,7 +158,7 @@ TEST(SignedDistance, small_shapes_far_from_their_origin_have_bounds_in_order) {
   }
 }
 
-/// Its bounds are as far apart as its own digits make them: that is no reason to be undecided.
+/// The bounds are as far apart as its own digits make them: that is no reason to be undecided.
 TEST(SignedDistance, of_what_touches_far_from_its_own_origin_is_known_to_its_digits) {
   constexpr double far = 0x1p22;
   ShapeList<double> balls;
@@ -211,7 +211,7 @@ TEST(SignedDistance, of_what_is_far_away_is_proven_by_its_plane) {
       }
 }
 
-/// Where nothing is known the value is 0, which is told from a contact by is_unknown() alone.
+/// If nothing is known the value is 0, and only is_unknown() distinguishes it from a contact.
 TEST(SignedDistance, is_unknown_only_where_it_gave_up_without_bounds) {
   const ContactShape ball(Shape<double>(Sphere<double>{1})),
       box(Shape<double>(Box<double>{{1, 1, 1}}));
@@ -230,7 +230,7 @@ TEST(SignedDistance, is_unknown_only_where_it_gave_up_without_bounds) {
   }
 }
 
-/// A third of all pairs was told to be elsewhere, or to overlap, at sizes of 1e-90 and 2e78.
+/// A third of all pairs was reported elsewhere, or as overlapping, at sizes of 1e-90 and 2e78.
 TEST(SignedDistance, of_any_size_is_the_same_or_unknown) {
   for (const int power : {-500, -300, -200, -158, -100, 100, 155, 200, 300, 500})
     for (int k = 0; k < kinds_of_bodies * kinds_of_bodies; ++k) {
@@ -256,7 +256,7 @@ TEST(SignedDistance, of_any_size_is_the_same_or_unknown) {
     }
 }
 
-/// Beside lengths that count they are points.
+/// Compared with lengths that count they are points.
 TEST(SignedDistance, of_segments_too_short_for_products_is_that_of_points) {
   RandomShapes random(18);
   for (const double length : {1e-60, 1e-66, 1e-70, 1e-100, 1e-155, 1e-200, 1e-300})
@@ -271,7 +271,7 @@ TEST(SignedDistance, of_segments_too_short_for_products_is_that_of_points) {
     }
 }
 
-/// Where squares of lengths are no numbers a ball far above the plane touched it.
+/// If squares of lengths are out of range a ball far above the plane touched it.
 TEST(SignedDistance, of_a_half_space_is_known_as_far_as_numbers_go) {
   const ContactShape ball(Shape<double>(Sphere<double>{1}));
   const Vec3<double> up(0, 0, 1);
@@ -287,7 +287,7 @@ TEST(SignedDistance, of_a_half_space_is_known_as_far_as_numbers_go) {
   const ContactShape infinite(
       Shape<double>(Sphere<double>{std::numeric_limits<double>::infinity()}));
   EXPECT_TRUE(distance_to_half_space(up, 0, infinite, {}).is_unknown());
-  // It touches the plane, but what rounding amounts to is no number.
+  // The ball touches the plane, but the bound of its rounding is out of range.
   const ContactShape huge(Shape<double>(Sphere<double>{1e308}));
   EXPECT_TRUE(
       distance_to_half_space(up, 0, huge, {Mat3<double>::Identity(), Vec3<double>(0, 0, 1e308)})

@@ -22,7 +22,7 @@ TEST_P(SlenderPairs, have_bounds_as_near_to_each_other_as_all_others) {
     ++statuses[static_cast<std::size_t>(found.status)];
     EXPECT_EQ(complaint(pair.a, pair.b, found, random), "") << "pair " << k;
   }
-  // There are enough of each to say so.
+  // There are enough of each for a meaningful test.
   for (const SignedStatus status :
        {SignedStatus::separated, SignedStatus::touching, SignedStatus::overlapping})
     EXPECT_GT(statuses[static_cast<std::size_t>(status)], 300) << name_of(status);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// No signed distance takes longer than its budget of support points: what cannot be closed within
-// it is said so, with bounds that hold. Two points known by their support mapping only, at one
-// place, took 300,000 of them, since there was no size that a gap could be relative to.
+// No signed distance takes longer than its budget of support points: a gap that cannot be closed
+// within it is reported, with bounds that hold. Two points known by their support mapping only, at
+// one place, took 300,000 of them, since there was no size that a gap could be relative to.
 #include <gtest/gtest.h>
 
 #include "tests/core/contact/pair_judge.h"
@@ -19,7 +19,8 @@ Shape<double> hull_of(const Shape<double>& shape) {
   return HullOf<double>{shapes};
 }
 
-/// What is asked beside branch and bound: searches before it, and the points of contact after it.
+/// Support points used outside of branch and bound: searches before it, and the points of contact
+/// after it.
 constexpr int beside_each = 1500;
 
 TEST(SupportBudget, directions_that_are_all_as_good_end_with_bounds_that_hold) {
@@ -36,7 +37,7 @@ TEST(SupportBudget, directions_that_are_all_as_good_end_with_bounds_that_hold) {
     EXPECT_TRUE(found.is_exhausted) << budget;
     EXPECT_LE(found.supports, budget + beside_each) << budget;
     EXPECT_EQ(found.status == SignedStatus::overlapping, found.upper < 0) << budget;
-    // What more of them are for.
+    // Purpose of a larger budget.
     EXPECT_LT(found.upper - found.lower, before) << budget;
     before = found.upper - found.lower;
   }

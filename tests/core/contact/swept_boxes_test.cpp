@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// When moving boxes first touch, told by what is looked at before anything else: each answer is
-// judged by its plane and its point, and next to none is left open.
+// First contact of moving boxes, found by the planes that are tested before anything else: each
+// result is judged by its plane and its point, and next to none is left open.
 #include "core/contact/swept_boxes.h"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ struct TwoBoxes {
     return n.dot(pose_b.translation + t * velocity) - n.cwiseAbs().dot(half_a) -
            (pose_b.linear.transpose() * n).cwiseAbs().dot(half_b);
   }
-  /// How far a point is outside of one of them.
+  /// Distance of a point outside of one of them.
   double outside(const Vec3<double>& p, double t) const {
     const Vec3<double> in_b = pose_b.linear.transpose() * (p - pose_b.translation - t * velocity);
     return std::max((p.cwiseAbs() - half_a).maxCoeff(), (in_b.cwiseAbs() - half_b).maxCoeff());
@@ -55,7 +55,7 @@ TEST(SweptBoxes, are_told_by_a_plane_and_a_point) {
       return {random.in(0.1, 1), random.in(0.1, 1), random.in(0.1, 1)};
     };
     TwoBoxes boxes{half(), half(), {random.turn(), 4 * random.direction().normalized()}, {}};
-    // Towards A, or beside it, and some too slow to come there.
+    // Towards A, or past it, and some too slow to arrive.
     boxes.velocity =
         random.in(0.2, 4) * (random.in(0, 2) * random.direction() - boxes.pose_b.translation / 4);
     const SweptTime found = boxes.swept();
@@ -74,7 +74,7 @@ TEST(SweptBoxes, are_told_by_a_plane_and_a_point) {
 TEST(SweptBoxes, with_parallel_sides_that_pass_beside_or_behind_each_other_miss) {
   const Vec3<double> half{1, 1, 1};
   for (const auto& [place, velocity] :
-       {std::pair{Vec3<double>(5, 3, 0), Vec3<double>(-1, 0, 0)},  // beside the way
+       {std::pair{Vec3<double>(5, 3, 0), Vec3<double>(-1, 0, 0)},  // off the way
         std::pair{Vec3<double>(5, -3, 0), Vec3<double>(-1, 0, 0)},
         std::pair{Vec3<double>(5, 0, 0), Vec3<double>(1, 0, 0)},         // away
         std::pair{Vec3<double>(9, 0, 0), Vec3<double>(-1, 0, 0)},        // later than that
@@ -118,7 +118,7 @@ long double gap_of_all_times(const TwoBoxes& boxes, const Vec3<double>& normal) 
   return (first + std::min<Long>(0, boxes.t_max * n.dot(boxes.velocity.cast<Long>()))) / n.norm();
 }
 
-/// The planes' own gap is asked for as what is near enough, so that it is not more than that.
+/// The planes' own gap is set as near enough, so that the distance is not more than that.
 TEST(SweptBoxes, that_are_no_further_apart_than_is_near_enough_are_no_miss) {
   RandomShapes random(43);
   int misses = 0;
@@ -141,8 +141,8 @@ TEST(SweptBoxes, that_are_no_further_apart_than_is_near_enough_are_no_miss) {
   EXPECT_GT(misses, 800);
 }
 
-/// Looked at along the motion, two edges are in one line: what they would do if they came so far
-/// nobody can tell, but they do not.
+/// Viewed along the motion, two edges are in one line: what happens if they came so far cannot be
+/// decided, but they do not.
 TEST(SweptBoxes, that_would_graze_with_two_edges_but_do_not_come_so_far_miss) {
   RandomShapes random(44);
   for (int k = 0; k < 200; ++k) {
@@ -156,7 +156,7 @@ TEST(SweptBoxes, that_would_graze_with_two_edges_but_do_not_come_so_far_miss) {
   }
 }
 
-/// The corner that comes first is by so much beside the other's face.
+/// Offset of the first corner from the other's face.
 TEST(SweptBoxes, that_meet_with_faces_are_told_no_point_beside_one_of_them) {
   int hits = 0;
   for (const double beside : {-1e-10, -1e-11, 0.0, 1e-11, 1e-10})

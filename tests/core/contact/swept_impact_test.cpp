@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Times of impact of bodies that do not turn, which are found in one go, beside those of the steps
-// that bodies which turn need.
+// Times of impact of bodies that do not turn, which are found in one go, compared with those of
+// the steps that turning bodies need.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -35,7 +35,7 @@ Moving moving(int k, RandomShapes& random) {
           RigidMotion{at_b, of_a - random.in(0.2, 2) * towards}, random.in(0.3, 3)};
 }
 
-/// What is wrong with the first contact that is told.
+/// Description of an error in the reported first contact.
 std::string contact_complaint(const Moving& pair, const Impact& found, RandomShapes& random) {
   const double size = pair.size();
   const auto apart_at = [&](double t) {
@@ -140,15 +140,15 @@ TEST(SweptImpact, does_not_depend_on_how_fast_the_two_are) {
       ASSERT_EQ(parted.status, ImpactStatus::miss) << speed;
       EXPECT_NEAR(parted.normal.x(), 1, 1e-12) << speed;
     }
-  // By t_max it is where no distance is known; the miss is one anyway.
+  // At t_max it is where no distance is known; the result is a miss all the same.
   const Impact gone = first_impact(ball, at(0, 0), ball, at(10, 1e300), 1);
   EXPECT_EQ(gone.status, ImpactStatus::miss);
   EXPECT_NEAR(gone.normal.x(), 1, 1e-12);
   EXPECT_FALSE(std::isfinite(gone.distance));
 }
 
-/// Rounding says of a body that comes straight at the other from 1e18 sizes away that it passes by
-/// at a hundred sizes: that was told as a miss.
+/// Rounding suggests that a body that comes straight at the other from 1e18 sizes away passes by
+/// at a hundred sizes: that was reported as a miss.
 TEST(SweptImpact, what_comes_straight_at_the_other_from_far_away_is_no_miss) {
   const std::array<Shape<double>, 5> shapes = {Sphere<double>{1}, Box<double>{{1, 1, 1}},
                                                Cone<double>{1, 1}, Cylinder<double>{1, 0.7},
@@ -168,7 +168,7 @@ TEST(SweptImpact, what_comes_straight_at_the_other_from_far_away_is_no_miss) {
       }
 }
 
-/// They go the same way in a time that is 2^power times as short.
+/// Repeats the motion in a time that is 2^power times as short.
 Moving in_other_time(Moving pair, int power) {
   const auto scaled = [power](const Vec3<double>& v) -> Vec3<double> {
     return v.unaryExpr([power](double x) { return std::ldexp(x, power); });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Swept bodies hold what they say, and least distances are those of dense samples: judged by the
+// Swept bodies contain the motion, and least distances are those of dense samples: judged by the
 // shapes' support functions and by closed forms in long double.
 #include "core/contact/swept.h"
 
@@ -18,7 +18,7 @@ using testing::random_shape;
 using testing::RandomShapes;
 using Long = long double;
 
-/// How far a point is beyond the support planes of a shape, as far as some directions tell.
+/// Distance of a point beyond the support planes of a shape, judged by some directions.
 double outside(const Shape<double>& shape, const Vec3<double>& point, const Vec3<double>& towards,
                RandomShapes& random) {
   double most = -1e300;
@@ -117,7 +117,7 @@ class MovingCapsules : public MovingPair {
     return gap_along(a_, of_a_.motion.at(s), b_, of_b_.motion.at(s), n);
   }
 
-  /// By the ends and the lines of the two segments, in long double.
+  /// Computed from the ends and the lines of the two segments, in long double.
   Long true_distance(double s) const {
     const auto ends = [&](const Screw& screw, const Capsule<double>& capsule) {
       const Affine<Long> pose = screw.motion.at(s).cast<Long>();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// When two bodies first touch of which one moves without turning: contacts at the start, and times
+// First contact of two bodies where one moves without turning: contacts at the start, and times
 // and speeds near the ends of the numbers' range.
 #include "core/contact/swept_time.h"
 
@@ -14,7 +14,7 @@ namespace {
 
 using testing::RandomShapes;
 
-/// The first stands at the origin, the second is moved and not turned.
+/// The first is at the origin, the second is moved and not turned.
 struct TwoBodies {
   ContactShape a, b;
   Affine<double> pose_a, pose_b;
@@ -127,14 +127,14 @@ TEST(SweptTime, of_a_way_right_beside_an_edge_of_the_shadow_is_told) {
   }
 }
 
-/// Each point of the shadow that is looked at is a new corner of it, or it ends.
+/// Each new support point of the shadow is a new corner of it, or the search ends.
 TEST(SweptTime, of_a_way_next_to_the_other_body_is_given_up_by_the_time_all_corners_are_seen) {
   const Shape<double> point = Point<double>{};
   RandomShapes random(34);
   int open = 0;
   for (int k = 0; k < 300; ++k) {
     const Shape<double> hull = random.hull(8, 1);
-    // Its furthest point aside passes the other by half of what is near.
+    // The point furthest aside passes the other by half of the tolerance.
     const Vec3<double> aside = Vec3<double>(0, random.in(-1, 1), random.in(-1, 1)).normalized();
     Vec3<double> place = -hull.support(aside) - 0.005 * aside;
     place.x() = 9;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which shapes count as extreme.
+// Selection of the shapes that count as extreme.
 #include "core/derived/proportions.h"
 
 #include <gtest/gtest.h>
@@ -119,7 +119,7 @@ TEST(Proportions, needles_thinner_than_rounding_are_no_segments) {
   EXPECT_FALSE(is_extreme(Triangle<double>{{P(0, 0, 0), P(1, 2, 3), P(2, 4, 6)}}));
 }
 
-/// Where coordinates are coarse beside the shape, it is rounded and not thin.
+/// A shape whose coordinates are coarse compared with it is rounded, not thin.
 TEST(Proportions, what_is_far_from_its_frames_origin_is_ordinary) {
   for (const double distance : {1e4, 1e6, 1e8}) {
     const P o(distance, -distance, distance);

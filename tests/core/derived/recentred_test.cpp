@@ -23,7 +23,7 @@ Vec3<long double> furthest(const S& shape, const Vec3<double>& n) {
   return convert<long double>(shape).support(Vec3<long double>(n.cast<long double>()));
 }
 
-/// Moves the shape, which lies 1 away, and looks at what has come of it.
+/// Moves the shape, which lies 1 away, and checks the result.
 void expect_same_points(const S& shape, double size) {
   const std::optional<Recentred<double>> nearer = recentred(shape);
   ASSERT_TRUE(nearer);
@@ -111,7 +111,7 @@ TEST(Recentred, a_small_disk_far_out_in_a_sum_is_hit_by_all_solvers) {
     CastOptions<double> options;
     options.solver = solver;
     const CastResult<double> answer = cast_ray<double>(PreparedShape<double>(shape), ray, options);
-    // Its place is known less well than it is large.
+    // The error of the place exceeds the size.
     EXPECT_NE(answer.status, Status::miss) << static_cast<int>(solver);
   }
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which shapes closed forms are asked about: all that their error bounds are worth something for,
-// and no others.
+// Selection of shapes for closed forms: all those with useful error bounds, and no others.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -14,7 +13,7 @@ namespace {
 using S = Shape<double>;
 using P = Vec3<double>;
 
-/// Rays at a spot near the top of a pyramid of so many sides, grown by a radius.
+/// Rays at a spot near the top of a pyramid of `sides` sides, grown by a radius.
 TEST(LimitsOfForms, corners_of_many_edges_are_answered_in_closed_form) {
   for (const int sides : {12, 50, 120, 240}) {
     std::vector<P> points = {{0, 0, 1}, {0, 0, -0.5}};
@@ -37,8 +36,8 @@ TEST(LimitsOfForms, corners_of_many_edges_are_answered_in_closed_form) {
   }
 }
 
-/// Rounding hides more of the features beside the flatter a triangle is: bounds of flat ones would
-/// be wide, where models know better.
+/// The flatter a triangle is, the more rounding hides adjacent features: bounds of flat ones would
+/// be wide, where models are better.
 TEST(LimitsOfForms, hits_of_rounded_slivers_have_narrow_bounds) {
   Random random(53);
   for (double power = -16; power <= -8; power += 0.5) {
@@ -96,8 +95,8 @@ TEST(LimitsOfForms, tapered_capsules_whose_mantle_is_hardly_one_have_no_form) {
   }
 }
 
-/// Where directions are so long or so short that their numbers have room for few sizes, other
-/// solvers are asked, with the same answer.
+/// If directions are so long or so short that their numbers have room for few sizes, other solvers
+/// run, with the same result.
 TEST(LimitsOfForms, directions_of_unusual_length_are_answered_by_models) {
   const PreparedShape<double> ball(S(Sphere<double>{1}));
   const P origin(-3, 0.25, -0.5);

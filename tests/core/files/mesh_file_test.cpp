@@ -94,7 +94,7 @@ TEST(MeshFile, whatever_is_wrong_is_told) {
   EXPECT_THROW(read_mesh_vertices("no-such-file.obj"), std::runtime_error);
 }
 
-/// What is wrong with a file's contents; empty if nothing is.
+/// Description of an error in a file's contents; empty if there is none.
 std::string complaint(std::string_view contents, MeshFormat format) {
   try {
     EXPECT_FALSE(mesh_vertices(contents, format).empty());
@@ -120,7 +120,7 @@ TEST(MeshFile, faces_without_their_vertices_are_refused) {
   EXPECT_NE(obj("v 0 0 0\nf 1 1 4294967297\n").find("vertex 4294967297"), std::string::npos);
   EXPECT_NE(obj("v 0 0 0\nf 9223372036854775807").find("vertex 922337203685"), std::string::npos);
   EXPECT_NE(obj("v 0 0 0\nf -9223372036854775808").find("vertex -92233720368"), std::string::npos);
-  // Vertices may stand below their faces, and lines go on behind a backslash.
+  // Vertices may follow their faces, and lines continue behind a backslash.
   EXPECT_EQ(obj("f 1/1/1 2//2 3/3\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2/1 -1//4 # 9\nf 1 2 \\\n3\n"),
             "");
 }
@@ -230,7 +230,7 @@ TEST(MeshFile, obj_lines_have_plus_signs_comments_and_continuations) {
   // A blank line ends what is continued.
   EXPECT_EQ(mesh_vertices("v 1 2 3 \\\n\nv 4 5 6\n", MeshFormat::obj), expected);
   const auto obj = [](std::string_view text) { return complaint(text, MeshFormat::obj); };
-  // Lines are told by where they begin, and those behind them by their own number.
+  // Lines are reported by their first line, and those behind them by their own number.
   EXPECT_EQ(obj("v 1 \\\n2 \\\nx\n"), "line 1: a vertex must be three finite numbers");
   EXPECT_EQ(obj("v 1 \\\n2 \\\n3\nv +-1 2 3\n"), "line 4: a vertex must be three finite numbers");
   EXPECT_EQ(obj("v 1 2 3\nf 1 \\\n2\n"),
@@ -277,8 +277,8 @@ TEST(MeshFile, bytes_that_are_not_utf_8_matter_only_in_numbers) {
   EXPECT_EQ(complaint("solid\nvertex 1 2 3\nendsolid\n" + wild, MeshFormat::stl), "");
 }
 
-// A second reader once found the parts. It took another language than the first for OBJ and STL, so
-// that bodies of valid files were in no part, or in another body's, and nothing was said.
+// A second reader once found the parts. That reader parsed another language than the first for OBJ
+// and STL, so that bodies of valid files were in no part, or in another body's, without an error.
 
 constexpr std::array splits = {MeshSplit::groups, MeshSplit::components};
 
@@ -335,7 +335,7 @@ TEST(MeshParts, an_obj_has_its_bodies_however_their_faces_are_written) {
                    two_bodies);
     }
   }
-  // Vertices may stand below the faces that name them, or between.
+  // Vertices may follow the faces that name them, or be between them.
   expect_parts(MeshFormat::obj, "f 1 2 3 4\ng second\nf 5 6 7 8\n" + eight_vertices, two_bodies);
   expect_parts(MeshFormat::obj,
                "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf -1 -2 -3 -4\n"
@@ -371,7 +371,7 @@ TEST(MeshParts, groups_of_an_obj_are_told_apart_by_all_that_their_names_say) {
   EXPECT_EQ(groups("g a\n" + first + "g\n" + second), two_bodies);
   EXPECT_EQ(groups("o a\ng x\n" + first + "o b\ng x\n" + second), two_bodies);
   EXPECT_EQ(groups("o a\ng x\n" + first + "o a\n" + second), two_bodies);
-  // A name is one group, wherever it stands; and no name is one, too.
+  // A name is one group, wherever it occurs; and no name is one, too.
   EXPECT_EQ(groups("g a b\nf 1 2 3\ng c\n" + second + "g\ta  b # c\nf 4\n"), two_bodies);
   EXPECT_EQ(groups("f 1 2 3\ng a\n" + second + "g\nf 4\n"), two_bodies);
   EXPECT_EQ(groups("o\nf 1 2 3\ng a\n" + second + "g\nf 4\n"), two_bodies);

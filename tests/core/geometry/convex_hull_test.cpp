@@ -33,7 +33,7 @@ Points corners_of_a_box() {
   return points;
 }
 
-/// How far the given points stand out of the hull's facets, relative to their size. The facets'
+/// Distance of the given points outside of the hull's facets, relative to their size. The facets'
 /// planes come from three corners each, so slivers are measured in the round frame.
 double furthest_outside(const ConvexHull& hull, const Points& points) {
   double worst = 0;
@@ -46,7 +46,7 @@ double furthest_outside(const ConvexHull& hull, const Points& points) {
     Vec3<double> normal = Vec3<double>::Zero();
     for (std::size_t i = 1; i + 1 < corners.size(); ++i)
       normal += (q(i) - q(0)).cross(q(i + 1) - q(0));
-    // Area in place of length: the heights of slivers count for as little as they are wide.
+    // Area instead of length: the heights of slivers count for as little as they are wide.
     for (const auto& p : points)
       worst = std::max(worst, sense * normal.dot(hull.frame.to_frame(p) - q(0)));
   }
@@ -136,7 +136,7 @@ TEST(ConvexHull, nothing_depends_on_the_unit_of_length) {
     for (auto& p : scaled) p *= unit;
     EXPECT_EQ(convex_hull(scaled).vertices, expected) << unit;
   }
-  // By powers of two, nearly to the ends of the range, where squares overflow.
+  // Scaled by powers of two, nearly to the ends of the range, where squares overflow.
   for (const int exponent : {-900, 900, 1021}) {
     Points scaled = points;
     for (auto& p : scaled)
@@ -152,7 +152,7 @@ TEST(ConvexHull, nothing_depends_on_the_unit_of_length) {
   }
 }
 
-/// Found by fuzzing: Qhull gives up on them, since what it merges becomes too wide. Joggled copies
+/// Found by fuzzing: Qhull fails on them, since its merged facets become too wide. Joggled copies
 /// of them lost points that lie up to 1e-11 of the size outside of the others' hull.
 TEST(ConvexHull, that_is_all_but_degenerate_reaches_as_far_as_its_points) {
   const Points found = {{4.157870105926285e+21, -2.482915696275264e+28, 1.3687887984099695e+20},

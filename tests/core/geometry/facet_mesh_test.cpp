@@ -42,7 +42,7 @@ TEST(FacetMesh, closes_and_every_neighbour_shares_the_edge) {
       for (std::size_t k = 0; k < 3; ++k) {
         const auto& other = mesh[mesh[f].neighbour(k)];
         ASSERT_NE(mesh[f].neighbour(k), f);
-        // The neighbour walks the edge the other way round, and knows the way back.
+        // The neighbour walks the edge the other way round, and links back.
         bool shared = false;
         for (std::size_t j = 0; j < 3; ++j)
           shared =
@@ -118,8 +118,8 @@ TEST(FacetMesh, is_the_same_in_float) {
   }
 }
 
-/// What reaches furthest along a facet's normal is its first corner, or the facet says that it does
-/// not know.
+/// The point furthest along a facet's normal is its first corner, or the facet is marked as
+/// unsupported.
 template <class T>
 void expect_supported(const std::vector<Vec3<T>>& points) {
   const PointCloud<T> cloud(points);

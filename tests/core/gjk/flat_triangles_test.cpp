@@ -41,8 +41,8 @@ QuadPoint nearest_of_triangle(const QuadPoint& a, const QuadPoint& b, const Quad
   return plus(plus(a, e, u), f, w);
 }
 
-/// Tells how far the point that was found is from the nearest one, by the distance: the worst of
-/// slivers with such sines, whose corners are numbers of T as they come, below the origin.
+/// Returns the error of the point that was found, by the distance: the worst of slivers with such
+/// sines, whose corners are numbers of T, below the origin.
 template <class T>
 double worst_error(double least_power, double most_power) {
   Random random(29);

@@ -81,7 +81,7 @@ TYPED_TEST(Subalgorithms, know_nothing_of_what_they_were_asked_before) {
 TYPED_TEST(Subalgorithms, answer_degenerate_simplices_with_a_point_of_them) {
   constexpr int Dim = TypeParam::dimension;
   using Point = Vec<double, Dim>;
-  // Collinear and nearly coincident vertices, the origin beside them: the distance is 1.
+  // Collinear and nearly coincident vertices, the origin next to them: the distance is 1.
   for (const double spread : {1.0, 1e-4, 1e-8}) {
     TypeParam simplex;
     simplex.begin(Point::Zero());

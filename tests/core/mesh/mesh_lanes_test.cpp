@@ -13,7 +13,7 @@ namespace {
 
 using testing::Surface;
 
-/// A hierarchy with a triangle in each leaf, each of which is cast at in double.
+/// A hierarchy with a triangle in each leaf; each triangle is cast at in double.
 class PlainWalk {
  public:
   explicit PlainWalk(const TriangleMesh& mesh) : mesh_(mesh) {
@@ -110,7 +110,7 @@ PartRay aimed_ray(const TriangleMesh& mesh, testing::Random& random, int kind) {
   return {ray, kind % 5 == 0 ? random.uniform(0, 1) : 0};
 }
 
-/// How many answers of single rays, and of many at a time, are not the plain walk's.
+/// Number of results of single rays, and of many at a time, that differ from the plain walk's.
 int other_answers(const TriangleMesh& mesh, std::span<const PartRay> rays, int& hits) {
   const PlainWalk plain(mesh);
   PartCounts counts;
@@ -160,7 +160,7 @@ TEST(MeshLanes, find_what_double_finds_at_any_scale_and_place) {
   for (const double scale : {1e-17, 1e-5, 1e6, 1e17})
     expect_same_answers(scaled(testing::bumpy_ball(30, 40), scale, {0, 0, 0}), count);
   expect_same_answers(scaled(testing::torus(60, 40), 1, {1e6, -3e5, 1e3}), count);
-  // There lanes do not look at all.
+  // Sizes at which lanes are not used at all.
   for (const double scale : {1e-60, 1e60})
     expect_same_answers(scaled(testing::bumpy_ball(6, 8), scale, {0, 0, 0}), count / 10);
 }

@@ -84,7 +84,8 @@ TEST(MeshRay, finds_what_each_triangle_by_itself_finds) {
   }
 }
 
-/// How many rays from within a closed mesh, at its vertices, edges, and along its edges, get out.
+/// Number of rays from within a closed mesh, at its vertices, edges, and along its edges, that get
+/// out.
 int leaks(const Surface& surface, int rays,
           const std::function<Vec3<double>(testing::Random&)>& in) {
   const TriangleMesh mesh = surface.mesh();

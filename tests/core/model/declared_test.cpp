@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What is known of a shape is what its header declares, never what its fields are called. A wedge
-// whose size was called half_extents, as a box's is, was taken for a box: rays that pass it by
-// above its slope were hits at t = 4.
+// Only the header's declarations of a shape count, never the names of its fields. A wedge whose
+// size was called half_extents, as a box's is, was taken for a box: rays that pass it by above its
+// slope were hits at t = 4.
 //
 //      z |\ .                A wedge of half extents (1, 1, 1), seen along y: below its slope
 //        | \  .  <- ray      x + z = 0. A ray that runs along y through the dotted corner
@@ -42,7 +42,7 @@ struct Wedge {
   }
 };
 
-/// A box that says so, but not what it is called elsewhere.
+/// A box by its declaration, under another name.
 template <class T>
 struct SaidBox : Box<T> {};
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Shapes so large or so small that products of their lengths would leave the numbers' range are
-// brought to about unit size, which no answer tells; others are cast at as they are.
+// brought to about unit size, which no result shows; others are cast at as they are.
 #include <gtest/gtest.h>
 
 #include "core/cast/cast.h"
@@ -13,7 +13,7 @@ Shape<T> of_size(T size) {
   return Superellipsoid<T>{{size, size * T(0.75), size * T(0.5)}, T(3)};
 }
 
-/// So many of its own sizes the ray is away.
+/// Casts a ray from a distance of that many sizes.
 template <class T>
 CastResult<T> cast_at(const PreparedShape<T>& shape, T size) {
   return cast_ray(shape, Ray<T>{Vec3<T>(T(-3), T(0.25), T(0.125)) * size, {size, T(0), T(0)}});

@@ -23,7 +23,7 @@ using namespace minkray;
 
 namespace {
 
-/// How many are here at once at most.
+/// Counts the largest number of threads that are here at once.
 class Crowd {
  public:
   void come() {
@@ -195,8 +195,8 @@ TEST(ParallelPipeline, ends_with_the_first_exception) {
     }
 }
 
-// That the suite passes under ThreadSanitizer means something only if a race between ranges would
-// not.
+// The suite's success under ThreadSanitizer is meaningful only if a race between ranges would
+// fail.
 #if defined(__SANITIZE_THREAD__)
 TEST(ParallelDeathTest, thread_sanitizer_sees_a_race_between_parts) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");

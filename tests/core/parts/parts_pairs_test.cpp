@@ -27,7 +27,7 @@ ContactShape triangle(const TriangleMesh& mesh, std::uint32_t i) {
       Shape<double>(Triangle<double>{{mesh.corner(i, 0), mesh.corner(i, 1), mesh.corner(i, 2)}}));
 }
 
-/// The least of all pairs of parts, each asked by itself; no depth.
+/// The least of all pairs of parts, each computed by itself; no depth.
 SignedDistance least_of_all(const std::vector<ContactShape>& a, const Affine<double>& pose_a,
                             const std::vector<ContactShape>& b, const Affine<double>& pose_b) {
   SignedDistance least;
@@ -169,7 +169,7 @@ TEST(MeshPairs, first_touch_when_a_part_is_first_touched) {
     }
     ++hits;
     ASSERT_LE(found.t_lo, truth.t_hi);
-    // What is nearer than ImpactOptions::touching counts as touching.
+    // Bodies nearer than ImpactOptions::touching count as touching.
     constexpr double touching = 1e-10;
     ASSERT_GE(found.t_hi, first - touching);
     ASSERT_LE(found.t_hi - found.t_lo, 1e-8);
@@ -211,7 +211,7 @@ TEST(MeshPairs, of_many_bodies_are_those_of_each_two) {
     all.push_back(signed_distance(at.parts(), at.pose, body.parts(), body.pose).value);
   std::ranges::sort(all);
   for (std::size_t i = 0; i < 5; ++i) EXPECT_NEAR(nearest[i].distance.value, all[i], 1e-9);
-  // What moves through them.
+  // The body that moves through them.
   RigidMotion motion{at.pose};
   motion.pose.translation = {-6, 0.3, 0.2};
   motion.velocity = {12, 0, 0};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the checker of certificates refuses, each for one reason, beside the nearest that it takes.
+// Certificates that the checker refuses, each for one reason, next to the nearest that it accepts.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -35,7 +35,7 @@ TEST(Certificate, of_an_origin_within_a_shape_is_that_shapes_wherever_it_is) {
         check_certificate(support, ray, claim, certify(support, ray, claim));
     EXPECT_EQ(verdict.holds, (from - where).norm() < 2) << from.transpose();
     if (!verdict.holds) continue;
-    EXPECT_EQ(verdict.t_base + verdict.offset_lo, 0);  // where the ray begins
+    EXPECT_EQ(verdict.t_base + verdict.offset_lo, 0);  // begin of the ray
     EXPECT_EQ(verdict.t_base + verdict.offset_hi, 0);
   }
 }
@@ -53,7 +53,7 @@ TEST(Certificate, of_a_flat_shape_hit_from_behind_its_normal_is_refused) {
   }
 }
 
-// What a support mapping answers to no direction is no proof.
+// A support mapping's result for no direction is no proof.
 TEST(Certificate, with_a_support_point_along_no_direction_is_refused) {
   const Shape<double> ball = Sphere<double>{2};
   const SupportFunction support = [&](const V& n) {
@@ -90,7 +90,7 @@ TEST(Certificate, a_hit_is_refused_that_is_two_hundred_roundings_off) {
   }
 }
 
-// How late a claim is was told by nobody.
+// The lateness of a claim was not reported.
 TEST(Certificate, tells_how_far_beyond_its_bounds_a_late_hit_is) {
   const Shape<double> ball = Sphere<double>{2};
   const SupportFunction support = supports_of(ball);
@@ -104,7 +104,7 @@ TEST(Certificate, tells_how_far_beyond_its_bounds_a_late_hit_is) {
   }
 }
 
-// Support points on the right plane, but beside the ray, were taken for a proof.
+// Support points on the right plane, but off the ray, were accepted as a proof.
 TEST(Certificate, whose_support_points_span_a_spot_beside_the_ray_is_refused) {
   const Shape<double> box = Box<double>{{1, 2, 3}};
   const SupportFunction support = supports_of(box);
@@ -167,12 +167,12 @@ TEST(Certificate, of_a_hit_beyond_the_rays_end_is_refused) {
     ray.t_max = share * t;
     const CertificateVerdict verdict = check_certificate(support, ray, claim, certificate);
     EXPECT_EQ(verdict.holds, share >= 1) << share;
-    // It is the claim that is wrong, and not what was found to prove it.
+    // The claim is wrong, and not the proof that was found for it.
     EXPECT_EQ(verdict.complaint, share >= 1 ? "" : "the hit lies beyond t_max") << share;
   }
 }
 
-// Its support points have to lie as high as that plane.
+// The support points have to lie as high as that plane.
 TEST(Certificate, without_a_plane_of_its_own_is_judged_by_the_claimed_one) {
   const Shape<double> ball = Sphere<double>{2};
   const SupportFunction support = supports_of(ball);
@@ -186,7 +186,7 @@ TEST(Certificate, without_a_plane_of_its_own_is_judged_by_the_claimed_one) {
   EXPECT_FALSE(check_certificate(support, ray, claim, certificate).holds);
 }
 
-// The plane touches the box, and the ray crosses it, but beside the box.
+// The plane touches the box, and the ray crosses it, but outside of the box.
 TEST(Certificate, of_a_hit_where_a_faces_plane_is_crossed_beside_it_is_refused) {
   const Shape<double> box = Box<double>{{1, 1, 1}};
   const SupportFunction support = supports_of(box);
@@ -207,7 +207,7 @@ TEST(Certificate, of_a_hit_where_a_faces_plane_is_crossed_beside_it_is_refused) 
             "the hit point lies outside the shape");
 }
 
-// In a face, the planes say nothing of where the ray is: what is claimed and what is spanned do.
+// In a face, the planes do not locate the ray: the claimed and the spanned points do.
 TEST(Certificate, of_a_ray_in_a_face_is_of_what_lies_between_its_ends) {
   const Shape<double> box = Box<double>{{1, 1, 1}};
   const SupportFunction support = supports_of(box);

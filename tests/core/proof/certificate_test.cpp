@@ -38,7 +38,7 @@ TEST(Certificate, bounds_enclose_the_exact_hit) {
   ASSERT_TRUE(verdict.holds) << verdict.complaint;
   EXPECT_LE(verdict.t_lo(), exact);
   EXPECT_GE(verdict.t_hi(), exact);
-  // What is allowed before the plane, and twice that behind it, by the cosine and the speed.
+  // The allowance before the plane, and twice that behind it, by the cosine and the speed.
   EXPECT_LT(verdict.t_hi() - verdict.t_lo(), 4 * verdict.allowed / (std::sqrt(3.0) / 2) / 2);
 }
 
@@ -105,7 +105,7 @@ TEST(Certificate, the_wrong_status_is_refused) {
   }
 }
 
-/// The checker decides by the certificate, not by what the claim says.
+/// The checker decides by the certificate, not by the claim.
 TEST(Certificate, one_that_proves_nothing_is_refused) {
   const SupportFunction support = supports_of(ball);
   const Claim claim = claim_for(ball, at_ball);
@@ -167,7 +167,7 @@ TEST(Certificate, far_origins_cost_nothing) {
   EXPECT_FALSE(verdict_on(ball, ray, claim).holds);
 }
 
-/// Where not even long double tells which part of the ray is near the shape, nothing is proven.
+/// If not even long double determines which part of the ray is near the shape, nothing is proven.
 TEST(Certificate, origins_too_far_away_are_refused) {
   const Ray<double> ray{{0, 0, -1e34}, {0, 0, 1e30}};
   for (const Status status : {Status::miss, Status::hit}) {
@@ -218,7 +218,7 @@ TEST(Certificate, of_origins_on_the_surface) {
   }
 }
 
-/// Where the origin lies on a rim but for a rounding: two support points beside it span it.
+/// The origin lies on a rim but for a rounding: two support points next to it span it.
 TEST(Certificate, of_origins_on_rims) {
   Random random(5);
   int inside = 0;
@@ -246,7 +246,8 @@ TEST_P(CertifiedShapes, all_casts_are_certified) {
   for (const RayFamily family : {RayFamily::random, RayFamily::grazing, RayFamily::far}) {
     for (const bool in_float : {true, false}) {
       // The GJK ray cast takes rays in float that pass a segment at 126 epsilons for hits
-      // (tolerance::gjk_stalled): one of these; and one of a flat box, where the jet cast gives up.
+      // (tolerance::gjk_stalled): one of these; and one of a flat box, where the jet cast does not
+      // converge.
       const bool known = GetParam().name == "segment" || GetParam().name == "box, flat";
       if (known && family == RayFamily::grazing && in_float) continue;
       const Shape<double>& shape = GetParam().shape;

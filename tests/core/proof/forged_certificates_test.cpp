@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// No certificate proves what is false, whoever made it up: claims that are wrong by far, with
+// No certificate proves a false claim, however it was made: claims that are wrong by far, with
 // directions, weights and times from all of the numbers' range.
 #include <gtest/gtest.h>
 
@@ -41,7 +41,7 @@ double any_time(double t, Random& random) {
   return one_of(times, random);
 }
 
-/// A unit ball or a cube around it, about a middle. What a ray meets is known by closed forms.
+/// A unit ball or a cube around it, about a middle. Hits of rays are known in closed form.
 struct Body {
   bool is_ball;
   V middle;
@@ -54,7 +54,7 @@ struct Body {
     const V p = point - middle;
     return is_ball ? p.norm() < size : p.cwiseAbs().maxCoeff() < size;
   }
-  /// When its line enters the body made so many times as large; infinite if it does not.
+  /// Parameter at which the line enters the body scaled by `size`; infinite if it does not.
   double entry(const Ray<double>& ray, double size) const {
     const V x = ray.origin - middle, d = ray.direction;
     if (is_ball) {
@@ -88,7 +88,7 @@ TEST(Certificate, that_is_forged_proves_nothing_false) {
     Ray<double> ray{body.middle + random.in_cube() - away * along, along};
     const double t = body.entry(ray, 1);
     if (random.below(4) == 0) ray.t_max = std::max(0.0, std::min(t, away) - random.uniform(0.1, 1));
-    // What is so within a tenth of the size; other rays are near to two truths.
+    // Facts that hold within a tenth of the size; other rays are near to two truths.
     const double late = body.entry(ray, 0.9), early = body.entry(ray, 1.1);
     const bool is_inside = body.holds(ray.origin, 0.9), is_outside = !body.holds(ray.origin, 1.1),
                is_hit = is_outside && early > 0 && late < ray.t_max,
@@ -110,8 +110,8 @@ TEST(Certificate, that_is_forged_proves_nothing_false) {
     claim.normal = random.below(2) > 0 ? normal : any_direction();
     claim.t_base = any_time(std::isfinite(t) ? t : away, random);
     claim.t_offset = random.below(2) > 0 ? 0 : any_time(0, random);
-    // From nothing, or what proves the truth with something else put in; sometimes what comes
-    // nearest to proving the claim, of which the search takes long where it is false.
+    // Made from nothing, or from the proof of the truth with something else put in; sometimes the
+    // nearest to a proof of the claim, whose search takes long for a false one.
     const bool is_changed = random.below(4) == 0;
     Certificate certificate;
     if (is_changed) {

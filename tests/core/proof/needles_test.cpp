@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Certificates of rays at needles of 1 : 1e10 to 1 : 1e12, thinner than three rounded points can
-// tell a plane of: how many hold is written down here, as docs/verification.md has it.
+// Certificates of rays at needles of 1 : 1e10 to 1 : 1e12, thinner than a plane of three rounded
+// points can resolve: the number that hold is recorded here, as in docs/verification.md.
 #include <gtest/gtest.h>
 
 #include "core/cast/cast.h"

@@ -16,7 +16,7 @@ TEST(SpannedPoint, keeps_its_weights_where_elimination_finds_some_below_zero) {
     ASSERT_TRUE(spanned.add(corner, corner.cast<double>().normalized()));
   ASSERT_TRUE(spanned.full());
   EXPECT_EQ(spanned.off(), 0);
-  // From beside the tetrahedron, no weights above zero span the spot.
+  // From outside of the tetrahedron, no weights above zero span the spot.
   for (const LongVec& spot : {LongVec(0, 0, 0), LongVec(0.125, 0.0625, 0), LongVec(5, 0, 0)}) {
     spanned.move(spot);
     spanned.balance();

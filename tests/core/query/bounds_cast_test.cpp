@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a shape's bounds tell of a cast, against the slabs of the box in long double.
+// Compares casts at a shape's bounds with the slabs of the box in long double.
 #include <gtest/gtest.h>
 
 #include "core/cast/cast.h"
@@ -14,8 +14,8 @@ namespace {
 
 using Long = long double;
 
-/// How much a box may shrink (less than 0: must grow), as a part of its size, for the line still to
-/// meet it: the ordinary test by slabs, and bisection.
+/// Factor by which a box may shrink (less than 0: must grow), as a part of its size, for the line
+/// still to meet it: the ordinary test by slabs, and bisection.
 double room(const Vec3<double>& half_extents, const Vec3<Long>& o, const Vec3<Long>& d) {
   const auto meets = [&](Long size) {
     Long first = -std::numeric_limits<Long>::infinity(), last = -first;
@@ -39,7 +39,7 @@ double room(const Vec3<double>& half_extents, const Vec3<Long>& o, const Vec3<Lo
   return static_cast<double>(1 - high);
 }
 
-/// A box somewhere, as a shape that was mapped: any will do, only its bounds are asked.
+/// A box somewhere, as a mapped shape: any will do, only its bounds are used.
 template <class T>
 struct MappedBox {
   Vec3<double> half_extents;
@@ -79,7 +79,7 @@ void check_against_slabs(const Affine<double>& map, double distance) {
     const Vec3<Long> from = back * (known.origin - box.pose.translation).template cast<Long>();
     const Vec3<Long> along = (back * known.direction.template cast<Long>()).normalized();
     const double left = room(box.half_extents, from, along);
-    // A line so near may be told either way: rounding, as a part of the thinnest side.
+    // A line so near may get either result: rounding, as a part of the thinnest side.
     const double rounding = 200 * std::numeric_limits<T>::epsilon() * distance /
                             box.half_extents.minCoeff() / std::abs(map.linear.determinant());
     open += bounds.open;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is kept of rays from far away: all of a position's digits, and t's, up to where casts are
+// Digits kept for rays from far away: all of a position's digits, and t's, up to where casts are
 // promised to end (docs/cast.md).
 #include <gtest/gtest.h>
 
@@ -59,8 +59,8 @@ Ray<T> from(double distance, Random& random) {
   return {(target - way).cast<T>(), way.cast<T>()};
 }
 
-/// How far what casts see of rays from 2^least to 2^most radii lies beside where it should be, in
-/// roundings of the ball's radius.
+/// Error of positions that casts compute for rays from 2^least to 2^most radii, in roundings of
+/// the ball's radius.
 template <class T>
 double worst_position(double least, double most) {
   Random random(41);
@@ -80,15 +80,15 @@ double worst_position(double least, double most) {
 
 TEST(FarOrigins, cost_no_digit_of_a_position) {
   EXPECT_LT(worst_position<float>(0, 23), 4);
-  EXPECT_LT(worst_position<float>(23, 28), 4);  // where the second way takes over
+  EXPECT_LT(worst_position<float>(23, 28), 4);  // the second way takes over here
   EXPECT_LT(worst_position<float>(28, 45), 4);
   EXPECT_LT(worst_position<double>(0, 52), 4);
   EXPECT_LT(worst_position<double>(52, 57), 4);
   EXPECT_LT(worst_position<double>(57, 61), 4);
 }
 
-/// So far that t's two numbers tell where on the ball it is, all rays are answered; from further
-/// away, no hit is. Rays that lead away miss, wherever they begin.
+/// Up to the limit where t's two numbers determine the place on the ball, all rays have results;
+/// from further away, no hit has. Rays that lead away miss, wherever they begin.
 template <class T>
 void check_hits(double limit) {
   const PreparedShape<T> ball{Shape<T>(Sphere<T>{T(1)})};
@@ -124,8 +124,8 @@ TEST(FarOrigins, are_answered_up_to_where_t_tells_the_spot) {
   check_hits<double>(62);
 }
 
-/// From further away, by the most that a position may be wrong there: what passes the ball by more
-/// than that misses it, and nothing is said of what passes by less.
+/// From further away, up to the largest error of a position there: a ray that passes the ball by
+/// more than that misses it, and closer ones may have any result.
 template <class T>
 void check_misses(double limit) {
   const PreparedShape<T> ball{Shape<T>(Sphere<T>{T(1)})};
@@ -142,7 +142,7 @@ void check_misses(double limit) {
             .cast<T>(),
         {T(distance), 0, 0}};
     const Status status = cast_ray(ball, ray, options).status;
-    // By the bounding ball, of a radius from 1 to the diagonal of the shape's box.
+    // Bounded by the bounding ball, of a radius from 1 to the diagonal of the shape's box.
     const double least = 1 / error + 4, most = std::sqrt(3) / error + 4;
     if (beside > most + 0.01) {
       ASSERT_EQ(name_of(status), name_of(Status::miss)) << beside;
@@ -170,7 +170,7 @@ Ray<double> along_axis(double distance, Random& random) {
   return {origin, way};
 }
 
-/// What proofs see of a ray is exact, or known not to be; and it is exact from where casts answer.
+/// Rays in proofs are exact, or known not to be; and exact from where casts give results.
 TEST(FarOrigins, are_proven_with_all_digits_or_refused) {
   Random random(47);
   const Vec3<double> middle(0.3, -0.2, 0.1);

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A miss is proven by a plane: the shape on one side, all of the ray on the other. Checked with
-// nothing but one support call. It once was not so for the GJK ray cast: where a ray had been
-// clipped and then passed the shape, the answered plane held only for what lay ahead, and cut the
-// ray.
+// one support call only. Previously false for the GJK ray cast: where a ray had been clipped and
+// then passed the shape, the reported plane held only for the part ahead, and cut the ray.
 #include <gtest/gtest.h>
 
 #include "core/cast/cast.h"
@@ -13,8 +12,8 @@
 namespace minkray::testing {
 namespace {
 
-/// How far a point may lie on the wrong side, relative to the numbers that make up its distance:
-/// the roundings of a support point and of a normal.
+/// Largest distance of a point on the wrong side, relative to the numbers that make up its
+/// distance: the roundings of a support point and of a normal.
 constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
 
 class MissPlanes : public ::testing::TestWithParam<SampleShape> {};
@@ -23,7 +22,7 @@ TEST_P(MissPlanes, separate_ray_and_shape) {
   const Shape<double>& shape = GetParam().shape;
   const PreparedShape<double> prepared(shape);
   Bounds<double> bounds = prepared.definition().bounds_of(Affine<double>{});
-  if (!(bounds.half_extents().maxCoeff() > 0)) {  // a point: rays that pass beside it
+  if (!(bounds.half_extents().maxCoeff() > 0)) {  // a point: rays that pass it by
     const Vec3<double> point = bounds.centre();
     bounds.extend(Vec3<double>(point.array() - 1));
     bounds.extend(Vec3<double>(point.array() + 1));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What must be true of every shape's support mapping, checked on every kind and on random nestings.
+// Properties of every shape's support mapping, checked on every kind and on random nestings.
 #include <gtest/gtest.h>
 
 #include "core/derived/convert.h"
@@ -145,7 +145,7 @@ TYPED_TEST(Supports, bounds_contain_and_touch) {
   }
 }
 
-// Where a shape can be said in two ways.
+// Two descriptions of the same shape.
 
 Shape<double> moved(Shape<double> shape, const Mat3<double>& linear, const Vec3<double>& by) {
   return Transform<double>{std::move(shape), AffineMap<double>(Affine<double>{linear, by})};

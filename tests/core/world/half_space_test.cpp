@@ -53,7 +53,7 @@ TYPED_TEST(HalfSpaces, where_a_ray_enters_its_height_is_zero_and_the_interval_ho
   EXPECT_GT(inside, 4000);
 }
 
-// A way that is no number is neither a hit nor a miss, and no world tells of one.
+// A way that is not finite is neither a hit nor a miss, and no world reports a hit.
 TYPED_TEST(HalfSpaces, a_plane_that_numbers_do_not_reach_is_told) {
   using T = TypeParam;
   const T most = std::numeric_limits<T>::max(), least = std::numeric_limits<T>::denorm_min(),

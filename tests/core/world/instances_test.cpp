@@ -126,7 +126,8 @@ TEST(Instances, maps_that_float_does_not_hold_are_kept_in_full) {
   EXPECT_FALSE(instances.plain_pose(0).has_value());
 }
 
-// What a million costs: 64 bytes for where it is, 36 for the last digits of how it is turned.
+// Memory of a million instances: 64 bytes each for the place, 36 for the last digits of the
+// rotation.
 TEST(Instances, an_instance_costs_its_pose_however_large_its_shape) {
   Random random;
   std::vector<Vec3<double>> points(1000);

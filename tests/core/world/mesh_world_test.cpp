@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Meshes in worlds: beside shapes and half-spaces, posed, moving, and however rays are asked.
+// Meshes in worlds: next to shapes and half-spaces, posed, moving, and in all kinds of queries.
 #include <gtest/gtest.h>
 
 #include "core/world/world.h"
@@ -37,7 +37,7 @@ Ray<double> random_ray(testing::Random& random) {
   return {from, 5 * random.in_cube() - from};
 }
 
-/// By asking each instance by itself.
+/// Tests each instance by itself.
 WorldHit first_of_all(const World& world, const Ray<double>& ray) {
   const Instances& instances = world.instances();
   WorldHit first = WorldHit::miss();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Near pairs by the hierarchy beside all pairs.
+// Compares near pairs by the hierarchy with all pairs.
 #include "core/world/near_pairs.h"
 
 #include <gtest/gtest.h>
@@ -60,7 +60,7 @@ TEST(NearPairs, are_those_that_a_look_at_all_pairs_finds) {
     expect_same(near_pairs(world, options), expected);
     expect_same(near_pairs(world, other, options), all_pairs(bodies, others, false, at_most));
     seen += expected.size();
-    // Pairs that are not asked for.
+    // Excluded pairs.
     options.wanted = [](std::size_t a, std::size_t b) { return (a + b) % 2 == 0; };
     for (const NearPair& pair : near_pairs(world, options)) ASSERT_EQ((pair.a + pair.b) % 2, 0u);
   }
@@ -90,8 +90,8 @@ TEST(NearPairs, the_nearest_bodies_are_those_of_a_look_at_all) {
   }
 }
 
-/// A distance that gave up has the value 0: the ball at 1e200 was nearest, and with it nothing else
-/// was looked for.
+/// A distance that did not converge has the value 0: the ball at 1e200 was nearest, and with it
+/// nothing else was searched.
 TEST(NearPairs, what_is_at_an_unknown_distance_is_not_the_nearest) {
   const auto ball_at = [](double x) {
     return ContactBody{ContactShape(Shape<double>(Sphere<double>{1})),

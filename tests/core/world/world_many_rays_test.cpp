@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Rays that are asked for in streams get the answers that they get alone, bit for bit, however they
-// are cut into streams and in whatever order.
+// Rays in streams get the results that they get alone, bit for bit, for any division into streams
+// and in any order.
 #include "tests/support/scattered_world.h"
 
 namespace minkray {

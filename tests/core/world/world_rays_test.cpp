@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Rays that are asked for together get the answers that they get alone, bit for bit; and worlds
-// whose instances have moved answer as worlds built where they are.
+// Rays in batches get the results that they get alone, bit for bit; and worlds whose instances
+// have moved give the same results as worlds built there.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -191,7 +191,7 @@ TEST(WorldRays, rays_of_a_block_meet_what_is_shown_to_their_kind) {
   EXPECT_GT(hits, 300);
 }
 
-// One world is the tree around what has moved, the other a tree built of it anew.
+// One world is the tree around the moved instances, the other a tree rebuilt from them.
 TEST(WorldRays, moved_instances_answer_as_if_built_where_they_are) {
   Scatter random;
   std::vector<Affine<double>> poses(400);
@@ -231,8 +231,8 @@ TEST(WorldRays, moved_instances_answer_as_if_built_where_they_are) {
   EXPECT_GT(hits, 500);
 }
 
-/// Lanes do not look at what is too thin or too large for them; where its box begins is compared
-/// with what is met behind.
+/// Lanes skip shapes that are too thin or too large for them; the entry of their box is compared
+/// with hits behind it.
 TEST(World, thin_and_large_shapes_are_met_by_rays_of_any_length) {
   for (const double length : {0.01, 1.0, 2.0, 4.0, 100.0}) {
     for (const double scale : {1.0, 0x1p-30, 0x1p30}) {

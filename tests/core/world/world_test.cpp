@@ -104,7 +104,7 @@ TEST(World, empty_worlds_and_rays_from_inside) {
   EXPECT_TRUE(around.occluded(ray, counts));
 }
 
-// A solver that gives up must be seen: the reader of a picture trusts its black.
+// Casts that do not converge must be visible: the reader of a picture trusts its black.
 TEST(World, exhausted_casts_are_counted_and_taken_for_neither) {
   CastOptions<double> impatient;
   impatient.solver = SolverKind::paper;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the mutators make of documents is still a document of the kind, and seldom the same.
+// Documents changed by the mutators are still documents of the kind, and seldom the same.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr int draws = 200;
 
-/// Changes the text again and again, as fuzzers do, and begins anew where it has grown.
+/// Changes the text again and again, as fuzzers do, and restarts when it has grown.
 template <class Changes, class IsDocument>
 void expect_documents(const std::string& text, Changes& changes, const IsDocument& is_document) {
   constexpr std::size_t longest = 16384;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a mutator chooses by chance, from the seed that the fuzzer gives it, and numbers worth
-// trying.
+// Random choices of a mutator, from the seed that the fuzzer gives it, and numbers worth trying.
 #pragma once
 
 #include <array>

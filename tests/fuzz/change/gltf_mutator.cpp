@@ -7,7 +7,7 @@
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size,
                                                std::size_t max_size, unsigned seed) {
   using namespace minkray::fuzz;
-  // It learns from call to call, and libFuzzer keeps nothing for it.
+  // Static, since it learns from call to call, and libFuzzer keeps nothing for it.
   static JsonChanges changes{KnownJson(words_of_reader())};
   return mutate(changes, data, size, max_size, seed);
 }

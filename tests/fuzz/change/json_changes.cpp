@@ -17,7 +17,7 @@ namespace {
 /// Deeper documents are left to changes of bytes: they are visited by recursion here.
 constexpr int deepest = 200;
 
-/// One of so many documents is learned from.
+/// One of this many documents is learned from.
 constexpr std::size_t one_learned = 4;
 
 int depth_of(std::string_view text) {

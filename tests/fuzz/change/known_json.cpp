@@ -13,7 +13,8 @@ constexpr std::size_t most_items = 16;
 /// Schemas refer to themselves: shapes are made of shapes.
 constexpr int deepest_example = 4;
 
-/// What a schema allows: for alternatives one of each, as far as `depth` allows more than one.
+/// Examples allowed by a schema: for alternatives one of each, as far as `depth` allows more than
+/// one.
 std::vector<JsonValue> examples_of(const JsonValue& schema, const JsonValue& definitions,
                                    int depth) {
   if (const auto at = schema.find("$ref"); at != schema.end()) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What may stand in JSON documents of a kind: values by their keys, and keys by what holds them.
-// Learned from documents, and from the schema that the readers' own descriptions make.
+// Possible contents of JSON documents of a kind: values by their keys, and keys by the object that
+// holds them. Learned from documents, and from the schema that the readers' own descriptions make.
 #pragma once
 
 #include <map>

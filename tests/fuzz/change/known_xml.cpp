@@ -53,7 +53,7 @@ std::string KnownXml::one_of(const Lists& lists, const std::string& key, Choice&
 }
 
 std::string KnownXml::child(const std::string& parent, Choice& choice) const {
-  // A reader knows more names of elements than any document has.
+  // A reader supports more names of elements than any document has.
   if (choice.one_in(4)) return "<" + word(choice) + "/>";
   return one_of(children_, parent, choice);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What may stand in XML documents of a kind, learned from documents: which elements are in which,
-// and which attributes and texts they have.
+// Possible contents of XML documents of a kind, learned from documents: the elements within each
+// element, and their attributes and texts.
 #pragma once
 
 #include <tinyxml2.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How a mutator that knows a format stands between libFuzzer and its own changes of bytes.
+// Interface of a mutator that supports a format between libFuzzer and its own changes of bytes.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,8 @@ extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, st
 
 namespace minkray::fuzz {
 
-/// One of so many changes is made to bytes, whatever the format: readers must bear those as well.
+/// One of this many changes is made to bytes, whatever the format: readers must bear those as
+/// well.
 inline constexpr std::size_t one_of_bytes = 5;
 
 /// The input changed by `changes`, or by its bytes where that cannot be; answers its new size.

@@ -10,7 +10,7 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-/// One of so many documents is learned from.
+/// One of this many documents is learned from.
 constexpr std::size_t one_of_xml_learned = 4;
 
 std::string text_of_number(double x) {

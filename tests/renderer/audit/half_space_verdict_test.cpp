@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is claimed of a half-space is judged by its plane alone: nothing wrong holds, whatever the
-// numbers are, and what its cast says does.
+// Claims about a half-space are judged by its plane alone: no wrong one holds, whatever the
+// numbers are, and those of its cast do.
 #include "renderer/audit/half_space_verdict.h"
 
 #include <gtest/gtest.h>

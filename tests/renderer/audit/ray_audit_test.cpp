@@ -26,7 +26,7 @@ struct Audited {
   World world = make_world(scene);
   RayAudit audit{scene, world};
 
-  /// How many failures the answers to one ray make, as told by `lie`.
+  /// Number of failures for the results of one ray, changed by `lie`.
   template <class Lie>
   std::uint64_t failures(const Ray<double>& ray, const Lie& lie) {
     const std::uint64_t before = audit.failed(RayKind::camera);
@@ -46,7 +46,7 @@ TEST(RayAudit, true_answers_are_proven) {
   Audited audited;
   EXPECT_EQ(audited.failures(along_row, no_lie), 0u);
   EXPECT_EQ(audited.failures(above, no_lie), 0u);
-  // Down to where the ball stands on the plate: both are met at once.
+  // Down to where the ball is on the plate: both are met at once.
   EXPECT_EQ(audited.failures({{-3, 0, 3}, {1, 0, -1}}, no_lie), 0u);
   audited.audit.occluded(RayKind::shadow, along_row, no_instance, true);
   audited.audit.occluded(RayKind::shadow, above, no_instance, false);

@@ -76,7 +76,7 @@ inline Model arm_model() {
   return *model;
 }
 
-/// Where the arm's shapes are: base, upper, fore, hand.
+/// Places of the arm's shapes: base, upper, fore, hand.
 inline std::array<Rod, 4> rods_at(Long shoulder, Long elbow, Long wrist) {
   const auto turn = [](Long angle, const Vector& axis, const Vector& at) {
     return Pose{Eigen::AngleAxis<Long>(angle, axis).toRotationMatrix(), at};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The clearance of a small arm's paths beside dense samples of closed forms in long double, with
-// kinematics of the test's own.
+// Compares the clearance of a small arm's paths with dense samples of closed forms in long double,
+// with kinematics of the test's own.
 #include "renderer/clearance/clearance.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ using testing::Rod;
 using testing::rods_at;
 using testing::Vector;
 
-/// A ball beside the arm and the ground below it.
+/// A ball next to the arm and the ground below it.
 struct Around {
   Scene scene;
   Rod ball;
@@ -63,7 +63,7 @@ TEST(Clearance, is_below_ten_thousand_samples_and_at_most_five_percent) {
     std::vector<ClearanceBody> bodies = bodies_of(model, GeometryChoice::collision);
     ASSERT_EQ(bodies.size(), 4u);
     for (const ClearanceBody& body : bodies_of(around.scene)) bodies.push_back(body);
-    // The base stands still, and so do the obstacles.
+    // The base is fixed, and so are the obstacles.
     const std::vector<BodyPair> pairs = pairs_of(bodies, model, {}, true);
     ASSERT_EQ(pairs.size(), 3u + 6u);
     ClearanceOptions options;
@@ -245,7 +245,7 @@ TEST(Clearance, a_swept_scene_has_a_body_for_each_part_of_a_step_and_stands_stil
   const JointPath path(model, {{0, {{"elbow", {0.0}}}}, {1, {{"elbow", {1.0}}}}});
   const Scene scene = swept_scene(model, import, path, {}, mistakes);
   EXPECT_TRUE(mistakes.none());
-  // Base and upper arm stand still.
+  // Base and upper arm are at rest.
   std::size_t whole = 0, swept_ones = 0;
   for (const Object& object : scene.objects)
     (object.name.find(" step ") == std::string::npos ? whole : swept_ones) += 1;
@@ -264,7 +264,7 @@ TEST(Clearance, links_that_may_touch_are_left_out) {
   EXPECT_EQ(pairs_of(bodies, model, allowed, false).size(), 0u);
 }
 
-/// A robot's paths said "clear" with particles in their way.
+/// A robot's paths were "clear" with particles in their way.
 TEST(Clearance, particles_are_obstacles_as_objects_are) {
   const Model model = arm_model();
   const JointPath path(model, {{0, {{"elbow", {0.0}}}}, {1, {{"elbow", {1.5}}}}});
@@ -298,8 +298,8 @@ TEST(Clearance, particles_are_obstacles_as_objects_are) {
   EXPECT_EQ(found[0].closest.upper, found[1].closest.upper);
 }
 
-/// The clearance was "proven" to be 2.9 for rows of quaternions 1e200 times as long: the squares of
-/// their numbers are none, so the arm was taken to stand still while it passes the ball.
+/// The clearance was "proven" to be 2.9 for rows of quaternions 1e200 times as long: the squares
+/// of their numbers are out of range, so the arm was assumed at rest while it passes the ball.
 TEST(Clearance, quaternions_turn_alike_whatever_their_length) {
   Model model;
   ModelLink link;
@@ -321,7 +321,7 @@ TEST(Clearance, quaternions_turn_alike_whatever_their_length) {
   bodies.push_back(bodies_of(scene).front());
   const std::vector<BodyPair> pairs = pairs_of(bodies, model, {}, true);
   ASSERT_EQ(pairs.size(), 1u);
-  // From along x by 170 degrees about z: half way the arm stands in the ball.
+  // From along x by 170 degrees about z: half way the arm is in the ball.
   const double w = std::cos(1.48), z = std::sin(1.48);
   for (const double length : {1.0, 0.3, 7.0, 1e200, 1e-200, 1e308, 1e-320})
     for (const double first : {length, 0.0}) {  // of length zero it turns nothing
@@ -334,7 +334,7 @@ TEST(Clearance, quaternions_turn_alike_whatever_their_length) {
     }
 }
 
-/// What making a path says; empty if it is taken.
+/// Error of making a path; empty if it is accepted.
 std::string refusal(const std::vector<JointRow>& rows) {
   try {
     JointPath(arm_model(), rows);
@@ -352,7 +352,7 @@ TEST(Clearance, rows_that_nobody_can_go_between_are_refused) {
   EXPECT_EQ(refusal({{0, {{"elbow", {1e308}}}}, {1, {{"elbow", {1.1e308}}}}}), "");
   EXPECT_NE(refusal({{0, {{"wrist", {std::numeric_limits<double>::infinity()}}}}}).find("finite"),
             std::string::npos);
-  // It was taken to be at rest through the first step, and where it is told from there on.
+  // The joint was assumed at rest through the first step, and at its given value from there on.
   EXPECT_NE(refusal({{0, {{"elbow", {0.0}}}}, {1, {{"elbow", {0.0}}, {"wrist", {0.5}}}}})
                 .find("row 2 of 2: the joint \"wrist\" must have a value from the first row on"),
             std::string::npos);

@@ -48,7 +48,7 @@ struct Blocks {
         object.shape = box(half);
       object.pose = {rotation_matrix(part(engine), part(engine), part(engine), part(engine)),
                      {at(engine), at(engine), at(engine)}};
-      object.pose.linear *= 0.7;  // what scales becomes part of the mesh
+      object.pose.linear *= 0.7;  // scaling becomes part of the mesh
       around.objects.push_back(object);
     }
     Object plane;
@@ -119,7 +119,7 @@ TEST(MeshClearance, derivatives_are_those_of_the_same_shape) {
   EXPECT_GT(compared, 5);
 }
 
-/// It has a radius of 1 about z and a tube of 0.4: the arm stands in its hole.
+/// A ring of radius 1 about z with a tube of 0.4: the arm is in its hole.
 Scene ring_around() {
   Object ring;
   ring.name = "ring";
@@ -150,7 +150,8 @@ TEST(MeshClearance, a_rod_goes_through_a_ring_whose_hull_it_crosses) {
   EXPECT_LT(least(bodies).upper, 0);
 }
 
-/// No plane is between the arm and the ring around it; the arm's speed tells that they stay apart.
+/// No plane is between the arm and the ring around it; the arm's speed proves that they stay
+/// apart.
 TEST(MeshClearance, verdicts_see_what_no_plane_separates) {
   const Model model = testing::arm_model();
   const Scene around = ring_around();

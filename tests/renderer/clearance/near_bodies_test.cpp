@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Near bodies are those that all pairs by themselves say are near.
+// Near bodies are those that all pairs by themselves find to be near.
 #include "renderer/clearance/near_bodies.h"
 
 #include <gtest/gtest.h>

@@ -64,7 +64,7 @@ Clearance clearance_beside(const Model& model, const std::vector<JointRow>& rows
   return clearance_of(JointPath(model, rows), bodies, pairs_of(bodies, model, {}, false), {});
 }
 
-/// A ball on a turning link, which hangs on a link that stands still.
+/// A ball on a turning link, which hangs on a fixed link.
 Model turning_ball(const Vec3<double>& hinge, double arm, double radius) {
   Model model;
   ModelLink base, link;

@@ -13,7 +13,7 @@
 namespace minkray {
 namespace {
 
-/// A pendulum of a ball that hangs 1 from its hinge, and a post that stands 1.5 away.
+/// A pendulum of a ball that hangs 1 from its hinge, and a post 1.5 away.
 void write_pendulum(const TemporaryFolder& folder) {
   std::ofstream(folder / "pendulum.urdf") << R"(<robot name="pendulum">
   <link name="post"><collision><origin xyz="1.5 0 0"/>
@@ -101,7 +101,7 @@ TEST(ClearanceVerb, without_a_path_it_is_that_of_one_pose) {
   EXPECT_EQ(clearance(folder, "--joint swing=-1.5707963267948966 --at-least 0.21").exit_code, 1);
 }
 
-/// It said "clear", with infinite bounds.
+/// Previously "clear", with infinite bounds.
 TEST(ClearanceVerb, particles_are_obstacles) {
   const TemporaryFolder folder;
   write_pendulum(folder);

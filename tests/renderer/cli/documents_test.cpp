@@ -23,8 +23,8 @@ struct ShownCommand {
   std::vector<std::string> words;
 };
 
-/// README.md and the pages of docs/ that tell what is: not the changelog, records and decisions,
-/// which tell what was.
+/// README.md and the pages of docs/ that describe the current state: not the changelog, records
+/// and decisions, which describe the past.
 std::vector<SourceFile> pages() {
   std::vector<SourceFile> pages = {{"README.md", text_of_file(source_folder() / "README.md")}};
   for (const SourceFile& file : files_in("docs"))
@@ -33,7 +33,7 @@ std::vector<SourceFile> pages() {
   return pages;
 }
 
-/// What stands between backquotes, which may go on in the next line, and each line by itself; in
+/// Text between backquotes, which may continue in the next line, and each line by itself; in
 /// pieces where a shell or a comment would cut them.
 std::vector<ShownCommand> shown_commands() {
   const std::regex quoted("`([^`]+)`"), cut(R"re(;|\||&&|\s#\s|\n)re"), blank(R"re(\s+)re");
@@ -58,12 +58,12 @@ bool is_verb(const std::string& name) {
   return std::ranges::find(verbs, name, &VerbRow::name) != std::end(verbs);
 }
 
-/// A verb's or a task's name, not what stands for one, such as VERB.
+/// True for a verb's or a task's name, not for a placeholder such as VERB.
 bool is_name(const std::string& word) {
   return std::regex_match(word, std::regex("[a-z][a-z0-9-]*"));
 }
 
-/// Whether help lists the option, with other names of it or alone.
+/// True if help lists the option, with other names of it or alone.
 bool has_option(const std::string& verb, const std::string& option) {
   static std::map<std::string, std::string> helps;
   std::string& help = helps[verb];
@@ -95,7 +95,7 @@ TEST(Documents, every_verb_task_and_option_that_they_show_is_there) {
   EXPECT_GT(options, 80u);
 }
 
-// Asked for help a task begins no work, of which some is of hours.
+// With --help a task begins no work; some of it takes hours.
 TEST(Documents, every_task_says_what_it_does) {
   const std::string run = "'" + (source_folder() / "run").string() + "' ";
   std::size_t tasks = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Pictures that several processes share, on one machine: GNU parallel, and Slurm's array jobs with
-// a stand-in for sbatch.
+// a substitute for sbatch.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -13,14 +13,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// It is, for a shell, the name of a picture with what means something to shells, to printf and to
-/// sbatch.
+/// In a shell's notation, the name of a picture with characters that are special to shells, to
+/// printf and to sbatch.
 constexpr const char* strange_name = R"('it'\''s "100%A", %d $HOME	a\b&ö;.pfm')";
 
 TEST_F(Drivers, gnu_parallel) {
   if (!has_program("parallel")) GTEST_SKIP() << "needs GNU parallel";
   expect_same_picture(shell("\"$DRIVERS/render-parallel\" scene.json a.pfm 5 -s 8"));
-  // A tile fails: the job does, and goes on when it is run again.
+  // A tile fails: the job fails, and continues when it is run again.
   const ProgramOutcome failed = shell(
       "mkdir -p b.pfm.parts/2-of-3.exr; \"$DRIVERS/render-parallel\" scene.json b.pfm 3 -s 8");
   EXPECT_NE(failed.exit_code, 0);
@@ -31,7 +31,7 @@ TEST_F(Drivers, gnu_parallel) {
       "cmp a.pfm b.pfm");
   EXPECT_EQ(again.exit_code, 0) << again.err;
   EXPECT_FALSE(fs::exists(folder_ / "b.pfm.parts"));
-  // What is not the picture's stays.
+  // Files that do not belong to the picture stay.
   const ProgramOutcome noted = shell(
       "mkdir b.pfm.parts; cd b.pfm.parts; echo x > notes.txt; touch .1-of-3.exr.7.0123abcd.tmp; "
       "cd ..; \"$DRIVERS/render-parallel\" scene.json b.pfm 3 -s 8 && ls -A b.pfm.parts");
@@ -73,10 +73,10 @@ TEST_F(Drivers, what_a_driver_needs_is_named_if_it_is_missing) {
   }
 }
 
-// There is no Slurm here: the stand-in runs each task as sbatch's manual says, with the array's
-// variables and logs, one after the other, and refuses options that it does not know, arrays that
-// are too large, patterns that it does not know in a log's name, jobs after the $LAST_JOB-th, and
-// jobs that depend on others than those there were. It counts jobs from 17.
+// A substitute for Slurm: runs each task as in sbatch's manual, with the array's variables and
+// logs, one after the other, and rejects unknown options, arrays that are too large, unknown
+// patterns in a log's name, jobs after the $LAST_JOB-th, and jobs that depend on unknown ones.
+// Counts jobs from 17.
 TEST_F(Drivers, slurm_array) {
   std::ofstream(folder_ / "sbatch") << R"sh(#!/usr/bin/env bash
 echo job >> jobs

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What someone meets who has just installed Minkray: scenes by name, pictures without -o, previews,
-// completions and man pages.
+// First steps after installing Minkray: scenes by name, pictures without -o, previews, completions
+// and man pages.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -66,7 +66,7 @@ TEST(FirstContact, an_unknown_name_is_told_with_the_names_there_are) {
   EXPECT_NE(outcome.err.find("did you mean `showcase`?"), std::string::npos) << outcome.err;
 }
 
-/// What the program says of a command line that it refuses.
+/// Message of the program for a command line that it rejects.
 std::string refusal(const std::string& words, int exit_code = 2) {
   const ProgramOutcome outcome = run_shell("$MINKRAY " + words);
   EXPECT_EQ(outcome.exit_code, exit_code) << words << ": " << outcome.err;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures that are looked at while they grow: by a viewer that listens as tev does, and in their
+// Pictures that are viewed while they grow: by a viewer that listens as tev does, and in their
 // files.
 #include <gtest/gtest.h>
 #include <netinet/in.h>
@@ -43,7 +43,7 @@ class Receiver {
   }
 
   std::string address() const { return "127.0.0.1:" + std::to_string(port_); }
-  /// All that came, once whoever sent it has closed the connection.
+  /// All received bytes, once the sender has closed the connection.
   const std::string& bytes() {
     if (thread_.joinable()) thread_.join();
     return bytes_;
@@ -103,7 +103,7 @@ class Viewer {
 
   void read() {
     const char kind = take<char>();
-    take<char>();  // whether it is to be looked at
+    take<char>();  // flag to select the image
     const std::string named = take_text();
     if (kind == 4) {
       name = named;

@@ -74,8 +74,8 @@ TEST_F(Mpi, four_ranks_make_the_same_picture_as_one) {
 }
 
 // A rank is killed when some tiles are there, and a rank of the next job as well. The files'
-// numbers (inodes) show that what was there is kept. A job that is over before its rank can be
-// killed is begun anew with more samples.
+// numbers (inodes) show that finished tiles are kept. A job that is over before its rank can be
+// killed is repeated with more samples.
 TEST_F(Mpi, a_job_whose_rank_was_killed_goes_on_to_the_same_picture) {
   int samples = 800, kills = 0;
   const auto start = [&](const char* ranks) {
@@ -115,7 +115,8 @@ TEST_F(Mpi, a_job_whose_rank_was_killed_goes_on_to_the_same_picture) {
   EXPECT_EQ(text_of_file(folder_ / "a.pfm"), text_of_file(folder_ / "whole.pfm"));
 }
 
-// What ranks that were killed left goes with the tiles; what is not the picture's stays.
+// Files left by killed ranks are removed with the tiles; files that do not belong to the picture
+// stay.
 TEST_F(Mpi, files_of_others_beside_the_tiles_stay) {
   const std::string parts = folder_ / "a.pfm.parts/";
   fs::create_directory(parts);

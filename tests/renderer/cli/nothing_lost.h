@@ -24,7 +24,7 @@ class NothingLost : public ::testing::Test {
     return run_shell("cd '" + (folder_ / ".") + "' || exit 99\n" + command);
   }
 
-  /// Whether it comes true within a minute; asked a thousand times a second.
+  /// True if it becomes true within a minute; tested a thousand times per second.
   template <class Condition>
   static bool wait_until(const Condition& is_true) {
     for (int i = 0; i < 60000; ++i) {
@@ -38,7 +38,7 @@ class NothingLost : public ::testing::Test {
     struct stat status = {};
     return ::stat(file.c_str(), &status) == 0 ? status.st_ino : 0;
   }
-  /// It is still to be waited for.
+  /// The child remains to be waited for.
   static bool has_ended(pid_t child) {
     siginfo_t info = {};
     return ::waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&

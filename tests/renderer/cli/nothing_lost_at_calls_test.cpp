@@ -18,10 +18,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What is there before; no program reads it.
+/// Content of the old file; no program reads it.
 constexpr const char* old_content = "old\n";
 
-/// How often a program is started at most, in case that it never ends by itself.
+/// Largest number of starts of a program, in case it never ends by itself.
 constexpr int most_calls = 200;
 
 struct Command {
@@ -38,8 +38,8 @@ const std::vector<Command> commands = {
     {"generate hulls -n 2", "g.json"},
 };
 
-/// Tells a shell that the program is killed before that call, or the call fails with the error. Its
-/// calls are listed in the file "calls".
+/// Shell command that kills the program before that call, or makes the call fail with the error.
+/// The program's calls are listed in the file "calls".
 std::string with_fault(const std::string& program, int at, int error = 0) {
   return "rm -f calls; MINKRAY_FAULT_LOG=calls MINKRAY_FAULT_AT=" + std::to_string(at) +
          " MINKRAY_FAULT=" + std::to_string(error) + " LD_PRELOAD='" MINKRAY_FAULT_AT_CALL "' " +
@@ -53,7 +53,7 @@ std::vector<std::string> lines_of(const std::string& file) {
   return lines;
 }
 
-/// Whether two files hold the same picture. A header says how long it took.
+/// True if two files hold the same picture. A header contains the time it took.
 bool are_same(const std::string& a, const std::string& b) {
   if (!a.ends_with(".exr")) return text_of_file(a) == text_of_file(b);
   const ExrImage one = read_exr(a), other = read_exr(b);
@@ -71,12 +71,12 @@ std::vector<std::string> without_temporary_files(std::vector<std::string> files)
   return files;
 }
 
-/// Tells a shell how to make the part files that `merge` needs.
+/// Shell command that makes the part files that `merge` needs.
 constexpr const char* make_part_files =
     "for i in 1 2; do \"$MINKRAY\" render scene.json -r 8x6 -s 1 --tile $i/2 -o $i.exr || exit; "
     "done";
 
-/// Tells a shell how to make what the command writes when nothing happens, beside where it writes.
+/// Shell command that makes the undisturbed output of the command, next to its place.
 std::string make_whole(const Command& command) {
   return command.line() + " && mv " + command.output + " new-" + command.output;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Faults from outside: killed at any moment, disks that are full or cannot be written, readers that
-// never come. Whatever happens, a picture is the old one or the new one, and the user is told.
+// Faults from outside: killed at any moment, disks that are full or cannot be written, readers
+// that never come. In every case, a picture is the old one or the new one, and the user gets a
+// message.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/stat.h>
@@ -92,7 +93,8 @@ TEST_F(NothingLost, killed_again_and_again_a_render_ends_with_the_same_picture) 
     for (kills = 0; kills < 200; ++kills) {
       const ino_t before = inode_of(checkpoint);
       const pid_t child = render(picture, {"--resume"});
-      // Written beside and renamed: a new checkpoint is another file. At the end it is removed.
+      // Written under another name and renamed: a new checkpoint is another file. At the end it is
+      // removed.
       wait_until([&] { return inode_of(checkpoint) != before || has_ended(child); });
       std::this_thread::sleep_for(std::chrono::milliseconds(10 * (kills % 20)));
       ::kill(child, kills % 2 ? SIGKILL : SIGTERM);

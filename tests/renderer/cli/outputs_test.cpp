@@ -31,7 +31,7 @@ struct Command {
   std::string verb;
   std::vector<Reading> readings;
   std::map<std::string, Writing> outputs;  ///< by option
-  bool can_run = true;                     ///< what it needs is always built
+  bool can_run = true;                     ///< false if an optional part is not built
 };
 
 /// Every command that writes files.
@@ -128,7 +128,7 @@ constexpr const char* robot_text = R"(<robot name="r">
   <joint name="j" type="prismatic"><parent link="a"/><child link="b"/><origin xyz="3 0 0"/><axis xyz="1 0 0"/>
     <limit lower="-10" upper="10" effort="1" velocity="1"/></joint></robot>)";
 
-/// Four vertices of a cube's corner, as glTF with its buffer in a file beside it.
+/// Four vertices of a cube's corner, as glTF with its buffer in a separate file.
 std::string gltf_text() {
   return R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
     "nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
@@ -191,7 +191,7 @@ class Outputs : public NothingLost {
       if (entry.is_regular_file()) before_[entry.path().string()] = text_of_file(entry.path());
   }
 
-  /// Other names of a file that have the ending that an output needs; made anew.
+  /// New other names of a file, with the extension that an output needs.
   std::vector<std::string> other_names(const std::string& file, const std::string& ending) {
     const fs::path link = folder_.path() / ("link" + ending),
                    hard = folder_.path() / ("hard" + ending);
@@ -358,7 +358,7 @@ TEST_F(Outputs, none_is_written_twice) {
   expect_nothing_changed("a command");
 }
 
-/// What lies beside an output by a name of its own.
+/// Files next to an output with a name of their own.
 TEST_F(Outputs, frames_checkpoints_and_records_are_outputs_too) {
   fs::copy_file(folder_ / "ball.json", folder_ / "a.png.checkpoint");
   fs::copy_file(folder_ / "ball.json", folder_ / "f#.png.frames");

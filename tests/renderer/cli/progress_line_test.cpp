@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Who waits for a picture is told how noisy it is by now and how long it will take.
+// The progress line shows how noisy a picture is by now and how long it will take.
 #include "renderer/cli/progress_line.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,8 @@ RenderOptions small_picture(int samples) {
   return options;
 }
 
-// The spread of samples that are drawn evenly tells more than the error is, never much less.
+// The spread of samples that are drawn evenly overestimates the error, and never underestimates it
+// much.
 TEST(Progress, the_noise_is_about_the_error_of_the_picture) {
   const Scene scene = lit_ball({40, 30});
   const World world = make_world(scene);
@@ -46,7 +47,7 @@ TEST(Progress, the_noise_is_about_the_error_of_the_picture) {
     error += std::abs(rendering.image.pixels[i].mean() - truth.pixels[i].mean()) /
              std::max(double{truth.pixels[i].mean()}, 0.02) /
              static_cast<double>(truth.pixels.size());
-  EXPECT_EQ(times, 6);  // once a tile
+  EXPECT_EQ(times, 6);  // once per tile
   EXPECT_NEAR(told, rendering.noise, 1e-12);
   EXPECT_GT(rendering.noise, error);
   EXPECT_LT(rendering.noise, 6 * error);

@@ -51,7 +51,7 @@ TEST_F(NothingLost, what_is_no_file_is_an_error_at_once) {
   }
 }
 
-// Files of 2 GB, without as much memory: what they begin with tells that they are no use.
+// Files of 2 GB, without as much memory: their first bytes show that they are unusable.
 TEST_F(NothingLost, a_huge_file_is_looked_at_before_it_is_read) {
   constexpr std::uintmax_t huge = std::uintmax_t{2} << 30;  // holes: they take no disk
   ASSERT_EQ(shell("\"$MINKRAY\" render scene.json -s 1 -o a.exr").exit_code, 0);

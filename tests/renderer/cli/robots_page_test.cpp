@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The commands of docs/robots.md, as they stand there.
+// The commands of docs/robots.md, unchanged.
 #include <gtest/gtest.h>
 
 #include <sstream>

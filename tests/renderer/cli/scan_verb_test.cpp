@@ -164,7 +164,7 @@ TEST_F(ScanVerb, a_sensor_on_a_link_goes_where_the_joints_bring_it) {
   std::ofstream(folder_ / "one.csv") << "time,azimuth,elevation\n0,0,0\n1,0,0\n2,0,0\n";
   std::ofstream(folder_ / "rows.json")
       << R"([{"time": 0, "neck": 0}, {"time": 2, "neck": 1.5707963267948966}])";
-  // From outside of the head, which looks at the ball, then past it, then along y.
+  // From outside of the head, which faces the ball, then past it, then along y.
   const ProgramOutcome outcome =
       scan("r.urdf --joints rows.json --pattern one.csv --on head --pose 0.5,0,0 -o a.npy -q");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
@@ -235,7 +235,7 @@ TEST_F(ScanVerb, rays_of_length_zero_and_wrong_arrays_are_answered_or_refused) {
     write(bytes);
     EXPECT_EQ(scan("r.urdf --rays rays.npy -o a.npy").exit_code, 3) << bytes.substr(0, 90);
   }
-  // That is refused before memory ends.
+  // Too many rays are rejected before memory ends.
   EXPECT_EQ(scan("r.urdf --pattern spinning:65536x65536 -o a.npy").exit_code, 2);
   // No rays at all are an array of none.
   write(array("<f8", "(0, 6)", {}));

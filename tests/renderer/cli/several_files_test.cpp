@@ -90,7 +90,7 @@ TEST_F(SeveralFiles, are_seen_by_the_camera_of_the_first_scene_file) {
     EXPECT_EQ(seen["camera"].dump(), ball["camera"].dump()) << files;
     EXPECT_EQ(seen["lights"].dump(), ball["lights"].dump()) << files;
   }
-  // Without one, both are in the picture: the camera stands elsewhere than for one of them.
+  // Without one, both are in the picture: the camera is elsewhere than for one of them.
   const Json both = Json::parse(run("info slide.urdf world.sdf --json").out);
   const Json one = Json::parse(run("info slide.urdf --json").out);
   EXPECT_NE(both["camera"].dump(), one["camera"].dump());
@@ -102,7 +102,7 @@ TEST_F(SeveralFiles, are_rendered_and_inspected_together) {
   EXPECT_EQ(picture.exit_code, 0) << picture.err;
   const ProgramOutcome page = run("inspect ball.json slide.urdf -o together.html -s 1 -r 16x12 -q");
   EXPECT_EQ(page.exit_code, 0) << page.err;
-  // A part file knows all files that it was made of: another world is not the same scene.
+  // A part file stores all files that it was made of: another world is not the same scene.
   for (const auto& [files, part] : {std::pair("slide.urdf world.sdf", "1"),
                                     {"slide.urdf world.sdf", "2"},
                                     {"slide.urdf ball.json", "3"}}) {

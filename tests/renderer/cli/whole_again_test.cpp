@@ -30,8 +30,8 @@ TEST_F(NothingLost, tiles_are_rendered_once_and_merged_to_the_same_picture) {
             std::string::npos);
 }
 
-// But for how long they took, on how many threads, and by which command. A render that is over
-// before it can be interrupted is begun anew with more samples.
+// Equal except for the time, the number of threads, and the command. A render that is over before
+// it can be interrupted is repeated with more samples.
 TEST_F(NothingLost, resumed_data_channels_are_the_same_on_any_number_of_threads) {
   int samples = 600;
   const auto render = [&](const std::string& output, const std::string& threads,

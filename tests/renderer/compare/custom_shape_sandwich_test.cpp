@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A shape that a program gives by its support function alone, the cylinder cut by two oblique
-// planes that FCL's issue 642 asks for: Embree agrees with its casts, and every answer is
-// certified.
+// A shape that a program gives by its support function alone, the cylinder of FCL's issue 642, cut
+// by two oblique planes: Embree agrees with its casts, and every result is certified.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How far the shapes may reach that are compared: up to there none is given up, and beyond that the
-// user is told.
+// Largest reach of shapes that are compared: up to there all casts converge, and beyond that the
+// user gets an error.
 #include <gtest/gtest.h>
 
 #include "renderer/compare/compare_scene.h"

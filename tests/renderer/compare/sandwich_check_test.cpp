@@ -78,8 +78,8 @@ TEST_P(EmbreeSandwichOfSolvers, holds) {
     if (is_accurate) {
       expect_agreement(report, sample.name);
     } else {
-      // They may give up, and say so; what they answer must be right, but for one ray that signed
-      // volumes take for a hit where they stall.
+      // These may fail to converge, and report it; their other results must be right, but for one
+      // ray that signed volumes take for a hit where they stall.
       const int gave_up = report.violations[static_cast<std::size_t>(Violation::gave_up)];
       const bool known = GetParam().kind == SolverKind::paper_signed_volumes &&
                          sample.name == "superellipsoid, octahedron";

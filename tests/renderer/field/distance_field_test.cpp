@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures of distances beside closed forms, and what they say where a distance is unknown.
+// Compares pictures of distances with closed forms, and checks pixels where a distance is unknown.
 #include "renderer/field/distance_field.h"
 
 #include <gtest/gtest.h>
@@ -47,8 +47,8 @@ TEST(DistanceField, is_the_distance_of_the_nearest) {
   });
 }
 
-/// A distance that gave up has the value 0: with a ball at 1e200 as the first object it touched
-/// every pixel.
+/// A distance that did not converge has the value 0: with a ball at 1e200 as the first object it
+/// touched every pixel.
 TEST(DistanceField, an_object_too_far_for_a_distance_is_not_the_nearest) {
   const Object far = ball_at(1e200, 1), near = ball_at(0, 0.5);
   for (const bool is_far_first : {true, false}) {

@@ -95,8 +95,8 @@ TEST_F(DataChannels, are_those_of_the_ray_through_the_pixels_centre) {
   EXPECT_GT(of_nothing, 100);
 }
 
-/// One object is seen by the paper's solver, which has work to tell and bounds that are apart: the
-/// channels are what a cast from the pixel's centre says, number by number.
+/// One object is cast at by the paper's solver, which has iterations to show and bounds that are
+/// apart: the channels equal a cast from the pixel's centre, number by number.
 TEST(DataChannelsOfOneCast, are_its_iterations_supports_gap_and_status) {
   Scene scene;
   scene.camera.position = {1, -6, 2};
@@ -144,7 +144,7 @@ TEST(DataChannelsOfOneCast, are_its_iterations_supports_gap_and_status) {
   check();
   EXPECT_EQ(statuses, (std::set<std::uint32_t>{0, 1}));
   EXPECT_GT(iterations.size(), 3u);
-  cast_options.max_iterations = 2;  // it gives up
+  cast_options.max_iterations = 2;  // does not converge
   check();
   EXPECT_TRUE(statuses.contains(3u));
   cast_options.max_iterations = CastOptions<double>().max_iterations;

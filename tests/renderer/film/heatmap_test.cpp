@@ -30,7 +30,7 @@ HeatField measure(const Scene& scene, HeatChannel channel, const CastOptions<dou
   return measure_heat(scene, make_world(scene, cast), channel, options);
 }
 
-/// Asks the models: a ball's closed form costs no iteration.
+/// Uses the models: a ball's closed form costs no iteration.
 CastOptions<double> by_models() {
   CastOptions<double> options;
   options.solver = SolverKind::jet;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What surfaces look like whose light is known: in closed form, in the furnace, in shadows.
+// Surfaces whose light is known: in closed form, in the furnace, in shadows.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -11,7 +11,7 @@
 namespace minkray {
 namespace {
 
-/// A solver that ends when the gap |v| is within rounding knows the normal to the square root of
+/// A solver that ends when the gap |v| is within rounding finds the normal to the square root of
 /// it.
 constexpr double normal_error = 4e-8;
 
@@ -111,8 +111,8 @@ TEST(Integrator, faces_in_one_plane_have_no_acne) {
   EXPECT_NEAR(radiance(scene, 50, 50, 256).x(), 1, 1e-9);
 }
 
-// The furnace: in even light from everywhere, a white surface of whatever gloss cannot be told from
-// it. Nothing may be gained or lost.
+// The furnace: in even light from everywhere, a white surface of any gloss is indistinguishable
+// from it. Nothing may be gained or lost.
 TEST(Integrator, a_white_ball_vanishes_in_an_even_environment) {
   for (const Material& material :
        {Material{"matt", LambertMaterial{Colour::Ones()}},

@@ -117,7 +117,7 @@ TEST(Motion, a_frame_with_a_closed_shutter_is_the_picture_of_the_scene_posed_at_
   EXPECT_NE(frame.pixels, render(at_0, make_world(at_0), coarse_picture()).image.pixels);
 }
 
-// Frame after frame the hierarchy is refitted and at times built anew; no picture shows it.
+// Frame after frame the hierarchy is refitted and at times rebuilt; no picture shows it.
 TEST(Motion, a_frame_does_not_depend_on_the_frames_before_it) {
   Scene scene = flight(0.1);
   World world = make_world(scene);
@@ -129,8 +129,8 @@ TEST(Motion, a_frame_does_not_depend_on_the_frames_before_it) {
   EXPECT_EQ(after_others.pixels, render(scene, make_world(scene), coarse_picture()).image.pixels);
 }
 
-// The heart of the blur: at each moment a ray sees just what it would see if the moved things stood
-// there for good.
+// The principle of the blur: at each moment a ray sees exactly what it would see if the moved
+// things stayed there for good.
 TEST(Motion, every_ray_of_a_blurred_picture_sees_the_scene_as_it_stands_at_its_moment) {
   Scene blurred = flight(0.5);
   set_time(blurred, 0.3);
@@ -209,7 +209,7 @@ TEST(Motion, a_moving_ball_is_blurred_into_the_mean_of_pictures_of_it_standing) 
     largest = std::max(largest, double((mean.pixels[p] - blurred.pixels[p]).cwiseAbs().maxCoeff()));
   // Colours reach from about 0.2 to 1.5; what is left is the noise of 256 samples.
   EXPECT_LT(largest, 0.06);
-  // It is a blur: another picture than with the shutter closed.
+  // The picture is blurred: different from one with the shutter closed.
   Scene sharp = scene;
   sharp.objects[0].movement = {};
   options.samples = 256;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Pixels that stop when they are quiet: they do, they are about as noisy as was asked for, and they
-// stop at the same samples whatever goes together.
+// Pixels that stop when their noise is low: they do stop, they are about as noisy as requested,
+// and they stop at the same samples in any grouping.
 #include <gtest/gtest.h>
 
 #include "renderer/film/render.h"

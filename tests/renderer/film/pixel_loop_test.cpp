@@ -47,8 +47,8 @@ TEST(PixelLoop, each_pixel_comes_once_for_any_block_and_any_number_of_threads) {
     }
 }
 
-// What is rendered in blocks is written pixel by pixel: a block never has pixels of two tiles, one
-// of which may be done already.
+// Blocks are written pixel by pixel: a block never has pixels of two tiles, and one of them may be
+// done already.
 TEST(PixelLoop, tiles_that_are_done_are_left_out) {
   const TileGrid tiles(region);
   TileJournal journal{std::vector<bool>(tiles.count()), {}};

@@ -100,8 +100,8 @@ TEST(LightChannels, direct_light_is_that_of_the_direct_integrator) {
   EXPECT_GT(indirect / static_cast<double>(all.image.pixels.size()), 5e-4);
 }
 
-// The mean of what the variance says over pictures of other seeds, beside how they differ. Samples
-// of one pixel are spread evenly, so that it says somewhat too much.
+// Compares the mean variance over pictures of other seeds with their actual differences. Samples
+// of one pixel are spread evenly, so that it is slightly too large.
 TEST(LightChannels, the_variance_is_about_how_pictures_differ) {
   const Scene scene = ball_out_of_focus();
   const World world = make_world(scene);

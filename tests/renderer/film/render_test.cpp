@@ -113,7 +113,7 @@ TEST(Render, shares_of_samples_do_not_depend_on_ray_groups) {
   }
 }
 
-// Proof is asked for every ray, in groups or not.
+// Every ray is proven, in groups or not.
 TEST(Render, ray_groups_are_audited) {
   const Scene scene = still_life();
   const World world = make_world(scene);

@@ -43,7 +43,7 @@ TEST(PixelFilter, samples_are_spread_as_the_weights_say) {
     EXPECT_NEAR(below, u, 1e-3);
   }
   EXPECT_NEAR(filter.offset(0.5), 0, 1e-12);
-  // Where a guess of the step would be most wrong: the window's flat ends.
+  // A guess of the step would be most wrong here: the window's flat ends.
   EXPECT_EQ(filter.offset(0), -PixelFilter::radius);
   for (double u = 0x1p-32; u < 1e-3; u *= 1.5) {
     EXPECT_GT(filter.offset(1.5 * u), filter.offset(u));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What vendors and newer versions have added to robots' formats, and what is wrong with public
-// files and must not cost all of them: each kind by several instances.
+// Additions of vendors and newer versions to robots' formats, and mistakes in public files that
+// must not cost all of them: each kind by several instances.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ std::string sdf_shape(const std::string& shape) {
          shape + "</geometry></visual></link></model></sdf>";
 }
 
-/// Whether a point of the world is within one of the geoms, all of which are hulls.
+/// True if a point of the world is within one of the geoms, which are all hulls.
 bool is_inside(const Model& model, const Vec3<double>& point) {
   return std::ranges::any_of(model.geoms, [&](const ModelGeom& geom) {
     const auto& hull = std::get<Hull<double>>(geom.shape->kind);
@@ -51,7 +51,7 @@ TEST(Dialects, sizes_of_zero_are_points_segments_and_disks) {
   EXPECT_EQ(kind_of(model_of(sdf_shape("<sphere><radius>0</radius></sphere>"), "m.sdf")), "point");
   EXPECT_NE(mistakes_of(urdf_shape("<sphere radius=\"-1\"/>")).find("radius: must be >= 0"),
             std::string::npos);
-  // What is flat lies where the ellipsoid's section would.
+  // A flat shape lies where the ellipsoid's section would.
   const Model flat = model_of(urdf_shape("<ellipsoid radii=\"0 3 2\"/>"), "r.urdf");
   const std::pair<Vec3<double>, double> reaches[] = {
       {{1, 0, 0}, 0}, {{0, 1, 0}, 3}, {{0, 0, 1}, 2}};
@@ -112,7 +112,7 @@ TEST(Dialects, several_roots_are_told) {
             std::string::npos);
 }
 
-/// The points of an area beside the rule that counts crossings of a ray (even-odd).
+/// Compares the points of an area with the rule that counts crossings of a ray (even-odd).
 TEST(Dialects, outlines_become_prisms_of_their_area) {
   const std::vector<std::vector<std::array<double, 2>>> shapes[] = {
       {{{0, 0}, {2, 0}, {2, 1}, {0, 1}}},                                            // convex

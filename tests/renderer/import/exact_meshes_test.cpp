@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Robots' meshes as they are: the triangles of each format stand where the hull does.
+// Robots' meshes as they are: the triangles of each format are at the place of the hull.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -82,7 +82,7 @@ TEST_F(ExactMeshes, are_those_of_obj_and_stl) {
   EXPECT_NE(std::ranges::find(flat.notes, "has no triangles: its hull is shown"), flat.notes.end());
   options_.meshes = MeshChoice::hull;
   EXPECT_FALSE(read("b.stl").parts[0].surface);
-  // What is split is split into hulls, unless triangles are asked for.
+  // A split makes hulls, unless triangles are requested.
   options_.meshes = MeshChoice::of_format;
   EXPECT_TRUE(read("b.stl").parts[0].surface);
   options_.split = MeshSplit::components;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Instances and morph targets of glTF, and what of its extensions is told.
+// Instances and morph targets of glTF, and notes on its extensions.
 #include <gtest/gtest.h>
 
 #include <vector>

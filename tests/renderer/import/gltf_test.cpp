@@ -64,7 +64,7 @@ Model gltf_model(const std::string& text, const ImportOptions& options = {}) {
   return model ? std::move(*model) : Model{};
 }
 
-/// How far the i-th geom reaches in the world.
+/// Support function of the i-th geom in the world.
 double reach_of_geom(const Model& model, std::size_t i, const Vec3<double>& n) {
   const ModelGeom& geom = model.geoms[i];
   const Affine<double> pose = link_poses(model)[static_cast<std::size_t>(geom.link)] * geom.pose;

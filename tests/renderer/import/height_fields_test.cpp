@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Terrains and planes of robots' files, MJCF's beside MuJoCo's rays.
+// Terrains and planes of robots' files; MJCF's are compared with MuJoCo's rays.
 #include <gtest/gtest.h>
 
 #include <cstring>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What tests of importers begin with.
+// Common beginning of the importers' tests.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ inline ImportOptions without_meshes() {
   return options;
 }
 
-/// What is said of a text that must be refused.
+/// Message for a text that must be rejected.
 inline std::string mistakes_of(const std::string& text, const std::string& file = "robot.urdf") {
   Mistakes mistakes(file);
   EXPECT_FALSE(parse_model(text, file, {}, mistakes));

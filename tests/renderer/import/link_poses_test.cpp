@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The links of URDF beside a second way to where they stand.
+// Compares the links of URDF with a second way of computing their poses.
 #include <gtest/gtest.h>
 
 #include <map>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How far from convex the meshes of a scene file are.
+// Distance of a scene file's meshes from convexity.
 #include "renderer/import/meshes_of_scene.h"
 #include "renderer/import/mesh_hull.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// MJCF beside MuJoCo itself: every model of Debian's packages.
+// Compares MJCF with MuJoCo itself: every model of Debian's packages.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -41,8 +41,8 @@ std::optional<Model> ours(const std::string& file, std::string* complaint = null
   return model;
 }
 
-/// How far the geoms of the two are apart at most; of meshes, how far MuJoCo's vertices stick out
-/// of our hull, and ours out of theirs.
+/// Largest distance between the geoms of the two; for meshes, the largest distance of MuJoCo's
+/// vertices outside of our hull, and of ours outside of theirs.
 void expect_same_geoms(const Model& model, const MujocoModel& theirs, const std::string& where) {
   const std::vector<MujocoModel::Geom> expected = theirs.geoms();
   const std::vector<Affine<double>> links = link_poses(model);
@@ -183,7 +183,7 @@ TEST(Mjcf, rays_meet_what_mujocos_rays_meet) {
       hits += hit.found() ? 1 : 0;
       if (our_t == t) continue;  // none
       if (has_floats) {
-        // A ray that goes along a surface, or past an edge, tells more than the floats do.
+        // A ray that runs along a surface, or past an edge, exceeds the precision of the floats.
         const bool is_near = std::abs(our_t - t) <= same_float * extent;
         at_edges += is_near ? 0 : 1;
         continue;

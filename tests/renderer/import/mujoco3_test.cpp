@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What MJCF has got since MuJoCo 2.2: replicas, attached models, builtin meshes, fitted primitives.
-// Expected numbers are the closed forms of what the XML reference of MuJoCo says.
+// Additions to MJCF since MuJoCo 2.2: replicas, attached models, builtin meshes, fitted
+// primitives. Expected numbers are the closed forms of MuJoCo's XML reference.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a user asks of a robot: keyframes and joints by name, and what is said where that cannot be
-// done or is done otherwise than a robot could.
+// Options for robots: keyframes and joints by name, and the messages where they are impossible, or
+// are applied otherwise than a robot could.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -21,7 +21,7 @@ class RobotOptions : public ::testing::Test {
     return folder_ / name;
   }
 
-  /// Where the last shape of the scene stands.
+  /// Position of the last shape of the scene.
   static Vec3<double> last_place(const Imported& imported) {
     return imported.scene.objects.back().pose.translation;
   }
@@ -72,7 +72,7 @@ TEST_F(RobotOptions, a_joint_that_follows_another_takes_no_value_of_its_own) {
   ImportOptions options;
   options.joints = {"right=1"};
   EXPECT_NE(refusal(file, options).find("--joint: right follows left"), std::string::npos);
-  // Recorded rows hold all joints; what they say of such a one is told to be passed over.
+  // Recorded rows hold all joints; values for such a one are reported as ignored.
   options.joints = {};
   options.joint_rows = write("rows.csv", "time,left,right\n0,0.25,7\n");
   const Imported imported = import_scene(file, options);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// URDF and SDF: real models, what small files say, and what is wrong with them.
+// URDF and SDF: real models, small files, and mistakes in them.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -31,7 +31,7 @@ TEST(Robots, every_description_of_the_packages_is_read_or_refused_with_a_reason)
     }
   }
   EXPECT_GE(files.size(), 35u);
-  EXPECT_GE(read, 25);  // most of them, so that the test says something
+  EXPECT_GE(read, 25);  // most of them, so that the test is meaningful
 }
 
 TEST(Robots, a_scene_file_written_from_a_robot_is_the_same_scene) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// SDF's frames: as the specification has them, and beside libsdformat where it is installed.
+// SDF's frames, compared with the specification, and with libsdformat where it is installed.
 #include <dlfcn.h>
 #include <gtest/gtest.h>
 
@@ -62,17 +62,17 @@ TEST(Sdf, nested_frames_placement_frames_and_scoped_names_are_read) {
   const Model model = sdf_model(framed);
   const auto at = links_of(model);
   ASSERT_EQ(at.size(), 6u);
-  // The inner model's frame x stands where the inner model is put.
+  // The inner model's frame x is at the inner model's place.
   const Affine<double> tip = at.at("m::tip"), x = at.at("m::inner::x");
   EXPECT_LT(((tip.inverse() * x).translation - Vec3<double>(1, 0, 0)).norm(), 1e-14);
   EXPECT_LT(((x.inverse() * at.at("m::deep")).translation - Vec3<double>(0, 0, 1)).norm(), 1e-14);
-  // A shape may stand in another frame than its link's.
+  // A shape may be in another frame than its link's.
   ASSERT_EQ(model.geoms.size(), 1u);
   const Affine<double> base = at.at("m::base");
   const Vec3<double> expected =
       base(Vec3<double>(0, 0, 1) + 0.25 * Vec3<double>(std::cos(0.5), 0, -std::sin(0.5)));
   EXPECT_LT((tip(model.geoms[0].pose.translation) - expected).norm(), 1e-14);
-  // Frames as joints' ends stand for the links that they are fixed to.
+  // Frames as joints' ends represent the links that they are fixed to.
   for (const ModelLink& link : model.links)
     if (link.name == "m::leaf") {
       EXPECT_EQ(model.links[static_cast<std::size_t>(link.parent)].name, "m::base");
@@ -116,7 +116,7 @@ decltype(minkray_sdformat_links)* sdformat_links() {
       dlsym(module, "minkray_sdformat_links"));
 }
 
-/// How many links and axes both know.
+/// Number of links and axes that both support.
 int expect_libsdformats(const std::string& file, const Model& model) {
   static const auto read_links = sdformat_links();
   std::string why;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Whoever opens connections and says nothing, or no end of it, keeps nobody else from an answer:
-// other users of the machine can do so without the token, and so can any page in the browser.
+// Connections that send nothing, or no end of a request, delay no other reply: other users of the
+// machine can open them without the token, and so can any page in the browser.
 #include <gtest/gtest.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
@@ -56,7 +56,7 @@ class Client {
       all.append(block, static_cast<std::size_t>(count));
     return all;
   }
-  /// Whether the server has closed it, within the patience.
+  /// True if the server has closed it, within the patience.
   bool is_left() const {
     char next;
     const ssize_t count = ::recv(socket_, &next, 1, 0);
@@ -111,7 +111,7 @@ TEST(LoopbackCrowd, a_hundred_connections_that_say_nothing_keep_nobody_out) {
   EXPECT_TRUE(idle.front().is_left());
 }
 
-/// It was asked without end whether there are new ones, while none was taken.
+/// The server polled without end for new ones, while none was accepted.
 TEST(LoopbackCrowd, waits_without_work) {
   const Serving serving;
   const Address address = serving.address();

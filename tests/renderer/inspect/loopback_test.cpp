@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Who may ask `minkray inspect --serve`: whoever knows the token, at this machine's own address.
+// Access to `minkray inspect --serve`: with the token, at this machine's own address.
 #include "renderer/inspect/loopback.h"
 
 #include <gtest/gtest.h>
@@ -39,7 +39,7 @@ TEST(Loopback, without_the_token_there_is_nothing) {
     EXPECT_EQ(status_of(std::string("GET ") + path + host), 404) << path;
 }
 
-/// Whoever stands between might go by the first and we by the last (RFC 9112, 3.2).
+/// A proxy might use the first and we the last (RFC 9112, 3.2).
 TEST(Loopback, a_request_has_one_host) {
   EXPECT_EQ(status_of("GET /0123456789abcdef/" + host + "\r\nHost: example.com"), 400);
   EXPECT_EQ(

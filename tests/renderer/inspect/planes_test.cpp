@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Numbers on their way into a page: what is rounded says so, and in which direction.
+// Numbers on their way into a page: rounding is marked, with its direction.
 #include "renderer/inspect/planes.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What `minkray inspect --serve` answers, asked without a browser.
+// Replies of `minkray inspect --serve`, without a browser.
 #include "renderer/inspect/served_scene.h"
 
 #include <gtest/gtest.h>

@@ -72,7 +72,7 @@ TEST(Exr, damaged_files_are_errors_that_name_the_file) {
   EXPECT_GT(refused, 100);  // texts, and a picture's numbers, may be anything
 }
 
-// Headers alone are read by another way, which looks at no more of the file.
+// Headers alone are read by another path, which reads no more of the file.
 TEST(Exr, so_are_files_whose_header_is_damaged) {
   const TemporaryFolder folder;
   const std::string file = folder / "x.exr";
@@ -140,8 +140,7 @@ void append_attribute(std::string& file, std::string_view name, std::string_view
   file += value;
 }
 
-/// It says that there is a picture one pixel wide, of half numbers; its table of offsets is not
-/// there.
+/// Header of a picture one pixel wide, of half numbers; its table of offsets is missing.
 std::string header_of_column(std::uint32_t flags, int channels, std::uint32_t lines,
                              std::string_view type) {
   std::string file = "\x76\x2f\x31\x01", list, window;
@@ -177,7 +176,7 @@ std::string refusal_of(std::string_view file) {
   }
 }
 
-// What the library would take memory or time for, on the word of a header of a few bytes.
+// Headers of a few bytes for which the library would spend memory or time.
 TEST(Exr, headers_that_promise_more_than_a_file_holds_are_refused) {
   const auto says = [](const std::string& refusal, std::string_view what) {
     EXPECT_TRUE(refusal.ends_with(what)) << refusal << "\nwhere it should be said: " << what;

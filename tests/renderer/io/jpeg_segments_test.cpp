@@ -14,7 +14,7 @@ namespace {
 
 const std::string begin = "\xff\xd8";
 
-/// A segment of one table with so many codes of 8 bits and of 9.
+/// A segment of one table with the given numbers of codes of 8 bits and of 9.
 std::string table(int short_codes, int long_codes) {
   std::string counts(16, '\0');
   counts[7] = static_cast<char>(short_codes);
@@ -25,7 +25,7 @@ std::string table(int short_codes, int long_codes) {
          static_cast<char>(length & 255) + '\0' + counts + codes;
 }
 
-/// A segment of any kind: what programs have to say, or a scan.
+/// A segment of any kind: data of applications, or a scan.
 std::string segment(char marker, const std::string& text) {
   const std::size_t length = 2 + text.size();
   return std::string("\xff") + marker + static_cast<char>(length >> 8) +
@@ -41,7 +41,7 @@ bool is_refused(std::string_view bytes) {
   }
 }
 
-/// A frame of one component, or of three of which two have every second pixel.
+/// A frame of one component, or of three with two that have every second pixel.
 std::string frame(int width, int height, int components, char marker = '\xc0') {
   std::string text = {8,
                       static_cast<char>(height >> 8),

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Pictures in Radiance's format, of rows that are written here: plain ones and encoded ones are the
-// same pixels, and what is cut off or damaged is told. stb_image 2.27 did not end at the end of an
-// encoded row that was cut off, found by the fuzz target `image`; of plain ones it took for pixels
-// what was in memory.
+// Pictures in Radiance's format, of rows that are written here: plain ones and encoded ones are
+// the same pixels, and cut or damaged ones are reported. stb_image 2.27 did not end at the end of
+// an encoded row that was cut off, found by the fuzz target `image`; for plain ones it read
+// uninitialised memory.
 #include "renderer/io/radiance.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ std::string header(int width, int height) {
          std::to_string(height) + " +X " + std::to_string(width) + "\n";
 }
 
-/// Four bytes a pixel.
+/// Four bytes per pixel.
 std::string random_row(int width, std::mt19937& random) {
   std::string row;
   // Few values, so that there are runs; the first is never taken for an encoded row's.

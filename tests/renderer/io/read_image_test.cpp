@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What stb_image does not read by itself. Chunks of no pixels are allowed in PNG files: they are
-// the same picture, and where they are all there is it is told; stb_image copies the first of them
-// to a null pointer, found by the fuzz target `image`. Colours that a palette has not are black; it
-// took them from memory.
+// Files that stb_image does not read by itself. Chunks of no pixels are allowed in PNG files: they
+// are the same picture, and a file of nothing else is an error; stb_image copies the first of them
+// to a null pointer, found by the fuzz target `image`. Colours missing from a palette are black;
+// stb_image read them from uninitialised memory.
 #include "renderer/io/read_image.h"
 
 #include <gtest/gtest.h>
@@ -68,7 +68,7 @@ TEST_F(EmptyChunks, of_a_file_that_is_cut_off) {
     EXPECT_NE(complaint(more.substr(0, length)), "") << length;
 }
 
-/// A chunk, whose CRC nobody reads.
+/// A chunk, whose CRC is not checked.
 std::string chunk(const std::string& name, const std::string& data) {
   return std::string(3, '\0') + static_cast<char>(data.size()) + name + data + "crc.";
 }
@@ -110,7 +110,7 @@ TEST(Chunks, of_pixels_that_the_file_does_not_hold_are_refused_before_there_is_r
   EXPECT_NE(read(huge).find("cut off"), std::string::npos);
   for (std::size_t length = pixels; length < checked; ++length)
     EXPECT_NE(read(whole.substr(0, length)).find("cut off"), std::string::npos) << length;
-  // What stands behind the end is nobody's.
+  // Data behind the end is ignored.
   EXPECT_EQ(read(whole + huge.substr(name - 4, 8)), "");
 }
 
@@ -132,7 +132,7 @@ TEST_F(EmptyChunks, all_pictures_of_a_scene_have_a_limit_together) {
   }
 }
 
-/// It was "no SOI", which is about JPEG files.
+/// The message was "no SOI", which is about JPEG files.
 TEST_F(EmptyChunks, running_out_of_memory_says_so) {
   if (limited_memory().empty()) GTEST_SKIP() << "needs a limit of memory";
   constexpr int side = 6000;

@@ -93,7 +93,8 @@ TEST(ParseJson, of_very_many_names_the_first_are_told) {
   EXPECT_EQ(suggestion("nmae_42", names), "did you mean \"name_42\"?");
 }
 
-/// What ends lines or turns the order of the letters around it, as "\u202egnp.exe" does.
+/// Characters that end lines or change the order of the letters around them, as "\u202egnp.exe"
+/// does.
 TEST(ParseJson, messages_show_no_signs_that_steer) {
   for (const char* sign : {"\xE2\x80\xA8", "\xE2\x80\xA9", "\xE2\x80\xAA", "\xE2\x80\xAE",
                            "\xE2\x81\xA6", "\xE2\x81\xA9", "\xC2\x9B", "\x1B", "\x7F", "\n"})
@@ -104,7 +105,7 @@ TEST(ParseJson, messages_show_no_signs_that_steer) {
 }
 
 TEST(ParseJson, numbers_that_are_not_finite_move_nothing) {
-  // In texts, after escaped quotes and between nulls they are told from what only looks like them.
+  // Numbers are distinguished from lookalikes in texts, after escaped quotes and between nulls.
   const std::vector<std::string> found = complaints(
       "{\"NaN\": \"NaN, \\\" NaN\",\n \"a\": [null, NaN, 0, \"\\\\\", +Infinity, 1e-999],\n"
       " \"b\": [true, -inf, {\"c\": 1e309, \"c\": nan}], \"d\": NaN, oops}");
@@ -123,7 +124,7 @@ TEST(ParseJson, mistakes_behind_numbers_that_are_not_finite_keep_their_lines_and
   EXPECT_EQ(last("[-Infinity,\nNaN, NaN, ]").find("x: /3: not valid JSON at line:column 2:11: "),
             0u);
   EXPECT_EQ(last("[1e999,\n inf,\n  NaN nan]").find("x: /3: not valid JSON at line:column 3:"), 0u);
-  // What is no word of its own is no number either.
+  // A part of a word is no number either.
   for (const std::string text : {"[--NaN]", "[1-NaN]", "[NaNs]", "[nan1]", "[1e999x]", "[1.NaN]"})
     EXPECT_NE(last(text).find("not valid JSON at line:column 1:"), std::string::npos) << text;
 }

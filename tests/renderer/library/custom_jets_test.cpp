@@ -39,7 +39,7 @@ TEST(CustomJets, may_stand_wherever_a_shape_may) {
   expect_same_answers(nest(ours()), nest(mk::custom_with_jets(ellipsoid_jet)), 1.8, 4000);
 }
 
-/// Support points of so many rays at a shape of the function.
+/// Number of support points of many rays at a shape of the function.
 template <class Make>
 std::size_t supports_of(const Make& make) {
   mk::Scene scene;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A shape that is given by its support function is cast at, proven and measured as one of ours; a
-// function that is no support function is found, and told.
+// A shape that is given by its support function is cast at, proven and measured as one of ours; an
+// inconsistent function is found and reported.
 #include <gtest/gtest.h>
 #include <minkray/minkray.h>
 #include <sys/resource.h>
@@ -25,7 +25,7 @@ Vec3 box_support(const Vec3& n) {
   return {std::copysign(0.5, n.x), std::copysign(0.3, n.y), std::copysign(0.2, n.z)};
 }
 
-/// The cylinder that FCL's issue 642 asks for: x^2 + y^2 <= 0.49, cut by two oblique planes.
+/// The cylinder of FCL's issue 642: x^2 + y^2 <= 0.49, cut by two oblique planes.
 constexpr mk::CutPlanes cuts = {-0.5, 0.6, {0.2, -0.3}, {-0.5, 0.4}};
 Vec3 cut_cylinder_support(const Vec3& n) {
   constexpr double radius = 0.7;
@@ -101,7 +101,7 @@ TEST(CustomShape, keeps_its_function_as_long_as_a_scene_needs_it) {
   EXPECT_EQ(alive, 0);
 }
 
-/// What making a custom shape of the function says; empty if it is taken.
+/// Error of making a custom shape of the function; empty if it is accepted.
 template <class Support>
 std::string refusal(Support support) {
   try {
@@ -150,7 +150,8 @@ TEST(CustomShape, out_of_its_bounds_is_refused) {
   EXPECT_THROW(mk::custom(box_support, {0.5, -0.3, -0.2}, {-0.5, 0.3, 0.1}), mk::Error);
 }
 
-/// A box that says so where it was first asked, and lies in a narrow cone: a point within the box.
+/// A box in the directions of the first calls, with wrong results in a narrow cone: a point within
+/// the box.
 Vec3 sly_support(const Vec3& n) {
   const double cosine = (n.x * 0.83 + n.y * 0.41 + n.z * 0.37) / std::hypot(0.83, 0.41, 0.37);
   return cosine > 0.9995 ? Vec3{0.1, 0.1, 0.1} : box_support(n);
@@ -255,7 +256,7 @@ TEST(CustomShape, that_is_gathered_and_throws_ends_the_cast_with_an_error) {
   EXPECT_THROW(scene.cast(rays, hits), mk::Error);  // and is not forgotten
 }
 
-/// A ball's support function in C that throws when it is told to, as no memory does.
+/// A ball's support function in C that throws on demand, as a failed allocation does.
 struct Thrower {
   bool throws = false;
   static int support(void* user, std::size_t count, const double (*n)[3], double (*p)[3]) {
@@ -265,7 +266,7 @@ struct Thrower {
   }
 };
 
-/// The thread went on to gather for the batch that was gone, and so did all that it asked later.
+/// The thread continued to gather for the batch that was gone, and so did all its later queries.
 TEST(CustomShape, that_is_gathered_answers_again_once_there_is_memory) {
   Thrower thrower;
   const minkray_support function = {Thrower::support, &thrower, nullptr, nullptr, nullptr};

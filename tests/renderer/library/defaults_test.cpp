@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is left out means what the headers say, and what cannot be meant is an error: a Pose was
-// singular by default, a ray of zeros a miss, and a miss of moving shapes had a time.
+// Omitted values have the documented defaults, and values without a meaning are an error: a Pose
+// was singular by default, a ray of zeros a miss, and a miss of moving shapes had a time.
 #include <gtest/gtest.h>
 #include <minkray/minkray.h>
 
@@ -34,7 +34,7 @@ TEST(Defaults, a_pose_is_the_identity) {
       EXPECT_EQ(by_default.rows[i][j], i == j ? 1 : 0);
       EXPECT_EQ(identity.rows[i][j], i == j ? 1 : 0);
     }
-  const mk::Pose given = {{{1, 0, 0, 5}, {0, 1, 0, 6}, {0, 0, 1, 7}}};  // it is an aggregate
+  const mk::Pose given = {{{1, 0, 0, 5}, {0, 1, 0, 6}, {0, 0, 1, 7}}};  // Pose is an aggregate
   EXPECT_EQ(given.rows[2][3], 7);
   EXPECT_EQ(mk::signed_distance(mk::sphere(1), {}, mk::sphere(1), mk::translation({4, 0, 0})).value,
             2);
@@ -187,7 +187,8 @@ TEST(Defaults, what_a_support_function_throws_is_told) {
   expect_error("minkray_shape_cast: the support function failed: boom", [&] {
     (void)mk::cast(ball, {{-5, 0.1, 0}, {1, 0, 0}});
   });
-  // A function for C that throws is its caller's fault, too; and one that says why it fails.
+  // A function for C that throws is its caller's fault, too; and one that gives a reason for its
+  // failure.
   minkray_support given = {};
   given.function = [](void*, size_t, const double(*)[3], double(*)[3]) -> int {
     throw std::runtime_error("thrown through C");

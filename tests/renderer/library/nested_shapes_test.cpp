@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Shapes of shapes made through handles: each may stand in the next, as often as a program likes,
-// until that is more than anybody can ask.
+// Shapes of shapes made through handles: each may occur in the next, any number of times, up
+// to the limits of queries.
 #include <gtest/gtest.h>
 #include <minkray/minkray_c.h>
 
@@ -19,8 +19,8 @@ minkray_shape ball() {
   return shape;
 }
 
-/// Puts the shape into a sum, so many times, and that into the next; the code of the first that
-/// fails, and how many were made.
+/// Puts `copies` of the shape into a sum, and that into the next; the code of the first that
+/// fails, and the number made.
 int sums_of(std::size_t copies, int most, int& made) {
   minkray_shape shape = ball();
   int code = MINKRAY_OK;
@@ -56,7 +56,7 @@ TEST(NestedShapes, are_at_most_a_thousand_deep) {
   EXPECT_EQ(made, 999);
 }
 
-/// Forty sums of a shape with itself took a second to make, and for ever to ask.
+/// Forty sums of a shape with itself took a second to make, and queries never ended.
 TEST(NestedShapes, are_at_most_a_million) {
   int made = 0;
   EXPECT_EQ(sums_of(2, 10, made), MINKRAY_OK);
@@ -78,7 +78,7 @@ minkray_shape superellipsoid(double size) {
   return shape;
 }
 
-/// Where support points are gathered, casts run on stacks of their own; shapes 499 deep ran over
+/// With gathered support points, casts run on stacks of their own; shapes 499 deep overflowed
 /// them.
 TEST(NestedShapes, are_a_thousand_deep_beside_shapes_that_are_gathered) {
   const minkray_shape small = superellipsoid(1e-4);

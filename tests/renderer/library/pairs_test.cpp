@@ -330,7 +330,7 @@ class SlidingBalls : public ::testing::Test {
 };
 
 TEST_F(SlidingBalls, have_derivatives_of_their_clearance) {
-  // They pass from 0.6 apart to 0.2 apart, and then apart again.
+  // The two pass from 0.6 apart to 0.2 apart, and then apart again.
   const double path[] = {0, -0.4, 0.3, -0.5, 0, 0};
   mk::Clearance steps[2];
   double jac[4] = {};

@@ -49,7 +49,7 @@ TEST(Removal, leaves_the_scene_that_never_had_the_object) {
     EXPECT_GT(met, 20u) << gone;
     EXPECT_GT(others, 200u);
     EXPECT_EQ(scene.size(), size);
-    EXPECT_EQ(scene.add(mk::sphere(1)), size);  // its number is not used again
+    EXPECT_EQ(scene.add(mk::sphere(1)), size);  // the number is not used again
   }
 }
 
@@ -131,7 +131,7 @@ TEST(Removal, of_obstacles_and_links_leaves_a_robot_clear_of_them) {
   EXPECT_EQ(clear.object_b, far);
   scene.remove(robot.first() + 1);
   scene.commit();
-  // What is left of it stands still.
+  // The rest of the robot is at rest.
   EXPECT_EQ(scene.clearance(robot, path, 2).lower, std::numeric_limits<double>::infinity());
 }
 

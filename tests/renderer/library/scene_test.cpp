@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Scenes by the C++ header: what is added is met, answers are the same bits however they are asked
-// for, and what moves is met where it moved to.
+// Scenes by the C++ header: added objects are met, results are the same bits for every kind of
+// query, and moved objects are met at their new places.
 #include <gtest/gtest.h>
 #include <minkray/minkray.h>
 
@@ -155,7 +155,7 @@ TEST(LibraryScene, tells_inside_and_miss_apart) {
   EXPECT_EQ(scene.exit(0, {{-5, 0, 0}, {2, 0, 0}}).t, 3);
 }
 
-/// It had the first material of a file that was there before it.
+/// The shape had the first material of a file that was there before it.
 TEST(LibraryScene, what_is_added_is_grey_whatever_came_before_it) {
   const mk::TemporaryFolder folder;
   const std::string file = folder.write("red.json", R"({"version": 1, "lights": [],
@@ -248,7 +248,7 @@ struct BallAndParticle {
   }
 };
 
-/// It was proven to be infinitely clear of a particle that rays meet.
+/// The robot was proven to be infinitely clear of a particle that rays meet.
 TEST(LibraryScene, a_robot_does_not_pass_through_particles) {
   BallAndParticle both;
   EXPECT_NEAR(both.scene.cast({{5, -9, 0}, {0, 1, 0}}).t, 8.75, 1e-12);
@@ -283,7 +283,7 @@ TEST(LibraryScene, motions_are_judged) {
   const mk::Verdict met = both.scene.verify(both.robot, through, 2);
   EXPECT_EQ(met.status, mk::motion_collides);
   EXPECT_LT(met.upper, 0);
-  // They touch 0.75 on both sides of 5, which is 9 times a row's part.
+  // The two touch 0.75 on both sides of 5, which is 9 times a row's part.
   EXPECT_NEAR(met.begin, 4.25 / 9, 0.002);
   EXPECT_NEAR(met.end, 5.75 / 9, 0.002);
   // From rest to rest it swings out by a rate: 3 + 4 * 8 / 27, where a cubic's bulge is largest.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Scenes under threads and callbacks: what uses a scene keeps it as it is, and what would change it
-// meanwhile is an error. A scene that was changed while it was asked crashed, or answered from two
+// Scenes under threads and callbacks: queries of a scene keep it as it is, and changing it
+// meanwhile is an error. A scene that was changed during a query crashed, or gave results of two
 // scenes at once.
 #include <gtest/gtest.h>
 #include <minkray/minkray.h>
@@ -76,7 +76,7 @@ TEST(SceneUse, a_progress_callback_cannot_change_the_scene) {
     EXPECT_EQ(scene.size(), size);
     for (std::size_t i = 0; i < rays.size(); ++i) EXPECT_EQ(hits[i].t, alone[i].t);
   }
-  scene.add(mk::sphere(1));  // once nobody asks
+  scene.add(mk::sphere(1));  // once there are no queries
   scene.commit();
 }
 
@@ -97,7 +97,7 @@ TEST(SceneUse, threads_that_change_and_ask_get_answers_or_errors) {
             hits[0] = scene.cast(rays[0]);
           else
             scene.cast(rays, hits, {.threads = t});
-          // Balls stand at whole places, and never at two heights at once.
+          // Balls are at whole places, and never at two heights at once.
           for (const mk::Hit& hit : hits) EXPECT_NEAR(hit.found() ? hit.t : 8.8, 8.8, 1e-12);
           EXPECT_FALSE(std::string(scene.name(0)).empty());
           ++answered;
@@ -154,7 +154,7 @@ struct CallsBack {
                   (void)own->support({1, 0, 0});
                 }),
                 error_of([] { (void)own->bounds(); })};
-      // Others may be asked.
+      // Other shapes may be queried.
       EXPECT_EQ(other->support({1, 0, 0}).x, 2);
     }
     return {std::copysign(1.0, n.x), std::copysign(1.0, n.y), std::copysign(1.0, n.z)};

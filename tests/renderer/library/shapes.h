@@ -6,7 +6,7 @@
 
 #include <vector>
 
-/// One shape of every kind, and some of the algebra; they are made anew.
+/// One new shape of every kind, and some of the algebra.
 inline std::vector<minkray::Shape> some_shapes() {
   return {
       minkray::sphere(0.5),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Wrong use of the C interface is an error that says what is wrong, and where; nothing crashes.
+// Wrong use of the C interface is an error that names the mistake, and its place; nothing crashes.
 #include <gtest/gtest.h>
 #include <minkray/minkray_c.h>
 
@@ -16,7 +16,7 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// The call failed with that code, and says so.
+/// The call failed with that code and message.
 void expect_error(int code, int expected, const std::string& text) {
   EXPECT_EQ(code, expected);
   EXPECT_NE(std::string(minkray_last_error()).find(text), std::string::npos)
@@ -248,7 +248,7 @@ TEST(WrongUse, of_paths_and_lidars_says_what) {
   EXPECT_EQ(needed, 32u);
   std::vector<minkray_ray> rays(3, along_x);
   ASSERT_EQ(minkray_lidar_rays("spinning:4x8", nullptr, rays.data(), 2, nullptr), MINKRAY_OK);
-  EXPECT_LT(rays[0].direction[0], 0);  // it begins behind
+  EXPECT_LT(rays[0].direction[0], 0);  // begins behind
   EXPECT_EQ(rays[2].direction[0], along_x.direction[0]);
   minkray_scene_release(scene);
 }

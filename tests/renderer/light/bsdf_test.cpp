@@ -51,7 +51,7 @@ std::vector<Case> white_surfaces() {
                                                            .sheen = 0.5}}};
 }
 
-/// What is drawn weighs 1 on average, where radiance from a denser medium counts by its eta^2.
+/// Mean weight of samples is 1, where radiance from a denser medium counts by its eta^2.
 double furnace(const Bsdf& bsdf, const Shading& at) {
   constexpr int draws = 1 << 14;
   double sum = 0;
@@ -117,7 +117,7 @@ TEST(Bsdf, directions_have_the_density_they_claim) {
             return sample ? std::optional(sample->w_in) : std::nullopt;
           },
           [&](const Vec3<double>& w_in) { return bsdf->pdf(at, w_in); });
-      // What facets throw into the surface is not drawn, nor has it a density.
+      // Light that facets reflect into the surface is not drawn, and has no density.
       EXPECT_NEAR(check.total, check.drawn, 3e-3);
       EXPECT_GT(check.drawn, 0.6);
       EXPECT_LT(check.largest_excess, 6);

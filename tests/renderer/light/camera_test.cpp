@@ -161,8 +161,8 @@ TEST(Camera, a_fisheye_of_more_than_half_a_turn_sees_what_is_behind_it) {
   EXPECT_GT(top.z(), 0);
 }
 
-// Where rays leave the lens: within the polygon, whose corners are on the round aperture's edge,
-// and evenly in each of its triangles.
+// Rays leave the lens within the polygon, whose corners are on the round aperture's edge, and
+// evenly in each of its triangles.
 TEST(Camera, blades_make_the_aperture_a_polygon) {
   CameraDescription description;
   description.position = {0, -5, 0};

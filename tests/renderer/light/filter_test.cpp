@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Textures are the means over what a ray stands for: beside many points of them, which are the
+// Textures are the means over a ray's footprint: compared with many points of them, which are the
 // truth.
 #include <gtest/gtest.h>
 
@@ -66,7 +66,7 @@ double error_of(const T& texture, double width, int side) {
 
 TEST(FilteredTexture, fields_lines_and_ramps_are_means_over_boxes_to_the_last_digits) {
   for (const double width : {0.05, 0.37, 1.0, 2.9}) {
-    // A row or two of so many points are on the wrong side of an edge.
+    // A row or two of the points are on the wrong side of an edge.
     constexpr int points = 160;
     EXPECT_LT(error_of(black_and_white<CheckerTexture>("planar"), width, points), 0.006) << width;
     EXPECT_LT(error_of(black_and_white<GridTexture>("planar"), width, points), 0.006) << width;
@@ -131,7 +131,7 @@ TEST(FilteredTexture, smaller_pictures_have_the_same_mean) {
     for (const Image& one : smaller) {
       Colour of_one = Colour::Zero();
       for (const Vec3<float>& pixel : one.pixels) of_one += pixel.cast<double>();
-      // Sides of an odd number of pixels are cut anew each time; the mean stays.
+      // Sides of an odd number of pixels are cut again each time; the mean stays.
       EXPECT_NEAR((of_one / (one.width * one.height) - mean).norm(), 0, 1e-5);
     }
     ASSERT_EQ(smaller.empty(), width == 1 && height == 1);
@@ -158,7 +158,7 @@ TEST(FilteredTexture, a_picture_far_away_is_its_mean_and_near_by_as_it_was) {
   }
 }
 
-// Around a ball, for which all four mappings tell by how much places change.
+// Around a ball, where all four mappings have a known rate of change.
 TEST(FilteredTexture, footprints_go_through_mappings) {
   const double h = 1e-5;
   for (const char* name : {"radial", "box", "planar", "normal", ""}) {
@@ -191,7 +191,7 @@ TEST(FilteredTexture, a_cone_lights_what_its_rim_meets) {
   EXPECT_DOUBLE_EQ(cone.refracted(1.5).refracted(1 / 1.5).spread, cone.spread);
 }
 
-/// A floor of fields to the horizon, seen through whatever stands in front of the camera.
+/// A floor of fields to the horizon, seen through any object in front of the camera.
 Scene floor_of_fields() {
   Scene scene;
   scene.camera.position = {0.2, 0, 1};
@@ -229,11 +229,11 @@ double error(const Image& image, const Image& truth) {
   return std::sqrt(squares / static_cast<double>(image.pixels.size()));
 }
 
-// With 1024 samples a ray stands for a 32nd of a pixel: that is as good as points.
+// With 1024 samples a ray represents a 32nd of a pixel: that is as good as points.
 TEST(FilteredTexture, fields_to_the_horizon_are_calm_at_one_sample_a_pixel) {
   const Scene scene = floor_of_fields();
   const Image truth = picture_of(scene, 1024, 1), one = picture_of(scene, 1, 2);
-  // As points are: what a ray finds that stands for nothing around it.
+  // Evaluated at points: rays without a footprint.
   const Image points = [&] {
     const World world = make_world(scene);
     const Camera camera(scene.camera, {48, 32});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What an observer is told while light is gathered. What is gathered is tested with pictures
+// Calls of an observer while light is gathered. Pictures test the light itself
 // (tests/renderer/film/render_test.cpp).
 #include "renderer/light/integrator.h"
 
@@ -11,7 +11,7 @@
 namespace minkray {
 namespace {
 
-/// Two balls, one of which mirrors, on a floor, in light of every kind.
+/// Two balls, one of them a mirror, on a floor, in light of every kind.
 Scene two_balls() {
   Scene scene;
   scene.camera.position = {0, -6, 3};
@@ -30,7 +30,7 @@ Scene two_balls() {
   return scene;
 }
 
-/// Counts what it is told, and asks the world again.
+/// Counts its calls, and queries the world again.
 class Listener final : public RayObserver {
  public:
   explicit Listener(const World& world) : world_(world) {}

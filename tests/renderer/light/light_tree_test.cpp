@@ -43,7 +43,7 @@ TEST(LightTree, chances_add_up_to_one_and_are_those_of_the_draws) {
   }
 }
 
-// The spread of contribution over chance, beside choosing by power alone.
+// The spread of contribution over probability, compared with choosing by power alone.
 TEST(LightTree, near_lights_are_drawn_so_much_more_often_that_there_is_a_quarter_of_the_variance) {
   const std::vector<LightTree::Light> all = lights(1000);
   const LightTree tree(all);

@@ -35,7 +35,7 @@ struct Seen {
   double variance = 0;  ///< of one sample's red
 };
 
-/// What a ray sees, by so many samples.
+/// Radiance of a ray, by `samples` samples.
 Seen look(const Scene& scene, const Ray<double>& ray, int samples, IntegratorOptions options = {}) {
   options.kind = IntegratorKind::path;
   const World world = make_world(scene);
@@ -105,7 +105,7 @@ TEST(PathTransport, half_a_sky_and_a_plane_above_light_with_pi) {
   tell_figure("irradiance_between_planes", std::abs(of_plane - 1), "<= 0.001");
 }
 
-/// Lamps of which no closed form is known, somewhere above the floor.
+/// Lamps without a closed form, somewhere above the floor.
 std::vector<Shape<double>> odd_lamps() {
   const std::vector<Vec3<double>> points = {{0.3, 0, 0},  {-0.3, 0.1, 0}, {0, 0.5, 0.1},
                                             {0, -0.2, 0}, {0.1, 0, 0.4},  {0, 0.1, -0.3}};
@@ -167,7 +167,7 @@ TEST(PathTransport, a_furnace_of_lamps_is_even) {
         scene.objects.push_back(object(Box<double>{half}, at, 1));
       }
     const Ray<double> ray{{0, -2, 0.3}, unit<double>({0.1, 2, 0.2})};
-    // What gets into a hollow body comes out again much later or soon: it takes more samples.
+    // Light that enters a hollow body leaves it much later or soon: it takes more samples.
     const int samples = std::holds_alternative<TranslucentMaterial>(kind) ? 1 << 16 : 1 << 12;
     EXPECT_NEAR(look(scene, ray, samples, {.max_depth = 200}).mean.x(), 1, 0.012) << kind.index();
   }
@@ -214,7 +214,7 @@ Scene shell(double scale, const MaterialKind& core) {
   return scene;
 }
 
-/// Rays from a camera to all places of a ball, and just beside it.
+/// Rays from a camera to all places of a ball, and just outside of it.
 template <class Visit>
 void for_rays_at_ball(double scale, const Visit& visit) {
   for (int y = -64; y <= 64; ++y)
@@ -225,8 +225,8 @@ void for_rays_at_ball(double scale, const Visit& visit) {
     }
 }
 
-// Two balls of glass, of radius 1 and 1 - 4e-5, leaked (mitsuba3, issue 1871). What gets into this
-// one must meet its core, which shines red: with one event a path that leaks is black.
+// Two balls of glass, of radius 1 and 1 - 4e-5, leaked (mitsuba3, issue 1871). Light that enters
+// this one must meet its core, which shines red: with one event a path that leaks is black.
 TEST(PathTransport, a_shell_of_glass_4e_5_thick_does_not_leak_at_any_scale) {
   int all_leaks = 0;
   for (const double scale : {1e-3, 1.0, 1e6}) {

@@ -100,7 +100,7 @@ TEST(Reflection, drawn_mirror_directions_agree_with_the_highlight) {
 }
 
 /// Every part of a surface that has a density: bases with and without a coat, coats of every
-/// roughness that cells of the sphere can tell from a mirror.
+/// roughness that cells of the sphere can distinguish from a mirror.
 template <class Visit>
 void for_each_part(const Visit& visit) {
   visit("matt", Surface({"", LambertMaterial{{0.8, 0.5, 0.1}}}).base());

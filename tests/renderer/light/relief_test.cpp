@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reliefs bend normals as the surface that they stand for would have them.
+// Reliefs bend normals as the surface that they represent would have them.
 #include "renderer/light/relief_normal.h"
 
 #include <gtest/gtest.h>

@@ -22,7 +22,7 @@ TEST(Sampler, begins_like_the_sobol_sequence) {
     EXPECT_EQ(detail::reverse_bits(detail::sobol_second_reversed(i)), expected[i]);
 }
 
-// By direction numbers: those of the second dimension are each the one before and its shift.
+// Uses direction numbers: those of the second dimension are each the one before and its shift.
 TEST(Sampler, the_second_dimension_is_the_sum_of_its_direction_numbers) {
   for (std::uint32_t i = 0; i < 100'000; ++i) {
     const std::uint32_t index = i * 2654435761u;
@@ -54,7 +54,7 @@ TEST(Sampler, every_elementary_interval_holds_one_sample) {
   }
 }
 
-// The mean of one sample over many pixels tells of a bias that a single pixel hides: the sum of n
+// The mean of one sample over many pixels reveals a bias that a single pixel hides: the sum of n
 // uniform numbers has a standard deviation of sqrt(n / 12).
 TEST(Sampler, pixels_seeds_and_dimensions_are_independent) {
   constexpr int side = 128, n = side * side;

@@ -49,7 +49,7 @@ TEST(SkyImage, its_middle_is_towards_y_and_it_turns_against_the_clock) {
   EXPECT_NEAR(SkyImage(image, 3, std::numbers::pi / 2).eval({0, 1, 0}).x(), 3, 1e-6);
 }
 
-/// What the middle of a matt floor sends up, by so many samples, and its variance.
+/// Radiance from the middle of a matt floor, by `samples` samples, and its variance.
 std::pair<double, double> floor_under(const Scene& scene, int samples, std::uint64_t seed) {
   const World world = make_world(scene);
   const Integrator integrator(scene, world, {.kind = IntegratorKind::path, .max_depth = 1});
@@ -117,7 +117,7 @@ TEST(SunSky, noon_is_brighter_and_whiter_than_evening) {
   EXPECT_EQ(sky.eval({0, 0, -1}), (noon.ground.cast<float>().cast<double>()));
 }
 
-// A horizontal surface gets about 100 klx at noon, of which the sky about a fifth.
+// A horizontal surface gets about 100 klx at noon, about a fifth of it from the sky.
 TEST(SunSky, the_sun_at_noon_lights_the_ground_with_about_100_klx) {
   const Scene scene = floor_scene(SunSkyLight{{0, 0.2, 1}});
   const double klx = floor_under(scene, 1 << 12, 3).first * std::numbers::pi * 10;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is hidden from the camera, from shadow rays or from scattered ones is, for these, not there.
+// An object hidden from the camera, from shadow rays or from scattered ones is absent for these.
 #include <gtest/gtest.h>
 
 #include "renderer/film/data_channels.h"
@@ -62,7 +62,7 @@ Image picture(const std::string& text, IntegratorKind integrator) {
   return render(scene, make_world(scene), options).image;
 }
 
-/// How many pixels are alike.
+/// Number of equal pixels.
 int alike(const Image& a, const Image& b) {
   int count = 0;
   for (int y = 0; y < height; ++y)
@@ -92,8 +92,8 @@ TEST(VisibleToRays, hidden_from_shadow_rays_it_throws_no_shadow) {
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       const bool is_lit = lit.at(x, y) == without.at(x, y);
-      // Where the ball is seen it is no darker: it throws no shadow on itself, nor on the floor
-      // beside it.
+      // Pixels of the ball are no darker: the ball casts no shadow on itself, nor on the floor
+      // next to it.
       EXPECT_TRUE(is_lit || (all.at(x, y).array() <= lit.at(x, y).array()).all()) << x << " " << y;
       of_ball += is_lit ? 0 : 1;
       shaded += is_lit && all.at(x, y) != without.at(x, y) ? 1 : 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What planners write, as it is read: trajectories, planning scenes, what an SRDF says.
+// Reads the output of planners: trajectories, planning scenes, SRDF.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -274,7 +274,7 @@ TEST(PlanningScenes, the_matrix_says_which_pairs_may_touch) {
   EXPECT_TRUE(pairs.contains("right can"));
   EXPECT_FALSE(pairs.contains("arm left"));    // a joint connects them
   EXPECT_FALSE(pairs.contains("right tool"));  // touch_links
-  EXPECT_TRUE(pairs.contains("arm tool"));     // what is carried is no part of its link
+  EXPECT_TRUE(pairs.contains("arm tool"));     // a carried object is no part of its link
   EXPECT_EQ(pairs["arm tool"], 0);             // padding is for obstacles
   EXPECT_TRUE(pairs.contains("tool can") || pairs.contains("can tool"));
 }

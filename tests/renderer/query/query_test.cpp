@@ -145,8 +145,8 @@ TEST(Queries, impacts_say_between_which_times) {
       std::string::npos);
 }
 
-/// They turned about their middles, and the libraries about their frames' origins: one body met
-/// another at 2.0, or swung past it until 5.3.
+/// Our bodies turned about their middles, and the libraries' about their frames' origins: one body
+/// met another at 2.0, or swung past it until 5.3.
 TEST(Queries, bodies_turn_about_the_origin_of_their_frame) {
   // A ball at (2, 0, 0) swings about the origin by a radian per unit of time towards one at
   // (0, 2, 0): their middles are 4 sin(s / 2) = 1 apart when s radians are left.

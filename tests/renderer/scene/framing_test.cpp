@@ -130,7 +130,7 @@ TEST_F(SmallRobot, is_not_looked_at_from_within_a_wall_nor_in_the_dark) {
       EXPECT_GT(placed.normal.dot(scene.camera.position), placed.offset) << planes;
     }
     EXPECT_GT(half_spaces, 0);
-    // Where the sun does not shine, a lamp does.
+    // A lamp replaces the sun where it does not shine.
     EXPECT_EQ(std::holds_alternative<DirectionalLight>(scene.lights[0]),
               planes == floor || planes == floor + back_wall);
     Free free;

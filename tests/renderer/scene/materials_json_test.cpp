@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Materials, textures, skies and lenses in scene files: what is wrong is told, all at once, and
-// what is right survives being written and read again.
+// Materials, textures, skies and lenses in scene files: mistakes are reported all at once, and
+// valid input survives being written and read again.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -176,7 +176,7 @@ TEST_F(Pictures, skies_and_lenses_are_checked) {
       complaints(scene(matt, R"({"type": "sun_sky", "time": "2026-06-21T12:00Z")" + place + "}"))
           .empty());
   EXPECT_NE(one("", R"(, "type": "fish")").find("the name of a camera"), std::string::npos);
-  // A plain environment must still say both colours.
+  // A plain environment must still have both colours.
   EXPECT_NE(one(R"({"type": "environment", "zenith": [1, 1, 1]})", "").find("/lights/0/nadir"),
             std::string::npos);
 }
@@ -220,7 +220,7 @@ TEST_F(Pictures, of_20000_pixels_a_side_and_of_16_bits_in_grey_are_read_or_told)
   EXPECT_NEAR(grey.at(1, 0).x(), 0.214F, 0.001);
   EXPECT_EQ(grey.at(1, 0).x(), grey.at(1, 0).z());
 
-  // Its header says that it is as large, and nothing follows.
+  // The header has a large size, and nothing follows.
   std::vector<unsigned char> large = png_of(1, 1, std::vector<std::uint8_t>(3));
   for (const std::size_t number : {16, 20}) {
     large[number + 2] = 20000 / 256;
@@ -240,7 +240,7 @@ TEST_F(Pictures, numbers_of_pictures_are_linear) {
   EXPECT_NEAR(board.at(0, 0).x(), 0.5F, 0.005);
   EXPECT_NEAR(board.at(1, 1).y(), 0.25F, 0.005);
   EXPECT_EQ(read_image(folder_ / "sky.exr").at(0, 0), Vec3<float>(0.5F, 2, 8));
-  // Radiance's format: a header, and four bytes a pixel with a common exponent.
+  // Radiance's format: a header, and four bytes per pixel with a common exponent.
   std::string hdr = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n";
   for (const int byte : {128, 64, 32, 129, 128, 128, 128, 132}) hdr += static_cast<char>(byte);
   write("two.hdr", {hdr.begin(), hdr.end()});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Particles are objects that are cheaper: the same poses, the same pictures; and what is wrong with
-// their files is told with the row.
+// Particles are cheaper objects: the same poses, the same pictures; and mistakes in their files
+// are reported with the row.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -43,7 +43,7 @@ TEST(SceneFuzz, damaged_scenes_are_read_or_refused) {
     }
     expect_an_end(text, scenes);
   }
-  // Some damage is none: within a name, say.
+  // Some damage is none, for example within a name.
   EXPECT_GT(scenes, 10);
   EXPECT_LT(scenes, 500);
 }

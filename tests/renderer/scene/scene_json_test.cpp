@@ -10,7 +10,7 @@
 namespace minkray {
 namespace {
 
-/// What reading a text as "x.json" complains about.
+/// Mistakes found in a text that is read as "x.json".
 std::vector<std::string> complaints(std::string_view text) {
   Mistakes mistakes("x.json");
   const auto scene = parse_scene(text, "no-such-folder", mistakes);

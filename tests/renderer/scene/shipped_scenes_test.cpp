@@ -62,7 +62,7 @@ TEST(ShippedScenes, the_format_names_all_lights_and_materials_with_their_keys_an
   const std::string page = text_of_file(source_folder() / "docs/scene-format.md");
   expect_rows_with_keys<Light>(page);
   expect_rows_with_keys<MaterialKind>(page);
-  // Keys that most textures have are told behind their table.
+  // Keys that most textures have are documented behind their table.
   for_each_alternative(std::type_identity<TextureKind>(),
                        [&]<class S>() { EXPECT_EQ(rows_of(page, S::name).size(), 1u) << S::name; });
 }

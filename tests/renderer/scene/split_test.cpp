@@ -52,7 +52,7 @@ TEST_F(Split, makes_an_object_of_each_part) {
     EXPECT_EQ(object.pose.translation, Vec3<double>(0, 0, 5));
     EXPECT_TRUE(object.motion.has_value());
   }
-  // By groups, the last triangle alone is the second part: a flat one.
+  // With groups, the last triangle alone is the second part: a flat one.
   const auto groups = read(shape + R"(, "split": "groups")");
   ASSERT_TRUE(groups) << mistakes_.text();
   ASSERT_EQ(groups->objects.size(), 2u);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where the sun stands, where others have said so.
+// Compares the position of the sun with published ones.
 #include "renderer/scene/sun_position.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-/// What the formulas promise, in degrees, and the air's refraction where a reference has it.
+/// Precision of the formulas, in degrees, and the air's refraction where a reference includes it.
 constexpr double precision = 0.02, refraction = 0.017;
 
 struct Place {
@@ -36,7 +36,7 @@ TEST(SunPosition, is_that_of_the_solar_position_algorithms_example) {
   EXPECT_NEAR(place.azimuth, 194.34024, precision);
 }
 
-// At the June solstice of 2020 (20 June, 21:44) it stood above the tropic.
+// At the June solstice of 2020 (20 June, 21:44) the sun was above the tropic.
 TEST(SunPosition, at_the_solstice_it_stands_above_the_tropic) {
   const auto days = days_since_2000("2020-06-20T21:44Z");
   ASSERT_TRUE(days);

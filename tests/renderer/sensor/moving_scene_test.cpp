@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rays at their own times beside a world that is posed anew for each time.
+// Compares rays at their own times with a world that is posed for each time.
 #include "renderer/sensor/moving_scene.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 namespace minkray {
 namespace {
 
-/// Balls, boxes and planes that stand, go, turn and tumble.
+/// Balls, boxes and planes that rest, move, turn and tumble.
 Scene restless(testing::Random& random, int count) {
   Scene scene;
   scene.materials.push_back({"matt", LambertMaterial{}});

@@ -31,7 +31,8 @@ class CheckpointFile : public ::testing::Test {
     return {path_, options_, picture_facts(scene_, world_, options_), seconds};
   }
 
-  /// Renders until so many packets were asked for, and goes on if there is a checkpoint.
+  /// Renders until the given number of packets was traced, and continues from an existing
+  /// checkpoint.
   Rendering render_until(int asked_at_most, Checkpoint& checkpoint) {
     RenderJournal journal;
     if (checkpoint.exists()) journal = checkpoint.load();
@@ -45,7 +46,7 @@ class CheckpointFile : public ::testing::Test {
     return rendering;
   }
 
-  /// The picture by way of many interruptions.
+  /// The picture after many interruptions.
   Rendering rendered_with_interruptions(int& interruptions) {
     for (interruptions = 0; interruptions < 1000; ++interruptions) {
       Checkpoint each = checkpoint();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Renders of frames that go on side by side keep one record, and lose none of each other's frames.
+// Concurrent renders of frames keep one record, and lose none of each other's frames.
 #include "renderer/share/frames_record.h"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ TEST(FramesRecord, several_that_write_it_at_once_lose_no_frame) {
       for (int k = 0; k < frames; ++k) {
         together.arrive_and_wait();
         record.add(k * writers + writer);
-        // What this one has in memory must not be what mends the file.
+        // The file must not be restored from this one's memory.
         record = FramesRecord(path, facts, true);
       }
     });

@@ -48,7 +48,7 @@ class Merge : public ::testing::Test {
     return files;
   }
 
-  /// What merging says is wrong.
+  /// Message of merging.
   static std::string complaint(const std::vector<std::string>& files) {
     try {
       merge_part_files(files, false);
@@ -109,7 +109,7 @@ TEST_F(Merge, missing_shares_are_named) {
     }
 }
 
-// As many as a header says, which may be more than there is memory for the names of.
+// As many as a header claims, which may exceed the memory for their names.
 TEST_F(Merge, of_very_many_missing_shares_the_first_are_named) {
   const std::string file = part_file({1, 1}, {1, 1});
   ExrImage exr = read_exr(file);

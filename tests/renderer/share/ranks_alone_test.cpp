@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What takes MPI's place in builds without it, which builds with it have tested as well: a program
-// of its own, since the others have MPI's.
+// Replacement of MPI in builds without it, which builds with it test as well: a program of its
+// own, since the others use MPI's.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

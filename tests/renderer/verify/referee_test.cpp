@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Verdicts on a small arm's motions beside dense samples of closed forms in long double, with
-// kinematics and Hermite polynomials of the test's own.
+// Compares verdicts on a small arm's motions with dense samples of closed forms in long double,
+// with kinematics and Hermite polynomials of the test's own.
 #include "renderer/verify/referee.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ using testing::rods_at;
 
 constexpr double step_length = 0.7;  // seconds
 
-/// Rows of the arm's three joints, with rates and accelerations where the degree asks for them.
+/// Rows of the arm's three joints, with rates and accelerations if the degree needs them.
 struct RandomMotion {
   int degree;
   std::vector<std::array<double, 3>> values, rates, accelerations;
@@ -58,7 +58,7 @@ struct RandomMotion {
     return path;
   }
 
-  /// By Hermite's basis functions (E. Catmull's notation h00, h10, ...).
+  /// Uses Hermite's basis functions (E. Catmull's notation h00, h10, ...).
   Long joint(std::size_t j, Long time) const {
     const auto last = values.size() - 2;
     const auto i = std::min<std::size_t>(last, static_cast<std::size_t>(time / Long(step_length)));
@@ -81,7 +81,7 @@ struct RandomMotion {
   Long end() const { return Long(step_length) * (values.size() - 1); }
 };
 
-/// The arm, a ball beside it, and their pairs.
+/// The arm, a ball next to it, and their pairs.
 struct ArmAndBall {
   Model model = arm_model();
   Rod ball;
@@ -106,7 +106,7 @@ struct ArmAndBall {
   }
 };
 
-/// What dense samples say against a verdict.
+/// Checks a verdict by dense samples.
 void check_by_samples(const MotionVerdict& verdict, const RandomMotion& motion,
                       const ArmAndBall& cell) {
   constexpr int samples = 5000;

@@ -42,7 +42,7 @@ void write_swing(const TemporaryFolder& folder) {
     - {positions: [0, 0.3], time_from_start: {sec: 0, nanosec: 0}}
     - {positions: [3.141592653589793, 0.3], time_from_start: {sec: 2, nanosec: 0}}
 )";
-  // From 0.2 to 0.2 by way of 0.05 less: by rates alone, the rows look free.
+  // From 0.2 to 0.2 via 0.05 less: by rates alone, the rows look free.
   std::ofstream(folder / "bulge.yaml") << R"(joint_names: [turn, out]
 points:
   - {positions: [1.5707963267948966, 0.0], velocities: [0, 0.8], time_from_start: 0}
@@ -88,7 +88,7 @@ TEST(VerifyVerb, collisions_are_named_from_when_to_when) {
   EXPECT_EQ(json["status"].text(), "collides");
   ASSERT_EQ(json["collisions"].size(), 1u);
   const Json& stretch = json["collisions"][0];
-  // They touch where a triangle of sides 1.5 and 1.5 has 0.25 across from the angle.
+  // The two touch where a triangle of sides 1.5 and 1.5 has 0.25 across from the angle.
   const double angle = 2 * std::asin(0.125 / 1.5), rate = 3.141592653589793 / 2;
   EXPECT_NEAR(stretch["begin"].get<double>(), 1 - angle / rate, 2.1 / 1024);
   EXPECT_NEAR(stretch["end"].get<double>(), 1 + angle / rate, 2.1 / 1024);
@@ -98,7 +98,7 @@ TEST(VerifyVerb, collisions_are_named_from_when_to_when) {
 TEST(VerifyVerb, what_happens_between_the_rows_counts) {
   const TemporaryFolder folder;
   write_swing(folder);
-  // By a cubic of rates 0.8 and -0.8 the tip goes out by 0.8 / 4, of which 0.05 are free.
+  // With a cubic of rates 0.8 and -0.8 the tip goes out by 0.8 / 4, and 0.05 of that is free.
   EXPECT_EQ(verify(folder, "--trajectory bulge.yaml").exit_code, 1);
   EXPECT_EQ(verify(folder, "--trajectory past.yaml --padding 0.049").exit_code, 0);
   EXPECT_EQ(verify(folder, "--trajectory past.yaml --padding 0.051").exit_code, 1);
