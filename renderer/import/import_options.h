@@ -7,6 +7,7 @@
 
 #include "core/files/mesh_parts.h"
 #include "renderer/scene/camera_description.h"
+#include "renderer/scene/scene_json.h"
 
 namespace minkray {
 
@@ -33,9 +34,10 @@ struct ImportOptions {
   std::vector<std::string> package_dirs;  ///< where package:// and model:// are looked for
   std::vector<std::string> others;        ///< more files that stand in the same scene
   bool skip_missing_meshes = false;
-  bool lenient = false;             ///< leaves out shapes and materials that are wrong
-  bool verbose = false;             ///< tells each missing mesh, not only how many
-  Resolution picture = {960, 720};  ///< that the camera frames everything for
+  bool lenient = false;                          ///< leaves out shapes and materials that are wrong
+  bool verbose = false;                          ///< tells each missing mesh, not only how many
+  ScenePurpose purpose = ScenePurpose::picture;  ///< what scene files are read for
+  Resolution picture = {960, 720};               ///< that the camera frames everything for
 
   /// Whether meshes stay triangles.
   bool keeps_triangles() const {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// OpenEXR files in memory: any number of named planes of 32-bit floats or unsigned integers, a data
+// OpenEXR files in memory: any number of named planes of floats or unsigned integers, a data
 // window, and texts about the picture. The library is seen by exr.cpp alone.
 #pragma once
 
@@ -25,6 +25,7 @@ struct ExrImage {
   PixelRect window;   ///< the region that is here
   std::vector<ExrPlane> planes;
   std::map<std::string, std::string> texts;  ///< string attributes of the header, by name
+  bool has_halfs = false;  ///< floats are written with 16 bits: 11 of precision, 65504 at most
 
   /// The plane of that name; null if there is none.
   const ExrPlane* find(std::string_view name) const;

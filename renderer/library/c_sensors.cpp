@@ -12,8 +12,8 @@ extern "C" int minkray_lidar_rays(const char* pattern, const minkray_pose* pose,
     require(pattern, "pattern");
     if (size > 0) require(rays, "rays");
     const Affine<double> sensor = pose_of(pose, "pose");
-    constexpr double any_turn = 1;  // times are not asked for
-    const std::vector<SensorRay> read = rays_of_pattern(pattern, any_turn).rays;
+    constexpr double turn = 0.1;  // of most lidars; times are not returned
+    const std::vector<SensorRay> read = rays_of_pattern(pattern, turn).rays;
     if (needed) *needed = read.size();
     for (size_t i = 0; i < std::min(size, read.size()); ++i) {
       const Vec3<double> direction = sensor.linear * read[i].ray.direction;

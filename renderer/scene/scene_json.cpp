@@ -43,7 +43,7 @@ class SceneReader {
     if (!scene_.particles.empty()) hash.add(particle_files_.text());
   }
 
-  void read(const Json& json) {
+  void read(const Json& json, ScenePurpose purpose) {
     ObjectReader file(json, JsonPath(), mistakes_);
     if (!file.is_object()) return;
     if (const Json* version = file.require("version", std::to_string(scene_version))) {
@@ -60,11 +60,14 @@ class SceneReader {
     if (const Json* labels = file.find("labels")) {
       scene_.labels = read_bool(*labels, file.path("labels"), mistakes_).value_or(false);
     }
-    if (const Json* camera = file.require("camera", "an object")) {
+    const bool is_picture = purpose == ScenePurpose::picture;
+    if (const Json* camera =
+            is_picture ? file.require("camera", "an object") : file.find("camera")) {
       read_camera(*camera, file.path("camera"));
     }
-    for_each_item(file, "lights",
-                  [&](const Json& light, const JsonPath& path) { read_light(light, path); });
+    if (is_picture || file.find("lights"))
+      for_each_item(file, "lights",
+                    [&](const Json& light, const JsonPath& path) { read_light(light, path); });
     for_each_item(file, "materials", [&](const Json& material, const JsonPath& path) {
       read_material(material, path);
     });
@@ -286,12 +289,13 @@ class SceneReader {
 
 std::optional<Scene> parse_scene(std::string_view text, const std::filesystem::path& folder,
                                  Mistakes& mistakes,
-                                 std::vector<std::filesystem::path>* other_files) {
+                                 std::vector<std::filesystem::path>* other_files,
+                                 ScenePurpose purpose) {
   const auto json = parse_json(text, mistakes);
   if (!json) return std::nullopt;
   Scene scene;
   SceneReader reader(scene, folder, mistakes);
-  reader.read(*json);
+  reader.read(*json, purpose);
   if (!mistakes.none()) return std::nullopt;
   set_time(scene, 0);
   Hash hash;
@@ -303,12 +307,12 @@ std::optional<Scene> parse_scene(std::string_view text, const std::filesystem::p
   return scene;
 }
 
-Scene load_scene(const std::filesystem::path& file,
-                 std::vector<std::filesystem::path>* other_files) {
+Scene load_scene(const std::filesystem::path& file, std::vector<std::filesystem::path>* other_files,
+                 ScenePurpose purpose) {
   Mistakes mistakes(file.string());
   std::optional<Scene> scene;
   if (const auto text = read_text_file(file, mistakes)) {
-    scene = parse_scene(*text, file.parent_path(), mistakes, other_files);
+    scene = parse_scene(*text, file.parent_path(), mistakes, other_files, purpose);
   }
   throw_if_any(mistakes);
   return std::move(*scene);

@@ -50,10 +50,10 @@ struct ScanRow {
   int status = 0;
 };
 
-/// The records of a .npy file as they are laid out: 8 + 8 + 24 + 24 + 4 + 8 + 8 + 1 bytes.
+/// The records of a .npy file as they are laid out: 8 + 8 + 24 + 24 + 4 + 8 + 8 + 1 + 8 + 8 bytes.
 std::vector<ScanRow> scan_rows(const std::string& bytes) {
   std::vector<ScanRow> rows;
-  for (std::size_t at = bytes.find('\n') + 1; at + 85 <= bytes.size(); at += 85) {
+  for (std::size_t at = bytes.find('\n') + 1; at + 101 <= bytes.size(); at += 101) {
     ScanRow row;
     std::memcpy(&row.t, bytes.data() + at, 8);
     std::memcpy(&row.distance, bytes.data() + at + 8, 8);
@@ -104,7 +104,7 @@ TEST_F(ScanVerb, every_output_holds_the_same_numbers) {
     std::vector<double> values;
     for (std::string cell; std::getline(cells, cell, ',');)
       values.push_back(std::strtod(cell.c_str(), nullptr));
-    ASSERT_EQ(values.size(), 14u);
+    ASSERT_EQ(values.size(), 16u);
     EXPECT_EQ(values[2], row.t);
     EXPECT_EQ(values[3], row.distance);
     if (row.object >= 0) {
@@ -120,12 +120,12 @@ TEST_F(ScanVerb, every_output_holds_the_same_numbers) {
        {std::pair{"a.pcd", "DATA binary\n"}, {"a.ply", "end_header\n"}}) {
     const std::string bytes = text(name);
     const std::size_t begin = bytes.find(last) + std::strlen(last);
-    ASSERT_EQ(bytes.size() - begin, 28 * points.size()) << name;
+    ASSERT_EQ(bytes.size() - begin, 32 * points.size()) << name;
     for (std::size_t i = 0; i < points.size(); ++i) {
       float numbers[6];
       int object = 0;
-      std::memcpy(numbers, bytes.data() + begin + 28 * i, 24);
-      std::memcpy(&object, bytes.data() + begin + 28 * i + 24, 4);
+      std::memcpy(numbers, bytes.data() + begin + 32 * i, 24);
+      std::memcpy(&object, bytes.data() + begin + 32 * i + 28, 4);
       for (std::size_t k = 0; k < 3; ++k) {
         EXPECT_EQ(numbers[k], static_cast<float>(points[i].point[k]));
         EXPECT_EQ(numbers[3 + k], static_cast<float>(points[i].normal[k]));

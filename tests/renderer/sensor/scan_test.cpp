@@ -233,19 +233,19 @@ TEST(ScanFiles, hold_a_record_of_each_ray) {
   for (const Echo& echo : result.echoes) points += echo.object >= 0 ? 1 : 0;
   ASSERT_GT(points, 100u);
   for (const ScanFormat& format : scan_formats()) {
-    const std::vector<unsigned char> bytes = format.encode(result, rays, 1);
+    const std::vector<unsigned char> bytes = format.encode({result, rays, 1, scene});
     const std::string text(bytes.begin(), bytes.end());
     if (format.ending == ".npy") {
       const std::size_t begin = text.find('\n') + 1;
       EXPECT_EQ(begin % 64, 0u);
-      ASSERT_EQ(bytes.size() - begin, 85 * result.echoes.size());
+      ASSERT_EQ(bytes.size() - begin, 101 * result.echoes.size());
       double t = 0;
-      std::memcpy(&t, bytes.data() + begin + 85 * 17, sizeof t);
+      std::memcpy(&t, bytes.data() + begin + 101 * 17, sizeof t);
       EXPECT_EQ(t, result.echoes[17].t);
     } else if (format.ending == ".pcd" || format.ending == ".ply") {
       EXPECT_NE(text.find(std::to_string(points)), text.npos);
       const std::string last = format.ending == ".pcd" ? "DATA binary\n" : "end_header\n";
-      EXPECT_EQ(bytes.size() - text.find(last) - last.size(), 28 * points);
+      EXPECT_EQ(bytes.size() - text.find(last) - last.size(), 32 * points);
     } else if (format.ending == ".csv") {
       EXPECT_EQ(static_cast<std::size_t>(std::ranges::count(text, '\n')), 401u);
     } else {
