@@ -1,10 +1,29 @@
 // SPDX-License-Identifier: MIT
-// The function of the C interface that makes a lidar's rays.
+// The functions of the C interface that make the rays of lidars and cameras.
 #include "renderer/library/call.h"
 #include "renderer/library/poses.h"
 #include "renderer/sensor/sensor_rays.h"
 
 using namespace minkray;
+
+namespace {
+
+/// Writes as many as there is room for, in the world.
+void give(const std::vector<SensorRay>& read, const Affine<double>& sensor, minkray_ray* rays,
+          size_t size, size_t* needed) {
+  if (needed) *needed = read.size();
+  for (size_t i = 0; i < std::min(size, read.size()); ++i) {
+    const Vec3<double> origin = sensor(read[i].ray.origin);
+    const Vec3<double> direction = sensor.linear * read[i].ray.direction;
+    for (int k = 0; k < 3; ++k) {
+      rays[i].origin[k] = origin[k];
+      rays[i].direction[k] = direction[k];
+    }
+    rays[i].t_max = read[i].ray.t_max;
+  }
+}
+
+}  // namespace
 
 extern "C" int minkray_lidar_rays(const char* pattern, const minkray_pose* pose, minkray_ray* rays,
                                   size_t size, size_t* needed) {
@@ -13,15 +32,17 @@ extern "C" int minkray_lidar_rays(const char* pattern, const minkray_pose* pose,
     if (size > 0) require(rays, "rays");
     const Affine<double> sensor = pose_of(pose, "pose");
     constexpr double turn = 0.1;  // of most lidars; times are not returned
-    const std::vector<SensorRay> read = rays_of_pattern(pattern, turn).rays;
-    if (needed) *needed = read.size();
-    for (size_t i = 0; i < std::min(size, read.size()); ++i) {
-      const Vec3<double> direction = sensor.linear * read[i].ray.direction;
-      for (int k = 0; k < 3; ++k) {
-        rays[i].origin[k] = sensor.translation[k];
-        rays[i].direction[k] = direction[k];
-      }
-      rays[i].t_max = read[i].ray.t_max;
-    }
+    give(rays_of_pattern(pattern, turn).rays, sensor, rays, size, needed);
+  });
+}
+
+extern "C" int minkray_camera_rays(const char* camera, const minkray_pose* pose, minkray_ray* rays,
+                                   size_t size, size_t* needed) {
+  return call("minkray_camera_rays", [&] {
+    require(camera, "camera");
+    if (size > 0) require(rays, "rays");
+    const Affine<double> sensor = pose_of(pose, "pose");
+    const SensorRays made = rays_of_camera(parse_calibrated_camera(camera, "camera"), "camera");
+    give(made.rays, sensor, rays, size, needed);
   });
 }

@@ -149,6 +149,20 @@ std::optional<Vec3<double>> CalibratedCamera::direction(double u, double v) cons
   return Vec3<double>(side * wanted.x(), side * wanted.y(), std::cos(*angle));
 }
 
+Vec3<double> CalibratedCamera::direction_or_last(double u, double v) const {
+  if (const auto seen = direction(u, v)) return *seen;
+  Vec3<double> last(0, 0, 1);
+  double inside = 0, outside = 1;
+  for (int step = 0; step < 30; ++step) {
+    const double part = (inside + outside) / 2;
+    const auto seen =
+        direction(numbers_.cx + part * (u - numbers_.cx), numbers_.cy + part * (v - numbers_.cy));
+    if (seen) last = *seen;
+    (seen ? inside : outside) = part;
+  }
+  return last;
+}
+
 std::optional<Vector2> CalibratedCamera::project(const Vec3<double>& point) const {
   Vector2 at;
   const double across = std::hypot(point.x(), point.y());

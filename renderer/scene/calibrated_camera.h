@@ -36,6 +36,9 @@ class CalibratedCamera {
   /// where the distortion has no inverse on the branch that begins at the middle.
   std::optional<Vec3<double>> direction(double u, double v) const;
 
+  /// The direction of a pixel, or of the last one before it on the way from the middle.
+  Vec3<double> direction_or_last(double u, double v) const;
+
   /// How far from the axis the inverse reaches: the tangent, of fisheyes the angle.
   double reach() const { return reach_; }
 

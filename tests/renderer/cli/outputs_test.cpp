@@ -37,7 +37,10 @@ struct Command {
 /// Every command that writes files.
 std::vector<Command> writing_commands() {
   const std::string robot = "r.urdf -r 8x6 ", rows = "r.urdf -r 8x6 --joints rows.csv ";
-  const std::vector<Reading> scene = {{"scene", "r.urdf", robot}, {"--joints", "rows.csv", rows}};
+  const std::vector<Reading> scene = {
+      {"scene", "r.urdf", robot},
+      {"--joints", "rows.csv", rows},
+      {"--camera-file", "camera.json", robot + "--camera-file camera.json "}};
   const auto with = [](std::vector<Reading> readings, const std::string& words) {
     for (Reading& one : readings) one.words += words;
     return readings;

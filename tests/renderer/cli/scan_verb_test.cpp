@@ -2,6 +2,7 @@
 // minkray scan as its users meet it: every output holds the same numbers, sensors ride on robots.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -254,6 +255,55 @@ TEST_F(ScanVerb, a_pattern_without_its_numbers_is_told_which_it_wants) {
   const ProgramOutcome outcome = scan("r.urdf --pattern spinning -o a.npy");
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_NE(outcome.err.find("spinning:CHANNELSxSTEPS"), std::string::npos) << outcome.err;
+}
+
+/// Scene files had to have what pictures need.
+TEST_F(ScanVerb, a_scene_that_is_only_scanned_needs_no_camera_and_no_lights) {
+  std::ofstream(folder_ / "bare.json") << R"({"version": 1,
+    "materials": [{"name": "grey", "type": "lambert", "color": [0.25, 0.5, 0.75]}],
+    "objects": [{"name": "wall", "material": "grey",
+                 "shape": {"type": "plane", "normal": [-1, 0, 0], "offset": -4}}]})";
+  const ProgramOutcome outcome =
+      scan("bare.json --pattern vlp-16:4 --range 1,100 -q -o a.npy -o a.las -o a.mcap");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(scan_rows(text("a.npy")).size(), 64u);
+  EXPECT_EQ(text("a.las").substr(0, 4), "LASF");
+  const ProgramOutcome picture =
+      run_shell("cd '" + folder_ / "" + "' && $MINKRAY render bare.json -o a.png");
+  EXPECT_EQ(picture.exit_code, 3);
+  EXPECT_NE(picture.err.find("/camera"), std::string::npos) << picture.err;
+}
+
+TEST_F(ScanVerb, wrong_numbers_of_sensors_are_told_before_anything_is_written) {
+  std::ofstream(folder_ / "a.npy") << "kept";
+  for (const auto& [words, message] :
+       {std::pair{"--pattern VLP-16 --range 2,1", "--range: must be 0 <= MIN < MAX (got 2,1)"},
+        {"--pattern VLP-16 --range 2", "--range: must be"},
+        {"--pattern VLP-16 --noise 1,2,-3", "--noise: must be >= 0"},
+        {"--pattern VLP-16 --echo second", "--echo"},
+        {"--pattern VLP-16 --divergence -1", "--divergence"},
+        {"--pattern VLP-16 --beam-rays 0", "--beam-rays"},
+        {"--pattern VLP-16 --start -1 -o a.mcap", "--start: must be >= 0 for a.mcap"},
+        {"--pattern Mid-360 -o a.json", "cannot become one (got a.json)"},
+        {"--pattern HDL-32 ", "known here: spinning:CHANNELSxSTEPS, VLP-16"}}) {
+    const ProgramOutcome outcome = scan("r.urdf -o a.npy " + std::string(words));
+    EXPECT_EQ(outcome.exit_code, 2) << words;
+    EXPECT_NE(outcome.err.find(message), std::string::npos) << outcome.err;
+  }
+  EXPECT_EQ(text("a.npy"), "kept");
+}
+
+TEST_F(ScanVerb, pixels_without_a_ray_are_counted) {
+  std::ofstream(folder_ / "fold.json")
+      << R"({"fx": 4, "fy": 4, "cx": 8, "cy": 6, "width": 17, "height": 13, "k1": -0.3})";
+  const ProgramOutcome outcome = scan("r.urdf --pinhole fold.json --pose 0,0,1 -q -o a.npy");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const std::vector<ScanRow> rows = scan_rows(text("a.npy"));
+  const auto missing = std::ranges::count(rows, 5, &ScanRow::status);
+  EXPECT_GT(missing, 0);
+  EXPECT_NE(outcome.err.find(std::to_string(missing) + " of 221 pixels have no ray"),
+            std::string::npos)
+      << outcome.err;
 }
 
 }  // namespace
