@@ -231,8 +231,8 @@ std::vector<unsigned char> encode_exr(const ExrImage& image) {
   std::deque<std::vector<half>> halfs;
   for (const ExrPlane& plane : image.planes) {
     const auto* floats = std::get_if<std::vector<float>>(&plane.values);
-    if (image.has_halfs && floats) halfs.emplace_back(floats->begin(), floats->end());
-    const Imf::Slice slice = image.has_halfs && floats
+    if (plane.is_half && floats) halfs.emplace_back(floats->begin(), floats->end());
+    const Imf::Slice slice = plane.is_half && floats
                                  ? slice_of(Imf::HALF, halfs.back(), image.window)
                                  : slice_of(plane, image.window);
     header.channels().insert(plane.name, Imf::Channel(slice.type));

@@ -18,6 +18,7 @@ namespace minkray {
 struct ExrPlane {
   std::string name;
   std::variant<std::vector<float>, std::vector<std::uint32_t>> values;
+  bool is_half = false;  ///< floats are written with 16 bits: 11 of precision, 65504 at most
 };
 
 struct ExrImage {
@@ -25,7 +26,6 @@ struct ExrImage {
   PixelRect window;   ///< the region that is here
   std::vector<ExrPlane> planes;
   std::map<std::string, std::string> texts;  ///< string attributes of the header, by name
-  bool has_halfs = false;  ///< floats are written with 16 bits: 11 of precision, 65504 at most
 
   /// The plane of that name; null if there is none.
   const ExrPlane* find(std::string_view name) const;

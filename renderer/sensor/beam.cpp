@@ -6,6 +6,8 @@
 #include <numbers>
 #include <span>
 
+#include "renderer/sensor/ray_directions.h"
+
 namespace minkray {
 namespace {
 
@@ -34,10 +36,7 @@ std::vector<Vec3<double>> directions_of_beam(const Vec3<double>& direction, doub
                                              int count) {
   if (count == 1 || full_angle == 0) return {direction};
   const Vec3<double> along = unit(direction);
-  const Vec3<double> helper =
-      std::abs(along.x()) < 0.5 ? Vec3<double>(1, 0, 0) : Vec3<double>(0, 1, 0);
-  const Vec3<double> u = unit<double>(helper - along.dot(helper) * along);
-  const Vec3<double> v = along.cross(u);
+  const auto [u, v] = across(along);
   const double golden_angle = std::numbers::pi * (3 - std::sqrt(5.0));
   std::vector<Vec3<double>> directions;
   for (int k = 0; k < count; ++k) {

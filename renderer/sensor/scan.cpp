@@ -12,6 +12,7 @@
 #include "core/parallel/parallel.h"
 #include "renderer/sensor/beam.h"
 #include "renderer/sensor/moving_scene.h"
+#include "renderer/sensor/ray_directions.h"
 #include "renderer/sensor/reflectance.h"
 
 namespace minkray {
@@ -47,13 +48,10 @@ class RayRandom {
   std::uint64_t state_;
 };
 
-/// Two directions across, each of the given length.
+/// Turns a direction by small angles to two sides.
 Vec3<double> turned(const Vec3<double>& direction, double a, double b) {
   const Vec3<double> along = unit(direction);
-  const Vec3<double> helper =
-      std::abs(along.x()) < 0.5 ? Vec3<double>(1, 0, 0) : Vec3<double>(0, 1, 0);
-  const Vec3<double> u = unit<double>(helper - along.dot(helper) * along);
-  const Vec3<double> v = along.cross(u);
+  const auto [u, v] = across(along);
   return direction.norm() * unit<double>(along + std::tan(a) * u + std::tan(b) * v);
 }
 
@@ -295,7 +293,7 @@ Scan scan(const Scene& scene, const SensorRays& rays, const ScanOptions& options
   // Where much moves, it is prepared for more rays at a time.
   const std::size_t of_beam =
       options.divergence > 0 ? static_cast<std::size_t>(options.beam_rays) : 1;
-  const std::size_t some = std::max(rays_a_range / of_beam + 1, moving.movers());
+  const std::size_t some = std::max({rays_a_range / of_beam, moving.movers(), std::size_t{1}});
   std::mutex mutex;
   std::size_t done = 0;
   if (order.empty()) return result;

@@ -143,10 +143,9 @@ auto plane_of(const ScanOutput& output, const Of& of) {
 
 Bytes exr_of(const ScanOutput& output) {
   ExrImage image;
-  image.has_halfs = output.has_halfs;
   image.display = image.window = {0, 0, output.rays.width, output.rays.height};
   const auto add = [&](const std::string& name, const auto& of) {
-    image.planes.push_back({name, plane_of(output, of)});
+    image.planes.push_back({name, plane_of(output, of), output.has_halfs});
   };
   add("t", [](const Echo& e) { return static_cast<float>(e.t); });
   add("distance", [](const Echo& e) { return static_cast<float>(e.distance); });
