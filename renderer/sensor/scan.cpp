@@ -83,16 +83,20 @@ class Scanner {
       if (time != time_of_pose) pose = pose_at(time_of_pose = time);
       const Ray<double> middle = ray_of(index, pose);
       middles.push_back({middle, time});
-      for (const Vec3<double>& direction :
-           directions_of_beam(middle.direction, options_.divergence, rays_of_beam_)) {
-        asked.push_back({{middle.origin, direction, middle.t_max}});
-        times.push_back(time);
+      times.insert(times.end(), each, time);
+      if (each == 1) {
+        asked.push_back({middle});
+        continue;
       }
+      for (const Vec3<double>& direction :
+           directions_of_beam(middle.direction, options_.divergence, rays_of_beam_))
+        asked.push_back({{middle.origin, direction, middle.t_max}});
     }
     scene.closest_hits(asked, times, hits, counts);
+    AllMet all;
     for (std::size_t i = 0; i < order.size(); ++i) {
-      const auto of_beam = [&](auto& all) { return std::span(all).subspan(i * each, each); };
-      keep(order[i], middles[i], of_beam(asked), of_beam(hits), scene, counts);
+      const auto of_beam = [&](auto& list) { return std::span(list).subspan(i * each, each); };
+      keep(order[i], middles[i], of_beam(asked), of_beam(hits), scene, counts, all);
     }
   }
 
@@ -128,7 +132,8 @@ class Scanner {
   }
 
   void keep(std::uint32_t index, const TimedRay& at, std::span<const WorldRay> asked,
-            std::span<const WorldHit> hits, SceneWhile& scene, QueryCounts& counts) const {
+            std::span<const WorldHit> hits, SceneWhile& scene, QueryCounts& counts,
+            AllMet& all) const {
     RayRandom random(options_.seed + 1, index);
     const bool is_dropped = options_.dropout > 0 && random.uniform() <= options_.dropout;
     const auto several = static_cast<std::size_t>(options_.returns);
@@ -137,8 +142,12 @@ class Scanner {
       for (Echo& echo : echoes) echo.status = 3;
       return;
     }
-    AllMet all = options_.divergence > 0 ? by_beam(asked, hits)
-                                         : behind_each_other(at, hits[0], scene, counts);
+    all.echoes.clear();
+    all.too_near = false;
+    if (options_.divergence > 0)
+      add_echoes_of_beam(asked, hits, all);
+    else
+      add_bodies_behind_each_other(at, hits[0], scene, counts, all);
     if (options_.order == EchoOrder::last) std::ranges::reverse(all.echoes);
     if (options_.order == EchoOrder::strongest)
       std::ranges::stable_sort(all.echoes, std::greater(), &Met::intensity);
@@ -192,36 +201,34 @@ class Scanner {
   }
 
   /// Joins what the rays of a beam meet first.
-  AllMet by_beam(std::span<const WorldRay> asked, std::span<const WorldHit> hits) const {
-    AllMet all;
+  void add_echoes_of_beam(std::span<const WorldRay> asked, std::span<const WorldHit> hits,
+                          AllMet& all) const {
     std::vector<Met> met;
-    for (std::size_t i = 0; i < hits.size(); ++i) {
-      if (!hits[i].found()) continue;
-      met.push_back(met_by(asked[i].ray, hits[i]));
-      if (met.back().distance >= options_.nearest) continue;
-      met.pop_back();
-      all.too_near = true;
-    }
+    for (std::size_t i = 0; i < hits.size(); ++i)
+      if (hits[i].found()) add_if_far(met_by(asked[i].ray, hits[i]), met, all);
     all.echoes = echoes_of(std::move(met), options_.resolution);
-    return all;
   }
 
   /// The bodies that a ray enters one behind another, no more than are needed.
-  AllMet behind_each_other(const TimedRay& at, WorldHit hit, SceneWhile& scene,
-                           QueryCounts& counts) const {
-    const std::size_t enough =
-        options_.order == EchoOrder::first ? static_cast<std::size_t>(options_.returns) : 64;
-    AllMet all;
-    for (int i = 0; i < 128 && hit.found(); ++i) {
-      const Met met = met_by(at.ray, hit);
-      if (met.distance >= options_.nearest)
-        all.echoes.push_back(met);
-      else
-        all.too_near = true;
+  void add_bodies_behind_each_other(const TimedRay& at, WorldHit hit, SceneWhile& scene,
+                                    QueryCounts& counts, AllMet& all) const {
+    constexpr std::size_t most_bodies = 64;
+    const std::size_t enough = options_.order == EchoOrder::first
+                                   ? static_cast<std::size_t>(options_.returns)
+                                   : most_bodies;
+    for (std::size_t i = 0; i < 2 * most_bodies && hit.found(); ++i) {
+      add_if_far(met_by(at.ray, hit), all.echoes, all);
       if (all.echoes.size() == enough) break;
       hit = behind(at, hit, scene, counts);
     }
-    return all;
+  }
+
+  /// What is nearer than the least range is only noted.
+  void add_if_far(const Met& met, std::vector<Met>& to, AllMet& all) const {
+    if (met.distance >= options_.nearest)
+      to.push_back(met);
+    else
+      all.too_near = true;
   }
 
   /// What the ray enters next, behind where it leaves what it met: bodies that overlap are passed
