@@ -18,6 +18,7 @@
 #include "renderer/io/output_file.h"
 #include "renderer/json/object_reader.h"
 #include "renderer/sensor/lidar_models.h"
+#include "renderer/sensor/mcap.h"
 #include "renderer/sensor/scan.h"
 #include "renderer/sensor/scan_files.h"
 #include "renderer/sensor/sensor_path.h"
@@ -117,9 +118,15 @@ void run(ScanVerbOptions& options) {
                           : options.pattern
                               ? rays_of_pattern(*options.pattern, options.sweep, options.scan.start)
                               : rays_of_pinhole(*options.pinhole);
-  for (const std::string& output : options.outputs)
-    if (scan_format_of(output).is_image && rays.width == 0)
+  const double echoes = double(rays.rays.size()) * options.scan.returns;
+  for (const std::string& output : options.outputs) {
+    const ScanFormat& format = scan_format_of(output);
+    if (format.is_image && rays.width == 0)
       throw WrongUsage("--output: rays that are no image's cannot become one (got " + output + ")");
+    if (format.ending == ".mcap" && echoes > double(most_mcap_points))
+      throw WrongUsage("--output: " + output + " holds at most " +
+                       std::to_string(most_mcap_points) + " echoes");
+  }
   options.import.purpose = ScenePurpose::rays;
   Imported imported = import_scene(options.scene, options.import);
   const Scene& scene = imported.scene;

@@ -138,7 +138,7 @@ std::optional<Vec3<double>> CalibratedCamera::direction(double u, double v) cons
   const Vector2 wanted((u - numbers_.cx) / numbers_.fx, (v - numbers_.cy) / numbers_.fy);
   if (numbers_.model == Model::pinhole) {
     const auto at = is_plain() ? std::optional(wanted) : undistorted(wanted);
-    if (!at) return std::nullopt;
+    if (!at || !at->allFinite()) return std::nullopt;
     return Vec3<double>(at->x(), at->y(), 1);
   }
   const double radius = wanted.norm();

@@ -22,11 +22,16 @@ struct LasAxis {
   double read_again(double x) const { return number(x) * scale + offset; }
 };
 
+/// True of what has a place in a file of points; noise may take it beyond all numbers.
+bool is_point(const Echo& echo) {
+  return echo.object >= 0 && echo.point.allFinite();
+}
+
 LasAxis las_axis(const Scan& scan, int axis) {
   LasAxis made;
   double least = std::numeric_limits<double>::infinity(), most = -least;
   for (const Echo& echo : scan.echoes) {
-    if (echo.object < 0) continue;
+    if (!is_point(echo)) continue;
     least = std::min(least, echo.point[axis]);
     most = std::max(most, echo.point[axis]);
   }
@@ -81,7 +86,7 @@ std::vector<unsigned char> las_of(const ScanOutput& output) {
   for (std::size_t ray = 0; ray < output.rays.rays.size(); ++ray) {
     const std::span<const Echo> echoes(output.scan.echoes.data() + ray * several, several);
     std::size_t met = 0;
-    while (met < several && echoes[met].object >= 0) ++met;
+    while (met < several && is_point(echoes[met])) ++met;
     const std::size_t count = std::min(met, most_returns);
     for (std::size_t k = 0; k < count; ++k) {
       const Echo& echo = echoes[k];

@@ -84,6 +84,7 @@ constexpr PointField fields_of_points[] = {{"x", 0, of_float32},    {"y", 4, of_
                                            {"ring", 16, of_uint16}, {"time", 20, of_float32},
                                            {"object", 24, of_int32}};
 constexpr std::uint32_t point_step = 28;
+static_assert(most_mcap_points == 0xffffffffu / point_step);
 
 FileBytes point_cloud(const ScanOutput& output, std::uint64_t nanoseconds) {
   FileBytes points;

@@ -120,7 +120,11 @@ TEST(CalibratedCameras, pixels_beyond_the_fold_of_the_distortion_have_no_ray) {
   const SensorRays rays = rays_of_camera(camera, "k.json");
   EXPECT_EQ(rays.missing, 2 * (90 - std::size_t(std::ceil(last))));
   EXPECT_EQ(rays.rays[90].time, 1e-3);  // the second row
-  n.cx = -100;
+  n.fx = 1e-310;                        // beyond all numbers
+  EXPECT_FALSE(CalibratedCamera(n).direction(1, 0));
+  n.k[0] = 0;
+  EXPECT_FALSE(CalibratedCamera(n).direction(1, 0));
+  n.fx = 100, n.k[0] = -0.3, n.cx = -100;
   EXPECT_THROW(rays_of_camera(CalibratedCamera(n), "k.json"), BadInput);
 }
 

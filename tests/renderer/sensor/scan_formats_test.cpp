@@ -126,6 +126,16 @@ TEST_F(ScanFormatsTest, las_holds_coordinates_to_half_a_step) {
   }
 }
 
+TEST_F(ScanFormatsTest, las_leaves_out_what_noise_took_beyond_all_numbers) {
+  for (std::size_t i = 0; i < scan_.echoes.size(); ++i)
+    if (scan_.echoes[i].object >= 0) {
+      scan_.echoes[i].point.x() = std::numeric_limits<double>::infinity();
+      const bool has_second = scan_.echoes[i + 1].object >= 0;
+      EXPECT_EQ(las_of(output()).size(), 375 + 30 * (points_ - (has_second ? 2 : 1)));
+      break;
+    }
+}
+
 TEST_F(ScanFormatsTest, mcap_has_one_point_cloud_and_an_index_that_finds_it) {
   const std::vector<unsigned char> bytes = mcap_of(output());
   const std::string magic("\x89MCAP0\r\n", 8), all(bytes.begin(), bytes.end());
