@@ -22,8 +22,9 @@ struct AzimuthRange {
 SensorRays turning_rays(std::span<const LidarChannel> channels, int steps, double seconds,
                         const AzimuthRange* range = nullptr);
 
-/// Livox's Mid-360 by a formula, not by its table: rays every 5 microseconds, four lines in turn,
-/// 176 turns per second, elevations from -7 to 52 degrees. Another moment has other rays.
+/// Livox's Mid-360 by a formula near its table, not by it: rays every 5 microseconds, four lines in
+/// turn, 10,000 turns per minute and ten swings per second, elevations from -7 to 52 degrees.
+/// Another moment has other rays.
 SensorRays mid_360_rays(std::size_t count, double start);
 
 }  // namespace minkray

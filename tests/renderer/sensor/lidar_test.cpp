@@ -79,6 +79,28 @@ TEST(Lidars, the_mid_360_covers_its_field_of_view_and_does_not_repeat) {
                    next = rays_of_pattern("mid360", 0.1, 0.1);
   ASSERT_EQ(first.rays.size(), 20000u);
   EXPECT_NEAR(first.rays[1].time, 5e-6, 1e-18);
+  // Rows of Livox's mid360.csv, from 1, of the first turn: azimuth and zenith in degrees, as near
+  // as is said.
+  const struct {
+    std::size_t row;
+    double azimuth, zenith;
+  } table[] = {{1, 268.99, 37.838},   {2, 269, 40.825},      {3, 269, 43.581},
+               {4, 269, 46.152},      {297, 179.11, 42.875}, {540, 101.26, 38.724},
+               {577, 86.704, 46.885}, {848, 6.4632, 44.292}};
+  for (const auto& row : table) {
+    const SensorRay& ray = first.rays[row.row - 1];
+    EXPECT_LT(std::abs(std::remainder(azimuth(ray) - row.azimuth, 360)), 10) << row.row;
+    EXPECT_NEAR(90 - elevation(ray), row.zenith, 2) << row.row;
+  }
+  // The mean of its four lines later on.
+  const SensorRays long_frame = rays_of_pattern("Mid-360:50000", 0.1);
+  for (const auto& [row, zenith] :
+       {std::pair{13105, 81.4}, {25681, 73.9}, {37893, 52.3}, {49901, 94.1}}) {
+    double mean = 0;
+    for (int line = 0; line < 4; ++line)
+      mean += (90 - elevation(long_frame.rays[std::size_t(row - 1 + line)])) / 4;
+    EXPECT_NEAR(mean, zenith, 5.5) << row;
+  }
   double highest = -90, lowest = 90;
   std::set<std::pair<int, int>> cells, more;
   for (const SensorRays* frame : {&first, &next})
