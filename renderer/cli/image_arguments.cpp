@@ -145,7 +145,8 @@ void check_outputs(const std::vector<std::string>& outputs) {
 
 namespace {
 
-/// Its numbers, for a hash: shares of a picture belong together only if they had the same lens.
+/// Numbers of a lens, for a hash: shares of a picture belong together only if they had the same
+/// lens.
 std::string lens_text(const CalibratedCamera::Numbers& numbers) {
   std::vector<double> all = {double(numbers.model == CalibratedCamera::Model::fisheye),
                              numbers.fx,

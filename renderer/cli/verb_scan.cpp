@@ -39,7 +39,7 @@ struct ScanVerbOptions {
   bool has_halfs = false, quiet = false;
 };
 
-/// They come as in EchoOrder.
+/// Names of the values of EchoOrder, in their order.
 const std::vector<std::string> echo_orders = {"first", "strongest", "last"};
 
 /// A link of a robot, or an object.

@@ -15,7 +15,7 @@ namespace minkray {
 /// The one version of the format there is.
 inline constexpr int scene_version = 1;
 
-/// What a scene is read for: without a picture it needs no camera and no lights.
+/// Purpose that a scene is read for: without a picture it needs no camera and no lights.
 enum class ScenePurpose : unsigned char { picture, rays };
 
 /// The scene that the text describes. Nothing if there is any mistake in it; all of them are

@@ -16,7 +16,7 @@ namespace minkray {
 std::vector<Vec3<double>> directions_of_beam(const Vec3<double>& direction, double full_angle,
                                              int count);
 
-/// What one ray of a beam has met, or all those of an echo together.
+/// A hit of one ray of a beam, or all those of an echo together.
 struct Met {
   double t = 0, distance = 0;  ///< in lengths of the direction, and in those of the scene
   Vec3<double> normal = Vec3<double>::Zero();

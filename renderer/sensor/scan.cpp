@@ -223,7 +223,7 @@ class Scanner {
     }
   }
 
-  /// What is nearer than the least range is only noted.
+  /// Adds a hit, or notes that it is nearer than the least range.
   void add_if_far(const Met& met, std::vector<Met>& to, AllMet& all) const {
     if (met.distance >= options_.nearest)
       to.push_back(met);

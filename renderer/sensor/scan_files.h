@@ -13,7 +13,7 @@
 
 namespace minkray {
 
-/// It refers to all that it is made of.
+/// References all that it is made of.
 struct ScanOutput {
   const Scan& scan;
   const SensorRays& rays;

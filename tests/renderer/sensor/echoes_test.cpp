@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a lidar measures at walls, by closed forms: ranges, intensities, echoes at edges.
+// Measurements of lidars at walls, by closed forms: ranges, intensities, echoes at edges.
 #include <gtest/gtest.h>
 
 #include <cmath>
