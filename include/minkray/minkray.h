@@ -609,13 +609,22 @@ inline void check_sizes(const char* function, const char* argument, std::size_t 
 
 using Proof = minkray_proof;
 
-/// A lidar's rays, into as much room as there is: "spinning:32x1800", or a CSV file of Livox's.
-/// Answers how many there are.
+/// A lidar's rays, into as much room as there is: "spinning:32x1800", "VLP-16", or a file. Returns
+/// how many there are.
 inline std::size_t lidar(Text pattern, const Pose& pose, View<Ray> rays = {}) {
   std::size_t needed = 0;
   detail::check(minkray_lidar_rays(pattern.c_str(), detail::plain(&pose),
                                    reinterpret_cast<minkray_ray*>(rays.data()), rays.size(),
                                    &needed));
+  return needed;
+}
+
+/// A calibrated camera's rays, by the text of its JSON; as a lidar's.
+inline std::size_t camera(Text camera, const Pose& pose, View<Ray> rays = {}) {
+  std::size_t needed = 0;
+  detail::check(minkray_camera_rays(camera.c_str(), detail::plain(&pose),
+                                    reinterpret_cast<minkray_ray*>(rays.data()), rays.size(),
+                                    &needed));
   return needed;
 }
 

@@ -381,14 +381,23 @@ MINKRAY_API int minkray_scene_prove(minkray_scene scene, const minkray_ray* rays
 
 /* ---- sensors --------------------------------------------------------------------------------- */
 
-/* A lidar's rays: `pattern` is "spinning:CHANNELSxSTEPS", with ":LOWEST,HIGHEST" elevations in
- * degrees if wanted (else -15, 15), row by row from above, clockwise from behind; or the name of a
- * CSV file with columns azimuth and zenith or elevation, in degrees, as Livox publishes its
- * patterns. In the sensor's frame x is ahead and z is the axis; `pose`, of the sensor in the world,
+/* A lidar's rays: `pattern` is "spinning:CHANNELSxSTEPS", with ":LOWEST,HIGHEST" elevations (else
+ * -15,15) and ":FROM,TO" azimuths in degrees if wanted, row by row from above, clockwise from
+ * behind unless azimuths are given; or a lidar's name ("VLP-16", "VLP-32C", "HDL-64E", "OS1-64",
+ * "Mid-360"); or a file: .csv as Livox publishes its patterns, .json of elevations or of Ouster's,
+ * .mat3x4f. In the sensor's frame x is ahead and z is the axis; `pose`, of the sensor in the world,
  * may be NULL. Directions have length 1, so that t is the distance. Writes at most `size` rays, and
  * to `needed` (if not NULL) how many there are. */
 MINKRAY_API int minkray_lidar_rays(const char* pattern, const minkray_pose* pose, minkray_ray* rays,
                                    size_t size, size_t* needed);
+
+/* A calibrated camera's rays, row by row: `camera` is the text of a JSON object with fx, fy, cx,
+ * cy, width and height in pixels, and if wanted "model" ("pinhole" or "fisheye"), k1 to k6 (k4), p1
+ * and p2, all as OpenCV has them, the middle of the first pixel at (0, 0). Directions have z = 1 in
+ * the camera's frame (t is the depth), of fisheyes length 1, and are NaN where the distortion has
+ * no inverse. The rest is as for lidars. */
+MINKRAY_API int minkray_camera_rays(const char* camera, const minkray_pose* pose, minkray_ray* rays,
+                                    size_t size, size_t* needed);
 
 /* ---- pictures -------------------------------------------------------------------------------- */
 

@@ -2,11 +2,13 @@
 #include "renderer/cli/image_arguments.h"
 #include "renderer/scene/framing.h"
 
+#include <algorithm>
 #include <charconv>
 #include <iostream>
 #include <optional>
 
 #include "renderer/base/errors.h"
+#include "renderer/base/hash.h"
 #include "renderer/base/interrupt.h"
 #include "renderer/cli/import_arguments.h"
 #include "renderer/cli/options.h"
@@ -14,7 +16,9 @@
 #include "renderer/import/import.h"
 #include "renderer/io/image_file.h"
 #include "renderer/io/output_file.h"
+#include "renderer/json/json.h"
 #include "renderer/json/mistakes.h"
+#include "renderer/scene/calibrated_camera.h"
 
 namespace minkray {
 namespace {
@@ -89,6 +93,9 @@ void ImageArguments::add_to(const Verb& verb, const std::string& suffix) {
   preview.add_to(verb);
   verb.add_option("-r,--resolution", resolution, "Size in pixels, instead of the scene's")
       .takes("WxH");
+  verb.add_option("--camera-file", camera_file,
+                  "Lens and size of a calibrated camera (JSON), at the scene's camera")
+      .reads_file();
   verb.add_option("-s,--spp", samples, "Samples per pixel").between(1, 1 << 24).show_default();
   verb.add_option("-t,--threads", threads, "Threads; 0: one per core")
       .between(0, 1024)
@@ -138,6 +145,44 @@ void check_outputs(const std::vector<std::string>& outputs) {
   for (const std::string& output : outputs) check_writable(output);
 }
 
+namespace {
+
+/// Numbers of a lens, for a hash: shares of a picture belong together only if they had the same
+/// lens.
+std::string lens_text(const CalibratedCamera::Numbers& numbers) {
+  std::vector<double> all = {double(numbers.model == CalibratedCamera::Model::fisheye),
+                             numbers.fx,
+                             numbers.fy,
+                             numbers.cx,
+                             numbers.cy,
+                             double(numbers.width),
+                             double(numbers.height),
+                             numbers.p1,
+                             numbers.p2};
+  all.insert(all.end(), numbers.k.begin(), numbers.k.end());
+  return Json(all).dump();
+}
+
+/// Gives the scene's camera the lens of a file, and its size.
+void take_lens(Scene& scene, const std::string& file) {
+  auto lens = std::make_shared<const CalibratedCamera>(read_calibrated_camera(file));
+  const CalibratedCamera::Numbers& numbers = lens->numbers();
+  scene.camera.resolution = {numbers.width, numbers.height};
+  if (std::max(numbers.width, numbers.height) > most_pixels_a_side)
+    throw BadInput(file + ": width and height must be at most " +
+                   std::to_string(most_pixels_a_side) + " for pictures");
+  if (numbers.row_time > 0)
+    std::cerr << "warning: pictures expose all rows at once, without row_time (" +
+                     printable(file, 100) + ")\n";
+  Hash hash;
+  hash.add(scene.hash);
+  hash.add(lens_text(numbers));
+  scene.hash = hash.text();
+  scene.camera.calibration = std::move(lens);
+}
+
+}  // namespace
+
 Scene ImageArguments::load_scene() const {
   ImportOptions options = import;
   if (!resolution.empty()) options.picture = parse_resolution(resolution);
@@ -149,6 +194,7 @@ Scene ImageArguments::load_scene() const {
     frame_with_own_lens(loaded);
   }
   files->read(imported.files);
+  if (!camera_file.empty()) take_lens(loaded, camera_file);
   return loaded;
 }
 

@@ -22,8 +22,9 @@ struct ImageArguments {
   std::string scene;
   ImportOptions import;
   std::vector<std::string> outputs;
-  std::string resolution;  ///< empty: the scene's
-  std::string crop;        ///< empty: all
+  std::string resolution;   ///< empty: the scene's
+  std::string crop;         ///< empty: all
+  std::string camera_file;  ///< empty: the scene's lens
   std::string solver = "auto";
   std::string seed = "0";
   int samples = 1;

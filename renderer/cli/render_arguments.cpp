@@ -62,6 +62,7 @@ void RenderArguments::add_to(const Verb& verb) {
       "--denoise", denoise,
       "Less noise: pixels are averaged with others that are of the same thing and about as "
       "bright; made for few samples");
+  verb.add_flag("--half", has_halfs, "Write the colors of .exr with 16-bit floats");
   std::string maps = "Tone mapping of PNG output:";
   for (const ToneMapDescription& map : tone_maps)
     maps += "\n" + std::string(map.name) + ": " + std::string(map.doc);

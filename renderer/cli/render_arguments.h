@@ -33,6 +33,7 @@ struct RenderArguments {
   bool resume = false;
   bool progressive = false;
   bool denoise = false;
+  bool has_halfs = false;
   std::string tev;  ///< empty: none
   std::optional<std::string> frames;
   double rate = 24;
@@ -46,7 +47,7 @@ struct RenderArguments {
   /// Throws WrongUsage where an output must be given.
   void choose_output(const Ranks& ranks);
 
-  Display display() const { return {exposure, tone_map_named(tone_map)}; }
+  Display display() const { return {exposure, tone_map_named(tone_map), has_halfs}; }
   bool is_share() const { return tile || sample_share; }
 };
 

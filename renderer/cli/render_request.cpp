@@ -61,6 +61,10 @@ RenderJob job_of(const RenderArguments& options, const Ranks& ranks) {
   for (const std::string& output : outputs)
     if (options.is_share() && !keeps_planes(output))
       throw WrongUsage("--output: a share of a picture must end in .exr (got " + output + ")");
+  if (options.is_share() && options.has_halfs)
+    throw WrongUsage(
+        "--half: a share of a picture keeps all digits: not with --tile, "
+        "--sample-share");
   if (options.tile) job.options.tile = parse_share(*options.tile, "--tile");
   if (options.sample_share)
     job.options.sample_share = parse_share(*options.sample_share, "--sample-share");

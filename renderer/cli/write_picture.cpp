@@ -33,10 +33,22 @@ Image to_look_at(const FinishedPicture& finished, const Display& display) {
   return picture;
 }
 
+namespace {
+
+std::vector<unsigned char> exr_bytes(const ExrImage& exr, bool has_halfs) {
+  if (!has_halfs) return encode_exr(exr);
+  ExrImage small = exr;
+  for (ExrPlane& plane : small.planes)
+    plane.is_half = plane.name == "R" || plane.name == "G" || plane.name == "B";
+  return encode_exr(small);
+}
+
+}  // namespace
+
 void write_picture(const std::vector<std::string>& outputs, const FinishedPicture& picture,
                    const Display& display) {
   for (const std::string& output : outputs) {
-    const auto bytes = keeps_planes(output)   ? encode_exr(picture.exr)
+    const auto bytes = keeps_planes(output)   ? exr_bytes(picture.exr, display.has_halfs)
                        : keeps_floats(output) ? encode_image(picture.image, output)
                                               : encode_image(to_look_at(picture, display), output);
     InterruptGuard::end_if_interrupted();

@@ -7,10 +7,11 @@
 
 namespace minkray {
 
-/// How light is shown by formats that keep no floats.
+/// How light is shown by formats that keep no floats, and kept by OpenEXR.
 struct Display {
   double exposure = 0;  ///< in stops
   ToneMap tone_map = ToneMap::srgb;
+  bool has_halfs = false;  ///< R, G and B of .exr have 16 bits
 };
 
 struct FinishedPicture {

@@ -166,7 +166,7 @@ Imported import_alone(const std::filesystem::path& file, const ImportOptions& op
       throw WrongUsage("--geometry, --keyframe, --joint and the like are for robots' files (" +
                        printable(file.string(), 100) + " is none)");
     Imported imported;
-    imported.scene = load_scene(file, &imported.files);
+    imported.scene = load_scene(file, &imported.files, options.purpose);
     imported.files.push_back(file);
     imported.files.insert(imported.files.end(), imported.scene.pictures.begin(),
                           imported.scene.pictures.end());
@@ -250,7 +250,9 @@ Imported import_scene(const std::filesystem::path& file, const ImportOptions& op
   of_robots.joints.clear();
   of_robots.joint_rows.clear();
   for (const std::string& name : options.others) {
-    Imported other = import_alone(name, is_foreign(name) ? of_robots : ImportOptions());
+    ImportOptions of_scenes;
+    of_scenes.purpose = options.purpose;
+    Imported other = import_alone(name, is_foreign(name) ? of_robots : of_scenes);
     if (!has_view && !other.model) {
       take_view(imported.scene, other.scene);
       has_view = true;

@@ -14,7 +14,6 @@
 namespace minkray {
 namespace {
 
-
 /// Limit of reported mistakes: a file with more has one mistake many times.
 constexpr std::size_t most_mistakes = 20;
 

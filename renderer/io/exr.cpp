@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <deque>
 #include <new>
 #include <stdexcept>
 
@@ -228,8 +229,13 @@ std::vector<unsigned char> encode_exr(const ExrImage& image) {
   header.compression() = Imf::ZIP_COMPRESSION;
   for (const auto& [name, text] : image.texts) header.insert(name, Imf::StringAttribute(text));
   Imf::FrameBuffer pixels;
+  std::deque<std::vector<half>> halfs;
   for (const ExrPlane& plane : image.planes) {
-    const Imf::Slice slice = slice_of(plane, image.window);
+    const auto* floats = std::get_if<std::vector<float>>(&plane.values);
+    if (plane.is_half && floats) halfs.emplace_back(floats->begin(), floats->end());
+    const Imf::Slice slice = plane.is_half && floats
+                                 ? slice_of(Imf::HALF, halfs.back(), image.window)
+                                 : slice_of(plane, image.window);
     header.channels().insert(plane.name, Imf::Channel(slice.type));
     pixels.insert(plane.name, slice);
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// OpenEXR files in memory: any number of named planes of 32-bit floats or unsigned integers, a data
-// window, and text attributes. Only exr.cpp includes the library.
+// OpenEXR files in memory: any number of named planes of floats or unsigned integers, a data window,
+// and text attributes. Only exr.cpp includes the library.
 #pragma once
 
 #include <cstdint>
@@ -18,6 +18,7 @@ namespace minkray {
 struct ExrPlane {
   std::string name;
   std::variant<std::vector<float>, std::vector<std::uint32_t>> values;
+  bool is_half = false;  ///< floats are written with 16 bits: 11 of precision, 65504 at most
 };
 
 struct ExrImage {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "renderer/scene/calibrated_camera.h"
+
 namespace minkray {
 namespace {
 
@@ -52,6 +54,13 @@ Camera::Camera(const CameraDescription& description, const Resolution& resolutio
 
   for (std::size_t i = 0; i < CameraTypes::names.size(); ++i)
     if (CameraTypes::names[i] == description.type.name) type_ = static_cast<Type>(i);
+  if (description.calibration) {
+    type_ = Type::calibrated;
+    calibration_ = description.calibration;
+    const CalibratedCamera::Numbers& numbers = calibration_->numbers();
+    calibrated_pixels_ = {double(numbers.width) / resolution.width,
+                          double(numbers.height) / resolution.height};
+  }
   unit_right_ = right;
   unit_down_ = down;
   const double to_look_at = (description.look_at - description.position).norm();
@@ -67,6 +76,7 @@ Camera::Camera(const CameraDescription& description, const Resolution& resolutio
 // Fisheyes: the angle to the axis is proportional to the distance from the middle (equidistant), or
 // twice its sine of half is (equisolid angle). Beyond all directions the last one is seen.
 Ray<double> Camera::other_ray(double x, double y) const {
+  if (type_ == Type::calibrated) return calibrated_ray(x, y);
   constexpr double pi = std::numbers::pi;
   const double right = x - centre_.x(), down = y - centre_.y();
   if (type_ == Type::orthographic)
@@ -82,6 +92,14 @@ Ray<double> Camera::other_ray(double x, double y) const {
                                               : 2 * std::asin(std::min(scale_ * distance, 1.0));
   const Vec3<double> outwards = (right * unit_right_ + down * unit_down_) / distance;
   return {position_, unit<double>(std::cos(angle) * forward_ + std::sin(angle) * outwards)};
+}
+
+Ray<double> Camera::calibrated_ray(double x, double y) const {
+  // Calibrations count from the middle of the first pixel.
+  const Vec3<double> seen = calibration_->direction_or_last(calibrated_pixels_.x() * x - 0.5,
+                                                            calibrated_pixels_.y() * y - 0.5);
+  return {position_,
+          unit<double>(seen.x() * unit_right_ + seen.y() * unit_down_ + seen.z() * forward_)};
 }
 
 // Derived from the rays through the pixels on the right and below.
@@ -106,7 +124,8 @@ Ray<double> Camera::through_lens(const Ray<double>& ray, const std::array<double
 }
 
 std::optional<Eigen::Vector2d> Camera::seen_at(const Vec3<double>& point) const {
-  if (type_ == Type::perspective || type_ == Type::orthographic) return project(point);
+  if (type_ == Type::perspective || type_ == Type::orthographic || type_ == Type::calibrated)
+    return project(point);
   const Vec3<double> towards = unit<double>(point - position_);
   if (towards.isZero(0)) return std::nullopt;
   const double right = towards.dot(unit_right_), down = towards.dot(unit_down_);
@@ -128,6 +147,12 @@ std::optional<Eigen::Vector2d> Camera::project(const Vec3<double>& point) const 
   if (type_ == Type::orthographic)
     return Eigen::Vector2d(
         centre_ + Eigen::Vector2d(offset.dot(unit_right_), offset.dot(unit_down_)) / scale_);
+  if (type_ == Type::calibrated) {
+    const auto pixel = calibration_->project(
+        {offset.dot(unit_right_), offset.dot(unit_down_), offset.dot(forward_)});
+    if (!pixel) return std::nullopt;
+    return Eigen::Vector2d((pixel->array() + 0.5) / calibrated_pixels_.array());
+  }
   if (type_ != Type::perspective) return std::nullopt;
   const double depth = offset.dot(forward_);
   if (!(depth > 0)) return std::nullopt;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 
 #include "core/math/ray.h"
@@ -35,7 +36,7 @@ class Camera {
   Ray<double> through_lens(const Ray<double>& ray, const std::array<double, 2>& u) const;
 
   /// Pixel position of a point; nothing if it lies behind the camera, or for cameras that are
-  /// neither perspective nor orthographic.
+  /// neither perspective, orthographic nor calibrated.
   std::optional<Eigen::Vector2d> project(const Vec3<double>& point) const;
 
   /// Pixel position of a point, for a camera of any type; nothing if it is not visible. Around a
@@ -43,9 +44,17 @@ class Camera {
   std::optional<Eigen::Vector2d> seen_at(const Vec3<double>& point) const;
 
  private:
-  enum class Type : unsigned char { perspective, orthographic, fisheye, equisolid, panorama };
+  enum class Type : unsigned char {
+    perspective,
+    orthographic,
+    fisheye,
+    equisolid,
+    panorama,
+    calibrated
+  };
 
   Ray<double> other_ray(double x, double y) const;
+  Ray<double> calibrated_ray(double x, double y) const;
 
   Type type_ = Type::perspective;
   double lens_radius_ = 0, focus_ = 1;
@@ -57,6 +66,8 @@ class Camera {
   Vec3<double> right_;    ///< a step of one pixel on the plane at distance 1
   Vec3<double> down_;
   Eigen::Vector2d centre_;
+  std::shared_ptr<const CalibratedCamera> calibration_;
+  Eigen::Vector2d calibrated_pixels_;  ///< how many of its pixels a pixel has
 };
 
 }  // namespace minkray

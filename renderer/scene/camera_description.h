@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -11,6 +12,8 @@
 #include "renderer/scene/named.h"
 
 namespace minkray {
+
+class CalibratedCamera;
 
 /// The largest width and height of a picture, so that its number of pixels fits an int.
 inline constexpr int most_pixels_a_side = 32768;
@@ -39,6 +42,8 @@ struct CameraDescription {
   std::optional<double> focus_distance = {};
   std::string focus_on = {};
   double blades = 0;  ///< a whole number: 0 or at least 3
+  /// Not a key: the lens of a camera file, instead of type and fov_y_degrees.
+  std::shared_ptr<const CalibratedCamera> calibration = {};
   /// Not a key: how far away it is sharp, along the camera's axis; 0: at look_at.
   double focus = 0;
 

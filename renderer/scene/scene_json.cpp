@@ -44,7 +44,8 @@ class SceneReader {
     if (!scene_.particles.empty()) hash.add(particle_files_.text());
   }
 
-  void read(const SceneFiles& files) {
+  void read(const SceneFiles& files, ScenePurpose purpose) {
+    purpose_ = purpose;
     const SceneFile& main = *files.main();
     std::vector<const SceneFile*> whole;
     add_whole(main, whole);
@@ -102,7 +103,8 @@ class SceneReader {
       const auto drawn = read_bool(*labels, file.path("labels"), mistakes_);
       if (is_main) scene_.labels = drawn.value_or(false);
     }
-    const Json* camera = is_version_one ? file.require("camera", "an object") : file.find("camera");
+    const bool needs_light = is_version_one && purpose_ == ScenePurpose::picture;
+    const Json* camera = needs_light ? file.require("camera", "an object") : file.find("camera");
     if (camera && is_whole && (is_main || !has_camera_)) {
       // The scene's own comes last, and takes the place of an included one.
       camera_.read(*camera, file.path("camera"), scene_file.version);
@@ -110,7 +112,7 @@ class SceneReader {
       has_camera_ = true;
     }
     const bool has_lights = file.find("lights");
-    if (is_whole && (is_version_one || has_lights)) {
+    if (is_whole && (needs_light || has_lights)) {
       has_lights_ = true;
       for_each_item(file, "lights", [&](const Json& light, const JsonPath& path) {
         read_light(light, path, is_version_one);
@@ -285,18 +287,20 @@ class SceneReader {
   CameraReader camera_;
   const SceneFile* camera_file_ = nullptr;
   bool has_camera_ = false, has_lights_ = false, has_background_ = false;
+  ScenePurpose purpose_ = ScenePurpose::picture;
 };
 
 }  // namespace
 
 std::optional<Scene> parse_scene(std::string_view text, const std::filesystem::path& folder,
                                  Mistakes& mistakes,
-                                 std::vector<std::filesystem::path>* other_files) {
+                                 std::vector<std::filesystem::path>* other_files,
+                                 ScenePurpose purpose) {
   const SceneFiles files(text, folder, mistakes);
   if (!files.main()) return std::nullopt;
   Scene scene;
   SceneReader reader(scene, folder, mistakes);
-  reader.read(files);
+  reader.read(files, purpose);
   if (!mistakes.none()) return std::nullopt;
   try {
     set_time(scene, 0);
@@ -316,12 +320,12 @@ std::optional<Scene> parse_scene(std::string_view text, const std::filesystem::p
   return scene;
 }
 
-Scene load_scene(const std::filesystem::path& file,
-                 std::vector<std::filesystem::path>* other_files) {
+Scene load_scene(const std::filesystem::path& file, std::vector<std::filesystem::path>* other_files,
+                 ScenePurpose purpose) {
   Mistakes mistakes(file.string());
   std::optional<Scene> scene;
   if (const auto text = read_text_file(file, mistakes)) {
-    scene = parse_scene(*text, file.parent_path(), mistakes, other_files);
+    scene = parse_scene(*text, file.parent_path(), mistakes, other_files, purpose);
   }
   throw_if_any(mistakes);
   return std::move(*scene);

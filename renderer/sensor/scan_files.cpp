@@ -14,6 +14,9 @@
 #include "renderer/io/png.h"
 #include "renderer/json/json.h"
 #include "renderer/scene/scene_instances.h"
+#include "renderer/sensor/coco.h"
+#include "renderer/sensor/las.h"
+#include "renderer/sensor/mcap.h"
 #include "renderer/sensor/npy.h"
 
 namespace minkray {
@@ -26,18 +29,20 @@ using Bytes = std::vector<unsigned char>;
 /// One record of the .npy file, without gaps.
 constexpr const char* record_fields =
     "[('t', '<f8'), ('distance', '<f8'), ('point', '<f8', (3,)), ('normal', '<f8', (3,)), "
-    "('object', '<i4'), ('t_lo', '<f8'), ('t_hi', '<f8'), ('status', '|u1')]";
-constexpr std::size_t record_bytes = 8 + 8 + 24 + 24 + 4 + 8 + 8 + 1;
+    "('object', '<i4'), ('t_lo', '<f8'), ('t_hi', '<f8'), ('status', '|u1'), "
+    "('incidence', '<f8'), ('intensity', '<f8')]";
+constexpr std::size_t record_bytes = 8 + 8 + 24 + 24 + 4 + 8 + 8 + 1 + 8 + 8;
 
 template <class Number>
-unsigned char* put(unsigned char* at, const Number& number) {
+unsigned char* put_at(unsigned char* at, const Number& number) {
   std::memcpy(at, &number, sizeof number);
   return at + sizeof number;
 }
 
-Bytes npy_of(const Scan& scan, const SensorRays& rays, int returns) {
+Bytes npy_of(const ScanOutput& output) {
+  const Scan& scan = output.scan;
   const std::string header =
-      npy_header(record_fields, rays.rays.size(), static_cast<std::size_t>(returns));
+      npy_header(record_fields, output.rays.rays.size(), static_cast<std::size_t>(output.returns));
   Bytes bytes(header.size() + record_bytes * scan.echoes.size());
   std::memcpy(bytes.data(), header.data(), header.size());
   constexpr std::size_t records_a_range = 16384;
@@ -45,10 +50,11 @@ Bytes npy_of(const Scan& scan, const SensorRays& rays, int returns) {
     unsigned char* at = bytes.data() + header.size() + record_bytes * begin;
     for (std::size_t i = begin; i < end; ++i) {
       const Echo& echo = scan.echoes[i];
-      at = put(put(at, echo.t), echo.distance);
-      for (const double x : echo.point) at = put(at, x);
-      for (const double x : echo.normal) at = put(at, x);
-      at = put(put(put(put(at, echo.object), echo.t_lo), echo.t_hi), echo.status);
+      at = put_at(put_at(at, echo.t), echo.distance);
+      for (const double x : echo.point) at = put_at(at, x);
+      for (const double x : echo.normal) at = put_at(at, x);
+      at = put_at(put_at(put_at(put_at(at, echo.object), echo.t_lo), echo.t_hi), echo.status);
+      at = put_at(put_at(at, echo.incidence), echo.intensity);
     }
   });
   return bytes;
@@ -58,16 +64,18 @@ Bytes bytes_of(const std::string& text) {
   return {text.begin(), text.end()};
 }
 
-Bytes csv_of(const Scan& scan, const SensorRays&, int returns) {
+Bytes csv_of(const ScanOutput& output) {
   std::string text =
-      "ray,echo,t,distance,x,y,z,normal_x,normal_y,normal_z,object,t_lo,t_hi,status\n";
+      "ray,echo,t,distance,x,y,z,normal_x,normal_y,normal_z,object,t_lo,t_hi,status,"
+      "incidence,intensity\n";
   const auto add = [&](double number) {
     char digits[40];
     const auto [end, error] = std::to_chars(digits, digits + sizeof digits, number);
     text.append(digits, end);
     text += ',';
   };
-  const auto several = static_cast<std::size_t>(returns);
+  const auto several = static_cast<std::size_t>(output.returns);
+  const Scan& scan = output.scan;
   for (std::size_t i = 0; i < scan.echoes.size(); ++i) {
     const Echo& echo = scan.echoes[i];
     text += std::to_string(i / several) + ',' + std::to_string(i % several) + ',';
@@ -78,61 +86,66 @@ Bytes csv_of(const Scan& scan, const SensorRays&, int returns) {
     text += std::to_string(echo.object) + ',';
     add(echo.t_lo);
     add(echo.t_hi);
-    text += std::to_string(echo.status) + '\n';
+    text += std::to_string(echo.status) + ',';
+    add(echo.incidence);
+    add(echo.intensity);
+    text.back() = '\n';
   }
   return bytes_of(text);
 }
 
-/// Behind the header: of each point that was met x, y, z and its normal in floats, and its object.
+/// Behind the header: of each point that was met x, y, z, its normal and intensity in floats, and
+/// its object.
 Bytes points_of(const Scan& scan, std::string header, const std::string& count_mark) {
   std::size_t count = 0;
   for (const Echo& echo : scan.echoes) count += echo.object >= 0 ? 1 : 0;
   for (std::size_t at = header.find(count_mark); at != header.npos; at = header.find(count_mark))
     header.replace(at, count_mark.size(), std::to_string(count));
-  Bytes bytes(header.size() + 28 * count);
+  Bytes bytes(header.size() + 32 * count);
   std::memcpy(bytes.data(), header.data(), header.size());
   unsigned char* at = bytes.data() + header.size();
   for (const Echo& echo : scan.echoes) {
     if (echo.object < 0) continue;
-    for (const double x : echo.point) at = put(at, static_cast<float>(x));
-    for (const double x : echo.normal) at = put(at, static_cast<float>(x));
-    at = put(at, echo.object);
+    for (const double x : echo.point) at = put_at(at, static_cast<float>(x));
+    for (const double x : echo.normal) at = put_at(at, static_cast<float>(x));
+    at = put_at(put_at(at, static_cast<float>(echo.intensity)), echo.object);
   }
   return bytes;
 }
 
-Bytes pcd_of(const Scan& scan, const SensorRays&, int) {
-  return points_of(scan,
-                   "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n"
-                   "FIELDS x y z normal_x normal_y normal_z object\nSIZE 4 4 4 4 4 4 4\n"
-                   "TYPE F F F F F F I\nCOUNT 1 1 1 1 1 1 1\nWIDTH @\nHEIGHT 1\n"
-                   "VIEWPOINT 0 0 0 1 0 0 0\nPOINTS @\nDATA binary\n",
-                   "@");
+Bytes pcd_of(const ScanOutput& output) {
+  return points_of(
+      output.scan,
+      "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n"
+      "FIELDS x y z normal_x normal_y normal_z intensity object\nSIZE 4 4 4 4 4 4 4 4\n"
+      "TYPE F F F F F F F I\nCOUNT 1 1 1 1 1 1 1 1\nWIDTH @\nHEIGHT 1\n"
+      "VIEWPOINT 0 0 0 1 0 0 0\nPOINTS @\nDATA binary\n",
+      "@");
 }
 
-Bytes ply_of(const Scan& scan, const SensorRays&, int) {
-  return points_of(scan,
+Bytes ply_of(const ScanOutput& output) {
+  return points_of(output.scan,
                    "ply\nformat binary_little_endian 1.0\nelement vertex @\nproperty float x\n"
                    "property float y\nproperty float z\nproperty float nx\nproperty float ny\n"
-                   "property float nz\nproperty int object\nend_header\n",
+                   "property float nz\nproperty float intensity\nproperty int object\nend_header\n",
                    "@");
 }
 
 /// The first echo of each pixel.
 template <class Of>
-auto plane_of(const Scan& scan, const SensorRays& rays, int returns, const Of& of) {
-  std::vector<decltype(of(scan.echoes[0]))> values;
-  values.reserve(rays.rays.size());
-  for (std::size_t i = 0; i < rays.rays.size(); ++i)
-    values.push_back(of(scan.echoes[i * static_cast<std::size_t>(returns)]));
+auto plane_of(const ScanOutput& output, const Of& of) {
+  std::vector<decltype(of(output.scan.echoes[0]))> values;
+  values.reserve(output.rays.rays.size());
+  for (std::size_t i = 0; i < output.rays.rays.size(); ++i)
+    values.push_back(of(output.scan.echoes[i * static_cast<std::size_t>(output.returns)]));
   return values;
 }
 
-Bytes exr_of(const Scan& scan, const SensorRays& rays, int returns) {
+Bytes exr_of(const ScanOutput& output) {
   ExrImage image;
-  image.display = image.window = {0, 0, rays.width, rays.height};
+  image.display = image.window = {0, 0, output.rays.width, output.rays.height};
   const auto add = [&](const std::string& name, const auto& of) {
-    image.planes.push_back({name, plane_of(scan, rays, returns, of)});
+    image.planes.push_back({name, plane_of(output, of), output.has_halfs});
   };
   add("t", [](const Echo& e) { return static_cast<float>(e.t); });
   add("distance", [](const Echo& e) { return static_cast<float>(e.distance); });
@@ -141,22 +154,25 @@ Bytes exr_of(const Scan& scan, const SensorRays& rays, int returns) {
     add("point." + letter, [axis](const Echo& e) { return static_cast<float>(e.point[axis]); });
     add("normal." + letter, [axis](const Echo& e) { return static_cast<float>(e.normal[axis]); });
   }
+  add("incidence", [](const Echo& e) { return static_cast<float>(e.incidence); });
+  add("intensity", [](const Echo& e) { return static_cast<float>(e.intensity); });
   add("object", [](const Echo& e) { return static_cast<std::uint32_t>(e.object + 1); });
   add("status", [](const Echo& e) { return std::uint32_t{e.status}; });
   return encode_exr(image);
 }
 
-Bytes png_of_depths(const Scan& scan, const SensorRays& rays, int returns) {
-  const auto millimetres = plane_of(scan, rays, returns, [](const Echo& e) {
+Bytes png_of_depths(const ScanOutput& output) {
+  const auto millimetres = plane_of(output, [](const Echo& e) {
     const double depth = std::round(1000 * e.t);
     return static_cast<std::uint16_t>(depth <= 65535 ? depth : 0);
   });
-  return png_of_grey16(rays.width, rays.height, millimetres);
+  return png_of_grey16(output.rays.width, output.rays.height, millimetres);
 }
 
 constexpr ScanFormat formats[] = {
-    {".npy", false, npy_of}, {".csv", false, csv_of}, {".pcd", false, pcd_of},
-    {".ply", false, ply_of}, {".exr", true, exr_of},  {".png", true, png_of_depths},
+    {".npy", false, npy_of}, {".csv", false, csv_of},       {".pcd", false, pcd_of},
+    {".ply", false, ply_of}, {".las", false, las_of},       {".mcap", false, mcap_of},
+    {".exr", true, exr_of},  {".png", true, png_of_depths}, {".json", true, coco_of},
 };
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Scans as files. What each holds: .npy one record a ray (and echo) with everything, .csv the same
-// as text; .pcd and .ply the points that were met, binary; .exr planes of an image; .png depths in
-// millimetres (t of each ray) in 16 bits, 0 where nothing was met or too far. The list of formats
+// Scans as files: .npy records with everything, .csv the same as text; .pcd, .ply, .las and .mcap
+// the points that were met; .exr planes of an image; .png depths in millimetres (t of each ray) in
+// 16 bits, 0 where nothing was met or too far; .json an image's masks (COCO). The list of formats
 // is scan_formats.
 #pragma once
 
@@ -13,10 +13,25 @@
 
 namespace minkray {
 
+/// References all that it is made of.
+struct ScanOutput {
+  const Scan& scan;
+  const SensorRays& rays;
+  int returns;
+  const Scene& scene;
+  double start = 0;        ///< of the sweep, in seconds
+  bool has_halfs = false;  ///< floats of .exr have 16 bits
+
+  /// The row of an image's ray; 0 if the rays are none.
+  int channel_of(std::size_t ray) const {
+    return rays.width > 0 ? static_cast<int>(ray / static_cast<std::size_t>(rays.width)) : 0;
+  }
+};
+
 struct ScanFormat {
   std::string_view ending;
   bool is_image;  ///< the rays must be an image's
-  std::vector<unsigned char> (*encode)(const Scan& scan, const SensorRays& rays, int returns);
+  std::vector<unsigned char> (*encode)(const ScanOutput& output);
 };
 std::span<const ScanFormat> scan_formats();
 

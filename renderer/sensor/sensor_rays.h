@@ -9,8 +9,12 @@
 
 #include "core/math/ray.h"
 #include "renderer/json/mistakes.h"
+#include "renderer/scene/calibrated_camera.h"
 
 namespace minkray {
+
+/// Some 60 GB, with their echoes.
+inline constexpr std::size_t most_sensor_rays = std::size_t{1} << 28;
 
 struct SensorRay {
   Ray<double> ray;
@@ -20,20 +24,24 @@ struct SensorRay {
 struct SensorRays {
   std::vector<SensorRay> rays;
   int width = 0, height = 0;  ///< of an image in rows from the top; 0 if the rays are none
+  std::size_t missing = 0;    ///< pixels without a ray: their directions are NaN
 };
 
 /// Reads them from a .npy array of (N, 6) numbers, origin and direction, or (N, 7) with t_max; of
 /// 32 or 64 bits.
 SensorRays rays_of_npy(const std::string& file);
 
-/// "spinning:CHANNELSxSTEPS" with, if wanted, ":LOWEST,HIGHEST" elevations in degrees (else -15,
-/// 15): x is ahead, z the axis; all channels of a step are cast at once. Or the name of a CSV file
-/// with columns time (s), azimuth and zenith or elevation (degrees), as Livox publishes its
-/// patterns. `seconds` is what a turn takes.
-SensorRays rays_of_pattern(const std::string& pattern, double seconds);
+/// "spinning:CHANNELSxSTEPS" with, if wanted, ":LOWEST,HIGHEST" elevations (else -15,15) and
+/// ":FROM,TO" azimuths in degrees; or a lidar's name (lidar_models) with ":STEPS" of a turn if
+/// wanted; or a file (pattern_formats). x is ahead, z the axis. `seconds` is what a turn takes;
+/// patterns that do not repeat begin at `start`, in seconds.
+SensorRays rays_of_pattern(const std::string& pattern, double seconds, double start = 0);
 
-/// A pinhole camera from a JSON file of fx, fy, cx, cy, width and height, in pixels: x right, y
-/// down, z ahead (OpenCV). Directions have z = 1, so that t is the depth.
+/// One ray through the middle of each pixel (CalibratedCamera): of a pinhole with z = 1, so that t
+/// is the depth. Rows are exposed one after another. `name` is what messages call it.
+SensorRays rays_of_camera(const CalibratedCamera& camera, const std::string& name);
+
+/// A camera from a JSON file (read_calibrated_camera).
 SensorRays rays_of_pinhole(const std::string& file);
 
 }  // namespace minkray

@@ -142,10 +142,7 @@ py::dict verify(const Scene& scene, const Scene::Group& robot, const Doubles& pa
   return result;
 }
 
-py::array_t<double> lidar(const std::string& pattern, const py::object& pose) {
-  const minkray::Pose map = pose_of(pose, "pose");
-  std::vector<minkray::Ray> rays(minkray::lidar(pattern, map));
-  minkray::lidar(pattern, map, rays);
+py::array_t<double> rows_of(const std::vector<minkray::Ray>& rays) {
   py::array_t<double> array({static_cast<py::ssize_t>(rays.size()), py::ssize_t{6}});
   for (std::size_t i = 0; i < rays.size(); ++i) {
     double* row = array.mutable_data(static_cast<py::ssize_t>(i), 0);
@@ -155,6 +152,20 @@ py::array_t<double> lidar(const std::string& pattern, const py::object& pose) {
   return array;
 }
 
+py::array_t<double> lidar(const std::string& pattern, const py::object& pose) {
+  const minkray::Pose map = pose_of(pose, "pose");
+  std::vector<minkray::Ray> rays(minkray::lidar(pattern, map));
+  minkray::lidar(pattern, map, rays);
+  return rows_of(rays);
+}
+
+py::array_t<double> camera(const std::string& text, const py::object& pose) {
+  const minkray::Pose map = pose_of(pose, "pose");
+  std::vector<minkray::Ray> rays(minkray::camera(text, map));
+  minkray::camera(text, map, rays);
+  return rows_of(rays);
+}
+
 }  // namespace
 
 void bind_pictures(py::module_& module) {
@@ -162,6 +173,7 @@ void bind_pictures(py::module_& module) {
   module.def("clearance", &clearance);
   module.def("verify", &verify);
   module.def("lidar", &lidar);
+  module.def("camera", &camera);
 }
 
 }  // namespace minkray_python

@@ -44,13 +44,15 @@ std::vector<Command> writing_commands() {
   };
   std::vector<Reading> several = scene;
   several.push_back({"others", "scene.json", "r.urdf scene.json -r 8x6 "});
+  std::vector<Reading> pictures = several;
+  pictures.push_back({"--camera-file", "camera.json", robot + "--camera-file camera.json "});
   return {
       {"render",
-       with(several, "-s 1 -q"),
+       with(pictures, "-s 1 -q"),
        {{"--output", {"o.png"}},
         {"--contact-sheet", {"sheet.png", " --frames 0..1 --output 'o#.png'"}}}},
       {"merge", {{"parts", "part.exr", "part.exr"}}, {{"--output", {"o.png"}}}},
-      {"heatmap", with(several, "-q"), {{"--output", {"o.png"}}}},
+      {"heatmap", with(pictures, "-q"), {{"--output", {"o.png"}}}},
       {"inspect", with(several, "-s 1 -q"), {{"--output", {"o.html"}}}},
       {"compare", with(scene, "--rays 10 --directions 20 -q"), {{"--output", {"o.png"}}}},
       {"scan",

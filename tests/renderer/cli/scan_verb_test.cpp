@@ -2,6 +2,7 @@
 // minkray scan as its users meet it: every output holds the same numbers, sensors ride on robots.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -50,10 +51,10 @@ struct ScanRow {
   int status = 0;
 };
 
-/// The records of a .npy file as they are laid out: 8 + 8 + 24 + 24 + 4 + 8 + 8 + 1 bytes.
+/// The records of a .npy file as they are laid out: 8 + 8 + 24 + 24 + 4 + 8 + 8 + 1 + 8 + 8 bytes.
 std::vector<ScanRow> scan_rows(const std::string& bytes) {
   std::vector<ScanRow> rows;
-  for (std::size_t at = bytes.find('\n') + 1; at + 85 <= bytes.size(); at += 85) {
+  for (std::size_t at = bytes.find('\n') + 1; at + 101 <= bytes.size(); at += 101) {
     ScanRow row;
     std::memcpy(&row.t, bytes.data() + at, 8);
     std::memcpy(&row.distance, bytes.data() + at + 8, 8);
@@ -104,7 +105,7 @@ TEST_F(ScanVerb, every_output_holds_the_same_numbers) {
     std::vector<double> values;
     for (std::string cell; std::getline(cells, cell, ',');)
       values.push_back(std::strtod(cell.c_str(), nullptr));
-    ASSERT_EQ(values.size(), 14u);
+    ASSERT_EQ(values.size(), 16u);
     EXPECT_EQ(values[2], row.t);
     EXPECT_EQ(values[3], row.distance);
     if (row.object >= 0) {
@@ -120,12 +121,12 @@ TEST_F(ScanVerb, every_output_holds_the_same_numbers) {
        {std::pair{"a.pcd", "DATA binary\n"}, {"a.ply", "end_header\n"}}) {
     const std::string bytes = text(name);
     const std::size_t begin = bytes.find(last) + std::strlen(last);
-    ASSERT_EQ(bytes.size() - begin, 28 * points.size()) << name;
+    ASSERT_EQ(bytes.size() - begin, 32 * points.size()) << name;
     for (std::size_t i = 0; i < points.size(); ++i) {
       float numbers[6];
       int object = 0;
-      std::memcpy(numbers, bytes.data() + begin + 28 * i, 24);
-      std::memcpy(&object, bytes.data() + begin + 28 * i + 24, 4);
+      std::memcpy(numbers, bytes.data() + begin + 32 * i, 24);
+      std::memcpy(&object, bytes.data() + begin + 32 * i + 28, 4);
       for (std::size_t k = 0; k < 3; ++k) {
         EXPECT_EQ(numbers[k], static_cast<float>(points[i].point[k]));
         EXPECT_EQ(numbers[3 + k], static_cast<float>(points[i].normal[k]));
@@ -254,6 +255,55 @@ TEST_F(ScanVerb, a_pattern_without_its_numbers_is_told_which_it_wants) {
   const ProgramOutcome outcome = scan("r.urdf --pattern spinning -o a.npy");
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_NE(outcome.err.find("spinning:CHANNELSxSTEPS"), std::string::npos) << outcome.err;
+}
+
+/// Scene files had to have what pictures need.
+TEST_F(ScanVerb, a_scene_that_is_only_scanned_needs_no_camera_and_no_lights) {
+  std::ofstream(folder_ / "bare.json") << R"({"version": 1,
+    "materials": [{"name": "grey", "type": "lambert", "color": [0.25, 0.5, 0.75]}],
+    "objects": [{"name": "wall", "material": "grey",
+                 "shape": {"type": "plane", "normal": [-1, 0, 0], "offset": -4}}]})";
+  const ProgramOutcome outcome =
+      scan("bare.json --pattern vlp-16:4 --range 1,100 -q -o a.npy -o a.las -o a.mcap");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(scan_rows(text("a.npy")).size(), 64u);
+  EXPECT_EQ(text("a.las").substr(0, 4), "LASF");
+  const ProgramOutcome picture =
+      run_shell("cd '" + folder_ / "" + "' && $MINKRAY render bare.json -o a.png");
+  EXPECT_EQ(picture.exit_code, 3);
+  EXPECT_NE(picture.err.find("/camera"), std::string::npos) << picture.err;
+}
+
+TEST_F(ScanVerb, wrong_numbers_of_sensors_are_told_before_anything_is_written) {
+  std::ofstream(folder_ / "a.npy") << "kept";
+  for (const auto& [words, message] :
+       {std::pair{"--pattern VLP-16 --range 2,1", "--range: must be 0 <= MIN < MAX (got 2,1)"},
+        {"--pattern VLP-16 --range 2", "--range: must be"},
+        {"--pattern VLP-16 --noise 1,2,-3", "--noise: must be >= 0"},
+        {"--pattern VLP-16 --echo second", "--echo"},
+        {"--pattern VLP-16 --divergence -1", "--divergence"},
+        {"--pattern VLP-16 --beam-rays 0", "--beam-rays"},
+        {"--pattern VLP-16 --start -1 -o a.mcap", "--start: must be >= 0 for a.mcap"},
+        {"--pattern Mid-360 -o a.json", "cannot become one (got a.json)"},
+        {"--pattern HDL-32 ", "known here: spinning:CHANNELSxSTEPS, VLP-16"}}) {
+    const ProgramOutcome outcome = scan("r.urdf -o a.npy " + std::string(words));
+    EXPECT_EQ(outcome.exit_code, 2) << words;
+    EXPECT_NE(outcome.err.find(message), std::string::npos) << outcome.err;
+  }
+  EXPECT_EQ(text("a.npy"), "kept");
+}
+
+TEST_F(ScanVerb, pixels_without_a_ray_are_counted) {
+  std::ofstream(folder_ / "fold.json")
+      << R"({"fx": 4, "fy": 4, "cx": 8, "cy": 6, "width": 17, "height": 13, "k1": -0.3})";
+  const ProgramOutcome outcome = scan("r.urdf --pinhole fold.json --pose 0,0,1 -q -o a.npy");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const std::vector<ScanRow> rows = scan_rows(text("a.npy"));
+  const auto missing = std::ranges::count(rows, 5, &ScanRow::status);
+  EXPECT_GT(missing, 0);
+  EXPECT_NE(outcome.err.find(std::to_string(missing) + " of 221 pixels have no ray"),
+            std::string::npos)
+      << outcome.err;
 }
 
 }  // namespace

@@ -30,6 +30,17 @@ std::string_view text_of(const std::vector<unsigned char>& bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
+TEST(Exr, halfs_have_eleven_bits) {
+  ExrImage image = small_image();
+  image.planes[0].values = std::vector<float>{1, -2.5f, 2049, 65504, 1e6f, 0x1p-24f};
+  image.planes[0].is_half = image.planes[1].is_half = true;  // whole numbers stay what they are
+  const ExrImage again = decode_exr(text_of(encode_exr(image)), "x.exr");
+  EXPECT_EQ(std::get<std::vector<float>>(again.find("B")->values),
+            (std::vector<float>{1, -2.5f, 2048, 65504, std::numeric_limits<float>::infinity(),
+                                0x1p-24f}));
+  EXPECT_EQ(again.find("id")->values, image.planes[1].values);
+}
+
 TEST(Exr, there_and_back_to_the_last_bit) {
   const ExrImage image = small_image();
   const ExrImage again = decode_exr(text_of(encode_exr(image)), "x.exr");

@@ -141,6 +141,30 @@ class Sensors(unittest.TestCase):
         columns = scanned["t"] if scanned.dtype.names else scanned[..., 0]
         np.testing.assert_allclose(columns.ravel(), hits.t, rtol=1e-6)
 
+    def test_lidars_have_names(self):
+        rays = mk.lidar("VLP-16").reshape(16, 1800, 6)
+        up = np.degrees(np.arcsin(rays[:, 0, 5]))
+        np.testing.assert_allclose(up, np.arange(15, -16, -2), atol=1e-9)
+        with self.assertRaisesRegex(mk.Error, "did you mean .VLP-16."):
+            mk.lidar("VLP-17")
+
+    def test_cameras_are_opencvs(self):
+        lens = {"fx": 60, "fy": 58, "cx": 30.2, "cy": 25.1, "width": 64, "height": 48,
+                "k1": -0.2, "k2": 0.05, "p1": 1e-3, "p2": -2e-3}
+        x, y, z = np.moveaxis(mk.camera(lens)[..., 3:], -1, 0)
+        self.assertTrue((z == 1).all())
+        s = x * x + y * y
+        radial = 1 + s * (lens["k1"] + s * lens["k2"])
+        u = x * radial + 2 * lens["p1"] * x * y + lens["p2"] * (s + 2 * x * x)
+        v = y * radial + lens["p1"] * (s + 2 * y * y) + 2 * lens["p2"] * x * y
+        v_pixel, u_pixel = np.mgrid[:48, :64]
+        np.testing.assert_allclose(60 * u + 30.2, u_pixel, atol=1e-9)
+        np.testing.assert_allclose(58 * v + 25.1, v_pixel, atol=1e-9)
+        with self.assertRaisesRegex(mk.Error, "k9: unknown key"):
+            mk.camera({**lens, "k9": 1})
+        with self.assertRaisesRegex(mk.Error, "calibration: must be a dict"):
+            mk.camera(5)
+
     def test_lidars_of_livox_are_tables(self):
         with tempfile.TemporaryDirectory() as folder:
             file = os.path.join(folder, "pattern.csv")

@@ -250,6 +250,19 @@ TEST(WrongUse, of_paths_and_lidars_says_what) {
   ASSERT_EQ(minkray_lidar_rays("spinning:4x8", nullptr, rays.data(), 2, nullptr), MINKRAY_OK);
   EXPECT_LT(rays[0].direction[0], 0);  // begins behind
   EXPECT_EQ(rays[2].direction[0], along_x.direction[0]);
+  ASSERT_EQ(minkray_lidar_rays("vlp-16:10", nullptr, nullptr, 0, &needed), MINKRAY_OK);
+  EXPECT_EQ(needed, 160u);
+  const char* const lens =
+      R"({"fx": 2, "fy": 2, "cx": 0, "cy": 0, "width": 3, "height": 1, "k1": -0.3})";
+  ASSERT_EQ(minkray_camera_rays(lens, nullptr, rays.data(), 3, &needed), MINKRAY_OK);
+  EXPECT_EQ(needed, 3u);
+  const double x = rays[1].direction[0];
+  EXPECT_NEAR(x * (1 - 0.3 * x * x), 0.5, 1e-12);
+  EXPECT_TRUE(std::isnan(rays[2].direction[0]));  // beyond the fold
+  expect_error(minkray_camera_rays(nullptr, nullptr, nullptr, 0, &needed), MINKRAY_WRONG_USE,
+               "camera: must not be NULL");
+  expect_error(minkray_camera_rays("{}", nullptr, nullptr, 0, &needed), MINKRAY_BAD_INPUT,
+               "camera: /fx: missing");
   minkray_scene_release(scene);
 }
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "renderer/light/sampler.h"
+#include "renderer/scene/calibrated_camera.h"
 
 namespace minkray {
 namespace {
@@ -192,6 +193,38 @@ TEST(Camera, blades_make_the_aperture_a_polygon) {
     EXPECT_NEAR(squares, inner * inner / 2, 0.01);  // as of a triangle's points, by their height
     for (const int count : sectors) EXPECT_NEAR(count, draws / blades, 0.02 * draws);
   }
+}
+
+TEST(Camera, of_a_lens_without_distortion_is_perspective) {
+  CameraDescription description;
+  description.position = {1, -5, 2};
+  description.look_at = {0, 0, 0.5};
+  description.fov_y_degrees = 50;
+  const Resolution half{32, 24};
+  const Camera perspective(description, half);
+  CalibratedCamera::Numbers numbers;
+  numbers.width = 64, numbers.height = 48;  // twice the picture's
+  numbers.fx = numbers.fy = 24 / std::tan(25 * std::numbers::pi / 180);
+  numbers.cx = 31.5, numbers.cy = 23.5;
+  description.calibration = std::make_shared<const CalibratedCamera>(numbers);
+  const Camera plain(description, half);
+  numbers.k[0] = -0.2;
+  description.calibration = std::make_shared<const CalibratedCamera>(numbers);
+  const Camera bent(description, half);
+  for (double x = 0; x <= 32; x += 4)
+    for (double y = 0; y <= 24; y += 3) {
+      EXPECT_LT((plain.ray(x, y).direction - perspective.ray(x, y).direction).norm(), 1e-14);
+      const auto pixel = bent.seen_at(bent.ray(x, y).at(7));
+      ASSERT_TRUE(pixel);
+      EXPECT_LT((*pixel - Eigen::Vector2d(x, y)).norm(), 1e-9);
+    }
+  // A barrel sees more of the world in its corners.
+  const auto middle = bent.ray(16, 12).direction;
+  EXPECT_LT(bent.ray(0, 0).direction.dot(middle), perspective.ray(0, 0).direction.dot(middle));
+  // Beyond the fold of the distortion the last ray is seen.
+  numbers.k[0] = -2;
+  description.calibration = std::make_shared<const CalibratedCamera>(numbers);
+  EXPECT_TRUE(Camera(description, half).ray(0, 0).direction.allFinite());
 }
 
 }  // namespace

@@ -142,6 +142,23 @@ TEST(Scans, each_ray_of_a_sweep_sees_the_scene_at_its_own_time) {
   for (const Echo& echo : mounted.echoes) EXPECT_NEAR(echo.t, 4, 1e-12);
 }
 
+TEST(Scans, rows_of_a_rolling_shutter_are_exposed_one_after_another) {
+  Scene scene;
+  scene.materials.push_back({"matt", LambertMaterial{}});
+  Object& wall = scene.objects.emplace_back();
+  wall.name = "wall";
+  wall.half_space = HalfSpaceBody<double>{{0, 0, -1}, -10};
+  CalibratedCamera::Numbers numbers;
+  numbers.fx = numbers.fy = 20, numbers.cx = 2, numbers.cy = 4;
+  numbers.width = 5, numbers.height = 9, numbers.row_time = 0.01;
+  const SensorRays rays = rays_of_camera(CalibratedCamera(numbers), "k.json");
+  ScanOptions options;  // the camera goes ahead with 30 lengths per second
+  options.path = MovingFrame{{}, Motion{{{0, {0, 0, 0}}, {1, {0, 0, 30}}}, {}}};
+  const Scan result = scan(scene, rays, options);
+  for (std::size_t i = 0; i < rays.rays.size(); ++i)
+    EXPECT_NEAR(result.echoes[i].t, 10 - 0.3 * double(i / 5), 1e-12) << i;
+}
+
 TEST(Scans, noise_has_the_deviation_that_was_asked_for) {
   Scene scene = balls();
   const SensorRays rays = random_rays(20000);
@@ -233,19 +250,19 @@ TEST(ScanFiles, hold_a_record_of_each_ray) {
   for (const Echo& echo : result.echoes) points += echo.object >= 0 ? 1 : 0;
   ASSERT_GT(points, 100u);
   for (const ScanFormat& format : scan_formats()) {
-    const std::vector<unsigned char> bytes = format.encode(result, rays, 1);
+    const std::vector<unsigned char> bytes = format.encode({result, rays, 1, scene});
     const std::string text(bytes.begin(), bytes.end());
     if (format.ending == ".npy") {
       const std::size_t begin = text.find('\n') + 1;
       EXPECT_EQ(begin % 64, 0u);
-      ASSERT_EQ(bytes.size() - begin, 85 * result.echoes.size());
+      ASSERT_EQ(bytes.size() - begin, 101 * result.echoes.size());
       double t = 0;
-      std::memcpy(&t, bytes.data() + begin + 85 * 17, sizeof t);
+      std::memcpy(&t, bytes.data() + begin + 101 * 17, sizeof t);
       EXPECT_EQ(t, result.echoes[17].t);
     } else if (format.ending == ".pcd" || format.ending == ".ply") {
       EXPECT_NE(text.find(std::to_string(points)), text.npos);
       const std::string last = format.ending == ".pcd" ? "DATA binary\n" : "end_header\n";
-      EXPECT_EQ(bytes.size() - text.find(last) - last.size(), 28 * points);
+      EXPECT_EQ(bytes.size() - text.find(last) - last.size(), 32 * points);
     } else if (format.ending == ".csv") {
       EXPECT_EQ(static_cast<std::size_t>(std::ranges::count(text, '\n')), 401u);
     } else {

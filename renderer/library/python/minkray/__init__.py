@@ -17,7 +17,7 @@ from ._minkray import Error, Shape
 from .answers import EXHAUSTED, HIT, INSIDE, MISS, NO_OBJECT, Clearance, Hits, MotionStatus, Proofs, Status, Verdict
 from .robots import Robot
 from .scene import Scene
-from .rays import lidar, pinhole
+from .rays import camera, lidar, pinhole
 from .shapes import (box, capsule, cone, custom, cut_cylinder, cylinder, difference, disk, ellipsoid,
                      frustum, height_field, hull, hull_of, make, mesh, mesh_info, point, read_shape, rounded, scaled,
                      segment, sphere, sum, superellipsoid, swept, tapered_capsule, transformed, translated,

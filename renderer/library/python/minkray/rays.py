@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Rays of cameras and lidars, as arrays whose last axis is origin and direction."""
+import json
+
 import numpy as np
 
 from . import _minkray
@@ -50,14 +52,51 @@ def pinhole(K, pose, width, height):
 
 
 @public
+def camera(calibration, pose=None):
+    """The rays of a calibrated camera through the middles of its pixels.
+
+    Parameters
+    ----------
+    calibration : dict
+        ``fx, fy, cx, cy, width, height`` in pixels, and if wanted ``model`` ("pinhole" or "fisheye"),
+        ``k1`` to ``k6`` (fisheyes ``k4``), ``p1`` and ``p2``, as OpenCV has them: the middle of the
+        first pixel is at (0, 0).
+    pose : (4, 4) array, optional
+        Of the camera, in the world: x right, y down, z ahead.
+
+    Returns
+    -------
+    (height, width, 6) array of float64
+        Directions have z = 1 in the camera's frame, so `t` is the depth; of fisheyes length 1. They
+        are NaN where the distortion has no inverse.
+
+    Examples
+    --------
+    >>> import minkray as mk
+    >>> lens = {"fx": 50, "fy": 50, "cx": 31.5, "cy": 23.5, "width": 64, "height": 48, "k1": -0.1}
+    >>> mk.camera(lens).shape
+    (48, 64, 6)
+    """
+    if not isinstance(calibration, dict):
+        raise Error(f"calibration: must be a dict (got {type(calibration).__name__})")
+    try:
+        text = json.dumps(calibration)
+    except TypeError as error:
+        raise Error(f"calibration: {error}") from None
+    rays = _minkray.camera(text, pose_of(pose))
+    return rays.reshape(calibration["height"], calibration["width"], 6)
+
+
+@public
 def lidar(pattern, pose=None):
     """The rays of a lidar.
 
     Parameters
     ----------
     pattern : str or tuple
-        A CSV file with columns for azimuth and zenith or elevation, in degrees, as Livox publishes
-        its patterns; or a sensor that spins: ``(channels, steps)``, or ``(channels, steps, lowest,
+        A lidar's name: "VLP-16", "VLP-32C", "HDL-64E", "OS1-64" or "Mid-360"; a file: .csv of azimuths
+        and zeniths as Livox publishes them, .json of elevations or of Ouster's, .mat3x4f of
+        RobotecGPULidar; or a sensor that spins: ``(channels, steps)``, or ``(channels, steps, lowest,
         highest)`` with elevations in degrees (else -15 and 15). Its rays come channel by channel
         from the highest, clockwise from behind: ``rays.reshape(channels, steps, 6)`` is an image.
     pose : (4, 4) array, optional
