@@ -82,6 +82,7 @@ PartHit cast_at_triangle(const Vec3<double>& a, const Vec3<double>& b, const Vec
     hit.error = std::min(range, 1.001 * of_weights / whole_at_least + 14 * epsilon * most);
   }
   hit.t = std::isfinite(beyond_a) ? std::clamp(ta + beyond_a, first, last) : first;
+  if (hit.t < -hit.error) return {};
   if (!(hit.t > hit.error)) {
     // Rounding does not decide if the plane is before the ray's origin, or at it.
     const int above = exact_side_of_plane(a, b, c, o);

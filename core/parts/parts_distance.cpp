@@ -128,6 +128,9 @@ class LeastDistance {
       best_ = {};
       best_.status = SignedStatus::overlapping;
       best_.point_a = best_.point_b = in_world(common);
+      const Vec3<double> across =
+          (triangle_b[1] - triangle_b[0]).cross(triangle_b[2] - triangle_b[0]);
+      best_.normal = sight_.turn_a * across.stableNormalized();
       parts_ = {of_a, of_b};
       return is_crossed_ = true;
     }

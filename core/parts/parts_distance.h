@@ -10,8 +10,8 @@ namespace minkray {
 
 /// The distance of surfaces. Where they cross, or one body lies within the other (which of meshes
 /// only closed ones allow), the status is overlapping, value and both bounds are 0, and the points
-/// are of the two parts that cross, or one point of what is within: there is no depth. The
-/// poses are rigid.
+/// are of the two parts that cross, or one point of what is within: there is no depth, and the
+/// normal is that of a face that is crossed. The poses are rigid.
 SignedDistance signed_distance(const PartsBody& a, const Affine<double>& pose_a, const PartsBody& b,
                                const Affine<double>& pose_b,
                                const SignedDistanceOptions& options = {},

@@ -25,6 +25,7 @@
 #include "renderer/json/number_json.h"
 #include "renderer/plan/motion_page.h"
 #include "renderer/verify/proof.h"
+#include "renderer/verify/provable.h"
 
 namespace minkray {
 namespace {
@@ -103,7 +104,9 @@ void write_outputs(const VerifyOptions& options, const Judged& judged, const Ver
     if (is_proof(file)) {
       ProofInputs inputs{std::string(version_and_commit()), cell.files};
       inputs.files.emplace_back(name);
-      write_text(file, proof_text(verdict, plan.path, cell.cell.bodies, cell.cell.pairs, inputs));
+      const Provable proof =
+          provable(verdict, plan.path, cell.cell.bodies, cell.cell.pairs, options.referee);
+      write_text(file, proof_text(proof.verdict, plan.path, proof.bodies, proof.pairs, inputs));
     } else if (is_page(file)) {
       WorstMoment worst = worst_moment(verdict);
       if (!worst.exists) worst.time = plan.path.times.front();

@@ -165,18 +165,6 @@ std::string proof_text(const MotionVerdict& verdict, const JointPath& path,
                        const std::vector<RefereePair>& pairs, const ProofInputs& inputs) {
   if (verdict.status == MotionStatus::undecided)
     throw BadInput("proof: the motion is undecided: there is nothing to prove");
-  const auto check = [&](std::size_t index) {
-    const ClearanceBody &a = bodies[pairs[index].a], &b = bodies[pairs[index].b];
-    if (a.mesh || b.mesh)
-      throw BadInput("proof: that " + printable(a.name, 100) + " and " + printable(b.name, 100) +
-                     (verdict.status == MotionStatus::free ? " stay apart" : " collide") +
-                     " needs a mesh's triangles, which proofs do not hold; --meshes hull takes "
-                     "hulls, and without -o PROOF.json it is verified all the same");
-  };
-  if (verdict.without_planes) check(*verdict.without_planes);
-  if (verdict.status == MotionStatus::collides)
-    for (const Stretch& stretch : verdict.stretches)
-      if (stretch.collides) check(stretch.pair);
   Json json = {{"format", "minkray proof 1"},
                {"by", inputs.by},
                {"status", std::string(name_of(verdict.status))}};

@@ -16,8 +16,8 @@ struct ProofInputs {
   std::vector<std::filesystem::path> files = {};  ///< whose fingerprints are kept
 };
 
-/// `verdict` has kept its planes; it is free or collides. Throws BadInput for an undecided one, or
-/// if a body's shape is known by its support mapping only.
+/// `verdict` has kept its planes, and none of its pairs is without (provable.h). Throws BadInput
+/// for an undecided one, or if a body's shape is known by its support mapping only.
 std::string proof_text(const MotionVerdict& verdict, const JointPath& path,
                        const std::vector<ClearanceBody>& bodies,
                        const std::vector<RefereePair>& pairs, const ProofInputs& inputs);

@@ -34,7 +34,7 @@ struct Found {
   std::vector<LeastClearance> steps;
   std::vector<Piece> pieces;
   std::vector<SeparatingPlane> planes;
-  std::optional<std::size_t> without_planes = {};
+  std::vector<std::size_t> without_planes = {};
   std::size_t distances = 0;
 };
 
@@ -94,7 +94,8 @@ class StepsSearch {
   double target() const {
     const double upper = found_.least.upper;
     if (!(upper > 0)) return 0;
-    return std::max(0.0, upper - std::max(least_gap_, options_.tolerance * upper));
+    const double near = upper - std::max(least_gap_, options_.tolerance * upper);
+    return std::max(0.0, std::min(near, options_.enough));
   }
 
   void sample_moment(StepPairs& at, double s) {
@@ -118,6 +119,8 @@ class StepsSearch {
     ++found_.distances;
     // Closer than a margin above 0 is no overlap.
     only_sign &= pair.margin == 0 && !has_mesh(pair);
+    // Meshes that are further apart have no normal, from which a plane is made.
+    if (options_.keep_planes && has_mesh(pair)) at_most = infinity;
     SignedDistance there = at.at(pair, bound, s, at_most + pair.margin, only_sign);
     LeastClearance& least = found_.least;
     if (there.upper - pair.margin < least.upper) {
@@ -217,11 +220,11 @@ class StepsSearch {
   bool proves_by_speed(std::size_t index, const StepBound& bound, double length,
                        const SignedDistance& there) {
     const RefereePair& pair = pairs_[index];
-    if (!has_mesh(pair)) return false;
+    if (!has_mesh(pair) || options_.only_planes) return false;
     const double lower = there.lower - pair.margin - bound.speed * length / 2;
     if (!(lower > target())) return false;
     found_.least.lower = std::min(found_.least.lower, lower);
-    if (options_.keep_planes) found_.without_planes = index;
+    if (options_.keep_planes) found_.without_planes.push_back(index);
     return true;
   }
 
@@ -339,7 +342,7 @@ MotionVerdict verdict_of(const JointPath& path, const std::vector<ClearanceBody>
   std::vector<Piece> pieces;
   for (Found& found : all) {
     verdict.distances += found.distances;
-    if (found.without_planes) verdict.without_planes = found.without_planes;
+    std::ranges::copy(found.without_planes, std::back_inserter(verdict.without_planes));
     for (LeastClearance& step : found.steps) {
       if (step.upper < least.upper) least = step;
       verdict.steps.push_back(std::move(step));
@@ -348,6 +351,9 @@ MotionVerdict verdict_of(const JointPath& path, const std::vector<ClearanceBody>
     std::ranges::move(found.pieces, std::back_inserter(pieces));
     std::ranges::move(found.planes, std::back_inserter(verdict.planes));
   }
+  std::ranges::sort(verdict.without_planes);
+  const auto repeated = std::ranges::unique(verdict.without_planes);
+  verdict.without_planes.erase(repeated.begin(), repeated.end());
   least.lower = infinity;
   for (const Found& found : all) least.lower = std::min(least.lower, found.least.lower);
   for (const LeastClearance& step : verdict.steps) least.lower = std::min(least.lower, step.lower);

@@ -29,6 +29,10 @@ struct RefereeOptions {
   bool every_step = false;
   /// Whether the planes are kept that prove a motion free.
   bool keep_planes = false;
+  /// Planes that prove this clearance are enough.
+  double enough = std::numeric_limits<double>::infinity();
+  /// Leaves meshes undecided that no plane keeps apart.
+  bool only_planes = false;
   /// Distances of one pair in one step. A motion that needs more is undecided.
   std::size_t budget = 4000;
 };
@@ -67,8 +71,8 @@ struct MotionVerdict {
   std::vector<LeastClearance> steps;    ///< if asked for
   std::vector<Stretch> stretches;       ///< in the order of pairs, then of time
   std::vector<SeparatingPlane> planes;  ///< if asked for; the other pairs' balls stay apart
-  /// A pair that only its triangles tell apart, of which there are no planes for all the time.
-  std::optional<std::size_t> without_planes = {};
+  /// Pairs of meshes in each other's hollows, with no planes for all the time; ascending.
+  std::vector<std::size_t> without_planes = {};
   std::size_t distances = 0;
 };
 

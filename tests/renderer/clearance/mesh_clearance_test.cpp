@@ -179,7 +179,7 @@ TEST(MeshClearance, verdicts_see_what_no_plane_separates) {
   };
   const MotionVerdict free = verdict(0.2);
   EXPECT_EQ(free.status, MotionStatus::free);
-  EXPECT_TRUE(free.without_planes);
+  EXPECT_FALSE(free.without_planes.empty());
   const MotionVerdict collides = verdict(1.5);
   ASSERT_EQ(collides.status, MotionStatus::collides);
   // One of each link that reaches the ring.

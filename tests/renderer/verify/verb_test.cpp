@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "renderer/json/json.h"
+#include "tests/support/meshes.h"
 #include "tests/support/program.h"
 #include "tests/support/source_files.h"
 
@@ -222,6 +223,35 @@ TEST_F(Proofs, of_free_motions_and_of_collisions_hold) {
               std::string::npos)
         << outcome.out;
   }
+}
+
+/// The swing is within a ring: no plane is between the two.
+TEST_F(Proofs, of_meshes_in_hollows_and_of_meshes_that_collide_hold) {
+  std::ofstream obj(folder_ / "ring.obj");
+  const testing::Surface torus = testing::torus(40, 12);
+  for (const Vec3<double>& v : torus.vertices)
+    obj << "v " << 2.3 * v.x() << " " << 2.3 * v.y() << " " << v.z() << "\n";
+  for (const Corners& t : torus.triangles)
+    obj << "f " << t[0] + 1 << " " << t[1] + 1 << " " << t[2] + 1 << "\n";
+  obj.close();
+  std::ofstream(folder_ / "ring.json")
+      << R"({"version": 2, "objects": [{"name": "ring", "mesh": {"file": "ring.obj"}}]})";
+  const auto plan = [&](const std::string& name, const std::string& out) {
+    std::ofstream(folder_ / name) << R"({"joint_names": ["turn", "out"], "points": [
+      {"positions": [0, 0]}, {"positions": [0.8, )" +
+                                         out + R"(]}, {"positions": [1.5, 0]}]})";
+    return run_shell("cd '" + folder_ / "" + "' && $MINKRAY verify --robot swing.urdf " +
+                     "--scene ring.json --trajectory " + name + " -o " + name + ".proof.json");
+  };
+  // The hole's radius is 1.38, but for the straight edges of the mesh.
+  const ProgramOutcome free = plan("free.json", "0.05");
+  EXPECT_EQ(free.exit_code, 0) << free.out << free.err;
+  const ProgramOutcome of_free = check("free.json.proof.json --files");
+  EXPECT_NE(of_free.out.find("holds: free"), std::string::npos) << of_free.out << of_free.err;
+  const ProgramOutcome hit = plan("hit.json", "0.4");
+  EXPECT_EQ(hit.exit_code, 1) << hit.out << hit.err;
+  const ProgramOutcome of_hit = check("hit.json.proof.json --files");
+  EXPECT_NE(of_hit.out.find("holds: collides"), std::string::npos) << of_hit.out << of_hit.err;
 }
 
 TEST_F(Proofs, are_of_the_files_that_were_verified) {
