@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The options of verbs that leave out pairs of a robot's links: --srdf and --allow.
+// Options of commands that leave out pairs of a robot's links: --srdf and --allow.
 #pragma once
 
 #include <algorithm>

@@ -23,11 +23,12 @@
 namespace minkray {
 namespace {
 
-/// Encoders count bytes in an int. Of a crop of a larger picture, the crop's pixels count.
+/// Limit of pixels, since encoders count bytes in an int. For a crop of a larger picture, only the
+/// crop's pixels count.
 constexpr int max_pixels = 1 << 27;
 constexpr int max_side = 1 << 16;
 
-/// Whole numbers between separators, nothing else around them.
+/// Reads whole numbers between separators, without anything else.
 std::optional<std::vector<int>> integers(const std::string& text, char separator) {
   std::vector<int> numbers;
   const char* at = text.data();
@@ -102,7 +103,7 @@ void ImageArguments::add_to(const Verb& verb, const std::string& suffix) {
       .show_default();
   verb.add_option("--crop", crop, "Render just this region (ROI) of the picture, in pixels")
       .takes("X0,Y0,X1,Y1");
-  // As text: CLI11 takes what does not fit for the largest number.
+  // Takes the seed as text, since CLI11 clamps values that are too large.
   verb.add_option("--seed", seed, "Random seed (0 to 2^64 - 1)").takes("N").show_default();
   verb.add_flag("-q,--quiet", quiet, "No progress, no report").excludes(verbose);
 }
@@ -147,8 +148,7 @@ void check_outputs(const std::vector<std::string>& outputs) {
 
 namespace {
 
-/// Numbers of a lens, for a hash: shares of a picture belong together only if they had the same
-/// lens.
+/// Text of a lens for a hash: shares of a picture belong together only if they had the same lens.
 std::string lens_text(const CalibratedCamera::Numbers& numbers) {
   std::vector<double> all = {double(numbers.model == CalibratedCamera::Model::fisheye),
                              numbers.fx,
@@ -163,7 +163,7 @@ std::string lens_text(const CalibratedCamera::Numbers& numbers) {
   return Json(all).dump();
 }
 
-/// Gives the scene's camera the lens of a file, and its size.
+/// Sets the lens and size of the scene's camera from a file.
 void take_lens(Scene& scene, const std::string& file) {
   auto lens = std::make_shared<const CalibratedCamera>(read_calibrated_camera(file));
   const CalibratedCamera::Numbers& numbers = lens->numbers();

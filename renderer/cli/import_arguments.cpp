@@ -12,7 +12,8 @@ std::string scene_argument() {
 }
 
 void add_other_files(const Verb& verb, ImportOptions& options) {
-  // Names of scenes that come with Minkray would be looked for before unknown options are told.
+  // No names of built-in scenes here: they would be searched for before unknown options are
+  // reported.
   verb.add_option("others", options.others,
                   "More files, in the same scene: camera and lights are those of the first scene "
                   "file, joints' values are the first file's")

@@ -29,7 +29,7 @@ void check_shares(const RenderOptions& options) {
                      " (got " + share.text() + ")");
 }
 
-/// Throws WrongUsage for a channel of another program's name, with the one that it has here.
+/// Throws WrongUsage for another program's name of a channel, with the name to use here.
 void check_channels(const std::string& list) {
   std::vector<std::string> known;
   for (const DataChannelDescription& channel : data_channels) known.emplace_back(channel.name);

@@ -69,7 +69,7 @@ std::optional<Json> SceneQueries::answer(std::string_view line, Mistakes& mistak
   const WorldHit hit = loaded->world.closest_hit(ray, counts);
   Json result = Json::object();
   if (!name.empty()) result["name"] = name;
-  // What a solver gave up on may have been in front of anything.
+  // An exhausted cast may be in front of any other hit.
   const Status status = counts.exhausted > 0 ? Status::exhausted : hit.cast.status;
   result["status"] = std::string(name_of(status));
   if (hit.found()) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// minkray clearance: how near a robot comes to itself and to obstacles along a path, or is at one
-// pose, with proof.
+// minkray clearance: proven clearance of a robot from itself and obstacles, along a path or at one
+// pose.
 #include <iostream>
 #include <memory>
 #include <sstream>
@@ -37,7 +37,7 @@ struct ClearanceVerbOptions {
   ClearanceVerbOptions() { import.geometry = GeometryChoice::collision; }
 };
 
-/// The words a row of --steps and the answer have in common.
+/// Words shared by rows of --steps and the result.
 std::string status_of(const Closest& closest) {
   if (closest.lower > 0) return "clear";
   return closest.upper < 0 ? "collides" : "touches";
@@ -102,7 +102,7 @@ void clearance(ClearanceVerbOptions& options, ExitCode& exit_code) {
   throw_if_any(mistakes);
   options.files->read(model->files);
   pose_model(*model, options.import, mistakes);
-  // Without a path it stands still where the options pose it.
+  // Without a path, the robot rests in the pose of the options.
   const std::vector<JointRow> rows =
       options.import.joint_rows.empty()
           ? std::vector<JointRow>(1)

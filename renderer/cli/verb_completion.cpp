@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// minkray completion: what shells source to complete minkray's verbs and options.
+// minkray completion: scripts for shells to complete minkray's commands and options.
 #include <iostream>
 #include <memory>
 

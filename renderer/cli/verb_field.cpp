@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// minkray field: the distance from a scene's objects over a plane, as a picture.
+// minkray field: picture of the distance from a scene's objects over a plane.
 #include <iostream>
 #include <memory>
 
@@ -26,7 +26,7 @@ struct FieldVerbOptions {
   ImportOptions import;
   std::vector<std::string> outputs;
   PreviewArguments preview;
-  double extent = 0;  ///< 0: what shows everything
+  double extent = 0;  ///< 0: shows everything
   double tolerance = FieldOptions{}.tolerance;
   int threads = 0;
   bool quiet = false;
@@ -65,7 +65,8 @@ void field(FieldVerbOptions& options) {
   if (!options.through.empty()) middle = field_vector(options.through, "--through");
   double extent = options.extent;
   if (!(extent > 0)) {
-    // As wide as the ball around everything, and a quarter more, whatever the picture's format.
+    // A quarter more than the diameter of the ball around everything, whatever the picture's
+    // format.
     const double diameter = bounds.empty() ? 0 : 2 * bounds.half_extents().norm();
     const double wide = std::max(1.0, double(resolution.width) / resolution.height);
     extent = 1.25 * wide * (diameter > 0 ? diameter : 1);

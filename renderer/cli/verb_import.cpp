@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// minkray import: a robot's file as a scene file.
+// minkray import: converts a robot's file to a scene file.
 #include <iostream>
 #include <memory>
 
@@ -19,7 +19,7 @@ namespace {
 struct ImportVerbOptions {
   CommandFiles* files = nullptr;
   std::string file, output;
-  std::string resolution;  ///< empty: the options' own
+  std::string resolution;  ///< empty: the options' resolution
   ImportOptions import;
   bool quiet = false;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// minkray inspect: a page that shows the solver at work, pixel by pixel and step by step.
+// minkray inspect: page that shows the solver, pixel by pixel and step by step.
 #include <memory>
 
 #include "core/parallel/parallel.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// minkray league: solvers beside each other on the hard cases. What it does is a program of its
-// own, minkray-league (bench/league), for it needs the solvers.
+// minkray league: compares solvers on the hard cases. A separate program, minkray-league
+// (bench/league), does the work, since it needs the solvers.
 #include <memory>
 #include <string>
 #include <vector>
@@ -12,7 +12,7 @@
 namespace minkray {
 namespace {
 
-/// They are only described here: minkray-league reads the same words.
+/// Describes the options for help only; minkray-league reads the same words.
 struct LeagueWords {
   std::vector<std::string> cases, commands;
   std::string only, solvers, html, json;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// minkray man: the man page of a verb, or of all of them.
+// minkray man: man page of one command, or of all.
 #include <iostream>
 #include <memory>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// minkray scan: the rays of a sensor at a scene.
+// minkray scan: casts the rays of a sensor at a scene.
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -39,10 +39,10 @@ struct ScanVerbOptions {
   bool has_halfs = false, quiet = false;
 };
 
-/// Names of the values of EchoOrder, in their order.
+/// Names of the values of EchoOrder, in order.
 const std::vector<std::string> echo_orders = {"first", "strongest", "last"};
 
-/// A link of a robot, or an object.
+/// Returns the frame of a robot's link, or of an object.
 MovingFrame mount_of(Imported& imported, const std::string& name) {
   if (name.empty()) return {};
   if (imported.model)
@@ -102,7 +102,8 @@ void read_options(ScanVerbOptions& options) {
   }
 }
 
-/// A sensor that nobody placed may stand in a body, where it sees nothing else.
+/// Warns of rays that begin within a body: a sensor without a pose may be in one, where it sees
+/// nothing else.
 void warn_of_inside(const Scan& scan, int returns) {
   std::size_t rays = 0, inside = 0;
   for (std::size_t first = 0; first < scan.echoes.size(); first += std::size_t(returns), ++rays)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The subcommands of the command line, each in its own verb_*.cpp. The list of all of them is here
-// and nowhere else, with the program that has each: a picture is made by a program that has nothing
-// else to compile (docs/decisions/build.md). The others lie beside it and are run by it.
+// Subcommands of the command line, each in its own verb_*.cpp. This is the only list of them, with
+// the program of each. The program for pictures contains nothing else, to compile fast
+// (docs/decisions/build.md), and runs the others, which are in the same folder.
 #pragma once
 
 #include <span>
@@ -20,7 +20,7 @@ struct VerbRow {
   std::string_view examples[2];
 };
 
-/// They stand in the order in which --help shows them.
+/// Rows in the order of --help.
 inline constexpr VerbRow verbs[] = {
     {"render",
      "Make a picture of a scene",
@@ -115,9 +115,9 @@ inline constexpr VerbRow verbs[] = {
      {"minkray man render", "minkray man"}},
 };
 
-/// Adds a subcommand to the parser. When the user calls it, it runs within Parser::parse, writes
-/// results to stdout and all else to stderr, and may set the exit code (done by default) or throw
-/// one of renderer/errors.h.
+/// Adds a subcommand to the parser. When called, within Parser::parse, the command writes results
+/// to stdout and all else to stderr, and may set the exit code (done by default) or throw one of
+/// renderer/errors.h.
 using AddVerb = void (*)(Parser& parser, ExitCode& exit_code);
 
 struct VerbHere {
@@ -125,8 +125,8 @@ struct VerbHere {
   AddVerb add;
 };
 
-/// The verbs that this program has itself. It is defined once for `minkray`
-/// (verbs_of_pictures.cpp), and once for the programs that know all verbs (verbs_of_tools.cpp).
+/// Commands of this program itself. Defined once for `minkray` (verbs_of_pictures.cpp), and once
+/// for the programs with all commands (verbs_of_tools.cpp).
 std::span<const VerbHere> verbs_here();
 
 void add_cast(Parser& parser, ExitCode& exit_code);
