@@ -2,16 +2,16 @@
 // Minkray for C++: convex shapes, scenes of them, rays cast at them, proofs of the results,
 // distances and times of impact. Header-only over minkray_c.h, whose comments specify threads,
 // frames and units; docs/cpp.md has examples.
-//
+// Every failure throws a minkray::Error, whose text names what failed, and where.
+#pragma once
+
+// Example:
 //   namespace mk = minkray;
 //   mk::Scene scene;
 //   scene.add(mk::rounded(mk::box({.5, .2, .1}), .05), mk::translation({1, 0, 0}), "bumper");
 //   scene.commit();
 //   mk::Hit hit = scene.cast({{-9, 0, 0}, {1, 0, 0}});
 //   if (hit.status == mk::hit) use(hit.t, hit.t_lo, hit.t_hi, hit.normal);
-//
-// Every failure throws a minkray::Error, whose text names what failed, and where.
-#pragma once
 
 #include <concepts>
 #include <cstddef>
