@@ -21,8 +21,8 @@ struct HeightField {
 
 /// The triangles of the cell in row r and column c are 2 (r (columns - 1) + c) and the next one;
 /// the edge between them goes from the cell's least corner to its greatest one. The triangles of
-/// walls and bottom follow. Throws std::invalid_argument if there are fewer than two rows or
-/// columns, a number is not finite, a size is not above 0 or the bottom is not below all heights.
+/// walls and bottom follow. Throws std::invalid_argument unless there are at least two rows and
+/// columns, all numbers are finite, sizes are above 0 and the bottom is below all heights.
 std::shared_ptr<const TriangleMesh> mesh_of(const HeightField& field);
 
 }  // namespace minkray

@@ -33,14 +33,15 @@ struct MeshFaults {
   bool is_closed() const { return open_edges == 0; }
 };
 
-/// Sides from which rays meet triangles. `front` requires triangles with consistent orientation.
+/// Sides from which rays meet triangles. `front` requires that all triangles face the same way.
 enum class MeshSides : unsigned char { both, front };
 
 /// Immutable: any number of threads may use a mesh, and any number of instances may share it.
 class TriangleMesh {
  public:
   /// Triangles keep their numbers. Throws std::invalid_argument if there are none or more than
-  /// 2^30, a vertex number is out of range, or a coordinate is not finite, too large or too small.
+  /// 2^30, a vertex number is out of range, or a coordinate is unusable (not finite, too large or
+  /// too small).
   TriangleMesh(std::vector<Vec3<double>> vertices, std::vector<Corners> triangles,
                MeshSides sides = MeshSides::both);
 

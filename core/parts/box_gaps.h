@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Lower bounds of the distances from eight boxes to another box, whose axes may be turned: the most
 // frequent query of a walk over two bodies' boxes. The bounds use the face normals of both boxes as
-// separating axes, the line between two middles, and a direction that is known to be good.
+// separating axes, the line between two middles, and a known good direction.
 #pragma once
 
 #include "core/math/vec.h"

@@ -8,10 +8,10 @@
 
 namespace minkray {
 
-/// Distance of the surfaces. If they cross, or one body lies within the other (only closed meshes
-/// can contain bodies), the status is overlapping, and value and both bounds are 0: there is no
-/// depth. The points are then of the two parts that cross, or one point of the body within. The
-/// poses must be rigid.
+/// Distance of the surfaces. If they cross, or one body lies within the other, the status is
+/// overlapping, and value and both bounds are 0: there is no depth. Only closed meshes can contain
+/// bodies. The points of an overlap are of the two parts that cross, or one point of the body
+/// within. The poses must be rigid.
 SignedDistance signed_distance(const PartsBody& a, const Affine<double>& pose_a, const PartsBody& b,
                                const Affine<double>& pose_b,
                                const SignedDistanceOptions& options = {},

@@ -118,8 +118,9 @@ bool skip_word(std::string_view& text, std::string_view word) {
   return true;
 }
 
-/// True if a file's name is that of a tile of a picture with this many tiles, of its checkpoint, or
-/// of a temporary file of either, as killed ranks leave them. 000007-of-000024.exr,
+/// True if a file is a tile of a picture with this many tiles, a checkpoint of a tile, or a
+/// temporary file of either. Killed ranks leave such files.
+/// 000007-of-000024.exr,
 /// .000007-of-000024.exr.checkpoint.1234.0123abcd.tmp
 bool is_of_part_file(std::string_view name, int tiles) {
   const auto is_digit = [](char c) { return '0' <= c && c <= '9'; };

@@ -115,9 +115,9 @@ inline constexpr VerbRow verbs[] = {
      {"minkray man render", "minkray man"}},
 };
 
-/// Adds a subcommand to the parser. When called, within Parser::parse, the command writes results
-/// to stdout and all else to stderr, and may set the exit code (done by default) or throw one of
-/// renderer/errors.h.
+/// Adds a subcommand to the parser, which calls it within Parser::parse. The command writes results
+/// to stdout and all else to stderr. The command may set the exit code (done by default) or throw
+/// one of renderer/errors.h.
 using AddVerb = void (*)(Parser& parser, ExitCode& exit_code);
 
 struct VerbHere {

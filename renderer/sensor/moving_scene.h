@@ -54,8 +54,8 @@ class SceneWhile {
 
   WorldHit closest_hit(const WorldRay& ray, double time, QueryCounts& counts);
 
-  /// Point at which the ray leaves an instance, which must not be a half-space; for a mesh, at
-  /// which the ray entered.
+  /// Finds the exit of the ray from an instance, which must not be a half-space. A ray at a mesh
+  /// must start outside and enter it.
   CastResult<double> exit(std::uint32_t instance, const Ray<double>& ray, double time);
 
   bool is_half_space(std::uint32_t instance) const;
