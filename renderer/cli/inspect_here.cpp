@@ -34,7 +34,7 @@ std::string output_of(const InspectArguments& arguments) {
       std::filesystem::path(arguments.image.scene).stem().string() + "-inspect.html";
   std::error_code error;
   if (std::filesystem::exists(output, error))
-    throw WrongUsage("--output: " + output + " is there already; name it to have it replaced");
+    throw WrongUsage("--output: " + output + " exists; name it with -o to replace it");
   arguments.image.files->write(output, "--output");
   return output;
 }

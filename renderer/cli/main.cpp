@@ -97,7 +97,7 @@ ExitCode run_and_report(int argc, char** argv) {
   } catch (const minkray::CannotWrite& error) {
     return report(error, ExitCode::cannot_write);
   } catch (const std::bad_alloc&) {
-    std::cerr << "minkray: there is not enough memory for this\n";
+    std::cerr << "minkray: out of memory\n";
     return ExitCode::bad_input;
   } catch (const std::exception& error) {
     return report(error, ExitCode::bad_input);

@@ -69,7 +69,7 @@ std::string default_output(const std::string& scene_file, const std::string& suf
   std::error_code error;
   if (fs::exists(output, error) && !is_own_png(output))
     throw WrongUsage("--output: " + output +
-                     " is there already and is no picture by Minkray; name an output with -o");
+                     " exists and was not written by Minkray; choose an output with -o");
   return output;
 }
 

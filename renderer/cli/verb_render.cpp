@@ -57,7 +57,7 @@ ExitCode run(RenderArguments& options) {
     render_frames(job, options, frames, statistics);
   } else if (options.resume && options.is_share() && is_there(job, options.image.outputs)) {
     if (!options.image.quiet)
-      std::cerr << printable(options.image.outputs.front()) << ": is there already\n";
+      std::cerr << printable(options.image.outputs.front()) << ": exists; not rendered again\n";
     return ExitCode::done;
   } else {
     render_picture(job, options, options.image.outputs, statistics);

@@ -61,7 +61,7 @@ void check_outputs(const VerifyOptions& options) {
     check_writable(file);
   }
   if (options.serve == !options.plans.empty())
-    throw WrongUsage("--trajectory: must be given, or --serve, and not both");
+    throw WrongUsage("verify: either --trajectory or --serve is required (not both)");
   if (!options.outputs.empty() && options.plans.size() != 1)
     throw WrongUsage("-o: must have one --trajectory (got " + std::to_string(options.plans.size()) +
                      ")");

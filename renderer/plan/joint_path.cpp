@@ -81,7 +81,7 @@ void go_shorter_way(Trajectory& trajectory, const Model& model) {
         trajectory.notes.push_back("the joint \"" + printable(joint.name, 60) +
                                    "\" turns by more " + "than half a turn in " +
                                    std::to_string(steps) + (steps == 1 ? " step" : " steps") +
-                                   "; it is continuous, and is taken to go the shorter way round");
+                                   "; using the shorter way (continuous joint)");
     }
 }
 

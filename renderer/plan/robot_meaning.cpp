@@ -38,7 +38,7 @@ class MeaningReader {
   /// does not have.
   void note(const XmlElement& element, const std::string& what) {
     meaning_.notes.push_back("line " + std::to_string(element.line) + ": " + name_of(element) +
-                             ": " + what + "; it is passed over");
+                             ": " + what + "; ignored");
   }
 
   int link(const XmlElement& element, std::string_view key) {

@@ -60,8 +60,8 @@ SensorRays spinning(const std::string& pattern, double seconds) {
   }
   if (!is_good)
     throw WrongUsage(
-        "--pattern: must be spinning:CHANNELSxSTEPS, such as spinning:32x1800, with "
-        ":LOWEST,HIGHEST elevations and :FROM,TO azimuths in degrees if wanted (got " +
+        "--pattern: must be spinning:CHANNELSxSTEPS[:LOWEST,HIGHEST[:FROM,TO]] (degrees), such as "
+        "spinning:32x1800 (got " +
         printable(pattern, 80) + ")");
   const int height = static_cast<int>((*counts)[0]), width = static_cast<int>((*counts)[1]);
   check_rays(double(height) * width);

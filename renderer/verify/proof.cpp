@@ -76,9 +76,9 @@ void add_core(const ShapeCore& core, const std::string& name, Json& json) {
       break;
     }
     case CoreKind::other:
-      throw BadInput("proof: the body \"" + printable(name, 100) +
-                     "\" is of a shape that proofs do not hold; without -o PROOF.json it is "
-                     "verified all the same");
+      throw BadInput(
+          "proof: the body \"" + printable(name, 100) +
+          "\" has a shape that proof files do not support; verify without -o PROOF.json");
   }
 }
 
@@ -170,8 +170,8 @@ std::string proof_text(const MotionVerdict& verdict, const JointPath& path,
     if (a.mesh || b.mesh)
       throw BadInput("proof: that " + printable(a.name, 100) + " and " + printable(b.name, 100) +
                      (verdict.status == MotionStatus::free ? " stay apart" : " collide") +
-                     " needs a mesh's triangles, which proofs do not hold; --meshes hull takes "
-                     "hulls, and without -o PROOF.json it is verified all the same");
+                     " needs a mesh's triangles, which proof files do not support; use --meshes "
+                     "hull, or omit -o PROOF.json");
   };
   if (verdict.without_planes) check(*verdict.without_planes);
   if (verdict.status == MotionStatus::collides)
