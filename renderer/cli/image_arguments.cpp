@@ -131,7 +131,7 @@ Option add_scene_option(const Verb& verb, std::string& scene) {
 void add_output_option(const Verb& verb, std::vector<std::string>& outputs,
                        const std::string& otherwise) {
   verb.add_option("-o,--output", outputs,
-                  "Where to write the picture (" + image_extensions() + "); may be given again" +
+                  "Where to write the picture (" + image_extensions() + "); repeatable" +
                       (otherwise.empty() ? "" : "; by default " + otherwise))
       .required(otherwise.empty())
       .one_value_each()
@@ -244,14 +244,14 @@ void warn_of_limits(const Model& model, const ImportOptions& options) {
 void warn_of_counts(const RayCounts& counts) {
   warn_of_exhausted(counts.work.exhausted, counts.work.casts);
   if (counts.from_inside > 0)
-    std::cerr << "warning: the camera is inside a shape, where it sees black\n";
+    std::cerr << "warning: the camera is inside a shape; the picture is black there\n";
 }
 
 void warn_of_exhausted(std::uint64_t exhausted, std::uint64_t casts) {
   if (exhausted == 0) return;
-  std::cerr << "warning: the solver gave up in " << exhausted << " of " << casts
-            << " casts; those shapes were passed through there (minkray heatmap --channel status "
-               "shows where)\n";
+  std::cerr << "warning: the solver did not converge in " << exhausted << " of " << casts
+            << " casts; rays passed through those shapes (minkray heatmap --channel status shows "
+               "where)\n";
 }
 
 }  // namespace minkray

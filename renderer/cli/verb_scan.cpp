@@ -110,7 +110,7 @@ void warn_of_inside(const Scan& scan, int returns) {
     inside += scan.echoes[first].status == 2;
   if (inside > 0)
     std::cerr << "warning: " << inside << " of " << rays
-              << " rays begin within a body, at t = 0 (--pose and --on say where the sensor is)\n";
+              << " rays start inside a body, at t = 0 (use --pose or --on to place the sensor)\n";
 }
 
 void run(ScanVerbOptions& options) {
@@ -223,12 +223,12 @@ void add_measurement_options(const Verb& verb, ScanVerbOptions& options) {
       .group(heading)
       .between(1, 64)
       .show_default();
-  verb.add_option("--echo", options.order, "Which echoes come first")
+  verb.add_option("--echo", options.order, "Order of echoes")
       .group(heading)
       .one_of(echo_orders)
       .show_default();
   verb.add_option("--divergence", options.scan.divergence,
-                  "Full angle of a beam, in radians; echoes are then of what its rays meet first")
+                  "Full beam angle (rad); echoes are then first hits of the beam's rays")
       .group(heading)
       .between(0.0, 1.0);
   verb.add_option("--beam-rays", options.scan.beam_rays, "Rays per beam")
@@ -236,7 +236,7 @@ void add_measurement_options(const Verb& verb, ScanVerbOptions& options) {
       .between(1, 4096)
       .show_default();
   verb.add_option("--resolution", options.scan.resolution,
-                  "Parts of a beam nearer to each other than this are one echo")
+                  "Least distance between echoes of a beam (scene units)")
       .group(heading)
       .between(0.0, 1e9)
       .show_default();
@@ -255,8 +255,7 @@ void add_scan(Parser& parser, ExitCode&) {
   std::string endings;
   for (const ScanFormat& format : scan_formats())
     endings += (endings.empty() ? "" : ", ") + std::string(format.ending);
-  verb.add_option("-o,--output", options->outputs,
-                  "Where to write (" + endings + "); may be given again")
+  verb.add_option("-o,--output", options->outputs, "Where to write (" + endings + "); repeatable")
       .required()
       .one_value_each()
       .writes_file();

@@ -126,9 +126,8 @@ void trace(const TraceVerbOptions& options) {
     return;
   }
   if (!found && options.object.empty())
-    std::cout
-        << "the ray meets no shape with steps (planes and meshes have none); this is the one whose "
-           "miss took most iterations:\n";
+    std::cout << "the ray hits no shape with iterations (planes and meshes have none); showing the "
+                 "miss with most iterations:\n";
   std::cout << "object \"" << instance_object(scene, objects[chosen]).name
             << "\": " << name_of(result.result.status);
   if (found) std::cout << ", t = " << number_json(t).dump();
@@ -149,7 +148,7 @@ void add_trace(Parser& parser, ExitCode&) {
       .required()
       .values(2, ',');
   verb.add_option("-r,--resolution", options->resolution,
-                  "Size of the picture that the pixel is one of, instead of the scene's")
+                  "Size of the picture in pixels (default: the scene's)")
       .takes("WxH");
   verb.add_option("--object", options->object, "The object's name; by default the one that is hit")
       .takes("NAME");
