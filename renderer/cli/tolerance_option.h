@@ -9,7 +9,7 @@ namespace minkray {
 
 inline void add_tolerance(const Verb& verb, double& tolerance) {
   verb.add_option("--tolerance", tolerance,
-                  "How near the bounds of signed distances shall be, relative to the sizes")
+                  "Gap between the bounds of a distance, relative to the shapes' sizes")
       .between(1e-14, 1.0)
       .show_default();
 }

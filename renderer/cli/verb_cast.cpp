@@ -264,7 +264,7 @@ void add_cast(Parser& parser, ExitCode& exit_code) {
       .one_of({"float", "double"})
       .show_default();
   add_solver_option(verb, options->solver);
-  verb.add_option("--subalgorithm", options->subalgorithm, "How distances' simplices are reduced")
+  verb.add_option("--subalgorithm", options->subalgorithm, "Distance subalgorithm of GJK")
       .one_of(subalgorithm_names())
       .show_default();
   add_tolerance(verb, options->tolerance);

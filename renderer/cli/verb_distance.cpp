@@ -285,14 +285,14 @@ void add_distance(Parser& parser, ExitCode&) {
   const auto options = std::make_shared<DistanceVerbOptions>();
   options->command_files = &verb.files();
   verb.add_option("files", options->files,
-                  "Two files with a shape each, as scenes have them; or a robot or scene, and any "
-                  "others: a table of its pairs with them. " +
+                  "Two files with one shape each; or a robot or scene, and other files to measure "
+                  "against. " +
                       scene_argument())
       .required()
       .reads_file();
   add_tolerance(verb, options->tolerance);
   verb.add_option("--within", options->within,
-                  "Leaves out pairs that are proven to be further apart (>= 0)");
+                  "Omit pairs that are proven to be further apart (>= 0)");
   verb.add_flag("--only-obstacles", options->only_obstacles,
                 "Check obstacles only, not self-collision");
   options->allowed.add_options(verb);
@@ -300,8 +300,8 @@ void add_distance(Parser& parser, ExitCode&) {
   verb.add_option("-o,--output", options->output, "A CSV file to write instead of the table")
       .writes_file();
   verb.add_option("--at-most", options->at_most,
-                  "Two shapes: beyond this distance a lower bound of it is enough");
-  verb.add_flag("--only-sign", options->only_sign, "Two shapes: whether they overlap is enough");
+                  "Two shapes: beyond this distance, return a lower bound only");
+  verb.add_flag("--only-sign", options->only_sign, "Two shapes: only decide if they overlap");
   add_import_options(verb, options->import, false);
   verb.add_option("-t,--threads", options->threads, "Threads; 0: one per core")
       .between(0, 1024)

@@ -112,14 +112,14 @@ void add_field(Parser& parser, ExitCode&) {
   verb.add_option("--through", options->through,
                   "The picture's middle; by default that of the scene")
       .takes("X,Y,Z");
-  verb.add_option("--normal", options->normal, "The plane is seen from there")
+  verb.add_option("--normal", options->normal, "Normal of the plane, towards the viewer")
       .takes("X,Y,Z")
       .show_default();
   verb.add_option("--extent", options->extent,
-                  "How wide the picture is, in the scene's unit; by default it shows everything")
+                  "Width of the picture in scene units; default: shows everything")
       .between(0.0, 1e300);
   verb.add_option("--probe", options->probe,
-                  "A file with a shape that is moved over the plane, instead of a point")
+                  "File of a shape to move over the plane, instead of a point")
       .reads_file();
   verb.add_option("-r,--resolution", options->resolution, "Size in pixels")
       .takes("WxH")

@@ -51,7 +51,7 @@ void add_import(Parser& parser, ExitCode&) {
   verb.add_option("-r,--resolution", options->resolution,
                   "Size of the pictures that the scene's camera frames everything for (960x720)")
       .takes("WxH");
-  verb.add_flag("-q,--quiet", options->quiet, "Do not tell what was read and what passed over");
+  verb.add_flag("-q,--quiet", options->quiet, "No report");
   verb.on_call([options] { import(*options); });
 }
 
