@@ -24,16 +24,16 @@ NPM = ('mujoco-js', 'rapier', 'jolt')
 
 
 def arguments():
-    parser = argparse.ArgumentParser(prog='minkray league', description='Asks solvers the hard cases and says who is right.')
-    parser.add_argument('--cases', nargs='+', metavar='FILE', help='files of cases, in place of all of tests/cases')
+    parser = argparse.ArgumentParser(prog='minkray league', description='Compare solvers on the hard cases')
+    parser.add_argument('--cases', nargs='+', metavar='FILE', help='files of cases (default: all of tests/cases)')
     parser.add_argument('--only', metavar='TEXT', help='only cases whose names contain this')
-    parser.add_argument('--solvers', metavar='NAMES', help='of the solvers that are there, those named, with commas')
+    parser.add_argument('--solvers', metavar='NAMES', help='solvers to run, comma-separated (default: all available)')
     parser.add_argument('--npm', action='store_true', help='also ' + ', '.join(NPM) + ', in Node')
     parser.add_argument('--exec', action='append', default=[], metavar='CMD', dest='commands',
-                        help="also a solver of your own: a command that answers a query a line; may be given again")
+                        help='add a solver: a command that works like `minkray cast -`; repeatable')
     parser.add_argument('--random', type=int, default=0, metavar='N',
-                        help='also N random rays of each family at each of ten shapes, for statistics')
-    parser.add_argument('--seed', type=int, default=1, help='of the random rays')
+                        help='random rays per family and shape, in addition to the cases')
+    parser.add_argument('--seed', type=int, default=1, help='random seed of --random')
     parser.add_argument('--limit', type=float, default=5, metavar='SECONDS', help='for an answer; 5 by default')
     parser.add_argument('-o', '--html', metavar='FILE', help='a report: case by solver')
     parser.add_argument('--json', metavar='FILE', help='all answers and verdicts')

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// On which side of an edge a ray passes: the true sign, so that two triangles that share the edge
+// Side of an edge on which a ray passes: the true sign, so that two triangles that share the edge
 // agree and no ray slips between them.
 #pragma once
 
@@ -7,13 +7,13 @@
 
 namespace minkray {
 
-/// The sign of d . ((a - o) x (b - a)): -1, 0 or 1. By sums without rounding (Shewchuk, "Adaptive
+/// The sign of d . ((a - o) x (b - a)): -1, 0 or 1. Uses sums without rounding (Shewchuk, "Adaptive
 /// Precision Floating-Point Arithmetic", 1997): exact unless a product leaves the range of double.
 int exact_side_of_edge(const Vec3<double>& o, const Vec3<double>& d, const Vec3<double>& a,
                        const Vec3<double>& b);
 
-/// The sign of (b - a) x (c - a) . (d - a): positive if d lies where the triangle abc is seen
-/// counter-clockwise. Exact in the same way.
+/// The sign of (b - a) x (c - a) . (d - a): positive if d is on the side from which the triangle
+/// abc is counter-clockwise. Exact in the same way.
 int exact_side_of_plane(const Vec3<double>& a, const Vec3<double>& b, const Vec3<double>& c,
                         const Vec3<double>& d);
 

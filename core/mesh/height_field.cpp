@@ -55,7 +55,7 @@ std::shared_ptr<const TriangleMesh> mesh_of(const HeightField& field) {
   check(field);
   const auto rows = static_cast<std::uint32_t>(field.rows),
              columns = static_cast<std::uint32_t>(field.columns);
-  // Both halves of a side are the same numbers but for the sign.
+  // Symmetric: both halves of a side have the same numbers but for the sign.
   const auto along = [](std::uint32_t i, std::uint32_t count, double size) {
     return size * ((2.0 * i - (count - 1.0)) / (2.0 * (count - 1.0)));
   };

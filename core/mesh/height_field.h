@@ -15,14 +15,14 @@ struct HeightField {
   std::span<const double> heights;  ///< row by row, the row of the least y first
   std::size_t rows = 0, columns = 0;
   double size_x = 1, size_y = 1;  ///< from the first to the last column, or row
-  /// With one, walls and a bottom at this z close the terrain to a solid.
+  /// If set, walls and a bottom at this z close the terrain to a solid.
   std::optional<double> bottom = {};
 };
 
 /// The triangles of the cell in row r and column c are 2 (r (columns - 1) + c) and the next one;
-/// the edge between them goes from the cell's least corner to its greatest one. Those of walls and
-/// bottom follow. Throws std::invalid_argument where there are fewer than two rows or columns, a
-/// number is not finite, a size is not above 0 or the bottom is not below all heights.
+/// the edge between them goes from the cell's least corner to its greatest one. The triangles of
+/// walls and bottom follow. Throws std::invalid_argument unless there are at least two rows and
+/// columns, all numbers are finite, sizes are above 0 and the bottom is below all heights.
 std::shared_ptr<const TriangleMesh> mesh_of(const HeightField& field);
 
 }  // namespace minkray

@@ -14,14 +14,14 @@
 namespace minkray {
 namespace {
 
-/// A ray as leaves see it.
+/// Numbers of a ray that tests of leaves use.
 struct LeafRay {
   double origin[3];      ///< by x, y, z
   double shear[4];       ///< change of x and y while z increases by 1
   double to_t;           ///< 1 / direction along z
   double reach, length;  ///< z up to which hits matter, of t_max; z of t = 1, not negative
   int x, y, z;           ///< axes: the ray follows z most
-  float sign;            ///< of z
+  float sign;            ///< sign of the direction along z
 };
 
 [[gnu::always_inline]] inline LeafRay leaf_ray(const double* origin, const double* direction,
@@ -100,7 +100,7 @@ struct LeafRay {
                ab = _mm256_fmsub_ps(bx, ay, _mm256_mul_ps(by, ax));
   const __m256 least = _mm256_min_ps(bc, _mm256_min_ps(ca, ab)),
                greatest = _mm256_max_ps(bc, _mm256_max_ps(ca, ab));
-  // Rounded once more. Numbers that are none, or without end, rule nothing out.
+  // Rounded once more. NaN and infinity rule nothing out.
   const __m256 bound = _mm256_set1_ps(static_cast<float>(error * (1 + 0x1p-20)));
   const __m256 is_beside =
       _mm256_and_ps(_mm256_cmp_ps(least, _mm256_xor_ps(bound, _mm256_set1_ps(-0.0f)), _CMP_LT_OQ),

@@ -9,8 +9,8 @@
 
 namespace minkray {
 
-/// The map need not be rigid. Where it mirrors, triangles are turned round: seen from outside they
-/// would be clockwise.
+/// The map need not be rigid. If it mirrors, triangles are flipped to stay counter-clockwise as
+/// seen from outside.
 std::shared_ptr<const TriangleMesh> mapped(const TriangleMesh& mesh, const Affine<double>& map);
 
 }  // namespace minkray

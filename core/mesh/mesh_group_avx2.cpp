@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Up to 32 rays from one point that run nearly alike, such as a camera's, go through a mesh
-// together: nodes are tested by what bounds all rays, leaves by each ray's own slabs, and a leaf's
-// edge functions are made once, linear in how far a ray's direction is from that of the first.
-// Everything here has internal linkage.
+// Casts up to 32 rays from one point with similar directions, such as a camera's, at a mesh
+// together: nodes are tested by bounds of all rays, leaves by each ray's own slabs. Edge functions
+// of a leaf are computed once, linear in the difference of a ray's direction from that of the
+// first. Everything here has internal linkage.
 #include "core/mesh/mesh_walk.h"
 
 #if defined(__AVX2__)
@@ -13,10 +13,10 @@ namespace {
 
 constexpr std::size_t rows = rays_of_group / 8;
 
-/// Fewer rays in each leaf are faster on their own.
+/// Leaves with fewer rays are faster one by one.
 constexpr std::uint32_t least_rays_of_leaf = 2;
 
-/// The slabs of all rays, side by side; those of rays that are none meet nothing.
+/// Slabs of all rays, side by side; unused lanes meet nothing.
 struct alignas(32) GroupSlabs {
   float origin_near[3][rays_of_group], origin_far[3][rays_of_group];
   float inverse[3][rays_of_group], t_max[rays_of_group];
@@ -49,9 +49,9 @@ struct alignas(32) GroupSlabs {
 struct LeafEdges {
   __m256 at_first[3], by_x[3], by_y[3];
   __m256 nearest;    ///< least z of each triangle's corners, along the rays
-  __m128 middle;     ///< of the cube's image for the first ray, x and y
+  __m128 middle;     ///< middle of the cube's image for the first ray, x and y
   float far_middle;  ///< z of the cube's middle, from the rays' origin
-  float error;       ///< without what depends on the ray
+  float error;       ///< the part that does not depend on the ray
   double oz, scale, margin;
 };
 
@@ -61,7 +61,7 @@ class Group {
         PartCounts& counts)
       : view_(view), rays_(rays), hits_(hits), counts_(counts), count_(count) {}
 
-  /// False if the rays do not run alike: nothing was answered.
+  /// False if the directions are too different; then no ray is cast.
   bool prepare() {
     const double* const first = reinterpret_cast<const double*>(&rays_[0].ray);
     SlabRay slabs[rays_of_group];
@@ -197,14 +197,14 @@ class Group {
     return in;
   }
 
-  /// As lanes_that_may_be_met, with these bounds. For a ray whose shears are dx and dy more, an
-  /// edge function is at_first - dx by_x - dy by_y, without any rest. With P for the most of the
-  /// first ray's sheared coordinates, Z for that of z, g for the widest shear, u = 2^-24:
+  /// Same as lanes_that_may_be_met, with these bounds. For a ray whose shears are dx and dy more,
+  /// an edge function is at_first - dx by_x - dy by_y, without any rest. P is the largest sheared
+  /// coordinate of the first ray, Z that of z, g the widest shear, u = 2^-24:
   /// - Quantised corners are as far off for each ray as in lanes_that_may_be_met.
   /// - x and y of the first ray round by 4 u P + 0.01 + far, z by 2 u Z. So at_first is off by
   ///   21 u P^2 + (0.04 + 4 far) P, and by_x and by_y by 16 u Z P + (0.02 + 2 far) Z.
   /// - dx and dy, two products with them and the sums round by 4 u P^2 + 12 u g Z P.
-  /// In all: less than 64 u P (P + g Z) + (0.05 + 4 far) (P + g Z).
+  /// In total: less than 64 u P (P + g Z) + (0.05 + 4 far) (P + g Z).
   [[gnu::always_inline]] LeafEdges edges_of(const MeshLeaf& leaf) const {
     constexpr double half_cube = 32767.5, cube = 65535;
     const LeafRay& ray = leaf_[0];
@@ -271,7 +271,7 @@ class Group {
     const __m128 middle = _mm_andnot_ps(
         _mm_set1_ps(-0.0f), _mm_fnmadd_ps(apart, _mm_set1_ps(edges.far_middle), edges.middle));
     const float most = _mm_cvtss_f32(_mm_max_ss(middle, _mm_movehdup_ps(middle))) + 65535.0f;
-    // 4 most (1 + what rounds in most), and 2 for the product of two errors.
+    // 4 most (1 + the roundings in most), and 2 for the product of two errors.
     constexpr float four_halves = 4.04f;
     const __m256 bound = _mm256_set1_ps(four_halves * most + edges.error);
     const __m256 is_beside =

@@ -14,9 +14,9 @@ struct alignas(64) MeshLeaf {
   static constexpr int most = 8;
 
   std::uint16_t corners[3][3][most];  ///< by corner, axis, triangle
-  float origin[3];                    ///< as far down as any corner, in the mesh's frame
+  float origin[3];                    ///< least corner of the leaf's cube, in the mesh's frame
   std::uint32_t packed_scale;         ///< the scale, whose last three bits are size() - 1
-  std::uint32_t triangles[most];      ///< their numbers in the mesh
+  std::uint32_t triangles[most];      ///< numbers of the triangles in the mesh
 
   int size() const { return static_cast<int>(packed_scale & 7u) + 1; }
   /// Units per length.

@@ -12,15 +12,15 @@ namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-/// The triangle's edges as the ray passes them: d . ((from - o) x (to - from)), with what it may be
-/// off, and its true sign.
+/// An edge of the triangle relative to the ray: d . ((from - o) x (to - from)), its error bound,
+/// and its true sign.
 struct PassedEdge {
   double value, error;
   int side;
 };
 
-/// The differences round once, the products, their difference and the sum of three six times more:
-/// seven halves of epsilon, of all that is added up; six are allowed.
+/// The differences round once; the products, their difference and the sum of three round six times
+/// more. This makes seven halves of epsilon of all summands; six are allowed.
 PassedEdge pass(const Vec3<double>& d, const Vec3<double>& from, const Vec3<double>& edge) {
   const double x1 = from.y() * edge.z(), x2 = from.z() * edge.y();
   const double y1 = from.z() * edge.x(), y2 = from.x() * edge.z();
@@ -57,8 +57,8 @@ PartHit cast_at_triangle(const Vec3<double>& a, const Vec3<double>& b, const Vec
   const int sides = ab.side + bc.side + ca.side;
   if (is_outside() || sides == 0) return {};
 
-  // t is linear on the triangle: by how far each corner lies along the axis that the ray follows
-  // most, and the weights of corners, which are the edges opposite over their sum.
+  // t is linear on the triangle: the corners' positions along the axis that the ray follows most,
+  // weighted by the opposite edges over their sum.
   const int axis = widest_axis(d);
   const double to_t = 1 / d[axis];
   const double ta = from_a[axis] * to_t, tb = from_b[axis] * to_t, tc = from_c[axis] * to_t;
@@ -84,7 +84,7 @@ PartHit cast_at_triangle(const Vec3<double>& a, const Vec3<double>& b, const Vec
   hit.t = std::isfinite(beyond_a) ? std::clamp(ta + beyond_a, first, last) : first;
   if (hit.t < -hit.error) return {};
   if (!(hit.t > hit.error)) {
-    // Rounding does not decide if the plane is before the ray's origin, or at it.
+    // Rounding must not decide if the plane is in front of the ray's origin, or at it.
     const int above = exact_side_of_plane(a, b, c, o);
     if ((above > 0) == (sides > 0) && above != 0) return {};
     hit.t = above == 0 ? 0 : std::max(hit.t, 0.0);
@@ -104,7 +104,7 @@ PartHit cast_at_part(const TriangleMesh& mesh, std::uint32_t triangle, const Ray
 bool yields_to_or_is_wide(const TriangleMesh& mesh, const Ray<double>& ray, const PartHit& closest,
                           const PartHit& hit) {
   SlabRay slabs(ray);
-  // As walks see the box of a triangle.
+  // Tests the box of a triangle as walks do.
   const auto is_reached = [&](std::uint32_t triangle) {
     Bounds<double> box;
     for (std::size_t k = 0; k < 3; ++k) box.extend(mesh.corner(triangle, k));
@@ -173,7 +173,7 @@ std::vector<PartHit> all_parts(const TriangleMesh& mesh, const Ray<double>& ray)
 
 bool is_within(const TriangleMesh& mesh, const Vec3<double>& point) {
   if (!mesh.is_closed()) return false;
-  // A direction whose ray passes through no edge: nearly every one is.
+  // Limit of tries for a direction whose ray passes through no edge; nearly all directions qualify.
   constexpr int most_tries = 64;
   for (int i = 1; i <= most_tries; ++i) {
     const Vec3<double> direction(std::sin(1.3 * i), std::cos(0.7 * i), std::sin(2.9 * i + 0.4));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Finds where rays meet a mesh. The sides on which a ray passes the edges of a triangle are true
-// signs, so that a ray at a closed mesh's edge or corner meets one of the triangles there.
+// Finds where rays meet a mesh. The sides on which a ray passes a triangle's edges are true signs:
+// a ray at a closed mesh's edge or corner meets one of the triangles there.
 #pragma once
 
 #include "core/bvh/traverse.h"
@@ -13,8 +13,9 @@ namespace minkray {
 struct PartHit {
   std::uint32_t part = no_part;  ///< the triangle's number
   double t = std::numeric_limits<double>::infinity();
-  double error = 0;      ///< the true t of the ray, as it is given, is no further from t than this
-  bool is_back = false;  ///< seen from there the triangle's vertices are clockwise
+  double error = 0;      ///< bound of |t - true t| for the ray as given
+  bool is_back = false;  ///< true if the triangle's vertices are clockwise as seen from the ray's
+                         ///< origin
   bool is_at_edge = false;  ///< the ray passes just through an edge or corner
 
   bool found() const { return part != no_part; }
@@ -52,16 +53,16 @@ void walk_triangles(const TriangleMesh& mesh, const Ray<double>& ray, PartCounts
   });
 }
 
-/// The hit with the least t in [t_min, ray.t_max], of the least number where several have it.
+/// Returns the hit with the least t in [t_min, ray.t_max]; the least number among ties.
 PartHit closest_part(const TriangleMesh& mesh, const Ray<double>& ray, double t_min,
                      PartCounts& counts);
-/// True if there is any with t in [t_min, ray.t_max].
+/// True if there is any hit with t in [t_min, ray.t_max].
 bool meets_part(const TriangleMesh& mesh, const Ray<double>& ray, double t_min, PartCounts& counts);
-/// All of them, by t and number.
+/// Returns all hits, by t and number.
 std::vector<PartHit> all_parts(const TriangleMesh& mesh, const Ray<double>& ray);
 
-/// True if a closed mesh winds around the point. No point is within an open one, nor on the
-/// surface.
+/// True if a closed mesh winds around the point. False for all points if the mesh is open, and for
+/// points on the surface.
 bool is_within(const TriangleMesh& mesh, const Vec3<double>& point);
 
 }  // namespace minkray

@@ -29,11 +29,11 @@ void split_by_suitability(const TriangleMesh& mesh, std::span<const PartRay> ray
   }
 }
 
-/// After a group whose rays meet leaves of their own, this many groups go to streams without a
-/// try.
+/// After a group whose rays meet different leaves, this many groups skip the group test and go to
+/// streams.
 constexpr std::size_t groups_passed_over = 7;
 
-/// True if the first and the last ray have one origin and nearly one direction.
+/// True if the first and the last ray have the same origin and similar directions.
 bool may_be_group(const PartRay* rays, std::size_t count) {
   const Ray<double>&first = rays[0].ray, &last = rays[count - 1].ray;
   if (first.origin != last.origin) return false;
@@ -41,7 +41,7 @@ bool may_be_group(const PartRay* rays, std::size_t count) {
   return (last.direction - first.direction).cwiseAbs().maxCoeff() <= 0.25 * size;
 }
 
-/// Groups of neighbours that run alike, and a stream of the rays between them.
+/// Casts groups of neighbours with similar directions, and streams of the rays between them.
 void closest_of_many(const MeshView& view, const PartRay* rays, std::size_t count, PartHit* hits,
                      PartCounts& counts) {
   std::size_t waiting = 0, passed_over = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Many rays at one mesh: the same answers as one by one, and faster.
+// Casts many rays at one mesh: the same results as one by one, and faster.
 #pragma once
 
 #include <span>

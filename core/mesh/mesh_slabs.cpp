@@ -34,7 +34,7 @@ Areas areas_of_leaf(const TriangleMesh& mesh, std::uint32_t leaf) {
   return areas;
 }
 
-/// The corners below one child of a node.
+/// Calls each() for the corners below one child of a node.
 template <class Each>
 void each_corner(const TriangleMesh& mesh, std::uint32_t what, Each&& each) {
   std::vector<std::uint32_t> open{what};
@@ -72,7 +72,7 @@ MeshSlabs::MeshSlabs(const TriangleMesh& mesh) {
   slabs_.resize(nodes.size());
   // Products of floats would leave their range.
   if (!mesh.suits_lanes()) return;
-  /// Less of the area than this on one side: a box is as thin.
+  /// Least ratio of the vector area to the area for a slab: below it a box is as thin.
   constexpr double flat_enough = 0.5;
   std::vector<Areas> of_nodes(nodes.size());
   // Children follow their parents.

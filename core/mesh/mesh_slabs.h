@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Slabs around the parts of a surface below each node, across their mean normals: thin where the
-// surface is nearly flat, however it lies, where boxes along the axes are as thick as the part.
+// Slabs around the parts of a surface below each node, across their mean normals. A slab is thin
+// where the surface is nearly flat, whatever its direction; an axis-aligned box is as thick as the
+// part.
 #pragma once
 
 #include <vector>
@@ -11,8 +12,8 @@ namespace minkray {
 
 class TriangleMesh;
 
-/// Each child of a node lies between two planes across a normal, which need not have unit length;
-/// about the middle of the mesh's box. A normal of 0 is no slab.
+/// Each child of a node lies between two planes across a normal, which need not have unit length,
+/// about the middle of the mesh's box. A normal of 0 means that there is no slab.
 struct NodeSlabs {
   float normals[3][bvh_width];
   float low[bvh_width], high[bvh_width];

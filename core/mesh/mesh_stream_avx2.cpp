@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Rays that go each their own way through a mesh take turns, four nodes abreast, so that the
-// processor works on several chains of operations and waits for several lines of memory at once
+// Casts rays of different directions at a mesh in turns, four nodes at once: the processor works on
+// several chains of operations and waits for several lines of memory at the same time
 // (docs/decisions/streams.md). Everything here has internal linkage.
 #include "core/mesh/mesh_walk.h"
 
@@ -10,7 +10,7 @@
 namespace minkray {
 namespace {
 
-/// Number of rays that take turns, and of those stepped at once.
+/// Number of rays that take turns, and number of rays stepped at once.
 constexpr std::uint32_t turns = 32, abreast = 4;
 
 /// Entries that are always live, below each stack's first.
@@ -40,7 +40,7 @@ void begin(Turn& turn, const PartRay& ray, std::uint32_t number) {
   turn.top = sentinels;
 }
 
-/// Takes the nearest from the stack. False if nothing is left that is near enough.
+/// Takes the nearest entry from the stack. False if nothing is left that is near enough.
 bool next_of(Turn& turn) {
   const __m256 limit = _mm256_set1_ps(turn.slabs.numbers.t_max);
   for (;;) {
@@ -100,14 +100,14 @@ template <std::uint32_t count>
   for (std::uint32_t k = 0; k < count; ++k) {
     const __m256 padded = _mm256_add_ps(_mm256_mul_ps(leave[k], _mm256_set1_ps(slab_padding)),
                                         _mm256_set1_ps(slab_tiny));
-    // No child has all bits.
+    // All bits set means no child.
     const __m256 is_none =
         _mm256_castsi256_ps(_mm256_cmpeq_epi32(children[k], _mm256_set1_epi32(-1)));
     met[k] = static_cast<std::uint32_t>(
         _mm256_movemask_ps(_mm256_andnot_ps(is_none, _mm256_cmp_ps(enter[k], padded, _CMP_LE_OQ))));
   }
-  // The furthest first: parameters at which boxes are entered, cut off to make room for the lane's
-  // number, are not negative, and so in order as whole numbers. Missed boxes come last, as -1.
+  // Sorts the furthest first. Parameters at which boxes are entered, cut off to make room for the
+  // lane's number, are not negative, so they sort as whole numbers. Missed boxes come last, as -1.
 #pragma GCC unroll 8
   for (std::uint32_t k = 0; k < count; ++k) {
     const __m256i is_missed =
@@ -141,7 +141,7 @@ template <std::uint32_t count>
   }
 }
 
-/// Rays at a mesh, until all are answered. Hits: PartHit of closest ones, or std::uint8_t.
+/// Casts rays at a mesh, until all have results. Hit: PartHit for closest hits, or std::uint8_t.
 template <class Hit>
 class Stream {
  public:
@@ -182,7 +182,7 @@ class Stream {
     for (std::uint32_t k = 0; k < count; ++k) file(now[k]);
   }
 
-  /// To those whose next is a node, or a leaf; a turn without any goes to another ray.
+  /// Queues the turn by its next node or leaf; a turn with nothing left takes another ray.
   void file(Turn* turn) {
     if (!next_of(*turn)) {
       answer(*turn);
@@ -190,7 +190,7 @@ class Stream {
       begin(*turn, rays_[next_], next_);
       ++next_;
     }
-    // Without a branch: which it is is as good as random.
+    // Branch-free: node or leaf is nearly random.
     const std::uint32_t what = turn->what, is_leaf = what >> 31;
     leaves_[leaf_count_] = turn;
     leaf_count_ += is_leaf;
@@ -212,7 +212,8 @@ class Stream {
       hits_[turn.ray] = turn.best.found() ? 1 : 0;
   }
 
-  /// All leaves that wait: lanes at each, then places of corners, then corners are fetched.
+  /// Tests all leaves that wait: lanes of each, then places of corners, then the corners are
+  /// fetched.
   void take_leaves() {
     Turn* now[turns];
     std::uint32_t lanes[turns];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Walks of rays through a mesh in which float lanes sort out most triangles: what they leave is
-// cast at in double, so that answers have the bits of the plain walk. On machines that have AVX2
+// Walks of rays through a mesh in which float lanes rule out most triangles. The remaining ones are
+// cast at in double, so that results have the same bits as the plain walk. For machines with AVX2
 // and FMA.
 #pragma once
 
@@ -34,18 +34,18 @@ inline bool has_lanes(const TriangleMesh& mesh) {
 /// cast_at_triangle of the mesh's triangle, with its number.
 PartHit cast_at_part(const TriangleMesh& mesh, std::uint32_t triangle, const Ray<double>& ray);
 
-/// True if t is hardly known, as of a triangle that the ray grazes.
+/// True if the error is large relative to t, as for a triangle that the ray grazes.
 inline bool is_wide(const PartHit& hit) {
   constexpr double wide = 0x1p-20;
   return hit.error > wide * hit.t;
 }
 
-/// As yields_to, where either is wide: such a hit of a triangle whose box the ray only enters
-/// behind the other one's t and error yields to that.
+/// Same as yields_to, but handles wide hits: such a hit yields to the other one if the ray enters
+/// the box of its triangle only behind the other's t and error.
 bool yields_to_or_is_wide(const TriangleMesh& mesh, const Ray<double>& ray, const PartHit& closest,
                           const PartHit& hit);
 
-/// True if the hit takes the place of the closest so far, which may be none.
+/// True if the hit replaces the closest one so far, which may be none.
 inline bool takes_place(const TriangleMesh& mesh, const Ray<double>& ray, const PartHit& closest,
                         const PartHit& hit) {
   if (is_wide(hit) || is_wide(closest)) [[unlikely]]
@@ -65,22 +65,22 @@ inline bool suits_lanes(const Ray<double>& ray) {
   return origin <= largest && direction >= smallest && direction <= largest;
 }
 
-/// One ray that suits, at a mesh that suits.
+/// Casts one suitable ray at a suitable mesh.
 PartHit closest_part_avx2(const MeshView& view, const Ray<double>& ray, double t_min,
                           PartCounts& counts);
 bool meets_part_avx2(const MeshView& view, const Ray<double>& ray, double t_min,
                      PartCounts& counts);
 
-/// Up to most_rays_of_walk rays that suit. The hits are misses before.
+/// Casts up to most_rays_of_walk suitable rays. The hits must be misses before the call.
 inline constexpr std::size_t most_rays_of_walk = 1024;
 void closest_parts_avx2(const MeshView& view, const PartRay* rays, std::size_t count, PartHit* hits,
                         PartCounts& counts);
-/// Up to rays_of_group rays that suit and run nearly alike.
+/// Casts up to rays_of_group suitable rays with similar directions.
 inline constexpr std::size_t rays_of_group = 32;
 enum class GroupResult : unsigned char {
-  none,       ///< the rays do not run alike: nothing was answered
-  alike,      ///< all are answered
-  scattered,  ///< all are answered, but they meet leaves of their own: streams are faster
+  none,       ///< the directions are too different: no ray was cast
+  alike,      ///< all rays have results
+  scattered,  ///< all rays have results, but meet different leaves: streams are faster
 };
 GroupResult closest_parts_of_group_avx2(const MeshView& view, const PartRay* rays,
                                         std::size_t count, PartHit* hits, PartCounts& counts);

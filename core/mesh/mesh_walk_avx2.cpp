@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Everything here has internal linkage or the type of the lanes in its name: see core/math/wide.h.
+// Everything here has internal linkage or the type of the lanes in its name (core/math/wide.h).
 #include "core/mesh/mesh_walk.h"
 
 #if defined(__AVX2__)
@@ -24,7 +24,7 @@ void fetch(const MeshView& view, std::uint32_t what) {
 }
 
 /// Calls on_lanes(leaf, lanes) for the triangles that lanes cannot rule out in the leaves that the
-/// ray meets, near ones first. on_lanes may lower t_max and reach, and ends the walk by returning
+/// ray meets, near leaves first. on_lanes may lower t_max and reach, and ends the walk by returning
 /// true.
 template <class OnLanes>
 [[gnu::always_inline]] inline std::uint32_t walk_leaves(const MeshView& view, SlabRay& slabs,

@@ -44,7 +44,7 @@ struct CornerPlaces {
           view.vertices + 3 * std::size_t{corners[2]}};
 }
 
-/// As cast_at_part.
+/// Same as cast_at_part.
 [[gnu::always_inline]] inline PartHit cast_in_lanes(const MeshView& view, std::uint32_t triangle,
                                                     const CastRay& cast) {
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -107,7 +107,7 @@ struct CornerPlaces {
   PartHit hit;
   hit.error = lesser(range, own);
   hit.t = t < first ? first : last < t ? last : t;
-  // Also where a number is none.
+  // True also if a number is NaN.
   if (!(whole_at_least > 0 && std::abs(beyond_a) < std::numeric_limits<double>::infinity() &&
         hit.t > hit.error)) [[unlikely]]
     return cast_at_part(*view.mesh, triangle, *cast.ray);

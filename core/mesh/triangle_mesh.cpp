@@ -16,8 +16,8 @@ namespace {
 
 constexpr std::size_t most_triangles = std::size_t{1} << 30;
 
-/// Products of three coordinates and their last digits must be numbers: so much is left of the
-/// range of double.
+/// Limits such that products of three coordinates and their last digits stay in the range of
+/// double.
 constexpr double largest_coordinate = 0x1p300, smallest_size = 0x1p-250;
 
 constexpr std::size_t triangles_a_range = 4096;
@@ -25,8 +25,8 @@ constexpr std::size_t triangles_a_range = 4096;
 /// Squares of such numbers have all their digits.
 constexpr double ordinary = 0x1p-200;
 
-/// Beyond these, lanes do not look at leaves: products of float coordinates and scales are far from
-/// the limits of float.
+/// Limits of meshes for lanes: products of float coordinates and scales stay far from the limits of
+/// float.
 constexpr double largest_of_lanes = 0x1p60, smallest_of_lanes = 0x1p-60;
 
 /// Corners in units of a leaf are less than 2^16, also when the scale has lost its last bits.
@@ -143,7 +143,7 @@ Vec3<double> TriangleMesh::normal(std::uint32_t triangle) const {
   const double squared = plain.squaredNorm(), of_sides = a.squaredNorm() * b.squaredNorm();
   if (squared >= wide * of_sides && squared > ordinary && of_sides < 1 / ordinary)
     return plain / std::sqrt(squared);
-  // The two products are nearly equal where it is a sliver: their difference needs more digits.
+  // The two products are nearly equal for a sliver: their difference needs more digits.
   const TwoFoldVec3<double> p = exact_difference(corner(triangle, 1), corner(triangle, 0)),
                             q = exact_difference(corner(triangle, 2), corner(triangle, 0));
   Vec3<double> n;

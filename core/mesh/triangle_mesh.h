@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A surface of triangles with shared vertices, and a hierarchy of their boxes: a body of many
-// convex parts under one pose, where a shape is a body of one.
+// A surface of triangles with shared vertices, and a BVH of their boxes: a body of many convex
+// parts under one pose.
 #pragma once
 
 #include <array>
@@ -21,27 +21,27 @@ namespace minkray {
 /// Three vertices by their numbers, counter-clockwise as seen from outside.
 using Corners = std::array<std::uint32_t, 3>;
 
-/// "No part": of a shape, which is one.
+/// "No part": number for shapes, which have only one part.
 inline constexpr std::uint32_t no_part = ~std::uint32_t{0};
 
-/// What its triangles are like, where vertices at one place are one. None of this makes an answer
-/// wrong: triangles without area are met by no ray, since those beside them are.
+/// Defects of a mesh, where vertices at the same place count as one. None of these makes results
+/// wrong: no ray meets a triangle without area, since rays meet its neighbours.
 struct MeshFaults {
   std::size_t without_area = 0;
-  std::size_t repeated = 0;  ///< triangles of three vertices that another has, too
-  std::size_t open_edges =
-      0;  ///< edges that have not as many triangles on one side as on the other
+  std::size_t repeated = 0;    ///< triangles whose three vertices another one has, too
+  std::size_t open_edges = 0;  ///< edges with different numbers of triangles on their two sides
   bool is_closed() const { return open_edges == 0; }
 };
 
-/// From where rays meet triangles. With `front` all of them must look the same way.
+/// Sides from which rays meet triangles. `front` requires that all triangles face the same way.
 enum class MeshSides : unsigned char { both, front };
 
-/// It never changes: any number of threads may use it, and any number of instances share it.
+/// Immutable: any number of threads may use a mesh, and any number of instances may share it.
 class TriangleMesh {
  public:
-  /// Triangles keep their numbers. Throws std::invalid_argument where there is none, more than
-  /// 2^30, a number of no vertex, or a coordinate that is not finite, too large or too small.
+  /// Triangles keep their numbers. Throws std::invalid_argument if there are none or more than
+  /// 2^30, a vertex number is out of range, or a coordinate is unusable (not finite, too large or
+  /// too small).
   TriangleMesh(std::vector<Vec3<double>> vertices, std::vector<Corners> triangles,
                MeshSides sides = MeshSides::both);
 
@@ -53,25 +53,25 @@ class TriangleMesh {
   const Vec3<double>& corner(std::uint32_t triangle, std::size_t k) const {
     return vertices_[triangles_[triangle][k]];
   }
-  /// It has unit length and follows the right-hand rule; it is zero of a triangle without area.
+  /// Unit normal by the right-hand rule; zero for a triangle without area.
   Vec3<double> normal(std::uint32_t triangle) const;
 
-  /// The box holds the vertices that triangles have.
+  /// Bounding box of the vertices that triangles use.
   const Bounds<double>& bounds() const { return bounds_; }
-  /// Its children with the leaf bit are numbers of leaves().
+  /// BVH whose children with the leaf bit are numbers of leaves().
   const Bvh& bvh() const { return bvh_; }
   std::span<const MeshLeaf> leaves() const { return leaves_; }
-  /// The boxes of a leaf's triangles: children with the leaf bit are numbers of triangles.
+  /// Boxes of a leaf's triangles: children with the leaf bit are numbers of triangles.
   BvhNode boxes_of_leaf(std::uint32_t leaf) const;
-  /// True if float lanes may look at leaves: its size and its numbers are far from float's limits.
+  /// True if float lanes can test leaves: the mesh's size and numbers are far from float's limits.
   bool suits_lanes() const { return suits_lanes_; }
-  /// Looks at all triangles each time.
+  /// Counts the defects; checks all triangles at each call.
   MeshFaults faults() const;
-  /// Finds out once what faults().is_closed() says.
+  /// Returns faults().is_closed(), computed once.
   bool is_closed() const;
-  /// Makes them once, for whoever asks first: rays need none.
+  /// Returns the slabs, built at the first call; rays need none.
   const MeshSlabs& slabs() const;
-  /// The furthest vertex' distance from the frame's origin, or a little more.
+  /// Upper bound of the vertices' distances from the frame's origin.
   double reach() const { return reach_; }
 
   std::size_t bytes() const;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Whether a mesh bends near a point: what is of one plane has one normal there.
+// Tests if a mesh bends near a point. Triangles in one plane share one normal and do not count.
 #pragma once
 
 #include "core/mesh/triangle_mesh.h"
 
 namespace minkray {
 
-/// Whether triangles of more than one direction are within `near` of a point in the mesh's frame.
+/// True if triangles with different normals are within `near` of a point in the mesh's frame.
 bool bends_at(const TriangleMesh& mesh, const Vec3<double>& point, double near);
 
 }  // namespace minkray

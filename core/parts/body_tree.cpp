@@ -6,10 +6,10 @@
 namespace minkray {
 namespace {
 
-/// Node numbers and a child's must fit in a box' number, and none of them is `whole`.
+/// Numbers of a node and its child must fit in a box's number, and none of them equals `whole`.
 static_assert(bvh_width == 8 && EightBoxes::most == 8);
 
-/// About the shape's middle, along the axes of its frame.
+/// Half extents about the shape's middle, along the axes of its frame.
 Vec3<double> half_extents(const ContactShape& shape, Vec3<double>& middle) {
   Vec3<double> half;
   for (int axis = 0; axis < 3; ++axis) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A body as a walk over pairs sees it: boxes within boxes about the middle of the body, down to
-// leaves of up to eight convex parts. A shape is one leaf of one part.
+// A body for walks over pairs: nested boxes about the body's middle, down to leaves of up to eight
+// convex parts. A shape is one leaf with one part.
 #pragma once
 
 #include "core/parts/box_gaps.h"
@@ -15,12 +15,13 @@ class BodyTree {
 
   const PartsBody& body() const { return body_; }
   const TriangleMesh* mesh() const { return body_.mesh(); }
-  /// In the body's frame.
+  /// Middle of the body, in its frame.
   const Vec3<double>& middle() const { return middle_; }
-  /// The radius of a ball around the middle that holds the body.
+  /// Radius of a ball around the middle that contains the body.
   double radius() const { return radius_; }
 
-  /// A box: the body's own, or a child of a node by the node's number and its own.
+  /// A box: the body's own, or a child of a node, encoded as the node's number and the child's
+  /// index.
   using Box = std::uint32_t;
   static constexpr Box whole = ~Box{0};
 
@@ -29,23 +30,24 @@ class BodyTree {
     return box == whole ? whole_ : child(box >> 3, static_cast<int>(box & 7));
   }
 
-  /// The boxes in one that is no leaf. Returns their number.
+  /// Gets the boxes in a box that is not a leaf. Returns their number.
   int open(Box box, EightBoxes& boxes, Box* children) const;
-  /// The boxes of a leaf's parts. Returns their number.
+  /// Gets the boxes of a leaf's parts. Returns their number.
   int open_leaf(Box box, EightBoxes& boxes, std::uint32_t* parts) const;
 
-  /// The triangles of a leaf of a mesh, about the body's middle, or where `at` has that.
+  /// Gets the triangles of a leaf of a mesh, about the body's middle, mapped by `at` if not null.
   void open_leaf(Box box, EightTriangles& triangles, const Turned* at = nullptr) const;
 
   TriangleCorners triangle(std::uint32_t part) const {
     return {mesh()->corner(part, 0) - middle_, mesh()->corner(part, 1) - middle_,
             mesh()->corner(part, 2) - middle_};
   }
-  /// How far the body reaches from its middle along a vector of its frame; of a mesh by its box.
+  /// Largest n . p over the body's points p, about its middle and in its frame. Meshes use their
+  /// box.
   double reach_along(const Vec3<double>& n) const;
 
  private:
-  /// A node's number, or that of a leaf with its bit.
+  /// Number of a node, or number of a leaf with the leaf bit.
   std::uint32_t inside(Box box) const {
     return box == whole ? 0 : mesh()->bvh().nodes[box >> 3].children[box & 7];
   }

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
-// How far eight boxes are from another one, at least, whose axes may be turned: what a walk over
-// two bodies' boxes asks most often. By the separating axes of either box' faces, by the line
-// between two middles, and by a direction that is known to be good.
+// Lower bounds of the distances from eight boxes to another box, whose axes may be turned: the most
+// frequent query of a walk over two bodies' boxes. The bounds use the face normals of both boxes as
+// separating axes, the line between two middles, and a known good direction.
 #pragma once
 
 #include "core/math/vec.h"
 
 namespace minkray {
 
-/// From the middle, half a side each way; and between two planes across `normal`, unless that is 0.
+/// A box of half extents about its middle, cut to a slab between two planes across `normal` unless
+/// that is 0.
 struct MiddleBox {
   Vec3<double> middle = Vec3<double>::Zero(), half = Vec3<double>::Zero();
   Vec3<double> normal = Vec3<double>::Zero();
@@ -18,7 +19,7 @@ struct MiddleBox {
 struct EightBoxes {
   static constexpr int most = 8;
   alignas(32) double middle[3][most];
-  alignas(32) double half[3][most];  ///< some number where there is no box
+  alignas(32) double half[3][most];  ///< any number if there is no box
   alignas(32) double normal[3][most];
   alignas(32) double low[most];
   alignas(32) double high[most];
@@ -40,10 +41,10 @@ struct EightBoxes {
   }
 };
 
-/// How far what is in the box reaches along a vector of its frame, at most.
+/// Upper bound of n . p over the points p in the box.
 inline double reach_along(const MiddleBox& box, const Vec3<double>& n) {
   const double by_box = n.dot(box.middle) + n.cwiseAbs().dot(box.half);
-  // A part of the way across the slab, and the rest by the box.
+  // Splits n into a part across the slab and a rest, which the box bounds.
   const double across = n.dot(box.normal);
   const Vec3<double> rest = n - across * box.normal;
   const double by_slab = across * (across < 0 ? box.low : box.high) + rest.dot(box.middle) +
@@ -51,24 +52,24 @@ inline double reach_along(const MiddleBox& box, const Vec3<double>& n) {
   return std::min(by_box, by_slab);
 }
 
-/// The frame of one box as the frame of the others sees it.
+/// Frame of one box, as seen from the frame of the others.
 struct Turned {
   Mat3<double> turn;
   Vec3<double> shift;
 };
 
-/// The unit vector is in the frame of the eight, and leads to the other box, which reaches back
-/// along it from its own frame's origin by `reach` at most.
+/// A unit vector in the frame of the eight that points to the other box. `reach` bounds the other
+/// box's extent back along it, from the origin of its own frame.
 struct KnownDirection {
   Vec3<double> along;
   double reach;
 };
 
-/// Lower bounds of the distances, which do not allow for rounding; less than 0 where no axis tells
-/// two boxes apart: by how much they overlap along the best of their axes.
+/// Lower bounds of the distances, without a margin for rounding. If no axis separates two boxes,
+/// the bound is below 0: minus their overlap along the best axis.
 void box_gaps(const EightBoxes& boxes, const MiddleBox& other, const Turned& at,
               const KnownDirection* known, double* gaps);
-/// Both have the same bits.
+/// Both functions return the same bits.
 void box_gaps_avx2(const EightBoxes& boxes, const MiddleBox& other, const Turned& at,
                    const KnownDirection* known, double* gaps);
 void box_gaps_sse2(const EightBoxes& boxes, const MiddleBox& other, const Turned& at,

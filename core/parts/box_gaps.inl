@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The body of the gaps between boxes. MINKRAY_BOX_GAPS is the function's name; what else is here
-// has the instruction set in its name (core/math/wide.h).
+// Body of the gaps between boxes. MINKRAY_BOX_GAPS is the function's name; all other names here
+// contain the instruction set (core/math/wide.h).
 #include "core/math/wide.h"
 #include "core/parts/box_gaps.h"
 
 namespace minkray {
 namespace {
 
-/// The distance by three axes, or where they overlap along all of them the gap of the best.
+/// Distance by three axes; if the boxes overlap along all of them, the gap along the best axis.
 template <class W>
 W gap_of_axes(const Vec3<W>& apart) {
   const Vec3<W> far(max(apart.x(), W(0)), max(apart.y(), W(0)), max(apart.z(), W(0)));
@@ -15,7 +15,7 @@ W gap_of_axes(const Vec3<W>& apart) {
   return select(squared > W(0), sqrt(squared), max(apart.x(), max(apart.y(), apart.z())));
 }
 
-/// A box in each lane, or the same one in all.
+/// One box per lane, or the same box in all lanes.
 template <class W>
 struct BoxLanes {
   Vec3<W> middle, half, normal;
@@ -53,7 +53,7 @@ W gaps_of(const BoxLanes<W>& box, const MiddleBox& other, const Turned& at,
     apart[i] = abs(turned(to, i)) - (reach + W(other.half[i]));
   }
   gap = max(gap, gap_of_axes<W>(apart));
-  // Along the line between the middles.
+  // Gap along the line between the middles.
   const W length = sqrt(to[0] * to[0] + (to[1] * to[1] + to[2] * to[2]));
   const W scale = W(1) / max(length, W(std::numeric_limits<double>::min()));
   const Vec3<W> n(to[0] * scale, to[1] * scale, to[2] * scale);

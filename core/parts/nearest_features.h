@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The nearest points of two triangles that do not cross: on two of their edges, or a corner of one
-// and a point of the other's face (C. Ericson, "Real-Time Collision Detection", 2004, 5.1.9 and
-// 5.1.10). Three edges or corners at once, in lanes.
+// Nearest points of two triangles that do not cross: on an edge of each, or a corner of one and a
+// point of the other's face (C. Ericson, "Real-Time Collision Detection", 2004, 5.1.9 and 5.1.10).
+// Processes three edges or corners at once, in lanes.
 #pragma once
 
 #include "core/parts/triangle_pair.h"
@@ -9,11 +9,11 @@
 namespace minkray {
 
 struct NearestPoints {
-  double squared = std::numeric_limits<double>::infinity();  ///< of the distance
+  double squared = std::numeric_limits<double>::infinity();  ///< squared distance
   Vec3<double> a = Vec3<double>::Zero(), b = Vec3<double>::Zero();
 };
 
-/// Both have the same bits.
+/// Both functions return the same bits.
 void nearest_features_avx2(const TriangleCorners& a, const TriangleCorners& b, NearestPoints& best);
 void nearest_features_sse2(const TriangleCorners& a, const TriangleCorners& b, NearestPoints& best);
 

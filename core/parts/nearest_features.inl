@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The body of the nearest features. MINKRAY_NEAREST_FEATURES is the function's name; what else is
-// here has the instruction set in its name (core/math/wide.h).
+// Body of the nearest features. MINKRAY_NEAREST_FEATURES is the function's name; all other names
+// here contain the instruction set (core/math/wide.h).
 #include "core/math/wide.h"
 #include "core/parts/nearest_features.h"
 
 namespace minkray {
 namespace {
 
-/// The corners 0, 1, 2, 0 of a triangle, so that two, or four, fill registers.
+/// Corners 0, 1, 2, 0 of a triangle, which fill registers of two or four lanes.
 constexpr int in_lanes = 4;
 
 template <class W>
@@ -15,7 +15,7 @@ struct CornerLanes {
   static constexpr int registers = in_lanes / LaneOf<W>::count;
   Vec3<W> at[registers];
 
-  /// From corner `first` on.
+  /// Loads corners, beginning with corner `first`.
   CornerLanes(const TriangleCorners& triangle, std::size_t first) {
     for (int r = 0; r < registers; ++r)
       at[r] = per_lane<W>([&](int i) -> const Vec3<double>& {
@@ -34,10 +34,10 @@ W within_0_and_1(const W& x) {
   return min(max(x, W(0)), W(1));
 }
 
-/// What a length's square is divided by: not by 0.
+/// Least divisor: squared lengths are raised to this so that none is 0.
 constexpr double least_square = std::numeric_limits<double>::min();
 
-/// An edge of `a` and all of `b`. The first of equals is kept.
+/// Updates `best` with each edge of `a` against all edges of `b`. Ties keep the first.
 template <class W>
 void take_edges(const TriangleCorners& a, const TriangleCorners& b, NearestPoints& best) {
   const CornerLanes<W> from(b, 0), to(b, 1);
@@ -49,7 +49,7 @@ void take_edges(const TriangleCorners& a, const TriangleCorners& b, NearestPoint
       const Vec3<W> v = to.at[r] - from.at[r], between = widen<W>(p) - from.at[r];
       const W e = max(dot_of<W>(v, v), W(least_square)), f = dot_of<W>(v, between),
               c = dot_of<W>(u, between), b_ = dot_of<W>(u, v);
-      // If edges are parallel, any s is as good.
+      // If edges are parallel, any s will do.
       constexpr double parallel = 1e-30;
       const W denominator = max(along * e - b_ * b_, max(along * e * W(parallel), W(least_square)));
       W s = within_0_and_1<W>((b_ * f - c * e) / denominator);
@@ -69,7 +69,7 @@ void take_edges(const TriangleCorners& a, const TriangleCorners& b, NearestPoint
   }
 }
 
-/// The corners of `points` over the face of another triangle.
+/// Updates `best` with the corners of `points` over the face of another triangle.
 template <class W>
 void take_corners(const TriangleCorners& points, const TriangleCorners& face, bool are_of_b,
                   NearestPoints& best) {

@@ -9,7 +9,7 @@
 
 namespace minkray {
 
-/// Refers to the body.
+/// Refers to the body, which must outlive this.
 class OnePart {
  public:
   OnePart(const PartsBody& body, std::uint32_t part)
@@ -19,7 +19,7 @@ class OnePart {
   }
 
   const ContactShape& shape() const { return triangle_ ? triangle_->shape() : *shape_; }
-  /// The triangle's; no_part of a shape.
+  /// Number of the triangle; no_part for a shape.
   std::uint32_t number() const { return number_; }
 
  private:

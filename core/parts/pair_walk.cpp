@@ -15,7 +15,7 @@ Sight::Sight(const BodyTree& a, const Affine<double>& pose_a, const BodyTree& b,
              const Affine<double>& pose_b)
     : turn_a(pose_a.linear) {
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
-  // The places are subtracted before anything is rounded.
+  // Subtracts the positions before anything is rounded.
   const TwoFoldVec3<double> at_a = middle_in_world(a, pose_a), at_b = middle_in_world(b, pose_b);
   const Vec3<double> between = (at_b - at_a).rounded();
   middle_a = at_a.rounded();
@@ -23,7 +23,7 @@ Sight::Sight(const BodyTree& a, const Affine<double>& pose_a, const BodyTree& b,
   b_in_a.shift = turn_a.transpose() * between;
   a_in_b.turn = b_in_a.turn.transpose();
   a_in_b.shift = -(a_in_b.turn * b_in_a.shift);
-  // A corner is turned twice, moved, and measured along a direction: less than 30 roundings of
+  // A corner is rotated twice, translated, and projected on a direction: less than 30 roundings of
   // numbers of this size, one after the other.
   rounding = 32 * epsilon * (between.norm() + a.radius() + b.radius()) +
              two_fold_rounding * (a.middle().norm() + b.middle().norm() +

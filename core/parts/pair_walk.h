@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A walk over the pairs of parts of two bodies, the nearest boxes first.
+// A walk over the pairs of parts of two bodies, nearest boxes first.
 #pragma once
 
 #include <algorithm>
@@ -9,12 +9,13 @@
 
 namespace minkray {
 
-/// Where two bodies are, each about its middle.
+/// Relative poses of two bodies, each about its middle.
 struct Sight {
   Turned b_in_a, a_in_b;
   Vec3<double> middle_a;  ///< in the world
   Mat3<double> turn_a;    ///< from A's frame to the world
-  double rounding;        ///< of what is worked out in A's frame: points, boxes, distances
+  double rounding;        ///< error bound of what is computed in A's frame: points, boxes,
+                          ///< distances
 
   Sight(const BodyTree& a, const Affine<double>& pose_a, const BodyTree& b,
         const Affine<double>& pose_b);
@@ -25,7 +26,8 @@ class PairWalk {
   PairWalk(const BodyTree& a, const BodyTree& b, const Sight& sight)
       : a_(a), b_(b), sight_(sight) {}
 
-  /// Planes across this unit vector, from A to B in A's frame, tell many pairs apart from here on.
+  /// Sets a unit vector, from A to B in A's frame, whose planes separate many of the pairs that
+  /// follow.
   void set_direction(const Vec3<double>& n) {
     has_direction_ = true;
     n_ = n;
@@ -35,20 +37,20 @@ class PairWalk {
   }
   bool has_direction() const { return has_direction_; }
   const Vec3<double>& direction() const { return n_; }
-  /// How far a shape A reaches along the direction, and a shape B against it, from their middles.
+  /// Extent of shape A along the direction, and of shape B against it, from their middles.
   double up_a() const { return up_a_; }
   double down_b() const { return down_b_; }
 
   /// Calls visit(part_a, part_b) for pairs until it returns true. key(gap, box_a, box_b) is a lower
-  /// bound of what it finds, less than 0 of boxes that overlap; pairs whose key is above limit()
-  /// are left out, and their least key is returned.
+  /// bound of what the visit finds, below 0 for boxes that overlap. Pairs whose key is above
+  /// limit() are left out, and their least key is returned.
   template <class Key, class Limit, class Visit>
   double run(const Key& key, const Limit& limit, const Visit& visit) {
     return run_leaves(key, limit, [&](BodyTree::Box a, BodyTree::Box b) {
       return visit_leaves(a, b, key, limit, visit);
     });
   }
-  /// Does the same, but calls visit_leaves(a, b) for two leaves.
+  /// Same as run(), but calls visit_leaves(a, b) for two leaves.
   template <class Key, class Limit, class VisitLeaves>
   double run_leaves(const Key& key, const Limit& limit, const VisitLeaves& visit_leaves);
 
@@ -77,7 +79,7 @@ class PairWalk {
     const KnownDirection known{-n_in_b_, has_direction_ ? up(of_a) : 0};
     box_gaps(boxes, of_a, sight_.a_in_b, has_direction_ ? &known : nullptr, gaps);
   }
-  /// Takes note that a pair with this key was left out.
+  /// Records that a pair with this key was left out.
   void leave_out(double key) { left_out_ = std::min(left_out_, key); }
   /// Returns true if a visit ends the walk.
   template <class Key, class Limit, class Visit>
@@ -162,14 +164,14 @@ double PairWalk::run_leaves(const Key& key, const Limit& limit, const VisitLeave
     open_.pop_back();
     if (pair.key > limit()) return std::min(left_out_, pair.key);
     MiddleBox box_a = a_.bounds(pair.a), box_b = b_.bounds(pair.b);
-    if (has_direction_) {  // a better one than when the pair was filed
+    if (has_direction_) {  // a better direction than when the pair was queued
       const double again = key(gap_along_direction(box_a, box_b) - sight_.rounding, box_a, box_b);
       if (again > limit()) {
         leave_out(again);
         continue;
       }
     }
-    // Goes down to leaves by the nearest child, so that a distance is known soon.
+    // Descends to leaves by the nearest child, so that a distance is found early.
     for (;;) {
       const bool is_leaf_a = a_.is_leaf(pair.a), is_leaf_b = b_.is_leaf(pair.b);
       if (is_leaf_a && is_leaf_b) {
@@ -189,7 +191,8 @@ double PairWalk::run_leaves(const Key& key, const Limit& limit, const VisitLeave
         if (its > limit())
           leave_out(its);
         else
-          order.add(its == its ? its : least, i);  // of numbers too large nothing is known
+          order.add(its == its ? its : least, i);  // NaN, from numbers that are too large, counts
+                                                   // as no bound
       }
       if (order.size() == 0) break;
       const auto child = [&](int i) -> Open {

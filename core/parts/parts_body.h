@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What queries on pairs take: a convex shape, or a mesh, whose parts are its triangles.
+// Input of queries on pairs: a convex shape, or a mesh, whose parts are its triangles.
 #pragma once
 
 #include "core/contact/contact_shape.h"
@@ -13,7 +13,7 @@ class PartsBody {
   PartsBody(const ContactShape& shape) : shape_(&shape) {}
   PartsBody(const TriangleMesh& mesh) : mesh_(&mesh) {}
 
-  /// Null of the other kind.
+  /// Null for the other kind.
   const ContactShape* shape() const { return shape_; }
   const TriangleMesh* mesh() const { return mesh_; }
 
@@ -22,16 +22,17 @@ class PartsBody {
   const TriangleMesh* mesh_ = nullptr;
 };
 
-/// The triangles that an answer is of; no_part of a shape.
+/// Triangles that a result belongs to; no_part for a shape.
 struct PartPair {
   std::uint32_t a = no_part, b = no_part;
 };
 
-/// A box that holds the body at a rigid pose: of a shape the least but for a rounding outwards.
+/// Bounding box of the body at a rigid pose; for shapes the tightest one, but for rounding
+/// outwards.
 Bounds<double> bounds_of(const PartsBody& body, const Affine<double>& pose);
-/// How far the body reaches from the origin of its frame, or a little more.
+/// Upper bound of the distance of the body's points from the origin of its frame.
 double reach_of(const PartsBody& body);
-/// The middle of a shape, or of the box of a mesh, in its frame.
+/// Middle of a shape, or of a mesh's box, in its frame.
 Vec3<double> middle_of(const PartsBody& body);
 
 }  // namespace minkray

@@ -8,7 +8,7 @@
 namespace minkray {
 namespace {
 
-/// False where no pair of parts has the answer: bodies within each other, or that miss.
+/// False if no pair of parts has the result: one body is within the other, or they miss.
 bool has_parts(const PartPair& parts, const PartsBody& a, const PartsBody& b) {
   return (!a.mesh() || parts.a != no_part) && (!b.mesh() || parts.b != no_part);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Contact points of two bodies, and how their distance and their time of impact change: of the two
-// parts that are nearest, or that touch first.
+// Contact points of two bodies, and derivatives of their distance and time of impact, for the two
+// parts that are nearest or touch first.
 #pragma once
 
 #include "core/contact/manifold.h"
@@ -9,16 +9,16 @@
 
 namespace minkray {
 
-/// Looks at no more than the two parts that are nearest, or that cross. There are no points where
-/// one body is within the other without a crossing.
+/// Considers only the two parts that are nearest, or that cross. There are no points if one body is
+/// within the other without crossing it.
 ContactManifold contact_manifold(const PartsBody& a, const Affine<double>& pose_a,
                                  const PartsBody& b, const Affine<double>& pose_b);
 
-/// How the distance changes: of the two parts that are nearest. Of surfaces that cross it is zero,
-/// and a ridge.
+/// Derivative of the distance, for the two nearest parts. If surfaces cross, the derivative is zero
+/// and marked as a ridge.
 PairDerivative derivative_of(const PartsBody& a, const Affine<double>& pose_a, const PartsBody& b,
                              const Affine<double>& pose_b);
-/// How the time of impact changes.
+/// Derivative of the time of impact.
 PairDerivative derivative_of(const PartsBody& a, const RigidMotion& motion_a, const PartsBody& b,
                              const RigidMotion& motion_b, double t_max);
 

@@ -25,7 +25,7 @@ std::optional<Vec3<double>> point_held_by(const PartsBody& one, const Affine<dou
   return is_within(*one.mesh(), seen) ? std::optional(point) : std::nullopt;
 }
 
-/// The least distance of the parts that a walk visits.
+/// Least distance of the parts that a walk visits.
 class LeastDistance {
  public:
   LeastDistance(const PartsBody& a, const Affine<double>& pose_a, const PartsBody& b,
@@ -39,7 +39,7 @@ class LeastDistance {
         walk_(a_, b_, sight_),
         near_(options.tolerance * (a_.radius() + b_.radius())) {}
 
-  /// Looks at what is no further apart than `enough`.
+  /// Considers only pairs of parts that are no further apart than `enough`.
   SignedDistance run(double enough, PartPair* parts) {
     enough_ = enough;
     const auto key = [](double gap, const MiddleBox&, const MiddleBox&) { return gap; };
@@ -64,7 +64,7 @@ class LeastDistance {
  private:
   double limit() const { return std::min(best_.upper, enough_); }
 
-  /// Whether a pair with this lower bound need not be looked at more closely.
+  /// True if a pair with this lower bound needs no closer test.
   bool is_enough(double lower) const { return lower > limit() || lower >= best_.upper - same_; }
 
   bool visit_leaves(BodyTree::Box leaf_a, BodyTree::Box leaf_b) {
@@ -137,7 +137,7 @@ class LeastDistance {
     return visit_by_search(of_a, of_b);
   }
 
-  /// By GJK: parts of other shapes, and triangles that nearly touch.
+  /// Runs GJK for parts of other shapes and for triangles that nearly touch.
   bool visit_by_search(std::uint32_t of_a, std::uint32_t of_b) {
     if (walk_.has_direction()) {
       const double lower = gap_along_direction(of_a, of_b) - sight_.rounding;
@@ -163,7 +163,7 @@ class LeastDistance {
     return is_crossed_;
   }
 
-  /// The gap that planes across the walk's direction leave.
+  /// Gap between planes across the walk's direction.
   double gap_along_direction(std::uint32_t of_a, std::uint32_t of_b) const {
     const Vec3<double>& n = walk_.direction();
     const double up_a = a_.mesh() ? reach_along(a_.triangle(of_a), n) : walk_.up_a();
@@ -181,13 +181,13 @@ class LeastDistance {
   const BodyTree a_, b_;
   const Sight sight_;
   PairWalk walk_;
-  const double near_;  ///< bounds this near to each other have met
-  /// Triangles at one edge, or vertex, are as far: of these a plane tells enough.
+  const double near_;  ///< bounds this close to each other have converged
+  /// Triangles that share an edge or a vertex have the same distance; for these a plane is enough.
   const double same_ = 4 * sight_.rounding;
   double enough_ = infinity;
   SignedDistance best_;
   PartPair parts_;
-  double lower_ = infinity;  ///< of all pairs that were visited
+  double lower_ = infinity;  ///< of all visited pairs
   int supports_ = 0;
   bool is_crossed_ = false, is_exhausted_ = false;
 };
@@ -211,7 +211,7 @@ SignedDistance signed_distance(const PartsBody& a, const Affine<double>& pose_a,
   if (parts) *parts = {};
   if (!a.mesh() && !b.mesh())
     return signed_distance(*a.shape(), pose_a, *b.shape(), pose_b, options);
-  // What is within the other overlaps it, and only crossing parts are looked for.
+  // A body within the other overlaps it, so only crossing parts are searched for.
   const std::optional<Vec3<double>> within = point_within(a, pose_a, b, pose_b);
   LeastDistance least(a, pose_a, b, pose_b, options);
   SignedDistance found = least.run(options.only_sign || within ? 0 : options.at_most, parts);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How far apart two bodies are of which at least one is a mesh: the least of all pairs of their
-// parts, each of which is convex, so that the bounds of parts are bounds of the whole.
+// Distance of two bodies, one of them a mesh or both: the least of all pairs of their parts.
+// Parts are convex, so bounds of parts are bounds of the whole.
 #pragma once
 
 #include "core/contact/signed_distance.h"
@@ -8,16 +8,17 @@
 
 namespace minkray {
 
-/// The distance of surfaces. Where they cross, or one body lies within the other (which of meshes
-/// only closed ones allow), the status is overlapping, value and both bounds are 0, and the points
-/// are of the two parts that cross, or one point of what is within: there is no depth, and the
-/// normal is that of a face that is crossed. The poses are rigid.
+/// Distance of the surfaces. If they cross, or one body lies within the other, the status is
+/// overlapping, and value and both bounds are 0: there is no depth. Only closed meshes can contain
+/// bodies. The points of an overlap are of the two parts that cross, or one point of the body
+/// within; the normal is that of a face that is crossed. The poses must be rigid.
 SignedDistance signed_distance(const PartsBody& a, const Affine<double>& pose_a, const PartsBody& b,
                                const Affine<double>& pose_b,
                                const SignedDistanceOptions& options = {},
                                PartPair* parts = nullptr);
 
-/// A point of one body that is within the other one, if a mesh encloses what it does not cross.
+/// Returns a point of one body that is within the other. Always finds one if a mesh encloses a body
+/// without crossing it.
 std::optional<Vec3<double>> point_within(const PartsBody& a, const Affine<double>& pose_a,
                                          const PartsBody& b, const Affine<double>& pose_b);
 

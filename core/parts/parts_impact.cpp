@@ -25,11 +25,11 @@ Impact first_impact(const PartsBody& body_a, const RigidMotion& motion_a, const 
   const double speed = (motion_b.velocity - motion_a.velocity).norm();
   const double turn_a = motion_a.angular_velocity.norm(), turn_b = motion_b.angular_velocity.norm();
   const auto limit = [&] { return std::min(t_max, first.impact.t_hi); };
-  // Bodies turn about the origins of their frames.
+  // Distance from the origin of the body's frame, about which it turns.
   const auto reach = [](const BodyTree& tree, const MiddleBox& box) {
     return ((tree.middle() + box.middle).cwiseAbs() + box.half).norm();
   };
-  // No point is faster than this, and so none is there before.
+  // No point is faster than this, so no contact is earlier than gap / speed.
   const auto key = [&](double gap, const MiddleBox& of_a, const MiddleBox& of_b) {
     constexpr double rounded = 1 - 16 * std::numeric_limits<double>::epsilon();
     if (!(gap > 0)) return gap;

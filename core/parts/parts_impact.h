@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// When two moving bodies first touch of which at least one is a mesh: when the first two of their
-// parts do.
+// First contact of two moving bodies, one of them a mesh or both: the first contact of any two
+// of their parts.
 #pragma once
 
 #include "core/contact/impact.h"
@@ -8,7 +8,7 @@
 
 namespace minkray {
 
-/// The first contact at times from 0 to t_max: inside if the bodies overlap at time 0.
+/// Returns the first contact at times from 0 to t_max: inside if the bodies overlap at time 0.
 Impact first_impact(const PartsBody& a, const RigidMotion& motion_a, const PartsBody& b,
                     const RigidMotion& motion_b, double t_max, const ImpactOptions& options = {},
                     PartPair* parts = nullptr);

@@ -13,9 +13,9 @@ struct Furthest {
   Vec3<double> corner = Vec3<double>::Zero();
 };
 
-/// The corner of a mesh furthest along d, by the boxes of its hierarchy.
+/// Corner of a mesh that is furthest along d, found with the boxes of its BVH.
 Furthest furthest_corner(const TriangleMesh& mesh, const Vec3<double>& d) {
-  // Nodes go down no more than this, and seven of each level wait.
+  // Capacity: the BVH has at most bvh_max_depth levels, and at most seven nodes of each wait.
   constexpr std::size_t room = bvh_max_depth * bvh_width;
   struct Open {
     double along;
@@ -44,7 +44,7 @@ Furthest furthest_corner(const TriangleMesh& mesh, const Vec3<double>& d) {
       for (int k = 0; k < 3; ++k)
         along += d[k] * static_cast<double>(node.planes[d[k] > 0 ? 1 : 0][k][i]);
       if (!(along > best.along)) continue;
-      // The furthest is opened first.
+      // Opens the furthest first.
       std::size_t at = count++;
       for (; at > first && open[at - 1].along > along; --at) open[at] = open[at - 1];
       open[at] = {along, node.children[i]};

@@ -4,7 +4,7 @@
 namespace minkray {
 
 void EightTriangles::set(int i, std::uint32_t part, const TriangleCorners& triangle) {
-  // Slivers with a smaller sine, and small numbers, give normals of too few digits.
+  // Thinner slivers (by the sine) and smaller numbers give normals with too few digits.
   constexpr double least_sine = 1e-6, least_square = 0x1p-900;
   parts[i] = part;
   for (int k = 0; k < 3; ++k)

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// How far eight triangles are from another one, at least: by the planes of their faces, across the
-// line between two middles, and across a direction that is known to be good. What remains is looked
-// at by itself (triangle_pair.h).
+// Lower bounds of the distances from eight triangles to another one: by the planes of their faces,
+// across the line between two middles, and across a direction that is known to be good. Pairs that
+// these do not settle go to triangle_pair.h.
 #pragma once
 
 #include "core/parts/triangle_pair.h"
 
 namespace minkray {
 
-/// In one frame. The normals have unit length, or are 0 of slivers.
+/// Eight triangles in one frame. Normals have unit length; those of slivers are 0.
 struct EightTriangles {
   static constexpr int most = 8;
   int count = 0;
@@ -26,15 +26,15 @@ struct EightTriangles {
   }
   Vec3<double> normal(int i) const { return {normals[0][i], normals[1][i], normals[2][i]}; }
   void set(int i, std::uint32_t part, const TriangleCorners& triangle);
-  /// How far they reach along a vector.
+  /// Largest n . p over the points p of the triangles.
   double reach_along(const Vec3<double>& n) const;
 };
 
-/// `known`, if not null, is a unit vector from the one to the eight. Rounding is not allowed for.
-/// Bounds may be less than 0.
+/// `known`, if not null, is a unit vector from the one to the eight. Bounds have no margin for
+/// rounding and may be below 0.
 void triangle_gaps(const TriangleCorners& one, const Vec3<double>& normal,
                    const EightTriangles& eight, const Vec3<double>* known, double* gaps);
-/// Both have the same bits.
+/// Both functions return the same bits.
 void triangle_gaps_avx2(const TriangleCorners& one, const Vec3<double>& normal,
                         const EightTriangles& eight, const Vec3<double>* known, double* gaps);
 void triangle_gaps_sse2(const TriangleCorners& one, const Vec3<double>& normal,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The body of the gaps between triangles. MINKRAY_TRIANGLE_GAPS is the function's name; what else
-// is here has the instruction set in its name (core/math/wide.h).
+// Body of the gaps between triangles. MINKRAY_TRIANGLE_GAPS is the function's name; all other names
+// here contain the instruction set (core/math/wide.h).
 #include "core/math/wide.h"
 #include "core/parts/triangle_lanes.h"
 
@@ -29,7 +29,8 @@ W most_of(const W& a, const W& b, const W& c) {
 
 template <class W>
 W gaps_of(const TriangleOfLane<W>& one, const TriangleOfLane<W>& other, const Vec3<double>* known) {
-  // From the first corner of the one, so that numbers are of the triangles' size and distance.
+  // Relative to the first corner of the one, so that numbers have the size of the triangles and of
+  // their distance.
   const Vec3<W>& from = one.corners[0];
   Vec3<W> own[2], of_other[3];
   for (int k = 0; k < 2; ++k) own[k] = one.corners[k + 1] - from;
@@ -54,7 +55,7 @@ W gaps_of(const TriangleOfLane<W>& one, const TriangleOfLane<W>& other, const Ve
     return max(b.least - a.most, a.least - b.most);
   };
   W gap = max(gap_either_way(one.normal), gap_either_way(other.normal));
-  // Three times the way between the middles.
+  // Three times the vector between the middles.
   Vec3<W> way;
   for (int i = 0; i < 3; ++i)
     way[i] = (of_other[0][i] + of_other[1][i] + of_other[2][i]) - (own[0][i] + own[1][i]);

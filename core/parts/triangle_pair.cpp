@@ -13,7 +13,8 @@ void nearest_features(const TriangleCorners& a, const TriangleCorners& b, Neares
   nearest_features_sse2(a, b, best);
 }
 
-/// Squares of lengths above this are normal numbers: the normal has unit length to its last digits.
+/// Squares of lengths above this are normal numbers, so the normal has unit length to its last
+/// digits.
 constexpr double ordinary = 0x1p-500;
 
 /// Six times the volume of a tetrahedron.
@@ -22,11 +23,11 @@ double volume(const Vec3<double>& a, const Vec3<double>& b, const Vec3<double>& 
   return (b - a).cross(c - a).dot(d - a);
 }
 
-/// Signs of volumes that corners moved by a loss keep; 0 if one might change.
+/// Signs of volumes that hold even if corners move by `loss`; 0 if the sign might change.
 class SureSide {
  public:
   SureSide(const TriangleCorners& a, const TriangleCorners& b, double loss) {
-    double length = 0;  // of each coordinate, from a to b or within b
+    double length = 0;  // largest coordinate difference, from a to b or within b
     for (const Vec3<double>& p : a)
       for (const Vec3<double>& q : {a[0], b[0], b[1], b[2]})
         length = std::max(length, (q - p).cwiseAbs().maxCoeff());
@@ -69,7 +70,7 @@ bool edge_passes(const TriangleCorners& a, const TriangleCorners& b, const SureS
 }  // namespace
 
 double gap_along(const TriangleCorners& a, const TriangleCorners& b, const Vec3<double>& n) {
-  // From a corner, so that both sides are numbers of the triangles' size.
+  // Relative to a corner, so that both sides have the size of the triangles.
   const Vec3<double>& from = a[0];
   const auto height = [&](const Vec3<double>& p) { return n.dot(p - from); };
   return std::min({height(b[0]), height(b[1]), height(b[2])}) -

@@ -98,7 +98,7 @@ MeshCast cast_of(const PosedMesh& posed, const NearRay& near, const PartHit& hit
   cast.status = Status::miss;
   cast.path = Path::filter;
   if (!hit.found() || is_missed_from_behind(*posed.mesh, hit)) return answer;
-  // Of the shortest directions t is no number: exhausted.
+  // For the shortest directions t is not a finite number: the cast is exhausted.
   if (!std::isfinite(near.in_world(hit.t))) return {};
   answer.part = hit.part;
   const Vec3<double> normal = posed.mesh->normal(hit.part) * (hit.is_back ? -1.0 : 1.0);

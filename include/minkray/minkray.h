@@ -2,16 +2,16 @@
 // Minkray for C++: convex shapes, scenes of them, rays cast at them, proofs of the results,
 // distances and times of impact. Header-only over minkray_c.h, whose comments specify threads,
 // frames and units; docs/cpp.md has examples.
-//
+// Every failure throws a minkray::Error, whose text names what failed, and where.
+#pragma once
+
+// Example:
 //   namespace mk = minkray;
 //   mk::Scene scene;
 //   scene.add(mk::rounded(mk::box({.5, .2, .1}), .05), mk::translation({1, 0, 0}), "bumper");
 //   scene.commit();
 //   mk::Hit hit = scene.cast({{-9, 0, 0}, {1, 0, 0}});
 //   if (hit.status == mk::hit) use(hit.t, hit.t_lo, hit.t_hi, hit.normal);
-//
-// Every failure throws a minkray::Error, whose text names what failed, and where.
-#pragma once
 
 #include <concepts>
 #include <cstddef>
@@ -538,7 +538,7 @@ Shape custom_with_jets(Function jet) {
       &made));
   return Shape(made);
 }
-/// A box that holds the shape may be given with it: answers out of it are found.
+/// The corners of a box that contains the shape may be given: results outside of it are reported.
 template <class Support>
 Shape custom(Support support, const Vec3& lower, const Vec3& upper) {
   return detail::custom_within(std::move(support), &lower.x, &upper.x);
@@ -821,7 +821,7 @@ class Scene {
                                      detail::plain({&found, 1}), nullptr));
     return found;
   }
-  /// The answers are the same bits for any cut of the rays and any number of threads.
+  /// Results have the same bits for any split of the rays and any number of threads.
   void cast(View<const Ray> rays, View<Hit> hits, const Options& options = {}) const {
     detail::check_sizes("minkray::Scene::cast", "hits", hits.size(), "rays", rays.size());
     const minkray_options how = detail::plain(options);
@@ -914,7 +914,7 @@ class Scene {
   /// Exactly those pairs, in their order, regardless of masks and allowed pairs.
   ScenePairs distances(View<const ObjectPair> pairs) const;
   ScenePairs distances(View<const ObjectPair> pairs, const NearOptions& options) const;
-  /// The k objects nearest to each point: k answers a point, the nearest first.
+  /// The k objects nearest to each point: k results per point, the nearest first.
   ScenePairs nearest(View<const Vec3> points, std::size_t k = 1) const;
   ScenePairs nearest(View<const Vec3> points, std::size_t k, const NearOptions& options) const;
   /// The object nearest to each of many shapes that are no part of the scene.

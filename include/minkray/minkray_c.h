@@ -1,8 +1,11 @@
 /* SPDX-License-Identifier: MIT
  * Minkray for C and for every language that can call C: convex shapes, scenes of them, rays cast at
  * them, proofs of the results, distances and times of impact. docs/c.md has examples.
- *
- * All functions that return an int return MINKRAY_OK or another minkray_code; minkray_last_error()
+ */
+#ifndef MINKRAY_MINKRAY_C_H
+#define MINKRAY_MINKRAY_C_H
+
+/* All functions that return an int return MINKRAY_OK or another minkray_code; minkray_last_error()
  * then names the error and its place. A failed call writes no results, unless its description
  * allows it.
  *
@@ -16,8 +19,6 @@
  *
  * All points, directions and poses are in the frame of the world, of one unit of length, in double.
  */
-#ifndef MINKRAY_MINKRAY_C_H
-#define MINKRAY_MINKRAY_C_H
 
 #include <stddef.h>
 #include <stdint.h>

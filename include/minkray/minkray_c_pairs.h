@@ -2,13 +2,14 @@
  * Many pairs of shapes at once, and the pairs of a scene: distances with their derivatives, points
  * of contact, times of impact. docs/c.md has examples. The rules of minkray_c.h for errors, threads
  * and units hold here, too.
- *
- * All poses are rigid: a rotation or a reflection, and a translation. Their linear parts may
- * deviate by 1e-6; the results are those of the given numbers. A larger deviation is
- * MINKRAY_WRONG_USE.
  */
 #ifndef MINKRAY_MINKRAY_C_PAIRS_H
 #define MINKRAY_MINKRAY_C_PAIRS_H
+
+/* All poses are rigid: a rotation or a reflection, and a translation. Their linear parts may
+ * deviate by 1e-6; the results are those of the given numbers. A larger deviation is
+ * MINKRAY_WRONG_USE.
+ */
 
 #include "minkray/minkray_c.h"
 

@@ -2,11 +2,12 @@
 // Many pairs of shapes at once: distances with their derivatives, points of contact, times of
 // impact; and the pairs of a scene. Header-only over minkray_c_pairs.h, whose comments specify the
 // details; docs/cpp.md has examples.
-//
+#pragma once
+
+// Example:
 //   std::vector<mk::Distance> found(poses.size());
 //   mk::signed_distances({{&robot, 1}, poses, {}}, {{&wall, 1}, {}, {}}, found);
 //   for (const mk::ScenePair& pair : scene.distances(0.1)) use(pair.object_a, pair.object_b);
-#pragma once
 
 #include <new>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The options of verbs that leave out pairs of a robot's links: --srdf and --allow.
+// Options of commands that leave out pairs of a robot's links: --srdf and --allow.
 #pragma once
 
 #include <algorithm>
@@ -16,11 +16,10 @@ struct AllowedLinks {
   std::vector<std::string> pairs;
 
   void add_options(const Verb& verb) {
-    verb.add_option("--srdf", srdf, "MoveIt's file of the links that may touch each other")
+    verb.add_option("--srdf", srdf, "SRDF file with pairs of links that may touch (MoveIt)")
         .reads_file();
     verb.add_option("--allow", pairs,
-                    "Two links that may touch each other; may be given again. Links that a joint "
-                    "connects always may")
+                    "Links that may touch, besides those a joint connects; repeatable")
         .takes("LINK,LINK")
         .one_value_each();
   }

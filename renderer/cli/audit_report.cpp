@@ -17,8 +17,7 @@ void report(const RayAudit& audit) {
   for (const AuditFailure& failure : audit.failures())
     std::cerr << failure.message << "\n" << failure.query << (failure.query.empty() ? "" : "\n");
   if (failed > 0)
-    std::cerr << "the lines in braces are queries for minkray cast --certify; their answers there "
-                 "show what is wrong\n";
+    std::cerr << "pass the lines in braces to minkray cast --certify to see each failure\n";
 }
 
 }  // namespace minkray

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// What `minkray render --certify` says.
+// Report of `minkray render --certify`.
 #pragma once
 
 #include "renderer/audit/ray_audit.h"
 
 namespace minkray {
 
-/// Tells on stderr what was proven, and what was not with a query that shows it.
+/// Prints to stderr how much was proven, and each failure with a query that reproduces it.
 void report(const RayAudit& audit);
 
 }  // namespace minkray

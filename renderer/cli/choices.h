@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Names on the command line that stand for solvers and subalgorithms.
+// Names of solvers and subalgorithms on the command line.
 #pragma once
 
 #include <string>
@@ -23,7 +23,7 @@ inline std::vector<std::string> subalgorithm_names() {
   return names;
 }
 
-/// Adds --solver, whose help has a line for each solver.
+/// Adds --solver, whose help has one line per solver.
 inline Option add_solver_option(const Verb& verb, std::string& solver) {
   std::string help = "How rays are cast:";
   for (const SolverDescription& description : solver_descriptions)
@@ -34,14 +34,14 @@ inline Option add_solver_option(const Verb& verb, std::string& solver) {
       .group(research_group);
 }
 
-/// The name must be one of solver_names.
+/// Converts a name, which must be one of solver_names.
 inline SolverKind solver_named(const std::string& name) {
   for (const SolverDescription& solver : solver_descriptions)
     if (solver.name == name) return solver.kind;
   return SolverKind::automatic;
 }
 
-/// The name must be one of subalgorithm_names.
+/// Converts a name, which must be one of subalgorithm_names.
 inline SubalgorithmKind subalgorithm_named(const std::string& name) {
   for (const auto& subalgorithm : subalgorithm_descriptions)
     if (subalgorithm.name == name) return subalgorithm.kind;

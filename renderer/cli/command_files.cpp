@@ -46,7 +46,7 @@ std::string CommandFiles::identity(const fs::path& file) {
   if (file.empty()) return "";
   struct stat status = {};
   if (::stat(file.c_str(), &status) == 0) return S_ISREG(status.st_mode) ? inode_of(status) : "";
-  // A file that is yet to be made: its folder, which may have several names, and its own name.
+  // A file that does not exist yet: its folder, which may have several names, and its own name.
   const std::string parent = file.parent_path().string();
   const auto [folder, is_new] = folders_.try_emplace(parent);
   if (is_new) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The files that one command reads and writes: no output is an input or another output, by whatever
-// name, link or hard link it is reached.
+// Files that one command reads and writes. No output may be an input or another output, whatever
+// name, link or hard link leads to it.
 #pragma once
 
 #include <filesystem>
@@ -10,7 +10,7 @@
 
 namespace minkray {
 
-/// Inputs and outputs may be added in any order. Devices and pipes are never the same file.
+/// Accepts inputs and outputs in any order. Devices and pipes are never the same file.
 class CommandFiles {
  public:
   /// Adds inputs. Throws WrongUsage if one of them is an output that was added before.
@@ -23,10 +23,10 @@ class CommandFiles {
 
  private:
   struct Known {
-    std::string name;    ///< as the user wrote it
-    std::string option;  ///< that it is an output of; empty: an input
+    std::string name;    ///< name as the user wrote it
+    std::string option;  ///< option that names the output; empty: an input
   };
-  /// Equal for all names of one file; empty for what is no file.
+  /// Equal for all names of one file; empty if the name is not a file.
   std::string identity(const std::filesystem::path& file);
 
   std::map<std::string, Known> known_;          ///< by identity

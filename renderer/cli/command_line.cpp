@@ -11,7 +11,7 @@ std::string command_line() {
   std::ifstream arguments("/proc/self/cmdline", std::ios::binary);
   std::string line;
   for (std::string word; std::getline(arguments, word, '\0');) {
-    // The program's own name, without the folder of one machine.
+    // Removes the folder from the program's name, since machines differ in it.
     if (line.empty())
       line = shell_quoted(word.substr(word.rfind('/') + 1));
     else

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The command line as it was typed, for the headers of files it made.
+// Command line as typed, for the headers of output files.
 #pragma once
 
 #include <string>
 
 namespace minkray {
 
-/// The arguments of this process between blanks, quoted for a shell where they need it; empty where
-/// the system does not tell.
+/// Arguments of this process, separated by blanks and quoted for a shell where necessary; empty if
+/// the system does not provide them.
 std::string command_line();
 
 }  // namespace minkray

@@ -11,8 +11,8 @@
 namespace minkray {
 namespace {
 
-/// Unless told otherwise: as many rays and directions an object as a scene's objects leave time
-/// for.
+/// Default number of rays and directions per object, lower for scenes with many objects to limit
+/// the time.
 int rays_for(std::size_t objects) {
   constexpr std::size_t in_all = 20'000'000, most = 100'000, least = 2'000;
   return static_cast<int>(std::clamp(in_all / std::max<std::size_t>(objects, 1), least, most));

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What `minkray compare` was asked for. The verb is part of the command line; what it does needs
-// Embree, so that it lives in a program of its own, minkray-compare, which nobody has to build for
-// a picture.
+// Options of `minkray compare`. The command is part of the command line, but its work needs Embree.
+// A separate program, minkray-compare, does that work, so that pictures do not require Embree.
 #pragma once
 
 #include "renderer/cli/exit_code.h"
@@ -11,13 +10,13 @@ namespace minkray {
 
 struct CompareArguments {
   ImageArguments image;
-  int rays = 0;        ///< an object; 0: as many as the scene's objects leave time for
-  int directions = 0;  ///< that the meshes begin with; 0: likewise
+  int rays = 0;        ///< per object; 0: chosen by the number of objects
+  int directions = 0;  ///< initial directions of the meshes; 0: chosen likewise
   bool json = false;
 };
 
-/// Compares every object of the scene with Embree and prints what came out. In minkray-compare it
-/// does so itself (compare_here.cpp); in minkray it runs minkray-compare with the same command line
+/// Compares every object of the scene with Embree and prints the results. minkray-compare does this
+/// itself (compare_here.cpp). minkray runs minkray-compare with the same command line
 /// (compare_elsewhere.cpp), and throws WrongUsage if that has not been built.
 void compare(const CompareArguments& options, ExitCode& exit_code);
 

@@ -12,7 +12,7 @@ std::string joined(const std::vector<std::string>& words, const std::string& bet
   return text;
 }
 
-/// The first sentence or line, which is what fits beside a name.
+/// First sentence or line, which fits next to a name.
 std::string first_line(const std::string& doc) {
   return doc.substr(0, doc.find_first_of("\n;:"));
 }
@@ -29,7 +29,7 @@ bool takes_file(const OptionDescription& option) {
   return option.value == "FILE" || option.value == "OUTPUT" || option.value == "FOLDER";
 }
 
-/// Text in the specifications of zsh's _arguments.
+/// Escapes text for the specifications of zsh's _arguments.
 std::string zsh_text(const std::string& text) {
   std::string out;
   for (const char c : first_line(text)) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What shells offer when the tabulator is pressed, from the description of the command line.
+// Completion scripts for shells, from the description of the command line.
 #pragma once
 
 #include <span>

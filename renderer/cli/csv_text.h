@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// CSV files that verbs write: names in them, and the text as a file.
+// CSV files that commands write: names in them, and the text as a file.
 #pragma once
 
 #include <span>
@@ -9,7 +9,7 @@
 
 namespace minkray {
 
-/// A name with a comma or a quote stands in quotes.
+/// Quotes a name that contains a comma or a quote.
 inline std::string csv_cell(const std::string& text) {
   if (text.find_first_of(",\"\n") == text.npos) return text;
   std::string quoted = "\"";

@@ -6,11 +6,11 @@ namespace minkray {
 
 enum class ExitCode : int {
   done = 0,
-  comparison_failed = 1,  ///< or a certificate
+  comparison_failed = 1,  ///< also a failed certificate
   wrong_usage = 2,
   bad_input = 3,
   cannot_write = 4,
-  undecided = 6,  ///< `verify`: neither proven free nor found to collide (5 is ./run's)
+  undecided = 6,  ///< `verify`: neither proven free nor found to collide (./run uses 5)
 };
 
 }  // namespace minkray

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Outputs of one format only: a name with another ending is likely another file's.
+// File extensions of outputs with a single format: another extension is likely a mistake.
 #pragma once
 
 #include <filesystem>
@@ -9,8 +9,8 @@
 
 namespace minkray {
 
-/// Throws WrongUsage unless the file's name ends so. Devices and pipes have no endings, and that a
-/// name is empty is told by whoever writes.
+/// Throws WrongUsage unless the file name has this extension. Ignores devices and pipes, which have
+/// no extension, and empty names, which the writer reports.
 inline void check_ending(const std::string& file, const std::string& ending,
                          const std::string& option) {
   if (file.empty()) return;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int most_frames = 1000000;
 
-/// Small copies are at most so wide, with so much white between them, in pixels.
+/// Greatest width of small copies and white space between them, in pixels.
 constexpr int small_width = 320, white_between = 4;
 
 [[noreturn]] void bad_range(const std::string& text, const char* expected) {
@@ -35,7 +35,7 @@ Image smaller(const Image& image) {
   return small;
 }
 
-/// Where the only run of # begins, and behind it; npos if there is not just one.
+/// Begin and end of the only run of #; npos if there is not exactly one.
 std::pair<std::size_t, std::size_t> run_in(const std::string& name) {
   const std::size_t slash = name.find_last_of('/');
   const std::size_t begin = name.find('#', slash == std::string::npos ? 0 : slash);

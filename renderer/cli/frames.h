@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures of a scene at several times: which, and into which files.
+// Pictures of a scene at several times: ranges of frames and names of their files.
 #pragma once
 
 #include <string>
@@ -19,18 +19,18 @@ struct FrameRange {
 /// Reads "a..b". Throws WrongUsage.
 FrameRange parse_frames(const std::string& text);
 
-/// The file of a frame: the run of # in the name becomes the frame's number, with zeros in front up
-/// to the run's length.
+/// File of a frame: the run of # in the name becomes the frame's number, padded with zeros to the
+/// run's length.
 std::string file_of_frame(const std::string& name, int frame);
 
 /// Throws WrongUsage unless the file name has one run of #.
 void check_frame_name(const std::string& name);
 
-/// Small copies of frames in rows, in the order in which they came.
+/// Small copies of frames in rows, in the order in which they were added.
 class ContactSheet {
  public:
   void add(const Image& frame);
-  /// Frames in about as many rows as columns, on white.
+  /// Arranges the frames in about as many rows as columns, on white.
   Image image() const;
 
  private:

@@ -30,7 +30,7 @@ Spectator GrowingPicture::spectator() {
   return spectator;
 }
 
-/// The header tells how many samples there are; data channels come with the last of them.
+/// The header has the number of samples; data channels are only written with the last ones.
 void GrowingPicture::passed(const Rendering& rendering, int samples) {
   RenderOptions so_far = job_.options;
   so_far.samples = samples;

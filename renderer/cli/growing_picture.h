@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is to be seen of a picture while it is rendered: pass by pass in its files and in the
-// terminal, tile by tile in tev.
+// Shows a picture during rendering: pass by pass in its files and in the terminal, tile by tile in
+// tev.
 #pragma once
 
 #include <optional>
@@ -14,14 +14,14 @@ namespace minkray {
 /// Refers to the job, the arguments and the outputs.
 class GrowingPicture {
  public:
-  /// Throws CannotWrite if --tev names a viewer that is not there.
+  /// Throws CannotWrite if the viewer of --tev cannot be reached.
   GrowingPicture(const RenderJob& job, const RenderArguments& arguments,
                  const std::vector<std::string>& outputs);
 
-  /// Who is told by `run`; of use as long as this is there.
+  /// Callbacks for `run`, valid as long as this object.
   Spectator spectator();
 
-  /// The last word: what the files got.
+  /// Shows the final picture, as written to the files.
   void finish(const Image& image);
 
  private:

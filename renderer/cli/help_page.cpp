@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::size_t columns = 80, doc_column = 26;
 
-/// The text behind a label, in lines that begin in the same column; each line of the text begins a
-/// new one. A longer word than a line stays whole.
+/// Formats the text after a label, in lines that begin in the same column. Each line of the text
+/// begins a new line. Words longer than a line are not broken.
 std::string entry(const std::string& label, const std::string& text, std::size_t column) {
   std::string page, line = "  " + label;
   const auto begin_line = [&] {
@@ -61,7 +61,7 @@ std::string help_page(const VerbDescription& verb) {
     const std::string group = option.flags.empty() ? "Positionals" : option.group;
     if (std::ranges::find(groups, group) == groups.end()) groups.push_back(group);
   }
-  // What is given by its place comes first, and the most common options.
+  // Positional arguments come first, then the most common options.
   std::ranges::stable_sort(groups, {}, [](const std::string& group) {
     return group == "Positionals" ? 0 : group == "Options" ? 1 : group == research_group ? 3 : 2;
   });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What --help prints: of one command its options under headings, of the program all commands. Lines
+// Pages of --help: the options of one command under headings, or all commands of the program. Lines
 // have at most 80 columns.
 #pragma once
 

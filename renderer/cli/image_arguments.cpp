@@ -23,11 +23,12 @@
 namespace minkray {
 namespace {
 
-/// Encoders count bytes in an int. Of a crop of a larger picture, the crop's pixels count.
+/// Limit of pixels, since encoders count bytes in an int. For a crop of a larger picture, only the
+/// crop's pixels count.
 constexpr int max_pixels = 1 << 27;
 constexpr int max_side = 1 << 16;
 
-/// Whole numbers between separators, nothing else around them.
+/// Reads whole numbers between separators, without anything else.
 std::optional<std::vector<int>> integers(const std::string& text, char separator) {
   std::vector<int> numbers;
   const char* at = text.data();
@@ -102,7 +103,7 @@ void ImageArguments::add_to(const Verb& verb, const std::string& suffix) {
       .show_default();
   verb.add_option("--crop", crop, "Render just this region (ROI) of the picture, in pixels")
       .takes("X0,Y0,X1,Y1");
-  // As text: CLI11 takes what does not fit for the largest number.
+  // Takes the seed as text, since CLI11 clamps values that are too large.
   verb.add_option("--seed", seed, "Random seed (0 to 2^64 - 1)").takes("N").show_default();
   verb.add_flag("-q,--quiet", quiet, "No progress, no report").excludes(verbose);
 }
@@ -130,7 +131,7 @@ Option add_scene_option(const Verb& verb, std::string& scene) {
 void add_output_option(const Verb& verb, std::vector<std::string>& outputs,
                        const std::string& otherwise) {
   verb.add_option("-o,--output", outputs,
-                  "Where to write the picture (" + image_extensions() + "); may be given again" +
+                  "Where to write the picture (" + image_extensions() + "); repeatable" +
                       (otherwise.empty() ? "" : "; by default " + otherwise))
       .required(otherwise.empty())
       .one_value_each()
@@ -147,8 +148,7 @@ void check_outputs(const std::vector<std::string>& outputs) {
 
 namespace {
 
-/// Numbers of a lens, for a hash: shares of a picture belong together only if they had the same
-/// lens.
+/// Text of a lens for a hash: shares of a picture belong together only if they had the same lens.
 std::string lens_text(const CalibratedCamera::Numbers& numbers) {
   std::vector<double> all = {double(numbers.model == CalibratedCamera::Model::fisheye),
                              numbers.fx,
@@ -163,7 +163,7 @@ std::string lens_text(const CalibratedCamera::Numbers& numbers) {
   return Json(all).dump();
 }
 
-/// Gives the scene's camera the lens of a file, and its size.
+/// Sets the lens and size of the scene's camera from a file.
 void take_lens(Scene& scene, const std::string& file) {
   auto lens = std::make_shared<const CalibratedCamera>(read_calibrated_camera(file));
   const CalibratedCamera::Numbers& numbers = lens->numbers();
@@ -244,14 +244,14 @@ void warn_of_limits(const Model& model, const ImportOptions& options) {
 void warn_of_counts(const RayCounts& counts) {
   warn_of_exhausted(counts.work.exhausted, counts.work.casts);
   if (counts.from_inside > 0)
-    std::cerr << "warning: the camera is inside a shape, where it sees black\n";
+    std::cerr << "warning: the camera is inside a shape; the picture is black there\n";
 }
 
 void warn_of_exhausted(std::uint64_t exhausted, std::uint64_t casts) {
   if (exhausted == 0) return;
-  std::cerr << "warning: the solver gave up in " << exhausted << " of " << casts
-            << " casts; those shapes were passed through there (minkray heatmap --channel status "
-               "shows where)\n";
+  std::cerr << "warning: the solver did not converge in " << exhausted << " of " << casts
+            << " casts; rays passed through those shapes (minkray heatmap --channel status shows "
+               "where)\n";
 }
 
 }  // namespace minkray

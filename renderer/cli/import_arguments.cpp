@@ -12,10 +12,11 @@ std::string scene_argument() {
 }
 
 void add_other_files(const Verb& verb, ImportOptions& options) {
-  // Names of scenes that come with Minkray would be looked for before unknown options are told.
+  // No names of built-in scenes here: they would be searched for before unknown options are
+  // reported.
   verb.add_option("others", options.others,
-                  "More files, in the same scene: camera and lights are those of the first scene "
-                  "file, joints' values are the first file's")
+                  "More files for the same scene\n"
+                  "Camera and lights: first scene file; joint values: first file")
       .reads_file();
 }
 
@@ -28,10 +29,10 @@ Option add_import_options(const Verb& verb, ImportOptions& options, bool rows) {
                                : name == "all"     ? GeometryChoice::all
                                                    : GeometryChoice::visual;
           },
-          std::string("Which shapes are taken (default ") +
+          std::string("Shapes of robots to use (default ") +
               (options.geometry == GeometryChoice::visual ? "visual" : "collision") +
-              "):\nvisual: what is seen; what collides if nothing is seen\n"
-              "collision: what collides\nall: both")
+              "):\nvisual: visual shapes; collision shapes if there are none\n"
+              "collision: collision shapes\nall: both")
       .one_of({"visual", "collision", "all"})
       .group(group);
   verb.add_option(
@@ -41,9 +42,8 @@ Option add_import_options(const Verb& verb, ImportOptions& options, bool rows) {
                             : name == "components" ? MeshSplit::components
                                                    : MeshSplit::none;
           },
-          "Whether a mesh becomes several hulls:\nnone: it is one body (default)\n"
-          "groups: one for each part that its file names\n"
-          "components: one for each part that hangs together")
+          "Split of a mesh into several hulls:\nnone: one body (default)\n"
+          "groups: one per named part of the file\ncomponents: one per connected part")
       .one_of({"none", "groups", "components"})
       .group(group);
   verb.add_option(
@@ -51,41 +51,36 @@ Option add_import_options(const Verb& verb, ImportOptions& options, bool rows) {
           [&options](const std::string& name) {
             options.meshes = name == "exact" ? MeshChoice::exact : MeshChoice::hull;
           },
-          "What mesh files of robots are (default exact; in MJCF exact for rays, and hull for "
-          "contact, as in MuJoCo; hull with --split):\nexact: their triangles\n"
-          "hull: their convex hulls")
+          "Mesh files of robots; default exact (--split and MJCF contact: hull):\n"
+          "exact: triangles\nhull: convex hulls")
       .one_of({"hull", "exact"})
       .group(group);
-  verb.add_option("--keyframe", options.keyframe, "MJCF: the name of a keyframe, or its number")
+  verb.add_option("--keyframe", options.keyframe, "Keyframe by name or number (MJCF)")
       .takes("NAME")
       .group(group);
   verb.add_option("--joint", options.joints,
-                  "A joint's value; may be given again. Angles in radians, several numbers between "
-                  "commas")
+                  "Joint value (rad or scene units; several: comma-separated); repeatable")
       .takes("NAME=VALUE")
       .one_value_each()
       .group(group);
   if (rows)
-    verb.add_option(
-            "--joints", options.joint_rows,
-            "A CSV file: joints' names in its first line, values in the others; or JSON: a "
-            "list of {\"time\": 0, \"elbow\": 1.2}; several rows move the robot (for --frames), "
-            "by \"time\" or 24 a second")
+    verb.add_option("--joints", options.joint_rows,
+                    "Joint values: CSV (names, then values) or JSON rows with \"time\" (s)\n"
+                    "Several rows move the robot; without times at 24 fps")
         .reads_file()
         .group(group);
   verb.add_option("--package-dir,--model-dir", options.package_dirs,
-                  "Where package:// and model:// are looked for; may be given again")
+                  "Folder to search for package:// and model:// files; repeatable")
       .takes_folder()
       .one_value_each()
       .group(group);
-  verb.add_flag("--lenient", options.lenient,
-                "Leave out shapes and materials that are wrong; info lists them")
+  verb.add_flag("--lenient", options.lenient, "Skip invalid shapes and materials; info lists them")
       .group(group);
   verb.add_flag("--skip-missing-meshes", options.skip_missing_meshes,
-                "Leave out meshes that are not there; info tells how many")
+                "Skip missing mesh files; info reports how many")
       .group(group);
   return verb.add_flag("-v,--verbose", options.verbose,
-                       "Tell what is done and how long it takes; list each missing mesh");
+                       "Report steps and their times; list all missing meshes");
 }
 
 }  // namespace minkray

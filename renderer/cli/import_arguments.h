@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What all verbs take that take a scene: how a robot's file is made one.
+// Options shared by the commands that take a scene: conversion of a robot's file to a scene.
 #pragma once
 
 #include <string>
@@ -11,14 +11,14 @@ namespace minkray {
 class Option;
 class Verb;
 
-/// The help of the argument itself.
+/// Help text of the scene argument.
 std::string scene_argument();
 
-/// Adds files behind the first one, which stand in the same scene.
+/// Adds files after the first one, which become part of the same scene.
 void add_other_files(const Verb& verb, ImportOptions& options);
 
-/// The geometry that `options` has is the default. `rows`: whether a file of joints' values is one
-/// of them. Returns --verbose.
+/// Adds the options; the geometry in `options` is the default. `rows`: true if a file of joint
+/// values is one of the options. Returns --verbose.
 Option add_import_options(const Verb& verb, ImportOptions& options, bool rows = true);
 
 }  // namespace minkray

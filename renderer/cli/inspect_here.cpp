@@ -17,7 +17,7 @@
 namespace minkray {
 namespace {
 
-/// What a page of 640x360 pixels may take; larger ones in proportion.
+/// Default size of a page of 640x360 pixels; larger ones in proportion.
 constexpr double bytes_for_pixels = 6e6, pixels_for_bytes = 640 * 360;
 
 std::size_t bytes_for(const InspectArguments& arguments, const Resolution& resolution) {
@@ -26,7 +26,7 @@ std::size_t bytes_for(const InspectArguments& arguments, const Resolution& resol
   return static_cast<std::size_t>(bytes_for_pixels * std::max(1.0, pixels / pixels_for_bytes));
 }
 
-/// The page's file, which must end in .html; one of ours may be replaced, others only by -o.
+/// The page's file, which must end in .html. An existing file is only replaced if -o names it.
 std::string output_of(const InspectArguments& arguments) {
   if (arguments.image.outputs.size() > 1) throw WrongUsage("--output: the page is one file");
   if (!arguments.image.outputs.empty()) return arguments.image.outputs.front();
@@ -34,7 +34,7 @@ std::string output_of(const InspectArguments& arguments) {
       std::filesystem::path(arguments.image.scene).stem().string() + "-inspect.html";
   std::error_code error;
   if (std::filesystem::exists(output, error))
-    throw WrongUsage("--output: " + output + " is there already; name it to have it replaced");
+    throw WrongUsage("--output: " + output + " exists; name it with -o to replace it");
   arguments.image.files->write(output, "--output");
   return output;
 }

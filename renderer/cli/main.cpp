@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The command line: minkray VERB ARGS...
+// Command line: minkray COMMAND ARGS...
 #include <algorithm>
 #include <csignal>
 #include <exception>
@@ -21,7 +21,7 @@ namespace {
 using minkray::ExitCode;
 using minkray::Parser;
 
-/// It is for someone who only typed the program's name.
+/// Shown if only the program's name was typed.
 constexpr const char* first_page =
     "Minkray casts rays at exact convex shapes. Three commands to try:\n"
     "\n"
@@ -31,7 +31,8 @@ constexpr const char* first_page =
     "\n"
     "minkray help lists all commands, minkray help COMMAND shows what one takes.\n";
 
-/// The parser says of an unknown command, or of an option before it, only that one is required.
+/// Reports unknown commands and options before a command; the parser only reports that a command is
+/// required.
 void check_command(const Parser& parser, const std::string& name) {
   std::vector<std::string> known = parser.verb_names();
   if (std::ranges::find(known, name) != known.end()) return;
@@ -43,7 +44,7 @@ void check_command(const Parser& parser, const std::string& name) {
       (meant.empty() ? " (minkray --help lists all commands)" : "; " + meant));
 }
 
-/// "help" and "help COMMAND" as the words that they stand for.
+/// Converts "help" and "help COMMAND" to the equivalent options.
 std::vector<std::string> words_of(int argc, char** argv) {
   std::vector<std::string> words(argv, argv + argc);
   if (argc < 2 || words[1] != "help") return words;
@@ -96,7 +97,7 @@ ExitCode run_and_report(int argc, char** argv) {
   } catch (const minkray::CannotWrite& error) {
     return report(error, ExitCode::cannot_write);
   } catch (const std::bad_alloc&) {
-    std::cerr << "minkray: there is not enough memory for this\n";
+    std::cerr << "minkray: out of memory\n";
     return ExitCode::bad_input;
   } catch (const std::exception& error) {
     return report(error, ExitCode::bad_input);

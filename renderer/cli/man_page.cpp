@@ -4,8 +4,8 @@
 namespace minkray {
 namespace {
 
-/// Text as roff shows it: backslashes and leading dots are commands, plain hyphens are not minus
-/// signs.
+/// Escapes text for roff, in which backslashes and leading dots are commands and plain hyphens are
+/// not minus signs.
 std::string roff(const std::string& text) {
   std::string out;
   bool begins_line = true;
@@ -17,7 +17,7 @@ std::string roff(const std::string& text) {
   return out;
 }
 
-/// Each line gets a line of its own.
+/// Escapes text and keeps its line breaks.
 std::string roff_lines(const std::string& text) {
   std::string out;
   for (const char c : roff(text)) out += c == '\n' ? std::string("\n.br\n") : std::string(1, c);

@@ -8,10 +8,10 @@
 
 namespace minkray {
 
-/// minkray(1): all verbs.
+/// minkray(1): all commands.
 std::string man_page(std::span<const VerbDescription> verbs);
 
-/// minkray-VERB(1).
+/// minkray-COMMAND(1).
 std::string man_page(const VerbDescription& verb);
 
 }  // namespace minkray

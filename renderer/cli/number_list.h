@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Numbers between commas, as the value of an option.
+// Comma-separated numbers as the value of an option.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace minkray {
 
-/// So many finite numbers as one of the counts; throws WrongUsage for anything else.
+/// Reads finite numbers, as many as one of the counts; throws WrongUsage for anything else.
 inline std::vector<double> number_list(const std::string& text, const char* option,
                                        std::initializer_list<std::size_t> counts,
                                        const char* expected) {

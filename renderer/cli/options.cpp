@@ -197,7 +197,7 @@ Verb Parser::add_verb(const std::string& name) {
 
 namespace {
 
-/// What is in braces in a type's name such as "TEXT:{quality,speed}".
+/// Choices in the braces of a type's name such as "TEXT:{quality,speed}".
 std::vector<std::string> choices_in(const std::string& type) {
   std::vector<std::string> choices;
   const std::size_t open = type.find('{'), close = type.rfind('}');
@@ -207,8 +207,7 @@ std::vector<std::string> choices_in(const std::string& type) {
   return choices;
 }
 
-/// What a value is called in a type's name such as "INT:INT in [0 - 64]", "HOST:PORT" or
-/// "TEXT:{a,b}".
+/// Name of a value, from a type's name such as "INT:INT in [0 - 64]", "HOST:PORT" or "TEXT:{a,b}".
 std::string value_in(const std::string& type) {
   const std::size_t range = type.find(" in [");
   const std::size_t end = range == type.npos ? type.find(":{") : type.rfind(':', range);
@@ -217,7 +216,7 @@ std::string value_in(const std::string& type) {
   return value == "FLOAT" ? "X" : value;
 }
 
-/// "0 to 64" of a type's name such as "INT:INT in [0 - 64]".
+/// "0 to 64", from a type's name such as "INT:INT in [0 - 64]".
 std::string range_in(const std::string& type) {
   const std::size_t open = type.find(" in ["), close = type.rfind(']');
   if (open == type.npos || close == type.npos) return "";
@@ -258,7 +257,7 @@ VerbDescription describe(const CLI::App& verb) {
   return description;
 }
 
-/// Help of our own: the library's has lines of any length.
+/// Own help pages, since the library's have lines of any length.
 class HelpPages : public CLI::FormatterBase {
  public:
   std::string make_help(const CLI::App* app, std::string, CLI::AppFormatMode) const override {
@@ -269,11 +268,11 @@ class HelpPages : public CLI::FormatterBase {
   }
 };
 
-/// What is wrong with words that no option takes: "unknown option `--samples`; did you mean ...".
+/// Message for words that no option takes: "unknown option `--samples`; did you mean ...".
 std::string unknown_word(const CLI::App& verb) {
   const std::vector<std::string> words = verb.remaining();
   if (words.empty()) return "";
-  // A mistyped option leaves its value, too; the library has the words in any order.
+  // A mistyped option leaves its value, too; the library returns the words in any order.
   const auto flag = std::ranges::find_if(words, [](const std::string& word) {
     return word.size() > 1 && word[0] == '-' &&
            std::isdigit(static_cast<unsigned char>(word[1])) == 0;
@@ -316,7 +315,7 @@ Parser::~Parser() = default;
 std::string Parser::parse(const std::vector<std::string>& words) {
   std::ostringstream complaints;
   try {
-    // The library wants them backwards, without the program's name.
+    // The library expects the words in reverse order, without the program's name.
     app_->parse(std::vector<std::string>(words.rbegin(), words.rend() - 1));
   } catch (const CLI::ParseError& error) {
     const bool is_help = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success);

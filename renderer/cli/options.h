@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The command line that verbs describe themselves to: options, what they accept, and what runs. The
-// library that reads it, CLI11, is seen by options.cpp alone, for its templates take seconds to
-// compile in each file that includes them (docs/decisions/build.md).
+// Command line to which commands add their options: names, accepted values, and the function to
+// run. Only options.cpp includes the parser library, CLI11, whose templates take seconds to compile
+// in each file that includes them (docs/decisions/build.md).
 #pragma once
 
 #include <cstddef>
@@ -30,33 +30,35 @@ struct FileOption {
   FileRole role;
 };
 
-/// An option that was added. Each function says more of it and answers the same option.
+/// An option that was added. Each function sets a property and returns the same option.
 class Option {
  public:
   Option(CLI::Option& option, std::vector<FileOption>& files) : option_(&option), files_(&files) {}
 
   Option required(bool is_required = true) const;
-  /// Help shows the value that the variable has now.
+  /// Shows the variable's current value in help.
   Option show_default() const;
-  /// Both ends are allowed.
+  /// Sets the range, including both ends.
   Option between(int least, int most) const;
   Option between(double least, double most) const;
   Option between(std::size_t least, std::size_t most) const;
   Option one_of(const std::vector<std::string>& names) const;
-  /// So many values with the delimiter between them.
+  /// Takes `count` values, separated by the delimiter.
   Option values(int count, char delimiter) const;
-  /// Each time it is given it takes one value, so that what is behind is given by its place.
+  /// Takes one value per occurrence, so that positional arguments may follow.
   Option one_value_each() const;
   Option excludes(const Option& other) const;
-  /// The heading in help that it stands under.
+  /// Sets the heading of the option in help.
   Option group(const std::string& heading) const;
-  /// Names in help what a value is: "NAME", "WxH". Text that is no file's name must say so.
+  /// Sets the name of the value in help: "NAME", "WxH". Required for text that is not a file's
+  /// name.
   Option takes(const std::string& what) const;
-  /// Values are files that the command reads ("FILE" in help), writes ("OUTPUT"), or folders.
+  /// Marks values as files that the command reads ("FILE" in help), writes ("OUTPUT"), or as
+  /// folders.
   Option reads_file() const;
   Option writes_file() const;
   Option takes_folder() const;
-  /// The variable gets what the function makes of what was given.
+  /// Stores the function's result for the given value in the variable.
   Option replace(const std::function<std::string(const std::string&)>& function) const;
 
  private:
@@ -64,18 +66,18 @@ class Option {
   std::vector<FileOption>* files_;
 };
 
-/// A subcommand. The variables of its options must outlive the parser.
+/// A subcommand. Variables of its options must outlive the parser.
 class Verb {
  public:
   struct State;
   Verb(CLI::App& verb, State& state) : verb_(&verb), state_(&state) {}
 
-  /// The files of this command, which all that it opens are to be added to: before `on_call`'s
-  /// function runs, those that options name have been added.
+  /// Files of this command. Add all files that it opens; those named by options are added before
+  /// the function of `on_call` runs.
   CommandFiles& files() const;
 
-  /// `names` is "-o,--output" for what is given by its name, "scene" for what is given by its
-  /// place. Lists take all words that follow, unless one_value_each.
+  /// `names` is "-o,--output" for an option, "scene" for a positional argument. Lists take all
+  /// words that follow, unless one_value_each.
   Option add_option(const std::string& names, std::string& value, const std::string& doc) const;
   Option add_option(const std::string& names, int& value, const std::string& doc) const;
   Option add_option(const std::string& names, unsigned& value, const std::string& doc) const;
@@ -89,17 +91,17 @@ class Verb {
                     const std::string& doc) const;
   Option add_option(const std::string& names, std::vector<int>& values,
                     const std::string& doc) const;
-  /// The function is called with the value that was given.
+  /// Calls the function with the given value.
   Option add_option(const std::string& names,
                     const std::function<void(const std::string&)>& function,
                     const std::string& doc) const;
 
   Option add_flag(const std::string& names, bool& is_given, const std::string& doc) const;
-  /// A flag that may have a value behind a "="; "true" or what `names` has in braces if it has
-  /// none.
+  /// Adds a flag with an optional value after "=". Without one, the value is "true" or the text
+  /// that `names` has in braces.
   Option add_flag(const std::string& names, std::string& value, const std::string& doc) const;
 
-  /// What the verb does, once all of its options are read.
+  /// Sets the function to run once all options are read.
   void on_call(const std::function<void()>& function) const;
 
  private:
@@ -118,19 +120,19 @@ class Parser {
   Parser(const std::string& doc, const std::string& program);
   ~Parser();
 
-  /// What --version prints.
+  /// Sets the output of --version.
   void set_version(const std::string& version);
-  /// What help ends with.
+  /// Sets the end of the help.
   void set_footer(const std::string& text);
-  /// Adds one of the verbs that there are (renderer/cli/verbs.h).
+  /// Adds one of the existing commands (renderer/cli/verbs.h).
   Verb add_verb(const std::string& name);
 
-  /// They come in the order in which they were added.
+  /// Names in the order in which they were added.
   std::vector<std::string> verb_names() const;
   std::vector<VerbDescription> verbs() const;
 
-  /// Reads the options and runs the verb; help and the version go to stdout. Answers what is wrong
-  /// with the words, for stderr; empty: nothing. Lets through what the verb throws.
+  /// Reads the options and runs the command; help and the version go to stdout. Returns errors in
+  /// the words, for stderr; empty if there are none. Passes on exceptions of the command.
   std::string parse(const std::vector<std::string>& words);
 
  private:

@@ -25,7 +25,7 @@ constexpr Way ways[] = {{"kitty", TerminalGraphics::kitty},
                         {"sixel", TerminalGraphics::sixel},
                         {"blocks", TerminalGraphics::blocks}};
 
-/// A terminal that does not tell how wide it is.
+/// Width of a terminal that does not report it.
 constexpr int usual_columns = 80;
 
 int terminal_columns() {
@@ -45,8 +45,8 @@ bool has_kitty_graphics() {
 
 constexpr int answer_milliseconds = 200;
 
-/// What the terminal answers to "primary device attributes" (ECMA-48, 8.3.24): its abilities as
-/// numbers; empty if it does not answer.
+/// Returns the terminal's response to "primary device attributes" (ECMA-48, 8.3.24): its abilities
+/// as numbers; empty if there is no response.
 std::string device_attributes() {
   if (isatty(STDIN_FILENO) == 0 || isatty(STDOUT_FILENO) == 0) return "";
   termios before{};

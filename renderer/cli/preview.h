@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Showing a picture in the terminal that the program was started in.
+// Shows a picture in the terminal that runs the program.
 #pragma once
 
 #include <string>
@@ -11,18 +11,18 @@ namespace minkray {
 class Verb;
 
 struct PreviewArguments {
-  std::string preview;  ///< empty: none; else auto or one of the ways
+  std::string preview;  ///< empty: none; otherwise auto or one of the names of protocols
 
   /// Adds --preview.
   void add_to(const Verb& verb);
 };
 
-/// Below what is there, or, where pictures follow each other, from the screen's upper left corner.
+/// Below the existing text, or, for a sequence of pictures, from the screen's upper left corner.
 enum class PreviewPlace : unsigned char { below, top_of_screen };
 
-/// Writes the picture to stdout if the arguments ask for it: in the way they name, or in the best
-/// one that the terminal says that it has, which takes at most a fifth of a second to answer. Where
-/// stdout is no terminal it is half blocks, and what is to be on a screen is left out.
+/// Writes the picture to stdout if the arguments request it: by the given protocol, or by the best
+/// one that the terminal reports within a fifth of a second. If stdout is not a terminal, half
+/// blocks are used and pictures for top_of_screen are left out.
 void show_preview(const Image& picture, const PreviewArguments& arguments,
                   PreviewPlace place = PreviewPlace::below);
 

@@ -30,8 +30,8 @@ void run_beside(const std::string& verb, const std::string& program,
   pointers.push_back(nullptr);
   ::execv(path.c_str(), pointers.data());
   if (errno == ENOENT)
-    throw WrongUsage(verb + ": needs the program " + program +
-                     ", which must lie beside this one in " + self.parent_path().string() +
+    throw WrongUsage(verb + ": needs the program " + program + ", which must be in " +
+                     self.parent_path().string() +
                      " and is not there: build or install all of Minkray");
   throw WrongUsage(verb + ": " + path + ": " + std::generic_category().message(errno));
 }

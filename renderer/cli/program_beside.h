@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Verbs that live in other programs, which lie beside this one.
+// Runs commands that are in other programs, in the same folder as this one.
 #pragma once
 
 #include <string>
@@ -7,12 +7,12 @@
 
 namespace minkray {
 
-/// Becomes the program, which has the verb, with the words of a command line. Throws WrongUsage if
-/// it is not there or cannot be run.
+/// Replaces this process by the program that has the command, with the words of a command line.
+/// Throws WrongUsage if the program is missing or cannot be run.
 [[noreturn]] void run_beside(const std::string& verb, const std::string& program,
                              std::vector<std::string> words);
 
-/// The words of this process's command line.
+/// Words of this process's command line.
 std::vector<std::string> own_words();
 
 }  // namespace minkray

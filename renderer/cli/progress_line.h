@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Progress on a terminal's stderr: how much is done, rays per second, time left, noise. Nothing at
-// all if stderr is not a terminal.
+// Progress on a terminal's stderr: share done, rays per second, time left, noise. Prints nothing if
+// stderr is not a terminal.
 #pragma once
 
 #include <chrono>
@@ -13,25 +13,25 @@ namespace minkray {
 class ProgressLine {
  public:
   explicit ProgressLine(bool wanted);
-  /// Leaves the terminal's line empty.
+  /// Clears the terminal's line.
   ~ProgressLine();
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
   void show(double fraction, std::uint64_t rays);
-  /// From then on it is shown: the noise of a picture, as a part of its brightness.
+  /// Shows from now on the noise of a picture, relative to its brightness.
   void set_noise(double noise) { noise_ = noise; }
 
  private:
   using Clock = std::chrono::steady_clock;
   bool shown_;
   bool line_is_dirty_ = false;
-  double noise_ = -1;  ///< negative: not known
+  double noise_ = -1;  ///< negative: unknown
   Clock::time_point begin_ = Clock::now();
   Clock::time_point last_ = begin_;
 };
 
-/// What the line says after so many seconds; noise is left out if it is negative.
+/// Text of the line after `seconds`; noise is left out if it is negative.
 inline std::string progress_text(double fraction, std::uint64_t rays, double seconds,
                                  double noise) {
   const auto left = static_cast<long>(seconds * (1 - fraction) / fraction);
@@ -45,7 +45,7 @@ inline std::string progress_text(double fraction, std::uint64_t rays, double sec
   return line + std::string(text, static_cast<std::size_t>(length));
 }
 
-/// Seconds since a moment.
+/// Measures seconds since a moment.
 class Stopwatch {
  public:
   double seconds() const {

@@ -39,36 +39,29 @@ void RenderArguments::add_to(const Verb& verb) {
   }
   verb.add_option("--integrator", integrator, kinds).one_of(names).show_default();
   verb.add_option("--max-depth", max_depth,
-                  "With --integrator path: how often light is scattered, mirrored or refracted on "
-                  "its way; 0 for shining bodies alone")
+                  "Most bounces of --integrator path; 0: emissive objects only")
       .between(0, 1000)
       .show_default();
   verb.add_option("--bounces", bounces,
-                  "With --integrator ambient: how often light is scattered between objects; 0 for "
-                  "ambient occlusion")
+                  "Diffuse bounces of --integrator ambient; 0: ambient occlusion")
       .between(0, 64)
       .show_default();
   verb.add_option("--clamp", clamp,
-                  "Clamp indirect light of --integrator path: fewer fireflies, slightly darker "
-                  "(biased). 0: no limit")
+                  "Clamp indirect light (path): fewer fireflies, slightly darker; 0: off")
       .between(0.0, 1e30)
       .show_default();
   verb.add_option("--noise", noise,
-                  "A pixel takes no more samples when its standard error, over its brightness, is "
-                  "below this. 0: all samples")
+                  "Adaptive sampling: relative error at which a pixel stops; 0: off")
       .between(0.0, 1.0)
       .show_default();
-  verb.add_flag(
-      "--denoise", denoise,
-      "Less noise: pixels are averaged with others that are of the same thing and about as "
-      "bright; made for few samples");
+  verb.add_flag("--denoise", denoise, "Denoise (best at few samples per pixel)");
   verb.add_flag("--half", has_halfs, "Write the colors of .exr with 16-bit floats");
   std::string maps = "Tone mapping of PNG output:";
   for (const ToneMapDescription& map : tone_maps)
     maps += "\n" + std::string(map.name) + ": " + std::string(map.doc);
   verb.add_option("--tonemap", tone_map, maps).one_of(tone_map_names()).show_default();
   verb.add_option("--ray-group", ray_group,
-                  "Camera rays that are traced together; the picture is the same for any number")
+                  "Camera rays traced together (does not change the picture)")
       .between(1, most_in_ray_group)
       .show_default()
       .group(research_group);
@@ -88,40 +81,31 @@ void RenderArguments::add_to(const Verb& verb) {
           "AOVs (extra EXR channels), comma-separated, or all; one unfiltered ray per pixel:" +
               channels)
       .takes("NAMES");
-  verb.add_option("--tile", tile, "Just the i-th of n tiles of the picture, for minkray merge")
+  verb.add_option("--tile", tile, "Render tile I of N, for minkray merge")
       .takes("I/N")
       .group(several_machines);
   verb.add_option("--sample-share", sample_share,
-                  "Just the i-th of n shares of each pixel's samples, for minkray merge")
+                  "Render share I of N of each pixel's samples, for minkray merge")
       .takes("I/N")
       .group(several_machines);
-  verb.add_option("--tiles", tiles,
-                  "Under mpirun: into how many tiles the picture is split; by default each has "
-                  "about 64 x 64 pixels")
+  verb.add_option("--tiles", tiles, "Tiles under mpirun; default: one per about 64 x 64 pixels")
       .between(1, 999999)
       .group(several_machines);
   verb.add_option("--checkpoint", checkpoint_seconds,
-                  "Seconds between checkpoints beside the first output; 0 for none")
+                  "Seconds between checkpoints, next to the first output; 0: none")
       .between(0.0, 1e9)
       .show_default();
-  verb.add_flag("--resume", resume, "Go on from the checkpoint, if there is one");
-  verb.add_flag(
-      "--progressive", progressive,
-      "In passes of 1, 2, 4 ... samples a pixel: each is written to the outputs, and shown "
-      "by --preview and --tev; the last picture has the same bits as without");
-  verb.add_option(
-          "--tev", tev,
-          "Show the picture while it grows in the viewer tev that listens there; the port is "
-          "14158 if it is left out")
+  verb.add_flag("--resume", resume, "Resume from the checkpoint, if there is one");
+  verb.add_flag("--progressive", progressive,
+                "Render in passes of 1, 2, 4 ... samples per pixel; show each pass");
+  verb.add_option("--tev", tev, "Show the picture in tev while rendering (default port 14158)")
       .takes("HOST:PORT");
   verb.add_option("--frames", frames,
-                  "Pictures of these frames, into files with the frame's number in the "
-                  "place of #### in the output's name; frame 0 is at 0 s. A record beside them, "
-                  "####.png.frames, tells which are there: with --resume they are left out")
+                  "Render these frames; #### in -o becomes the frame number\n"
+                  "--resume skips frames listed in the record ####.png.frames")
       .takes("A..B");
   verb.add_option("--rate", rate, "Frames per second (fps)").between(1e-6, 1e6).show_default();
-  verb.add_option("--contact-sheet", contact_sheet,
-                  "With --frames: all frames, small, in one more picture")
+  verb.add_option("--contact-sheet", contact_sheet, "Picture with thumbnails of all --frames")
       .writes_file();
   verb.add_flag("--stats", stats, "Print rays, speed, work and memory; --stats=json")
       .group(research_group);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What `minkray render` is told on the command line.
+// Command-line options of `minkray render`.
 #pragma once
 
 #include <optional>
@@ -39,12 +39,12 @@ struct RenderArguments {
   double rate = 24;
   std::string contact_sheet;  ///< empty: none
 
-  /// Adds the options, which are written to these members when the verb is called; defaults shown
-  /// are the members' values.
+  /// Adds the options, which are written to these members when the command is called; defaults in
+  /// help are the members' values.
   void add_to(const Verb& verb);
 
-  /// Chooses an output if none is given, and adds the checkpoint beside it to the command's files.
-  /// Throws WrongUsage where an output must be given.
+  /// Chooses an output if none is given, and adds the checkpoint next to it to the command's files.
+  /// Throws WrongUsage if an output is required.
   void choose_output(const Ranks& ranks);
 
   Display display() const { return {exposure, tone_map_named(tone_map), has_halfs}; }

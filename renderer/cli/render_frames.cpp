@@ -15,7 +15,7 @@
 namespace minkray {
 namespace {
 
-/// One record for each output.
+/// One record per output.
 std::vector<FramesRecord> records_of(const RenderJob& job, const RenderArguments& options) {
   Facts facts = facts_of(job);
   facts[fact::rate] = Json(options.rate).dump();
@@ -23,11 +23,11 @@ std::vector<FramesRecord> records_of(const RenderJob& job, const RenderArguments
   std::vector<FramesRecord> records;
   for (const std::string& name : options.image.outputs)
     records.emplace_back(FramesRecord::path_for(name), facts, options.resume);
-  for (const FramesRecord& record : records) record.write();  // none before all are known to fit
+  for (const FramesRecord& record : records) record.write();  // writes none before all are checked
   return records;
 }
 
-/// Adds each frame's files to the command's: none may be what is read, or another output.
+/// Adds each frame's files to the command's: none may be an input or another output.
 void add_frames(const RenderArguments& options, const FrameRange& frames) {
   for (const std::string& name : options.image.outputs) {
     options.image.files->write(FramesRecord::path_for(name), "--output");

@@ -9,8 +9,8 @@
 
 namespace minkray {
 
-/// Renders the frames that are wanted, and the contact sheet if there is to be one. The job's scene
-/// and world move from frame to frame.
+/// Renders the requested frames, and the contact sheet if requested. Moves the job's scene and
+/// world from frame to frame.
 void render_frames(RenderJob& job, const RenderArguments& options, const FrameRange& frames,
                    RenderStatistics& statistics);
 

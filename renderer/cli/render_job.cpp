@@ -56,7 +56,7 @@ RenderedJob run(const RenderJob& job, Checkpoint& checkpoint, const Spectator& s
   } else if (!job.quiet && job.resume) {
     std::cerr << "no checkpoint: from the beginning\n";
   } else if (!job.quiet && checkpoint.exists()) {
-    std::cerr << "from the beginning: without --resume, the checkpoint that is there is replaced\n";
+    std::cerr << "starting again and replacing the checkpoint; --resume continues it\n";
   }
   journal.finished = [&](const Rendering& rendering, std::size_t tile) {
     checkpoint.tile_finished(rendering, tile);

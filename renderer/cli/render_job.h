@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Rendering a picture or a share of one such that nothing is lost: with checkpoints, going on where
-// an earlier run ended, and in the OpenEXR form that is written.
+// Renders a picture or a share of one without losing work: writes checkpoints, resumes an earlier
+// run, and returns the OpenEXR image to write.
 #pragma once
 
 #include <string_view>
@@ -11,7 +11,7 @@
 
 namespace minkray {
 
-/// What is the same for all shares of a picture.
+/// Properties shared by all shares of a picture.
 struct RenderJob {
   Scene scene;
   World world;
@@ -21,32 +21,33 @@ struct RenderJob {
   double checkpoint_seconds = 60;
   bool resume = false;
   bool denoise = false;
-  bool wants_planes = true;  ///< whether any output has them; they take as much memory again
+  bool wants_planes = true;  ///< true if any output has planes, which double the memory
   bool quiet = false;
 };
 
-/// Who hears how a picture grows; each function may be missing.
+/// Callbacks for the progress of a picture; each may be empty.
 struct Spectator {
-  std::function<void(const Rendering&, int samples)> passed;  ///< as RenderJournal has them
+  std::function<void(const Rendering&, int samples)> passed;  ///< as in RenderJournal
   std::function<void(const Rendering&, std::size_t tile)> tile_finished;
 };
 
 struct RenderedJob {
   Rendering rendering;
-  ExrImage exr;  ///< without planes if they are not wanted; with facts: the picture's, the share's,
-                 ///< what it cost
+  ExrImage exr;  ///< without planes if they are not wanted; with facts: of the picture, of the
+                 ///< share, and its cost
   std::vector<Label> labels;
   double seconds = 0;
 };
 
-/// The facts of the job's picture and of which share of it it is.
+/// Facts of the job's picture, and of the share to render.
 Facts facts_of(const RenderJob& job);
 
-/// The checkpoint beside the first of a job's outputs.
+/// Checkpoint next to the first of a job's outputs.
 Checkpoint checkpoint_of(const RenderJob& job, const std::string& output);
 
-/// Renders; goes on from the checkpoint if the job says so and there is one. Ends the process if it
-/// is interrupted, with what is done in the checkpoint. Remove the checkpoint when all is written.
+/// Renders. Resumes from the checkpoint if the job requests it and there is one. If interrupted,
+/// stores the work in the checkpoint and ends the process. Remove the checkpoint when all outputs
+/// are written.
 RenderedJob run(const RenderJob& job, Checkpoint& checkpoint, const Spectator& spectator = {});
 
 }  // namespace minkray

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One picture rendered and written into its files, by this process alone or by all ranks.
+// Renders one picture and writes its files, by this process alone or by all ranks.
 #pragma once
 
 #include <string>
@@ -11,11 +11,11 @@
 
 namespace minkray {
 
-/// Renders the job's picture or share into `outputs`, and answers the light that was written.
+/// Renders the job's picture or share into `outputs`, and returns the light that was written.
 Image render_picture(const RenderJob& job, const RenderArguments& options,
                      const std::vector<std::string>& outputs, RenderStatistics& statistics);
 
-/// All ranks of the MPI job render, rank 0 writes.
+/// Renders on all ranks of the MPI job; rank 0 writes.
 void render_picture_on(Ranks& ranks, const RenderJob& job, const RenderArguments& options,
                        RenderStatistics& statistics);
 

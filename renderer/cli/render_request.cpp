@@ -29,7 +29,7 @@ void check_shares(const RenderOptions& options) {
                      " (got " + share.text() + ")");
 }
 
-/// Throws WrongUsage for a channel of another program's name, with the one that it has here.
+/// Throws WrongUsage for another program's name of a channel, with the name to use here.
 void check_channels(const std::string& list) {
   std::vector<std::string> known;
   for (const DataChannelDescription& channel : data_channels) known.emplace_back(channel.name);
@@ -63,13 +63,12 @@ RenderJob job_of(const RenderArguments& options, const Ranks& ranks) {
       throw WrongUsage("--output: a share of a picture must end in .exr (got " + output + ")");
   if (options.is_share() && options.has_halfs)
     throw WrongUsage(
-        "--half: a share of a picture keeps all digits: not with --tile, "
-        "--sample-share");
+        "--half: not allowed with --tile or --sample-share, which store 32-bit floats");
   if (options.tile) job.options.tile = parse_share(*options.tile, "--tile");
   if (options.sample_share)
     job.options.sample_share = parse_share(*options.sample_share, "--sample-share");
   if (options.sample_share && options.noise > 0)
-    throw WrongUsage("--noise: looks at all samples of a pixel: not with --sample-share");
+    throw WrongUsage("--noise: needs all samples of a pixel; not allowed with --sample-share");
   if (options.sample_share && options.aov)
     throw WrongUsage("--aov: goes with --tile, but not with --sample-share");
   if (options.progressive && (options.is_share() || ranks.count() > 1))

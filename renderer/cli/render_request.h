@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The arguments of `minkray render` made into a job. All of these throw WrongUsage for what does
-// not go together, before anything is rendered.
+// Converts the arguments of `minkray render` to a job. All functions throw WrongUsage for options
+// that do not fit together, before anything is rendered.
 #pragma once
 
 #include "renderer/cli/frames.h"
@@ -9,13 +9,13 @@
 
 namespace minkray {
 
-/// The job without scene and world, and without what depends on them.
+/// Returns the job without scene and world, and without values that depend on them.
 RenderJob job_of(const RenderArguments& options, const Ranks& ranks);
 
-/// Which frames are to be rendered; of no meaning if there is to be one picture.
+/// Returns the frames to render; meaningless if there is only one picture.
 FrameRange frames_of(const RenderArguments& options, const Ranks& ranks);
 
-/// Fills in what depends on the job's scene: the picture's size, and which share of it to render.
+/// Sets the values that depend on the job's scene: the picture's size, and the share to render.
 void set_options(RenderJob& job, const RenderArguments& options);
 
 }  // namespace minkray

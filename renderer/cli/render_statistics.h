@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a rendering cost, for `minkray render --stats`.
+// Cost of a rendering, for `minkray render --stats`.
 #pragma once
 
 #include <string>
@@ -16,7 +16,7 @@ struct RenderStatistics {
   RayCounts counts;
   double noise = -1;  ///< Rendering::noise
 
-  /// Fills in what is known before the first ray.
+  /// Sets the values that are known before the first ray.
   void describe(const Scene& scene, const World& world);
 
   double per_object(std::size_t bytes) const {
@@ -28,7 +28,7 @@ struct RenderStatistics {
   }
 };
 
-/// Warns on stderr of what the counts show, and prints on stdout what `stats` asks for: nothing
+/// Warns on stderr about the counts, and prints statistics on stdout as `stats` requests: nothing
 /// (empty), text ("true") or JSON ("json").
 void report(const RenderStatistics& statistics, const std::string& stats);
 

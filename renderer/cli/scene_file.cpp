@@ -13,8 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Folders relative to the program's own: an installed one, and the sources of a build in
-/// build/PRESET.
+/// Folders relative to the program's own: for an installed program, and for a build in build/PRESET
+/// of the sources.
 constexpr const char* relative_folders[] = {"../share/minkray/scenes", "../../scenes"};
 
 std::vector<fs::path> scene_folders() {
@@ -29,7 +29,7 @@ std::vector<fs::path> scene_folders() {
   return folders;
 }
 
-/// What lies beside the scenes, too.
+/// Excludes schemas, which are in the same folder.
 bool is_scene(const fs::path& file) {
   return file.extension() == ".json" && !file.stem().string().ends_with(".schema");
 }
@@ -69,7 +69,7 @@ std::string default_output(const std::string& scene_file, const std::string& suf
   std::error_code error;
   if (fs::exists(output, error) && !is_own_png(output))
     throw WrongUsage("--output: " + output +
-                     " is there already and is no picture by Minkray; name an output with -o");
+                     " exists and was not written by Minkray; choose an output with -o");
   return output;
 }
 

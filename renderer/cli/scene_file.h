@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which file a scene's name on the command line means, and where its picture goes by default.
+// Finds the file for a scene's name on the command line, and the picture's default name.
 #pragma once
 
 #include <string>
@@ -7,19 +7,18 @@
 
 namespace minkray {
 
-/// The names of the scenes that come with Minkray, sorted. They are looked for in the folder
-/// "scenes" of the sources that the program was built in and in "share/minkray/scenes" of the place
-/// that it was installed to.
+/// Names of the built-in scenes, sorted. Searches the folder "scenes" of the sources that the
+/// program was built in, and "share/minkray/scenes" where it is installed.
 std::vector<std::string> built_in_scenes();
 
-/// The file that `name` means: itself if there is such a file or if it looks like a path; else the
-/// scene of that name that comes with Minkray. Throws BadInput that names the scenes there are if
-/// it is neither.
+/// Returns the file for `name`: the name itself if there is such a file or if it looks like a path;
+/// otherwise the built-in scene of that name. Throws BadInput that lists the built-in scenes if
+/// there is none.
 std::string scene_file(const std::string& name);
 
-/// The file in the working folder that the picture of a scene goes to if no other is named:
-/// "showcase.png" for "scenes/showcase.json" with the suffix ".png". Throws WrongUsage if it is
-/// there already and is no picture by Minkray.
+/// Default file for a scene's picture, in the working folder: "showcase.png" for
+/// "scenes/showcase.json" with the suffix ".png". Throws WrongUsage if that file exists and is not
+/// a picture by Minkray.
 std::string default_output(const std::string& scene_file, const std::string& suffix);
 
 }  // namespace minkray

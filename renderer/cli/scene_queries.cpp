@@ -41,7 +41,7 @@ std::optional<Json> SceneQueries::answer(std::string_view line, Mistakes& mistak
     name = read_string(*written, query.path("name"), mistakes).value_or("");
   if (const Json* written = query.find("query"))
     if (read_string(*written, query.path("query"), mistakes).value_or("ray") != "ray")
-      mistakes.add(query.path("query"), "must be \"ray\" where there is a scene");
+      mistakes.add(query.path("query"), "must be \"ray\" in a query with \"scene\"");
   if (const Json* written = query.require("scene", "a scene's file"))
     file = read_string(*written, query.path("scene"), mistakes).value_or("");
   Ray<double> ray;
@@ -69,7 +69,7 @@ std::optional<Json> SceneQueries::answer(std::string_view line, Mistakes& mistak
   const WorldHit hit = loaded->world.closest_hit(ray, counts);
   Json result = Json::object();
   if (!name.empty()) result["name"] = name;
-  // What a solver gave up on may have been in front of anything.
+  // An exhausted cast may be in front of any other hit.
   const Status status = counts.exhausted > 0 ? Status::exhausted : hit.cast.status;
   result["status"] = std::string(name_of(status));
   if (hit.found()) {

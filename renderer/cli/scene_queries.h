@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Queries of `minkray cast` at whole scenes: {"scene": FILE, "ray": {...}}, beside those at single
-// shapes. Each scene is loaded once.
+// Queries of `minkray cast` in whole scenes: {"scene": FILE, "ray": {...}}, in addition to those at
+// single shapes. Each scene is loaded once.
 #pragma once
 
 #include <filesystem>
@@ -17,17 +17,17 @@
 
 namespace minkray {
 
-/// Any number of threads may ask.
+/// Safe for any number of threads.
 class SceneQueries {
  public:
   /// File names are relative to the folder.
   explicit SceneQueries(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  /// Whether a line may be such a query; where in doubt it is none.
+  /// True if a line may be such a query; false in case of doubt.
   static bool is_one(std::string_view line);
 
-  /// The first object that the ray meets, by its number and name; nothing, and mistakes, if the
-  /// query cannot be used.
+  /// Returns the number and name of the first object that the ray meets. Returns nothing, and adds
+  /// mistakes, if the query cannot be used.
   std::optional<Json> answer(std::string_view line, Mistakes& mistakes);
 
  private:

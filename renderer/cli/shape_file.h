@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A file that holds one shape, as scenes have them.
+// A file that contains one shape, in the format of scenes.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,8 @@
 
 namespace minkray {
 
-/// Throws BadInput with all that is wrong with it. `files`, if any, get those that it names.
+/// Throws BadInput with all mistakes of the file. Adds the files that it names to `files` if not
+/// null.
 inline Shape<double> shape_in(const std::string& file, CommandFiles* files = nullptr) {
   Mistakes mistakes(file);
   MeshFiles meshes(std::filesystem::path(file).parent_path());

@@ -25,14 +25,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What rank 0 says when all is ready to begin, what a rank asks for then, and what it gets if
-/// there is nothing left; tiles count from 1.
+/// Messages: rank 0 sends `begin` when all is ready, other ranks then request tiles, and rank 0
+/// returns a tile's number, from 1, or `no_more_tiles`.
 constexpr int begin = -1;
 constexpr int give_me_a_tile = 0;
 constexpr int no_more_tiles = 0;
 
-/// How often messages are looked for. Waiting within MPI would keep a core busy, and signals would
-/// not be heard.
+/// Interval between checks for messages. Waiting within MPI would keep a core busy and delay
+/// signals.
 constexpr auto pause = std::chrono::milliseconds(1);
 
 /// Hands out the numbers 1 to count, each once.
@@ -50,7 +50,7 @@ class TileQueue {
   int given_ = 0;
 };
 
-/// What rank 0 sent, when it does. Ends the process if it is interrupted.
+/// Waits for the message of rank 0. Ends the process if it is interrupted.
 int answer_of_rank_0(Ranks& ranks) {
   for (;;) {
     if (const auto message = ranks.poll()) return message->number;
@@ -59,7 +59,7 @@ int answer_of_rank_0(Ranks& ranks) {
   }
 }
 
-/// Answers the other ranks until each was told that there are no more tiles, or a stop is wanted.
+/// Answers the other ranks until each has received `no_more_tiles`, or a stop is requested.
 void hand_out(const std::stop_token& stop, Ranks& ranks, TileQueue& queue) {
   int at_work = ranks.count() - 1;
   while (at_work > 0 && !stop.stop_requested() && !InterruptGuard::interrupted()) {
@@ -98,10 +98,10 @@ void tell_threads(const Ranks& ranks) {
   if (::sched_getaffinity(0, sizeof cores, &cores) == 0 && CPU_COUNT(&cores) == 1 && online > 1)
     text += "warning: " + rank + " is pinned to one of " + std::to_string(online) +
             " cores: give mpirun --bind-to none, or --map-by slot:PE=n for n cores a rank\n";
-  std::cerr << text;  // at once, so that the ranks' lines do not mix
+  std::cerr << text;  // in one call, so that the ranks' lines do not mix
 }
 
-/// Takes the first characters off a text, as long as they are of a kind and no more than `most`.
+/// Removes leading characters of a kind from a text, at most `most`.
 template <class IsOfKind>
 std::size_t skip(std::string_view& text, IsOfKind&& is_of_kind,
                  std::size_t most = std::string::npos) {
@@ -111,15 +111,16 @@ std::size_t skip(std::string_view& text, IsOfKind&& is_of_kind,
   return count;
 }
 
-/// Takes a word off the beginning of a text, if it is there.
+/// Removes a word from the beginning of a text, if it is there.
 bool skip_word(std::string_view& text, std::string_view word) {
   if (!text.starts_with(word)) return false;
   text.remove_prefix(word.size());
   return true;
 }
 
-/// Whether a file's name is that of a tile of a picture of so many, of its checkpoint, or of a
-/// temporary file of either: what ranks that were killed left. 000007-of-000024.exr,
+/// True if a file is a tile of a picture with this many tiles, a checkpoint of a tile, or a
+/// temporary file of either. Killed ranks leave such files.
+/// 000007-of-000024.exr,
 /// .000007-of-000024.exr.checkpoint.1234.0123abcd.tmp
 bool is_of_part_file(std::string_view name, int tiles) {
   const auto is_digit = [](char c) { return '0' <= c && c <= '9'; };
@@ -179,7 +180,8 @@ std::optional<Merged> render_on(Ranks& ranks, const RenderJob& job, int tiles,
   }
   TileQueue queue(tiles);
   {
-    // Declared after what it uses: it is joined first, also when a tile of ours fails.
+    // Declared after the variables that it uses, so that it is joined before they end, even if a
+    // tile fails here.
     std::jthread others([&](const std::stop_token& stop) { hand_out(stop, ranks, queue); });
     while (const int tile = queue.next()) {
       render_tile(tile);
@@ -201,7 +203,7 @@ void remove_parts(const std::string& output, int tiles) {
   for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
     if (at->is_regular_file(ignored) && is_of_part_file(at->path().filename().string(), tiles))
       files.push_back(at->path());
-  // The first error tells why the folder stays; that it is not empty would follow from it.
+  // Keeps the first error, which explains why the folder stays; later ones follow from it.
   for (const fs::path& file : files) fs::remove(file, error ? ignored : error);
   if (fs::remove(folder, ignored); !ignored) return;
   if (!error) error = ignored;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Words as a POSIX shell reads them.
+// Words in the syntax of POSIX shells.
 #pragma once
 
 #include <algorithm>
@@ -9,14 +9,14 @@
 
 namespace minkray {
 
-/// The text within single quotes.
+/// Returns the text in single quotes.
 inline std::string in_single_quotes(const std::string& text) {
   std::string quoted = "'";
   for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return quoted + "'";
 }
 
-/// The word as it is if it means itself, and else within single quotes.
+/// Returns the word as it is if it needs no quotes, otherwise in single quotes.
 inline std::string shell_quoted(const std::string& word) {
   const bool is_plain = !word.empty() && std::all_of(word.begin(), word.end(), [](unsigned char c) {
     return std::isalnum(c) != 0 ||

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How long a step of a verb takes.
+// Measures the time of a step of a command.
 #pragma once
 
 #include <iostream>
@@ -8,7 +8,7 @@
 
 namespace minkray {
 
-/// Calls work() and adds the seconds that it took, which stderr is told if that is wanted.
+/// Calls work() and adds its duration in seconds; prints it to stderr if requested.
 template <class Work>
 void timed(bool verbose, const char* what, double& seconds, const Work& work) {
   const Stopwatch watch;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The option --tolerance of the verbs that answer signed distances.
+// The option --tolerance of commands that return signed distances.
 #pragma once
 
 #include "renderer/base/errors.h"
@@ -9,12 +9,12 @@ namespace minkray {
 
 inline void add_tolerance(const Verb& verb, double& tolerance) {
   verb.add_option("--tolerance", tolerance,
-                  "How near the bounds of signed distances shall be, relative to the sizes")
+                  "Gap between the bounds of a distance, relative to the shapes' sizes")
       .between(1e-14, 1.0)
       .show_default();
 }
 
-/// A range lets nan pass.
+/// Rejects NaN, which passes a check of the range.
 inline void check_tolerance(double tolerance) {
   if (!(tolerance <= 1)) throw WrongUsage("--tolerance: must be a number from 1e-14 to 1");
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// minkray cast: answers queries, one JSON object a line in and out, as they stream by.
+// minkray cast: answers a stream of queries, one JSON object per line in and out.
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
@@ -23,14 +23,14 @@
 namespace minkray {
 namespace {
 
-/// Lines that travel together: enough to hide the pipeline's own cost, few enough that answers come
-/// soon and memory is small.
+/// Lines per batch: enough to hide the pipeline's own cost, few enough that results come early and
+/// need little memory.
 constexpr std::size_t lines_a_batch = 64;
-/// Batches on their way for each thread.
+/// Batches in progress per thread.
 constexpr std::size_t batches_a_thread = 4;
 
-/// A query with a hull of a million points is shorter; a file without line ends must not fill the
-/// memory.
+/// Longer than a query with a hull of a million points, but limits the memory for files without
+/// line ends.
 constexpr std::size_t most_bytes_a_line = std::size_t{64} << 20;
 
 struct CastVerbOptions {
@@ -45,7 +45,7 @@ struct CastVerbOptions {
   bool certify = false;
 };
 
-/// How many answers there were, and how many of their certificates hold.
+/// Number of results, by the outcome of their certificates.
 struct CertificateCounts {
   std::size_t holding = 0, failing = 0, without = 0;
 
@@ -72,7 +72,7 @@ struct Batch {
   CertificateCounts certificates;
 };
 
-/// The mesh files that were read, for each batch that is answered at once with others.
+/// Mesh files that were read, for each batch that is processed at the same time as others.
 class MeshPool {
  public:
   explicit MeshPool(std::filesystem::path folder) : folder_(std::move(folder)) {}
@@ -95,7 +95,7 @@ class MeshPool {
   std::vector<std::unique_ptr<MeshFiles>> free_;
 };
 
-/// False at the end. Of a line that is too long only the length is taken notice of.
+/// Returns false at the end. Marks a line that is too long and drops its rest.
 bool read_line(std::istream& in, Line& line) {
   using Traits = std::istream::traits_type;
   std::streambuf& buffer = *in.rdbuf();
@@ -145,7 +145,7 @@ void answer_line(const Line& line, const std::string& place, MeshFiles& meshes,
       query = parse_query(line.text, meshes, mistakes);
     if (query) result = answer(*query, options);
   } catch (const std::runtime_error& error) {
-    // One query that cannot be answered is no reason to leave the others.
+    // Continues with the other queries if one fails.
     query.reset();
     mistakes.add(std::string("cannot be answered: ") + error.what());
   }
@@ -216,7 +216,7 @@ ExitCode cast(const CastVerbOptions& options) {
     };
     while (batch->lines.size() < lines_a_batch && next()) {
       batch->lines.push_back(std::exchange(line, {}));
-      // Answers to a slow writer come line by line.
+      // Input that arrives slowly is processed line by line.
       if (in.rdbuf()->in_avail() == 0 && options.file == "-") break;
     }
     next_line += batch->lines.size();
@@ -264,7 +264,7 @@ void add_cast(Parser& parser, ExitCode& exit_code) {
       .one_of({"float", "double"})
       .show_default();
   add_solver_option(verb, options->solver);
-  verb.add_option("--subalgorithm", options->subalgorithm, "How distances' simplices are reduced")
+  verb.add_option("--subalgorithm", options->subalgorithm, "Distance subalgorithm of GJK")
       .one_of(subalgorithm_names())
       .show_default();
   add_tolerance(verb, options->tolerance);

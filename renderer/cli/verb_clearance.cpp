@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// minkray clearance: how near a robot comes to itself and to obstacles along a path, or is at one
-// pose, with proof.
+// minkray clearance: proven clearance of a robot from itself and obstacles, along a path or at one
+// pose.
 #include <iostream>
 #include <memory>
 #include <sstream>
@@ -37,7 +37,7 @@ struct ClearanceVerbOptions {
   ClearanceVerbOptions() { import.geometry = GeometryChoice::collision; }
 };
 
-/// The words a row of --steps and the answer have in common.
+/// Words shared by rows of --steps and the result.
 std::string status_of(const Closest& closest) {
   if (closest.lower > 0) return "clear";
   return closest.upper < 0 ? "collides" : "touches";
@@ -102,7 +102,7 @@ void clearance(ClearanceVerbOptions& options, ExitCode& exit_code) {
   throw_if_any(mistakes);
   options.files->read(model->files);
   pose_model(*model, options.import, mistakes);
-  // Without a path it stands still where the options pose it.
+  // Without a path, the robot rests in the pose of the options.
   const std::vector<JointRow> rows =
       options.import.joint_rows.empty()
           ? std::vector<JointRow>(1)
@@ -140,27 +140,25 @@ void add_clearance(Parser& parser, ExitCode& exit_code) {
   const auto options = std::make_shared<ClearanceVerbOptions>();
   options->files = &verb.files();
   verb.add_option("robot", options->robot, foreign_formats()).required().reads_file();
-  verb.add_option(
-          "--path", options->import.joint_rows,
-          "A CSV file: joints' names in its first line, values in the others, perhaps a "
-          "column \"time\"; from row to row each joint goes at a constant rate. By default the "
-          "robot stands still")
+  verb.add_option("--path", options->import.joint_rows,
+                  "Joint path, linear between rows: CSV of names, then values\n"
+                  "Optional column \"time\"; default: the robot does not move")
       .reads_file();
   verb.add_option("--obstacle", options->obstacles,
-                  "A scene or a robot's file that stands still; may be given again")
+                  "Obstacle at rest: a scene or robot file; repeatable")
       .one_value_each()
       .reads_file();
   options->allowed.add_options(verb);
   verb.add_flag("--only-obstacles", options->only_obstacles,
                 "Check obstacles only, not self-collision");
   verb.add_option("--tolerance", options->clearance.tolerance,
-                  "How near the bounds shall be to each other, relative to the clearance")
+                  "Relative gap between the bounds of the clearance")
       .between(1e-9, 1.0)
       .show_default();
   verb.add_option("--at-least", options->at_least,
                   "Exit with 1 unless the proven clearance is at least this")
       .takes("DISTANCE");
-  verb.add_option("--steps", options->steps, "A CSV file to write: the least of each step")
+  verb.add_option("--steps", options->steps, "Write the least clearance of each step (CSV)")
       .writes_file();
   verb.add_option("--sweep", options->sweep,
                   "A scene file to write (.json): bodies that hold all that the links pass over")

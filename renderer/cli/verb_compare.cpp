@@ -20,14 +20,13 @@ void add_compare(Parser& parser, ExitCode& exit_code) {
   add_scene_option(verb, image.scene);
   add_import_options(verb, image.import);
   verb.add_option("--rays", options->rays,
-                  "Rays an object; by default 100000, less in scenes of over 200 objects")
+                  "Rays per object; default: 100000, fewer above 200 objects")
       .between(1, 1 << 30);
   verb.add_option("--directions", options->directions,
-                  "Directions that the meshes begin with; by default 500, 100 in scenes of over "
-                  "500 objects")
+                  "Initial directions of meshes; default: 500, 100 above 500 objects")
       .between(20, 1 << 20);
   verb.add_option("-o,--output", image.outputs,
-                  "A picture of how far apart the meshes are, violations marked")
+                  "Picture of the distance between the meshes, violations marked")
       .one_value_each()
       .writes_file();
   verb.add_option("-r,--resolution", image.resolution, "Size in pixels, instead of the scene's")

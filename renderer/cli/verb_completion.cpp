@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// minkray completion: what shells source to complete minkray's verbs and options.
+// minkray completion: scripts for shells to complete minkray's commands and options.
 #include <iostream>
 #include <memory>
 
@@ -12,7 +12,7 @@ namespace minkray {
 void add_completion(Parser& parser, ExitCode&) {
   const Verb verb = parser.add_verb("completion");
   const auto shell = std::make_shared<std::string>();
-  verb.add_option("shell", *shell, "Which shell's").required().one_of({"bash", "zsh", "fish"});
+  verb.add_option("shell", *shell, "Shell").required().one_of({"bash", "zsh", "fish"});
   verb.on_call([shell, &parser] {
     const std::vector<VerbDescription> all = parser.verbs();
     std::cout << (*shell == "bash"  ? bash_completion(all)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// minkray distance: how far apart two shapes are, or how deep in each other, with its proof; and a
-// table of such pairs for a robot or a scene, alone or among others.
+// minkray distance: distance or depth of two shapes with its proof, or a table of such pairs for a
+// robot or a scene, alone or among others.
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -35,8 +35,8 @@ struct DistanceVerbOptions {
   CommandFiles* command_files = nullptr;
   std::vector<std::string> files;
   double tolerance = AnswerOptions{}.tolerance;
-  double at_most = no_limit;  ///< of two shapes
-  bool only_sign = false;     ///< of two shapes
+  double at_most = no_limit;  ///< for two shapes
+  bool only_sign = false;     ///< for two shapes
   double within = no_limit;
   bool json = false, only_obstacles = false;
   std::string output;
@@ -46,7 +46,7 @@ struct DistanceVerbOptions {
 
   DistanceVerbOptions() { import.geometry = GeometryChoice::collision; }
 
-  /// Whether an option is given that two shapes have no use of.
+  /// True if an option is given that does not apply to two shapes.
   bool is_of_table() const {
     return within != no_limit || only_obstacles || !output.empty() || allowed.any() ||
            is_of_robot();
@@ -60,7 +60,8 @@ struct DistanceVerbOptions {
 
 enum class DistanceFile : unsigned char { shape, scene, robot };
 
-/// A JSON file with neither a version nor objects is a shape, or is told as one.
+/// A JSON file with neither a version nor objects is read, and its mistakes are reported, as a
+/// shape.
 DistanceFile kind_of_file(const std::string& file) {
   if (is_foreign(file)) return DistanceFile::robot;
   if (content_of(file).kind == FileKind::other) return DistanceFile::scene;
@@ -93,7 +94,7 @@ PosedBodies body_of_shape(const std::string& file, CommandFiles& files) {
   return {{std::move(body)}, {Affine<double>()}, {}};
 }
 
-/// Keeps the model, too, of a robot's file.
+/// Stores the model, too, for a robot's file.
 PosedBodies bodies_in(const std::string& file, DistanceFile kind, const ImportOptions& import,
                       CommandFiles& files, std::optional<Model>& model) {
   if (kind == DistanceFile::shape) return body_of_shape(file, files);
@@ -125,7 +126,7 @@ DistanceTable distance_table(const DistanceVerbOptions& options,
   std::optional<Model> model, other_model;
   const PosedBodies first =
       bodies_in(options.files[0], kinds[0], options.import, *options.command_files, model);
-  // Joints are those of the first file.
+  // Only the first file uses the joint options.
   ImportOptions of_others = options.import;
   of_others.keyframe.clear();
   of_others.joints.clear();
@@ -198,7 +199,7 @@ std::string table_as_csv(const DistanceTable& table) {
   return text.str();
 }
 
-/// Columns as wide as what is in them.
+/// Aligns columns to their widest cell.
 std::string aligned(const std::vector<std::vector<std::string>>& rows) {
   std::vector<std::size_t> widths(rows[0].size());
   for (const auto& row : rows)
@@ -215,13 +216,13 @@ std::string aligned(const std::vector<std::vector<std::string>>& rows) {
 
 std::string shown_number(double number, const char* format) {
   char text[40];
-  // Less than nothing shows as nothing.
+  // Shows -0 as 0.
   std::snprintf(text, sizeof text, format, number == 0 ? 0.0 : number);
   return text;
 }
 
 std::string shown_point(const Vec3<double>& point) {
-  // What rounding has left of a zero shows as one.
+  // Shows rounding errors of zero as 0.
   const double least = 1e-12 * point.cwiseAbs().maxCoeff();
   std::string text;
   for (int axis = 0; axis < 3; ++axis)
@@ -284,14 +285,14 @@ void add_distance(Parser& parser, ExitCode&) {
   const auto options = std::make_shared<DistanceVerbOptions>();
   options->command_files = &verb.files();
   verb.add_option("files", options->files,
-                  "Two files with a shape each, as scenes have them; or a robot or scene, and any "
-                  "others: a table of its pairs with them. " +
+                  "Two files with one shape each; or a robot or scene, and other files to measure "
+                  "against. " +
                       scene_argument())
       .required()
       .reads_file();
   add_tolerance(verb, options->tolerance);
   verb.add_option("--within", options->within,
-                  "Leaves out pairs that are proven to be further apart (>= 0)");
+                  "Omit pairs that are proven to be further apart (>= 0)");
   verb.add_flag("--only-obstacles", options->only_obstacles,
                 "Check obstacles only, not self-collision");
   options->allowed.add_options(verb);
@@ -299,8 +300,8 @@ void add_distance(Parser& parser, ExitCode&) {
   verb.add_option("-o,--output", options->output, "A CSV file to write instead of the table")
       .writes_file();
   verb.add_option("--at-most", options->at_most,
-                  "Two shapes: beyond this distance a lower bound of it is enough");
-  verb.add_flag("--only-sign", options->only_sign, "Two shapes: whether they overlap is enough");
+                  "Two shapes: beyond this distance, return a lower bound only");
+  verb.add_flag("--only-sign", options->only_sign, "Two shapes: only decide if they overlap");
   add_import_options(verb, options->import, false);
   verb.add_option("-t,--threads", options->threads, "Threads; 0: one per core")
       .between(0, 1024)

@@ -58,12 +58,11 @@ void add_distance_2d(Parser& parser, ExitCode&) {
   const auto options = std::make_shared<Distance2DVerbOptions>();
   options->files = &verb.files();
   verb.add_option("file", options->file,
-                  "JSON: {\"a\": shape, \"b\": shape}; of shapes that are not flat, their shadows "
-                  "on z = 0")
+                  "JSON with shapes \"a\" and \"b\"; solids are projected to z = 0")
       .required()
       .reads_file();
   verb.add_option("-o,--output", options->out, "The SVG file").required().writes_file();
-  verb.add_option("--subalgorithm", options->subalgorithm, "How simplices are reduced")
+  verb.add_option("--subalgorithm", options->subalgorithm, "Distance subalgorithm of GJK")
       .one_of(subalgorithm_names())
       .show_default();
   verb.on_call([options] { distance_2d(*options); });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// minkray field: the distance from a scene's objects over a plane, as a picture.
+// minkray field: picture of the distance from a scene's objects over a plane.
 #include <iostream>
 #include <memory>
 
@@ -26,7 +26,7 @@ struct FieldVerbOptions {
   ImportOptions import;
   std::vector<std::string> outputs;
   PreviewArguments preview;
-  double extent = 0;  ///< 0: what shows everything
+  double extent = 0;  ///< 0: shows everything
   double tolerance = FieldOptions{}.tolerance;
   int threads = 0;
   bool quiet = false;
@@ -65,7 +65,8 @@ void field(FieldVerbOptions& options) {
   if (!options.through.empty()) middle = field_vector(options.through, "--through");
   double extent = options.extent;
   if (!(extent > 0)) {
-    // As wide as the ball around everything, and a quarter more, whatever the picture's format.
+    // A quarter more than the diameter of the ball around everything, whatever the picture's
+    // format.
     const double diameter = bounds.empty() ? 0 : 2 * bounds.half_extents().norm();
     const double wide = std::max(1.0, double(resolution.width) / resolution.height);
     extent = 1.25 * wide * (diameter > 0 ? diameter : 1);
@@ -111,14 +112,14 @@ void add_field(Parser& parser, ExitCode&) {
   verb.add_option("--through", options->through,
                   "The picture's middle; by default that of the scene")
       .takes("X,Y,Z");
-  verb.add_option("--normal", options->normal, "The plane is seen from there")
+  verb.add_option("--normal", options->normal, "Normal of the plane, towards the viewer")
       .takes("X,Y,Z")
       .show_default();
   verb.add_option("--extent", options->extent,
-                  "How wide the picture is, in the scene's unit; by default it shows everything")
+                  "Width of the picture in scene units; default: shows everything")
       .between(0.0, 1e300);
   verb.add_option("--probe", options->probe,
-                  "A file with a shape that is moved over the plane, instead of a point")
+                  "File of a shape to move over the plane, instead of a point")
       .reads_file();
   verb.add_option("-r,--resolution", options->resolution, "Size in pixels")
       .takes("WxH")

@@ -31,17 +31,14 @@ void add_generate(Parser& parser, ExitCode&) {
     docs += (docs.empty() ? "" : "; ") + std::string(kind.name) + ": " + std::string(kind.doc);
   }
   verb.add_option("kind", options->kind, docs).required().one_of(names);
-  verb.add_option("-n,--count", options->count, "How many shapes")
+  verb.add_option("-n,--count", options->count, "Number of shapes")
       .between(std::size_t{1}, most_instances)
       .show_default();
   verb.add_option("-o,--output", options->out,
-                  "The scene file (JSON); many poses go into a file beside it, with .f32 at the "
-                  "end of its name")
+                  "Scene file (JSON); many poses go to a .f32 file next to it")
       .required()
       .writes_file();
-  verb.add_option("--seed", options->seed, "Another seed is another scene; from 0 to 2^64 - 1")
-      .takes("N")
-      .show_default();
+  verb.add_option("--seed", options->seed, "Random seed (0 to 2^64 - 1)").takes("N").show_default();
   verb.on_call([options] {
     check_ending(options->out, ".json", "--output");
     generate_scene({options->kind, options->count, parse_seed(options->seed)}, options->out);

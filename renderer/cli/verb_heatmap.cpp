@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// minkray heatmap: a picture of what each pixel of a scene costs.
+// minkray heatmap: picture of each pixel's cost.
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -21,7 +21,7 @@ namespace {
 struct HeatmapVerbOptions {
   ImageArguments image;
   std::string channel = "iterations";
-  std::optional<std::string> side_by_side;  ///< solvers between commas; none: just image.solver
+  std::optional<std::string> side_by_side;  ///< comma-separated solvers; none: only image.solver
 };
 
 HeatChannel channel_of(const std::string& name) {
@@ -99,7 +99,7 @@ void add_heatmap(Parser& parser, ExitCode&) {
       .show_default();
   const Option solver = add_solver_option(verb, options->image.solver);
   verb.add_option("--side-by-side", options->side_by_side,
-                  "Solvers to show beside each other on one scale, such as paper,auto")
+                  "Solvers to show side by side on one scale, such as paper,auto")
       .takes("NAMES")
       .excludes(solver);
   verb.on_call([options] { with_threads(options->image.threads, [&] { run(*options); }); });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// minkray import: a robot's file as a scene file.
+// minkray import: converts a robot's file to a scene file.
 #include <iostream>
 #include <memory>
 
@@ -19,7 +19,7 @@ namespace {
 struct ImportVerbOptions {
   CommandFiles* files = nullptr;
   std::string file, output;
-  std::string resolution;  ///< empty: the options' own
+  std::string resolution;  ///< empty: the options' resolution
   ImportOptions import;
   bool quiet = false;
 };
@@ -51,7 +51,7 @@ void add_import(Parser& parser, ExitCode&) {
   verb.add_option("-r,--resolution", options->resolution,
                   "Size of the pictures that the scene's camera frames everything for (960x720)")
       .takes("WxH");
-  verb.add_flag("-q,--quiet", options->quiet, "Do not tell what was read and what passed over");
+  verb.add_flag("-q,--quiet", options->quiet, "No report");
   verb.on_call([options] { import(*options); });
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// minkray info: what is in a scene, and what scenes may hold.
+// minkray info: contents of a scene, and what scenes may contain.
 #include <iomanip>
 #include <iostream>
 #include <memory>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// minkray inspect: a page that shows the solver at work, pixel by pixel and step by step.
+// minkray inspect: page that shows the solver, pixel by pixel and step by step.
 #include <memory>
 
 #include "core/parallel/parallel.h"
@@ -34,21 +34,19 @@ void add_inspect(Parser& parser, ExitCode& exit_code) {
       .between(0, 1024)
       .show_default();
   add_solver_option(verb, image.solver);
-  verb.add_option("--beside", options->beside, "The solver that it is shown beside")
+  verb.add_option("--beside", options->beside, "Second solver, for comparison")
       .one_of(solver_names())
       .show_default();
   verb.add_option("--pairs", options->pairs, "Number of object pairs to show distances for")
       .between(std::size_t{0}, std::size_t{1000})
       .show_default();
-  verb.add_option(
-          "--megabytes", options->megabytes,
-          "What the page may take; the more, the more pixels can be replayed; by default 6, "
-          "and more in pictures larger than 640x360")
+  verb.add_option("--megabytes", options->megabytes,
+                  "Largest size of the page (MB); 0: 6, or more for large pictures")
       .between(0.0, 2000.0);
   verb.add_flag("--serve", options->serve,
-                "Serve the page at 127.0.0.1 instead, where any ray can be asked for, until Ctrl-C")
+                "Serve the page at 127.0.0.1, with queries of any ray, until Ctrl-C")
       .excludes(output);
-  verb.add_option("--port", options->port, "Where to serve it; 0 for any that is free")
+  verb.add_option("--port", options->port, "Port of --serve; 0: any free port")
       .between(0, 65535)
       .show_default();
   verb.add_flag("-q,--quiet", image.quiet, "No progress, no report");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// minkray league: solvers beside each other on the hard cases. What it does is a program of its
-// own, minkray-league (bench/league), for it needs the solvers.
+// minkray league: compares solvers on the hard cases. A separate program, minkray-league
+// (bench/league), does the work, since it needs the solvers.
 #include <memory>
 #include <string>
 #include <vector>
@@ -12,7 +12,7 @@
 namespace minkray {
 namespace {
 
-/// They are only described here: minkray-league reads the same words.
+/// Describes the options for help only; minkray-league reads the same words.
 struct LeagueWords {
   std::vector<std::string> cases, commands;
   std::string only, solvers, html, json;
@@ -26,23 +26,22 @@ struct LeagueWords {
 void add_league(Parser& parser, ExitCode&) {
   const Verb verb = parser.add_verb("league");
   const auto words = std::make_shared<LeagueWords>();
-  verb.add_option("--cases", words->cases, "Files of cases, in place of all of tests/cases")
+  verb.add_option("--cases", words->cases, "Files of cases (default: all of tests/cases)")
       .reads_file();
   verb.add_option("--only", words->only, "Only cases whose names contain this").takes("NAME");
   verb.add_option("--solvers", words->solvers,
-                  "Of the solvers that are there, those named, with commas between")
+                  "Solvers to run, comma-separated (default: all available)")
       .takes("NAMES");
   verb.add_flag("--npm", words->npm, "Also MuJoCo 3, Rapier and Jolt, in Node");
   verb.add_option("--exec", words->commands,
-                  "Also a solver of your own: a command that answers a query a line, as `minkray "
-                  "cast -` does")
+                  "Add a solver: a command that works like `minkray cast -`")
       .takes("COMMAND")
       .one_value_each();
   verb.add_option("--random", words->random,
-                  "Also so many random rays of each family at each of ten shapes")
+                  "Random rays per family and shape, in addition to the cases")
       .between(0, 100000)
       .show_default();
-  verb.add_option("--seed", words->seed, "Of the random rays").show_default();
+  verb.add_option("--seed", words->seed, "Random seed of --random").show_default();
   verb.add_option("--limit", words->limit, "Seconds for an answer")
       .between(0.01, 3600.0)
       .show_default();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// minkray man: the man page of a verb, or of all of them.
+// minkray man: man page of one command, or of all.
 #include <iostream>
 #include <memory>
 
@@ -27,7 +27,7 @@ std::string page_of(const std::vector<VerbDescription>& all, const std::string& 
 void add_man(Parser& parser, ExitCode&) {
   const Verb verb = parser.add_verb("man");
   const auto name = std::make_shared<std::string>();
-  verb.add_option("verb", *name, "Which verb's; by default the page of all verbs").takes("NAME");
+  verb.add_option("verb", *name, "Command (default: page of all commands)").takes("NAME");
   verb.on_call([name, &parser] { std::cout << page_of(parser.verbs(), *name); });
 }
 

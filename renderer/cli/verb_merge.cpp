@@ -51,14 +51,13 @@ void add_merge(Parser& parser, ExitCode&) {
       .reads_file();
   add_output_option(verb, options->outputs);
   verb.add_option("--exposure", options->exposure, "Stops brighter, for .png").show_default();
-  verb.add_option("--tonemap", options->tone_map, "How bright light is shown, for .png")
+  verb.add_option("--tonemap", options->tone_map, "Tone mapping of PNG output")
       .one_of(tone_map_names())
       .show_default();
   verb.add_flag("--allow-partial", options->allow_partial,
                 "Missing tiles are black, missing samples are ignored");
   verb.add_flag("--times", options->times,
-                "Print what each share took: its name, seconds of all processors together, bytes "
-                "of its file");
+                "Print each share's name, CPU time (s) and file size (bytes)");
   verb.on_call([options] { run(*options); });
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// minkray paper: reruns the claims of the papers and prints what they say beside what we find.
+// minkray paper: reproduces the claims of the papers and prints them next to our results.
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
@@ -27,7 +27,7 @@ void write_plot(const Plot& plot, const std::filesystem::path& folder) {
              std::span(reinterpret_cast<const unsigned char*>(svg.data()), svg.size()));
 }
 
-/// Words in lines of at most 96 letters, after a label.
+/// Prints text in lines of at most 96 characters, after a label.
 void print_row(const std::string& label, const std::string& text) {
   constexpr std::size_t width = 96, indent = 12;
   std::string line = "    " + label;

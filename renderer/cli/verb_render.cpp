@@ -20,8 +20,8 @@
 namespace minkray {
 namespace {
 
-/// Whether all outputs are files of this very share. Of shares many are rendered, over and over
-/// where machines fail.
+/// True if all outputs are files of this very share. Shares are numerous and rendered repeatedly on
+/// machines that fail.
 bool is_there(const RenderJob& job, const std::vector<std::string>& outputs) {
   return std::all_of(outputs.begin(), outputs.end(),
                      [&](const std::string& file) { return is_part_file_of(file, facts_of(job)); });
@@ -57,7 +57,7 @@ ExitCode run(RenderArguments& options) {
     render_frames(job, options, frames, statistics);
   } else if (options.resume && options.is_share() && is_there(job, options.image.outputs)) {
     if (!options.image.quiet)
-      std::cerr << printable(options.image.outputs.front()) << ": is there already\n";
+      std::cerr << printable(options.image.outputs.front()) << ": exists; not rendered again\n";
     return ExitCode::done;
   } else {
     render_picture(job, options, options.image.outputs, statistics);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// minkray scan: the rays of a sensor at a scene.
+// minkray scan: casts the rays of a sensor at a scene.
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -39,10 +39,10 @@ struct ScanVerbOptions {
   bool has_halfs = false, quiet = false;
 };
 
-/// Names of the values of EchoOrder, in their order.
+/// Names of the values of EchoOrder, in order.
 const std::vector<std::string> echo_orders = {"first", "strongest", "last"};
 
-/// A link of a robot, or an object.
+/// Returns the frame of a robot's link, or of an object.
 MovingFrame mount_of(Imported& imported, const std::string& name) {
   if (name.empty()) return {};
   if (imported.model)
@@ -102,14 +102,15 @@ void read_options(ScanVerbOptions& options) {
   }
 }
 
-/// A sensor that nobody placed may stand in a body, where it sees nothing else.
+/// Warns of rays that begin within a body: a sensor without a pose may be in one, where it sees
+/// nothing else.
 void warn_of_inside(const Scan& scan, int returns) {
   std::size_t rays = 0, inside = 0;
   for (std::size_t first = 0; first < scan.echoes.size(); first += std::size_t(returns), ++rays)
     inside += scan.echoes[first].status == 2;
   if (inside > 0)
     std::cerr << "warning: " << inside << " of " << rays
-              << " rays begin within a body, at t = 0 (--pose and --on say where the sensor is)\n";
+              << " rays start inside a body, at t = 0 (use --pose or --on to place the sensor)\n";
 }
 
 void run(ScanVerbOptions& options) {
@@ -222,12 +223,12 @@ void add_measurement_options(const Verb& verb, ScanVerbOptions& options) {
       .group(heading)
       .between(1, 64)
       .show_default();
-  verb.add_option("--echo", options.order, "Which echoes come first")
+  verb.add_option("--echo", options.order, "Order of echoes")
       .group(heading)
       .one_of(echo_orders)
       .show_default();
   verb.add_option("--divergence", options.scan.divergence,
-                  "Full angle of a beam, in radians; echoes are then of what its rays meet first")
+                  "Full beam angle (rad); echoes are then first hits of the beam's rays")
       .group(heading)
       .between(0.0, 1.0);
   verb.add_option("--beam-rays", options.scan.beam_rays, "Rays per beam")
@@ -235,7 +236,7 @@ void add_measurement_options(const Verb& verb, ScanVerbOptions& options) {
       .between(1, 4096)
       .show_default();
   verb.add_option("--resolution", options.scan.resolution,
-                  "Parts of a beam nearer to each other than this are one echo")
+                  "Least distance between echoes of a beam (scene units)")
       .group(heading)
       .between(0.0, 1e9)
       .show_default();
@@ -254,8 +255,7 @@ void add_scan(Parser& parser, ExitCode&) {
   std::string endings;
   for (const ScanFormat& format : scan_formats())
     endings += (endings.empty() ? "" : ", ") + std::string(format.ending);
-  verb.add_option("-o,--output", options->outputs,
-                  "Where to write (" + endings + "); may be given again")
+  verb.add_option("-o,--output", options->outputs, "Where to write (" + endings + "); repeatable")
       .required()
       .one_value_each()
       .writes_file();

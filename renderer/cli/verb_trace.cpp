@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// minkray trace: every iteration of the cast for one pixel's ray.
+// minkray trace: prints every iteration of the cast for one pixel's ray.
 #include <iostream>
 #include <limits>
 #include <memory>
@@ -35,11 +35,11 @@ struct TraceVerbOptions {
   bool json = false;
 };
 
-/// Each takes some hundred bytes, and is cast at alone.
+/// Limit of objects: each takes some hundred bytes and is cast at separately.
 constexpr std::size_t most_traced = 1000000;
 
-/// The object to show: the one that is asked for, else the first that the ray meets, else the one
-/// whose miss took most iterations. No object: the scene has none.
+/// Chooses the object to show: the named one, otherwise the first that the ray meets, otherwise the
+/// one whose miss took most iterations. Without objects in the scene there is none.
 template <class T>
 std::size_t choose(const std::vector<PreparedShape<T>>& shapes, const Scene& scene,
                    const std::vector<std::size_t>& objects, const Ray<T>& ray,
@@ -87,7 +87,7 @@ void trace(const TraceVerbOptions& options) {
   CastOptions<T> cast;
   cast.solver = solver_named(options.solver);
   std::vector<PreparedShape<T>> shapes;
-  std::vector<std::size_t> objects;  // which each of them is
+  std::vector<std::size_t> objects;  // number of each shape's object
   const std::size_t count = instance_count(scene);
   if (count > most_traced)
     throw BadInput(options.scene + ": has " + std::to_string(count) + " objects, trace takes " +
@@ -95,7 +95,7 @@ void trace(const TraceVerbOptions& options) {
   shapes.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     const Object object = instance_object(scene, i);
-    if (!object.has_shape()) continue;  // met in closed form: there are no iterations to show
+    if (!object.has_shape()) continue;  // has a closed form, and no iterations to show
     objects.push_back(i);
     shapes.emplace_back(convert<T>(object.shape), object.pose.template cast<T>());
   }
@@ -126,9 +126,8 @@ void trace(const TraceVerbOptions& options) {
     return;
   }
   if (!found && options.object.empty())
-    std::cout
-        << "the ray meets no shape with steps (planes and meshes have none); this is the one whose "
-           "miss took most iterations:\n";
+    std::cout << "the ray hits no shape with iterations (planes and meshes have none); showing the "
+                 "miss with most iterations:\n";
   std::cout << "object \"" << instance_object(scene, objects[chosen]).name
             << "\": " << name_of(result.result.status);
   if (found) std::cout << ", t = " << number_json(t).dump();
@@ -149,7 +148,7 @@ void add_trace(Parser& parser, ExitCode&) {
       .required()
       .values(2, ',');
   verb.add_option("-r,--resolution", options->resolution,
-                  "Size of the picture that the pixel is one of, instead of the scene's")
+                  "Size of the picture in pixels (default: the scene's)")
       .takes("WxH");
   verb.add_option("--object", options->object, "The object's name; by default the one that is hit")
       .takes("NAME");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// minkray verify: whether a planner's motion is free of collisions, proven between its rows too.
+// minkray verify: proves that a planner's motion is free of collisions, also between its rows.
 #include <algorithm>
 #include <chrono>
 #include <exception>
@@ -40,7 +40,7 @@ struct VerifyOptions {
   int samples = 8, threads = 0;
 };
 
-/// A collision weighs more than a doubt.
+/// Collisions take precedence over undecided motions.
 ExitCode worse(ExitCode a, MotionStatus status) {
   if (a == ExitCode::comparison_failed || status == MotionStatus::collides)
     return ExitCode::comparison_failed;
@@ -62,13 +62,13 @@ void check_outputs(const VerifyOptions& options) {
     check_writable(file);
   }
   if (options.serve == !options.plans.empty())
-    throw WrongUsage("--trajectory: must be given, or --serve, and not both");
+    throw WrongUsage("verify: either --trajectory or --serve is required (not both)");
   if (!options.outputs.empty() && options.plans.size() != 1)
     throw WrongUsage("-o: must have one --trajectory (got " + std::to_string(options.plans.size()) +
                      ")");
 }
 
-/// A plan that was judged.
+/// A plan with its verdict.
 struct Judged {
   std::string name;
   Plan plan;
@@ -119,19 +119,20 @@ void write_outputs(const VerifyOptions& options, const Judged& judged, const Ver
   }
 }
 
-/// A plan on its way from where it is read to where its verdict is printed.
+/// A plan in the pipeline, from its input to its printed verdict.
 struct Passing {
   std::string name, text;
   std::optional<Judged> judged;
   std::exception_ptr error;
 };
 
-/// Plans that are judged at once; verdicts come in the order of the plans.
+/// Number of plans judged at once; verdicts are in the order of the plans.
 std::size_t plans_at_once() {
   return static_cast<std::size_t>(std::max(thread_count(), 1));
 }
 
-/// One plan per line in, one verdict per line out; the verdict on a wrong plan is its error.
+/// Reads one plan per line and prints one verdict per line; the verdict on an invalid plan is its
+/// error.
 void serve(const VerifyOptions& options, const VerifyCell& cell) {
   std::size_t number = 0;
   const auto read = [&]() -> std::shared_ptr<Passing> {
@@ -145,7 +146,7 @@ void serve(const VerifyOptions& options, const VerifyCell& cell) {
   };
   const auto work = [&](Passing& passing) {
     try {
-      // A line is a plan itself, or the name of a file in quotes.
+      // A line is a plan itself, or the quoted name of a file.
       const std::string& line = passing.text;
       Plan plan = line.front() == '"' ? load_plan(Json::parse(line).text(), cell)
                                       : parse_plan(line, passing.name, cell);
@@ -170,7 +171,7 @@ void serve(const VerifyOptions& options, const VerifyCell& cell) {
   });
 }
 
-/// Notes on files come by the hundred, most of one kind.
+/// Shortens the notes on files, which may be hundreds, most of one kind.
 void tell_notes(const std::vector<std::string>& notes, bool all) {
   constexpr std::size_t most = 3;
   for (std::size_t i = 0; i < notes.size() && (all || i < most); ++i)

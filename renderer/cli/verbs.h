@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The subcommands of the command line, each in its own verb_*.cpp. The list of all of them is here
-// and nowhere else, with the program that has each: a picture is made by a program that has nothing
-// else to compile (docs/decisions/build.md). The others lie beside it and are run by it.
+// Subcommands of the command line, each in its own verb_*.cpp. This is the only list of them, with
+// the program of each. The program for pictures contains nothing else, to compile fast
+// (docs/decisions/build.md), and runs the others, which are in the same folder.
 #pragma once
 
 #include <span>
@@ -20,14 +20,14 @@ struct VerbRow {
   std::string_view examples[2];
 };
 
-/// They stand in the order in which --help shows them.
+/// Rows in the order of --help.
 inline constexpr VerbRow verbs[] = {
     {"render",
      "Make a picture of a scene",
      "minkray",
      {"minkray render showcase", "minkray render robot.urdf -o robot.png -r 1280x720 -s 64"}},
     {"merge",
-     "Make a picture of the part files by render --tile and --sample-share",
+     "Merge part files of render --tile or --sample-share",
      "minkray",
      {"minkray merge part1.exr part2.exr -o picture.png",
       "minkray merge parts/*.exr -o picture.exr --allow-partial"}},
@@ -88,12 +88,12 @@ inline constexpr VerbRow verbs[] = {
      {"minkray distance-2d shapes.json -o steps.svg",
       "minkray distance-2d shapes.json -o steps.svg --subalgorithm projection"}},
     {"generate",
-     "Make a scene of many shapes, the same for the same seed",
+     "Generate a scene of many shapes from a seed",
      "minkray-tools",
      {"minkray generate spheres -n 1000 -o spheres.json",
       "minkray generate spheres -n 100000 --seed 7 -o many.json"}},
     {"import",
-     "Make a scene file of a robot's MJCF, URDF, SDF or glTF",
+     "Convert MJCF, URDF, SDF or glTF to a scene file",
      "minkray",
      {"minkray import robot.urdf -o robot.json",
       "minkray import model.xml --keyframe home -o model.json"}},
@@ -102,7 +102,7 @@ inline constexpr VerbRow verbs[] = {
      "minkray",
      {"minkray info robot.urdf", "minkray info --shapes"}},
     {"league",
-     "Ask solvers the hard cases and say who is right",
+     "Compare solvers on the hard cases",
      "minkray-tools",
      {"minkray league", "minkray league --only cylinder -o report.html"}},
     {"completion",
@@ -115,8 +115,8 @@ inline constexpr VerbRow verbs[] = {
      {"minkray man render", "minkray man"}},
 };
 
-/// Adds a subcommand to the parser. When the user calls it, it runs within Parser::parse, writes
-/// results to stdout and all else to stderr, and may set the exit code (done by default) or throw
+/// Adds a subcommand to the parser, which calls it within Parser::parse. The command writes results
+/// to stdout and all else to stderr. The command may set the exit code (done by default) or throw
 /// one of renderer/errors.h.
 using AddVerb = void (*)(Parser& parser, ExitCode& exit_code);
 
@@ -125,8 +125,8 @@ struct VerbHere {
   AddVerb add;
 };
 
-/// The verbs that this program has itself. It is defined once for `minkray`
-/// (verbs_of_pictures.cpp), and once for the programs that know all verbs (verbs_of_tools.cpp).
+/// Commands of this program itself. Defined once for `minkray` (verbs_of_pictures.cpp), and once
+/// for the programs with all commands (verbs_of_tools.cpp).
 std::span<const VerbHere> verbs_here();
 
 void add_cast(Parser& parser, ExitCode& exit_code);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The verbs that the program `minkray` has itself.
+// Commands of the program `minkray` itself.
 #include "renderer/cli/verbs.h"
 
 namespace minkray {

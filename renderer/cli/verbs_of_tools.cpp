@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// All verbs: what completions and man pages are made of.
+// All commands: the source of completions and man pages.
 #include "renderer/cli/verbs.h"
 
 namespace minkray {

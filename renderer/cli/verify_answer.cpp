@@ -10,7 +10,7 @@
 namespace minkray {
 namespace {
 
-/// Text names so many stretches; JSON has all.
+/// Limit of stretches in text; JSON has all.
 constexpr std::size_t most_shown = 10;
 
 std::string number_text(double number, const char* format) {
@@ -19,7 +19,7 @@ std::string number_text(double number, const char* format) {
   return text;
 }
 
-/// Lengths are metres.
+/// Lengths are in metres.
 std::string length_text(double length) {
   const double size = std::abs(length);
   if (size >= 1) return number_text(length, "%.3g m");
@@ -31,7 +31,7 @@ class Words {
  public:
   Words(const Plan& plan, const Workcell& cell) : plan_(plan), cell_(cell) {}
 
-  /// Without times a row is a second.
+  /// Without times, rows are one second apart.
   std::string time(double time) const {
     return plan_.trajectory.has_times ? number_text(time, "%.4g s")
                                       : "row " + number_text(time + 1, "%.5g");
@@ -87,7 +87,7 @@ std::string verdict_text(const std::string& name, const MotionVerdict& verdict, 
   }
   text += "\n";
   std::size_t shown = 0;
-  // Stretches that collide are named first.
+  // Lists stretches that collide first.
   for (const bool collides : {true, false})
     for (const Stretch& stretch : verdict.stretches)
       if (stretch.collides == collides && shown++ < most_shown)

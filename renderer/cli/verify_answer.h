@@ -10,11 +10,11 @@
 namespace minkray {
 
 /// "plan.yaml: free: every pair stays at least 12.4 mm apart (...)", and a line for each stretch in
-/// which a pair collides, or may.
+/// which a pair collides, or may collide.
 std::string verdict_text(const std::string& name, const MotionVerdict& verdict, const Plan& plan,
                          const Workcell& cell);
 
-/// The least clearance of each step.
+/// Least clearance of each step.
 std::string steps_table(const MotionVerdict& verdict, const Plan& plan, const Workcell& cell);
 
 Json verdict_json(const std::string& name, const MotionVerdict& verdict, const Plan& plan,

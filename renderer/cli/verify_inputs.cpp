@@ -12,7 +12,7 @@
 namespace minkray {
 namespace {
 
-/// True of JSON with a scene's keys, which may have comments that no planner's file has.
+/// True for JSON with a scene's keys; it may have comments, unlike planners' files.
 bool is_own_scene(const std::string& file) {
   Mistakes unread(file);
   const auto text = read_text_file(file, unread);
@@ -21,12 +21,12 @@ bool is_own_scene(const std::string& file) {
          (json->contains("objects") || json->contains("include"));
 }
 
-/// A file that holds a planning scene, or a request that does; nothing if it is another scene.
+/// Returns a file that contains a planning scene, or a request with one; nothing for other scenes.
 std::optional<Document> planning_document(const std::string& file, Mistakes& mistakes) {
   if (is_foreign(file) || is_own_scene(file)) return std::nullopt;
   std::optional<Document> document = read_document(file, mistakes);
   if (document && member_of(document->json, "objects") && !member_of(document->json, "world"))
-    return std::nullopt;  // a scene of ours, as YAML
+    return std::nullopt;  // a scene of our own format, as YAML
   return document;
 }
 
@@ -63,7 +63,7 @@ std::vector<std::string> columns_of(const VerifyInputs& inputs, const RobotMeani
                  ")");
 }
 
-/// Links of the SRDF that the robot does not have are noted: no pair of theirs is looked at.
+/// Notes links of the SRDF that the robot does not have: their pairs have no effect.
 AllowedPairs allowed_pairs(const AllowedLinks& links, const Model& model,
                            std::vector<std::string>& notes, Mistakes& mistakes) {
   AllowedLinks others = links;
@@ -82,7 +82,7 @@ AllowedPairs allowed_pairs(const AllowedLinks& links, const Model& model,
   return allowed;
 }
 
-/// Obstacles from robots' files and worlds are what collides, as it is for the robot itself.
+/// Obstacles from files of robots and worlds use collision shapes, as the robot itself does.
 ImportOptions options_of_obstacles(const ImportOptions& of_robot, const std::string& file) {
   ImportOptions options;
   if (!is_foreign(file)) return options;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The files of `minkray verify`: a robot, what its SRDF says, scenes and plans.
+// Input files of `minkray verify`: a robot, its SRDF, scenes and plans.
 #pragma once
 
 #include <filesystem>
@@ -28,16 +28,16 @@ struct VerifyInputs {
   VerifyInputs() { import.geometry = GeometryChoice::collision; }
 };
 
-/// A robot among what is around it, loaded once for any number of plans.
+/// A robot and its obstacles, loaded once for any number of plans.
 struct VerifyCell {
   Workcell cell;
-  JointValues state;                         ///< of joints that plans do not name
+  JointValues state;                         ///< values of joints that plans do not name
   std::vector<std::string> columns;          ///< joints of .npy files
-  std::vector<std::filesystem::path> files;  ///< that were read
-  std::vector<std::string> notes;            ///< that the user should know
+  std::vector<std::filesystem::path> files;  ///< all files that were read
+  std::vector<std::string> notes;            ///< for the user
 };
 
-/// Throws BadInput with all mistakes. Adds what is read to `files`.
+/// Throws BadInput with all mistakes. Adds the files that it reads to `files`.
 VerifyCell load_cell(const VerifyInputs& inputs, CommandFiles& files);
 
 struct Plan {

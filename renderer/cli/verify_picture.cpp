@@ -18,7 +18,7 @@ constexpr Resolution picture_size = {960, 720};
 using Rgba = std::array<double, 4>;
 constexpr Rgba first_colour = {0.95, 0.45, 0.05, 1}, second_colour = {0.1, 0.4, 0.95, 1};
 
-/// The workcell's model with joints where the path has them at that time, the two bodies in colour.
+/// The workcell's model with the path's joint values at that time, and the two bodies in colour.
 Scene scene_at(const Workcell& cell, const JointPath& path, const WorstMoment& worst) {
   Model model = cell.model;
   const Model posed = path.posed_at(worst.time);
@@ -49,7 +49,7 @@ Scene scene_at(const Workcell& cell, const JointPath& path, const WorstMoment& w
   return scene;
 }
 
-/// Turns the camera round the point until the fewest things hide it, and comes nearer.
+/// Moves the camera closer, and around the point to the view in which least is in front of it.
 void look_at(Scene& scene, const World& world, const Vec3<double>& point) {
   CameraDescription& camera = scene.camera;
   const Vec3<double> from = camera.position - camera.look_at;
@@ -65,8 +65,8 @@ void look_at(Scene& scene, const World& world, const Vec3<double>& point) {
       const Vec3<double> position = point + distance * out;
       QueryCounts counts;
       const WorldHit hit = world.closest_hit(Ray<double>{position, -distance * out, 1}, counts);
-      // The ray ends within or between the pair, so that it meets little else if nothing hides
-      // them.
+      // Ends the ray within or between the pair, so that it meets little else if nothing hides the
+      // pair.
       const double seen = hit.found() ? hit.cast.t() : 1;
       if (!(seen > best + 0.02)) continue;
       best = seen;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The worst moment of a motion as a picture: the robot among what is around it, the nearest pair or
-// the one that collides in colour, seen from where nothing hides it.
+// Picture of a motion's worst moment: the robot among its obstacles, with the nearest or colliding
+// pair in colour, from a viewpoint where nothing hides it.
 #pragma once
 
 #include <string>
@@ -11,16 +11,16 @@
 
 namespace minkray {
 
-/// When and where to look: the deepest collision, else the least clearance.
+/// Time and place to show: the deepest collision, otherwise the least clearance.
 struct WorstMoment {
   std::size_t pair = 0;
   double time = 0;
-  Vec3<double> point = Vec3<double>::Zero();  ///< between the two
-  bool exists = false;                        ///< false: there are no pairs
+  Vec3<double> point = Vec3<double>::Zero();  ///< point between the two bodies
+  bool exists = false;                        ///< false if there are no pairs
 };
 WorstMoment worst_moment(const MotionVerdict& verdict);
 
-/// Linear, with the verdict's first line written on it.
+/// Linear picture with the verdict's first line written on it.
 Image worst_picture(const MotionVerdict& verdict, const Plan& plan, const Workcell& cell,
                     const std::string& title, int samples);
 

@@ -10,7 +10,7 @@
 namespace minkray {
 namespace {
 
-/// A word that other programs have, and what to write instead.
+/// A word of other programs, and its equivalent here.
 struct Meaning {
   std::string_view typed, name, rest = "";
 };
@@ -65,7 +65,7 @@ constexpr Meaning options_elsewhere[] = {{"--samples", "--spp", " N"},
                                          {"--sensor", "--pattern"},
                                          {"--obstacles", "--obstacle", " FILE"}};
 
-/// Options that no command has: the scene says it.
+/// Options that no command has, since the scene contains them.
 constexpr Meaning of_the_scene[] = {
     {"--camera", "\"camera\": {\"position\": [x, y, z], \"look_at\": [x, y, z]}"},
     {"--position", "\"camera\": {\"position\": [x, y, z], \"look_at\": [x, y, z]}"},
@@ -88,7 +88,7 @@ constexpr Meaning values_elsewhere[] = {
     {"gjk", "paper"},         {"fast", "speed"},       {"single", "float"},
     {"float32", "float"},     {"float64", "double"}};
 
-/// What to write for a word of other programs, if it is among the names.
+/// Returns the equivalent of another program's word, if it is among the names.
 std::optional<std::string> elsewhere(std::span<const Meaning> meanings, std::string_view typed,
                                      const std::vector<std::string>& names) {
   for (const Meaning& one : meanings)
@@ -102,7 +102,7 @@ std::string meant(std::span<const Meaning> meanings, std::string_view typed,
   std::optional<std::string> word = elsewhere(meanings, typed, names);
   if (!word) word = closest_word(typed, names);
   if (!word) {
-    // A word of another program may be mistyped as well.
+    // Words of other programs may be mistyped, too.
     std::vector<std::string> others;
     for (const Meaning& one : meanings) others.emplace_back(one.typed);
     if (const auto closest = closest_word(typed, others))

@@ -41,10 +41,9 @@ inline constexpr std::array data_channels = {
                            "longitude and latitude around the object's origin, as parts of a turn "
                            "and of half a turn: the mapping radial; or 0"},
     DataChannelDescription{"motion", "XY",
-                           "how far the point goes in the picture while the shutter is open, in "
-                           "pixels; or 0"},
+                           "motion of the point while the shutter is open, in pixels; or 0"},
     DataChannelDescription{"direct", "RGB",
-                           "of the picture's light, what was scattered at most once",
+                           "direct part of the picture's light (scattered at most once)",
                            DataChannelDescription::By::samples},
     DataChannelDescription{"indirect", "RGB", "the rest of the picture's light",
                            DataChannelDescription::By::samples},

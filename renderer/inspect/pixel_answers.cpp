@@ -35,7 +35,7 @@ std::uint8_t number_of(Status status) {
   return static_cast<std::uint8_t>(at - heat_statuses.begin());
 }
 
-/// What another solver takes for the cast that is shown.
+/// Work of another solver for the cast that is shown.
 ShownWork work_of(const Scene& scene, const SceneCasts& casts, const ShownCast& shown,
                   const Ray<double>& ray) {
   const std::size_t instance = std::size_t{shown.object} - 1;

@@ -39,7 +39,7 @@ class ObjectReader {
   Mistakes& mistakes() const { return mistakes_; }
 
  private:
-  /// A suggestion of the key that stands for an unknown one.
+  /// Suggests the known key that was likely meant by an unknown one.
   std::string key_meant(std::string_view written) const;
 
   const Json& json_;

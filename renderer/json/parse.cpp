@@ -126,7 +126,7 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
     level.key = key;
     level.has_key = true;
     level.is_duplicate = !level.keys.insert(key).second;
-    if (level.is_duplicate) mistakes_.add(path(), "key given twice");
+    if (level.is_duplicate) mistakes_.add(path(), "duplicate key");
     return true;
   }
 

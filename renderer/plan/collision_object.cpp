@@ -14,7 +14,7 @@
 namespace minkray {
 namespace {
 
-/// shape_msgs/SolidPrimitive: numbers, and their meaning.
+/// shape_msgs/SolidPrimitive: its numbers and what they mean.
 struct Primitive {
   std::string_view name;
   int number;
@@ -87,7 +87,7 @@ void CollisionObjects::add_primitives(const Json& json, const JsonPath& path,
 void CollisionObjects::add_mesh(const Json& mesh, const JsonPath& path, const Affine<double>& pose,
                                 PlannedObject& object) {
   MeshLibrary::Answer answer;
-  if (const Json* resource = member_of(mesh, "resource")) {  // of Robowflex
+  if (const Json* resource = member_of(mesh, "resource")) {  // key of Robowflex
     Vec3<double> scale = Vec3<double>::Ones();
     if (const Json* size = member_of(mesh, "dimensions"))
       scale = read_message_vector(*size, path / "dimensions", mistakes_);
@@ -148,7 +148,7 @@ void CollisionObjects::add_planes(const Json& json, const JsonPath& path, Planne
       mistakes_.add(at, "must have a normal: not 0, 0, 0");
       continue;
     }
-    // The side that the normal points away from is filled: below z = 0 of the geom.
+    // The side opposite to the normal is solid: below z = 0 of the geom.
     ModelGeom geom;
     geom.kind = "plane";
     geom.pose = pose_of(json, "plane_poses", i, path) *

@@ -13,17 +13,17 @@ namespace minkray {
 
 class CollisionObjects {
  public:
-  /// Meshes that are named as files are looked for beside `file`.
+  /// Mesh files are searched for next to `file`.
   CollisionObjects(const std::string& file, const ImportOptions& options, Mistakes& mistakes);
 
-  /// Adds the object, or does what its `operation` says with the one of that name.
+  /// Adds the object, or applies its `operation` to the object of that name.
   void add(const Json& json, const JsonPath& path, std::vector<PlannedObject>& objects);
 
-  /// Adds a robot state's `attached_collision_objects`.
+  /// Adds the `attached_collision_objects` of a robot state.
   void add_attached(const Json& state, const JsonPath& path, std::vector<PlannedObject>& objects);
 
  private:
-  /// The poses of a list of shapes; one that is missing is where the object is.
+  /// Poses of a list of shapes; a missing one defaults to the object's origin.
   Affine<double> pose_of(const Json& json, std::string_view key, std::size_t index,
                          const JsonPath& path);
   void add_primitives(const Json& json, const JsonPath& path, PlannedObject& object);

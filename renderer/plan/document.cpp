@@ -11,11 +11,11 @@
 namespace minkray {
 namespace {
 
-/// Aliases can make thousands of millions of values of a few lines; without them each value takes
-/// a byte at least. So many more are allowed.
+/// Limit of extra values by aliases. Without aliases each value takes at least one byte; with them,
+/// a few lines can make billions of values.
 constexpr std::size_t most_values_of_aliases = 100'000;
 
-/// Plain scalars as YAML 1.2's core schema has them; numbers that are not finite stay text.
+/// Reads plain scalars by YAML 1.2's core schema; numbers that are not finite stay text.
 Json scalar(const YAML::Node& node) {
   const std::string& text = node.Scalar();
   // Quoted text has the tag "!".
@@ -97,7 +97,7 @@ class YamlReader {
   bool is_full_ = false;
 };
 
-/// The document of a text that is not empty; null if there is not exactly one.
+/// Returns the document of a text that is not empty; null if there is not exactly one.
 YAML::Node only_document(const std::string& text, Mistakes& mistakes) {
   YAML::Node only;
   std::size_t count = 0;
@@ -125,7 +125,7 @@ std::optional<Document> yaml_document(const std::string& text, const std::string
   return document;
 }
 
-/// JSON is YAML, but for its escapes.
+/// Parses JSON as YAML, which agrees but for escapes, to find the lines.
 std::unordered_map<std::string, std::size_t> lines_of(const Document& document) {
   if (!document.lines.empty() || document.text.find('\n') == std::string::npos)
     return document.lines;
@@ -154,7 +154,8 @@ std::optional<Document> parse_document(const std::string& text, const std::strin
   if (is_json)
     if (std::optional<Json> json = parse_json(text, of_json); json && of_json.none())
       return Document{file, std::move(*json), text};
-  // Lists and objects of YAML may begin so, too; else the mistakes are those of the JSON.
+  // YAML may begin with lists and objects in brackets, too; if it is not valid either, the mistakes
+  // are those of the JSON.
   Mistakes of_yaml(file);
   std::optional<Document> document = yaml_document(text, file, of_yaml);
   if (!document) {
@@ -176,9 +177,9 @@ void with_lines(const Document& document, Mistakes& mistakes,
   read(found);
   if (found.none()) return;
   const std::unordered_map<std::string, std::size_t> lines = lines_of(document);
-  // A message on one line, as JSON is sent through a pipe.
+  // Messages on one line, such as JSON sent through a pipe, need no line numbers.
   const bool has_lines = document.text.empty() || document.text.find('\n') != std::string::npos;
-  // Each message is ": PATH: TEXT", or ": TEXT" of the document as a whole.
+  // Each message is ": PATH: TEXT", or ": TEXT" for the document as a whole.
   for (const std::string& message : found.messages()) {
     const std::string rest = message.substr(2);
     std::size_t line = 0;

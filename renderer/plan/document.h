@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A message of ROS as a file: YAML or JSON, read as one JSON value that knows its lines. Only
+// A ROS message as a file: YAML or JSON, read as one JSON value that stores its lines. Only
 // document.cpp includes yaml-cpp.
 #pragma once
 
@@ -17,18 +17,20 @@ namespace minkray {
 struct Document {
   std::string file;
   Json json;
-  std::string text = {};  ///< of JSON, whose lines are found when one of them is named
-  /// The line of each value by its JSON pointer.
+  std::string text = {};  ///< source of JSON, whose lines are searched for only if one of them is
+                          ///< needed
+  /// Line of each value, by its JSON pointer.
   std::unordered_map<std::string, std::size_t> lines = {};
 };
 
-/// Reads YAML, or JSON, which is known by its first character. Of several documents in a file
-/// (`---`) all but one must be empty. Returns nothing, and adds mistakes, if the text is not valid.
+/// Reads YAML or JSON, which the first character identifies. If a file has several documents
+/// (`---`), all but one must be empty. Returns nothing, and adds mistakes, if the text is not
+/// valid.
 std::optional<Document> read_document(const std::filesystem::path& file, Mistakes& mistakes);
 std::optional<Document> parse_document(const std::string& text, const std::string& file,
                                        Mistakes& mistakes);
 
-/// Calls `read` with mistakes of the document, and adds each of them with its line.
+/// Calls `read`, which adds mistakes of the document, and adds each of them with its line.
 void with_lines(const Document& document, Mistakes& mistakes,
                 const std::function<void(Mistakes&)>& read);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tables of joints' values, and the path of a robot that a trajectory says.
+// Tables of joint values, and the path of a robot along a trajectory.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -56,8 +56,7 @@ Trajectory read_npy_rows(const std::string& file, const Model& model,
   return trajectory;
 }
 
-/// By how many whole turns a continuous joint's rows are moved so that no step is longer than half
-/// a turn.
+/// Moves rows of continuous joints by whole turns so that no step is longer than half a turn.
 void go_shorter_way(Trajectory& trajectory, const Model& model) {
   constexpr double whole = 2 * std::numbers::pi;
   for (const ModelLink& link : model.links)
@@ -82,11 +81,11 @@ void go_shorter_way(Trajectory& trajectory, const Model& model) {
         trajectory.notes.push_back("the joint \"" + printable(joint.name, 60) +
                                    "\" turns by more " + "than half a turn in " +
                                    std::to_string(steps) + (steps == 1 ? " step" : " steps") +
-                                   "; it is continuous, and is taken to go the shorter way round");
+                                   "; using the shorter way (continuous joint)");
     }
 }
 
-/// Values in the order of a path's joints, those that mimic others as they follow.
+/// Values in the order of a path's joints. Joints that mimic others get their derived values.
 std::vector<std::vector<double>> in_order(const Model& model, const JointValues& values) {
   std::map<std::string_view, const std::vector<double>*> by_name;
   for (const auto& [name, numbers] : values) by_name.emplace(name, &numbers);
@@ -149,7 +148,7 @@ JointPath path_of(Trajectory& trajectory, Model& model, const JointValues& state
     for (const auto& [name, numbers] : *values)
       if (ModelJoint* joint = find_joint(model, name))
         if (numbers.size() == width_of(joint->kind)) joint->value = numbers;
-  // Where rows name a joint later than the first row, it stands at rest before.
+  // Joints that only later rows name are at rest before those rows.
   for (ModelLink& link : model.links)
     for (ModelJoint& joint : link.joints)
       if (joint.value.empty() && joint.kind != JointKind::fixed)

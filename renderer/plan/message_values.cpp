@@ -11,7 +11,7 @@ namespace {
 
 const Json nothing = Json::array();
 
-/// Numbers under those keys, or as many in a list.
+/// Reads numbers under those keys, or as many in a list.
 template <std::size_t N>
 std::array<double, N> read_keys(const Json& json, const std::array<std::string_view, N>& keys,
                                 std::array<double, N> values, const JsonPath& path,
@@ -53,7 +53,7 @@ std::string text_of(const Json& json, std::string_view key, const JsonPath& path
                     Mistakes& mistakes) {
   const Json* value = member_of(json, key);
   if (!value) return "";
-  // A name that is a number has no quotes in YAML.
+  // YAML needs no quotes around a name that is a number.
   if (value->is_number()) return value->dump();
   return read_string(*value, path / key, mistakes).value_or("");
 }

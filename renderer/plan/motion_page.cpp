@@ -13,10 +13,10 @@
 namespace minkray {
 namespace {
 
-/// Moments that the page knows; in between it goes straight on.
+/// Limit of moments in the page, which interpolates linearly between them.
 constexpr std::size_t most_moments = 400;
 
-/// Coordinates are written to a tenth of a millimetre.
+/// Rounds coordinates to a tenth of a millimetre.
 double rounded(double length) {
   return std::round(1e4 * length) / 1e4;
 }
@@ -27,7 +27,7 @@ Json mesh_of(const Shape<double>& shape, const Affine<double>& pose) {
     SandwichOptions options;
     options.directions = 200;
     const Sandwich sandwich = sandwich_of(shape, options);
-    // Shapes without a surface are shown by the box around them.
+    // Represents shapes without a surface by their bounding box.
     const Mesh& mesh = sandwich.rank() >= 2 ? sandwich.inner : sandwich.outer;
     for (const Vec3<double>& vertex : mesh.vertices) {
       const Vec3<double> at = pose(sandwich.frame.from_frame(vertex));
@@ -36,12 +36,12 @@ Json mesh_of(const Shape<double>& shape, const Affine<double>& pose) {
     for (const auto& corners : mesh.triangles)
       for (const std::uint32_t corner : corners) triangles.push_back(corner);
   } catch (const std::runtime_error&) {
-    // The motion is shown without it.
+    // Leaves the shape out of the page.
   }
   return {{"v", std::move(vertices)}, {"t", std::move(triangles)}};
 }
 
-/// A large square for a half-space.
+/// A large square that represents a half-space.
 Json square_of(const Affine<double>& pose) {
   constexpr double half = 3;
   Json vertices = Json::array();
@@ -52,7 +52,7 @@ Json square_of(const Affine<double>& pose) {
   return {{"v", std::move(vertices)}, {"t", Json::array({0, 1, 2, 0, 2, 3})}};
 }
 
-/// In the order of the workcell's bodies.
+/// Bodies in the order of the workcell.
 Json bodies_json(const Workcell& cell) {
   Json bodies = Json::array();
   const std::vector<bool> chosen = chosen_geoms(cell.model, cell.geometry);
@@ -76,7 +76,7 @@ Json bodies_json(const Workcell& cell) {
   return bodies;
 }
 
-/// All rows if they are few, and as many moments in each step as there is room for.
+/// All rows if they are few; between them as many moments per step as the limit allows.
 std::vector<double> moments_of(const JointPath& path, double worst) {
   const std::size_t steps = path.times.size() - 1;
   const std::size_t parts = steps == 0 ? 1 : std::clamp<std::size_t>(most_moments / steps, 1, 60);
@@ -116,7 +116,7 @@ std::string motion_page(const Workcell& cell, const JointPath& path, const Json&
                        {"text", text},
                        {"worst", worst}};
   std::string data = motion.dump();
-  // Text must not end the script it stands in.
+  // Text must not end the enclosing script.
   for (std::size_t at = 0; (at = data.find('<', at)) != std::string::npos;)
     data.replace(at, 1, "\\u003c");
   std::string html = motion_page_html();

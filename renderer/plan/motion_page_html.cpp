@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The page of a motion: its HTML, style and script, which draws triangles back to front.
+// HTML, style and script of a motion's page. The script draws triangles back to front.
 #include "renderer/plan/motion_page.h"
 
 namespace minkray {
@@ -128,7 +128,7 @@ function draw() {
       return [dot(r, right), dot(r, up), dot(r, out)];
     });
     const name = motion.names[index];
-    // What is around the robot must not hide it.
+    // Obstacles are transparent so that they do not hide the robot.
     const alpha = body.link < 0 && name !== pair[0] && name !== pair[1] ? 0.4 : 1;
     const colour = name === pair[0] ? [235, 120, 20] : name === pair[1] ? [40, 105, 225]
       : body.link < 0 ? [165, 160, 140] : [150, 160, 170];

@@ -67,7 +67,7 @@ CollisionMatrix read_matrix(const Json& json, const JsonPath& path, Mistakes& mi
   return matrix;
 }
 
-/// A MultiDOFJointState adds its transforms.
+/// Adds the transforms of a MultiDOFJointState.
 void add_multi_dof(const Json& json, const JsonPath& path, const Model& model, JointValues& values,
                    Mistakes& mistakes) {
   std::vector<std::string> names;
@@ -81,7 +81,7 @@ void add_multi_dof(const Json& json, const JsonPath& path, const Model& model, J
   for (std::size_t i = 0; i < std::min(transforms.size(), names.size()); ++i) {
     const JsonPath at = path / "transforms" / i;
     const ModelJoint* joint = joint_of(model, names[i]);
-    // A virtual joint that is fixed, or that no SRDF names, places the robot where it is.
+    // Virtual joints that are fixed, or that no SRDF names, leave the robot where it is.
     if (joint && (joint->kind == JointKind::free || joint->kind == JointKind::planar)) {
       values.emplace_back(names[i], values_of_transform(transforms[i], at, joint->kind, mistakes));
       continue;
@@ -100,7 +100,7 @@ bool CollisionMatrix::allows(const std::string& a, const std::string& b) const {
   if (const auto entry = entries.find(std::minmax(a, b)); entry != entries.end())
     return entry->second;
   const auto of_a = defaults.find(a), of_b = defaults.find(b);
-  // As in MoveIt: where both have a default, both must allow it.
+  // If both have a default, both must allow the collision, as in MoveIt.
   if (of_a != defaults.end() && of_b != defaults.end()) return of_a->second && of_b->second;
   if (of_a != defaults.end()) return of_a->second;
   return of_b != defaults.end() && of_b->second;

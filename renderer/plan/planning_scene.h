@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// moveit_msgs/PlanningScene from YAML or JSON: obstacles, objects that a robot carries, which pairs
-// may collide, where the robot stands. Requests and other messages may hold a scene.
+// moveit_msgs/PlanningScene from YAML or JSON: obstacles, objects that a robot carries, pairs that
+// may collide, and the robot's state. Requests and other messages may contain a scene.
 #pragma once
 
 #include <map>
@@ -15,8 +15,8 @@
 
 namespace minkray {
 
-/// moveit_msgs/AllowedCollisionMatrix. A matrix that is not empty takes the place of the SRDF's
-/// pairs, as in MoveIt.
+/// moveit_msgs/AllowedCollisionMatrix. A matrix that is not empty replaces the SRDF's pairs, as in
+/// MoveIt.
 struct CollisionMatrix {
   std::set<std::string> names;
   std::map<std::pair<std::string, std::string>, bool> entries;  ///< the lesser name first
@@ -30,36 +30,36 @@ struct PlannedObject {
   std::string id;
   std::vector<ModelGeom> geoms;  ///< in the frame that the header names
   std::string frame;             ///< a link, the world or a fixed frame
-  std::string carrier = {};      ///< the link that carries it; empty: none does
+  std::string carrier = {};      ///< the link that carries it; empty: none
   std::set<std::string> touch_links = {};
 };
 
-/// Values of joints by name, a floating or planar one's as its numbers.
+/// Values of joints by name; a floating or planar joint has several numbers.
 using JointValues = std::vector<std::pair<std::string, std::vector<double>>>;
 
 struct PlanningScene {
   std::vector<PlannedObject> objects, attached;
   CollisionMatrix matrix;
   JointValues state;
-  std::map<std::string, double> padding;               ///< of links
+  std::map<std::string, double> padding;               ///< by link
   std::map<std::string, Affine<double>> fixed_frames;  ///< in the planning frame
-  std::vector<std::string> notes;                      ///< that the user should know
+  std::vector<std::string> notes;                      ///< for the user
 };
 
-/// The scene that a message is or holds (in `scene`, `planning_scene`); null if there is none.
+/// The scene that a message is or contains (in `scene` or `planning_scene`); null if there is none.
 const Json* scene_in(const Json& message, JsonPath& path);
 
-/// `model` tells joints' kinds. Meshes that are named as files are looked for beside the document.
+/// Uses `model` for the kinds of joints. Mesh files are searched for next to the document.
 PlanningScene read_planning_scene(const Document& document, const Json& json, const JsonPath& path,
                                   const Model& model, const ImportOptions& options,
                                   Mistakes& mistakes);
 
-/// moveit_msgs/RobotState: joint_state and multi_dof_joint_state. Joints that the robot does not
-/// have are passed over, and noted.
+/// Reads a moveit_msgs/RobotState: joint_state and multi_dof_joint_state. Joints that the robot
+/// does not have are ignored and noted.
 JointValues read_robot_state(const Json& json, const JsonPath& path, const Model& model,
                              std::vector<std::string>& notes, Mistakes& mistakes);
 
-/// A transform as numbers of a floating or planar joint.
+/// Converts a transform to the numbers of a floating or planar joint.
 std::vector<double> values_of_transform(const Json& json, const JsonPath& path, JointKind kind,
                                         Mistakes& mistakes);
 

@@ -24,7 +24,7 @@ class MeaningReader {
     for (const auto& [name, element] : elements_) {
       std::set<std::string> joints, open;
       collect(name, *element, joints, open);
-      // As links follow each other, which is how MoveIt counts a group's joints.
+      // Orders a group's joints as links follow each other, which is MoveIt's order.
       for (const std::string& joint : moving_joints(model_))
         if (joints.contains(joint)) meaning_.groups[name].push_back(joint);
     }
@@ -34,10 +34,11 @@ class MeaningReader {
   }
 
  private:
-  /// Files are shared by variants of a robot: MoveIt passes over what this one does not have.
+  /// Notes an unknown name. Variants of a robot share files, so MoveIt ignores names that this one
+  /// does not have.
   void note(const XmlElement& element, const std::string& what) {
     meaning_.notes.push_back("line " + std::to_string(element.line) + ": " + name_of(element) +
-                             ": " + what + "; it is passed over");
+                             ": " + what + "; ignored");
   }
 
   int link(const XmlElement& element, std::string_view key) {

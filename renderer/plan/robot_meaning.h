@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What an SRDF (http://wiki.ros.org/srdf) says besides the pairs that may touch: groups of joints,
-// their named states, and virtual joints, which place a robot in the world. For the pairs see
-// renderer/clearance/allowed_pairs.h.
+// Contents of an SRDF (http://wiki.ros.org/srdf) other than the pairs that may touch: groups of
+// joints, their named states, and virtual joints, which place a robot in the world. For the pairs
+// see renderer/clearance/allowed_pairs.h.
 #pragma once
 
 #include <map>
@@ -15,25 +15,26 @@ namespace minkray {
 
 struct GroupState {
   std::string group, name;
-  std::vector<std::pair<std::string, std::vector<double>>> values;  ///< of joints
+  std::vector<std::pair<std::string, std::vector<double>>> values;  ///< values of each joint
 };
 
 struct RobotMeaning {
-  std::map<std::string, std::vector<std::string>> groups;  ///< joints that move, as links follow
+  std::map<std::string, std::vector<std::string>> groups;  ///< joints that move, in the order of
+                                                           ///< links
   std::vector<GroupState> states;
-  std::vector<std::string> notes;  ///< what names joints or links that the robot does not have
+  std::vector<std::string> notes;  ///< names of joints or links that the robot does not have
 };
 
-/// Reads groups and states. A virtual joint that floats or slides in a plane becomes a joint of its
-/// link, which must be a root. Adds mistakes of the file.
+/// Reads groups and states. A floating or planar virtual joint becomes a joint of its link, which
+/// must be a root. Adds the file's mistakes.
 RobotMeaning read_robot_meaning(const std::string& file, Model& model, Mistakes& mistakes);
 
-/// The state of that name; "GROUP/NAME" where several groups have one. Adds a mistake if there is
-/// none.
+/// Returns the state of that name, or "GROUP/NAME" if several groups have one. Adds a mistake if
+/// there is none.
 const GroupState* find_state(const RobotMeaning& meaning, const std::string& name,
                              Mistakes& mistakes);
 
-/// All joints that move and mimic no other one, in the model's order.
+/// Names of all joints that move and do not mimic another one, in the model's order.
 std::vector<std::string> moving_joints(const Model& model);
 
 }  // namespace minkray

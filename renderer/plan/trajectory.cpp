@@ -13,7 +13,7 @@
 namespace minkray {
 namespace {
 
-/// Files with more have one mistake many times.
+/// Limit of mistakes: files with more repeat the same one.
 constexpr std::size_t most_mistakes = 20;
 
 class TrajectoryReader {
@@ -36,10 +36,10 @@ class TrajectoryReader {
   }
 
  private:
-  /// Looks into messages that hold a trajectory.
+  /// Searches messages that contain a trajectory.
   void find(const Json& message, const JsonPath& path) {
     if (is_found_ || !mistakes_.none()) return;
-    if (message.is_array()) {  // DisplayTrajectory has a list; one robot moves along all of them
+    if (message.is_array()) {  // DisplayTrajectory has a list, which one robot follows in order
       for (std::size_t i = 0; i < message.size(); ++i) {
         is_found_ = false;
         find(message[i], path / i);
@@ -95,7 +95,7 @@ class TrajectoryReader {
     return joints;
   }
 
-  /// One number for each joint; none if the list is empty or missing.
+  /// Reads one number per joint; none if the list is empty or missing.
   JointValues numbers_of(const Json& point, std::string_view key, const JsonPath& path,
                          const std::vector<const ModelJoint*>& joints) {
     JointValues values;
@@ -139,7 +139,7 @@ class TrajectoryReader {
     }
   }
 
-  /// Trajectories of a list follow each other, each from its own time 0.
+  /// Trajectories of a list are joined, each from its own time 0.
   void add_row(JointRow row) {
     if (is_new_part_ && !trajectory_.rows.empty()) before_ = trajectory_.rows.back().time;
     is_new_part_ = false;
@@ -189,7 +189,7 @@ class TrajectoryReader {
     }
   }
 
-  /// From the start straight to the first goal.
+  /// Goes from the start straight to the first goal.
   void add_request(const Json& goals, const JsonPath& path) {
     if (!goals.is_array() || goals.empty()) return mistakes_.add(path, "must be a list of goals");
     const JsonPath at = path / std::size_t{0} / "joint_constraints";
@@ -224,7 +224,7 @@ class TrajectoryReader {
     const bool any_time =
         std::ranges::any_of(rows, [](const JointRow& row) { return row.time != 0; });
     if (!any_time || !trajectory_.has_times) {
-      // A path without times has no use for rates, either.
+      // A path without times does not use rates.
       trajectory_.has_times = rows.size() == 1;
       for (std::size_t i = 0; i < rows.size(); ++i) rows[i].time = static_cast<double>(i);
       trajectory_.rates.clear();

@@ -18,7 +18,7 @@ int link_of(const Model& model, const std::string& name) {
   return -1;
 }
 
-/// Where a frame is in the world; nothing if there is none of that name.
+/// Pose of a frame in the world; nothing if no frame has that name.
 std::optional<Affine<double>> frame_of(const std::string& name, const PlanningScene& scene,
                                        const Model& model,
                                        const std::vector<Affine<double>>& links) {
@@ -30,13 +30,13 @@ std::optional<Affine<double>> frame_of(const std::string& name, const PlanningSc
   return std::nullopt;
 }
 
-/// Names of an object's shapes.
+/// Names an object's shapes.
 void name_geoms(const std::string& id, std::vector<ModelGeom>& geoms) {
   for (std::size_t i = 0; i < geoms.size(); ++i)
     geoms[i].name = geoms.size() == 1 ? id : id + "/" + std::to_string(i + 1);
 }
 
-/// Turns a half-space whose free side does not have the point.
+/// Flips a half-space if the point is not on its free side.
 void face(ModelGeom& plane, const Vec3<double>& point) {
   const Vec3<double> normal = plane.pose.linear.col(2);
   constexpr double on_it = 1e-9;  // metres
@@ -65,7 +65,7 @@ class PairRules {
     const std::string &of_a = cell_.owners[i], &of_b = cell_.owners[k];
     const auto carried_a = carried_.find(of_a), carried_b = carried_.find(of_b);
     const bool is_carried = carried_a != carried_.end() || carried_b != carried_.end();
-    // What a link carries is no part of it: it may hit the links next to it.
+    // A carried object is not part of the link that carries it: it may hit that link's neighbours.
     if (is_carried ? a.group == b.group || (a.is_still && b.is_still) : !are_looked_at(a, b))
       return false;
     const auto touches = [](const auto& carried, const auto& end, const std::string& other) {
@@ -77,7 +77,7 @@ class PairRules {
     return !are_links || !allowed_.allows(of_a, of_b);
   }
 
-  /// As in MoveIt, padding keeps links from obstacles and not from each other.
+  /// Padding applies between links and obstacles, not between links, as in MoveIt.
   double margin(std::size_t i, std::size_t k) const {
     if (places_[i].group >= 0 && places_[k].group >= 0) return 0;
     return padding_of(places_[i].group >= 0 ? i : k);
@@ -151,7 +151,7 @@ void add_to_model(const PlanningScene& scene, Model& model, Mistakes& mistakes) 
     for (ModelGeom& geom : geoms) {
       if (!geom.shape && !geom.mesh)
         mistakes.add("attached object \"" + printable(object.id, 60) + "\": must have no planes");
-      // The link carries it from where it is in the scene's state.
+      // The link carries it from its place in the scene's state.
       if (object.frame != object.carrier)
         geom.pose = links[static_cast<std::size_t>(parent)].inverse() * *frame * geom.pose;
       geom.link = static_cast<int>(model.links.size());
@@ -169,7 +169,7 @@ Workcell workcell_of(Model model, std::vector<Scene> scenes, const PlanningScene
   for (const ClearanceBody& body : cell.bodies)
     cell.owners.push_back(body.link_index >= 0 ? body.link
                                                : body.name.substr(0, body.name.find('/')));
-  if (planning)  // names of objects may have slashes themselves
+  if (planning)  // the owner's name: names of objects may contain slashes
     for (std::size_t i = 0; i < cell.bodies.size(); ++i) {
       if (cell.bodies[i].link_index >= 0) continue;
       for (const PlannedObject& object : planning->objects)

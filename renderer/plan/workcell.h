@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A robot, what it carries and what is around it, ready for the referee: bodies with their owners'
-// names, and the pairs that must not collide.
+// A robot, the objects that it carries and its obstacles, prepared for the referee: bodies with the
+// names of their owners, and the pairs that must not collide.
 #pragma once
 
 #include <map>
@@ -17,29 +17,30 @@ namespace minkray {
 
 struct WorkcellOptions {
   GeometryChoice geometry = GeometryChoice::collision;
-  /// By how much all links are grown, for obstacles alone, as MoveIt does.
+  /// Growth of all links, only for distances to obstacles, as in MoveIt.
   double padding = 0;
-  std::map<std::string, double> inflate = {};  ///< the same for single links, instead of `padding`
+  std::map<std::string, double> inflate = {};  ///< growth of single links, instead of `padding`
   bool only_obstacles = false;
 };
 
 struct Workcell {
-  /// What is carried are links of it, obstacles of planning scenes shapes of no link.
+  /// Carried objects are links of the model; obstacles of planning scenes are shapes without a
+  /// link.
   Model model;
   std::vector<Scene> scenes;  ///< obstacles of other files
   std::vector<ClearanceBody> bodies;
-  std::vector<std::string> owners;  ///< of each body: a link or an object
+  std::vector<std::string> owners;  ///< owner of each body: a link or an object
   std::vector<RefereePair> pairs;
-  GeometryChoice geometry = GeometryChoice::collision;  ///< which of the model's shapes are bodies
+  GeometryChoice geometry = GeometryChoice::collision;  ///< selects the model's shapes that become
+                                                        ///< bodies
 };
 
-/// Adds the objects of a planning scene to the model of a robot that stands where the scene says.
-/// Planes are turned so that the robot's root is on their free side. Frames and links that are not
-/// there are mistakes.
+/// Adds the objects of a planning scene to the model of a robot in the scene's state. Flips planes
+/// whose free side does not contain the robot's root. Unknown frames and links are mistakes.
 void add_to_model(const PlanningScene& scene, Model& model, Mistakes& mistakes);
 
-/// `planning` may be null. A matrix in it takes the place of `allowed`. Throws BadInput if there
-/// are too many pairs.
+/// `planning` may be null. Its matrix replaces `allowed`. Throws BadInput if there are too many
+/// pairs.
 Workcell workcell_of(Model model, std::vector<Scene> scenes, const PlanningScene* planning,
                      const AllowedPairs& allowed, const WorkcellOptions& options);
 

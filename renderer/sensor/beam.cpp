@@ -11,13 +11,14 @@
 namespace minkray {
 namespace {
 
-/// The echo of hits that belong together.
+/// Joins the hits of one echo.
 Met joined(std::span<const Met> hits) {
   Met echo = *std::ranges::max_element(hits, {}, &Met::intensity);
   double intensity = 0, weights = 0, t = 0, distance = 0;
   for (const Met& hit : hits) intensity += hit.intensity;
   for (const Met& hit : hits) {
-    const double weight = intensity > 0 ? hit.intensity : 1;  // of black things each counts
+    const double weight = intensity > 0 ? hit.intensity : 1;  // if all hits are black, they count
+                                                              // equally
     weights += weight;
     t += weight * hit.t;
     distance += weight * hit.distance;

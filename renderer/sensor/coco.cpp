@@ -9,7 +9,7 @@
 namespace minkray {
 namespace {
 
-/// The pixels of an object: pixels are added column by column, from the top.
+/// Pixels of an object, added column by column from the top.
 class PixelMask {
  public:
   void add(int x, int y, std::uint64_t number) {
@@ -46,7 +46,8 @@ class PixelMask {
   }
 
  private:
-  std::vector<std::uint64_t> runs_;  ///< outside and inside in turn, from outside
+  std::vector<std::uint64_t> runs_;  ///< run lengths, alternately outside and inside, beginning
+                                     ///< outside
   std::uint64_t next_ = 0, area_ = 0;
   int left_ = 0, right_ = 0, top_ = 0, bottom_ = 0;
 };

@@ -12,9 +12,10 @@ namespace {
 constexpr std::uint16_t header_bytes = 375, point_bytes = 30;
 constexpr std::size_t most_returns = 15;
 
-/// How coordinates of one axis become whole numbers.
+/// Quantisation of the coordinates of one axis.
 struct LasAxis {
-  double scale = 1, offset = 0, least = 0, most = 0;  ///< the ends as they are read again
+  double scale = 1, offset = 0, least = 0, most = 0;  ///< least and most: ends as readers decode
+                                                      ///< them
 
   std::int32_t number(double x) const {
     return static_cast<std::int32_t>(std::llround((x - offset) / scale));
@@ -22,7 +23,7 @@ struct LasAxis {
   double read_again(double x) const { return number(x) * scale + offset; }
 };
 
-/// True of what has a place in a file of points; noise may take it beyond all numbers.
+/// True if an echo has a place in a file of points; noise may make it infinite.
 bool is_point(const Echo& echo) {
   return echo.object >= 0 && echo.point.allFinite();
 }
@@ -38,7 +39,7 @@ LasAxis las_axis(const Scan& scan, int axis) {
   if (!(least <= most)) return made;
   made.offset = std::round((least + most) / 2);
   const double reach = std::max(most - made.offset, made.offset - least);
-  constexpr double most_number = 2147483000;  // some are left for rounding
+  constexpr double most_number = 2147483000;  // leaves some numbers for rounding
   made.scale = std::pow(10.0, std::max(-9.0, std::ceil(std::log10(reach / most_number))));
   made.least = made.read_again(least);
   made.most = made.read_again(most);
@@ -57,7 +58,7 @@ void put_header(FileBytes& bytes, const std::array<LasAxis, 3>& axes,
   put(bytes, std::uint8_t{4});
   put_text(bytes, "SIMULATION", 32);
   put_text(bytes, "minkray", 32);
-  put(bytes, std::uint32_t{0});  // day and year: the same scan has the same bytes
+  put(bytes, std::uint32_t{0});  // day and year are 0, so that the same scan has the same bytes
   put(bytes, header_bytes);
   put(bytes, std::uint32_t{header_bytes});
   put(bytes, std::uint32_t{0});

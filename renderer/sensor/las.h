@@ -7,10 +7,10 @@
 
 namespace minkray {
 
-/// The points met, in point format 6: coordinates in steps of a power of ten, the least that 32
-/// bits hold; intensity 65535 x intensity x distance^2 (reflectance times cosine); return numbers
-/// up to 15; user data the channel, point source the object's number + 1 (0 if either is too
-/// large); GPS time in seconds.
+/// Writes the hit points in point format 6: coordinates in steps of a power of ten, the smallest
+/// that fits 32 bits; intensity 65535 x intensity x distance^2 (reflectance times cosine); return
+/// numbers up to 15; user data the channel, point source the object's number + 1 (0 if either is
+/// too large); GPS time in seconds.
 std::vector<unsigned char> las_of(const ScanOutput& output);
 
 }  // namespace minkray

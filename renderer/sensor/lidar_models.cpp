@@ -23,8 +23,8 @@ constexpr LidarChannel vlp_32c[] = {
     {-4.667, -1.4}, {-5.333, -4.2}, {-6.148, 1.4}, {-7.254, -1.4}, {-8.843, 1.4},  {-11.31, -1.4},
     {-15.639, 1.4}, {-25, -1.4}};
 
-/// The calibration of one HDL-64E: ros-drivers/velodyne 64e_utexas.yaml, to 0.01 degrees. Each
-/// sensor has its own.
+/// Calibration of one HDL-64E: ros-drivers/velodyne 64e_utexas.yaml, to 0.01 degrees. Each sensor
+/// has a calibration of its own.
 constexpr LidarChannel hdl_64e[] = {
     {2.02, 2},     {1.68, 0.6},    {1.34, -2},     {1, -3.5},      {0.66, 6},       {0.32, 4},
     {-0.02, 1.7},  {-0.36, -0.25}, {-0.7, -2.7},   {-1.04, -4.5},  {-1.38, 6.25},   {-1.72, 4.9},
@@ -38,8 +38,8 @@ constexpr LidarChannel hdl_64e[] = {
     {-20.18, 10},  {-20.69, 7},    {-21.2, 3.5},   {-21.71, -0.5}, {-22.23, -3.5},  {-22.74, -7},
     {-23.25, 9.5}, {-23.76, 6},    {-24.28, 2},    {-24.71, -1}};
 
-/// The calibration of one OS1-64 (OS-1-64-U02): ouster-sdk os1_64.json. Ouster counts azimuths
-/// clockwise. Each sensor has its own.
+/// Calibration of one OS1-64 (OS-1-64-U02): ouster-sdk os1_64.json. Ouster counts azimuths
+/// clockwise. Each sensor has a calibration of its own.
 constexpr LidarChannel os1_64[] = {
     {21.02, -1.43}, {20.39, 4.2},    {19.76, -1.45},  {19.15, 4.2},    {18.5, -1.42},
     {17.86, 4.21},  {17.21, -1.42},  {16.58, 4.21},   {15.91, -1.42},  {15.27, 4.21},
@@ -55,13 +55,13 @@ constexpr LidarChannel os1_64[] = {
     {-16.41, 4.24}, {-17.06, -1.39}, {-17.69, 4.24},  {-18.32, -1.39}, {-18.95, 4.23},
     {-19.57, -1.4}, {-20.19, 4.22},  {-20.8, -1.4},   {-21.41, 4.22}};
 
-/// Steps of a turn at 10 turns per second, as the data sheets have them.
+/// Steps per turn at 10 turns per second, from the data sheets.
 constexpr LidarModel models[] = {
     {"VLP-16", vlp_16, 1800}, {"VLP-32C", vlp_32c, 1800}, {"HDL-64E", hdl_64e, 2083},
     {"OS1-64", os1_64, 1024}, {"Mid-360", {}, 20000},
 };
 
-/// The letters and digits of a name, small.
+/// Letters and digits of a name, in lower case.
 std::string plain_name(std::string_view name) {
   std::string letters;
   for (const char c : name)

@@ -7,19 +7,20 @@
 
 namespace minkray {
 
-/// Degrees: up from the horizon, and left of where the sensor points.
+/// Angles in degrees: up from the horizon, and left of the sensor's forward direction.
 struct LidarChannel {
   double elevation, azimuth;
 };
 
 struct LidarModel {
   std::string_view name;
-  std::span<const LidarChannel> channels;  ///< from the top; empty: it does not spin (Mid-360)
-  int steps;                               ///< of a turn; rays of a frame if it does not spin
+  std::span<const LidarChannel> channels;  ///< from the top; empty: the lidar does not spin
+                                           ///< (Mid-360)
+  int steps;                               ///< per turn; rays per frame if the lidar does not spin
 };
 std::span<const LidarModel> lidar_models();
 
-/// The model of that name, whatever its case and hyphens; null if there is none.
+/// Returns the model of that name, ignoring case and hyphens; null if there is none.
 const LidarModel* lidar_model(std::string_view name);
 
 }  // namespace minkray

@@ -24,7 +24,7 @@ enum class McapRecord : std::uint8_t {
 
 constexpr std::string_view mcap_magic("\x89MCAP0\r\n", 8);
 
-/// The fields of PointCloud2 and of what it is made of.
+/// Definitions of PointCloud2 and of its parts.
 constexpr std::string_view point_cloud_schema =
     "std_msgs/Header header\nuint32 height\nuint32 width\nsensor_msgs/PointField[] fields\n"
     "bool is_bigendian\nuint32 point_step\nuint32 row_step\nuint8[] data\nbool is_dense\n"
@@ -48,7 +48,8 @@ void put_record(FileBytes& bytes, McapRecord kind, const FileBytes& content) {
   bytes.insert(bytes.end(), content.begin(), content.end());
 }
 
-/// A message in CDR: numbers are aligned to their size, counted from behind the first four bytes.
+/// Writes a message in CDR: numbers are aligned to their size, counted from after the first four
+/// bytes.
 class CdrWriter {
  public:
   CdrWriter() { put_text(bytes_, std::string_view("\0\1\0\0", 4)); }

@@ -6,12 +6,12 @@
 
 namespace minkray {
 
-/// A message's bytes are counted in 32 bits: no more echoes fit.
+/// Limit of echoes: a message's bytes are counted in 32 bits.
 inline constexpr std::size_t most_mcap_points = 0xffffffffu / 28;
 
-/// One message on the topic /points at the sweep's start: the points met in the frame "map", with
-/// x, y, z, intensity, ring (the channel), time (seconds from the start) and object. The file has
-/// an index.
+/// Writes one message on the topic /points at the sweep's start: the hit points in the frame "map",
+/// with x, y, z, intensity, ring (the channel), time (seconds from the start) and object. The file
+/// has an index.
 std::vector<unsigned char> mcap_of(const ScanOutput& output);
 
 }  // namespace minkray

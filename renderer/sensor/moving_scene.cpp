@@ -11,12 +11,12 @@
 namespace minkray {
 namespace {
 
-/// Boxes grow by this share of their size and their distance from the origin, and of the way that
-/// is swept: some hundred roundings of double are less, and a float holds no smaller share.
+/// Relative margin of boxes: of their size, their distance from the origin, and the swept way.
+/// Covers some hundred roundings of double; floats cannot represent a smaller share.
 constexpr double box_slack = 1e-7;
 
-/// How far a body may go from `begin` to `end`, whose points are up to `reach` from what the keys
-/// move: positions go along lines, and turns by an angle move a point by no more than the arc.
+/// Upper bound of a body's motion from `begin` to `end`, for points up to `reach` from the point
+/// that the keys move: positions move on lines, and a turn moves a point by at most the arc.
 double longest_way(const Motion& motion, double begin, double end, double reach) {
   double way = 0;
   const auto add = [&](const PoseKey& a, const PoseKey& b, double fraction) {
@@ -36,7 +36,7 @@ double longest_way(const Motion& motion, double begin, double end, double reach)
   return way;
 }
 
-/// A box of all places that the body takes meanwhile.
+/// Box that contains the body during the whole interval.
 Bounds<float> swept_box(const ShapeDefinition<double>& shape, const Motion& motion, double begin,
                         double end) {
   Bounds<double> box = shape.bounds_of(motion.pose_at(begin));
@@ -51,7 +51,7 @@ Bounds<float> swept_box(const ShapeDefinition<double>& shape, const Motion& moti
   return rounded_outwards(box);
 }
 
-/// A mesh that moves.
+/// A mesh that moves, at its pose at `time`.
 PosedMesh posed_at(const Object& body, double time) {
   return {0, body.mesh, body.motion->pose_at(time)};
 }
@@ -77,7 +77,7 @@ MovingScene::MovingScene(const Scene& scene) : scene_(scene) {
     add_object(instances, object);
   }
   add_particles(instances, scene);
-  // Particles are numbered behind all objects.
+  // Particles are numbered after all objects.
   if (has_movers)
     for (std::size_t i = object_of_still_.size(); i < instances.size(); ++i)
       object_of_still_.push_back(static_cast<std::uint32_t>(i + movers_.size()));
@@ -120,7 +120,8 @@ PreparedShape<double> SceneWhile::mover_at(std::size_t mover, double time) {
   return {definition, placed.placement};
 }
 
-/// Tells what comes before the closest hit so far, if any: as a world does.
+/// Updates the closest hit so far, if any, with nearer hits of moving bodies, in the same way as a
+/// world.
 void SceneWhile::meet_movers(const WorldRay& ray, double time, WorldHit& closest,
                              QueryCounts& counts) {
   const auto meet = [&](std::uint32_t object, const CastResult<double>& result) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Rays that are each cast at their own time: what stands still is one world, what moves is posed
-// anew for each ray that comes near it. An answer has the same bits as that of a world whose bodies
-// were all posed at the ray's time.
+// Casts rays at their own times: bodies at rest are in one world, moving bodies are posed for each
+// ray that comes near them. Results have the same bits as in a world with all bodies posed at the
+// ray's time.
 #pragma once
 
 #include <memory>
@@ -14,22 +14,22 @@
 
 namespace minkray {
 
-/// It refers to the scene. Instances are numbered as make_world numbers them.
+/// Refers to the scene, which must outlive this. Instances are numbered as by make_world.
 class MovingScene {
  public:
   explicit MovingScene(const Scene& scene);
 
-  /// How many bodies move.
+  /// Number of moving bodies.
   std::size_t movers() const { return movers_.size(); }
 
  private:
   friend class SceneWhile;
   struct Mover {
     std::uint32_t object = 0;
-    std::shared_ptr<const ShapeDefinition<double>> definition;  ///< null: it has no shape
+    std::shared_ptr<const ShapeDefinition<double>> definition;  ///< null: the body has no shape
   };
 
-  /// What an instance that stands still is called in still_.
+  /// Number in still_ of an instance at rest.
   std::uint32_t still_number(std::uint32_t instance) const {
     return instance < place_.size() ? place_[instance]
                                     : instance - static_cast<std::uint32_t>(movers_.size());
@@ -37,24 +37,25 @@ class MovingScene {
 
   const Scene& scene_;
   World still_;
-  std::vector<std::uint32_t> object_of_still_;  ///< empty: all stand still
-  std::vector<std::uint32_t> place_;            ///< by object: in still_ or in movers_
+  std::vector<std::uint32_t> object_of_still_;  ///< empty: all are at rest
+  std::vector<std::uint32_t> place_;            ///< by object: index in still_ or in movers_
   std::vector<Mover> movers_;
 };
 
-/// A scene from one moment to a later one; the shorter, the faster. For one thread.
+/// A scene during an interval of time; short intervals are faster. For one thread.
 class SceneWhile {
  public:
   SceneWhile(const MovingScene& scene, double begin, double end);
 
-  /// hits[i] answers rays[i], which is cast at times[i], within the while; a ray's own time and
-  /// what it skips are not looked at. The more rays, the faster, up to some thousand.
+  /// Casts rays[i] at times[i], within the interval, into hits[i]. Ignores the rays' own times and
+  /// skipped instances. More rays per call are faster, up to some thousand.
   void closest_hits(std::span<const WorldRay> rays, std::span<const double> times,
                     std::span<WorldHit> hits, QueryCounts& counts);
 
   WorldHit closest_hit(const WorldRay& ray, double time, QueryCounts& counts);
 
-  /// Where the ray leaves an instance, which is not a half-space; of a mesh, where it has entered.
+  /// Finds the exit of the ray from an instance, which must not be a half-space. A ray at a mesh
+  /// must start outside and enter it.
   CastResult<double> exit(std::uint32_t instance, const Ray<double>& ray, double time);
 
   bool is_half_space(std::uint32_t instance) const;
@@ -70,9 +71,9 @@ class SceneWhile {
   void meet_movers(const WorldRay& ray, double time, WorldHit& closest, QueryCounts& counts);
 
   const MovingScene& scene_;
-  std::vector<std::uint32_t> bodies_, shapeless_;  ///< into movers_
-  Bvh bvh_;                                        ///< of the boxes that bodies_ sweep
-  std::vector<Placed> placed_;                     ///< by mover: where it was asked for last
+  std::vector<std::uint32_t> bodies_, shapeless_;  ///< indices into movers_
+  Bvh bvh_;                                        ///< BVH of the boxes that bodies_ sweep
+  std::vector<Placed> placed_;                     ///< by mover: the last placement and its time
 };
 
 }  // namespace minkray

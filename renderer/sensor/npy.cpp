@@ -18,7 +18,7 @@ constexpr std::size_t most_bytes = std::size_t{16} << 30;
 constexpr std::string_view magic = "\x93NUMPY";
 constexpr std::size_t longest_header = 65536;
 
-/// What follows "'key':" in the header, which is a Python dictionary.
+/// Returns the text after "'key':" in the header, which is a Python dictionary.
 std::string_view after(std::string_view header, std::string_view key) {
   const std::size_t at = header.find("'" + std::string(key) + "'");
   if (at == header.npos) throw BadInput("its header lacks '" + std::string(key) + "'");
@@ -27,7 +27,7 @@ std::string_view after(std::string_view header, std::string_view key) {
   return rest;
 }
 
-/// Gives row by row the numbers that stand there column by column.
+/// Converts from column order to row order.
 std::vector<double> transposed(const std::vector<double>& columns, std::size_t rows,
                                std::size_t width) {
   std::vector<double> values(columns.size());
@@ -77,7 +77,7 @@ NpyArray parse(const std::string& bytes) {
   const char* const data = bytes.data() + start + length;
   array.values.resize(count);
   if (is_double) {
-    // An array without numbers has no memory, which memcpy must not be given.
+    // An empty array has a null pointer, which memcpy must not get.
     std::copy_n(data, count * sizeof(double), reinterpret_cast<char*>(array.values.data()));
   } else {
     for (std::size_t i = 0; i < count; ++i) {
@@ -109,7 +109,7 @@ std::string npy_header(const std::string& descr, std::size_t rows, std::size_t c
                                 ? "(" + std::to_string(rows) + ",)"
                                 : "(" + std::to_string(rows) + ", " + std::to_string(columns) + ")";
   std::string text = "{'descr': " + descr + ", 'fortran_order': False, 'shape': " + shape + ", }";
-  // The data begin at a multiple of 64.
+  // Pads the header so that the data begin at a multiple of 64.
   text.resize((text.size() + 1 + 10 + 63) / 64 * 64 - 10 - 1, ' ');
   text += '\n';
   std::string header(magic);

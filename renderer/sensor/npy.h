@@ -19,8 +19,8 @@ struct NpyArray {
 /// Reads little-endian floats of 32 or 64 bits. Throws BadInput with the file's name.
 NpyArray read_npy(const std::string& file);
 
-/// The bytes in front of the data of a structured array of one dimension (or two, if the second
-/// length is not 1): `descr` is NumPy's list of fields, as Python writes it.
+/// Bytes before the data of a structured array of one dimension (or two, if the second length is
+/// not 1). `descr` is NumPy's list of fields in Python syntax.
 std::string npy_header(const std::string& descr, std::size_t rows, std::size_t columns = 1);
 
 }  // namespace minkray

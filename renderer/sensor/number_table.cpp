@@ -10,7 +10,7 @@
 namespace minkray {
 namespace {
 
-/// Whoever has more has one mistake many times.
+/// Limit of mistakes: files with more repeat the same one.
 constexpr std::size_t most_mistakes = 20;
 
 std::string_view without_blanks(std::string_view text) {

@@ -39,7 +39,7 @@ SensorRays rays_of_csv(const std::string& file, double) {
   return rays;
 }
 
-/// Numbers of a list of at least one, each within the limits.
+/// Reads a list of at least one number, each within the limits.
 std::vector<double> read_angles(const Json& json, const JsonPath& path, Mistakes& mistakes,
                                 double most) {
   std::vector<double> angles;
@@ -57,14 +57,14 @@ std::vector<double> read_angles(const Json& json, const JsonPath& path, Mistakes
   return angles;
 }
 
-/// A key of Ouster's metadata: in the file itself in old ones, in a part of it in new ones.
+/// Returns a key of Ouster's metadata, which is at the top of old files and in a part of new ones.
 const Json* of_ouster(const Json& json, std::string_view part, std::string_view key) {
   if (const Json* value = json.find(key)) return value;
   const Json* inner = json.find(part);
   return inner ? inner->find(key) : nullptr;
 }
 
-/// The steps of a turn that Ouster's "lidar_mode" begins with: 1024 of "1024x10".
+/// Steps per turn, at the beginning of Ouster's "lidar_mode": 1024 in "1024x10".
 int ouster_steps(const Json& json, Mistakes& mistakes) {
   const Json* mode = of_ouster(json, "config_params", "lidar_mode");
   const std::string text = mode && mode->is_string() ? mode->text() : "";

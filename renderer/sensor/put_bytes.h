@@ -25,7 +25,7 @@ inline void put_text(FileBytes& bytes, std::string_view text) {
   bytes.insert(bytes.end(), text.begin(), text.end());
 }
 
-/// Characters, then zeros up to the size.
+/// Appends characters, then zeros up to the size.
 inline void put_text(FileBytes& bytes, std::string_view text, std::size_t size) {
   put_text(bytes, text.substr(0, size));
   bytes.resize(bytes.size() + size - text.substr(0, size).size());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Directions by angles, in a sensor's frame (x ahead, y left, z up), and next to each other.
+// Directions from angles in a sensor's frame (x ahead, y left, z up), and perpendicular directions.
 #pragma once
 
 #include <array>
@@ -14,13 +14,13 @@ inline double radians(double degrees) {
   return degrees * (std::numbers::pi / 180);
 }
 
-/// Radians: azimuth to the left of x, elevation up from the horizon.
+/// Angles in radians: azimuth to the left of x, elevation up from the horizon.
 inline Vec3<double> direction_of(double azimuth, double elevation) {
   return {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
           std::sin(elevation)};
 }
 
-/// Two unit vectors that are perpendicular to the one given and to each other.
+/// Returns two unit vectors that are perpendicular to the given one and to each other.
 inline std::array<Vec3<double>, 2> across(const Vec3<double>& along) {
   const Vec3<double> helper =
       std::abs(along.x()) < 0.5 ? Vec3<double>(1, 0, 0) : Vec3<double>(0, 1, 0);

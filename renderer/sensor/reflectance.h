@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How much of a lidar's light comes back, as a scene's materials say it.
+// Share of a lidar's light that returns, from a scene's materials.
 #pragma once
 
 #include <vector>
@@ -8,9 +8,9 @@
 
 namespace minkray {
 
-/// Reflectances by instance: the mean of red, green and blue of its material's colour (of a texture
-/// about the mean of its colours); 0 of glass, which sends nothing back by Lambert's law, and of
-/// what shines.
+/// Reflectances by instance: the mean of red, green and blue of the material's colour (for a
+/// texture about the mean of its colours); 0 for glass, which returns nothing by Lambert's law, and
+/// for emissive objects.
 std::vector<float> reflectances_of(const Scene& scene);
 
 }  // namespace minkray

@@ -18,21 +18,21 @@
 namespace minkray {
 namespace {
 
-/// Rays of one index range: some hundred microseconds of work.
+/// Rays per index range: some hundred microseconds of work.
 constexpr std::size_t rays_a_range = 2048;
 
-/// Random numbers of one ray, whatever else is cast (Steele, Lea and Flood 2014: SplitMix).
+/// Random numbers of one ray, independent of all other rays (Steele, Lea and Flood 2014: SplitMix).
 class RayRandom {
  public:
   RayRandom(std::uint64_t seed, std::uint64_t ray)
       : state_(mixed(seed) ^ (ray * 0x9e3779b97f4a7c15u)) {}
 
-  /// It is in (0, 1].
+  /// Uniform in (0, 1].
   double uniform() {
     state_ += 0x9e3779b97f4a7c15u;
     return (static_cast<double>(mixed(state_) >> 11) + 1) * 0x1p-53;
   }
-  /// They have mean 0 and deviation 1 (Box and Muller 1958).
+  /// Normal with mean 0 and deviation 1 (Box and Muller 1958).
   std::array<double, 2> normals() {
     const double radius = std::sqrt(-2 * std::log(uniform()));
     const double angle = 2 * std::numbers::pi * uniform();
@@ -48,7 +48,7 @@ class RayRandom {
   std::uint64_t state_;
 };
 
-/// Turns a direction by small angles to two sides.
+/// Turns a direction by small angles about two perpendicular directions.
 Vec3<double> turned(const Vec3<double>& direction, double a, double b) {
   const Vec3<double> along = unit(direction);
   const auto [u, v] = across(along);
@@ -107,7 +107,7 @@ class Scanner {
     Ray<double> ray;
     double time;
   };
-  /// Everything that a ray may have met; `too_near` if any of it was left out for that.
+  /// All hits of one ray; `too_near` is true if any was left out for being too near.
   struct AllMet {
     std::vector<Met> echoes;
     bool too_near = false;
@@ -200,7 +200,7 @@ class Scanner {
     return met;
   }
 
-  /// Joins what the rays of a beam meet first.
+  /// Joins the first hits of a beam's rays to echoes.
   void add_echoes_of_beam(std::span<const WorldRay> asked, std::span<const WorldHit> hits,
                           AllMet& all) const {
     std::vector<Met> met;
@@ -209,7 +209,7 @@ class Scanner {
     all.echoes = echoes_of(std::move(met), options_.resolution);
   }
 
-  /// The bodies that a ray enters one behind another, no more than are needed.
+  /// Adds the bodies that a ray enters one after another, no more than needed.
   void add_bodies_behind_each_other(const TimedRay& at, WorldHit hit, SceneWhile& scene,
                                     QueryCounts& counts, AllMet& all) const {
     constexpr std::size_t most_bodies = 64;
@@ -223,7 +223,7 @@ class Scanner {
     }
   }
 
-  /// Adds a hit, or notes that it is nearer than the least range.
+  /// Adds a hit, or records that it is nearer than the least range.
   void add_if_far(const Met& met, std::vector<Met>& to, AllMet& all) const {
     if (met.distance >= options_.nearest)
       to.push_back(met);
@@ -231,8 +231,7 @@ class Scanner {
       all.too_near = true;
   }
 
-  /// What the ray enters next, behind where it leaves what it met: bodies that overlap are passed
-  /// as one.
+  /// Next body that the ray enters after it leaves the one it hit. Overlapping bodies count as one.
   static WorldHit behind(const TimedRay& at, const WorldHit& hit, SceneWhile& scene,
                          QueryCounts& counts) {
     const Ray<double>& ray = at.ray;
@@ -243,7 +242,7 @@ class Scanner {
     if (scene.is_half_space(left)) return none;
     for (int i = 0; i < 64; ++i) {
       const CastResult<double> exit = scene.exit(left, ray, at.time);
-      if (exit.status != Status::hit) return none;  // the ray ends in it
+      if (exit.status != Status::hit) return none;  // the ray ends in the body
       passed = std::max(passed, exit.t());
       const Ray<double> rest{ray.at(passed), ray.direction, ray.t_max - passed};
       WorldHit next = scene.closest_hit({rest, left}, at.time, counts);
@@ -266,7 +265,7 @@ class Scanner {
   Scan& scan_;
 };
 
-/// The numbers of the rays, but for those without a direction that is a number: these are told.
+/// Numbers of the rays with a finite direction. The echoes of all others get the status "no ray".
 std::vector<std::uint32_t> rays_that_are(const SensorRays& rays, int returns, Scan& scan) {
   std::vector<std::uint32_t> order;
   order.reserve(rays.rays.size());
@@ -297,7 +296,7 @@ Scan scan(const Scene& scene, const SensorRays& rays, const ScanOptions& options
   const Scanner scanner(moving, reflectances_of(scene), rays, options, result);
   if (moving.movers() > 0)
     std::ranges::stable_sort(order, {}, [&](std::uint32_t i) { return scanner.time_of(i); });
-  // Where much moves, it is prepared for more rays at a time.
+  // Ranges have at least one ray per mover, since each range prepares all movers.
   const std::size_t of_beam =
       options.divergence > 0 ? static_cast<std::size_t>(options.beam_rays) : 1;
   const std::size_t some = std::max({rays_a_range / of_beam, moving.movers(), std::size_t{1}});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sweeps of a sensor over a scene: rays in, numbers out.
+// Sweeps of a sensor over a scene.
 #pragma once
 
 #include <cstdint>
@@ -17,9 +17,9 @@
 
 namespace minkray {
 
-/// What one ray met; `object` is the number of the instance, -1 for none.
+/// Result of one ray; `object` is the number of the instance, -1 for none.
 struct Echo {
-  double t = std::numeric_limits<double>::infinity();  ///< in lengths of the direction
+  double t = std::numeric_limits<double>::infinity();  ///< in units of the direction's length
   double distance = std::numeric_limits<double>::infinity();
   Vec3<double> point = Vec3<double>::Constant(std::numeric_limits<double>::quiet_NaN());
   Vec3<double> normal = Vec3<double>::Zero();
@@ -27,47 +27,49 @@ struct Echo {
   double t_lo = std::numeric_limits<double>::infinity();
   double t_hi = std::numeric_limits<double>::infinity();
   std::uint8_t status = 1;  ///< 0 hit, 1 miss, 2 inside, 3 dropped out, 4 too near, 5 no ray
-  double incidence = std::numeric_limits<double>::quiet_NaN();  ///< radians from the normal
+  double incidence = std::numeric_limits<double>::quiet_NaN();  ///< angle in radians from the
+                                                                ///< normal
   double intensity = 0;  ///< reflectance cos(incidence) / distance^2, times the share of the beam
 };
 
-/// In which order the echoes of a ray are told: the nearest, the brightest, the farthest first.
+/// Order of a ray's echoes: nearest, brightest or farthest first.
 enum class EchoOrder : unsigned char { first, strongest, last };
 
 struct ScanOptions {
-  Affine<double> pose;                ///< of the sensor, in its path's frame
-  MovingFrame path;                   ///< in the frame that it is mounted on
-  MovingFrame mount;                  ///< in the world
-  double start = 0;                   ///< when the sweep begins, in seconds
-  double range_noise = 0;             ///< standard deviation, of distances
-  double range_noise_per_length = 0;  ///< what it grows by with the distance
-  double angle_noise = 0;             ///< standard deviation, in radians
-  double dropout = 0;                 ///< the chance that a ray answers nothing
-  std::uint64_t seed = 0;             ///< of noise and dropout, which belong to the ray's number
-  int returns = 1;                    ///< echoes of a ray
+  Affine<double> pose;                ///< pose of the sensor, in its path's frame
+  MovingFrame path;                   ///< path in the frame that the sensor is mounted on
+  MovingFrame mount;                  ///< mount in the world
+  double start = 0;                   ///< start of the sweep in seconds
+  double range_noise = 0;             ///< standard deviation of distances
+  double range_noise_per_length = 0;  ///< growth of range_noise with the distance
+  double angle_noise = 0;             ///< standard deviation in radians
+  double dropout = 0;                 ///< probability that a ray returns nothing
+  std::uint64_t seed = 0;             ///< seed of noise and dropout, which depend on the ray's
+                                      ///< number
+  int returns = 1;                    ///< echoes per ray
   EchoOrder order = EchoOrder::first;
-  double nearest = 0;  ///< what is nearer is not reported
+  double nearest = 0;  ///< nearer hits are not reported
   double farthest = std::numeric_limits<double>::infinity();
-  /// Full angle of each beam, in radians. Without it, echoes are the bodies behind each other that
-  /// a ray enters; with it, what its rays meet first, joined where nearer than the resolution.
+  /// Full angle of each beam, in radians. If 0, echoes are the bodies that a ray enters one after
+  /// another. Otherwise they are the first hits of the beam's rays, joined where nearer than
+  /// `resolution`.
   double divergence = 0;
   int beam_rays = 37;
   double resolution = 0.5;
 };
 
 struct Scan {
-  std::vector<Echo> echoes;  ///< ray by ray, `returns` of each
+  std::vector<Echo> echoes;  ///< ray by ray, `returns` per ray
   QueryCounts counts;
   bool complete = true;
 };
 
-/// Gives the same bits for any number of threads and any cut of the rays. If the scene moves, each
-/// ray is cast at its own time, and so it is if the sensor moves. `progress` may answer false to
-/// stop.
+/// Returns the same bits for any number of threads and any split of the rays. If the scene or the
+/// sensor moves, each ray is cast at its own time. `progress` returns false to stop.
 Scan scan(const Scene& scene, const SensorRays& rays, const ScanOptions& options,
           const std::function<bool(double fraction, std::uint64_t rays)>& progress = {});
 
-/// Where an object's shape stands, by its name; nothing if there is none of that name.
+/// Pose of the object of that name; nothing if there is none.
 std::optional<MovingFrame> frame_of_object(const Scene& scene, const std::string& name);
 
 }  // namespace minkray

@@ -26,7 +26,7 @@ static_assert(std::endian::native == std::endian::little);
 
 using Bytes = std::vector<unsigned char>;
 
-/// One record of the .npy file, without gaps.
+/// Layout of one record of the .npy file, without gaps.
 constexpr const char* record_fields =
     "[('t', '<f8'), ('distance', '<f8'), ('point', '<f8', (3,)), ('normal', '<f8', (3,)), "
     "('object', '<i4'), ('t_lo', '<f8'), ('t_hi', '<f8'), ('status', '|u1'), "
@@ -94,8 +94,8 @@ Bytes csv_of(const ScanOutput& output) {
   return bytes_of(text);
 }
 
-/// Behind the header: of each point that was met x, y, z, its normal and intensity in floats, and
-/// its object.
+/// Writes the header, then for each hit point x, y, z, its normal and intensity in floats, and its
+/// object.
 Bytes points_of(const Scan& scan, std::string header, const std::string& count_mark) {
   std::size_t count = 0;
   for (const Echo& echo : scan.echoes) count += echo.object >= 0 ? 1 : 0;
@@ -131,7 +131,7 @@ Bytes ply_of(const ScanOutput& output) {
                    "@");
 }
 
-/// The first echo of each pixel.
+/// Image of the first echo of each pixel.
 template <class Of>
 auto plane_of(const ScanOutput& output, const Of& of) {
   std::vector<decltype(of(output.scan.echoes[0]))> values;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Scans as files: .npy records with everything, .csv the same as text; .pcd, .ply, .las and .mcap
-// the points that were met; .exr planes of an image; .png depths in millimetres (t of each ray) in
-// 16 bits, 0 where nothing was met or too far; .json an image's masks (COCO). The list of formats
-// is scan_formats.
+// the hit points; .exr planes of an image; .png depths in millimetres (t of each ray) in 16 bits, 0
+// for no hit or too far; .json an image's masks (COCO). scan_formats lists the formats.
 #pragma once
 
 #include <span>
@@ -13,16 +12,16 @@
 
 namespace minkray {
 
-/// References all that it is made of.
+/// Contents of the file, by reference.
 struct ScanOutput {
   const Scan& scan;
   const SensorRays& rays;
   int returns;
   const Scene& scene;
-  double start = 0;        ///< of the sweep, in seconds
+  double start = 0;        ///< start of the sweep in seconds
   bool has_halfs = false;  ///< floats of .exr have 16 bits
 
-  /// The row of an image's ray; 0 if the rays are none.
+  /// Row of an image's ray; 0 if the rays are not an image.
   int channel_of(std::size_t ray) const {
     return rays.width > 0 ? static_cast<int>(ray / static_cast<std::size_t>(rays.width)) : 0;
   }
@@ -30,12 +29,12 @@ struct ScanOutput {
 
 struct ScanFormat {
   std::string_view ending;
-  bool is_image;  ///< the rays must be an image's
+  bool is_image;  ///< true if the format needs an image's rays
   std::vector<unsigned char> (*encode)(const ScanOutput& output);
 };
 std::span<const ScanFormat> scan_formats();
 
-/// The format of a file's name. Throws WrongUsage with those that there are.
+/// Returns the format of a file name. Throws WrongUsage that lists the formats.
 const ScanFormat& scan_format_of(const std::string& file);
 
 /// A JSON list of the objects' numbers and names.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// rays_of_pattern: what the text of a pattern stands for.
+// rays_of_pattern: parses the text of a pattern.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -27,7 +27,7 @@ bool is_count(double number, double most) {
   return number >= 1 && number <= most && number == std::floor(number);
 }
 
-/// Two angles, each from -most to most; nothing for anything else.
+/// Reads two angles, each from -most to most; returns nothing for anything else.
 std::optional<std::pair<double, double>> two_angles(std::string_view text, double most) {
   const auto angles = numbers_between(text, ',');
   if (!angles || angles->size() != 2) return std::nullopt;
@@ -60,8 +60,8 @@ SensorRays spinning(const std::string& pattern, double seconds) {
   }
   if (!is_good)
     throw WrongUsage(
-        "--pattern: must be spinning:CHANNELSxSTEPS, such as spinning:32x1800, with "
-        ":LOWEST,HIGHEST elevations and :FROM,TO azimuths in degrees if wanted (got " +
+        "--pattern: must be spinning:CHANNELSxSTEPS[:LOWEST,HIGHEST[:FROM,TO]] (degrees), such as "
+        "spinning:32x1800 (got " +
         printable(pattern, 80) + ")");
   const int height = static_cast<int>((*counts)[0]), width = static_cast<int>((*counts)[1]);
   check_rays(double(height) * width);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The way that a sensor goes, from a CSV file of its poses.
+// The path of a sensor, from a CSV file of its poses.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace minkray {
 
-/// Columns time (s), x, y, z, and qx, qy, qz, qw if it turns; times must rise. Throws BadInput with
-/// all mistakes.
+/// Reads columns time (s), x, y, z, and optionally qx, qy, qz, qw. Times must increase. Throws
+/// BadInput with all mistakes.
 MovingFrame read_sensor_path(const std::string& file);
 
 }  // namespace minkray

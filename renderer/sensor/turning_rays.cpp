@@ -31,9 +31,9 @@ SensorRays turning_rays(std::span<const LidarChannel> channels, int steps, doubl
   return rays;
 }
 
-// Fitted to Livox's table at five moments of its first quarter of a second, in degrees: four lines,
-// a fan whose picture a mirror turns, swing up and down ten times per second. The rates of turns
-// and of swings have an irrational ratio, so that no frame repeats another one.
+// Fitted to Livox's table at five moments of its first quarter of a second, in degrees: a fan of
+// four lines, whose image a mirror turns, swings up and down ten times per second. The rates of
+// turns and of swings have an irrational ratio, so that no frame repeats another one.
 SensorRays mid_360_rays(std::size_t count, double start) {
   constexpr double rays_per_second = 200000, turns_per_second = 10000.0 / 60;
   constexpr double swings_per_second = turns_per_second / (15 + std::numbers::phi);

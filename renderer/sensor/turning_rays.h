@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rays of lidars that turn: channels above each other, all cast at once at each step of a turn.
+// Rays of spinning lidars: channels above each other, all cast at once at each step of a turn.
 #pragma once
 
 #include <span>
@@ -11,20 +11,20 @@ namespace minkray {
 
 inline constexpr int most_turn_steps = 1 << 16;
 
-/// Degrees, left of ahead, of the first and of the last step.
+/// Azimuths of the first and of the last step, in degrees left of ahead.
 struct AzimuthRange {
   double from, to;
 };
 
 /// Rays channel by channel, an image of all around. A whole turn goes clockwise from behind, so
-/// that the image's middle is ahead and its right is on the right; a range has a ray at both of its
+/// that the image's middle is ahead and its right is on the right. A range has a ray at both of its
 /// ends and takes its share of the seconds of a turn.
 SensorRays turning_rays(std::span<const LidarChannel> channels, int steps, double seconds,
                         const AzimuthRange* range = nullptr);
 
-/// Livox's Mid-360 by a formula near its table, not by it: rays every 5 microseconds, four lines in
-/// turn, 10,000 turns per minute and ten swings per second, elevations from -7 to 52 degrees.
-/// Another moment has other rays.
+/// Livox's Mid-360 by a formula that approximates its table: rays every 5 microseconds, four lines
+/// in turn, 10,000 turns per minute and ten swings per second, elevations from -7 to 52 degrees.
+/// Other moments have other rays.
 SensorRays mid_360_rays(std::size_t count, double start);
 
 }  // namespace minkray

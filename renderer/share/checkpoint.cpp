@@ -99,7 +99,7 @@ RenderJournal Checkpoint::load() {
     throw BadInput(path_ + ": is the checkpoint of another picture: " + differs +
                    "; remove it, or render without --resume");
   const PixelRect region = options_.region();
-  if (exr.window != region) throw BadInput(path_ + ": has not the pixels that its header says");
+  if (exr.window != region) throw BadInput(path_ + ": data window does not match the header");
 
   RenderJournal journal;
   try {

@@ -53,7 +53,7 @@ Facts whole_facts(const Facts& facts) {
 /// The share's file as it should be: `picture` are the pixels of all shares together.
 void check(const ExrImage& exr, const PictureShare& held, const PixelRect& picture) {
   if (exr.window.empty() || exr.window != tile_of(picture, held.tile))
-    throw BadInput("has not the pixels that its header says");
+    throw BadInput("data window does not match the header");
 }
 
 /// Copies all planes of a tile to their places in the picture.

@@ -40,7 +40,7 @@ Json links_json(const Model& model) {
   return links;
 }
 
-/// The core's kind, and its size as the file has it.
+/// Writes the core's kind, and its size in the file's form.
 void add_core(const ShapeCore& core, const std::string& name, Json& json) {
   switch (core.kind) {
     case CoreKind::point:
@@ -66,7 +66,7 @@ void add_core(const ShapeCore& core, const std::string& name, Json& json) {
       json["core"] = "hull";
       Json points = Json::array();
       for (int i = 0; i < core.count; ++i) {
-        // Hulls are filled up with their last point.
+        // Skips the copies of the last point that pad hulls.
         if (i > 0 && core.x[i] == core.x[i - 1] && core.y[i] == core.y[i - 1] &&
             core.z[i] == core.z[i - 1])
           continue;
@@ -76,13 +76,13 @@ void add_core(const ShapeCore& core, const std::string& name, Json& json) {
       break;
     }
     case CoreKind::other:
-      throw BadInput("proof: the body \"" + printable(name, 100) +
-                     "\" is of a shape that proofs do not hold; without -o PROOF.json it is "
-                     "verified all the same");
+      throw BadInput(
+          "proof: the body \"" + printable(name, 100) +
+          "\" has a shape that proof files do not support; verify without -o PROOF.json");
   }
 }
 
-/// A plane that keeps a mesh's hull apart keeps the mesh apart.
+/// Writes the hull of a mesh: a plane that separates the hull separates the mesh.
 void add_hull(const ClearanceBody& body, Json& json) {
   json["core"] = "hull";
   Json points = Json::array();
@@ -126,8 +126,8 @@ Json rows_json(const std::vector<std::vector<std::vector<double>>>& rows) {
   return list;
 }
 
-/// One plane holds on into the next steps for as long as they have the same. Parts of one step stay
-/// apart: what a pair bends in them depends on their length.
+/// Merges a plane with those of the next steps while they are equal. Parts of one step are not
+/// merged, since a pair's deviation depends on their length.
 Json planes_json(std::vector<SeparatingPlane> planes) {
   std::ranges::stable_sort(planes, [](const SeparatingPlane& a, const SeparatingPlane& b) {
     if (a.pair != b.pair) return a.pair < b.pair;
@@ -149,7 +149,7 @@ Json planes_json(std::vector<SeparatingPlane> planes) {
   return list;
 }
 
-/// How much less is claimed than was proven: the checker rounds, too.
+/// Claims slightly less than was proven, since the checker rounds, too.
 double claimed(double lower, const std::vector<ClearanceBody>& bodies) {
   double size = 0;
   for (const ClearanceBody& body : bodies)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A verdict as a file that a program of its own confirms (tools/minkray-check): the kinematics, the
+// A verdict as a file that a separate program confirms (tools/minkray-check): the kinematics, the
 // bodies, the path, and a plane for each pair and part of a step. docs/verify.md has the format.
 #pragma once
 
@@ -12,12 +12,13 @@
 namespace minkray {
 
 struct ProofInputs {
-  std::string by;                                 ///< which program
-  std::vector<std::filesystem::path> files = {};  ///< whose fingerprints are kept
+  std::string by;                                 ///< name of the program that wrote the proof
+  std::vector<std::filesystem::path> files = {};  ///< files to store the SHA-256 of
 };
 
-/// `verdict` has kept its planes, and none of its pairs is without (provable.h). Throws BadInput
-/// for an undecided one, or if a body's shape is known by its support mapping only.
+/// `verdict` must have stored its planes, and be free or collides; no pair is without planes
+/// (provable.h). Throws BadInput for an undecided verdict, or if a body's shape is only known by
+/// its support mapping.
 std::string proof_text(const MotionVerdict& verdict, const JointPath& path,
                        const std::vector<ClearanceBody>& bodies,
                        const std::vector<RefereePair>& pairs, const ProofInputs& inputs);

@@ -12,23 +12,23 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Steps that are gone through one after the other, each beginning with the planes of the last.
+/// Number of steps processed in sequence, each starting with the planes of the previous one.
 constexpr std::size_t steps_in_one_go = 8;
 
-/// Ends of stretches are found to this part of a step.
+/// Resolution of the ends of stretches, as a part of a step.
 constexpr double finest_end = 1.0 / 1024;
 
-/// Parts of a step that are no longer than this have no digits left to halve.
+/// Parts of a step up to this length have no digits left to halve.
 constexpr double finest_part = 0x1p-40;
 
-/// What is looked at as one stretch of a pair until neighbours are joined.
+/// An interval of a pair, to be joined with its neighbours to a stretch.
 struct Piece {
   std::size_t pair = 0;
   double begin = 0, end = 0;
   std::optional<Stretch> witness = {};
 };
 
-/// What was found in some steps.
+/// Results of some steps.
 struct Found {
   LeastClearance least;
   std::vector<LeastClearance> steps;
@@ -38,7 +38,7 @@ struct Found {
   std::size_t distances = 0;
 };
 
-/// Meshes that cross have no depth.
+/// True if the bodies are closer than the margin. Meshes that cross have no depth.
 bool is_closer(const SignedDistance& there, double margin) {
   return there.upper - margin < 0 || (there.status == SignedStatus::overlapping && margin <= 0);
 }
@@ -55,7 +55,7 @@ class StepsSearch {
         least_gap_(least_gap),
         hints_(pairs.size(), Vec3<double>::Zero()) {}
 
-  /// Looks at the rows alone: what is the least there is an upper bound for all.
+  /// Measures distances at the rows only. The least one is an upper bound for the whole path.
   LeastClearance sample(std::size_t first, std::size_t last) {
     for (std::size_t step = first; step < last; ++step) {
       StepPairs at(path_, bodies_, step);
@@ -80,7 +80,7 @@ class StepsSearch {
       const std::size_t before = found_.pieces.size();
       for (std::size_t pair = 0; pair < pairs_.size(); ++pair) search_pair(at, pair, step);
       if (!options_.every_step) continue;
-      // What is left open has no lower bound.
+      // Pieces that no proof covers have no lower bound.
       const bool is_open = found_.pieces.size() > before;
       LeastClearance& least = found_.least;
       least.lower = is_open ? -infinity : std::min(least.lower, least.upper);
@@ -90,7 +90,7 @@ class StepsSearch {
   }
 
  private:
-  /// Proofs must be above this: what is less is looked at more closely.
+  /// Least bound that a proof must exceed; otherwise the part is halved.
   double target() const {
     const double upper = found_.least.upper;
     if (!(upper > 0)) return 0;
@@ -112,12 +112,12 @@ class StepsSearch {
     }
   }
 
-  /// Measures, and remembers the least.
+  /// Measures the distance, and stores it if it is the least.
   SignedDistance distance(StepPairs& at, std::size_t index, const StepBound& bound, double s,
                           double at_most, bool only_sign = false) {
     const RefereePair& pair = pairs_[index];
     ++found_.distances;
-    // Closer than a margin above 0 is no overlap.
+    // Distances below a margin above 0 are no overlap.
     only_sign &= pair.margin == 0 && !has_mesh(pair);
     // Meshes that are further apart have no normal, from which a plane is made.
     if (options_.keep_planes && has_mesh(pair)) at_most = infinity;
@@ -135,7 +135,8 @@ class StepsSearch {
   struct Part {
     double first, last;
     Vec3<double> hint;
-    std::optional<bool> collides_first = {}, collides_last = {};  ///< at the two ends, if known
+    std::optional<bool> collides_first = {}, collides_last = {};  ///< collisions at the two ends,
+                                                                  ///< if known
   };
 
   void search_pair(StepPairs& at, std::size_t index, std::size_t step) {
@@ -194,7 +195,7 @@ class StepsSearch {
     }
   }
 
-  /// Whether the plane across n proves the part; if so it is kept.
+  /// True if the plane across n proves the part; the plane is then stored if requested.
   bool proves(StepPairs& at, std::size_t index, const StepBound& bound, std::size_t step,
               const Part& part, const Vec3<double>& n) {
     if (n.isZero(0)) return false;
@@ -215,8 +216,8 @@ class StepsSearch {
     return bodies_[pair.a].mesh || bodies_[pair.b].mesh;
   }
 
-  /// Whether the two cannot come together from where they are in the middle of the part: what tells
-  /// meshes apart that are in each other's hollows.
+  /// True if the two cannot reach each other from their poses in the middle of the part. Proves
+  /// meshes that are in each other's hollows to be apart.
   bool proves_by_speed(std::size_t index, const StepBound& bound, double length,
                        const SignedDistance& there) {
     const RefereePair& pair = pairs_[index];
@@ -228,7 +229,7 @@ class StepsSearch {
     return true;
   }
 
-  /// Asks at the two outer ends of a part that collides in its middle; returns how often.
+  /// Tests the two outer ends of a part that collides in its middle. Returns the number of tests.
   std::size_t know_ends(StepPairs& at, std::size_t index, const StepBound& bound, Part& low,
                         Part& high) {
     std::size_t asked = 0;
@@ -264,12 +265,12 @@ class StepsSearch {
   const std::vector<RefereePair>& pairs_;
   const RefereeOptions& options_;
   const double least_gap_;
-  std::vector<Vec3<double>> hints_;  ///< the last plane's normal of each pair; zero: none
+  std::vector<Vec3<double>> hints_;  ///< last normal of a separating plane of each pair; zero: none
   std::vector<Part> open_;
   Found found_;
 };
 
-/// Joins pieces of a pair that follow each other.
+/// Joins adjacent pieces of a pair.
 std::vector<Stretch> stretches_of(std::vector<Piece> pieces) {
   std::ranges::stable_sort(pieces, [](const Piece& a, const Piece& b) {
     return a.pair != b.pair ? a.pair < b.pair : a.begin < b.begin;
@@ -323,7 +324,7 @@ MotionVerdict verdict_of(const JointPath& path, const std::vector<ClearanceBody>
         call(i, i * steps_in_one_go, std::min((i + 1) * steps_in_one_go, steps));
     });
   };
-  // What is seen at the rows says where there is no need to look closely.
+  // Distances at the rows show which pairs need no closer search.
   std::vector<LeastClearance> seen(goes);
   if (!options.every_step)
     for_all([&](std::size_t i, std::size_t first, std::size_t last) {
@@ -362,7 +363,7 @@ MotionVerdict verdict_of(const JointPath& path, const std::vector<ClearanceBody>
   verdict.status = collides                    ? MotionStatus::collides
                    : verdict.stretches.empty() ? MotionStatus::free
                                                : MotionStatus::undecided;
-  // A stretch that is left open has no lower bound.
+  // With any stretch, undecided or colliding, there is no lower bound.
   if (!verdict.stretches.empty()) least.lower = -infinity;
   least.lower = std::min(least.lower, least.upper);
   verdict.least = least;

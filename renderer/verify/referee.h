@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The referee of motions: whether all pairs of bodies stay apart all along a path, between its rows
-// too, or which of them collide from when to when.
-//
-// A part of a step is proven by a plane that separates a pair at both of its ends by more than what
-// the pair can bend in between (core/contact/least_distance.h). What no plane proves is halved.
+// Referee of motions: proves that all pairs of bodies stay apart along a whole path, also between
+// its rows, or finds the pairs that collide and when. A plane proves a part of a step if it
+// separates a pair at both ends by more than the pair can deviate in between
+// (core/contact/least_distance.h). Parts that no plane proves are halved.
 #pragma once
 
 #include <limits>
@@ -17,67 +16,67 @@ namespace minkray {
 
 enum class MotionStatus : unsigned char {
   free,      ///< every pair is proven to stay further apart than its margin
-  collides,  ///< a pair is closer than its margin at a moment that is named
+  collides,  ///< a pair is closer than its margin at a reported moment
   undecided,
 };
 std::string_view name_of(MotionStatus status);
 
 struct RefereeOptions {
-  /// How near the bounds of the least clearance shall be to each other, relative to it.
+  /// Largest difference between the bounds of the least clearance, relative to it.
   double tolerance = 0.01;
-  /// Whether the least clearance of each step is asked for, not of the whole path only.
+  /// True to compute the least clearance of each step, not only of the whole path.
   bool every_step = false;
-  /// Whether the planes are kept that prove a motion free.
+  /// True to store the planes that prove a motion free.
   bool keep_planes = false;
   /// Planes that prove this clearance are enough.
   double enough = std::numeric_limits<double>::infinity();
-  /// Leaves meshes undecided that no plane keeps apart.
+  /// True to leave meshes undecided that no plane keeps apart.
   bool only_planes = false;
-  /// Distances of one pair in one step. A motion that needs more is undecided.
+  /// Limit of distances of one pair in one step. A motion that needs more is undecided.
   std::size_t budget = 4000;
 };
 
-/// The least clearance: the distance less the pair's margin.
+/// Least clearance: the distance minus the pair's margin.
 struct LeastClearance {
   double lower = std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
-  std::size_t pair = 0;  ///< says nothing if upper is infinite; nor does the rest
+  std::size_t pair = 0;  ///< undefined if upper is infinite, and so are the members below
   double time = 0;
   SignedDistance distance;  ///< in the world
 };
 
-/// A stretch of time outside of which, for as long as the neighbouring ones of this pair allow, the
-/// pair is proven to be apart.
+/// An interval of time. Outside the stretches of a pair, the pair is proven to be apart.
 struct Stretch {
   std::size_t pair = 0;
   double begin = 0, end = 0;
-  bool collides = false;  ///< a moment of it was found at which they do; else it is undecided
-  double time = 0;        ///< of that moment
-  double upper = 0;       ///< their clearance then is no more than this, which is below 0
-  /// It is in the middle of the two points, one of each body, by which the overlap was found.
+  bool collides = false;  ///< true if a moment with a collision was found in it; else undecided
+  double time = 0;        ///< time of that moment
+  double upper = 0;       ///< upper bound of the clearance at that moment, below 0
+  /// Middle of the two points, one of each body, that show the overlap.
   Vec3<double> point = Vec3<double>::Zero();
 };
 
-/// A plane that proves a pair apart while s goes from `first` to `last` in a step.
+/// A plane that proves a pair apart for s from `first` to `last` in a step.
 struct SeparatingPlane {
   std::size_t pair = 0, step = 0;
   double first = 0, last = 1;
-  Vec3<double> normal;  ///< from a to b, in the frame that both hang on
+  Vec3<double> normal;  ///< from a to b, in the frame that both share
 };
 
 struct MotionVerdict {
   MotionStatus status = MotionStatus::undecided;
   LeastClearance least;
-  std::vector<LeastClearance> steps;    ///< if asked for
+  std::vector<LeastClearance> steps;    ///< empty unless every_step
   std::vector<Stretch> stretches;       ///< in the order of pairs, then of time
-  std::vector<SeparatingPlane> planes;  ///< if asked for; the other pairs' balls stay apart
-  /// Pairs of meshes in each other's hollows, with no planes for all the time; ascending.
+  std::vector<SeparatingPlane> planes;  ///< empty unless keep_planes; the bounding balls of all
+                                        ///< other pairs stay apart
+  /// Pairs of meshes in each other's hollows, without planes for the whole time; ascending.
   std::vector<std::size_t> without_planes = {};
   std::size_t distances = 0;
 };
 
-/// `pairs` are numbers of bodies. Uses the threads of parallel_for; the answer is the same for any
-/// number of them.
+/// `pairs` are numbers of bodies. Uses the threads of parallel_for; the result does not depend on
+/// their number.
 MotionVerdict verdict_of(const JointPath& path, const std::vector<ClearanceBody>& bodies,
                          const std::vector<RefereePair>& pairs, const RefereeOptions& options = {});
 

@@ -47,7 +47,7 @@ std::string sha256(std::string_view bytes) {
                                         0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
   const std::size_t whole = bytes.size() / 64 * 64;
   for (std::size_t i = 0; i < whole; i += 64) add_block(state, bytes.substr(i, 64));
-  // A bit 1, zeros, and the number of bits fill the last block or two.
+  // Pads the last block or two: a bit 1, zeros, and the number of bits.
   std::string rest(bytes.substr(whole));
   rest += '\x80';
   rest.resize(rest.size() <= 56 ? 56 : 120, '\0');

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// SHA-256 (FIPS 180-4): fingerprints of the files that a proof is of, and of the proof itself.
+// SHA-256 (FIPS 180-4): fingerprints of the files that a proof depends on, and of the proof itself.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace minkray {
 
-/// 64 hexadecimal digits.
+/// Returns 64 hexadecimal digits.
 std::string sha256(std::string_view bytes);
 
 }  // namespace minkray

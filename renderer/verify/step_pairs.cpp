@@ -8,7 +8,7 @@
 namespace minkray {
 namespace {
 
-/// A lower bound that says nothing.
+/// Lower bound that always holds.
 constexpr double no_bound = -std::numeric_limits<double>::infinity();
 
 }  // namespace
@@ -57,7 +57,7 @@ double StepPairs::lower_by_balls(const RefereePair& pair) const {
   if (a.plane || b.plane) return no_bound;
   const Around &of_a = around_[pair.a], &of_b = around_[pair.b];
   const double distance = (of_b.centre - of_a.centre).norm(), radii = of_a.radius + of_b.radius;
-  // Far from the world's origin centres have lost digits.
+  // Centres far from the world's origin have lost digits.
   const double rounding =
       core_rounding * (distance + radii + of_a.centre.norm() + of_b.centre.norm());
   const double lower = distance - radii - rounding - pair.margin;
@@ -94,7 +94,7 @@ const Mat3<double>& StepPairs::frame_turn(const StepBound& bound, double s) {
 
 Between StepPairs::between(const RefereePair& pair, const StepBound& bound, double s,
                            Mat3<double>& turn_a, Mat3<double>& turn_b) {
-  // Two references into one moment: no other is made between the two.
+  // Both places belong to one moment, so the second call replaces none.
   const Place of_a = kept_place(pair.a, s);
   const Place& of_b = kept_place(pair.b, s);
   const Vec3<double> x = (of_b.middle - of_a.middle).rounded();
@@ -132,7 +132,7 @@ double StepPairs::gap(const RefereePair& pair, const StepBound& bound, const Vec
                       double s) {
   if (bodies_[pair.a].plane || bodies_[pair.b].plane) {
     const SignedDistance there = at(pair, bound, s, 0);
-    // Along any other direction a half-space has no end.
+    // Along any other direction a half-space is unbounded.
     return n.dot(there.normal) > 1 - 1e-12 ? there.lower : no_bound;
   }
   Mat3<double> turn_a, turn_b;

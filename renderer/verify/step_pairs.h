@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The bodies of a robot and around it during one step of a path, made ready for many questions on
-// pairs: where each is at some moments, and how fast and how crookedly it moves at most.
+// Bodies of a robot and around it during one step of a path, prepared for many queries on pairs:
+// their poses at some moments, and bounds of their speed and acceleration.
 #pragma once
 
 #include <vector>
@@ -11,19 +11,19 @@
 
 namespace minkray {
 
-/// Two bodies, and how far they must stay apart.
+/// Two bodies and their least allowed distance.
 struct RefereePair {
   std::size_t a = 0, b = 0;
   double margin = 0;
 };
 
-/// What holds of a pair in a whole step, s from 0 to 1.
+/// Bounds of a pair in a whole step, s from 0 to 1.
 struct StepBound {
-  int frame = -1;    ///< the link in which both are seen; -1: the world
-  double size = 0;   ///< of both together
-  double speed = 0;  ///< no point of one moves faster as the other sees it
+  int frame = -1;    ///< link in whose frame both are measured; -1: the world
+  double size = 0;   ///< sum of both sizes
+  double speed = 0;  ///< largest speed of any point of one relative to the other
   double acceleration = 0;
-  double loss = 0;  ///< by how much places may be computed wrong
+  double loss = 0;  ///< error bound of computed positions
   bool is_within_numbers = true;
 };
 
@@ -31,20 +31,20 @@ class StepPairs {
  public:
   StepPairs(const JointPath& path, const std::vector<ClearanceBody>& bodies, std::size_t step);
 
-  /// No distance of the pair in the step is less, by the balls around the two alone.
+  /// Lower bound of the pair's clearance in the step, by bounding balls alone.
   double lower_by_balls(const RefereePair& pair) const;
 
   StepBound bound(const RefereePair& pair) const;
 
-  /// The distance of the pair at s; beyond `at_most` a lower bound is enough. The normal has the
-  /// axes of the bound's frame.
+  /// Returns the distance of the pair at s; beyond `at_most` a lower bound is enough. The normal
+  /// has the axes of the bound's frame.
   SignedDistance at(const RefereePair& pair, const StepBound& bound, double s, double at_most,
                     bool only_sign = false);
 
-  /// How far the plane across n keeps the pair apart at s, or a little less.
+  /// Lower bound of the pair's distance across the plane with normal n at s.
   double gap(const RefereePair& pair, const StepBound& bound, const Vec3<double>& n, double s);
 
-  /// What `at` has found, in the world.
+  /// Converts a result of `at` to the world.
   SignedDistance in_world(const RefereePair& pair, const StepBound& bound, SignedDistance found,
                           double s);
 
@@ -57,18 +57,18 @@ class StepPairs {
     TwoFoldVec3<double> middle;
   };
   struct Around {
-    Vec3<double> centre;  ///< in the middle of the step
-    double radius = 0;    ///< of a ball that holds the body all the time
+    Vec3<double> centre;  ///< centre in the middle of the step
+    double radius = 0;    ///< radius of a ball that contains the body during the whole step
   };
 
-  /// In the world's axes.
+  /// Pose in the world's axes.
   Place place(const ClearanceBody& body, double s);
   const Place& kept_place(std::size_t body, double s);
   const Mat3<double>& frame_turn(const StepBound& bound, double s);
   Between between(const RefereePair& pair, const StepBound& bound, double s, Mat3<double>& turn_a,
                   Mat3<double>& turn_b);
 
-  /// The last moment that was asked for: questions on many pairs have few moments.
+  /// Poses of a recent moment: queries on many pairs share few moments.
   struct Moment {
     double s = -1;
     std::vector<Place> places;
@@ -78,7 +78,7 @@ class StepPairs {
 
   const std::vector<ClearanceBody>& bodies_;
   StepMotion motion_;
-  std::vector<MotionBound> in_world_;  ///< of each body that is not a half-space
+  std::vector<MotionBound> in_world_;  ///< bound of each body that is not a half-space
   std::vector<Around> around_;
   std::vector<Moment> moments_;
   std::size_t next_moment_ = 0;

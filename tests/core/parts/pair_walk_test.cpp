@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a walk over pairs knows of boxes: lower bounds that hold for all that is in them.
+// Bounds of boxes in a walk over pairs: lower bounds hold for everything in the boxes.
 #include "core/parts/pair_walk.h"
 
 #include <gtest/gtest.h>

@@ -229,7 +229,8 @@ TEST(FirstContact, without_an_output_nobody_elses_file_is_replaced) {
   std::ofstream(folder / "ball.png") << "a photograph";
   const ProgramOutcome refused = run_shell(render);
   EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_NE(refused.err.find("ball.png is there already"), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("ball.png exists and was not written by Minkray"), std::string::npos)
+      << refused.err;
   EXPECT_EQ(text_of_file(folder / "ball.png"), "a photograph");
   EXPECT_EQ(run_shell(in(folder, "$MINKRAY render ball.json --tile 1/2 -q")).exit_code, 2);
 }

@@ -247,7 +247,7 @@ TEST_F(ScanVerb, a_sensor_that_stands_in_a_body_is_told_of) {
   const std::string pattern = "r.urdf --pattern spinning:4x8 -o a.npy";
   const ProgramOutcome within = scan(pattern + " --pose 5,0,3 --returns 2");
   EXPECT_EQ(within.exit_code, 0);
-  EXPECT_NE(within.err.find("32 of 32 rays begin within a body"), std::string::npos) << within.err;
+  EXPECT_NE(within.err.find("32 of 32 rays start inside a body"), std::string::npos) << within.err;
   EXPECT_EQ(scan(pattern + " --pose 2,0,3").err.find("within a body"), std::string::npos);
 }
 

@@ -25,7 +25,7 @@ TEST_F(NothingLost, tiles_are_rendered_once_and_merged_to_the_same_picture) {
     "$MINKRAY" merge merged.exr -o x.png 2> refused && exit 1; cat refused >&2
     if "$MINKRAY" render scene.json -s 4 --tile 2/3 -o 2.exr --aov all --resume; then exit 1; fi)");
   EXPECT_EQ(made.exit_code, 0) << made.err;
-  EXPECT_NE(made.err.find("2.exr: is there already"), std::string::npos);
+  EXPECT_NE(made.err.find("2.exr: exists; not rendered again"), std::string::npos);
   EXPECT_NE(made.err.find("2.exr: is of another picture: minkray.samples is 3, not 4"),
             std::string::npos);
 }

@@ -38,7 +38,7 @@ TEST(ParseJson, numbers_that_are_not_finite_are_told_where_they_stand_and_all_of
 }
 
 TEST(ParseJson, keys_given_twice_are_told_with_their_place) {
-  const std::vector<std::string> expected = {"x: /a/0/k: key given twice"};
+  const std::vector<std::string> expected = {"x: /a/0/k: duplicate key"};
   EXPECT_EQ(complaints(R"({"a": [{"k": 1, "l": 2, "k": {"k": 4}}], "k": 3})"), expected);
 }
 

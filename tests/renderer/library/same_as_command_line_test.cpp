@@ -28,7 +28,8 @@ double number_after(const std::string& line, const std::string& key) {
   return std::strtod(text + (*text == '['), nullptr);
 }
 
-/// How many rays around a point meet something of a scene that comes with Minkray.
+/// Casts rays around a point of a built-in scene with the library and on the command line, and
+/// compares the results. Returns the number of hits.
 std::size_t compare_rays(const std::string& name, const mk::Vec3& middle, double size) {
   const minkray::TemporaryFolder folder;
   const std::string scene_file = (minkray::source_folder() / "scenes" / name).string();

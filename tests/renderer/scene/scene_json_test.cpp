@@ -74,7 +74,7 @@ TEST(SceneJson, ten_different_mistakes_get_ten_messages_with_their_places) {
   const std::vector<std::string> expected = {
       "x.json: /lights/0/direction/2: must be a finite number (got NaN)",
       "x.json: /objects/5/shape/radius: must be a finite number (got 1e999)",
-      "x.json: /objects/7/name: key given twice",
+      "x.json: /objects/7/name: duplicate key",
       "x.json: /camera/position/2: must be a number (got \"two\")",
       "x.json: /camera/fov_y_degrees: must be > 0 and < 180 (got 200)",
       "x.json: /objects/0/shape/radius: must be > 0 (got -1)",

@@ -142,7 +142,7 @@ TEST_F(VersionTwo, files_may_be_included_again_and_again) {
   EXPECT_EQ(scene.materials.size(), 2u);
   EXPECT_FALSE(scene.lights.empty());  // a group takes objects and materials only
 
-  // What is included is part of the scene's hash, and of the files that it is made of.
+  // Included files are part of the scene's hash, and of the list of its files.
   std::vector<std::filesystem::path> files;
   load_scene(folder_.write("scene.json", text), &files);
   EXPECT_EQ(files.size(), 3u);
@@ -171,7 +171,7 @@ TEST_F(VersionTwo, what_is_included_at_the_top_is_part_of_the_scene_itself) {
       "camera": {"position": [0, 0, 7], "look_at": [0, 0, 0]}, )" +
                            end);
   EXPECT_EQ(other.camera.position, Vec3<double>(0, 0, 7));
-  EXPECT_EQ(other.camera.up, Vec3<double>(0, 1, 0));  // it looks straight down
+  EXPECT_EQ(other.camera.up, Vec3<double>(0, 1, 0));  // the camera looks straight down
   EXPECT_EQ(other.background.zenith, Colour(1, 1, 1));
 }
 
@@ -232,7 +232,7 @@ TEST_F(VersionTwo, cameras_lights_and_materials_have_keys) {
   EXPECT_EQ(scene.camera.position, Vec3<double>(4, -4, 0));
   EXPECT_EQ(scene.camera.fov_y_degrees, 30);
 
-  // What is written is read as the same scene, at all times.
+  // A written scene is read as the same scene, at all times.
   Scene again = read(scene_text(as_written));
   for (const double time : {0.0, 0.7, 1.5, 4.5}) {
     set_time(scene, time);
@@ -244,7 +244,8 @@ TEST_F(VersionTwo, cameras_lights_and_materials_have_keys) {
   }
 }
 
-/// It was framed anew for each picture size, and stood elsewhere than its first key says.
+/// Such a camera was framed again for each picture size, and was not at the position of its first
+/// key.
 TEST_F(VersionTwo, a_camera_that_only_keys_place_is_where_they_say) {
   const Scene scene =
       read(R"({"version": 2, "camera": {"keys": [{"time": 0, "position": [0, -9, 3]}]},

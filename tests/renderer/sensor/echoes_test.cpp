@@ -160,7 +160,7 @@ TEST(Beams, at_an_edge_have_two_echoes_that_share_the_light) {
     options.order = EchoOrder::strongest;
     EXPECT_EQ(scan(scene, rays, options).echoes[0].object,
               0.8 / 36 * near > 0.4 / 100 * (1 - near) ? 1 : 0);
-    // What is nearer than the resolution is one echo, at the mean by intensity.
+    // Hits nearer to each other than the resolution are one echo, at the mean by intensity.
     options.resolution = 5;
     options.order = EchoOrder::first;
     const Echo mixed = scan(scene, rays, options).echoes[0];

@@ -79,8 +79,8 @@ TEST(Lidars, the_mid_360_covers_its_field_of_view_and_does_not_repeat) {
                    next = rays_of_pattern("mid360", 0.1, 0.1);
   ASSERT_EQ(first.rays.size(), 20000u);
   EXPECT_NEAR(first.rays[1].time, 5e-6, 1e-18);
-  // Rows of Livox's mid360.csv, from 1, of the first turn: azimuth and zenith in degrees, as near
-  // as is said.
+  // Rows of Livox's mid360.csv, from 1, of the first turn: azimuth and zenith in degrees, within
+  // the documented error.
   const struct {
     std::size_t row;
     double azimuth, zenith;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// LAS, MCAP and COCO files of scans, read again by what their specifications say.
+// LAS, MCAP and COCO files of scans, decoded by their specifications.
 #include <gtest/gtest.h>
 
 #include <cmath>
