@@ -97,8 +97,9 @@ class ObjAttributes {
     long long index = 0;
     if (!read_number(word, index) || index == 0) return wrong;
     if (index < 0) index += static_cast<long long>(count) + 1;
-    return index > 0 && index < static_cast<long long>(wrong) ? static_cast<std::uint32_t>(index - 1)
-                                                              : wrong;
+    return index > 0 && index < static_cast<long long>(wrong)
+               ? static_cast<std::uint32_t>(index - 1)
+               : wrong;
   }
 
   TriangleFans* fans_;
@@ -135,8 +136,8 @@ class ObjFaces {
       }
       const auto offset = static_cast<std::size_t>(index);
       // No file is large enough for a vertex beyond 32 bits: an OBJ that names one is refused.
-      FaceCorner corner{
-          .vertex = static_cast<std::uint32_t>(index < 0 ? count + offset : offset - 1)};
+      FaceCorner corner{.vertex =
+                            static_cast<std::uint32_t>(index < 0 ? count + offset : offset - 1)};
       if (attributes_->are_wanted())
         attributes_->read(word.substr(std::min(word.find('/'), word.size())), corner);
       fans_->add_corner(corner);

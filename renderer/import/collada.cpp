@@ -25,8 +25,6 @@ constexpr std::size_t most_triangles_of_vertex = 8;
 
 using FaceCorners = std::array<std::uint32_t, 3>;
 
-constexpr std::uint32_t none = MeshAttributes::none;
-
 std::size_t count_words(std::string_view text) {
   std::size_t count = 0;
   char before = ' ';
@@ -318,9 +316,9 @@ class Collada {
                         const XmlElement* instance) {
     std::vector<std::uint32_t> numbers;
     for (const std::string& symbol : symbols)
-      numbers.push_back(instance ? number_of(*instance, symbol) : none);
+      numbers.push_back(instance ? number_of(*instance, symbol) : MeshAttributes::none);
     for (std::uint32_t& material : attributes.material_of)
-      material = material < numbers.size() ? numbers[material] : none;
+      material = material < numbers.size() ? numbers[material] : MeshAttributes::none;
   }
 
   std::uint32_t number_of(const XmlElement& instance, const std::string& symbol) {
@@ -328,8 +326,8 @@ class Collada {
       return target(from, key);
     };
     const XmlElement* effect = collada_effect(instance, symbol, follow);
-    if (!effect) return none;
-    const auto [at, is_new] = material_of_effect_.try_emplace(effect, none);
+    if (!effect) return MeshAttributes::none;
+    const auto [at, is_new] = material_of_effect_.try_emplace(effect, MeshAttributes::none);
     if (!is_new) return at->second;
     std::optional<MeshMaterial> material;
     const auto with_id = [this](const std::string& id) {
@@ -339,7 +337,7 @@ class Collada {
     // Wrong colours cost no mesh.
     files_.complaints_of(
         [&] { material = collada_material(*effect, with_id, follow, files_, folder_); });
-    if (!material) return none;
+    if (!material) return MeshAttributes::none;
     at->second = static_cast<std::uint32_t>(materials_.size());
     materials_.push_back(std::move(*material));
     return at->second;

@@ -98,8 +98,8 @@ class FacesReader {
                             std::size_t offset) {
         const std::size_t place = corner * stride + offset;
         // A number that is wrong is one that no item has: settle() counts it.
-        const bool is_good = place < p->size() && (*p)[place] >= 0 &&
-                             (*p)[place] < static_cast<double>(count);
+        const bool is_good =
+            place < p->size() && (*p)[place] >= 0 && (*p)[place] < static_cast<double>(count);
         return is_good ? first + static_cast<std::uint32_t>((*p)[place]) : none - 1;
       };
       for (const FaceCorners& places : triangles_of(faces.name, counts, corners.size())) {
@@ -111,8 +111,7 @@ class FacesReader {
             normals[k] = item(places[k], first_normal,
                               made_.attributes.normals.size() - first_normal, normal.offset);
           if (first_uv != none)
-            uvs[k] =
-                item(places[k], first_uv, made_.attributes.uvs.size() - first_uv, uv.offset);
+            uvs[k] = item(places[k], first_uv, made_.attributes.uvs.size() - first_uv, uv.offset);
         }
         made_.triangles.push_back(triangle);
         if (!with_attributes_) continue;

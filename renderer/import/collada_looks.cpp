@@ -47,7 +47,8 @@ const XmlElement* image_of(const XmlElement& profile, const std::string& name,
   const XmlElement* given = parameter(profile, name);
   const XmlElement* sampler = given ? given->child("sampler2D") : nullptr;
   if (!sampler) return with_id(name);
-  if (const XmlElement* instance = sampler->child("instance_image")) return target(*instance, "url");
+  if (const XmlElement* instance = sampler->child("instance_image"))
+    return target(*instance, "url");
   const XmlElement* source = sampler->child("source");
   const XmlElement* surface = source ? parameter(profile, trimmed(source->text)) : nullptr;
   surface = surface ? surface->child("surface") : nullptr;
@@ -100,8 +101,8 @@ std::optional<MeshMaterial> collada_material(const XmlElement& effect, const Col
   const XmlElement* diffuse = diffuse_of(effect);
   const XmlElement* texture = diffuse ? diffuse->child("texture") : nullptr;
   if (!texture) return std::nullopt;
-  const XmlElement* image = image_of(*effect.child("profile_COMMON"),
-                                     texture->attribute_or("texture"), with_id, target);
+  const XmlElement* image =
+      image_of(*effect.child("profile_COMMON"), texture->attribute_or("texture"), with_id, target);
   if (image) material.file = file_of_image(*image, folder);
   if (!material.has_picture()) return std::nullopt;
   return material;

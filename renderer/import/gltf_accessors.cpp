@@ -139,7 +139,10 @@ std::optional<std::vector<double>> GltfDocument::numbers(std::size_t accessor,
                                                          std::size_t components) {
   const Json& json = item("accessors", accessor);
   const JsonPath path = JsonPath() / "accessors" / accessor;
-  const char* const wanted = components == 4 ? "VEC4" : components == 3 ? "VEC3" : components == 2 ? "VEC2" : "SCALAR";
+  const char* const wanted = components == 4   ? "VEC4"
+                             : components == 3 ? "VEC3"
+                             : components == 2 ? "VEC2"
+                                               : "SCALAR";
   const Json* shape = json.find("type");
   if (!shape || !shape->is_string() || shape->text() != wanted) {
     mistakes_.add(path / "type", "must be \"" + std::string(wanted) + "\"");

@@ -222,8 +222,9 @@ std::optional<std::string> GltfDocument::image_bytes(std::size_t image) {
   const Json& json = item("images", image);
   const JsonPath path = JsonPath() / "images" / image;
   if (const Json* uri = json.find("uri"))
-    return uri->is_string() && uri->text().starts_with("data:") ? read_uri(uri->text(), path / "uri")
-                                                                : std::nullopt;
+    return uri->is_string() && uri->text().starts_with("data:")
+               ? read_uri(uri->text(), path / "uri")
+               : std::nullopt;
   const auto view = index(json, path, "bufferView", "bufferViews");
   if (!view) return std::nullopt;
   const Json& given = item("bufferViews", *view);

@@ -57,13 +57,13 @@ class MeshLibrary {
   struct Part {
     std::shared_ptr<const TriangleMesh> surface = {};
     std::optional<Shape<double>> hull = {};
-    std::optional<Rgba> colour = {};  ///< if the file has one
+    std::optional<Rgba> colour = {};                        ///< if the file has one
     std::shared_ptr<const MeshAttributes> attributes = {};  ///< of the surface, if it has any
   };
   using Materials = std::shared_ptr<const std::vector<MeshMaterial>>;
   struct Answer {
     std::vector<Part> parts;
-    Materials materials = {};  ///< by the numbers of the parts' attributes
+    Materials materials = {};             ///< by the numbers of the parts' attributes
     std::vector<std::string> notes = {};  ///< contents of the file that are not shown
     std::string complaint;                ///< description of the mistake; empty if there is none
     bool is_missing = false;

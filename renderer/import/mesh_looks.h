@@ -5,8 +5,8 @@
 #include <array>
 #include <filesystem>
 #include <map>
-#include <optional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,10 +28,10 @@ struct PartLook {
 /// A material of a mesh file: a colour, or a picture times the colour.
 struct MeshMaterial {
   Rgba rgba = {1, 1, 1, 1};
-  std::filesystem::path file = {};                     ///< of the picture; empty: none
-  std::shared_ptr<const std::string> bytes = {};       ///< of one within the mesh's file
-  PictureFile picture = {};                            ///< as MeshLibrary has read it
-  bool has_any = true;                                 ///< the file says how it looks
+  std::filesystem::path file = {};                ///< of the picture; empty: none
+  std::shared_ptr<const std::string> bytes = {};  ///< of one within the mesh's file
+  PictureFile picture = {};                       ///< as MeshLibrary has read it
+  bool has_any = true;                            ///< the file says how it looks
 
   bool has_picture() const { return !file.empty() || bytes; }
 };
@@ -49,8 +49,8 @@ std::optional<Rgba> colour_of(const MeshLooks& looks);
 /// Number of colours in all parts.
 std::size_t colour_count(const MeshLooks& looks);
 
-/// Reads an OBJ file's groups and the materials (.mtl) that it names. `materials`, if any, get those
-/// of the names.
+/// Reads an OBJ file's groups and the materials (.mtl) that it names. `materials`, if any, get
+/// those of the names.
 MeshLooks obj_looks(const std::filesystem::path& file, const std::vector<std::string>& names,
                     std::vector<MeshMaterial>& materials);
 

@@ -17,9 +17,9 @@ MeshPictures::Read MeshPictures::read(const MeshMaterial& material) {
     pixels_ += static_cast<std::int64_t>(image->pixels.size());
     if (material.bytes) return {{"", std::move(image)}, ""};
     files_.push_back(material.file);
-    return {{std::filesystem::absolute(material.file).lexically_normal().string(),
-             std::move(image)},
-            ""};
+    return {
+        {std::filesystem::absolute(material.file).lexically_normal().string(), std::move(image)},
+        ""};
   } catch (const std::exception& error) {
     const std::string name =
         material.bytes ? "in the file" : printable(material.file.filename().string(), 100);

@@ -27,7 +27,7 @@ PartTriangles triangles_within(const MeshParts& mesh, const std::vector<std::uin
 }
 
 MeshSurface surface_of(std::vector<Vec3<double>> vertices, PartTriangles triangles,
-                             const Vec3<double>& scale) {
+                       const Vec3<double>& scale) {
   weld(vertices, triangles.corners);
   const auto is_point = [](const Corners& t) { return t[0] == t[1] && t[1] == t[2]; };
   std::vector<std::uint32_t> kept;

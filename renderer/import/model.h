@@ -66,7 +66,7 @@ struct ModelGeom {
   /// Geometry: a shape, a mesh, or with neither the half-space under z = 0.
   std::optional<Shape<double>> shape = {};
   std::shared_ptr<const TriangleMesh> mesh = {};
-  Touch touches = Touch::as_seen;  ///< contact shape of a mesh
+  Touch touches = Touch::as_seen;                         ///< contact shape of a mesh
   std::shared_ptr<const MeshAttributes> attributes = {};  ///< of the mesh, if it has any
   /// Materials by the attributes' numbers; null: all of it has the colour.
   std::shared_ptr<const std::vector<MeshMaterial>> materials = {};

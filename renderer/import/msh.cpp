@@ -65,8 +65,8 @@ MeshParts read_msh(const std::filesystem::path& file, MeshSplit split, MeshDetai
       MeshAttributes& made = mesh.attributes;
       for (std::size_t i = 0; i < normals; ++i) {
         const std::size_t at = first_normal + 3 * i;
-        made.normals.push_back(
-            attribute_normal(Vec3<float>(number(at), number(at + 1), number(at + 2)).cast<double>()));
+        made.normals.push_back(attribute_normal(
+            Vec3<float>(number(at), number(at + 1), number(at + 2)).cast<double>()));
       }
       for (std::size_t i = 0; i < texture; ++i)
         made.uvs.push_back({number(first_uv + 2 * i), 1 - number(first_uv + 2 * i + 1)});

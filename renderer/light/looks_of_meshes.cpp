@@ -35,8 +35,8 @@ Vec3<double> LooksOfMeshes::normal(const World& world, const SurfaceHit& hit,
   const MeshPoint found = at(hit, to_mesh(instances.seen_by(hit.instance, point, time)));
   if (found.normal.isZero(0)) return hit.normal;
   // Normals go by the transposed inverse of the map.
-  const Vec3<double> normal = instances.turned(
-      hit.instance, unit<double>(to_mesh.linear.transpose() * found.normal), time);
+  const Vec3<double> normal =
+      instances.turned(hit.instance, unit<double>(to_mesh.linear.transpose() * found.normal), time);
   return normal.dot(hit.normal) < 0 ? Vec3<double>(-normal) : normal;
 }
 

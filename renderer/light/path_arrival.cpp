@@ -79,7 +79,8 @@ void PathTransport::Wave::arrive(std::size_t i) {
   TexturePoint place;
   const SurfaceHit hit{at.instance, at.part, at.normal};
   if (of_.surfaces_.has_textures())
-    place = of_.surfaces_.place(of_.world_, hit, position, path.time, path.ray.direction, path.cone);
+    place =
+        of_.surfaces_.place(of_.world_, hit, position, path.time, path.ray.direction, path.cone);
   const auto in_world = [&](const Vec3<double>& direction) {
     return of_.world_.instances().turned(at.instance, direction, path.time);
   };

@@ -9,7 +9,7 @@ namespace minkray {
 namespace {
 
 using Numbers = MeshAttributes::Numbers;
-constexpr std::size_t most_items = std::size_t{1} << 30;
+constexpr std::size_t most_attributes = std::size_t{1} << 30;
 
 /// True if the key holds a list of so many items; else a mistake.
 bool has_items(const Json& json, const JsonPath& path, Mistakes& mistakes, std::size_t count,
@@ -62,7 +62,7 @@ std::optional<std::vector<Numbers>> read_numbers_of(ObjectReader& mesh, const ch
 
 bool read_normals(ObjectReader& mesh, const Json& written, MeshAttributes& made) {
   const auto points =
-      read_points(written, mesh.path("normals"), mesh.mistakes(), 1, most_items);
+      read_points(written, mesh.path("normals"), mesh.mistakes(), 1, most_attributes);
   if (!points) return false;
   for (std::size_t i = 0; i < points->size(); ++i) {
     made.normals.push_back(attribute_normal((*points)[i]));
@@ -75,8 +75,8 @@ bool read_normals(ObjectReader& mesh, const Json& written, MeshAttributes& made)
 
 bool read_uvs(ObjectReader& mesh, const Json& written, MeshAttributes& made) {
   if (!written.is_array() || written.empty()) {
-    mesh.mistakes().add(mesh.path("uv"), "must be a list of two numbers each (" + found(written) +
-                                             ")");
+    mesh.mistakes().add(mesh.path("uv"),
+                        "must be a list of two numbers each (" + found(written) + ")");
     return false;
   }
   for (std::size_t i = 0; i < written.size(); ++i) {
@@ -105,9 +105,9 @@ bool read_material_of(ObjectReader& mesh, const Json& written, std::size_t trian
                               " materials (" + found(written[i]) + ")");
       return false;
     }
-    made.material_of.push_back(
-        has_none ? MeshAttributes::none
-                 : static_cast<std::uint32_t>(written[i].get<std::uint64_t>()));
+    made.material_of.push_back(has_none
+                                   ? MeshAttributes::none
+                                   : static_cast<std::uint32_t>(written[i].get<std::uint64_t>()));
   }
   return true;
 }
@@ -131,8 +131,7 @@ std::optional<MeshShading> read_shading(ObjectReader& mesh) {
     const auto degrees =
         read_number(*written, mesh.path("smooth"), mesh.mistakes(), Range::positive);
     if (!degrees) return std::nullopt;
-    if (*degrees <= 180)
-      return MeshShading{MeshShading::smooth, *degrees * std::numbers::pi / 180};
+    if (*degrees <= 180) return MeshShading{MeshShading::smooth, *degrees * std::numbers::pi / 180};
   }
   mesh.mistakes().add(mesh.path("smooth"),
                       "must be true, false, or the largest smooth angle in degrees, at most 180 (" +
@@ -161,8 +160,8 @@ std::optional<MeshAttributes> read_attributes(ObjectReader& mesh,
   }
   if (const Json* uvs = mesh.find("uv")) {
     if (!read_uvs(mesh, *uvs, made)) return std::nullopt;
-    auto of = read_numbers_of(mesh, "uv_triangles", made.uvs.size(), "uv", vertices.size(),
-                              triangles);
+    auto of =
+        read_numbers_of(mesh, "uv_triangles", made.uvs.size(), "uv", vertices.size(), triangles);
     if (!of) return std::nullopt;
     made.uv_of = std::move(*of);
   }

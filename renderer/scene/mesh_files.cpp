@@ -42,8 +42,8 @@ std::optional<PointCloud<double>> MeshFiles::read(const std::string& written, co
     read_.emplace(name, Mesh{points, hash.text()});
     return points;
   } catch (const std::exception& error) {
-    mistakes.add(path,
-                 printable(file.string(), 200) + ": " + what_of(error) + advice_on_mesh(folder_, file));
+    mistakes.add(path, printable(file.string(), 200) + ": " + what_of(error) +
+                           advice_on_mesh(folder_, file));
     return std::nullopt;
   }
 }
@@ -73,8 +73,8 @@ std::optional<std::vector<PointCloud<double>>> MeshFiles::read_parts(const std::
     parts.hash = hash.text();
     return parts_.emplace(std::pair(name, split), std::move(parts)).first->second.hulls;
   } catch (const std::exception& error) {
-    mistakes.add(path,
-                 printable(file.string(), 200) + ": " + what_of(error) + advice_on_mesh(folder_, file));
+    mistakes.add(path, printable(file.string(), 200) + ": " + what_of(error) +
+                           advice_on_mesh(folder_, file));
     return std::nullopt;
   }
 }

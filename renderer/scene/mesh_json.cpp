@@ -66,9 +66,9 @@ SceneMesh read_mesh(const Json& json, const JsonPath& path, Mistakes& mistakes, 
     const auto scale =
         written ? read_number(*written, object.path("scale"), mistakes, Range::positive) : 1.0;
     if (named && !named->is_object()) {
-      mistakes.add(object.path("materials"),
-                   "must be an object of the file's materials and the scene's (" + found(*named) +
-                       ")");
+      mistakes.add(
+          object.path("materials"),
+          "must be an object of the file's materials and the scene's (" + found(*named) + ")");
       return {};
     }
     if (!object.finish() || !name || !scale || !shading) return {};

@@ -14,7 +14,8 @@ namespace {
 Paint paint_of(const FileMaterial& material) {
   if (material.picture.image) return Paint(ImageTexture{material.picture, {"uv"}});
   Colour colour;
-  for (int i = 0; i < 3; ++i) colour[i] = from_srgb((*material.colour)[static_cast<std::size_t>(i)]);
+  for (int i = 0; i < 3; ++i)
+    colour[i] = from_srgb((*material.colour)[static_cast<std::size_t>(i)]);
   return colour;
 }
 
@@ -47,7 +48,9 @@ bool is_by_uv(const Paint& paint) {
          std::visit([](const auto& kind) { return kind.mapping.name == "uv"; }, *paint.texture());
 }
 
-bool is_by_uv(const PaintIfAny& paint) { return paint && is_by_uv(*paint); }
+bool is_by_uv(const PaintIfAny& paint) {
+  return paint && is_by_uv(*paint);
+}
 
 bool needs_uv(const Scene& scene, const Material& material) {
   if (is_by_uv(material.relief.bump) || is_by_uv(material.relief.normal_map)) return true;
@@ -57,7 +60,8 @@ bool needs_uv(const Scene& scene, const Material& material) {
     });
   return std::visit(
       []<class M>(const M& kind) {
-        if constexpr (requires { kind.colour.has_value(); } || requires { kind.colour.texture(); })
+        if constexpr (
+            requires { kind.colour.has_value(); } || requires { kind.colour.texture(); })
           return is_by_uv(kind.colour);
         else
           return false;
@@ -86,8 +90,7 @@ std::set<std::uint32_t> materials_of(const Object& object) {
 
 std::size_t triangles_without_uv(const Object& object) {
   const MeshAttributes& attributes = *object.look->attributes;
-  return static_cast<std::size_t>(
-      std::ranges::count(attributes.uv_of, MeshAttributes::no_numbers));
+  return static_cast<std::size_t>(std::ranges::count(attributes.uv_of, MeshAttributes::no_numbers));
 }
 
 }  // namespace
@@ -97,14 +100,14 @@ std::shared_ptr<const MeshLook> look_of(const SceneMesh& mesh, bool takes_file, 
                                         Mistakes& mistakes) {
   MeshLook look{mesh.attributes};
   if (mesh.named)
-    look.materials =
-        named_materials(*mesh.named, mesh, materials, path / "materials", mistakes);
+    look.materials = named_materials(*mesh.named, mesh, materials, path / "materials", mistakes);
   if (takes_file && mesh.materials) {
     look.materials.resize(mesh.materials->size(), MeshAttributes::none);
     for (std::size_t i = 0; i < look.materials.size(); ++i) {
       const FileMaterial& of_file = (*mesh.materials)[i];
       if (look.materials[i] == MeshAttributes::none && (of_file.colour || of_file.picture.image))
-        look.materials[i] = materials.of_file(of_file.name, mesh.materials.get(), paint_of(of_file));
+        look.materials[i] =
+            materials.of_file(of_file.name, mesh.materials.get(), paint_of(of_file));
     }
   }
   for (std::uint32_t& material : look.materials)
@@ -122,11 +125,13 @@ void check_look(const Scene& scene, const Object& object, const JsonPath& path,
     const std::string of = " (material \"" + printable(material.name, 60) + "\")";
     if (needs_uv(scene, material)) {
       if (!object.mesh || !object.look || object.look->attributes->uv_of.empty())
-        mistakes.add(path, "must be a mesh with texture coordinates for a texture of mapping \"uv\"" +
-                               of);
+        mistakes.add(
+            path, "must be a mesh with texture coordinates for a texture of mapping \"uv\"" + of);
       else if (const std::size_t without = triangles_without_uv(object); without > 0)
-        mistakes.add(path, "must have texture coordinates for a texture of mapping \"uv\" at all "
-                           "triangles (got " + std::to_string(without) + " without)" + of);
+        mistakes.add(path,
+                     "must have texture coordinates for a texture of mapping \"uv\" at all "
+                     "triangles (got " +
+                         std::to_string(without) + " without)" + of);
     }
     const Material& own = scene.materials[object.material];
     if (i == object.material) continue;

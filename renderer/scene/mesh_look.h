@@ -9,8 +9,9 @@
 
 namespace minkray {
 
-/// Returns the look of a mesh; null if it has neither attributes nor materials of its own. Materials
-/// that the mesh does not name are the file's if `takes_file` says so. `path` is the mesh's.
+/// Returns the look of a mesh; null if it has neither attributes nor materials of its own.
+/// Materials that the mesh does not name are the file's if `takes_file` says so. `path` is the
+/// mesh's.
 std::shared_ptr<const MeshLook> look_of(const SceneMesh& mesh, bool takes_file, Scene& scene,
                                         MaterialNames& materials, const JsonPath& path,
                                         Mistakes& mistakes);

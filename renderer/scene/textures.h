@@ -23,13 +23,15 @@ using Colour = Vec3<double>;
 /// inside, so that the directions from there tell all places of its surface apart.
 struct Mappings {
   static constexpr std::string_view what = "a mapping";
-  static constexpr std::array<std::string_view, 5> names = {"radial", "box", "planar", "normal", "uv"};
+  static constexpr std::array<std::string_view, 5> names = {"radial", "box", "planar", "normal",
+                                                            "uv"};
 };
 using Mapping = NameOf<Mappings>;
 
 namespace texture_doc {
 inline constexpr std::string_view scale =
-    "the length of one repeat; of the mappings radial and normal the part of the turn, of uv that of "
+    "the length of one repeat; of the mappings radial and normal the part of the turn, of uv that "
+    "of "
     "the coordinates";
 inline constexpr std::string_view mapping =
     "radial: by longitude and latitude around the object's origin; box: along the axis that the "
