@@ -15,7 +15,7 @@ namespace minkray {
 
 struct MeshAttributes {
   using Numbers = std::array<std::uint32_t, 3>;
-  /// Stands for "has none" in numbers of normals, coordinates and materials.
+  /// Marks a missing normal, coordinate or material.
   static constexpr std::uint32_t none = ~std::uint32_t{0};
   static constexpr Numbers no_numbers = {none, none, none};
 

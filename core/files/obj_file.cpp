@@ -12,8 +12,8 @@ namespace {
 
 using namespace text_file;
 
-/// Numbers the groups of an OBJ, one for each pair of an object's and a group's name. What is above
-/// the first name has none, as have the faces below a "g" alone.
+/// Numbers the groups of an OBJ, one for each pair of an object's and a group's name. Faces above
+/// the first name have none, as do the faces below a "g" alone.
 class ObjGroups {
  public:
   ObjGroups() { number(); }
@@ -41,7 +41,7 @@ class ObjGroups {
   std::map<std::pair<std::string, std::string>, std::uint32_t> numbers_;
 };
 
-/// Reads the attributes of an OBJ beside its vertices. Wrong ones are left for settle() to count.
+/// Reads the attributes of an OBJ next to its vertices. Wrong ones are left for settle() to count.
 class ObjAttributes {
  public:
   explicit ObjAttributes(TriangleFans& fans) : fans_(&fans), all_(fans.attributes()) {}
@@ -107,15 +107,14 @@ class ObjAttributes {
   std::map<std::string, std::uint32_t> materials_;
 };
 
-/// The vertices that the faces of an OBJ name. They may stand below the faces: only at the end is
+/// The vertices that the faces of an OBJ name. Vertices may follow the faces: only at the end is
 /// it known which are missing.
 class ObjFaces {
  public:
   ObjFaces(TriangleFans& fans, const ObjAttributes& attributes)
       : fans_(&fans), attributes_(&attributes) {}
 
-  /// Takes the words of a face ("7", "7/1", "7//2" or "-1/2/3"), above which `count` vertices
-  /// stand.
+  /// Takes the words of a face ("7", "7/1", "7//2" or "-1/2/3"), with `count` vertices above it.
   void add(std::string_view line, std::size_t count, std::size_t line_number) {
     for (;;) {
       const std::string_view word = next_word(line);

@@ -187,7 +187,7 @@ class Collada {
 
   bool with_triangles() const { return detail_ != MeshDetail::vertices; }
 
-  /// The vectors of so many numbers that an input names.
+  /// The vectors of `width` numbers that an input names.
   std::optional<ColladaVectors> vectors_of(const XmlElement& input, std::size_t width) {
     const XmlElement* source = target(input, "source");
     const XmlElement* array = source ? source->child("float_array") : nullptr;
@@ -255,7 +255,7 @@ class Collada {
     }
   }
 
-  /// Where the first vertex begins, and how many numbers there are to the next one.
+  /// Offset of the first vector, and the count of numbers to the next one.
   std::pair<std::size_t, std::size_t> layout_of(const XmlElement& source, double width) {
     const XmlElement* common = source.child("technique_common");
     const XmlElement* accessor = common ? common->child("accessor") : nullptr;

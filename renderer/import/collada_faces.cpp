@@ -71,7 +71,7 @@ class FacesReader {
       if (semantic == "VERTEX") vertex = {&input, offset};
       if (!with_attributes_) continue;
       if (semantic == "NORMAL") normal = {&input, offset};
-      // Of several sets of coordinates the first is that of colours.
+      // The first of several sets of coordinates is that of colours.
       if (semantic == "TEXCOORD") {
         const double set = files_.number(input, "set").value_or(0);
         if (set >= lowest_set) continue;
@@ -134,7 +134,7 @@ class FacesReader {
     return corners;
   }
 
-  /// Attributes may stand among the vertices instead, with their numbers.
+  /// Attributes may be inputs of the vertices instead, with their numbers.
   void find_at_vertices(std::size_t offset, Input& normal, Input& uv) const {
     const XmlElement* vertices = mesh_.child("vertices");
     if (!vertices) return;

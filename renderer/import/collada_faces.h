@@ -11,7 +11,7 @@
 
 namespace minkray {
 
-/// Where vectors lie among the numbers of an array.
+/// Positions of vectors in an array of numbers.
 struct ColladaVectors {
   const std::vector<double>* numbers;
   std::size_t begin, stride, count;
@@ -19,7 +19,7 @@ struct ColladaVectors {
   const double* at(std::size_t i) const { return numbers->data() + begin + i * stride; }
 };
 
-/// Finds the vectors of so many numbers that an <input> names; nothing if there are none.
+/// Finds the vectors of `width` numbers that an <input> names; nothing if there are none.
 using ColladaSource =
     std::function<std::optional<ColladaVectors>(const XmlElement& input, std::size_t width)>;
 

@@ -40,7 +40,7 @@ std::string trimmed(const std::string& text) {
   return text.substr(begin, text.find_last_not_of(" \t\r\n") - begin + 1);
 }
 
-/// The image of a texture: by way of a sampler and a surface (1.4), of a sampler (1.5), or by its
+/// The image of a texture: via a sampler and a surface (1.4), via a sampler (1.5), or by its
 /// own name.
 const XmlElement* image_of(const XmlElement& profile, const std::string& name,
                            const ColladaById& with_id, const ColladaTarget& target) {
@@ -56,8 +56,6 @@ const XmlElement* image_of(const XmlElement& profile, const std::string& name,
   return from ? with_id(trimmed(from->text)) : nullptr;
 }
 
-/// The file's place: as written, or by its name alone beside the mesh, for absolute names of other
-/// machines.
 std::filesystem::path file_of_image(const XmlElement& image, const std::filesystem::path& folder) {
   const XmlElement* from = image.child("init_from");
   if (!from) return {};
@@ -65,13 +63,7 @@ std::filesystem::path file_of_image(const XmlElement& image, const std::filesyst
   std::string uri = trimmed(ref ? ref->text : from->text);
   if (uri.empty()) return {};
   if (uri.starts_with("file://")) uri = uri.substr(std::string_view("file://").size());
-  std::ranges::replace(uri, '\\', '/');
-  const std::filesystem::path name = percent_decoded(uri);
-  std::error_code error;
-  const std::filesystem::path beside = folder / name.filename();
-  if (!std::filesystem::exists(folder / name, error) && std::filesystem::exists(beside, error))
-    return beside;
-  return folder / name;
+  return picture_file(folder, percent_decoded(uri));
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ using ColladaTarget = std::function<const XmlElement*(const XmlElement&, std::st
 /// Finds an element by its id; null if there is none.
 using ColladaById = std::function<const XmlElement*(const std::string& id)>;
 
-/// The effect that a material's symbol stands for; null if there is none.
+/// The effect bound to a material's symbol; null if there is none.
 const XmlElement* collada_effect(const XmlElement& instance, const std::string& symbol,
                                  const ColladaTarget& target);
 
@@ -29,7 +29,7 @@ std::optional<MeshMaterial> collada_material(const XmlElement& effect, const Col
                                              const ColladaTarget& target, XmlFiles& files,
                                              const std::filesystem::path& folder);
 
-/// What an element is called: its name, or its id.
+/// Name of an element: its name, or its id.
 std::string collada_name(const XmlElement& element);
 
 /// The look of a geometry as `instance`, if any, binds its materials.

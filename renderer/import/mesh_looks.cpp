@@ -77,6 +77,15 @@ std::size_t colour_count(const MeshLooks& looks) {
   return all.size();
 }
 
+std::filesystem::path picture_file(const std::filesystem::path& folder, std::string name) {
+  std::ranges::replace(name, '\\', '/');
+  const std::filesystem::path file = folder / name;
+  std::error_code error;
+  const std::filesystem::path last = folder / std::filesystem::path(name).filename();
+  if (!std::filesystem::exists(file, error) && std::filesystem::exists(last, error)) return last;
+  return file.lexically_normal();
+}
+
 MeshLooks obj_looks(const std::filesystem::path& file, const std::vector<std::string>& names,
                     std::vector<MeshMaterial>& materials) {
   const std::string bytes = read_regular_file(file, most_obj_bytes);
@@ -120,11 +129,13 @@ MeshLooks obj_looks(const std::filesystem::path& file, const std::vector<std::st
     const MtlMaterial* known = find_material(libraries, name, folder);
     made.has_any = known && (known->colour || !known->picture.empty());
     if (!made.has_any) continue;
-    // Many programs write any colour beside a picture, black too.
-    if (known->picture.empty())
+    // Many programs write any colour next to a picture, even black.
+    if (known->picture.empty()) {
       made.rgba = *rgba_of(*known);
-    else
-      made.file = (folder / known->picture).lexically_normal();
+    } else {
+      made.file = picture_file(folder, known->picture);
+      made.without_picture = rgba_of(*known);
+    }
   }
   return looks;
 }

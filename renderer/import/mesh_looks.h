@@ -28,10 +28,11 @@ struct PartLook {
 /// A material of a mesh file: a colour, or a picture times the colour.
 struct MeshMaterial {
   Rgba rgba = {1, 1, 1, 1};
+  std::optional<Rgba> without_picture = {};       ///< the colour if the picture cannot be read
   std::filesystem::path file = {};                ///< of the picture; empty: none
   std::shared_ptr<const std::string> bytes = {};  ///< of one within the mesh's file
   PictureFile picture = {};                       ///< as MeshLibrary has read it
-  bool has_any = true;                            ///< the file says how it looks
+  bool has_any = true;                            ///< the file describes it
 
   bool has_picture() const { return !file.empty() || bytes; }
 };
@@ -48,6 +49,10 @@ std::optional<Rgba> colour_of(const MeshLooks& looks);
 
 /// Number of colours in all parts.
 std::size_t colour_count(const MeshLooks& looks);
+
+/// The file of a picture that a mesh file names: as named, or by its last name in the folder, for
+/// absolute names of other machines.
+std::filesystem::path picture_file(const std::filesystem::path& folder, std::string name);
 
 /// Reads an OBJ file's groups and the materials (.mtl) that it names. `materials`, if any, get
 /// those of the names.

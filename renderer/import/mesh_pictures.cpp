@@ -45,6 +45,8 @@ void MeshPictures::read(MeshMaterial& material, std::vector<std::string>& notes)
     if (!found->complaint.empty()) notes.push_back(found->complaint);
   }
   material.picture = found->picture;
+  if (!material.picture.image && material.without_picture)
+    material.rgba = *material.without_picture;
 }
 
 }  // namespace minkray

@@ -14,11 +14,11 @@ struct MeshPoint {
   Vec3<double> normal = Vec3<double>::Zero();  ///< of unit length; zero if there is none
   bool has_uv = false;
   Vec3<double> uv = Vec3<double>::Zero();  ///< the third number is 0
-  /// How the two coordinates change along x, y and z.
+  /// Change of the two coordinates along x, y and z.
   std::array<Vec3<double>, 2> uv_slopes = {Vec3<double>::Zero(), Vec3<double>::Zero()};
 };
 
-/// Attributes at the point of the triangle's plane; beside the triangle, those of its edge.
+/// Attributes at the point of the triangle's plane; outside of the triangle, those of its edge.
 MeshPoint mesh_point(const TriangleMesh& mesh, const MeshAttributes& attributes,
                      std::uint32_t triangle, const Vec3<double>& point);
 

@@ -11,7 +11,7 @@ namespace {
 using Numbers = MeshAttributes::Numbers;
 constexpr std::size_t most_attributes = std::size_t{1} << 30;
 
-/// True if the key holds a list of so many items; else a mistake.
+/// True if the key holds a list of `count` items; else a mistake.
 bool has_items(const Json& json, const JsonPath& path, Mistakes& mistakes, std::size_t count,
                const char* what) {
   if (json.is_array() && json.size() == count) return true;

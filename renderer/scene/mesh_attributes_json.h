@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Attributes of meshes in scene files: "smooth", "normals", "uv" and "material_of" beside a mesh's
+// Attributes of meshes in scene files: "smooth", "normals", "uv" and "material_of" next to a mesh's
 // vertices and triangles.
 #pragma once
 

@@ -37,10 +37,10 @@ struct SceneMesh {
   std::shared_ptr<const MeshAttributes> attributes = {};  ///< null: none
   /// Materials of a file, by the attributes' numbers.
   std::shared_ptr<const std::vector<FileMaterial>> materials = {};
-  const Json* named = nullptr;  ///< what the scene says instead of these, if anything
+  const Json* named = nullptr;  ///< names in the scene instead of these, if any
 };
 
-/// Where normals of a mesh come from.
+/// Source of a mesh's normals.
 struct MeshShading {
   enum Kind : unsigned char { as_given, flat, smooth } kind = as_given;
   double crease = 0;  ///< of smooth ones: the largest angle that is smooth, in radians

@@ -16,7 +16,7 @@ namespace minkray {
 /// No mesh, and mistakes, if anything in it is wrong. The result refers to the JSON.
 SceneMesh read_mesh(const Json& json, const JsonPath& path, Mistakes& mistakes, MeshFiles& files);
 
-/// By its vertices and triangles, with its look if it has one.
+/// Writes vertices and triangles, and the look if there is one.
 Json write_mesh(const TriangleMesh& mesh, const MeshLook* look, const Scene& scene);
 
 }  // namespace minkray

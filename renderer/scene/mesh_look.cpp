@@ -19,7 +19,7 @@ Paint paint_of(const FileMaterial& material) {
   return colour;
 }
 
-/// What "materials" names: by their numbers in a list, or by the names in the file.
+/// Materials that "materials" names: by numbers in a list, or by the names in the file.
 std::vector<std::uint32_t> named_materials(const Json& written, const SceneMesh& mesh,
                                            const MaterialNames& materials, const JsonPath& path,
                                            Mistakes& mistakes) {

@@ -9,8 +9,8 @@
 
 namespace minkray {
 
-/// Returns the look of a mesh; null if it has neither attributes nor materials of its own.
-/// Materials that the mesh does not name are the file's if `takes_file` says so. `path` is the
+/// Returns the look of a mesh; null if it has neither attributes nor materials of its own. With
+/// `takes_file`, materials that the scene does not name are those of the file. `path` is the
 /// mesh's.
 std::shared_ptr<const MeshLook> look_of(const SceneMesh& mesh, bool takes_file, Scene& scene,
                                         MaterialNames& materials, const JsonPath& path,

@@ -152,7 +152,7 @@ TEST(MeshShading, no_light_comes_through_from_behind) {
   EXPECT_GT(rendered(scene, IntegratorKind::path).pixels[30 * 60 + 30].x(), 0.5F);
 }
 
-/// A square from -1 to 1 that looks at the camera.
+/// A square from -1 to 1 that faces the camera.
 Surface square_surface() {
   return {{{-1, 0, -1}, {1, 0, -1}, {1, 0, 1}, {-1, 0, 1}}, {{0, 1, 2}, {0, 2, 3}}};
 }
@@ -220,7 +220,7 @@ TEST(MeshPoint, weights_follow_the_point_and_slopes_are_those_of_the_coordinates
   EXPECT_LT((found.uv_slopes[0] - Vec3<double>(0.5, 0, 0)).norm(), 1e-15);
   EXPECT_LT((found.uv_slopes[1] - Vec3<double>(0, 1.0 / 3, 0)).norm(), 1e-15);
   EXPECT_LT((found.normal - Vec3<double>(0.5, 0.25, 0.25).normalized()).norm(), 1e-6);
-  // Beside the triangle weights stay those of its edge.
+  // Outside of the triangle weights stay those of its edge.
   EXPECT_LT((mesh_point(mesh, made, 0, {5, -1, 0}).uv - Vec3<double>(1, 0, 0)).norm(), 1e-15);
   EXPECT_FALSE(mesh_point(mesh, {}, 0, {0, 0, 0}).has_uv);
 }
