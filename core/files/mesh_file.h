@@ -15,6 +15,8 @@
 
 namespace minkray {
 
+struct MeshAttributes;
+
 /// The faces of a mesh as triangles that hold each vertex of each face: a face of more corners is a
 /// fan, one of fewer has its last corner again. In the file's order.
 struct MeshTriangles {
@@ -25,15 +27,18 @@ struct MeshTriangles {
 };
 
 /// All vertices, in the file's order and unit; at least one, each finite. If `triangles` are
-/// wanted they are added there. Throws std::runtime_error with the mistake in the file, without
+/// wanted they are added there, and an OBJ's attributes to `attributes`, which still must be
+/// settled. Throws std::runtime_error with the mistake in the file, without
 /// its name: "line 12: ...".
 std::vector<Vec3<double>> read_mesh_vertices(const std::filesystem::path& path,
-                                             MeshTriangles* triangles = nullptr);
+                                             MeshTriangles* triangles = nullptr,
+                                             MeshAttributes* attributes = nullptr);
 
 enum class MeshFormat : unsigned char { obj, stl };
 
 /// Reads a file's contents.
 std::vector<Vec3<double>> mesh_vertices(std::string_view contents, MeshFormat format,
-                                        MeshTriangles* triangles = nullptr);
+                                        MeshTriangles* triangles = nullptr,
+                                        MeshAttributes* attributes = nullptr);
 
 }  // namespace minkray

@@ -29,13 +29,16 @@ Parts parts_by(std::span<const std::uint32_t> label_of_triangle,
 
 /// Splits what `read` reads.
 template <class Read>
-MeshParts split_by(MeshSplit split, bool with_triangles, const Read& read) {
-  if (split == MeshSplit::none && !with_triangles) return {read(nullptr)};
+MeshParts split_by(MeshSplit split, MeshDetail detail, const Read& read) {
+  if (split == MeshSplit::none && detail == MeshDetail::vertices) return {read(nullptr, nullptr)};
   MeshTriangles triangles;
-  MeshParts mesh{read(&triangles)};
+  MeshAttributes attributes;
+  MeshParts mesh{read(&triangles, detail == MeshDetail::attributes ? &attributes : nullptr)};
   if (split == MeshSplit::groups) mesh.parts = parts_by(triangles.groups, triangles.corners);
   if (split == MeshSplit::components) mesh.parts = components_of(mesh.vertices, triangles.corners);
-  if (with_triangles) mesh.triangles = std::move(triangles.corners);
+  if (detail != MeshDetail::vertices) mesh.triangles = std::move(triangles.corners);
+  settle(attributes);
+  mesh.attributes = std::move(attributes);
   return mesh;
 }
 
@@ -72,15 +75,17 @@ Parts components_of(std::span<const Vec3<double>> vertices, std::span<const Corn
   return parts_by(labels, triangles);
 }
 
-MeshParts read_mesh_parts(const std::filesystem::path& file, MeshSplit split, bool with_triangles) {
-  return split_by(split, with_triangles,
-                  [&](MeshTriangles* triangles) { return read_mesh_vertices(file, triangles); });
+MeshParts read_mesh_parts(const std::filesystem::path& file, MeshSplit split, MeshDetail detail) {
+  return split_by(split, detail, [&](MeshTriangles* triangles, MeshAttributes* attributes) {
+    return read_mesh_vertices(file, triangles, attributes);
+  });
 }
 
 MeshParts mesh_parts(std::string_view contents, MeshFormat format, MeshSplit split) {
-  return split_by(split, false, [&](MeshTriangles* triangles) {
-    return mesh_vertices(contents, format, triangles);
-  });
+  return split_by(split, MeshDetail::vertices,
+                  [&](MeshTriangles* triangles, MeshAttributes* attributes) {
+                    return mesh_vertices(contents, format, triangles, attributes);
+                  });
 }
 
 }  // namespace minkray

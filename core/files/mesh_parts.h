@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/files/mesh_attributes.h"
 #include "core/files/mesh_file.h"
 #include "core/math/vec.h"
 
@@ -17,18 +18,22 @@ namespace minkray {
 
 enum class MeshSplit : unsigned char { none, groups, components };
 
+/// How much of a mesh file is wanted, each with all before it.
+enum class MeshDetail : unsigned char { vertices, triangles, attributes };
+
 /// Vertices, and the end of each part that the file distinguishes: at least one.
 struct MeshParts {
   std::vector<Vec3<double>> vertices;
   std::vector<std::vector<std::uint32_t>> parts = {};  ///< vertices of each; empty: all are one
   std::vector<std::array<std::uint32_t, 3>> triangles = {};  ///< of all parts, if requested
+  MeshAttributes attributes = {};  ///< settled, of the triangles, if requested
 };
 
 /// Reads OBJ and STL as read_mesh_vertices() does. Groups are what follows an "o" or "g" with
 /// another name, and STL's solids. Each vertex that a face names is in a part; of a file without
 /// faces all are one. Throws std::runtime_error without the file's name.
 MeshParts read_mesh_parts(const std::filesystem::path& file, MeshSplit split,
-                          bool with_triangles = false);
+                          MeshDetail detail = MeshDetail::vertices);
 
 /// Reads a file's contents.
 MeshParts mesh_parts(std::string_view contents, MeshFormat format, MeshSplit split);

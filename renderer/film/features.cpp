@@ -33,7 +33,8 @@ NoisyPicture noisy_picture(const Scene& scene, const World& world, const RenderO
       if (hit.cast.status != Status::hit) continue;
       surfaces.describe(world, ray.ray, ray.cone, hit, albedo, emission);
       albedos += albedo;
-      normals += hit.cast.normal.template cast<double>();
+      normals +=
+          surfaces.looks().normal(world, surface_hit(hit), ray.ray.at(hit.cast.t()), ray.time);
       depths += hit.cast.t();
       ++met;
     }

@@ -11,13 +11,14 @@
 #include <stdexcept>
 #include <unordered_map>
 
+#include "renderer/import/collada_faces.h"
 #include "renderer/import/collada_looks.h"
 
 namespace minkray {
 namespace {
 
 /// A node may show other nodes, and these others, so that few lines could show meshes without end.
-constexpr std::size_t most_vertices = 20'000'000;
+constexpr std::size_t most_vertices = most_collada_vertices;
 constexpr int deepest_node = 64;
 constexpr std::size_t most_shown = 1'000'000;  ///< nodes and meshes
 constexpr std::size_t most_triangles_of_vertex = 8;
@@ -37,8 +38,9 @@ std::size_t count_words(std::string_view text) {
 
 class Collada {
  public:
-  Collada(const XmlElement& root, XmlFiles& files, MeshSplit split, bool with_triangles)
-      : root_(root), files_(files), split_(split), with_triangles_(with_triangles) {
+  Collada(const XmlElement& root, XmlFiles& files, MeshSplit split, MeshDetail detail,
+          std::filesystem::path folder)
+      : root_(root), files_(files), split_(split), detail_(detail), folder_(std::move(folder)) {
     index(root);
     most_ = std::min(most_vertices, most_shown_vertices(numbers_));
   }
@@ -62,7 +64,8 @@ class Collada {
       for (const XmlElement& geometry : library->children)
         add_geometry({.geometry = &geometry}, geometry_of(geometry), scale);
     }
-    return {std::move(mesh_), std::move(looks_)};
+    settle(mesh_.attributes);
+    return {std::move(mesh_), std::move(looks_), std::move(materials_)};
   }
 
  private:
@@ -79,15 +82,9 @@ class Collada {
     std::vector<Shown> shows;
   };
 
-  /// Positions of the vertices in an array of numbers.
-  struct Vertices {
-    const std::vector<double>* numbers;
-    std::size_t begin, stride, count;
-  };
   struct Geometry {
-    std::vector<Vertices> vertices;
-    std::vector<FaceCorners> triangles;  ///< if it is split into what hangs together
-    std::size_t corners_end = 0;         ///< beyond all vertices that they name
+    std::vector<ColladaVectors> vertices;
+    ColladaFaces faces;  ///< if triangles are wanted
   };
 
   void index(const XmlElement& element) {
@@ -179,18 +176,26 @@ class Collada {
     if (!vertices) return geometry;
     for (const XmlElement& input : vertices->children) {
       if (input.name != "input" || input.attribute_or("semantic") != "POSITION") continue;
-      const XmlElement* source = target(input, "source");
-      const XmlElement* array = source ? source->child("float_array") : nullptr;
-      if (!array) continue;
-      const std::vector<double>& numbers = numbers_of(*array);
-      const auto [begin, stride] = layout_of(*source);
-      if (numbers.size() < begin + 3) continue;
-      const std::size_t count = (numbers.size() - begin - 3) / stride + 1;
-      geometry.vertices.push_back({&numbers, begin, stride, count});
+      if (const auto vectors = vectors_of(input, 3)) geometry.vertices.push_back(*vectors);
     }
-    if ((split_ == MeshSplit::components || with_triangles_) && !geometry.vertices.empty())
-      read_triangles(*mesh, geometry);
+    if ((split_ == MeshSplit::components || with_triangles()) && !geometry.vertices.empty())
+      geometry.faces = read_collada_faces(
+          *mesh, files_, detail_ == MeshDetail::attributes,
+          [this](const XmlElement& input, std::size_t width) { return vectors_of(input, width); });
     return geometry;
+  }
+
+  bool with_triangles() const { return detail_ != MeshDetail::vertices; }
+
+  /// The vectors of `width` numbers that an input names.
+  std::optional<ColladaVectors> vectors_of(const XmlElement& input, std::size_t width) {
+    const XmlElement* source = target(input, "source");
+    const XmlElement* array = source ? source->child("float_array") : nullptr;
+    if (!array) return std::nullopt;
+    const std::vector<double>& numbers = numbers_of(*array);
+    const auto [begin, stride] = layout_of(*source, static_cast<double>(width));
+    if (numbers.size() < begin + width) return std::nullopt;
+    return ColladaVectors{&numbers, begin, stride, (numbers.size() - begin - width) / stride + 1};
   }
 
   /// Numbers of an array; empty, with an error reported, if any is invalid.
@@ -246,12 +251,12 @@ class Collada {
         mesh_.vertices.push_back(pose(Vec3<double>(at[0], at[1], at[2])));
       }
       add_parts(geometry, first);
-      if (with_triangles_) add_triangles(geometry, first, pose.linear.determinant() < 0);
+      if (with_triangles()) add_triangles(shown, geometry, first, pose.linear);
     }
   }
 
-  /// Offset of the first vertex, and the count of numbers to the next one.
-  std::pair<std::size_t, std::size_t> layout_of(const XmlElement& source) {
+  /// Offset of the first vector, and the count of numbers to the next one.
+  std::pair<std::size_t, std::size_t> layout_of(const XmlElement& source, double width) {
     const XmlElement* common = source.child("technique_common");
     const XmlElement* accessor = common ? common->child("accessor") : nullptr;
     const auto number = [&](const char* key, double otherwise) {
@@ -259,7 +264,7 @@ class Collada {
       return std::clamp(value.value_or(otherwise), otherwise, 1e6);
     };
     return {static_cast<std::size_t>(number("offset", 0)),
-            static_cast<std::size_t>(number("stride", 3))};
+            static_cast<std::size_t>(number("stride", width))};
   }
 
   void add_parts(const Geometry& geometry, std::size_t first) {
@@ -270,7 +275,7 @@ class Collada {
     } else if (split_ == MeshSplit::components) {
       count_triangles(geometry, count);
       const auto own = std::span(mesh_.vertices).subspan(first);
-      for (std::vector<std::uint32_t>& part : components_of(own, geometry.triangles)) {
+      for (std::vector<std::uint32_t>& part : components_of(own, geometry.faces.triangles)) {
         for (std::uint32_t& i : part) i += static_cast<std::uint32_t>(first);
         mesh_.parts.push_back(std::move(part));
       }
@@ -278,82 +283,71 @@ class Collada {
   }
 
   void count_triangles(const Geometry& geometry, std::size_t vertices) {
-    if (geometry.corners_end > vertices)
+    if (geometry.faces.corners_end > vertices)
       throw std::runtime_error("a <p> names a vertex that is not there");
-    triangles_ += geometry.triangles.size();
+    triangles_ += geometry.faces.triangles.size();
     if (triangles_ > most_triangles_of_vertex * most_)
       throw std::runtime_error("must show at most " +
                                std::to_string(most_triangles_of_vertex * most_) +
                                " triangles (got " + std::to_string(triangles_) + ")");
   }
 
-  void add_triangles(const Geometry& geometry, std::size_t first, bool is_mirrored) {
+  void add_triangles(const Shown& shown, const Geometry& geometry, std::size_t first,
+                     const Mat3<double>& linear) {
     count_triangles(geometry, mesh_.vertices.size() - first);
-    for (FaceCorners corners : geometry.triangles) {
+    const bool is_mirrored = linear.determinant() < 0;
+    if (geometry.faces.attributes.any()) {
+      MeshAttributes attributes = geometry.faces.attributes;
+      map_normals(attributes, inverse_of(linear).transpose());
+      if (is_mirrored) swap_corners(attributes);
+      number_materials(attributes, geometry.faces.symbols, shown.instance);
+      append(mesh_.attributes, mesh_.triangles.size(), attributes, geometry.faces.triangles.size(),
+             0);
+    }
+    for (FaceCorners corners : geometry.faces.triangles) {
       for (std::uint32_t& i : corners) i += static_cast<std::uint32_t>(first);
       if (is_mirrored) std::swap(corners[1], corners[2]);
       mesh_.triangles.push_back(corners);
     }
   }
 
-  /// The mesh's polygons as fans of triangles.
-  void read_triangles(const XmlElement& mesh, Geometry& geometry) {
-    for (const XmlElement& faces : mesh.children) {
-      double stride = 1, offset = -1;
-      for (const XmlElement& input : faces.children) {
-        if (input.name != "input") continue;
-        const double at = std::clamp(files_.number(input, "offset").value_or(0), 0.0, 1000.0);
-        stride = std::max(stride, std::floor(at) + 1);
-        if (input.attribute_or("semantic") == "VERTEX") offset = std::floor(at);
-      }
-      if (offset < 0) continue;
-      std::vector<double> counts;
-      if (const XmlElement* vcount = faces.child("vcount"))
-        counts = files_.numbers_in(*vcount, vcount->text, "vcount", 0, most_vertices)
-                     .value_or(std::vector<double>());
-      for (const XmlElement& list : faces.children) {
-        if (list.name != "p") continue;
-        const auto p = files_.numbers_in(list, list.text, "p", 0, 16 * most_vertices);
-        if (!p) continue;
-        std::vector<std::uint32_t> corners;
-        for (auto i = static_cast<std::size_t>(offset); i < p->size();
-             i += static_cast<std::size_t>(stride)) {
-          if (!((*p)[i] >= 0 && (*p)[i] < static_cast<double>(most_vertices)))
-            throw std::runtime_error("a <p> names a vertex that is not there");
-          corners.push_back(static_cast<std::uint32_t>((*p)[i]));
-          geometry.corners_end = std::max<std::size_t>(geometry.corners_end, corners.back() + 1);
-        }
-        add_polygons(faces.name, counts, corners, geometry.triangles);
-      }
-    }
+  /// Puts numbers of the file's materials in the place of the symbols'.
+  void number_materials(MeshAttributes& attributes, const std::vector<std::string>& symbols,
+                        const XmlElement* instance) {
+    std::vector<std::uint32_t> numbers;
+    for (const std::string& symbol : symbols)
+      numbers.push_back(instance ? number_of(*instance, symbol) : MeshAttributes::none);
+    for (std::uint32_t& material : attributes.material_of)
+      material = material < numbers.size() ? numbers[material] : MeshAttributes::none;
   }
 
-  static void add_polygons(const std::string& kind, const std::vector<double>& counts,
-                           const std::vector<std::uint32_t>& corners,
-                           std::vector<FaceCorners>& triangles) {
-    std::size_t begin = 0;
-    const auto add = [&](std::size_t count) {
-      const std::size_t end = std::min(begin + count, corners.size());
-      for (std::size_t i = begin + 2; i < end; ++i)
-        triangles.push_back({corners[begin], corners[i - 1], corners[i]});
-      begin = end;
+  std::uint32_t number_of(const XmlElement& instance, const std::string& symbol) {
+    const ColladaTarget follow = [this](const XmlElement& from, std::string_view key) {
+      return target(from, key);
     };
-    if (kind == "polylist") {
-      for (const double count : counts) add(static_cast<std::size_t>(std::clamp(count, 0.0, 1e9)));
-    } else if (kind == "triangles") {
-      while (begin < corners.size()) add(3);
-    } else if (kind == "tristrips") {
-      for (std::size_t i = 0; i + 2 < corners.size(); ++i)
-        triangles.push_back({corners[i], corners[i + 1 + i % 2], corners[i + 2 - i % 2]});
-    } else {
-      add(corners.size());  // one polygon or fan
-    }
+    const XmlElement* effect = collada_effect(instance, symbol, follow);
+    if (!effect) return MeshAttributes::none;
+    const auto [at, is_new] = material_of_effect_.try_emplace(effect, MeshAttributes::none);
+    if (!is_new) return at->second;
+    std::optional<MeshMaterial> material;
+    const auto with_id = [this](const std::string& id) {
+      const auto found = by_id_.find(id);
+      return found == by_id_.end() ? nullptr : found->second;
+    };
+    // Wrong colours cost no mesh.
+    files_.complaints_of(
+        [&] { material = collada_material(*effect, with_id, follow, files_, folder_); });
+    if (!material) return MeshAttributes::none;
+    at->second = static_cast<std::uint32_t>(materials_.size());
+    materials_.push_back(std::move(*material));
+    return at->second;
   }
 
   const XmlElement& root_;
   XmlFiles& files_;
   MeshSplit split_;
-  bool with_triangles_;
+  MeshDetail detail_;
+  std::filesystem::path folder_;  ///< that pictures' names are relative to
   std::unordered_map<std::string, const XmlElement*> by_id_;
   std::unordered_map<const XmlElement*, Node> nodes_;
   std::unordered_map<const XmlElement*, Geometry> geometries_;
@@ -363,17 +357,19 @@ class Collada {
   std::size_t shown_ = 0, triangles_ = 0;
   MeshParts mesh_;
   MeshLooks looks_;
+  std::vector<MeshMaterial> materials_;
+  std::unordered_map<const XmlElement*, std::uint32_t> material_of_effect_;
 };
 
 }  // namespace
 
-MeshContent read_collada(const std::filesystem::path& file, MeshSplit split, bool with_triangles) {
+MeshContent read_collada(const std::filesystem::path& file, MeshSplit split, MeshDetail detail) {
   Mistakes mistakes("");
   XmlFiles files(mistakes);
   MeshContent content;
   if (const auto root = files.read(file, most_collada_bytes)) {
     if (root->name != "COLLADA") throw std::runtime_error("is no COLLADA file");
-    content = Collada(*root, files, split, with_triangles).read();
+    content = Collada(*root, files, split, detail, file.parent_path()).read();
   }
   if (!mistakes.none()) {
     std::string first = mistakes.messages().front();

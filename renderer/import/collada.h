@@ -10,6 +10,6 @@ namespace minkray {
 
 /// Each mesh that a node shows is a group. Throws std::runtime_error without
 /// the file's name.
-MeshContent read_collada(const std::filesystem::path& file, MeshSplit split, bool with_triangles);
+MeshContent read_collada(const std::filesystem::path& file, MeshSplit split, MeshDetail detail);
 
 }  // namespace minkray

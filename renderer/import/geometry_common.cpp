@@ -173,6 +173,8 @@ std::optional<std::string> add_parts(Model& model, const MeshLibrary::Answer& an
     const MeshLibrary::Part& part = answer.parts[i];
     geom.shape = part.hull;
     geom.mesh = part.surface;
+    geom.attributes = part.attributes;
+    if (colouring == Colouring::of_mesh) geom.materials = answer.materials;
     if (colouring == Colouring::of_mesh && part.colour) geom.rgba = *part.colour;
     if (answer.parts.size() > 1) geom.name = name + "[" + std::to_string(i) + "]";
     model.geoms.push_back(geom);

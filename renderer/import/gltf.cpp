@@ -22,7 +22,8 @@ class GltfReader {
   GltfReader(GltfDocument& document, const std::filesystem::path& file,
              const ImportOptions& options)
       : document_(document),
-        meshes_(document, options.split),
+        meshes_(document, options.split,
+                options.keeps_triangles() ? MeshDetail::attributes : MeshDetail::vertices),
         library_(file.parent_path(), options),
         splits_(options.split) {}
 
@@ -54,7 +55,6 @@ class GltfReader {
     }
     for (const auto& [list, why] : {std::pair{"animations", "nodes stand at rest"},
                                     {"cameras", "is no shape of the scene"},
-                                    {"textures", "surfaces have one colour"},
                                     {"skins", "meshes stand at rest, unbent"}})
       if (const std::size_t count = document_.count(list); count > 0)
         model_.pass_over(list, why, count);
@@ -65,8 +65,9 @@ class GltfReader {
     if (model_.links.empty() && document_.mistakes().none())
       document_.mistakes().add(JsonPath() / "nodes", "must have nodes that are shown");
     library_.hand_over(model_);
-    model_.hash = document_.hash_text();
-    model_.files = document_.files();
+    model_.hash += document_.hash_text();
+    const std::vector<std::filesystem::path>& files = document_.files();
+    model_.files.insert(model_.files.end(), files.begin(), files.end());
     return std::move(model_);
   }
 
@@ -129,9 +130,21 @@ class GltfReader {
     answer = library_.made_of(
         parts, Vec3<double>::Ones(),
         name && name->is_string() ? name->get<std::string>() : "mesh " + std::to_string(mesh));
+    answer.materials = materials();
+    for (const std::string& note : notes_of(parts.attributes)) model_.pass_over("mesh", note);
     if (!answer.complaint.empty())
       document_.mistakes().add(JsonPath() / "meshes" / mesh, answer.complaint);
     return answer;
+  }
+
+  /// All materials of the file, with their pictures; read once.
+  const MeshLibrary::Materials& materials() {
+    if (are_read_) return materials_;
+    are_read_ = true;
+    std::vector<std::string> notes;
+    materials_ = library_.read_pictures(meshes_.looks().materials(), notes);
+    for (const std::string& note : notes) model_.pass_over("material", note);
+    return materials_;
   }
 
   /// Colliders that the nodes below show; as one hull if requested.
@@ -150,7 +163,7 @@ class GltfReader {
   bool add_mesh_geoms(std::size_t mesh, const ModelGeom& geom, const JsonPath& path) {
     const MeshLibrary::Answer& answer = parts_of(mesh);
     const std::size_t before = model_.geoms.size();
-    if (const auto complaint = add_parts(model_, answer, geom)) {
+    if (const auto complaint = add_parts(model_, answer, geom, Colouring::of_mesh)) {
       document_.mistakes().add(path, *complaint);
       return false;
     }
@@ -204,7 +217,8 @@ class GltfReader {
   Model model_;
   std::map<std::size_t, MeshLibrary::Answer> parts_;
   std::map<std::pair<std::size_t, bool>, MeshLibrary::Answer> parts_of_nodes_;
-  bool has_colliders_ = false;
+  MeshLibrary::Materials materials_;
+  bool are_read_ = false, has_colliders_ = false;
 };
 
 }  // namespace
@@ -217,26 +231,29 @@ Model read_gltf(std::string bytes, const std::filesystem::path& file, const Impo
 }
 
 MeshContent read_gltf_content(const std::filesystem::path& file, MeshSplit split,
-                              bool with_triangles) {
+                              MeshDetail detail) {
   Mistakes mistakes("");
   GltfDocument document(read_regular_file(file, most_gltf_bytes), file, mistakes);
   MeshParts all;
   MeshLooks looks;
+  std::vector<MeshMaterial> materials;
   if (document.root() && mistakes.none()) {
-    GltfMeshes meshes(document, split);
+    GltfMeshes meshes(document, split, detail);
     const std::vector<std::size_t> roots = gltf_roots(document);
     if (mistakes.none()) meshes.add_shown(roots, gltf_z_up(), true, all, &looks);
+    if (detail == MeshDetail::attributes) materials = meshes.looks().materials();
   }
   if (!mistakes.none()) {
     const std::string first = mistakes.messages().front();
     throw std::runtime_error(first.starts_with(": ") ? first.substr(2) : first);
   }
   if (all.vertices.empty()) throw std::runtime_error("has no vertices");
-  if (!with_triangles) all.triangles.clear();
+  settle(all.attributes);
+  if (detail == MeshDetail::vertices) all.triangles.clear();
   looks.files = document.files();
   for (const std::string& name : document.unread_extensions())
     looks.notes.push_back("extension " + printable(name, 60) + " is not read");
-  return {std::move(all), std::move(looks)};
+  return {std::move(all), std::move(looks), std::move(materials)};
 }
 
 }  // namespace minkray

@@ -21,7 +21,7 @@ Model read_gltf(std::string bytes, const std::filesystem::path& file, const Impo
 /// All meshes that the file's scene shows, as one mesh; each of them is a part, if groups are
 /// requested. Throws std::runtime_error without the file's name.
 MeshContent read_gltf_content(const std::filesystem::path& file, MeshSplit split,
-                              bool with_triangles);
+                              MeshDetail detail);
 
 /// Larger files are refused.
 inline constexpr std::size_t most_gltf_bytes = std::size_t{1} << 30;

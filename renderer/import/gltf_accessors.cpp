@@ -139,7 +139,10 @@ std::optional<std::vector<double>> GltfDocument::numbers(std::size_t accessor,
                                                          std::size_t components) {
   const Json& json = item("accessors", accessor);
   const JsonPath path = JsonPath() / "accessors" / accessor;
-  const char* const wanted = components == 4 ? "VEC4" : components == 3 ? "VEC3" : "SCALAR";
+  const char* const wanted = components == 4   ? "VEC4"
+                             : components == 3 ? "VEC3"
+                             : components == 2 ? "VEC2"
+                                               : "SCALAR";
   const Json* shape = json.find("type");
   if (!shape || !shape->is_string() || shape->text() != wanted) {
     mistakes_.add(path / "type", "must be \"" + std::string(wanted) + "\"");
@@ -235,6 +238,16 @@ std::optional<std::vector<Vec3<double>>> GltfDocument::points(std::size_t access
     return std::nullopt;
   }
   return points;
+}
+
+std::optional<std::vector<std::array<double, 2>>> GltfDocument::pairs(std::size_t accessor) {
+  const auto values = numbers(accessor, 2);
+  if (!values) return std::nullopt;
+  std::vector<std::array<double, 2>> pairs;
+  pairs.reserve(values->size() / 2);
+  for (std::size_t i = 0; i + 1 < values->size(); i += 2)
+    pairs.push_back({(*values)[i], (*values)[i + 1]});
+  return pairs;
 }
 
 std::optional<std::vector<std::array<double, 4>>> GltfDocument::quaternions(std::size_t accessor) {

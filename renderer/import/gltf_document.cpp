@@ -43,7 +43,8 @@ bool is_about_looks(std::string_view extension) {
 }
 
 constexpr std::string_view extensions_read[] = {"KHR_implicit_shapes", "KHR_physics_rigid_bodies",
-                                                "KHR_mesh_quantization", "EXT_mesh_gpu_instancing"};
+                                                "KHR_mesh_quantization", "EXT_mesh_gpu_instancing",
+                                                "KHR_texture_transform"};
 
 bool is_read(std::string_view extension) {
   return std::ranges::find(extensions_read, extension) != std::end(extensions_read);
@@ -180,6 +181,23 @@ std::optional<std::string> GltfDocument::read_uri(const std::string& uri, const 
     if (!bytes) mistakes_.add(path, "must be data in base64");
     return bytes;
   }
+  const auto file = file_of_uri(uri, path);
+  if (!file) return std::nullopt;
+  try {
+    std::string bytes = read_regular_file(*file, most_buffer_bytes);
+    Hash hash;
+    hash.add(bytes);
+    hash_text_ += hash.text();
+    files_.push_back(*file);
+    return bytes;
+  } catch (const std::exception& error) {
+    mistakes_.add(path, printable(file->string(), 200) + ": " + what_of(error));
+    return std::nullopt;
+  }
+}
+
+std::optional<std::filesystem::path> GltfDocument::file_of_uri(const std::string& uri,
+                                                               const JsonPath& path) {
   if (uri.find("://") != uri.npos) {
     mistakes_.add(path, "must be a file beside this one or data (" + printable(uri, 100) + ")");
     return std::nullopt;
@@ -191,18 +209,36 @@ std::optional<std::string> GltfDocument::read_uri(const std::string& uri, const 
                             printable(uri, 100) + ")");
     return std::nullopt;
   }
-  const std::filesystem::path file = file_.parent_path() / name;
-  try {
-    std::string bytes = read_regular_file(file, most_buffer_bytes);
-    Hash hash;
-    hash.add(bytes);
-    hash_text_ += hash.text();
-    files_.push_back(file);
-    return bytes;
-  } catch (const std::exception& error) {
-    mistakes_.add(path, printable(file.string(), 200) + ": " + what_of(error));
+  return file_.parent_path() / name;
+}
+
+std::optional<std::filesystem::path> GltfDocument::image_file(std::size_t image) {
+  const Json* uri = item("images", image).find("uri");
+  if (!uri || !uri->is_string() || uri->text().starts_with("data:")) return std::nullopt;
+  return file_of_uri(uri->text(), JsonPath() / "images" / image / "uri");
+}
+
+std::optional<std::string> GltfDocument::image_bytes(std::size_t image) {
+  const Json& json = item("images", image);
+  const JsonPath path = JsonPath() / "images" / image;
+  if (const Json* uri = json.find("uri"))
+    return uri->is_string() && uri->text().starts_with("data:")
+               ? read_uri(uri->text(), path / "uri")
+               : std::nullopt;
+  const auto view = index(json, path, "bufferView", "bufferViews");
+  if (!view) return std::nullopt;
+  const Json& given = item("bufferViews", *view);
+  const JsonPath at = JsonPath() / "bufferViews" / *view;
+  const auto whole = index(given, at, "buffer", "buffers");
+  const std::string* bytes = whole ? buffer(*whole) : nullptr;
+  if (!bytes) return std::nullopt;
+  const std::size_t begin = natural(given, at, "byteOffset", 0),
+                    length = natural(given, at, "byteLength", 0);
+  if (begin > bytes->size() || length > bytes->size() - begin) {
+    mistakes_.add(at, "must lie in its buffer of " + std::to_string(bytes->size()) + " bytes");
     return std::nullopt;
   }
+  return bytes->substr(begin, length);
 }
 
 const std::string* GltfDocument::buffer(std::size_t index) {

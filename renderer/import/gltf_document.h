@@ -42,6 +42,15 @@ class GltfDocument {
   /// Whole numbers of an accessor (SCALAR), each less than `limit`.
   std::optional<std::vector<std::uint32_t>> indices(std::size_t accessor, std::size_t limit);
 
+  /// Pairs of numbers of an accessor (VEC2), which may be none.
+  std::optional<std::vector<std::array<double, 2>>> pairs(std::size_t accessor);
+
+  /// The file of an image beside this one; nothing if its bytes are in the file itself, or if its
+  /// name is wrong, which is a mistake.
+  std::optional<std::filesystem::path> image_file(std::size_t image);
+  /// The bytes of an image in the file itself.
+  std::optional<std::string> image_bytes(std::size_t image);
+
   /// Extensions that the file uses and that are not read.
   std::vector<std::string> unread_extensions() const;
 
@@ -62,6 +71,7 @@ class GltfDocument {
                       std::size_t otherwise);
   const std::string* buffer(std::size_t index);
   std::optional<std::string> read_uri(const std::string& uri, const JsonPath& path);
+  std::optional<std::filesystem::path> file_of_uri(const std::string& uri, const JsonPath& path);
   bool find(const Json& object, const JsonPath& path, std::size_t components, std::size_t count,
             int type, Source& source);
   std::optional<std::vector<double>> numbers(std::size_t accessor, std::size_t components);

@@ -155,6 +155,13 @@ void GltfMeshes::add_primitive(const Json& primitive, const JsonPath& path, std:
   for (std::uint32_t& corner : corners)
     corner = static_cast<std::uint32_t>(std::ranges::lower_bound(used, corner) - used.begin());
   const std::vector<GltfTriangle> triangles = triangles_of(corners, mode);
+  if (detail_ == MeshDetail::attributes) {
+    MeshAttributes made = looks_.attributes_of(primitive, path, points->size(), used, triangles);
+    // Normals are those of the shape before it is morphed.
+    if (std::ranges::any_of(weights, [](double weight) { return weight != 0; }))
+      made.normal_of.clear();
+    append(mesh.attributes, mesh.triangles.size(), made, triangles.size(), 0);
+  }
   for (const GltfTriangle& t : triangles)
     mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
   if (split_ == MeshSplit::groups) {
@@ -346,7 +353,14 @@ void GltfMeshes::add_shown(std::span<const std::size_t> nodes, const Affine<doub
         const auto first = static_cast<std::uint32_t>(all.vertices.size());
         for (const Vec3<double>& vertex : shown.vertices)
           all.vertices.push_back(there(instance(vertex)));
-        const bool is_mirrored = (there.linear * instance.linear).determinant() < 0;
+        const Mat3<double> linear = there.linear * instance.linear;
+        const bool is_mirrored = linear.determinant() < 0;
+        if (shown.attributes.any()) {
+          MeshAttributes attributes = shown.attributes;
+          map_normals(attributes, inverse_of(linear).transpose());
+          if (is_mirrored) swap_corners(attributes);
+          append(all.attributes, all.triangles.size(), attributes, shown.triangles.size(), 0);
+        }
         for (std::array<std::uint32_t, 3> t : shown.triangles) {
           for (std::uint32_t& i : t) i += first;
           if (is_mirrored) std::swap(t[1], t[2]);

@@ -9,6 +9,7 @@
 #include "core/files/mesh_parts.h"
 #include "core/math/affine.h"
 #include "renderer/import/gltf_document.h"
+#include "renderer/import/gltf_looks.h"
 #include "renderer/import/mesh_looks.h"
 
 namespace minkray {
@@ -25,7 +26,10 @@ Affine<double> gltf_z_up();
 
 class GltfMeshes {
  public:
-  GltfMeshes(GltfDocument& document, MeshSplit split) : document_(document), split_(split) {}
+  GltfMeshes(GltfDocument& document, MeshSplit split, MeshDetail detail)
+      : document_(document), split_(split), detail_(detail), looks_(document) {}
+
+  GltfLooks& looks() { return looks_; }
 
   /// The vertices that its triangles use, with one part a primitive (groups), one a connected
   /// piece (components), or none. Empty, and maybe mistakes, if there are none.
@@ -57,6 +61,8 @@ class GltfMeshes {
 
   GltfDocument& document_;
   MeshSplit split_;
+  MeshDetail detail_;
+  GltfLooks looks_;
   std::map<std::size_t, Read> read_;
   std::size_t vertices_ = 0;  ///< of all meshes
   std::size_t shown_ = 0;     ///< by all requested nodes

@@ -7,11 +7,11 @@
 #include <exception>
 #include <stdexcept>
 
-#include "core/mesh/weld.h"
 #include "renderer/base/hash.h"
 #include "renderer/base/of_file.h"
 #include "renderer/import/collada.h"
 #include "renderer/import/gltf.h"
+#include "renderer/import/mesh_surface.h"
 #include "renderer/import/msh.h"
 #include "renderer/import/xml.h"
 #include "renderer/json/mistakes.h"
@@ -44,14 +44,14 @@ std::string mesh_endings() {
 }
 
 /// A format whose files contain vertices only.
-template <MeshParts (*read)(const std::filesystem::path&, MeshSplit, bool)>
-MeshContent bare(const std::filesystem::path& file, MeshSplit split, bool with_triangles) {
-  return {read(file, split, with_triangles), {}};
+template <MeshParts (*read)(const std::filesystem::path&, MeshSplit, MeshDetail)>
+MeshContent bare(const std::filesystem::path& file, MeshSplit split, MeshDetail detail) {
+  return {read(file, split, detail)};
 }
 
-MeshContent read_obj(const std::filesystem::path& file, MeshSplit split, bool with_triangles) {
-  MeshContent content{read_mesh_parts(file, split, with_triangles), {}};
-  content.looks = obj_looks(file);
+MeshContent read_obj(const std::filesystem::path& file, MeshSplit split, MeshDetail detail) {
+  MeshContent content{read_mesh_parts(file, split, detail)};
+  content.looks = obj_looks(file, content.mesh.attributes.materials, content.materials);
   return content;
 }
 
@@ -170,10 +170,21 @@ const MeshContent& MeshLibrary::read(const std::filesystem::path& file,
                                      const MeshFormatReader& format, MeshSplit split) {
   const auto known = read_.find({file.string(), split});
   if (known != read_.end()) return known->second;
-  MeshContent content = format.read(file, split, options_->keeps_triangles());
+  MeshContent content = format.read(
+      file, split, options_->keeps_triangles() ? MeshDetail::attributes : MeshDetail::vertices);
   const std::vector<Vec3<double>>& vertices = content.mesh.vertices;
   Hash hash;
   hash.add({reinterpret_cast<const char*>(vertices.data()), vertices.size() * sizeof vertices[0]});
+  const auto add = [&](const auto& items) {
+    hash.add({reinterpret_cast<const char*>(items.data()), items.size() * sizeof items[0]});
+  };
+  if (content.mesh.attributes.any()) {
+    add(content.mesh.attributes.normals);
+    add(content.mesh.attributes.normal_of);
+    add(content.mesh.attributes.uvs);
+    add(content.mesh.attributes.uv_of);
+    add(content.mesh.attributes.material_of);
+  }
   hash_text_ += hash.text();
   read_vertices_ += vertices.size();
   files_.push_back(file);
@@ -191,40 +202,15 @@ std::optional<std::size_t> part_named(const MeshContent& content, const std::str
   return std::nullopt;
 }
 
-/// The triangles whose corners are all in the part, whose vertices are sorted, by their numbers
-/// there.
-std::vector<Corners> triangles_within(const MeshParts& mesh,
-                                      const std::vector<std::uint32_t>& part) {
-  std::vector<Corners> within;
-  for (Corners triangle : mesh.triangles) {
-    bool is_within = true;
-    for (std::uint32_t& corner : triangle) {
-      const auto at = std::ranges::lower_bound(part, corner);
-      is_within &= at != part.end() && *at == corner;
-      corner = static_cast<std::uint32_t>(at - part.begin());
-    }
-    if (is_within) within.push_back(triangle);
-  }
-  return within;
-}
-
-/// Null if nothing of it has an area.
-std::shared_ptr<const TriangleMesh> surface_of(std::vector<Vec3<double>> vertices,
-                                               std::vector<Corners> triangles, bool is_mirrored) {
-  weld(vertices, triangles);
-  std::erase_if(triangles, [](const Corners& t) { return t[0] == t[1] && t[1] == t[2]; });
-  if (triangles.empty()) return nullptr;
-  if (is_mirrored)
-    for (Corners& corners : triangles) std::swap(corners[1], corners[2]);
-  return std::make_shared<const TriangleMesh>(std::move(vertices), std::move(triangles));
-}
-
 /// The part by itself, around the origin if requested.
 MeshContent part_of(const MeshContent& content, std::size_t part, bool is_centred) {
   MeshContent alone;
   for (const std::uint32_t i : content.mesh.parts[part])
     alone.mesh.vertices.push_back(content.mesh.vertices[i]);
-  alone.mesh.triangles = triangles_within(content.mesh, content.mesh.parts[part]);
+  PartTriangles within = triangles_within(content.mesh, content.mesh.parts[part]);
+  alone.mesh.triangles = std::move(within.corners);
+  alone.mesh.attributes = std::move(within.attributes);
+  alone.materials = content.materials;
   alone.looks.parts.push_back(content.looks.parts[part]);
   if (!is_centred) return alone;
   Vec3<double> lower = alone.mesh.vertices[0], upper = lower;
@@ -244,7 +230,10 @@ void take_looks(const MeshContent& content, MeshSplit split, MeshLibrary::Answer
   const bool by_part = split == MeshSplit::groups && looks.parts.size() == answer.parts.size();
   for (std::size_t i = 0; i < answer.parts.size(); ++i)
     answer.parts[i].colour = by_part ? colour_of(looks.parts[i]) : colour_of(looks);
-  if (const std::size_t count = colour_count(looks); count > 1 && !by_part)
+  const bool by_triangle = std::ranges::any_of(answer.parts, [](const MeshLibrary::Part& part) {
+    return part.attributes && !part.attributes->material_of.empty();
+  });
+  if (const std::size_t count = colour_count(looks); count > 1 && !by_part && !by_triangle)
     answer.notes.push_back("has " + std::to_string(count) +
                            " colours: that of most of its faces is shown (--split groups)");
 }
@@ -337,6 +326,8 @@ const MeshLibrary::Answer& MeshLibrary::parts_of(
   }
   answer = add(content.mesh, scale, title);
   take_looks(content, split, answer);
+  for (const std::string& text : notes_of(content.mesh.attributes)) answer.notes.push_back(text);
+  answer.materials = read_pictures(std::move(content.materials), answer.notes);
   if (!note.empty()) answer.notes.push_back(note);
   answer.is_flattened = (scale.array() == 0).any();
   return made_[key] = answer;
@@ -358,8 +349,7 @@ MeshLibrary::Answer MeshLibrary::add(const MeshParts& mesh, const Vec3<double>& 
   facts.file = name;
   facts.vertices = mesh.vertices.size();
   Vec3<double> lower = mesh.vertices[0].cwiseProduct(scale), upper = lower;
-  const bool is_mirrored = scale.prod() < 0;
-  const auto add_part = [&](std::vector<Vec3<double>> vertices, std::vector<Corners> triangles) {
+  const auto add_part = [&](std::vector<Vec3<double>> vertices, PartTriangles triangles) {
     for (Vec3<double>& vertex : vertices) {
       vertex = vertex.cwiseProduct(scale);
       lower = lower.cwiseMin(vertex);
@@ -367,8 +357,11 @@ MeshLibrary::Answer MeshLibrary::add(const MeshParts& mesh, const Vec3<double>& 
     }
     Part part;
     const bool is_flat = (scale.array() == 0).any();
-    if (options_->keeps_triangles() && !is_flat)
-      part.surface = surface_of(vertices, std::move(triangles), is_mirrored);
+    if (options_->keeps_triangles() && !is_flat) {
+      MeshSurface surface = surface_of(vertices, std::move(triangles), scale);
+      part.surface = std::move(surface.mesh);
+      part.attributes = std::move(surface.attributes);
+    }
     if (part.surface) {
       facts.parts.push_back({part.surface});
     } else {
@@ -381,7 +374,7 @@ MeshLibrary::Answer MeshLibrary::add(const MeshParts& mesh, const Vec3<double>& 
     answer.parts.push_back(std::move(part));
   };
   try {
-    if (mesh.parts.empty()) add_part(mesh.vertices, mesh.triangles);
+    if (mesh.parts.empty()) add_part(mesh.vertices, {mesh.triangles, mesh.attributes});
     for (const std::vector<std::uint32_t>& part : mesh.parts) {
       std::vector<Vec3<double>> vertices;
       vertices.reserve(part.size());
@@ -397,9 +390,25 @@ MeshLibrary::Answer MeshLibrary::add(const MeshParts& mesh, const Vec3<double>& 
   return answer;
 }
 
+MeshLibrary::Materials MeshLibrary::read_pictures(std::vector<MeshMaterial> materials,
+                                                  std::vector<std::string>& notes) {
+  if (materials.empty()) return nullptr;
+  Hash hash;
+  for (MeshMaterial& material : materials) {
+    pictures_.read(material, notes);
+    hash.add({reinterpret_cast<const char*>(material.rgba.data()), sizeof material.rgba});
+    if (const auto& image = material.picture.image)
+      hash.add({reinterpret_cast<const char*>(image->pixels.data()),
+                image->pixels.size() * sizeof image->pixels[0]});
+  }
+  hash_text_ += hash.text();
+  return std::make_shared<const std::vector<MeshMaterial>>(std::move(materials));
+}
+
 void MeshLibrary::hand_over(Model& model) {
   for (ModelMesh& mesh : meshes_) model.meshes.push_back(std::move(mesh));
   model.files.insert(model.files.end(), files_.begin(), files_.end());
+  model.files.insert(model.files.end(), pictures_.files().begin(), pictures_.files().end());
   model.hash += hash_text_;
   meshes_.clear();
 }

@@ -13,6 +13,7 @@
 #include "core/shape/shape.h"
 #include "renderer/import/import_options.h"
 #include "renderer/import/mesh_looks.h"
+#include "renderer/import/mesh_pictures.h"
 #include "renderer/import/model.h"
 
 namespace minkray {
@@ -21,6 +22,7 @@ namespace minkray {
 struct MeshContent {
   MeshParts mesh;
   MeshLooks looks = {};  ///< of its parts, if it is split into groups, or of it as a whole
+  std::vector<MeshMaterial> materials = {};  ///< by the numbers of the mesh's attributes
 };
 
 /// A part of a mesh file that is shown alone, its middle at the origin if requested (SDF).
@@ -32,7 +34,7 @@ struct Submesh {
 /// A reader throws std::runtime_error with the mistake, without the file's name.
 struct MeshFormatReader {
   std::string_view ending;
-  MeshContent (*read)(const std::filesystem::path& file, MeshSplit split, bool with_triangles);
+  MeshContent (*read)(const std::filesystem::path& file, MeshSplit split, MeshDetail detail);
 };
 const std::vector<MeshFormatReader>& mesh_formats();
 
@@ -55,10 +57,13 @@ class MeshLibrary {
   struct Part {
     std::shared_ptr<const TriangleMesh> surface = {};
     std::optional<Shape<double>> hull = {};
-    std::optional<Rgba> colour = {};  ///< if the file has one
+    std::optional<Rgba> colour = {};                        ///< if the file has one
+    std::shared_ptr<const MeshAttributes> attributes = {};  ///< of the surface, if it has any
   };
+  using Materials = std::shared_ptr<const std::vector<MeshMaterial>>;
   struct Answer {
     std::vector<Part> parts;
+    Materials materials = {};             ///< by the numbers of the parts' attributes
     std::vector<std::string> notes = {};  ///< contents of the file that are not shown
     std::string complaint;                ///< description of the mistake; empty if there is none
     bool is_missing = false;
@@ -72,6 +77,9 @@ class MeshLibrary {
 
   /// The vertices are in the file itself.
   Answer made_of(const MeshParts& mesh, const Vec3<double>& scale, const std::string& name);
+
+  /// Reads the pictures of materials; what cannot be read is noted, and has the colour alone.
+  Materials read_pictures(std::vector<MeshMaterial> materials, std::vector<std::string>& notes);
 
   /// The file that a name refers to, if there is one; `looked_for` gets all places.
   std::optional<std::filesystem::path> find(const std::string& uri,
@@ -96,6 +104,7 @@ class MeshLibrary {
   std::map<std::pair<std::string, MeshSplit>, MeshContent> read_;
   mutable std::map<std::string, std::vector<std::filesystem::path>> packages_;  ///< folders
   std::map<std::string, Answer> made_;
+  MeshPictures pictures_;
   std::size_t read_vertices_ = 0;   ///< of files
   std::size_t shown_vertices_ = 0;  ///< of files, again for each scale
   std::vector<ModelMesh> meshes_;

@@ -2,10 +2,10 @@
 #include "renderer/import/mesh_looks.h"
 
 #include <algorithm>
-#include <charconv>
 #include <exception>
 #include <string_view>
 
+#include "core/files/mtl_file.h"
 #include "core/files/regular_file.h"
 #include "renderer/base/of_file.h"
 #include "renderer/json/mistakes.h"
@@ -33,35 +33,27 @@ std::string_view next_word(std::string_view& line) {
   return word;
 }
 
-std::optional<double> next_number(std::string_view& line) {
-  const std::string_view word = next_word(line);
-  double number = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-  if (error != std::errc() || end != word.data() + word.size() || !(number >= 0 && number <= 1))
-    return std::nullopt;
-  return number;
+struct Library {
+  std::map<std::string, MtlMaterial> materials;
+  std::filesystem::path folder;
+};
+
+/// The material of the name in the libraries, of several the last one.
+const MtlMaterial* find_material(const std::vector<Library>& libraries, const std::string& name,
+                                 std::filesystem::path& folder) {
+  for (std::size_t i = libraries.size(); i-- > 0;) {
+    const auto found = libraries[i].materials.find(name);
+    if (found == libraries[i].materials.end()) continue;
+    folder = libraries[i].folder;
+    return &found->second;
+  }
+  return nullptr;
 }
 
-/// The diffuse colours (Kd) of a material library, with the opacity (d) of each.
-void read_mtl(std::string_view text, std::map<std::string, Rgba>& materials) {
-  std::string name;
-  while (!text.empty()) {
-    std::string_view line = next_line(text);
-    const std::string_view key = next_word(line);
-    if (key == "newmtl") {
-      name = line;
-    } else if (key == "Kd") {
-      const auto r = next_number(line), g = next_number(line), b = next_number(line);
-      if (!r || !g || !b) continue;
-      Rgba& rgba = materials.try_emplace(name, Rgba{0, 0, 0, 1}).first->second;
-      rgba = {*r, *g, *b, rgba[3]};
-    } else if (key == "d") {
-      if (const auto d = next_number(line)) {
-        const auto known = materials.find(name);
-        if (known != materials.end()) known->second[3] = *d;
-      }
-    }
-  }
+std::optional<Rgba> rgba_of(const MtlMaterial& material) {
+  if (!material.colour) return std::nullopt;
+  const auto& [r, g, b] = *material.colour;
+  return Rgba{r, g, b, material.opacity};
 }
 
 }  // namespace
@@ -85,11 +77,22 @@ std::size_t colour_count(const MeshLooks& looks) {
   return all.size();
 }
 
-MeshLooks obj_looks(const std::filesystem::path& file) {
+std::filesystem::path picture_file(const std::filesystem::path& folder, std::string name) {
+  std::ranges::replace(name, '\\', '/');
+  const std::filesystem::path file = folder / name;
+  std::error_code error;
+  const std::filesystem::path last = folder / std::filesystem::path(name).filename();
+  if (!std::filesystem::exists(file, error) && std::filesystem::exists(last, error)) return last;
+  return file.lexically_normal();
+}
+
+MeshLooks obj_looks(const std::filesystem::path& file, const std::vector<std::string>& names,
+                    std::vector<MeshMaterial>& materials) {
   const std::string bytes = read_regular_file(file, most_obj_bytes);
   std::string_view text = bytes;
   MeshLooks looks;
-  std::map<std::string, Rgba> materials;
+  std::vector<Library> libraries;
+  std::filesystem::path folder;
   std::map<std::pair<std::string, std::string>, std::size_t> part_of;
   std::string object, group, material;
   while (!text.empty()) {
@@ -105,17 +108,33 @@ MeshLooks obj_looks(const std::filesystem::path& file) {
     } else if (key == "f") {
       const auto [part, is_new] = part_of.try_emplace({object, group}, looks.parts.size());
       if (is_new) looks.parts.push_back({{object, group}, {}});
-      if (const auto known = materials.find(material); known != materials.end())
-        ++looks.parts[part->second].colours[known->second];
+      const MtlMaterial* known = find_material(libraries, material, folder);
+      if (const auto rgba = known ? rgba_of(*known) : std::nullopt)
+        ++looks.parts[part->second].colours[*rgba];
     } else if (key == "mtllib") {
       const std::filesystem::path library = file.parent_path() / std::string(line);
       try {
-        read_mtl(read_regular_file(library, most_mtl_bytes), materials);
+        Library read{{}, library.parent_path()};
+        read_mtl(read_regular_file(library, most_mtl_bytes), read.materials);
+        libraries.push_back(std::move(read));
         looks.files.push_back(library);
       } catch (const std::exception& error) {
         looks.notes.push_back("its materials in " + printable(std::string(line), 100) + ": " +
                               what_of(error));
       }
+    }
+  }
+  for (const std::string& name : names) {
+    MeshMaterial& made = materials.emplace_back();
+    const MtlMaterial* known = find_material(libraries, name, folder);
+    made.has_any = known && (known->colour || !known->picture.empty());
+    if (!made.has_any) continue;
+    // Many programs write any colour next to a picture, even black.
+    if (known->picture.empty()) {
+      made.rgba = *rgba_of(*known);
+    } else {
+      made.file = picture_file(folder, known->picture);
+      made.without_picture = rgba_of(*known);
     }
   }
   return looks;

@@ -5,9 +5,12 @@
 #include <array>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "renderer/scene/named.h"
 
 namespace minkray {
 
@@ -20,6 +23,18 @@ inline constexpr std::size_t most_part_looks = 10'000;
 struct PartLook {
   std::vector<std::string> names;       ///< each of them names the part
   std::map<Rgba, std::size_t> colours;  ///< faces of each
+};
+
+/// A material of a mesh file: a colour, or a picture times the colour.
+struct MeshMaterial {
+  Rgba rgba = {1, 1, 1, 1};
+  std::optional<Rgba> without_picture = {};       ///< the colour if the picture cannot be read
+  std::filesystem::path file = {};                ///< of the picture; empty: none
+  std::shared_ptr<const std::string> bytes = {};  ///< of one within the mesh's file
+  PictureFile picture = {};                       ///< as MeshLibrary has read it
+  bool has_any = true;                            ///< the file describes it
+
+  bool has_picture() const { return !file.empty() || bytes; }
 };
 
 struct MeshLooks {
@@ -35,7 +50,13 @@ std::optional<Rgba> colour_of(const MeshLooks& looks);
 /// Number of colours in all parts.
 std::size_t colour_count(const MeshLooks& looks);
 
-/// Reads an OBJ file's groups and the materials (.mtl) that it names.
-MeshLooks obj_looks(const std::filesystem::path& file);
+/// The file of a picture that a mesh file names: as named, or by its last name in the folder, for
+/// absolute names of other machines.
+std::filesystem::path picture_file(const std::filesystem::path& folder, std::string name);
+
+/// Reads an OBJ file's groups and the materials (.mtl) that it names. `materials`, if any, get
+/// those of the names.
+MeshLooks obj_looks(const std::filesystem::path& file, const std::vector<std::string>& names,
+                    std::vector<MeshMaterial>& materials);
 
 }  // namespace minkray

@@ -202,6 +202,13 @@ MeshLibrary::Answer MjcfAssets::parts_of(const std::string& name, const XmlEleme
       const Affine<double> map = Affine<double>{scale.asDiagonal(), {0, 0, 0}} * before;
       if (part.hull) part.hull = Transform<double>{*part.hull, map};
       if (part.surface) part.surface = mapped(*part.surface, map);
+      if (part.attributes) {
+        MeshAttributes moved = *part.attributes;
+        map_normals(moved, map.linear.inverse().transpose());
+        if (map.linear.determinant() < 0) swap_corners(moved);
+        settle(moved);
+        part.attributes = std::make_shared<const MeshAttributes>(std::move(moved));
+      }
     }
   return answer;
 }

@@ -21,6 +21,9 @@
 
 namespace minkray {
 
+struct MeshAttributes;
+struct MeshMaterial;
+
 enum class JointKind : unsigned char { fixed, hinge, slide, ball, free, planar };
 
 /// Count of numbers that place a joint: a ball's are a quaternion w, x, y, z; a free joint's a
@@ -63,7 +66,10 @@ struct ModelGeom {
   /// Geometry: a shape, a mesh, or with neither the half-space under z = 0.
   std::optional<Shape<double>> shape = {};
   std::shared_ptr<const TriangleMesh> mesh = {};
-  Touch touches = Touch::as_seen;  ///< contact shape of a mesh
+  Touch touches = Touch::as_seen;                         ///< contact shape of a mesh
+  std::shared_ptr<const MeshAttributes> attributes = {};  ///< of the mesh, if it has any
+  /// Materials by the attributes' numbers; null: all of it has the colour.
+  std::shared_ptr<const std::vector<MeshMaterial>> materials = {};
   std::array<double, 4> rgba = {0.7, 0.7, 0.7, 1};
   bool collides = true, is_seen = true;
 

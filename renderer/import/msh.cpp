@@ -22,7 +22,7 @@ std::uint32_t word(std::string_view bytes, std::size_t i) {
 
 }  // namespace
 
-MeshParts read_msh(const std::filesystem::path& file, MeshSplit split, bool with_triangles) {
+MeshParts read_msh(const std::filesystem::path& file, MeshSplit split, MeshDetail detail) {
   const std::string bytes = read_regular_file(file, most_msh_bytes);
   if (bytes.size() < 16) throw std::runtime_error("a .msh must have at least 16 bytes");
   std::array<std::uint64_t, 4> counts;
@@ -45,7 +45,7 @@ MeshParts read_msh(const std::filesystem::path& file, MeshSplit split, bool with
       throw std::runtime_error("vertex " + std::to_string(i) + ": must be three finite numbers");
     mesh.vertices.push_back(vertex);
   }
-  if (split == MeshSplit::components || with_triangles) {
+  if (split == MeshSplit::components || detail != MeshDetail::vertices) {
     std::vector<std::array<std::uint32_t, 3>> triangles;
     const std::size_t first = 4 + 3 * vertices + 3 * normals + 2 * texture;
     for (std::size_t i = 0; i < faces; ++i) {
@@ -59,7 +59,23 @@ MeshParts read_msh(const std::filesystem::path& file, MeshSplit split, bool with
       triangles.push_back(triangle);
     }
     if (split == MeshSplit::components) mesh.parts = components_of(mesh.vertices, triangles);
-    if (with_triangles) mesh.triangles = std::move(triangles);
+    if (detail == MeshDetail::attributes) {
+      const std::size_t first_normal = 4 + 3 * vertices, first_uv = first_normal + 3 * normals;
+      const auto number = [&](std::size_t i) { return std::bit_cast<float>(word(bytes, i)); };
+      MeshAttributes& made = mesh.attributes;
+      for (std::size_t i = 0; i < normals; ++i) {
+        const std::size_t at = first_normal + 3 * i;
+        made.normals.push_back(attribute_normal(
+            Vec3<float>(number(at), number(at + 1), number(at + 2)).cast<double>()));
+      }
+      for (std::size_t i = 0; i < texture; ++i)
+        made.uvs.push_back({number(first_uv + 2 * i), 1 - number(first_uv + 2 * i + 1)});
+      // One of each for each vertex; other counts leave numbers out of range, which are counted.
+      if (normals > 0) made.normal_of = triangles;
+      if (texture > 0) made.uv_of = triangles;
+      settle(made);
+    }
+    if (detail != MeshDetail::vertices) mesh.triangles = std::move(triangles);
   }
   return mesh;
 }

@@ -8,6 +8,6 @@
 namespace minkray {
 
 /// Throws std::runtime_error without the file's name.
-MeshParts read_msh(const std::filesystem::path& file, MeshSplit split, bool with_triangles);
+MeshParts read_msh(const std::filesystem::path& file, MeshSplit split, MeshDetail detail);
 
 }  // namespace minkray

@@ -7,9 +7,11 @@
 #include <cstdio>
 #include <map>
 
+#include "core/files/mesh_attributes.h"
 #include "renderer/base/errors.h"
 #include "renderer/base/hash.h"
 #include "renderer/image/colour.h"
+#include "renderer/import/mesh_looks.h"
 #include "renderer/import/orientation.h"
 #include "renderer/scene/default_light.h"
 #include "renderer/scene/framing.h"
@@ -21,22 +23,47 @@ class Materials {
  public:
   explicit Materials(Scene& scene) : scene_(scene) {}
 
-  std::uint32_t of(const std::array<double, 4>& rgba) {
+  std::uint32_t of(const Rgba& rgba, const PictureFile& picture = {}) {
     const auto next = static_cast<std::uint32_t>(scene_.materials.size());
-    const auto [at, is_new] = known_.emplace(rgba, next);
+    const auto [at, is_new] = known_.emplace(std::pair(rgba, picture.image), next);
     if (is_new) {
       Colour colour;
       for (int i = 0; i < 3; ++i)
         colour[i] = from_srgb(std::clamp(rgba[static_cast<std::size_t>(i)], 0.0, 1.0));
-      scene_.materials.push_back({"colour " + std::to_string(next), LambertMaterial{colour}});
+      const bool is_picture = picture.image != nullptr;
+      scene_.materials.push_back(
+          {(is_picture ? "picture " : "colour ") + std::to_string(next),
+           LambertMaterial{is_picture ? Paint(ImageTexture{picture, {"uv"}, 1, colour})
+                                      : Paint(colour)}});
+      if (!picture.file.empty()) scene_.pictures.emplace_back(picture.file);
     }
+    return at->second;
+  }
+
+  /// Indices of a mesh file's materials; `none` for those of which it says nothing.
+  const std::vector<std::uint32_t>& of(const std::vector<MeshMaterial>& materials) {
+    const auto [at, is_new] = of_files_.try_emplace(&materials);
+    if (is_new)
+      for (const MeshMaterial& material : materials)
+        at->second.push_back(material.has_any ? of(material.rgba, material.picture)
+                                              : MeshAttributes::none);
     return at->second;
   }
 
  private:
   Scene& scene_;
-  std::map<std::array<double, 4>, std::uint32_t> known_;
+  std::map<std::pair<Rgba, std::shared_ptr<const Image>>, std::uint32_t> known_;
+  std::map<const std::vector<MeshMaterial>*, std::vector<std::uint32_t>> of_files_;
 };
+
+/// Makes the look of a geom's mesh; null if it has none.
+std::shared_ptr<const MeshLook> look_of(const ModelGeom& geom, Materials& materials) {
+  if (!geom.mesh || !geom.attributes) return nullptr;
+  MeshLook look{geom.attributes};
+  if (geom.materials && !geom.attributes->material_of.empty())
+    look.materials = materials.of(*geom.materials);
+  return std::make_shared<const MeshLook>(std::move(look));
+}
 
 void apply(Model& model, const JointsByName& joints, const JointRow& row) {
   for (const auto& [name, value] : row.values)
@@ -202,6 +229,7 @@ Scene scene_of(Model& model, const ImportOptions& options, const std::vector<Joi
     object.pose =
         geom.link < 0 ? geom.pose : poses[static_cast<std::size_t>(geom.link)] * geom.pose;
     object.material = materials.of(geom.rgba);
+    object.look = look_of(geom, materials);
     // As mj_ray: what is transparent is met by no ray, unless what collides is to be seen.
     if (geom.rgba[3] == 0 && options.geometry == GeometryChoice::all) object.visible_to = 0;
     scene.objects.push_back(std::move(object));

@@ -159,11 +159,14 @@ bool has_codes(std::string_view ending) {
   return ending == ".png" || ending == ".jpg" || ending == ".jpeg";
 }
 
-std::string bytes_of_codes(const std::filesystem::path& file) {
-  std::string bytes = read_regular_file(file, most_picture_bytes);
+std::string checked_codes(std::string bytes) {
   mend_png(bytes);
   check_jpeg(bytes);
   return bytes;
+}
+
+std::string bytes_of_codes(const std::filesystem::path& file) {
+  return checked_codes(read_regular_file(file, most_picture_bytes));
 }
 
 bool is_wide(std::string_view bytes) {
@@ -171,7 +174,18 @@ bool is_wide(std::string_view bytes) {
                                     static_cast<int>(bytes.size()));
 }
 
+Image image_of_codes(const std::string& bytes, std::int64_t most_pixels) {
+  return is_wide(bytes)
+             ? image_of(codes_of_stb<stbi_us>(bytes, 3, most_pixels, stbi_load_16_from_memory))
+             : image_of(codes_of_stb<stbi_uc>(bytes, 3, most_pixels, stbi_load_from_memory));
+}
+
 }  // namespace
+
+Image read_image_bytes(std::string bytes, std::int64_t most_pixels) {
+  if (bytes.size() > most_picture_bytes) throw std::runtime_error("must be at most 1 GiB");
+  return image_of_codes(checked_codes(std::move(bytes)), most_pixels);
+}
 
 Image read_image(const std::filesystem::path& file, std::int64_t most_pixels) {
   const std::string ending = lower_ending(file);
@@ -181,10 +195,7 @@ Image read_image(const std::filesystem::path& file, std::int64_t most_pixels) {
   } else if (ending == ".hdr") {
     image = read_radiance(read_regular_file(file, most_picture_bytes), most_pixels);
   } else if (has_codes(ending)) {
-    const std::string bytes = bytes_of_codes(file);
-    image = is_wide(bytes)
-                ? image_of(codes_of_stb<stbi_us>(bytes, 3, most_pixels, stbi_load_16_from_memory))
-                : image_of(codes_of_stb<stbi_uc>(bytes, 3, most_pixels, stbi_load_from_memory));
+    image = image_of_codes(bytes_of_codes(file), most_pixels);
   } else {
     throw std::runtime_error(std::string("must be one of ") + readable_images);
   }

@@ -20,6 +20,9 @@ inline constexpr const char* readable_images = ".exr, .hdr, .png, .jpg";
 /// that are negative or not finite, or with more pixels than `most_pixels`.
 Image read_image(const std::filesystem::path& file, std::int64_t most_pixels = most_image_pixels);
 
+/// Reads a PNG or JPEG that lies in memory.
+Image read_image_bytes(std::string bytes, std::int64_t most_pixels = most_image_pixels);
+
 /// Grey levels as their codes have them, rows from the top: of 8 or 16 bits from 0 to 1, of OpenEXR
 /// and Radiance the red numbers as they are.
 struct GreyLevels {

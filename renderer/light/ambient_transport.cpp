@@ -51,6 +51,12 @@ struct AmbientTransport::HitPoint {
   const Surface& surface;
   std::uint32_t instance;
   double time;
+  Vec3<double> normal;  ///< geometric; the frame's may be a mesh's interpolated one
+
+  /// True if a direction above the frame's plane is above the surface, too.
+  bool is_above(const Vec3<double>& direction) const {
+    return frame.z == normal || direction.dot(normal) > 0;
+  }
 };
 
 AmbientTransport::AmbientTransport(const Scene& scene, const World& world,
@@ -59,6 +65,7 @@ AmbientTransport::AmbientTransport(const Scene& scene, const World& world,
       casts_(world, options),
       options_(options),
       surface_of_instance_(material_of_instance(scene)),
+      looks_(scene),
       lights_(scene.lights),
       background_(scene.background.zenith, scene.background.nadir) {
   for (const Material& material : scene.materials) {
@@ -91,7 +98,7 @@ void AmbientTransport::follow(std::span<TracedRay> rays, const Path& path,
     rays[i].radiance.setZero();
     if (hits[i].cast.status == Status::hit) {
       points[i].emplace(hit_point(rays[i], hits[i]));
-      rays[i].radiance = radiance_[surface_of_instance_[hits[i].instance]];
+      rays[i].radiance = radiance_[surface_of(hits[i])];
     } else
       rays[i].radiance = off_surface(rays[i].ray, hits[i], path, counts);
   }
@@ -121,16 +128,21 @@ AmbientTransport::HitPoint AmbientTransport::hit_point(const TracedRay& ray,
   const double t = hit.cast.t();
   const Vec3<double> on_surface = ray.ray.at(t);
   const double offset = rounding_at(world_, hit.instance, on_surface, t);
-  const Frame frame(hit.cast.normal.template cast<double>());
+  const Vec3<double> normal = hit.cast.normal;
+  const Frame frame(looks_.has_normals(hit.instance)
+                        ? seen_normal(looks_.normal(world_, surface_hit(hit), on_surface, ray.time),
+                                      ray.ray.direction, false)
+                        : normal);
   Vec3<double> w_out = frame.to_local(-ray.ray.direction);
   // A grazing normal may be rounded to the far side.
   w_out.z() = std::max(w_out.z(), std::numeric_limits<double>::epsilon());
-  return {on_surface + offset * frame.z,
+  return {on_surface + offset * normal,
           frame,
           w_out,
-          surfaces_[surface_of_instance_[hit.instance]],
+          surfaces_[surface_of(hit)],
           hit.instance,
-          ray.time};
+          ray.time,
+          normal};
 }
 
 /// Adds to each ray's radiance what lights send straight to where it met a surface. Nothing for
@@ -156,7 +168,7 @@ void AmbientTransport::add_direct(std::span<TracedRay> rays, const HitPoints& po
       const auto sample = lights_.sample(light, point.position, rays[i].sampler);
       if (!sample) continue;
       const Vec3<double> w_in = point.frame.to_local(sample->direction);
-      if (!(w_in.z() > 0)) continue;
+      if (!(w_in.z() > 0) || !point.is_above(sample->direction)) continue;
       asked.push_back({{point.position, sample->direction, sample->distance},
                        point.instance,
                        point.time,
@@ -210,6 +222,7 @@ void AmbientTransport::add_scattered(std::span<TracedRay> rays, const HitPoints&
     const HitPoint& point = *points[i];
     const SurfaceSample sample = point.surface.base().sample(point.w_out, rays[i].sampler.next());
     const Vec3<double> direction = unit(point.frame.to_world(sample.w_in));
+    if (!point.is_above(direction)) continue;
     wave.add(i, behind(point, direction, rays[i].sampler), sample.weight);
   }
   if (last) {
@@ -238,6 +251,7 @@ void AmbientTransport::add_mirrored(std::span<TracedRay> rays, const HitPoints& 
     const SurfaceSample sample = point.surface.coat()->sample(point.w_out, rays[i].sampler.next());
     if (!(sample.weight.array() > 0).any()) continue;
     const Vec3<double> direction = unit(point.frame.to_world(sample.w_in));
+    if (!point.is_above(direction)) continue;
     wave.add(i, behind(point, direction, rays[i].sampler), sample.weight);
   }
   if (path.mirrors >= options_.mirrors) {

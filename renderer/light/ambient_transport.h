@@ -10,6 +10,7 @@
 
 #include "renderer/light/light_transport.h"
 #include "renderer/light/lights.h"
+#include "renderer/light/looks_of_meshes.h"
 #include "renderer/light/reflection.h"
 #include "renderer/light/wave_casts.h"
 #include "renderer/scene/scene.h"
@@ -33,6 +34,10 @@ class AmbientTransport final : public LightTransport {
   void follow(std::span<TracedRay> rays, const Path& path, RayCounts& counts) const;
   Colour off_surface(const Ray<double>& ray, const WorldHit& hit, const Path& path,
                      RayCounts& counts) const;
+  std::uint32_t surface_of(const WorldHit& hit) const {
+    const std::uint32_t own = surface_of_instance_[hit.instance];
+    return looks_.none() ? own : looks_.material(hit.instance, hit.part, own);
+  }
   HitPoint hit_point(const TracedRay& ray, const WorldHit& hit) const;
   void add_direct(std::span<TracedRay> rays, const HitPoints& points, const Path& path,
                   RayCounts& counts) const;
@@ -57,6 +62,7 @@ class AmbientTransport final : public LightTransport {
   IntegratorOptions options_;
   std::vector<Surface> surfaces_;
   std::vector<std::uint32_t> surface_of_instance_;
+  LooksOfMeshes looks_;
   std::vector<Colour> radiance_;  ///< by surface: what it shines
   Lights lights_;
   EnvironmentSource background_;

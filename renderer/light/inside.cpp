@@ -42,6 +42,7 @@ Boundary exit_of(const World& world, const WorldRay& ray, std::uint32_t body, Qu
     counts.add_parts(parts);
     exit.is_lost = !next.cast.found();  // the mesh is not closed
     exit.t = next.cast.t();
+    exit.part = next.part;
     exit.normal = instances.turned(body, -next.cast.normal, ray.time);
     return exit;
   }
@@ -76,10 +77,11 @@ WorldHit closest_but(const World& world, const WorldRay& ray, std::span<const st
     return ray.passes(instances, instance) ||
            std::find(but.begin(), but.end(), instance) != but.end();
   };
-  const auto meet = [&](std::uint32_t instance, const CastResult<double>& cast) {
+  const auto meet = [&](std::uint32_t instance, const CastResult<double>& cast,
+                        std::uint32_t part = no_part) {
     counts.add_cast(cast);
     if (!cast.found() || !closest.yields_to(instance, cast.t())) return false;
-    closest = {instance, instances.turned(instance, cast, ray.time)};
+    closest = {instance, instances.turned(instance, cast, ray.time), part};
     return true;
   };
   for (const auto& half_space : instances.half_spaces())
@@ -95,7 +97,7 @@ WorldHit closest_but(const World& world, const WorldRay& ray, std::span<const st
     const MeshCast cast = cast_ray(mesh, instances.seen_by(mesh.instance, ray.ray, ray.time), most,
                                    false, instances.loss_of_seen_by(mesh.instance, ray.ray), parts);
     counts.add_parts(parts);
-    meet(mesh.instance, cast.cast);
+    meet(mesh.instance, cast.cast, cast.part);
   }
   SlabRay slabs(ray.ray);
   if (closest.found()) slabs.numbers.t_max = slabs.limit(closest.cast.t());
@@ -131,6 +133,7 @@ Boundary boundary_of(const WorldHit& hit) {
   Boundary boundary;
   if (!hit.found()) return boundary;
   boundary.instance = hit.instance;
+  boundary.part = hit.part;
   boundary.is_within = hit.cast.status == Status::inside;
   boundary.t = hit.cast.t();
   boundary.normal = hit.cast.normal;

@@ -33,6 +33,7 @@ class Inside {
 /// The next boundary along a ray.
 struct Boundary {
   std::uint32_t instance = no_instance;  ///< none: the ray is unbounded
+  std::uint32_t part = no_part;          ///< the triangle of a mesh
   bool leaves = false;                   ///< goes out of the body, not in
   bool is_within = false;  ///< the ray begins in a body that it was not known to be in
   bool is_lost = false;    ///< the solver did not converge

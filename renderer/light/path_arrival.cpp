@@ -41,7 +41,7 @@ void PathTransport::Wave::arrive(std::size_t i) {
     path.goes_on = false;
     return;
   }
-  const PreparedMaterial& material = of_.surfaces_.of(at.instance);
+  const PreparedMaterial& material = of_.surfaces_.of(at.instance, at.part);
   if (at.is_within) {
     counts_.from_inside += is_first && !material.bsdf->lets_through() ? 1 : 0;
     pass(path, material.bsdf->lets_through() && path.inside.enter(at.instance));
@@ -77,9 +77,10 @@ void PathTransport::Wave::arrive(std::size_t i) {
   }
   const Vec3<double> position = path.ray.at(at.t);
   TexturePoint place;
+  const SurfaceHit hit{at.instance, at.part, at.normal};
   if (of_.surfaces_.has_textures())
-    place = of_.surfaces_.place(of_.world_, at.instance, position, at.normal, path.time,
-                                path.ray.direction, path.cone);
+    place =
+        of_.surfaces_.place(of_.world_, hit, position, path.time, path.ray.direction, path.cone);
   const auto in_world = [&](const Vec3<double>& direction) {
     return of_.world_.instances().turned(at.instance, direction, path.time);
   };
@@ -87,7 +88,11 @@ void PathTransport::Wave::arrive(std::size_t i) {
     return material.bsdf->has_grain() ? Frame(normal, in_world(of_.surfaces_.axis(at.instance)))
                                       : Frame(normal);
   };
-  Frame frame = frame_of(at.normal);
+  Vec3<double> smooth = at.normal;
+  if (of_.surfaces_.looks().has_normals(at.instance))
+    smooth = seen_normal(of_.surfaces_.looks().normal(of_.world_, hit, position, path.time),
+                         path.ray.direction, at.leaves);
+  Frame frame = frame_of(smooth);
   if (material.relief.any()) {
     const Frame bent = frame_of(in_world(of_.surfaces_.relief_normal_at(at.instance, place)));
     // A surface seen from behind its bent normal keeps its own normal.

@@ -29,10 +29,13 @@ PaintIfAny in_numbers(const PaintIfAny& paint) {
 /// The length of the texture's finest detail around a place.
 double step_of(const TextureKind& texture, const TexturePoint& at) {
   return std::visit(
-      [&]<class T>(const T& kind) {
+      [&]<class T>(const T& kind) -> double {
+        const double by_uv = std::max(at.uv_slopes[0].norm(), at.uv_slopes[1].norm());
+        if (kind.mapping.name == "uv" && !(by_uv > 0)) return 0;
         const bool is_turn = kind.mapping.name == "radial" || kind.mapping.name == "normal";
-        const double repeat =
-            kind.scale * (is_turn ? 2 * std::numbers::pi * at.position.norm() : 1.0);
+        const double repeat = kind.scale * (is_turn ? 2 * std::numbers::pi * at.position.norm()
+                                            : kind.mapping.name == "uv" ? 1 / by_uv
+                                                                        : 1.0);
         double part = least_step;
         if constexpr (std::is_same_v<T, ImageTexture>)
           if (kind.picture.image) part = std::max(part, 0.5 / kind.picture.image->width);
@@ -48,7 +51,7 @@ Vec3<double> slope(const Paint& bump, const TexturePoint& at) {
   if (!(finest > 0)) return Vec3<double>::Zero();
   const Frame frame(at.normal);
   const auto height = [&](const Vec3<double>& offset) {
-    return paint_at(bump, {at.position + offset, at.normal, at.footprint}).mean();
+    return paint_at(bump, at.moved(offset)).mean();
   };
   Vec3<double> rise = Vec3<double>::Zero();
   for (const Vec3<double>& along : {frame.x, frame.y}) {

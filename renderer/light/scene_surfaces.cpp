@@ -88,7 +88,8 @@ Paint paint_of(const Scene& scene, const Material& material) {
 
 }  // namespace
 
-SceneSurfaces::SceneSurfaces(const Scene& scene) : of_instance_(material_of_instance(scene)) {
+SceneSurfaces::SceneSurfaces(const Scene& scene)
+    : of_instance_(material_of_instance(scene)), looks_(scene) {
   for (const Material& material : scene.materials) {
     PreparedMaterial made;
     if (const auto* mix = std::get_if<MixMaterial>(&material.kind))
@@ -113,41 +114,49 @@ SceneSurfaces::SceneSurfaces(const Scene& scene) : of_instance_(material_of_inst
   }
 }
 
-TexturePoint SceneSurfaces::place(const World& world, std::uint32_t instance,
-                                  const Vec3<double>& point, const Vec3<double>& normal,
-                                  double time, const Vec3<double>& direction,
-                                  const RayCone& cone) const {
+TexturePoint SceneSurfaces::place(const World& world, const SurfaceHit& hit,
+                                  const Vec3<double>& point, double time,
+                                  const Vec3<double>& direction, const RayCone& cone) const {
   const Instances& instances = world.instances();
-  const auto [at_rest, n, unused] = instances.seen_by(instance, Ray<double>{point, normal}, time);
-  SurfaceFootprint footprint = footprint_of(cone, direction, normal);
+  const std::uint32_t instance = hit.instance;
+  const auto [at_rest, n, unused] =
+      instances.seen_by(instance, Ray<double>{point, hit.normal}, time);
+  SurfaceFootprint footprint = footprint_of(cone, direction, hit.normal);
   for (Vec3<double>& axis : footprint) axis = instances.unturned(instance, axis, time);
   if (instance >= to_object_.size())
     return {at_rest - instances.at(instance).centre(), n, footprint};
   const Affine<double>& to_object = to_object_[instance];
   for (Vec3<double>& axis : footprint) axis = to_object.linear * axis;
   // Normals go by the transposed inverse of the map.
-  return {to_object(at_rest), unit<double>(inverse_of(to_object.linear).transpose() * n),
-          footprint};
+  TexturePoint place{to_object(at_rest), unit<double>(inverse_of(to_object.linear).transpose() * n),
+                     footprint};
+  if (looks_.none() || hit.part == no_part) return place;
+  const MeshPoint found = looks_.at(hit, place.position);
+  place.uv = found.uv;
+  place.uv_slopes = found.uv_slopes;
+  place.has_uv = found.has_uv;
+  if (!found.normal.isZero(0))
+    place.normal = found.normal.dot(place.normal) < 0 ? Vec3<double>(-found.normal) : found.normal;
+  return place;
 }
 
 void SceneSurfaces::describe(const World& world, const Ray<double>& ray, const RayCone& cone,
                              const WorldHit& hit, Colour& albedo, Colour& emission) const {
   if (hit.cast.status != Status::hit) return;
-  const PreparedMaterial& material = of(hit.instance);
+  const PreparedMaterial& material = of(hit.instance, hit.part);
   emission = material.radiance;
   albedo = material.colour.colour();
   if (material.colour.texture())
-    albedo =
-        paint_at(material.colour, place(world, hit.instance, ray.at(hit.cast.t()), hit.cast.normal,
-                                        0, ray.direction, cone.at(hit.cast.t())));
+    albedo = paint_at(material.colour, place(world, surface_hit(hit), ray.at(hit.cast.t()), 0,
+                                             ray.direction, cone.at(hit.cast.t())));
 }
 
 Vec3<double> SceneSurfaces::uv(const World& world, const Ray<double>& ray,
                                const WorldHit& hit) const {
   if (hit.cast.status != Status::hit) return Vec3<double>::Zero();
-  return radial_place(
-      place(world, hit.instance, ray.at(hit.cast.t()), hit.cast.normal, 0, ray.direction, {})
-          .position);
+  const TexturePoint at =
+      place(world, surface_hit(hit), ray.at(hit.cast.t()), 0, ray.direction, {});
+  return at.has_uv ? at.uv : radial_place(at.position);
 }
 
 Vec3<double> SceneSurfaces::relief_normal_at(std::uint32_t instance, const TexturePoint& at) const {

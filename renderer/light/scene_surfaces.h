@@ -7,6 +7,7 @@
 
 #include "core/world/world.h"
 #include "renderer/light/bsdf.h"
+#include "renderer/light/looks_of_meshes.h"
 #include "renderer/scene/scene.h"
 
 namespace minkray {
@@ -37,14 +38,17 @@ class SceneSurfaces {
  public:
   explicit SceneSurfaces(const Scene& scene);
 
-  const PreparedMaterial& of(std::uint32_t instance) const {
-    return materials_[of_instance_[instance]];
+  /// `part` is the triangle of a mesh, which may have several materials.
+  const PreparedMaterial& of(std::uint32_t instance, std::uint32_t part = no_part) const {
+    const std::uint32_t own = of_instance_[instance];
+    return materials_[part == no_part ? own : looks_.material(instance, part, own)];
   }
   /// The place in the object's frame; for particles it is not turned. The footprint is what a cone
-  /// around a ray of that direction lights of the plane that touches the surface.
-  TexturePoint place(const World& world, std::uint32_t instance, const Vec3<double>& point,
-                     const Vec3<double>& normal, double time, const Vec3<double>& direction,
-                     const RayCone& cone) const;
+  /// around a ray of that direction lights of the plane that touches the surface. Its normal is the
+  /// mesh's interpolated one, if it has one, on the side of `normal`.
+  TexturePoint place(const World& world, const SurfaceHit& hit, const Vec3<double>& point,
+                     double time, const Vec3<double>& direction, const RayCone& cone) const;
+  const LooksOfMeshes& looks() const { return looks_; }
   /// The colour of what a ray has met, and what it shines; nothing is changed where it met nothing.
   void describe(const World& world, const Ray<double>& ray, const RayCone& cone,
                 const WorldHit& hit, Colour& albedo, Colour& emission) const;
@@ -67,6 +71,7 @@ class SceneSurfaces {
  private:
   std::vector<PreparedMaterial> materials_;
   std::vector<std::uint32_t> of_instance_;
+  LooksOfMeshes looks_;
   std::vector<Affine<double>> to_object_;  ///< of objects
   bool has_textures_ = false, has_sheets_ = false;
   std::vector<Vec3<double>> axes_;  ///< of objects; particles have the world's

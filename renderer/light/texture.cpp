@@ -135,10 +135,11 @@ Colour picture_at(const Paint& paint, const ImageTexture& texture, const Texture
   const Vec3<double> size(image.width, image.height, 1);
   const TexturePlace place = texture_place(at, texture.mapping, texture.scale);
   // In pixels, so that boxes are as large as one at least.
-  return mean_along(place.times(size), 1, [&](const TextureBox& box) {
+  const Colour mean = mean_along(place.times(size), 1, [&](const TextureBox& box) {
     return interpolated(image, paint.smaller(), box.middle.cwiseQuotient(size),
                         box.width.maxCoeff());
   });
+  return mean.cwiseProduct(texture.tint);
 }
 
 }  // namespace
@@ -148,6 +149,8 @@ Colour paint_at(const Paint& paint, const TexturePoint& at) {
   const TextureKind& kind = *paint.texture();
   return std::visit(
       [&]<class T>(const T& texture) -> Colour {
+        // Triangles without coordinates have the mean.
+        if (texture.mapping.name == "uv" && !at.has_uv) return paint.colour();
         if constexpr (std::is_same_v<T, ImageTexture>) {
           return picture_at(paint, texture, at);
         } else {

@@ -50,6 +50,14 @@ Vec3<double> normal_change(const TexturePoint& at, const Vec3<double>& side) {
   return radius > 0 ? Vec3<double>(side / radius) : Vec3<double>::Zero();
 }
 
+/// Direction in which u grows and v does not.
+Vec3<double> right_by_uv(const TexturePoint& at) {
+  const Vec3<double>&u = at.uv_slopes[0], &v = at.uv_slopes[1];
+  const double square = v.squaredNorm();
+  const Vec3<double> right = square > 0 ? Vec3<double>(u - u.dot(v) / square * v) : u;
+  return right.isZero(0) ? u : right;
+}
+
 }  // namespace
 
 TexturePlace texture_place(const TexturePoint& at, const Mapping& mapping, double scale) {
@@ -63,6 +71,8 @@ TexturePlace texture_place(const TexturePoint& at, const Mapping& mapping, doubl
     return place(radial_place(at.normal), [&](const Vec3<double>& side) {
       return radial_change(at.normal, normal_change(at, side));
     });
+  if (mapping.name == "uv")
+    return place(at.uv, [&](const Vec3<double>& side) { return at.uv_change(side); });
   if (mapping.name == "box") {
     const auto on_plane = [&](const Vec3<double>& p) { return on_box(p, at.normal); };
     return place(on_plane(at.position), on_plane);
@@ -93,6 +103,7 @@ Vec3<double> picture_right(const TexturePoint& at, const Mapping& mapping) {
     return Vec3<double>::UnitX();
   }
   if (mapping.name == "planar") return Vec3<double>::UnitX();
+  if (mapping.name == "uv" && !at.uv_slopes[0].isZero(0)) return right_by_uv(at);
   const Vec3<double>& outwards = mapping.name == "normal" ? at.normal : at.position;
   const Vec3<double> around(-outwards.y(), outwards.x(), 0);
   return around.isZero(0) ? Vec3<double>(Vec3<double>::UnitY()) : around;

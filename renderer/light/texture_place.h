@@ -16,6 +16,22 @@ struct TexturePoint {
   Vec3<double> normal = Vec3<double>::UnitZ();  ///< outward, of unit length
   /// Footprint that the colour is averaged over; zero: the point itself.
   SurfaceFootprint footprint = {Vec3<double>::Zero(), Vec3<double>::Zero()};
+  /// Texture coordinates of a mesh, and how they change along x, y and z; zero if it has none.
+  bool has_uv = false;
+  Vec3<double> uv = Vec3<double>::Zero();
+  std::array<Vec3<double>, 2> uv_slopes = {Vec3<double>::Zero(), Vec3<double>::Zero()};
+
+  /// Returns the change of the coordinates along a side.
+  Vec3<double> uv_change(const Vec3<double>& side) const {
+    return {uv_slopes[0].dot(side), uv_slopes[1].dot(side), 0};
+  }
+  /// Returns a place beside this one, on the plane that touches the surface.
+  TexturePoint moved(const Vec3<double>& by) const {
+    TexturePoint other = *this;
+    other.position += by;
+    other.uv += uv_change(by);
+    return other;
+  }
 };
 
 /// A place in repeats, and a parallelogram around it by its sides.

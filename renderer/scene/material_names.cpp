@@ -53,6 +53,13 @@ std::uint32_t MaterialNames::of_colour(const Json& json, const JsonPath& path, M
              *paint);
 }
 
+std::uint32_t MaterialNames::of_file(const std::string& name, const void* file,
+                                     const Paint& paint) {
+  const auto [at, is_new] = of_files_.emplace(std::pair(file, name), 0);
+  if (is_new) at->second = add_made(printable(name, 60), paint);
+  return at->second;
+}
+
 std::uint32_t MaterialNames::default_one() {
   const auto [at, is_new] = of_colours_.emplace("", 0);
   if (is_new) at->second = add_made("default", default_colour);

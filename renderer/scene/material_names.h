@@ -4,6 +4,7 @@
 
 #include <map>
 #include <string>
+#include <utility>
 
 #include "renderer/json/json.h"
 #include "renderer/json/mistakes.h"
@@ -30,6 +31,9 @@ class MaterialNames {
   std::uint32_t of_colour(const Json& colour, const JsonPath& path, Mistakes& mistakes,
                           MeshFiles& files, const std::string& file);
 
+  /// Adds a matt material of a mesh file's, the same for the same name and `file`.
+  std::uint32_t of_file(const std::string& name, const void* file, const Paint& paint);
+
   /// The one of objects that say nothing.
   std::uint32_t default_one();
 
@@ -39,6 +43,7 @@ class MaterialNames {
   Scene& scene_;
   std::map<std::string, std::uint32_t> index_;
   std::map<std::string, std::uint32_t> of_colours_;
+  std::map<std::pair<const void*, std::string>, std::uint32_t> of_files_;
 };
 
 }  // namespace minkray

@@ -5,7 +5,6 @@
 #include <stdexcept>
 
 #include "core/files/mesh_file.h"
-#include "core/mesh/weld.h"
 #include "renderer/base/of_file.h"
 #include "renderer/io/read_image.h"
 
@@ -15,9 +14,9 @@ namespace {
 /// Meshes that are not part of the sources are fetched by a script of this name beside the scene.
 constexpr const char* fetch_script = "fetch-meshes";
 
-/// "; fetch it with: scenes/fetch-meshes" if the file is missing and there is such a script, which
-/// an installed Minkray has not.
-std::string advice(const std::filesystem::path& folder, const std::filesystem::path& file) {
+}  // namespace
+
+std::string advice_on_mesh(const std::filesystem::path& folder, const std::filesystem::path& file) {
   std::error_code error;
   if (std::filesystem::exists(file, error)) return "";
   const std::filesystem::path script = folder / fetch_script;
@@ -26,8 +25,6 @@ std::string advice(const std::filesystem::path& folder, const std::filesystem::p
     return "; it does not come with Minkray: scenes/fetch-meshes in Minkray's sources downloads it";
   return "";
 }
-
-}  // namespace
 
 std::optional<PointCloud<double>> MeshFiles::read(const std::string& written, const JsonPath& path,
                                                   Mistakes& mistakes) {
@@ -45,8 +42,8 @@ std::optional<PointCloud<double>> MeshFiles::read(const std::string& written, co
     read_.emplace(name, Mesh{points, hash.text()});
     return points;
   } catch (const std::exception& error) {
-    mistakes.add(path,
-                 printable(file.string(), 200) + ": " + what_of(error) + advice(folder_, file));
+    mistakes.add(path, printable(file.string(), 200) + ": " + what_of(error) +
+                           advice_on_mesh(folder_, file));
     return std::nullopt;
   }
 }
@@ -76,15 +73,15 @@ std::optional<std::vector<PointCloud<double>>> MeshFiles::read_parts(const std::
     parts.hash = hash.text();
     return parts_.emplace(std::pair(name, split), std::move(parts)).first->second.hulls;
   } catch (const std::exception& error) {
-    mistakes.add(path,
-                 printable(file.string(), 200) + ": " + what_of(error) + advice(folder_, file));
+    mistakes.add(path, printable(file.string(), 200) + ": " + what_of(error) +
+                           advice_on_mesh(folder_, file));
     return std::nullopt;
   }
 }
 
-std::shared_ptr<const Image> MeshFiles::read_picture(const std::string& written,
-                                                     const JsonPath& path, Mistakes& mistakes) {
-  const std::string name = from_scene(written);
+std::shared_ptr<const Image> MeshFiles::read_picture_of_scene(const std::string& name,
+                                                              const JsonPath& path,
+                                                              Mistakes& mistakes) {
   const auto known = pictures_.find(name);
   if (known != pictures_.end()) return known->second.image;
   const std::filesystem::path file = folder_ / name;
@@ -114,39 +111,9 @@ std::vector<std::filesystem::path> MeshFiles::meshes() const {
   std::vector<std::filesystem::path> files;
   for (const auto& [name, mesh] : read_) files.push_back(folder_ / name);
   for (const auto& [key, parts] : parts_) files.push_back(folder_ / key.first);
-  for (const auto& [key, surface] : surfaces_) files.push_back(folder_ / key.first);
+  for (const auto& [key, surface] : surfaces_) files.push_back(folder_ / std::get<0>(key));
+  files.insert(files.end(), libraries_.begin(), libraries_.end());
   return files;
-}
-
-std::shared_ptr<const TriangleMesh> MeshFiles::read_mesh(const std::string& written, double scale,
-                                                         const JsonPath& path, Mistakes& mistakes) {
-  const std::string name = from_scene(written);
-  const auto known = surfaces_.find({name, scale});
-  if (known != surfaces_.end()) return known->second.mesh;
-  const std::filesystem::path file = folder_ / name;
-  try {
-    MeshTriangles triangles;
-    std::vector<Vec3<double>> vertices = read_mesh_vertices(file, &triangles);
-    if (triangles.corners.empty())
-      throw std::runtime_error("must have faces (found vertices only)");
-    for (Vec3<double>& vertex : vertices) vertex *= scale;
-    weld(vertices, triangles.corners);
-    Surface surface{
-        std::make_shared<const TriangleMesh>(std::move(vertices), std::move(triangles.corners)),
-        {}};
-    Hash hash;
-    const auto add = [&](const auto& items) {
-      hash.add({reinterpret_cast<const char*>(items.data()), items.size() * sizeof items[0]});
-    };
-    add(surface.mesh->vertices());
-    add(surface.mesh->triangles());
-    surface.hash = hash.text();
-    return surfaces_.emplace(std::pair(name, scale), std::move(surface)).first->second.mesh;
-  } catch (const std::exception& error) {
-    mistakes.add(path,
-                 printable(file.string(), 200) + ": " + what_of(error) + advice(folder_, file));
-    return nullptr;
-  }
 }
 
 std::optional<HeightGrid> MeshFiles::read_heights(const std::string& written, const JsonPath& path,
@@ -185,7 +152,7 @@ void MeshFiles::add_to(Hash& hash) const {
     hash.add(parts.hash);
   }
   for (const auto& [key, surface] : surfaces_) {
-    hash.add(key.first);
+    hash.add(std::get<0>(key));
     hash.add(surface.hash);
   }
 }

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -17,9 +18,39 @@
 #include "renderer/base/hash.h"
 #include "renderer/image/image.h"
 #include "renderer/io/height_grid.h"
+#include "renderer/json/json.h"
 #include "renderer/json/mistakes.h"
+#include "renderer/scene/named.h"
 
 namespace minkray {
+
+/// A material of a mesh file.
+struct FileMaterial {
+  std::string name;
+  std::optional<std::array<double, 3>> colour = {};  ///< sRGB
+  PictureFile picture = {};                          ///< instead of the colour, if it has one
+};
+
+/// A mesh as a scene names it.
+struct SceneMesh {
+  std::shared_ptr<const TriangleMesh> mesh = {};
+  std::shared_ptr<const MeshAttributes> attributes = {};  ///< null: none
+  /// Materials of a file, by the attributes' numbers.
+  std::shared_ptr<const std::vector<FileMaterial>> materials = {};
+  const Json* named = nullptr;  ///< names in the scene instead of these, if any
+};
+
+/// Source of a mesh's normals.
+struct MeshShading {
+  enum Kind : unsigned char { as_given, flat, smooth } kind = as_given;
+  double crease = 0;  ///< of smooth ones: the largest angle that is smooth, in radians
+
+  auto operator<=>(const MeshShading&) const = default;
+};
+
+/// "; fetch it with: scenes/fetch-meshes" if the file is missing and there is such a script, which
+/// an installed Minkray has not.
+std::string advice_on_mesh(const std::filesystem::path& folder, const std::filesystem::path& file);
 
 class MeshFiles {
  public:
@@ -44,10 +75,10 @@ class MeshFiles {
                                                             MeshSplit split, const JsonPath& path,
                                                             Mistakes& mistakes);
 
-  /// The triangles of a mesh file, its coordinates times the scale; null, and a mistake, if it
+  /// The triangles of a mesh file, its coordinates times the scale; no mesh, and a mistake, if it
   /// cannot be used. Vertices at the same place become one.
-  std::shared_ptr<const TriangleMesh> read_mesh(const std::string& name, double scale,
-                                                const JsonPath& path, Mistakes& mistakes);
+  SceneMesh read_mesh(const std::string& name, double scale, const MeshShading& shading,
+                      const JsonPath& path, Mistakes& mistakes);
 
   /// The heights of a picture's pixels, black 0 and white 1; nothing, and a mistake, if it cannot
   /// be used.
@@ -63,7 +94,12 @@ class MeshFiles {
 
   /// The picture of a file; null, and a mistake at `path`, if it cannot be used.
   std::shared_ptr<const Image> read_picture(const std::string& name, const JsonPath& path,
-                                            Mistakes& mistakes);
+                                            Mistakes& mistakes) {
+    return read_picture_of_scene(from_scene(name), path, mistakes);
+  }
+  /// Takes a name that is relative to the scene's folder.
+  std::shared_ptr<const Image> read_picture_of_scene(const std::string& name, const JsonPath& path,
+                                                     Mistakes& mistakes);
 
  private:
   struct Mesh {
@@ -78,10 +114,15 @@ class MeshFiles {
   };
   std::map<std::pair<std::string, MeshSplit>, Parts> parts_;
   struct Surface {
-    std::shared_ptr<const TriangleMesh> mesh;
-    std::string hash;  ///< of vertices and triangles
+    SceneMesh mesh;
+    std::string hash;  ///< of vertices and triangles, and of attributes if there are some
   };
-  std::map<std::pair<std::string, double>, Surface> surfaces_;
+  using SurfaceKey = std::tuple<std::string, double, MeshShading>;
+  std::map<SurfaceKey, Surface> surfaces_;
+  std::vector<std::filesystem::path> libraries_;  ///< files of meshes' materials
+  std::vector<FileMaterial> read_libraries(const std::filesystem::path& mesh,
+                                           const MeshAttributes& attributes, const JsonPath& path,
+                                           Mistakes& mistakes);
   std::map<std::string, std::string> heights_;  ///< hashes
   struct Picture {
     std::shared_ptr<const Image> image;

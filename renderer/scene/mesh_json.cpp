@@ -6,6 +6,7 @@
 
 #include "renderer/json/object_reader.h"
 #include "renderer/json/values.h"
+#include "renderer/scene/mesh_attributes_json.h"
 #include "renderer/scene/write_member.h"
 
 namespace minkray {
@@ -54,17 +55,26 @@ bool looks_one_way(const TriangleMesh& mesh) {
 
 }  // namespace
 
-std::shared_ptr<const TriangleMesh> read_mesh(const Json& json, const JsonPath& path,
-                                              Mistakes& mistakes, MeshFiles& files) {
+SceneMesh read_mesh(const Json& json, const JsonPath& path, Mistakes& mistakes, MeshFiles& files) {
   ObjectReader object(json, path, mistakes);
-  if (!object.is_object()) return nullptr;
+  if (!object.is_object()) return {};
+  const auto shading = read_shading(object);
+  const Json* const named = object.find("materials");
   if (const Json* const file = object.find("file")) {
     const auto name = read_string(*file, object.path("file"), mistakes);
     const Json* const written = object.find("scale");
     const auto scale =
         written ? read_number(*written, object.path("scale"), mistakes, Range::positive) : 1.0;
-    if (!object.finish() || !name || !scale) return nullptr;
-    return files.read_mesh(*name, *scale, object.path("file"), mistakes);
+    if (named && !named->is_object()) {
+      mistakes.add(
+          object.path("materials"),
+          "must be an object of the file's materials and the scene's (" + found(*named) + ")");
+      return {};
+    }
+    if (!object.finish() || !name || !scale || !shading) return {};
+    SceneMesh mesh = files.read_mesh(*name, *scale, *shading, object.path("file"), mistakes);
+    mesh.named = named;
+    return mesh;
   }
   const Json* const points = object.require("vertices", "a list of points, or \"file\"");
   const Json* const numbers =
@@ -76,34 +86,64 @@ std::shared_ptr<const TriangleMesh> read_mesh(const Json& json, const JsonPath& 
   MeshSides sides = MeshSides::both;
   if (const Json* const written = object.find("sides")) {
     const auto name = read_string(*written, object.path("sides"), mistakes);
-    if (!name) return nullptr;
+    if (!name) return {};
     if (*name == "front")
       sides = MeshSides::front;
     else if (*name != "both")
       mistakes.add(object.path("sides"), "must be \"both\" or \"front\" (" + found(*written) + ")");
   }
-  if (!object.finish() || !vertices || !triangles) return nullptr;
+  if (named && !named->is_array()) {
+    mistakes.add(object.path("materials"),
+                 "must be a list of names of materials (" + found(*named) + ")");
+    return {};
+  }
+  if (named) object.require("material_of", "a list of numbers of materials, one per triangle");
+  object.allow({"normals", "normal_triangles", "uv", "uv_triangles", "material_of"});
+  if (!object.finish() || !vertices || !triangles || !shading) return {};
   try {
-    auto mesh =
+    SceneMesh made;
+    made.mesh =
         std::make_shared<const TriangleMesh>(std::move(*vertices), std::move(*triangles), sides);
-    if (sides == MeshSides::front && !looks_one_way(*mesh)) {
+    if (sides == MeshSides::front && !looks_one_way(*made.mesh)) {
       mistakes.add(object.path("sides"),
                    "must be \"both\" unless all triangles lie in one plane and look the same way");
-      return nullptr;
+      return {};
     }
-    return mesh;
+    auto attributes =
+        read_attributes(object, made.mesh->vertices(), made.mesh->triangles(), *shading);
+    if (!attributes) return {};
+    if (attributes->any())
+      made.attributes = std::make_shared<const MeshAttributes>(std::move(*attributes));
+    made.named = named;
+    return made;
   } catch (const std::invalid_argument& error) {
     mistakes.add(path, error.what());
-    return nullptr;
+    return {};
   }
 }
 
-Json write_mesh(const TriangleMesh& mesh) {
+Json write_mesh(const TriangleMesh& mesh, const MeshLook* look, const Scene& scene) {
   Json json = {{"vertices", Json::array()}, {"triangles", Json::array()}};
   if (mesh.sides() == MeshSides::front) json["sides"] = "front";
   for (const Vec3<double>& vertex : mesh.vertices()) json["vertices"].push_back(to_json(vertex));
   for (const Corners& t : mesh.triangles())
     json["triangles"].push_back(Json::array({t[0], t[1], t[2]}));
+  if (!look) return json;
+  write_attributes(json, *look->attributes);
+  if (look->attributes->material_of.empty() || look->materials.empty()) return json;
+  // Materials by the places of their names, where numbers of none are left out.
+  Json& names = json["materials"] = Json::array();
+  std::vector<std::uint32_t> place(look->materials.size(), MeshAttributes::none);
+  for (std::size_t i = 0; i < place.size(); ++i) {
+    if (look->materials[i] == MeshAttributes::none) continue;
+    place[i] = static_cast<std::uint32_t>(names.size());
+    names.push_back(scene.materials[look->materials[i]].name);
+  }
+  json["material_of"] = Json::array();
+  for (const std::uint32_t number : look->attributes->material_of) {
+    const bool has_one = number < place.size() && place[number] != MeshAttributes::none;
+    json["material_of"].push_back(has_one ? Json(place[number]) : Json());
+  }
   return json;
 }
 

@@ -9,14 +9,14 @@
 #include "renderer/json/json.h"
 #include "renderer/json/mistakes.h"
 #include "renderer/scene/mesh_files.h"
+#include "renderer/scene/scene.h"
 
 namespace minkray {
 
-/// Null, and mistakes, if anything in it is wrong.
-std::shared_ptr<const TriangleMesh> read_mesh(const Json& json, const JsonPath& path,
-                                              Mistakes& mistakes, MeshFiles& files);
+/// No mesh, and mistakes, if anything in it is wrong. The result refers to the JSON.
+SceneMesh read_mesh(const Json& json, const JsonPath& path, Mistakes& mistakes, MeshFiles& files);
 
-/// By its vertices and triangles.
-Json write_mesh(const TriangleMesh& mesh);
+/// Writes vertices and triangles, and the look if there is one.
+Json write_mesh(const TriangleMesh& mesh, const MeshLook* look, const Scene& scene);
 
 }  // namespace minkray

@@ -7,6 +7,7 @@
 #include "renderer/scene/half_space_json.h"
 #include "renderer/scene/height_field_json.h"
 #include "renderer/scene/mesh_json.h"
+#include "renderer/scene/mesh_look.h"
 #include "renderer/scene/read_member.h"
 #include "renderer/scene/read_split.h"
 #include "renderer/scene/read_visible_to.h"
@@ -159,15 +160,17 @@ void ObjectsReader::read_object(const Json& json, const JsonPath& path, const Fr
   std::vector<Shape<double>> shapes;
   std::optional<HalfSpaceBody<double>> half_space;
   const Json* const split = object.find("split");
-  std::shared_ptr<const TriangleMesh> mesh;
+  SceneMesh mesh;
   const Json *const triangles = object.find("mesh"), *const heights = object.find("height_field");
   if (triangles || heights) {
     const std::string given = triangles ? "mesh" : "height_field";
     for (const char* other : {"shape", "split", "height_field"})
       if (given != other && object.find(other))
         mistakes_.add(object.path(other), "must not be given beside \"" + given + "\"");
-    mesh = triangles ? read_mesh(*triangles, object.path(given), mistakes_, meshes_)
-                     : read_height_field(*heights, object.path(given), mistakes_, meshes_);
+    if (triangles)
+      mesh = read_mesh(*triangles, object.path(given), mistakes_, meshes_);
+    else
+      mesh.mesh = read_height_field(*heights, object.path(given), mistakes_, meshes_);
   } else if (const Json* written =
                  object.require("shape", "a shape, \"mesh\" or \"height_field\"")) {
     if (split) {
@@ -192,7 +195,11 @@ void ObjectsReader::read_object(const Json& json, const JsonPath& path, const Fr
   Object made{name, Point<double>(), pose, material, std::move(motion)};
   made.half_space = half_space;
   made.visible_to = visible_to;
-  made.mesh = std::move(mesh);
+  made.mesh = mesh.mesh;
+  const bool takes_file = !is_version_one() && !object.find("material") && !object.find("color");
+  if (made.mesh)
+    made.look = look_of(mesh, takes_file, scene_, materials_, object.path("mesh"), mistakes_);
+  check_look(scene_, made, path, mistakes_);
   if (!made.has_shape()) scene_.objects.push_back(made);
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     if (split) made.name = name + "[" + std::to_string(i) + "]";

@@ -29,6 +29,15 @@ namespace minkray {
 template <class T>
 class ShapeDefinition;
 class TriangleMesh;
+struct MeshAttributes;
+
+/// Attributes of an object's mesh in pictures; rays and contacts need none.
+struct MeshLook {
+  std::shared_ptr<const MeshAttributes> attributes;
+  /// Indices into Scene::materials by the attributes' numbers; triangles without a number have the
+  /// object's material.
+  std::vector<std::uint32_t> materials = {};
+};
 
 struct Object {
   std::string name;
@@ -42,6 +51,7 @@ struct Object {
   std::shared_ptr<const TriangleMesh> mesh = {};  ///< the same
   RayKinds visible_to = all_ray_kinds;  ///< and to no rays that its material is not visible to
   std::shared_ptr<const ShapeDefinition<double>> definition = {};  ///< of the shape, if shared
+  std::shared_ptr<const MeshLook> look = {};                       ///< of the mesh, if it has one
 
   /// Neither a half-space nor a mesh.
   bool has_shape() const { return !half_space && !mesh; }

@@ -259,26 +259,7 @@ Json scene_schema() {
   half_space["required"] = {"type"};
   add_members<HalfSpaceDescription>(half_space);
   definitions["half_space"] = std::move(half_space);
-  Json mesh = object_schema("Triangles as they are: of a file, or of vertices.");
-  mesh["properties"] = {
-      {"file", {{"type", "string"}}},
-      {"scale", schema_of_number(Range::positive)},
-      {"vertices",
-       {{"type", "array"}, {"items", schema_of_list({{"type", "number"}}, 3)}, {"minItems", 3}}},
-      {"triangles",
-       {{"type", "array"},
-        {"items", schema_of_list({{"type", "integer"}, {"minimum", 0}}, 3)},
-        {"minItems", 1}}},
-      {"sides", {{"enum", Json::array({"both", "front"})}}}};
-  mesh["properties"]["sides"]["description"] =
-      "from where rays meet the triangles; \"front\" if all lie in one plane and look the same way";
-  mesh["properties"]["file"]["description"] = "of OBJ or STL, relative to the scene's folder";
-  mesh["properties"]["scale"]["description"] = "what multiplies the file's coordinates";
-  mesh["properties"]["triangles"]["description"] =
-      "three numbers of vertices each, from 0 on, counter-clockwise as seen from outside";
-  mesh["oneOf"] =
-      Json::array({{{"required", {"file"}}}, {{"required", {"vertices", "triangles"}}}});
-  definitions["mesh"] = std::move(mesh);
+  definitions["mesh"] = mesh_schema();
   Json terrain = object_schema("A terrain: heights over a grid with its middle above the origin.");
   terrain["properties"] = {
       {"file", {{"type", "string"}}},

@@ -10,4 +10,7 @@ namespace minkray {
 /// invertible, ...) is checked on reading only.
 Json scene_schema();
 
+/// The part for meshes.
+Json mesh_schema();
+
 }  // namespace minkray

@@ -16,7 +16,8 @@ Colour mean_of(const TextureKind& texture) {
           if (!kind.picture.image || kind.picture.image->pixels.empty()) return sum;
           for (const Vec3<float>& pixel : kind.picture.image->pixels)
             sum += pixel.template cast<double>();
-          return sum / static_cast<double>(kind.picture.image->pixels.size());
+          return (sum / static_cast<double>(kind.picture.image->pixels.size()))
+              .cwiseProduct(kind.tint);
         }
       },
       texture);

@@ -23,23 +23,27 @@ using Colour = Vec3<double>;
 /// inside, so that the directions from there tell all places of its surface apart.
 struct Mappings {
   static constexpr std::string_view what = "a mapping";
-  static constexpr std::array<std::string_view, 4> names = {"radial", "box", "planar", "normal"};
+  static constexpr std::array<std::string_view, 5> names = {"radial", "box", "planar", "normal",
+                                                            "uv"};
 };
 using Mapping = NameOf<Mappings>;
 
 namespace texture_doc {
 inline constexpr std::string_view scale =
-    "the length of one repeat; of the mappings radial and normal the part of the turn";
+    "the length of one repeat; of the mappings radial and normal the part of the turn, of uv that "
+    "of "
+    "the coordinates";
 inline constexpr std::string_view mapping =
     "radial: by longitude and latitude around the object's origin; box: along the axis that the "
-    "surface faces most; planar: along z; normal: by the normal's longitude and latitude; if left "
-    "out by the place in space";
+    "surface faces most; planar: along z; normal: by the normal's longitude and latitude; uv: by "
+    "a mesh's texture coordinates; if left out by the place in space";
 }  // namespace texture_doc
 
 struct ImageTexture {
   PictureFile picture;
   Mapping mapping = {"radial"};
   double scale = 1;
+  Colour tint = Colour::Ones();
 
   static constexpr std::string_view name = "image";
   static constexpr std::string_view doc = "A picture: .exr and .hdr linear, .png and .jpg in sRGB.";
@@ -48,7 +52,9 @@ struct ImageTexture {
     return std::tuple{
         Field{"file", &T::picture, Unit::none, Range::any, "the picture's file"},
         Field{"mapping", &T::mapping, Unit::none, Range::any, texture_doc::mapping, true},
-        Field{"scale", &T::scale, Unit::length, Range::positive, texture_doc::scale, true}};
+        Field{"scale", &T::scale, Unit::length, Range::positive, texture_doc::scale, true},
+        Field{"tint", &T::tint, Unit::none, Range::zero_to_one,
+              "a colour that multiplies the picture's", true}};
   }
 };
 

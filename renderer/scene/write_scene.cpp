@@ -73,7 +73,7 @@ Json object_json(const Object& object, const Scene& scene) {
   Json json;
   json["name"] = object.name;
   if (object.mesh)
-    json["mesh"] = write_mesh(*object.mesh);
+    json["mesh"] = write_mesh(*object.mesh, object.look.get(), scene);
   else
     json["shape"] =
         object.half_space ? write_half_space(*object.half_space) : write_shape(object.shape);

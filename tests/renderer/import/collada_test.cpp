@@ -34,7 +34,7 @@ std::string dae_document(const std::string& nodes, const std::string& asset = ""
 MeshParts dae_mesh(const std::string& text, MeshSplit split = MeshSplit::none) {
   const TemporaryFolder folder;
   std::ofstream(folder / "m.dae") << text;
-  return read_collada(folder / "m.dae", split, true).mesh;
+  return read_collada(folder / "m.dae", split, MeshDetail::attributes).mesh;
 }
 
 Vec3<double> largest_corner(const MeshParts& mesh) {

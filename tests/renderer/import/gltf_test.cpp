@@ -296,7 +296,7 @@ TEST(Gltf, what_is_shown_again_and_again_is_told) {
       << gltf_document("[{\"children\": [" + children + "]}" + nodes + "]");
   std::string told;
   try {
-    read_gltf_content(folder / "m.gltf", MeshSplit::none, true);
+    read_gltf_content(folder / "m.gltf", MeshSplit::none, MeshDetail::attributes);
   } catch (const std::runtime_error& error) {
     told = error.what();
   }

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// Materials of a mesh's parts: those that its scene names, or its file's own.
+#pragma once
+
+#include "renderer/json/object_reader.h"
+#include "renderer/scene/material_names.h"
+#include "renderer/scene/mesh_files.h"
+#include "renderer/scene/scene.h"
+
+namespace minkray {
+
+/// Returns the look of a mesh; null if it has neither attributes nor materials of its own. With
+/// `takes_file`, materials that the scene does not name are those of the file. `path` is the
+/// mesh's.
+std::shared_ptr<const MeshLook> look_of(const SceneMesh& mesh, bool takes_file, Scene& scene,
+                                        MaterialNames& materials, const JsonPath& path,
+                                        Mistakes& mistakes);
+
+/// Adds mistakes where an object's materials do not fit it: a texture by coordinates that a mesh
+/// has not for all triangles, or parts of one mesh of which only some let light through.
+void check_look(const Scene& scene, const Object& object, const JsonPath& path, Mistakes& mistakes);
+
+}  // namespace minkray
