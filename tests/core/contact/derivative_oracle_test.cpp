@@ -25,9 +25,9 @@ TEST(DerivativeOracle, agrees_on_random_pairs_of_all_kinds) {
     needless += judged.is_flagged ? 1 : 0;
     bounded += std::isfinite(judged.bound) ? 1 : 0;
     ASSERT_TRUE(judged.is_within) << n;
-    // Nearly touching bodies have normals as precise as their distance.
+    // Rounding of a distance next to the distance itself is what a normal leans by.
     const double allowed = std::max(1e-6, 1e-10 / std::abs(judged.value));
-    if (!judged.is_flagged) ASSERT_LE(judged.error, allowed) << n;
+    ASSERT_TRUE(judged.is_flagged || judged.error <= allowed) << n << ": " << judged.error;
   }
   EXPECT_GT(smooth, cases * 9 / 10);
   EXPECT_GT(bounded, cases / 2);
