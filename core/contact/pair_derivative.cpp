@@ -61,23 +61,31 @@ bool have_many_points(const ContactShape& a, const Mat3<double>& linear_a, const
 }
 
 /// Angle by which other directions of the depth may lean, infinite if they may be any. Deeper along
-/// the normal, all others are better than it: the depth is a concave function of B's place.
+/// the normal by `step` sizes, all others are better than it: the depth is a concave function of
+/// B's place.
 double tilt_of_depth(const ContactShape& a, const Affine<double>& pose_a, const ContactShape& b,
-                     const Affine<double>& pose_b, const SignedDistance& found) {
-  constexpr double rounded = 1.01;
-  if (found.has_one_direction) [[likely]]
-    return std::sqrt(2 * rounded * leaning);
-  // Other directions that are nearly as deep are seen from this far, in sizes.
-  constexpr double step = 1e-7;
+                     const Affine<double>& pose_b, const SignedDistance& found, double step,
+                     double tolerance) {
   const double way = step * (a.ball_radius() + b.ball_radius());
   Between deeper = between_middles(a, pose_a, b, pose_b);
   deeper.x -= way * found.normal;
   SignedDistanceOptions how;
-  how.tolerance = 1e-14;
+  how.tolerance = tolerance;
   const SignedDistance there =
       signed_distance(a, pose_a.linear, b, pose_b.linear, deeper, how, nullptr);
   const double lean = (there.upper - (found.lower - way)) / way;  // 1 less a cosine
-  return lean <= leaning ? std::sqrt(2 * rounded * std::max(lean, 0.0)) : not_known;
+  return lean <= leaning ? std::sqrt(2 * std::max(lean, 0.0)) : not_known;
+}
+
+/// Other directions that are nearly as deep are told apart by a short step, which takes longest.
+double tilt_of_depth(const ContactShape& a, const Affine<double>& pose_a, const ContactShape& b,
+                     const Affine<double>& pose_b, const SignedDistance& found) {
+  constexpr double rounded = 1.01;
+  if (found.has_one_direction) [[likely]]
+    return rounded * std::sqrt(2 * leaning);
+  double tilt = tilt_of_depth(a, pose_a, b, pose_b, found, 1e-4, 1e-9);
+  if (tilt == not_known) tilt = tilt_of_depth(a, pose_a, b, pose_b, found, 1e-7, 1e-14);
+  return rounded * tilt;
 }
 
 TwistDerivative of_point(const Vec3<double>& weight, const Vec3<double>& arm) {

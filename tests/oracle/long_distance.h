@@ -20,6 +20,27 @@ struct LongBody {
   }
 };
 
+/// What is left of a shape that is a smaller one grown by a radius: distances of the smaller ones
+/// are convex where those of the grown ones may be depths.
+struct WithoutRadius {
+  Shape<double> shape;
+  long double radius = 0;
+};
+inline WithoutRadius without_radius(const Shape<double>& shape) {
+  if (const auto* ball = std::get_if<Sphere<double>>(&shape.kind))
+    return {Point<double>(), ball->radius};
+  if (const auto* capsule = std::get_if<Capsule<double>>(&shape.kind)) {
+    const Vec3<double> end(0, 0, capsule->half_height);
+    return {Segment<double>{{-end, end}}, capsule->radius};
+  }
+  if (const auto* rounded = std::get_if<Rounded<double>>(&shape.kind)) {
+    WithoutRadius inner = without_radius(*rounded->shape);
+    inner.radius += rounded->radius;
+    return inner;
+  }
+  return {shape};
+}
+
 /// Moves the body by step times a twist: exactly, along a screw's tangent and by a rotation about
 /// the origin of its frame.
 inline LongBody twisted(LongBody body, const Real3& velocity, const Real3& turn, long double step) {

@@ -81,8 +81,10 @@ struct UnitTwist {
 class DerivativeJudge {
  public:
   DerivativeJudge(const Body& a, const Body& b, RandomShapes& random, bool is_thorough)
-      : a_{&a.shape, a.pose.cast<Long>()},
-        b_{&b.shape, b.pose.cast<Long>()},
+      : core_a_(without_radius(a.shape)),
+        core_b_(without_radius(b.shape)),
+        a_{&core_a_.shape, a.pose.cast<Long>()},
+        b_{&core_b_.shape, b.pose.cast<Long>()},
         size_(a.ready.ball_radius() + b.ready.ball_radius()),
         random_(random) {
     // Far from the origin long double has few digits, too.
@@ -97,7 +99,7 @@ class DerivativeJudge {
     judged_.is_flagged = derivative.is_ridge;
     judged_.value = found.value / size_;
     normals_ = {found.normal.cast<Long>()};
-    is_apart_ = found.value > touching * size_;
+    is_apart_ = found.value + core_a_.radius + core_b_.radius > touching * size_;
     if (!is_apart_ && (is_thorough || derivative.is_ridge)) find_other_depths();
     middle_ = value(a_, b_);
     if (!(middle_.unsure <= 1e-14L * size_)) return;
@@ -236,6 +238,7 @@ class DerivativeJudge {
     }
   }
 
+  WithoutRadius core_a_, core_b_;
   LongBody a_, b_;
   double size_;
   RandomShapes& random_;
