@@ -88,6 +88,18 @@ double tilt_of_depth(const ContactShape& a, const Affine<double>& pose_a, const 
   return rounded * tilt;
 }
 
+/// True if the normal that was found may lean by more than derivatives should: of shapes known by
+/// their support mapping only, and of those that nearly touch and have no closed form.
+bool may_be_rough(const ShapeCore& a, const ShapeCore& b, double interval, double between_cores) {
+  if (a.kind == CoreKind::other || b.kind == CoreKind::other) return true;
+  constexpr double precise = 1e-6;
+  const auto is_searched = [](const ShapeCore& core) {
+    return core.kind != CoreKind::point && core.kind != CoreKind::segment;
+  };
+  return between_cores > interval && is_searched(a) && is_searched(b) &&
+         tilt_of(interval, between_cores) > precise;
+}
+
 TwistDerivative of_point(const Vec3<double>& weight, const Vec3<double>& arm) {
   return {weight, arm.cross(weight)};
 }
@@ -101,11 +113,11 @@ Mat3<double> turned_by(const Vec3<double>& rotation) {
 
 /// The contact of the cores that was found, as precise as it can be had.
 CoreContact contact_of(const CoresInWorld& cores, const Vec3<double>& middle,
-                       const SignedDistance& found) {
+                       const SignedDistance& found, bool is_rough) {
   const double radii = cores.a.radius + cores.b.radius;
   CoreContact contact{found.normal, found.point_a - middle - cores.a.radius * found.normal,
                       found.point_b - found.point_a + radii * found.normal};
-  sharpen(cores, contact);
+  if (is_rough) sharpen(cores, contact);
   return contact;
 }
 
@@ -127,11 +139,11 @@ PairDerivative derivative_of(const ContactShape& a, const Affine<double>& pose_a
     depth_tilt = tilt_of_depth(a, pose_a, b, pose_b, found);
     derivative.is_ridge = depth_tilt == not_known;
   }
-  const bool is_rough = a.core().kind == CoreKind::other || b.core().kind == CoreKind::other;
+  const bool is_rough = may_be_rough(a.core(), b.core(), interval, between_cores);
   if (!is_rough && !error) return derivative;
   const CoresInWorld cores(a, pose_a, b, pose_b);
   const Vec3<double> middle = middle_in_world(a, pose_a);
-  const CoreContact contact = contact_of(cores, middle, found);
+  const CoreContact contact = contact_of(cores, middle, found, is_rough);
   const Vec3<double> origin_a = pose_a.translation - middle, origin_b = pose_b.translation - middle;
   if (is_rough) {
     // Radii do not matter to arms across the normal.

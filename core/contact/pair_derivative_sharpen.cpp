@@ -136,13 +136,13 @@ class SlimSimplex {
 };
 
 /// GJK from the normal that was found: its last digits are those of the slim triangles.
-void by_gjk(const CoresInWorld& cores, CoreContact& contact) {
+void by_gjk(const CoresInWorld& cores, double slack, CoreContact& contact) {
   constexpr int most_turns = 60, most_stalls = 3;
   const double scale = cores.size() + cores.between.x.norm();
   SlimSimplex simplex;
   const CoreContact first = contact_along(cores, contact.normal);
   simplex.add({first.c, first.a});
-  double highest = -std::numeric_limits<double>::infinity();
+  double highest = first.normal.dot(first.c) + slack;
   double nearest = std::numeric_limits<double>::infinity();
   int stalls = 0;
   Vertex v{first.c, first.a};
@@ -179,9 +179,11 @@ Vec3<double> CoresInWorld::support_b(const Vec3<double>& n) const {
 }
 
 void sharpen(const CoresInWorld& cores, CoreContact& contact) {
-  if (cores.a.kind != CoreKind::other && cores.b.kind != CoreKind::other) return;
   if (by_newton(cores, contact)) return;
-  if (contact.normal.dot(contact.c) > 0) by_gjk(cores, contact);
+  if (!(contact.normal.dot(contact.c) > 0)) return;
+  // Solvers that know a core's kind are better than this, but where they fail.
+  const bool is_known = cores.a.kind != CoreKind::other && cores.b.kind != CoreKind::other;
+  by_gjk(cores, is_known ? 8 * epsilon * (cores.size() + cores.between.x.norm()) : 0, contact);
 }
 
 }  // namespace minkray

@@ -35,8 +35,7 @@ struct CoreContact {
   Vec3<double> normal, a, c;
 };
 
-/// Improves a contact whose normal is nearly right, for pairs with a core known by its support
-/// mapping. Leaves others as they are, and those where nothing better is found.
+/// Improves a contact whose normal is nearly right; leaves it where nothing better is found.
 void sharpen(const CoresInWorld& cores, CoreContact& contact);
 
 }  // namespace minkray

@@ -174,7 +174,7 @@ class DerivativeJudge {
   };
   Differences differences(const UnitTwist& twist, Long step) const {
     const Long rounding =
-        8 * std::numeric_limits<Long>::epsilon() * (size_ + b_.pose.translation.norm());
+        64 * std::numeric_limits<Long>::epsilon() * (size_ + b_.pose.translation.norm());
     const Value up = moved(twist, step), down = moved(twist, -step);
     return {(up.value - down.value) / (2 * step),
             std::abs(up.value + down.value - 2 * middle_.value) / step,
