@@ -6,9 +6,12 @@
 
 #include "core/contact/core_pair.h"
 #include "core/contact/flat_part.h"
+#include "core/contact/pair_derivative_sharpen.h"
 
 namespace minkray {
 namespace {
+
+constexpr double not_known = std::numeric_limits<double>::infinity();
 
 PairDerivative unknown(bool is_ridge) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -57,20 +60,44 @@ bool have_many_points(const ContactShape& a, const Mat3<double>& linear_a, const
   return sine <= tilt || sine * shorter <= std::sqrt(2 * interval * length);
 }
 
-/// True if the depth may have more than one direction. Deeper along the normal, all others are
-/// better than it: the depth is a concave function of B's place.
-bool has_many_directions(const ContactShape& a, const Affine<double>& pose_a, const ContactShape& b,
-                         const Affine<double>& pose_b, const SignedDistance& found) {
-  if (found.has_one_direction) [[likely]]
-    return false;
-  constexpr double step = 1e-4;  // of the sizes
+/// Angle by which other directions of the depth may lean, infinite if they may be any. Deeper along
+/// the normal by `step` sizes, all others are better than it: the depth is a concave function of
+/// B's place.
+double tilt_of_depth(const ContactShape& a, const Affine<double>& pose_a, const ContactShape& b,
+                     const Affine<double>& pose_b, const SignedDistance& found, double step,
+                     double tolerance) {
   const double way = step * (a.ball_radius() + b.ball_radius());
-  Affine<double> deeper = pose_b;
-  deeper.translation -= way * found.normal;
+  Between deeper = between_middles(a, pose_a, b, pose_b);
+  deeper.x -= way * found.normal;
   SignedDistanceOptions how;
-  how.tolerance = 1e-9;
-  const SignedDistance there = signed_distance(a, pose_a, b, deeper, how);
-  return !(there.upper <= found.lower - way * (1 - leaning));
+  how.tolerance = tolerance;
+  const SignedDistance there =
+      signed_distance(a, pose_a.linear, b, pose_b.linear, deeper, how, nullptr);
+  const double lean = (there.upper - (found.lower - way)) / way;  // 1 less a cosine
+  return lean <= leaning ? std::sqrt(2 * std::max(lean, 0.0)) : not_known;
+}
+
+/// Other directions that are nearly as deep are told apart by a short step, which takes longest.
+double tilt_of_depth(const ContactShape& a, const Affine<double>& pose_a, const ContactShape& b,
+                     const Affine<double>& pose_b, const SignedDistance& found) {
+  constexpr double rounded = 1.01;
+  if (found.has_one_direction) [[likely]]
+    return rounded * std::sqrt(2 * leaning);
+  double tilt = tilt_of_depth(a, pose_a, b, pose_b, found, 1e-4, 1e-9);
+  if (tilt == not_known) tilt = tilt_of_depth(a, pose_a, b, pose_b, found, 1e-7, 1e-14);
+  return rounded * tilt;
+}
+
+/// True if the normal that was found may lean by more than derivatives should: of shapes known by
+/// their support mapping only, and of those that nearly touch and have no closed form.
+bool may_be_rough(const ShapeCore& a, const ShapeCore& b, double interval, double between_cores) {
+  if (a.kind == CoreKind::other || b.kind == CoreKind::other) return true;
+  constexpr double precise = 1e-6;
+  const auto is_searched = [](const ShapeCore& core) {
+    return core.kind != CoreKind::point && core.kind != CoreKind::segment;
+  };
+  return between_cores > interval && is_searched(a) && is_searched(b) &&
+         tilt_of(interval, between_cores) > precise;
 }
 
 TwistDerivative of_point(const Vec3<double>& weight, const Vec3<double>& arm) {
@@ -84,20 +111,49 @@ Mat3<double> turned_by(const Vec3<double>& rotation) {
   return Eigen::AngleAxis<double>(angle, rotation / angle).toRotationMatrix();
 }
 
+/// The contact of the cores that was found, as precise as it can be had.
+CoreContact contact_of(const CoresInWorld& cores, const Vec3<double>& middle,
+                       const SignedDistance& found, bool is_rough) {
+  const double radii = cores.a.radius + cores.b.radius;
+  CoreContact contact{found.normal, found.point_a - middle - cores.a.radius * found.normal,
+                      found.point_b - found.point_a + radii * found.normal};
+  if (is_rough) sharpen(cores, contact);
+  return contact;
+}
+
 }  // namespace
 
 PairDerivative derivative_of(const ContactShape& a, const Affine<double>& pose_a,
                              const ContactShape& b, const Affine<double>& pose_b,
-                             const SignedDistance& found) {
+                             const SignedDistance& found, PairDerivativeError* error) {
   const double interval = found.upper - found.lower;
+  if (error) *error = {};
   if (found.is_unknown() || !std::isfinite(interval)) return unknown(true);
   PairDerivative derivative{of_point(-found.normal, found.point_a - pose_a.translation),
                             of_point(found.normal, found.point_b - pose_b.translation)};
   const double between_cores = found.value + a.core().radius + b.core().radius;
-  derivative.is_ridge =
-      have_many_points(a, pose_a.linear, b, pose_b.linear, found.normal, interval,
-                       std::abs(between_cores)) ||
-      (!(between_cores > interval) && has_many_directions(a, pose_a, b, pose_b, found));
+  double depth_tilt = not_known;
+  derivative.is_ridge = have_many_points(a, pose_a.linear, b, pose_b.linear, found.normal, interval,
+                                         std::abs(between_cores));
+  if (!derivative.is_ridge && !(between_cores > interval)) {
+    depth_tilt = tilt_of_depth(a, pose_a, b, pose_b, found);
+    derivative.is_ridge = depth_tilt == not_known;
+  }
+  const bool is_rough = may_be_rough(a.core(), b.core(), interval, between_cores);
+  if (!is_rough && !error) return derivative;
+  const CoresInWorld cores(a, pose_a, b, pose_b);
+  const Vec3<double> middle = middle_in_world(a, pose_a);
+  const CoreContact contact = contact_of(cores, middle, found, is_rough);
+  const Vec3<double> origin_a = pose_a.translation - middle, origin_b = pose_b.translation - middle;
+  if (is_rough) {
+    // Radii do not matter to arms across the normal.
+    derivative.a = of_point(-contact.normal, contact.a - origin_a);
+    derivative.b = of_point(contact.normal, contact.a + contact.c - origin_b);
+  }
+  if (error && !derivative.is_ridge) {
+    depth_tilt += (contact.normal - found.normal).norm();
+    *error = error_of(cores, contact, found, depth_tilt, origin_a, origin_b);
+  }
   return derivative;
 }
 

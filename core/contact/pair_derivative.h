@@ -9,6 +9,7 @@
 
 #include "core/contact/half_space_distance.h"
 #include "core/contact/impact.h"
+#include "core/contact/pair_derivative_error.h"
 
 namespace minkray {
 
@@ -34,10 +35,10 @@ inline SignedDistanceOptions for_derivatives(SignedDistanceOptions options = {})
 }
 
 /// `found` is the result on this pair, computed with for_derivatives(), with both of its bounds;
-/// else nothing is known: NaN, and a ridge.
+/// else nothing is known: NaN, and a ridge. Fills `error`, if there is one.
 PairDerivative derivative_of(const ContactShape& a, const Affine<double>& pose_a,
                              const ContactShape& b, const Affine<double>& pose_b,
-                             const SignedDistance& found);
+                             const SignedDistance& found, PairDerivativeError* error = nullptr);
 
 /// Computes the signed distance, too, as finely as that needs.
 PairDerivative finest_derivative_of(const ContactShape& a, const Affine<double>& pose_a,

@@ -52,8 +52,10 @@ typedef struct minkray_pair_memory {
  * its angular velocity about that point. `is_ridge` is 1 where the bounds do not exclude that there
  * are several derivatives: for parallel faces, an edge on a face, a depth in two directions; the
  * reported one is one of them. Where nothing is known of the distance derivatives are NaN. If any
- * of these three is wanted distances are found to a tolerance of 1e-15, and the direction of a
- * depth to rounding. */
+ * of these is wanted distances are found to a tolerance of 1e-15, and the direction of a depth to
+ * rounding. `jac_error_a` and `jac_error_b` bound the length of a derivative's error: by velocity,
+ * and by angular velocity. They are infinite on ridges, for meshes, for depths in more than one
+ * direction, and for turns about points that may slide on a surface of unknown curvature. */
 typedef struct minkray_distance_arrays {
   size_t size;                 /* sizeof(minkray_distance_arrays) */
   minkray_distance* distances; /* all of a pair in one struct */
@@ -68,6 +70,8 @@ typedef struct minkray_distance_arrays {
   uint8_t* is_ridge;
   uint8_t* status; /* a minkray_distance_status */
   int32_t* supports;
+  double* jac_error_a; /* two per pair; read if `size` includes it */
+  double* jac_error_b;
 } minkray_distance_arrays;
 
 /* Signed distances of `count` pairs: each has the bits of minkray_signed_distance, for any number

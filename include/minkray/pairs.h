@@ -45,11 +45,17 @@ struct Manifold {
 static_assert(sizeof(Manifold) == sizeof(minkray_manifold) &&
               offsetof(Manifold, count) == offsetof(minkray_manifold, count));
 
+/// Bounds of the length of a derivative's error; infinite where nothing is known.
+struct DerivativeError {
+  double velocity = 0, turn = 0;
+};
+
 /// Derivatives by a twist of each body: by the velocity of its origin, and by a turn about that.
 /// `is_ridge` is set where there may be others. Those without room are omitted.
 struct Derivatives {
   View<Twist> by_a = {}, by_b = {};
   View<std::uint8_t> is_ridge = {};
+  View<DerivativeError> error_a = {}, error_b = {};  ///< of distances only
 };
 
 /// Options of queries on many pairs.
@@ -110,6 +116,10 @@ inline void signed_distances(const Bodies& a, const Bodies& b, View<Distance> di
   auto arrays = detail::empty_arrays<minkray_distance_arrays>();
   arrays.distances = reinterpret_cast<minkray_distance*>(distances.data());
   detail::add_derivatives(function, options.derivatives, distances.size(), arrays);
+  arrays.jac_error_a = detail::of_pairs<double>(function, "derivatives.error_a",
+                                                options.derivatives.error_a, distances.size());
+  arrays.jac_error_b = detail::of_pairs<double>(function, "derivatives.error_b",
+                                                options.derivatives.error_b, distances.size());
   detail::check(
       minkray_signed_distances(&plain_a, &plain_b, distances.size(), &asked,
                                detail::of_pairs<minkray_pair_memory>(

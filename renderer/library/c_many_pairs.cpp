@@ -2,6 +2,7 @@
 // C interface: queries on many pairs of shapes.
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <string>
 
@@ -125,13 +126,24 @@ bool wants_derivative(const Arrays& to) {
   return to.jac_a || to.jac_b || to.is_ridge;
 }
 
-/// The arrays that are to be filled. Throws CallError if there are none, or older ones.
+/// Two numbers for each body of a pair.
+void tell(double* to, std::size_t i, const TwistError& error) {
+  if (!to) return;
+  to[2 * i] = error.by_velocity;
+  to[2 * i + 1] = error.by_turn;
+}
+
+/// The arrays to fill; those that an older program does not have are null. Throws CallError if they
+/// are shorter than `least` bytes, the size that the first version had.
 template <class Arrays>
-Arrays checked(const Arrays* arrays, const char* argument, const char* type) {
+Arrays checked(const Arrays* arrays, const char* argument, const char* type,
+               std::size_t least = sizeof(Arrays)) {
   require(arrays, argument);
-  if (arrays->size < sizeof(Arrays))
+  if (arrays->size < least)
     wrong_use(std::string(argument) + ".size: must be sizeof(" + type + ")");
-  return *arrays;
+  Arrays known = {};
+  std::memcpy(&known, arrays, std::min(arrays->size, sizeof(Arrays)));
+  return known;
 }
 
 }  // namespace
@@ -146,20 +158,26 @@ int minkray_signed_distances(const minkray_bodies* a, const minkray_bodies* b, s
                              const minkray_distance_arrays* distances, const minkray_options* how) {
   return call("minkray_signed_distances", [&] {
     const BodiesOfPairs all_a(a, count, "a"), all_b(b, count, "b");
-    const minkray_distance_arrays to = checked(distances, "distances", "minkray_distance_arrays");
+    const minkray_distance_arrays to = checked(distances, "distances", "minkray_distance_arrays",
+                                               offsetof(minkray_distance_arrays, jac_error_a));
     SignedDistanceOptions asked = distance_options(options);
-    const bool derive = wants_derivative(to);
+    const bool bound = to.jac_error_a || to.jac_error_b;
+    const bool derive = bound || wants_derivative(to);
     if (derive) asked = for_derivatives(asked);
     ask_all(all_a, all_b, count, memories, how,
             [&](size_t i, const PosedBody& one, const PosedBody& other, PairMemory* memory) {
               const SignedDistance found = distance_of(one, other, memory, asked);
               tell(to, i, found);
-              if (derive)
-                tell_derivative(
-                    to, i,
-                    are_shapes(one, other)
-                        ? derivative_of(one.shape(), one.pose(), other.shape(), other.pose(), found)
-                        : derivative_of(one.parts(), one.pose(), other.parts(), other.pose()));
+              if (!derive) return;
+              PairDerivativeError error;
+              tell_derivative(
+                  to, i,
+                  are_shapes(one, other)
+                      ? derivative_of(one.shape(), one.pose(), other.shape(), other.pose(), found,
+                                      bound ? &error : nullptr)
+                      : derivative_of(one.parts(), one.pose(), other.parts(), other.pose()));
+              tell(to.jac_error_a, i, error.a);
+              tell(to.jac_error_b, i, error.b);
             });
   });
 }

@@ -35,25 +35,48 @@ struct Met {
         status(hits.status[i]) {}
 };
 
-/// True if nearby rays on both sides do not hit where a plane would be, for shapes known only by
-/// their support mapping. Across an edge the surface falls off.
+/// Second differences of t over nearby rays on both sides, relative to the step; infinite where one
+/// of them misses.
+class Bend {
+ public:
+  Bend(const World& world, const Ray<double>& ray, const Met& met, double size)
+      : shape_(world.instances().at(met.object)),
+        ray_(ray),
+        // A way that is unlikely to be along an edge.
+        aside_(unit<double>(ray.direction.cross(Vec3<double>(0.3713, -0.5571, 0.7428)) +
+                            0.6180 * ray.direction.norm() * ray.direction.unitOrthogonal())),
+        t_(met.t),
+        size_(size) {}
+
+  double over(double step) const {
+    double sum = -2 * t_;
+    for (const double side : {-step * size_, step * size_}) {
+      Ray<double> beside = ray_;
+      beside.origin += side * aside_;
+      const CastResult<double> cast = cast_ray(shape_, beside);
+      if (!cast.found()) return std::numeric_limits<double>::infinity();
+      sum += cast.t();
+    }
+    return std::abs(sum) * ray_.direction.norm() / (step * size_);
+  }
+
+ private:
+  PreparedShape<double> shape_;
+  const Ray<double>& ray_;
+  Vec3<double> aside_;
+  double t_, size_;
+};
+
+/// True if the surface of a shape that is known only by its support mapping has an edge there: a
+/// bend that stays when steps get shorter. Curved surfaces' bends shrink with the step.
 bool bends_at(const World& world, const Ray<double>& ray, const Met& met, double size) {
   constexpr double step = 1e-6;  // of the size
-  constexpr double bent = 1e-4;  // of the step: more than any curved surface bends over it
-  const Vec3<double> direction = unit<double>(ray.direction);
-  // A way that lies along no edge but by chance.
-  const Vec3<double> aside = unit<double>(direction.cross(Vec3<double>(0.3713, -0.5571, 0.7428)) +
-                                          0.6180 * direction.unitOrthogonal());
-  const PreparedShape<double> shape = world.instances().at(met.object);
-  double sum = -2 * met.t;
-  for (const double side : {-step * size, step * size}) {
-    Ray<double> beside = ray;
-    beside.origin += side * aside;
-    const CastResult<double> cast = cast_ray(shape, beside);
-    if (!cast.found()) return true;
-    sum += cast.t();
-  }
-  return !(std::abs(sum) * ray.direction.norm() <= bent * step * size);
+  constexpr double bent = 1e-4;
+  const Bend bend(world, ray, met, size);
+  if (bend.over(step) <= bent) return false;
+  const double finer = bend.over(step / 32);
+  if (finer <= bent) return false;
+  return !std::isfinite(finer) || !(bend.over(step / 1024) < finer / 4);
 }
 
 class Derivatives {

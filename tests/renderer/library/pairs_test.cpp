@@ -106,6 +106,49 @@ TEST(LibraryPairs, are_the_bits_of_each_for_any_number_of_threads) {
     EXPECT_EQ(of_one[i].value, mk::signed_distance(a[0], {}, b[i], at_b[i]).value) << i;
 }
 
+TEST(LibraryPairs, errors_of_derivatives_have_bounds) {
+  const mk::Shape ellipsoid = mk::ellipsoid({1, 2, 3}), box = mk::box({1, 1, 1});
+  const mk::Pose above = mk::translation({0.3, 0.2, 5});
+  std::vector<mk::Distance> found(1);
+  std::vector<mk::Twist> by_b(1);
+  std::vector<mk::DerivativeError> error_b(1);
+  mk::PairOptions options;
+  options.derivatives.by_b = by_b;
+  options.derivatives.error_b = error_b;
+  // On top of the face; about an axis across it the box is carried by its arm.
+  mk::signed_distances({{&ellipsoid, 1}, {}, {}}, {{&box, 1}, {&above, 1}, {}}, found, options);
+  EXPECT_NEAR(by_b[0].velocity.z, 1, error_b[0].velocity);
+  EXPECT_NEAR(by_b[0].turn.x, -0.2, error_b[0].turn);
+  EXPECT_NEAR(by_b[0].turn.y, 0.3, error_b[0].turn);
+  EXPECT_LT(error_b[0].velocity, 1e-6);
+  EXPECT_LT(error_b[0].turn, 1e-5);
+  // Of parallel faces there are many derivatives.
+  mk::signed_distances({{&box, 1}, {}, {}}, {{&box, 1}, {&above, 1}, {}}, found, options);
+  EXPECT_TRUE(std::isinf(error_b[0].turn));
+}
+
+TEST(LibraryPairs, take_arrays_of_older_programs) {
+  const mk::Shape ball = mk::sphere(1);
+  const mk::Pose aside = mk::translation({3, 0, 0});
+  minkray_bodies a = {}, b = {};
+  a.size = b.size = sizeof a;
+  a.shapes = b.shapes = reinterpret_cast<const minkray_shape*>(&ball);
+  a.shape_count = b.shape_count = 1;
+  b.poses = &aside.rows[0][0];
+  b.pose_count = 1;
+  double value = 0, untouched = 7;
+  minkray_distance_arrays arrays = {};
+  arrays.size = offsetof(minkray_distance_arrays, jac_error_a);
+  arrays.value = &value;
+  arrays.jac_error_a = &untouched;
+  EXPECT_EQ(minkray_signed_distances(&a, &b, 1, nullptr, nullptr, &arrays, nullptr), MINKRAY_OK);
+  EXPECT_EQ(value, 1);
+  EXPECT_EQ(untouched, 7);
+  --arrays.size;
+  EXPECT_EQ(minkray_signed_distances(&a, &b, 1, nullptr, nullptr, &arrays, nullptr),
+            MINKRAY_WRONG_USE);
+}
+
 TEST(LibraryPairs, derivatives_are_slopes_in_long_double) {
   constexpr std::size_t count = 300;
   constexpr double half = 0.5, radius = 0.2;

@@ -32,6 +32,17 @@ class Derivatives(unittest.TestCase):
     def test_of_depths_are_slopes(self):
         self.check_distances(0.2, 0.5, 1e-5)
 
+    def test_errors_of_distances_have_bounds(self):
+        for name, shape in some_shapes().items():
+            A, B = random_poses(20), random_poses(20)
+            B[:, :3] = A[:, :3] + 4 * unit(RNG.normal(size=(20, 3)))
+            ball = mk.sphere(0.3)
+            d = mk.signed_distances(shape, A, ball, B, jac=True, jac_error=True)
+            # A ball is turned about its middle in vain.
+            self.assertTrue((np.linalg.norm(d.jac_b[:, 3:], axis=1) <= d.jac_error_b[:, 1]).all(), name)
+            self.assertLess(d.jac_error_b.max(), 1e-5, name)
+            self.assertFalse(hasattr(mk.signed_distances(shape, A, ball, B, jac=True), "jac_error_a"))
+
     def test_of_times_of_impact_are_slopes(self):
         shapes = some_shapes()
         for a in ("box", "capsule", "ellipsoid"):

@@ -33,6 +33,10 @@ class Distances(_Arrays):
     is_ridge : (N,) bool
         With ``jac=True``: True where the bounds do not exclude other derivatives, as of parallel
         faces; `jac_a` and `jac_b` are one of them then.
+    jac_error_a, jac_error_b : (N, 2) float64
+        With ``jac_error=True``: bounds of the length of the error of `jac_a` and `jac_b`, by velocity and by
+        angular velocity; inf where nothing is known: on ridges, of meshes, of some depths, of turns
+        about points on surfaces of unknown curvature.
     """
 
     def __repr__(self):
@@ -94,6 +98,7 @@ _DISTANCES = {"value": ((), np.float64), "lower": ((), np.float64), "upper": (()
               "normal": ((3,), np.float64), "point_a": ((3,), np.float64), "point_b": ((3,), np.float64),
               "status": ((), np.uint8), "supports": ((), np.int32)}
 _JAC = {"jac_a": ((6,), np.float64), "jac_b": ((6,), np.float64), "is_ridge": ((), np.bool_)}
+_JAC_ERROR = {"jac_error_a": ((2,), np.float64), "jac_error_b": ((2,), np.float64)}
 _IMPACTS = {"t_lo": ((), np.float64), "t_hi": ((), np.float64), "normal": ((3,), np.float64),
             "point_a": ((3,), np.float64), "point_b": ((3,), np.float64), "distance": ((), np.float64),
             "status": ((), np.uint8)}
@@ -257,8 +262,8 @@ def pair_memory(shape):
 
 
 @public
-def signed_distances(a, pose_a, b, pose_b, *, jac=False, tolerance=1e-10, memory=None, threads=0, out=None,
-                     progress=None):
+def signed_distances(a, pose_a, b, pose_b, *, jac=False, jac_error=False, tolerance=1e-10, memory=None,
+                     threads=0, out=None, progress=None):
     """How far apart the shapes of many pairs are, or how deep in each other.
 
     Parameters
@@ -270,6 +275,8 @@ def signed_distances(a, pose_a, b, pose_b, *, jac=False, tolerance=1e-10, memory
         together by NumPy's rules of broadcasting.
     jac : bool
         Whether derivatives are told, too.
+    jac_error : bool
+        Add bounds of the derivatives' errors.
     tolerance : float
         Of the bounds, relative to the shapes' sizes.
     memory : (N, 8) array, optional
@@ -299,7 +306,7 @@ def signed_distances(a, pose_a, b, pose_b, *, jac=False, tolerance=1e-10, memory
     """
     sides = Sides(a, pose_a, b, pose_b)
     shape = sides.together.shape
-    arrays = room(Distances, {**_DISTANCES, **_JAC} if jac else _DISTANCES, shape, out)
+    arrays = room(Distances, {**_DISTANCES, **(_JAC if jac else {}), **(_JAC_ERROR if jac_error else {})}, shape, out)
     told(_minkray.signed_distances, sides.side("a"), sides.side("b"), sides.together.count,
          number_of(tolerance, "tolerance"), _memory(memory, shape), arrays, threads_of(threads),
          _progress(progress))
