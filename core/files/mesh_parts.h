@@ -18,7 +18,7 @@ namespace minkray {
 
 enum class MeshSplit : unsigned char { none, groups, components };
 
-/// How much of a mesh file is wanted, each with all before it.
+/// Amount of a mesh file to read, each with all before it.
 enum class MeshDetail : unsigned char { vertices, triangles, attributes };
 
 /// Vertices, and the end of each part that the file distinguishes: at least one.

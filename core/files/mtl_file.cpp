@@ -68,4 +68,13 @@ void read_mtl(std::string_view text, std::map<std::string, MtlMaterial>& materia
   }
 }
 
+std::filesystem::path picture_file(const std::filesystem::path& folder, std::string name) {
+  std::ranges::replace(name, '\\', '/');
+  const std::filesystem::path file = folder / name;
+  std::error_code error;
+  const std::filesystem::path last = folder / std::filesystem::path(name).filename();
+  if (!std::filesystem::exists(file, error) && std::filesystem::exists(last, error)) return last;
+  return file.lexically_normal();
+}
+
 }  // namespace minkray

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
@@ -18,5 +19,9 @@ struct MtlMaterial {
 
 /// Adds the materials of a library by their names. Lines that are wrong are ignored.
 void read_mtl(std::string_view text, std::map<std::string, MtlMaterial>& materials);
+
+/// The file of a picture that a mesh file names: as named, or by its last name in the folder, for
+/// absolute names of other machines.
+std::filesystem::path picture_file(const std::filesystem::path& folder, std::string name);
 
 }  // namespace minkray

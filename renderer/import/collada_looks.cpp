@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/files/mtl_file.h"
 #include "renderer/import/gltf_text.h"
 
 namespace minkray {

@@ -45,7 +45,7 @@ class GltfDocument {
   /// Pairs of numbers of an accessor (VEC2), which may be none.
   std::optional<std::vector<std::array<double, 2>>> pairs(std::size_t accessor);
 
-  /// The file of an image beside this one; nothing if its bytes are in the file itself, or if its
+  /// The file of an image next to this one; nothing if its bytes are in the file itself, or if its
   /// name is wrong, which is a mistake.
   std::optional<std::filesystem::path> image_file(std::size_t image);
   /// The bytes of an image in the file itself.

@@ -77,15 +77,6 @@ std::size_t colour_count(const MeshLooks& looks) {
   return all.size();
 }
 
-std::filesystem::path picture_file(const std::filesystem::path& folder, std::string name) {
-  std::ranges::replace(name, '\\', '/');
-  const std::filesystem::path file = folder / name;
-  std::error_code error;
-  const std::filesystem::path last = folder / std::filesystem::path(name).filename();
-  if (!std::filesystem::exists(file, error) && std::filesystem::exists(last, error)) return last;
-  return file.lexically_normal();
-}
-
 MeshLooks obj_looks(const std::filesystem::path& file, const std::vector<std::string>& names,
                     std::vector<MeshMaterial>& materials) {
   const std::string bytes = read_regular_file(file, most_obj_bytes);

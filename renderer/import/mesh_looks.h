@@ -50,10 +50,6 @@ std::optional<Rgba> colour_of(const MeshLooks& looks);
 /// Number of colours in all parts.
 std::size_t colour_count(const MeshLooks& looks);
 
-/// The file of a picture that a mesh file names: as named, or by its last name in the folder, for
-/// absolute names of other machines.
-std::filesystem::path picture_file(const std::filesystem::path& folder, std::string name);
-
 /// Reads an OBJ file's groups and the materials (.mtl) that it names. `materials`, if any, get
 /// those of the names.
 MeshLooks obj_looks(const std::filesystem::path& file, const std::vector<std::string>& names,

@@ -135,6 +135,10 @@ std::optional<HeightGrid> MeshFiles::read_heights(const std::string& written, co
 }
 
 void MeshFiles::add_to(Hash& hash) const {
+  for (const auto& [name, materials] : materials_) {
+    hash.add(name);
+    hash.add(materials.hash);
+  }
   for (const auto& [name, text] : heights_) {
     hash.add(name);
     hash.add(text);

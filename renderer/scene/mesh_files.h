@@ -35,8 +35,7 @@ struct FileMaterial {
 struct SceneMesh {
   std::shared_ptr<const TriangleMesh> mesh = {};
   std::shared_ptr<const MeshAttributes> attributes = {};  ///< null: none
-  /// Materials of a file, by the attributes' numbers.
-  std::shared_ptr<const std::vector<FileMaterial>> materials = {};
+  std::string file = {};        ///< relative to the scene's folder; empty: none
   const Json* named = nullptr;  ///< names in the scene instead of these, if any
 };
 
@@ -79,6 +78,10 @@ class MeshFiles {
   /// cannot be used. Vertices at the same place become one.
   SceneMesh read_mesh(const std::string& name, double scale, const MeshShading& shading,
                       const JsonPath& path, Mistakes& mistakes);
+  /// Materials of a mesh file by its attributes' numbers, read once; null if it has none.
+  std::shared_ptr<const std::vector<FileMaterial>> materials_of(const SceneMesh& mesh,
+                                                                const JsonPath& path,
+                                                                Mistakes& mistakes);
 
   /// The heights of a picture's pixels, black 0 and white 1; nothing, and a mistake, if it cannot
   /// be used.
@@ -120,6 +123,11 @@ class MeshFiles {
   using SurfaceKey = std::tuple<std::string, double, MeshShading>;
   std::map<SurfaceKey, Surface> surfaces_;
   std::vector<std::filesystem::path> libraries_;  ///< files of meshes' materials
+  struct Materials {
+    std::shared_ptr<const std::vector<FileMaterial>> all;
+    std::string hash;
+  };
+  std::map<std::string, Materials> materials_;  ///< by mesh file
   std::vector<FileMaterial> read_libraries(const std::filesystem::path& mesh,
                                            const MeshAttributes& attributes, const JsonPath& path,
                                            Mistakes& mistakes);

@@ -96,18 +96,18 @@ std::size_t triangles_without_uv(const Object& object) {
 }  // namespace
 
 std::shared_ptr<const MeshLook> look_of(const SceneMesh& mesh, bool takes_file, Scene& scene,
-                                        MaterialNames& materials, const JsonPath& path,
-                                        Mistakes& mistakes) {
+                                        MaterialNames& materials, MeshFiles& files,
+                                        const JsonPath& path, Mistakes& mistakes) {
   MeshLook look{mesh.attributes};
   if (mesh.named)
     look.materials = named_materials(*mesh.named, mesh, materials, path / "materials", mistakes);
-  if (takes_file && mesh.materials) {
-    look.materials.resize(mesh.materials->size(), MeshAttributes::none);
+  const auto of_files = takes_file ? files.materials_of(mesh, path / "file", mistakes) : nullptr;
+  if (of_files) {
+    look.materials.resize(of_files->size(), MeshAttributes::none);
     for (std::size_t i = 0; i < look.materials.size(); ++i) {
-      const FileMaterial& of_file = (*mesh.materials)[i];
+      const FileMaterial& of_file = (*of_files)[i];
       if (look.materials[i] == MeshAttributes::none && (of_file.colour || of_file.picture.image))
-        look.materials[i] =
-            materials.of_file(of_file.name, mesh.materials.get(), paint_of(of_file));
+        look.materials[i] = materials.of_file(of_file.name, of_files.get(), paint_of(of_file));
     }
   }
   for (std::uint32_t& material : look.materials)

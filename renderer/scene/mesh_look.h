@@ -13,11 +13,11 @@ namespace minkray {
 /// `takes_file`, materials that the scene does not name are those of the file. `path` is the
 /// mesh's.
 std::shared_ptr<const MeshLook> look_of(const SceneMesh& mesh, bool takes_file, Scene& scene,
-                                        MaterialNames& materials, const JsonPath& path,
-                                        Mistakes& mistakes);
+                                        MaterialNames& materials, MeshFiles& files,
+                                        const JsonPath& path, Mistakes& mistakes);
 
-/// Adds mistakes where an object's materials do not fit it: a texture by coordinates that a mesh
-/// has not for all triangles, or parts of one mesh of which only some let light through.
+/// Checks an object's materials: a texture by coordinates needs a mesh that has them for all
+/// triangles, and parts that let light through must be all of one material.
 void check_look(const Scene& scene, const Object& object, const JsonPath& path, Mistakes& mistakes);
 
 }  // namespace minkray

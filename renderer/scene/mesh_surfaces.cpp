@@ -47,13 +47,32 @@ std::vector<FileMaterial> MeshFiles::read_libraries(const std::filesystem::path&
     const auto& [material, folder] = found->second;
     made.colour = material.colour;
     if (!material.picture.empty()) {
-      const std::string file = (folder / material.picture).lexically_normal().string();
+      const std::string file =
+          picture_file(folder_ / folder, material.picture).lexically_proximate(folder_).string();
       made.picture = {file, read_picture_of_scene(file, path, mistakes)};
     }
     any = any || made.colour || made.picture.image;
   }
   if (!any) all.clear();
   return all;
+}
+
+std::shared_ptr<const std::vector<FileMaterial>> MeshFiles::materials_of(const SceneMesh& mesh,
+                                                                         const JsonPath& path,
+                                                                         Mistakes& mistakes) {
+  if (mesh.file.empty() || !mesh.attributes || mesh.attributes->materials.empty()) return nullptr;
+  const auto [at, is_new] = materials_.try_emplace(mesh.file);
+  if (!is_new) return at->second.all;
+  std::vector<FileMaterial> all = read_libraries(mesh.file, *mesh.attributes, path, mistakes);
+  if (all.empty()) return nullptr;
+  Hash hash;
+  for (const FileMaterial& material : all) {
+    if (material.colour)
+      hash.add({reinterpret_cast<const char*>(material.colour->data()), sizeof *material.colour});
+    hash.add(material.picture.file);
+  }
+  at->second = {std::make_shared<const std::vector<FileMaterial>>(std::move(all)), hash.text()};
+  return at->second.all;
 }
 
 SceneMesh MeshFiles::read_mesh(const std::string& written, double scale, const MeshShading& shading,
@@ -87,6 +106,7 @@ SceneMesh MeshFiles::read_mesh(const std::string& written, double scale, const M
       attributes.normal_of = std::move(smooth.normal_of);
     }
     Surface surface;
+    surface.mesh.file = name;
     surface.mesh.mesh =
         std::make_shared<const TriangleMesh>(std::move(vertices), std::move(triangles.corners));
     Hash hash;
@@ -101,14 +121,6 @@ SceneMesh MeshFiles::read_mesh(const std::string& written, double scale, const M
       add(attributes.uvs);
       add(attributes.uv_of);
       add(attributes.material_of);
-      std::vector<FileMaterial> materials = read_libraries(name, attributes, path, mistakes);
-      for (const FileMaterial& material : materials) {
-        if (material.colour) add(*material.colour);
-        hash.add(material.picture.file);
-      }
-      if (!materials.empty())
-        surface.mesh.materials =
-            std::make_shared<const std::vector<FileMaterial>>(std::move(materials));
       surface.mesh.attributes = std::make_shared<const MeshAttributes>(std::move(attributes));
     }
     surface.hash = hash.text();

@@ -198,7 +198,8 @@ void ObjectsReader::read_object(const Json& json, const JsonPath& path, const Fr
   made.mesh = mesh.mesh;
   const bool takes_file = !is_version_one() && !object.find("material") && !object.find("color");
   if (made.mesh)
-    made.look = look_of(mesh, takes_file, scene_, materials_, object.path("mesh"), mistakes_);
+    made.look =
+        look_of(mesh, takes_file, scene_, materials_, meshes_, object.path("mesh"), mistakes_);
   check_look(scene_, made, path, mistakes_);
   if (!made.has_shape()) scene_.objects.push_back(made);
   for (std::size_t i = 0; i < shapes.size(); ++i) {

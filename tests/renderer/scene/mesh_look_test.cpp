@@ -88,6 +88,12 @@ TEST_F(MeshLookJson, an_object_s_material_comes_first_and_names_stand_for_others
       << mistakes_.text();
 }
 
+TEST_F(MeshLookJson, pictures_of_a_file_matter_only_where_they_are_shown) {
+  std::ofstream(folder_ / "two.mtl") << "newmtl wood\nmap_Kd nowhere.png\n";
+  EXPECT_TRUE(read(R"("mesh": {"file": "two.obj"}, "color": [1, 0, 0])")) << mistakes_.text();
+  EXPECT_NE(wrong(R"("mesh": {"file": "two.obj"})").find("nowhere.png"), std::string::npos);
+}
+
 TEST_F(MeshLookJson, arrays_are_read_and_written_again) {
   const auto scene = read(std::string(R"("material": "grey", "mesh": {)") + json_square +
                           R"(, "normals": [[0, 0, 2], [0, 1, 0]],
