@@ -77,7 +77,7 @@ double tilt_of_depth(const ContactShape& a, const Affine<double>& pose_a, const 
   return lean <= leaning ? std::sqrt(2 * std::max(lean, 0.0)) : not_known;
 }
 
-/// Other directions that are nearly as deep are told apart by a short step, which takes longest.
+/// Separates directions that are nearly as deep by a short step, which takes longest.
 double tilt_of_depth(const ContactShape& a, const Affine<double>& pose_a, const ContactShape& b,
                      const Affine<double>& pose_b, const SignedDistance& found) {
   constexpr double rounded = 1.01;

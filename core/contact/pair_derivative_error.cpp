@@ -11,9 +11,9 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// What is known of a core's true nearest point, if the true normal leans by `tilt` at most.
+/// Place of a core's true nearest point, if the true normal leans by `tilt` at most.
 struct Slide {
-  double any = infinity;  ///< how far it may be from the support point
+  double any = infinity;  ///< distance from the support point at most
   FlatPart flat;          ///< an edge on which it is, but for `beside`
   double beside = infinity;
 };

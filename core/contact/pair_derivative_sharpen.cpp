@@ -34,7 +34,7 @@ bool by_newton(const CoresInWorld& cores, CoreContact& contact) {
   const Vec3<double> by_u = slope(u), by_v = slope(v);
   const double uu = by_u.dot(u), uv = by_v.dot(u), vu = by_u.dot(v), vv = by_v.dot(v);
   const double determinant = uu * vv - uv * vu;
-  // Of a least distance, or a depth, both eigenvalues are negative.
+  // Both eigenvalues are negative at a least distance, or a depth.
   if (!(determinant > 0) || !(uu + vv < 0)) return false;
   double least = from.norm();
   const double first = least;

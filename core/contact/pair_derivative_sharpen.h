@@ -26,7 +26,7 @@ struct CoresInWorld {
   Vec3<double> support_a(const Vec3<double>& n) const;
   Vec3<double> support_b(const Vec3<double>& n) const;  ///< furthest along n, seen from A's middle
   double size() const { return a.ball + b.ball; }
-  /// What support points may be off by.
+  /// Error of support points.
   double rounding() const { return core_rounding * (size() + between.x.norm()) + between.loss; }
 };
 

@@ -54,7 +54,7 @@ typedef struct minkray_pair_memory {
  * reported one is one of them. Where nothing is known of the distance derivatives are NaN. If any
  * of these is wanted distances are found to a tolerance of 1e-15, and the direction of a depth to
  * rounding. `jac_error_a` and `jac_error_b` bound the length of a derivative's error: by velocity,
- * and by angular velocity. They are infinite on ridges, for meshes, for depths in more than one
+ * and by angular velocity. Both are infinite on ridges, for meshes, for depths in more than one
  * direction, and for turns about points that may slide on a surface of unknown curvature. */
 typedef struct minkray_distance_arrays {
   size_t size;                 /* sizeof(minkray_distance_arrays) */

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Signed distances in long double from support points alone: apart by a plain GJK whose bounds are
 // a plane and a point of B - A; overlapping by climbing to the depth's directions, again and again
-// by that GJK, with B moved out. Knows nothing of the engine's solvers.
+// by that GJK, with B moved out. Independent of the engine's solvers.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ struct LongBody {
   }
 };
 
-/// What is left of a shape that is a smaller one grown by a radius: distances of the smaller ones
+/// A shape without the radius that it is grown by: distances of the smaller ones
 /// are convex where those of the grown ones may be depths.
 struct WithoutRadius {
   Shape<double> shape;

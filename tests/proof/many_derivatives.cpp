@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Derivatives of many random pairs beside central differences in long double
-// (tests/core/contact/derivative_judge.h): a row for each kind of shape. Prints what is wrong.
+// Derivatives of many random pairs compared with central differences in long double
+// (tests/core/contact/derivative_judge.h): a row for each kind of shape. Prints errors.
 #include <cstdio>
 #include <cstdlib>
 

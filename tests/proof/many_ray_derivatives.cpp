@@ -195,7 +195,7 @@ Row judge_shape(const Shape<double>& shape, RandomShapes& random) {
     for (int k = 0; k < (is_ridge[i] != 0 ? 8 : 2); ++k) {
       const bool of_ray = k % 2 == 0;
       const double angle = random.in(0, 1.5707963);
-      // By lengths for points, and by angles for turns; directions are some sizes long.
+      // Lengths for points, angles for turns; directions are some sizes long.
       const Vec3<double> first = size * std::cos(angle) * random.direction(),
                          second = (of_ray ? size : 1) * std::sin(angle) * random.direction();
       const std::vector<double>& by = of_ray ? by_ray : by_body;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Derivatives of signed distances, judged by central differences in long double of distances that
-// share nothing with the engine (tests/oracle/long_distance.h). Where a derivative is said to be a
-// ridge, one-sided differences decide.
+// share nothing with the engine (tests/oracle/long_distance.h). One-sided differences
+// decide where a ridge is reported.
 #pragma once
 
 #include <string>
