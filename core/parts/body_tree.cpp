@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/parts/body_tree.h"
 
+#include <cmath>
+
 #include "core/contact/core_support.h"
 
 namespace minkray {
@@ -31,6 +33,13 @@ BodyTree::BodyTree(const PartsBody& body) : body_(body), middle_(middle_of(body)
     slabs_ = &mesh()->slabs();
     whole_ = about_middle(mesh()->bounds());
     radius_ = whole_.half.norm();
+    // Boxes of floats are larger than a mesh of the least size.
+    const BvhNode& root = mesh()->bvh().nodes[0];
+    for (int i = 0; i < bvh_width && root.children[i] != BvhNode::none; ++i) {
+      const MiddleBox box = about_middle(root.box(i));
+      const double reach = (box.middle.cwiseAbs() + box.half).norm();
+      if (std::isfinite(reach)) radius_ = std::max(radius_, reach);
+    }
     return;
   }
   whole_.half = half_extents(*body.shape(), whole_.middle);

@@ -53,7 +53,8 @@ class LeastDistance {
     best_.is_exhausted = is_exhausted_;
     if (is_crossed_) return best_;
     best_.lower = std::min(std::max(0.0, std::min(lower_, left_out)), best_.upper);
-    if (!(best_.upper < infinity)) best_.value = best_.lower;
+    best_.value =
+        best_.upper < infinity ? std::clamp(best_.value, best_.lower, best_.upper) : best_.lower;
     best_.status = best_.lower > 0                          ? SignedStatus::separated
                    : best_.status == SignedStatus::touching ? best_.status
                                                             : SignedStatus::undecided;

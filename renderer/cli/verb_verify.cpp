@@ -104,9 +104,15 @@ void write_outputs(const VerifyOptions& options, const Judged& judged, const Ver
     if (is_proof(file)) {
       ProofInputs inputs{std::string(version_and_commit()), cell.files};
       inputs.files.emplace_back(name);
-      const Provable proof =
-          provable(verdict, plan.path, cell.cell.bodies, cell.cell.pairs, options.referee);
-      write_text(file, proof_text(proof.verdict, plan.path, proof.bodies, proof.pairs, inputs));
+      try {
+        const Provable proof =
+            provable(verdict, plan.path, cell.cell.bodies, cell.cell.pairs, options.referee);
+        write_text(file, proof_text(proof.verdict, plan.path, proof.bodies, proof.pairs, inputs));
+      } catch (const BadInput& error) {
+        // The exit code of another verdict says enough.
+        if (verdict.status == MotionStatus::free) throw;
+        std::cerr << error.what() << '\n';
+      }
     } else if (is_page(file)) {
       WorstMoment worst = worst_moment(verdict);
       if (!worst.exists) worst.time = plan.path.times.front();
@@ -189,6 +195,7 @@ void verify(VerifyOptions& options, ExitCode& exit_code) {
   tell_notes(cell.notes, options.inputs.import.verbose);
   if (options.serve) return serve(options, cell);
   std::size_t next = 0;
+  bool failed = false;
   const auto read = [&]() -> std::shared_ptr<Passing> {
     if (next == options.plans.size()) return nullptr;
     return std::make_shared<Passing>(Passing{options.plans[next++], {}, {}, {}});
@@ -201,7 +208,16 @@ void verify(VerifyOptions& options, ExitCode& exit_code) {
     }
   };
   parallel_pipeline<Passing>(plans_at_once(), read, work, [&](Passing& passing) {
-    if (passing.error) std::rethrow_exception(passing.error);
+    if (passing.error) {
+      if (options.plans.size() == 1) std::rethrow_exception(passing.error);
+      try {
+        std::rethrow_exception(passing.error);
+      } catch (const BadInput& error) {
+        std::cerr << error.what() << '\n';
+        failed = true;
+        return;
+      }
+    }
     const Judged& judged = *passing.judged;
     for (const std::string& note : judged.plan.trajectory.notes)
       std::cerr << judged.name << ": " << note << '\n';
@@ -214,6 +230,7 @@ void verify(VerifyOptions& options, ExitCode& exit_code) {
       std::cout << verdict_text(judged.name, judged.verdict, judged.plan, cell.cell);
     write_outputs(options, judged, cell);
   });
+  if (failed) throw BadInput("--trajectory: a plan could not be read; the others were judged");
 }
 
 }  // namespace

@@ -58,6 +58,9 @@ Trajectory read_npy_rows(const std::string& file, const Model& model,
 
 /// Moves rows of continuous joints by whole turns so that no step is longer than half a turn.
 void go_shorter_way(Trajectory& trajectory, const Model& model) {
+  // Velocities lead each joint its own way round.
+  if (std::ranges::any_of(trajectory.rates, [](const JointValues& row) { return !row.empty(); }))
+    return;
   constexpr double whole = 2 * std::numbers::pi;
   for (const ModelLink& link : model.links)
     for (const ModelJoint& joint : link.joints) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "renderer/json/closest_word.h"
 #include "renderer/json/object_reader.h"
@@ -90,8 +91,13 @@ class TrajectoryReader {
       return joints;
     }
     std::size_t index = 0;
-    for (const std::string& name : read_name_list(*list, path / "joint_names", mistakes_))
+    std::set<std::string> names;
+    for (const std::string& name : read_name_list(*list, path / "joint_names", mistakes_)) {
+      if (!names.insert(name).second)
+        mistakes_.add(path / "joint_names" / index,
+                      "duplicate: \"" + printable(name, 60) + "\" is named twice");
       joints.push_back(joint_of(name, path / "joint_names" / index++));
+    }
     return joints;
   }
 

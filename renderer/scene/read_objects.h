@@ -5,6 +5,7 @@
 #include <set>
 #include <string>
 
+#include "renderer/json/object_reader.h"
 #include "renderer/scene/material_names.h"
 #include "renderer/scene/mesh_files.h"
 #include "renderer/scene/scene.h"

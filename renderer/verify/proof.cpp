@@ -155,7 +155,7 @@ double claimed(double lower, const std::vector<ClearanceBody>& bodies) {
   for (const ClearanceBody& body : bodies)
     if (!body.plane) size = std::max(size, body.reach());
   constexpr double rounding = 1e-10;
-  return std::max(lower - rounding * size, lower / 2);
+  return std::max((1 - 10 * rounding) * lower - rounding * size, lower / 2);
 }
 
 }  // namespace

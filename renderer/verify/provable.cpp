@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 
+#include "core/parts/one_part.h"
 #include "core/parts/parts_distance.h"
 #include "renderer/base/errors.h"
 
@@ -120,8 +121,13 @@ class Splitter {
       // Below a half-space is what of the hull is below it.
       if (made_.bodies[pair.a].plane || made_.bodies[pair.b].plane) continue;
       const RefereePair whole = pair;
-      pair.a = triangle_at(pair.a, stretch);
-      pair.b = triangle_at(pair.b, stretch);
+      const std::optional<std::size_t> a = triangle_at(pair.a, stretch),
+                                       b = triangle_at(pair.b, stretch);
+      if (!a || !b)
+        no_proof(made_.bodies[pair.a], made_.bodies[pair.b],
+                 "collide without crossing where the collision was found");
+      pair.a = *a;
+      pair.b = *b;
       if (pair.a == whole.a && pair.b == whole.b) continue;
       stretch.pair = made_.pairs.size();
       made_.pairs.push_back(pair);
@@ -198,7 +204,7 @@ class Splitter {
 
   /// The triangle of a body that is nearest to where the collision was found; the body itself if it
   /// is no mesh.
-  std::size_t triangle_at(std::size_t number, const Stretch& stretch) {
+  std::optional<std::size_t> triangle_at(std::size_t number, const Stretch& stretch) {
     const ClearanceBody body = made_.bodies[number];
     if (!body.mesh) return number;
     Affine<double> link;
@@ -208,12 +214,14 @@ class Splitter {
     const Affine<double> pose{link.linear * own.linear, link(own.translation)};
     const ContactShape point{Shape<double>(Point<double>{stretch.point})};
     PartPair parts;
-    const SignedDistance found =
-        signed_distance(PartsBody(*body.mesh), pose, PartsBody(point), {}, {}, &parts);
+    signed_distance(PartsBody(*body.mesh), pose, PartsBody(point), {}, {}, &parts);
     constexpr double touching = 1e-9;
-    if (parts.a == no_part ||
-        !(found.upper <= touching * body.ball_radius() + made_.pairs[stretch.pair].margin))
-      no_proof(body, body, "collide without crossing: one mesh is within the other");
+    if (parts.a == no_part) return std::nullopt;
+    // Of a point within a closed mesh the part may be any.
+    const SignedDistance of_triangle =
+        signed_distance(OnePart(PartsBody(*body.mesh), parts.a).shape(), pose, point, {});
+    const double most = touching * body.ball_radius() + made_.pairs[stretch.pair].margin;
+    if (!(of_triangle.upper <= most)) return std::nullopt;
     made_.bodies.push_back(part_of(body, {parts.a}, body.name + "." + std::to_string(parts.a)));
     return made_.bodies.size() - 1;
   }

@@ -86,7 +86,7 @@ std::string check_mesh_parts(std::string_view bytes) {
   MeshParts mesh;
   std::string refused;
   try {
-    mesh = format.read(folder.path() / name, options.split, true).mesh;
+    mesh = format.read(folder.path() / name, options.split, MeshDetail::attributes).mesh;
   } catch (const std::runtime_error& error) {
     refused = error.what();
     if (const std::string bad = check_message(refused); !bad.empty()) return bad;

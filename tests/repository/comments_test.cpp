@@ -111,7 +111,7 @@ OddWords odd_words_in(const std::string& comment) {
 }
 
 /// core/bvh, renderer/light; tests, include, bench and tools are one folder each.
-std::string folder_of(const std::string& name) {
+std::string folder_of_file(const std::string& name) {
   const std::size_t top = name.find('/');
   const std::string first = name.substr(0, top);
   return first == "core" || first == "renderer" ? name.substr(0, name.find('/', top + 1)) : first;
@@ -147,7 +147,7 @@ TEST(Comments, have_no_more_odd_words_than_recorded) {
         ++comments;
         const OddWords odd = odd_words_in(comment);
         if (odd == OddWords{}) continue;
-        const std::string folder = folder_of(file.name);
+        const std::string folder = folder_of_file(file.name);
         found[folder].starts += odd.starts;
         found[folder].words += odd.words;
         examples[folder] += "  " + file.name + ": " + comment + "\n";

@@ -109,6 +109,27 @@ TEST(MeshPairs, have_the_least_distance_of_all_their_parts) {
   EXPECT_GT(crossing, 10);
 }
 
+/// Boxes of floats are thicker than such meshes.
+TEST(MeshPairs, of_the_least_sizes_have_bounds_that_hold) {
+  const testing::Surface ring = testing::torus(14, 9), ball = testing::bumpy_ball(7, 9);
+  testing::Random random(21);
+  for (const int exponent : {-190, -210, -240})
+    for (int i = 0; i < 20; ++i) {
+      const auto shrunk = [&](testing::Surface surface) {
+        for (Vec3<double>& v : surface.vertices) v *= std::ldexp(1.0, exponent);
+        return surface.shared();
+      };
+      const Affine<double> pose{random.rotation(), 1.7 * random.in_cube()};
+      Affine<double> small = pose;
+      small.translation *= std::ldexp(1.0, exponent);
+      const SignedDistance expected = signed_distance(*ring.shared(), {}, *ball.shared(), pose);
+      const SignedDistance found = signed_distance(*shrunk(ring), {}, *shrunk(ball), small);
+      const double scale = std::ldexp(1.0, -exponent);
+      ASSERT_LE(found.lower * scale, expected.upper + 1e-12) << exponent << " " << i;
+      ASSERT_GE(found.upper * scale, expected.lower - 1e-12) << exponent << " " << i;
+    }
+}
+
 TEST(MeshPairs, what_is_within_a_closed_mesh_overlaps_it_and_in_a_hole_does_not) {
   const MeshPointer ring = testing::torus(40, 24).shared();
   const ContactShape ball{Shape<double>(Sphere<double>{0.1})};

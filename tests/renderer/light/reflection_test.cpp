@@ -48,7 +48,7 @@ TEST(Reflection, cosine_directions_have_the_density_they_claim) {
 // seen from any side.
 TEST(Reflection, a_white_coated_surface_gives_back_all_light) {
   for (const double eta : {1.0, 1.33, 1.5, 2.4}) {
-    const Surface surface({"", GlossyMaterial{Colour::Ones(), 0.0, eta}});
+    const minkray::Surface surface({"", GlossyMaterial{Colour::Ones(), 0.0, eta}});
     for (const double cosine : {0.05, 0.3, 0.7, 1.0}) {
       const Vec3<double> w_out = from_above(cosine);
       const Colour base =
@@ -62,7 +62,7 @@ TEST(Reflection, a_white_coated_surface_gives_back_all_light) {
 /// An index of 1e20 made pixels that were no numbers.
 TEST(Reflection, any_index_of_refraction_gives_numbers) {
   for (const double eta : {1.0, 1e3, 1e8, 1e16, 1e20, 1e200, 1e308}) {
-    const Surface surface({"", GlossyMaterial{Colour::Constant(0.7), 0.1, eta}});
+    const minkray::Surface surface({"", GlossyMaterial{Colour::Constant(0.7), 0.1, eta}});
     const Vec3<double> w_out = from_above(0.4), w_in = from_above(0.8);
     EXPECT_TRUE(surface.base().eval(w_out, w_in).allFinite()) << eta;
     EXPECT_GE(surface.coat()->sample(w_out, {0.5, 0.5}).weight.minCoeff(), 0) << eta;
@@ -71,7 +71,7 @@ TEST(Reflection, any_index_of_refraction_gives_numbers) {
 }
 
 TEST(Reflection, light_may_go_either_way) {
-  const Surface surface({"", GlossyMaterial{{0.8, 0.5, 0.1}, 0.4, 1.5}});
+  const minkray::Surface surface({"", GlossyMaterial{{0.8, 0.5, 0.1}, 0.4, 1.5}});
   const Vec3<double> a = from_above(0.3, 1.0), b = from_above(0.8, 4.0);
   EXPECT_NEAR((surface.base().eval(a, b) - surface.base().eval(b, a)).norm(), 0, 1e-15);
   EXPECT_NEAR((surface.coat()->eval(a, b) - surface.coat()->eval(b, a)).norm(), 0, 1e-12);
@@ -82,7 +82,7 @@ TEST(Reflection, light_may_go_either_way) {
 // light mirrored out of an evenly lit hemisphere.
 TEST(Reflection, drawn_mirror_directions_agree_with_the_highlight) {
   for (const double roughness : {0.5, 0.7, 1.0}) {
-    const Surface surface({"", GlossyMaterial{Colour::Zero(), roughness, 1.5}});
+    const minkray::Surface surface({"", GlossyMaterial{Colour::Zero(), roughness, 1.5}});
     for (const double cosine : {0.3, 0.9}) {
       const Vec3<double> w_out = from_above(cosine);
       const double drawn =
@@ -103,10 +103,10 @@ TEST(Reflection, drawn_mirror_directions_agree_with_the_highlight) {
 /// roughness that cells of the sphere can distinguish from a mirror.
 template <class Visit>
 void for_each_part(const Visit& visit) {
-  visit("matt", Surface({"", LambertMaterial{{0.8, 0.5, 0.1}}}).base());
-  visit("coated", Surface({"", GlossyMaterial{{0.8, 0.5, 0.1}, 0.5, 1.5}}).base());
+  visit("matt", minkray::Surface({"", LambertMaterial{{0.8, 0.5, 0.1}}}).base());
+  visit("coated", minkray::Surface({"", GlossyMaterial{{0.8, 0.5, 0.1}, 0.5, 1.5}}).base());
   for (const double roughness : {0.5, 0.7, 1.0})
-    visit("coat", *Surface({"", GlossyMaterial{Colour::Zero(), roughness, 1.5}}).coat());
+    visit("coat", *minkray::Surface({"", GlossyMaterial{Colour::Zero(), roughness, 1.5}}).coat());
 }
 
 TEST(Reflection, directions_have_the_density_they_claim) {
