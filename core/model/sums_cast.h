@@ -193,8 +193,8 @@ class SumsCast {
   /// If the plane of direction m is higher than the lowest one so far, takes a part of the step
   /// from the lowest instead, to the minimum of the parabola through the known values; a step past
   /// the shape is repeated as one that cannot be too long (the ellipsoid A = sum h_k sum A_k/h_k
-  /// holds the sum of ellipsoids and touches it in this direction). Returns the lanes whose plane is
-  /// higher. For one feature.
+  /// holds the sum of ellipsoids and touches it in this direction). Returns the lanes whose plane
+  /// is higher. For one feature.
   Mask<W> step_back(Lowest& lowest, Vec3<W>& m, const Look& look, const Mask<W>& lanes) const {
     using std::max;
     using std::min;
@@ -222,9 +222,10 @@ class SumsCast {
     return higher;
   }
 
-  /// Keeps the solution certain if it is the model's hit up to rounding: all carriers agree, nothing
-  /// reaches further, and the carriers' support points combine to a point on the ray; for osculating
-  /// carriers, which prove nothing by themselves, their support points where they were found.
+  /// Keeps the solution certain if it is the model's hit up to rounding: all carriers agree,
+  /// nothing reaches further, and the carriers' support points combine to a point on the ray; for
+  /// osculating carriers, which prove nothing by themselves, their support points where they were
+  /// found.
   void judge(Solution& solution, const Mask<W>& common, const Mask<W>& at_kink) const {
     using std::max;
     const Vec3<W>& m = solution.m;

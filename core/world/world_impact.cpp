@@ -44,8 +44,8 @@ double meeting(const Bounds<double>& moving, const Vec3<double>& velocity,
 }  // namespace
 
 EarliestImpact first_impact(const PartsBody& moving, const RigidMotion& motion,
-                         const ContactWorld& world, double t_max, std::uint32_t mask,
-                         const EarliestImpact& known) {
+                            const ContactWorld& world, double t_max, std::uint32_t mask,
+                            const EarliestImpact& known) {
   EarliestImpact found = known;
   if (world.bodies().empty()) return found;
   const Bounds<double> box = moving_box(moving, motion);

@@ -11,7 +11,7 @@ namespace minkray {
 /// A is the moving body. All bodies with a bit of `mask` in their category are tested; `known` is
 /// the earliest impact already found with others.
 EarliestImpact first_impact(const PartsBody& moving, const RigidMotion& motion,
-                         const ContactWorld& world, double t_max, std::uint32_t mask,
-                         const EarliestImpact& known);
+                            const ContactWorld& world, double t_max, std::uint32_t mask,
+                            const EarliestImpact& known);
 
 }  // namespace minkray

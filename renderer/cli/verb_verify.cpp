@@ -109,7 +109,7 @@ void write_outputs(const VerifyOptions& options, const Judged& judged, const Ver
             provable(verdict, plan.path, cell.cell.bodies, cell.cell.pairs, options.referee);
         write_text(file, proof_text(proof.verdict, plan.path, proof.bodies, proof.pairs, inputs));
       } catch (const BadInput& error) {
-        // The exit code of another verdict says enough.
+        // Other verdicts have an exit code of their own.
         if (verdict.status == MotionStatus::free) throw;
         std::cerr << error.what() << '\n';
       }

@@ -6,8 +6,8 @@
 
 #include "core/contact/closed_answer.h"
 #include "core/contact/half_space_distance.h"
-#include "core/parallel/parallel.h"
 #include "core/mesh/mapped.h"
+#include "core/parallel/parallel.h"
 #include "core/parts/parts_distance.h"
 #include "renderer/base/errors.h"
 

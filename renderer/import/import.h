@@ -31,7 +31,7 @@ std::string foreign_formats();
 /// decides.
 bool is_foreign(const std::filesystem::path& file);
 
-/// Throws BadInput that tells what the file is if it is a picture, a mesh or the like.
+/// Throws BadInput that names the kind of file if it is a picture, a mesh or the like.
 void check_can_be_scene(const std::filesystem::path& file);
 
 /// The scene of a file, with all that options.others hold: the first file that is a scene has the

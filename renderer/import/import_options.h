@@ -34,8 +34,8 @@ struct ImportOptions {
   std::vector<std::string> package_dirs;  ///< search path for package:// and model://
   std::vector<std::string> others;        ///< more files in the same scene
   bool skip_missing_meshes = false;
-  bool lenient = false;                          ///< leaves out shapes and materials that are wrong
-  bool verbose = false;                          ///< reports each missing mesh, not only their number
+  bool lenient = false;  ///< leaves out shapes and materials that are wrong
+  bool verbose = false;  ///< reports each missing mesh, not only their number
   ScenePurpose purpose = ScenePurpose::picture;  ///< purpose of scene files
   Resolution picture = {960, 720};               ///< that the camera frames everything for
 

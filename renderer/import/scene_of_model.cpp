@@ -40,7 +40,7 @@ class Materials {
     return at->second;
   }
 
-  /// Indices of a mesh file's materials; `none` for those of which it says nothing.
+  /// Indices of a mesh file's materials; `none` for those it does not describe.
   const std::vector<std::uint32_t>& of(const std::vector<MeshMaterial>& materials) {
     const auto [at, is_new] = of_files_.try_emplace(&materials);
     if (is_new)

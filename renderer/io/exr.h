@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// OpenEXR files in memory: any number of named planes of floats or unsigned integers, a data window,
-// and text attributes. Only exr.cpp includes the library.
+// OpenEXR files in memory: any number of named planes of floats or unsigned integers, a data
+// window, and text attributes. Only exr.cpp includes the library.
 #pragma once
 
 #include <cstdint>

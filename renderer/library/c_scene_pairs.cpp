@@ -295,8 +295,8 @@ int minkray_scene_time_of_impact(minkray_scene scene, const minkray_bodies* shap
       minkray_scene_impact& told = impacts[i];
       told = {};
       told.impact = plain_impact(found.impact);
-      told.object =
-          found.body == EarliestImpact::none ? MINKRAY_NO_OBJECT : static_cast<uint32_t>(found.body);
+      told.object = found.body == EarliestImpact::none ? MINKRAY_NO_OBJECT
+                                                       : static_cast<uint32_t>(found.body);
       if (!query.derive) return;
       const PairDerivative derivative = bodies.derivative(body.parts(), motion, found);
       put_twist(derivative.a, told.jac);

@@ -373,7 +373,7 @@ bool SceneBodies::is_another_at(const Vec3<double>& point, std::uint32_t object,
 }
 
 EarliestImpact SceneBodies::first_impact(const PartsBody& moving, const RigidMotion& motion,
-                                      double t_max, std::uint32_t mask) const {
+                                         double t_max, std::uint32_t mask) const {
   EarliestImpact found = nothing_met(t_max);
   for (const HalfSpace& half_space : half_spaces_) {
     if ((half_space.masks.category & mask) == 0) continue;

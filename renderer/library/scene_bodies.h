@@ -51,7 +51,7 @@ class SceneBodies {
 
   /// The object that is touched first; its number is in `body`.
   EarliestImpact first_impact(const PartsBody& moving, const RigidMotion& motion, double t_max,
-                           std::uint32_t mask) const;
+                              std::uint32_t mask) const;
   PairDerivative derivative(const PartsBody& moving, const RigidMotion& motion,
                             const EarliestImpact& found) const;
 

@@ -67,7 +67,7 @@ class Camera {
   Vec3<double> down_;
   Eigen::Vector2d centre_;
   std::shared_ptr<const CalibratedCamera> calibration_;
-  Eigen::Vector2d calibrated_pixels_;  ///< how many of its pixels a pixel has
+  Eigen::Vector2d calibrated_pixels_;  ///< pixels of the calibration per pixel
 };
 
 }  // namespace minkray

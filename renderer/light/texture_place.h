@@ -25,7 +25,7 @@ struct TexturePoint {
   Vec3<double> uv_change(const Vec3<double>& side) const {
     return {uv_slopes[0].dot(side), uv_slopes[1].dot(side), 0};
   }
-  /// Returns a place beside this one, on the plane that touches the surface.
+  /// Returns a place next to this one, on the plane that touches the surface.
   TexturePoint moved(const Vec3<double>& by) const {
     TexturePoint other = *this;
     other.position += by;

@@ -15,7 +15,7 @@ namespace {
 /// A proof with more pairs is too long to be read.
 constexpr std::size_t most_new_pairs = 20'000;
 
-/// Parts that take more than so many distances in a step are split.
+/// Parts that need more distances in a step are split.
 constexpr std::size_t few_distances = 30;
 
 /// Hulls of parts must be this share of the least clearance apart: all of it would take parts as
@@ -120,15 +120,21 @@ class Splitter {
       RefereePair pair = made_.pairs[stretch.pair];
       // Below a half-space is what of the hull is below it.
       if (made_.bodies[pair.a].plane || made_.bodies[pair.b].plane) continue;
-      const RefereePair whole = pair;
-      const std::optional<std::size_t> a = triangle_at(pair.a, stretch),
-                                       b = triangle_at(pair.b, stretch);
-      if (!a || !b)
-        no_proof(made_.bodies[pair.a], made_.bodies[pair.b],
-                 "collide without crossing where the collision was found");
-      pair.a = *a;
-      pair.b = *b;
-      if (pair.a == whole.a && pair.b == whole.b) continue;
+      const ClearanceBody a = made_.bodies[pair.a], b = made_.bodies[pair.b];
+      if (!a.mesh && !b.mesh) continue;
+      const Affine<double> pose_a = pose_at(a, stretch.time), pose_b = pose_at(b, stretch.time);
+      PartPair parts;
+      signed_distance(a.parts(), pose_a, b.parts(), pose_b, {}, &parts);
+      const bool have_parts = (!a.mesh || parts.a != no_part) && (!b.mesh || parts.b != no_part);
+      // Bodies within each other need not have two parts that touch.
+      constexpr double touching = 1e-10;
+      const double most = pair.margin + touching * (a.reach() + b.reach());
+      if (!have_parts || !(signed_distance(OnePart(a.parts(), parts.a).shape(), pose_a,
+                                           OnePart(b.parts(), parts.b).shape(), pose_b)
+                               .upper <= most))
+        no_proof(a, b, "collide without crossing where the collision was found");
+      if (a.mesh) pair.a = add_triangle(a, parts.a);
+      if (b.mesh) pair.b = add_triangle(b, parts.b);
       stretch.pair = made_.pairs.size();
       made_.pairs.push_back(pair);
     }
@@ -202,27 +208,17 @@ class Splitter {
     return open;
   }
 
-  /// The triangle of a body that is nearest to where the collision was found; the body itself if it
-  /// is no mesh.
-  std::optional<std::size_t> triangle_at(std::size_t number, const Stretch& stretch) {
-    const ClearanceBody body = made_.bodies[number];
-    if (!body.mesh) return number;
+  /// Pose of the body's frame in the world.
+  Affine<double> pose_at(const ClearanceBody& body, double time) const {
     Affine<double> link;
     if (body.link_index >= 0)
-      link = link_poses(path_.posed_at(stretch.time))[static_cast<std::size_t>(body.link_index)];
+      link = link_poses(path_.posed_at(time))[static_cast<std::size_t>(body.link_index)];
     const Affine<double> own = body.pose();
-    const Affine<double> pose{link.linear * own.linear, link(own.translation)};
-    const ContactShape point{Shape<double>(Point<double>{stretch.point})};
-    PartPair parts;
-    signed_distance(PartsBody(*body.mesh), pose, PartsBody(point), {}, {}, &parts);
-    constexpr double touching = 1e-9;
-    if (parts.a == no_part) return std::nullopt;
-    // Of a point within a closed mesh the part may be any.
-    const SignedDistance of_triangle =
-        signed_distance(OnePart(PartsBody(*body.mesh), parts.a).shape(), pose, point, {});
-    const double most = touching * body.ball_radius() + made_.pairs[stretch.pair].margin;
-    if (!(of_triangle.upper <= most)) return std::nullopt;
-    made_.bodies.push_back(part_of(body, {parts.a}, body.name + "." + std::to_string(parts.a)));
+    return {link.linear * own.linear, link(own.translation)};
+  }
+
+  std::size_t add_triangle(const ClearanceBody& body, std::uint32_t triangle) {
+    made_.bodies.push_back(part_of(body, {triangle}, body.name + "." + std::to_string(triangle)));
     return made_.bodies.size() - 1;
   }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Prepares a verdict on meshes for a proof, which holds convex bodies only. Meshes in each other's
-// hollows are split into parts until planes keep the hulls of the parts apart; of meshes that
-// collide, the two triangles that do so stand for them.
+// hollows are split into parts until planes keep the hulls of the parts apart; meshes that
+// collide are replaced by the two triangles that cross.
 #pragma once
 
 #include "renderer/verify/referee.h"

@@ -12,7 +12,8 @@
 namespace minkray {
 namespace {
 
-// clang-format off: one a line.
+// One a line:
+// clang-format off
 /// Every folder of the sources, from the ground up: each may include itself and those before it.
 const std::vector<std::string> rooms = {
     "core/math",

@@ -164,7 +164,11 @@ TEST_F(MeshFolder, meshes_have_their_own_colours_unless_the_robot_gives_others) 
   const std::string mesh = "<mesh filename=\"two.obj\"/>";
   const Imported one = import("r.urdf", urdf_shape(mesh));
   EXPECT_EQ(one.model->geoms[0].rgba, (Rgba{1, 0, 0, 1}));
-  EXPECT_TRUE(tells(*one.model, "<mesh>", "has 2 colours"));
+  // Triangles keep their colours, and a hull has one.
+  EXPECT_FALSE(tells(*one.model, "<mesh>", "has 2 colours"));
+  ImportOptions hull;
+  hull.meshes = MeshChoice::hull;
+  EXPECT_TRUE(tells(*import("r.urdf", urdf_shape(mesh), hull).model, "<mesh>", "has 2 colours"));
   ImportOptions groups;
   groups.split = MeshSplit::groups;
   const Imported two = import("r.urdf", urdf_shape(mesh), groups);

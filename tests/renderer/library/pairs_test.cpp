@@ -122,7 +122,7 @@ TEST(LibraryPairs, errors_of_derivatives_have_bounds) {
   EXPECT_NEAR(by_b[0].turn.y, 0.3, error_b[0].turn);
   EXPECT_LT(error_b[0].velocity, 1e-6);
   EXPECT_LT(error_b[0].turn, 1e-5);
-  // Of parallel faces there are many derivatives.
+  // Parallel faces have many derivatives.
   mk::signed_distances({{&box, 1}, {}, {}}, {{&box, 1}, {&above, 1}, {}}, found, options);
   EXPECT_TRUE(std::isinf(error_b[0].turn));
 }

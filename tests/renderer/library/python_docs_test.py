@@ -17,7 +17,8 @@ import unittest
 import minkray as mk
 
 SOURCES = sys.argv.pop(1)
-OF_JAC = {"jac", "jac_ray", "jac_body", "is_ridge"}  # fields that are there with jac=True
+# Fields that are there with jac=True or jac_error=True.
+OF_JAC = {"jac", "jac_ray", "jac_body", "is_ridge", "jac_error_a", "jac_error_b"}
 FOLDER = os.path.join(SOURCES, "renderer/library/python/minkray")
 
 
@@ -103,7 +104,7 @@ class Stubs(unittest.TestCase):
             self.assertEqual(fields - OF_JAC, set(vars(answer)), type(answer).__name__)
         pairs = (mk.sphere(1), None, mk.sphere(1), None)
         for answer in (scene.cast_rays(ray, jac=True), arm.clearance(robot, [[0, 0]], jac=True),
-                       mk.signed_distances(*pairs, jac=True), mk.manifolds(*pairs),
+                       mk.signed_distances(*pairs, jac=True, jac_error=True), mk.manifolds(*pairs),
                        mk.times_of_impact(*pairs[:2], None, *pairs[2:], None, jac=True),
                        scene.distances(within=1, jac=True), scene.nearest([0, 0, 0], jac=True),
                        scene.time_of_impact(mk.sphere(1), None, [0] * 6, jac=True)):
