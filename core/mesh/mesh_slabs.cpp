@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "core/mesh/triangle_mesh.h"
+#include "core/mesh/leaves_below.h"
 
 namespace minkray {
 namespace {
@@ -13,13 +13,6 @@ struct Areas {
   Vec3<double> vectors = Vec3<double>::Zero();
   double sum = 0;
 };
-
-template <class Each>
-void each_corner_of_leaf(const TriangleMesh& mesh, std::uint32_t leaf, Each&& each) {
-  const MeshLeaf& of = mesh.leaves()[leaf];
-  for (int i = 0; i < of.size(); ++i)
-    for (std::size_t k = 0; k < 3; ++k) each(mesh.corner(of.triangles[i], k));
-}
 
 Areas areas_of_leaf(const TriangleMesh& mesh, std::uint32_t leaf) {
   Areas areas;
@@ -37,17 +30,10 @@ Areas areas_of_leaf(const TriangleMesh& mesh, std::uint32_t leaf) {
 /// Calls each() for the corners below one child of a node.
 template <class Each>
 void each_corner(const TriangleMesh& mesh, std::uint32_t what, Each&& each) {
-  std::vector<std::uint32_t> open{what};
-  while (!open.empty()) {
-    const std::uint32_t top = open.back();
-    open.pop_back();
-    if ((top & BvhNode::leaf) != 0) {
-      each_corner_of_leaf(mesh, top & ~BvhNode::leaf, each);
-      continue;
-    }
-    for (const std::uint32_t child : mesh.bvh().nodes[top].children)
-      if (child != BvhNode::none) open.push_back(child);
-  }
+  each_leaf_below(mesh, what, [&](const MeshLeaf& leaf) {
+    for (int i = 0; i < leaf.size(); ++i)
+      for (std::size_t k = 0; k < 3; ++k) each(mesh.corner(leaf.triangles[i], k));
+  });
 }
 
 void set_slab(NodeSlabs& slabs, int child, const TriangleMesh& mesh, std::uint32_t what,

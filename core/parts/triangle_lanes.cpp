@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/parts/triangle_lanes.h"
 
+#include "core/bvh/traverse.h"
+
 namespace minkray {
 
 void EightTriangles::set(int i, std::uint32_t part, const TriangleCorners& triangle) {
@@ -34,10 +36,8 @@ void EightTriangles::fill() {
 
 void triangle_gaps(const TriangleCorners& one, const Vec3<double>& normal,
                    const EightTriangles& eight, const Vec3<double>* known, double* gaps) {
-#if defined(__x86_64__) && defined(__GNUC__)
-  if (__builtin_cpu_supports("avx2")) return triangle_gaps_avx2(one, normal, eight, known, gaps);
-#endif
-  triangle_gaps_sse2(one, normal, eight, known, gaps);
+  (best_walk_set() == WalkSet::avx2 ? triangle_gaps_avx2 : triangle_gaps_sse2)(one, normal, eight,
+                                                                               known, gaps);
 }
 
 }  // namespace minkray

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "core/parts/triangle_pair.h"
 
+#include "core/bvh/traverse.h"
 #include "core/parts/nearest_features.h"
 
 namespace minkray {
 namespace {
 
 void nearest_features(const TriangleCorners& a, const TriangleCorners& b, NearestPoints& best) {
-#if defined(__x86_64__) && defined(__GNUC__)
-  if (__builtin_cpu_supports("avx2")) return nearest_features_avx2(a, b, best);
-#endif
-  nearest_features_sse2(a, b, best);
+  (best_walk_set() == WalkSet::avx2 ? nearest_features_avx2 : nearest_features_sse2)(a, b, best);
 }
 
 /// Squares of lengths above this are normal numbers, so the normal has unit length to its last

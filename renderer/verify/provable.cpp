@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 
+#include "core/mesh/leaves_below.h"
 #include "core/parts/one_part.h"
 #include "core/parts/parts_distance.h"
 #include "renderer/base/errors.h"
@@ -57,18 +58,10 @@ ClearanceBody part_of(const ClearanceBody& body, const std::vector<std::uint32_t
 /// The triangles below each child of the mesh's root; those of a leaf one by one.
 std::vector<std::vector<std::uint32_t>> groups_of(const TriangleMesh& mesh) {
   const auto triangles_below = [&](std::uint32_t what) {
-    std::vector<std::uint32_t> found, open{what};
-    while (!open.empty()) {
-      const std::uint32_t top = open.back();
-      open.pop_back();
-      if ((top & BvhNode::leaf) != 0) {
-        const MeshLeaf& leaf = mesh.leaves()[top & ~BvhNode::leaf];
-        found.insert(found.end(), leaf.triangles, leaf.triangles + leaf.size());
-        continue;
-      }
-      for (const std::uint32_t child : mesh.bvh().nodes[top].children)
-        if (child != BvhNode::none) open.push_back(child);
-    }
+    std::vector<std::uint32_t> found;
+    each_leaf_below(mesh, what, [&](const MeshLeaf& leaf) {
+      found.insert(found.end(), leaf.triangles, leaf.triangles + leaf.size());
+    });
     return found;
   };
   std::vector<std::vector<std::uint32_t>> groups;
@@ -118,7 +111,7 @@ class Splitter {
     for (Stretch& stretch : made_.verdict.stretches) {
       if (!stretch.collides) continue;
       RefereePair pair = made_.pairs[stretch.pair];
-      // Below a half-space is what of the hull is below it.
+      // A mesh is as deep in a half-space as its hull.
       if (made_.bodies[pair.a].plane || made_.bodies[pair.b].plane) continue;
       const ClearanceBody a = made_.bodies[pair.a], b = made_.bodies[pair.b];
       if (!a.mesh && !b.mesh) continue;

@@ -6,6 +6,7 @@
 
 #include <cstring>
 
+#include "core/bvh/traverse.h"
 #include "core/parts/parts_reach.h"
 #include "tests/support/meshes.h"
 #include "tests/support/number_of_cases.h"
@@ -75,7 +76,7 @@ TEST(BoxGaps, are_lower_bounds_of_all_that_is_in_them) {
 }
 
 TEST(BoxGaps, instruction_sets_have_the_same_bits) {
-  if (!__builtin_cpu_supports("avx2")) GTEST_SKIP() << "no AVX2 here";
+  if (best_walk_set() != WalkSet::avx2) GTEST_SKIP() << "no AVX2 here";
   testing::Random random(2);
   for (int i = 0; i < 500; ++i) {
     EightBoxes boxes;
