@@ -132,6 +132,17 @@ struct Passing {
   std::exception_ptr error;
 };
 
+/// Loads a plan by load() and judges it; an error is kept for when its turn to be printed comes.
+template <class Load>
+void judge(Passing& passing, const VerifyCell& cell, const VerifyOptions& options,
+           const Load& load) {
+  try {
+    passing.judged = judge(passing.name, load(), cell, options);
+  } catch (...) {
+    passing.error = std::current_exception();
+  }
+}
+
 /// Number of plans judged at once; verdicts are in the order of the plans.
 std::size_t plans_at_once() {
   return static_cast<std::size_t>(std::max(thread_count(), 1));
@@ -151,15 +162,12 @@ void serve(const VerifyOptions& options, const VerifyCell& cell) {
     return nullptr;
   };
   const auto work = [&](Passing& passing) {
-    try {
+    judge(passing, cell, options, [&] {
       // A line is a plan itself, or the quoted name of a file.
       const std::string& line = passing.text;
-      Plan plan = line.front() == '"' ? load_plan(Json::parse(line).text(), cell)
-                                      : parse_plan(line, passing.name, cell);
-      passing.judged = judge(passing.name, std::move(plan), cell, options);
-    } catch (...) {
-      passing.error = std::current_exception();
-    }
+      return line.front() == '"' ? load_plan(Json::parse(line).text(), cell)
+                                 : parse_plan(line, passing.name, cell);
+    });
   };
   const auto write_error = [](const std::string& name, const std::exception& error) {
     std::cout << Json{{"plan", name}, {"status", "error"}, {"message", error.what()}}.dump()
@@ -201,11 +209,7 @@ void verify(VerifyOptions& options, ExitCode& exit_code) {
     return std::make_shared<Passing>(Passing{options.plans[next++], {}, {}, {}});
   };
   const auto work = [&](Passing& passing) {
-    try {
-      passing.judged = judge(passing.name, load_plan(passing.name, cell), cell, options);
-    } catch (...) {
-      passing.error = std::current_exception();
-    }
+    judge(passing, cell, options, [&] { return load_plan(passing.name, cell); });
   };
   parallel_pipeline<Passing>(plans_at_once(), read, work, [&](Passing& passing) {
     if (passing.error) {
