@@ -136,6 +136,48 @@ TEST(VerifyVerb, serves_a_verdict_for_each_line) {
   EXPECT_EQ(status, (std::vector<std::string>{"free", "collides", "error"}));
 }
 
+/// Velocities lead a continuous joint round its whole way, where a post is.
+TEST(VerifyVerb, continuous_joints_with_velocities_go_their_own_way) {
+  const TemporaryFolder folder;
+  write_swing(folder);
+  std::ifstream file(folder / "swing.urdf");
+  std::string urdf((std::istreambuf_iterator<char>(file)), {});
+  urdf.replace(urdf.find("\"revolute\""), 10, "\"continuous\"");
+  std::ofstream(folder / "swing.urdf") << urdf;
+  const auto plan = [&](const std::string& name, const std::string& velocities) {
+    std::ofstream(folder / name) << R"({"joint_names": ["turn", "out"], "points": [
+      {"positions": [0, 0.3])" + velocities +
+                                        R"(, "time_from_start": 0},
+      {"positions": [5, 0.3])" + velocities +
+                                        R"(, "time_from_start": 1}]})";
+    return verify(folder, "--trajectory " + name);
+  };
+  EXPECT_EQ(plan("own.json", R"(, "velocities": [5, 0])").exit_code, 1);
+  // The shorter way does not come by the post.
+  EXPECT_EQ(plan("shorter.json", "").exit_code, 0);
+}
+
+TEST(VerifyVerb, a_joint_is_named_once_and_a_bad_plan_hides_no_other) {
+  const TemporaryFolder folder;
+  write_swing(folder);
+  std::ofstream(folder / "twice.json")
+      << R"({"joint_names": ["turn", "turn"], "points": [{"positions": [1, 0.2]}]})";
+  const ProgramOutcome outcome = verify(folder, "--trajectory twice.json --trajectory hit.yaml");
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_NE(outcome.err.find("/joint_names/1: duplicate"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.out.find("hit.yaml: collides"), std::string::npos) << outcome.out;
+}
+
+/// There is no proof of what is undecided; the verdict has its exit code all the same.
+TEST(VerifyVerb, an_undecided_motion_is_that_also_where_a_proof_is_requested) {
+  const TemporaryFolder folder;
+  write_swing(folder);
+  const ProgramOutcome outcome = verify(folder, "--trajectory past.yaml --budget 1 -o proof.json");
+  EXPECT_EQ(outcome.exit_code, 6) << outcome.out << outcome.err;
+  EXPECT_NE(outcome.err.find("undecided"), std::string::npos) << outcome.err;
+  EXPECT_FALSE(std::ifstream(folder / "proof.json").good());
+}
+
 TEST(VerifyVerb, mistakes_are_told) {
   const TemporaryFolder folder;
   write_swing(folder);
