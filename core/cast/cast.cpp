@@ -3,6 +3,7 @@
 #include "core/cast/cast.h"
 
 #include "core/cast/filter.h"
+#include "core/cast/form_cast.h"
 #include "core/cast/later_stages.h"
 
 namespace minkray {
@@ -55,6 +56,21 @@ CastResult<T> cast_ray(const PreparedShape<T>& shape, const Ray<T>& ray,
     if (is_certain(answer)) return result_of(answer);
   }
   return cast_by_later_stages(shape, ray, options, observer);
+}
+
+CastResult<double> cast_ray(const ShapeDefinition<double>& definition, const Affine<double>& pose,
+                            const Ray<double>& ray) {
+  if (definition.is_plain() && keeps_lengths(pose.linear)) {
+    const Mat3<double> to_inner = pose.linear.transpose();
+    CastResult<double> result;
+    const bool is_turned = !definition.is_round() && pose.linear != Mat3<double>::Identity();
+    const FormPlace place(
+        definition,
+        rounded_plain_centre(pose.translation, to_inner, definition.inner_ball().centre),
+        is_turned ? &to_inner : nullptr);
+    if (cast_by_form(place, ray, result)) return result;
+  }
+  return cast_ray(PreparedShape<double>(definition, definition.placed(pose)), ray);
 }
 
 template <class T>

@@ -34,6 +34,11 @@ template <class T>
 CastResult<T> cast_ray(const PreparedShape<T>& shape, const Ray<T>& ray,
                        const CastOptions<T>& options = {}, const CastObserver<T>& observer = {});
 
+/// The same at a shape that is posed for this ray alone: by its closed form it need not be
+/// prepared.
+CastResult<double> cast_ray(const ShapeDefinition<double>& definition, const Affine<double>& pose,
+                            const Ray<double>& ray);
+
 /// Finds where the ray leaves the shape: the greatest t in [0, t_max] at which the ray lies in the
 /// shape. Status hit: it leaves at t. Inside: it ends at t = t_max still in the shape. Miss: it
 /// never meets the shape.

@@ -132,6 +132,14 @@ template <class F, class W, class Placed>
   return near;
 }
 
+template <class W, class Placed>
+[[gnu::always_inline]] inline RayNearBall<W> near_of(const Placed& shape, const Ray<W>& ray) {
+  if constexpr (requires { Placed::has_fma; })
+    return ray_near_here<W>(shape.centre(), ray);
+  else
+    return ray_near(shape.centre(), ray);
+}
+
 /// Moves in two steps, each rounded once.
 template <class W, class Placed>
 [[gnu::always_inline]] inline FormLine<W> line_in_two_steps(const exact::Form& form,
@@ -140,7 +148,7 @@ template <class W, class Placed>
   using std::abs;
   using std::sqrt;
   using P = std::remove_cvref_t<decltype(shape.centre().x())>;
-  RayNearBall<W> seen = ray_near(shape.centre(), ray);
+  RayNearBall<W> seen = near_of(shape, ray);
   const Mat3<P>* map = shape.linear_to_inner();
   const P inner_R(form.inner_R), distance = sqrt(P(shape.centre().squaredNorm()));
   // Rounding of the two steps is that of positions as large as the form and its centre.

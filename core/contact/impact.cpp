@@ -87,9 +87,13 @@ class Advance {
     touching_ = options.touching * size_;
   }
 
+  /// They do not meet: a plane with this normal is between them until the end.
+  Impact run_missed(const Vec3<double>& normal) {
+    bring_near();
+    return miss(t_max_, normal);
+  }
+
   Impact run() {
-    const bool is_turning = turning_a_.speed() > 0 || turning_b_.speed() > 0;
-    if (!is_turning && run_swept()) return result_;
     bring_near();
     // Every step begins with what the one before it has found.
     PairMemory of_steps;
@@ -260,39 +264,6 @@ class Advance {
     return result_;
   }
 
-  /// Without turns the impact is where a ray meets the difference of the two. Returns true if that
-  /// was conclusive: not for contacts at the start, nor for grazing ones.
-  bool run_swept() {
-    // The solvers are compiled for one order of two kinds.
-    const bool is_turned = a_.core().kind > b_.core().kind;
-    const ContactShape &first = is_turned ? b_ : a_, &second = is_turned ? a_ : b_;
-    const RigidMotion &of_first = is_turned ? of_b_ : of_a_, &of_second = is_turned ? of_a_ : of_b_;
-    const Mat3<double> frame = turn_in_world(first, of_first.pose);
-    const Vec3<double> velocity = is_turned ? Vec3<double>(-velocity_) : velocity_;
-    const SweptTime swept = swept_time(pair_of(first, of_first.pose, frame, second, of_second.pose),
-                                       frame.transpose() * velocity, t_max_, touching_, memory_);
-    if (swept.status == SweptStatus::open) return false;
-    const Vec3<double> axis = frame * swept.axis,
-                       normal = unit<double>(is_turned ? Vec3<double>(-axis) : axis);
-    if (swept.status == SweptStatus::miss) {
-      bring_near();
-      miss(t_max_, normal);
-      return true;
-    }
-    if (swept.t_lo * length_of(velocity) <= touching_ || swept.t_lo > t_max_) return false;
-    result_.status = ImpactStatus::hit;
-    result_.t_lo = swept.t_lo;
-    result_.t_hi = std::max(swept.t_lo, swept.t_hi);
-    result_.normal = normal;
-    // The point is one of both at t_hi: at t_lo the second is so much further back.
-    const Vec3<double> back = (result_.t_hi - result_.t_lo) * velocity;
-    result_.point_a = result_.point_b =
-        middle_in_world(first, of_first.pose) + frame * swept.a + result_.t_lo * of_first.velocity;
-    (is_turned ? result_.point_a : result_.point_b) -= back;
-    result_.distance = is_turned ? normal.dot(back) : -normal.dot(back);
-    return true;
-  }
-
   /// The bodies touch at t, to rounding; finds when they do for sure.
   Impact meet(double t, double t_end, const SignedDistance& now) {
     double t_hi = t;
@@ -342,6 +313,64 @@ class Advance {
   Impact result_;
 };
 
+/// Without turns the impact is where a ray meets the difference of the two. Open for contacts at
+/// the start and for grazing ones; a miss has a normal only.
+SweptStatus swept_impact(const ContactShape& a, const RigidMotion& motion_a, const ContactShape& b,
+                         const RigidMotion& motion_b, double t_max, const ImpactOptions& options,
+                         PairMemory* memory, Impact& result) {
+  // The solvers are compiled for one order of two kinds.
+  const bool is_turned = a.core().kind > b.core().kind;
+  const ContactShape &first = is_turned ? b : a, &second = is_turned ? a : b;
+  const RigidMotion &of_first = is_turned ? motion_b : motion_a,
+                    &of_second = is_turned ? motion_a : motion_b;
+  const double touching = options.touching * (a.ball_radius() + b.ball_radius());
+  const Vec3<double> velocity = of_second.velocity - of_first.velocity;
+  const auto finish = [&](const SweptTime& swept, const auto& to_world) {
+    if (swept.status == SweptStatus::open) return SweptStatus::open;
+    const Vec3<double> axis = to_world(swept.axis);
+    result.normal = unit<double>(is_turned ? Vec3<double>(-axis) : axis);
+    if (swept.status == SweptStatus::miss) return SweptStatus::miss;
+    if (swept.t_lo * length_of(velocity) <= touching || swept.t_lo > t_max)
+      return SweptStatus::open;
+    result.status = ImpactStatus::hit;
+    result.t_lo = swept.t_lo;
+    result.t_hi = std::max(swept.t_lo, swept.t_hi);
+    // The point is one of both at t_hi: at t_lo the second is so much further back.
+    const Vec3<double> back = (result.t_hi - result.t_lo) * velocity;
+    result.point_a = result.point_b =
+        middle_in_world(first, of_first.pose) + to_world(swept.a) + result.t_lo * of_first.velocity;
+    (is_turned ? result.point_a : result.point_b) -= back;
+    result.distance = is_turned ? result.normal.dot(back) : -result.normal.dot(back);
+    return SweptStatus::hit;
+  };
+  const Between between = between_middles(first, of_first.pose, second, of_second.pose);
+  if (second.core().kind == CoreKind::point) {  // balls, which have no frame
+    const Mat3<double> no_turn = Mat3<double>::Identity();
+    const CorePair pair{first.core(), second.core(), no_turn, between.x, between.loss};
+    return finish(swept_time(pair, velocity, t_max, touching, memory),
+                  [](const Vec3<double>& v) -> const Vec3<double>& { return v; });
+  }
+  const Mat3<double> frame = turn_in_world(first, of_first.pose);
+  const CorePair pair =
+      pair_of(first, frame, second, turn_in_world(second, of_second.pose), between);
+  return finish(swept_time(pair, frame.transpose() * velocity, t_max, touching, memory),
+                [&](const Vec3<double>& v) -> Vec3<double> { return frame * v; });
+}
+
+Impact find_impact(const ContactShape& a, const RigidMotion& motion_a, const ContactShape& b,
+                   const RigidMotion& motion_b, double t_max, PairMemory* memory,
+                   const ImpactOptions& options) {
+  Impact swept;
+  const bool is_turning = motion_a.angular_velocity != Vec3<double>::Zero() ||
+                          motion_b.angular_velocity != Vec3<double>::Zero();
+  const SweptStatus status =
+      is_turning ? SweptStatus::open
+                 : swept_impact(a, motion_a, b, motion_b, t_max, options, memory, swept);
+  if (status == SweptStatus::hit) return swept;
+  Advance advance(a, motion_a, b, motion_b, t_max, memory, options);
+  return status == SweptStatus::miss ? advance.run_missed(swept.normal) : advance.run();
+}
+
 }  // namespace
 
 Affine<double> RigidMotion::at(double time) const {
@@ -357,13 +386,13 @@ Affine<double> RigidMotion::at(double time) const {
 
 Impact first_impact(const ContactShape& a, const RigidMotion& motion_a, const ContactShape& b,
                     const RigidMotion& motion_b, double t_max, const ImpactOptions& options) {
-  return Advance(a, motion_a, b, motion_b, t_max, nullptr, options).run();
+  return find_impact(a, motion_a, b, motion_b, t_max, nullptr, options);
 }
 
 Impact first_impact(const ContactShape& a, const RigidMotion& motion_a, const ContactShape& b,
                     const RigidMotion& motion_b, double t_max, PairMemory& memory,
                     const ImpactOptions& options) {
-  return Advance(a, motion_a, b, motion_b, t_max, &memory, options).run();
+  return find_impact(a, motion_a, b, motion_b, t_max, &memory, options);
 }
 
 }  // namespace minkray

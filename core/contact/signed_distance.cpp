@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/contact/closed_answer.h"
 #include "core/contact/closed_pairs.h"
 #include "core/contact/core_signed_distance.h"
 #include "core/contact/searchable.h"
@@ -16,9 +17,9 @@ namespace {
 /// error of at most `loss`; `to_world` turns from the frame of the search, whose origin is A's
 /// middle, at `origin`.
 template <class Search, class ToWorld>
-SignedDistance told(const Search& search, const ContactShape& a, const ContactShape& b,
-                    double distance, double loss, const Vec3<double>& origin,
-                    const ToWorld& to_world) {
+SignedDistance bounded(const Search& search, const ContactShape& a, const ContactShape& b,
+                       double distance, double loss, const Vec3<double>& origin,
+                       const ToWorld& to_world) {
   const double radius_a = a.core().radius, radius_b = b.core().radius, radii = radius_a + radius_b;
   const double size = a.core().ball + b.core().ball + radii;
   const double allowed = core_rounding * (size + distance) + loss;
@@ -69,6 +70,18 @@ struct NearBodies {
   Vec3<double> origin;
 };
 
+/// Both are points: balls around their middles.
+SignedDistance of_balls(const NearBodies& near) {
+  const Vec3<double>& x = near.between.x;
+  const double distance = length_of(x);
+  const auto search = [&] {
+    const Vec3<double> axis = distance > 0 ? unit<double>(x) : Vec3<double>::UnitX();
+    return closed_answer(distance, axis, Vec3<double>::Zero(), x);
+  };
+  return bounded(search, near.a, near.b, distance, near.between.loss, near.origin,
+                 [](const Vec3<double>& v) -> const Vec3<double>& { return v; });
+}
+
 /// Both are points or segments. No frame of either is needed.
 SignedDistance of_lines(const NearBodies& near) {
   const auto half = [](const ContactShape& shape, const Mat3<double>& linear) -> Vec3<double> {
@@ -79,8 +92,8 @@ SignedDistance of_lines(const NearBodies& near) {
     return between_segments(half(near.a, near.linear_a), half(near.b, near.linear_b),
                             near.between.x);
   };
-  return told(search, near.a, near.b, near.between.x.norm(), near.between.loss, near.origin,
-              [](const Vec3<double>& v) -> const Vec3<double>& { return v; });
+  return bounded(search, near.a, near.b, near.between.x.norm(), near.between.loss, near.origin,
+                 [](const Vec3<double>& v) -> const Vec3<double>& { return v; });
 }
 
 /// A is a point, B a box or disks. A's frame is not needed.
@@ -93,22 +106,23 @@ SignedDistance of_point_and_solid(const NearBodies& near) {
     found.a.setZero();
     return found;
   };
-  return told(search, near.a, near.b, near.between.x.norm(), near.between.loss, near.origin,
-              [&](const Vec3<double>& v) -> Vec3<double> { return turn * v; });
+  return bounded(search, near.a, near.b, near.between.x.norm(), near.between.loss, near.origin,
+                 [&](const Vec3<double>& v) -> Vec3<double> { return turn * v; });
 }
 
 /// A's kind is not after B's: the solvers are compiled for one order of two kinds.
 SignedDistance in_order(const NearBodies& near, const SignedDistanceOptions& options,
                         PairMemory* memory) {
+  if (near.b.core().kind == CoreKind::point) return of_balls(near);
   if (is_line(near.b.core())) return of_lines(near);
   if (near.a.core().kind == CoreKind::point && is_solid(near.b.core()))
     return of_point_and_solid(near);
   const Mat3<double> turn = turn_in_world(near.a, near.linear_a);
   const CorePair pair =
       pair_of(near.a, turn, near.b, turn_in_world(near.b, near.linear_b), near.between);
-  return told([&] { return core_signed_distance(pair, options, memory); }, near.a, near.b,
-              pair.x.norm(), pair.loss, near.origin,
-              [&](const Vec3<double>& v) -> Vec3<double> { return turn * v; });
+  return bounded([&] { return core_signed_distance(pair, options, memory); }, near.a, near.b,
+                 pair.x.norm(), pair.loss, near.origin,
+                 [&](const Vec3<double>& v) -> Vec3<double> { return turn * v; });
 }
 
 void turn_round(SignedDistance& found) {

@@ -157,6 +157,9 @@ ShapeDefinition<T>::ShapeDefinition(Shape<T> shape) : original_(shape), inner_(s
   if constexpr (std::is_same_v<T, float>)
     is_lost_in_rounding_ = !is_extreme_ && minkray::is_lost_in_rounding(inner_);
   if (!is_extreme_) form_ = exact_form_of(inner_, ball_.centre.template cast<double>());
+  is_plain_ = outer_.is_identity() && moved_.is_zero() && up_ == T(1);
+  is_round_ = form_.kind == FormKind::ball && !form_.is_scaled && !form_.is_off_centre &&
+              ball_.centre.isZero(T(0));
   uncertain_slope_ = uncertain_slope_of<T>(model_, form_.kind);
   if constexpr (std::is_same_v<T, float>) {
     const bool has_form = form_.kind != FormKind::none,
@@ -191,12 +194,12 @@ TwoFoldVec3<T> ShapeDefinition<T>::plain_centre(const Affine<T>& pose, const Vec
 
 template <class T>
 typename ShapeDefinition<T>::Placement ShapeDefinition<T>::placed(const Affine<T>& pose) const {
-  if (outer_.is_identity() && moved_.is_zero() && up_ == T(1) && keeps_lengths(pose.linear)) {
+  if (is_plain_ && keeps_lengths(pose.linear)) {
     Placement plain;
     plain.is_plain = true;
     plain.centre = plain_centre(pose, ball_.centre);
     plain.to_inner = pose.linear.transpose();
-    plain.is_rigid_identity = pose.linear == Mat3<T>::Identity();
+    plain.is_rigid_identity = is_round_ || pose.linear == Mat3<T>::Identity();
     plain.loss = plain.is_rigid_identity ? T(0) : plain_loss_;
     return plain;
   }

@@ -69,9 +69,9 @@ class ShapeDefinition {
 
   /// Place of an instance. Each number of `to_inner` is rounded about once.
   struct Placement {
-    TwoFoldVec3<T> centre;  ///< the inner ball's, in the frame of the pose
-    Mat3<T> to_inner;       ///< of directions
-    bool is_rigid_identity;
+    TwoFoldVec3<T> centre;   ///< the inner ball's, in the frame of the pose
+    Mat3<T> to_inner;        ///< of directions
+    bool is_rigid_identity;  ///< to_inner is, or turns a ball, which is the same either way
     /// The pose keeps lengths and there is no outer map: to_inner is the transposed linear part of
     /// the pose, and the centre is the pose of the inner ball's.
     bool is_plain = false;
@@ -83,6 +83,11 @@ class ShapeDefinition {
   static TwoFoldVec3<T> plain_centre(const Affine<T>& pose, const Vec3<T>& ball_centre);
   /// The loss of plain placements that are turned.
   T plain_loss() const { return plain_loss_; }
+
+  /// True if placements under poses that keep lengths are plain.
+  bool is_plain() const { return is_plain_; }
+  /// True of a ball around the inner frame's origin.
+  bool is_round() const { return is_round_; }
 
   /// `pose` maps the frame of the shape to the outer one; it must be invertible.
   Placement placed(const Affine<T>& pose) const;
@@ -106,6 +111,7 @@ class ShapeDefinition {
   T support_loss_;
   T plain_loss_ = T(0);
   bool is_extreme_;
+  bool is_plain_ = false, is_round_ = false;
   bool is_lost_in_rounding_ = false;
   bool is_sliver_ = false;
   bool is_asked_in_double_ = false;

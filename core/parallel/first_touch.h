@@ -1,14 +1,22 @@
 // SPDX-License-Identifier: MIT
 // Arrays of millions of entries that several threads fill: no entry is written before, so that
 // pages are allocated when they are filled, near to the thread that fills them and from all
-// threads at once.
+// threads at once. Large arrays are in large pages, where the system has them: queries read them
+// here and there, and finding a page takes as long as reading from it.
 #pragma once
 
 #include <memory>
+#include <new>
 #include <utility>
 #include <vector>
 
+#if defined(__linux__)
+#include <sys/mman.h>
+#endif
+
 namespace minkray {
+
+inline constexpr std::size_t large_page = std::size_t{1} << 21;  ///< bytes, on x86-64 and ARM64
 
 /// Leaves new entries unwritten where no value is given.
 template <class T>
@@ -17,11 +25,30 @@ struct FirstTouchAllocator : std::allocator<T> {
   struct rebind {
     using other = FirstTouchAllocator<U>;
   };
+  T* allocate(std::size_t count) {
+    const std::size_t bytes = count * sizeof(T);
+    if (count > static_cast<std::size_t>(-1) / 2 / sizeof(T)) throw std::bad_array_new_length();
+    T* const at = static_cast<T*>(::operator new(bytes, std::align_val_t(alignment_of(bytes))));
+#if defined(__linux__)
+    // A wish: nothing is lost if it is not fulfilled.
+    if (bytes >= large_page) madvise(at, bytes, MADV_HUGEPAGE);
+#endif
+    return at;
+  }
+  void deallocate(T* at, std::size_t count) noexcept {
+    ::operator delete(at, std::align_val_t(alignment_of(count * sizeof(T))));
+  }
+
   template <class U>
   void construct(U*) noexcept {}
   template <class U, class... Values>
   void construct(U* at, Values&&... values) {
     std::construct_at(at, std::forward<Values>(values)...);
+  }
+
+ private:
+  static constexpr std::size_t alignment_of(std::size_t bytes) {
+    return bytes >= large_page ? large_page : alignof(T) > 64 ? alignof(T) : 64;
   }
 };
 

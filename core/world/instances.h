@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/bvh/bvh.h"
+#include "core/cast/form_cast.h"
 #include "core/cast/instance_place.h"
 #include "core/cast/prepared_shape.h"
 #include "core/cast/screen.h"
@@ -153,6 +154,18 @@ class Instances {
     return {definition,
             ShapeDefinition<double>::plain_centre({map.transpose(), origin}, body.centre), turn,
             (body.is_turned ? definition.plain_loss() : 0) + loss};
+  }
+  /// The instance's place for the filter; `map` is written, and has to stay as long. It has no
+  /// movement.
+  FormPlace form_place(std::size_t i, Mat3<double>& map) const {
+    const InstancePlace& place = places_[i];
+    const InstanceBody& body = bodies_[place.body];
+    const Vec3<double> origin(place.origin[0], place.origin[1], place.origin[2]);
+    const bool has_map = body.is_turned || !body.is_centred;
+    if (has_map) map = to_inner(i);
+    return {*body.definition,
+            body.is_plain && has_map ? rounded_plain_centre(origin, map, body.centre) : origin,
+            body.is_turned ? &map : nullptr};
   }
   /// For a ray as the instance sees it: allows for what `seen_by` has rounded.
   PreparedShape<double> at_seen_by(std::size_t i, const Ray<double>& ray) const {

@@ -98,6 +98,13 @@ WorldHit World::closest_hit(const WorldRay& ray, QueryCounts& counts) const {
   return closest;
 }
 
+CastResult<double> World::cast_at_rest(std::uint32_t instance, const Ray<double>& ray) const {
+  Mat3<double> map;
+  CastResult<double> result;
+  if (cast_by_form(instances_.form_place(instance, map), ray, result)) return result;
+  return cast_ray(instances_.at(instance), ray, options_);
+}
+
 bool World::closer_candidate(const WorldRay& ray, WorldHit& closest, QueryCounts& counts) const {
   if (!has_screen() || instances_.move() || bvh_.nodes.empty()) return false;
   SingleRay single = single_ray(ray);
@@ -112,7 +119,7 @@ bool World::closer_candidate(const WorldRay& ray, WorldHit& closest, QueryCounts
   for (std::size_t i = 0; i < single.candidate_count; ++i) {
     const auto [instance, first] = single.candidates[i];
     if (!(first <= single.limit)) continue;
-    const CastResult<double> result = cast_ray(instances_.at(instance), ray.ray, options_);
+    const CastResult<double> result = cast_at_rest(instance, ray.ray);
     own.add_cast(result);
     if (result.found() && found.yields_to(instance, result.t())) found = {instance, result};
   }
@@ -133,8 +140,7 @@ bool World::occluded(const WorldRay& ray, QueryCounts& counts) const {
     if (single.is_sure) return true;
     if (is_complete) {
       for (std::size_t i = 0; i < single.candidate_count; ++i) {
-        const CastResult<double> result =
-            cast_ray(instances_.at(single.candidates[i].instance), ray.ray, options_);
+        const CastResult<double> result = cast_at_rest(single.candidates[i].instance, ray.ray);
         counts.add_cast(result);
         if (result.found()) return true;
       }

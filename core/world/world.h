@@ -95,6 +95,8 @@ class World {
  private:
   void build(const FirstTouchVector<Bounds<float>>& boxes);
   std::vector<Bounds<float>> boxes_of_meshes(const FirstTouchVector<Bounds<float>>& boxes) const;
+  /// Casts at an instance that does not move, with the default options.
+  CastResult<double> cast_at_rest(std::uint32_t instance, const Ray<double>& ray) const;
   /// Tries float lanes first; false if they do not decide.
   bool closer_candidate(const WorldRay& ray, WorldHit& closest, QueryCounts& counts) const;
   SingleRay single_ray(const WorldRay& ray) const;

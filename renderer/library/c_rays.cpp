@@ -213,14 +213,9 @@ int minkray_shape_cast(minkray_shape shape, const minkray_pose* pose, const mink
     }
     if (count == 1 && !options && held.customs().empty()) {
       const Ray<double> ray = ray_of(rays);
-      const auto cast = [&] {
-        if (!pose || is_identity(*pose)) return cast_ray(held.prepared(), ray);
-        // Nothing is counted: the handle's owner keeps the definition.
-        const ShapeDefinition<double>& definition = *held.definition();
-        return cast_ray(PreparedShape<double>(definition, definition.placed(pose_of(pose, "pose"))),
-                        ray);
-      };
-      WorldHit hit{no_instance, cast()};
+      WorldHit hit{no_instance, pose && !is_identity(*pose)
+                                    ? cast_ray(*held.definition(), pose_of(pose, "pose"), ray)
+                                    : cast_ray(held.prepared(), ray)};
       if (hit.cast.found()) hit.instance = 0;
       plain_hit(ray, hit, hit.cast.status == Status::exhausted, *hits);
       return;

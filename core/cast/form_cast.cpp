@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#include "core/cast/form_cast.h"
+
+#include "core/cast/filter.h"
+
+namespace minkray {
+namespace {
+
+/// Where fma is an instruction, the filter is compiled for it, as one function.
+struct PlaceWithFma : FormPlace {
+  static constexpr bool has_fma = true;
+};
+
+template <class Place>
+[[gnu::always_inline]] inline bool cast_here(const Place& place, const Ray<double>& ray,
+                                             CastResult<double>& result) {
+  const Filtered<double> answer = filter<false>(place, ray, true);
+  result.status = answer.hit ? Status::hit : answer.miss ? Status::miss : Status::inside;
+  result.path = Path::filter;
+  result.t_base = answer.t_base;
+  result.t_offset = answer.t_offset;
+  result.offset_lo = answer.offset_lo;
+  result.offset_hi = answer.offset_hi;
+  result.normal = answer.normal;
+  return answer.hit || answer.miss || answer.inside;
+}
+
+#if defined(__x86_64__)
+[[gnu::target("avx2,fma"), gnu::flatten]] bool cast_with_fma(const FormPlace& place,
+                                                             const Ray<double>& ray,
+                                                             CastResult<double>& result) {
+  return cast_here(PlaceWithFma{place}, ray, result);
+}
+#endif
+
+}  // namespace
+
+bool cast_by_form(const FormPlace& place, const Ray<double>& ray, CastResult<double>& result) {
+  if (place.definition().form().kind == FormKind::none) return false;
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
+    return cast_with_fma(place, ray, result);
+#endif
+  return cast_here(place, ray, result);
+}
+
+}  // namespace minkray
