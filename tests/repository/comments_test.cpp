@@ -109,7 +109,7 @@ OddWords odd_words_in(const std::string& comment) {
   return found;
 }
 
-/// core/bvh, renderer/light; tests, include, bench and tools are one folder each.
+/// core/bvh, renderer/film; tests, include, bench and tools are one folder each.
 std::string folder_of_file(const std::string& name) {
   const std::size_t top = name.find('/');
   const std::string first = name.substr(0, top);
